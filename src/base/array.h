@@ -1,0 +1,29 @@
+/* array.h: growable flat arrays of plain items, of any type.
+ *
+ *     ARRAY(uint32_t) ids = {0};
+ *     if (!array_push(alloc, &ids, 7)) return FROE_E_MEMORY;
+ *     array_free(alloc, &ids);
+ *
+ * Growth is by half, so n pushes cost O(n). A failed call leaves the array as it was. */
+#ifndef FROE_BASE_ARRAY_H
+#define FROE_BASE_ARRAY_H
+#include "base/memory.h"
+
+#define ARRAY(T)                                                                                                       \
+    struct {                                                                                                           \
+        T *data;                                                                                                       \
+        size_t count, capacity;                                                                                        \
+    }
+
+/** Room for `extra` more items. */
+#define array_reserve(alloc, a, extra)                                                                                 \
+    ((a)->capacity - (a)->count >= (size_t)(extra) ||                                                                  \
+     array_grow((alloc), (void **)&(a)->data, &(a)->capacity, (a)->count, (size_t)(extra), sizeof *(a)->data))
+/** Appends a copy of `item`. */
+#define array_push(alloc, a, ...) (array_reserve((alloc), (a), 1) && ((a)->data[(a)->count++] = __VA_ARGS__, true))
+#define array_free(alloc, a)                                                                                           \
+    (base_free((alloc), (a)->data, (a)->capacity * sizeof *(a)->data), (a)->data = NULL, (a)->count = (a)->capacity = 0)
+
+bool array_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra,
+                size_t item_size);
+#endif

@@ -1,0 +1,30 @@
+/* task.h: a long call in progress: cancel, progress, and work on several threads. */
+#ifndef FROE_BASE_TASK_H
+#define FROE_BASE_TASK_H
+#include <froe/froe.h>
+#include <stdatomic.h>
+
+typedef struct base_task {
+    froe_progress_fn *progress; /**< may be NULL; called from the calling thread only */
+    void *user;
+    unsigned threads;      /**< >= 1 */
+    double done, scale;    /**< share reported so far; what base_run() spans of it */
+    atomic_bool cancelled; /**< workers poll it with base_cancelled() */
+} base_task;
+
+/** threads 0: one per processor. */
+void base_task_init(base_task *task, unsigned threads, froe_progress_fn *progress, void *user);
+/** Reports the share done; false (for good) once the callback said no. Calling thread only. */
+bool base_progress(base_task *task, double done);
+static inline bool base_cancelled(base_task *task) {
+    return atomic_load_explicit(&task->cancelled, memory_order_relaxed);
+}
+
+/** One job of many; `worker` < threads names the worker's private state. */
+typedef froe_status base_job_fn(void *user, unsigned worker, size_t job);
+/** Runs jobs 0..count-1, in any order, on task->threads threads (the calling one
+ * included), and reports progress from `done` to `done + span`. Returns the status of the
+ * lowest-numbered failing job; later jobs may then not have run. Falls back to fewer threads
+ * when the system gives none: never fails by itself. */
+froe_status base_run(base_task *task, double span, size_t count, base_job_fn *fn, void *user);
+#endif

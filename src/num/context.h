@@ -1,0 +1,26 @@
+/* context.h: what a thread needs to ask predicates: an arena, counters, and how
+ * far the filters may be trusted. One per thread; never shared. */
+#ifndef FROE_NUM_CONTEXT_H
+#define FROE_NUM_CONTEXT_H
+#include "num/dyadic.h"
+
+/** Where evaluation starts. Tests start each stage by itself; on a machine that
+ * fails the self-test everything starts at NUM_EXACT: slow rather than wrong. */
+typedef enum num_stage { NUM_FILTER, NUM_BALL, NUM_EXACT } num_stage;
+
+typedef struct num_context {
+    num_arena arena;
+    froe_predicate_stats stats;
+    num_stage first;
+    froe_allocator alloc;
+} num_context;
+
+/** Runs the self-test (num_machine_trusted) and takes the arena: the only step that may fail. */
+froe_status num_context_new(const froe_allocator *alloc, num_context *out);
+void num_context_free(num_context *context);
+void num_stats_add(froe_predicate_stats *sum, const froe_predicate_stats *more);
+
+/** Round to nearest, gradual underflow, no contraction, double evaluation: checked by
+ * computing with values the compiler cannot see. */
+bool num_machine_trusted(void);
+#endif

@@ -1,0 +1,82 @@
+/* scene.h: the scene from inside: a vertex table and, per object, a run of corners.
+ *
+ *     kinds, forms   [object]            what it was added as; what it really is
+ *     starts         [object]  ->  corners[starts[o] .. starts[o+1])  ->  vertex ids
+ *     coords         [vertex * dim]      exact, pairwise different, no -0
+ *
+ * A ball's corners are {centre vertex, index into radii}. A polygon's ring is stored
+ * so that its first three corners are not collinear: they span its plane. Ring
+ * orientation is the caller's. Demoted objects (form != kind) store the corners of their
+ * form: the two extreme vertices of a zero-area polygon, one for a zero-length segment.
+ * Polygons keep no two equal corners in a row.
+ * Optional arrays are NULL when every object has the default. All arrays lie either in
+ * memory of `alloc` or inside a mapped tree file (then `mapped`). */
+#ifndef FROE_SCENE_SCENE_H
+#define FROE_SCENE_SCENE_H
+#include "base/array.h"
+#include "geom/plane.h"
+#include <stdatomic.h>
+
+typedef struct scene_group {
+    uint32_t name, material, left, right; /**< offsets into text */
+} scene_group;
+
+struct froe_scene {
+    froe_allocator alloc;
+    atomic_uint holds; /**< the caller's and each tree's; > 1: frozen */
+    bool mapped;
+    int dim;
+    uint32_t vertex_count, object_count, group_count, radius_count, corner_count;
+    size_t text_size;
+    double *coords;
+    uint8_t *kinds, *forms;
+    uint32_t *starts; /**< object_count + 1 */
+    uint32_t *corners;
+    double *radii;
+    uint64_t *tags;   /**< NULL: tag = id */
+    uint32_t *faces;  /**< NULL: face = id */
+    uint32_t *groups; /**< NULL: none */
+    scene_group *group_table;
+    char *text; /**< NUL-terminated strings; text[0] = 0 */
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    struct scene_store *store; /**< hash table and capacities while the scene grows; NULL when mapped */
+};
+
+static inline const double *scene_vertex(const froe_scene *s, uint32_t vertex) {
+    return s->coords + (size_t)vertex * (size_t)s->dim;
+}
+static inline uint32_t scene_corners(const froe_scene *s, uint32_t object) { /* of the form; balls: 2 */
+    return s->starts[object + 1] - s->starts[object];
+}
+static inline uint32_t scene_corner(const froe_scene *s, uint32_t object, uint32_t i) {
+    return s->corners[s->starts[object] + i];
+}
+static inline const double *scene_point(const froe_scene *s, uint32_t object, uint32_t i) {
+    return scene_vertex(s, scene_corner(s, object, i));
+}
+static inline froe_kind scene_form(const froe_scene *s, uint32_t object) {
+    return (froe_kind)s->forms[object];
+}
+static inline double scene_radius(const froe_scene *s, uint32_t object) { /* balls */
+    return s->radii[scene_corner(s, object, 1)];
+}
+
+void scene_hold(froe_scene *scene); /**< one more owner; froe_scene_free() gives it up */
+
+/** Bounding box of one object, dim doubles each; exact, for balls rounded outwards. */
+void scene_object_bounds(const froe_scene *s, uint32_t object, double *lo, double *hi);
+
+/** The hyperplane an object lies in (its cut, FROE_CUT_OBJECT): 2D segments,
+ * polygons. Other forms get a plane that contains them and needs no new numbers:
+ * points x[0] = value; segments in 3D the plane x[k] = value if one holds it, else the
+ * vertical plane. Returns the cut that names the plane; kind NONE for boxes, balls, hulls. */
+froe_cut scene_support(const froe_scene *s, uint32_t object, geom_plane *plane);
+
+/** The hyperplane of any cut. */
+geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut);
+
+/** Equal as point sets with equal corners (same form, same vertex set, same radius). */
+bool scene_equal(const froe_scene *s, uint32_t a, uint32_t b);
+/** For each object the lowest id equal to it (out[o] <= o). O(corners) expected. */
+froe_status scene_originals(const froe_scene *s, const froe_allocator *alloc, uint32_t *out);
+#endif

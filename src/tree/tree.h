@@ -1,0 +1,104 @@
+/* tree.h: the tree from inside: flat arrays, the same in memory and on disk.
+ *
+ *     nodes        [0] root; children in pairs, after their parent, in depth-first order
+ *       inner, cut plain:   axis, value in the node itself, no in-cut list (the guard stage)
+ *       inner, cut tabled:  u.cut -> cuts[], which holds any cut and its in-cut list
+ *       leaf:               u.list -> pieces[first .. first+count)
+ *     pieces       object + where its fragment's ring starts in `bounds` (0: the whole object)
+ *     bounds       rings:  count, edge, edge, ...   edge = own edge i | CUT | node
+ *     normals      dim doubles per FROE_CUT_PLANE
+ *
+ * The ring of a segment is its two ends (own end 0 or 1, or the node whose cut ends it);
+ * the ring of a polygon its edges in order: corner i is where edge i-1 meets edge i.
+ * Lists of a subtree are one contiguous slice of `pieces`: node, left subtree, right subtree. */
+#ifndef FROE_TREE_TREE_H
+#define FROE_TREE_TREE_H
+#include "scene/scene.h"
+
+#define TREE_EDGE_CUT 0x80000000u /**< ring entry: the rest is a node id; otherwise an own edge or end */
+
+enum { TREE_LEAF = 0, TREE_PLAIN = 1, TREE_TABLED = 2 }; /* tree_node.type */
+enum { TREE_GUARD = 1, TREE_INSEPARABLE = 2 };           /* tree_node.flags */
+
+typedef struct tree_node { /* 16 bytes */
+    union {
+        double value; /**< plain: x[axis] = value */
+        uint32_t cut; /**< tabled */
+        struct {
+            uint32_t first, count;
+        } list; /**< leaf */
+    } u;
+    uint32_t child; /**< left child; right = child + 1; leaf: 0 */
+    uint8_t type, flags, axis, unused;
+} tree_node;
+
+typedef struct tree_cut { /* 24 bytes */
+    uint32_t kind;        /**< froe_cut_kind */
+    uint32_t a;           /**< axis | object | vertex 0 | index into normals */
+    union {
+        double value; /**< AXIS, PLANE */
+        struct {
+            uint32_t b, c;
+        } id; /**< VERTICES, EDGE */
+    } u;
+    uint32_t first, count; /**< in-cut list */
+} tree_cut;
+
+typedef struct tree_piece { /* 8 bytes */
+    uint32_t object;
+    uint32_t ring; /**< index into bounds, 0: whole */
+} tree_piece;
+
+#define TREE_PROMISES 12
+#define TREE_TEXT 512
+typedef struct tree_promise {
+    char name[32];
+    double promised, measured;
+} tree_promise;
+
+/** What is known of a tree beside its arrays; saved with it. */
+typedef struct tree_meta {
+    char method[32], settings[TREE_TEXT];
+    uint64_t seed;
+    uint32_t leaf, promise_count;
+    tree_promise promises[TREE_PROMISES];
+    double root_lo[FROE_MAX_DIM], root_hi[FROE_MAX_DIM]; /**< root cube of the guard stage; 0,0 without one */
+} tree_meta;
+
+struct froe_tree {
+    froe_allocator alloc;
+    froe_scene *scene; /**< held */
+    tree_meta meta;
+    uint32_t node_count, cut_count, piece_count, bound_count, normal_count; /**< normal_count in doubles */
+    tree_node *nodes;
+    tree_cut *cuts;
+    tree_piece *pieces;
+    uint32_t *bounds; /**< bounds[0] unused */
+    double *normals;
+    froe_predicate_stats predicates; /**< of the build */
+    froe_report report;              /**< computed once, by tree_finish */
+    froe_promise promises[TREE_PROMISES + 1];
+    void *map; /**< mapped file, or NULL */
+    size_t map_size;
+};
+
+static inline bool tree_is_leaf(const tree_node *node) {
+    return node->type == TREE_LEAF;
+}
+/** The in-cut or leaf list of a node. */
+static inline const tree_piece *tree_list(const froe_tree *t, uint32_t node, uint32_t *count) {
+    const tree_node *n = t->nodes + node;
+    uint32_t first = 0;
+    *count = 0;
+    if (n->type == TREE_LEAF)
+        first = n->u.list.first, *count = n->u.list.count;
+    else if (n->type == TREE_TABLED)
+        first = t->cuts[n->u.cut].first, *count = t->cuts[n->u.cut].count;
+    return t->pieces + first;
+}
+froe_cut tree_cut_at(const froe_tree *t, uint32_t node); /**< kind NONE at a leaf */
+geom_plane tree_plane_at(const froe_tree *t, uint32_t node);
+
+/** Computes report and promise views of a tree whose arrays and meta are complete. */
+void tree_finish(froe_tree *tree);
+#endif
