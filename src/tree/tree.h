@@ -10,7 +10,10 @@
  *
  * The ring of a segment is its two ends (own end 0 or 1, or the node whose cut ends it);
  * the ring of a polygon its edges in order: corner i is where edge i-1 meets edge i.
- * Lists of a subtree are one contiguous slice of `pieces`: node, left subtree, right subtree. */
+ * Lists of a subtree are one contiguous slice of `pieces`: node, left subtree, right subtree.
+ * All arrays are packed in depth-first order: children are the next free pair when their parent is
+ * visited, and cut, normal, list and rings of a node the next free places of their arrays; an empty
+ * list has the place where it would begin. Unused fields are 0. tree/validate.c relies on it. */
 #ifndef FROE_TREE_TREE_H
 #define FROE_TREE_TREE_H
 #include "scene/scene.h"
@@ -34,7 +37,7 @@ typedef struct tree_node { /* 16 bytes */
 
 typedef struct tree_cut { /* 24 bytes */
     uint32_t kind;        /**< froe_cut_kind */
-    uint32_t a;           /**< axis | object | vertex 0 | index into normals */
+    uint32_t a;           /**< axis | object | vertex 0 | index of a double in normals */
     union {
         double value; /**< AXIS, PLANE */
         struct {
@@ -99,6 +102,9 @@ static inline const tree_piece *tree_list(const froe_tree *t, uint32_t node, uin
 froe_cut tree_cut_at(const froe_tree *t, uint32_t node); /**< kind NONE at a leaf */
 geom_plane tree_plane_at(const froe_tree *t, uint32_t node);
 
-/** Computes report and promise views of a tree whose arrays and meta are complete. */
-void tree_finish(froe_tree *tree);
+/** Takes memory for the arrays, of the sizes their counts say. FROE_E_MEMORY: froe_tree_free() gives back what was had.
+ */
+froe_status tree_take_arrays(froe_tree *tree);
+/** Computes report and promise views of a tree whose arrays and meta are complete. FROE_E_MEMORY. */
+froe_status tree_finish(froe_tree *tree);
 #endif

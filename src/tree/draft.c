@@ -1,0 +1,127 @@
+/* draft.c: growing a tree: nodes split in pairs, lists and rings appended behind one another.
+ *
+ *     nodes   0 | 1 2 | 3 4 | ...        a pair per split, in the builder's order
+ *     pieces  list | list | ...          each list one run, in the order they were begun
+ *     bounds  - | count e e e | count e e | ...
+ *
+ * Nothing is moved while the draft grows; draft_seal puts all of it in order, once. */
+#include "tree/draft.h"
+#include <string.h>
+
+#define DRAFT_MOST_NODES 0x7ffffffeu /* so that a ring entry has a bit to spare */
+
+void draft_free(tree_draft *draft) {
+    array_free(&draft->alloc, &draft->nodes);
+    array_free(&draft->alloc, &draft->cuts);
+    array_free(&draft->alloc, &draft->pieces);
+    array_free(&draft->alloc, &draft->bounds);
+    array_free(&draft->alloc, &draft->normals);
+}
+
+froe_status draft_new(const froe_allocator *alloc, int dim, uint32_t outer, tree_draft *out) {
+    tree_draft draft = {.alloc = base_allocator(alloc), .dim = dim, .outer = outer};
+    if (!array_push(&draft.alloc, &draft.nodes, (tree_node){0}) || !array_push(&draft.alloc, &draft.bounds, 0)) {
+        draft_free(&draft);
+        return FROE_E_MEMORY;
+    }
+    *out = draft;
+    return FROE_OK;
+}
+
+/* Appends `cut` to the table, its list empty. */
+static froe_status table_cut(tree_draft *draft, const froe_cut *cut, uint32_t *index) {
+    tree_cut entry = {.kind = (uint32_t)cut->kind};
+    size_t dim = (size_t)draft->dim;
+    if (!array_reserve(&draft->alloc, &draft->cuts, 1)) return FROE_E_MEMORY;
+    switch (cut->kind) {
+    case FROE_CUT_AXIS:
+        entry.a = (uint32_t)cut->axis;
+        entry.u.value = cut->value;
+        break;
+    case FROE_CUT_PLANE:
+        if (!array_reserve(&draft->alloc, &draft->normals, dim)) return FROE_E_MEMORY;
+        entry.a = (uint32_t)draft->normals.count;
+        entry.u.value = cut->value;
+        memcpy(draft->normals.data + draft->normals.count, cut->normal, dim * sizeof(double));
+        draft->normals.count += dim;
+        break;
+    default:
+        entry.a = cut->id[0];
+        entry.u.id.b = cut->kind == FROE_CUT_OBJECT ? 0 : cut->id[1];
+        entry.u.id.c = cut->kind == FROE_CUT_VERTICES && draft->dim == 3 ? cut->id[2] : 0;
+    }
+    *index = (uint32_t)draft->cuts.count;
+    draft->cuts.data[draft->cuts.count++] = entry;
+    return FROE_OK;
+}
+
+froe_status draft_split(tree_draft *draft, uint32_t node, const froe_cut *cut, uint8_t flags, uint32_t *child) {
+    tree_node inner = {.child = (uint32_t)draft->nodes.count, .flags = flags, .type = TREE_TABLED};
+    if (draft->nodes.count + 2 + draft->outer > DRAFT_MOST_NODES) return FROE_E_LIMIT;
+    if (!array_reserve(&draft->alloc, &draft->nodes, 2)) return FROE_E_MEMORY;
+    if (cut->kind == FROE_CUT_AXIS) {
+        inner.type = TREE_PLAIN;
+        inner.axis = (uint8_t)cut->axis;
+        inner.u.value = cut->value;
+    } else {
+        froe_status status = table_cut(draft, cut, &inner.u.cut);
+        if (status) return status;
+    }
+    memset(draft->nodes.data + draft->nodes.count, 0, 2 * sizeof(tree_node));
+    draft->nodes.count += 2;
+    draft->nodes.data[node] = inner;
+    *child = inner.child;
+    return FROE_OK;
+}
+
+void draft_leaf(tree_draft *draft, uint32_t node, uint8_t flags) {
+    draft->nodes.data[node] = (tree_node){.type = TREE_LEAF, .flags = flags};
+}
+
+/* A plain node is about to get an in-cut list: its cut moves to the table. */
+static froe_status move_to_table(tree_draft *draft, tree_node *node) {
+    froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = node->axis, .value = node->u.value};
+    uint32_t index;
+    froe_status status = table_cut(draft, &cut, &index);
+    if (status) return status;
+    node->type = TREE_TABLED;
+    node->axis = 0;
+    node->u.value = 0;
+    node->u.cut = index;
+    return FROE_OK;
+}
+
+froe_status draft_list(tree_draft *draft, uint32_t node) {
+    tree_node *n = draft->nodes.data + node;
+    uint32_t first = (uint32_t)draft->pieces.count;
+    if (n->type == TREE_PLAIN) {
+        froe_status status = move_to_table(draft, n);
+        if (status) return status;
+    }
+    if (n->type == TREE_LEAF)
+        n->u.list.first = first;
+    else
+        draft->cuts.data[n->u.cut].first = first;
+    return FROE_OK;
+}
+
+froe_status draft_piece(tree_draft *draft, uint32_t node, uint32_t object, const uint32_t *ring, uint32_t count) {
+    tree_node *n = draft->nodes.data + node;
+    tree_piece piece = {.object = object};
+    if (draft->pieces.count >= DRAFT_MOST_NODES || draft->bounds.count + count >= UINT32_MAX) return FROE_E_LIMIT;
+    if (!array_reserve(&draft->alloc, &draft->pieces, 1)) return FROE_E_MEMORY;
+    if (ring) {
+        if (!array_reserve(&draft->alloc, &draft->bounds, (size_t)count + 1)) return FROE_E_MEMORY;
+        uint32_t *to = draft->bounds.data + draft->bounds.count;
+        piece.ring = (uint32_t)draft->bounds.count;
+        *to++ = count;
+        for (uint32_t i = 0; i < count; i++) to[i] = ring[i];
+        draft->bounds.count += (size_t)count + 1;
+    }
+    draft->pieces.data[draft->pieces.count++] = piece;
+    if (n->type == TREE_LEAF)
+        n->u.list.count++;
+    else
+        draft->cuts.data[n->u.cut].count++;
+    return FROE_OK;
+}

@@ -1,0 +1,178 @@
+/* tree.c: what a finished tree tells about itself: nodes, cuts, pieces, counts. */
+#include "tree/tree.h"
+#include <string.h>
+#include <sys/mman.h>
+
+static void *take_array(const froe_allocator *alloc, size_t count, size_t item_size) {
+    return base_realloc(alloc, NULL, 0, count ? count * item_size : 1);
+}
+static void give_array(const froe_allocator *alloc, void *array, size_t count, size_t item_size) {
+    base_free(alloc, array, count ? count * item_size : 1);
+}
+
+froe_status tree_take_arrays(froe_tree *t) {
+    t->nodes = take_array(&t->alloc, t->node_count, sizeof *t->nodes);
+    t->cuts = take_array(&t->alloc, t->cut_count, sizeof *t->cuts);
+    t->pieces = take_array(&t->alloc, t->piece_count, sizeof *t->pieces);
+    t->bounds = take_array(&t->alloc, t->bound_count, sizeof *t->bounds);
+    t->normals = take_array(&t->alloc, t->normal_count, sizeof *t->normals);
+    return t->nodes && t->cuts && t->pieces && t->bounds && t->normals ? FROE_OK : FROE_E_MEMORY;
+}
+
+void froe_tree_free(froe_tree *tree) {
+    if (!tree) return;
+    froe_allocator alloc = tree->alloc;
+    froe_scene_free(tree->scene); /* before the map: its arrays may lie there */
+    if (tree->map) {
+        munmap(tree->map, tree->map_size);
+    } else {
+        give_array(&alloc, tree->nodes, tree->node_count, sizeof *tree->nodes);
+        give_array(&alloc, tree->cuts, tree->cut_count, sizeof *tree->cuts);
+        give_array(&alloc, tree->pieces, tree->piece_count, sizeof *tree->pieces);
+        give_array(&alloc, tree->bounds, tree->bound_count, sizeof *tree->bounds);
+        give_array(&alloc, tree->normals, tree->normal_count, sizeof *tree->normals);
+    }
+    base_free(&alloc, tree, sizeof *tree);
+}
+
+froe_cut tree_cut_at(const froe_tree *t, uint32_t node) {
+    const tree_node *n = t->nodes + node;
+    froe_cut cut = {.kind = FROE_CUT_NONE};
+    if (n->type == TREE_LEAF) return cut;
+    if (n->type == TREE_PLAIN) return (froe_cut){.kind = FROE_CUT_AXIS, .axis = n->axis, .value = n->u.value};
+    const tree_cut *c = t->cuts + n->u.cut;
+    cut.kind = (froe_cut_kind)c->kind;
+    switch (cut.kind) {
+    case FROE_CUT_AXIS:
+        cut.axis = (int)c->a;
+        cut.value = c->u.value;
+        break;
+    case FROE_CUT_PLANE:
+        cut.normal = t->normals + c->a;
+        cut.value = c->u.value;
+        break;
+    default:
+        cut.id[0] = c->a;
+        cut.id[1] = c->u.id.b;
+        cut.id[2] = c->u.id.c;
+    }
+    return cut;
+}
+
+geom_plane tree_plane_at(const froe_tree *t, uint32_t node) {
+    const tree_node *n = t->nodes + node;
+    if (n->type == TREE_PLAIN) return geom_plane_axis(t->scene->dim, n->axis, n->u.value);
+    froe_cut cut = tree_cut_at(t, node);
+    return scene_cut_plane(t->scene, &cut);
+}
+
+/* ------------------------------------------------------------------ report -- */
+
+typedef struct tree_visit {
+    uint32_t node, depth;
+} tree_visit;
+
+/* Counts one node; the sum of depths of its pieces goes to *depths. */
+static void count_node(const froe_tree *t, froe_report *r, tree_visit at, double *depths) {
+    const tree_node *n = t->nodes + at.node;
+    uint32_t count;
+    tree_list(t, at.node, &count);
+    *depths += (double)at.depth * (double)count;
+    if (!tree_is_leaf(n)) {
+        r->in_cut += count;
+        return;
+    }
+    r->leaves++;
+    if (at.depth > r->height) r->height = at.depth;
+    if (count > r->max_leaf) r->max_leaf = count;
+    if (n->flags & TREE_INSEPARABLE) r->inseparable++;
+}
+
+/* Depths need a walk: a linear pass has no room for them. */
+static froe_status count_nodes(const froe_tree *t, froe_report *r) {
+    ARRAY(tree_visit) stack = {0};
+    double depths = 0;
+    bool ok = array_push(&t->alloc, &stack, (tree_visit){0, 0});
+    while (ok && stack.count) {
+        tree_visit at = stack.data[--stack.count];
+        count_node(t, r, at, &depths);
+        while (ok && !tree_is_leaf(t->nodes + at.node)) {
+            tree_visit right = {t->nodes[at.node].child + 1, at.depth + 1};
+            ok = array_push(&t->alloc, &stack, right);
+            at = (tree_visit){right.node - 1, right.depth};
+            count_node(t, r, at, &depths);
+        }
+    }
+    array_free(&t->alloc, &stack);
+    r->mean_depth = r->fragments ? depths / (double)r->fragments : 0;
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+froe_status tree_finish(froe_tree *t) {
+    froe_report r = {.method = t->meta.method, .settings = t->meta.settings, .dim = t->scene->dim};
+    r.leaf = t->meta.leaf;
+    r.seed = t->meta.seed;
+    r.objects = t->scene->object_count;
+    r.nodes = t->node_count;
+    r.fragments = t->piece_count;
+    r.size = r.nodes + r.fragments;
+    r.bytes = t->node_count * sizeof *t->nodes + t->cut_count * sizeof *t->cuts + t->piece_count * sizeof *t->pieces +
+              t->bound_count * sizeof *t->bounds + t->normal_count * sizeof *t->normals;
+    r.predicates = t->predicates;
+    r.promises = t->promises;
+    for (uint32_t i = 0; i < t->meta.promise_count; i++) {
+        const tree_promise *p = t->meta.promises + i;
+        t->promises[i] = (froe_promise){p->name, p->promised, p->measured};
+    }
+    t->promises[t->meta.promise_count] = (froe_promise){0};
+    froe_status status = count_nodes(t, &r);
+    t->report = r;
+    return status;
+}
+
+froe_report froe_tree_report(const froe_tree *tree) {
+    return tree->report;
+}
+
+const froe_scene *froe_tree_scene(const froe_tree *tree) {
+    return tree->scene;
+}
+
+/* --------------------------------------------------------------- structure -- */
+
+froe_node froe_tree_root(const froe_tree *tree) {
+    (void)tree;
+    return (froe_node){1};
+}
+
+froe_node_info froe_tree_node(const froe_tree *tree, froe_node node) {
+    froe_node_info info = {0};
+    uint32_t id = node.id1 - 1, count;
+    if (id >= tree->node_count) return info;
+    const tree_node *n = tree->nodes + id;
+    info.cut = tree_cut_at(tree, id);
+    info.first_piece = (size_t)(tree_list(tree, id, &count) - tree->pieces);
+    info.piece_count = count;
+    info.guard = n->flags & TREE_GUARD;
+    info.inseparable = n->flags & TREE_INSEPARABLE;
+    if (!tree_is_leaf(n)) {
+        info.child[0].id1 = n->child + 1;
+        info.child[1].id1 = n->child + 2;
+    }
+    return info;
+}
+
+size_t froe_tree_piece_count(const froe_tree *tree) {
+    return tree->piece_count;
+}
+
+froe_piece froe_tree_piece(const froe_tree *tree, size_t piece) {
+    if (piece >= tree->piece_count) return (froe_piece){.object = FROE_NONE};
+    const tree_piece *p = tree->pieces + piece;
+    froe_piece out = {.object = p->object, .whole = !p->ring};
+    if (p->ring)
+        out.corners = tree->bounds[p->ring];
+    else
+        out.corners = scene_form(tree->scene, p->object) == FROE_BALL ? 1 : scene_corners(tree->scene, p->object);
+    return out;
+}
