@@ -1,0 +1,44 @@
+# make install, find_package(froe), pkg-config froe.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/froe)
+
+# froe_install(NAME): libraries of one part and its header
+function(froe_install name header)
+  install(TARGETS ${name} ${name}_static EXPORT froe
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(FILES include/froe/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/froe)
+endfunction()
+
+# froe_pkgconfig(FILE DESCRIPTION REQUIRES REQUIRES_PRIVATE LIBS_PRIVATE)
+function(froe_pkgconfig file description requires requires_private libs_private)
+  set(PC_NAME ${file})
+  set(PC_DESCRIPTION ${description})
+  set(PC_REQUIRES ${requires})
+  set(PC_REQUIRES_PRIVATE ${requires_private})
+  set(PC_LIBS_PRIVATE ${libs_private})
+  configure_file(cmake/froe.pc.in ${file}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${file}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+froe_install(froe froe)
+froe_pkgconfig(froe "${PROJECT_DESCRIPTION}" "" "" "-lm -pthread")
+if(FROE_HAS_IO)
+  froe_install(froe_io io)
+  froe_pkgconfig(froe-io "Readers and writers of froe" "froe" "gdal assimp jansson" "-lm")
+endif()
+if(FROE_HAS_DRAW)
+  froe_install(froe_draw draw)
+  froe_pkgconfig(froe-draw "Pictures of froe's partitions" "froe" "cairo" "-lm")
+endif()
+if(FROE_HAS_CLI)
+  install(TARGETS froe_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+install(EXPORT froe NAMESPACE froe:: FILE froeTargets.cmake DESTINATION ${package_dir})
+configure_package_config_file(cmake/froeConfig.cmake.in froeConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(froeConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/froeConfig.cmake ${PROJECT_BINARY_DIR}/froeConfigVersion.cmake
+        DESTINATION ${package_dir})
+if(EXISTS ${PROJECT_SOURCE_DIR}/data)
+  install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/froe/data)
+endif()
