@@ -1,5 +1,5 @@
 /* tree.c: what a finished tree tells about itself: nodes, cuts, pieces, counts. */
-#include "tree/tree.h"
+#include "tree/walk.h"
 #include <string.h>
 #include <sys/mman.h>
 
@@ -68,44 +68,27 @@ geom_plane tree_plane_at(const froe_tree *t, uint32_t node) {
 
 /* ------------------------------------------------------------------ report -- */
 
-typedef struct tree_visit {
-    uint32_t node, depth;
-} tree_visit;
-
 /* Counts one node; the sum of depths of its pieces goes to *depths. */
-static void count_node(const froe_tree *t, froe_report *r, tree_visit at, double *depths) {
-    const tree_node *n = t->nodes + at.node;
+static void count_node(const froe_tree *t, froe_report *r, uint32_t node, uint32_t depth, double *depths) {
     uint32_t count;
-    tree_list(t, at.node, &count);
-    *depths += (double)at.depth * (double)count;
-    if (!tree_is_leaf(n)) {
+    tree_list(t, node, &count);
+    *depths += (double)depth * (double)count;
+    if (!tree_is_leaf(t->nodes + node)) {
         r->in_cut += count;
         return;
     }
     r->leaves++;
-    if (at.depth > r->height) r->height = at.depth;
+    if (depth > r->height) r->height = depth;
     if (count > r->max_leaf) r->max_leaf = count;
-    if (n->flags & TREE_INSEPARABLE) r->inseparable++;
+    if (t->nodes[node].flags & TREE_INSEPARABLE) r->inseparable++;
 }
 
-/* Depths need a walk: a linear pass has no room for them. */
 static froe_status count_nodes(const froe_tree *t, froe_report *r) {
-    ARRAY(tree_visit) stack = {0};
+    tree_walk walk = {.tree = t};
     double depths = 0;
-    bool ok = array_push(&t->alloc, &stack, (tree_visit){0, 0});
-    while (ok && stack.count) {
-        tree_visit at = stack.data[--stack.count];
-        count_node(t, r, at, &depths);
-        while (ok && !tree_is_leaf(t->nodes + at.node)) {
-            tree_visit right = {t->nodes[at.node].child + 1, at.depth + 1};
-            ok = array_push(&t->alloc, &stack, right);
-            at = (tree_visit){right.node - 1, right.depth};
-            count_node(t, r, at, &depths);
-        }
-    }
-    array_free(&t->alloc, &stack);
+    while (tree_walk_next(&walk)) count_node(t, r, walk.node, tree_walk_depth(&walk), &depths);
     r->mean_depth = r->fragments ? depths / (double)r->fragments : 0;
-    return ok ? FROE_OK : FROE_E_MEMORY;
+    return tree_walk_end(&walk);
 }
 
 froe_status tree_finish(froe_tree *t) {
