@@ -22,6 +22,7 @@ froe_status tree_take_arrays(froe_tree *t) {
 void froe_tree_free(froe_tree *tree) {
     if (!tree) return;
     froe_allocator alloc = tree->alloc;
+    tree_spare_free(&alloc, tree->spare);
     froe_scene_free(tree->scene); /* before the map: its arrays may lie there */
     if (tree->map) {
         munmap(tree->map, tree->map_size);
@@ -110,7 +111,7 @@ froe_status tree_finish(froe_tree *t) {
     t->promises[t->meta.promise_count] = (froe_promise){0};
     froe_status status = count_nodes(t, &r);
     t->report = r;
-    return status;
+    return status ? status : tree_spare_new(&t->alloc, &t->spare);
 }
 
 froe_report froe_tree_report(const froe_tree *tree) {

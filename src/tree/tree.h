@@ -68,6 +68,11 @@ typedef struct tree_meta {
     double root_lo[FROE_MAX_DIM], root_hi[FROE_MAX_DIM]; /**< root cube of the guard stage; 0,0 without one */
 } tree_meta;
 
+/** A number context for calls that have no other (corners.c). */
+typedef struct tree_spare tree_spare;
+froe_status tree_spare_new(const froe_allocator *alloc, tree_spare **out);
+void tree_spare_free(const froe_allocator *alloc, tree_spare *spare);
+
 struct froe_tree {
     froe_allocator alloc;
     froe_scene *scene; /**< held */
@@ -81,6 +86,7 @@ struct froe_tree {
     froe_predicate_stats predicates; /**< of the build */
     froe_report report;              /**< computed once, by tree_finish */
     froe_promise promises[TREE_PROMISES + 1];
+    tree_spare *spare;
     void *map; /**< mapped file, or NULL */
     size_t map_size;
 };

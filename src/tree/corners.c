@@ -1,0 +1,95 @@
+/* corners.c: pieces as coordinates, for output: every corner is rounded once, from what meets there.
+ *
+ * Rounding needs a number context. Each tree keeps one to spare, so that the usual caller, one
+ * thread, pays nothing for it; a thread that finds it taken makes its own, and without memory
+ * for that waits: this call has no way to fail. */
+#include "geom/predicates.h"
+#include "tree/ring.h"
+#include <sched.h>
+#include <stdatomic.h>
+#include <string.h>
+
+struct tree_spare {
+    num_context context;
+    atomic_flag taken;
+};
+
+froe_status tree_spare_new(const froe_allocator *alloc, tree_spare **out) {
+    tree_spare *spare = base_calloc(alloc, 1, sizeof *spare);
+    if (!spare) return FROE_E_MEMORY;
+    froe_status status = num_context_new(alloc, &spare->context);
+    if (status) {
+        base_free(alloc, spare, sizeof *spare);
+        return status;
+    }
+    atomic_flag_clear(&spare->taken);
+    *out = spare;
+    return FROE_OK;
+}
+
+void tree_spare_free(const froe_allocator *alloc, tree_spare *spare) {
+    if (!spare) return;
+    num_context_free(&spare->context);
+    base_free(alloc, spare, sizeof *spare);
+}
+
+/* The spare context, or `own` filled with a new one. */
+static num_context *borrow(const froe_tree *t, num_context *own) {
+    if (!atomic_flag_test_and_set(&t->spare->taken)) return &t->spare->context;
+    if (num_context_new(&t->alloc, own) == FROE_OK) return own;
+    while (atomic_flag_test_and_set(&t->spare->taken)) sched_yield();
+    return &t->spare->context;
+}
+
+static void give_back(const froe_tree *t, num_context *context) {
+    if (context == &t->spare->context)
+        atomic_flag_clear(&t->spare->taken);
+    else
+        num_context_free(context);
+}
+
+static void round_point(num_context *context, const froe_tree *t, uint32_t object, const ring_point *p, double *out) {
+    if (p->kind == RING_VERTEX) {
+        memcpy(out, p->x, (size_t)t->scene->dim * sizeof *out);
+        return;
+    }
+    geom_plane a = tree_plane_at(t, p->a), b, s;
+    if (p->kind == RING_CROSSING) {
+        geom_round_crossing(context, p->u, p->v, &a, out);
+        return;
+    }
+    b = tree_plane_at(t, p->b);
+    scene_support(t->scene, object, &s);
+    geom_round_corner(context, &s, &a, &b, out);
+}
+
+static void whole_corners(const froe_tree *t, uint32_t object, size_t count, double *coords, froe_node *made) {
+    size_t dim = (size_t)t->scene->dim;
+    for (uint32_t i = 0; i < count; i++) {
+        memcpy(coords + i * dim, scene_point(t->scene, object, i), dim * sizeof *coords);
+        if (made) made[i] = (froe_node){0};
+    }
+}
+
+static void ring_corners(const froe_tree *t, const tree_piece *piece, size_t count, double *coords, froe_node *made) {
+    const uint32_t *ring = t->bounds + piece->ring;
+    size_t dim = (size_t)t->scene->dim;
+    num_context own, *context = borrow(t, &own);
+    for (uint32_t i = 0; i < count; i++) {
+        ring_point p = ring_point_at(t->scene, piece->object, ring + 1, ring[0], i);
+        round_point(context, t, piece->object, &p, coords + i * dim);
+        if (made) made[i].id1 = ring[1 + i] & TREE_EDGE_CUT ? (ring[1 + i] & ~TREE_EDGE_CUT) + 1 : 0;
+    }
+    give_back(t, context);
+}
+
+size_t froe_tree_piece_corners(const froe_tree *tree, size_t piece, double *coords, froe_node *made, size_t capacity) {
+    if (piece >= tree->piece_count) return 0;
+    const tree_piece *p = tree->pieces + piece;
+    size_t corners = froe_tree_piece(tree, piece).corners, count = corners < capacity ? corners : capacity;
+    if (p->ring)
+        ring_corners(tree, p, count, coords, made);
+    else
+        whole_corners(tree, p->object, count, coords, made);
+    return corners;
+}
