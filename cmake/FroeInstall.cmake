@@ -9,6 +9,14 @@ function(froe_install name header)
   install(FILES include/froe/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/froe)
 endfunction()
 
+# The prefix is where the file lies, so that an installation can be moved or staged.
+if(IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
+  set(PC_PREFIX ${CMAKE_INSTALL_PREFIX})
+else()
+  file(RELATIVE_PATH PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  set(PC_PREFIX "\${pcfiledir}/${PC_PREFIX}")
+endif()
+
 # froe_pkgconfig(FILE DESCRIPTION REQUIRES REQUIRES_PRIVATE LIBS_PRIVATE)
 function(froe_pkgconfig file description requires requires_private libs_private)
   set(PC_NAME ${file})

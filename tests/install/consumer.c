@@ -1,0 +1,28 @@
+/* consumer.c: a user's program. It has functions that are called as internal ones of
+ * the library are; the library must neither see them nor clash with them. */
+#include <froe/froe.h>
+#include <stdio.h>
+
+void *base_realloc(void);
+void *base_realloc(void) {
+    return NULL;
+}
+int array_grow(int x);
+int array_grow(int x) {
+    return x + 1;
+}
+
+int main(void) {
+    const double corners[] = {0, 0, 1, 1, 1, 0, 0, 1};
+    froe_scene *scene = NULL;
+    froe_objects objects = froe_objects_defaults();
+    objects.kind = FROE_SEGMENT;
+    objects.count = 2;
+    objects.coords = corners;
+    if (froe_scene_new(2, NULL, &scene) || froe_scene_add(scene, &objects, NULL)) return 1;
+    if (froe_scene_object_count(scene) != 2 || froe_scene_vertex_count(scene) != 4) return 2;
+    froe_scene_free(scene);
+    if (base_realloc() || array_grow(1) != 2) return 3;
+    puts(froe_version());
+    return 0;
+}
