@@ -4,11 +4,13 @@
 #include <froe/froe.h>
 #include <stdatomic.h>
 
+#define BASE_THREADS_MAX 256
+
 typedef struct base_task {
     froe_progress_fn *progress; /**< may be NULL; called from the calling thread only */
     void *user;
-    unsigned threads;      /**< >= 1 */
-    double done, scale;    /**< share reported so far; what base_run() spans of it */
+    unsigned threads;      /**< 1 .. BASE_THREADS_MAX */
+    double done, scale;    /**< share reported so far (never falls); factor on the spans of base_run(), 1 at first */
     atomic_bool cancelled; /**< workers poll it with base_cancelled() */
 } base_task;
 
@@ -23,8 +25,9 @@ static inline bool base_cancelled(base_task *task) {
 /** One job of many; `worker` < threads names the worker's private state. */
 typedef froe_status base_job_fn(void *user, unsigned worker, size_t job);
 /** Runs jobs 0..count-1, in any order, on task->threads threads (the calling one
- * included), and reports progress from `done` to `done + span`. Returns the status of the
- * lowest-numbered failing job; later jobs may then not have run. Falls back to fewer threads
- * when the system gives none: never fails by itself. */
+ * included), and reports progress from `done` to `done + span * scale`. Returns the status
+ * of the lowest-numbered failing job; later jobs may then not have run. FROE_E_CANCELLED when
+ * the callback says no. Falls back to fewer threads when the system gives none: never fails
+ * by itself. Not to be called from a job. */
 froe_status base_run(base_task *task, double span, size_t count, base_job_fn *fn, void *user);
 #endif

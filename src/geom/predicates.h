@@ -13,6 +13,7 @@
  * the sign, as the determinant says; all stages agree wherever two are sure. */
 #ifndef FROE_GEOM_PREDICATES_H
 #define FROE_GEOM_PREDICATES_H
+#include "geom/filter.h"
 #include "geom/plane.h"
 
 /** Side of the point x (plane->dim doubles). */
@@ -34,10 +35,16 @@ void geom_round_crossing(num_context *context, const double *u, const double *v,
 void geom_round_corner(num_context *context, const geom_plane *s, const geom_plane *a, const geom_plane *b,
                        double *out);
 /** Fast images with a certified error: |out[k] - true| <= the result for every k;
- * infinity when nothing is certain. For filters and scores. */
+ * infinity when nothing is certain (then out may be anything). For filters and scores. An
+ * image of a crossing always lies in the bounding box of u and v. */
 double geom_image_crossing(const double *u, const double *v, const geom_plane *a, double *out);
 double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_plane *b, double *out);
 /** -1 or 1 when the image (x, error) is certainly on that side, NUM_UNSURE otherwise.
  * error 0 is fine for input vertices. ~5 ns: the first question to ask. */
-int geom_side_image(const geom_plane *plane, const double *x, double error);
+static inline int geom_side_image(const geom_plane *plane, const double *x, double error) {
+    num_ball f = filter_value(plane, x);
+    double reach = fabs(plane->n[0]) + fabs(plane->n[1]) + fabs(plane->n[2]) + 3 * plane->n_err;
+    f.e = (f.e + (plane->form == GEOM_AXIS ? error : reach * error)) * (1 + 0x1p-49);
+    return filter_sign(f);
+}
 #endif

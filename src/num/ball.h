@@ -4,7 +4,7 @@
  *
  * Operations that happen to be exact cost no error, so x == 0 && e == 0 certifies
  * a zero; no rounding mode is ever changed. Needs round-to-nearest, no contraction
- * (num/selftest.h checks both). Measured against directed rounding: better
+ * (num_machine_trusted() checks both). Measured against directed rounding: better
  * on near-degenerate data, equal on lattices, cheaper at degree 4. */
 #ifndef FROE_NUM_BALL_H
 #define FROE_NUM_BALL_H
@@ -31,8 +31,9 @@ static inline num_ball num_ball_sub(num_ball a, num_ball b) {
 static inline num_ball num_ball_mul(num_ball a, num_ball b) {
     double p = a.x * b.x, residue = fma(a.x, b.x, -p);
     double e = (fabs(a.x) * b.e + (fabs(b.x) + b.e) * a.e + fabs(residue)) * NUM_BALL_UP;
-    int tiny = !(fabs(p) > 0x1p-900) & (a.x != 0) & (b.x != 0), inexact = (a.e != 0) | (b.e != 0);
-    return (num_ball){p, e + (tiny | inexact ? NUM_BALL_TINY : 0)};
+    int underflow = !(fabs(p) > 0x1p-900) | (a.e != 0) | (b.e != 0);
+    int live = ((a.x != 0) | (a.e != 0)) & ((b.x != 0) | (b.e != 0)); /* zero times anything is zero */
+    return (num_ball){p, e + (underflow & live ? NUM_BALL_TINY : 0)};
 }
 /** -1, 0 (certified), 1 or NUM_UNSURE (also for NaN and infinity). */
 static inline int num_ball_sign(num_ball a) {

@@ -1,0 +1,116 @@
+/* filter.h: the semi-static stage: plain double arithmetic beside one bound per scalar or vector.
+ *
+ * Notation: u = 2^-53; a computed quantity x stands for a true one in [x - e, x + e].
+ * Every operation adds the constant NUM_BALL_TINY, which swallows the underflows of
+ * all its products (each at most 2^-1075); an overflow turns x and e into infinity or NaN,
+ * for which no comparison below says "sure". So no factor needs to be guarded: the bounds
+ * hold for all finite doubles (a guard on products alone is not enough: one factor
+ * may underflow while another is huge). Factors like 8u where about 5u
+ * is needed pay for the rounding of the bounds themselves. */
+#ifndef FROE_GEOM_FILTER_H
+#define FROE_GEOM_FILTER_H
+#include "geom/plane.h"
+#include "num/ball.h"
+
+#define FILTER_8U 0x1p-50
+
+/* sum n[k] w[k] - c, where w[k] = fl(x[k] - o[k]) has relative error u.
+ *
+ * Let P = sum |n[k] w[k]| + |c|. Each term suffers one rounding in w, one in the product and at
+ * most three in the sum:  |x - sum n w_true + c| <= ((1+u)^5 - 1) P < 5.1u P, and P itself
+ * is computed to (1 +- 5u). The error of the normal adds at most n_err sum |w_true|; n_err is
+ * rounded up by 2^-48, which pays for the roundings here. Hence e = 8u P + n_err sum |w| + TINY. */
+static inline num_ball filter_sum(const geom_plane *h, const double w[3], double c) {
+    double p0 = h->n[0] * w[0], p1 = h->n[1] * w[1], x = p0 + p1;
+    double size = fabs(p0) + fabs(p1), spread = fabs(w[0]) + fabs(w[1]);
+    if (h->dim == 3) {
+        double p2 = h->n[2] * w[2];
+        x += p2;
+        size += fabs(p2);
+        spread += fabs(w[2]);
+    }
+    x -= c;
+    size += fabs(c);
+    return (num_ball){x, FILTER_8U * size + h->n_err * spread + NUM_BALL_TINY};
+}
+
+/* a - b for two doubles: one rounding, no underflow. */
+static inline num_ball filter_difference(double a, double b) {
+    double x = a - b;
+    return (num_ball){x, FILTER_8U * fabs(x)};
+}
+
+/* f(x) */
+static inline num_ball filter_value(const geom_plane *h, const double *x) {
+    if (h->form == GEOM_AXIS) return filter_difference(x[h->axis], h->c);
+    double w[3] = {x[0], x[1], h->dim == 3 ? x[2] : 0};
+    if (h->form == GEOM_VECTOR) return filter_sum(h, w, h->c);
+    for (int k = 0; k < 3; k++) w[k] -= h->p[0][k];
+    return filter_sum(h, w, 0);
+}
+
+/* n . (v - u) */
+static inline num_ball filter_slope(const geom_plane *h, const double *u, const double *v) {
+    if (h->form == GEOM_AXIS) return filter_difference(v[h->axis], u[h->axis]);
+    double w[3] = {v[0] - u[0], v[1] - u[1], h->dim == 3 ? v[2] - u[2] : 0};
+    return filter_sum(h, w, 0);
+}
+
+/* |xy - x'y'| <= |x| e_y + |y| e_x + e_x e_y, and u |xy| for the rounding. */
+static inline num_ball filter_mul(num_ball a, num_ball b) {
+    double p = a.x * b.x;
+    double e = fabs(a.x) * b.e + (fabs(b.x) + b.e) * a.e + FILTER_8U * fabs(p);
+    return (num_ball){p, e * (1 + 0x1p-49) + NUM_BALL_TINY};
+}
+
+static inline num_ball filter_add(num_ball a, num_ball b) {
+    double s = a.x + b.x;
+    return (num_ball){s, (a.e + b.e + FILTER_8U * fabs(s)) * (1 + 0x1p-49)};
+}
+
+static inline num_ball filter_sub(num_ball a, num_ball b) {
+    return filter_add(a, (num_ball){-b.x, b.e});
+}
+
+/* With q = fl(x / y), |x'/y' - q| <= (|x - q y| + e_x + |q| e_y) / (|y| - e_y), |x - q y| <= u |x|. */
+static inline num_ball filter_div(num_ball a, num_ball b) {
+    double q = a.x / b.x, gap = (fabs(b.x) - b.e) * (1 - 0x1p-50);
+    double e = (FILTER_8U * fabs(a.x) + a.e + fabs(q) * b.e) / gap;
+    return (num_ball){q, gap > 0 ? e * (1 + 0x1p-49) + NUM_BALL_TINY : (double)INFINITY};
+}
+
+/* A vector with one error bound for all components. */
+typedef struct filter_vector {
+    double x[3], most, e; /* most = max |x[k]| */
+} filter_vector;
+
+static inline filter_vector filter_normal(const geom_plane *h) {
+    return (filter_vector){{h->n[0], h->n[1], h->n[2]}, h->n_max, h->n_err};
+}
+
+/* Each component has two products, of size at most M = a.most b.most and with error at most
+ * a.most b.e + (b.most + b.e) a.e + uM, and a difference, at most 2M, that is rounded once. */
+static inline filter_vector filter_cross(const filter_vector *a, const filter_vector *b) {
+    filter_vector out;
+    out.x[0] = a->x[1] * b->x[2] - a->x[2] * b->x[1];
+    out.x[1] = a->x[2] * b->x[0] - a->x[0] * b->x[2];
+    out.x[2] = a->x[0] * b->x[1] - a->x[1] * b->x[0];
+    out.most = fmax(fmax(fabs(out.x[0]), fabs(out.x[1])), fabs(out.x[2]));
+    double e = a->most * b->e + (b->most + b->e) * a->e + FILTER_8U * (a->most * b->most);
+    out.e = 2 * e * (1 + 0x1p-49) + NUM_BALL_TINY;
+    return out;
+}
+
+/* As above, three products and two roundings of the sum: 3u P. */
+static inline num_ball filter_dot(const filter_vector *a, const filter_vector *b) {
+    double p0 = a->x[0] * b->x[0], p1 = a->x[1] * b->x[1], p2 = a->x[2] * b->x[2];
+    double carried = 3 * (a->most * b->e + (b->most + b->e) * a->e);
+    double e = carried + FILTER_8U * (fabs(p0) + fabs(p1) + fabs(p2));
+    return (num_ball){p0 + p1 + p2, e * (1 + 0x1p-49) + NUM_BALL_TINY};
+}
+
+/* -1, 1 or NUM_UNSURE; never 0, never for infinity or NaN (then e is not finite either). */
+static inline int filter_sign(num_ball a) {
+    return a.x > a.e ? 1 : a.x < -a.e ? -1 : NUM_UNSURE;
+}
+#endif

@@ -1,0 +1,42 @@
+/* formulas.h: the formulas of predicate_body.inc for balls (ball_*) and dyadic
+ * numbers (dyadic_*), and the point that corners are measured from. */
+#ifndef FROE_GEOM_FORMULAS_H
+#define FROE_GEOM_FORMULAS_H
+#include "geom/plane.h"
+#include "num/ball.h"
+
+#define T num_ball
+#define NAME(f) ball_##f
+#define FROM(x) num_ball_from(x)
+#define ADD(a, b) num_ball_add(a, b)
+#define SUB(a, b) num_ball_sub(a, b)
+#define MUL(a, b) num_ball_mul(a, b)
+#include "geom/predicate_body.inc"
+
+#define T num_dyadic
+#define NAME(f) dyadic_##f
+#define FROM(x) num_dyadic_from(arena, x)
+#define ADD(a, b) num_dyadic_add(arena, a, b)
+#define SUB(a, b) num_dyadic_sub(arena, a, b)
+#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "geom/predicate_body.inc"
+
+static inline bool geom_has_points(const geom_plane *plane) {
+    return plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL;
+}
+
+/** Reorders three planes so that z, a point near their corner, lies on the first (unless all are
+ * VECTOR planes). An axis plane alone takes its other coordinates from `near` (may be NULL). */
+static inline void geom_corner_origin(const geom_plane *planes[3], const geom_plane *near, double z[3]) {
+    int first = 0;
+    for (int i = 2; i >= 0; i--)
+        if (planes[i]->form == GEOM_AXIS) first = i;
+    for (int i = 2; i >= 0; i--)
+        if (geom_has_points(planes[i])) first = i;
+    const geom_plane *s = planes[first], *anchor = geom_has_points(s) ? s : near;
+    for (int k = 0; k < 3; k++) z[k] = anchor && geom_has_points(anchor) ? anchor->p[0][k] : 0;
+    if (s->form == GEOM_AXIS) z[s->axis] = s->c;
+    planes[first] = planes[0];
+    planes[0] = s;
+}
+#endif

@@ -1,0 +1,75 @@
+/* image.c: where crossings and corners lie: rounded exactly for output, or fast with
+ * a certified error for filters and scores. */
+#include "geom/formulas.h"
+#include "geom/predicates.h"
+
+/* origin + offset / divisor, rounded. */
+static double rounded(num_arena *arena, double origin, num_dyadic offset, num_dyadic divisor) {
+    num_dyadic shift = num_dyadic_mul(arena, num_dyadic_from(arena, origin), divisor);
+    return num_dyadic_quotient(arena, num_dyadic_add(arena, shift, offset), divisor);
+}
+
+void geom_round_crossing(num_context *context, const double *u, const double *v, const geom_plane *a, double *out) {
+    num_dyadic offset[3], divisor;
+    context->arena.top = 0;
+    dyadic_crossing_point(&context->arena, u, v, a, offset, &divisor);
+    for (int k = 0; k < a->dim; k++) out[k] = rounded(&context->arena, u[k], offset[k], divisor);
+}
+
+void geom_round_corner(num_context *context, const geom_plane *s, const geom_plane *a, const geom_plane *b,
+                       double *out) {
+    const geom_plane *planes[3] = {s, a, b};
+    double z[3];
+    num_dyadic offset[3], divisor;
+    geom_corner_origin(planes, NULL, z);
+    context->arena.top = 0;
+    dyadic_corner_point(&context->arena, planes[0], planes[1], planes[2], z, offset, &divisor);
+    for (int k = 0; k < 3; k++) out[k] = rounded(&context->arena, z[k], offset[k], divisor);
+}
+
+/* Keeps x, an image of a number between p and q, between them; returns its error. */
+static double confine(num_ball image, double p, double q, double *x) {
+    double low = fmin(p, q), high = fmax(p, q), width = (high - low) * (1 + 0x1p-50);
+    *x = fmin(fmax(image.x, low), high); /* a NaN becomes low */
+    return image.e < width ? image.e : width;
+}
+
+double geom_image_crossing(const double *u, const double *v, const geom_plane *a, double *out) {
+    num_ball share = filter_div(filter_value(a, u), filter_slope(a, u, v));
+    double worst = 0;
+    for (int k = 0; k < a->dim; k++) {
+        num_ball step = filter_mul(filter_difference(u[k], v[k]), share);
+        double error = confine(filter_add(num_ball_from(u[k]), step), u[k], v[k], out + k);
+        worst = error > worst ? error : worst;
+    }
+    if (a->form == GEOM_AXIS) out[a->axis] = a->c;
+    return worst;
+}
+
+/* -s(z) ab[k] - a(z) bs[k] - b(z) sa[k] */
+static num_ball corner_offset(const num_ball at[3], const filter_vector across[3], int k) {
+    num_ball sum = {0, 0};
+    for (int i = 0; i < 3; i++) sum = filter_sub(sum, filter_mul(at[i], (num_ball){across[i].x[k], across[i].e}));
+    return sum;
+}
+
+double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_plane *b, double *out) {
+    const geom_plane *planes[3] = {s, a, b};
+    filter_vector n[3], across[3];
+    num_ball at[3];
+    double z[3], worst = 0;
+    geom_corner_origin(planes, NULL, z);
+    for (int i = 0; i < 3; i++) n[i] = filter_normal(planes[i]), at[i] = filter_value(planes[i], z);
+    if (planes[0]->form != GEOM_VECTOR) at[0] = num_ball_from(0);
+    for (int i = 0; i < 3; i++) across[i] = filter_cross(&n[(i + 1) % 3], &n[(i + 2) % 3]);
+    num_ball divisor = filter_dot(&n[0], &across[0]);
+    for (int k = 0; k < 3; k++) {
+        num_ball x = filter_add(num_ball_from(z[k]), filter_div(corner_offset(at, across, k), divisor));
+        out[k] = x.x;
+        if (!(x.e <= 0x1p1000)) return INFINITY; /* NaN too */
+        worst = fmax(worst, x.e);
+    }
+    for (int i = 0; i < 3; i++)
+        if (planes[i]->form == GEOM_AXIS) out[planes[i]->axis] = planes[i]->c;
+    return worst;
+}

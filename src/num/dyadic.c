@@ -1,0 +1,164 @@
+/* dyadic.c: schoolbook arithmetic on 64-bit limbs whose exponent is a multiple of
+ * 64, so that nothing is ever shifted. At predicate sizes (2 to 300 limbs) this
+ * runs as fast as GMP; see docs/numerics.md. */
+#include "num/dyadic.h"
+#include <assert.h>
+#include <string.h>
+
+__extension__ typedef unsigned __int128 wide;
+
+/* A double reaches from 2^-1074 to below 2^1024: limbs -17 .. 15, 33 of them; so a
+ * number of degree k has at most 33 k limbs, and one for carries. A sum allocates one
+ * limb more than it may need, a product no more than it may have: a step of degree k
+ * takes at most 33 k + 2 limbs (k >= 1).
+ *
+ * The deepest predicate today, the corner of three planes through input points
+ * against a fourth, takes (steps of each degree; see predicate_body.inc)
+ *     degree 1    45 doubles (2 limbs), 24 + 12 differences          1 350
+ *     degree 2    normals: 4 x (6 products + 3 differences)          2 448
+ *     degree 3    3 plane values x (3 products + 3 sums)             1 818
+ *     degree 4    3 cross products x 9                               3 618
+ *     degree 6    4 triple products x 5                              4 000
+ *     degree 9    4 products, 3 sums                                 2 093
+ * about 16 000 limbs. Planes through an eye and a cut edge (normals of degree 5) take
+ * at most 60 steps of degree 5 a plane (4 x 60 x 167), 27 of degree 10 (332), 20 of
+ * degree 15 (497) and 7 of degree 21 (695): 63 800. */
+const size_t num_arena_bound = 1 << 16;
+
+froe_status num_arena_new(const froe_allocator *alloc, num_arena *out) {
+    uint64_t *limbs = base_realloc(alloc, NULL, 0, num_arena_bound * sizeof *limbs);
+    if (!limbs) return FROE_E_MEMORY;
+    *out = (num_arena){limbs, 0, num_arena_bound, 0};
+    return FROE_OK;
+}
+
+void num_arena_free(const froe_allocator *alloc, num_arena *arena) {
+    base_free(alloc, arena->limbs, arena->capacity * sizeof *arena->limbs);
+    *arena = (num_arena){0};
+}
+
+static uint64_t *take(num_arena *arena, uint32_t count) {
+    uint64_t *limbs = arena->limbs + arena->top;
+    arena->top += count;
+    assert(arena->top <= arena->capacity);
+    if (arena->top > arena->high) arena->high = arena->top;
+    return limbs;
+}
+
+/* Strips zero limbs from both ends. */
+static num_dyadic trim(int sign, int exponent, uint32_t count, const uint64_t *limbs) {
+    while (count && limbs[count - 1] == 0) count--;
+    while (count && limbs[0] == 0) limbs++, exponent++, count--;
+    if (!count) return (num_dyadic){0};
+    return (num_dyadic){sign, exponent, count, limbs};
+}
+
+num_dyadic num_dyadic_scaled(num_arena *arena, int sign, uint64_t whole, int power) {
+    int exponent = power >= 0 ? power / 64 : -((63 - power) / 64), shift = power - 64 * exponent;
+    uint64_t *limbs = take(arena, 2);
+    limbs[0] = whole << shift;
+    limbs[1] = shift ? whole >> (64 - shift) : 0;
+    return trim(sign, exponent, 2, limbs);
+}
+
+num_dyadic num_dyadic_from(num_arena *arena, double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    uint64_t mantissa = bits & 0xfffffffffffffu;
+    int power = (int)(bits >> 52 & 0x7ff);
+    if (power)
+        mantissa |= (uint64_t)1 << 52;
+    else
+        power = 1; /* denormals are ordinary here */
+    if (!mantissa) return (num_dyadic){0};
+    return num_dyadic_scaled(arena, bits >> 63 ? -1 : 1, mantissa, power - 1075);
+}
+
+static int top_of(num_dyadic a) {
+    return a.exponent + (int)a.count;
+}
+
+static uint64_t limb_at(num_dyadic a, int place) {
+    return place >= a.exponent && place < top_of(a) ? a.limbs[place - a.exponent] : 0;
+}
+
+static int compare_magnitudes(num_dyadic a, num_dyadic b) {
+    if (top_of(a) != top_of(b)) return top_of(a) > top_of(b) ? 1 : -1;
+    int low = a.exponent < b.exponent ? a.exponent : b.exponent;
+    for (int place = top_of(a) - 1; place >= low; place--) {
+        uint64_t x = limb_at(a, place), y = limb_at(b, place);
+        if (x != y) return x > y ? 1 : -1;
+    }
+    return 0;
+}
+
+int num_dyadic_compare(num_dyadic a, num_dyadic b) {
+    if (a.sign != b.sign) return a.sign > b.sign ? 1 : -1;
+    return a.sign ? a.sign * compare_magnitudes(a, b) : 0;
+}
+
+/* |a| + |b|, both not 0. */
+static num_dyadic add_magnitudes(num_arena *arena, int sign, num_dyadic a, num_dyadic b) {
+    int low = a.exponent < b.exponent ? a.exponent : b.exponent;
+    int high = top_of(a) > top_of(b) ? top_of(a) : top_of(b);
+    uint32_t count = (uint32_t)(high - low);
+    uint64_t *sum = take(arena, count + 1);
+    memset(sum, 0, (count + 1) * sizeof *sum);
+    memcpy(sum + (a.exponent - low), a.limbs, a.count * sizeof *sum);
+    uint64_t carry = 0, *at = sum + (b.exponent - low);
+    for (uint32_t i = 0; i < b.count; i++) {
+        wide t = (wide)at[i] + b.limbs[i] + carry;
+        at[i] = (uint64_t)t;
+        carry = (uint64_t)(t >> 64);
+    }
+    for (uint64_t *rest = at + b.count; carry; rest++) carry = ++*rest == 0;
+    return trim(sign, low, count + 1, sum);
+}
+
+/* |a| - |b| for |a| > |b| > 0. */
+static num_dyadic sub_magnitudes(num_arena *arena, int sign, num_dyadic a, num_dyadic b) {
+    int low = a.exponent < b.exponent ? a.exponent : b.exponent;
+    uint32_t count = (uint32_t)(top_of(a) - low);
+    uint64_t *difference = take(arena, count);
+    memset(difference, 0, (size_t)(a.exponent - low) * sizeof *difference);
+    memcpy(difference + (a.exponent - low), a.limbs, a.count * sizeof *difference);
+    uint64_t borrow = 0, *at = difference + (b.exponent - low);
+    for (uint32_t i = 0; i < b.count; i++) {
+        wide t = (wide)at[i] - b.limbs[i] - borrow;
+        at[i] = (uint64_t)t;
+        borrow = (uint64_t)(t >> 64) & 1;
+    }
+    for (uint64_t *rest = at + b.count; borrow; rest++) borrow = (*rest)-- == 0;
+    return trim(sign, low, count, difference);
+}
+
+num_dyadic num_dyadic_add(num_arena *arena, num_dyadic a, num_dyadic b) {
+    if (!a.sign) return b;
+    if (!b.sign) return a;
+    if (a.sign == b.sign) return add_magnitudes(arena, a.sign, a, b);
+    int order = compare_magnitudes(a, b);
+    if (!order) return (num_dyadic){0};
+    return order > 0 ? sub_magnitudes(arena, a.sign, a, b) : sub_magnitudes(arena, b.sign, b, a);
+}
+
+num_dyadic num_dyadic_sub(num_arena *arena, num_dyadic a, num_dyadic b) {
+    b.sign = -b.sign;
+    return num_dyadic_add(arena, a, b);
+}
+
+num_dyadic num_dyadic_mul(num_arena *arena, num_dyadic a, num_dyadic b) {
+    if (!a.sign || !b.sign) return (num_dyadic){0};
+    uint32_t count = a.count + b.count;
+    uint64_t *product = take(arena, count);
+    memset(product, 0, b.count * sizeof *product);
+    for (uint32_t i = 0; i < a.count; i++) {
+        uint64_t carry = 0;
+        for (uint32_t j = 0; j < b.count; j++) {
+            wide t = (wide)a.limbs[i] * b.limbs[j] + product[i + j] + carry;
+            product[i + j] = (uint64_t)t;
+            carry = (uint64_t)(t >> 64);
+        }
+        product[i + b.count] = carry;
+    }
+    return trim(a.sign * b.sign, a.exponent + b.exponent, count, product);
+}
