@@ -1,0 +1,153 @@
+/* page.c: lays out scenes, pictures and reports as a page that needs nothing
+ * but the pictures beside it: no scripts, no fonts, no network. */
+#include "demo/page.h"
+#include "demo/html.h"
+#include "exit.h"
+#include "version.h"
+#include <errno.h>
+#include <froe/froe.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const tree_keys[] = {
+    "method",     "objects",     "fragments", "pieces_per_object", "in_cut",        "height", "nodes", "leaves",
+    "mean_depth", "inseparable", "bytes",     "seconds.read",      "seconds.build", NULL};
+static const char *const defect_keys[] = {"defects.zero_length",
+                                          "defects.zero_area",
+                                          "defects.duplicates",
+                                          "defects.crossings",
+                                          "defects.t_junctions",
+                                          "defects.overlaps",
+                                          NULL};
+static const char *const exactness_keys[] = {"predicates.calls",
+                                             "predicates.by_id",
+                                             "predicates.filtered",
+                                             "predicates.refined",
+                                             "predicates.exact",
+                                             "predicates.exact_zero",
+                                             NULL};
+static const char *const method_keys[] = {"method", "fragments", "pieces_per_object", "height",
+                                          "nodes",  "bytes",     "seconds.build",     NULL};
+
+static bool is_step(const demo_step *step, const char *command) {
+    return strncmp(step->command, command, strlen(command)) == 0;
+}
+
+/* The report of the first step of that sort. */
+static const json_t *report_of(const demo_scene *scene, const demo_result *result, const char *command) {
+    for (int i = 0; scene->steps[i].command; i++)
+        if (is_step(&scene->steps[i], command)) return result->report[i];
+    return NULL;
+}
+
+static void put_picture(FILE *out, const demo_step *step, const char *title) {
+    const char *name = strstr(step->command, "-o ");
+    if (!name) return;
+    name += 3;
+    const int length = (int)strcspn(name, " ");
+    fprintf(out, "<figure><a href=\"%.*s\"><img src=\"%.*s\" loading=\"lazy\" alt=\"", length, name, length, name);
+    html_text(out, title);
+    fputs("\"></a><figcaption>", out);
+    html_text(out, step->caption);
+    fputs("</figcaption></figure>\n", out);
+}
+
+static void put_card(FILE *out, const char *title, const json_t *report, const char *const *keys) {
+    fprintf(out, "<div class=\"card\"><h3>%s</h3>\n", title);
+    html_pairs(out, report, keys);
+    fputs("</div>\n", out);
+}
+
+static void put_methods(FILE *out, const json_t *methods) {
+    fputs("<div class=\"card wide\"><h3>All methods, same scene, same seed</h3>\n<table class=\"columns\">\n", out);
+    html_headings(out, method_keys);
+    size_t i;
+    json_t *report;
+    json_array_foreach((json_t *)methods, i, report) html_row(out, report, method_keys);
+    fputs("</table></div>\n", out);
+}
+
+static void put_cards(FILE *out, const demo_scene *scene, const demo_result *result) {
+    const json_t *build = report_of(scene, result, "build ");
+    const json_t *bounds = json_object_get(build, "bounds");
+    fputs("<div class=\"cards\">\n", out);
+    put_card(out, "The tree", build, tree_keys);
+    put_card(out, "How exact predicates were answered", build, exactness_keys);
+    put_card(out, "What is odd about the scene", report_of(scene, result, "info "), defect_keys);
+    if (json_object_size(bounds)) {
+        fputs("<div class=\"card wide\"><h3>What the method promises, and what came out</h3>\n", out);
+        html_bounds(out, bounds);
+        fputs("</div>\n", out);
+    }
+    put_methods(out, result->methods);
+    fputs("</div>\n", out);
+}
+
+static void put_commands(FILE *out, const demo_scene *scene) {
+    fputs("<p>The same again, in this folder:</p>\n<pre>", out);
+    for (const demo_step *step = scene->steps; step->command; step++) {
+        fputs("froe ", out);
+        html_text(out, step->command);
+        fputc('\n', out);
+    }
+    fputs("</pre>\n", out);
+}
+
+static void put_headline(FILE *out, const json_t *build, const json_t *check) {
+    fputs("<p class=\"figures\"><b>", out);
+    html_value(out, json_object_get(build, "objects"));
+    fputs("</b> objects <b>", out);
+    html_value(out, json_object_get(build, "fragments"));
+    fputs("</b> pieces <b>", out);
+    html_value(out, json_object_get(build, "pieces_per_object"));
+    fputs("</b> per object <b>", out);
+    html_value(out, json_object_get(build, "height"));
+    fputs("</b> levels", out);
+    if (json_is_true(json_object_get(check, "ok"))) fputs(" <em>audit passed</em>", out);
+    fputs("</p>\n", out);
+}
+
+static void put_scene(FILE *out, const demo_scene *scene, const demo_result *result) {
+    fputs("<section>\n<h2>", out);
+    html_text(out, scene->title);
+    fputs("</h2>\n", out);
+    put_headline(out, report_of(scene, result, "build "), report_of(scene, result, "check "));
+    fputs("<p>", out);
+    html_text(out, scene->text);
+    fputs("</p>\n<div class=\"pictures\">\n", out);
+    for (const demo_step *step = scene->steps; step->command; step++)
+        if (step->caption) put_picture(out, step, scene->title);
+    fputs("</div>\n", out);
+    put_cards(out, scene, result);
+    put_commands(out, scene);
+    fputs("<p class=\"credit\">", out);
+    html_text(out, scene->credit);
+    fputs("</p>\n</section>\n", out);
+}
+
+static void put_page(FILE *out, const demo_result *results, const char *style, size_t style_size) {
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<title>froe: binary space partitions of real scenes</title>\n<style>\n",
+          out);
+    fwrite(style, 1, style_size, out);
+    fputs("</style>\n</head>\n<body>\n<header>\n<h1>froe</h1>\n<p>Binary space partitions that stay small on real "
+          "scenes, exactly. A froe is the tool that splits wood along the grain instead of sawing across it.</p>\n"
+          "</header>\n<main>\n",
+          out);
+    for (size_t i = 0; demo_scenes[i].title; i++) put_scene(out, &demo_scenes[i], &results[i]);
+    fprintf(out, "</main>\n<footer>froe %s, commit %s</footer>\n</body>\n</html>\n", froe_version(), cli_commit());
+}
+
+int demo_write_page(const char *path, const demo_result *results, const char *style, size_t style_size) {
+    char beside[64];
+    snprintf(beside, sizeof beside, "%s.part", path);
+    FILE *out = fopen(beside, "w");
+    if (!out) return cli_fail(CLI_RESOURCES, path, "%s", strerror(errno));
+    put_page(out, results, style, style_size);
+    const bool written = !ferror(out);
+    if (fclose(out) == 0 && written && rename(beside, path) == 0) return 0;
+    const int error = errno;
+    remove(beside);
+    return cli_fail(CLI_RESOURCES, path, "%s", strerror(error));
+}

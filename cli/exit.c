@@ -1,0 +1,59 @@
+/* exit.c: statuses to exit codes, in one table, and error messages. */
+#include "exit.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const unsigned char codes[FROE_STATUS_COUNT][3] = {
+    /*                        reading        working        writing */
+    [FROE_OK] = {CLI_YES, CLI_YES, CLI_YES},
+    [FROE_E_ARG] = {CLI_USE, CLI_USE, CLI_USE},
+    [FROE_E_OPTIONS] = {CLI_USE, CLI_USE, CLI_USE},
+    [FROE_E_MEMORY] = {CLI_RESOURCES, CLI_RESOURCES, CLI_RESOURCES},
+    [FROE_E_INPUT] = {CLI_INPUT, CLI_INPUT, CLI_INPUT},
+    [FROE_E_LIMIT] = {CLI_RESOURCES, CLI_RESOURCES, CLI_RESOURCES},
+    [FROE_E_BUDGET] = {CLI_RESOURCES, CLI_RESOURCES, CLI_RESOURCES},
+    [FROE_E_CANCELLED] = {CLI_CANCELLED, CLI_CANCELLED, CLI_CANCELLED},
+    [FROE_E_UNSUPPORTED] = {CLI_INPUT, CLI_USE, CLI_USE},
+    [FROE_E_IO] = {CLI_INPUT, CLI_INPUT, CLI_RESOURCES},
+    [FROE_E_FORMAT] = {CLI_INPUT, CLI_INPUT, CLI_INPUT},
+    [FROE_E_FROZEN] = {CLI_USE, CLI_USE, CLI_USE},
+    [FROE_E_AUDIT] = {CLI_NO, CLI_NO, CLI_NO},
+};
+
+static void say(const char *file, const char *format, va_list args) {
+    fputs("froe: ", stderr);
+    if (file) fprintf(stderr, "%s: ", file);
+    vfprintf(stderr, format, args);
+    fputc('\n', stderr);
+}
+
+int cli_fail(int code, const char *file, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    say(file, format, args);
+    va_end(args);
+    return code;
+}
+
+/* "object 17, corner 2: ", as far as it is known and the sentence does not name it already. */
+static void place(char *out, size_t size, const froe_diagnostic *diag) {
+    *out = '\0';
+    if (diag->object == FROE_NONE || strstr(diag->message, "object ")) return;
+    if (diag->corner == FROE_NONE)
+        snprintf(out, size, "object %u: ", diag->object);
+    else
+        snprintf(out, size, "object %u, corner %u: ", diag->object, diag->corner);
+}
+
+int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag) {
+    const int code = (unsigned)status < FROE_STATUS_COUNT ? codes[status][stage] : CLI_USE;
+    const bool told = diag && diag->status == status && diag->message[0];
+    char where[64] = "";
+    if (told) place(where, sizeof where, diag);
+    const char *reason = told ? diag->message : froe_status_text(status);
+    /* Readers that name the file themselves need not hear it twice. */
+    const size_t length = file ? strlen(file) : 0;
+    if (length && strncmp(reason, file, length) == 0 && reason[length] == ':') file = NULL;
+    return cli_fail(code, file, "%s%s", where, reason);
+}

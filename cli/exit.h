@@ -1,0 +1,27 @@
+/* exit.h: how a command ends, and what it says when it fails.
+ *
+ *     froe: FILE: object 17, corner 2: reason */
+#ifndef FROE_CLI_EXIT_H
+#define FROE_CLI_EXIT_H
+#include <froe/froe.h>
+
+/** Exit codes. */
+enum {
+    CLI_YES = 0,        /**< done; the answer is yes */
+    CLI_NO = 1,         /**< the answer is no (an audit failed) */
+    CLI_USE = 2,        /**< bad use: command, option, method */
+    CLI_INPUT = 3,      /**< bad input: a file or an object in it */
+    CLI_RESOURCES = 4,  /**< out of memory, over a budget or a limit, or no room to write */
+    CLI_CANCELLED = 130 /**< Ctrl-C, as shells report it */
+};
+
+/** What was being done when a call failed: the same status can be the input's
+ * fault, the command line's or the disk's. */
+typedef enum cli_stage { CLI_READING, CLI_WORKING, CLI_WRITING } cli_stage;
+
+/** Prints "froe: FILE: sentence" on stderr (file may be NULL) and returns `code`. */
+int cli_fail(int code, const char *file, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/** The same for a failed call of the library: says object, corner and reason and
+ * returns the exit code of the status. */
+int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag);
+#endif

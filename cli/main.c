@@ -1,0 +1,44 @@
+/* main.c: finds the command, reads its arguments, runs it. */
+#include "command.h"
+#include "exit.h"
+#include "help.h"
+#include "progress.h"
+#include "report.h"
+#include "version.h"
+#include <string.h>
+
+/* `froe --help [COMMAND]`, `froe help [COMMAND]`, and `froe --manual [COMMAND]`, which man pages are made with. */
+static int run_help(int argc, char **argv, bool manual) {
+    const cli_command *command = NULL;
+    if (argc > 0) {
+        command = cli_command_named(argv[0]);
+        if (!command) return cli_refuse_command(argv[0]);
+    }
+    if (manual)
+        cli_manual(stdout, command);
+    else if (command)
+        cli_help_command(stdout, command);
+    else
+        cli_help(stdout);
+    return cli_flush();
+}
+
+static bool is(const char *word, const char *one, const char *other) {
+    return strcmp(word, one) == 0 || strcmp(word, other) == 0;
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) {
+        cli_help(stderr);
+        return CLI_USE;
+    }
+    const char *word = argv[1];
+    if (is(word, "--help", "-h") || strcmp(word, "help") == 0) return run_help(argc - 2, argv + 2, false);
+    if (strcmp(word, "--manual") == 0) return run_help(argc - 2, argv + 2, true);
+    if (is(word, "--version", "-V")) return cli_version(argc > 2 && strcmp(argv[2], "--json") == 0);
+    if (word[0] == '-') return cli_fail(CLI_USE, NULL, "unknown option '%s' before a command; try froe --help", word);
+    const cli_command *command = cli_command_named(word);
+    if (!command) return cli_refuse_command(word);
+    cli_catch_interrupt();
+    return cli_run(command, argc - 2, argv + 2, NULL);
+}
