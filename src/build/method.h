@@ -1,10 +1,11 @@
 /* method.h: what a builder is, and what it is given. */
 #ifndef FROE_BUILD_METHOD_H
 #define FROE_BUILD_METHOD_H
-#include "base/task.h"
-#include "tree/draft.h"
+#include "split/grow.h"
 
-#define BUILD_OPTIONS 16
+#define BUILD_OPTIONS 16 /* most options of a method */
+#define BUILD_DIMS_ALL 0x1fcu
+#define BUILD_KINDS_ALL 0x3fu
 
 /** One build in progress. */
 typedef struct build_job {
@@ -15,12 +16,19 @@ typedef struct build_job {
     uint32_t leaf;
     uint64_t seed, max_fragments;
     double option[BUILD_OPTIONS]; /**< values in the order of info.options */
-    tree_meta meta;               /**< name, settings, seed, leaf are set; the builder adds promises and root */
+    tree_meta meta;               /**< method, settings, seed, leaf are set; the builder adds promises and root */
 } build_job;
 
 typedef struct build_method {
     froe_method_info info;
+    /** Replaces "by dimension" values of options by what they mean for this scene; may be NULL. */
+    void (*resolve)(const froe_scene *scene, uint32_t leaf, double *option);
     /** Builds the tree. The dispatcher has checked kinds, dims, leaf and option ranges. */
     froe_status (*build)(build_job *job, froe_tree **out);
 } build_method;
+
+/** A job for the shared loop. */
+split_job build_split_job(const build_job *job);
+/** Adds a promise to job->meta. */
+void build_promise(build_job *job, const char *name, double promised, double measured);
 #endif

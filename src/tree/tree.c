@@ -36,12 +36,11 @@ void froe_tree_free(froe_tree *tree) {
     base_free(&alloc, tree, sizeof *tree);
 }
 
-froe_cut tree_cut_at(const froe_tree *t, uint32_t node) {
-    const tree_node *n = t->nodes + node;
+froe_cut tree_cut_view(const tree_node *n, const tree_cut *cuts, const double *normals) {
     froe_cut cut = {.kind = FROE_CUT_NONE};
     if (n->type == TREE_LEAF) return cut;
     if (n->type == TREE_PLAIN) return (froe_cut){.kind = FROE_CUT_AXIS, .axis = n->axis, .value = n->u.value};
-    const tree_cut *c = t->cuts + n->u.cut;
+    const tree_cut *c = cuts + n->u.cut;
     cut.kind = (froe_cut_kind)c->kind;
     switch (cut.kind) {
     case FROE_CUT_AXIS:
@@ -49,7 +48,7 @@ froe_cut tree_cut_at(const froe_tree *t, uint32_t node) {
         cut.value = c->u.value;
         break;
     case FROE_CUT_PLANE:
-        cut.normal = t->normals + c->a;
+        cut.normal = normals + c->a;
         cut.value = c->u.value;
         break;
     default:
@@ -58,6 +57,10 @@ froe_cut tree_cut_at(const froe_tree *t, uint32_t node) {
         cut.id[2] = c->u.id.c;
     }
     return cut;
+}
+
+froe_cut tree_cut_at(const froe_tree *t, uint32_t node) {
+    return tree_cut_view(t->nodes + node, t->cuts, t->normals);
 }
 
 geom_plane tree_plane_at(const froe_tree *t, uint32_t node) {

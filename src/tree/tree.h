@@ -105,6 +105,8 @@ static inline const tree_piece *tree_list(const froe_tree *t, uint32_t node, uin
         first = t->cuts[n->u.cut].first, *count = t->cuts[n->u.cut].count;
     return t->pieces + first;
 }
+/** A node's cut, given the tables it refers to; kind NONE at a leaf. */
+froe_cut tree_cut_view(const tree_node *node, const tree_cut *cuts, const double *normals);
 froe_cut tree_cut_at(const froe_tree *t, uint32_t node); /**< kind NONE at a leaf */
 geom_plane tree_plane_at(const froe_tree *t, uint32_t node);
 

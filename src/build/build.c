@@ -1,0 +1,125 @@
+/* build.c: froe_build: check what is asked for, find the method, let it work. */
+#include "base/status.h"
+#include "build/options.h"
+#include <stdio.h>
+#include <string.h>
+
+#define FROE_METHOD(name) extern const build_method build_method_##name;
+#include "build/methods.def"
+#undef FROE_METHOD
+
+static const build_method *const methods[] = {
+#define FROE_METHOD(name) &build_method_##name,
+#include "build/methods.def"
+#undef FROE_METHOD
+};
+enum { METHOD_COUNT = sizeof methods / sizeof *methods };
+
+const froe_method_info *froe_method_at(size_t i) {
+    return i < METHOD_COUNT ? &methods[i]->info : NULL;
+}
+
+froe_build_options froe_build_defaults(void) {
+    return (froe_build_options){
+        .size = sizeof(froe_build_options), .method = "auto", .purpose = "pieces", .leaf = 1, .seed = 1};
+}
+
+split_job build_split_job(const build_job *job) {
+    return (split_job){.scene = job->scene,
+                       .alloc = job->alloc,
+                       .task = job->task,
+                       .max_fragments = job->max_fragments,
+                       .root_guard = FROE_NONE,
+                       .span = 0.9 * (1 - job->task->done),
+                       .meta = &job->meta,
+                       .diag = job->diag};
+}
+
+void build_promise(build_job *job, const char *name, double promised, double measured) {
+    tree_promise *p = job->meta.promises + job->meta.promise_count++;
+    snprintf(p->name, sizeof p->name, "%s", name);
+    p->promised = promised;
+    p->measured = measured;
+}
+
+/** Bits of the kinds the scene holds. */
+static uint32_t kinds_of(const froe_scene *scene) {
+    uint32_t kinds = 0;
+    for (uint32_t i = 0; i < scene->object_count; i++) kinds |= 1u << scene->kinds[i];
+    return kinds;
+}
+
+static const build_method *find_method(const char *name) {
+    for (size_t i = 0; i < METHOD_COUNT; i++)
+        if (!strcmp(methods[i]->info.name, name)) return methods[i];
+    return NULL;
+}
+
+static froe_status refuse_method(const char *name, froe_diagnostic *diag) {
+    char list[160] = "auto";
+    for (size_t i = 0; i < METHOD_COUNT; i++) {
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, ", %s", methods[i]->info.name);
+    }
+    return base_fail(diag, FROE_E_OPTIONS, "unknown method '%s'; there are: %s", name, list);
+}
+
+/** "auto" serves every dimension and kind. */
+static froe_status choose_method(const froe_build_options *o, const build_method **out, froe_diagnostic *diag) {
+    static const char *const purposes[] = {"pieces", "query", "draw"};
+    const char *purpose = o->purpose ? o->purpose : "pieces", *name = o->method ? o->method : "auto";
+    bool known = false;
+    for (size_t i = 0; i < sizeof purposes / sizeof *purposes; i++) known |= !strcmp(purpose, purposes[i]);
+    if (!known)
+        return base_fail(diag, FROE_E_OPTIONS, "unknown purpose '%s'; there are: pieces, query, draw", purpose);
+    *out = find_method(!strcmp(name, "auto") ? "density" : name);
+    return *out ? FROE_OK : refuse_method(name, diag);
+}
+
+static froe_status check_scene(const build_method *method, const froe_scene *scene, uint32_t leaf,
+                               froe_diagnostic *diag) {
+    uint32_t kinds = kinds_of(scene), alien = kinds & ~method->info.kinds;
+    for (int k = 0; k < FROE_KIND_COUNT; k++)
+        if (alien >> k & 1)
+            return base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' does not serve objects of kind '%s'",
+                             method->info.name, froe_kind_name((froe_kind)k));
+    if (!(method->info.dims >> scene->dim & 1))
+        return base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' does not serve dimension %d", method->info.name,
+                         scene->dim);
+    uint32_t plane = scene->dim == 2 ? 1u << FROE_SEGMENT : scene->dim == 3 ? 1u << FROE_POLYGON : 0;
+    if (!leaf && kinds & ~plane)
+        return base_fail(diag, FROE_E_UNSUPPORTED,
+                         "leaf 0 is for scenes of segments in the plane or of polygons in space only");
+    return FROE_OK;
+}
+
+static froe_status prepare(const froe_build_options *o, const build_method *method, build_job *job) {
+    froe_status status = options_parse(method, o->settings, job->option, job->diag);
+    if (status) return status;
+    if (method->resolve) method->resolve(job->scene, o->leaf, job->option);
+    snprintf(job->meta.method, sizeof job->meta.method, "%s", method->info.name);
+    options_print(method, job->option, job->meta.settings, sizeof job->meta.settings);
+    job->meta.leaf = job->leaf = o->leaf;
+    job->meta.seed = job->seed = o->seed;
+    job->max_fragments = o->max_fragments;
+    return FROE_OK;
+}
+
+froe_status froe_build(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
+    const build_method *method;
+    base_task task;
+    if (!scene || !out) return base_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
+    froe_build_options o = options ? *options : froe_build_defaults();
+    if (o.size != sizeof o) return base_fail(diag, FROE_E_OPTIONS, "options do not come from froe_build_defaults()");
+    if (o.leaf > INT32_MAX) return base_fail(diag, FROE_E_OPTIONS, "leaf capacity %u is out of range", o.leaf);
+    froe_status status = choose_method(&o, &method, diag);
+    if (!status) status = check_scene(method, scene, o.leaf, diag);
+    if (status) return status;
+    build_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag};
+    base_task_init(&task, o.threads, o.progress, o.user);
+    status = prepare(&o, method, &job);
+    if (!status && !base_progress(&task, 0)) status = base_fail(diag, FROE_E_CANCELLED, "cancelled");
+    if (!status) status = method->build(&job, out);
+    if (!status) base_progress(&task, 1);
+    return status;
+}

@@ -1,0 +1,244 @@
+/* density.c: BSPs whose size is bounded by how cluttered the scene is.
+ *
+ *   guard stage    +----+--+--+     cubes with at most k corners of bounding boxes strictly inside
+ *                  |    |/ | /|     meet few objects when the scene has low density: the objects
+ *                  |  / +--+--+     are carried down this tree (guard_tree.h)
+ *                  | /  | /|  |
+ *   refinement     +----+--+--+     inside: the best of some supporting and axis-parallel planes,
+ *                                   free cuts first, until a cell holds at most `leaf` objects
+ *
+ * de Berg, "Linear size binary space partitions for uncluttered scenes" (lemmas 2.1, 2.2, theorem 2.5);
+ * Sacks, lemmas 12.6 and 12.7, theorems 12.8 and 12.9, with lambda by doubling.
+ *
+ * On scenes that are cluttered after all the guard stage would split without end. It
+ * therefore weighs its cells: growth = product of (fragments after / fragments before) over the
+ * guard cuts above. Sum over cells of fragments / growth never exceeds n, so stopping where growth
+ * reaches a limit G keeps the stage below 2 G n fragments, whatever the scene. */
+#include "base/log2.h"
+#include "base/status.h"
+#include "build/method.h"
+#include "split/guard_tree.h"
+#include "split/guards.h"
+#include "split/refine.h"
+#include <stdatomic.h>
+#include <string.h>
+
+enum { MODE, K, FORM, STOP, GROWTH, SUPPORTS, QUANTILES, WEIGHT, HEIGHT, FREE, SAMPLE };
+enum { MODE_FIXED, MODE_DOUBLING, MODE_TUNED };
+
+static const char *const modes[] = {"fixed", "doubling", "tuned", NULL};
+static const char *const forms[] = {"auto", "slabs", "cross", NULL};
+static const char *const no_yes[] = {"no", "yes", NULL};
+static const froe_option_info options[] = {
+    [MODE] = {"mode", "how k is found: fixed, by doubling lambda, or tuned by cost", 0, 0, 2, modes, true},
+    [K] = {"k", "guards left in a cell of the guard stage; -1: 8 in the plane, 16 elsewhere", -1, -1, 1e9, NULL, true},
+    [FORM] = {"form", "outer cells of a shrink: slabs (de Berg) or a cross (Sacks)", 0, 0, 2, forms, true},
+    [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by dimension", -1, -1, 1e9,
+              NULL, true},
+    [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never", 4, 0, 1e9, NULL,
+                false},
+    [SUPPORTS] = {"supports", "supporting planes tried per cell", 20, 1, 1000, NULL, true},
+    [QUANTILES] = {"quantiles", "axis-parallel planes tried per cell and axis; -1: by dimension", -1, -1, 1000, NULL,
+                   true},
+    [WEIGHT] = {"weight", "bits of information that outweigh one split", 0.1, 0, 100, NULL, false},
+    [HEIGHT] = {"height", "balanced cuts beyond this many times log2 n levels; 0: no rule", 2, 0, 1e9, NULL, false},
+    [FREE] = {"free", "cut first with fragments that cross their cell", 1, 0, 1, no_yes, true},
+    [SAMPLE] = {"sample", "fragments scored per candidate, at most", 512, 8, 1e6, NULL, true},
+    {0},
+};
+
+/* What the guard stage of one probe met; several threads add to it. */
+typedef struct loads {
+    atomic_uint_least64_t leaves, fragments, squares;
+    atomic_uint_least32_t largest;
+    uint32_t most; /* a leaf above this ends the probe */
+} loads;
+
+typedef struct density {
+    split_refine refine;
+    const split_guard_tree *guard;
+    uint32_t stop;
+    float growth;
+    loads *probe; /* NULL when building */
+} density;
+
+static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
+    bool plane = scene->dim == 2;
+    if (option[K] < 0) option[K] = plane ? 8 : 16;
+    if (option[STOP] < 0) option[STOP] = plane ? leaf : 128;
+    if (option[QUANTILES] < 0) option[QUANTILES] = plane ? 3 : 10;
+}
+
+/* ------------------------------------------------------------ the two stages -- */
+
+static bool in_guard_stage(const density *d, const split_cell *cell) {
+    if (cell->guard == FROE_NONE || !d->guard->nodes.data[cell->guard].child) return false;
+    if (cell->count <= d->stop || cell->count <= d->refine.leaf) return false;
+    return d->growth <= 0 || cell->growth < d->growth;
+}
+
+static split_verdict guard_cut(const density *d, const split_cell *cell, froe_cut *cut) {
+    const split_guard_node *node = d->guard->nodes.data + cell->guard;
+    *cut = (froe_cut){.kind = FROE_CUT_AXIS, .axis = node->axis, .value = node->value};
+    return SPLIT_GUARD;
+}
+
+static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+    const density *d = config;
+    if (in_guard_stage(d, cell)) return guard_cut(d, cell, cut);
+    return split_refine_choose(&d->refine, work, cell, cut);
+}
+
+static void descend(const void *config, const split_cell *parent, uint32_t in_cut, split_cell child[2]) {
+    const density *d = config;
+    float after = (float)child[0].count + (float)child[1].count + (float)in_cut;
+    for (uint32_t s = 0; s < 2; s++) {
+        child[s].guard = d->guard->nodes.data[parent->guard].child + s;
+        child[s].growth = parent->growth * after / (float)parent->count;
+    }
+}
+
+/** Ends the cell where the guard stage ends, and notes its load. */
+static split_verdict probe(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+    const density *d = config;
+    (void)work;
+    if (cell->guard != FROE_NONE && d->guard->nodes.data[cell->guard].child && cell->count)
+        return guard_cut(d, cell, cut);
+    if (cell->count > d->probe->most) return SPLIT_GIVE_UP;
+    uint_least32_t largest = atomic_load(&d->probe->largest);
+    while (cell->count > largest && !atomic_compare_exchange_weak(&d->probe->largest, &largest, cell->count)) continue;
+    atomic_fetch_add(&d->probe->leaves, 1);
+    atomic_fetch_add(&d->probe->fragments, cell->count);
+    atomic_fetch_add(&d->probe->squares, (uint64_t)cell->count * cell->count);
+    return SPLIT_LEAF;
+}
+
+/* ------------------------------------------------------------- choosing k -- */
+
+typedef struct guard_stage {
+    build_job *job;
+    double *guards;
+    size_t guard_count;
+    split_guard_tree tree;
+    uint32_t k;
+} guard_stage;
+
+static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
+    static const split_form form[] = {SPLIT_FORM_DEFAULT, SPLIT_FORM_U, SPLIT_FORM_S};
+    split_guard_options o = {.dim = g->job->scene->dim, .k = k, .form = form[(int)g->job->option[FORM]]};
+    split_guard_tree_free(&g->job->alloc, &g->tree);
+    g->k = k;
+    froe_status status =
+        split_guard_tree_build(&g->job->alloc, g->job->task, span, &o, g->guards, g->guard_count, &g->tree);
+    if (status == FROE_E_LIMIT) return base_fail(g->job->diag, status, "more than 2^31 guards");
+    if (status == FROE_E_CANCELLED) return base_fail(g->job->diag, status, "cancelled");
+    return status ? base_fail_memory(g->job->diag) : FROE_OK;
+}
+
+/** Carries the objects down the guard tree without building anything. FROE_E_BUDGET: a load above `most`. */
+static froe_status measure(guard_stage *g, uint32_t most, loads *out) {
+    out->leaves = out->fragments = out->squares = out->largest = 0;
+    out->most = most;
+    density d = {.guard = &g->tree, .probe = out};
+    split_method method = {.config = &d, .choose = probe, .descend = descend};
+    split_job split = build_split_job(g->job);
+    split.root_guard = 0;
+    split.max_fragments = 0;
+    split.span *= 0.1;
+    split.diag = NULL;
+    return split_grow(&split, &method, NULL);
+}
+
+/** Sacks' loop, made safe: a round is given up at the first leaf above (1 + c_d) lambda objects, so that it
+ * costs O(n) fragments; it ends at the latest with lambda < 2 * density of the scene. */
+static froe_status by_doubling(guard_stage *g) {
+    uint32_t n = g->job->scene->object_count;
+    loads l;
+    for (uint64_t lambda = 2;; lambda *= 2) {
+        froe_status status = make_tree(g, (uint32_t)lambda, 0);
+        uint64_t most = (1 + (uint64_t)g->tree.cell_load) * lambda;
+        if (!status) status = measure(g, most > n ? n : (uint32_t)most, &l);
+        if (!status) build_promise(g->job, "guard_load", (double)most, (double)l.largest);
+        if (status != FROE_E_BUDGET) return status;
+    }
+}
+
+/** The k of least estimated cost among powers of two: leaves + 2 fragments + sum of squared loads / 4. */
+static froe_status by_cost(guard_stage *g) {
+    double least = 0;
+    uint32_t best = 2;
+    for (uint32_t k = 2; k <= 256; k *= 2) {
+        loads l;
+        froe_status status = make_tree(g, k, 0);
+        if (!status) status = measure(g, UINT32_MAX, &l);
+        if (status) return status;
+        double cost = (double)l.leaves + 2 * (double)l.fragments + 0.25 * (double)l.squares;
+        if (k == 2 || cost < least) least = cost, best = k;
+    }
+    return make_tree(g, best, 0);
+}
+
+static froe_status guard_stage_make(guard_stage *g) {
+    froe_status status =
+        split_guards(&g->job->alloc, g->job->task, 0, g->job->scene, &g->guards, &g->guard_count);
+    if (status) return base_fail(g->job->diag, status, "%s", froe_status_text(status));
+    int mode = (int)g->job->option[MODE];
+    if (mode == MODE_DOUBLING) return by_doubling(g);
+    if (mode == MODE_TUNED) return by_cost(g);
+    return make_tree(g, (uint32_t)g->job->option[K], 0.1);
+}
+
+/* ------------------------------------------------------------------ build -- */
+
+static split_refine refine_of(const build_job *job) {
+    double n = job->scene->object_count;
+    return (split_refine){.leaf = job->leaf,
+                          .seed = job->seed,
+                          .supports = (uint32_t)job->option[SUPPORTS],
+                          .quantiles = (uint32_t)job->option[QUANTILES],
+                          .sample = (uint32_t)job->option[SAMPLE],
+                          .weight = job->option[WEIGHT],
+                          .height = job->option[HEIGHT] * base_log2(n + 2),
+                          .free_cuts = job->option[FREE] != 0};
+}
+
+static void promise(build_job *job, const split_guard_tree *guard) {
+    double growth = job->option[GROWTH];
+    memcpy(job->meta.root_lo, guard->lo, sizeof guard->lo);
+    memcpy(job->meta.root_hi, guard->hi, sizeof guard->hi);
+    build_promise(job, "guard_leaves", guard->promised, (double)guard->leaves);
+    if (growth > 0) build_promise(job, "guard_fragments", 2 * growth * job->scene->object_count, 0);
+}
+
+static froe_status build(build_job *job, froe_tree **out) {
+    guard_stage g = {.job = job};
+    froe_status status = guard_stage_make(&g);
+    if (!status) {
+        density d = {.refine = refine_of(job), .guard = &g.tree, .stop = (uint32_t)job->option[STOP]};
+        d.growth = (float)job->option[GROWTH];
+        split_method method = {.config = &d,
+                               .choose = choose,
+                               .descend = descend,
+                               .scratch_new = split_scratch_new,
+                               .scratch_free = split_scratch_free};
+        promise(job, &g.tree);
+        split_job split = build_split_job(job);
+        split.root_guard = 0;
+        status = split_grow(&split, &method, out);
+    }
+    split_guard_tree_free(&job->alloc, &g.tree);
+    base_free(&job->alloc, g.guards, g.guard_count * (size_t)job->scene->dim * sizeof(double));
+    return status;
+}
+
+const build_method build_method_density = {
+    .info = {.name = "density",
+             .summary = "guards lead to cells of few objects, then the best of several cuts",
+             .source = "de Berg, theorem 2.5; Sacks, lemma 12.7, theorems 12.8 and 12.9",
+             .guarantee = "guard stage: O(n / k) cells, each cube meets at most k + c_d lambda objects, O(d n log n)",
+             .dims = BUILD_DIMS_ALL,
+             .kinds = BUILD_KINDS_ALL,
+             .options = options},
+    .resolve = resolve,
+    .build = build,
+};

@@ -1,0 +1,89 @@
+/* options.c: parsing and printing the settings of a method. */
+#include "build/options.h"
+#include "base/status.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct word {
+    const char *text;
+    int length;
+} word;
+
+static word next_word(const char **at) {
+    *at += strspn(*at, " ,\t\n");
+    word w = {*at, (int)strcspn(*at, " ,\t\n")};
+    *at += w.length;
+    return w;
+}
+
+static bool same(const char *name, const char *text, size_t length) {
+    return strlen(name) == length && !strncmp(name, text, length);
+}
+
+static const froe_option_info *find(const build_method *method, const char *name, size_t length) {
+    for (const froe_option_info *o = method->info.options; o && o->name; o++)
+        if (same(o->name, name, length)) return o;
+    return NULL;
+}
+
+/** A plain decimal number that fills the word. Locale does not matter: only digits, sign, point, e. */
+static bool parse_number(const char *text, size_t length, double *out) {
+    char copy[64], *end;
+    if (!length || length >= sizeof copy || strspn(text, "+-.0123456789eE") < length) return false;
+    memcpy(copy, text, length);
+    copy[length] = 0;
+    *out = strtod(copy, &end);
+    return !*end;
+}
+
+static bool parse_value(const froe_option_info *option, const char *text, size_t length, double *out) {
+    for (size_t i = 0; option->choices && option->choices[i]; i++)
+        if (same(option->choices[i], text, length)) {
+            *out = (double)i;
+            return true;
+        }
+    if (option->choices || !parse_number(text, length, out)) return false;
+    bool whole = *out >= -0x1p53 && *out <= 0x1p53 && *out == (double)(int64_t)*out;
+    return *out >= option->lo && *out <= option->hi && (whole || !option->whole);
+}
+
+static froe_status refuse_value(const froe_option_info *o, word w, froe_diagnostic *diag) {
+    char list[128] = "";
+    for (size_t i = 0; o->choices && o->choices[i]; i++) {
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", o->choices[i]);
+    }
+    if (o->choices) return base_fail(diag, FROE_E_OPTIONS, "option '%.*s': choose one of %s", w.length, w.text, list);
+    return base_fail(diag, FROE_E_OPTIONS, "option '%.*s': a %snumber from %g to %g is needed", w.length, w.text,
+                     o->whole ? "whole " : "", o->lo, o->hi);
+}
+
+froe_status options_parse(const build_method *method, const char *settings, double *value, froe_diagnostic *diag) {
+    const froe_option_info *options = method->info.options;
+    for (size_t i = 0; options && options[i].name; i++) value[i] = options[i].standard;
+    const char *at = settings ? settings : "";
+    for (word w = next_word(&at); w.length; w = next_word(&at)) {
+        const char *equal = memchr(w.text, '=', (size_t)w.length);
+        size_t name = equal ? (size_t)(equal - w.text) : (size_t)w.length;
+        const froe_option_info *o = find(method, w.text, name);
+        if (!o || !equal)
+            return base_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, w.length,
+                             w.text);
+        if (!parse_value(o, equal + 1, (size_t)w.length - name - 1, &value[o - options]))
+            return refuse_value(o, w, diag);
+    }
+    return FROE_OK;
+}
+
+void options_print(const build_method *method, const double *value, char *text, size_t capacity) {
+    size_t used = 0;
+    text[0] = 0;
+    for (const froe_option_info *o = method->info.options; o && o->name && used < capacity; o++) {
+        double v = value[o - method->info.options];
+        const char *gap = used ? " " : "";
+        int n = o->choices ? snprintf(text + used, capacity - used, "%s%s=%s", gap, o->name, o->choices[(int)v])
+                           : snprintf(text + used, capacity - used, "%s%s=%.17g", gap, o->name, v);
+        used += n > 0 ? (size_t)n : 0;
+    }
+}

@@ -1,0 +1,131 @@
+/* cell.c: one step of the loop in grow.c. */
+#include "split/cell.h"
+#include "base/random.h"
+#include <string.h>
+
+/** Puts the cell's fragments into the list of its node. */
+static froe_status emit_all(split_set *set, const split_cell *cell) {
+    if (!cell->count) return FROE_OK;
+    froe_status status = draft_list(set->draft, cell->node - set->draft->outer);
+    for (uint32_t i = 0; i < cell->count && !status; i++)
+        status = split_emit(set, cell->node, set->items.data + cell->first + i);
+    return status;
+}
+
+froe_status cell_leaf(split_work *work, const split_cell *cell, uint8_t flags) {
+    draft_leaf(work->set.draft, cell->node - work->set.draft->outer, flags);
+    froe_status status = emit_all(&work->set, cell);
+    work->set.items.count = cell->first;
+    return status;
+}
+
+typedef struct counts {
+    uint32_t of[4]; /**< fragments per class */
+} counts;
+
+/** Classifies all fragments of the cell; classes and sides are left in the set. */
+static froe_status classify_all(split_set *set, const split_cell *cell, const split_plane *plane, counts *out) {
+    memset(out, 0, sizeof *out);
+    set->classes.count = set->sides.count = 0;
+    if (!array_reserve(&set->alloc, &set->classes, cell->count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const split_fragment *f = set->items.data + cell->first + i;
+        if (!array_reserve(&set->alloc, &set->sides, split_corner_count(set, f))) return FROE_E_MEMORY;
+        int class = split_classify(set, plane, f);
+        set->classes.data[set->classes.count++] = (uint8_t)class;
+        out->of[class]++;
+    }
+    return FROE_OK;
+}
+
+/** Of equal objects the lowest id serves as the cut: is there a lower one than the cut's? */
+static bool prefer_lowest(const split_set *set, const split_cell *cell, froe_cut *cut) {
+    uint32_t before = cut->id[0];
+    for (uint32_t i = 0; cut->kind == FROE_CUT_OBJECT && i < cell->count; i++) {
+        uint32_t object = set->items.data[cell->first + i].object;
+        if (set->classes.data[i] == SPLIT_ON && object < cut->id[0] && scene_equal(set->scene, object, cut->id[0]))
+            cut->id[0] = object;
+    }
+    return cut->id[0] != before;
+}
+
+/** Classifies by the cut, or by its lowest equal, which may face the other way. */
+static froe_status classify(split_set *set, const split_cell *cell, const froe_cut *cut, split_plane *plane,
+                            counts *out) {
+    *plane = split_plane_of(set->scene, cut);
+    froe_status status = classify_all(set, cell, plane, out);
+    if (status || !prefer_lowest(set, cell, &plane->cut)) return status;
+    *plane = split_plane_of(set->scene, &plane->cut);
+    return classify_all(set, cell, plane, out);
+}
+
+/** Lists the ON fragments in the cut. */
+static froe_status emit_in_cut(split_set *set, const split_cell *cell, uint32_t count) {
+    if (!count) return FROE_OK;
+    froe_status status = draft_list(set->draft, cell->node - set->draft->outer);
+    for (uint32_t i = 0; i < cell->count && !status; i++)
+        if (set->classes.data[i] == SPLIT_ON) status = split_emit(set, cell->node, set->items.data + cell->first + i);
+    return status;
+}
+
+/** Replaces the cell's fragments by those of its children: positive below, negative on top. */
+static froe_status deal(split_set *set, const split_cell *cell, const split_plane *plane, const counts *n) {
+    uint32_t positive = n->of[SPLIT_POS] + n->of[SPLIT_BOTH], negative = n->of[SPLIT_NEG] + n->of[SPLIT_BOTH];
+    set->spare.count = 0;
+    if (!array_reserve(&set->alloc, &set->spare, cell->count)) return FROE_E_MEMORY;
+    if (!array_reserve(&set->alloc, &set->items, (size_t)n->of[SPLIT_BOTH])) return FROE_E_MEMORY;
+    memcpy(set->spare.data, set->items.data + cell->first, cell->count * sizeof *set->spare.data);
+    split_fragment *pos = set->items.data + cell->first, *neg = pos + positive;
+    const int8_t *sides = set->sides.data;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const split_fragment f = set->spare.data[i];
+        int class = set->classes.data[i];
+        if (class == SPLIT_NEG) *neg++ = f;
+        else if (class == SPLIT_POS) *pos++ = f;
+        else if (class == SPLIT_BOTH && !split_is_cut(scene_form(set->scene, f.object))) *neg++ = *pos++ = f;
+        else if (class == SPLIT_BOTH) {
+            froe_status status = split_divide(set, plane, cell->node, &f, sides, neg++, pos++);
+            if (status) return status;
+            sides += split_corner_count(set, &f);
+        }
+    }
+    set->items.count = cell->first + positive + negative;
+    return FROE_OK;
+}
+
+/** Pushes the children, the negative one last so that it comes first. */
+static froe_status push_children(split_work *work, const split_method *method, const split_cell *cell, uint32_t child,
+                                 const counts *n, bool guard) {
+    split_cell side[2];
+    uint32_t positive = n->of[SPLIT_POS] + n->of[SPLIT_BOTH], negative = n->of[SPLIT_NEG] + n->of[SPLIT_BOTH];
+    for (int s = 0; s < 2; s++)
+        side[s] = (split_cell){.node = work->set.draft->outer + child + (uint32_t)s,
+                               .depth = cell->depth + 1,
+                               .path = base_path(cell->path, s),
+                               .first = cell->first + (s ? 0 : positive),
+                               .count = s ? positive : negative,
+                               .corner_top = (uint32_t)work->set.corners.count,
+                               .guard = FROE_NONE};
+    if (guard && method->descend) method->descend(method->config, cell, n->of[SPLIT_ON], side);
+    if (!array_reserve(&work->set.alloc, &work->cells, 2)) return FROE_E_MEMORY;
+    work->cells.data[work->cells.count++] = side[1];
+    work->cells.data[work->cells.count++] = side[0];
+    return FROE_OK;
+}
+
+froe_status cell_cut(split_work *work, const split_method *method, const split_cell *cell, const froe_cut *cut,
+                     bool guard, bool *useless) {
+    split_set *set = &work->set;
+    split_plane plane;
+    counts n;
+    uint32_t child, local = cell->node - set->draft->outer;
+    froe_status status = classify(set, cell, cut, &plane, &n);
+    if (status) return status;
+    *useless = !guard && !n.of[SPLIT_ON] && (!n.of[SPLIT_NEG] || !n.of[SPLIT_POS]);
+    if (*useless) return FROE_OK;
+    status = draft_split(set->draft, local, &plane.cut, guard ? TREE_GUARD : 0, &child);
+    if (!status) status = emit_in_cut(set, cell, n.of[SPLIT_ON]);
+    if (!status) status = deal(set, cell, &plane, &n);
+    if (!status) status = push_children(work, method, cell, child, &n, guard);
+    return status;
+}

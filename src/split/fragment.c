@@ -1,0 +1,246 @@
+/* fragment.c: classifying and cutting one fragment, exactly. */
+#include "split/fragment.h"
+#include <string.h>
+
+froe_status split_set_new(const froe_scene *scene, const froe_allocator *alloc, split_set *out) {
+    memset(out, 0, sizeof *out);
+    out->scene = scene;
+    out->alloc = *alloc;
+    return num_context_new(alloc, &out->context);
+}
+
+void split_set_free(split_set *set) {
+    array_free(&set->alloc, &set->items);
+    array_free(&set->alloc, &set->corners);
+    array_free(&set->alloc, &set->sides);
+    array_free(&set->alloc, &set->classes);
+    array_free(&set->alloc, &set->spare);
+    array_free(&set->alloc, &set->ring);
+    num_context_free(&set->context);
+}
+
+/* ----------------------------------------------------------------- planes -- */
+
+split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut) {
+    split_plane out = {.cut = *cut};
+    if (cut->kind == FROE_CUT_AXIS && scene->dim > 3) { /* all that vertex_side() looks at */
+        out.plane.form = GEOM_AXIS;
+        out.plane.axis = cut->axis;
+        out.plane.c = cut->value;
+        return out;
+    }
+    out.plane = scene_cut_plane(scene, cut);
+    if (cut->kind == FROE_CUT_OBJECT) {
+        uint32_t n = scene_corners(scene, cut->id[0]);
+        for (; out.known_count < n && out.known_count < SPLIT_KNOWN; out.known_count++)
+            out.known[out.known_count] = scene_corner(scene, cut->id[0], out.known_count);
+    } else if (cut->kind == FROE_CUT_VERTICES || cut->kind == FROE_CUT_EDGE) {
+        out.known_count = cut->kind == FROE_CUT_EDGE ? 2 : (uint32_t)scene->dim;
+        memcpy(out.known, cut->id, out.known_count * sizeof *out.known);
+    }
+    return out;
+}
+
+geom_plane split_plane_at(const split_set *set, uint32_t node) {
+    bool own = node >= set->draft->outer;
+    const tree_draft *draft = own ? set->draft : set->main;
+    froe_cut cut = tree_cut_view(draft->nodes.data + (own ? node - set->draft->outer : node), draft->cuts.data,
+                                 draft->normals.data);
+    return scene_cut_plane(set->scene, &cut);
+}
+
+/* ------------------------------------------------------------------ sides -- */
+
+static int known_side(split_set *set, int side) {
+    set->context.stats.calls++;
+    set->context.stats.by_id++;
+    return side;
+}
+
+static int vertex_side(split_set *set, const split_plane *plane, uint32_t vertex) {
+    const double *x = scene_vertex(set->scene, vertex);
+    if (plane->plane.form == GEOM_AXIS) {
+        double v = x[plane->plane.axis], c = plane->plane.c;
+        return known_side(set, (v > c) - (v < c));
+    }
+    for (uint32_t i = 0; i < plane->known_count; i++)
+        if (plane->known[i] == vertex) return known_side(set, 0);
+    return geom_side_vertex(&set->context, &plane->plane, x);
+}
+
+/** Beyond the filter: by the sides of what the corner lies between, then by its predicate. */
+static int derived_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
+    geom_plane own, first, second;
+    if (k->type == SPLIT_CROSSING) {
+        int u = vertex_side(set, plane, k->a), v = vertex_side(set, plane, k->b);
+        if (u == v) return u; /* the crossing lies between two points of one side, or of the plane */
+        first = split_plane_at(set, k->c);
+        return geom_side_crossing(&set->context, &plane->plane, scene_vertex(set->scene, k->a),
+                                  scene_vertex(set->scene, k->b), &first);
+    }
+    scene_support(set->scene, object, &own);
+    first = split_plane_at(set, k->a);
+    second = split_plane_at(set, k->b);
+    return geom_side_corner(&set->context, &plane->plane, &own, &first, &second);
+}
+
+static int corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
+    if (k->type == SPLIT_VERTEX) return vertex_side(set, plane, k->a);
+    int side = set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, k->x, k->error) : NUM_UNSURE;
+    if (side == NUM_UNSURE) return derived_side(set, plane, object, k);
+    set->context.stats.calls++;
+    set->context.stats.filtered++;
+    return side;
+}
+
+static int class_of(bool negative, bool positive) {
+    return negative ? (positive ? SPLIT_BOTH : SPLIT_NEG) : positive ? SPLIT_POS : SPLIT_ON;
+}
+
+static int classify_box(split_set *set, const split_plane *plane, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    scene_object_bounds(set->scene, object, lo, hi);
+    if (plane->plane.form == GEOM_AXIS) {
+        int axis = plane->plane.axis;
+        return class_of(lo[axis] < plane->plane.c, hi[axis] > plane->plane.c);
+    }
+    bool negative = false, positive = false;
+    for (unsigned corner = 0; corner < 1u << set->scene->dim && !(negative && positive); corner++) {
+        double x[3];
+        for (int k = 0; k < set->scene->dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
+        int side = geom_side_vertex(&set->context, &plane->plane, x);
+        negative |= side < 0;
+        positive |= side > 0;
+    }
+    return class_of(negative, positive);
+}
+
+static int classify_ball(split_set *set, const split_plane *plane, uint32_t object) {
+    int side = geom_side_ball(&set->context, &plane->plane, scene_point(set->scene, object, 0),
+                              scene_radius(set->scene, object));
+    return side == 2 ? SPLIT_BOTH : side < 0 ? SPLIT_NEG : side > 0 ? SPLIT_POS : SPLIT_ON;
+}
+
+/** By the corners, of the ring or of the whole object. Keeps their sides if both occur and `keep`. */
+static int classify_corners(split_set *set, const split_plane *plane, const split_fragment *f, bool keep) {
+    const uint32_t *vertices = set->scene->corners + set->scene->starts[f->object];
+    const split_corner *ring = f->count ? set->corners.data + f->first : NULL;
+    uint32_t n = split_corner_count(set, f);
+    size_t start = set->sides.count;
+    bool negative = false, positive = false;
+    for (uint32_t i = 0; i < n; i++) {
+        int side = ring ? corner_side(set, plane, f->object, ring + i) : vertex_side(set, plane, vertices[i]);
+        negative |= side < 0;
+        positive |= side > 0;
+        if (keep) set->sides.data[set->sides.count++] = (int8_t)side;
+    }
+    if (!(negative && positive)) set->sides.count = start;
+    return class_of(negative, positive);
+}
+
+int split_classify(split_set *set, const split_plane *plane, const split_fragment *f) {
+    froe_kind form = scene_form(set->scene, f->object);
+    if (form == FROE_BOX) return classify_box(set, plane, f->object);
+    if (form == FROE_BALL) return classify_ball(set, plane, f->object);
+    return classify_corners(set, plane, f, split_is_cut(form));
+}
+
+/* ---------------------------------------------------------------- cutting -- */
+
+uint32_t split_corner_count(const split_set *set, const split_fragment *f) {
+    return f->count ? f->count : scene_corners(set->scene, f->object);
+}
+
+const double *split_image(const split_set *set, const split_fragment *f, uint32_t i) {
+    return f->count ? set->corners.data[f->first + i].x : scene_point(set->scene, f->object, i);
+}
+
+/** The i-th corner, made on the fly for whole objects. */
+static split_corner corner_at(const split_set *set, const split_fragment *f, uint32_t i) {
+    if (f->count) return set->corners.data[f->first + i];
+    split_corner k = {.edge = i, .type = SPLIT_VERTEX, .a = scene_corner(set->scene, f->object, i)};
+    memcpy(k.x, scene_vertex(set->scene, k.a), (size_t)set->scene->dim * sizeof *k.x);
+    return k;
+}
+
+/** Where an edge of the object crosses the plane: edge i of a polygon, or a segment (i = 0). */
+static split_corner crossing(split_set *set, const split_plane *plane, uint32_t node, uint32_t object, uint32_t i) {
+    uint32_t n = scene_corners(set->scene, object);
+    split_corner k = {.type = SPLIT_CROSSING, .c = node};
+    k.a = scene_corner(set->scene, object, i);
+    k.b = scene_corner(set->scene, object, i + 1 < n ? i + 1 : 0);
+    k.error = geom_image_crossing(scene_vertex(set->scene, k.a), scene_vertex(set->scene, k.b), &plane->plane, k.x);
+    return k;
+}
+
+/** Where the edge that an earlier cut made crosses the plane. */
+static split_corner meeting(split_set *set, const split_plane *plane, uint32_t node, uint32_t object, uint32_t cutter) {
+    split_corner k = {.type = SPLIT_CORNER, .a = cutter, .b = node};
+    geom_plane own, first = split_plane_at(set, cutter);
+    scene_support(set->scene, object, &own);
+    k.error = geom_image_corner(&own, &first, &plane->plane, k.x);
+    return k;
+}
+
+/** Appends a corner; the caller has made room. */
+static void put(split_set *set, split_fragment *f, split_corner corner, uint32_t edge) {
+    corner.edge = edge;
+    set->corners.data[f->first + f->count++] = corner;
+}
+
+static void divide_segment(split_set *set, const split_plane *plane, uint32_t node, const split_fragment *f,
+                           const int8_t *sides, split_fragment *const side[2]) {
+    split_corner start = corner_at(set, f, 0), end = corner_at(set, f, 1);
+    split_corner middle = crossing(set, plane, node, f->object, 0);
+    split_fragment *first = side[sides[0] > 0], *last = side[sides[0] < 0];
+    put(set, first, start, start.edge);
+    put(set, first, middle, TREE_EDGE_CUT | node);
+    put(set, last, middle, TREE_EDGE_CUT | node);
+    put(set, last, end, end.edge);
+}
+
+static void divide_polygon(split_set *set, const split_plane *plane, uint32_t node, const split_fragment *f,
+                           const int8_t *sides, split_fragment *const side[2]) {
+    uint32_t n = split_corner_count(set, f), cut = TREE_EDGE_CUT | node;
+    for (uint32_t i = 0; i < n; i++) {
+        split_corner k = corner_at(set, f, i);
+        int here = sides[i], next = sides[i + 1 < n ? i + 1 : 0];
+        if (here) put(set, side[here > 0], k, k.edge);
+        else { /* in the plane: the edge leaving it belongs to the side it leads to */
+            put(set, side[0], k, next < 0 ? k.edge : cut);
+            put(set, side[1], k, next > 0 ? k.edge : cut);
+        }
+        if (here * next >= 0) continue;
+        split_corner x = k.edge & TREE_EDGE_CUT ? meeting(set, plane, node, f->object, k.edge & ~TREE_EDGE_CUT)
+                                                : crossing(set, plane, node, f->object, k.edge);
+        put(set, side[here > 0], x, cut);
+        put(set, side[here < 0], x, k.edge);
+    }
+}
+
+froe_status split_divide(split_set *set, const split_plane *plane, uint32_t node, const split_fragment *f,
+                         const int8_t *sides, split_fragment *negative, split_fragment *positive) {
+    uint32_t n = split_corner_count(set, f), room = n + 2; /* a convex ring gains at most one corner a side */
+    if (set->corners.count + 2 * (size_t)room > INT32_MAX) return FROE_E_LIMIT;
+    if (!array_reserve(&set->alloc, &set->corners, 2 * (size_t)room)) return FROE_E_MEMORY;
+    uint32_t top = (uint32_t)set->corners.count;
+    *negative = (split_fragment){f->object, top, 0};
+    *positive = (split_fragment){f->object, top + room, 0};
+    split_fragment *const side[2] = {negative, positive};
+    if (scene_form(set->scene, f->object) == FROE_SEGMENT) divide_segment(set, plane, node, f, sides, side);
+    else divide_polygon(set, plane, node, f, sides, side);
+    uint32_t second = top + negative->count; /* close the gap between the two rings */
+    memmove(set->corners.data + second, set->corners.data + positive->first, positive->count * sizeof(split_corner));
+    positive->first = second;
+    set->corners.count = second + positive->count;
+    return FROE_OK;
+}
+
+froe_status split_emit(split_set *set, uint32_t node, const split_fragment *f) {
+    uint32_t local = node - set->draft->outer;
+    if (!f->count) return draft_piece(set->draft, local, f->object, NULL, 0);
+    set->ring.count = 0;
+    if (!array_reserve(&set->alloc, &set->ring, f->count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < f->count; i++) set->ring.data[set->ring.count++] = set->corners.data[f->first + i].edge;
+    return draft_piece(set->draft, local, f->object, set->ring.data, f->count);
+}

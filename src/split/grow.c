@@ -1,0 +1,198 @@
+/* grow.c: the shared loop, in one thread down to small cells, then one task per small cell. */
+#include "base/status.h"
+#include "split/cell.h"
+#include <string.h>
+
+enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_SHARE = 64 }; /* cells of at most max(least, n / share) fragments become tasks */
+
+typedef struct grow_task {
+    split_cell cell;
+    uint32_t first_item, first_corner, corner_count; /**< in the store */
+    tree_draft draft;
+} grow_task;
+
+typedef struct grow {
+    const split_job *job;
+    const split_method *method;
+    tree_draft main;
+    split_work *workers; /**< one per thread; the first also does the main part */
+    unsigned worker_count;
+    ARRAY(grow_task) tasks;
+    ARRAY(split_fragment) store_items;
+    ARRAY(split_corner) store_corners; /**< fragments count from their task's first_corner */
+    uint32_t task_size;
+    atomic_uint_least64_t emitted; /**< pieces in finished lists */
+} grow;
+
+/* --------------------------------------------------------------- one cell -- */
+
+static froe_status check_budget(grow *g, const split_work *work, size_t pieces_before) {
+    uint64_t most = g->job->max_fragments, more = work->set.draft->pieces.count - pieces_before;
+    uint64_t emitted = atomic_fetch_add(&g->emitted, more) + more;
+    /* each pending fragment will be one piece at least, so a refusal here is a refusal in any order of work */
+    return most && emitted + work->set.items.count > most ? FROE_E_BUDGET : FROE_OK;
+}
+
+static froe_status do_cell(grow *g, split_work *work, split_cell cell) {
+    froe_cut cut = {.kind = FROE_CUT_NONE};
+    size_t pieces = work->set.draft->pieces.count;
+    froe_status status = FROE_OK;
+    for (bool useless = true; useless && !status; cell.attempt++) {
+        split_verdict verdict = g->method->choose(g->method->config, work, &cell, &cut);
+        if (verdict == SPLIT_MEMORY || verdict == SPLIT_GIVE_UP)
+            return verdict == SPLIT_MEMORY ? FROE_E_MEMORY : FROE_E_BUDGET;
+        if (verdict == SPLIT_LEAF || verdict == SPLIT_INSEPARABLE) {
+            status = cell_leaf(work, &cell, verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : 0);
+            break;
+        }
+        status = cell_cut(work, g->method, &cell, &cut, verdict == SPLIT_GUARD, &useless);
+    }
+    return status ? status : check_budget(g, work, pieces);
+}
+
+/** Moves a small cell's fragments to the store, for a task. */
+static froe_status put_off(grow *g, split_work *work, const split_cell *cell) {
+    const froe_allocator *alloc = &g->job->alloc;
+    const split_set *set = &work->set;
+    grow_task task = {.cell = *cell,
+                      .first_item = (uint32_t)g->store_items.count,
+                      .first_corner = (uint32_t)g->store_corners.count};
+    if (!array_reserve(alloc, &g->store_items, cell->count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        split_fragment f = set->items.data[cell->first + i];
+        if (f.count) {
+            if (!array_reserve(alloc, &g->store_corners, f.count)) return FROE_E_MEMORY;
+            memcpy(g->store_corners.data + g->store_corners.count, set->corners.data + f.first,
+                   f.count * sizeof(split_corner));
+            f.first = (uint32_t)g->store_corners.count - task.first_corner;
+            g->store_corners.count += f.count;
+        }
+        g->store_items.data[g->store_items.count++] = f;
+    }
+    task.corner_count = (uint32_t)g->store_corners.count - task.first_corner;
+    draft_leaf(set->draft, cell->node, 0);
+    work->set.items.count = cell->first;
+    return array_push(alloc, &g->tasks, task) ? FROE_OK : FROE_E_MEMORY;
+}
+
+/** Works off all pending cells; in the main part, small ones are put off. */
+static froe_status do_cells(grow *g, split_work *work, bool main_part) {
+    froe_status status = FROE_OK;
+    for (uint32_t turn = 0; work->cells.count && !status; turn++) {
+        split_cell cell = work->cells.data[--work->cells.count];
+        work->set.corners.count = cell.corner_top;
+        if (main_part && cell.count <= g->task_size && cell.count > TASK_TINY) status = put_off(g, work, &cell);
+        else status = do_cell(g, work, cell);
+        if (main_part && !status && !base_progress(g->job->task, g->job->task->done)) status = FROE_E_CANCELLED;
+        if (turn % 64 == 63 && base_cancelled(g->job->task)) status = status ? status : FROE_E_CANCELLED;
+    }
+    return status;
+}
+
+/* ------------------------------------------------------------- the stages -- */
+
+static froe_status start_workers(grow *g) {
+    const split_job *job = g->job;
+    g->workers = base_calloc(&job->alloc, job->task->threads, sizeof *g->workers);
+    if (!g->workers) return FROE_E_MEMORY;
+    froe_status status = FROE_OK;
+    for (; g->worker_count < job->task->threads && !status; g->worker_count++) {
+        split_work *work = g->workers + g->worker_count;
+        status = split_set_new(job->scene, &job->alloc, &work->set);
+        if (status) break;
+        if (g->method->scratch_new) status = g->method->scratch_new(g->method->config, work);
+    }
+    return status;
+}
+
+static froe_status main_part(grow *g) {
+    split_work *work = g->workers;
+    uint32_t n = g->job->scene->object_count;
+    work->set.draft = &g->main;
+    if (!array_reserve(&g->job->alloc, &work->set.items, n)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < n; i++) work->set.items.data[i] = (split_fragment){.object = i};
+    work->set.items.count = n;
+    split_cell root = {.path = 1, .count = n, .guard = g->job->root_guard, .growth = 1};
+    if (!array_push(&g->job->alloc, &work->cells, root)) return FROE_E_MEMORY;
+    g->task_size = n / TASK_SHARE > TASK_LEAST ? n / TASK_SHARE : TASK_LEAST;
+    return do_cells(g, work, n > g->task_size);
+}
+
+/** Loads a task's fragments into a worker and finishes the subtree in the task's own draft. */
+static froe_status do_task(void *user, unsigned worker, size_t index) {
+    grow *g = user;
+    split_work *work = g->workers + worker;
+    split_set *set = &work->set;
+    grow_task *task = g->tasks.data + index;
+    const froe_allocator *alloc = &g->job->alloc;
+    froe_status status = draft_new(alloc, g->main.dim, (uint32_t)g->main.nodes.count, &task->draft);
+    if (status) return status;
+    set->main = &g->main;
+    set->draft = &task->draft;
+    set->items.count = set->corners.count = work->cells.count = 0;
+    if (!array_reserve(alloc, &set->items, task->cell.count) ||
+        !array_reserve(alloc, &set->corners, task->corner_count))
+        return FROE_E_MEMORY;
+    if (task->cell.count)
+        memcpy(set->items.data, g->store_items.data + task->first_item, task->cell.count * sizeof(split_fragment));
+    if (task->corner_count)
+        memcpy(set->corners.data, g->store_corners.data + task->first_corner,
+               task->corner_count * sizeof(split_corner));
+    set->items.count = task->cell.count;
+    set->corners.count = task->corner_count;
+    split_cell cell = task->cell;
+    cell.node = task->draft.outer;
+    cell.first = 0;
+    cell.corner_top = task->corner_count;
+    if (!array_push(alloc, &work->cells, cell)) return FROE_E_MEMORY;
+    return do_cells(g, work, false);
+}
+
+static froe_status seal(grow *g, froe_tree **out) {
+    const froe_allocator *alloc = &g->job->alloc;
+    size_t count = g->tasks.count;
+    tree_graft *grafts = base_calloc(alloc, count, sizeof *grafts);
+    if (!grafts) return FROE_E_MEMORY;
+    for (size_t i = 0; i < count; i++)
+        grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
+    for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
+    froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
+    base_free(alloc, grafts, (count ? count * sizeof *grafts : 1));
+    return status;
+}
+
+static void clean_up(grow *g) {
+    const froe_allocator *alloc = &g->job->alloc;
+    for (unsigned i = 0; i < g->worker_count; i++) {
+        split_work *work = g->workers + i;
+        if (g->method->scratch_free) g->method->scratch_free(work);
+        split_set_free(&work->set);
+        array_free(alloc, &work->cells);
+    }
+    base_free(alloc, g->workers, g->job->task->threads * sizeof *g->workers);
+    for (size_t i = 0; i < g->tasks.count; i++) draft_free(&g->tasks.data[i].draft);
+    array_free(alloc, &g->tasks);
+    array_free(alloc, &g->store_items);
+    array_free(alloc, &g->store_corners);
+    draft_free(&g->main);
+}
+
+static froe_status explain(const split_job *job, froe_status status) {
+    if (status == FROE_E_BUDGET)
+        return base_fail(job->diag, status, "more than max_fragments = %llu pieces are needed",
+                         (unsigned long long)job->max_fragments);
+    if (status == FROE_E_LIMIT) return base_fail(job->diag, status, "the tree needs more than 2^31 nodes or pieces");
+    if (status == FROE_E_CANCELLED) return base_fail(job->diag, status, "cancelled");
+    return status ? base_fail_memory(job->diag) : FROE_OK;
+}
+
+froe_status split_grow(const split_job *job, const split_method *method, froe_tree **out) {
+    grow g = {.job = job, .method = method};
+    froe_status status = draft_new(&job->alloc, job->scene->dim, 0, &g.main);
+    if (!status) status = start_workers(&g);
+    if (!status) status = main_part(&g);
+    if (!status) status = base_run(job->task, job->span, g.tasks.count, do_task, &g);
+    if (!status && out) status = seal(&g, out);
+    clean_up(&g);
+    return explain(job, status);
+}

@@ -1,0 +1,67 @@
+/* grow.h: the loop every builder shares: take a cell, name its cut, cut, go on.
+ *
+ *     pending cells     [ ... | cell | cell | current ]        depth first, negative child first
+ *     set->items        [ ... | its fragments on top ]
+ *
+ * Nothing recurses. Cells of at most 1/64 of the fragments become tasks: each
+ * is finished in a draft of its own, on any thread, and grafted. What a cell becomes depends
+ * on its path and its fragments alone, so the tree is the same for any number of threads. */
+#ifndef FROE_SPLIT_GROW_H
+#define FROE_SPLIT_GROW_H
+#include "base/task.h"
+#include "split/fragment.h"
+
+typedef struct split_cell {
+    uint32_t node;         /**< ring numbering */
+    uint32_t depth;
+    uint64_t path;         /**< for base_hash() */
+    uint32_t first, count; /**< its fragments: set->items */
+    uint32_t corner_top;   /**< corners from here on belong to cells that are done */
+    uint32_t guard;        /**< node of the guard tree that this cell is, or FROE_NONE */
+    float growth;          /**< weight of fragmentation in the guard stage: see density.c */
+    uint32_t attempt;      /**< how often the chosen cut separated nothing */
+} split_cell;
+
+typedef enum split_verdict {
+    SPLIT_LEAF,        /**< done */
+    SPLIT_INSEPARABLE, /**< done, over capacity: nothing separates these objects */
+    SPLIT_CUT,         /**< cut; the cut must lie through the cell's fragments or between them */
+    SPLIT_GUARD,       /**< cut with a node of the guard tree, whatever it separates */
+    SPLIT_GIVE_UP,     /**< end the whole build with FROE_E_BUDGET */
+    SPLIT_MEMORY       /**< out of memory */
+} split_verdict;
+
+/** One thread's working state; `scratch` is the builder's, one per worker. */
+typedef struct split_work {
+    split_set set;
+    ARRAY(split_cell) cells;
+    void *scratch;
+} split_work;
+
+/** A builder, as the loop sees it. `config` is shared by all threads, read only. */
+typedef struct split_method {
+    const void *config;
+    /** Names the cut of a cell whose fragments are set->items[first ..]. Deterministic. */
+    split_verdict (*choose)(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
+    /** Fills in guard and growth of the two children (negative, positive) of a SPLIT_GUARD cut that left
+     * in_cut fragments behind; may be NULL. */
+    void (*descend)(const void *config, const split_cell *parent, uint32_t in_cut, split_cell child[2]);
+    /** Makes and frees a worker's scratch; may be NULL. */
+    froe_status (*scratch_new)(const void *config, split_work *work);
+    void (*scratch_free)(split_work *work);
+} split_method;
+
+typedef struct split_job {
+    froe_scene *scene;
+    froe_allocator alloc;
+    base_task *task;
+    uint64_t max_fragments; /**< 0: none */
+    uint32_t root_guard;    /**< guard of the root cell */
+    double span;            /**< share of the task's progress */
+    const tree_meta *meta;
+    froe_diagnostic *diag;
+} split_job;
+
+/** Grows the whole tree over all objects of the scene. out NULL: for the method's own notes only. */
+froe_status split_grow(const split_job *job, const split_method *method, froe_tree **out);
+#endif

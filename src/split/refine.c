@@ -1,0 +1,150 @@
+/* refine.c: which cut for this cell? */
+#include "split/refine.h"
+#include "base/log2.h"
+#include "base/random.h"
+#include "split/separate.h"
+#include <string.h>
+
+froe_status split_scratch_new(const void *config, split_work *work) {
+    (void)config;
+    work->scratch = base_calloc(&work->set.alloc, 1, sizeof(split_scratch));
+    return work->scratch ? FROE_OK : FROE_E_MEMORY;
+}
+
+void split_scratch_free(split_work *work) {
+    split_scratch *s = work->scratch;
+    if (!s) return;
+    split_view_free(&work->set.alloc, &s->view);
+    array_free(&work->set.alloc, &s->picks);
+    base_free(&work->set.alloc, s, sizeof *s);
+    work->scratch = NULL;
+}
+
+/** The best candidate so far. */
+typedef struct choice {
+    froe_cut cut;
+    double cost;
+    bool any;
+} choice;
+
+/** The rules that hold for all candidates of one cell. */
+typedef struct contest {
+    const split_refine *config;
+    split_work *work;
+    split_scratch *scratch;
+    const split_cell *cell;
+    bool strict; /**< balance is due: see split_cost() */
+    choice best;
+} contest;
+
+static void enter(contest *c, const froe_cut *cut, split_tally tally) {
+    if (!tally.on && (!tally.negative || !tally.positive)) return; /* separates nothing */
+    double cost = split_cost(tally, c->scratch->view.weight, c->config->weight, c->strict);
+    if (c->best.any && cost >= c->best.cost) return;
+    c->best = (choice){*cut, cost, true};
+}
+
+/** The supporting plane of a fragment, if its kind has one. */
+static bool support_of(const contest *c, uint32_t item, froe_cut *cut, geom_plane *plane) {
+    const split_set *set = &c->work->set;
+    uint32_t object = set->items.data[c->cell->first + item].object;
+    if (!split_is_cut(scene_form(set->scene, object))) return false;
+    *cut = scene_support(set->scene, object, plane);
+    return cut->kind != FROE_CUT_NONE;
+}
+
+static void enter_support(contest *c, uint32_t item) {
+    froe_cut cut;
+    geom_plane plane;
+    if (c->work->set.scene->dim > 3 || !support_of(c, item, &cut, &plane)) return;
+    enter(c, &cut, split_view_count(&c->scratch->view, &plane));
+}
+
+/** All fragments of a small cell, or a draw from a large one. */
+static void enter_supports(contest *c) {
+    uint32_t m = c->cell->count, tries = c->config->supports;
+    for (uint32_t i = 0; i < (m <= tries ? m : tries); i++) {
+        uint64_t draw = base_hash(c->config->seed, c->cell->path, i);
+        enter_support(c, m <= tries ? i : base_below(draw, m));
+    }
+}
+
+/** Does the fragment cross its cell from border to border? */
+static bool is_free(const split_set *set, const split_fragment *f) {
+    for (uint32_t i = 0; i < f->count; i++)
+        if (!(set->corners.data[f->first + i].edge & TREE_EDGE_CUT)) return false;
+    return f->count > 0;
+}
+
+static void enter_free_cuts(contest *c) {
+    const split_set *set = &c->work->set;
+    uint32_t entered = 0, most = c->config->supports > 4 ? c->config->supports : 4;
+    for (uint32_t i = 0; i < c->cell->count && entered < most; i++)
+        if (is_free(set, set->items.data + c->cell->first + i)) enter_support(c, i), entered++;
+}
+
+static bool enter_axes(contest *c) {
+    split_view *view = &c->scratch->view;
+    for (int axis = 0; axis < c->work->set.scene->dim; axis++) {
+        if (!split_view_extents(view, &c->work->set, c->cell, axis)) return false;
+        size_t n = view->values.count, tries = c->config->quantiles;
+        if (tries > n) tries = n;
+        for (size_t i = 0; i < tries; i++) {
+            froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis};
+            cut.value = view->values.data[(2 * i + 1) * n / (2 * tries)];
+            enter(c, &cut, split_view_count_axis(view, cut.value));
+        }
+    }
+    return true;
+}
+
+/** The support of some fragment always takes that fragment out. */
+static bool any_support(contest *c, froe_cut *cut) {
+    geom_plane plane;
+    uint32_t start = base_below(base_hash(c->config->seed, c->cell->path, 77), c->cell->count);
+    for (uint32_t i = 0; i < c->cell->count; i++)
+        if (support_of(c, (start + i) % c->cell->count, cut, &plane)) return true;
+    return false;
+}
+
+/** Equal points, and nothing else, in the cell? */
+static bool one_point(const contest *c) {
+    const split_set *set = &c->work->set;
+    uint32_t vertex = FROE_NONE;
+    for (uint32_t i = 0; i < c->cell->count; i++) {
+        uint32_t object = set->items.data[c->cell->first + i].object;
+        if (scene_form(set->scene, object) != FROE_POINT) return false;
+        if (i && scene_corner(set->scene, object, 0) != vertex) return false;
+        vertex = scene_corner(set->scene, object, 0);
+    }
+    return true;
+}
+
+static bool balance_due(const split_refine *config, const split_cell *cell) {
+    const double log_43 = 0.41503749927884381; /* log2(4/3) */
+    return config->height > 0 && cell->depth + base_log2(cell->count) / log_43 >= config->height;
+}
+
+/** A cut that certainly separates something, or the verdict that none exists. */
+static split_verdict last_resort(contest *c, froe_cut *cut) {
+    if (any_support(c, cut)) return SPLIT_CUT;
+    return split_separate(c->work, c->cell, c->scratch->normal, cut);
+}
+
+split_verdict split_refine_choose(const split_refine *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+    contest c = {.config = config, .work = work, .scratch = work->scratch, .cell = cell};
+    if (cell->count <= config->leaf) return SPLIT_LEAF;
+    if (config->leaf && one_point(&c)) return SPLIT_INSEPARABLE;
+    if (cell->attempt) return last_resort(&c, cut);
+    if (config->supports == 1 && !config->quantiles && !config->free_cuts) return last_resort(&c, cut);
+    c.strict = balance_due(config, cell);
+    if (!split_view_fill(&c.scratch->view, &work->set, cell, config->sample, config->seed)) return SPLIT_MEMORY;
+    if (config->free_cuts) enter_free_cuts(&c);
+    if (!c.best.any) {
+        enter_supports(&c);
+        if (config->quantiles && !enter_axes(&c)) return SPLIT_MEMORY;
+    }
+    if (!c.best.any) return last_resort(&c, cut);
+    *cut = c.best.cut;
+    return SPLIT_CUT;
+}

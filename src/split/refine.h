@@ -1,0 +1,35 @@
+/* refine.h: choosing cuts until a cell holds few enough objects.
+ *
+ * Candidates are the supporting planes of fragments, axis-parallel planes through ends of
+ * extents, and, for kinds that are never cut, separating planes (separate.h). The best by
+ * split_cost() wins; a free cut, a fragment that crosses its cell from border to border,
+ * beats all others since it splits nothing that its plane does not have to split
+ * (Paterson and Yao 1990; Sacks, theorem 12.9). */
+#ifndef FROE_SPLIT_REFINE_H
+#define FROE_SPLIT_REFINE_H
+#include "split/view.h"
+
+typedef struct split_refine {
+    uint32_t leaf;      /**< capacity */
+    uint64_t seed;
+    uint32_t supports;  /**< supporting planes tried per cell; 1: the random order of the classical analysis */
+    uint32_t quantiles; /**< axis-parallel planes tried per axis; 0: an autopartition */
+    uint32_t sample;    /**< fragments scored per candidate, at most */
+    double weight;      /**< of information against splits, in split_cost() */
+    double height;      /**< cells deeper than this minus log_{4/3} m must be cut with balance; 0: no rule */
+    bool free_cuts;
+} split_refine;
+
+/** What refining keeps per thread. */
+typedef struct split_scratch {
+    split_view view;
+    ARRAY(uint32_t) picks;
+    double normal[3]; /**< of a FROE_CUT_PLANE just chosen */
+} split_scratch;
+
+froe_status split_scratch_new(const void *config, split_work *work);
+void split_scratch_free(split_work *work);
+
+/** The split_method.choose of autopartition, and of density below its guard stage. */
+split_verdict split_refine_choose(const split_refine *config, split_work *work, const split_cell *cell, froe_cut *cut);
+#endif

@@ -1,0 +1,131 @@
+/* separate.c: see separate.h. Every plane found is checked by the exact predicates before it counts. */
+#include "split/separate.h"
+#include <math.h>
+
+static uint32_t object_at(const split_work *work, const split_cell *cell, uint32_t i) {
+    return work->set.items.data[cell->first + i].object;
+}
+
+/** On some axis one extent ends where, or before, another begins: cut there. */
+static bool by_axis(const split_work *work, const split_cell *cell, froe_cut *cut) {
+    const froe_scene *scene = work->set.scene;
+    double least_hi[FROE_MAX_DIM], most_lo[FROE_MAX_DIM], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    for (uint32_t i = 0; i < cell->count; i++) {
+        scene_object_bounds(scene, object_at(work, cell, i), lo, hi);
+        for (int k = 0; k < scene->dim; k++) {
+            if (!i || hi[k] < least_hi[k]) least_hi[k] = hi[k];
+            if (!i || lo[k] > most_lo[k]) most_lo[k] = lo[k];
+        }
+    }
+    for (int k = 0; k < scene->dim; k++) {
+        if (least_hi[k] > most_lo[k]) continue;
+        double middle = 0.5 * least_hi[k] + 0.5 * most_lo[k];
+        *cut = (froe_cut){.kind = FROE_CUT_AXIS, .axis = k, .value = middle};
+        if (least_hi[k] == most_lo[k]) cut->value = least_hi[k];
+        return true;
+    }
+    return false;
+}
+
+/** Does the plane have object a weakly on one side and b weakly on the other, neither in it? */
+static bool separates(split_work *work, const froe_cut *cut, uint32_t a, uint32_t b) {
+    split_set *set = &work->set;
+    split_plane plane = split_plane_of(set->scene, cut);
+    split_fragment fa = {.object = a}, fb = {.object = b};
+    set->sides.count = 0;
+    int ca = split_classify(set, &plane, &fa), cb = split_classify(set, &plane, &fb);
+    return (ca == SPLIT_NEG && cb == SPLIT_POS) || (ca == SPLIT_POS && cb == SPLIT_NEG);
+}
+
+/** Between two balls, across the line of their centres: at the middle of the gap. */
+static bool between_balls(split_work *work, uint32_t a, uint32_t b, double *normal, froe_cut *cut) {
+    const froe_scene *scene = work->set.scene;
+    const double *ca = scene_point(scene, a, 0), *cb = scene_point(scene, b, 0);
+    double ra = scene_radius(scene, a), rb = scene_radius(scene, b), length = 0, at = 0;
+    for (int k = 0; k < scene->dim; k++) {
+        normal[k] = cb[k] - ca[k];
+        length += normal[k] * normal[k];
+    }
+    length = sqrt(length);
+    double t = 0.5 + 0.5 * (ra - rb) / length; /* share of the way from centre a to centre b */
+    for (int k = 0; k < scene->dim; k++) at += normal[k] * (ca[k] + t * normal[k]);
+    if (!(length > 0) || !isfinite(at) || !isfinite(length)) return false;
+    *cut = (froe_cut){.kind = FROE_CUT_PLANE, .value = at, .normal = normal};
+    return separates(work, cut, a, b);
+}
+
+/** The i-th vertex of two hulls taken together. */
+static uint32_t joint_corner(const froe_scene *scene, uint32_t a, uint32_t b, uint32_t i) {
+    uint32_t n = scene_corners(scene, a);
+    return i < n ? scene_corner(scene, a, i) : scene_corner(scene, b, i - n);
+}
+
+static bool try_vertices(split_work *work, uint32_t a, uint32_t b, const uint32_t *id, froe_cut *cut) {
+    const froe_scene *scene = work->set.scene;
+    const double *points[3];
+    for (int k = 0; k < scene->dim; k++) points[k] = scene_vertex(scene, id[k]);
+    geom_plane plane = geom_plane_points(scene->dim, points);
+    if (!geom_plane_valid(&work->set.context, &plane)) return false;
+    *cut = (froe_cut){.kind = FROE_CUT_VERTICES};
+    for (int k = 0; k < scene->dim; k++) cut->id[k] = id[k];
+    return separates(work, cut, a, b);
+}
+
+/** All lines (2D) or planes (3D) through vertices of two hulls. */
+static bool between_hulls(split_work *work, uint32_t a, uint32_t b, froe_cut *cut) {
+    const froe_scene *scene = work->set.scene;
+    uint32_t n = scene_corners(scene, a) + scene_corners(scene, b), id[3];
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = i + 1; j < n; j++) {
+            id[0] = joint_corner(scene, a, b, i);
+            id[1] = joint_corner(scene, a, b, j);
+            if (scene->dim == 2) {
+                if (id[0] != id[1] && try_vertices(work, a, b, id, cut)) return true;
+                continue;
+            }
+            for (uint32_t k = j + 1; k < n; k++) {
+                id[2] = joint_corner(scene, a, b, k);
+                if (try_vertices(work, a, b, id, cut)) return true;
+            }
+        }
+    return false;
+}
+
+/** Pairs of unlike kinds are left to the axis-parallel planes. */
+static bool between(split_work *work, uint32_t a, uint32_t b, double *normal, froe_cut *cut) {
+    const froe_scene *scene = work->set.scene;
+    froe_kind fa = scene_form(scene, a), fb = scene_form(scene, b);
+    if (fa == FROE_BALL && fb == FROE_BALL) return between_balls(work, a, b, normal, cut);
+    if (fa == FROE_HULL && fb == FROE_HULL) return between_hulls(work, a, b, cut);
+    return false;
+}
+
+/** Do all balls contain the centre of the smallest? Then no two can be separated: no need to try all pairs. */
+static bool share_a_point(split_work *work, const split_cell *cell) {
+    const froe_scene *scene = work->set.scene;
+    uint32_t least = 0;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        if (scene_form(scene, object_at(work, cell, i)) != FROE_BALL) return false;
+        if (scene_radius(scene, object_at(work, cell, i)) < scene_radius(scene, object_at(work, cell, least))) least = i;
+    }
+    const double *centre = scene_point(scene, object_at(work, cell, least), 0);
+    for (uint32_t i = 0; i < cell->count; i++) {
+        uint32_t object = object_at(work, cell, i);
+        double square = 0, r = scene_radius(scene, object);
+        for (int k = 0; k < scene->dim; k++) {
+            double d = fabs(scene_point(scene, object, 0)[k] - centre[k]) * (1 + 0x1p-40);
+            square += d * d;
+        }
+        if (!(square * (1 + 0x1p-40) < r * r)) return false; /* certainly strictly inside, or unknown */
+    }
+    return true;
+}
+
+split_verdict split_separate(split_work *work, const split_cell *cell, double *normal, froe_cut *cut) {
+    if (by_axis(work, cell, cut) && cell->attempt < 2) return SPLIT_CUT;
+    if (work->set.scene->dim > 3 || share_a_point(work, cell)) return SPLIT_INSEPARABLE;
+    for (uint32_t i = 0; i < cell->count; i++)
+        for (uint32_t j = 0; j < i; j++)
+            if (between(work, object_at(work, cell, i), object_at(work, cell, j), normal, cut)) return SPLIT_CUT;
+    return SPLIT_INSEPARABLE;
+}
