@@ -32,10 +32,8 @@ static froe_status build(build_job *job, froe_tree **out) {
                            .sample = (uint32_t)job->option[SAMPLE],
                            .weight = job->option[WEIGHT],
                            .free_cuts = job->option[FREE] != 0};
-    split_method method = {.config = &refine,
-                           .choose = choose,
-                           .scratch_new = split_scratch_new,
-                           .scratch_free = split_scratch_free};
+    split_method method = {
+        .config = &refine, .choose = choose, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
     build_promise(job, "height", job->scene->object_count, 0); /* each cut on a path consumes another object */
     return split_grow(&split, &method, out);

@@ -70,8 +70,7 @@ static froe_status choose_method(const froe_build_options *o, const build_method
     const char *purpose = o->purpose ? o->purpose : "pieces", *name = o->method ? o->method : "auto";
     bool known = false;
     for (size_t i = 0; i < sizeof purposes / sizeof *purposes; i++) known |= !strcmp(purpose, purposes[i]);
-    if (!known)
-        return base_fail(diag, FROE_E_OPTIONS, "unknown purpose '%s'; there are: pieces, query, draw", purpose);
+    if (!known) return base_fail(diag, FROE_E_OPTIONS, "unknown purpose '%s'; there are: pieces, query, draw", purpose);
     *out = find_method(!strcmp(name, "auto") ? "density" : name);
     return *out ? FROE_OK : refuse_method(name, diag);
 }

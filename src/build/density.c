@@ -117,8 +117,7 @@ static split_verdict probe(const void *config, split_work *work, const split_cel
 
 typedef struct guard_stage {
     build_job *job;
-    double *guards;
-    size_t guard_count;
+    split_guards guards;
     split_guard_tree tree;
     uint32_t k;
 } guard_stage;
@@ -129,7 +128,7 @@ static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
     split_guard_tree_free(&g->job->alloc, &g->tree);
     g->k = k;
     froe_status status =
-        split_guard_tree_build(&g->job->alloc, g->job->task, span, &o, g->guards, g->guard_count, &g->tree);
+        split_guard_tree_build(&g->job->alloc, g->job->task, span, &o, g->guards.points, g->guards.count, &g->tree);
     if (status == FROE_E_LIMIT) return base_fail(g->job->diag, status, "more than 2^31 guards");
     if (status == FROE_E_CANCELLED) return base_fail(g->job->diag, status, "cancelled");
     return status ? base_fail_memory(g->job->diag) : FROE_OK;
@@ -179,8 +178,9 @@ static froe_status by_cost(guard_stage *g) {
 }
 
 static froe_status guard_stage_make(guard_stage *g) {
+    const froe_scene *scene = g->job->scene;
     froe_status status =
-        split_guards(&g->job->alloc, g->job->task, 0, g->job->scene, &g->guards, &g->guard_count);
+        split_guards_of(&g->job->alloc, g->job->task, 0.02, scene, NULL, scene->object_count, &g->guards);
     if (status) return base_fail(g->job->diag, status, "%s", froe_status_text(status));
     int mode = (int)g->job->option[MODE];
     if (mode == MODE_DOUBLING) return by_doubling(g);
@@ -227,7 +227,7 @@ static froe_status build(build_job *job, froe_tree **out) {
         status = split_grow(&split, &method, out);
     }
     split_guard_tree_free(&job->alloc, &g.tree);
-    base_free(&job->alloc, g.guards, g.guard_count * (size_t)job->scene->dim * sizeof(double));
+    split_guards_free(&job->alloc, &g.guards);
     return status;
 }
 

@@ -32,7 +32,7 @@ static froe_status classify_all(split_set *set, const split_cell *cell, const sp
         const split_fragment *f = set->items.data + cell->first + i;
         if (!array_reserve(&set->alloc, &set->sides, split_corner_count(set, f))) return FROE_E_MEMORY;
         int class = split_classify(set, plane, f);
-        set->classes.data[set->classes.count++] = (uint8_t)class;
+        set->classes.data[set->classes.count++] = (uint8_t) class;
         out->of[class]++;
     }
     return FROE_OK;
@@ -80,9 +80,12 @@ static froe_status deal(split_set *set, const split_cell *cell, const split_plan
     for (uint32_t i = 0; i < cell->count; i++) {
         const split_fragment f = set->spare.data[i];
         int class = set->classes.data[i];
-        if (class == SPLIT_NEG) *neg++ = f;
-        else if (class == SPLIT_POS) *pos++ = f;
-        else if (class == SPLIT_BOTH && !split_is_cut(scene_form(set->scene, f.object))) *neg++ = *pos++ = f;
+        if (class == SPLIT_NEG)
+            *neg++ = f;
+        else if (class == SPLIT_POS)
+            *pos++ = f;
+        else if (class == SPLIT_BOTH && !split_is_cut(scene_form(set->scene, f.object)))
+            *neg++ = *pos++ = f;
         else if (class == SPLIT_BOTH) {
             froe_status status = split_divide(set, plane, cell->node, &f, sides, neg++, pos++);
             if (status) return status;

@@ -102,7 +102,7 @@ static int classify_box(split_set *set, const split_plane *plane, uint32_t objec
     scene_object_bounds(set->scene, object, lo, hi);
     if (plane->plane.form == GEOM_AXIS) {
         int axis = plane->plane.axis;
-        return class_of(lo[axis] < plane->plane.c, hi[axis] > plane->plane.c);
+        return class_of(lo[axis]<plane->plane.c, hi[axis]> plane->plane.c);
     }
     bool negative = false, positive = false;
     for (unsigned corner = 0; corner < 1u << set->scene->dim && !(negative && positive); corner++) {
@@ -205,7 +205,8 @@ static void divide_polygon(split_set *set, const split_plane *plane, uint32_t no
     for (uint32_t i = 0; i < n; i++) {
         split_corner k = corner_at(set, f, i);
         int here = sides[i], next = sides[i + 1 < n ? i + 1 : 0];
-        if (here) put(set, side[here > 0], k, k.edge);
+        if (here)
+            put(set, side[here > 0], k, k.edge);
         else { /* in the plane: the edge leaving it belongs to the side it leads to */
             put(set, side[0], k, next < 0 ? k.edge : cut);
             put(set, side[1], k, next > 0 ? k.edge : cut);
@@ -227,8 +228,10 @@ froe_status split_divide(split_set *set, const split_plane *plane, uint32_t node
     *negative = (split_fragment){f->object, top, 0};
     *positive = (split_fragment){f->object, top + room, 0};
     split_fragment *const side[2] = {negative, positive};
-    if (scene_form(set->scene, f->object) == FROE_SEGMENT) divide_segment(set, plane, node, f, sides, side);
-    else divide_polygon(set, plane, node, f, sides, side);
+    if (scene_form(set->scene, f->object) == FROE_SEGMENT)
+        divide_segment(set, plane, node, f, sides, side);
+    else
+        divide_polygon(set, plane, node, f, sides, side);
     uint32_t second = top + negative->count; /* close the gap between the two rings */
     memmove(set->corners.data + second, set->corners.data + positive->first, positive->count * sizeof(split_corner));
     positive->first = second;

@@ -3,7 +3,11 @@
 #include "split/cell.h"
 #include <string.h>
 
-enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_SHARE = 64 }; /* cells of at most max(least, n / share) fragments become tasks */
+enum {
+    TASK_TINY = 16,
+    TASK_LEAST = 1024,
+    TASK_SHARE = 64
+}; /* cells of at most max(least, n / share) fragments become tasks */
 
 typedef struct grow_task {
     split_cell cell;
@@ -54,9 +58,8 @@ static froe_status do_cell(grow *g, split_work *work, split_cell cell) {
 static froe_status put_off(grow *g, split_work *work, const split_cell *cell) {
     const froe_allocator *alloc = &g->job->alloc;
     const split_set *set = &work->set;
-    grow_task task = {.cell = *cell,
-                      .first_item = (uint32_t)g->store_items.count,
-                      .first_corner = (uint32_t)g->store_corners.count};
+    grow_task task = {
+        .cell = *cell, .first_item = (uint32_t)g->store_items.count, .first_corner = (uint32_t)g->store_corners.count};
     if (!array_reserve(alloc, &g->store_items, cell->count)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < cell->count; i++) {
         split_fragment f = set->items.data[cell->first + i];
@@ -81,8 +84,10 @@ static froe_status do_cells(grow *g, split_work *work, bool main_part) {
     for (uint32_t turn = 0; work->cells.count && !status; turn++) {
         split_cell cell = work->cells.data[--work->cells.count];
         work->set.corners.count = cell.corner_top;
-        if (main_part && cell.count <= g->task_size && cell.count > TASK_TINY) status = put_off(g, work, &cell);
-        else status = do_cell(g, work, cell);
+        if (main_part && cell.count <= g->task_size && cell.count > TASK_TINY)
+            status = put_off(g, work, &cell);
+        else
+            status = do_cell(g, work, cell);
         if (main_part && !status && !base_progress(g->job->task, g->job->task->done)) status = FROE_E_CANCELLED;
         if (turn % 64 == 63 && base_cancelled(g->job->task)) status = status ? status : FROE_E_CANCELLED;
     }
@@ -153,8 +158,7 @@ static froe_status seal(grow *g, froe_tree **out) {
     size_t count = g->tasks.count;
     tree_graft *grafts = base_calloc(alloc, count, sizeof *grafts);
     if (!grafts) return FROE_E_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
+    for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
     for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
     base_free(alloc, grafts, (count ? count * sizeof *grafts : 1));

@@ -12,7 +12,7 @@
 #include "split/fragment.h"
 
 typedef struct split_cell {
-    uint32_t node;         /**< ring numbering */
+    uint32_t node; /**< ring numbering */
     uint32_t depth;
     uint64_t path;         /**< for base_hash() */
     uint32_t first, count; /**< its fragments: set->items */

@@ -10,7 +10,7 @@
 #include "split/view.h"
 
 typedef struct split_refine {
-    uint32_t leaf;      /**< capacity */
+    uint32_t leaf; /**< capacity */
     uint64_t seed;
     uint32_t supports;  /**< supporting planes tried per cell; 1: the random order of the classical analysis */
     uint32_t quantiles; /**< axis-parallel planes tried per axis; 0: an autopartition */

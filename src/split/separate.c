@@ -106,7 +106,8 @@ static bool share_a_point(split_work *work, const split_cell *cell) {
     uint32_t least = 0;
     for (uint32_t i = 0; i < cell->count; i++) {
         if (scene_form(scene, object_at(work, cell, i)) != FROE_BALL) return false;
-        if (scene_radius(scene, object_at(work, cell, i)) < scene_radius(scene, object_at(work, cell, least))) least = i;
+        if (scene_radius(scene, object_at(work, cell, i)) < scene_radius(scene, object_at(work, cell, least)))
+            least = i;
     }
     const double *centre = scene_point(scene, object_at(work, cell, least), 0);
     for (uint32_t i = 0; i < cell->count; i++) {

@@ -40,7 +40,8 @@ static bool add_fragment(split_view *view, const split_set *set, const split_fra
     uint32_t n = boxed ? 1u << dim : split_corner_count(set, f);
     for (int k = 0; k < dim; k++)
         if (!array_reserve(&set->alloc, &view->x[k], n)) return false;
-    if (boxed) add_box(view, set, f->object, dim);
+    if (boxed)
+        add_box(view, set, f->object, dim);
     else
         for (uint32_t i = 0; i < n; i++) add_corner(view, split_image(set, f, i), dim);
     return array_push(&set->alloc, &view->start, (uint32_t)view->x[0].count);
@@ -147,7 +148,7 @@ bool split_view_extents(split_view *view, const split_set *set, const split_cell
 split_tally split_view_count_axis(const split_view *view, double value) {
     split_tally t = {0};
     for (uint32_t i = 0; i < view->count; i++) {
-        bool negative = view->low.data[i] < value, positive = view->high.data[i] > value;
+        bool negative = view->low.data[i]<value, positive = view->high.data[i]> value;
         t.negative += negative & !positive;
         t.positive += positive & !negative;
         t.both += positive & negative;
