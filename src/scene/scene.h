@@ -8,7 +8,7 @@
  * so that its first three corners are not collinear: they span its plane. Ring
  * orientation is the caller's. Demoted objects (form != kind) store the corners of their
  * form: the two extreme vertices of a zero-area polygon, one for a zero-length segment.
- * Polygons keep no two equal corners in a row.
+ * Polygons keep no two equal corners in a row. A hull's corners ascend, each once.
  * Optional arrays are NULL when every object has the default. All arrays lie either in
  * memory of `alloc` or inside a mapped tree file (then `mapped`). */
 #ifndef FROE_SCENE_SCENE_H
@@ -65,6 +65,8 @@ void scene_hold(froe_scene *scene); /**< one more owner; froe_scene_free() gives
 
 /** Bounding box of one object, dim doubles each; exact, for balls rounded outwards. */
 void scene_object_bounds(const froe_scene *s, uint32_t object, double *lo, double *hi);
+/** Of any ball; infinite where it leaves the range of doubles (a scene holds no such ball). */
+void scene_ball_bounds(int dim, const double *centre, double radius, double *lo, double *hi);
 
 /** The hyperplane an object lies in (its cut, FROE_CUT_OBJECT): 2D segments,
  * polygons. Other forms get a plane that contains them and needs no new numbers:
@@ -79,4 +81,15 @@ geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut);
 bool scene_equal(const froe_scene *s, uint32_t a, uint32_t b);
 /** For each object the lowest id equal to it (out[o] <= o). O(corners) expected. */
 froe_status scene_originals(const froe_scene *s, const froe_allocator *alloc, uint32_t *out);
+
+/** Everything above said about the arrays, checked on arrays nobody has vouched for: every
+ * index, ring, form and coordinate, and that no two vertices are equal. Bounds are not looked at.
+ * FROE_E_FORMAT with the first violation. O(corners) expected. */
+froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag);
+/** A scene over arrays that lie in a file mapping: `arrays` gives dim, counts and arrays, all
+ * else is ignored. Validates, computes the bounds. The mapping stays the caller's, must outlive the
+ * scene and is not written to; froe_scene_free() frees the rest. The scene has one hold and never
+ * grows. FROE_E_FORMAT, FROE_E_MEMORY. */
+froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *alloc, froe_scene **out,
+                         froe_diagnostic *diag);
 #endif

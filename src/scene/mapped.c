@@ -1,0 +1,193 @@
+/* mapped.c: a scene over arrays from a file, which may say anything until it has been checked. */
+#include "base/status.h"
+#include "scene/polygon.h"
+#include "scene/store.h"
+#include <math.h>
+#include <string.h>
+
+static froe_status bad(froe_diagnostic *diag, const char *what) {
+    return base_fail(diag, FROE_E_FORMAT, "the scene of the file is corrupted: %s", what);
+}
+
+static froe_status bad_object(froe_diagnostic *diag, uint32_t object, const char *what) {
+    return base_fail_at(diag, FROE_E_FORMAT, object, FROE_NONE, FROE_NONE,
+                        "the scene of the file is corrupted: %s, object %u", what, object);
+}
+
+/* ---------------------------------------------------------------- vertices -- */
+
+static bool plain_number(double x) {
+    return isfinite(x) && !(x == 0 && signbit(x));
+}
+
+/** No two vertices may be equal: everything that knows points by their ids relies on it. */
+static froe_status check_different(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+    scene_table table = {0};
+    size_t bytes = (size_t)s->dim * sizeof(double);
+    froe_status status = scene_table_reserve(alloc, &table, s->vertex_count) ? FROE_OK : base_fail_memory(diag);
+    for (uint32_t v = 0; !status && v < s->vertex_count; v++) {
+        uint32_t tag = scene_vertex_tag(scene_vertex(s, v), s->dim);
+        size_t at = scene_table_home(&table, tag);
+        uint32_t other = scene_table_find(&table, tag, &at);
+        while (other != FROE_NONE && memcmp(scene_vertex(s, v), scene_vertex(s, other), bytes) != 0)
+            other = scene_table_find_next(&table, tag, &at);
+        if (other != FROE_NONE) status = bad(diag, "two vertices are equal");
+        scene_table_put(&table, at, tag, v);
+    }
+    scene_table_free(alloc, &table);
+    return status;
+}
+
+static froe_status check_vertices(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+    for (size_t i = 0, n = (size_t)s->vertex_count * (size_t)s->dim; i < n; i++)
+        if (!plain_number(s->coords[i])) return bad(diag, "a coordinate is not finite, or is -0");
+    return check_different(s, alloc, diag);
+}
+
+/* ----------------------------------------------------------------- objects -- */
+
+static bool kind_exists(int dim, unsigned kind) {
+    if (kind == FROE_SEGMENT || kind == FROE_HULL) return dim <= 3;
+    return kind == FROE_POLYGON ? dim == 3 : kind < FROE_KIND_COUNT;
+}
+
+static bool form_of_kind(unsigned kind, unsigned form) {
+    if (form == kind) return true;
+    return (kind == FROE_SEGMENT && form == FROE_POINT) ||
+           (kind == FROE_POLYGON && (form == FROE_POINT || form == FROE_SEGMENT));
+}
+
+static bool corner_count_fits(unsigned form, uint32_t count) {
+    switch (form) {
+    case FROE_POINT:
+        return count == 1;
+    case FROE_POLYGON:
+        return count >= 3;
+    case FROE_HULL:
+        return count >= 1;
+    default:
+        return count == 2;
+    }
+}
+
+static bool ball_fits(const froe_scene *s, uint32_t object) {
+    double radius = scene_radius(s, object), lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    if (!plain_number(radius) || radius < 0) return false;
+    scene_ball_bounds(s->dim, scene_point(s, object, 0), radius, lo, hi);
+    for (int k = 0; k < s->dim; k++)
+        if (!isfinite(lo[k]) || !isfinite(hi[k])) return false;
+    return true;
+}
+
+static bool shape_fits(const froe_scene *s, uint32_t object, num_context *context) {
+    const uint32_t *ring = s->corners + s->starts[object];
+    uint32_t count = scene_corners(s, object);
+    switch (scene_form(s, object)) {
+    case FROE_SEGMENT:
+        return ring[0] != ring[1];
+    case FROE_POLYGON:
+        return scene_polygon_valid(context, s->coords, ring, count);
+    case FROE_BOX:
+        for (int k = 0; k < s->dim; k++)
+            if (scene_point(s, object, 0)[k] > scene_point(s, object, 1)[k]) return false;
+        return true;
+    case FROE_BALL:
+        return ball_fits(s, object);
+    case FROE_HULL:
+        for (uint32_t i = 1; i < count; i++)
+            if (ring[i] <= ring[i - 1]) return false;
+        return true;
+    default:
+        return true;
+    }
+}
+
+static froe_status check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag) {
+    unsigned kind = s->kinds[object], form = s->forms[object];
+    uint32_t begin = s->starts[object], end = s->starts[object + 1];
+    if (!kind_exists(s->dim, kind) || !form_of_kind(kind, form)) return bad_object(diag, object, "wrong kind or form");
+    if (end < begin || end > s->corner_count || !corner_count_fits(form, end - begin))
+        return bad_object(diag, object, "wrong number of corners");
+    for (uint32_t i = begin; i < end; i++) {
+        bool radius = form == FROE_BALL && i > begin;
+        if (s->corners[i] >= (radius ? s->radius_count : s->vertex_count))
+            return bad_object(diag, object, "a corner does not exist");
+    }
+    if (!shape_fits(s, object, context)) return bad_object(diag, object, "not a valid shape");
+    if (s->groups && s->groups[object] != FROE_NONE && s->groups[object] >= s->group_count)
+        return bad_object(diag, object, "its group does not exist");
+    return FROE_OK;
+}
+
+static froe_status check_objects(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+    num_context context;
+    if (!s->starts || s->starts[0] != 0 || s->starts[s->object_count] != s->corner_count)
+        return bad(diag, "the offsets of the corners");
+    if (num_context_new(alloc, &context)) return base_fail_memory(diag);
+    froe_status status = FROE_OK;
+    for (uint32_t i = 0; !status && i < s->object_count; i++) status = check_object(s, i, &context, diag);
+    num_context_free(&context);
+    return status;
+}
+
+/* ------------------------------------------------------------------- whole -- */
+
+static froe_status check_groups(const froe_scene *s, froe_diagnostic *diag) {
+    if (!s->group_count) return FROE_OK;
+    if (!s->text_size || s->text[0] || s->text[s->text_size - 1]) return bad(diag, "the strings of the groups");
+    for (uint32_t i = 0; i < s->group_count; i++) {
+        const scene_group *g = s->group_table + i;
+        if (g->name >= s->text_size || g->material >= s->text_size || g->left >= s->text_size ||
+            g->right >= s->text_size)
+            return bad(diag, "the strings of a group");
+    }
+    return FROE_OK;
+}
+
+static froe_status check_counts(const froe_scene *s, froe_diagnostic *diag) {
+    if (s->dim < 2 || s->dim > FROE_MAX_DIM) return bad(diag, "its dimension");
+    if (s->object_count > SCENE_LIMIT || s->vertex_count > SCENE_LIMIT || s->group_count > SCENE_LIMIT ||
+        s->corner_count > SCENE_CORNER_LIMIT)
+        return bad(diag, "its counts");
+    bool objects = !s->object_count || (s->kinds && s->forms && s->corners);
+    bool vertices = (!s->vertex_count || s->coords) && (!s->radius_count || s->radii);
+    bool groups = !s->group_count || (s->group_table && s->text);
+    return objects && vertices && groups ? FROE_OK : bad(diag, "a part is missing");
+}
+
+froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+    froe_status status = check_counts(s, diag);
+    if (!status) status = check_vertices(s, alloc, diag);
+    if (!status) status = check_objects(s, alloc, diag);
+    if (!status) status = check_groups(s, diag);
+    return status;
+}
+
+static void compute_bounds(froe_scene *s) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    for (int k = 0; k < FROE_MAX_DIM; k++) s->lo[k] = INFINITY, s->hi[k] = -INFINITY;
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        scene_object_bounds(s, i, lo, hi);
+        for (int k = 0; k < s->dim; k++) {
+            s->lo[k] = fmin(s->lo[k], lo[k]);
+            s->hi[k] = fmax(s->hi[k], hi[k]);
+        }
+    }
+}
+
+froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller, froe_scene **out,
+                         froe_diagnostic *diag) {
+    froe_allocator alloc = base_allocator(caller);
+    froe_status status = scene_validate(arrays, &alloc, diag);
+    if (status) return status;
+    froe_scene *s = base_calloc(&alloc, 1, sizeof *s);
+    if (!s) return base_fail_memory(diag);
+    *s = *arrays;
+    s->alloc = alloc;
+    s->mapped = true;
+    s->store = NULL;
+    atomic_init(&s->holds, 1);
+    compute_bounds(s);
+    *out = s;
+    return FROE_OK;
+}

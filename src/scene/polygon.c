@@ -1,0 +1,176 @@
+/* polygon.c: is a ring of vertices exactly planar, convex and simple?
+ *
+ *            c                  1. equal neighbours become one corner
+ *          /   \                2. the first corner c not collinear with the first two spans the plane
+ *     a - - - b  d              3. every other corner lies on it
+ *          \   /                4. projected along an axis where abc keeps its area, every turn goes
+ *            e                     one way or straight on, and lexicographic order descends once
+ *
+ * Point 4 is enough: with all turns one way the direction of the edges rotates
+ * monotonically, so the ring is simple iff it rotates once, and every rotation passes
+ * from descending to ascending edges once. (A pentagram passes twice.) A spike
+ * does so without a turn, which is looked for as well. */
+#include "scene/polygon.h"
+#include "geom/predicates.h"
+
+typedef struct ring_view {
+    num_context *context;
+    const double *coords;
+    const uint32_t *ring;
+    uint32_t count;
+    int u, v; /**< the axes that the projection keeps */
+} ring_view;
+
+static const double *at(const ring_view *r, uint32_t i) {
+    return r->coords + (size_t)r->ring[i] * 3;
+}
+
+/* ---------------------------------------------------------------- the plane -- */
+
+/** Turn of the projected corners i, j, k: 1 left, -1 right, 0 straight on or back. */
+static int turn(const ring_view *r, uint32_t i, uint32_t j, uint32_t k) {
+    const double *a = at(r, i), *b = at(r, j), *c = at(r, k);
+    double p[2] = {a[r->u], a[r->v]}, q[2] = {b[r->u], b[r->v]}, x[2] = {c[r->u], c[r->v]};
+    geom_plane line = geom_plane_points(2, (const double *const[]){p, q});
+    return geom_side_vertex(r->context, &line, x);
+}
+
+/** The axis along which a triangle looks largest: where to ask first. */
+static int guess_axis(const double *a, const double *b, const double *c) {
+    int best = 0;
+    double most = -1;
+    for (int k = 0; k < 3; k++) {
+        int u = (k + 1) % 3, v = (k + 2) % 3;
+        double area = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+        if (area < 0) area = -area;
+        if (area > most) most = area, best = k;
+    }
+    return best;
+}
+
+/** Projects along an axis that keeps corners 0, 1, k apart from a line; false if they are collinear. */
+static bool project(ring_view *r, uint32_t k) {
+    int first = guess_axis(at(r, 0), at(r, 1), at(r, k));
+    for (int i = 0; i < 3; i++) {
+        r->u = (first + i + 1) % 3;
+        r->v = (first + i + 2) % 3;
+        if (turn(r, 0, 1, k) != 0) return true;
+    }
+    return false;
+}
+
+/** The first corner not collinear with the first two, and the projection that shows it; 0: there is none. */
+static uint32_t third_corner(ring_view *r) {
+    for (uint32_t k = 2; k < r->count; k++)
+        if (project(r, k)) return k;
+    return 0;
+}
+
+static bool planar(const ring_view *r, uint32_t third, scene_fault *fault) {
+    geom_plane plane = geom_plane_points(3, (const double *const[]){at(r, 0), at(r, 1), at(r, third)});
+    for (uint32_t i = third + 1; i < r->count; i++) {
+        if (geom_side_vertex(r->context, &plane, at(r, i)) == 0) continue;
+        *fault = (scene_fault){"is not planar", r->ring[i]};
+        return false;
+    }
+    return true;
+}
+
+/* ---------------------------------------------------------------- the shape -- */
+
+static bool less(const double *a, const double *b, int u, int v) {
+    return a[u] < b[u] || (a[u] == b[u] && a[v] < b[v]);
+}
+
+static bool ascends(const ring_view *r, uint32_t i, uint32_t j) {
+    return less(at(r, i), at(r, j), r->u, r->v);
+}
+
+/** The turn at the least corner: that of the whole ring, if it is simple. */
+static int orientation(const ring_view *r) {
+    uint32_t n = r->count, least = 0;
+    for (uint32_t i = 1; i < n; i++)
+        if (ascends(r, i, least)) least = i;
+    return turn(r, least ? least - 1 : n - 1, least, least + 1 < n ? least + 1 : 0);
+}
+
+static bool convex(const ring_view *r, scene_fault *fault) {
+    if (r->count == 3) return true;
+    int way = orientation(r);
+    uint32_t n = r->count, minima = 0;
+    for (uint32_t i = n - 1, j = 0, k = 1; j < n; i = j++, k = k + 1 < n ? k + 1 : 0) {
+        bool before = ascends(r, i, j), after = ascends(r, j, k);
+        int t = turn(r, i, j, k);
+        fault->vertex = r->ring[j];
+        fault->reason = t == 0 && before != after ? "folds back on itself" : "is not convex";
+        if (t == 0 ? before != after : t != way) return false;
+        minima += !before && after;
+    }
+    fault->reason = "intersects itself";
+    return minima == 1;
+}
+
+/* ----------------------------------------------------------------- the ring -- */
+
+/** Drops corners equal to the one before, around the ring. */
+static uint32_t compact(uint32_t *ring, uint32_t count) {
+    uint32_t kept = 1;
+    for (uint32_t i = 1; i < count; i++)
+        if (ring[i] != ring[kept - 1]) ring[kept++] = ring[i];
+    while (kept > 1 && ring[kept - 1] == ring[0]) kept--;
+    return kept;
+}
+
+static bool less_3d(const double *a, const double *b) {
+    return a[0] < b[0] || (a[0] == b[0] && less(a, b, 1, 2));
+}
+
+/** All corners on one line: the two extreme ones, or one. */
+static void flatten(const ring_view *r, uint32_t *ring, uint32_t *count, froe_kind *form) {
+    uint32_t least = 0, most = 0;
+    for (uint32_t i = 1; i < r->count; i++) {
+        if (less_3d(at(r, i), at(r, least))) least = i;
+        if (less_3d(at(r, most), at(r, i))) most = i;
+    }
+    uint32_t ends[2] = {ring[least], ring[most]};
+    *count = ends[0] == ends[1] ? 1 : 2;
+    *form = *count == 1 ? FROE_POINT : FROE_SEGMENT;
+    for (uint32_t i = 0; i < *count; i++) ring[i] = ends[i];
+}
+
+static void reverse(uint32_t *ring, uint32_t count) {
+    for (uint32_t i = 0; i < count / 2; i++) {
+        uint32_t other = ring[count - 1 - i];
+        ring[count - 1 - i] = ring[i];
+        ring[i] = other;
+    }
+}
+
+static void rotate_left(uint32_t *ring, uint32_t count, uint32_t by) {
+    reverse(ring, by);
+    reverse(ring + by, count - by);
+    reverse(ring, count);
+}
+
+bool scene_polygon_form(num_context *context, const double *coords, uint32_t *ring, uint32_t *count, froe_kind *form,
+                        scene_fault *fault) {
+    ring_view view = {.context = context, .coords = coords, .ring = ring, .count = compact(ring, *count)};
+    uint32_t third = third_corner(&view);
+    if (!third) {
+        flatten(&view, ring, count, form);
+        return true;
+    }
+    if (!planar(&view, third, fault) || !convex(&view, fault)) return false;
+    rotate_left(ring, view.count, third - 2); /* corners 0 .. third-1 lie on one edge */
+    *count = view.count;
+    *form = FROE_POLYGON;
+    return true;
+}
+
+bool scene_polygon_valid(num_context *context, const double *coords, const uint32_t *ring, uint32_t count) {
+    ring_view view = {.context = context, .coords = coords, .ring = ring, .count = count};
+    scene_fault fault;
+    for (uint32_t i = 0; i < count; i++)
+        if (ring[i] == ring[i + 1 < count ? i + 1 : 0]) return false;
+    return count >= 3 && project(&view, 2) && planar(&view, 2, &fault) && convex(&view, &fault);
+}

@@ -1,0 +1,139 @@
+/* scene.c: life of a scene, and what the public may read of it. */
+#include "base/status.h"
+#include "scene/store.h"
+#include <math.h>
+#include <string.h>
+
+const char *froe_kind_name(froe_kind kind) {
+    static const char *const names[FROE_KIND_COUNT] = {"point", "segment", "polygon", "box", "ball", "hull"};
+    return (unsigned)kind < FROE_KIND_COUNT ? names[kind] : NULL;
+}
+
+/* -------------------------------------------------------------------- life -- */
+
+static void store_free(const froe_allocator *alloc, struct scene_store *store) {
+    scene_table_free(alloc, &store->table);
+    array_free(alloc, &store->coords);
+    array_free(alloc, &store->kinds);
+    array_free(alloc, &store->forms);
+    array_free(alloc, &store->starts);
+    array_free(alloc, &store->corners);
+    array_free(alloc, &store->radii);
+    array_free(alloc, &store->tags);
+    array_free(alloc, &store->faces);
+    array_free(alloc, &store->groups);
+    array_free(alloc, &store->group_table);
+    array_free(alloc, &store->text);
+    if (store->context_ready) num_context_free(&store->context);
+    base_free(alloc, store, sizeof *store);
+}
+
+froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **out) {
+    if (!out || dim < 2 || dim > FROE_MAX_DIM) return FROE_E_ARG;
+    froe_allocator alloc = base_allocator(caller);
+    froe_scene *s = base_calloc(&alloc, 1, sizeof *s);
+    if (!s) return FROE_E_MEMORY;
+    s->alloc = alloc;
+    s->dim = dim;
+    atomic_init(&s->holds, 1);
+    for (int k = 0; k < FROE_MAX_DIM; k++) s->lo[k] = INFINITY, s->hi[k] = -INFINITY;
+    s->store = base_calloc(&alloc, 1, sizeof *s->store);
+    if (!s->store || !array_push(&alloc, &s->store->starts, 0)) {
+        froe_scene_free(s);
+        return FROE_E_MEMORY;
+    }
+    scene_publish(s);
+    *out = s;
+    return FROE_OK;
+}
+
+void froe_scene_free(froe_scene *scene) {
+    if (!scene || atomic_fetch_sub_explicit(&scene->holds, 1, memory_order_acq_rel) != 1) return;
+    froe_allocator alloc = scene->alloc;
+    if (scene->store) store_free(&alloc, scene->store);
+    base_free(&alloc, scene, sizeof *scene);
+}
+
+void scene_hold(froe_scene *scene) {
+    atomic_fetch_add_explicit(&scene->holds, 1, memory_order_relaxed);
+}
+
+froe_status scene_growable(const froe_scene *s, froe_diagnostic *diag) {
+    if (s->store && atomic_load_explicit(&s->holds, memory_order_acquire) == 1) return FROE_OK;
+    return base_fail(diag, FROE_E_FROZEN, "a tree holds the scene, which can no longer grow");
+}
+
+void scene_publish(froe_scene *s) {
+    const struct scene_store *store = s->store;
+    s->vertex_count = (uint32_t)store->table.count;
+    s->object_count = (uint32_t)store->kinds.count;
+    s->corner_count = (uint32_t)store->corners.count;
+    s->radius_count = (uint32_t)store->radii.count;
+    s->group_count = (uint32_t)store->group_table.count;
+    s->text_size = store->text.count;
+    s->coords = store->coords.data;
+    s->kinds = store->kinds.data;
+    s->forms = store->forms.data;
+    s->starts = store->starts.data;
+    s->corners = store->corners.data;
+    s->radii = store->radii.data;
+    s->tags = store->tags.count ? store->tags.data : NULL;
+    s->faces = store->faces.count ? store->faces.data : NULL;
+    s->groups = store->groups.count ? store->groups.data : NULL;
+    s->group_table = store->group_table.data;
+    s->text = store->text.data;
+}
+
+/* ----------------------------------------------------------------- reading -- */
+
+int froe_scene_dim(const froe_scene *scene) {
+    return scene->dim;
+}
+
+size_t froe_scene_object_count(const froe_scene *scene) {
+    return scene->object_count;
+}
+
+size_t froe_scene_vertex_count(const froe_scene *scene) {
+    return scene->vertex_count;
+}
+
+size_t froe_scene_group_count(const froe_scene *scene) {
+    return scene->group_count;
+}
+
+size_t froe_scene_kind_count(const froe_scene *scene, froe_kind kind) {
+    size_t count = 0;
+    for (uint32_t i = 0; i < scene->object_count; i++) count += scene->kinds[i] == (unsigned)kind;
+    return count;
+}
+
+bool froe_scene_bounds(const froe_scene *scene, double *lo, double *hi) {
+    if (!scene->object_count) return false;
+    memcpy(lo, scene->lo, (size_t)scene->dim * sizeof *lo);
+    memcpy(hi, scene->hi, (size_t)scene->dim * sizeof *hi);
+    return true;
+}
+
+froe_object froe_scene_object(const froe_scene *scene, uint32_t object) {
+    if (object >= scene->object_count)
+        return (froe_object){.kind = FROE_KIND_COUNT, .form = FROE_KIND_COUNT, .face = FROE_NONE, .group = FROE_NONE};
+    bool ball = scene->kinds[object] == FROE_BALL;
+    return (froe_object){
+        .kind = (froe_kind)scene->kinds[object],
+        .form = scene_form(scene, object),
+        .corners = ball ? 1 : scene_corners(scene, object),
+        .face = scene->faces ? scene->faces[object] : object,
+        .group = scene->groups ? scene->groups[object] : FROE_NONE,
+        .tag = scene->tags ? scene->tags[object] : object,
+        .radius = ball ? scene_radius(scene, object) : 0,
+    };
+}
+
+uint32_t froe_scene_corner(const froe_scene *scene, uint32_t object, uint32_t corner) {
+    return corner < froe_scene_object(scene, object).corners ? scene_corner(scene, object, corner) : FROE_NONE;
+}
+
+const double *froe_scene_vertex(const froe_scene *scene, uint32_t vertex) {
+    return vertex < scene->vertex_count ? scene_vertex(scene, vertex) : NULL;
+}

@@ -1,0 +1,94 @@
+/* support.c: where objects lie: bounding boxes, supporting hyperplanes, and the planes of cuts. */
+#include "scene/scene.h"
+#include <math.h>
+
+/* ------------------------------------------------------------------ bounds -- */
+
+/** The least double >= a + b (up 1), or minus the least >= -a - b, that is the greatest <= a + b (up -1).
+ * The residue of a sum is a double and known exactly (Knuth's TwoSum). */
+static double sum_towards(double a, double b, int up) {
+    double s = a + b, t = s - a, residue = (a - (s - t)) + (b - t);
+    bool inward = up > 0 ? residue > 0 : residue < 0;
+    return inward ? nextafter(s, up > 0 ? INFINITY : -INFINITY) : s;
+}
+
+void scene_ball_bounds(int dim, const double *centre, double radius, double *lo, double *hi) {
+    for (int k = 0; k < dim; k++) {
+        lo[k] = sum_towards(centre[k], -radius, -1);
+        hi[k] = sum_towards(centre[k], radius, 1);
+    }
+}
+
+void scene_object_bounds(const froe_scene *s, uint32_t object, double *lo, double *hi) {
+    const double *x = scene_point(s, object, 0);
+    if (s->forms[object] == FROE_BALL) {
+        scene_ball_bounds(s->dim, x, scene_radius(s, object), lo, hi);
+        return;
+    }
+    for (int k = 0; k < s->dim; k++) lo[k] = hi[k] = x[k];
+    for (uint32_t i = 1, n = scene_corners(s, object); i < n; i++) {
+        x = scene_point(s, object, i);
+        for (int k = 0; k < s->dim; k++) {
+            if (x[k] < lo[k]) lo[k] = x[k];
+            if (x[k] > hi[k]) hi[k] = x[k];
+        }
+    }
+}
+
+/* ----------------------------------------------------------------- support -- */
+
+static geom_plane plane_of_object(const froe_scene *s, uint32_t object) {
+    const double *points[3];
+    for (uint32_t i = 0; i < (uint32_t)s->dim; i++) points[i] = scene_point(s, object, i);
+    return geom_plane_points(s->dim, points);
+}
+
+static froe_cut axis_cut(int axis, double value) {
+    return (froe_cut){.kind = FROE_CUT_AXIS, .axis = axis, .value = value};
+}
+
+/** 3D: the axis plane that holds the segment, else the vertical plane through it. */
+static froe_cut segment_cut(const froe_scene *s, uint32_t object) {
+    const double *u = scene_point(s, object, 0), *v = scene_point(s, object, 1);
+    for (int k = 0; k < 3; k++)
+        if (u[k] == v[k]) return axis_cut(k, u[k]);
+    return (froe_cut){.kind = FROE_CUT_EDGE, .id = {scene_corner(s, object, 0), scene_corner(s, object, 1)}};
+}
+
+static froe_cut support_cut(const froe_scene *s, uint32_t object) {
+    switch (scene_form(s, object)) {
+    case FROE_POINT:
+        return axis_cut(0, scene_point(s, object, 0)[0]);
+    case FROE_SEGMENT:
+        return s->dim == 2 ? (froe_cut){.kind = FROE_CUT_OBJECT, .id = {object}} : segment_cut(s, object);
+    case FROE_POLYGON:
+        return (froe_cut){.kind = FROE_CUT_OBJECT, .id = {object}};
+    default:
+        return (froe_cut){.kind = FROE_CUT_NONE};
+    }
+}
+
+froe_cut scene_support(const froe_scene *s, uint32_t object, geom_plane *plane) {
+    froe_cut cut = support_cut(s, object);
+    if (cut.kind != FROE_CUT_NONE) *plane = scene_cut_plane(s, &cut);
+    return cut;
+}
+
+geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut) {
+    const double *points[3] = {NULL};
+    switch (cut->kind) {
+    case FROE_CUT_AXIS:
+        return geom_plane_axis(s->dim, cut->axis, cut->value);
+    case FROE_CUT_OBJECT:
+        return plane_of_object(s, cut->id[0]);
+    case FROE_CUT_VERTICES:
+        for (int i = 0; i < s->dim; i++) points[i] = scene_vertex(s, cut->id[i]);
+        return geom_plane_points(s->dim, points);
+    case FROE_CUT_EDGE:
+        return geom_plane_vertical(scene_vertex(s, cut->id[0]), scene_vertex(s, cut->id[1]));
+    case FROE_CUT_PLANE:
+        return geom_plane_vector(s->dim, cut->normal, cut->value);
+    default:
+        return (geom_plane){.dim = s->dim};
+    }
+}

@@ -1,0 +1,69 @@
+/* vertices.c: the vertex table: equal coordinates get one id.
+ *
+ * A large scene misses the cache twice per corner, in the table and in the
+ * coordinates; a chunk of points first asks for all the slots, then for all the
+ * candidates, and only then looks. */
+#include "base/random.h"
+#include "scene/store.h"
+#include <string.h>
+
+uint32_t scene_vertex_tag(const double *point, int dim) {
+    uint64_t hash = (uint64_t)dim;
+    for (int k = 0; k < dim; k++) {
+        uint64_t bits;
+        memcpy(&bits, point + k, sizeof bits);
+        hash = base_mix(hash ^ bits) + 0x9e3779b97f4a7c15u;
+    }
+    return (uint32_t)(hash >> 32);
+}
+
+static void prefetch(const froe_scene *s, const uint32_t *tags, size_t count) {
+    const struct scene_store *store = s->store;
+    for (size_t i = 0; i < count; i++)
+        __builtin_prefetch(store->table.slots + scene_table_home(&store->table, tags[i]));
+    for (size_t i = 0; i < count; i++) {
+        uint32_t next_id = store->table.slots[scene_table_home(&store->table, tags[i])].next_id;
+        if (next_id) __builtin_prefetch(store->coords.data + (size_t)(next_id - 1) * (size_t)s->dim);
+    }
+}
+
+/** The vertex at `point`, or FROE_NONE with *at where it belongs. */
+static uint32_t lookup(const froe_scene *s, const double *point, uint32_t tag, size_t *at) {
+    const struct scene_store *store = s->store;
+    size_t bytes = (size_t)s->dim * sizeof *point;
+    uint32_t id = scene_table_find(&store->table, tag, at);
+    while (id != FROE_NONE && memcmp(store->coords.data + (size_t)id * (size_t)s->dim, point, bytes) != 0)
+        id = scene_table_find_next(&store->table, tag, at);
+    return id;
+}
+
+froe_status scene_vertices_add(froe_scene *s, const double *points, size_t count, uint32_t *ids) {
+    struct scene_store *store = s->store;
+    size_t dim = (size_t)s->dim;
+    uint32_t tags[SCENE_CHUNK];
+    if (!scene_table_reserve(&s->alloc, &store->table, count)) return FROE_E_MEMORY;
+    if (!array_reserve(&s->alloc, &store->coords, count * dim)) return FROE_E_MEMORY;
+    for (size_t i = 0; i < count; i++) tags[i] = scene_vertex_tag(points + i * dim, s->dim);
+    prefetch(s, tags, count);
+    for (size_t i = 0; i < count; i++) {
+        size_t at = scene_table_home(&store->table, tags[i]);
+        ids[i] = lookup(s, points + i * dim, tags[i], &at);
+        if (ids[i] != FROE_NONE) continue;
+        if (store->table.count == SCENE_LIMIT) return FROE_E_LIMIT;
+        ids[i] = (uint32_t)store->table.count;
+        scene_table_put(&store->table, at, tags[i], ids[i]);
+        memcpy(store->coords.data + store->coords.count, points + i * dim, dim * sizeof *points);
+        store->coords.count += dim;
+    }
+    return FROE_OK;
+}
+
+void scene_vertices_truncate(froe_scene *s, uint32_t count) {
+    struct scene_store *store = s->store;
+    size_t dim = (size_t)s->dim;
+    while (store->table.count > count) {
+        store->coords.count -= dim;
+        const double *last = store->coords.data + store->coords.count;
+        scene_table_remove(&store->table, scene_vertex_tag(last, s->dim), (uint32_t)store->table.count - 1);
+    }
+}
