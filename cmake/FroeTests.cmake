@@ -80,6 +80,7 @@ endif()
 # The project looked at from outside: sources, compiled code, installation, documents.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
 froe_test(project layers ${scripts}/check-layers)
+froe_test(project index ${scripts}/check-index)
 file(GLOB transcripts CONFIGURE_DEPENDS tests/project/*.test)
 foreach(transcript ${transcripts})
   get_filename_component(name ${transcript} NAME_WE)

@@ -1,0 +1,33 @@
+/* fuzz_read.c: any bytes as a CSV or OFF file: the formats that froe parses by itself. (What
+ * GDAL and assimp parse, their own fuzzers see to.) A header is put before the bytes, so that
+ * they reach the right reader. */
+#include "support.h"
+#include <froe/io.h>
+#include <stdio.h>
+
+static const struct {
+    const char *header, *suffix;
+} forms[] = {
+    {"", ".csv"},
+    {"x,y\n", ".csv"},
+    {"x,y,z,tag\n", ".csv"},
+    {"lo_x,lo_y,hi_x,hi_y\n", ".csv"},
+    {"x,y,r\n", ".csv"},
+    {"OFF\n", ".off"},
+    {"{\"type\":\"FeatureCollection\",", ".csv"}, /* a lie about the type */
+};
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    char path[256];
+    fuzz_bytes bytes = {data, size};
+    const size_t form = fuzz_byte(&bytes) % (sizeof forms / sizeof *forms);
+    fuzz_file(forms[form].header, forms[form].suffix, bytes.data, bytes.size, path, sizeof path);
+    froe_read_options options = froe_read_defaults();
+    options.boxes = size % 2 != 0;
+    froe_scene *scene;
+    froe_read_report report;
+    froe_diagnostic why;
+    if (froe_read(path, &options, &scene, &report, &why) == FROE_OK) froe_scene_free(scene);
+    remove(path);
+    return 0;
+}

@@ -1,0 +1,78 @@
+/* fuzz_scene.c: bytes as a program that fills a scene and builds trees of it. Whatever
+ * the scene, a build succeeds and passes the audit, or it is refused with a sentence. */
+#include "support.h"
+#include <froe/froe.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_OBJECTS = 24, MOST_CORNERS = 6 };
+
+static void complain(const char *what, const froe_diagnostic *why) {
+    fprintf(stderr, "%s: %s: %s\n", what, froe_status_name(why->status), why->message);
+    abort();
+}
+
+static size_t corners_of(froe_kind kind, fuzz_bytes *bytes) {
+    switch (kind) {
+    case FROE_POINT:
+    case FROE_BALL:
+        return 1;
+    case FROE_SEGMENT:
+    case FROE_BOX:
+        return 2;
+    default:
+        return 1 + fuzz_byte(bytes) % MOST_CORNERS;
+    }
+}
+
+/* One batch of one kind. Refusals are fine; boxes get their corners in order half of the time. */
+static void add_batch(froe_scene *scene, int dim, fuzz_bytes *bytes) {
+    double coords[MOST_OBJECTS * MOST_CORNERS * FROE_MAX_DIM], radii[MOST_OBJECTS];
+    size_t starts[MOST_OBJECTS + 1] = {0};
+    froe_objects o = froe_objects_defaults();
+    o.kind = (froe_kind)(fuzz_byte(bytes) % FROE_KIND_COUNT);
+    o.count = 1 + fuzz_byte(bytes) % MOST_OBJECTS;
+    const size_t corners = corners_of(o.kind, bytes);
+    for (size_t i = 0; i < o.count; i++) starts[i + 1] = starts[i] + corners, radii[i] = fuzz_double(bytes);
+    for (size_t i = 0; i < starts[o.count] * (size_t)dim; i++) coords[i] = fuzz_double(bytes);
+    o.coords = coords;
+    o.point_count = starts[o.count];
+    if (o.kind == FROE_POLYGON || o.kind == FROE_HULL) o.starts = starts;
+    if (o.kind == FROE_BALL) o.radii = radii;
+    froe_diagnostic why;
+    if (froe_scene_add(scene, &o, &why) && !memchr(why.message, '\0', sizeof why.message))
+        complain("message without an end", &why);
+}
+
+static void build_and_audit(froe_scene *scene, fuzz_bytes *bytes) {
+    froe_build_options b = froe_build_defaults();
+    size_t methods = 0;
+    while (froe_method_at(methods)) methods++;
+    const uint8_t which = fuzz_byte(bytes);
+    if (methods && which % 4) b.method = froe_method_at(which % methods)->name;
+    b.leaf = fuzz_byte(bytes) % 4;
+    b.seed = fuzz_byte(bytes);
+    b.threads = 1 + fuzz_byte(bytes) % 2;
+    b.max_fragments = 20000;
+    froe_tree *tree;
+    froe_diagnostic why;
+    if (froe_build(scene, &b, &tree, &why)) return;
+    if (froe_tree_audit(tree, NULL, &why)) complain("audit", &why);
+    froe_tree_free(tree);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    fuzz_bytes bytes = {data, size};
+    const uint8_t d = fuzz_byte(&bytes);
+    const int dim = d < 0x60 ? 2 : d < 0xc0 ? 3 : 2 + d % 7;
+    froe_scene *scene;
+    if (froe_scene_new(dim, NULL, &scene)) return 0;
+    for (int batches = 1 + fuzz_byte(&bytes) % 3; batches; batches--) add_batch(scene, dim, &bytes);
+    froe_defects defects = {.size = sizeof defects};
+    froe_diagnostic why;
+    (void)froe_scene_defects(scene, 1, NULL, NULL, &defects, &why);
+    build_and_audit(scene, &bytes);
+    froe_scene_free(scene);
+    return 0;
+}
