@@ -3,25 +3,26 @@
 BUILD ?= build
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
-NINJA := $(shell command -v ninja 2>/dev/null)
-export CMAKE_GENERATOR ?= $(if $(NINJA),Ninja,Unix Makefiles)
+# Ninja may be installed by the first step, so this is asked anew in every recipe.
+export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
 .PHONY: help build demo test install bench bench-peers coverage format lint clean
 
+deps-%:
+	@scripts/deps $*
+
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 22
 
-build: ## the libraries and the program, build/bin/froe
-	@scripts/deps build
+build: deps-build ## the libraries and the program, build/bin/froe
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
 demo: build ## floor plan, map and house: reports and pictures in build/demo/index.html
 	@$(BUILD)/bin/froe demo -o $(BUILD)/demo
 
-test: ## everything the tests can find out, without benches
-	@scripts/deps test
+test: deps-test ## everything the tests can find out, without benches
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
 	@cmake --build $(BUILD) --parallel $(JOBS)
 	@ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
@@ -29,8 +30,7 @@ test: ## everything the tests can find out, without benches
 install: build ## into PREFIX (/usr/local); DESTDIR is honoured
 	@cmake --install $(BUILD) --prefix $(PREFIX)
 
-bench: ## froe beside its peers, those that Debian has
-	@scripts/deps bench
+bench: deps-bench ## froe beside its peers, those that Debian has
 	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
 	@cmake --build $(BUILD)/bench --parallel $(JOBS)
 	@bench/run $(BUILD)/bench
@@ -38,19 +38,16 @@ bench: ## froe beside its peers, those that Debian has
 bench-peers: bench ## and those from the npm registry, where it can be reached
 	@bench/run-peers $(BUILD)/bench
 
-coverage: ## which lines do the tests run? build/coverage/index.html
-	@scripts/deps coverage
+coverage: deps-coverage ## which lines do the tests run? build/coverage/index.html
 	@cmake --preset coverage
 	@cmake --build --preset coverage --parallel $(JOBS)
 	@ctest --preset coverage --parallel $(JOBS)
 	@gcovr --root . --filter 'src/|io/|draw/|cli/' --html-details build/coverage/index.html --print-summary build/coverage
 
-format: ## all sources as .clang-format says
-	@scripts/deps lint
+format: deps-lint ## all sources as .clang-format says
 	@git ls-files '*.c' '*.h' | xargs clang-format -i
 
-lint: ## format, clang-tidy, layers and sizes
-	@scripts/deps test lint
+lint: deps-test deps-lint ## format, clang-tidy, layers and sizes
 	@scripts/lint
 
 clean: ## removes the build folder
