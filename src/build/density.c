@@ -136,7 +136,8 @@ static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
 
 /** Carries the objects down the guard tree without building anything. FROE_E_BUDGET: a load above `most`. */
 static froe_status measure(guard_stage *g, uint32_t most, loads *out) {
-    out->leaves = out->fragments = out->squares = out->largest = 0;
+    out->leaves = out->fragments = out->squares = 0;
+    out->largest = 0;
     out->most = most;
     density d = {.guard = &g->tree, .probe = out};
     split_method method = {.config = &d, .choose = probe, .descend = descend};

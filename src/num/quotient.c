@@ -48,5 +48,5 @@ double num_dyadic_quotient(num_arena *arena, num_dyadic a, num_dyadic b) {
     for (; rest.sign < 0; whole--) rest = num_dyadic_add(arena, rest, step);
     for (; num_dyadic_compare(rest, step) >= 0; whole++) rest = num_dyadic_sub(arena, rest, step);
     double q = round_whole(whole, rest.sign != 0, unit);
-    return q ? sign * q : 0;
+    return q != 0 ? sign * q : 0;
 }
