@@ -1,0 +1,134 @@
+/* ogr_shapes.c: a geometry's parts are visited in order with an explicit stack. */
+#include "ogr_shapes.h"
+#include "triangulate.h"
+
+void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes) {
+    io_buffer_free(alloc, &shapes->stack);
+    io_buffer_free(alloc, &shapes->points);
+}
+
+static froe_status out_of_memory(io_sink *sink) {
+    return io_sink_fail(sink, FROE_E_MEMORY, "out of memory");
+}
+
+/* The vertices of a line or ring as xy pairs. */
+static froe_status load_points(io_sink *sink, io_shapes *shapes, OGRGeometryH line, size_t *count) {
+    int n = OGR_G_GetPointCount(line);
+    *count = n > 0 ? (size_t)n : 0;
+    shapes->points.size = 0;
+    double *xy = io_buffer_add(&sink->alloc, &shapes->points, (*count + 1) * 2 * sizeof *xy);
+    if (!xy) return out_of_memory(sink);
+    if (*count) OGR_G_GetPoints(line, xy, 2 * sizeof *xy, xy + 1, 2 * sizeof *xy, NULL, 0);
+    return FROE_OK;
+}
+
+typedef froe_status part_fn(void *user, io_sink *sink, io_shapes *shapes, OGRGeometryH part, OGRwkbGeometryType type);
+
+static bool is_collection(OGRwkbGeometryType type) {
+    return type == wkbGeometryCollection || type == wkbMultiPoint || type == wkbMultiLineString ||
+           type == wkbMultiPolygon || type == wkbPolyhedralSurface || type == wkbTIN;
+}
+
+/* Calls fn for every part that is no collection, in order. */
+static froe_status each_part(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry, part_fn *fn, void *user) {
+    const froe_allocator *alloc = &sink->alloc;
+    shapes->stack.size = 0;
+    if (!io_buffer_put(alloc, &shapes->stack, &geometry, sizeof geometry)) return out_of_memory(sink);
+    froe_status status = FROE_OK;
+    while (shapes->stack.size && !status) {
+        shapes->stack.size -= sizeof(OGRGeometryH);
+        OGRGeometryH part = *(OGRGeometryH *)((char *)shapes->stack.data + shapes->stack.size);
+        OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(part));
+        if (!is_collection(type)) {
+            status = fn(user, sink, shapes, part, type);
+            continue;
+        }
+        for (int i = OGR_G_GetGeometryCount(part); i-- > 0;) {
+            OGRGeometryH child = OGR_G_GetGeometryRef(part, i);
+            if (!io_buffer_put(alloc, &shapes->stack, &child, sizeof child)) return out_of_memory(sink);
+        }
+    }
+    return status;
+}
+
+/* ----------------------------------------------------------------- sides -- */
+
+static froe_status part_sides(void *user, io_sink *sink, io_shapes *shapes, OGRGeometryH part,
+                              OGRwkbGeometryType type) {
+    io_sides *sides = user;
+    if (type != wkbPolygon && type != wkbTriangle) return FROE_OK;
+    int rings = OGR_G_GetGeometryCount(part);
+    for (int i = 0; i < rings; ++i) {
+        size_t count;
+        froe_status status = load_points(sink, shapes, OGR_G_GetGeometryRef(part, i), &count);
+        if (status) return status;
+        if (!count) continue;
+        const double *xy = shapes->points.data;
+        while (count > 1 && xy[0] == xy[2 * count - 2] && xy[1] == xy[2 * count - 1]) --count;
+        int side = io_ring_side(xy, count);
+        if (i) side = -side; /* a hole has the interior outside */
+        sides->polygons = true;
+        sides->left = sides->left && side > 0;
+        sides->right = sides->right && side < 0;
+    }
+    return FROE_OK;
+}
+
+froe_status io_shapes_sides(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry, io_sides *sides) {
+    *sides = (io_sides){.left = true, .right = true};
+    froe_status status = each_part(sink, shapes, geometry, part_sides, sides);
+    if (!sides->polygons) sides->left = sides->right = false;
+    return status;
+}
+
+/* --------------------------------------------------------------- objects -- */
+
+static froe_status add_line(io_sink *sink, io_shapes *shapes, OGRGeometryH line, bool ring) {
+    size_t count;
+    froe_status status = load_points(sink, shapes, line, &count);
+    if (status) return status;
+    double *xy = shapes->points.data;
+    if (count < 2) return ++sink->report.skipped, FROE_OK;
+    if (ring && (xy[0] != xy[2 * count - 2] || xy[1] != xy[2 * count - 1])) {
+        xy[2 * count] = xy[0]; /* load_points left room */
+        xy[2 * count + 1] = xy[1];
+        ++count;
+        ++sink->report.closed;
+    }
+    for (size_t i = 0; i + 1 < count && !status; ++i) status = io_sink_segment(sink, xy + 2 * i, xy + 2 * i + 2);
+    return status;
+}
+
+static froe_status add_polygon(io_sink *sink, io_shapes *shapes, OGRGeometryH polygon) {
+    int rings = OGR_G_GetGeometryCount(polygon);
+    froe_status status = FROE_OK;
+    io_sink_new_face(sink);
+    for (int i = 0; i < rings && !status; ++i) status = add_line(sink, shapes, OGR_G_GetGeometryRef(polygon, i), true);
+    sink->face = FROE_NONE;
+    return status;
+}
+
+static froe_status add_point(io_sink *sink, OGRGeometryH point) {
+    double p[2] = {OGR_G_GetX(point, 0), OGR_G_GetY(point, 0)};
+    return io_sink_point(sink, p);
+}
+
+static froe_status add_part(void *user, io_sink *sink, io_shapes *shapes, OGRGeometryH part, OGRwkbGeometryType type) {
+    (void)user;
+    if (OGR_G_IsEmpty(part)) return ++sink->report.skipped, FROE_OK;
+    switch (type) {
+    case wkbPoint:
+        return add_point(sink, part);
+    case wkbLineString:
+        return add_line(sink, shapes, part, false);
+    case wkbPolygon:
+    case wkbTriangle:
+        return add_polygon(sink, shapes, part);
+    default:
+        return ++sink->report.skipped, FROE_OK;
+    }
+}
+
+froe_status io_shapes_add(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry) {
+    return each_part(sink, shapes, geometry, add_part, NULL);
+}

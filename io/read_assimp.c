@@ -1,0 +1,226 @@
+/* read_assimp.c: solid models in all the formats assimp knows, as they are in the
+ * file: no post-processing step of assimp runs, for those that weld, drop or split do
+ * so within tolerances. Its coordinates are single precision; node transforms are
+ * multiplied out in double. Nodes are walked with a stack of our own. */
+#include "read.h"
+#include <assimp/cimport.h>
+#include <assimp/commonMetaData.h>
+#include <assimp/material.h>
+#include <assimp/metadata.h>
+#include <assimp/scene.h>
+#include <assimp/version.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+/* assimp keeps the text of the last failure in one variable for all threads: this
+ * lock, the library's only global, is held from an import until its text is copied. */
+static pthread_mutex_t import_lock = PTHREAD_MUTEX_INITIALIZER;
+
+bool io_assimp_recognise(const io_source *source) {
+    /* what OGR reads too, and better, or what other programs mean by the extension */
+    static const char *const left_to_ogr[] = {"dxf", "xml", "json", "csv", "txt", "prj", "raw", "gml", "kml", "svg"};
+    if (!strncmp(source->head, "glTF", 4) || !strncmp(source->head, "ISO-10303-21", 12)) return true;
+    if (!strncmp(source->head, "ply\n", 4) || !strncmp(source->head, "ply\r", 4)) return true;
+    if (!*source->extension.text) return false;
+    for (size_t i = 0; i < sizeof left_to_ogr / sizeof *left_to_ogr; ++i)
+        if (!strcmp(source->extension.text, left_to_ogr[i])) return false;
+    char dotted[sizeof source->extension.text + 1] = ".";
+    memcpy(dotted + 1, source->extension.text, sizeof source->extension.text);
+    return aiIsExtensionSupported(dotted);
+}
+
+/* --------------------------------------------------------------- the walk -- */
+
+/* A node to visit, with the transform of its parent (rows of a 3 x 4 matrix). */
+typedef struct visit {
+    const struct aiNode *node;
+    double parent[12];
+} visit;
+
+typedef struct walk {
+    const struct aiScene *scene;
+    io_sink *sink;
+    io_buffer stack;     /* of visit */
+    io_buffer points;    /* transformed vertices of a mesh, doubles */
+    io_buffer corners;   /* of a face, doubles */
+    io_buffer materials; /* of the current node: pairs material, group (uint32_t) */
+    uint64_t faces, faces_done;
+} walk;
+
+static froe_status out_of_memory(walk *w) {
+    return io_fail(w->sink->diag, FROE_E_MEMORY, "%s: out of memory", io_short(w->sink->path));
+}
+
+static froe_status corrupt(walk *w, const char *what) {
+    return io_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", io_short(w->sink->path), what);
+}
+
+static void multiply(const double *parent, const struct aiMatrix4x4 *m, double *out) {
+    const double own[12] = {m->a1, m->a2, m->a3, m->a4, m->b1, m->b2, m->b3, m->b4, m->c1, m->c2, m->c3, m->c4};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 4; ++j)
+            out[4 * i + j] = parent[4 * i] * own[j] + parent[4 * i + 1] * own[4 + j] + parent[4 * i + 2] * own[8 + j] +
+                             (j == 3 ? parent[4 * i + 3] : 0);
+}
+
+static froe_status transform(walk *w, const struct aiMesh *mesh, const double *m) {
+    w->points.size = 0;
+    double *to = io_buffer_add(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3 * sizeof *to);
+    if (!to) return out_of_memory(w);
+    for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
+        const double p[3] = {mesh->mVertices[i].x, mesh->mVertices[i].y, mesh->mVertices[i].z};
+        for (int k = 0; k < 3; ++k, ++to)
+            *to = m[4 * k] * p[0] + m[4 * k + 1] * p[1] + m[4 * k + 2] * p[2] + m[4 * k + 3];
+    }
+    return FROE_OK;
+}
+
+static froe_status add_face(walk *w, const struct aiMesh *mesh, const struct aiFace *face) {
+    const double *points = w->points.data;
+    w->corners.size = 0;
+    for (unsigned i = 0; i < face->mNumIndices; ++i) {
+        unsigned at = face->mIndices[i];
+        if (at >= mesh->mNumVertices) return corrupt(w, "a face names a vertex that does not exist");
+        if (!io_buffer_put(&w->sink->alloc, &w->corners, points + 3 * (size_t)at, 3 * sizeof *points))
+            return out_of_memory(w);
+    }
+    if (!face->mNumIndices) return ++w->sink->report.skipped, FROE_OK;
+    return io_sink_face(w->sink, w->corners.data, face->mNumIndices);
+}
+
+static froe_status report(walk *w) {
+    enum { FACES_PER_REPORT = 8192 };
+    if (w->faces_done++ % FACES_PER_REPORT) return FROE_OK;
+    double half = w->faces ? 0.5 * (double)w->faces_done / (double)w->faces : 0.5;
+    return io_sink_progress(w->sink, 0.5 + half); /* the import itself was the first half */
+}
+
+/* A mesh without faces is a cloud of points. */
+static froe_status add_cloud(walk *w, const struct aiMesh *mesh) {
+    froe_status status = FROE_OK;
+    const double *points = w->points.data;
+    for (unsigned i = 0; i < mesh->mNumVertices && !status; ++i) {
+        status = io_sink_point(w->sink, points + 3 * (size_t)i);
+        if (!status) status = report(w);
+    }
+    return status;
+}
+
+static const char *material_name(walk *w, unsigned index, struct aiString *name) {
+    *name = (struct aiString){.length = 0};
+    if (index < w->scene->mNumMaterials) aiGetMaterialString(w->scene->mMaterials[index], AI_MATKEY_NAME, name);
+    return name->data;
+}
+
+/* One group for each pair of node and material. */
+static froe_status enter_group(walk *w, const struct aiNode *node, unsigned material) {
+    const uint32_t *known = w->materials.data;
+    for (size_t i = 0; i < w->materials.size / sizeof *known; i += 2)
+        if (known[i] == material) return w->sink->group = known[i + 1], FROE_OK;
+    struct aiString name;
+    froe_group group = {.name = node->mName.data, .material = material_name(w, material, &name)};
+    froe_status status = io_sink_group(w->sink, &group);
+    if (status) return status;
+    uint32_t pair[2] = {material, w->sink->group};
+    return io_buffer_put(&w->sink->alloc, &w->materials, pair, sizeof pair) ? FROE_OK : out_of_memory(w);
+}
+
+static froe_status add_mesh(walk *w, const struct aiNode *node, unsigned index, const double *m) {
+    if (index >= w->scene->mNumMeshes) return corrupt(w, "a node names a mesh that does not exist");
+    const struct aiMesh *mesh = w->scene->mMeshes[index];
+    froe_status status = enter_group(w, node, mesh->mMaterialIndex);
+    if (!status) status = transform(w, mesh, m);
+    if (!status && !mesh->mNumFaces) status = add_cloud(w, mesh);
+    for (unsigned i = 0; i < mesh->mNumFaces && !status; ++i) {
+        w->sink->number = i;
+        status = add_face(w, mesh, &mesh->mFaces[i]);
+        if (!status) status = report(w);
+    }
+    return status;
+}
+
+static froe_status add_node(walk *w, const struct aiNode *node, const double *m) {
+    if (!node->mNumMeshes) return FROE_OK;
+    froe_status status = io_sink_feature(w->sink, w->sink->report.features);
+    w->sink->inside = node->mName.data;
+    w->materials.size = 0;
+    for (unsigned i = 0; i < node->mNumMeshes && !status; ++i) status = add_mesh(w, node, node->mMeshes[i], m);
+    return status;
+}
+
+static froe_status push(walk *w, const struct aiNode *node, const double *parent) {
+    visit next = {.node = node};
+    memcpy(next.parent, parent, sizeof next.parent);
+    return io_buffer_put(&w->sink->alloc, &w->stack, &next, sizeof next) ? FROE_OK : out_of_memory(w);
+}
+
+static froe_status walk_nodes(walk *w) {
+    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    froe_status status = push(w, w->scene->mRootNode, identity);
+    while (!status && w->stack.size) {
+        visit at;
+        w->stack.size -= sizeof at;
+        memcpy(&at, (char *)w->stack.data + w->stack.size, sizeof at);
+        double m[12];
+        multiply(at.parent, &at.node->mTransformation, m);
+        status = add_node(w, at.node, m);
+        for (unsigned i = at.node->mNumChildren; i-- > 0 && !status;) status = push(w, at.node->mChildren[i], m);
+    }
+    return status;
+}
+
+/* --------------------------------------------------------------- import -- */
+
+static uint64_t count_faces(const struct aiScene *scene) {
+    uint64_t faces = 0; /* instances count once: only the progress bar depends on it */
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+        faces += scene->mMeshes[i]->mNumFaces ? scene->mMeshes[i]->mNumFaces : scene->mMeshes[i]->mNumVertices;
+    return faces;
+}
+
+/* "glTF2 Importer" becomes "glTF2 (assimp)". */
+static void set_format(const io_source *source, io_sink *sink, const struct aiScene *scene) {
+    char format[48];
+    snprintf(format, sizeof format, "%s", source->extension.text);
+    for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
+        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
+        if (strcmp(scene->mMetaData->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) || entry->mType != AI_AISTRING) continue;
+        snprintf(format, sizeof format, "%.40s", ((const struct aiString *)entry->mData)->data);
+    }
+    char *suffix = strstr(format, " Importer");
+    if (suffix) *suffix = '\0';
+    io_report_format(sink, "float32", "%s (assimp)", format);
+}
+
+static const struct aiScene *import(const io_source *source, io_sink *sink) {
+    pthread_mutex_lock(&import_lock);
+    const struct aiScene *scene = aiImportFile(source->path, 0);
+    if (!scene) {
+        char reason[160];
+        snprintf(reason, sizeof reason, "%.150s", aiGetErrorString());
+        reason[strcspn(reason, "\r\n")] = '\0';
+        io_fail(sink->diag, FROE_E_FORMAT, "%s: %s", io_short(source->path), *reason ? reason : "cannot be imported");
+    }
+    pthread_mutex_unlock(&import_lock);
+    return scene;
+}
+
+froe_status io_read_assimp(const io_source *source, io_sink *sink) {
+    froe_status status = io_sink_open(sink, 3);
+    if (!status) status = io_sink_progress(sink, 0);
+    if (status) return status;
+    const struct aiScene *scene = import(source, sink);
+    if (!scene) return FROE_E_FORMAT;
+    walk w = {.scene = scene, .sink = sink, .faces = count_faces(scene)};
+    set_format(source, sink, scene);
+    sink->unit = "face";
+    sink->report.layers = 1;
+    status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "has no nodes");
+    if (!status) status = io_sink_end_feature(sink);
+    sink->inside = NULL; /* it belongs to assimp's scene */
+    io_buffer *buffers[] = {&w.stack, &w.points, &w.corners, &w.materials};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) io_buffer_free(&sink->alloc, buffers[i]);
+    aiReleaseImport(scene);
+    return status;
+}

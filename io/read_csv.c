@@ -1,0 +1,223 @@
+/* read_csv.c: points, boxes and balls from comma-separated values, recognised by
+ * their header line (RFC 4180, with commas, semicolons or tabs).
+ *
+ *     x,y,z          lo_x,lo_y,hi_x,hi_y          x,y,r
+ */
+#include "read.h"
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_COLUMNS = 512, NAME_ROOM = 32 };
+/* What a column holds. Corner c (0, or 1 for hi_) of axis a is c * FROE_MAX_DIM + a. */
+enum { RADIUS = 2 * FROE_MAX_DIM, TAG, GEOMETRY, LEFT_ALONE };
+
+typedef struct table {
+    char separator;
+    froe_kind kind;
+    int dim;
+    int columns;
+    unsigned char role[MOST_COLUMNS];
+} table;
+
+/* One field, in place: ends it, unquotes it, and moves `at` to the next. Returns it; *last when its
+ * line ends with it. */
+static char *next_field(char **at, char separator, bool *last) {
+    char *from = *at, *to = from, *field = from;
+    bool quoted = *from == '"';
+    if (quoted) {
+        for (++from; *from && (*from != '"' || from[1] == '"'); ++from) {
+            if (*from == '"') ++from;
+            *to++ = *from;
+        }
+        if (*from) ++from;
+    }
+    while (*from && *from != separator && *from != '\n') *to++ = *from++;
+    *last = *from != separator;
+    *at = *from ? from + 1 : from;
+    *to = '\0';
+    return field;
+}
+
+static char *trim(char *field) {
+    field += strspn(field, " \t\r");
+    size_t length = strlen(field);
+    while (length && strchr(" \t\r", field[length - 1])) field[--length] = '\0';
+    return field;
+}
+
+/* ---------------------------------------------------------------- header -- */
+
+/* Axis of a name like x, z or x7; -1 when it is none, FROE_MAX_DIM when it is beyond. */
+static int axis_of(const char *name) {
+    if (name[0] && !name[1]) {
+        const char *letters = "xyzw", *at = strchr(letters, name[0] | 0x20);
+        return at ? (int)(at - letters) : -1;
+    }
+    char *end;
+    if ((name[0] | 0x20) != 'x' || name[1] < '1' || name[1] > '9') return -1;
+    long number = strtol(name + 1, &end, 10);
+    if (*end) return -1;
+    return number <= FROE_MAX_DIM ? (int)number - 1 : FROE_MAX_DIM;
+}
+
+static int role_of(const char *name, bool *beyond) {
+    if (io_equal_nocase(name, "r") || io_equal_nocase(name, "radius")) return RADIUS;
+    if (io_equal_nocase(name, "tag")) return TAG;
+    if (io_equal_nocase(name, "wkt") || io_equal_nocase(name, "geometry") || io_equal_nocase(name, "geom"))
+        return GEOMETRY;
+    int corner = (name[0] | 0x20) == 'h';
+    bool sided = strlen(name) > 3 && name[2] == '_';
+    char side[3] = {name[0], sided ? name[1] : '\0', '\0'};
+    if (sided && !io_equal_nocase(side, "lo") && !io_equal_nocase(side, "hi")) return LEFT_ALONE;
+    int axis = axis_of(sided ? name + 3 : name);
+    if (axis < 0) return LEFT_ALONE;
+    if (axis >= FROE_MAX_DIM) return *beyond = true, LEFT_ALONE;
+    /* a plain axis is stored as corner 0; `sided` is told apart by the presence of corner 1 */
+    return (sided && corner ? FROE_MAX_DIM : 0) + axis;
+}
+
+/* Counts the roles; settles kind and dimension. False: this header is not ours. */
+static bool settle(table *t, bool sided) {
+    int count[LEFT_ALONE + 1] = {0}, dim = 0, high = 0;
+    for (int i = 0; i < t->columns; ++i) ++count[t->role[i]];
+    for (int role = 0; role < LEFT_ALONE; ++role)
+        if (count[role] > 1) return false;
+    while (dim < FROE_MAX_DIM && count[dim]) ++dim;
+    while (high < FROE_MAX_DIM && count[FROE_MAX_DIM + high]) ++high;
+    for (int k = 0; k < FROE_MAX_DIM; ++k)
+        if ((count[k] && k >= dim) || (count[FROE_MAX_DIM + k] && k >= high)) return false;
+    t->dim = dim;
+    t->kind = sided ? FROE_BOX : count[RADIUS] ? FROE_BALL : FROE_POINT;
+    return dim >= 2 && !count[GEOMETRY] && high == (sided ? dim : 0);
+}
+
+/* Reads the header line, which it changes, and moves `at` behind it. */
+static bool read_header(char **at, table *t, bool *beyond) {
+    if (!strncmp(*at, "\xef\xbb\xbf", 3)) *at += 3;
+    size_t length = strcspn(*at, "\r\n");
+    char *line = *at;
+    t->separator = memchr(line, ',', length) ? ',' : memchr(line, ';', length) ? ';' : '\t';
+    *beyond = false;
+    bool last = false, sided = false, plain = false;
+    for (t->columns = 0; !last; ++t->columns) {
+        if (t->columns == MOST_COLUMNS) return false;
+        char *name = trim(next_field(at, t->separator, &last));
+        int role = role_of(name, beyond);
+        if (role < RADIUS) *(strchr(name, '_') ? &sided : &plain) = true;
+        t->role[t->columns] = (unsigned char)role;
+    }
+    return !(sided && plain) && settle(t, sided);
+}
+
+bool io_csv_recognise(const io_source *source) {
+    char line[sizeof source->head], *at = line;
+    size_t length = strcspn(source->head, "\n");
+    if (length > source->head_size || memchr(source->head, '\0', length)) return false;
+    memcpy(line, source->head, length);
+    line[length] = '\0';
+    table t;
+    bool beyond;
+    return read_header(&at, &t, &beyond) || beyond;
+}
+
+/* ------------------------------------------------------------------ rows -- */
+
+typedef struct row {
+    double corners[2 * FROE_MAX_DIM], radius; /* corner 1 directly behind corner 0 */
+    uint64_t tag;
+    bool tagged;
+} row;
+
+static froe_status read_number(io_sink *sink, const char *field, double *value) {
+    char *end;
+    *value = strtod(field, &end); /* correctly rounded, in the C locale of this thread */
+    if (end != field && !*end) return FROE_OK;
+    if (!*field) return io_sink_fail(sink, FROE_E_FORMAT, "a coordinate is missing");
+    return io_sink_fail(sink, FROE_E_FORMAT, "'%.40s' is not a number", field);
+}
+
+static froe_status read_field(io_sink *sink, const table *t, int role, const char *field, row *r) {
+    if (role == RADIUS && t->kind == FROE_BALL) return read_number(sink, field, &r->radius);
+    if (role < RADIUS) {
+        int corner = role / FROE_MAX_DIM, axis = role % FROE_MAX_DIM;
+        return read_number(sink, field, &r->corners[corner * t->dim + axis]);
+    }
+    if (role != TAG) return FROE_OK;
+    char *end;
+    errno = 0;
+    r->tag = strtoull(field, &end, 10);
+    r->tagged = true;
+    if (end == field || *end || errno || *field == '-')
+        return io_sink_fail(sink, FROE_E_FORMAT, "the tag '%.40s' is not a whole number below 2^64", field);
+    return FROE_OK;
+}
+
+static froe_status read_row(io_sink *sink, const table *t, char **at, row *r) {
+    bool last = false;
+    int column = 0;
+    froe_status status = FROE_OK;
+    while (!last && !status) {
+        char *field = trim(next_field(at, t->separator, &last));
+        if (column < t->columns) status = read_field(sink, t, t->role[column], field, r);
+        ++column;
+    }
+    if (!status && column != t->columns)
+        return io_sink_fail(sink, FROE_E_FORMAT, "it has %d columns, the header %d", column, t->columns);
+    return status;
+}
+
+static froe_status add_row(io_sink *sink, const table *t, const row *r) {
+    sink->tagged = r->tagged;
+    sink->tag = r->tag;
+    if (t->kind == FROE_BOX) return io_sink_box(sink, r->corners, r->corners + t->dim);
+    if (t->kind == FROE_BALL) return io_sink_ball(sink, r->corners, r->radius);
+    return io_sink_point(sink, r->corners);
+}
+
+static bool is_blank(const char *at) {
+    at += strspn(at, " \t\r");
+    return *at == '\n' || !*at;
+}
+
+static froe_status read_rows(io_sink *sink, const table *t, char *at, const io_buffer *text) {
+    enum { ROWS_PER_REPORT = 4096 };
+    froe_status status = FROE_OK;
+    const char *begin = text->data;
+    while (*at && !status) {
+        if (is_blank(at)) {
+            at += strcspn(at, "\n");
+            at += *at == '\n';
+            continue;
+        }
+        row r = {.tag = 0};
+        status = io_sink_feature(sink, sink->report.features + 1);
+        if (!status) status = read_row(sink, t, &at, &r);
+        if (!status) status = add_row(sink, t, &r);
+        if (!status && sink->report.features % ROWS_PER_REPORT == 0)
+            status = io_sink_progress(sink, (double)(at - begin) / (double)text->size);
+    }
+    return status;
+}
+
+froe_status io_read_csv(const io_source *source, io_sink *sink) {
+    io_buffer text = {0};
+    table t;
+    bool beyond = false;
+    froe_status status = io_load(source, sink, &text);
+    char *at = text.data;
+    if (!status && !read_header(&at, &t, &beyond))
+        status = beyond ? io_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: has more than %d axes", io_short(source->path),
+                                  FROE_MAX_DIM)
+                        : io_fail(sink->diag, FROE_E_IO, "%s: changed while it was read", io_short(source->path));
+    if (!status) status = io_sink_open(sink, t.dim);
+    sink->unit = "row";
+    sink->report.layers = 1;
+    if (!status) {
+        io_report_format(sink, "float64", "CSV %ss", t.kind == FROE_BOX ? "boxe" : froe_kind_name(t.kind));
+        status = read_rows(sink, &t, at, &text);
+    }
+    io_buffer_free(&sink->alloc, &text);
+    return status;
+}

@@ -1,0 +1,230 @@
+/* read_ogr.c: plane maps in all the formats OGR knows. What GDAL has to say goes to
+ * a handler of this thread: its first failure becomes the diagnostic. */
+#include "ogr_shapes.h"
+#include "read.h"
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <gdal.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---------------------------------------------------------------- errors -- */
+
+typedef struct heard {
+    bool failed;
+    char text[160];
+} heard;
+
+static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text) {
+    (void)number;
+    heard *h = CPLGetErrorHandlerUserData();
+    bool about_axes = !strncmp(text, "PROJ", 4); /* froe takes coordinates as they are */
+    if (class < CE_Failure || h->failed || about_axes) return;
+    h->failed = true;
+    snprintf(h->text, sizeof h->text, "%s", text);
+    for (char *c = h->text; *c; ++c)
+        if (*c == '\n' || *c == '\r') *c = ' ';
+}
+
+static void register_drivers(void) {
+    GDALAllRegister();
+}
+
+static void register_once(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, register_drivers);
+}
+
+/* -------------------------------------------------------------- features -- */
+
+typedef struct map {
+    const io_source *source;
+    io_sink *sink;
+    heard heard;
+    GDALDatasetH data;
+    io_shapes shapes;
+    OGRLayerH layer; /* the fields below belong to it */
+    const char *layer_name;
+    int name_field, id_field, layer_field; /* -1: none */
+    uint64_t features_done;
+} map;
+
+static froe_status map_fail(map *m, froe_status status, const char *otherwise) {
+    return io_fail(m->sink->diag, status, "%s: %s", io_short(m->source->path),
+                   m->heard.failed ? m->heard.text : otherwise);
+}
+
+static int find_field(OGRFeatureDefnH fields, const char *const *names) {
+    for (; *names; ++names)
+        for (int i = 0; i < OGR_FD_GetFieldCount(fields); ++i)
+            if (io_equal_nocase(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(fields, i)), *names)) return i;
+    return -1;
+}
+
+static void enter_layer(map *m, OGRLayerH layer) {
+    static const char *const names[] = {"name", "title", "label", NULL}, *const ids[] = {"id", NULL},
+                             *const layers[] = {"layer", NULL};
+    if (layer == m->layer) return;
+    OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);
+    m->layer = layer;
+    m->layer_name = m->sink->inside = OGR_L_GetName(layer);
+    m->name_field = find_field(fields, names);
+    m->id_field = find_field(fields, ids);
+    m->layer_field = find_field(fields, layers);
+}
+
+static const char *text_of(OGRFeatureH feature, int field) {
+    return field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field) ? OGR_F_GetFieldAsString(feature, field) : "";
+}
+
+/* OGR keeps the text of a number in one place per feature: names are copied before the next is asked. */
+static froe_status enter_group(map *m, OGRFeatureH feature, const io_sides *sides) {
+    char name[256], material[256];
+    snprintf(name, sizeof name, "%s", text_of(feature, m->name_field));
+    if (!*name && !sides->polygons) return FROE_OK;
+    if (!*name) snprintf(name, sizeof name, "%s", text_of(feature, m->id_field));
+    if (!*name) snprintf(name, sizeof name, "%lld", (long long)OGR_F_GetFID(feature));
+    snprintf(material, sizeof material, "%s", text_of(feature, m->layer_field));
+    froe_group group = {.name = name, .material = *material ? material : m->layer_name};
+    group.left = sides->left ? name : NULL;
+    group.right = sides->right ? name : NULL;
+    return io_sink_group(m->sink, &group);
+}
+
+/* The feature's geometry without curves; *own when the caller must destroy it. */
+static OGRGeometryH linear(map *m, OGRFeatureH feature, bool *own) {
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    *own = geometry && OGR_G_HasCurveGeometry(geometry, FALSE);
+    if (!*own) return geometry;
+    m->sink->report.linearised += OGR_G_HasCurveGeometry(geometry, TRUE) != 0;
+    return OGR_G_GetLinearGeometry(geometry, 0, NULL);
+}
+
+static froe_status add_feature(map *m, OGRFeatureH feature) {
+    io_sink *sink = m->sink;
+    GIntBig id = OGR_F_GetFID(feature);
+    froe_status status = io_sink_feature(sink, (uint64_t)id);
+    if (status) return status;
+    sink->tagged = id >= 0;
+    sink->tag = (uint64_t)id;
+    bool own;
+    OGRGeometryH geometry = linear(m, feature, &own);
+    if (!geometry)
+        return own ? io_sink_fail(sink, FROE_E_FORMAT, "its curves cannot be linearised")
+                   : (++sink->report.no_geometry, FROE_OK);
+    sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
+    io_sides sides;
+    status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
+    if (!status) status = enter_group(m, feature, &sides);
+    if (!status) status = io_shapes_add(sink, &m->shapes, geometry);
+    if (own) OGR_G_DestroyGeometry(geometry);
+    return status;
+}
+
+static froe_status report(map *m, double done) {
+    enum { FEATURES_PER_REPORT = 256 };
+    return m->features_done++ % FEATURES_PER_REPORT ? FROE_OK : io_sink_progress(m->sink, done);
+}
+
+/* All layers. A file like OSM, that knows the layer of a feature only when it has
+ * read it, gives them mixed. */
+static froe_status add_all(map *m) {
+    froe_status status = FROE_OK;
+    double done = 0;
+    GDALDatasetResetReading(m->data);
+    while (!status) {
+        OGRLayerH layer = NULL;
+        OGRFeatureH feature = GDALDatasetGetNextFeature(m->data, &layer, m->sink->progress ? &done : NULL, NULL, NULL);
+        if (!feature) break;
+        enter_layer(m, layer);
+        status = add_feature(m, feature);
+        OGR_F_Destroy(feature);
+        if (!status) status = report(m, done);
+    }
+    return status;
+}
+
+static froe_status add_layer(map *m, OGRLayerH layer) {
+    froe_status status = FROE_OK;
+    double expected = m->sink->progress ? (double)OGR_L_GetFeatureCount(layer, FALSE) : -1;
+    enter_layer(m, layer);
+    OGR_L_ResetReading(layer);
+    while (!status) {
+        OGRFeatureH feature = OGR_L_GetNextFeature(layer);
+        if (!feature) break;
+        status = add_feature(m, feature);
+        OGR_F_Destroy(feature);
+        if (!status) status = report(m, expected > 0 ? (double)m->features_done / expected : 0);
+    }
+    return status;
+}
+
+/* ----------------------------------------------------------------- layers -- */
+
+static froe_status no_layer(map *m, const char *wanted) {
+    char names[128] = "";
+    size_t used = 0;
+    for (int i = 0; i < GDALDatasetGetLayerCount(m->data) && used < sizeof names; ++i) {
+        const char *name = OGR_L_GetName(GDALDatasetGetLayer(m->data, i));
+        int wrote = snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", name);
+        used += wrote > 0 ? (size_t)wrote : 0;
+    }
+    return io_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: has no layer '%.40s'; it has: %s", io_short(m->source->path),
+                   wanted, names);
+}
+
+static froe_status filter(map *m, OGRLayerH layer) {
+    const char *where = m->source->options->where;
+    if (!where) return FROE_OK;
+    m->heard.failed = false;
+    if (OGR_L_SetAttributeFilter(layer, where) == OGRERR_NONE) return FROE_OK;
+    return map_fail(m, FROE_E_OPTIONS, "the attribute filter cannot be applied");
+}
+
+static froe_status add_layers(map *m) {
+    const char *wanted = m->source->options->layer;
+    OGRLayerH one = wanted ? GDALDatasetGetLayerByName(m->data, wanted) : NULL;
+    if (wanted && !one) return no_layer(m, wanted);
+    int layers = GDALDatasetGetLayerCount(m->data);
+    froe_status status = FROE_OK;
+    for (int i = 0; i < layers && !status && !one; ++i) status = filter(m, GDALDatasetGetLayer(m->data, i));
+    if (!status && one) status = filter(m, one);
+    m->sink->report.layers = one ? 1 : (uint64_t)layers;
+    m->heard.failed = false; /* what was said before did not keep the file from opening */
+    if (!status) status = one ? add_layer(m, one) : add_all(m);
+    if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "");
+    if (!status) status = io_sink_end_feature(m->sink);
+    m->sink->inside = NULL;
+    return status;
+}
+
+static GDALDatasetH open_map(const io_source *source) {
+    /* geometry columns of a CSV go by many names */
+    const char *const csv[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom,the_geom,wkb_geometry",
+                               "X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
+                               "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
+    bool is_csv = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
+    return GDALOpenEx(source->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
+                      is_csv ? csv : NULL, NULL);
+}
+
+froe_status io_read_ogr(const io_source *source, io_sink *sink) {
+    map m = {.source = source, .sink = sink};
+    sink->unit = "feature";
+    froe_status status = io_sink_open(sink, 2);
+    if (status) return status;
+    CPLPushErrorHandlerEx(hear, &m.heard);
+    register_once();
+    m.data = open_map(source);
+    if (!m.data) status = map_fail(&m, FROE_E_FORMAT, "is of no type that can be read");
+    if (!status) {
+        io_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
+        status = add_layers(&m);
+    }
+    if (m.data) GDALClose(m.data);
+    CPLPopErrorHandler();
+    CPLErrorReset();
+    io_shapes_free(&sink->alloc, &m.shapes);
+    return status;
+}
