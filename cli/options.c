@@ -23,31 +23,34 @@ const cli_option cli_common_options[] = {
 
 enum { NAME_MAX_LENGTH = 31 };
 
-/* Edit distance by the usual row of the Wagner-Fischer table; long words are far from everything. */
+static size_t least(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
+/* Letters to insert, drop, change or swap with a neighbour (optimal string alignment: Damerau's
+ * distance in the table of Wagner and Fischer); long words are far from everything. */
 static size_t distance(const char *a, const char *b) {
     const size_t rows = strlen(a), columns = strlen(b);
     if (rows > NAME_MAX_LENGTH || columns > NAME_MAX_LENGTH) return SIZE_MAX;
-    size_t row[NAME_MAX_LENGTH + 1];
-    for (size_t j = 0; j <= columns; j++) row[j] = j;
-    for (size_t i = 1; i <= rows; i++) {
-        size_t diagonal = row[0];
-        row[0] = i;
+    size_t table[NAME_MAX_LENGTH + 1][NAME_MAX_LENGTH + 1];
+    for (size_t i = 0; i <= rows; i++) table[i][0] = i;
+    for (size_t j = 0; j <= columns; j++) table[0][j] = j;
+    for (size_t i = 1; i <= rows; i++)
         for (size_t j = 1; j <= columns; j++) {
-            const size_t change = diagonal + (a[i - 1] != b[j - 1]);
-            const size_t insert = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            diagonal = row[j];
-            row[j] = change < insert ? change : insert;
+            const size_t change = table[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            table[i][j] = least(change, least(table[i - 1][j], table[i][j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                table[i][j] = least(table[i][j], table[i - 2][j - 2] + 1);
         }
-    }
-    return row[columns];
+    return table[rows][columns];
 }
 
 const char *cli_nearest(const char *word, const char *const *names, size_t count) {
     const char *best = NULL;
-    size_t least = strlen(word) < 4 ? 2 : 3; /* exclusive */
+    size_t limit = strlen(word) < 4 ? 2 : 3; /* exclusive */
     for (size_t i = 0; i < count; i++) {
         const size_t d = distance(word, names[i]);
-        if (d < least) least = d, best = names[i];
+        if (d < limit) limit = d, best = names[i];
     }
     return best;
 }
