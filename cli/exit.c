@@ -52,8 +52,8 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
     char where[64] = "";
     if (told) place(where, sizeof where, diag);
     const char *reason = told ? diag->message : froe_status_text(status);
-    /* Readers that name the file themselves need not hear it twice. */
+    /* Readers that name the file themselves need not be heard twice. */
     const size_t length = file ? strlen(file) : 0;
-    if (length && strncmp(reason, file, length) == 0 && reason[length] == ':') file = NULL;
+    if (length && strncmp(reason, file, length) == 0 && strncmp(reason + length, ": ", 2) == 0) reason += length + 2;
     return cli_fail(code, file, "%s%s", where, reason);
 }

@@ -39,6 +39,6 @@ int main(int argc, char **argv) {
     if (word[0] == '-') return cli_fail(CLI_USE, NULL, "unknown option '%s' before a command; try froe --help", word);
     const cli_command *command = cli_command_named(word);
     if (!command) return cli_refuse_command(word);
-    cli_catch_interrupt();
+    cli_catch_signals();
     return cli_run(command, argc - 2, argv + 2, NULL);
 }

@@ -13,12 +13,14 @@ static void on_interrupt(int number) {
     interrupted = 1;
 }
 
-void cli_catch_interrupt(void) {
+void cli_catch_signals(void) {
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_handler = on_interrupt;
     action.sa_flags = (int)SA_RESETHAND;
     sigaction(SIGINT, &action, NULL);
+    action.sa_handler = SIG_IGN; /* a file beyond the allowed size: let write() say so */
+    sigaction(SIGXFSZ, &action, NULL);
 }
 
 bool cli_interrupted(void) {

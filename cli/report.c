@@ -8,7 +8,15 @@
 #include <string.h>
 #include <time.h>
 
+static bool is_whole(double value) {
+    return value > -1e15 && value < 1e15 && value == (double)(json_int_t)value;
+}
+
 void cli_number(char *text, double value) {
+    if (is_whole(value)) {
+        snprintf(text, 32, "%" JSON_INTEGER_FORMAT, (json_int_t)value);
+        return;
+    }
     for (int digits = 1; digits <= 17; digits++) {
         snprintf(text, 32, "%.*g", digits, value);
         if (strtod(text, NULL) == value) return;
@@ -137,40 +145,41 @@ static bool is_table(const json_t *value) {
     return json_is_object(json_object_iter_value(json_object_iter((json_t *)value)));
 }
 
-/* A plain value, or the plain items of an array with blanks between. */
+/* A number that was measured needs six digits for reading; --json has them all. */
+static void rounded_text(double value, char *out, size_t size) {
+    if (is_whole(value))
+        cli_number(out, value);
+    else
+        snprintf(out, size, "%.6g", value);
+}
+
+/* Items with blanks between, numbers in full: they are coordinates. */
+static void items_text(const json_t *array, char *out, size_t size) {
+    for (size_t i = 0; i < json_array_size(array); i++) {
+        char number[32] = "";
+        const json_t *item = json_array_get(array, i);
+        if (json_is_number(item)) cli_number(number, json_number_value(item));
+        const size_t used = strlen(out);
+        snprintf(out + used, size - used, "%s%s", i ? " " : "",
+                 json_is_string(item) ? json_string_value(item) : number);
+    }
+}
+
+/* A plain value, or the plain items of an array. */
 static void cell_text(const json_t *value, char *out, size_t size) {
     *out = '\0';
-    switch (value ? json_typeof(value) : JSON_NULL) {
-    case JSON_STRING:
-        snprintf(out, size, "%s", json_string_value(value));
-        break;
-    case JSON_INTEGER:
-        snprintf(out, size, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
-        break;
-    case JSON_REAL:
-        cli_number(out, json_real_value(value));
-        break;
-    case JSON_TRUE:
-        snprintf(out, size, "yes");
-        break;
-    case JSON_FALSE:
-        snprintf(out, size, "no");
-        break;
-    case JSON_NULL:
+    if (!value || json_is_null(value))
         snprintf(out, size, "-");
-        break;
-    case JSON_ARRAY:
-        for (size_t i = 0; i < json_array_size(value); i++) {
-            const size_t used = strlen(out);
-            if (used + 34 > size) break;
-            if (i) out[used] = ' ', out[used + 1] = '\0';
-            const json_t *item = json_array_get(value, i);
-            if (!json_is_array(item) && !json_is_object(item)) cell_text(item, out + strlen(out), size - strlen(out));
-        }
-        break;
-    case JSON_OBJECT:
-        break;
-    }
+    else if (json_is_string(value))
+        snprintf(out, size, "%s", json_string_value(value));
+    else if (json_is_integer(value))
+        snprintf(out, size, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    else if (json_is_real(value))
+        rounded_text(json_real_value(value), out, size);
+    else if (json_is_boolean(value))
+        snprintf(out, size, "%s", json_is_true(value) ? "yes" : "no");
+    else if (json_is_array(value))
+        items_text(value, out, size);
 }
 
 /* "in_cut" reads "in cut". */
