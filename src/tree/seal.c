@@ -161,7 +161,28 @@ static froe_status fill_tree(seal *s) {
     if (status) return status;
     s->tree->predicates = s->main->predicates;
     for (size_t i = 0; i < s->graft_count; i++) num_stats_add(&s->tree->predicates, &s->grafts[i].draft->predicates);
-    return tree_finish(s->tree);
+    status = tree_finish(s->tree);
+    return status ? status : tree_fill_promises(s->tree);
+}
+
+static void copy_text(char *to, const char *from, size_t size) {
+    memcpy(to, from, strnlen(from, size - 1));
+}
+
+/* A copy without what may stand behind the ends of strings and lists: equal trees make equal files. */
+static void copy_meta(const tree_meta *from, tree_meta *to) {
+    copy_text(to->method, from->method, sizeof to->method);
+    copy_text(to->settings, from->settings, sizeof to->settings);
+    to->seed = from->seed;
+    to->leaf = from->leaf;
+    to->promise_count = from->promise_count;
+    for (uint32_t i = 0; i < from->promise_count; i++) {
+        copy_text(to->promises[i].name, from->promises[i].name, sizeof to->promises[i].name);
+        to->promises[i].promised = from->promises[i].promised;
+        to->promises[i].measured = from->promises[i].measured;
+    }
+    memcpy(to->root_lo, from->root_lo, sizeof to->root_lo);
+    memcpy(to->root_hi, from->root_hi, sizeof to->root_hi);
 }
 
 froe_status draft_seal(const tree_draft *main, const tree_graft *grafts, size_t graft_count, froe_scene *scene,
@@ -172,7 +193,7 @@ froe_status draft_seal(const tree_draft *main, const tree_graft *grafts, size_t 
     if (!s.tree) return FROE_E_MEMORY;
     s.tree->alloc = main->alloc;
     s.tree->scene = scene;
-    s.tree->meta = *meta;
+    copy_meta(meta, &s.tree->meta);
     scene_hold(scene);
     status = fill_tree(&s);
     free_scratch(&s);

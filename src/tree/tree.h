@@ -115,4 +115,10 @@ geom_plane tree_plane_at(const froe_tree *t, uint32_t node);
 froe_status tree_take_arrays(froe_tree *tree);
 /** Computes report and promise views of a tree whose arrays and meta are complete. FROE_E_MEMORY. */
 froe_status tree_finish(froe_tree *tree);
+/** Measures what a promise of that name is about, on a finished tree: height, size, fragments, leaf_load (most
+ * pieces in a leaf), guard_leaves (cells of the guard stage), guard_fragments (over those cells and the stage's own
+ * cuts). FROE_E_UNSUPPORTED for other names; FROE_E_MEMORY. */
+froe_status tree_measure(const froe_tree *tree, const char *name, double *out);
+/** Measures the promises whose builder left that at 0, by tree_measure. FROE_E_MEMORY. */
+froe_status tree_fill_promises(froe_tree *tree);
 #endif

@@ -1,0 +1,96 @@
+/* file.c: what save and open share: the checksum, and which array is which section. */
+#include "tree/file.h"
+#include "base/random.h"
+#include <string.h>
+
+bool file_machine_fits(void) {
+    const double x = -2.5;
+    uint64_t bits;
+    uint8_t first;
+    memcpy(&bits, &x, sizeof bits);
+    memcpy(&first, &bits, 1); /* little-endian: the last byte of the mantissa */
+    return bits == 0xc004000000000000u && first == 0;
+}
+
+/* Eight lanes of one multiplication and one rotation a word. Each step is a bijection of the
+ * lane for a given word and of the word for a given lane, hence the certainty for single words. */
+static void absorb(uint64_t lanes[8], const uint8_t *block) {
+    uint64_t words[8];
+    memcpy(words, block, sizeof words);
+    for (int i = 0; i < 8; i++) {
+        uint64_t x = (lanes[i] ^ words[i]) * 0x9e3779b97f4a7c15u;
+        lanes[i] = x << 29 | x >> 35;
+    }
+}
+
+uint64_t file_checksum(const void *bytes, size_t size, uint64_t seed) {
+    const uint8_t *at = bytes;
+    uint64_t lanes[8], sum = base_mix(seed + size);
+    uint8_t last[64] = {0};
+    for (uint64_t i = 0; i < 8; i++) lanes[i] = base_mix(i + 1);
+    for (; size >= 64; at += 64, size -= 64) absorb(lanes, at);
+    if (size) {
+        memcpy(last, at, size);
+        absorb(lanes, last);
+    }
+    for (int i = 0; i < 8; i++) sum = base_mix(sum ^ lanes[i]);
+    return sum;
+}
+
+typedef struct part {
+    const void *data;
+    uint64_t count;
+    uint32_t item_size;
+} part;
+
+static part tree_part(const froe_tree *t, file_id id) {
+    switch (id) {
+    case FILE_META:
+        return (part){&t->meta, 1, sizeof t->meta};
+    case FILE_NODES:
+        return (part){t->nodes, t->node_count, sizeof *t->nodes};
+    case FILE_CUTS:
+        return (part){t->cuts, t->cut_count, sizeof *t->cuts};
+    case FILE_PIECES:
+        return (part){t->pieces, t->piece_count, sizeof *t->pieces};
+    case FILE_BOUNDS:
+        return (part){t->bounds, t->bound_count, sizeof *t->bounds};
+    default:
+        return (part){t->normals, t->normal_count, sizeof *t->normals};
+    }
+}
+
+static part scene_part(const froe_scene *s, file_id id) {
+    uint64_t objects = s->object_count;
+    switch (id) {
+    case FILE_COORDS:
+        return (part){s->coords, (uint64_t)s->vertex_count * (uint64_t)s->dim, sizeof *s->coords};
+    case FILE_KINDS:
+        return (part){s->kinds, objects, sizeof *s->kinds};
+    case FILE_FORMS:
+        return (part){s->forms, objects, sizeof *s->forms};
+    case FILE_STARTS:
+        return (part){s->starts, objects + 1, sizeof *s->starts};
+    case FILE_CORNERS:
+        return (part){s->corners, s->corner_count, sizeof *s->corners};
+    case FILE_RADII:
+        return (part){s->radii, s->radius_count, sizeof *s->radii};
+    case FILE_TAGS:
+        return (part){s->tags, s->tags ? objects : 0, sizeof *s->tags};
+    case FILE_FACES:
+        return (part){s->faces, s->faces ? objects : 0, sizeof *s->faces};
+    case FILE_GROUPS:
+        return (part){s->groups, s->groups ? objects : 0, sizeof *s->groups};
+    case FILE_GROUP_TABLE:
+        return (part){s->group_table, s->group_count, sizeof *s->group_table};
+    default:
+        return (part){s->text, s->text_size, 1};
+    }
+}
+
+uint32_t file_part(const froe_tree *tree, file_id id, const void **data, uint64_t *size) {
+    part p = id <= FILE_NORMALS ? tree_part(tree, id) : scene_part(tree->scene, id);
+    *data = p.data;
+    *size = p.count * p.item_size;
+    return p.item_size;
+}

@@ -1,0 +1,71 @@
+/* file.h: a tree file as bytes: header, section table, sections. docs/format.md is the specification.
+ *
+ *     0     header        64 bytes
+ *     64    table         32 bytes a section
+ *     ...   sections      in the order of their ids, each at a multiple of 64, zeros between
+ *
+ * Sections are the arrays of the tree and its scene as they lie in memory, so that opening is
+ * mapping. Everything has one place only: two equal trees make equal files. */
+#ifndef FROE_TREE_FILE_H
+#define FROE_TREE_FILE_H
+#include "tree/tree.h"
+
+#define FILE_VERSION 1u
+#define FILE_ALIGN 64u
+#define FILE_MAGIC                                                                                                     \
+    "\x89"                                                                                                             \
+    "froe\r\n\x1a" /* a high byte, a line end and an end of file: text transfers break it */
+
+typedef enum file_id {
+    FILE_META = 1,
+    FILE_NODES,
+    FILE_CUTS,
+    FILE_PIECES,
+    FILE_BOUNDS,
+    FILE_NORMALS,
+    FILE_COORDS,
+    FILE_KINDS,
+    FILE_FORMS,
+    FILE_STARTS,
+    FILE_CORNERS,
+    FILE_RADII,
+    FILE_TAGS,
+    FILE_FACES,
+    FILE_GROUPS,
+    FILE_GROUP_TABLE,
+    FILE_TEXT,
+    FILE_END
+} file_id;
+#define FILE_SECTIONS ((uint32_t)FILE_END - 1)
+
+typedef struct file_header {
+    char magic[8];
+    uint32_t version, sections;
+    uint64_t size;     /**< of the whole file */
+    uint32_t dim;      /**< of the scene */
+    uint32_t unused;   /**< 0 */
+    uint64_t spare[3]; /**< 0 */
+    uint64_t checksum; /**< of the bytes before it, then of the table */
+} file_header;
+
+typedef struct file_section {
+    uint32_t id, item_size;
+    uint64_t offset, size, checksum; /**< size without the zeros that follow */
+} file_section;
+
+_Static_assert(sizeof(file_header) == 64 && sizeof(file_section) == 32, "as specified");
+_Static_assert(sizeof(tree_meta) == 1264 && sizeof(tree_promise) == 48, "as specified");
+_Static_assert(sizeof(tree_node) == 16 && sizeof(tree_cut) == 24 && sizeof(tree_piece) == 8, "as specified");
+_Static_assert(sizeof(scene_group) == 16, "as specified");
+
+/** Does this machine store numbers as the file does? */
+bool file_machine_fits(void);
+/** Checksum of bytes followed by zeros up to a multiple of 64, continuing `seed` (0 at first). A change within
+ * any 8 aligned bytes changes it for certain. */
+uint64_t file_checksum(const void *bytes, size_t size, uint64_t seed);
+/** Where a section of a tree lies in memory: *data (NULL: absent) and its size; returns the size of an item. */
+uint32_t file_part(const froe_tree *tree, file_id id, const void **data, uint64_t *size);
+static inline uint64_t file_align(uint64_t offset) {
+    return (offset + FILE_ALIGN - 1) / FILE_ALIGN * FILE_ALIGN;
+}
+#endif

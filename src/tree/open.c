@@ -1,0 +1,187 @@
+/* open.c: a saved tree by mapping its file. Nothing in it is believed before it has been checked:
+ *
+ *     header, table      magic, version, sizes, places, checksums     here
+ *     scene              scene_mapped()
+ *     tree               tree_validate()
+ *
+ * The mapping is private and read-only. A file that another program shortens while it is mapped
+ * takes the pages away (SIGBUS); froe itself only ever replaces files. */
+#include "base/status.h"
+#include "tree/file.h"
+#include "tree/validate.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+typedef struct opening {
+    const char *path;
+    froe_diagnostic *diag;
+    const uint8_t *bytes;
+    size_t size;
+    const file_header *header;
+    const file_section *table;
+    froe_scene scene; /* arrays as the file claims them */
+} opening;
+
+static froe_status bad(const opening *o, const char *what) {
+    return base_fail(o->diag, FROE_E_FORMAT, "'%.120s' is no valid tree file: %s", o->path, what);
+}
+
+static froe_status io_fail(const opening *o, int error) {
+    char reason[96] = "unknown error";
+    strerror_r(error, reason, sizeof reason);
+    return base_fail(o->diag, FROE_E_IO, "cannot read '%.120s': %s", o->path, reason);
+}
+
+/* -------------------------------------------------------------------- file -- */
+
+static froe_status map_descriptor(opening *o, int fd) {
+    struct stat info;
+    if (fstat(fd, &info)) return io_fail(o, errno);
+    if (!S_ISREG(info.st_mode)) return io_fail(o, S_ISDIR(info.st_mode) ? EISDIR : ENODEV);
+    if (info.st_size == 0) return bad(o, "it is empty");
+    if ((uint64_t)info.st_size < sizeof(file_header)) return bad(o, "it is too short");
+    void *map = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
+    if (map == MAP_FAILED) return io_fail(o, errno);
+    o->bytes = map;
+    o->size = (size_t)info.st_size;
+    return FROE_OK;
+}
+
+static froe_status map_file(opening *o) {
+    int fd = open(o->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe must not keep us waiting */
+    if (fd < 0) return io_fail(o, errno);
+    froe_status status = map_descriptor(o, fd);
+    close(fd);
+    return status;
+}
+
+/* ------------------------------------------------------------------ layout -- */
+
+static bool all_zero(const uint8_t *bytes, uint64_t from, uint64_t to) {
+    for (; from < to; from++)
+        if (bytes[from]) return false;
+    return true;
+}
+
+static froe_status check_header(opening *o) {
+    const file_header *h = o->header = (const file_header *)(const void *)o->bytes;
+    const size_t table = FILE_SECTIONS * sizeof(file_section);
+    if (memcmp(h->magic, FILE_MAGIC, sizeof h->magic) != 0) return bad(o, "it does not begin as one");
+    if (h->version != FILE_VERSION) return bad(o, "its version is not one this froe reads");
+    if (h->size != o->size) return bad(o, h->size > o->size ? "it is truncated" : "something follows its end");
+    if (h->sections != FILE_SECTIONS || o->size < sizeof *h + table) return bad(o, "its section table");
+    o->table = (const file_section *)(const void *)(o->bytes + sizeof *h);
+    if (h->checksum != file_checksum(o->table, table, file_checksum(h, offsetof(file_header, checksum), 0)))
+        return bad(o, "the checksum of its header");
+    if (h->unused || h->spare[0] || h->spare[1] || h->spare[2]) return bad(o, "an unused field that is not 0");
+    return h->dim >= 2 && h->dim <= FROE_MAX_DIM ? FROE_OK : bad(o, "its dimension");
+}
+
+/* Sections lie in the order of their ids, without gaps but for the zeros that align them. */
+static froe_status check_sections(const opening *o) {
+    const froe_scene none = {.dim = 0};
+    const froe_tree empty = {.scene = (froe_scene *)&none};
+    uint64_t end = sizeof(file_header) + FILE_SECTIONS * sizeof(file_section), size;
+    const void *data;
+    for (uint32_t i = 0; i < FILE_SECTIONS; i++) {
+        const file_section *s = o->table + i;
+        uint64_t offset = file_align(end);
+        if (s->id != i + 1 || s->item_size != file_part(&empty, (file_id)s->id, &data, &size))
+            return bad(o, "a section it does not know");
+        if (s->offset != offset || offset > o->size || s->size > o->size - offset)
+            return bad(o, "a section out of place");
+        if (s->size % s->item_size || s->size / s->item_size > UINT32_MAX) return bad(o, "a section of odd size");
+        if (!all_zero(o->bytes, end, offset)) return bad(o, "bytes between sections");
+        if (s->checksum != file_checksum(o->bytes + offset, s->size, 0)) return bad(o, "the checksum of a section");
+        end = offset + s->size;
+    }
+    if (file_align(end) != o->size || !all_zero(o->bytes, end, o->size)) return bad(o, "something follows its end");
+    return FROE_OK;
+}
+
+/* Array of a section, NULL when it is empty. */
+static void *section(const opening *o, file_id id, uint32_t *count) {
+    const file_section *s = o->table + id - 1;
+    *count = (uint32_t)(s->size / s->item_size);
+    return s->size ? (void *)(uintptr_t)(o->bytes + s->offset) : NULL;
+}
+
+static bool optional(uint32_t count, uint32_t objects) {
+    return count == 0 || count == objects;
+}
+
+static froe_status claim_scene(opening *o) {
+    froe_scene *s = &o->scene;
+    uint32_t coords, forms, starts, tags, faces, groups, text;
+    s->dim = (int)o->header->dim;
+    s->coords = section(o, FILE_COORDS, &coords);
+    s->kinds = section(o, FILE_KINDS, &s->object_count);
+    s->forms = section(o, FILE_FORMS, &forms);
+    s->starts = section(o, FILE_STARTS, &starts);
+    s->corners = section(o, FILE_CORNERS, &s->corner_count);
+    s->radii = section(o, FILE_RADII, &s->radius_count);
+    s->tags = section(o, FILE_TAGS, &tags);
+    s->faces = section(o, FILE_FACES, &faces);
+    s->groups = section(o, FILE_GROUPS, &groups);
+    s->group_table = section(o, FILE_GROUP_TABLE, &s->group_count);
+    s->text = section(o, FILE_TEXT, &text);
+    s->text_size = text;
+    s->vertex_count = coords / o->header->dim;
+    bool fits = coords % o->header->dim == 0 && forms == s->object_count && starts == (uint64_t)s->object_count + 1 &&
+                optional(tags, forms) && optional(faces, forms) && optional(groups, forms);
+    return fits ? FROE_OK : bad(o, "sections that do not fit together");
+}
+
+static froe_status claim_tree(const opening *o, froe_tree *t) {
+    uint32_t count;
+    const void *meta = section(o, FILE_META, &count);
+    if (count != 1) return bad(o, "its description");
+    memcpy(&t->meta, meta, sizeof t->meta);
+    t->nodes = section(o, FILE_NODES, &t->node_count);
+    t->cuts = section(o, FILE_CUTS, &t->cut_count);
+    t->pieces = section(o, FILE_PIECES, &t->piece_count);
+    t->bounds = section(o, FILE_BOUNDS, &t->bound_count);
+    t->normals = section(o, FILE_NORMALS, &t->normal_count);
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------------------- whole -- */
+
+static froe_status read_all(opening *o, froe_tree *t) {
+    froe_status status = check_header(o);
+    if (!status) status = check_sections(o);
+    if (!status) status = claim_scene(o);
+    if (!status) status = claim_tree(o, t);
+    if (!status) status = scene_mapped(&o->scene, &t->alloc, &t->scene, o->diag);
+    if (!status) status = tree_validate(t, o->diag);
+    if (!status && tree_finish(t)) status = base_fail_memory(o->diag);
+    return status;
+}
+
+froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_tree **out, froe_diagnostic *diag) {
+    opening o = {.path = path, .diag = diag};
+    if (!path || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!file_machine_fits())
+        return base_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
+    froe_status status = map_file(&o);
+    if (status) return status;
+    froe_allocator alloc = base_allocator(caller);
+    froe_tree *t = base_calloc(&alloc, 1, sizeof *t);
+    if (!t) {
+        munmap((void *)(uintptr_t)o.bytes, o.size);
+        return base_fail_memory(diag);
+    }
+    t->alloc = alloc;
+    t->map = (void *)(uintptr_t)o.bytes;
+    t->map_size = o.size;
+    status = read_all(&o, t);
+    if (status)
+        froe_tree_free(t);
+    else
+        *out = t;
+    return status;
+}
