@@ -8,6 +8,9 @@
 #include <string.h>
 
 #define CREDIT 8
+#define BUCKET_COUNT 512 /* smaller items go one level at a time */
+#define BUCKET_TARGET 8  /* guards per bucket, roughly, where the histogram stays small */
+#define BUCKET_BITS_MAX 10
 
 void guard_worker_free(guard_worker *w) {
     const froe_allocator *alloc = w->plan->alloc;
@@ -66,8 +69,20 @@ void guard_pop(guard_worker *w, guard_item *item, guard_cube *cube) {
     }
 }
 
+/* Octree levels for a histogram of about BUCKET_TARGET guards a bucket. */
+static int bucket_levels(uint32_t count, int dim) {
+    int bits = 0;
+    while (bits < BUCKET_BITS_MAX && count >> (bits + 1) >= BUCKET_TARGET) bits++;
+    return bits / dim;
+}
+
 froe_status guard_step(guard_worker *w, const guard_item *item, const guard_cube *cube) {
-    return guard_octree(w, item, cube);
+    split_guard_way way = w->plan->way;
+    if (way == SPLIT_GUARD_PHASES || (way == SPLIT_GUARD_HYBRID && !item->credit)) return guard_phase(w, item, cube);
+    int levels = way == SPLIT_GUARD_PLAIN || item->count < BUCKET_COUNT || item->shrink
+                     ? 0
+                     : bucket_levels(item->count, w->plan->dim);
+    return levels > 1 ? guard_bucket(w, item, cube, levels) : guard_octree(w, item, cube);
 }
 
 froe_status guard_run(guard_worker *w) {

@@ -113,7 +113,7 @@ void guard_leaf(guard_worker *w, uint32_t node, uint32_t guards);
 
 /* ---- steps; each spends credit and pushes what is left */
 froe_status guard_octree(guard_worker *w, const guard_item *item, const guard_cube *cube);
-/** levels >= 1, dim * levels <= 16 */
+/** levels >= 1, dim * levels <= 15 */
 froe_status guard_bucket(guard_worker *w, const guard_item *item, const guard_cube *cube, int levels);
 froe_status guard_shrink(guard_worker *w, const guard_item *item, const guard_cube *cube, uint32_t corner);
 froe_status guard_phase(guard_worker *w, const guard_item *item, const guard_cube *cube);
