@@ -5,14 +5,16 @@
  * all its products (each at most 2^-1075); an overflow turns x and e into infinity or NaN,
  * for which no comparison below says "sure". So no factor needs to be guarded: the bounds
  * hold for all finite doubles (a guard on products alone is not enough: one factor
- * may underflow while another is huge). Factors like 8u where about 5u
- * is needed pay for the rounding of the bounds themselves. */
+ * may underflow while another is huge). The factor FILTER_UP pays for the at most six roundings
+ * of each bound itself. Scalar operations charge 2u a rounding, not u, so that they hold in
+ * every rounding mode; sums over a normal need not, as there n_err is infinite then. */
 #ifndef FROE_GEOM_FILTER_H
 #define FROE_GEOM_FILTER_H
 #include "geom/plane.h"
 #include "num/ball.h"
 
-#define FILTER_8U 0x1p-50
+#define FILTER_U 0x1p-53
+#define FILTER_UP (1 + 0x1p-49)
 
 /* sum n[k] w[k] - c, where w[k] = fl(x[k] - o[k]) has relative error u.
  *
@@ -31,13 +33,13 @@ static inline num_ball filter_sum(const geom_plane *h, const double w[3], double
     }
     x -= c;
     size += fabs(c);
-    return (num_ball){x, FILTER_8U * size + h->n_err * spread + NUM_BALL_TINY};
+    return (num_ball){x, 8 * FILTER_U * size + h->n_err * spread + NUM_BALL_TINY};
 }
 
 /* a - b for two doubles: one rounding, no underflow. */
 static inline num_ball filter_difference(double a, double b) {
     double x = a - b;
-    return (num_ball){x, FILTER_8U * fabs(x)};
+    return (num_ball){x, 2 * FILTER_U * fabs(x)};
 }
 
 /* f(x) */
@@ -59,13 +61,13 @@ static inline num_ball filter_slope(const geom_plane *h, const double *u, const 
 /* |xy - x'y'| <= |x| e_y + |y| e_x + e_x e_y, and u |xy| for the rounding. */
 static inline num_ball filter_mul(num_ball a, num_ball b) {
     double p = a.x * b.x;
-    double e = fabs(a.x) * b.e + (fabs(b.x) + b.e) * a.e + FILTER_8U * fabs(p);
-    return (num_ball){p, e * (1 + 0x1p-49) + NUM_BALL_TINY};
+    double e = fabs(a.x) * b.e + (fabs(b.x) + b.e) * a.e + 2 * FILTER_U * fabs(p);
+    return (num_ball){p, e * FILTER_UP + NUM_BALL_TINY};
 }
 
 static inline num_ball filter_add(num_ball a, num_ball b) {
     double s = a.x + b.x;
-    return (num_ball){s, (a.e + b.e + FILTER_8U * fabs(s)) * (1 + 0x1p-49)};
+    return (num_ball){s, (a.e + b.e + 2 * FILTER_U * fabs(s)) * FILTER_UP};
 }
 
 static inline num_ball filter_sub(num_ball a, num_ball b) {
@@ -75,8 +77,8 @@ static inline num_ball filter_sub(num_ball a, num_ball b) {
 /* With q = fl(x / y), |x'/y' - q| <= (|x - q y| + e_x + |q| e_y) / (|y| - e_y), |x - q y| <= u |x|. */
 static inline num_ball filter_div(num_ball a, num_ball b) {
     double q = a.x / b.x, gap = (fabs(b.x) - b.e) * (1 - 0x1p-50);
-    double e = (FILTER_8U * fabs(a.x) + a.e + fabs(q) * b.e) / gap;
-    return (num_ball){q, gap > 0 ? e * (1 + 0x1p-49) + NUM_BALL_TINY : (double)INFINITY};
+    double e = (2 * FILTER_U * fabs(a.x) + a.e + fabs(q) * b.e) / gap;
+    return (num_ball){q, gap > 0 ? e * FILTER_UP + NUM_BALL_TINY : (double)INFINITY};
 }
 
 /* A vector with one error bound for all components. */
@@ -96,8 +98,8 @@ static inline filter_vector filter_cross(const filter_vector *a, const filter_ve
     out.x[1] = a->x[2] * b->x[0] - a->x[0] * b->x[2];
     out.x[2] = a->x[0] * b->x[1] - a->x[1] * b->x[0];
     out.most = fmax(fmax(fabs(out.x[0]), fabs(out.x[1])), fabs(out.x[2]));
-    double e = a->most * b->e + (b->most + b->e) * a->e + FILTER_8U * (a->most * b->most);
-    out.e = 2 * e * (1 + 0x1p-49) + NUM_BALL_TINY;
+    double e = a->most * b->e + (b->most + b->e) * a->e + 2 * FILTER_U * (a->most * b->most);
+    out.e = 2 * e * FILTER_UP + NUM_BALL_TINY;
     return out;
 }
 
@@ -105,8 +107,8 @@ static inline filter_vector filter_cross(const filter_vector *a, const filter_ve
 static inline num_ball filter_dot(const filter_vector *a, const filter_vector *b) {
     double p0 = a->x[0] * b->x[0], p1 = a->x[1] * b->x[1], p2 = a->x[2] * b->x[2];
     double carried = 3 * (a->most * b->e + (b->most + b->e) * a->e);
-    double e = carried + FILTER_8U * (fabs(p0) + fabs(p1) + fabs(p2));
-    return (num_ball){p0 + p1 + p2, e * (1 + 0x1p-49) + NUM_BALL_TINY};
+    double e = carried + 4 * FILTER_U * (fabs(p0) + fabs(p1) + fabs(p2));
+    return (num_ball){p0 + p1 + p2, e * FILTER_UP + NUM_BALL_TINY};
 }
 
 /* -1, 1 or NUM_UNSURE; never 0, never for infinity or NaN (then e is not finite either). */

@@ -9,13 +9,14 @@ static geom_plane blank(geom_form form, int dim) {
 }
 
 /* Fills n, n_max and n_err from the defining points. The bound is rounded up once more, so that
- * the filters may add their error terms without minding the rounding of the sum. */
+ * the filters may add their error terms without minding the rounding of the sum. Where
+ * the rounding is wrong there is no image: then no filter and no shortcut applies. */
 static void image_normal(geom_plane *plane) {
     num_ball n[3];
     plane->n_err = INFINITY; /* n not known yet */
     ball_normal(NULL, plane, n);
     double most = 0, error = 0;
-    bool certain = true;
+    bool certain = num_rounding_trusted();
     for (int k = 0; k < 3; k++) {
         plane->n[k] = n[k].x;
         most = fmax(most, fabs(n[k].x));
@@ -57,6 +58,7 @@ geom_plane geom_plane_vector(int dim, const double *normal, double value) {
         plane.p[0][k] = plane.n[k] = normal[k];
         plane.n_max = fmax(plane.n_max, fabs(normal[k]));
     }
+    if (!num_rounding_trusted()) plane.n_err = INFINITY;
     return plane;
 }
 

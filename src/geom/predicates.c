@@ -192,10 +192,10 @@ int geom_side_corner(num_context *context, const geom_plane *plane, const geom_p
 
 /* -------------------------------------------------------------------- ball -- */
 
-/* The side from the signs of f(centre) and f(centre)^2 - r^2 |n|^2, r > 0. *sure: are they? */
+/* The side from the signs of f(centre) and f(centre)^2 - r^2 |n|^2. *sure: are they? */
 static int ball_side(int centre, int reach, bool *sure) {
-    *sure = centre == 0 || reach == -1 || (centre != NUM_UNSURE && reach != NUM_UNSURE);
-    return centre == 0 || reach == -1 ? 2 : centre;
+    *sure = reach == -1 || (centre != NUM_UNSURE && reach != NUM_UNSURE);
+    return reach == -1 ? 2 : centre;
 }
 
 /* Against x[axis] = c. Rounding is monotone: fl(x - c) < r or > r tells the same of x - c. */
@@ -215,9 +215,9 @@ static int ball_filter(const geom_plane *h, const double *centre, double radius,
 
 int geom_side_ball(num_context *context, const geom_plane *plane, const double *centre, double radius) {
     context->stats.calls++;
-    if (radius == 0) return vertex_side(context, plane, centre);
     bool sure = false;
     if (context->first == NUM_FILTER) {
+        if (radius == 0) return vertex_side(context, plane, centre);
         int side = ball_filter(plane, centre, radius, &sure);
         if (sure) return filtered(context, side);
     }

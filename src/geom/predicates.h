@@ -44,7 +44,7 @@ double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_pl
 static inline int geom_side_image(const geom_plane *plane, const double *x, double error) {
     num_ball f = filter_value(plane, x);
     double reach = fabs(plane->n[0]) + fabs(plane->n[1]) + fabs(plane->n[2]) + 3 * plane->n_err;
-    f.e = (f.e + (plane->form == GEOM_AXIS ? error : reach * error)) * (1 + 0x1p-49);
+    f.e = (f.e + (plane->form == GEOM_AXIS ? error : reach * error)) * FILTER_UP;
     return filter_sign(f);
 }
 #endif

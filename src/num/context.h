@@ -23,4 +23,7 @@ void num_stats_add(froe_predicate_stats *sum, const froe_predicate_stats *more);
 /** Round to nearest, gradual underflow, no contraction, double evaluation: checked by
  * computing with values the compiler cannot see. */
 bool num_machine_trusted(void);
+/** Of these only what a program can change while it runs: the rounding mode, and whether
+ * denormals are flushed. ~3 ns. */
+bool num_rounding_trusted(void);
 #endif
