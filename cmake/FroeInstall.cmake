@@ -47,6 +47,3 @@ configure_package_config_file(cmake/froeConfig.cmake.in froeConfig.cmake INSTALL
 write_basic_package_version_file(froeConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/froeConfig.cmake ${PROJECT_BINARY_DIR}/froeConfigVersion.cmake
         DESTINATION ${package_dir})
-if(EXISTS ${PROJECT_SOURCE_DIR}/data)
-  install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/froe/data)
-endif()

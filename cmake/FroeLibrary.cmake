@@ -43,7 +43,7 @@ function(froe_libraries name file)
   froe_archive_objects(objects ${name}_core)
   add_library(${name}_static STATIC ${objects})
   set_target_properties(${name} ${name}_static PROPERTIES OUTPUT_NAME ${file} LINKER_LANGUAGE C)
-  if(FROE_LOCALIZE AND NOT name STREQUAL "froe") # a part that calls what another part hides must not link
+  if(FROE_LOCALIZE) # a part that calls what another part hides must not link
     target_link_options(${name} PRIVATE -Wl,-z,defs)
   endif()
   set_target_properties(${name} PROPERTIES

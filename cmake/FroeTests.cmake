@@ -15,7 +15,8 @@ function(froe_test area name)
   set(scratch ${PROJECT_BINARY_DIR}/scratch/${area}-${name})
   file(MAKE_DIRECTORY ${scratch})
   add_test(NAME ${area}/${name} COMMAND ${ARGN} WORKING_DIRECTORY ${scratch})
-  set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${seconds})
+  set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${seconds}
+    ENVIRONMENT_MODIFICATION UBSAN_OPTIONS=set:print_stacktrace=1)
 endfunction()
 
 # The core and the parts with everything visible, and what tests share: oracles, failing allocators.

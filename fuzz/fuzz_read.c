@@ -8,13 +8,8 @@
 static const struct {
     const char *header, *suffix;
 } forms[] = {
-    {"", ".csv"},
-    {"x,y\n", ".csv"},
-    {"x,y,z,tag\n", ".csv"},
-    {"lo_x,lo_y,hi_x,hi_y\n", ".csv"},
-    {"x,y,r\n", ".csv"},
-    {"OFF\n", ".off"},
-    {"{\"type\":\"FeatureCollection\",", ".csv"}, /* a lie about the type */
+    {"x;y\n", ".csv"},   {"x,y\n", ".csv"}, {"x,y,z,tag\n", ".csv"},     {"lo_x,lo_y,hi_x,hi_y\n", ".csv"},
+    {"x,y,r\n", ".csv"}, {"OFF\n", ".off"}, {"z\tx\ty\tnote\n", ".csv"},
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

@@ -20,7 +20,7 @@ froe_allocator io_allocator(const froe_allocator *alloc) {
 }
 
 void *io_buffer_add(const froe_allocator *alloc, io_buffer *buffer, size_t bytes) {
-    if (bytes > buffer->capacity - buffer->size) {
+    if (!buffer->data || bytes > buffer->capacity - buffer->size) { /* room for nothing is room, too */
         size_t need, room = buffer->capacity + buffer->capacity / 2 + 256;
         if (__builtin_add_overflow(buffer->size, bytes, &need)) return NULL;
         if (room < need) room = need;
