@@ -23,5 +23,5 @@ function(froe_fuzzer name)
 endfunction()
 
 #froe_fuzzer(open)
-froe_fuzzer(scene)
+#froe_fuzzer(scene)
 froe_fuzzer(read IO)
