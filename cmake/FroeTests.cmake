@@ -37,6 +37,7 @@ if(support_sources)
   target_link_libraries(froe_test_objects PUBLIC froe_test_support)
 endif()
 
+set(parts_conformance IO)
 set(parts_io IO)
 set(parts_draw DRAW)
 set(parts_cli IO DRAW)

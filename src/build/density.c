@@ -13,7 +13,8 @@
  * On scenes that are cluttered after all the guard stage would split without end. It
  * therefore weighs its cells: growth = product of (fragments after / fragments before) over the
  * guard cuts above. Sum over cells of fragments / growth never exceeds n, so stopping where growth
- * reaches a limit G keeps the stage below 2 G n fragments, whatever the scene. */
+ * reaches a limit G keeps the stage below 2 G n fragments, whatever the scene. It also leaves
+ * cells of few objects that it cannot thin out any more: the star around a common vertex. */
 #include "base/log2.h"
 #include "base/status.h"
 #include "build/method.h"
@@ -23,7 +24,8 @@
 #include <stdatomic.h>
 #include <string.h>
 
-enum { MODE, K, FORM, STOP, GROWTH, SUPPORTS, QUANTILES, WEIGHT, HEIGHT, FREE, SAMPLE };
+enum { MODE, K, FORM, STOP, GROWTH, SUPPORTS, QUANTILES, EDGES, WEIGHT, HEIGHT, FREE, SAMPLE };
+enum { STAR = 1024 }; /* most objects of a cell that may be left for being barren */
 enum { MODE_FIXED, MODE_DOUBLING, MODE_TUNED };
 
 static const char *const modes[] = {"fixed", "doubling", "tuned", NULL};
@@ -40,6 +42,8 @@ static const froe_option_info options[] = {
     [SUPPORTS] = {"supports", "supporting planes tried per cell", 20, 1, 1000, NULL, true},
     [QUANTILES] = {"quantiles", "axis-parallel planes tried per cell and axis; -1: by dimension", -1, -1, 1000, NULL,
                    true},
+    [EDGES] = {"edges", "planes through an edge and a vertex tried per cell where balance is due", 20, 0, 1000, NULL,
+               true},
     [WEIGHT] = {"weight", "bits of information that outweigh one split", 0.1, 0, 100, NULL, false},
     [HEIGHT] = {"height", "balanced cuts beyond this many times log2 n levels; 0: no rule", 2, 0, 1e9, NULL, false},
     [FREE] = {"free", "cut first with fragments that cross their cell", 1, 0, 1, no_yes, true},
@@ -58,6 +62,7 @@ typedef struct density {
     split_refine refine;
     const split_guard_tree *guard;
     uint32_t stop;
+    uint32_t patience; /* barren cuts in a row */
     float growth;
     loads *probe; /* NULL when building */
 } density;
@@ -65,7 +70,7 @@ typedef struct density {
 static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
     bool plane = scene->dim == 2;
     if (option[K] < 0) option[K] = plane ? 8 : 16;
-    if (option[STOP] < 0) option[STOP] = plane ? leaf : 128;
+    if (option[STOP] < 0) option[STOP] = plane ? leaf : 256;
     if (option[QUANTILES] < 0) option[QUANTILES] = plane ? 3 : 10;
 }
 
@@ -74,6 +79,7 @@ static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
 static bool in_guard_stage(const density *d, const split_cell *cell) {
     if (cell->guard == FROE_NONE || !d->guard->nodes.data[cell->guard].child) return false;
     if (cell->count <= d->stop || cell->count <= d->refine.leaf) return false;
+    if (cell->count <= STAR && cell->barren >= d->patience) return false;
     return d->growth <= 0 || cell->growth < d->growth;
 }
 
@@ -95,6 +101,7 @@ static void descend(const void *config, const split_cell *parent, uint32_t in_cu
     for (uint32_t s = 0; s < 2; s++) {
         child[s].guard = d->guard->nodes.data[parent->guard].child + s;
         child[s].growth = parent->growth * after / (float)parent->count;
+        child[s].barren = 10 * (uint64_t)child[s].count >= 9 * (uint64_t)parent->count ? parent->barren + 1 : 0;
     }
 }
 
@@ -197,6 +204,7 @@ static split_refine refine_of(const build_job *job) {
                           .seed = job->seed,
                           .supports = (uint32_t)job->option[SUPPORTS],
                           .quantiles = (uint32_t)job->option[QUANTILES],
+                          .edges = (uint32_t)job->option[EDGES],
                           .sample = (uint32_t)job->option[SAMPLE],
                           .weight = job->option[WEIGHT],
                           .height = job->option[HEIGHT] * base_log2(n + 2),
@@ -217,6 +225,7 @@ static froe_status build(build_job *job, froe_tree **out) {
     if (!status) {
         density d = {.refine = refine_of(job), .guard = &g.tree, .stop = (uint32_t)job->option[STOP]};
         d.growth = (float)job->option[GROWTH];
+        d.patience = 2 * (uint32_t)job->scene->dim;
         split_method method = {.config = &d,
                                .choose = choose,
                                .descend = descend,

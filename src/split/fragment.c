@@ -99,12 +99,8 @@ static int class_of(bool negative, bool positive) {
 
 static int classify_box(split_set *set, const split_plane *plane, uint32_t object) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    scene_object_bounds(set->scene, object, lo, hi);
-    if (plane->plane.form == GEOM_AXIS) {
-        int axis = plane->plane.axis;
-        return class_of(lo[axis]<plane->plane.c, hi[axis]> plane->plane.c);
-    }
     bool negative = false, positive = false;
+    scene_object_bounds(set->scene, object, lo, hi);
     for (unsigned corner = 0; corner < 1u << set->scene->dim && !(negative && positive); corner++) {
         double x[3];
         for (int k = 0; k < set->scene->dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
@@ -121,27 +117,54 @@ static int classify_ball(split_set *set, const split_plane *plane, uint32_t obje
     return side == 2 ? SPLIT_BOTH : side < 0 ? SPLIT_NEG : side > 0 ? SPLIT_POS : SPLIT_ON;
 }
 
-/** By the corners, of the ring or of the whole object. Keeps their sides if both occur and `keep`. */
-static int classify_corners(split_set *set, const split_plane *plane, const split_fragment *f, bool keep) {
+/** Appends the sides of all corners, of the ring or of the whole object, and returns the class. */
+static int corner_sides(split_set *set, const split_plane *plane, const split_fragment *f) {
     const uint32_t *vertices = set->scene->corners + set->scene->starts[f->object];
     const split_corner *ring = f->count ? set->corners.data + f->first : NULL;
     uint32_t n = split_corner_count(set, f);
-    size_t start = set->sides.count;
     bool negative = false, positive = false;
     for (uint32_t i = 0; i < n; i++) {
         int side = ring ? corner_side(set, plane, f->object, ring + i) : vertex_side(set, plane, vertices[i]);
         negative |= side < 0;
         positive |= side > 0;
-        if (keep) set->sides.data[set->sides.count++] = (int8_t)side;
+        set->sides.data[set->sides.count++] = (int8_t)side;
     }
-    if (!(negative && positive)) set->sides.count = start;
     return class_of(negative, positive);
+}
+
+/** The guard stage spends its time here: whole objects beside x[axis] = c, by comparisons alone. */
+static int whole_beside_axis(split_set *set, const geom_plane *plane, uint32_t object) {
+    const froe_scene *scene = set->scene;
+    const uint32_t *corner = scene->corners + scene->starts[object], *end = scene->corners + scene->starts[object + 1];
+    const double *x = scene->coords + plane->axis;
+    double c = plane->c;
+    size_t dim = (size_t)scene->dim;
+    bool negative = false, positive = false;
+    set->context.stats.calls += (uint64_t)(end - corner);
+    set->context.stats.by_id += (uint64_t)(end - corner);
+    for (; corner < end; corner++) {
+        negative |= x[*corner * dim] < c;
+        positive |= x[*corner * dim] > c;
+    }
+    return class_of(negative, positive);
+}
+
+static int classify_corners(split_set *set, const split_plane *plane, const split_fragment *f, bool is_cut) {
+    size_t start = set->sides.count;
+    if (plane->plane.form == GEOM_AXIS && !f->count) {
+        int class = whole_beside_axis(set, &plane->plane, f->object);
+        if (class == SPLIT_BOTH && is_cut) corner_sides(set, plane, f);
+        return class;
+    }
+    int class = corner_sides(set, plane, f);
+    if (class != SPLIT_BOTH || !is_cut) set->sides.count = start;
+    return class;
 }
 
 int split_classify(split_set *set, const split_plane *plane, const split_fragment *f) {
     froe_kind form = scene_form(set->scene, f->object);
-    if (form == FROE_BOX) return classify_box(set, plane, f->object);
     if (form == FROE_BALL) return classify_ball(set, plane, f->object);
+    if (form == FROE_BOX && plane->plane.form != GEOM_AXIS) return classify_box(set, plane, f->object);
     return classify_corners(set, plane, f, split_is_cut(form));
 }
 

@@ -83,16 +83,42 @@ static void enter_free_cuts(contest *c) {
         if (is_free(set, set->items.data + c->cell->first + i)) enter_support(c, i), entered++;
 }
 
+/** A plane through an edge of one polygon and a vertex of another: what balances the fan around a common
+ * vertex, where every supporting plane has all others on one side. */
+static void enter_edge(contest *c, uint64_t draw) {
+    const split_set *set = &c->work->set;
+    const froe_scene *scene = set->scene;
+    const split_fragment *items = set->items.data + c->cell->first;
+    uint32_t one = items[base_below(draw, c->cell->count)].object;
+    uint32_t other = items[base_below(base_mix(draw + 1), c->cell->count)].object;
+    if (scene_form(scene, one) != FROE_POLYGON || scene_form(scene, other) != FROE_POLYGON) return;
+    uint32_t n = scene_corners(scene, one), i = base_below(base_mix(draw + 2), n);
+    uint32_t j = base_below(base_mix(draw + 3), scene_corners(scene, other));
+    froe_cut cut = {.kind = FROE_CUT_VERTICES};
+    cut.id[0] = scene_corner(scene, one, i);
+    cut.id[1] = scene_corner(scene, one, i + 1 < n ? i + 1 : 0);
+    cut.id[2] = scene_corner(scene, other, j);
+    geom_plane plane = scene_cut_plane(scene, &cut);
+    if (plane.n_max > plane.n_err) enter(c, &cut, split_view_count(&c->scratch->view, &plane));
+}
+
+static void enter_edges(contest *c) {
+    for (uint32_t i = 0; i < c->config->edges; i++)
+        enter_edge(c, base_hash(c->config->seed, c->cell->path, 100000 + i));
+}
+
 static bool enter_axes(contest *c) {
     split_view *view = &c->scratch->view;
     for (int axis = 0; axis < c->work->set.scene->dim; axis++) {
         if (!split_view_extents(view, &c->work->set, c->cell, axis)) return false;
         size_t n = view->values.count, tries = c->config->quantiles;
         if (tries > n) tries = n;
-        for (size_t i = 0; i < tries; i++) {
-            froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis};
-            cut.value = view->values.data[(2 * i + 1) * n / (2 * tries)];
+        for (size_t i = 0, last = n; i < tries; i++) {
+            size_t at = (2 * i + 1) * n / (2 * tries);
+            froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis, .value = view->values.data[at]};
+            if (last < n && view->values.data[last] == cut.value) continue;
             enter(c, &cut, split_view_count_axis(view, cut.value));
+            last = at;
         }
     }
     return true;
@@ -143,6 +169,7 @@ split_verdict split_refine_choose(const split_refine *config, split_work *work, 
     if (!c.best.any) {
         enter_supports(&c);
         if (config->quantiles && !enter_axes(&c)) return SPLIT_MEMORY;
+        if (c.strict && work->set.scene->dim == 3) enter_edges(&c);
     }
     if (!c.best.any) return last_resort(&c, cut);
     *cut = c.best.cut;

@@ -14,6 +14,7 @@ typedef struct split_refine {
     uint64_t seed;
     uint32_t supports;  /**< supporting planes tried per cell; 1: the random order of the classical analysis */
     uint32_t quantiles; /**< axis-parallel planes tried per axis; 0: an autopartition */
+    uint32_t edges;     /**< planes through an edge and a vertex tried per cell where balance is due; 3D */
     uint32_t sample;    /**< fragments scored per candidate, at most */
     double weight;      /**< of information against splits, in split_cost() */
     double height;      /**< cells deeper than this minus log_{4/3} m must be cut with balance; 0: no rule */

@@ -137,11 +137,6 @@ bool split_view_extents(split_view *view, const split_set *set, const split_cell
         view->values.data[view->values.count++] = high;
     }
     qsort(view->values.data, view->values.count, sizeof(double), ascending);
-    size_t distinct = 0;
-    for (size_t i = 0; i < view->values.count; i++)
-        if (!distinct || view->values.data[i] != view->values.data[distinct - 1])
-            view->values.data[distinct++] = view->values.data[i];
-    view->values.count = distinct;
     return true;
 }
 

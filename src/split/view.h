@@ -30,7 +30,7 @@ bool split_view_fill(split_view *view, const split_set *set, const split_cell *c
 split_tally split_view_count(split_view *view, const geom_plane *plane);
 /** Counts for the plane x[axis] = value from the extents on that axis; any dimension. */
 split_tally split_view_count_axis(const split_view *view, double value);
-/** Computes the extents on an axis, and their distinct ends, sorted, as `values`. */
+/** Computes the extents on an axis, and their ends, sorted, as `values`. */
 bool split_view_extents(split_view *view, const split_set *set, const split_cell *cell, int axis);
 
 /** How a cut is scored: splits against information gained, in bits (on fragments count as located):

@@ -1,0 +1,95 @@
+/* bench.c: see bench.h. */
+#include "bench.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
+#include <unistd.h>
+
+double bench_now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void print_processor(void) {
+    char line[256];
+    FILE *f = fopen("/proc/cpuinfo", "r");
+    while (f && fgets(line, sizeof line, f))
+        if (!strncmp(line, "model name", 10)) {
+            printf("%s", strchr(line, ':') + 2);
+            break;
+        }
+    if (f) fclose(f);
+}
+
+void bench_head(const char *title, unsigned long long seed) {
+    struct utsname u;
+    uname(&u);
+    printf("# %s\n# froe %s (%s), seed %llu, compiler %s, %s %s, %ld processors: ", title, froe_version(), FROE_COMMIT,
+           seed, __VERSION__, u.sysname, u.machine, sysconf(_SC_NPROCESSORS_ONLN));
+    print_processor();
+}
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double bench_median(double *values, size_t count) {
+    qsort(values, count, sizeof *values, ascending);
+    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
+}
+
+static void must(froe_status status, const char *what, const froe_diagnostic *diag) {
+    if (!status) return;
+    fprintf(stderr, "bench: %s: %s\n", what, diag->message);
+    exit(1);
+}
+
+froe_scene *bench_read(const char *path) {
+    froe_diagnostic diag = {0};
+    froe_scene *scene = NULL;
+    must(froe_read(path, NULL, &scene, NULL, &diag), path, &diag);
+    return scene;
+}
+
+froe_scene *bench_generate(const char *kind, size_t n, unsigned long long seed) {
+    froe_diagnostic diag = {0};
+    froe_scene *scene = NULL;
+    must(froe_generate(kind, n, seed, NULL, &scene, &diag), kind, &diag);
+    return scene;
+}
+
+froe_tree *bench_build(froe_scene *scene, const char *method, const char *settings, uint32_t leaf, unsigned threads,
+                       double *seconds) {
+    froe_diagnostic diag = {0};
+    froe_tree *tree = NULL;
+    froe_build_options o = froe_build_defaults();
+    o.method = method;
+    o.settings = settings;
+    o.leaf = leaf;
+    o.threads = threads;
+    double start = bench_now();
+    must(froe_build(scene, &o, &tree, &diag), method, &diag);
+    if (seconds) *seconds = bench_now() - start;
+    return tree;
+}
+
+double bench_exponent(const double *x, const double *y, size_t count) {
+    double sx = 0, sy = 0, sxx = 0, sxy = 0, n = (double)count;
+    for (size_t i = 0; i < count; i++) {
+        double u = log(x[i]), v = log(y[i]);
+        sx += u, sy += v, sxx += u * u, sxy += u * v;
+    }
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+void bench_name(const char *path, char name[32]) {
+    const char *base = strrchr(path, '/');
+    snprintf(name, 32, "%s", base ? base + 1 : path);
+    char *dot = strchr(name, '.');
+    if (dot) *dot = 0;
+}
