@@ -113,13 +113,16 @@ static const char *material_name(walk *w, unsigned index, struct aiString *name)
     return name->data;
 }
 
-/* One group for each pair of node and material. */
+/* One group for each node and name of a material, or with `boxes` for each node. */
 static froe_status enter_group(walk *w, const struct aiNode *node, unsigned material) {
+    struct aiString name, other;
+    material_name(w, material, &name);
     const uint32_t *known = w->materials.data;
-    for (size_t i = 0; i < w->materials.size / sizeof *known; i += 2)
-        if (known[i] == material) return w->sink->group = known[i + 1], FROE_OK;
-    struct aiString name;
-    froe_group group = {.name = node->mName.data, .material = material_name(w, material, &name)};
+    for (size_t i = 0; i < w->materials.size / sizeof *known; i += 2) {
+        bool same = w->sink->boxes || known[i] == material || !strcmp(material_name(w, known[i], &other), name.data);
+        if (same) return w->sink->group = known[i + 1], FROE_OK;
+    }
+    froe_group group = {.name = node->mName.data, .material = name.data};
     froe_status status = io_sink_group(w->sink, &group);
     if (status) return status;
     uint32_t pair[2] = {material, w->sink->group};

@@ -187,10 +187,13 @@ static froe_status add_layers(map *m) {
     OGRLayerH one = wanted ? GDALDatasetGetLayerByName(m->data, wanted) : NULL;
     if (wanted && !one) return no_layer(m, wanted);
     int layers = GDALDatasetGetLayerCount(m->data);
+    /* the layers of a topology are views of the same arcs: all of them would be the same lines again */
+    if (!one && layers && !strcmp(m->sink->report.format, "TopoJSON")) one = GDALDatasetGetLayer(m->data, 0);
     froe_status status = FROE_OK;
     for (int i = 0; i < layers && !status && !one; ++i) status = filter(m, GDALDatasetGetLayer(m->data, i));
     if (!status && one) status = filter(m, one);
     m->sink->report.layers = one ? 1 : (uint64_t)layers;
+    m->sink->report.layers_left = (uint64_t)layers - m->sink->report.layers;
     m->heard.failed = false; /* what was said before did not keep the file from opening */
     if (!status) status = one ? add_layer(m, one) : add_all(m);
     if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "");

@@ -27,9 +27,9 @@ typedef enum froe_faces {
 
 typedef struct froe_read_options {
     size_t size;                 /**< set by froe_read_defaults() */
-    const char *layer;           /**< OGR: read this layer only; NULL: all */
+    const char *layer;           /**< OGR: read this layer only; NULL: all, or of a topology (TopoJSON) the first */
     const char *where;           /**< OGR: attribute filter, as in SQL's WHERE; NULL: none */
-    froe_faces faces;            /**< assimp, OFF: default FROE_FACES_TRIANGLES */
+    froe_faces faces;            /**< solid models: default FROE_FACES_TRIANGLES */
     bool boxes;                  /**< the bounding box of every feature (or row, or node) instead of its shape */
     froe_progress_fn *progress;  /**< may be NULL; false cancels */
     void *user;                  /**< for progress */
@@ -39,14 +39,15 @@ FROE_API froe_read_options froe_read_defaults(void); /**< all layers, triangles,
 
 /** How a file was read: nothing is done to a scene that is not counted here. */
 typedef struct froe_read_report {
-    char format[64];    /**< e.g. "GeoJSON", "CSV boxes", "glTF2 (assimp)" */
-    char precision[16]; /**< of the reader's coordinates: "float64" or "float32" */
-    uint64_t layers;    /**< layers read; 1 for files without layers */
-    uint64_t features;  /**< features, rows, or nodes with faces */
+    char format[64];      /**< e.g. "GeoJSON", "CSV boxes", "glTF2 (assimp)" */
+    char precision[16];   /**< of the reader's coordinates: "float64" or "float32" */
+    uint64_t layers;      /**< layers read; 1 for files without layers */
+    uint64_t layers_left; /**< layers not read */
+    uint64_t features;    /**< features, rows, or nodes or named objects with faces */
     uint64_t groups;
     uint64_t linearised;   /**< curves replaced by chords (OGR's default step, 4 degrees) */
     uint64_t flattened;    /**< features whose z was left out of a plane map */
-    uint64_t triangulated; /**< polygons split because they are not exactly planar, convex and simple */
+    uint64_t triangulated; /**< polygons of more than 3 corners that were split into triangles */
     uint64_t closed;       /**< polygon rings without their last edge, which was added */
     uint64_t skipped;      /**< geometries without extent to read: of no known sort, empty, lines of one point */
     uint64_t no_geometry;  /**< features that have none */
@@ -59,9 +60,10 @@ typedef struct froe_read_report {
  *                   the axes are called x y z w x5 x6 x7 x8 (or x1 ... x8), columns come in any order,
  *                   a column `tag` (a whole number below 2^64) becomes the tag, others are left alone.
  *                   Decimal numbers become the nearest doubles, whatever the locale.
- *   OFF, text       double precision.
- *   assimp          glTF, OBJ, STL, PLY, IFC, FBX, ...: dimension 3, single precision; node transforms
- *                   are applied in double; every node with faces is a group with its name and material.
+ *   OFF, OBJ        dimension 3, double precision. In OBJ each pair of an object's (o, g) name and
+ *                   a material is a group.
+ *   assimp          glTF, STL, PLY, IFC, FBX, ...: dimension 3, single precision; node transforms are
+ *                   applied in double; each pair of a node and a material of its faces is a group.
  *                   Points and lines of a model become points and segments.
  *   OGR             GeoJSON, TopoJSON, Shapefile, GeoPackage, FlatGeobuf, DXF, OSM, WKT in CSV, ...:
  *                   dimension 2. Lines and polygon rings become one segment per pair of vertices, in
@@ -84,9 +86,9 @@ FROE_API froe_status froe_read(const char *path, const froe_read_options *option
 /* ------------------------------------------------------------------- write -- */
 
 /** Writes a scene so that froe_read gives it back, exactly: .geojson or .json (points, segments and
- * boxes in the plane), .csv (points, boxes or balls, one kind), .off (polygons in space), .obj (the
- * same for other programs, with groups; read back in single precision). Numbers have 17 digits.
- * GeoJSON keeps names of groups, CSV tags. Atomic: `path` holds the old file or the new one, whole.
+ * boxes in the plane), .csv (points, boxes or balls, one kind), .off or .obj (polygons,
+ * segments and points in space). Numbers have the digits that give the same doubles again. GeoJSON and
+ * OBJ keep the names of groups, CSV keeps tags. Atomic: `path` holds the old file or the new one, whole.
  * FROE_E_UNSUPPORTED: this kind, dimension or extension does not go together. FROE_E_IO. */
 FROE_API froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_diagnostic *diag);
 

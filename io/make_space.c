@@ -1,0 +1,159 @@
+/* make_space.c: triangles in space, in general position, and the scenes on which
+ * other programs were measured: small triangles, boxes, thin triangles, spheres. */
+#include "maker.h"
+#include <math.h>
+
+/* Corners in three random directions from a centre. */
+static void put(io_maker *m, const double *centre, double radius) {
+    double corners[3][3];
+    for (int i = 0; i < 3; ++i) {
+        io_direction(m, 3, corners[i]);
+        for (int k = 0; k < 3; ++k) corners[i][k] = centre[k] + radius * corners[i][k];
+    }
+    io_make_triangle(m, corners[0], corners[1], corners[2]);
+}
+
+void io_make_triangles(io_maker *m) {
+    double radius = 0.5 / io_cube_root((double)m->n);
+    while (!io_done(m)) {
+        double centre[3];
+        io_place(m, 3, centre);
+        put(m, centre, radius);
+    }
+}
+
+void io_make_disjoint_3d(io_maker *m) {
+    size_t side = io_root(m->n - 1, 3) + 1;
+    double step = 1 / (double)side;
+    for (size_t i = 0; !io_done(m); ++i) {
+        double centre[3] = {(double)(i % side) + 0.5, (double)(i / side % side) + 0.5, (double)(i / side / side) + 0.5};
+        for (int k = 0; k < 3; ++k) centre[k] *= step;
+        put(m, centre, step * io_between(m, 0.2, 0.45));
+    }
+}
+
+void io_make_mixed_3d(io_maker *m) {
+    double least = 0.1 / io_cube_root((double)m->n);
+    while (!io_done(m)) {
+        double centre[3];
+        io_place(m, 3, centre);
+        double radius = least / (1 - io_unit(m)); /* P(radius > R) = least / R */
+        put(m, centre, radius < 0.5 ? radius : 0.5);
+    }
+}
+
+void io_make_clusters_3d(io_maker *m) {
+    enum { SIZES = 12 };
+    size_t clusters = io_root(m->n, 2) / 4 + 1;
+    double radius = 0.5 / io_cube_root((double)m->n);
+    while (!io_done(m)) {
+        uint32_t c = io_below(m, (uint32_t)clusters);
+        double width = 0.25, centre[3];
+        for (uint32_t i = c % SIZES; i; --i) width *= 0.5;
+        for (int k = 0; k < 3; ++k) centre[k] = io_unit_at(m, 1, c, (uint64_t)k);
+        for (int i = 0; i < 9; ++i) centre[i % 3] += width * (io_unit(m) - 0.5);
+        put(m, centre, radius * width);
+    }
+}
+
+void io_make_parallel_3d(io_maker *m) {
+    while (!io_done(m)) {
+        double z = io_unit(m), corners[3][3] = {{0, 0, z}, {1, 0, z}, {0, 1, z}};
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) corners[i][k] += io_between(m, 0, 0x1p-20);
+        io_make_triangle(m, corners[0], corners[1], corners[2]);
+    }
+}
+
+void io_make_hair_3d(io_maker *m) {
+    while (!io_done(m)) {
+        double root[3], tip[3], side[3];
+        io_place(m, 3, root);
+        io_direction(m, 3, side);
+        for (int k = 0; k < 3; ++k) {
+            side[k] = root[k] + 0x1p-10 * side[k];
+            tip[k] = root[k] + (k == 2 ? io_between(m, 0.1, 0.2) : io_between(m, -0x1p-6, 0x1p-6));
+        }
+        io_make_triangle(m, root, side, tip);
+    }
+}
+
+void io_make_slats_3d(io_maker *m) {
+    double step = 1 / (double)(m->n / 2 + 1);
+    for (size_t i = 0; !io_done(m); ++i) {
+        double at = ((double)(i / 2) + io_between(m, 0.1, 0.9)) * step;
+        int along = i % 2, across = 1 - along;
+        double corners[3][3];
+        for (int c = 0; c < 3; ++c) {
+            corners[c][along] = c == 1 ? 1.1 : -0.1;
+            corners[c][across] = at;
+            corners[c][2] = c == 2 ? 0.5 : 0;
+        }
+        io_make_triangle(m, corners[0], corners[1], corners[2]);
+    }
+}
+
+void io_make_star_3d(io_maker *m) {
+    const double apex[3] = {0, 0, 0};
+    while (!io_done(m)) {
+        double a[3], b[3];
+        io_direction(m, 3, a);
+        io_direction(m, 3, b);
+        for (int k = 0; k < 3; ++k) b[k] = a[k] + 0.1 * b[k];
+        io_make_triangle(m, apex, a, b);
+    }
+}
+
+/* On z = xy and a little above it (Paterson and Yao 1990): Omega(n^2) for any partition. */
+void io_make_grid_3d(io_maker *m) {
+    const double width = 0.0005, above = 0.004;
+    size_t lines = (m->n + 1) / 2;
+    for (size_t i = 0; !io_done(m); ++i) {
+        double t = ((double)(i / 2) + 0.5) / (double)lines;
+        const double on_x[3][3] = {{t, 0, 0}, {t, 1, t}, {t + width, 0.5, 0.5 * t}};
+        const double on_y[3][3] = {{0, t, above}, {1, t, t + above}, {0.5, t + width, 0.5 * t + above}};
+        const double(*c)[3] = i % 2 ? on_y : on_x;
+        io_make_triangle(m, c[0], c[1], c[2]);
+    }
+}
+
+void io_make_cuboids(io_maker *m) {
+    size_t boxes = (m->n + 11) / 12;
+    double side = 0.5 / io_cube_root((double)boxes);
+    while (!io_done(m)) {
+        double lo[3], hi[3];
+        io_place(m, 3, lo);
+        for (int k = 0; k < 3; ++k) {
+            double half = 0.5 * side * io_between(m, 0.3, 1);
+            hi[k] = lo[k] + half;
+            lo[k] -= half;
+        }
+        io_make_cuboid(m, lo, hi);
+    }
+}
+
+/* Point j of 2k on parallel i of k, with poles of one point each. */
+static void on_sphere(size_t k, size_t i, size_t j, double *to) {
+    double height[2], around[2];
+    io_circle(i, 2 * k, height); /* half a circle from pole to pole */
+    io_circle(j % (2 * k), 2 * k, around);
+    to[0] = height[1] * around[0];
+    to[1] = height[1] * around[1];
+    to[2] = height[0];
+}
+
+/* 4k(k - 1) triangles, with the greatest k that gives no more than n (at least 2). */
+void io_make_sphere(io_maker *m) {
+    size_t k = io_root(m->n / 4, 2) + 1;
+    while (k > 2 && 4 * k * (k - 1) > m->n) --k;
+    for (size_t i = 0; i < k && !m->status; ++i)
+        for (size_t j = 0; j < 2 * k && !m->status; ++j) {
+            double a[3], b[3], c[3], d[3];
+            on_sphere(k, i, j, a);
+            on_sphere(k, i + 1, j, b);
+            on_sphere(k, i + 1, j + 1, c);
+            on_sphere(k, i, j + 1, d);
+            if (i + 1 < k) io_make_triangle(m, a, b, c);
+            if (i > 0) io_make_triangle(m, a, c, d);
+        }
+}
