@@ -154,10 +154,9 @@ static int run(const void *given) {
     code = run_scenes(&args->common, results);
     release(results);
     if (code) return code;
-    char headline[400];
-    snprintf(headline, sizeof headline, "%.300s/index.html", args->output);
-    return cli_report(&args->common, headline,
-                      json_pack("{s:s, s:f}", "index", headline, "seconds", cli_seconds() - start));
+    char index[400];
+    snprintf(index, sizeof index, "%.300s/index.html", args->output);
+    return cli_report(&args->common, NULL, json_pack("{s:f, s:s}", "seconds", cli_seconds() - start, "index", index));
 }
 
 const cli_command cli_command_demo = {
