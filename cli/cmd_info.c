@@ -77,7 +77,7 @@ static int run(const void *given) {
     froe_read_report reader;
     int code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
-    froe_defects defects;
+    froe_defects defects = {.size = sizeof defects};
     code = find_defects(args, scene, &defects);
     if (!code) code = cli_report(&args->common, NULL, info_json(args->scene.path, scene, &reader, &defects));
     froe_scene_free(scene);
