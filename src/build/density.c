@@ -213,8 +213,9 @@ static split_refine refine_of(const build_job *job) {
 
 static void promise(build_job *job, const split_guard_tree *guard) {
     double growth = job->option[GROWTH];
-    memcpy(job->meta.root_lo, guard->lo, sizeof guard->lo);
-    memcpy(job->meta.root_hi, guard->hi, sizeof guard->hi);
+    size_t bytes = (size_t)job->scene->dim * sizeof(double); /* beyond, meta stays 0 */
+    memcpy(job->meta.root_lo, guard->lo, bytes);
+    memcpy(job->meta.root_hi, guard->hi, bytes);
     build_promise(job, "guard_leaves", guard->promised, (double)guard->leaves);
     if (growth > 0) build_promise(job, "guard_fragments", 2 * growth * job->scene->object_count, 0);
 }
