@@ -185,10 +185,13 @@ typedef struct froe_object {
     uint64_t tag;
     double radius; /**< balls; 0 otherwise */
 } froe_object;
+/** An id out of range gives kind and form FROE_KIND_COUNT. */
 FROE_API froe_object froe_scene_object(const froe_scene *scene, uint32_t object);
-/** Vertex id of a corner (of the form). */
+/** Vertex id of a corner (of the form), FROE_NONE if there is none. A polygon's
+ * corners may start at another one than given, so that the first three span its plane, and
+ * drop a corner equal to the one before; a hull's ascend, each once. */
 FROE_API uint32_t froe_scene_corner(const froe_scene *scene, uint32_t object, uint32_t corner);
-/** dim exact coordinates of a vertex; valid as long as the scene does not grow. */
+/** dim exact coordinates of a vertex, NULL if there is none; valid as long as the scene does not grow. */
 FROE_API const double *froe_scene_vertex(const froe_scene *scene, uint32_t vertex);
 /** Strings live as long as the scene does not grow. */
 FROE_API froe_group froe_scene_group(const froe_scene *scene, uint32_t group);
@@ -196,7 +199,7 @@ FROE_API froe_group froe_scene_group(const froe_scene *scene, uint32_t group);
 /** What is odd about a scene: nothing here stops any builder. Pairs are counted
  * once; `first` is one example pair of each sort, FROE_NONE if there is none. */
 typedef struct froe_defects {
-    size_t size;
+    size_t size;          /**< to be set to sizeof(froe_defects) before the call */
     uint64_t zero_length; /**< segments that are points */
     uint64_t zero_area;   /**< polygons that are segments or points */
     uint64_t duplicates;  /**< objects equal, as point sets with equal corners, to an earlier one */
@@ -205,8 +208,9 @@ typedef struct froe_defects {
     uint64_t overlaps;    /**< pairs that share a piece of their own dimension and are not duplicates */
     uint32_t first_crossing[2], first_t_junction[2], first_overlap[2];
 } froe_defects;
-/** Exact. Segments in 2D and polygons in 3D; other kinds count as duplicates
- * only. O((n + pairs of touching bounding boxes) log n). */
+/** Exact. Pairs are pairs of segments in 2D or of polygons in 3D, without those
+ * that are duplicates or have no length or area; other kinds count as duplicates only.
+ * O(n log^(dim-1) n + pairs of touching bounding boxes). FROE_E_OPTIONS: out->size not set. */
 FROE_API froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_progress_fn *progress,
                                         void *user, froe_defects *out, froe_diagnostic *diag);
 

@@ -18,7 +18,7 @@ typedef struct ring_view {
     const double *coords;
     const uint32_t *ring;
     uint32_t count;
-    int u, v; /**< the axes that the projection keeps */
+    int axis; /**< along which it is projected */
 } ring_view;
 
 static const double *at(const ring_view *r, uint32_t i) {
@@ -27,12 +27,11 @@ static const double *at(const ring_view *r, uint32_t i) {
 
 /* ---------------------------------------------------------------- the plane -- */
 
-/** Turn of the projected corners i, j, k: 1 left, -1 right, 0 straight on or back. */
-static int turn(const ring_view *r, uint32_t i, uint32_t j, uint32_t k) {
-    const double *a = at(r, i), *b = at(r, j), *c = at(r, k);
-    double p[2] = {a[r->u], a[r->v]}, q[2] = {b[r->u], b[r->v]}, x[2] = {c[r->u], c[r->v]};
+int scene_projected_turn(num_context *context, int axis, const double *a, const double *b, const double *c) {
+    int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    double p[2] = {a[u], a[v]}, q[2] = {b[u], b[v]}, x[2] = {c[u], c[v]};
     geom_plane line = geom_plane_points(2, (const double *const[]){p, q});
-    return geom_side_vertex(r->context, &line, x);
+    return geom_side_vertex(context, &line, x);
 }
 
 /** The axis along which a triangle looks largest: where to ask first. */
@@ -48,15 +47,24 @@ static int guess_axis(const double *a, const double *b, const double *c) {
     return best;
 }
 
+int scene_projection_axis(num_context *context, const double *a, const double *b, const double *c) {
+    int first = guess_axis(a, b, c);
+    for (int i = 0; i < 3; i++) {
+        int axis = (first + i) % 3;
+        if (scene_projected_turn(context, axis, a, b, c) != 0) return axis;
+    }
+    return -1;
+}
+
+/** Turn of the projected corners i, j, k. */
+static int turn(const ring_view *r, uint32_t i, uint32_t j, uint32_t k) {
+    return scene_projected_turn(r->context, r->axis, at(r, i), at(r, j), at(r, k));
+}
+
 /** Projects along an axis that keeps corners 0, 1, k apart from a line; false if they are collinear. */
 static bool project(ring_view *r, uint32_t k) {
-    int first = guess_axis(at(r, 0), at(r, 1), at(r, k));
-    for (int i = 0; i < 3; i++) {
-        r->u = (first + i + 1) % 3;
-        r->v = (first + i + 2) % 3;
-        if (turn(r, 0, 1, k) != 0) return true;
-    }
-    return false;
+    r->axis = scene_projection_axis(r->context, at(r, 0), at(r, 1), at(r, k));
+    return r->axis >= 0;
 }
 
 /** The first corner not collinear with the first two, and the projection that shows it; 0: there is none. */
@@ -83,7 +91,7 @@ static bool less(const double *a, const double *b, int u, int v) {
 }
 
 static bool ascends(const ring_view *r, uint32_t i, uint32_t j) {
-    return less(at(r, i), at(r, j), r->u, r->v);
+    return less(at(r, i), at(r, j), (r->axis + 1) % 3, (r->axis + 2) % 3);
 }
 
 /** The turn at the least corner: that of the whole ring, if it is simple. */
