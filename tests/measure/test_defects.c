@@ -1,0 +1,463 @@
+/* The defect report against rational arithmetic, straight from the definitions: what two
+ * objects share is constructed, in exact fractions, and looked at. */
+#include "support/memory.h"
+
+#include "base/random.h"
+#include "scene/scene.h"
+#include "support/rational.h"
+
+enum { APART, CROSSING, T_JUNCTION, OVERLAP };
+
+/* ----------------------------------------------------------- small algebra -- */
+
+typedef struct vector {
+    mpq_t x[3];
+} vector;
+
+/** Vectors for one pair; begin() takes them all back. */
+static vector pool[4096];
+static size_t taken, made;
+
+static vector *fresh(void) {
+    assert_true(taken < sizeof pool / sizeof *pool);
+    for (int k = 0; made <= taken && k < 3; k++) mpq_init(pool[made].x[k]);
+    if (made <= taken) made++;
+    return &pool[taken++];
+}
+
+static vector *point(const double *x, int dim) {
+    vector *v = fresh();
+    for (int k = 0; k < 3; k++) mpq_set_d(v->x[k], k < dim ? x[k] : 0);
+    return v;
+}
+
+static vector *minus(const vector *a, const vector *b) {
+    vector *v = fresh();
+    for (int k = 0; k < 3; k++) mpq_sub(v->x[k], a->x[k], b->x[k]);
+    return v;
+}
+
+static vector *cross(vector *a, vector *b) {
+    vector *v = fresh();
+    rational_cross(v->x, a->x, b->x);
+    return v;
+}
+
+static int dot_sign(vector *a, vector *b) {
+    vector *v = fresh();
+    rational_dot(v->x[0], a->x, b->x);
+    return mpq_sgn(v->x[0]);
+}
+
+static bool is_zero(const vector *a) {
+    return !mpq_sgn(a->x[0]) && !mpq_sgn(a->x[1]) && !mpq_sgn(a->x[2]);
+}
+
+/** a + (b - a) * s / (s - t): where a function that is s at a and t at b vanishes. */
+static vector *vanish(vector *a, vector *b, mpq_t s, mpq_t t) {
+    vector *d = minus(b, a), *v = fresh(), *f = fresh();
+    mpq_sub(f->x[0], s, t);
+    mpq_div(f->x[0], s, f->x[0]);
+    for (int k = 0; k < 3; k++) {
+        mpq_mul(v->x[k], d->x[k], f->x[0]);
+        mpq_add(v->x[k], v->x[k], a->x[k]);
+    }
+    return v;
+}
+
+/** n . (x - o) */
+static mpq_t *height(vector *n, vector *o, vector *x) {
+    vector *v = fresh();
+    rational_dot(v->x[0], n->x, minus(x, o)->x);
+    return &v->x[0];
+}
+
+/* ----------------------------------------------------------------- oracles -- */
+
+/** 2D: solve p + t (q - p) = r + u (s - r). */
+static int segments_by_definition(const froe_scene *s, uint32_t a, uint32_t b) {
+    vector *p = point(scene_point(s, a, 0), 2), *q = point(scene_point(s, a, 1), 2);
+    vector *r = point(scene_point(s, b, 0), 2), *e = point(scene_point(s, b, 1), 2);
+    vector *d = minus(q, p), *f = minus(e, r), *g = minus(r, p), *divisor = cross(d, f), *t = fresh();
+    if (!is_zero(divisor)) {
+        mpq_div(t->x[0], cross(g, f)->x[2], divisor->x[2]);
+        mpq_div(t->x[1], cross(g, d)->x[2], divisor->x[2]);
+        int inside[2], end[2];
+        for (int i = 0; i < 2; i++) {
+            inside[i] = mpq_sgn(t->x[i]) > 0 && mpq_cmp_ui(t->x[i], 1, 1) < 0;
+            end[i] = mpq_sgn(t->x[i]) == 0 || mpq_cmp_ui(t->x[i], 1, 1) == 0;
+        }
+        if (inside[0] && inside[1]) return CROSSING;
+        return (inside[0] && end[1]) || (end[0] && inside[1]) ? T_JUNCTION : APART;
+    }
+    if (!is_zero(cross(g, d))) return APART;
+    rational_dot(t->x[2], d->x, d->x);
+    rational_dot(t->x[0], g->x, d->x);
+    rational_dot(t->x[1], minus(e, p)->x, d->x); /* b from x[0] to x[1] where a is from 0 to x[2] */
+    if (mpq_cmp(t->x[0], t->x[1]) > 0) mpq_swap(t->x[0], t->x[1]);
+    return mpq_sgn(t->x[1]) > 0 && mpq_cmp(t->x[0], t->x[2]) < 0 ? OVERLAP : APART;
+}
+
+typedef struct figure {
+    vector *corners[32], *normal;
+    int count;
+} figure;
+
+static figure figure_of(const froe_scene *s, uint32_t object) {
+    figure f = {.count = (int)scene_corners(s, object)};
+    for (int i = 0; i < f.count; i++) f.corners[i] = point(scene_point(s, object, (uint32_t)i), 3);
+    f.normal = cross(minus(f.corners[1], f.corners[0]), minus(f.corners[2], f.corners[0]));
+    return f;
+}
+
+/** Inward normal of edge i in the plane. */
+static vector *inward(const figure *f, int i) {
+    return cross(f->normal, minus(f->corners[(i + 1) % f->count], f->corners[i]));
+}
+
+static bool contains(const figure *f, vector *x) {
+    if (dot_sign(f->normal, minus(x, f->corners[0])) != 0) return false;
+    for (int i = 0; i < f->count; i++)
+        if (dot_sign(inward(f, i), minus(x, f->corners[i])) < 0) return false;
+    return true;
+}
+
+static bool junction(const figure *f, const figure *g) {
+    for (int i = 0; i < g->count; i++) {
+        bool common = false;
+        for (int j = 0; j < f->count; j++) common = common || is_zero(minus(f->corners[j], g->corners[i]));
+        if (!common && contains(f, g->corners[i])) return true;
+    }
+    return false;
+}
+
+/** The part of g (coplanar) inside f, by cutting along each edge of f (Sutherland, Hodgman): has it area? */
+static bool share_area(const figure *f, figure g) {
+    for (int e = 0; e < f->count; e++) {
+        figure cut = {.count = 0};
+        vector *n = inward(f, e), *o = f->corners[e];
+        for (int i = 0; i < g.count; i++) {
+            vector *a = g.corners[i], *b = g.corners[(i + 1) % g.count];
+            mpq_t *s = height(n, o, a), *t = height(n, o, b);
+            if (mpq_sgn(*s) >= 0) cut.corners[cut.count++] = a;
+            if (mpq_sgn(*s) * mpq_sgn(*t) < 0) cut.corners[cut.count++] = vanish(a, b, *s, *t);
+        }
+        g = cut;
+    }
+    for (int i = 2; i < g.count; i++)
+        if (!is_zero(cross(minus(g.corners[i - 1], g.corners[0]), minus(g.corners[i], g.corners[0])))) return true;
+    return false;
+}
+
+/** The interval of f on the plane of g, as heights along d; false unless f has corners on both sides. */
+static bool interval(const figure *f, const figure *g, vector *d, mpq_t lo, mpq_t hi) {
+    bool front = false, behind = false, any = false;
+    for (int i = 0; i < f->count; i++) {
+        vector *a = f->corners[i], *b = f->corners[(i + 1) % f->count], *x = NULL;
+        mpq_t *s = height(g->normal, g->corners[0], a), *t = height(g->normal, g->corners[0], b);
+        front |= mpq_sgn(*s) > 0;
+        behind |= mpq_sgn(*s) < 0;
+        if (mpq_sgn(*s) == 0) x = a;
+        if (mpq_sgn(*s) * mpq_sgn(*t) < 0) x = vanish(a, b, *s, *t);
+        if (!x) continue;
+        vector *v = fresh();
+        rational_dot(v->x[0], d->x, x->x);
+        if (!any || mpq_cmp(v->x[0], lo) < 0) mpq_set(lo, v->x[0]);
+        if (!any || mpq_cmp(v->x[0], hi) > 0) mpq_set(hi, v->x[0]);
+        any = true;
+    }
+    return front && behind;
+}
+
+static int polygons_by_definition(const froe_scene *s, uint32_t a, uint32_t b) {
+    figure f = figure_of(s, a), g = figure_of(s, b);
+    vector *d = cross(f.normal, g.normal), *lo = fresh(), *hi = fresh();
+    if (is_zero(d)) {
+        if (dot_sign(f.normal, minus(g.corners[0], f.corners[0])) != 0) return APART;
+        if (share_area(&f, g)) return OVERLAP;
+    } else if (interval(&f, &g, d, lo->x[0], hi->x[0]) && interval(&g, &f, d, lo->x[1], hi->x[1])) {
+        if (mpq_cmp(lo->x[0], hi->x[1]) < 0 && mpq_cmp(lo->x[1], hi->x[0]) < 0) return CROSSING;
+    }
+    return junction(&f, &g) || junction(&g, &f) ? T_JUNCTION : APART;
+}
+
+/* ------------------------------------------------------------------ checks -- */
+
+static bool full(const froe_scene *s, uint32_t object) {
+    return scene_form(s, object) == (s->dim == 2 ? FROE_SEGMENT : FROE_POLYGON);
+}
+
+static froe_defects brute_force(const froe_scene *s) {
+    froe_defects d = {.size = sizeof d,
+                      .first_crossing = {FROE_NONE, FROE_NONE},
+                      .first_t_junction = {FROE_NONE, FROE_NONE},
+                      .first_overlap = {FROE_NONE, FROE_NONE}};
+    uint64_t *counts[] = {NULL, &d.crossings, &d.t_junctions, &d.overlaps};
+    uint32_t *firsts[] = {NULL, d.first_crossing, d.first_t_junction, d.first_overlap};
+    bool *duplicate = calloc(s->object_count, sizeof *duplicate);
+    assert_non_null(duplicate);
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        for (uint32_t j = 0; j < i && !duplicate[i]; j++) duplicate[i] = scene_equal(s, i, j);
+        d.duplicates += duplicate[i];
+        d.zero_length += s->kinds[i] == FROE_SEGMENT && s->forms[i] == FROE_POINT;
+        d.zero_area += s->kinds[i] == FROE_POLYGON && s->forms[i] != FROE_POLYGON;
+    }
+    for (uint32_t a = 0; a < s->object_count; a++)
+        for (uint32_t b = a + 1; b < s->object_count; b++) {
+            if (duplicate[a] || duplicate[b] || !full(s, a) || !full(s, b)) continue;
+            taken = 0;
+            int contact = s->dim == 2 ? segments_by_definition(s, a, b) : polygons_by_definition(s, a, b);
+            if (contact == APART) continue;
+            if (!(*counts[contact])++) firsts[contact][0] = a, firsts[contact][1] = b;
+        }
+    free(duplicate);
+    return d;
+}
+
+static froe_defects report(const froe_scene *s, unsigned threads) {
+    froe_defects d = {.size = sizeof d};
+    assert_int_equal(froe_scene_defects(s, threads, NULL, NULL, &d, NULL), FROE_OK);
+    return d;
+}
+
+static uint64_t totals[6];
+
+static void check(froe_scene *s, unsigned threads) {
+    froe_defects expected = brute_force(s), got = report(s, threads);
+    assert_memory_equal(&expected, &got, sizeof got);
+    totals[0] += got.crossings;
+    totals[1] += got.t_junctions;
+    totals[2] += got.overlaps;
+    totals[3] += got.duplicates;
+    totals[4] += got.zero_length + got.zero_area;
+    totals[5]++;
+    froe_scene_free(s);
+}
+
+static froe_scene *scene_with(int dim, froe_kind kind, size_t count, const double *coords, const size_t *starts) {
+    froe_scene *s;
+    froe_diagnostic diag;
+    froe_objects b = froe_objects_defaults();
+    b.kind = kind;
+    b.count = count;
+    b.coords = coords;
+    b.starts = starts;
+    assert_int_equal(froe_scene_new(dim, NULL, &s), FROE_OK);
+    if (froe_scene_add(s, &b, &diag)) fail_msg("%s", diag.message);
+    return s;
+}
+
+static void segments_of_lattices_at_every_scale(void **state) {
+    (void)state;
+    const double scales[] = {1, 0x1p1000, 0x1p-1074, 0.1};
+    memset(totals, 0, sizeof totals);
+    for (uint32_t round = 0; round < 120; round++) {
+        double xy[4 * 60];
+        for (uint32_t i = 0; i < 240; i++)
+            xy[i] = base_below(base_hash(11, round, i), 2 + round % 30) * scales[round % 4];
+        check(scene_with(2, FROE_SEGMENT, 60, xy, NULL), 1 + round % 2);
+    }
+    for (int i = 0; i < 5; i++) assert_true(totals[i] > 100);
+}
+
+/** Triangles and parallelograms, some with corners in the middle of edges, on a small lattice. */
+static froe_scene *lattice_polygons(uint64_t seed, uint32_t count, uint32_t range, double scale) {
+    double xyz[3 * 8 * 40], *out = xyz;
+    size_t starts[41] = {0};
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t j = i % 8 == 7 ? i - 7 : i; /* some twice */
+        int64_t o[3], u[3], v[3];
+        uint32_t flat = base_below(base_hash(seed, j, 99), 5); /* many lie in coordinate planes */
+        for (uint32_t k = 0; k < 3; k++) {
+            o[k] = base_below(base_hash(seed, j, k), range);
+            u[k] = flat == k ? 0 : (int64_t)base_below(base_hash(seed, j, 10 + k), 5) - 2;
+            v[k] = flat == k ? 0 : (int64_t)base_below(base_hash(seed, j, 20 + k), 5) - 2;
+        }
+        /* in twos: halves of edges stay on the lattice */
+        const int shapes[3][6][2] = {{{0, 0}, {2, 0}, {0, 2}},
+                                     {{0, 0}, {2, 0}, {2, 2}, {0, 2}},
+                                     {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {0, 2}}};
+        uint32_t shape = base_below(base_hash(seed, j, 30), 3);
+        for (int c = 0; c < (int)(shape == 2 ? 6 : 3 + shape); c++)
+            for (int k = 0; k < 3; k++)
+                *out++ = (double)(2 * o[k] + shapes[shape][c][0] * u[k] + shapes[shape][c][1] * v[k]) * scale;
+        starts[i + 1] = (size_t)(out - xyz) / 3;
+    }
+    return scene_with(3, FROE_POLYGON, count, xyz, starts);
+}
+
+static void polygons_of_lattices_at_every_scale(void **state) {
+    (void)state;
+    const double scales[] = {1, 0x1p1000, 0x1p-1074};
+    memset(totals, 0, sizeof totals);
+    for (uint32_t round = 0; round < 60; round++)
+        check(lattice_polygons(round, 40, 1 + round % 5, scales[round % 3]), 1 + round % 2);
+    for (int i = 0; i < 5; i++) assert_true(totals[i] > 50);
+}
+
+static void polygons_in_general_position(void **state) {
+    (void)state;
+    memset(totals, 0, sizeof totals);
+    for (uint32_t round = 0; round < 10; round++) {
+        double xyz[9 * 60];
+        for (uint32_t i = 0; i < 540; i++) xyz[i] = (double)base_hash(7, round, i) * 0x1p-64;
+        check(scene_with(3, FROE_POLYGON, 60, xyz, NULL), 2);
+    }
+    assert_true(totals[0] > 1000 && totals[1] + totals[2] + totals[3] == 0);
+}
+
+/** A fan of triangles around an axis, a wall on a floor, stacked walls: named cases. */
+static void known_cases_in_space(void **state) {
+    (void)state;
+    const size_t quads[] = {0, 4, 8};
+    const struct {
+        double wall[12];
+        uint64_t crossings, t_junctions, overlaps;
+    } cases[] = {
+        {{1, 1, -1, 2, 1, -1, 2, 1, 1, 1, 1, 1}, 1, 0, 0},     /* through the floor */
+        {{1, 1, 0, 2, 1, 0, 2, 1, 1, 1, 1, 1}, 0, 1, 0},       /* stands on it */
+        {{-1, 1, 0, 9, 1, 0, 9, 1, 1, -1, 1, 1}, 0, 0, 0},     /* stands across it, corners outside */
+        {{0, 0, 0, 4, 0, 0, 4, 0, 4, 0, 0, 4}, 0, 0, 0},       /* stands on its edge */
+        {{1, 0, 0, 3, 0, 0, 3, 0, 4, 1, 0, 4}, 0, 1, 0},       /* stands on part of its edge */
+        {{1, -1, -1, 2, -1, -1, 2, -1, 1, 1, -1, 1}, 0, 0, 0}, /* beside it */
+        {{1, 1, 0, 2, 1, 0, 2, 2, 0, 1, 2, 0}, 0, 0, 1},       /* lies in it */
+        {{4, 0, 0, 8, 0, 0, 8, 4, 0, 4, 4, 0}, 0, 0, 0},       /* continues it */
+        {{4, 1, 0, 8, 1, 0, 8, 3, 0, 4, 3, 0}, 0, 1, 0},       /* continues part of it */
+        {{0, 0, -1, 4, 4, -1, 4, 4, 1, 0, 0, 1}, 1, 0, 0},     /* through its diagonal */
+        {{0, 0, 0, 4, 4, 0, 4, 4, 1, 0, 0, 1}, 0, 0, 0},       /* on its diagonal */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double xyz[24] = {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0};
+        memcpy(xyz + 12, cases[i].wall, sizeof cases[i].wall);
+        froe_scene *s = scene_with(3, FROE_POLYGON, 2, xyz, quads);
+        froe_defects d = report(s, 1);
+        assert_int_equal(d.crossings, cases[i].crossings);
+        assert_int_equal(d.t_junctions, cases[i].t_junctions);
+        assert_int_equal(d.overlaps, cases[i].overlaps);
+        check(s, 1);
+    }
+}
+
+static void other_kinds_and_dimensions_count_duplicates_only(void **state) {
+    (void)state;
+    const double x[] = {0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1};
+    froe_scene *s = scene_with(4, FROE_BOX, 2, x, NULL);
+    froe_defects d = report(s, 1);
+    assert_int_equal(d.duplicates, 1);
+    assert_int_equal(d.crossings + d.t_junctions + d.overlaps, 0);
+    assert_int_equal(d.first_overlap[0], FROE_NONE);
+    froe_scene_free(s);
+    s = scene_with(3, FROE_SEGMENT, 2, (const double[]){0, 0, 0, 2, 2, 0, 0, 2, 0, 2, 0, 0}, NULL);
+    assert_int_equal(report(s, 1).crossings, 0);
+    froe_scene_free(s);
+}
+
+static void an_empty_scene_has_no_defects(void **state) {
+    (void)state;
+    froe_scene *s;
+    assert_int_equal(froe_scene_new(2, NULL, &s), FROE_OK);
+    check(s, 4);
+}
+
+static void wrong_arguments_are_refused(void **state) {
+    (void)state;
+    froe_scene *s;
+    froe_defects d = {.size = 0};
+    assert_int_equal(froe_scene_new(2, NULL, &s), FROE_OK);
+    assert_int_equal(froe_scene_defects(s, 1, NULL, NULL, &d, NULL), FROE_E_OPTIONS);
+    assert_int_equal(froe_scene_defects(s, 1, NULL, NULL, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_scene_defects(NULL, 1, NULL, NULL, &d, NULL), FROE_E_ARG);
+    froe_scene_free(s);
+}
+
+/** A grid of unit edges with diagonals crossing in every tenth cell. */
+static void a_million_segments_are_quick(void **state) {
+    (void)state;
+    enum { SIDE = 700 };
+    double *xy = malloc(sizeof *xy * 4 * (2 * SIDE * SIDE + 2 * SIDE * SIDE / 10 + 2)), *out = xy;
+    assert_non_null(xy);
+    uint64_t crossings = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double x = i % SIDE, y = i / SIDE;
+        const double cell[] = {x, y, x + 1, y, x, y, x, y + 1, x, y, x + 1, y + 1, x + 1, y, x, y + 1};
+        size_t numbers = i % 10 ? 8 : 16;
+        memcpy(out, cell, numbers * sizeof *cell);
+        out += numbers;
+        crossings += i % 10 == 0;
+    }
+    froe_scene *s = scene_with(2, FROE_SEGMENT, (size_t)(out - xy) / 4, xy, NULL);
+    froe_defects d = report(s, 2);
+    assert_int_equal(d.crossings, crossings);
+    assert_int_equal(d.t_junctions + d.overlaps + d.duplicates, 0);
+    assert_int_equal(d.first_crossing[0], 2);
+    froe_scene_free(s);
+    free(xy);
+}
+
+static bool stop_soon(void *user, double done) {
+    assert_true(done >= 0 && done <= 1);
+    return ++*(int *)user < 3;
+}
+
+static void far_too_many_pairs_can_be_cancelled(void **state) {
+    (void)state;
+    enum { N = 200000 };
+    double *xy = malloc(sizeof *xy * 4 * N);
+    assert_non_null(xy);
+    for (int i = 0; i < N; i++) {
+        const double diagonal[] = {-i, -i - 1, i + 1, i};
+        memcpy(xy + 4 * i, diagonal, sizeof diagonal);
+    }
+    froe_scene *s = scene_with(2, FROE_SEGMENT, N, xy, NULL);
+    froe_defects d = {.size = sizeof d, .crossings = 77};
+    froe_diagnostic diag;
+    int calls = 0;
+    assert_int_equal(froe_scene_defects(s, 2, stop_soon, &calls, &d, &diag), FROE_E_CANCELLED);
+    assert_int_equal(d.crossings, 77);
+    assert_int_equal(diag.status, FROE_E_CANCELLED);
+    froe_scene_free(s);
+    free(xy);
+}
+
+static double few[4 * 20];
+
+static froe_status examine(void *user, const froe_allocator *alloc) {
+    (void)user;
+    froe_scene *s;
+    froe_defects d = {.size = sizeof d};
+    froe_objects b = froe_objects_defaults();
+    b.kind = FROE_SEGMENT;
+    b.count = 20;
+    b.coords = few;
+    froe_status status = froe_scene_new(2, alloc, &s);
+    if (status) return status;
+    status = froe_scene_add(s, &b, NULL);
+    if (!status) status = froe_scene_defects(s, 2, NULL, NULL, &d, NULL);
+    froe_scene_free(s);
+    return status;
+}
+
+static void every_failing_allocation_is_survived(void **state) {
+    (void)state;
+    for (uint32_t i = 0; i < 80; i++) few[i] = base_below(base_hash(1, i, 0), 9);
+    assert_true(test_memory_each(examine, NULL) > 15);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(segments_of_lattices_at_every_scale),
+        cmocka_unit_test(polygons_of_lattices_at_every_scale),
+        cmocka_unit_test(polygons_in_general_position),
+        cmocka_unit_test(known_cases_in_space),
+        cmocka_unit_test(other_kinds_and_dimensions_count_duplicates_only),
+        cmocka_unit_test(an_empty_scene_has_no_defects),
+        cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(a_million_segments_are_quick),
+        cmocka_unit_test(far_too_many_pairs_can_be_cancelled),
+        cmocka_unit_test(every_failing_allocation_is_survived),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    for (size_t i = 0; i < made; i++)
+        for (int k = 0; k < 3; k++) mpq_clear(pool[i].x[k]);
+    return failed;
+}
