@@ -170,7 +170,7 @@ static void copy_text(char *to, const char *from, size_t size) {
 }
 
 /* A copy without what may stand behind the ends of strings and lists: equal trees make equal files. */
-static void copy_meta(const tree_meta *from, tree_meta *to) {
+static void copy_meta(const tree_meta *from, size_t dim, tree_meta *to) {
     copy_text(to->method, from->method, sizeof to->method);
     copy_text(to->settings, from->settings, sizeof to->settings);
     to->seed = from->seed;
@@ -181,8 +181,8 @@ static void copy_meta(const tree_meta *from, tree_meta *to) {
         to->promises[i].promised = from->promises[i].promised;
         to->promises[i].measured = from->promises[i].measured;
     }
-    memcpy(to->root_lo, from->root_lo, sizeof to->root_lo);
-    memcpy(to->root_hi, from->root_hi, sizeof to->root_hi);
+    memcpy(to->root_lo, from->root_lo, dim * sizeof *to->root_lo);
+    memcpy(to->root_hi, from->root_hi, dim * sizeof *to->root_hi);
 }
 
 froe_status draft_seal(const tree_draft *main, const tree_graft *grafts, size_t graft_count, froe_scene *scene,
@@ -193,7 +193,7 @@ froe_status draft_seal(const tree_draft *main, const tree_graft *grafts, size_t 
     if (!s.tree) return FROE_E_MEMORY;
     s.tree->alloc = main->alloc;
     s.tree->scene = scene;
-    copy_meta(meta, &s.tree->meta);
+    copy_meta(meta, (size_t)scene->dim, &s.tree->meta);
     scene_hold(scene);
     status = fill_tree(&s);
     free_scratch(&s);
