@@ -38,11 +38,12 @@ bench: deps-bench ## froe beside its peers, those that Debian has
 bench-peers: bench ## and those from the npm registry, where it can be reached
 	@bench/run-peers $(BUILD)/bench
 
-coverage: deps-coverage ## which lines do the tests run? build/coverage/index.html
+coverage: deps-coverage ## which lines do the tests run? build/coverage/report/index.html
 	@cmake --preset coverage
 	@cmake --build --preset coverage --parallel $(JOBS)
 	@ctest --preset coverage --parallel $(JOBS)
-	@gcovr --root . --filter 'src/|io/|draw/|cli/' --html-details build/coverage/index.html --print-summary build/coverage
+	@cmake -E make_directory build/coverage/report
+	@gcovr --root . --filter 'src/|io/|draw/|cli/' --html-details build/coverage/report/index.html --print-summary build/coverage
 
 format: deps-lint ## all sources as .clang-format says
 	@git ls-files '*.c' '*.h' | xargs clang-format -i
