@@ -72,8 +72,9 @@ enum { LINE = 400, WORDS = 40 };
 static int run_line(const cli_common *common, const char *text, bool loud, json_t **report) {
     char line[LINE], *words[WORDS];
     int count = 0;
-    snprintf(line, sizeof line, "%s --seed %llu --threads %llu%s", text, (unsigned long long)common->seed,
-             (unsigned long long)common->threads, loud ? "" : " --quiet");
+    if (snprintf(line, sizeof line, "%s --seed %llu --threads %llu%s", text, (unsigned long long)common->seed,
+                 (unsigned long long)common->threads, loud ? "" : " --quiet") >= LINE)
+        return cli_fail(CLI_USE, NULL, "a line of the demo is too long");
     for (char *rest = line, *word; count < WORDS && (word = strtok_r(rest, " ", &rest)) != NULL;) words[count++] = word;
     if (loud) printf("$ froe %s\n", text);
     const cli_command *command = cli_command_named(words[0]);

@@ -1,7 +1,6 @@
 /* test_verdict.c: froe check says no, with exit code 1 and the violation, about a
  * tree that the file format lets pass: whole and valid, but with two objects swapped. */
 #include "tree/tree.h"
-#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+
+#include <cmocka.h> /* needs setjmp.h and stdarg.h before it */
 
 /* Two leaves, one point each. */
 static froe_tree *two_points(void) {
