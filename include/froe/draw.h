@@ -49,8 +49,8 @@ FROE_API const char *froe_draw_style_name(froe_draw_style style);
 typedef enum froe_draw_layer {
     FROE_DRAW_CELLS = 1,     /**< cells, coloured by depth */
     FROE_DRAW_CUTS = 2,      /**< cuts within their regions, heavier near the root */
-    FROE_DRAW_FRAGMENTS = 4, /**< pieces in alternating shades, ticks where a cut ended them */
-    FROE_DRAW_OBJECTS = 8    /**< objects, whole, in ink */
+    FROE_DRAW_FRAGMENTS = 4, /**< pieces; those of cut objects in alternating shades, ticks where a cut ended them */
+    FROE_DRAW_OBJECTS = 8    /**< objects in ink; those shown as fragments not twice */
 } froe_draw_layer;
 /** Name of one bit: "cells", "cuts", "fragments", "objects"; NULL for anything else. */
 FROE_API const char *froe_draw_layer_name(froe_draw_layer layer);
@@ -87,9 +87,10 @@ typedef struct froe_draw_options {
     int axis;                    /**< SECTIONS: 0, 1, 2: the section x, y or z = at; -1 (default): a sheet
                                       of the three sections through the middle */
     double at;                   /**< see axis */
-    double view[3];              /**< EXPLODED: from the scene to the eye, any length; default from the front
-                                      right and above. z points up on the page (straight views from above
-                                      or below: y) */
+    int up;                      /**< 3D: the axis that points up on the page, 0, 1 or 2; default 2. With 1, z
+                                      points at the viewer, as in glTF */
+    double view[3];              /**< EXPLODED: from the scene to the eye, any length; default all 0: from the
+                                      front right and above */
     double explode;              /**< EXPLODED: parts move away from the centre by this multiple of their
                                       distance from it, 0 .. 10; default 0.5; 0: nothing moves */
     uint32_t explode_depth;      /**< EXPLODED: the parts are the regions of the nodes at this depth (and

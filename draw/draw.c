@@ -1,0 +1,203 @@
+/* draw.c: the public calls: options checked, page planned, painted, handed over. */
+#include "output.h"
+#include "palette.h"
+#include "picture.h"
+#include <math.h>
+#include <string.h>
+
+froe_draw_options froe_draw_defaults(void) {
+    return (froe_draw_options){.size = sizeof(froe_draw_options),
+                               .style = FROE_DRAW_AUTO,
+                               .width = 960,
+                               .margin = -1,
+                               .scale = 1,
+                               .background = DRAW_PAPER,
+                               .legend = true,
+                               .detail = 0.5,
+                               .axis = -1,
+                               .up = 2,
+                               .explode = 0.5,
+                               .explode_depth = 4};
+}
+
+const char *froe_draw_style_name(froe_draw_style style) {
+    static const char *const names[FROE_DRAW_STYLE_COUNT] = {"auto", "flat", "sections", "exploded"};
+    return style >= 0 && style < FROE_DRAW_STYLE_COUNT ? names[style] : NULL;
+}
+
+const char *froe_draw_layer_name(froe_draw_layer layer) {
+    switch (layer) {
+    case FROE_DRAW_CELLS:
+        return "cells";
+    case FROE_DRAW_CUTS:
+        return "cuts";
+    case FROE_DRAW_FRAGMENTS:
+        return "fragments";
+    case FROE_DRAW_OBJECTS:
+        return "objects";
+    default:
+        return NULL;
+    }
+}
+
+static bool same_word(const char *a, const char *lower) {
+    for (; *a && *lower; a++, lower++)
+        if ((*a >= 'A' && *a <= 'Z' ? *a - 'A' + 'a' : *a) != *lower) return false;
+    return *a == *lower;
+}
+
+bool froe_draw_format_of(const char *path, froe_draw_format *format) {
+    static const char *const extensions[FROE_DRAW_FORMAT_COUNT] = {".svg", ".pdf", ".png"};
+    const char *dot = path ? strrchr(path, '.') : NULL;
+    for (int f = 0; dot && f < FROE_DRAW_FORMAT_COUNT; f++)
+        if (same_word(dot, extensions[f])) {
+            *format = (froe_draw_format)f;
+            return true;
+        }
+    return false;
+}
+
+/* --------------------------------------------------------------- checking -- */
+
+typedef struct range {
+    const char *name;
+    double value, lo, hi;
+} range;
+
+static froe_status check_ranges(const froe_draw_options *o, froe_diagnostic *diag) {
+    const range ranges[] = {{"width", o->width, 16, 32000},
+                            {"height", o->height, o->height == 0 ? 0 : 16, 32000},
+                            {"margin", o->margin, -HUGE_VAL, o->width / 2},
+                            {"scale", o->scale, 0.1, 16},
+                            {"detail", o->detail, 0, 1e6},
+                            {"axis", o->axis, -1, 2},
+                            {"up", o->up, 0, 2},
+                            {"at", o->at, -1.7976931348623157e308, 1.7976931348623157e308},
+                            {"explode", o->explode, 0, 10},
+                            {"explode_depth", o->explode_depth, 0, 32}};
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const range *r = ranges + i;
+        if (r->value >= r->lo && r->value <= r->hi) continue;
+        return draw_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
+                         r->value, r->lo, r->hi);
+    }
+    return FROE_OK;
+}
+
+static bool all_finite(const double *x, int count) {
+    for (int k = 0; k < count; k++)
+        if (!isfinite(x[k])) return false;
+    return true;
+}
+
+static froe_status check_options(const froe_draw_options *o, int dim, froe_diagnostic *diag) {
+    if (o->size != sizeof *o)
+        return draw_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_draw_defaults().");
+    if (dim > 3) return draw_fail(diag, FROE_E_UNSUPPORTED, "Pictures have 2 or 3 dimensions; this tree has %d.", dim);
+    if (o->style < 0 || o->style >= FROE_DRAW_STYLE_COUNT)
+        return draw_fail(diag, FROE_E_OPTIONS, "There is no picture style number %d.", (int)o->style);
+    if (o->style != FROE_DRAW_AUTO && (o->style == FROE_DRAW_FLAT) != (dim == 2))
+        return draw_fail(diag, FROE_E_OPTIONS, "Style '%s' does not suit a tree of dimension %d.",
+                         froe_draw_style_name(o->style), dim);
+    if (o->show > 15) return draw_fail(diag, FROE_E_OPTIONS, "Option 'show' of a picture has unknown bits.");
+    if (!all_finite(o->lo, 3) || !all_finite(o->hi, 3) || !all_finite(o->view, 3))
+        return draw_fail(diag, FROE_E_OPTIONS, "The window and the direction of view must be finite.");
+    return check_ranges(o, diag);
+}
+
+static froe_status check_pixels(const draw_page *page, froe_draw_format format, froe_diagnostic *diag) {
+    double scale = page->options->scale, most = 32000;
+    if (format != FROE_DRAW_PNG || (page->width * scale <= most && page->height * scale <= most)) return FROE_OK;
+    return draw_fail(diag, FROE_E_OPTIONS, "A PNG of %.0f x %.0f pixels is too large: at most %.0f either way.",
+                     page->width * scale, page->height * scale, most);
+}
+
+/* --------------------------------------------------------------- painting -- */
+
+static bool has_window(const froe_draw_options *o, int dim) {
+    for (int k = 0; k < dim; k++)
+        if (!(o->lo[k] < o->hi[k])) return false;
+    return true;
+}
+
+/* Air around a whole scene, and no window thinner than an eighth. */
+static void frame_scene(draw_picture *picture, const froe_draw_options *o) {
+    const froe_scene *scene = froe_tree_scene(picture->page.tree);
+    int dim = froe_scene_dim(scene);
+    double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
+    bool solid = picture->page.options->style == FROE_DRAW_EXPLODED;
+    picture->whole = solid || !has_window(o, dim);
+    if (picture->whole) froe_scene_bounds(scene, lo, hi);
+    picture->space = draw_space_over(dim, o->up, picture->whole ? lo : o->lo, picture->whole ? hi : o->hi);
+    for (int k = 0; k < 3; k++)
+        picture->wide[k] = picture->whole ? fmax(picture->space.reach[k] + 0.025, 0.125) : picture->space.reach[k];
+}
+
+static uint32_t standard_layers(froe_draw_style style) {
+    return style == FROE_DRAW_EXPLODED ? FROE_DRAW_CELLS | FROE_DRAW_FRAGMENTS | FROE_DRAW_OBJECTS
+                                       : FROE_DRAW_CELLS | FROE_DRAW_CUTS | FROE_DRAW_FRAGMENTS | FROE_DRAW_OBJECTS;
+}
+
+static froe_status paint(draw_picture *picture, froe_draw_format format, draw_output *output, froe_diagnostic *diag) {
+    const draw_page *page = &picture->page;
+    bool solid = page->options->style == FROE_DRAW_EXPLODED;
+    froe_status status = solid ? draw_solid_plan(picture) : draw_plane_plan(picture);
+    if (status == FROE_OK && (status = check_pixels(page, format, diag)) != FROE_OK) return status;
+    if (status == FROE_OK) {
+        status = draw_output_begin(output, &page->alloc, format, page->width, page->height, page->options->scale,
+                                   page->options->title, diag);
+        if (status != FROE_OK) return status;
+        status = solid ? draw_solid_paint(picture, output->cr) : draw_plane_paint(picture, output->cr);
+    }
+    if (status == FROE_E_MEMORY) draw_fail_memory(diag);
+    if (status == FROE_E_CANCELLED) draw_fail(diag, status, "Drawing was cancelled.");
+    return status == FROE_OK ? draw_output_finish(output, diag) : status;
+}
+
+/* The picture's bytes, in `output`, which the caller frees. */
+static froe_status make(const froe_tree *tree, froe_draw_format format, const froe_draw_options *given,
+                        draw_output *output, froe_diagnostic *diag) {
+    froe_draw_options o = given ? *given : froe_draw_defaults();
+    *output = (draw_output){.alloc = draw_allocator(o.alloc)};
+    int dim = froe_scene_dim(froe_tree_scene(tree));
+    froe_status status = check_options(&o, dim, diag);
+    if (status != FROE_OK) return status;
+    if (o.style == FROE_DRAW_AUTO) o.style = dim == 2 ? FROE_DRAW_FLAT : FROE_DRAW_SECTIONS;
+    froe_report report = froe_tree_report(tree);
+    draw_task task = {.progress = o.progress, .user = o.user};
+    task.total = 3.0 * (double)(report.nodes + report.objects + report.fragments) + 1;
+    draw_picture picture = {.show = o.show ? o.show : standard_layers(o.style)};
+    picture.page = (draw_page){.tree = tree, .options = &o, .alloc = output->alloc, .task = &task};
+    frame_scene(&picture, &o);
+    status = paint(&picture, format, output, diag);
+    draw_picture_free(&picture);
+    if (status == FROE_OK && o.progress && !o.progress(o.user, 1))
+        return draw_fail(diag, FROE_E_CANCELLED, "Drawing was cancelled.");
+    return status;
+}
+
+froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_draw_write_fn *fn, void *user,
+                            const froe_draw_options *options, froe_diagnostic *diag) {
+    if (!tree || !fn) return draw_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
+    if (format < 0 || format >= FROE_DRAW_FORMAT_COUNT)
+        return draw_fail(diag, FROE_E_OPTIONS, "There is no picture format number %d.", (int)format);
+    draw_output output;
+    froe_status status = make(tree, format, options, &output, diag);
+    if (status == FROE_OK && !fn(user, output.bytes.data, output.bytes.count))
+        status = draw_fail(diag, FROE_E_IO, "The receiver of the picture refused it.");
+    draw_output_free(&output);
+    return status;
+}
+
+froe_status froe_draw(const froe_tree *tree, const char *path, const froe_draw_options *options,
+                      froe_diagnostic *diag) {
+    froe_draw_format format;
+    if (!tree || !path) return draw_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
+    if (!froe_draw_format_of(path, &format))
+        return draw_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf or .png.", path);
+    draw_output output;
+    froe_status status = make(tree, format, options, &output, diag);
+    if (status == FROE_OK) status = draw_save(path, output.bytes.data, output.bytes.count, &output.alloc, diag);
+    draw_output_free(&output);
+    return status;
+}

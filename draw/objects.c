@@ -1,0 +1,202 @@
+/* objects.c: objects in ink; of those that were cut every second piece in the accent
+ * colour, with a tick across each end that a cut made. */
+#include "paint.h"
+#include "palette.h"
+#include <math.h>
+#include <stdlib.h>
+
+enum { PATH = 512 };
+
+typedef struct stroke {
+    draw_point p, q; /* p before q: left to right, bottom to top */
+    uint32_t object;
+    bool cut, odd; /* cut: p is an end that a cut made */
+} stroke;
+
+typedef struct painter {
+    const draw_page *page;
+    cairo_t *cr;
+    const draw_view *view;
+    draw_shaper shaper;
+    draw_dots dots;
+    double weight;
+    size_t object_count;
+    bool *cut; /* by object; NULL: objects are shown whole */
+    DRAW_ARRAY(stroke) ink, parts;
+    DRAW_ARRAY(draw_point) points;
+} painter;
+
+/* Ink as the scene is dense: a few hundred strokes stand bold, a million are fine. */
+static double weight_for(const draw_page *page, size_t count) {
+    double each = sqrt(page->inner_width * page->inner_height / (double)(count + 1));
+    return fmin(fmax(0.055 * each, 0.4 * page->unit), 1.5 * page->unit);
+}
+
+static bool hidden(painter *pen, const draw_shape *shape) {
+    if (shape->sort == DRAW_NOTHING) return true;
+    draw_point lo = shape->points[0], hi = lo;
+    for (size_t i = 1; i < shape->count; i++) {
+        draw_point p = shape->points[i];
+        lo = (draw_point){fmin(lo.x, p.x), fmin(lo.y, p.y)};
+        hi = (draw_point){fmax(hi.x, p.x), fmax(hi.y, p.y)};
+    }
+    hi.x += 2 * shape->radius;
+    return draw_dots_taken(&pen->dots, lo, hi);
+}
+
+/* Areas are washed and outlined at once, under all strokes. */
+static void paint_area(painter *pen, const draw_shape *shape) {
+    cairo_t *cr = pen->cr;
+    if (shape->sort == DRAW_DISC)
+        draw_circle(cr, shape->points[0], shape->radius);
+    else
+        for (size_t i = 0; i < shape->count; i++) cairo_line_to(cr, shape->points[i].x, shape->points[i].y);
+    cairo_close_path(cr);
+    draw_set_color(cr, DRAW_INK, 0.07);
+    cairo_fill_preserve(cr);
+    draw_set_color(cr, DRAW_INK, 1);
+    cairo_set_line_width(cr, 0.8 * pen->weight);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_MITER);
+    cairo_stroke(cr);
+}
+
+static stroke directed(const draw_shape *shape, uint32_t object) {
+    draw_point p = shape->points[0], q = shape->points[1];
+    bool turn = q.x < p.x || (q.x == p.x && q.y > p.y);
+    return turn ? (stroke){q, p, object, shape->cut[1], false} : (stroke){p, q, object, shape->cut[0], false};
+}
+
+static bool take(painter *pen, const draw_shape *shape, uint32_t object, bool whole) {
+    if (hidden(pen, shape)) return true;
+    if (shape->sort == DRAW_DOT) return draw_push(&pen->page->alloc, &pen->points, shape->points[0]);
+    if (shape->sort != DRAW_STROKE) {
+        paint_area(pen, shape);
+        return true;
+    }
+    if (whole) return draw_push(&pen->page->alloc, &pen->ink, directed(shape, object));
+    return draw_push(&pen->page->alloc, &pen->parts, directed(shape, object));
+}
+
+/* Marks the objects of which only pieces are left. */
+static bool mark_cut(painter *pen) {
+    size_t count = froe_tree_piece_count(pen->shaper.tree);
+    pen->cut = draw_calloc(&pen->page->alloc, pen->object_count, 1);
+    for (size_t i = 0; pen->cut && i < count; i++) {
+        froe_piece piece = froe_tree_piece(pen->shaper.tree, i);
+        if (!piece.whole) pen->cut[piece.object] = true;
+    }
+    return pen->cut;
+}
+
+static bool gather_objects(painter *pen) {
+    draw_shape shape;
+    for (size_t i = 0; i < pen->object_count && draw_tick(pen->page->task); i++) {
+        if (pen->cut && pen->cut[i]) continue;
+        if (!draw_shape_of_object(&pen->shaper, (uint32_t)i, &shape) || !take(pen, &shape, (uint32_t)i, true))
+            return false;
+    }
+    return true;
+}
+
+static bool gather_pieces(painter *pen) {
+    size_t count = froe_tree_piece_count(pen->shaper.tree);
+    draw_shape shape;
+    for (size_t i = 0; i < count && draw_tick(pen->page->task); i++) {
+        froe_piece piece = froe_tree_piece(pen->shaper.tree, i);
+        if (piece.whole) continue;
+        if (!draw_shape_of_piece(&pen->shaper, i, &shape) || !take(pen, &shape, piece.object, false)) return false;
+    }
+    return true;
+}
+
+static int along_object(const void *a, const void *b) {
+    const stroke *s = a, *t = b;
+    if (s->object != t->object) return s->object < t->object ? -1 : 1;
+    if (s->p.x != t->p.x) return s->p.x < t->p.x ? -1 : 1;
+    if (s->p.y != t->p.y) return s->p.y > t->p.y ? -1 : 1;
+    if (s->q.x != t->q.x) return s->q.x < t->q.x ? -1 : 1;
+    return (s->q.y < t->q.y) - (s->q.y > t->q.y);
+}
+
+/* Along each object, every second part is odd. */
+static void alternate(painter *pen) {
+    stroke *parts = pen->parts.data;
+    if (pen->parts.count) qsort(parts, pen->parts.count, sizeof *parts, along_object);
+    for (size_t i = 1; i < pen->parts.count; i++)
+        parts[i].odd = parts[i].object == parts[i - 1].object && !parts[i - 1].odd;
+}
+
+static void paint_strokes(cairo_t *cr, const stroke *strokes, size_t count, bool odd) {
+    size_t held = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (strokes[i].odd != odd) continue;
+        cairo_move_to(cr, strokes[i].p.x, strokes[i].p.y);
+        cairo_line_to(cr, strokes[i].q.x, strokes[i].q.y);
+        if (++held % PATH == 0) cairo_stroke(cr);
+    }
+    cairo_stroke(cr);
+}
+
+static void paint_ticks(painter *pen) {
+    double reach = 2.4 * pen->page->unit;
+    size_t held = 0;
+    for (size_t i = 0; i < pen->parts.count; i++) {
+        const stroke *s = pen->parts.data + i;
+        double dx = s->q.x - s->p.x, dy = s->q.y - s->p.y, length = sqrt(dx * dx + dy * dy);
+        if (!s->cut || length < 2 * reach) continue;
+        dx *= reach / length, dy *= reach / length;
+        cairo_move_to(pen->cr, s->p.x - dy, s->p.y + dx);
+        cairo_line_to(pen->cr, s->p.x + dy, s->p.y - dx);
+        if (++held % PATH == 0) cairo_stroke(pen->cr);
+    }
+    cairo_stroke(pen->cr);
+}
+
+static void paint_points(painter *pen) {
+    for (size_t i = 0; i < pen->points.count; i++) {
+        draw_circle(pen->cr, pen->points.data[i], 1.1 * pen->weight);
+        if ((i + 1) % PATH == 0) cairo_fill(pen->cr);
+    }
+    cairo_fill(pen->cr);
+}
+
+static void paint(painter *pen) {
+    cairo_t *cr = pen->cr;
+    alternate(pen);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cr, pen->weight);
+    draw_set_color(cr, DRAW_INK, 1);
+    paint_strokes(cr, pen->ink.data, pen->ink.count, false);
+    paint_points(pen);
+    paint_strokes(cr, pen->parts.data, pen->parts.count, false);
+    draw_set_color(cr, DRAW_ACCENT, 1);
+    paint_strokes(cr, pen->parts.data, pen->parts.count, true);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+    cairo_set_line_width(cr, fmax(0.6 * pen->weight, 0.5 * pen->page->unit));
+    draw_set_color(cr, DRAW_INK, 1);
+    paint_ticks(pen);
+}
+
+static bool gather(painter *pen, bool pieces) {
+    const draw_page *page = pen->page;
+    return draw_dots_new(&page->alloc, 0, 0, page->width, page->height, pen->view->detail, &pen->dots) &&
+           (!pieces || mark_cut(pen)) && gather_objects(pen) && (!pieces || gather_pieces(pen));
+}
+
+froe_status draw_paint_objects(const draw_page *page, cairo_t *cr, const draw_view *view, uint32_t show) {
+    if (!(show & (FROE_DRAW_OBJECTS | FROE_DRAW_FRAGMENTS))) return FROE_OK;
+    const froe_scene *scene = froe_tree_scene(page->tree);
+    painter pen = {.page = page, .cr = cr, .view = view};
+    pen.shaper = (draw_shaper){.alloc = page->alloc, .tree = page->tree, .scene = scene, .view = view};
+    pen.object_count = froe_scene_object_count(scene);
+    pen.weight = weight_for(page, pen.object_count);
+    bool ok = gather(&pen, show & FROE_DRAW_FRAGMENTS);
+    if (ok && !page->task->cancelled) paint(&pen);
+    draw_dots_free(&pen.dots);
+    draw_free(&page->alloc, pen.cut, pen.object_count);
+    draw_release(&page->alloc, &pen.ink);
+    draw_release(&page->alloc, &pen.parts);
+    draw_release(&page->alloc, &pen.points);
+    draw_shaper_free(&pen.shaper);
+    return !ok ? FROE_E_MEMORY : page->task->cancelled ? FROE_E_CANCELLED : FROE_OK;
+}

@@ -1,0 +1,84 @@
+/* parts.c: the regions that an exploded view pulls apart, from the cells of the tree. */
+#include "solid.h"
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct collector {
+    draw_solid *solid;
+    froe_status status;
+} collector;
+
+/* Appends corners in drawing coordinates; sum, if given, receives their sum. False without memory. */
+static bool copy_corners(draw_solid *solid, const double *coords, size_t count, double *sum) {
+    if (!draw_reserve(&solid->picture->page.alloc, &solid->corners, 3 * count)) return false;
+    for (size_t i = 0; i < count; i++) {
+        double *p = solid->corners.data + solid->corners.count;
+        draw_space_point(&solid->picture->space, coords + 3 * i, p);
+        for (int k = 0; sum && k < 3; k++) sum[k] += p[k];
+        solid->corners.count += 3;
+    }
+    return true;
+}
+
+static bool keep_faces(draw_solid *solid, const froe_cell *cell, draw_part *part) {
+    double sum[3] = {0};
+    part->first_corner = solid->corners.count;
+    part->first_face = solid->face_ends.count;
+    part->face_count = cell->face_count;
+    if (!copy_corners(solid, cell->coords, cell->corners, sum) ||
+        !draw_reserve(&solid->picture->page.alloc, &solid->face_ends, cell->face_count))
+        return false;
+    for (size_t f = 0; f < cell->face_count; f++)
+        solid->face_ends.data[solid->face_ends.count++] = cell->face_starts[f + 1];
+    for (int k = 0; k < 3; k++) part->middle[k] = cell->corners ? sum[k] / (double)cell->corners : 0;
+    return true;
+}
+
+static bool keep_part(draw_solid *solid, const froe_cell *cell) {
+    const draw_page *page = &solid->picture->page;
+    draw_part part = {.node = cell->node, .depth = cell->depth, .leaf = cell->leaf};
+    if (!cell->leaf) {
+        draw_census census;
+        if (!draw_census_of(&page->alloc, page->tree, cell->node, &census)) return false;
+        part.depth += (double)census.depths / (double)census.leaves;
+        solid->merged++;
+        solid->merged_leaves += census.leaves;
+    }
+    bool first = solid->parts.count == 0;
+    solid->lo_depth = first ? part.depth : fmin(solid->lo_depth, part.depth);
+    solid->hi_depth = first ? part.depth : fmax(solid->hi_depth, part.depth);
+    if (!keep_faces(solid, cell, &part) || !draw_push(&page->alloc, &solid->parts, part)) return false;
+    solid->part_of[cell->node.id1 - 1] = (uint32_t)solid->parts.count;
+    return true;
+}
+
+static bool keep_wall(draw_solid *solid, const froe_cell *cell) {
+    draw_wall wall = {solid->corners.count, cell->cut_corners};
+    if (cell->cut_corners < 3) return true;
+    if (!copy_corners(solid, cell->cut_coords, cell->cut_corners, NULL) ||
+        !draw_push(&solid->picture->page.alloc, &solid->walls, wall))
+        return false;
+    solid->wall_of[cell->node.id1 - 1] = (uint32_t)solid->walls.count;
+    return true;
+}
+
+static bool visit(void *user, const froe_cell *cell) {
+    collector *c = user;
+    draw_solid *solid = c->solid;
+    uint32_t depth = solid->picture->page.options->explode_depth;
+    bool ok = true;
+    if (cell->depth == depth || (cell->leaf && cell->depth < depth)) ok = keep_part(solid, cell);
+    if (cell->depth < depth && !cell->leaf) ok = keep_wall(solid, cell);
+    if (!ok) c->status = FROE_E_MEMORY;
+    if (ok && !draw_tick(solid->picture->page.task)) c->status = FROE_E_CANCELLED;
+    return c->status == FROE_OK;
+}
+
+froe_status draw_solid_parts(draw_solid *solid) {
+    const draw_page *page = &solid->picture->page;
+    double lo[3] = {0}, hi[3] = {0};
+    if (!froe_scene_bounds(froe_tree_scene(page->tree), lo, hi)) return FROE_OK;
+    collector c = {solid, FROE_OK};
+    froe_status status = froe_tree_cells(page->tree, lo, hi, visit, &c, NULL);
+    return c.status != FROE_OK ? c.status : status;
+}

@@ -1,0 +1,146 @@
+/* plane.c: pictures in the plane: the plane itself, one section, or a sheet of
+ * three, arranged as in an engineer's drawing so that edges line up:
+ *
+ *     plan    z = middle      .
+ *     front   y = middle      side   x = middle                                    */
+#include "lettering.h"
+#include "paint.h"
+#include "palette.h"
+#include "picture.h"
+#include <math.h>
+#include <stdio.h>
+
+#define GAP 2.0   /* between the views of a sheet, in text sizes */
+#define LABEL 2.2 /* room for the label below a view */
+
+typedef struct draw_panel {
+    draw_view view;
+    char label[64];
+} draw_panel;
+
+static bool is_sheet(const draw_picture *picture) {
+    return picture->space.dim == 3 && picture->page.options->axis < 0;
+}
+
+/* The axes of a view: a section across z shows x, y; across y: x, z; across x: y, z. */
+static void axes_of(int axis, int *across, int *up) {
+    *across = axis == 0 ? 1 : 0;
+    *up = axis == 2 || axis < 0 ? 1 : 2;
+}
+
+/* The drawing axis across a single section; -1 in the plane. */
+static int section_axis(const draw_picture *picture) {
+    return picture->space.dim == 3 ? draw_space_axis(&picture->space, picture->page.options->axis) : -1;
+}
+
+froe_status draw_plane_plan(draw_picture *picture) {
+    const double *wide = picture->wide;
+    if (is_sheet(picture)) {
+        draw_page_plan(&picture->page, (wide[1] + wide[2]) / (wide[0] + wide[1]), GAP, GAP + 2 * LABEL);
+        return FROE_OK;
+    }
+    int across, up;
+    axes_of(section_axis(picture), &across, &up);
+    draw_page_plan(&picture->page, wide[up] / wide[across], 0, picture->space.dim == 3 ? LABEL : 0);
+    return FROE_OK;
+}
+
+/* axis: of the drawing; at: in the scene's coordinates. */
+static void set_view(const draw_picture *picture, int axis, double at, draw_panel *out) {
+    draw_view *view = &out->view;
+    *view = (draw_view){.space = picture->space, .axis = axis, .at = 0, .detail = picture->page.options->detail};
+    axes_of(axis, &view->across, &view->up);
+    view->hi = (draw_point){picture->wide[view->across], picture->wide[view->up]};
+    view->lo = (draw_point){-view->hi.x, -view->hi.y};
+    out->label[0] = 0;
+    if (axis < 0) return;
+    view->at = draw_space_map(&picture->space, axis, at);
+    char number[44];
+    draw_number(number, at);
+    snprintf(out->label, sizeof out->label, "%c = %s", "xyz"[picture->space.from[axis]], number);
+}
+
+static double middle(const draw_picture *picture, int axis) {
+    return picture->space.sign[axis] * ldexp(picture->space.mid[axis], -picture->space.shift);
+}
+
+static int sheet(const draw_picture *picture, draw_panel *panels) {
+    const draw_page *page = &picture->page;
+    const double *wide = picture->wide;
+    double gap = GAP * page->text, label = LABEL * page->text;
+    double scale = fmin((page->inner_width - gap) / (2 * (wide[0] + wide[1])),
+                        (page->inner_height - gap - 2 * label) / (2 * (wide[1] + wide[2])));
+    scale = fmax(scale, 0);
+    double x = 2 * wide[0] * scale, y = 2 * wide[1] * scale, z = 2 * wide[2] * scale;
+    double left = page->left + 0.5 * fmax(page->inner_width - x - y - gap, 0), top = page->top;
+    for (int i = 0; i < 3; i++) set_view(picture, 2 - i, middle(picture, 2 - i), panels + i);
+    draw_view_place(&panels[0].view, left, top, x, y);
+    draw_view_place(&panels[1].view, left, top + y + label + gap, x, z);
+    draw_view_place(&panels[2].view, left + x + gap, top + y + label + gap, y, z);
+    return 3;
+}
+
+static int arrange(const draw_picture *picture, draw_panel *panels) {
+    if (is_sheet(picture)) return sheet(picture, panels);
+    const draw_page *page = &picture->page;
+    bool section = picture->space.dim == 3;
+    set_view(picture, section_axis(picture), page->options->at, panels);
+    draw_view_place(&panels[0].view, page->left, page->top, page->inner_width,
+                    fmax(page->inner_height - (section ? LABEL * page->text : 0), 1));
+    return 1;
+}
+
+static void frame_path(cairo_t *cr, const draw_view *view) {
+    draw_point p = draw_view_map(view, view->lo), q = draw_view_map(view, view->hi);
+    cairo_rectangle(cr, p.x, q.y, q.x - p.x, p.y - q.y);
+}
+
+static void paint_label(const draw_page *page, cairo_t *cr, const draw_panel *panel) {
+    draw_point p = draw_view_map(&panel->view, panel->view.lo);
+    draw_set_color(cr, DRAW_SOFT, 1);
+    draw_text(cr, panel->label, p.x, p.y + 1.5 * page->text, page->text, 0);
+}
+
+static froe_status paint_panels(const draw_picture *picture, cairo_t *cr, const draw_panel *panels, int count,
+                                draw_partition *part) {
+    const draw_page *page = &picture->page;
+    froe_status status = FROE_OK;
+    for (int i = 0; i < count && status == FROE_OK; i++)
+        status = draw_partition_add(part, page->tree, &panels[i].view, page->options->max_depth, page->task);
+    if (status == FROE_OK && !draw_partition_scale(part)) status = FROE_E_MEMORY;
+    if (status == FROE_OK) status = draw_paint_partition(page, cr, part, picture->show);
+    for (int i = 0; i < count && status == FROE_OK; i++) {
+        cairo_save(cr);
+        frame_path(cr, &panels[i].view);
+        cairo_clip(cr);
+        status = draw_paint_objects(page, cr, &panels[i].view, picture->show);
+        cairo_restore(cr);
+        frame_path(cr, &panels[i].view);
+        draw_set_color(cr, DRAW_LINE, 0.6);
+        cairo_set_line_width(cr, 0.5 * page->unit);
+        cairo_stroke(cr);
+        paint_label(page, cr, panels + i);
+    }
+    return status;
+}
+
+froe_status draw_plane_paint(draw_picture *picture, cairo_t *cr) {
+    const draw_page *page = &picture->page;
+    draw_panel panels[3];
+    int count = arrange(picture, panels);
+    draw_partition part = {.alloc = page->alloc};
+    draw_page_open(page, cr);
+    froe_status status = paint_panels(picture, cr, panels, count, &part);
+    draw_legend legend = {.scale_of_depths = picture->show & FROE_DRAW_CELLS,
+                          .lo_depth = part.lo_depth,
+                          .hi_depth = part.hi_depth,
+                          .below = part.below,
+                          .above = part.above,
+                          .unit = panels[0].view.scale,
+                          .length = picture->space.unit,
+                          .merged = part.merged,
+                          .merged_leaves = part.merged_leaves};
+    draw_page_close(page, cr, &legend);
+    draw_partition_free(&part);
+    return status;
+}
