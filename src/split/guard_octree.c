@@ -67,6 +67,7 @@ static inline froe_status octree_step(guard_worker *w, const guard_item *item, c
     const guard_plan *plan = w->plan;
     const double *points = guard_points(w, item);
     octree o;
+    memset(o.mid, 0, sizeof o.mid);
     memset(o.counts, 0, ((1u << dim) + 1) * sizeof *o.counts);
     o.codes = guard_scratch(w, item->count * sizeof *o.codes);
     if (!o.codes) return FROE_E_MEMORY;

@@ -101,7 +101,7 @@ static double promised_leaves(const guard_plan *plan, double guards) {
 }
 
 static froe_status plant(building *b, const double *guards, size_t count) {
-    guard_cube box, root;
+    guard_cube box, root = {.lo = {0}};
     bounding_box(guards, count, b->plan.dim, &box);
     root_cube(&box, b->plan.dim, &root);
     bool all = strictly_inside(box.lo, box.hi, &root, b->plan.dim);
@@ -274,7 +274,7 @@ static froe_status build(building *b, double span, const double *guards, size_t 
     b->hand_count = b->plan.task->threads;
     for (unsigned i = 0; i < b->hand_count; i++) b->hands[i].work.plan = &b->plan;
     b->foreman.side[GUARD_MAIN] = b->main;
-    b->foreman.side[GUARD_INPUT] = (double *)(uintptr_t)guards; /* never written: steps write to the other sides */
+    b->foreman.input = guards;
     froe_status status = plant(b, guards, count);
     if (!status) status = oversee(b);
     if (!status) status = base_run(b->plan.task, b->jobs.count ? span : 0, b->jobs.count, run_job, b);

@@ -31,7 +31,7 @@ typedef struct guard_cube {
 } guard_cube;
 
 /* A step reads the item's guards on its side and writes those of smaller items at the same place on the other. */
-enum { GUARD_SPARE, GUARD_MAIN, GUARD_INPUT, GUARD_SIDES };
+enum { GUARD_SPARE, GUARD_MAIN, GUARD_INPUT };
 
 typedef struct guard_item {
     uint32_t node, height;
@@ -46,7 +46,8 @@ typedef ARRAY(split_guard_node) guard_nodes;
 
 typedef struct guard_worker {
     const guard_plan *plan;
-    double *side[GUARD_SIDES]; /* the input is only read */
+    double *side[2];     /* spare, main */
+    const double *input; /* is only read */
     guard_nodes *nodes;
     uint32_t origin; /* of node numbers in nodes */
     ARRAY(guard_item) items;
@@ -72,7 +73,8 @@ froe_status guard_run(guard_worker *w);
 void *guard_scratch(guard_worker *w, size_t bytes);
 
 static inline const double *guard_points(const guard_worker *w, const guard_item *item) {
-    return w->side[item->side] + (size_t)item->begin * (size_t)w->plan->dim;
+    const double *points = item->side == GUARD_INPUT ? w->input : w->side[item->side];
+    return points + (size_t)item->begin * (size_t)w->plan->dim;
 }
 static inline uint8_t guard_other_side(uint8_t side) {
     return side == GUARD_MAIN ? GUARD_SPARE : GUARD_MAIN;

@@ -1,0 +1,372 @@
+/* The guard tree: against its rule, against itself in other orders, places and sizes, and in adversity. */
+#include "guard_oracle.h"
+#include "guard_scenes.h"
+#include <pthread.h>
+
+enum { WAYS = 4 };
+
+static split_guard_tree build(const double *guards, size_t count, split_guard_options options, unsigned threads) {
+    froe_allocator alloc = base_allocator(NULL);
+    base_task task;
+    split_guard_tree tree;
+    base_task_init(&task, threads, NULL, NULL);
+    assert_int_equal(split_guard_tree_build(&alloc, &task, 1, &options, guards, count, &tree), FROE_OK);
+    assert_true(task.done == 1);
+    return tree;
+}
+
+static void discard(split_guard_tree *tree) {
+    froe_allocator alloc = base_allocator(NULL);
+    split_guard_tree_free(&alloc, tree);
+}
+
+static double *scene_new(guard_scene scene, uint64_t seed, size_t count, int dim) {
+    double *guards = malloc((count + 1) * (size_t)dim * sizeof *guards);
+    assert_non_null(guards);
+    scene_fill(scene, seed, guards, count, dim);
+    return guards;
+}
+
+/* The same in another order. */
+static double *shuffled(const double *guards, size_t count, int dim, uint64_t seed) {
+    size_t size = (size_t)dim * sizeof *guards, d = (size_t)dim;
+    double *copy = malloc((count + 1) * size), swap[FROE_MAX_DIM];
+    assert_non_null(copy);
+    memcpy(copy, guards, count * size);
+    for (size_t p = count; p > 1; p--) {
+        size_t q = base_below(base_hash(seed, 5, p), (uint32_t)p);
+        memcpy(swap, copy + q * d, size);
+        memmove(copy + q * d, copy + (p - 1) * d, size);
+        memcpy(copy + (p - 1) * d, swap, size);
+    }
+    return copy;
+}
+
+/* The same trees, whatever the order of their arrays, when the second's planes are x * scale + move[axis]. */
+static void assert_alike(const split_guard_tree *a, const split_guard_tree *b, double scale, const double *move) {
+    froe_allocator alloc = base_allocator(NULL);
+    ARRAY(uint32_t) stack = {0};
+    assert_int_equal(a->nodes.count, b->nodes.count);
+    assert_int_equal(a->height, b->height);
+    assert_int_equal(a->leaves, b->leaves);
+    assert_int_equal(a->shrinks, b->shrinks);
+    assert_int_equal(a->octree_steps, b->octree_steps);
+    assert_true(array_push(&alloc, &stack, 0) && array_push(&alloc, &stack, 0));
+    while (stack.count) {
+        const split_guard_node *y = &b->nodes.data[stack.data[--stack.count]];
+        const split_guard_node *x = &a->nodes.data[stack.data[--stack.count]];
+        assert_int_equal(!x->child, !y->child);
+        assert_int_equal(x->guards, y->guards);
+        if (!x->child) continue;
+        assert_int_equal(x->axis, y->axis);
+        assert_true(x->value * scale + (move ? move[x->axis] : 0) == y->value);
+        for (uint32_t side = 0; side < 2; side++)
+            assert_true(array_push(&alloc, &stack, x->child + side) && array_push(&alloc, &stack, y->child + side));
+    }
+    array_free(&alloc, &stack);
+}
+
+static void assert_identical(const split_guard_tree *a, const split_guard_tree *b) {
+    assert_int_equal(a->nodes.count, b->nodes.count);
+    assert_memory_equal(a->nodes.data, b->nodes.data, a->nodes.count * sizeof *a->nodes.data);
+    assert_memory_equal(a->lo, b->lo, sizeof a->lo);
+    assert_memory_equal(a->hi, b->hi, sizeof a->hi);
+    assert_int_equal(a->phases, b->phases);
+}
+
+/* ------------------------------------------------------------------- the rule -- */
+
+/* Every way gives the tree of the rule, from any order of the guards. */
+static void check_all_ways(const double *guards, size_t count, split_guard_options options, uint64_t seed) {
+    double *other = shuffled(guards, count, options.dim, seed);
+    split_guard_tree first = build(guards, count, options, 1);
+    oracle_check(&first, guards, count);
+    for (int way = 0; way < WAYS; way++) {
+        options.way = (split_guard_way)way;
+        split_guard_tree tree = build(way % 2 ? guards : other, count, options, 1);
+        assert_alike(&first, &tree, 1, NULL);
+        discard(&tree);
+    }
+    discard(&first);
+    free(other);
+}
+
+static void check_scenes(int dim, size_t most, unsigned rounds) {
+    static const uint32_t ks[] = {0, 1, 2, 3, 8, 20, 64};
+    for (uint64_t seed = 0; seed < rounds; seed++)
+        for (int scene = 0; scene < SCENE_COUNT; scene++) {
+            uint64_t random = base_hash(seed, 100 + (unsigned)dim, (unsigned)scene);
+            size_t count = base_below(random, (uint32_t)most);
+            double *guards = scene_new((guard_scene)scene, random, count, dim);
+            split_guard_options options = {.dim = dim,
+                                           .k = ks[base_mix(random) % (sizeof ks / sizeof *ks)],
+                                           .form = (split_form)(base_mix(random + 1) % 3)};
+            check_all_ways(guards, count, options, seed);
+            free(guards);
+        }
+}
+
+static void all_ways_follow_the_rule_in_the_plane(void **state) {
+    (void)state;
+    check_scenes(2, 200, 100);
+    check_scenes(2, 3000, 4);
+}
+static void all_ways_follow_the_rule_in_space(void **state) {
+    (void)state;
+    check_scenes(3, 200, 60);
+    check_scenes(3, 3000, 3);
+}
+static void all_ways_follow_the_rule_in_four_to_eight_dimensions(void **state) {
+    (void)state;
+    check_scenes(4, 200, 20);
+    check_scenes(5, 100, 5);
+    check_scenes(6, 80, 4);
+    check_scenes(7, 60, 3);
+    check_scenes(8, 50, 3);
+}
+
+static void few_guards_make_one_leaf(void **state) {
+    (void)state;
+    const double two[] = {1, 2, 3, 4};
+    for (size_t count = 0; count <= 2; count++) {
+        split_guard_tree tree = build(two, count, (split_guard_options){.dim = 2, .k = 2}, 1);
+        assert_int_equal(tree.nodes.count, 1);
+        assert_int_equal(tree.nodes.data[0].guards, count);
+        assert_int_equal(tree.height, 0);
+        discard(&tree);
+    }
+}
+
+static void equal_guards_die_in_one_shrink(void **state) {
+    (void)state;
+    double *guards = scene_new(SCENE_ONE_PLACE, 1, 1000, 2);
+    split_guard_tree tree = build(guards, 1000, (split_guard_options){.dim = 2}, 1);
+    assert_int_equal(tree.shrinks, 3);
+    discard(&tree);
+    free(guards);
+}
+
+static void loads_and_forms_are_as_promised(void **state) {
+    (void)state;
+    static const uint32_t loads[] = {0, 0, 4, 8, 16, 243, 729, 2187, 6561};
+    for (int dim = 2; dim <= FROE_MAX_DIM; dim++) {
+        double zero[FROE_MAX_DIM] = {0};
+        for (uint32_t k = 0; k < 2; k++) {
+            split_guard_tree tree = build(zero, 1, (split_guard_options){.dim = dim, .k = k}, 1);
+            assert_int_equal(tree.cell_load, loads[dim]);
+            assert_int_equal(tree.form, k ? SPLIT_FORM_S : SPLIT_FORM_U);
+            discard(&tree);
+        }
+    }
+}
+
+/* ----------------------------------------------------------------- same tree -- */
+
+static void scaling_by_a_power_of_two_scales_the_tree(void **state) {
+    (void)state;
+    for (int scene = 0; scene <= SCENE_ONE_PLACE; scene++) {
+        if (scene == SCENE_NESTED || scene == SCENE_CHAIN) continue; /* would fall off the exponents */
+        for (int shift = -400; shift <= 400; shift += 200) {
+            double *guards = scene_new((guard_scene)scene, 7, 500, 3), scale = ldexp(1, shift);
+            split_guard_options options = {.dim = 3, .k = (uint32_t)scene % 5};
+            split_guard_tree first = build(guards, 500, options, 1);
+            for (size_t i = 0; i < 1500; i++) guards[i] *= scale;
+            split_guard_tree tree = build(guards, 500, options, 1);
+            assert_alike(&first, &tree, scale, NULL);
+            discard(&first);
+            discard(&tree);
+            free(guards);
+        }
+    }
+}
+
+static void moving_without_rounding_moves_the_tree(void **state) {
+    (void)state;
+    const double move[2] = {0x1p20, -3 * 0x1p19};
+    for (uint64_t seed = 0; seed < 20; seed++) {
+        double *guards = scene_new(SCENE_UNIFORM, seed, 400, 2);
+        split_guard_options options = {.dim = 2, .k = (uint32_t)seed % 4};
+        for (size_t i = 0; i < 800; i++) guards[i] = floor(guards[i] * 256) / 256;
+        split_guard_tree first = build(guards, 400, options, 1);
+        for (size_t i = 0; i < 800; i++) guards[i] += move[i % 2];
+        split_guard_tree tree = build(guards, 400, options, 1);
+        assert_alike(&first, &tree, 1, move);
+        discard(&first);
+        discard(&tree);
+        free(guards);
+    }
+}
+
+static void threads_do_not_change_a_bit(void **state) {
+    (void)state;
+    static const guard_scene scenes[] = {SCENE_UNIFORM, SCENE_CLUSTERS, SCENE_NESTED, SCENE_CHAIN, SCENE_LATTICE};
+    enum { COUNT = 150000 };
+    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
+        int dim = 2 + (int)(s % 2);
+        double *guards = scene_new(scenes[s], s, COUNT, dim);
+        split_guard_options options = {.dim = dim, .k = s % 2 ? 0 : 6};
+        split_guard_tree first = build(guards, COUNT, options, 1);
+        for (unsigned threads = 2; threads <= 5; threads += 3) {
+            split_guard_tree tree = build(guards, COUNT, options, threads);
+            assert_identical(&first, &tree);
+            discard(&tree);
+        }
+        discard(&first);
+        free(guards);
+    }
+}
+
+static void large_scenes_follow_the_rule_too(void **state) {
+    (void)state;
+    enum { COUNT = 300000 };
+    double *guards = scene_new(SCENE_UNIFORM, 3, COUNT, 2);
+    for (size_t i = 0; i < COUNT; i++) guards[i] = floor(guards[i] * 512) / 512; /* half of them on a coarse lattice */
+    check_all_ways(guards, COUNT, (split_guard_options){.dim = 2, .k = 8}, 4);
+    free(guards);
+}
+
+/* ----------------------------------------------------------------- adversity -- */
+
+typedef struct deep_scene {
+    double *guards;
+    split_guard_tree trees[WAYS];
+} deep_scene;
+
+static void *build_deep(void *user) {
+    deep_scene *d = user;
+    for (int way = 0; way < WAYS; way++)
+        d->trees[way] = build(d->guards, 20000, (split_guard_options){.dim = 3, .way = (split_guard_way)way}, 1);
+    return NULL;
+}
+
+static void trees_thousands_of_levels_deep_need_no_stack(void **state) {
+    (void)state;
+    pthread_attr_t attr;
+    pthread_t thread;
+    deep_scene d = {.guards = scene_new(SCENE_NESTED, 9, 20000, 3)};
+    assert_int_equal(pthread_attr_init(&attr), 0);
+    assert_int_equal(pthread_attr_setstacksize(&attr, 1 << 16), 0);
+    assert_int_equal(pthread_create(&thread, &attr, build_deep, &d), 0);
+    pthread_join(thread, NULL);
+    pthread_attr_destroy(&attr);
+    assert_true(d.trees[0].height > 2900);
+    assert_true(d.trees[0].phases > 0);
+    for (int way = 0; way < WAYS; way++) {
+        assert_alike(&d.trees[0], &d.trees[way], 1, NULL);
+        if (way) discard(&d.trees[way]);
+    }
+    oracle_check(&d.trees[0], d.guards, 20000);
+    discard(&d.trees[0]);
+    free(d.guards);
+}
+
+typedef struct trial {
+    const double *guards;
+    size_t count;
+    split_guard_options options;
+    unsigned threads;
+} trial;
+
+static froe_status try_build(void *user, const froe_allocator *alloc) {
+    const trial *t = user;
+    base_task task;
+    split_guard_tree tree;
+    base_task_init(&task, t->threads, NULL, NULL);
+    froe_status status = split_guard_tree_build(alloc, &task, 1, &t->options, t->guards, t->count, &tree);
+    if (status == FROE_OK) split_guard_tree_free(alloc, &tree);
+    return status;
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    static const size_t counts[] = {0, 3, 2000, 40000};
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+        for (int way = 0; way < WAYS; way++) {
+            double *guards = scene_new(c % 2 ? SCENE_CLUSTERS : SCENE_NESTED, c, counts[c], 2);
+            trial t = {guards, counts[c], {.dim = 2, .k = 4, .way = (split_guard_way)way}, 1 + (unsigned)(c == 3)};
+            assert_true(test_memory_each(try_build, &t) >= 3);
+            free(guards);
+        }
+}
+
+static bool stop_at(void *user, double done) {
+    unsigned *left = user;
+    (void)done;
+    return (*left)-- > 1;
+}
+
+static void cancelling_leaves_nothing_behind(void **state) {
+    (void)state;
+    double *guards = scene_new(SCENE_UNIFORM, 1, 60000, 2);
+    const split_guard_options options = {.dim = 2, .k = 4};
+    for (unsigned threads = 1; threads <= 2; threads++)
+        for (unsigned calls = 1; calls <= 2; calls++) {
+            test_memory memory;
+            froe_allocator alloc = test_memory_begin(&memory);
+            base_task task;
+            split_guard_tree tree;
+            unsigned left = calls;
+            base_task_init(&task, threads, stop_at, &left);
+            assert_int_equal(split_guard_tree_build(&alloc, &task, 1, &options, guards, 60000, &tree),
+                             FROE_E_CANCELLED);
+            test_memory_end(&memory);
+        }
+    free(guards);
+}
+
+static bool watch(void *user, double done) {
+    double *before = user;
+    assert_true(*before <= done && done <= 0.75);
+    *before = done;
+    return true;
+}
+
+static void progress_rises_by_its_span(void **state) {
+    (void)state;
+    double *guards = scene_new(SCENE_UNIFORM, 1, 60000, 2);
+    const split_guard_options options = {.dim = 2, .k = 4};
+    froe_allocator alloc = base_allocator(NULL);
+    for (unsigned threads = 1; threads <= 2; threads++) {
+        double before = 0.25;
+        base_task task;
+        split_guard_tree tree;
+        base_task_init(&task, threads, watch, &before);
+        assert_true(base_progress(&task, 0.25));
+        assert_int_equal(split_guard_tree_build(&alloc, &task, 0.5, &options, guards, 60000, &tree), FROE_OK);
+        assert_true(before == 0.75);
+        split_guard_tree_free(&alloc, &tree);
+    }
+    free(guards);
+}
+
+static void too_many_guards_are_refused(void **state) {
+    (void)state;
+    froe_allocator alloc = base_allocator(NULL);
+    base_task task;
+    split_guard_tree tree;
+    const split_guard_options options = {.dim = 2};
+    const double none = 0;
+    base_task_init(&task, 1, NULL, NULL);
+    assert_int_equal(split_guard_tree_build(&alloc, &task, 1, &options, &none, (size_t)1 << 31, &tree), FROE_E_LIMIT);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_ways_follow_the_rule_in_the_plane),
+        cmocka_unit_test(all_ways_follow_the_rule_in_space),
+        cmocka_unit_test(all_ways_follow_the_rule_in_four_to_eight_dimensions),
+        cmocka_unit_test(few_guards_make_one_leaf),
+        cmocka_unit_test(equal_guards_die_in_one_shrink),
+        cmocka_unit_test(loads_and_forms_are_as_promised),
+        cmocka_unit_test(scaling_by_a_power_of_two_scales_the_tree),
+        cmocka_unit_test(moving_without_rounding_moves_the_tree),
+        cmocka_unit_test(threads_do_not_change_a_bit),
+        cmocka_unit_test(large_scenes_follow_the_rule_too),
+        cmocka_unit_test(trees_thousands_of_levels_deep_need_no_stack),
+        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(cancelling_leaves_nothing_behind),
+        cmocka_unit_test(progress_rises_by_its_span),
+        cmocka_unit_test(too_many_guards_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
