@@ -21,6 +21,8 @@ io_reader io_read_csv, io_read_off, io_read_obj, io_read_assimp, io_read_ogr;
 
 /** Does the header line say points, boxes or balls? */
 bool io_csv_recognise(const io_source *source);
+/** Does the header line name a column of well-known text? */
+bool io_csv_has_geometry(const io_source *source);
 /** Does assimp read files with this extension? */
 bool io_assimp_recognise(const io_source *source);
 

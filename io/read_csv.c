@@ -25,8 +25,8 @@ typedef struct table {
  * line ends with it. */
 static char *next_field(char **at, char separator, bool *last) {
     char *from = *at, *to = from, *field = from;
-    bool quoted = *from == '"';
-    if (quoted) {
+    from += strspn(from, " ");
+    if (*from == '"') {
         for (++from; *from && (*from != '"' || from[1] == '"'); ++from) {
             if (*from == '"') ++from;
             *to++ = *from;
@@ -108,18 +108,32 @@ static bool read_header(char **at, table *t, bool *beyond) {
         if (role < RADIUS) *(strchr(name, '_') ? &sided : &plain) = true;
         t->role[t->columns] = (unsigned char)role;
     }
-    return !(sided && plain) && settle(t, sided);
+    return !*beyond && !(sided && plain) && settle(t, sided);
+}
+
+/* Reads the header from the file's first bytes. */
+static bool peek_header(const io_source *source, table *t, bool *beyond) {
+    char line[sizeof source->head], *at = line;
+    size_t length = strcspn(source->head, "\n");
+    t->columns = 0;
+    *beyond = false;
+    if (memchr(source->head, '\0', length)) return false;
+    memcpy(line, source->head, length);
+    line[length] = '\0';
+    return read_header(&at, t, beyond);
 }
 
 bool io_csv_recognise(const io_source *source) {
-    char line[sizeof source->head], *at = line;
-    size_t length = strcspn(source->head, "\n");
-    if (length > source->head_size || memchr(source->head, '\0', length)) return false;
-    memcpy(line, source->head, length);
-    line[length] = '\0';
     table t;
     bool beyond;
-    return read_header(&at, &t, &beyond) || beyond;
+    return peek_header(source, &t, &beyond) || beyond;
+}
+
+bool io_csv_has_geometry(const io_source *source) {
+    table t;
+    bool beyond;
+    peek_header(source, &t, &beyond);
+    return memchr(t.role, GEOMETRY, (size_t)t.columns) != NULL;
 }
 
 /* ------------------------------------------------------------------ rows -- */

@@ -203,13 +203,13 @@ static froe_status add_layers(map *m) {
 }
 
 static GDALDatasetH open_map(const io_source *source) {
-    /* geometry columns of a CSV go by many names */
-    const char *const csv[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom,the_geom,wkb_geometry",
-                               "X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
-                               "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
+    /* columns with geometry go by many names */
+    static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
+    static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
+                                         "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
     bool is_csv = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
     return GDALOpenEx(source->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
-                      is_csv ? csv : NULL, NULL);
+                      is_csv ? io_csv_has_geometry(source) ? wkt : places : NULL, NULL);
 }
 
 froe_status io_read_ogr(const io_source *source, io_sink *sink) {

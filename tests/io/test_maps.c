@@ -1,0 +1,277 @@
+/* Plane maps: the same features through every format of OGR that can be written here,
+ * and by hand those that cannot; order, names, sides, curves, and what is counted. */
+#include "support.h"
+#include <gdal.h>
+#include <ogr_api.h>
+#include <unistd.h>
+
+/* Two polygons, one of them with a hole, and one of two parts: 4 + 4 + 3 + 4 + 3 segments. */
+static const char *const shapes[] = {
+    "POLYGON ((0 0,8 0,8 8,0 8,0 0),(2 2,2 4,4 4,4 2,2 2))",
+    "POLYGON ((10 0,12.5 0,11 1e-3,10 0))",
+    "MULTIPOLYGON (((20 0,21 0,21 1,20 1,20 0)),((30 0,31 0,30 0.1,30 0)))",
+};
+static const char *const names[] = {"Holed", "Sliver", "Two parts"};
+enum { SHAPES = 3, SEGMENTS = 18 };
+
+static OGRLayerH new_layer(GDALDatasetH data, OGRwkbGeometryType type, bool named, const char *const *options) {
+    OGRLayerH layer = GDALDatasetCreateLayer(data, "places", NULL, type, (char **)(uintptr_t)options);
+    assert_non_null(layer);
+    if (!named) return layer;
+    OGRFieldDefnH field = OGR_Fld_Create("NAME", OFTString);
+    assert_int_equal(OGR_L_CreateField(layer, field, TRUE), OGRERR_NONE);
+    OGR_Fld_Destroy(field);
+    return layer;
+}
+
+static void add_feature(OGRLayerH layer, const char *wkt, const char *name) {
+    OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
+    OGRGeometryH geometry = NULL;
+    char *text = (char *)(uintptr_t)wkt;
+    assert_int_equal(OGR_G_CreateFromWkt(&text, NULL, &geometry), OGRERR_NONE);
+    if (name) OGR_F_SetFieldString(feature, 0, name);
+    OGR_F_SetGeometryDirectly(feature, geometry);
+    assert_int_equal(OGR_L_CreateFeature(layer, feature), OGRERR_NONE);
+    OGR_F_Destroy(feature);
+}
+
+static GDALDatasetH new_data(const char *driver, const char *path) {
+    GDALAllRegister();
+    GDALDriverH handle = GDALGetDriverByName(driver);
+    assert_non_null(handle);
+    unlink(path);
+    GDALDatasetH data = GDALCreate(handle, path, 0, 0, 0, GDT_Unknown, NULL);
+    assert_non_null(data);
+    return data;
+}
+
+static void make_polygons(const char *driver, const char *path, const char *const *options) {
+    GDALDatasetH data = new_data(driver, path);
+    OGRLayerH layer = new_layer(data, options ? wkbUnknown : wkbMultiPolygon, true, options);
+    for (int i = 0; i < SHAPES; i++) {
+        bool wrap = !options && strncmp(shapes[i], "MULTI", 5) != 0;
+        char wkt[256];
+        snprintf(wkt, sizeof wkt, "%s%s%s", wrap ? "MULTIPOLYGON (" : "", wrap ? shapes[i] + 8 : shapes[i],
+                 wrap ? ")" : "");
+        add_feature(layer, wkt, names[i]);
+    }
+    GDALClose(data);
+}
+
+static bool has_edge(const froe_scene *scene, double ax, double ay, double bx, double by) {
+    const edge wanted = {{ax, ay, bx, by}};
+    for (uint32_t i = 0; i < froe_scene_object_count(scene); i++) {
+        edge found = edge_of(scene, i);
+        if (!compare_edges(&found, &wanted)) return true;
+    }
+    return false;
+}
+
+static void check_polygons(const char *path, const char *format) {
+    froe_read_report report;
+    froe_scene *scene = read_scene(path, &report);
+    assert_string_equal(report.format, format);
+    assert_int_equal(froe_scene_object_count(scene), SEGMENTS);
+    assert_int_equal(froe_scene_kind_count(scene, FROE_SEGMENT), SEGMENTS);
+    assert_int_equal(distinct_edges(scene), SEGMENTS);
+    assert_true(has_edge(scene, 2, 2, 2, 4) && has_edge(scene, 11, 1e-3, 12.5, 0) && has_edge(scene, 30, 0, 30, 0.1));
+    assert_int_equal(report.features, SHAPES);
+    assert_int_equal(froe_scene_group_count(scene), SHAPES);
+    for (uint32_t g = 0; g < SHAPES; g++) { /* an index may have changed their order */
+        froe_group group = froe_scene_group(scene, g);
+        int known = 0;
+        for (int i = 0; i < SHAPES; i++) known += !strcmp(group.name, names[i]);
+        assert_int_equal(known, 1);
+        assert_true(!strcmp(group.left, group.name) != !strcmp(group.right, group.name));
+    }
+    froe_scene_free(scene);
+}
+
+static void polygons_come_through_every_format(void **state) {
+    (void)state;
+    const char *const as_wkt[] = {"GEOMETRY=AS_WKT", NULL};
+    make_polygons("GeoJSON", "polygons.geojson", NULL);
+    check_polygons("polygons.geojson", "GeoJSON");
+    make_polygons("ESRI Shapefile", "polygons.shp", NULL);
+    check_polygons("polygons.shp", "ESRI Shapefile");
+    make_polygons("GPKG", "polygons.gpkg", NULL);
+    check_polygons("polygons.gpkg", "GPKG");
+    make_polygons("FlatGeobuf", "polygons.fgb", NULL);
+    check_polygons("polygons.fgb", "FlatGeobuf");
+    make_polygons("GML", "polygons.gml", NULL);
+    check_polygons("polygons.gml", "GML");
+    make_polygons("CSV", "polygons.csv", as_wkt);
+    check_polygons("polygons.csv", "CSV");
+}
+
+static void drawings_keep_their_layers_as_materials(void **state) {
+    (void)state;
+    GDALDatasetH data = new_data("DXF", "lines.dxf");
+    OGRLayerH layer = GDALDatasetGetLayerByName(data, "entities");
+    if (!layer) layer = GDALDatasetCreateLayer(data, "entities", NULL, wkbUnknown, NULL);
+    OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
+    OGRGeometryH line = NULL;
+    char wkt[] = "LINESTRING (0 0,1.5 0,1.5 2)", *text = wkt;
+    assert_int_equal(OGR_G_CreateFromWkt(&text, NULL, &line), OGRERR_NONE);
+    OGR_F_SetGeometryDirectly(feature, line);
+    assert_int_equal(OGR_L_CreateFeature(layer, feature), OGRERR_NONE);
+    OGR_F_Destroy(feature);
+    GDALClose(data);
+    froe_read_report report;
+    froe_scene *scene = read_scene("lines.dxf", &report);
+    assert_string_equal(report.format, "DXF");
+    assert_int_equal(froe_scene_object_count(scene), 2);
+    assert_true(has_edge(scene, 0, 0, 1.5, 0) && has_edge(scene, 1.5, 0, 1.5, 2));
+    froe_scene_free(scene);
+}
+
+static void a_street_map_gives_nodes_and_ways(void **state) {
+    (void)state;
+    write_text("street.osm",
+               "<?xml version=\"1.0\"?><osm version=\"0.6\">"
+               "<node id=\"1\" lat=\"1\" lon=\"2\" version=\"1\"><tag k=\"name\" v=\"Well\"/></node>"
+               "<node id=\"2\" lat=\"1\" lon=\"3\" version=\"1\"/><node id=\"3\" lat=\"2\" lon=\"3\" version=\"1\"/>"
+               "<way id=\"7\" version=\"1\"><nd ref=\"1\"/><nd ref=\"2\"/><nd ref=\"3\"/>"
+               "<tag k=\"highway\" v=\"path\"/><tag k=\"name\" v=\"Lane\"/></way></osm>");
+    froe_read_report report;
+    froe_scene *scene = read_scene("street.osm", &report);
+    assert_string_equal(report.format, "OSM");
+    assert_int_equal(froe_scene_kind_count(scene, FROE_POINT), 1);
+    assert_int_equal(froe_scene_kind_count(scene, FROE_SEGMENT), 2);
+    assert_int_equal(froe_scene_group_count(scene), 2);
+    froe_scene_free(scene);
+    froe_read_options options = froe_read_defaults();
+    options.layer = "lines";
+    scene = read_with("street.osm", &options, &report);
+    assert_int_equal(froe_scene_object_count(scene), 2);
+    assert_string_equal(froe_scene_group(scene, 0).name, "Lane");
+    froe_scene_free(scene);
+}
+
+static void objects_keep_the_order_of_feature_part_ring_vertex(void **state) {
+    (void)state;
+    write_text(
+        "order.geojson",
+        "{\"type\":\"FeatureCollection\",\"features\":["
+        "{\"type\":\"Feature\",\"id\":40,\"properties\":{\"name\":\"b\"},\"geometry\":{\"type\":\"GeometryCollection\","
+        "\"geometries\":[{\"type\":\"MultiPoint\",\"coordinates\":[[5,5],[6,6]]},"
+        "{\"type\":\"MultiLineString\",\"coordinates\":[[[0,0],[1,0],[2,0]],[[3,0],[4,0]]]}]}},"
+        "{\"type\":\"Feature\",\"id\":7,\"properties\":{\"name\":\"a\"},\"geometry\":{\"type\":\"Polygon\","
+        "\"coordinates\":[[[0,0],[9,0],[0,9],[0,0]],[[1,1],[1,2],[2,1],[1,1]]]}},"
+        "{\"type\":\"Feature\",\"properties\":{},\"geometry\":null}]}");
+    froe_read_report report;
+    froe_scene *scene = read_scene("order.geojson", &report);
+    static const double starts[][2] = {{5, 5}, {6, 6}, {0, 0}, {1, 0}, {3, 0}, {0, 0},
+                                       {9, 0}, {0, 9}, {1, 1}, {1, 2}, {2, 1}};
+    assert_int_equal(froe_scene_object_count(scene), 11);
+    for (uint32_t i = 0; i < 11; i++) {
+        froe_object o = froe_scene_object(scene, i);
+        const double *at = corner(scene, i, 0);
+        assert_true(at[0] == starts[i][0] && at[1] == starts[i][1]);
+        assert_int_equal(o.kind, i < 2 ? FROE_POINT : FROE_SEGMENT);
+        assert_int_equal(o.tag, i < 5 ? 40 : 7);
+        assert_int_equal(o.group, i < 5 ? 0 : 1);
+        assert_int_equal(o.face, i < 5 ? i : 5);
+    }
+    assert_int_equal(report.no_geometry, 1);
+    assert_int_equal(report.features, 3);
+    assert_string_equal(froe_scene_group(scene, 0).left, "");
+    assert_string_equal(froe_scene_group(scene, 1).left, "a");
+    assert_string_equal(froe_scene_group(scene, 1).right, "");
+    froe_scene_free(scene);
+}
+
+static void rings_that_disagree_have_no_side(void **state) {
+    (void)state;
+    write_text("sides.geojson",
+               "{\"type\":\"Feature\",\"properties\":{\"id\":12},\"geometry\":{\"type\":\"MultiPolygon\","
+               "\"coordinates\":[[[[0,0],[1,0],[0,1],[0,0]]],[[[5,0],[5,1],[6,0],[5,0]]]]}}");
+    froe_scene *scene = read_scene("sides.geojson", NULL);
+    froe_group group = froe_scene_group(scene, 0);
+    assert_string_equal(group.name, "12");
+    assert_string_equal(group.left, "");
+    assert_string_equal(group.right, "");
+    froe_scene_free(scene);
+}
+
+static void curves_become_chords_and_are_counted(void **state) {
+    (void)state;
+    write_text("curve.csv", "id,WKT\n1,\"CIRCULARSTRING (0 0,1 1,2 0)\"\n2,\"LINESTRING (5 5,6 6)\"\n");
+    froe_read_report report;
+    froe_scene *scene = read_scene("curve.csv", &report);
+    assert_int_equal(report.linearised, 1);
+    assert_true(froe_scene_object_count(scene) > 10);
+    assert_true(has_edge(scene, 5, 5, 6, 6));
+    froe_scene_free(scene);
+}
+
+static void what_is_mended_or_left_out_is_counted(void **state) {
+    (void)state;
+    write_text("odd.csv",
+               "id,WKT\n1,\"POLYGON ((0 0,4 0,4 4))\"\n2,\"LINESTRING Z (5 5 1,6 6 2)\"\n3,\"LINESTRING (1 1)\"\n"
+               "4,POLYGON EMPTY\n5,\"LINESTRING (3 3,3 3)\"\n");
+    froe_read_report report;
+    froe_scene *scene = read_scene("odd.csv", &report);
+    assert_int_equal(froe_scene_object_count(scene), 5);
+    assert_true(has_edge(scene, 0, 0, 4, 4)); /* the edge that was missing */
+    assert_int_equal(report.closed, 1);
+    assert_int_equal(report.flattened, 1);
+    assert_int_equal(report.skipped, 2);
+    assert_int_equal(froe_scene_object(scene, 4).kind, FROE_SEGMENT);
+    assert_int_equal(froe_scene_object(scene, 4).form, FROE_POINT);
+    froe_scene_free(scene);
+}
+
+static void coordinates_are_taken_exactly(void **state) {
+    (void)state;
+    write_text("exact.geojson",
+               "{\"type\":\"LineString\",\"coordinates\":[[0.1,1e308],[-1e308,4.9406564584124654e-324],"
+               "[0.30000000000000004,-0.0],[9007199254740993,2.2250738585072011e-308]]}");
+    froe_scene *scene = read_scene("exact.geojson", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 3);
+    assert_true(corner(scene, 0, 0)[0] == 0.1 && corner(scene, 0, 0)[1] == 1e308);
+    assert_true(corner(scene, 0, 1)[0] == -1e308 && corner(scene, 0, 1)[1] == 0x1p-1074);
+    assert_true(corner(scene, 1, 1)[0] == 0.30000000000000004 && corner(scene, 1, 1)[1] == 0);
+    assert_true(corner(scene, 2, 1)[1] == 2.2250738585072011e-308);
+    froe_scene_free(scene);
+}
+
+static void every_feature_can_be_its_box(void **state) {
+    (void)state;
+    make_polygons("GeoJSON", "boxed.geojson", NULL);
+    froe_read_options options = froe_read_defaults();
+    options.boxes = true;
+    froe_scene *scene = read_with("boxed.geojson", &options, NULL);
+    assert_int_equal(froe_scene_kind_count(scene, FROE_BOX), SHAPES);
+    assert_int_equal(froe_scene_object_count(scene), SHAPES);
+    const double *lo = corner(scene, 2, 0), *hi = corner(scene, 2, 1);
+    assert_true(lo[0] == 20 && lo[1] == 0 && hi[0] == 31 && hi[1] == 1);
+    assert_string_equal(froe_scene_group(scene, froe_scene_object(scene, 2).group).name, "Two parts");
+    froe_scene_free(scene);
+}
+
+static void nested_collections_are_no_recursion(void **state) {
+    (void)state;
+    write_text("nest.csv", "id,WKT\n1,\"GEOMETRYCOLLECTION (POINT (1 1),GEOMETRYCOLLECTION (POINT (2 2),"
+                           "GEOMETRYCOLLECTION (LINESTRING (0 0,1 0),POINT (3 3))),POINT (4 4))\"\n");
+    froe_scene *scene = read_scene("nest.csv", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 5);
+    assert_true(corner(scene, 2, 1)[0] == 1 && corner(scene, 3, 0)[0] == 3 && corner(scene, 4, 0)[0] == 4);
+    froe_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(polygons_come_through_every_format),
+        cmocka_unit_test(drawings_keep_their_layers_as_materials),
+        cmocka_unit_test(a_street_map_gives_nodes_and_ways),
+        cmocka_unit_test(objects_keep_the_order_of_feature_part_ring_vertex),
+        cmocka_unit_test(rings_that_disagree_have_no_side),
+        cmocka_unit_test(curves_become_chords_and_are_counted),
+        cmocka_unit_test(what_is_mended_or_left_out_is_counted),
+        cmocka_unit_test(coordinates_are_taken_exactly),
+        cmocka_unit_test(every_feature_can_be_its_box),
+        cmocka_unit_test(nested_collections_are_no_recursion),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

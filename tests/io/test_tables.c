@@ -1,0 +1,134 @@
+/* Points, boxes and balls in CSV: headers in every guise, exact numbers, any locale. */
+#include "support.h"
+#include <locale.h>
+
+static froe_scene *table(const char *text, const char *format) {
+    froe_read_report report;
+    write_text("table.csv", text);
+    froe_scene *scene = read_scene("table.csv", &report);
+    assert_string_equal(report.format, format);
+    assert_string_equal(report.precision, "float64");
+    assert_int_equal(report.features, froe_scene_object_count(scene));
+    return scene;
+}
+
+static void the_header_says_what_the_rows_are(void **state) {
+    (void)state;
+    froe_scene *s = table("x,y\n1,2\n3,4\n", "CSV points");
+    assert_int_equal(froe_scene_kind_count(s, FROE_POINT), 2);
+    assert_true(corner(s, 1, 0)[0] == 3 && corner(s, 1, 0)[1] == 4);
+    froe_scene_free(s);
+    s = table("lo_x,lo_y,lo_z,hi_x,hi_y,hi_z\n0,1,2,3,4,5\n", "CSV boxes");
+    assert_int_equal(froe_scene_kind_count(s, FROE_BOX), 1);
+    assert_true(corner(s, 0, 0)[2] == 2 && corner(s, 0, 1)[0] == 3);
+    froe_scene_free(s);
+    s = table("x,y,z,r\n0,1,2,0.5\n", "CSV balls");
+    assert_int_equal(froe_scene_kind_count(s, FROE_BALL), 1);
+    assert_true(froe_scene_object(s, 0).radius == 0.5);
+    froe_scene_free(s);
+    s = table("x1,x2,x3,x4,x5,x6,x7,x8\n1,2,3,4,5,6,7,8\n", "CSV points");
+    assert_int_equal(froe_scene_dim(s), 8);
+    assert_true(corner(s, 0, 0)[7] == 8);
+    froe_scene_free(s);
+}
+
+static void columns_come_in_any_order_with_others_between(void **state) {
+    (void)state;
+    froe_scene *s =
+        table("\xef\xbb\xbfname;Y; \"X\" ;tag\r\n\"a;\"\"b\";2;1;18446744073709551615\r\n\r\n;4;3;7", "CSV points");
+    assert_int_equal(froe_scene_object_count(s), 2);
+    assert_true(corner(s, 0, 0)[0] == 1 && corner(s, 0, 0)[1] == 2);
+    assert_true(froe_scene_object(s, 0).tag == UINT64_MAX);
+    assert_int_equal(froe_scene_object(s, 1).tag, 7);
+    froe_scene_free(s);
+    s = table("hi_y\thi_x\tlo_x\tlo_y\n4\t3\t1\t2\n", "CSV boxes");
+    assert_true(corner(s, 0, 0)[0] == 1 && corner(s, 0, 0)[1] == 2 && corner(s, 0, 1)[0] == 3 &&
+                corner(s, 0, 1)[1] == 4);
+    froe_scene_free(s);
+}
+
+static void other_headers_are_left_to_ogr(void **state) {
+    (void)state;
+    write_text("wkt.csv", "x,y,WKT\n1,2,\"LINESTRING (0 0,1 1)\"\n");
+    froe_read_report report;
+    froe_scene *s = read_scene("wkt.csv", &report);
+    assert_string_equal(report.format, "CSV");
+    assert_int_equal(froe_scene_kind_count(s, FROE_SEGMENT), 1);
+    froe_scene_free(s);
+    write_text("places.csv", "name,longitude,latitude\nhere,11.5,48.1\n");
+    s = read_scene("places.csv", &report);
+    assert_int_equal(froe_scene_kind_count(s, FROE_POINT), 1);
+    assert_true(corner(s, 0, 0)[0] == 11.5 && corner(s, 0, 0)[1] == 48.1);
+    assert_string_equal(froe_scene_group(s, 0).name, "here");
+    froe_scene_free(s);
+    refuse("table-without-geometry.csv", FROE_E_IO, "No such file");
+    write_text("plain.csv", "a,b\n1,2\n");
+    refuse("plain.csv", FROE_E_INPUT, "holds no objects");
+    write_text("gap.csv", "x,z\n1,2\n");
+    refuse("gap.csv", FROE_E_INPUT, "holds no objects");
+}
+
+static void numbers_are_the_nearest_doubles_in_any_locale(void **state) {
+    (void)state;
+    const char *const locales[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"};
+    for (size_t i = 0; i < sizeof locales / sizeof *locales; i++) {
+        setlocale(LC_ALL, locales[i]); /* where it is not installed nothing changes */
+        froe_scene *s =
+            table("x,y\n0.1,-1e308\n4.9406564584124654e-324,0.30000000000000004\n0x1.8p1,-0\n", "CSV points");
+        assert_true(corner(s, 0, 0)[0] == 0.1 && corner(s, 0, 0)[1] == -1e308);
+        assert_true(corner(s, 1, 0)[0] == 0x1p-1074 && corner(s, 1, 0)[1] == 0.30000000000000004);
+        assert_true(corner(s, 2, 0)[0] == 3 && corner(s, 2, 0)[1] == 0);
+        froe_scene_free(s);
+    }
+    setlocale(LC_ALL, "C");
+}
+
+static void refuse_table(const char *text, froe_status status, const char *words) {
+    write_text("bad.csv", text);
+    refuse("bad.csv", status, words);
+}
+
+static void bad_rows_are_named(void **state) {
+    (void)state;
+    refuse_table("x,y\n1,2\n3,nan\n", FROE_E_INPUT, "row 2: y of corner 0 of the object is not a number");
+    refuse_table("x,y\n1,-inf\n", FROE_E_INPUT, "row 1: y of corner 0 of the object is infinite");
+    refuse_table("x,y\n1,1e309\n", FROE_E_INPUT, "infinite");
+    refuse_table("x,y\n1,two\n", FROE_E_FORMAT, "'two' is not a number");
+    refuse_table("x,y\n1,2 3\n", FROE_E_FORMAT, "'2 3' is not a number");
+    refuse_table("x,y\n1,\n", FROE_E_FORMAT, "missing");
+    refuse_table("x,y\n1\n", FROE_E_FORMAT, "it has 1 columns, the header 2");
+    refuse_table("x,y\n1,2,3\n", FROE_E_FORMAT, "it has 3 columns, the header 2");
+    refuse_table("x,y,tag\n1,2,-1\n", FROE_E_FORMAT, "tag");
+    refuse_table("x,y,tag\n1,2,18446744073709551616\n", FROE_E_FORMAT, "tag");
+    refuse_table("lo_x,lo_y,hi_x,hi_y\n0,0,-1,1\n", FROE_E_INPUT, "lo_x = 0 is above hi_x = -1");
+    refuse_table("x,y,r\n0,0,-1\n", FROE_E_INPUT, "radius is -1");
+    refuse_table("x,y,r\n0,0,inf\n", FROE_E_INPUT, "radius");
+    refuse_table("x,y\n", FROE_E_INPUT, "holds no objects");
+    refuse_table("x1,x2,x3,x4,x5,x6,x7,x8,x9\n1,2,3,4,5,6,7,8,9\n", FROE_E_UNSUPPORTED, "more than 8");
+    write_bytes("zero.csv", "x,y\n1,\0002\n", 9);
+    refuse("zero.csv", FROE_E_FORMAT, "byte 6 is zero");
+}
+
+static void balls_have_boxes_that_contain_them(void **state) {
+    (void)state;
+    write_text("balls.csv", "x,y,r\n0.1,0.2,0.3\n5,5,0\n");
+    froe_read_options options = froe_read_defaults();
+    options.boxes = true;
+    froe_scene *s = read_with("balls.csv", &options, NULL);
+    assert_int_equal(froe_scene_kind_count(s, FROE_BOX), 2);
+    assert_true(corner(s, 0, 0)[0] < 0.1 - 0.3 && corner(s, 0, 1)[1] > 0.2 + 0.3);
+    assert_true(corner(s, 1, 0)[0] == 5 && corner(s, 1, 1)[0] == 5);
+    froe_scene_free(s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_header_says_what_the_rows_are),
+        cmocka_unit_test(columns_come_in_any_order_with_others_between),
+        cmocka_unit_test(other_headers_are_left_to_ogr),
+        cmocka_unit_test(numbers_are_the_nearest_doubles_in_any_locale),
+        cmocka_unit_test(bad_rows_are_named),
+        cmocka_unit_test(balls_have_boxes_that_contain_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
