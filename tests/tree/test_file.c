@@ -140,7 +140,7 @@ static void look_at_all(const froe_tree *tree) {
     for (size_t i = 0; i < froe_tree_piece_count(tree); i++)
         sum += (double)froe_tree_piece_corners(tree, i, corners, made, 64);
     if (froe_scene_bounds(froe_tree_scene(tree), lo, hi)) (void)froe_tree_cells(tree, lo, hi, see, &sum, NULL);
-    // AUDIT (void)froe_tree_audit(tree, NULL, NULL);
+    (void)froe_tree_audit(tree, NULL, NULL);
     volatile double used = sum;
     (void)used;
 }

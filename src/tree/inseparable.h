@@ -1,0 +1,16 @@
+/* inseparable.h: may a leaf hold more objects than its capacity? */
+#ifndef FROE_TREE_INSEPARABLE_H
+#define FROE_TREE_INSEPARABLE_H
+#include "geom/predicates.h"
+#include "tree/tree.h"
+
+/** Why the objects of a leaf can be separated after all, as a clause; NULL: nothing was found that does.
+ * Separable are
+ *   - objects with a support (points, segments, polygons), by it, unless all are one and the same point;
+ *   - others by an axis-parallel plane with one of them on each side, touching it at most, or in it: complete
+ *     for boxes;
+ *   - two balls in R^2 or R^3 by the plane across the line of their centres, between them, in doubles;
+ *   - two hulls by a plane through their corners: complete.
+ * O(m dim), and O(m^2) pairs of balls or hulls when axis-parallel planes fail. */
+const char *inseparable_refuted(num_context *context, const froe_tree *tree, const tree_piece *list, uint32_t count);
+#endif
