@@ -46,14 +46,27 @@ static void place(char *out, size_t size, const froe_diagnostic *diag) {
         snprintf(out, size, "object %u, corner %u: ", diag->object, diag->corner);
 }
 
+/* A message that begins with its file, as readers' do: what comes after. */
+static const char *without_file(const char *reason, const char *file) {
+    const size_t length = strlen(file);
+    return strncmp(reason, file, length) == 0 && strncmp(reason + length, ": ", 2) == 0 ? reason + length + 2 : reason;
+}
+
+/* A message that has its file in quotes need not be told which it is. */
+static bool quotes(const char *reason, const char *file) {
+    const char *at = strstr(reason, file);
+    return at && at > reason && at[-1] == '\'' && at[strlen(file)] == '\'';
+}
+
 int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag) {
     const int code = (unsigned)status < FROE_STATUS_COUNT ? codes[status][stage] : CLI_USE;
     const bool told = diag && diag->status == status && diag->message[0];
     char where[64] = "";
     if (told) place(where, sizeof where, diag);
     const char *reason = told ? diag->message : froe_status_text(status);
-    /* Readers that name the file themselves need not be heard twice. */
-    const size_t length = file ? strlen(file) : 0;
-    if (length && strncmp(reason, file, length) == 0 && strncmp(reason + length, ": ", 2) == 0) reason += length + 2;
-    return cli_fail(code, file, "%s%s", where, reason);
+    if (file) reason = without_file(reason, file);
+    if (file && quotes(reason, file)) file = NULL;
+    int length = (int)strlen(reason);
+    if (length && reason[length - 1] == '.') length--;
+    return cli_fail(code, file, "%s%.*s", where, length, reason);
 }
