@@ -203,7 +203,8 @@ typedef struct froe_defects {
     uint64_t zero_length; /**< segments that are points */
     uint64_t zero_area;   /**< polygons that are segments or points */
     uint64_t duplicates;  /**< objects equal, as point sets with equal corners, to an earlier one */
-    uint64_t crossings;   /**< pairs whose relative interiors meet without overlap (2D: cross; 3D: pierce) */
+    uint64_t crossings;   /**< pairs that meet without overlap where neither has a corner (2D: cross; 3D: pierce,
+                             or touch in edges alone) */
     uint64_t t_junctions; /**< pairs where a corner of one lies in the other, neither shared nor crossing */
     uint64_t overlaps;    /**< pairs that share a piece of their own dimension and are not duplicates */
     uint32_t first_crossing[2], first_t_junction[2], first_overlap[2];

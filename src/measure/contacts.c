@@ -52,15 +52,13 @@ typedef struct polygon {
     num_context *context;
     const froe_scene *scene;
     uint32_t object, count;
-    geom_plane plane;
     signed char *sides;
     bool front, behind, on; /* are there such corners? */
 } polygon;
 
 static polygon polygon_of(num_context *context, const froe_scene *s, uint32_t object, signed char *sides) {
-    polygon p = {.context = context, .scene = s, .object = object, .count = scene_corners(s, object), .sides = sides};
-    scene_support(s, object, &p.plane);
-    return p;
+    return (polygon){
+        .context = context, .scene = s, .object = object, .count = scene_corners(s, object), .sides = sides};
 }
 
 static const double *corner(const polygon *p, uint32_t i) {
@@ -73,15 +71,19 @@ static bool has_corner(const polygon *p, uint32_t vertex) {
     return false;
 }
 
-static void find_sides(polygon *p, const polygon *other) {
+/* False: all corners are strictly on one side, and the polygons apart. */
+static bool find_sides(polygon *p, const polygon *other) {
+    geom_plane plane;
+    scene_support(other->scene, other->object, &plane);
     for (uint32_t i = 0; i < p->count; i++) {
         bool common = has_corner(other, scene_corner(p->scene, p->object, i));
-        int side = common ? 0 : geom_side_vertex(p->context, &other->plane, corner(p, i));
+        int side = common ? 0 : geom_side_vertex(p->context, &plane, corner(p, i));
         p->sides[i] = (signed char)side;
         p->front |= side > 0;
         p->behind |= side < 0;
         p->on |= side == 0;
     }
+    return p->on || p->front == p->behind;
 }
 
 /* The one edge that goes from behind the other's plane to not behind it (up), or back (down): the end
@@ -144,15 +146,44 @@ static bool separates(const polygon *p, const polygon *q) {
     return false;
 }
 
+/* Does the line uv, which crosses the plane of p, meet p? All edges go round it one way. */
+static bool line_meets(const polygon *p, const double *u, const double *v) {
+    int ways = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        geom_plane plane = geom_plane_points(3, (const double *const[]){u, v, corner(p, i)});
+        int side = geom_side_vertex(p->context, &plane, corner(p, i + 1));
+        ways |= side > 0 ? 1 : side < 0 ? 2 : 0;
+    }
+    return ways != 3;
+}
+
+/* Is the line between two corners of p an edge of it? */
+static bool is_edge(const polygon *p, uint32_t a, uint32_t b) {
+    for (uint32_t i = 0, j = p->count - 1; i < p->count; j = i++) {
+        uint32_t c = scene_corner(p->scene, p->object, i), d = scene_corner(p->scene, p->object, j);
+        if ((a == c && b == d) || (a == d && b == c)) return true;
+    }
+    return false;
+}
+
+/* Does an edge of q touch p on its way, elsewhere than along an edge with the same ends? With no
+ * corner of either in the other but common ones, this is the only way left to meet. */
+static bool edge_touches(const polygon *p, const polygon *q) {
+    for (uint32_t i = 0, j = q->count - 1; i < q->count; j = i++) {
+        uint32_t a = scene_corner(q->scene, q->object, j), b = scene_corner(q->scene, q->object, i);
+        if (q->sides[j] * q->sides[i] < 0 && line_meets(p, corner(q, j), corner(q, i))) return true;
+        if (!q->sides[j] && !q->sides[i] && has_corner(p, a) && has_corner(p, b) && !is_edge(p, a, b)) return true;
+    }
+    return false;
+}
+
 measure_contact measure_polygons(num_context *context, const froe_scene *s, uint32_t a, uint32_t b,
                                  signed char *sides) {
     polygon p = polygon_of(context, s, a, sides), q = polygon_of(context, s, b, sides + scene_corners(s, a));
-    find_sides(&q, &p);
-    if (!q.on && q.front != q.behind) return MEASURE_APART;
-    find_sides(&p, &q);
-    if (!p.on && p.front != p.behind) return MEASURE_APART;
+    if (!find_sides(&q, &p) || !find_sides(&p, &q)) return MEASURE_APART;
     bool coplanar = !q.front && !q.behind;
     if (coplanar && !separates(&p, &q) && !separates(&q, &p)) return MEASURE_OVERLAP;
     if (p.front && p.behind && q.front && q.behind && pierce(&p, &q)) return MEASURE_CROSSING;
-    return holds_corner(&p, &q) || holds_corner(&q, &p) ? MEASURE_T_JUNCTION : MEASURE_APART;
+    if (holds_corner(&p, &q) || holds_corner(&q, &p)) return MEASURE_T_JUNCTION;
+    return !coplanar && (edge_touches(&p, &q) || edge_touches(&q, &p)) ? MEASURE_CROSSING : MEASURE_APART;
 }
