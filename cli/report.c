@@ -79,7 +79,7 @@ static void put_json_text(const char *text) {
 
 static void put_json(const json_t *value, int indent);
 
-static void put_json_members(const json_t *object, int indent) {
+static void put_json_members(const json_t *object, int indent) { // NOLINT(misc-no-recursion)
     const char *separator = "\n";
     const char *key;
     json_t *member;
@@ -93,7 +93,7 @@ static void put_json_members(const json_t *object, int indent) {
     if (json_object_size(object)) printf("\n%*s", indent, "");
 }
 
-static void put_json_items(const json_t *array, int indent) {
+static void put_json_items(const json_t *array, int indent) { // NOLINT(misc-no-recursion)
     const bool plain = !json_is_object(json_array_get(array, 0));
     for (size_t i = 0; i < json_array_size(array); i++) {
         if (plain)
@@ -105,7 +105,7 @@ static void put_json_items(const json_t *array, int indent) {
     if (!plain) printf("\n%*s", indent, "");
 }
 
-static void put_json(const json_t *value, int indent) {
+static void put_json(const json_t *value, int indent) { // NOLINT(misc-no-recursion)
     char number[32];
     switch (json_typeof(value)) {
     case JSON_OBJECT:
@@ -273,7 +273,7 @@ static void put_table(const char *title, const json_t *rows, int indent) {
     }
 }
 
-static void put_text(const json_t *object, int indent, int width) {
+static void put_text(const json_t *object, int indent, int width) { // NOLINT(misc-no-recursion)
     const char *key;
     json_t *member;
     json_object_foreach((json_t *)object, key, member) {
