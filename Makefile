@@ -45,8 +45,9 @@ coverage: deps-coverage ## which lines do the tests run? build/coverage/report/i
 	@cmake -E make_directory build/coverage/report
 	@gcovr --root . --filter 'src/|io/|draw/|cli/' --html-details build/coverage/report/index.html --print-summary build/coverage
 
-format: deps-lint ## all sources as .clang-format says
+format: deps-lint ## all sources as .clang-format says, and the table of files in docs/layers.md
 	@git ls-files '*.c' '*.h' | xargs clang-format -i
+	@scripts/file-table --write
 
 lint: deps-test deps-lint ## format, clang-tidy, layers and sizes
 	@scripts/lint

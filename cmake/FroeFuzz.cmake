@@ -22,6 +22,6 @@ function(froe_fuzzer name)
   endif()
 endfunction()
 
-#froe_fuzzer(open)
-#froe_fuzzer(scene)
+froe_fuzzer(open)
+froe_fuzzer(scene)
 froe_fuzzer(read IO)

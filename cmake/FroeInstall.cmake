@@ -40,6 +40,7 @@ if(FROE_HAS_DRAW)
 endif()
 if(FROE_HAS_CLI)
   install(TARGETS froe_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES ${manual_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
 
 install(EXPORT froe NAMESPACE froe:: FILE froeTargets.cmake DESTINATION ${package_dir})
