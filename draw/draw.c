@@ -13,7 +13,7 @@ froe_draw_options froe_draw_defaults(void) {
                                .scale = 1,
                                .background = DRAW_PAPER,
                                .legend = true,
-                               .detail = 0.5,
+                               .detail = -1,
                                .axis = -1,
                                .up = 2,
                                .explode = 0.5,
@@ -69,7 +69,7 @@ static froe_status check_ranges(const froe_draw_options *o, froe_diagnostic *dia
                             {"height", o->height, o->height == 0 ? 0 : 16, 32000},
                             {"margin", o->margin, -HUGE_VAL, o->width / 2},
                             {"scale", o->scale, 0.1, 16},
-                            {"detail", o->detail, 0, 1e6},
+                            {"detail", o->detail, -HUGE_VAL, 1e6},
                             {"axis", o->axis, -1, 2},
                             {"up", o->up, 0, 2},
                             {"at", o->at, -1.7976931348623157e308, 1.7976931348623157e308},
@@ -154,6 +154,12 @@ static froe_status paint(draw_picture *picture, froe_draw_format format, draw_ou
     return status == FROE_OK ? draw_output_finish(output, diag) : status;
 }
 
+/* Small trees are drawn to the last cell a reader may zoom into; of large ones, what the page shows. */
+static double standard_detail(const froe_report *report, froe_draw_format format, double scale) {
+    if (format == FROE_DRAW_PNG) return 1 / fmax(scale, 1);
+    return report->leaves + report->objects <= 100000 ? 0.125 : 2;
+}
+
 /* The picture's bytes, in `output`, which the caller frees. */
 static froe_status make(const froe_tree *tree, froe_draw_format format, const froe_draw_options *given,
                         draw_output *output, froe_diagnostic *diag) {
@@ -164,6 +170,7 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     if (status != FROE_OK) return status;
     if (o.style == FROE_DRAW_AUTO) o.style = dim == 2 ? FROE_DRAW_FLAT : FROE_DRAW_SECTIONS;
     froe_report report = froe_tree_report(tree);
+    if (o.detail < 0) o.detail = standard_detail(&report, format, o.scale);
     draw_task task = {.progress = o.progress, .user = o.user};
     task.total = 3.0 * (double)(report.nodes + report.objects + report.fragments) + 1;
     draw_picture picture = {.show = o.show ? o.show : standard_layers(o.style)};

@@ -7,6 +7,8 @@
 
 enum { PATH = 512 };
 
+enum { WHOLE, CUT, CUT_UNSEEN };
+
 typedef struct stroke {
     draw_point p, q; /* p before q: left to right, bottom to top */
     uint32_t object;
@@ -21,14 +23,16 @@ typedef struct painter {
     draw_dots dots;
     double weight;
     size_t object_count;
-    bool *cut; /* by object; NULL: objects are shown whole */
+    uint8_t *cut; /* by object: WHOLE, or only pieces are shown; NULL: objects are shown whole */
     DRAW_ARRAY(stroke) ink, parts;
     DRAW_ARRAY(draw_point) points;
 } painter;
 
-/* Ink as the scene is dense: a few hundred strokes stand bold, a million are fine. */
-static double weight_for(const draw_page *page, size_t count) {
-    double each = sqrt(page->inner_width * page->inner_height / (double)(count + 1));
+/* Ink as the scene is dense: a few hundred strokes stand bold, a million are fine. Of
+ * a scene in space a section meets about the power 2/3. */
+static double weight_for(const draw_page *page, const draw_view *view, size_t count) {
+    double met = view->axis < 0 ? (double)count : cbrt((double)count * (double)count);
+    double each = sqrt(page->inner_width * page->inner_height / (met + 1));
     return fmin(fmax(0.055 * each, 0.4 * page->unit), 1.5 * page->unit);
 }
 
@@ -80,10 +84,10 @@ static bool take(painter *pen, const draw_shape *shape, uint32_t object, bool wh
 /* Marks the objects of which only pieces are left. */
 static bool mark_cut(painter *pen) {
     size_t count = froe_tree_piece_count(pen->shaper.tree);
-    pen->cut = draw_calloc(&pen->page->alloc, pen->object_count, 1);
+    pen->cut = draw_calloc(&pen->page->alloc, pen->object_count, sizeof *pen->cut);
     for (size_t i = 0; pen->cut && i < count; i++) {
         froe_piece piece = froe_tree_piece(pen->shaper.tree, i);
-        if (!piece.whole) pen->cut[piece.object] = true;
+        if (!piece.whole) pen->cut[piece.object] = CUT;
     }
     return pen->cut;
 }
@@ -91,9 +95,11 @@ static bool mark_cut(painter *pen) {
 static bool gather_objects(painter *pen) {
     draw_shape shape;
     for (size_t i = 0; i < pen->object_count && draw_tick(pen->page->task); i++) {
-        if (pen->cut && pen->cut[i]) continue;
-        if (!draw_shape_of_object(&pen->shaper, (uint32_t)i, &shape) || !take(pen, &shape, (uint32_t)i, true))
-            return false;
+        if (!draw_shape_of_object(&pen->shaper, (uint32_t)i, &shape)) return false;
+        if (!pen->cut || pen->cut[i] == WHOLE) {
+            if (!take(pen, &shape, (uint32_t)i, true)) return false;
+        } else if (shape.sort == DRAW_NOTHING)
+            pen->cut[i] = CUT_UNSEEN; /* so are its pieces, whose corners cost exact arithmetic */
     }
     return true;
 }
@@ -103,7 +109,7 @@ static bool gather_pieces(painter *pen) {
     draw_shape shape;
     for (size_t i = 0; i < count && draw_tick(pen->page->task); i++) {
         froe_piece piece = froe_tree_piece(pen->shaper.tree, i);
-        if (piece.whole) continue;
+        if (piece.whole || pen->cut[piece.object] == CUT_UNSEEN) continue;
         if (!draw_shape_of_piece(&pen->shaper, i, &shape) || !take(pen, &shape, piece.object, false)) return false;
     }
     return true;
@@ -189,11 +195,11 @@ froe_status draw_paint_objects(const draw_page *page, cairo_t *cr, const draw_vi
     painter pen = {.page = page, .cr = cr, .view = view};
     pen.shaper = (draw_shaper){.alloc = page->alloc, .tree = page->tree, .scene = scene, .view = view};
     pen.object_count = froe_scene_object_count(scene);
-    pen.weight = weight_for(page, pen.object_count);
+    pen.weight = weight_for(page, view, pen.object_count);
     bool ok = gather(&pen, show & FROE_DRAW_FRAGMENTS);
     if (ok && !page->task->cancelled) paint(&pen);
     draw_dots_free(&pen.dots);
-    draw_free(&page->alloc, pen.cut, pen.object_count);
+    draw_free(&page->alloc, pen.cut, pen.object_count * sizeof *pen.cut);
     draw_release(&page->alloc, &pen.ink);
     draw_release(&page->alloc, &pen.parts);
     draw_release(&page->alloc, &pen.points);

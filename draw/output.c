@@ -66,13 +66,34 @@ static void pin_group_id(draw_output *output) {
     }
 }
 
+/* Cairo prints its 24.8 coordinates with six decimals, of which the third is noise. */
+static void shorten_numbers(draw_output *output) {
+    unsigned char *data = output->bytes.data;
+    size_t kept = 0, digits = 0;
+    bool fraction = false;
+    for (size_t i = 0; i < output->bytes.count; i++) {
+        bool digit = data[i] >= '0' && data[i] <= '9';
+        if (data[i] == '.') {
+            fraction = true;
+            digits = 0;
+        } else if (!digit)
+            fraction = false;
+        if (fraction && digit && ++digits > 2) continue;
+        data[kept++] = data[i];
+    }
+    output->bytes.count = kept;
+}
+
 froe_status draw_output_finish(draw_output *output, froe_diagnostic *diag) {
     cairo_status_t status = cairo_status(output->cr);
     if (status == CAIRO_STATUS_SUCCESS && output->format == FROE_DRAW_PNG)
         status = cairo_surface_write_to_png_stream(output->surface, collect, output);
     cairo_surface_finish(output->surface);
     if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(output->surface);
-    if (status == CAIRO_STATUS_SUCCESS && output->format == FROE_DRAW_SVG) pin_group_id(output);
+    if (status == CAIRO_STATUS_SUCCESS && output->format == FROE_DRAW_SVG) {
+        pin_group_id(output);
+        shorten_numbers(output);
+    }
     return failed(output, status, diag);
 }
 

@@ -175,8 +175,9 @@ void draw_page_close(const draw_page *page, cairo_t *cr, const draw_legend *lege
     if (!legend->merged) return;
     draw_count(merged, legend->merged);
     draw_count(leaves, legend->merged_leaves);
-    snprintf(text, sizeof text,
-             "%s regions too small or too deep are drawn as one each, in the mean depth of their %s cells", merged,
-             leaves);
+    static const char *const notes[] = {
+        "%s regions too small or too deep to show are drawn as one each, in the mean depth of their %s cells",
+        "%s parts pulled apart, each in the mean depth of its cells, %s in all"};
+    snprintf(text, sizeof text, notes[legend->parts], merged, leaves);
     fitted(page, cr, text, y + 1.5 * page->text, page->inner_width);
 }

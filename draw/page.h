@@ -27,6 +27,7 @@ typedef struct draw_legend {
     bool below, above;              /**< cells beyond the scale */
     double unit;                    /**< page units per `length` of the scene: a scale bar; 0: none */
     double length;                  /**< in scene coordinates: see unit */
+    bool parts;                     /**< what is merged are the parts of an exploded view */
     uint64_t merged, merged_leaves; /**< regions drawn as one, leaves in them */
 } draw_legend;
 /** Paints background and title. */

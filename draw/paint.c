@@ -52,22 +52,30 @@ static froe_status paint_cells(const draw_page *page, cairo_t *cr, const draw_pa
     return FROE_OK;
 }
 
-enum { WEIGHTS = 12 };
-/* Heavy near the root: class 0; from WEIGHTS - 1 on, hairlines. */
-static uint32_t weight_class(uint32_t depth) {
-    return depth < WEIGHTS - 1 ? depth : WEIGHTS - 1;
+/* Cuts are heavy near the root; from class DEEP on they are hairlines. Cuts of
+ * regions of a few dots would only darken the picture: they fade out by size. */
+enum { DEEP = 11, FADES = 4, CLASSES = DEEP + FADES, GONE = CLASSES };
+
+static int weight_class(const draw_cut *cut, double unit) {
+    double size = cut->size / (2.5 * unit);
+    if (size < FADES) return size < 1 ? GONE : CLASSES - (int)size;
+    return cut->depth < DEEP ? (int)cut->depth : DEEP;
+}
+
+static void set_weight(cairo_t *cr, int class, double unit) {
+    double deep = class < DEEP ? (double)class / DEEP : 1, faint = class > DEEP ? (double)(class - DEEP) / FADES : 0;
+    draw_set_color(cr, DRAW_LINE, (1 - 0.45 * deep) * (1 - faint));
+    cairo_set_line_width(cr, (1.25 - 0.95 * sqrt(deep)) * unit);
 }
 
 static void paint_cuts(const draw_page *page, cairo_t *cr, const draw_partition *part) {
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
-    for (uint32_t class = WEIGHTS; class -- > 0;) {
-        double fade = (double)class / (WEIGHTS - 1);
+    for (int class = CLASSES; class -- > 0;) {
         size_t held = 0;
-        draw_set_color(cr, DRAW_LINE, 1 - 0.45 * fade);
-        cairo_set_line_width(cr, (1.25 - 0.95 * sqrt(fade)) * page->unit);
+        set_weight(cr, class, page->unit);
         for (size_t i = 0; i < part->cuts.count; i++) {
             const draw_cut *cut = part->cuts.data + i;
-            if (weight_class(cut->depth) != class) continue;
+            if (weight_class(cut, page->unit) != class) continue;
             cairo_move_to(cr, cut->p.x, cut->p.y);
             cairo_line_to(cr, cut->q.x, cut->q.y);
             if (++held % PATH == 0) cairo_stroke(cr);

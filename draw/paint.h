@@ -8,4 +8,7 @@
 froe_status draw_paint_partition(const draw_page *page, cairo_t *cr, const draw_partition *partition, uint32_t show);
 /** Objects, then fragments, in one view. */
 froe_status draw_paint_objects(const draw_page *page, cairo_t *cr, const draw_view *view, uint32_t show);
+/** A box of these half extents with its three middle sections, in a rectangle of the page. */
+void draw_paint_key(const draw_page *page, cairo_t *cr, const draw_space *space, const double *half, double left,
+                    double top, double width, double height);
 #endif

@@ -50,14 +50,14 @@ bool draw_census_of(const froe_allocator *alloc, const froe_tree *tree, froe_nod
     return ok;
 }
 
-static bool tiny(const walk *w, const draw_point *p, size_t count) {
+/* The longer side of a polygon's bounds, on the page. */
+static double size_of(const walk *w, const draw_point *p, size_t count) {
     draw_point lo = p[0], hi = p[0];
     for (size_t i = 1; i < count; i++) {
         lo = (draw_point){fmin(lo.x, p[i].x), fmin(lo.y, p[i].y)};
         hi = (draw_point){fmax(hi.x, p[i].x), fmax(hi.y, p[i].y)};
     }
-    double size = fmax(hi.x - lo.x, hi.y - lo.y) * w->view->scale;
-    return size < w->view->detail;
+    return fmax(hi.x - lo.x, hi.y - lo.y) * w->view->scale;
 }
 
 static bool emit_cell(walk *w, frame top, bool leaf) {
@@ -96,7 +96,7 @@ static trace trace_of(const walk *w, const froe_cut *cut) {
 }
 
 /* The part of the line inside a convex ring: its two extreme crossings. */
-static bool emit_cut(walk *w, const trace *line, size_t count, uint32_t depth) {
+static bool emit_cut(walk *w, const trace *line, size_t count, uint32_t depth, double size) {
     const draw_point *ring = w->ring.data;
     draw_point along = {-line->n.y, line->n.x}, ends[2] = {{0, 0}, {0, 0}};
     double reach[2] = {HUGE_VAL, -HUGE_VAL};
@@ -111,7 +111,7 @@ static bool emit_cut(walk *w, const trace *line, size_t count, uint32_t depth) {
         if (s > reach[1]) reach[1] = s, ends[1] = x;
     }
     if (!(reach[0] < reach[1])) return true;
-    draw_cut cut = {draw_view_map(w->view, ends[0]), draw_view_map(w->view, ends[1]), depth};
+    draw_cut cut = {draw_view_map(w->view, ends[0]), draw_view_map(w->view, ends[1]), depth, (float)size};
     return draw_push(&w->out->alloc, &w->out->cuts, cut);
 }
 
@@ -124,7 +124,7 @@ static bool push_part(walk *w, froe_node node, uint32_t depth, const trace *line
     return draw_push(&w->out->alloc, &w->frames, (frame){node, depth, first, made});
 }
 
-static bool split(walk *w, frame top, const froe_node_info *info) {
+static bool split(walk *w, frame top, const froe_node_info *info, double size) {
     trace line = trace_of(w, &info->cut);
     if (line.all >= 0) {
         frame same = {info->child[line.all], top.depth + 1, top.first, top.count};
@@ -134,7 +134,7 @@ static bool split(walk *w, frame top, const froe_node_info *info) {
     if (!draw_reserve(&w->out->alloc, &w->ring, top.count)) return false;
     for (size_t i = 0; i < top.count; i++) w->ring.data[i] = w->stack.data[top.first + i];
     w->stack.count = top.first;
-    return emit_cut(w, &line, top.count, top.depth) &&
+    return emit_cut(w, &line, top.count, top.depth, size) &&
            push_part(w, info->child[0], top.depth + 1, &line, 0, top.count) &&
            push_part(w, info->child[1], top.depth + 1, &line, 1, top.count);
 }
@@ -154,8 +154,9 @@ static bool step(walk *w) {
     frame top = w->frames.data[--w->frames.count];
     froe_node_info info = froe_tree_node(w->tree, top.node);
     bool leaf = info.cut.kind == FROE_CUT_NONE;
-    if (!leaf && (!w->max_depth || top.depth < w->max_depth) && !tiny(w, w->stack.data + top.first, top.count))
-        return split(w, top, &info);
+    double size = size_of(w, w->stack.data + top.first, top.count);
+    if (!leaf && (!w->max_depth || top.depth < w->max_depth) && size >= w->view->detail)
+        return split(w, top, &info, size);
     bool ok = emit_cell(w, top, leaf);
     w->stack.count = top.first;
     return ok;

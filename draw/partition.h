@@ -11,6 +11,7 @@ typedef struct draw_cell {
 typedef struct draw_cut {
     draw_point p, q;
     uint32_t depth;
+    float size; /**< of the region it cuts, on the page */
 } draw_cut;
 
 typedef struct draw_partition {

@@ -41,9 +41,9 @@ static bool keep_part(draw_solid *solid, const froe_cell *cell) {
         draw_census census;
         if (!draw_census_of(&page->alloc, page->tree, cell->node, &census)) return false;
         part.depth += (double)census.depths / (double)census.leaves;
-        solid->merged++;
-        solid->merged_leaves += census.leaves;
-    }
+        solid->leaves += census.leaves;
+    } else
+        solid->leaves++;
     bool first = solid->parts.count == 0;
     solid->lo_depth = first ? part.depth : fmin(solid->lo_depth, part.depth);
     solid->hi_depth = first ? part.depth : fmax(solid->hi_depth, part.depth);

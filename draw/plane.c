@@ -124,12 +124,24 @@ static froe_status paint_panels(const draw_picture *picture, cairo_t *cr, const 
     return status;
 }
 
+/* In the corner that a sheet leaves free: right of the plan, above the side view. */
+static void paint_key(const draw_picture *picture, cairo_t *cr, const draw_panel *panels) {
+    draw_point left = draw_view_map(&panels[2].view, panels[2].view.lo);
+    draw_point right = draw_view_map(&panels[2].view, panels[2].view.hi);
+    draw_point top = draw_view_map(&panels[0].view, panels[0].view.hi);
+    draw_point bottom = draw_view_map(&panels[0].view, panels[0].view.lo);
+    double width = right.x - left.x, height = bottom.y - top.y;
+    if (width > 8 * picture->page.text && height > 8 * picture->page.text)
+        draw_paint_key(&picture->page, cr, &picture->space, picture->wide, left.x, top.y, width, height);
+}
+
 froe_status draw_plane_paint(draw_picture *picture, cairo_t *cr) {
     const draw_page *page = &picture->page;
     draw_panel panels[3];
     int count = arrange(picture, panels);
     draw_partition part = {.alloc = page->alloc};
     draw_page_open(page, cr);
+    if (count == 3) paint_key(picture, cr, panels);
     froe_status status = paint_panels(picture, cr, panels, count, &part);
     draw_legend legend = {.scale_of_depths = picture->show & FROE_DRAW_CELLS,
                           .lo_depth = part.lo_depth,

@@ -99,7 +99,7 @@ static void paint_piece(const painter *pen, const draw_item *item) {
     cairo_t *cr = pen->cr;
     bool fragments = pen->solid->picture->show & FROE_DRAW_FRAGMENTS;
     uint32_t color = draw_mix(PLASTER_DARK, PLASTER_LIGHT, item->shade);
-    if (fragments && item->odd) color = draw_mix(color, DRAW_WOOD, 0.35);
+    if (fragments && item->odd) color = draw_mix(color, DRAW_WOOD, 0.28);
     area_path(pen, item);
     draw_set_color(cr, color, 1);
     cairo_set_line_width(cr, 0.4 * pen->page->unit);
@@ -220,8 +220,9 @@ froe_status draw_solid_paint(draw_picture *picture, cairo_t *cr) {
     draw_legend legend = {.scale_of_depths = picture->show & FROE_DRAW_CELLS,
                           .lo_depth = floor(solid->lo_depth),
                           .hi_depth = ceil(solid->hi_depth),
-                          .merged = solid->merged,
-                          .merged_leaves = solid->merged_leaves};
+                          .parts = true,
+                          .merged = solid->parts.count,
+                          .merged_leaves = solid->leaves};
     draw_page_close(page, cr, &legend);
     return FROE_OK;
 }

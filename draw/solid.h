@@ -62,7 +62,7 @@ typedef struct draw_solid {
     draw_point lo, hi;             /**< of all points */
     uint32_t *met;                 /**< by object: pieces alternate; boxes: the part that drew it last */
     double lo_depth, hi_depth;     /**< of the parts */
-    uint64_t merged, merged_leaves;
+    uint64_t leaves;               /**< in all parts */
 } draw_solid;
 
 /** Finds the parts. */

@@ -79,9 +79,11 @@ typedef struct froe_draw_options {
     const char *title;           /**< UTF-8, one line; NULL or "": none (default) */
     bool legend;                 /**< method, counts, scale of depths, scale bar; default true */
     uint32_t max_depth;          /**< cells below this depth are drawn as one; 0 (default): no limit */
-    double detail;               /**< regions smaller than this (in the page's unit, both ways) are drawn
-                                      as one; default 0.5, 0: draw everything. The legend says how many
-                                      cells that concerned. */
+    double detail;               /**< regions, and objects, smaller than this both ways (in the page's unit) are
+                                      drawn as one, or one for many; the legend says how many cells that
+                                      concerned. 0: everything is drawn; negative (default -1): a pixel in
+                                      PNG; 1/8 point in SVG and PDF, but 2 for more than 100,000 cells and
+                                      objects, which keeps files below about 50 MB */
     double lo[3], hi[3];         /**< FLAT, SECTIONS: window in the scene's coordinates, where lo < hi for
                                       every axis; default all 0: everything */
     int axis;                    /**< SECTIONS: 0, 1, 2: the section x, y or z = at; -1 (default): a sheet
