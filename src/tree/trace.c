@@ -56,6 +56,26 @@ static int corner_side(trace *t, const geom_plane *plane, const trace_part *part
     return point_side(t, plane, &p);
 }
 
+/* An axis-parallel cut needs no plane, as long as the images are sure. */
+static int axis_side(const trace_corner *c, const tree_node *n) {
+    double beyond = c->x[n->axis] - n->u.value;
+    if (c->error == 0) return (beyond > 0) - (beyond < 0);
+    return fabs(beyond) > c->error * (1 + 0x1p-50) ? (beyond > 0 ? 1 : -1) : NUM_UNSURE;
+}
+
+/* The one side of a plain node on which all corners surely are, as bits; 0: not known. */
+static unsigned plain_side(const trace *t, const trace_part *part) {
+    const tree_node *n = t->tree->nodes + part->node;
+    unsigned reached = 0;
+    if (n->type != TREE_PLAIN || t->context.first != NUM_FILTER || t->tree->scene->dim > 3) return 0;
+    for (uint32_t i = 0; i < part->count; i++) {
+        int side = axis_side(t->corners.data + part->first + i, n);
+        if (side == NUM_UNSURE) return 0;
+        if (side) reached |= side > 0 ? 2 : 1;
+    }
+    return reached == 3 ? 0 : reached;
+}
+
 /* Sides of all corners, in t->sides; the result has bit 0 for a negative one, bit 1 for a positive. False: no memory.
  */
 static bool corner_sides(trace *t, const geom_plane *plane, const trace_part *part, unsigned *reached) {
@@ -151,8 +171,12 @@ static froe_status arrive(trace *t, const trace_part *part) {
 /* Follows one part until it arrives; what is cut off on the way waits. */
 static froe_status follow(trace *t, trace_part part) {
     while (!tree_is_leaf(t->tree->nodes + part.node)) {
+        unsigned reached = plain_side(t, &part);
+        if (reached) {
+            part.node = t->tree->nodes[part.node].child + (reached == 2);
+            continue;
+        }
         geom_plane plane = tree_plane_at(t->tree, part.node);
-        unsigned reached;
         if (!corner_sides(t, &plane, &part, &reached)) return FROE_E_MEMORY;
         if (!reached) break;
         if (reached == 3) {
