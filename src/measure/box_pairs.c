@@ -20,11 +20,11 @@
 
 enum {
     AXES = 3,
-    SMALL = 48,           /* lists shorter than this are scanned at once */
+    SMALL = 64,           /* lists shorter than this are scanned at once */
     LEVELS = 33,          /* of one axis: ranges of 32-bit ranks halve */
     POLL = 1 << 16,       /* pairs between two looks at the cancel button */
     SLAB_BOXES = 1 << 10, /* low ends in a slab, the work of one job */
-    SLABS = 64
+    SLABS = 32
 };
 
 typedef struct box {
