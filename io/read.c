@@ -34,7 +34,7 @@ static ssize_t read_fully(int file, char *to, size_t size) {
     return (ssize_t)done;
 }
 
-froe_status io_load(const io_source *source, io_sink *sink, io_buffer *text) {
+froe_status io_load(const io_source *source, io_sink *sink, bool binary, io_buffer *text) {
     char *to = source->size < SIZE_MAX ? io_buffer_add(&sink->alloc, text, (size_t)source->size + 1) : NULL;
     if (!to) return io_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory for the text", io_short(source->path));
     int file = open(source->path, O_RDONLY | O_CLOEXEC);
@@ -44,7 +44,7 @@ froe_status io_load(const io_source *source, io_sink *sink, io_buffer *text) {
     if (got < 0) return io_fail(sink->diag, FROE_E_IO, "%s: %s", io_short(source->path), io_errno(error).text);
     to[got] = '\0';
     text->size = (size_t)got;
-    if (memchr(to, '\0', (size_t)got))
+    if (!binary && memchr(to, '\0', (size_t)got))
         return io_fail(sink->diag, FROE_E_FORMAT, "%s: is not text: byte %zu is zero", io_short(source->path),
                        strlen(to));
     return FROE_OK;
@@ -96,6 +96,8 @@ static bool is_moving(const io_source *source) {
 static io_reader *choose(const io_source *source) {
     if (io_csv_recognise(source)) return io_read_csv;
     if (looks_like_off(source)) return io_read_off;
+    if (!strncmp(source->head, "ply\n", 4) || !strncmp(source->head, "ply\r", 4)) return io_read_ply;
+    if (has_extension(source, "ply")) return io_read_ply;
     if (has_extension(source, "obj")) return io_read_obj;
     if (io_assimp_recognise(source)) return io_read_assimp;
     return io_read_ogr;

@@ -21,7 +21,6 @@ bool io_assimp_recognise(const io_source *source) {
     /* what OGR reads too, and better, or what other programs mean by the extension */
     static const char *const left_to_ogr[] = {"dxf", "xml", "json", "csv", "txt", "prj", "raw", "gml", "kml", "svg"};
     if (!strncmp(source->head, "glTF", 4) || !strncmp(source->head, "ISO-10303-21", 12)) return true;
-    if (!strncmp(source->head, "ply\n", 4) || !strncmp(source->head, "ply\r", 4)) return true;
     if (!*source->extension.text) return false;
     for (size_t i = 0; i < sizeof left_to_ogr / sizeof *left_to_ogr; ++i)
         if (!strcmp(source->extension.text, left_to_ogr[i])) return false;

@@ -219,7 +219,7 @@ froe_status io_read_csv(const io_source *source, io_sink *sink) {
     io_buffer text = {0};
     table t;
     bool beyond = false;
-    froe_status status = io_load(source, sink, &text);
+    froe_status status = io_load(source, sink, false, &text);
     char *at = text.data;
     if (!status && !read_header(&at, &t, &beyond))
         status = beyond ? io_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: has more than %d axes", io_short(source->path),

@@ -189,7 +189,7 @@ static froe_status read_lines(obj *o, io_buffer *text) {
 
 froe_status io_read_obj(const io_source *source, io_sink *sink) {
     io_buffer text = {0}, state = {0};
-    froe_status status = io_load(source, sink, &text);
+    froe_status status = io_load(source, sink, false, &text);
     obj *o = status ? NULL : io_buffer_add(&sink->alloc, &state, sizeof *o);
     if (!status && !o) status = io_fail_memory(sink->diag);
     if (!status) status = io_sink_open(sink, 3);

@@ -111,7 +111,7 @@ static froe_status read_faces(off *o) {
 
 froe_status io_read_off(const io_source *source, io_sink *sink) {
     io_buffer text = {0};
-    froe_status status = io_load(source, sink, &text);
+    froe_status status = io_load(source, sink, false, &text);
     off o = {.source = source, .sink = sink, .begin = text.data, .at = text.data, .length = text.size};
     if (!status) status = read_header(&o);
     if (!status) status = io_sink_open(sink, 3);
