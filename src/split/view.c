@@ -34,7 +34,7 @@ static void add_box(split_view *view, const split_set *set, uint32_t object, int
 }
 
 static bool add_fragment(split_view *view, const split_set *set, const split_fragment *f) {
-    int dim = set->scene->dim;
+    int dim = set->scene->dim < 3 ? set->scene->dim : 3; /* beyond R^3 axis planes are the only candidates */
     froe_kind form = scene_form(set->scene, f->object);
     bool boxed = form == FROE_BOX || form == FROE_BALL;
     uint32_t n = boxed ? 1u << dim : split_corner_count(set, f);
