@@ -125,10 +125,9 @@ static draw_plane of_normal(const draw_space *space, const double *normal, doubl
     for (int k = 0; k < space->dim; k++) largest = fmax(largest, fabs(normal[k]));
     if (!(largest > 0)) return plane;
     int shift;
-    frexp(largest, &shift);
-    double c = ldexp(value, space->shift - shift);
+    double scale = frexp(largest, &shift), c = ldexp(value, space->shift - shift) / scale;
     for (int k = 0; k < space->dim; k++) {
-        plane.n[k] = space->sign[k] * ldexp(normal[space->from[k]], -shift);
+        plane.n[k] = space->sign[k] * ldexp(normal[space->from[k]], -shift) / scale;
         c -= plane.n[k] * space->mid[k];
     }
     plane.c = finite(c / space->half);
