@@ -79,7 +79,7 @@ static froe_status check_limits(scene_adding *a) {
 static froe_status check(scene_adding *a) {
     const froe_objects *b = a->batch;
     if (!a->scene || !b) return base_fail(a->diag, FROE_E_ARG, "scene or batch is null");
-    if (b->size != sizeof *b)
+    if (b->size != sizeof *b) /* once the struct has grown: its older sizes too, with defaults for what they lack */
         return base_fail(a->diag, FROE_E_OPTIONS, "the batch does not come from froe_objects_defaults()");
     froe_status status = scene_growable(a->scene, a->diag);
     if (!status) status = check_kind(a->scene, b, a->diag);
