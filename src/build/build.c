@@ -29,7 +29,6 @@ split_job build_split_job(const build_job *job) {
                        .alloc = job->alloc,
                        .task = job->task,
                        .max_fragments = job->max_fragments,
-                       .root_guard = FROE_NONE,
                        .span = 0.9 * (1 - job->task->done),
                        .meta = &job->meta,
                        .diag = job->diag};

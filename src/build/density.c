@@ -76,41 +76,30 @@ static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
 
 /* ------------------------------------------------------------ the two stages -- */
 
-static bool in_guard_stage(const density *d, const split_cell *cell) {
-    if (cell->guard == FROE_NONE || !d->guard->nodes.data[cell->guard].child) return false;
-    if (cell->count <= d->stop || cell->count <= d->refine.leaf) return false;
-    if (cell->count <= STAR && cell->barren >= d->patience) return false;
+static bool in_guard_stage(const void *config, const split_cell *cell) {
+    const density *d = config;
+    uint32_t load = split_load(cell);
+    if (!d->guard->nodes.data[cell->guard].child) return false;
+    if (load <= d->stop || load <= d->refine.leaf) return false;
+    if (load <= STAR && cell->barren >= d->patience) return false;
     return d->growth <= 0 || cell->growth < d->growth;
-}
-
-static split_verdict guard_cut(const density *d, const split_cell *cell, froe_cut *cut) {
-    const split_guard_node *node = d->guard->nodes.data + cell->guard;
-    *cut = (froe_cut){.kind = FROE_CUT_AXIS, .axis = node->axis, .value = node->value};
-    return SPLIT_GUARD;
 }
 
 static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const density *d = config;
-    if (in_guard_stage(d, cell)) return guard_cut(d, cell, cut);
     return split_refine_choose(&d->refine, work, cell, cut);
 }
 
-static void descend(const void *config, const split_cell *parent, uint32_t in_cut, split_cell child[2]) {
+static bool probe_in_guard_stage(const void *config, const split_cell *cell) {
     const density *d = config;
-    float after = (float)child[0].count + (float)child[1].count + (float)in_cut;
-    for (uint32_t s = 0; s < 2; s++) {
-        child[s].guard = d->guard->nodes.data[parent->guard].child + s;
-        child[s].growth = parent->growth * after / (float)parent->count;
-        child[s].barren = 10 * (uint64_t)child[s].count >= 9 * (uint64_t)parent->count ? parent->barren + 1 : 0;
-    }
+    return d->guard->nodes.data[cell->guard].child && split_load(cell);
 }
 
 /** Ends the cell where the guard stage ends, and notes its load. */
 static split_verdict probe(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const density *d = config;
     (void)work;
-    if (cell->guard != FROE_NONE && d->guard->nodes.data[cell->guard].child && cell->count)
-        return guard_cut(d, cell, cut);
+    (void)cut;
     if (cell->count > d->probe->most) return SPLIT_GIVE_UP;
     uint_least32_t largest = atomic_load(&d->probe->largest);
     while (cell->count > largest && !atomic_compare_exchange_weak(&d->probe->largest, &largest, cell->count)) continue;
@@ -126,19 +115,28 @@ typedef struct guard_stage {
     build_job *job;
     split_guards guards;
     split_guard_tree tree;
-    uint32_t k;
+    split_homes homes;
 } guard_stage;
 
 static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
     static const split_form form[] = {SPLIT_FORM_DEFAULT, SPLIT_FORM_U, SPLIT_FORM_S};
     split_guard_options o = {.dim = g->job->scene->dim, .k = k, .form = form[(int)g->job->option[FORM]]};
     split_guard_tree_free(&g->job->alloc, &g->tree);
-    g->k = k;
+    split_homes_free(&g->job->alloc, &g->homes);
     froe_status status =
         split_guard_tree_build(&g->job->alloc, g->job->task, span, &o, g->guards.points, g->guards.count, &g->tree);
+    if (!status) status = split_homes_make(&g->job->alloc, g->job->task, g->job->scene, &g->tree, &g->homes);
     if (status == FROE_E_LIMIT) return base_fail(g->job->diag, status, "more than 2^31 guards");
     if (status == FROE_E_CANCELLED) return base_fail(g->job->diag, status, "cancelled");
     return status ? base_fail_memory(g->job->diag) : FROE_OK;
+}
+
+/** A job for the shared loop with this guard tree. */
+static split_job guard_job(const guard_stage *g) {
+    split_job split = build_split_job(g->job);
+    split.guard = &g->tree;
+    split.homes = &g->homes;
+    return split;
 }
 
 /** Carries the objects down the guard tree without building anything. FROE_E_BUDGET: a load above `most`. */
@@ -147,9 +145,8 @@ static froe_status measure(guard_stage *g, uint32_t most, loads *out) {
     out->largest = 0;
     out->most = most;
     density d = {.guard = &g->tree, .probe = out};
-    split_method method = {.config = &d, .choose = probe, .descend = descend};
-    split_job split = build_split_job(g->job);
-    split.root_guard = 0;
+    split_method method = {.config = &d, .choose = probe, .in_guard_stage = probe_in_guard_stage};
+    split_job split = guard_job(g);
     split.max_fragments = 0;
     split.span *= 0.1;
     split.diag = NULL;
@@ -229,14 +226,14 @@ static froe_status build(build_job *job, froe_tree **out) {
         d.patience = 2 * (uint32_t)job->scene->dim;
         split_method method = {.config = &d,
                                .choose = choose,
-                               .descend = descend,
+                               .in_guard_stage = in_guard_stage,
                                .scratch_new = split_scratch_new,
                                .scratch_free = split_scratch_free};
         promise(job, &g.tree);
-        split_job split = build_split_job(job);
-        split.root_guard = 0;
+        split_job split = guard_job(&g);
         status = split_grow(&split, &method, out);
     }
+    split_homes_free(&job->alloc, &g.homes);
     split_guard_tree_free(&job->alloc, &g.tree);
     split_guards_free(&job->alloc, &g.guards);
     return status;

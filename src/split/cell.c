@@ -96,39 +96,90 @@ static froe_status deal(split_set *set, const split_cell *cell, const split_plan
     return FROE_OK;
 }
 
-/** Pushes the children, the negative one last so that it comes first. */
-static froe_status push_children(split_work *work, const split_method *method, const split_cell *cell, uint32_t child,
-                                 const counts *n, bool guard) {
-    split_cell side[2];
+/** The children, with their fragments where deal() left them. */
+static void make_children(const split_work *work, const split_cell *cell, uint32_t child, const counts *n,
+                          split_cell side[2]) {
     uint32_t positive = n->of[SPLIT_POS] + n->of[SPLIT_BOTH], negative = n->of[SPLIT_NEG] + n->of[SPLIT_BOTH];
-    for (int s = 0; s < 2; s++)
-        side[s] = (split_cell){.node = work->set.draft->outer + child + (uint32_t)s,
+    for (uint32_t s = 0; s < 2; s++)
+        side[s] = (split_cell){.node = work->set.draft->outer + child + s,
                                .depth = cell->depth + 1,
-                               .path = base_path(cell->path, s),
+                               .path = base_path(cell->path, (int)s),
                                .first = cell->first + (s ? 0 : positive),
                                .count = s ? positive : negative,
                                .corner_top = (uint32_t)work->set.corners.count,
                                .guard = FROE_NONE};
-    if (guard && method->descend) method->descend(method->config, cell, n->of[SPLIT_ON], side);
-    if (!array_reserve(&work->set.alloc, &work->cells, 2)) return FROE_E_MEMORY;
-    work->cells.data[work->cells.count++] = side[1];
-    work->cells.data[work->cells.count++] = side[0];
-    return FROE_OK;
 }
 
-froe_status cell_cut(split_work *work, const split_method *method, const split_cell *cell, const froe_cut *cut,
-                     bool guard, bool *useless) {
+/** Cuts in place and makes the children; *useless as for cell_cut, NULL: cut all the same. */
+static froe_status cut_in_two(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags,
+                              bool *useless, split_cell side[2], uint32_t *in_cut) {
     split_set *set = &work->set;
     split_plane plane;
     counts n;
     uint32_t child, local = cell->node - set->draft->outer;
     froe_status status = classify(set, cell, cut, &plane, &n);
     if (status) return status;
-    *useless = !guard && !n.of[SPLIT_ON] && (!n.of[SPLIT_NEG] || !n.of[SPLIT_POS]);
-    if (*useless) return FROE_OK;
-    status = draft_split(set->draft, local, &plane.cut, guard ? TREE_GUARD : 0, &child);
+    if (useless) *useless = !n.of[SPLIT_ON] && (!n.of[SPLIT_NEG] || !n.of[SPLIT_POS]);
+    if (useless && *useless) return FROE_OK;
+    status = draft_split(set->draft, local, &plane.cut, flags, &child);
     if (!status) status = emit_in_cut(set, cell, n.of[SPLIT_ON]);
     if (!status) status = deal(set, cell, &plane, &n);
-    if (!status) status = push_children(work, method, cell, child, &n, guard);
-    return status;
+    if (status) return status;
+    make_children(work, cell, child, &n, side);
+    *in_cut = n.of[SPLIT_ON];
+    return FROE_OK;
+}
+
+/** The negative child last so that it comes first. */
+static froe_status push_children(split_work *work, const split_cell side[2]) {
+    if (!array_reserve(&work->set.alloc, &work->cells, 2)) return FROE_E_MEMORY;
+    work->cells.data[work->cells.count++] = side[1];
+    work->cells.data[work->cells.count++] = side[0];
+    return FROE_OK;
+}
+
+froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, bool *useless) {
+    split_cell side[2];
+    uint32_t in_cut;
+    froe_status status = cut_in_two(work, cell, cut, 0, useless, side, &in_cut);
+    return status || *useless ? status : push_children(work, side);
+}
+
+froe_status cell_take(split_work *work, const split_homes *homes, split_cell *cell, uint32_t count) {
+    split_set *set = &work->set;
+    if (!array_reserve(&set->alloc, &set->items, count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < count; i++)
+        set->items.data[set->items.count++] = (split_fragment){.object = homes->ids[cell->whole + i]};
+    cell->count += count;
+    cell->whole += count;
+    cell->wholes -= count;
+    return FROE_OK;
+}
+
+/** How the guard stage gets on: see density.c. */
+static void note_progress(const split_cell *parent, uint32_t in_cut, split_cell side[2]) {
+    float before = (float)split_load(parent);
+    float after = (float)split_load(&side[0]) + (float)split_load(&side[1]) + (float)in_cut;
+    for (int s = 0; s < 2; s++) {
+        bool kept = 10 * (uint64_t)split_load(&side[s]) >= 9 * (uint64_t)split_load(parent);
+        side[s].growth = parent->growth * after / before;
+        side[s].barren = kept ? parent->barren + 1 : 0;
+    }
+}
+
+froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *cell) {
+    const split_guard_node *node = job->guard->nodes.data + cell->guard;
+    froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = node->axis, .value = node->value};
+    split_cell side[2];
+    uint32_t in_cut;
+    froe_status status = cell_take(work, job->homes, cell, split_homes_own(job->homes, job->guard, cell->guard));
+    if (!status) status = cut_in_two(work, cell, &cut, TREE_GUARD, NULL, side, &in_cut);
+    if (status) return status;
+    for (uint32_t s = 0; s < 2; s++) {
+        side[s].guard = node->child + s;
+        side[s].whole = job->homes->at[node->child + s];
+        side[s].wholes = job->homes->end[node->child + s] - side[s].whole;
+    }
+    note_progress(cell, in_cut, side);
+    return push_children(work, side);
 }

@@ -5,9 +5,12 @@
 
 /** Ends a cell as a leaf with its list, and takes its fragments off the stack. */
 froe_status cell_leaf(split_work *work, const split_cell *cell, uint8_t flags);
-/** Cuts a cell. On success its fragments are replaced by those of the children, child 0 on
- * top, and both children are pushed. *useless: nothing was done, since every fragment
- * would have stayed on one side (never for SPLIT_GUARD cuts). */
-froe_status cell_cut(split_work *work, const split_method *method, const split_cell *cell, const froe_cut *cut,
-                     bool guard, bool *useless);
+/** Turns the first `count` whole objects of the cell into fragments of it. */
+froe_status cell_take(split_work *work, const split_homes *homes, split_cell *cell, uint32_t count);
+/** Cuts a cell without whole objects. On success its fragments are replaced by those of the children, child 0
+ * on top, and both children are pushed. *useless: nothing was done, since every fragment would have stayed
+ * on one side. */
+froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, bool *useless);
+/** Cuts a cell by its node of the guard tree, whatever that separates. */
+froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *cell);
 #endif

@@ -37,20 +37,24 @@ static froe_status check_budget(grow *g, const split_work *work, size_t pieces_b
     return most && emitted + work->set.items.count > most ? FROE_E_BUDGET : FROE_OK;
 }
 
-static froe_status do_cell(grow *g, split_work *work, split_cell cell) {
+/** Cuts or ends a cell below the guard stage. */
+static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     froe_cut cut = {.kind = FROE_CUT_NONE};
-    size_t pieces = work->set.draft->pieces.count;
-    froe_status status = FROE_OK;
-    for (bool useless = true; useless && !status; cell.attempt++) {
-        split_verdict verdict = g->method->choose(g->method->config, work, &cell, &cut);
+    froe_status status = cell_take(work, g->job->homes, cell, cell->wholes);
+    for (bool useless = true; useless && !status; cell->attempt++) {
+        split_verdict verdict = g->method->choose(g->method->config, work, cell, &cut);
         if (verdict == SPLIT_MEMORY || verdict == SPLIT_GIVE_UP)
             return verdict == SPLIT_MEMORY ? FROE_E_MEMORY : FROE_E_BUDGET;
-        if (verdict == SPLIT_LEAF || verdict == SPLIT_INSEPARABLE) {
-            status = cell_leaf(work, &cell, verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : 0);
-            break;
-        }
-        status = cell_cut(work, g->method, &cell, &cut, verdict == SPLIT_GUARD, &useless);
+        if (verdict != SPLIT_CUT) return cell_leaf(work, cell, verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : 0);
+        status = cell_cut(work, cell, &cut, &useless);
     }
+    return status;
+}
+
+static froe_status do_cell(grow *g, split_work *work, split_cell *cell) {
+    size_t pieces = work->set.draft->pieces.count;
+    bool guard = cell->guard != FROE_NONE && g->method->in_guard_stage(g->method->config, cell);
+    froe_status status = guard ? cell_cut_guard(work, g->job, cell) : refine_cell(g, work, cell);
     return status ? status : check_budget(g, work, pieces);
 }
 
@@ -84,10 +88,11 @@ static froe_status do_cells(grow *g, split_work *work, bool main_part) {
     for (uint32_t turn = 0; work->cells.count && !status; turn++) {
         split_cell cell = work->cells.data[--work->cells.count];
         work->set.corners.count = cell.corner_top;
-        if (main_part && cell.count <= g->task_size && cell.count > TASK_TINY)
+        uint32_t load = split_load(&cell);
+        if (main_part && load <= g->task_size && load > TASK_TINY)
             status = put_off(g, work, &cell);
         else
-            status = do_cell(g, work, cell);
+            status = do_cell(g, work, &cell);
         if (main_part && !status && !base_progress(g->job->task, g->job->task->done)) status = FROE_E_CANCELLED;
         if (turn % 64 == 63 && base_cancelled(g->job->task)) status = status ? status : FROE_E_CANCELLED;
     }
@@ -110,17 +115,28 @@ static froe_status start_workers(grow *g) {
     return status;
 }
 
+/** The root cell: all objects, not yet cut, by home; or as fragments where there is no guard stage. */
+static froe_status push_root(grow *g, split_work *work) {
+    uint32_t n = g->job->scene->object_count;
+    split_cell root = {.path = 1, .guard = FROE_NONE, .growth = 1};
+    if (g->job->guard && n) {
+        root.guard = 0;
+        root.wholes = n;
+    } else {
+        if (!array_reserve(&g->job->alloc, &work->set.items, n)) return FROE_E_MEMORY;
+        for (uint32_t i = 0; i < n; i++) work->set.items.data[i] = (split_fragment){.object = i};
+        work->set.items.count = root.count = n;
+    }
+    return array_push(&g->job->alloc, &work->cells, root) ? FROE_OK : FROE_E_MEMORY;
+}
+
 static froe_status main_part(grow *g) {
     split_work *work = g->workers;
     uint32_t n = g->job->scene->object_count;
     work->set.draft = &g->main;
-    if (!array_reserve(&g->job->alloc, &work->set.items, n)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < n; i++) work->set.items.data[i] = (split_fragment){.object = i};
-    work->set.items.count = n;
-    split_cell root = {.path = 1, .count = n, .guard = g->job->root_guard, .growth = 1};
-    if (!array_push(&g->job->alloc, &work->cells, root)) return FROE_E_MEMORY;
     g->task_size = n / TASK_SHARE > TASK_LEAST ? n / TASK_SHARE : TASK_LEAST;
-    return do_cells(g, work, n > g->task_size);
+    froe_status status = push_root(g, work);
+    return status ? status : do_cells(g, work, n > g->task_size);
 }
 
 /** Loads a task's fragments into a worker and finishes the subtree in the task's own draft. */

@@ -2,6 +2,7 @@
  *
  *     pending cells     [ ... | cell | cell | current ]        depth first, negative child first
  *     set->items        [ ... | its fragments on top ]
+ *     homes->ids        [ .. | objects that nothing has cut yet | .. ]     in the guard stage only
  *
  * Nothing recurses. Cells of at most 1/64 of the fragments become tasks: each
  * is finished in a draft of its own, on any thread, and grafted. What a cell becomes depends
@@ -10,24 +11,25 @@
 #define FROE_SPLIT_GROW_H
 #include "base/task.h"
 #include "split/fragment.h"
+#include "split/homes.h"
 
 typedef struct split_cell {
     uint32_t node; /**< ring numbering */
     uint32_t depth;
-    uint64_t path;         /**< for base_hash() */
-    uint32_t first, count; /**< its fragments: set->items */
-    uint32_t corner_top;   /**< corners from here on belong to cells that are done */
-    uint32_t guard;        /**< node of the guard tree that this cell is, or FROE_NONE */
-    float growth;          /**< fragmentation by the guard stage so far: see density.c */
-    uint32_t barren;       /**< guard cuts in a row that left nearly all fragments in this cell */
-    uint32_t attempt;      /**< how often the chosen cut separated nothing */
+    uint64_t path;          /**< for base_hash() */
+    uint32_t first, count;  /**< its fragments: set->items */
+    uint32_t whole, wholes; /**< and, in the guard stage, whole objects: homes->ids[whole ..], so many */
+    uint32_t corner_top;    /**< corners from here on belong to cells that are done */
+    uint32_t guard;         /**< node of the guard tree that this cell is, or FROE_NONE */
+    float growth;           /**< fragmentation by the guard stage so far: see density.c */
+    uint32_t barren;        /**< guard cuts in a row that left nearly all fragments in this cell */
+    uint32_t attempt;       /**< how often the chosen cut separated nothing */
 } split_cell;
 
 typedef enum split_verdict {
     SPLIT_LEAF,        /**< done */
     SPLIT_INSEPARABLE, /**< done, over capacity: nothing separates these objects */
     SPLIT_CUT,         /**< cut; the cut must lie through the cell's fragments or between them */
-    SPLIT_GUARD,       /**< cut with a node of the guard tree, whatever it separates */
     SPLIT_GIVE_UP,     /**< end the whole build with FROE_E_BUDGET */
     SPLIT_MEMORY       /**< out of memory */
 } split_verdict;
@@ -44,9 +46,8 @@ typedef struct split_method {
     const void *config;
     /** Names the cut of a cell whose fragments are set->items[first ..]. Deterministic. */
     split_verdict (*choose)(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
-    /** Fills in guard and growth of the two children (negative, positive) of a SPLIT_GUARD cut that left
-     * in_cut fragments behind; may be NULL. */
-    void (*descend)(const void *config, const split_cell *parent, uint32_t in_cut, split_cell child[2]);
+    /** Is the cell to be cut by its node of the guard tree? NULL: never. */
+    bool (*in_guard_stage)(const void *config, const split_cell *cell);
     /** Makes and frees a worker's scratch; may be NULL. */
     froe_status (*scratch_new)(const void *config, split_work *work);
     void (*scratch_free)(split_work *work);
@@ -56,12 +57,18 @@ typedef struct split_job {
     froe_scene *scene;
     froe_allocator alloc;
     base_task *task;
-    uint64_t max_fragments; /**< 0: none */
-    uint32_t root_guard;    /**< guard of the root cell */
-    double span;            /**< share of the task's progress */
+    uint64_t max_fragments;        /**< 0: none */
+    const split_guard_tree *guard; /**< NULL: no guard stage */
+    const split_homes *homes;      /**< with guard */
+    double span;                   /**< share of the task's progress */
     const tree_meta *meta;
     froe_diagnostic *diag;
 } split_job;
+
+/** Fragments and whole objects of a cell. */
+static inline uint32_t split_load(const split_cell *cell) {
+    return cell->count + cell->wholes;
+}
 
 /** Grows the whole tree over all objects of the scene. out NULL: for the method's own notes only. */
 froe_status split_grow(const split_job *job, const split_method *method, froe_tree **out);
