@@ -73,6 +73,8 @@ void scene_ball_bounds(int dim, const double *centre, double radius, double *lo,
  * points x[0] = value; segments in 3D the plane x[k] = value if one holds it, else the
  * vertical plane. Returns the cut that names the plane; kind NONE for boxes, balls, hulls. */
 froe_cut scene_support(const froe_scene *s, uint32_t object, geom_plane *plane);
+/** The same without the plane. */
+froe_cut scene_support_cut(const froe_scene *s, uint32_t object);
 
 /** The hyperplane of any cut. */
 geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut);

@@ -55,7 +55,7 @@ static froe_cut segment_cut(const froe_scene *s, uint32_t object) {
     return (froe_cut){.kind = FROE_CUT_EDGE, .id = {scene_corner(s, object, 0), scene_corner(s, object, 1)}};
 }
 
-static froe_cut support_cut(const froe_scene *s, uint32_t object) {
+froe_cut scene_support_cut(const froe_scene *s, uint32_t object) {
     switch (scene_form(s, object)) {
     case FROE_POINT:
         return axis_cut(0, scene_point(s, object, 0)[0]);
@@ -69,7 +69,7 @@ static froe_cut support_cut(const froe_scene *s, uint32_t object) {
 }
 
 froe_cut scene_support(const froe_scene *s, uint32_t object, geom_plane *plane) {
-    froe_cut cut = support_cut(s, object);
+    froe_cut cut = scene_support_cut(s, object);
     if (cut.kind != FROE_CUT_NONE) *plane = scene_cut_plane(s, &cut);
     return cut;
 }

@@ -8,7 +8,9 @@
 froe_status split_scratch_new(const void *config, split_work *work) {
     (void)config;
     work->scratch = base_calloc(&work->set.alloc, 1, sizeof(split_scratch));
-    return work->scratch ? FROE_OK : FROE_E_MEMORY;
+    if (!work->scratch) return FROE_E_MEMORY;
+    split_view_init(&((split_scratch *)work->scratch)->view);
+    return FROE_OK;
 }
 
 void split_scratch_free(split_work *work) {
@@ -39,25 +41,16 @@ typedef struct contest {
 
 static void enter(contest *c, const froe_cut *cut, split_tally tally) {
     if (!tally.on && (!tally.negative || !tally.positive)) return; /* separates nothing */
-    double cost = split_cost(tally, c->scratch->view.weight, c->config->weight, c->strict);
+    double cost = split_cost(&c->scratch->view, tally, c->config->weight, c->strict);
     if (c->best.any && cost >= c->best.cost) return;
     c->best = (choice){*cut, cost, true};
 }
 
-/** The supporting plane of a fragment, if its kind has one. */
-static bool support_of(const contest *c, uint32_t item, froe_cut *cut, geom_plane *plane) {
-    const split_set *set = &c->work->set;
-    uint32_t object = set->items.data[c->cell->first + item].object;
-    if (!split_is_cut(scene_form(set->scene, object))) return false;
-    *cut = scene_support(set->scene, object, plane);
-    return cut->kind != FROE_CUT_NONE;
-}
-
 static void enter_support(contest *c, uint32_t item) {
-    froe_cut cut;
-    geom_plane plane;
-    if (c->work->set.scene->dim > 3 || !support_of(c, item, &cut, &plane)) return;
-    enter(c, &cut, split_view_count(&c->scratch->view, &plane));
+    const split_set *set = &c->work->set;
+    if (set->scene->dim > 3) return;
+    froe_cut cut = scene_support_cut(set->scene, set->items.data[c->cell->first + item].object);
+    if (cut.kind != FROE_CUT_NONE) enter(c, &cut, split_view_count(&c->scratch->view, set->scene, &cut));
 }
 
 /** All fragments of a small cell, or a draw from a large one. */
@@ -98,8 +91,8 @@ static void enter_edge(contest *c, uint64_t draw) {
     cut.id[0] = scene_corner(scene, one, i);
     cut.id[1] = scene_corner(scene, one, i + 1 < n ? i + 1 : 0);
     cut.id[2] = scene_corner(scene, other, j);
-    geom_plane plane = scene_cut_plane(scene, &cut);
-    if (plane.n_max > plane.n_err) enter(c, &cut, split_view_count(&c->scratch->view, &plane));
+    if (cut.id[2] == cut.id[0] || cut.id[2] == cut.id[1]) return;
+    enter(c, &cut, split_view_count(&c->scratch->view, scene, &cut));
 }
 
 static void enter_edges(contest *c) {
@@ -126,10 +119,13 @@ static bool enter_axes(contest *c) {
 
 /** The support of some fragment always takes that fragment out. */
 static bool any_support(contest *c, froe_cut *cut) {
-    geom_plane plane;
-    uint32_t start = base_below(base_hash(c->config->seed, c->cell->path, 77), c->cell->count);
-    for (uint32_t i = 0; i < c->cell->count; i++)
-        if (support_of(c, (start + i) % c->cell->count, cut, &plane)) return true;
+    const split_set *set = &c->work->set;
+    uint32_t m = c->cell->count, start = base_below(base_hash(c->config->seed, c->cell->path, 77), m);
+    for (uint32_t i = 0; i < m; i++) {
+        uint32_t object = set->items.data[c->cell->first + (start + i) % m].object;
+        *cut = scene_support_cut(set->scene, object);
+        if (cut->kind != FROE_CUT_NONE) return true;
+    }
     return false;
 }
 
@@ -157,6 +153,13 @@ static split_verdict last_resort(contest *c, froe_cut *cut) {
     return split_separate(c->work, c->cell, c->scratch->normal, cut);
 }
 
+/** Three vertices may lie on a line, which scores do not see. Exact. */
+static bool is_plane(const contest *c, const froe_cut *cut) {
+    if (cut->kind != FROE_CUT_VERTICES) return true;
+    geom_plane plane = scene_cut_plane(c->work->set.scene, cut);
+    return geom_plane_valid(&c->work->set.context, &plane);
+}
+
 split_verdict split_refine_choose(const split_refine *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     contest c = {.config = config, .work = work, .scratch = work->scratch, .cell = cell};
     if (cell->count <= config->leaf) return SPLIT_LEAF;
@@ -171,7 +174,7 @@ split_verdict split_refine_choose(const split_refine *config, split_work *work, 
         if (config->quantiles && !enter_axes(&c)) return SPLIT_MEMORY;
         if (c.strict && work->set.scene->dim == 3) enter_edges(&c);
     }
-    if (!c.best.any) return last_resort(&c, cut);
+    if (!c.best.any || !is_plane(&c, &c.best.cut)) return last_resort(&c, cut);
     *cut = c.best.cut;
     return SPLIT_CUT;
 }

@@ -15,11 +15,17 @@ void split_view_free(const froe_allocator *alloc, split_view *view) {
     array_free(alloc, &view->high);
 }
 
+void split_view_init(split_view *view) {
+    for (uint32_t k = 2; k < SPLIT_TABLE; k++) view->xlog2[k] = k * base_log2(k);
+}
+
 /** Appends one corner. The caller has made room. */
 static void add_corner(split_view *view, const double *x, int dim) {
+    size_t at = view->x[0].count++;
     for (int k = 0; k < dim; k++) {
-        view->x[k].data[view->x[k].count++] = x[k];
-        if (fabs(x[k]) > view->reach[k]) view->reach[k] = fabs(x[k]);
+        double size = fabs(x[k]);
+        view->x[k].data[at] = x[k];
+        if (size > view->reach[k]) view->reach[k] = size;
     }
 }
 
@@ -33,18 +39,28 @@ static void add_box(split_view *view, const split_set *set, uint32_t object, int
     }
 }
 
+/** Room for n more corners and one more fragment. */
+static bool make_room(split_view *view, const froe_allocator *alloc, int dim, uint32_t n) {
+    for (int k = 0; k < dim; k++) {
+        view->x[k].count = view->x[0].count;
+        if (!array_reserve(alloc, &view->x[k], n)) return false;
+    }
+    return array_reserve(alloc, &view->start, 1);
+}
+
 static bool add_fragment(split_view *view, const split_set *set, const split_fragment *f) {
-    int dim = set->scene->dim < 3 ? set->scene->dim : 3; /* beyond R^3 axis planes are the only candidates */
-    froe_kind form = scene_form(set->scene, f->object);
+    const froe_scene *scene = set->scene;
+    int dim = scene->dim;
+    froe_kind form = scene_form(scene, f->object);
     bool boxed = form == FROE_BOX || form == FROE_BALL;
     uint32_t n = boxed ? 1u << dim : split_corner_count(set, f);
-    for (int k = 0; k < dim; k++)
-        if (!array_reserve(&set->alloc, &view->x[k], n)) return false;
+    if (!make_room(view, &set->alloc, dim, n)) return false;
     if (boxed)
         add_box(view, set, f->object, dim);
     else
         for (uint32_t i = 0; i < n; i++) add_corner(view, split_image(set, f, i), dim);
-    return array_push(&set->alloc, &view->start, (uint32_t)view->x[0].count);
+    view->start.data[view->start.count++] = (uint32_t)view->x[0].count;
+    return true;
 }
 
 /** The i-th fragment shown of a cell. */
@@ -57,6 +73,7 @@ static const split_fragment *shown(const split_set *set, const split_cell *cell,
 bool split_view_fill(split_view *view, const split_set *set, const split_cell *cell, uint32_t sample, uint64_t seed) {
     view->count = cell->count > sample ? sample : cell->count;
     view->weight = (double)cell->count / view->count;
+    if (set->scene->dim > 3) return true; /* axis-parallel planes are the only candidates */
     view->start.count = 0;
     if (!array_push(&set->alloc, &view->start, 0)) return false;
     for (int k = 0; k < 3; k++) view->x[k].count = 0, view->reach[k] = 0;
@@ -66,16 +83,51 @@ bool split_view_fill(split_view *view, const split_set *set, const split_cell *c
     return array_reserve(&set->alloc, &view->side, view->x[0].count);
 }
 
+/** A plane in plain doubles: side = sign of n . x - d. */
+typedef struct rough {
+    double n[3], d;
+} rough;
+
+/** Through dim points: the normal as in geom/plane.h. */
+static rough through(int dim, const double *p, const double *q, const double *r) {
+    rough h = {{p[1] - q[1], q[0] - p[0], 0}, 0};
+    if (dim == 3) {
+        double u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+        h.n[0] = u[1] * v[2] - u[2] * v[1];
+        h.n[1] = u[2] * v[0] - u[0] * v[2];
+        h.n[2] = u[0] * v[1] - u[1] * v[0];
+    }
+    for (int k = 0; k < dim; k++) h.d += h.n[k] * p[k];
+    return h;
+}
+
+static rough rough_plane(const froe_scene *scene, const froe_cut *cut) {
+    int dim = scene->dim;
+    rough h = {.d = cut->value};
+    const uint32_t *id = cut->kind == FROE_CUT_OBJECT ? scene->corners + scene->starts[cut->id[0]] : cut->id;
+    switch (cut->kind) {
+    case FROE_CUT_AXIS:
+        h.n[cut->axis] = 1;
+        return h;
+    case FROE_CUT_PLANE:
+        for (int k = 0; k < dim; k++) h.n[k] = cut->normal[k];
+        return h;
+    case FROE_CUT_EDGE: {
+        const double *p = scene_vertex(scene, id[0]), *q = scene_vertex(scene, id[1]);
+        return through(2, p, q, NULL);
+    }
+    default:
+        return through(dim, scene_vertex(scene, id[0]), scene_vertex(scene, id[1]), scene_vertex(scene, id[dim - 1]));
+    }
+}
+
 /** Sides of all corners; values that rounding could have moved across count as on the plane. */
-static void find_sides(split_view *view, const geom_plane *plane) {
+static void find_sides(split_view *view, int dim, const rough *h) {
     size_t n = view->x[0].count;
-    bool flat = plane->dim == 2;
-    const double *x = view->x[0].data, *y = view->x[1].data, *z = flat ? y : view->x[2].data;
-    double a = plane->n[0], b = plane->n[1], c = flat ? 0 : plane->n[2], d = plane->c, reach = fabs(plane->c);
-    if (plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL)
-        d = a * plane->p[0][0] + b * plane->p[0][1] + (flat ? 0 : c * plane->p[0][2]);
-    for (int k = 0; k < plane->dim; k++) reach += fabs(plane->n[k]) * view->reach[k];
-    double slack = (reach + fabs(d)) * 0x1p-49;
+    const double *x = view->x[0].data, *y = view->x[1].data, *z = dim == 2 ? y : view->x[2].data;
+    double a = h->n[0], b = h->n[1], c = h->n[2], d = h->d, reach = fabs(d);
+    for (int k = 0; k < dim; k++) reach += fabs(h->n[k]) * view->reach[k];
+    double slack = reach * 0x1p-49;
     uint8_t *side = view->side.data;
     for (size_t i = 0; i < n; i++) {
         double value = a * x[i] + b * y[i] + c * z[i] - d;
@@ -83,11 +135,12 @@ static void find_sides(split_view *view, const geom_plane *plane) {
     }
 }
 
-split_tally split_view_count(split_view *view, const geom_plane *plane) {
+split_tally split_view_count(split_view *view, const froe_scene *scene, const froe_cut *cut) {
     uint32_t of[4] = {0}; /* on, negative, positive, both */
     const uint32_t *start = view->start.data;
     const uint8_t *side = view->side.data;
-    find_sides(view, plane);
+    rough plane = rough_plane(scene, cut);
+    find_sides(view, scene->dim, &plane);
     for (uint32_t i = 0; i < view->count; i++) {
         unsigned seen = 0;
         for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[j];
@@ -154,14 +207,15 @@ split_tally split_view_count_axis(const split_view *view, double value) {
 
 /* ------------------------------------------------------------------ scores -- */
 
-static double xlog2(double k) {
+static double xlog2(const split_view *view, double k) {
+    if (k < SPLIT_TABLE && view->weight == 1) return view->xlog2[(uint32_t)k];
     return k > 1 ? k * base_log2(k) : 0;
 }
 
-double split_cost(split_tally t, double weight, double w, bool strict) {
-    double m = (t.negative + t.positive + t.on + t.both) * weight, splits = t.both * weight;
-    double a = (t.negative + t.both) * weight, b = (t.positive + t.both) * weight, larger = a > b ? a : b;
-    double gain = xlog2(m) - xlog2(a) - xlog2(b) + splits * (m > 1 ? base_log2(m) : 0);
+double split_cost(const split_view *view, split_tally t, double w, bool strict) {
+    double m = (t.negative + t.positive + t.on + t.both) * view->weight, splits = t.both * view->weight;
+    double a = (t.negative + t.both) * view->weight, b = (t.positive + t.both) * view->weight, larger = a > b ? a : b;
+    double whole = xlog2(view, m), gain = whole - xlog2(view, a) - xlog2(view, b) + splits * (whole / m);
     double penalty = strict && m > 4 && larger > 0.75 * m ? 0x1p20 * (larger / m - 0.75) : 0;
     return splits - w * gain + penalty;
 }

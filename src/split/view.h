@@ -7,15 +7,18 @@
 #define FROE_SPLIT_VIEW_H
 #include "split/grow.h"
 
+enum { SPLIT_TABLE = 512 };
+
 typedef struct split_view {
-    ARRAY(double) x[3];      /**< coordinates of the corners, by axis (2D: two of them) */
-    ARRAY(uint32_t) start;   /**< count + 1 offsets of the fragments' corners */
-    ARRAY(uint8_t) side;     /**< bit 0: negative, bit 1: positive, per corner: of the last count */
-    ARRAY(double) values;    /**< ends of extents, for axis candidates */
-    ARRAY(double) low, high; /**< extents of the fragments on the current axis */
-    uint32_t count;          /**< fragments shown */
-    double weight;           /**< fragments of the cell per fragment shown, >= 1 */
-    double reach[3];         /**< largest |coordinate| by axis */
+    ARRAY(double) x[3];        /**< coordinates of the corners, by axis (2D: two of them) */
+    ARRAY(uint32_t) start;     /**< count + 1 offsets of the fragments' corners */
+    ARRAY(uint8_t) side;       /**< bit 0: negative, bit 1: positive, per corner: of the last count */
+    ARRAY(double) values;      /**< ends of extents, for axis candidates */
+    ARRAY(double) low, high;   /**< extents of the fragments on the current axis */
+    uint32_t count;            /**< fragments shown */
+    double weight;             /**< fragments of the cell per fragment shown, >= 1 */
+    double reach[3];           /**< largest |coordinate| by axis */
+    double xlog2[SPLIT_TABLE]; /**< k log2 k of small k */
 } split_view;
 
 /** How a cut would deal with the fragments shown. */
@@ -23,11 +26,12 @@ typedef struct split_tally {
     uint32_t negative, positive, on, both; /**< disjoint classes */
 } split_tally;
 
+void split_view_init(split_view *view);
 void split_view_free(const froe_allocator *alloc, split_view *view);
 /** Shows the cell, or `sample` fragments of it drawn (with replacement) by `seed` when it has more. */
 bool split_view_fill(split_view *view, const split_set *set, const split_cell *cell, uint32_t sample, uint64_t seed);
-/** Counts for any plane; dimensions 2 and 3. */
-split_tally split_view_count(split_view *view, const geom_plane *plane);
+/** Counts for any cut; dimensions 2 and 3. */
+split_tally split_view_count(split_view *view, const froe_scene *scene, const froe_cut *cut);
 /** Counts for the plane x[axis] = value from the extents on that axis; any dimension. */
 split_tally split_view_count_axis(const split_view *view, double value);
 /** Computes the extents on an axis, and their ends, sorted, as `values`. */
@@ -37,5 +41,5 @@ bool split_view_extents(split_view *view, const split_set *set, const split_cell
  *     gain = xl(m) - xl(A) - xl(B) + S log2 m,  xl(k) = k log2 k;   cost = S - w * gain
  * A, B: fragments on the two sides, split ones on both. With a penalty when the larger side exceeds
  * 3/4 of m while `strict`. Lower is better. */
-double split_cost(split_tally tally, double weight, double w, bool strict);
+double split_cost(const split_view *view, split_tally tally, double w, bool strict);
 #endif
