@@ -1,0 +1,195 @@
+/* Every builder on every kind of generated scene: the audit passes, and the tree depends on nothing but
+ * scene, options and seed. Walks froe_method_at() and froe_generator_at(): a new builder or kind
+ * of scene needs no line here. */
+#include "support/memory.h"
+#include "tree/tree.h"
+#include <froe/io.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum {
+    OBJECTS = 80,
+    MANY = 1100, /* beyond what is built in one task */
+    BUDGET = 20000
+};
+
+static bool serves(const froe_method_info *m, const froe_scene *scene) {
+    for (int k = 0; k < FROE_KIND_COUNT; k++)
+        if (froe_scene_kind_count(scene, (froe_kind)k) && !(m->kinds >> k & 1)) return false;
+    return m->dims >> froe_scene_dim(scene) & 1;
+}
+
+static bool may_end_in_cuts(const froe_scene *scene) {
+    size_t n = froe_scene_object_count(scene);
+    return (froe_scene_dim(scene) == 2 && froe_scene_kind_count(scene, FROE_SEGMENT) == n) ||
+           (froe_scene_dim(scene) == 3 && froe_scene_kind_count(scene, FROE_POLYGON) == n);
+}
+
+static void assert_same_tree(const froe_tree *a, const froe_tree *b) {
+    assert_int_equal(a->node_count, b->node_count);
+    assert_int_equal(a->piece_count, b->piece_count);
+    assert_int_equal(a->bound_count, b->bound_count);
+    assert_memory_equal(a->nodes, b->nodes, a->node_count * sizeof *a->nodes);
+    assert_memory_equal(a->pieces, b->pieces, a->piece_count * sizeof *a->pieces);
+    if (a->cut_count) assert_memory_equal(a->cuts, b->cuts, a->cut_count * sizeof *a->cuts);
+    if (a->bound_count > 1) assert_memory_equal(a->bounds + 1, b->bounds + 1, (a->bound_count - 1) * sizeof *a->bounds);
+}
+
+static froe_build_options options(const char *method, uint32_t leaf) {
+    froe_build_options o = froe_build_defaults();
+    o.method = method;
+    o.leaf = leaf;
+    o.threads = 1;
+    return o;
+}
+
+static froe_tree *build(froe_scene *scene, const froe_build_options *o) {
+    froe_diagnostic diag = {0};
+    froe_tree *tree = NULL;
+    if (froe_build(scene, o, &tree, &diag)) fail_msg("%s: %s", o->method, diag.message);
+    return tree;
+}
+
+static void audit(const froe_tree *tree, const char *scene_name, uint32_t leaf) {
+    froe_audit_options o = froe_audit_defaults();
+    froe_diagnostic diag = {0};
+    o.exact_only = true;
+    if (froe_tree_audit(tree, &o, &diag))
+        fail_msg("%s on %s, leaf %u: %s", froe_tree_report(tree).method, scene_name, leaf, diag.message);
+}
+
+typedef void scene_fn(froe_scene *scene, const froe_method_info *method, const char *name);
+
+/** Calls fn for every generated scene and every method that serves it. */
+static void for_all(size_t n, scene_fn *fn) {
+    size_t calls = 0;
+    for (size_t g = 0; froe_generator_at(g); g++) {
+        froe_scene *scene;
+        const char *name = froe_generator_at(g)->name;
+        assert_int_equal(froe_generate(name, n, 7, NULL, &scene, NULL), FROE_OK);
+        for (size_t m = 0; froe_method_at(m); m++)
+            if (serves(froe_method_at(m), scene)) fn(scene, froe_method_at(m), name), calls++;
+        froe_scene_free(scene);
+    }
+    assert_true(calls > 20);
+}
+
+static void check_audit(froe_scene *scene, const froe_method_info *method, const char *name) {
+    static const uint32_t leaves[] = {0, 1, 5};
+    for (size_t i = may_end_in_cuts(scene) ? 0 : 1; i < 3; i++) {
+        froe_build_options o = options(method->name, leaves[i]);
+        froe_tree *tree = build(scene, &o);
+        audit(tree, name, leaves[i]);
+        froe_tree_free(tree);
+    }
+}
+
+static void check_threads(froe_scene *scene, const froe_method_info *method, const char *name) {
+    (void)name;
+    froe_tree *one = NULL, *three = NULL;
+    froe_build_options o = options(method->name, 1);
+    o.max_fragments = BUDGET; /* on scenes that need more, all numbers of threads refuse alike */
+    froe_status status = froe_build(scene, &o, &one, NULL);
+    o.threads = 3;
+    assert_int_equal(froe_build(scene, &o, &three, NULL), status);
+    if (!status) assert_same_tree(one, three);
+    froe_tree_free(one);
+    froe_tree_free(three);
+}
+
+static void check_budget(froe_scene *scene, const froe_method_info *method, const char *name) {
+    froe_build_options o = options(method->name, 1);
+    froe_tree *tree = build(scene, &o), *again = NULL;
+    uint64_t fragments = froe_tree_report(tree).fragments;
+    (void)name;
+    o.max_fragments = fragments;
+    assert_int_equal(froe_build(scene, &o, &again, NULL), FROE_OK);
+    froe_tree_free(again);
+    again = NULL;
+    o.max_fragments = fragments - 1;
+    if (o.max_fragments) assert_int_equal(froe_build(scene, &o, &again, NULL), FROE_E_BUDGET);
+    assert_null(again);
+    froe_tree_free(tree);
+}
+
+static bool refuse(void *user, double done) {
+    (void)done;
+    return --*(int *)user > 0;
+}
+
+static void check_cancel(froe_scene *scene, const froe_method_info *method, const char *name) {
+    (void)name;
+    for (int calls = 1; calls < 4; calls++) {
+        int left = calls;
+        froe_tree *tree = NULL;
+        froe_build_options o = options(method->name, 1);
+        o.progress = refuse;
+        o.user = &left;
+        froe_status status = froe_build(scene, &o, &tree, NULL);
+        assert_true(status == FROE_E_CANCELLED || status == FROE_OK);
+        if (calls == 1) assert_int_equal(status, FROE_E_CANCELLED);
+        froe_tree_free(tree);
+    }
+}
+
+typedef struct fault {
+    const char *kind, *method;
+} fault;
+
+/** Makes a scene and a tree in memory that runs out at some moment. */
+static froe_status build_in(void *user, const froe_allocator *alloc) {
+    const fault *f = user;
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_build_options o = options(f->method, 1);
+    froe_status status = froe_generate(f->kind, 24, 7, alloc, &scene, NULL);
+    if (!status) status = froe_build(scene, &o, &tree, NULL);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    return status;
+}
+
+static void a_build_survives_every_failing_allocation(void **state) {
+    static const fault faults[] = {{"segments", "autopartition"},
+                                   {"segments", "density"},
+                                   {"balls", "density"},
+                                   {"triangles", "autopartition"},
+                                   {"triangles", "density"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) test_memory_each(build_in, (void *)&faults[i]);
+}
+
+static void every_tree_passes_the_exact_audit(void **state) {
+    (void)state;
+    for_all(OBJECTS, check_audit);
+}
+
+static void a_tree_does_not_depend_on_threads(void **state) {
+    (void)state;
+    for_all(MANY, check_threads);
+}
+
+static void a_budget_is_kept_to_the_piece(void **state) {
+    (void)state;
+    for_all(OBJECTS, check_budget);
+}
+
+static void a_build_can_be_cancelled(void **state) {
+    (void)state;
+    for_all(OBJECTS, check_cancel);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_tree_passes_the_exact_audit),
+        cmocka_unit_test(a_tree_does_not_depend_on_threads),
+        cmocka_unit_test(a_budget_is_kept_to_the_piece),
+        cmocka_unit_test(a_build_can_be_cancelled),
+        cmocka_unit_test(a_build_survives_every_failing_allocation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
