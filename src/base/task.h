@@ -22,7 +22,7 @@ static inline bool base_cancelled(base_task *task) {
     return atomic_load_explicit(&task->cancelled, memory_order_relaxed);
 }
 
-/** One job of many; `worker` < threads names the worker's private state. */
+/** One job of many; `worker` < threads names the worker's private state; 0 is the calling thread. */
 typedef froe_status base_job_fn(void *user, unsigned worker, size_t job);
 /** Runs jobs 0..count-1, in any order, on task->threads threads (the calling one
  * included), and reports progress from `done` to `done + span * scale`. Returns the status
