@@ -359,8 +359,8 @@ FROE_API size_t froe_tree_piece_corners(const froe_tree *tree, size_t piece, dou
 
 /** One node's region clipped to a box, for pictures and exports only: computed
  * in doubles. 2D: `corners` points of a convex polygon, face_count 1. 3D: faces
- * as consecutive runs of corners, face_starts has face_count + 1 entries. The
- * last face of an inner node (2D: a 2-corner face) is the cut within its region. */
+ * as consecutive runs of corners that turn left seen from outside, face_starts has
+ * face_count + 1 entries. Arrays live until the visitor returns. */
 typedef struct froe_cell {
     froe_node node;
     uint32_t depth;
@@ -400,8 +400,10 @@ FROE_API froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_opt
 /** Writes the tree with its scene (docs/format.md), atomically: `path` holds the
  * old file or the new one, whole, whatever happens. FROE_E_IO. */
 FROE_API froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag);
-/** Opens a saved tree by mapping the file. Everything is validated first:
- * FROE_E_FORMAT for any file that froe_tree_save could not have written. */
+/** Opens a saved tree by mapping the file, which nobody may shorten or write to in
+ * place while the tree is open (replacing it, as froe_tree_save does, is fine).
+ * Everything is validated first: FROE_E_FORMAT for any file that froe_tree_save could
+ * not have written. FROE_E_IO, FROE_E_MEMORY. O(size of the file). */
 FROE_API froe_status froe_tree_open(const char *path, const froe_allocator *alloc, froe_tree **out,
                                     froe_diagnostic *diag);
 

@@ -90,7 +90,7 @@ static void leaves_tile_the_box(void **state) {
                 tally t = cells_in(tree, lo, hi);
                 assert_true(fabs(t.root_measure - (dim == 2 ? 4 : 8)) < 1e-12);
                 assert_true(fabs(t.leaf_measure - t.root_measure) < 1e-9);
-assert_true(t.leaves > 5 && t.cuts == t.leaves - 1);
+                assert_true(t.leaves > 5 && t.cuts == t.leaves - 1);
                 froe_tree_free(tree);
             }
 }

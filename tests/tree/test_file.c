@@ -171,6 +171,70 @@ static void what_is_saved_is_opened(void **state) {
     unlink("again.froe");
 }
 
+/* By the offsets of docs/format.md, not by our structs. */
+static uint64_t number(const uint8_t *bytes, size_t offset, size_t size) {
+    uint64_t value = 0;
+    for (size_t i = 0; i < size; i++) value |= (uint64_t)bytes[offset + i] << 8 * i;
+    return value;
+}
+
+static void checksums_are_as_specified(void **state) {
+    (void)state;
+    uint8_t bytes[100];
+    for (uint8_t i = 0; i < 100; i++) bytes[i] = i;
+    assert_true(file_checksum("", 0, 0) == 0x8813fa1cbc461847u); /* by another program */
+    assert_true(file_checksum("froe", 4, 0) == 0xcd966b9a03e96491u);
+    assert_true(file_checksum(bytes, 100, 7) == 0x82d79541921a0b2du);
+}
+
+static void files_are_as_specified(void **state) {
+    (void)state;
+    static const uint8_t magic[8] = {0x89, 0x66, 0x72, 0x6f, 0x65, 0x0d, 0x0a, 0x1a};
+    static const uint64_t items[17] = {1264, 16, 24, 8, 4, 8, 8, 1, 1, 4, 4, 8, 8, 4, 4, 16, 1};
+    froe_tree *tree = rich_tree(3);
+    const froe_scene *scene = froe_tree_scene(tree);
+    size_t size, offset = 640;
+    assert_saved(tree, NAME);
+    uint8_t *bytes = slurp(NAME, &size);
+    assert_memory_equal(bytes, magic, 8);
+    assert_int_equal(number(bytes, 8, 4), 1);
+    assert_int_equal(number(bytes, 12, 4), 17);
+    assert_int_equal(number(bytes, 16, 8), size);
+    assert_int_equal(number(bytes, 24, 4), 3);
+    assert_true(number(bytes, 56, 8) == file_checksum(bytes + 64, 17 * 32, file_checksum(bytes, 56, 0)));
+    const uint64_t counts[17] = {1,
+                                 tree->node_count,
+                                 tree->cut_count,
+                                 tree->piece_count,
+                                 tree->bound_count,
+                                 tree->normal_count,
+                                 3 * froe_scene_vertex_count(scene),
+                                 froe_scene_object_count(scene),
+                                 froe_scene_object_count(scene),
+                                 froe_scene_object_count(scene) + 1,
+                                 scene->corner_count,
+                                 froe_scene_kind_count(scene, FROE_BALL),
+                                 froe_scene_object_count(scene),
+                                 froe_scene_object_count(scene),
+                                 froe_scene_object_count(scene),
+                                 1,
+                                 scene->text_size};
+    for (size_t i = 0; i < 17; i++) {
+        const size_t entry = 64 + 32 * i;
+        assert_int_equal(number(bytes, entry, 4), i + 1);
+        assert_int_equal(number(bytes, entry + 4, 4), items[i]);
+        assert_int_equal(number(bytes, entry + 8, 8), offset);
+        assert_int_equal(number(bytes, entry + 16, 8), counts[i] * items[i]);
+        assert_true(number(bytes, entry + 24, 8) == file_checksum(bytes + offset, counts[i] * items[i], 0));
+        offset = (offset + counts[i] * items[i] + 63) / 64 * 64;
+    }
+    assert_int_equal(offset, size);
+    assert_string_equal(bytes + 640, "density");
+    free(bytes);
+    froe_tree_free(tree);
+    unlink(NAME);
+}
+
 static void a_tree_of_nothing_is_saved_too(void **state) {
     (void)state;
     froe_tree *tree = trees_grow(2, FROE_SEGMENT, 0, 0, 1, "density", 1);
@@ -474,6 +538,8 @@ static int clean_up(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_saved_is_opened),
+        cmocka_unit_test(checksums_are_as_specified),
+        cmocka_unit_test(files_are_as_specified),
         cmocka_unit_test(a_tree_of_nothing_is_saved_too),
         cmocka_unit_test(trees_in_many_dimensions_are_saved),
         cmocka_unit_test(a_scene_from_a_file_never_grows),
