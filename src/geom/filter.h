@@ -81,6 +81,11 @@ static inline num_ball filter_div(num_ball a, num_ball b) {
     return (num_ball){q, gap > 0 ? e * FILTER_UP + NUM_BALL_TINY : (double)INFINITY};
 }
 
+/* One instruction, where fmax() is a call. Beside a NaN, errors are not finite, so either will do. */
+static inline double filter_greater(double a, double b) {
+    return a > b ? a : b;
+}
+
 /* A vector with one error bound for all components. */
 typedef struct filter_vector {
     double x[3], most, e; /* most = max |x[k]| */
@@ -97,7 +102,7 @@ static inline filter_vector filter_cross(const filter_vector *a, const filter_ve
     out.x[0] = a->x[1] * b->x[2] - a->x[2] * b->x[1];
     out.x[1] = a->x[2] * b->x[0] - a->x[0] * b->x[2];
     out.x[2] = a->x[0] * b->x[1] - a->x[1] * b->x[0];
-    out.most = fmax(fmax(fabs(out.x[0]), fabs(out.x[1])), fabs(out.x[2]));
+    out.most = filter_greater(filter_greater(fabs(out.x[0]), fabs(out.x[1])), fabs(out.x[2]));
     double e = a->most * b->e + (b->most + b->e) * a->e + 2 * FILTER_U * (a->most * b->most);
     out.e = 2 * e * FILTER_UP + NUM_BALL_TINY;
     return out;

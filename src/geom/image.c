@@ -29,8 +29,8 @@ void geom_round_corner(num_context *context, const geom_plane *s, const geom_pla
 
 /* Keeps x, an image of a number between p and q, between them; returns its error. */
 static double confine(num_ball image, double p, double q, double *x) {
-    double low = fmin(p, q), high = fmax(p, q), width = (high - low) * (1 + 0x1p-50);
-    *x = fmin(fmax(image.x, low), high); /* a NaN becomes low */
+    double low = p < q ? p : q, high = p < q ? q : p, width = (high - low) * (1 + 0x1p-50);
+    *x = image.x > low ? image.x < high ? image.x : high : low; /* a NaN becomes low */
     return image.e < width ? image.e : width;
 }
 
@@ -67,7 +67,7 @@ double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_pl
         num_ball x = filter_add(num_ball_from(z[k]), filter_div(corner_offset(at, across, k), divisor));
         out[k] = x.x;
         if (!(x.e <= 0x1p1000)) return INFINITY; /* NaN too */
-        worst = fmax(worst, x.e);
+        worst = filter_greater(worst, x.e);
     }
     for (int i = 0; i < 3; i++)
         if (planes[i]->form == GEOM_AXIS) out[planes[i]->axis] = planes[i]->c;

@@ -1,4 +1,5 @@
 /* plane.c: planes from points, axes and vectors, with certified images of their normals. */
+#include "geom/filter.h"
 #include "geom/formulas.h"
 #include <math.h>
 #include <string.h>
@@ -19,8 +20,8 @@ static void image_normal(geom_plane *plane) {
     bool certain = num_rounding_trusted();
     for (int k = 0; k < 3; k++) {
         plane->n[k] = n[k].x;
-        most = fmax(most, fabs(n[k].x));
-        error = fmax(error, n[k].e);
+        most = filter_greater(most, fabs(n[k].x));
+        error = filter_greater(error, n[k].e);
         certain = certain && fabs(n[k].x) <= 0x1p1000 && n[k].e <= 0x1p1000; /* false for NaN */
     }
     plane->n_max = most;
@@ -56,7 +57,7 @@ geom_plane geom_plane_vector(int dim, const double *normal, double value) {
     plane.c = value;
     for (int k = 0; k < dim; k++) {
         plane.p[0][k] = plane.n[k] = normal[k];
-        plane.n_max = fmax(plane.n_max, fabs(normal[k]));
+        plane.n_max = filter_greater(plane.n_max, fabs(normal[k]));
     }
     if (!num_rounding_trusted()) plane.n_err = INFINITY;
     return plane;

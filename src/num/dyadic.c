@@ -97,14 +97,21 @@ int num_dyadic_compare(num_dyadic a, num_dyadic b) {
     return a.sign ? a.sign * compare_magnitudes(a, b) : 0;
 }
 
+/* The limbs of a from place `low` on, `count` of them, zeros around. Loops, not memcpy: a is short. */
+static uint64_t *spread(num_arena *arena, num_dyadic a, int low, uint32_t count) {
+    uint64_t *limbs = take(arena, count), *at = limbs, *end = limbs + count;
+    for (int gap = a.exponent - low; gap > 0; gap--) *at++ = 0;
+    for (uint32_t i = 0; i < a.count; i++) *at++ = a.limbs[i];
+    while (at < end) *at++ = 0;
+    return limbs;
+}
+
 /* |a| + |b|, both not 0. */
 static num_dyadic add_magnitudes(num_arena *arena, int sign, num_dyadic a, num_dyadic b) {
     int low = a.exponent < b.exponent ? a.exponent : b.exponent;
     int high = top_of(a) > top_of(b) ? top_of(a) : top_of(b);
-    uint32_t count = (uint32_t)(high - low);
-    uint64_t *sum = take(arena, count + 1);
-    memset(sum, 0, (count + 1) * sizeof *sum);
-    memcpy(sum + (a.exponent - low), a.limbs, a.count * sizeof *sum);
+    uint32_t count = (uint32_t)(high - low) + 1;
+    uint64_t *sum = spread(arena, a, low, count);
     uint64_t carry = 0, *at = sum + (b.exponent - low);
     for (uint32_t i = 0; i < b.count; i++) {
         wide t = (wide)at[i] + b.limbs[i] + carry;
@@ -112,16 +119,14 @@ static num_dyadic add_magnitudes(num_arena *arena, int sign, num_dyadic a, num_d
         carry = (uint64_t)(t >> 64);
     }
     for (uint64_t *rest = at + b.count; carry; rest++) carry = ++*rest == 0;
-    return trim(sign, low, count + 1, sum);
+    return trim(sign, low, count, sum);
 }
 
 /* |a| - |b| for |a| > |b| > 0. */
 static num_dyadic sub_magnitudes(num_arena *arena, int sign, num_dyadic a, num_dyadic b) {
     int low = a.exponent < b.exponent ? a.exponent : b.exponent;
     uint32_t count = (uint32_t)(top_of(a) - low);
-    uint64_t *difference = take(arena, count);
-    memset(difference, 0, (size_t)(a.exponent - low) * sizeof *difference);
-    memcpy(difference + (a.exponent - low), a.limbs, a.count * sizeof *difference);
+    uint64_t *difference = spread(arena, a, low, count);
     uint64_t borrow = 0, *at = difference + (b.exponent - low);
     for (uint32_t i = 0; i < b.count; i++) {
         wide t = (wide)at[i] - b.limbs[i] - borrow;
@@ -146,19 +151,32 @@ num_dyadic num_dyadic_sub(num_arena *arena, num_dyadic a, num_dyadic b) {
     return num_dyadic_add(arena, a, b);
 }
 
+/* row[0 .. b.count) = factor * b, or += so much; the carry becomes row[b.count]. */
+static void first_row(uint64_t *row, uint64_t factor, num_dyadic b) {
+    uint64_t carry = 0;
+    for (uint32_t j = 0; j < b.count; j++) {
+        wide t = (wide)factor * b.limbs[j] + carry;
+        row[j] = (uint64_t)t;
+        carry = (uint64_t)(t >> 64);
+    }
+    row[b.count] = carry;
+}
+
+static void next_row(uint64_t *row, uint64_t factor, num_dyadic b) {
+    uint64_t carry = 0;
+    for (uint32_t j = 0; j < b.count && factor; j++) { /* numbers of great span are mostly zeros */
+        wide t = (wide)factor * b.limbs[j] + row[j] + carry;
+        row[j] = (uint64_t)t;
+        carry = (uint64_t)(t >> 64);
+    }
+    row[b.count] = carry;
+}
+
 num_dyadic num_dyadic_mul(num_arena *arena, num_dyadic a, num_dyadic b) {
     if (!a.sign || !b.sign) return (num_dyadic){0};
     uint32_t count = a.count + b.count;
     uint64_t *product = take(arena, count);
-    memset(product, 0, b.count * sizeof *product);
-    for (uint32_t i = 0; i < a.count; i++) {
-        uint64_t carry = 0;
-        for (uint32_t j = 0; j < b.count; j++) {
-            wide t = (wide)a.limbs[i] * b.limbs[j] + product[i + j] + carry;
-            product[i + j] = (uint64_t)t;
-            carry = (uint64_t)(t >> 64);
-        }
-        product[i + b.count] = carry;
-    }
+    first_row(product, a.limbs[0], b);
+    for (uint32_t i = 1; i < a.count; i++) next_row(product + i, a.limbs[i], b);
     return trim(a.sign * b.sign, a.exponent + b.exponent, count, product);
 }

@@ -9,8 +9,9 @@
 
 /* Upwards the first sum is larger, downwards and towards zero the second is not. */
 bool num_rounding_trusted(void) {
-    volatile double one = 1, half_ulp = 0x1p-53, more = 0x1.8p-53, denormal = 0x1p-1074, tiny = 0x1p-1022;
-    return one + half_ulp == 1 && one + more > 1 && denormal * 0x1p60 > 0 && tiny * 0.5 > 0;
+    volatile double unknown = 1;
+    double one = unknown, denormal = 0x1p-1074 * one, tiny = 0x1p-1022 * one;
+    return one + 0x1p-53 * one == one && one + 0x1.8p-53 * one > one && denormal * 0x1p60 > 0 && tiny * 0.5 > 0;
 }
 
 static bool rounds_to_nearest_even(void) {

@@ -64,6 +64,7 @@ static inline double fuzz_finite(fuzz_source *r) {
 }
 
 static inline double fuzz_coordinate(fuzz_source *r, fuzz_class kind) {
+    if (kind == FUZZ_MIXED) kind = (fuzz_class)fuzz_int(r, 0, FUZZ_MIXED - 1);
     switch (kind) {
     case FUZZ_FAR:
         return 1e6 + fuzz_unit(r);
@@ -83,8 +84,6 @@ static inline double fuzz_coordinate(fuzz_source *r, fuzz_class kind) {
         return fuzz_int(r, 0, 1) ? copysign(0x1.fffffffffffffp1023, fuzz_unit(r)) : copysign(0x1p-1074, fuzz_unit(r));
     case FUZZ_BITS:
         return fuzz_finite(r);
-    case FUZZ_MIXED:
-        return fuzz_coordinate(r, (fuzz_class)fuzz_int(r, 0, FUZZ_MIXED - 1));
     default:
         return fuzz_unit(r);
     }
