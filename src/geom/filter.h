@@ -1,13 +1,13 @@
 /* filter.h: the semi-static stage: plain double arithmetic beside one bound per scalar or vector.
  *
  * Notation: u = 2^-53; a computed quantity x stands for a true one in [x - e, x + e].
- * Every operation adds the constant NUM_BALL_TINY, which swallows the underflows of
- * all its products (each at most 2^-1075); an overflow turns x and e into infinity or NaN,
- * for which no comparison below says "sure". So no factor needs to be guarded: the bounds
- * hold for all finite doubles (a guard on products alone is not enough: one factor
- * may underflow while another is huge). The factor FILTER_UP pays for the at most six roundings
- * of each bound itself. Scalar operations charge 2u a rounding, not u, so that they hold in
- * every rounding mode; sums over a normal need not, as there n_err is infinite then. */
+ * Products and quotients add the constant NUM_BALL_TINY, which swallows their underflows (each
+ * at most 2^-1075; sums have none); an overflow turns x and e into infinity or NaN, for which no
+ * comparison below says "sure". So no factor needs to be guarded: the bounds hold for all
+ * finite doubles (a guard on products alone is not enough: one factor may underflow while
+ * another is huge). The factor FILTER_UP pays for the at most six roundings of each bound
+ * itself. Scalar operations charge 2u a rounding, not u, so that they hold in every rounding
+ * mode; sums over a normal need not, as there n_err is infinite then. */
 #ifndef FROE_GEOM_FILTER_H
 #define FROE_GEOM_FILTER_H
 #include "geom/plane.h"
