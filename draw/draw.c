@@ -90,6 +90,21 @@ static bool all_finite(const double *x, int count) {
     return true;
 }
 
+/* Cairo would refuse it too, but only after looking for fonts. */
+static bool is_utf8(const char *text) {
+    for (const unsigned char *s = (const unsigned char *)text; *s;) {
+        int more = *s < 0x80                 ? 0
+                   : *s >= 0xC2 && *s < 0xE0 ? 1
+                   : *s >= 0xE0 && *s < 0xF0 ? 2
+                   : *s >= 0xF0 && *s < 0xF5 ? 3
+                                             : -1;
+        if (more < 0) return false;
+        for (s++; more; more--, s++)
+            if ((*s & 0xC0) != 0x80) return false;
+    }
+    return true;
+}
+
 static froe_status check_options(const froe_draw_options *o, int dim, froe_diagnostic *diag) {
     if (o->size != sizeof *o)
         return draw_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_draw_defaults().");
@@ -102,6 +117,7 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
     if (o->show > 15) return draw_fail(diag, FROE_E_OPTIONS, "Option 'show' of a picture has unknown bits.");
     if (!all_finite(o->lo, 3) || !all_finite(o->hi, 3) || !all_finite(o->view, 3))
         return draw_fail(diag, FROE_E_OPTIONS, "The window and the direction of view must be finite.");
+    if (o->title && !is_utf8(o->title)) return draw_fail(diag, FROE_E_OPTIONS, "The title of a picture is not UTF-8.");
     return check_ranges(o, diag);
 }
 
