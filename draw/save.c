@@ -74,7 +74,7 @@ froe_status draw_save(const char *path, const void *bytes, size_t count, const f
     char *name = draw_calloc(alloc, room, 1);
     froe_status status = FROE_E_MEMORY;
     if (name) {
-        memcpy(name, target, length);
+        memcpy(name, target, length + 1);
         status = save_beside(target, exists ? &old : NULL, name, length, room, bytes, count, diag);
     } else
         draw_fail_memory(diag);
