@@ -291,7 +291,7 @@ static void max_depth_and_detail_leave_out_cells_and_say_so(void **state) {
     image_bytes silent = picture_of(tree, FROE_DRAW_SVG, &o);
     assert_true(silent.count + 2000 < shallow.count); /* the sentence, in strokes */
     size_t rings = 0;
-    for (const char *m = strstr(silent.bytes, "M "); m; m = strstr(m + 1, "M ")) rings++;
+    for (const char *z = strstr(silent.bytes, " Z"); z; z = strstr(z + 1, " Z")) rings++;
     assert_true(rings > 2 && rings <= 16 + 1); /* cells of depth 4 at most, and the frame */
     free(all.bytes);
     free(coarse.bytes);
