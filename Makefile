@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install bench bench-peers coverage format lint clean
+.PHONY: help build demo test install bench bench-peers coverage docs format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -45,9 +45,15 @@ coverage: deps-coverage ## which lines do the tests run? build/coverage/report/i
 	@cmake -E make_directory build/coverage/report
 	@gcovr --root . --filter 'src/|io/|draw/|cli/' --html-details build/coverage/report/index.html --print-summary build/coverage
 
-format: deps-lint ## all sources as .clang-format says, and the table of files in docs/layers.md
-	@git ls-files '*.c' '*.h' | xargs clang-format -i
+docs: build ## tables, outputs and the picture in the documents, as they come out now
 	@scripts/file-table --write
+	@cmake --install $(BUILD) --prefix $(BUILD)/stage >/dev/null
+	@scripts/check-docs --accept $(BUILD)/stage *.md docs/*.md docs/*/*.md
+	@$(BUILD)/bin/froe build data/freedoom-e1m1.geojson -o $(BUILD)/floor.froe --quiet
+	@$(BUILD)/bin/froe draw $(BUILD)/floor.froe -o docs/pictures/floor-plan.png --no-legend --quiet
+
+format: deps-lint ## all sources as .clang-format says
+	@git ls-files '*.c' '*.h' | xargs clang-format -i
 
 lint: deps-test deps-lint ## format, clang-tidy, layers and sizes
 	@scripts/lint
