@@ -11,7 +11,7 @@
 typedef struct draw_args {
     cli_common common;
     const char *tree, *output, *show, *background, *title, *section;
-    int style;
+    int style, up;
     double width, height, margin, scale, detail, explode; /**< NaN: the library's default */
     uint64_t max_depth, explode_depth;                    /**< UINT64_MAX: the library's default */
     cli_reals window, view;
@@ -19,6 +19,7 @@ typedef struct draw_args {
 } draw_args;
 
 static const char *const styles[] = {"auto", "flat", "sections", "exploded", NULL};
+static const char *const axes[] = {"x", "y", "z", NULL};
 
 static const cli_option what[] = {
     {NULL, 0, CLI_TEXT, offsetof(draw_args, tree), "TREE", .help = "a tree that froe build saved", .required = true},
@@ -39,6 +40,8 @@ static const cli_option what[] = {
 static const cli_option space[] = {
     {"section", 0, CLI_TEXT, offsetof(draw_args, section), "x=VALUE",
      .help = "sections: this one, across x, y or z (default: a sheet of three through the middle)"},
+    {"up", 0, CLI_CHOICE, offsetof(draw_args, up), "AXIS",
+     .help = "the axis that points up on the page: x, y (as in glTF) or z (default)", .choices = axes},
     {"view", 0, CLI_REALS, offsetof(draw_args, view), "X,Y,Z", .help = "exploded: direction from the scene to the eye"},
     {"explode", 0, CLI_REAL, offsetof(draw_args, explode), "E",
      .help = "exploded: parts move away from the centre by E times their distance from it (default 0.5)"},
@@ -131,6 +134,7 @@ static void set_number(double given, double *field) {
 
 static int set_options(const draw_args *args, size_t dim, froe_draw_options *o) {
     o->style = (froe_draw_style)args->style;
+    o->up = args->up;
     o->title = args->title;
     o->legend = !args->no_legend;
     set_number(args->width, &o->width);
@@ -185,10 +189,11 @@ const cli_command cli_command_draw = {
              "tree and options give the same bytes.",
     .examples = "froe draw floor.froe -o floor.svg\n"
                 "froe draw floor.froe -o corner.png --window 0,0,512,512 --show cells,fragments --scale 2\n"
-                "froe draw house.froe -o house.pdf --style exploded --explode 1\n"
+                "froe draw house.froe -o house.pdf --style exploded --explode 1 --up y\n"
                 "froe draw house.froe -o cut.svg --section z=1.2\n",
     .parts = parts,
     .defaults = &(const draw_args){.common = CLI_COMMON_DEFAULTS,
+                                   .up = 2,
                                    .width = NAN,
                                    .height = NAN,
                                    .margin = NAN,

@@ -29,8 +29,8 @@ static void put_whole(FILE *out, json_int_t value) {
 }
 
 static void put_real(FILE *out, double value) {
-    const double rounded = (double)(json_int_t)(value > 1e15 || value < -1e15 ? 0 : value);
-    if (value == rounded)
+    const double size = value < 0 ? -value : value;
+    if (size < 1e15 && (size >= 1000 || value == (double)(json_int_t)value))
         put_whole(out, (json_int_t)value);
     else
         fprintf(out, "%.4g", value);
@@ -49,8 +49,11 @@ void html_value(FILE *out, const json_t *value) {
         fputs("&ndash;", out);
 }
 
-static void put_label(FILE *out, const char *key) {
-    for (; *key; key++) fputc(*key == '_' ? ' ' : *key, out);
+/* "in_cut" reads "in cut", "defects.crossings" "crossings", "seconds.read" "read, s". */
+static void put_label(FILE *out, const char *name) {
+    const char *dot = strchr(name, '.');
+    for (const char *key = dot ? dot + 1 : name; *key; key++) fputc(*key == '_' ? ' ' : *key, out);
+    if (strncmp(name, "seconds.", 8) == 0) fputs(", s", out);
 }
 
 /* A key of the report, or "object.key" one level down. */
@@ -62,18 +65,13 @@ static const json_t *find(const json_t *report, const char *name) {
     return json_object_get(json_object_get(report, outer), dot + 1);
 }
 
-static const char *last_part(const char *name) {
-    const char *dot = strchr(name, '.');
-    return dot ? dot + 1 : name;
-}
-
 void html_pairs(FILE *out, const json_t *report, const char *const *names) {
     fputs("<table>\n", out);
     for (; *names; names++) {
         const json_t *value = find(report, *names);
         if (!value) continue;
         fputs("<tr><th>", out);
-        put_label(out, last_part(*names));
+        put_label(out, *names);
         fputs("</th><td>", out);
         html_value(out, value);
         fputs("</td></tr>\n", out);
@@ -85,7 +83,7 @@ void html_headings(FILE *out, const char *const *names) {
     fputs("<tr>", out);
     for (; *names; names++) {
         fputs("<th>", out);
-        put_label(out, last_part(*names));
+        put_label(out, *names);
         fputs("</th>", out);
     }
     fputs("</tr>\n", out);
@@ -111,7 +109,7 @@ void html_bounds(FILE *out, const json_t *bounds) {
         const double most = json_number_value(promised), is = json_number_value(measured);
         const double share = most > 0 ? 100 * is / most : is > 0 ? 100 : 0;
         fputs("<tr><th>", out);
-        html_text(out, name);
+        put_label(out, name);
         fputs("</th><td>at most ", out);
         html_value(out, promised);
         fputs("</td><td>", out);
