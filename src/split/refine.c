@@ -3,6 +3,7 @@
 #include "base/log2.h"
 #include "base/random.h"
 #include "split/separate.h"
+#include <math.h>
 #include <string.h>
 
 froe_status split_scratch_new(const void *config, split_work *work) {
@@ -109,7 +110,7 @@ static bool enter_axes(contest *c) {
         for (size_t i = 0, last = n; i < tries; i++) {
             size_t at = (2 * i + 1) * n / (2 * tries);
             froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis, .value = view->values.data[at]};
-            if (last < n && view->values.data[last] == cut.value) continue;
+            if (!isfinite(cut.value) || (last < n && view->values.data[last] == cut.value)) continue;
             enter(c, &cut, split_view_count_axis(view, cut.value));
             last = at;
         }
