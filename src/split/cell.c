@@ -149,7 +149,8 @@ froe_status cell_take(split_work *work, const split_homes *homes, split_cell *ce
     split_set *set = &work->set;
     if (!array_reserve(&set->alloc, &set->items, count)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < count; i++)
-        set->items.data[set->items.count++] = (split_fragment){.object = homes->ids[cell->whole + i]};
+        set->items.data[set->items.count++] =
+            (split_fragment){.object = homes->ids[cell->whole + i], .first = homes->near ? cell->whole + i + 1 : 0};
     cell->count += count;
     cell->whole += count;
     cell->wholes -= count;

@@ -33,10 +33,10 @@ split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut) {
     if (cut->kind == FROE_CUT_OBJECT) {
         uint32_t n = scene_corners(scene, cut->id[0]);
         for (; out.known_count < n && out.known_count < SPLIT_KNOWN; out.known_count++)
-            out.known[out.known_count] = scene_corner(scene, cut->id[0], out.known_count);
+            out.known[out.known_count] = scene_point(scene, cut->id[0], out.known_count);
     } else if (cut->kind == FROE_CUT_VERTICES || cut->kind == FROE_CUT_EDGE) {
         out.known_count = cut->kind == FROE_CUT_EDGE ? 2 : (uint32_t)scene->dim;
-        memcpy(out.known, cut->id, out.known_count * sizeof *out.known);
+        for (uint32_t i = 0; i < out.known_count; i++) out.known[i] = scene_vertex(scene, cut->id[i]);
     }
     return out;
 }
@@ -57,14 +57,15 @@ static int known_side(split_set *set, int side) {
     return side;
 }
 
-static int vertex_side(split_set *set, const split_plane *plane, uint32_t vertex) {
-    const double *x = scene_vertex(set->scene, vertex);
+/** Side of an input vertex. Equal coordinates are the same vertex. */
+static int vertex_side(split_set *set, const split_plane *plane, const double *x) {
     if (plane->plane.form == GEOM_AXIS) {
         double v = x[plane->plane.axis], c = plane->plane.c;
         return known_side(set, (v > c) - (v < c));
     }
+    size_t size = (size_t)set->scene->dim * sizeof *x;
     for (uint32_t i = 0; i < plane->known_count; i++)
-        if (plane->known[i] == vertex) return known_side(set, 0);
+        if (plane->known[i][0] == x[0] && !memcmp(plane->known[i], x, size)) return known_side(set, 0);
     return geom_side_vertex(&set->context, &plane->plane, x);
 }
 
@@ -72,11 +73,11 @@ static int vertex_side(split_set *set, const split_plane *plane, uint32_t vertex
 static int derived_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
     geom_plane own, first, second;
     if (k->type == SPLIT_CROSSING) {
-        int u = vertex_side(set, plane, k->a), v = vertex_side(set, plane, k->b);
+        const double *from = scene_vertex(set->scene, k->a), *to = scene_vertex(set->scene, k->b);
+        int u = vertex_side(set, plane, from), v = vertex_side(set, plane, to);
         if (u == v) return u; /* the crossing lies between two points of one side, or of the plane */
         first = split_plane_at(set, k->c);
-        return geom_side_crossing(&set->context, &plane->plane, scene_vertex(set->scene, k->a),
-                                  scene_vertex(set->scene, k->b), &first);
+        return geom_side_crossing(&set->context, &plane->plane, from, to, &first);
     }
     scene_support(set->scene, object, &own);
     first = split_plane_at(set, k->a);
@@ -85,7 +86,7 @@ static int derived_side(split_set *set, const split_plane *plane, uint32_t objec
 }
 
 static int corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
-    if (k->type == SPLIT_VERTEX) return vertex_side(set, plane, k->a);
+    if (k->type == SPLIT_VERTEX) return vertex_side(set, plane, k->x);
     int side = set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, k->x, k->error) : NUM_UNSURE;
     if (side == NUM_UNSURE) return derived_side(set, plane, object, k);
     set->context.stats.calls++;
@@ -119,12 +120,12 @@ static int classify_ball(split_set *set, const split_plane *plane, uint32_t obje
 
 /** Appends the sides of all corners, of the ring or of the whole object, and returns the class. */
 static int corner_sides(split_set *set, const split_plane *plane, const split_fragment *f) {
-    const uint32_t *vertices = set->scene->corners + set->scene->starts[f->object];
     const split_corner *ring = f->count ? set->corners.data + f->first : NULL;
     uint32_t n = split_corner_count(set, f);
     bool negative = false, positive = false;
     for (uint32_t i = 0; i < n; i++) {
-        int side = ring ? corner_side(set, plane, f->object, ring + i) : vertex_side(set, plane, vertices[i]);
+        int side =
+            ring ? corner_side(set, plane, f->object, ring + i) : vertex_side(set, plane, split_image(set, f, i));
         negative |= side < 0;
         positive |= side > 0;
         set->sides.data[set->sides.count++] = (int8_t)side;
@@ -132,19 +133,16 @@ static int corner_sides(split_set *set, const split_plane *plane, const split_fr
     return class_of(negative, positive);
 }
 
-/** The guard stage spends its time here: whole objects beside x[axis] = c, by comparisons alone. */
-static int whole_beside_axis(split_set *set, const geom_plane *plane, uint32_t object) {
-    const froe_scene *scene = set->scene;
-    const uint32_t *corner = scene->corners + scene->starts[object], *end = scene->corners + scene->starts[object + 1];
-    const double *x = scene->coords + plane->axis;
-    double c = plane->c;
-    size_t dim = (size_t)scene->dim;
+/** Whole objects beside x[axis] = c, by comparisons alone. */
+static int whole_beside_axis(split_set *set, const geom_plane *plane, const split_fragment *f) {
+    uint32_t n = split_corner_count(set, f);
     bool negative = false, positive = false;
-    set->context.stats.calls += (uint64_t)(end - corner);
-    set->context.stats.by_id += (uint64_t)(end - corner);
-    for (; corner < end; corner++) {
-        negative |= x[*corner * dim] < c;
-        positive |= x[*corner * dim] > c;
+    set->context.stats.calls += n;
+    set->context.stats.by_id += n;
+    for (uint32_t i = 0; i < n; i++) {
+        double x = split_image(set, f, i)[plane->axis];
+        negative |= x < plane->c;
+        positive |= x > plane->c;
     }
     return class_of(negative, positive);
 }
@@ -152,7 +150,7 @@ static int whole_beside_axis(split_set *set, const geom_plane *plane, uint32_t o
 static int classify_corners(split_set *set, const split_plane *plane, const split_fragment *f, bool is_cut) {
     size_t start = set->sides.count;
     if (plane->plane.form == GEOM_AXIS && !f->count) {
-        int class = whole_beside_axis(set, &plane->plane, f->object);
+        int class = whole_beside_axis(set, &plane->plane, f);
         if (class == SPLIT_BOTH && is_cut) corner_sides(set, plane, f);
         return class;
     }
@@ -171,11 +169,14 @@ int split_classify(split_set *set, const split_plane *plane, const split_fragmen
 /* ---------------------------------------------------------------- cutting -- */
 
 uint32_t split_corner_count(const split_set *set, const split_fragment *f) {
-    return f->count ? f->count : scene_corners(set->scene, f->object);
+    if (f->count) return f->count;
+    return f->first ? (uint32_t)(set->stride / (size_t)set->scene->dim) : scene_corners(set->scene, f->object);
 }
 
 const double *split_image(const split_set *set, const split_fragment *f, uint32_t i) {
-    return f->count ? set->corners.data[f->first + i].x : scene_point(set->scene, f->object, i);
+    if (f->count) return set->corners.data[f->first + i].x;
+    if (f->first) return set->near + (f->first - 1) * set->stride + i * (size_t)set->scene->dim;
+    return scene_point(set->scene, f->object, i);
 }
 
 /** The i-th corner, made on the fly for whole objects. */

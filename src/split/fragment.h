@@ -28,7 +28,7 @@ typedef struct split_corner {
 
 typedef struct split_fragment {
     uint32_t object;
-    uint32_t first, count; /**< its corners; count 0: the whole object */
+    uint32_t first, count; /**< its corners; count 0: the whole object, at near record first - 1 unless first is 0 */
 } split_fragment;
 
 /** Classes of a fragment beside a cut. */
@@ -39,7 +39,8 @@ enum { SPLIT_NEG, SPLIT_POS, SPLIT_ON, SPLIT_BOTH };
 typedef struct split_plane {
     froe_cut cut;
     geom_plane plane;
-    uint32_t known_count, known[SPLIT_KNOWN];
+    uint32_t known_count;
+    const double *known[SPLIT_KNOWN];
 } split_plane;
 
 /** What a thread works with: fragments on a stack, their corners on another, the
@@ -48,6 +49,8 @@ typedef struct split_set {
     const froe_scene *scene;
     froe_allocator alloc;
     num_context context;
+    const double *near; /**< coordinates of whole objects, `stride` doubles each: see homes.h; or NULL */
+    size_t stride;
     const tree_draft *main; /**< nodes below draft->outer are its nodes */
     tree_draft *draft;
     ARRAY(split_fragment) items;

@@ -27,7 +27,7 @@ void split_scratch_free(split_work *work) {
 typedef struct choice {
     froe_cut cut;
     double cost;
-    bool any;
+    bool any, perfect; /**< perfect: splits nothing and halves the rest; no other can be better */
 } choice;
 
 /** The rules that hold for all candidates of one cell. */
@@ -44,7 +44,8 @@ static void enter(contest *c, const froe_cut *cut, split_tally tally) {
     if (!tally.on && (!tally.negative || !tally.positive)) return; /* separates nothing */
     double cost = split_cost(&c->scratch->view, tally, c->config->weight, c->strict);
     if (c->best.any && cost >= c->best.cost) return;
-    c->best = (choice){*cut, cost, true};
+    uint32_t larger = tally.negative > tally.positive ? tally.negative : tally.positive;
+    c->best = (choice){*cut, cost, true, !tally.both && 2 * larger <= tally.negative + tally.positive + 1};
 }
 
 static void enter_support(contest *c, uint32_t item) {
@@ -57,7 +58,7 @@ static void enter_support(contest *c, uint32_t item) {
 /** All fragments of a small cell, or a draw from a large one. */
 static void enter_supports(contest *c) {
     uint32_t m = c->cell->count, tries = c->config->supports;
-    for (uint32_t i = 0; i < (m <= tries ? m : tries); i++) {
+    for (uint32_t i = 0; i < (m <= tries ? m : tries) && !c->best.perfect; i++) {
         uint64_t draw = base_hash(c->config->seed, c->cell->path, i);
         enter_support(c, m <= tries ? i : base_below(draw, m));
     }
@@ -73,7 +74,7 @@ static bool is_free(const split_set *set, const split_fragment *f) {
 static void enter_free_cuts(contest *c) {
     const split_set *set = &c->work->set;
     uint32_t entered = 0, most = c->config->supports > 4 ? c->config->supports : 4;
-    for (uint32_t i = 0; i < c->cell->count && entered < most; i++)
+    for (uint32_t i = 0; i < c->cell->count && entered < most && !c->best.perfect; i++)
         if (is_free(set, set->items.data + c->cell->first + i)) enter_support(c, i), entered++;
 }
 
@@ -103,7 +104,7 @@ static void enter_edges(contest *c) {
 
 static bool enter_axes(contest *c) {
     split_view *view = &c->scratch->view;
-    for (int axis = 0; axis < c->work->set.scene->dim; axis++) {
+    for (int axis = 0; axis < c->work->set.scene->dim && !c->best.perfect; axis++) {
         if (!split_view_extents(view, &c->work->set, c->cell, axis)) return false;
         size_t n = view->values.count, tries = c->config->quantiles;
         if (tries > n) tries = n;

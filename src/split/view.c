@@ -121,18 +121,26 @@ static rough rough_plane(const froe_scene *scene, const froe_cut *cut) {
     }
 }
 
-/** Sides of all corners; values that rounding could have moved across count as on the plane. */
+/** How far from the plane rounding could have moved a value: nearer ones count as on the plane. */
+static double slack_of(const split_view *view, int dim, const rough *h) {
+    double reach = fabs(h->d);
+    for (int k = 0; k < dim; k++) reach += fabs(h->n[k]) * view->reach[k];
+    return reach * 0x1p-49;
+}
+
+static uint8_t side_of(double value, double slack) {
+    return (uint8_t)((value < -slack) | (value > slack) << 1);
+}
+
 static void find_sides(split_view *view, int dim, const rough *h) {
     size_t n = view->x[0].count;
-    const double *x = view->x[0].data, *y = view->x[1].data, *z = dim == 2 ? y : view->x[2].data;
-    double a = h->n[0], b = h->n[1], c = h->n[2], d = h->d, reach = fabs(d);
-    for (int k = 0; k < dim; k++) reach += fabs(h->n[k]) * view->reach[k];
-    double slack = reach * 0x1p-49;
+    const double *x = view->x[0].data, *y = view->x[1].data, *z = view->x[2].data;
+    double a = h->n[0], b = h->n[1], c = h->n[2], d = h->d, slack = slack_of(view, dim, h);
     uint8_t *side = view->side.data;
-    for (size_t i = 0; i < n; i++) {
-        double value = a * x[i] + b * y[i] + c * z[i] - d;
-        side[i] = (uint8_t)((value < -slack) | (value > slack) << 1);
-    }
+    if (dim == 2)
+        for (size_t i = 0; i < n; i++) side[i] = side_of(a * x[i] + b * y[i] - d, slack);
+    else
+        for (size_t i = 0; i < n; i++) side[i] = side_of(a * x[i] + b * y[i] + c * z[i] - d, slack);
 }
 
 split_tally split_view_count(split_view *view, const froe_scene *scene, const froe_cut *cut) {
