@@ -57,16 +57,25 @@ static int known_side(split_set *set, int side) {
     return side;
 }
 
-/** Side of an input vertex. Equal coordinates are the same vertex. */
-static int vertex_side(split_set *set, const split_plane *plane, const double *x) {
+/** Beyond the filter: a vertex that the plane runs through by its making (equal coordinates are the
+ * same vertex), or any other. */
+static int near_vertex_side(split_set *set, const split_plane *plane, const double *x) {
+    size_t size = (size_t)set->scene->dim * sizeof *x;
+    for (uint32_t i = 0; i < plane->known_count; i++)
+        if (!memcmp(plane->known[i], x, size)) return known_side(set, 0);
+    return geom_side_vertex(&set->context, &plane->plane, x);
+}
+
+static inline int vertex_side(split_set *set, const split_plane *plane, const double *x) {
     if (plane->plane.form == GEOM_AXIS) {
         double v = x[plane->plane.axis], c = plane->plane.c;
         return known_side(set, (v > c) - (v < c));
     }
-    size_t size = (size_t)set->scene->dim * sizeof *x;
-    for (uint32_t i = 0; i < plane->known_count; i++)
-        if (plane->known[i][0] == x[0] && !memcmp(plane->known[i], x, size)) return known_side(set, 0);
-    return geom_side_vertex(&set->context, &plane->plane, x);
+    int side = set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, x, 0) : NUM_UNSURE;
+    if (side == NUM_UNSURE) return near_vertex_side(set, plane, x);
+    set->context.stats.calls++;
+    set->context.stats.filtered++;
+    return side;
 }
 
 /** Beyond the filter: by the sides of what the corner lies between, then by its predicate. */

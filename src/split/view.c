@@ -60,6 +60,7 @@ static bool add_fragment(split_view *view, const split_set *set, const split_fra
     else
         for (uint32_t i = 0; i < n; i++) add_corner(view, split_image(set, f, i), dim);
     view->start.data[view->start.count++] = (uint32_t)view->x[0].count;
+    view->pairs &= n == 2;
     return true;
 }
 
@@ -76,6 +77,7 @@ bool split_view_fill(split_view *view, const split_set *set, const split_cell *c
     if (set->scene->dim > 3) return true; /* axis-parallel planes are the only candidates */
     view->start.count = 0;
     if (!array_push(&set->alloc, &view->start, 0)) return false;
+    view->pairs = set->scene->dim == 2;
     for (int k = 0; k < 3; k++) view->x[k].count = 0, view->reach[k] = 0;
     for (uint32_t i = 0; i < view->count; i++)
         if (!add_fragment(view, set, shown(set, cell, i, view->count, seed))) return false;
@@ -143,18 +145,37 @@ static void find_sides(split_view *view, int dim, const rough *h) {
         for (size_t i = 0; i < n; i++) side[i] = side_of(a * x[i] + b * y[i] + c * z[i] - d, slack);
 }
 
-split_tally split_view_count(split_view *view, const froe_scene *scene, const froe_cut *cut) {
+/** Counts segments in the plane, the commonest case by far, without a detour. */
+static split_tally count_pairs(const split_view *view, const rough *h) {
+    const double *x = view->x[0].data, *y = view->x[1].data;
+    double a = h->n[0], b = h->n[1], d = h->d, slack = slack_of(view, 2, h);
+    uint32_t negative = 0, positive = 0, both = 0;
+    for (uint32_t i = 0; i < view->count; i++, x += 2, y += 2) {
+        double from = a * x[0] + b * y[0] - d, to = a * x[1] + b * y[1] - d;
+        uint32_t below = (from < -slack) | (to < -slack), above = (from > slack) | (to > slack);
+        negative += below;
+        positive += above;
+        both += below & above;
+    }
+    return (split_tally){negative - both, positive - both, view->count + both - negative - positive, both};
+}
+
+static split_tally count_rings(split_view *view, int dim, const rough *h) {
     uint32_t of[4] = {0}; /* on, negative, positive, both */
     const uint32_t *start = view->start.data;
     const uint8_t *side = view->side.data;
-    rough plane = rough_plane(scene, cut);
-    find_sides(view, scene->dim, &plane);
+    find_sides(view, dim, h);
     for (uint32_t i = 0; i < view->count; i++) {
         unsigned seen = 0;
         for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[j];
         of[seen]++;
     }
     return (split_tally){of[1], of[2], of[0], of[3]};
+}
+
+split_tally split_view_count(split_view *view, const froe_scene *scene, const froe_cut *cut) {
+    rough plane = rough_plane(scene, cut);
+    return view->pairs ? count_pairs(view, &plane) : count_rings(view, scene->dim, &plane);
 }
 
 /* ------------------------------------------------------------ axis extents -- */

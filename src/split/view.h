@@ -16,6 +16,7 @@ typedef struct split_view {
     ARRAY(double) values;      /**< ends of extents, for axis candidates */
     ARRAY(double) low, high;   /**< extents of the fragments on the current axis */
     uint32_t count;            /**< fragments shown */
+    bool pairs;                /**< every fragment has two corners, in the plane */
     double weight;             /**< fragments of the cell per fragment shown, >= 1 */
     double reach[3];           /**< largest |coordinate| by axis */
     double xlog2[SPLIT_TABLE]; /**< k log2 k of small k */
