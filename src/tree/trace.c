@@ -5,11 +5,13 @@
 
 froe_status trace_new(const froe_tree *tree, bool exact_only, trace *out) {
     memset(out, 0, sizeof *out);
-    out->tree = tree;
     out->alloc = tree->alloc;
     froe_status status = num_context_new(&tree->alloc, &out->context);
-    if (!status && exact_only) out->context.first = NUM_EXACT;
-    return status;
+    if (status) return status;
+    out->tree = tree;
+    if (exact_only) out->context.first = NUM_EXACT;
+    out->planes = base_calloc(&out->alloc, 1, sizeof *out->planes);
+    return out->planes ? FROE_OK : FROE_E_MEMORY;
 }
 
 void trace_free(trace *t) {
@@ -18,7 +20,17 @@ void trace_free(trace *t) {
     array_free(&t->alloc, &t->solids);
     array_free(&t->alloc, &t->sides);
     array_free(&t->alloc, &t->ring);
+    base_free(&t->alloc, t->planes, sizeof *t->planes);
     if (t->tree) num_context_free(&t->context);
+}
+
+const geom_plane *trace_plane(trace *t, uint32_t node) {
+    uint32_t slot = node % TRACE_PLANES;
+    if (t->planes->id1[slot] != node + 1) {
+        t->planes->plane[slot] = tree_plane_at(t->tree, node);
+        t->planes->id1[slot] = node + 1;
+    }
+    return t->planes->plane + slot;
 }
 
 /* ------------------------------------------------------------------- sides -- */
@@ -176,11 +188,11 @@ static froe_status follow(trace *t, trace_part part) {
             part.node = t->tree->nodes[part.node].child + (reached == 2);
             continue;
         }
-        geom_plane plane = tree_plane_at(t->tree, part.node);
-        if (!corner_sides(t, &plane, &part, &reached)) return FROE_E_MEMORY;
+        const geom_plane *plane = trace_plane(t, part.node);
+        if (!corner_sides(t, plane, &part, &reached)) return FROE_E_MEMORY;
         if (!reached) break;
         if (reached == 3) {
-            froe_status status = divide(t, &plane, &part);
+            froe_status status = divide(t, plane, &part);
             if (status) return status;
         } else {
             part.node = t->tree->nodes[part.node].child + (reached == 2);

@@ -45,11 +45,19 @@ typedef struct trace_solid {
     double witness[FROE_MAX_DIM];
 } trace_solid;
 
+/** Planes of the nodes met last: neighbouring objects take the same paths. */
+#define TRACE_PLANES 512
+typedef struct trace_planes {
+    uint32_t id1[TRACE_PLANES]; /* node + 1, 0: free */
+    geom_plane plane[TRACE_PLANES];
+} trace_planes;
+
 /** What tracing works with; one per thread. */
 typedef struct trace {
     const froe_tree *tree;
     froe_allocator alloc;
     num_context context;
+    trace_planes *planes;
     trace_fn *fn;
     void *user;
     uint32_t object;
@@ -66,6 +74,8 @@ void trace_free(trace *t);
 /** Visits all places of one object, in the order of the lists. FROE_E_MEMORY. */
 froe_status trace_object(trace *t, uint32_t object, trace_fn *fn, void *user);
 
-/** The same for boxes, balls and hulls; called by trace_object. */
+/** The plane of a node's cut; good until the next call. */
+const geom_plane *trace_plane(trace *t, uint32_t node);
+/** The same as trace_object for boxes, balls and hulls; called by it. */
 froe_status trace_solid_object(trace *t);
 #endif

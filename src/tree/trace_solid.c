@@ -167,10 +167,10 @@ static void arrive(trace *t, const trace_solid *at, bool leaf) {
 static bool follow(trace *t, trace_solid at) {
     bool hull = scene_form(t->tree->scene, t->object) == FROE_HULL;
     while (!tree_is_leaf(t->tree->nodes + at.node)) {
-        geom_plane plane = tree_plane_at(t->tree, at.node);
+        const geom_plane *plane = trace_plane(t, at.node);
         trace_solid child[2];
         if (hull && !array_reserve(&t->alloc, &t->ring, 2 * (size_t)at.count)) return false;
-        unsigned reached = cut(t, &plane, &at, child);
+        unsigned reached = cut(t, plane, &at, child);
         if (!reached) {
             arrive(t, &at, false);
             return true;
