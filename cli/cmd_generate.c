@@ -1,6 +1,7 @@
 /* cmd_generate.c: froe generate, scenes for tests and benches. */
 #include "command.h"
 #include "exit.h"
+#include "progress.h"
 #include "report.h"
 #include <froe/io.h>
 #include <string.h>
@@ -49,10 +50,10 @@ static int check_kind(const char *kind) {
 
 static int generate(const generate_args *args) {
     froe_scene *scene;
-    froe_diagnostic diag;
+    froe_diagnostic diag = {0};
     froe_status status = froe_generate(args->kind, (size_t)args->n, args->common.seed, NULL, &scene, &diag);
     if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
-    status = froe_write_scene(scene, args->output, &diag);
+    status = cli_interrupted() ? FROE_E_CANCELLED : froe_write_scene(scene, args->output, &diag);
     int code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag) : 0;
     if (!code)
         code = cli_report(&args->common, NULL,

@@ -14,11 +14,11 @@ static void on_interrupt(int number) {
 }
 
 void cli_catch_signals(void) {
-    struct sigaction action;
+    struct sigaction action, before;
     memset(&action, 0, sizeof action);
     action.sa_handler = on_interrupt;
     action.sa_flags = (int)SA_RESETHAND;
-    sigaction(SIGINT, &action, NULL);
+    if (sigaction(SIGINT, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, NULL);
     action.sa_handler = SIG_IGN; /* a file beyond the allowed size: let write() say so */
     sigaction(SIGXFSZ, &action, NULL);
 }

@@ -14,8 +14,8 @@ typedef struct cli_progress {
     int percent;  /**< drawn last; -1: nothing yet */
 } cli_progress;
 
-/** Lets Ctrl-C set a flag instead of ending the program (a second one ends it),
- * and makes files beyond the allowed size an error of writing. */
+/** Lets Ctrl-C set a flag instead of ending the program (a second one ends it;
+ * where it is ignored, it stays so), and makes files beyond the allowed size an error of writing. */
 void cli_catch_signals(void);
 /** Whether Ctrl-C was pressed. */
 bool cli_interrupted(void);
