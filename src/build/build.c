@@ -31,6 +31,7 @@ split_job build_split_job(const build_job *job) {
                        .max_fragments = job->max_fragments,
                        .span = 0.9 * (1 - job->task->done),
                        .meta = &job->meta,
+                       .first = job->first,
                        .diag = job->diag};
 }
 

@@ -15,6 +15,7 @@ typedef struct build_job {
     froe_diagnostic *diag;
     uint32_t leaf;
     uint64_t seed, max_fragments;
+    num_stage first;              /**< where predicates start: NUM_FILTER, later ones for tests */
     double option[BUILD_OPTIONS]; /**< values in the order of info.options */
     tree_meta meta;               /**< method, settings, seed, leaf are set; the builder adds promises and root */
 } build_job;

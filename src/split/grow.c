@@ -110,6 +110,7 @@ static froe_status start_workers(grow *g) {
         split_work *work = g->workers + g->worker_count;
         status = split_set_new(job->scene, &job->alloc, &work->set);
         if (status) break;
+        if (job->first > work->set.context.first) work->set.context.first = job->first;
         if (job->homes) work->set.near = job->homes->near, work->set.stride = job->homes->stride;
         if (g->method->scratch_new) status = g->method->scratch_new(g->method->config, work);
     }

@@ -62,6 +62,7 @@ typedef struct split_job {
     const split_homes *homes;      /**< with guard */
     double span;                   /**< share of the task's progress */
     const tree_meta *meta;
+    num_stage first; /**< where predicates start: NUM_FILTER, later ones for tests */
     froe_diagnostic *diag;
 } split_job;
 

@@ -1,6 +1,7 @@
 /* Every builder on every kind of generated scene: the audit passes, and the tree depends on nothing but
  * scene, options and seed. Walks froe_method_at() and froe_generator_at(): a new builder or kind
  * of scene needs no line here. */
+#include "build/options.h"
 #include "support/memory.h"
 #include "tree/tree.h"
 #include <froe/io.h>
@@ -88,6 +89,31 @@ static void check_audit(froe_scene *scene, const froe_method_info *method, const
     }
 }
 
+/** The method itself, predicates starting at a later stage than the dispatcher would let them. */
+static froe_tree *build_from_stage(froe_scene *scene, const build_method *method, num_stage first) {
+    base_task task;
+    froe_tree *tree = NULL;
+    base_task_init(&task, 1, NULL, NULL);
+    build_job job = {
+        .scene = scene, .alloc = base_allocator(NULL), .task = &task, .leaf = 1, .seed = 1, .first = first};
+    assert_int_equal(options_parse(method, NULL, job.option, NULL), FROE_OK);
+    if (method->resolve) method->resolve(scene, 1, job.option);
+    assert_int_equal(method->build(&job, &tree), FROE_OK);
+    return tree;
+}
+
+static void check_stages(froe_scene *scene, const froe_method_info *info, const char *name) {
+    const build_method *method = (const build_method *)(const void *)info; /* info is its first member */
+    froe_tree *quick = build_from_stage(scene, method, NUM_FILTER);
+    (void)name;
+    for (num_stage first = NUM_BALL; first <= NUM_EXACT; first++) {
+        froe_tree *slow = build_from_stage(scene, method, first);
+        assert_same_tree(quick, slow);
+        froe_tree_free(slow);
+    }
+    froe_tree_free(quick);
+}
+
 static void check_threads(froe_scene *scene, const froe_method_info *method, const char *name) {
     (void)name;
     froe_tree *one = NULL, *three = NULL;
@@ -168,6 +194,11 @@ static void every_tree_passes_the_exact_audit(void **state) {
     for_all(OBJECTS, check_audit);
 }
 
+static void a_tree_does_not_depend_on_filters(void **state) {
+    (void)state;
+    for_all(OBJECTS, check_stages);
+}
+
 static void a_tree_does_not_depend_on_threads(void **state) {
     (void)state;
     for_all(MANY, check_threads);
@@ -186,6 +217,7 @@ static void a_build_can_be_cancelled(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_tree_passes_the_exact_audit),
+        cmocka_unit_test(a_tree_does_not_depend_on_filters),
         cmocka_unit_test(a_tree_does_not_depend_on_threads),
         cmocka_unit_test(a_budget_is_kept_to_the_piece),
         cmocka_unit_test(a_build_can_be_cancelled),
