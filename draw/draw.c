@@ -173,7 +173,7 @@ static froe_status paint(draw_picture *picture, froe_draw_format format, draw_ou
 /* Small trees are drawn to the last cell a reader may zoom into; of large ones, what the page shows. */
 static double standard_detail(const froe_report *report, froe_draw_format format, double scale) {
     if (format == FROE_DRAW_PNG) return 1 / fmax(scale, 1);
-    return report->leaves + report->objects <= 100000 ? 0.125 : 2;
+    return report->leaves + report->objects <= 100000 ? 0.125 : 3;
 }
 
 /* The picture's bytes, in `output`, which the caller frees. */

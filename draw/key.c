@@ -26,6 +26,7 @@ static draw_point rectangle(const key_view *key, int axis, double at, int i) {
 }
 
 static void rectangle_path(const key_view *key, cairo_t *cr, int axis, double at) {
+    cairo_new_sub_path(cr);
     for (int i = 0; i < 4; i++) {
         draw_point p = rectangle(key, axis, at, i);
         cairo_line_to(cr, p.x, p.y);
@@ -35,10 +36,12 @@ static void rectangle_path(const key_view *key, cairo_t *cr, int axis, double at
 
 static void letter(const draw_page *page, cairo_t *cr, const key_view *key, int axis, int name) {
     const char text[2] = {"xyz"[name], 0};
-    /* At the corner that stands out: above for upright sections, in front for the level one. */
-    draw_point p = axis == 0 ? corner(key, 0, -1, 1) : axis == 1 ? corner(key, 1, 0, 1) : corner(key, 1, -1, 0);
+    /* Outside the box: below upright sections, to the right of the level one. */
+    draw_point p = axis == 0 ? corner(key, 0, -1, -1) : axis == 1 ? corner(key, 1, 0, -1) : corner(key, 1, 1, 0);
+    bool level = axis == 2;
     draw_set_color(cr, DRAW_SOFT, 1);
-    draw_text(cr, text, p.x + 0.35 * page->text, p.y - 0.35 * page->text, page->text, 0);
+    draw_text(cr, text, p.x + (level ? 0.6 : 0) * page->text, p.y + (level ? 0.25 : 1.2) * page->text, page->text,
+              level ? 0 : 0.5);
 }
 
 /* Scales the key so that the whole box, seen from the corner, fills the rectangle. */

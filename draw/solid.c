@@ -95,6 +95,18 @@ static bool edge_path(const painter *pen, const draw_item *item, bool cut) {
     return any;
 }
 
+static bool is_cut(const painter *pen, const draw_item *item) {
+    for (size_t i = 0; i < item->count; i++)
+        if (pen->solid->cut.data[item->first + i]) return true;
+    return false;
+}
+
+static void ink_edges(const painter *pen) {
+    draw_set_color(pen->cr, DRAW_INK, 0.75);
+    cairo_set_line_width(pen->cr, pen->weight);
+    cairo_stroke(pen->cr);
+}
+
 static void paint_piece(const painter *pen, const draw_item *item) {
     cairo_t *cr = pen->cr;
     bool fragments = pen->solid->picture->show & FROE_DRAW_FRAGMENTS;
@@ -102,14 +114,18 @@ static void paint_piece(const painter *pen, const draw_item *item) {
     if (fragments && item->odd) color = draw_mix(color, DRAW_WOOD, 0.28);
     area_path(pen, item);
     draw_set_color(cr, color, 1);
-    cairo_set_line_width(cr, 0.4 * pen->page->unit);
     cairo_fill_preserve(cr);
+    if (!is_cut(pen, item)) {
+        ink_edges(pen);
+        return;
+    }
+    /* Its own colour closes the seams to other pieces of the object. */
+    cairo_set_line_width(cr, 0.4 * pen->page->unit);
     cairo_stroke(cr);
     cairo_set_line_width(cr, pen->weight);
     draw_set_color(cr, DRAW_ACCENT, 0.8);
     if (fragments && edge_path(pen, item, true)) cairo_stroke(cr);
-    draw_set_color(cr, DRAW_INK, 0.75);
-    if (edge_path(pen, item, false)) cairo_stroke(cr);
+    if (edge_path(pen, item, false)) ink_edges(pen);
 }
 
 static void paint_thin(const painter *pen, const draw_item *item) {

@@ -82,8 +82,8 @@ typedef struct froe_draw_options {
     double detail;               /**< regions, and objects, smaller than this both ways (in the page's unit) are
                                       drawn as one, or one for many; the legend says how many cells that
                                       concerned. 0: everything is drawn; negative (default -1): a pixel in
-                                      PNG; 1/8 point in SVG and PDF, but 2 for more than 100,000 cells and
-                                      objects, which keeps files below about 50 MB */
+                                      PNG; 1/8 point in SVG and PDF, but 3 for more than 100,000 cells and
+                                      objects, which keeps files to some 20 MB */
     double lo[3], hi[3];         /**< FLAT, SECTIONS: window in the scene's coordinates, where lo < hi for
                                       every axis; default all 0: everything */
     int axis;                    /**< SECTIONS: 0, 1, 2: the section x, y or z = at; -1 (default): a sheet
