@@ -33,7 +33,7 @@ static const cli_option what[] = {
     {"max-depth", 0, CLI_WHOLE, offsetof(draw_args, max_depth), "D",
      .help = "draw cells below this depth as one (0: no limit)", .max = UINT32_MAX},
     {"detail", 0, CLI_REAL, offsetof(draw_args, detail), "SIZE",
-     .help = "draw regions smaller than this on the page as one (default 0.5; 0: everything)"},
+     .help = "draw regions smaller than this on the page as one (default: a pixel; 0: everything)"},
     {0},
 };
 
