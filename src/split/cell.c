@@ -72,6 +72,10 @@ static froe_status emit_in_cut(split_set *set, const split_cell *cell, uint32_t 
 static froe_status deal(split_set *set, const split_cell *cell, const split_plane *plane, const counts *n) {
     uint32_t positive = n->of[SPLIT_POS] + n->of[SPLIT_BOTH], negative = n->of[SPLIT_NEG] + n->of[SPLIT_BOTH];
     set->spare.count = 0;
+    if (!cell->count) { /* the arrays may not be there yet */
+        set->items.count = cell->first;
+        return FROE_OK;
+    }
     if (!array_reserve(&set->alloc, &set->spare, cell->count)) return FROE_E_MEMORY;
     if (!array_reserve(&set->alloc, &set->items, (size_t)n->of[SPLIT_BOTH])) return FROE_E_MEMORY;
     memcpy(set->spare.data, set->items.data + cell->first, cell->count * sizeof *set->spare.data);
