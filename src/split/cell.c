@@ -78,7 +78,7 @@ static froe_status deal(split_set *set, const split_cell *cell, const split_plan
     }
     if (!array_reserve(&set->alloc, &set->spare, cell->count)) return FROE_E_MEMORY;
     if (!array_reserve(&set->alloc, &set->items, (size_t)n->of[SPLIT_BOTH])) return FROE_E_MEMORY;
-    memcpy(set->spare.data, set->items.data + cell->first, cell->count * sizeof *set->spare.data);
+    if (cell->count) memcpy(set->spare.data, set->items.data + cell->first, cell->count * sizeof *set->spare.data);
     split_fragment *pos = set->items.data + cell->first, *neg = pos + positive;
     const int8_t *sides = set->sides.data;
     for (uint32_t i = 0; i < cell->count; i++) {
