@@ -90,6 +90,14 @@ static uint32_t run_end(const pen *p, uint32_t first, const froe_object *o) {
     return end;
 }
 
+static void put_line(pen *p, const double *a, const double *b) {
+    io_put(&p->writer, "[");
+    position(p, a);
+    io_put(&p->writer, ",");
+    position(p, b);
+    io_put(&p->writer, "]");
+}
+
 /* Segments that continue one another share a line. */
 static void put_lines(pen *p, uint32_t first, uint32_t end) {
     uint32_t last = FROE_NONE;
@@ -106,15 +114,22 @@ static void put_lines(pen *p, uint32_t first, uint32_t end) {
     io_put(&p->writer, "]]");
 }
 
+static const char *type_of(froe_kind kind, uint32_t objects) {
+    if (kind == FROE_POINT) return "Point";
+    if (kind == FROE_BOX) return "Polygon";
+    return objects == 1 ? "LineString" : "MultiLineString";
+}
+
 static void write_geojson(pen *p) {
     io_put(&p->writer, "{\"type\":\"FeatureCollection\",\"features\":[");
     for (uint32_t i = 0, end; i < p->objects; i = end) {
         froe_object o = froe_scene_object(p->scene, i);
         end = o.kind == FROE_SEGMENT ? run_end(p, i, &o) : i + 1;
-        begin_feature(p, i, &o, o.kind == FROE_POINT ? "Point" : o.kind == FROE_BOX ? "Polygon" : "MultiLineString");
+        begin_feature(p, i, &o, type_of(o.kind, end - i));
         if (o.kind == FROE_POINT) position(p, place_of(p, i, &o, 0));
         if (o.kind == FROE_BOX) put_box(p, place_of(p, i, &o, 0), place_of(p, i, &o, 1));
-        if (o.kind == FROE_SEGMENT) put_lines(p, i, end);
+        if (o.kind == FROE_SEGMENT && end == i + 1) put_line(p, place_of(p, i, &o, 0), place_of(p, i, &o, 1));
+        if (o.kind == FROE_SEGMENT && end > i + 1) put_lines(p, i, end);
         io_put(&p->writer, "}}");
     }
     io_put(&p->writer, "\n]}\n");

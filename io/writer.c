@@ -80,13 +80,11 @@ void io_put(io_writer *w, const char *text) {
 
 void io_put_number(io_writer *w, double value) {
     char text[40];
-    if (fabs(value) < 1e15 && value == trunc(value)) {
-        snprintf(text, sizeof text, "%.0f", value == 0 ? 0.0 : value);
+    if (fabs(value) < 1e15 && value == (double)(int64_t)value) {
+        snprintf(text, sizeof text, "%lld", (long long)value);
     } else {
-        for (int digits = 15; digits <= 17; ++digits) {
-            snprintf(text, sizeof text, "%.*g", digits, value);
-            if (strtod(text, NULL) == value) break;
-        }
+        snprintf(text, sizeof text, "%.15g", value); /* 0.1 stays 0.1; what has more digits gets all 17 */
+        if (strtod(text, NULL) != value) snprintf(text, sizeof text, "%.17g", value);
     }
     io_put(w, text);
 }

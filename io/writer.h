@@ -25,7 +25,7 @@ froe_status io_writer_open(io_writer *writer, const char *path, froe_diagnostic 
 froe_status io_writer_close(io_writer *writer, froe_status status);
 
 void io_put(io_writer *writer, const char *text);
-/** The shortest of 15, 16 or 17 digits that gives the same double again. */
+/** 15 digits when they give the same double again, or else 17, which always do. */
 void io_put_number(io_writer *writer, double value);
 void io_put_whole(io_writer *writer, uint64_t value);
 /** dim numbers with blanks between them. */

@@ -39,8 +39,8 @@ static void broken_json_is_refused(void **state) {
     (void)state;
     static const char *const texts[] = {
         "{\"type\": \"FeatureCollection\", \"features\": [",
-        "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":"
-        "\"Point\",\"coordinates\":[1,2]}},{\"type\":\"Feature\",\"prop",
+        ("{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":"
+         "\"Point\",\"coordinates\":[1,2]}},{\"type\":\"Feature\",\"prop"),
         "{\"type\":\"Topology\",\"objects\":{\"a\":{\"type\":\"LineString\",\"arcs\":[0]}},\"arcs\":[[[0,0],[1",
         "{\"type\":\"LineString\",\"coordinates\":[[0,0],[1,1]}",
     };
