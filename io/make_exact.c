@@ -15,8 +15,9 @@ void io_make_nested(io_maker *m) {
     double r = 1;
     for (size_t level = 0; level < levels && !io_done(m); ++level, r *= 0.5)
         for (size_t i = 0; i < 4 * parts && !io_done(m); ++i) {
-            double a = r * (2 * (double)(i / 4) / (double)parts - 1),
-                   b = r * (2 * (double)(i / 4 + 1) / (double)parts - 1);
+            size_t part = i / 4;
+            double a = r * (2 * (double)part / (double)parts - 1);
+            double b = r * (2 * (double)(part + 1) / (double)parts - 1);
             double at = i & 1 ? r : -r;
             if (i & 2) {
                 io_make_segment(m, at, a, at, b);
@@ -40,15 +41,18 @@ void io_make_wedge(io_maker *m) {
 void io_make_lattice(io_maker *m) {
     size_t side = io_root(m->n / 2, 2) + 1; /* 2 side (side + 1) >= n */
     for (size_t i = 0; !io_done(m); ++i) {
-        double x = (double)(i / 2 % side), y = (double)(i / 2 / side);
-        io_make_segment(m, x, y, i % 2 ? x : x + 1, i % 2 ? y + 1 : y);
+        double p[2];
+        io_grid(i / 2, side, 2, p);
+        io_make_segment(m, p[0], p[1], i % 2 ? p[0] : p[0] + 1, i % 2 ? p[1] + 1 : p[1]);
     }
 }
 
 void io_make_tiles(io_maker *m) {
     size_t side = io_root(m->n / 4, 2) + 1;
     for (size_t i = 0; !io_done(m); ++i) {
-        double x = (double)(i % side), y = (double)(i / side);
+        double p[2];
+        io_grid(i, side, 2, p);
+        double x = p[0], y = p[1];
         const double ring[5][2] = {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}, {x, y}};
         for (int k = 0; k < 4 && !io_done(m); ++k)
             io_make_segment(m, ring[k][0], ring[k][1], ring[k + 1][0], ring[k + 1][1]);

@@ -7,11 +7,12 @@
 static void nested_level(io_maker *m, double r, size_t parts) {
     for (size_t s = 0; s < 6 * parts * parts && !io_done(m); ++s) {
         int axis = (int)(s % 3), u = (axis + 1) % 3, v = (axis + 2) % 3;
-        double i = (double)(s / 6 % parts), j = (double)(s / 6 / parts), corners[4][3];
+        double p[2], corners[4][3];
+        io_grid(s / 6, parts, 2, p);
         for (int c = 0; c < 4; ++c) {
             corners[c][axis] = s / 3 % 2 ? r : -r;
-            corners[c][u] = r * (2 * (i + (c == 1 || c == 2)) / (double)parts - 1);
-            corners[c][v] = r * (2 * (j + (c >= 2)) / (double)parts - 1);
+            corners[c][u] = r * (2 * (p[0] + (c == 1 || c == 2)) / (double)parts - 1);
+            corners[c][v] = r * (2 * (p[1] + (c >= 2)) / (double)parts - 1);
         }
         io_make_quad(m, corners[0], corners[1], corners[2], corners[3]);
     }
@@ -29,13 +30,10 @@ void io_make_nested_3d(io_maker *m) {
 void io_make_lattice_3d(io_maker *m) {
     size_t side = io_root(m->n / 6, 3) + 1;
     for (size_t i = 0; !io_done(m); ++i) {
-        size_t at = i / 3;
         int axis = (int)(i % 3), u = (axis + 1) % 3, v = (axis + 2) % 3;
         double corners[4][3];
         for (int c = 0; c < 4; ++c) {
-            corners[c][0] = (double)(at % side);
-            corners[c][1] = (double)(at / side % side);
-            corners[c][2] = (double)(at / side / side);
+            io_grid(i / 3, side, 3, corners[c]);
             corners[c][u] += c == 1 || c == 2;
             corners[c][v] += c >= 2;
         }
@@ -46,7 +44,8 @@ void io_make_lattice_3d(io_maker *m) {
 void io_make_tiles_3d(io_maker *m) {
     size_t side = io_root(m->n / 12, 3) + 1;
     for (size_t i = 0; !io_done(m); ++i) {
-        double lo[3] = {(double)(i % side), (double)(i / side % side), (double)(i / side / side)};
+        double lo[3];
+        io_grid(i, side, 3, lo);
         double hi[3] = {lo[0] + 1, lo[1] + 1, lo[2] + 1};
         io_make_cuboid(m, lo, hi);
     }

@@ -41,7 +41,9 @@ void io_make_rooms(io_maker *m) {
     enum { CORRIDOR = 7 };
     size_t side = io_root(m->n / 4, 2) + 2;
     for (size_t i = 0; !io_done(m); ++i) {
-        double from[2] = {16 * (double)(i % side), 16 * (double)(i / side)};
+        double from[2];
+        io_grid(i, side, 2, from);
+        for (int k = 0; k < 2; ++k) from[k] *= 16;
         bool outer = i < side, across = i / side % CORRIDOR != CORRIDOR - 1;
         uint32_t dice = io_below(m, 8);
         wall(m, from, 0, !outer && dice < 5);
@@ -70,10 +72,15 @@ void io_make_blocks(io_maker *m) {
     enum { LOTS = 8 };
     size_t quarters = io_root(m->n / (4 * LOTS * LOTS), 2) + 1, built = 0;
     for (size_t q = 0; !io_done(m); ++q) {
-        double turn[2], middle[2] = {200.0 * (double)(q % quarters), 200.0 * (double)(q / quarters)};
+        double turn[2], middle[2];
+        io_grid(q, quarters, 2, middle);
+        for (int k = 0; k < 2; ++k) middle[k] *= 200;
         io_circle(io_below(m, 16), 64, turn);
-        for (int lot = 0; lot < LOTS * LOTS && !io_done(m); ++lot) {
-            double x = 16 * (lot % LOTS - LOTS / 2), y = 16 * (lot / LOTS - LOTS / 2);
+        for (size_t lot = 0; lot < LOTS * LOTS && !io_done(m); ++lot) {
+            double place[2];
+            io_grid(lot, LOTS, 2, place);
+            const int half = LOTS / 2;
+            double x = 16 * (place[0] - half), y = 16 * (place[1] - half);
             double corner[2] = {middle[0] + turn[0] * x - turn[1] * y, middle[1] + turn[1] * x + turn[0] * y};
             io_make_group(m, "house", ++built, "house");
             house(m, corner, turn);

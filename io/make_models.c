@@ -32,7 +32,9 @@ void io_make_rooms_3d(io_maker *m) {
     for (size_t i = 0; !io_done(m); ++i) {
         size_t storey = i / side / side;
         if (i % (side * side) == 0) io_make_group(m, "storey", storey, "wall");
-        double from[3] = {16 * (double)(i % side), 16 * (double)(i / side % side), 12 * (double)storey};
+        double from[3];
+        io_grid(i, side, 3, from);
+        for (int k = 0; k < 3; ++k) from[k] *= k < 2 ? 16 : 12;
         uint32_t dice = io_below(m, 8);
         floor_tile(m, from);
         if (dice < 6) wall(m, from, 0, dice < 3);
@@ -60,10 +62,10 @@ void io_make_city(io_maker *m) {
     size_t side = io_root(m->n / 16, 2) + 1;
     for (size_t i = 0; !io_done(m); ++i) {
         size_t column = i % side, row = i / side;
-        double x = (double)(column * LOT + column / LOTS * STREET), y = (double)(row * LOT + row / LOTS * STREET);
+        size_t across = column * LOT + column / LOTS * STREET, along = row * LOT + row / LOTS * STREET;
         double dx = 2 * (double)column / (double)side - 1, dy = 2 * (double)row / (double)side - 1;
         io_make_group(m, "building", i + 1, "concrete");
-        building(m, x, y, 10 + 40 * (1 - dx * dx) * (1 - dy * dy));
+        building(m, (double)across, (double)along, 10 + 40 * (1 - dx * dx) * (1 - dy * dy));
     }
 }
 

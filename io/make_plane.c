@@ -23,7 +23,9 @@ void io_make_disjoint(io_maker *m) {
     size_t side = io_root(m->n - 1, 2) + 1; /* side^2 >= n */
     double step = 1 / (double)side;
     for (size_t i = 0; !io_done(m); ++i) {
-        double centre[2] = {((double)(i % side) + 0.5) * step, ((double)(i / side) + 0.5) * step};
+        double centre[2];
+        io_grid(i, side, 2, centre);
+        for (int k = 0; k < 2; ++k) centre[k] = (centre[k] + 0.5) * step;
         put(m, centre, step * io_between(m, 0.3, 0.9));
     }
 }
@@ -68,9 +70,11 @@ void io_make_hair(io_maker *m) {
 }
 
 void io_make_slats(io_maker *m) {
-    double step = 1 / (double)(m->n / 2 + 1);
+    size_t pairs = m->n / 2 + 1;
+    double step = 1 / (double)pairs;
     for (size_t i = 0; !io_done(m); ++i) {
-        double at = ((double)(i / 2) + io_between(m, 0.1, 0.9)) * step;
+        size_t pair = i / 2;
+        double at = ((double)pair + io_between(m, 0.1, 0.9)) * step;
         if (i % 2) {
             io_make_segment(m, at, -0.1, at, 1.1);
         } else {

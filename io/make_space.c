@@ -26,8 +26,9 @@ void io_make_disjoint_3d(io_maker *m) {
     size_t side = io_root(m->n - 1, 3) + 1;
     double step = 1 / (double)side;
     for (size_t i = 0; !io_done(m); ++i) {
-        double centre[3] = {(double)(i % side) + 0.5, (double)(i / side % side) + 0.5, (double)(i / side / side) + 0.5};
-        for (int k = 0; k < 3; ++k) centre[k] *= step;
+        double centre[3];
+        io_grid(i, side, 3, centre);
+        for (int k = 0; k < 3; ++k) centre[k] = (centre[k] + 0.5) * step;
         put(m, centre, step * io_between(m, 0.2, 0.45));
     }
 }
@@ -79,9 +80,11 @@ void io_make_hair_3d(io_maker *m) {
 }
 
 void io_make_slats_3d(io_maker *m) {
-    double step = 1 / (double)(m->n / 2 + 1);
+    size_t pairs = m->n / 2 + 1;
+    double step = 1 / (double)pairs;
     for (size_t i = 0; !io_done(m); ++i) {
-        double at = ((double)(i / 2) + io_between(m, 0.1, 0.9)) * step;
+        size_t pair = i / 2;
+        double at = ((double)pair + io_between(m, 0.1, 0.9)) * step;
         int along = i % 2, across = 1 - along;
         double corners[3][3];
         for (int c = 0; c < 3; ++c) {
@@ -109,7 +112,8 @@ void io_make_grid_3d(io_maker *m) {
     const double width = 0.0005, above = 0.004;
     size_t lines = (m->n + 1) / 2;
     for (size_t i = 0; !io_done(m); ++i) {
-        double t = ((double)(i / 2) + 0.5) / (double)lines;
+        size_t line = i / 2;
+        double t = ((double)line + 0.5) / (double)lines;
         const double on_x[3][3] = {{t, 0, 0}, {t, 1, t}, {t + width, 0.5, 0.5 * t}};
         const double on_y[3][3] = {{0, t, above}, {1, t, t + above}, {0.5, t + width, 0.5 * t + above}};
         const double(*c)[3] = i % 2 ? on_y : on_x;

@@ -66,6 +66,10 @@ void io_circle(size_t i, size_t g, double *to) {
     memcpy(to, turned[quarter % 4], 2 * sizeof *to);
 }
 
+void io_grid(size_t i, size_t side, int dim, double *to) {
+    for (int k = 0; k < dim; ++k, i /= side) to[k] = (double)(k + 1 < dim ? i % side : i);
+}
+
 /* ---------------------------------------------------------------- numbers -- */
 
 size_t io_root(size_t n, int d) {

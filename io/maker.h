@@ -35,6 +35,8 @@ double io_unit_at(const io_maker *maker, uint64_t layer, uint64_t i, uint64_t j)
 void io_direction(io_maker *maker, int dim, double *to);
 /** Point i of g on the unit circle, counterclockwise from (1, 0). */
 void io_circle(size_t i, size_t g, double *to);
+/** Place i of a grid with `side` places a row (and rows a storey): its digits to that base. */
+void io_grid(size_t i, size_t side, int dim, double *to);
 /** floor(n^(1/d)), d = 2 or 3. */
 size_t io_root(size_t n, int d);
 /** The cube root, by Newton's iteration. */

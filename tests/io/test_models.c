@@ -183,11 +183,11 @@ static size_t put_glb(const char *path, size_t cut) {
     put_word(glb + 4, 2);
     put_word(glb + 8, whole);
     put_word(glb + 12, padded);
-    memcpy(glb + 16, "JSON", 4);
+    put_word(glb + 16, 0x4e4f534a); /* JSON */
     memset(glb + 20, ' ', padded);
     memcpy(glb + 20, json, text);
     put_word(glb + 20 + padded, sizeof points);
-    memcpy(glb + 24 + padded, "BIN", 4);
+    put_word(glb + 24 + padded, 0x004e4942); /* BIN */
     memcpy(glb + 28 + padded, points, sizeof points);
     write_bytes(path, glb, whole - cut);
     return whole;
