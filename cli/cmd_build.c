@@ -5,6 +5,7 @@
 #include "scene.h"
 #include "tree_report.h"
 #include <string.h>
+#include <sys/stat.h>
 
 typedef struct build_args {
     cli_common common;
@@ -61,6 +62,14 @@ static int check_method(const char *method) {
     return cli_fail(CLI_USE, NULL, "unknown method '%s', did you mean '%s'? There are %s", method, hint, list);
 }
 
+/* A slip of the hand must not cost the scene. */
+static int check_output(const char *scene, const char *output) {
+    struct stat a, b;
+    if (!output || stat(scene, &a) != 0 || stat(output, &b) != 0) return 0;
+    if (a.st_dev != b.st_dev || a.st_ino != b.st_ino) return 0;
+    return cli_fail(CLI_USE, output, "is the scene itself; the tree needs a file of its own");
+}
+
 static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
     cli_progress bar = cli_progress_begin(&args->common, "building");
     froe_build_options o = froe_build_defaults();
@@ -100,6 +109,7 @@ static int build_and_report(const build_args *args, froe_scene *scene, double se
 static int run(const void *given) {
     const build_args *args = given;
     int code = check_method(args->method);
+    if (!code) code = check_output(args->scene.path, args->output);
     if (code) return code;
     froe_scene *scene;
     froe_read_report reader;
