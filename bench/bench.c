@@ -14,6 +14,12 @@ double bench_now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+double bench_cpu(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 static void print_processor(void) {
     char line[256];
     FILE *f = fopen("/proc/cpuinfo", "r");
@@ -56,9 +62,27 @@ froe_scene *bench_read(const char *path) {
     return scene;
 }
 
+froe_scene *bench_segments(const double *xyxy, size_t n) {
+    froe_diagnostic diag = {0};
+    froe_scene *scene = NULL;
+    froe_objects o = froe_objects_defaults();
+    o.kind = FROE_SEGMENT, o.count = n, o.coords = xyxy;
+    froe_status status = froe_scene_new(2, NULL, &scene);
+    must(status ? status : froe_scene_add(scene, &o, &diag), "segments", &diag);
+    return scene;
+}
+
+static froe_scene *scattered(size_t n, unsigned long long seed) {
+    double *xyxy = bench_scatter(n, seed);
+    froe_scene *scene = bench_segments(xyxy, n);
+    free(xyxy);
+    return scene;
+}
+
 froe_scene *bench_generate(const char *kind, size_t n, unsigned long long seed) {
     froe_diagnostic diag = {0};
     froe_scene *scene = NULL;
+    if (!strcmp(kind, "scatter")) return scattered(n, seed);
     must(froe_generate(kind, n, seed, NULL, &scene, &diag), kind, &diag);
     return scene;
 }

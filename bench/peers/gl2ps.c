@@ -1,4 +1,5 @@
 /* gl2ps.c: gl2ps 1.4 as a BSP of triangles: it sorts with a BSP and writes every piece as a polygon. */
+#include "peers.h"
 #include <GL/gl.h>
 #include <gl2ps.h>
 #include <stdio.h>
@@ -18,13 +19,11 @@ static size_t count_polygons(FILE *f) {
     return count;
 }
 
-/** Triangles of 9 doubles in a box of page size. Returns the number of polygons written, 0 on failure. */
-size_t peer_gl2ps(const double *triangles, size_t n, bool best_root, double (*now)(void), double *seconds) {
+size_t peer_gl2ps(const double *triangles, size_t n, bool best_root) {
     GLint options = GL2PS_NO_OPENGL_CONTEXT | GL2PS_SILENT | GL2PS_NO_BLENDING | (best_root ? GL2PS_BEST_ROOT : 0);
     GLint viewport[4] = {0, 0, 1000, 1000};
     FILE *f = tmpfile();
     if (!f) return 0;
-    double start = now();
     gl2psBeginPage("", "", viewport, GL2PS_SVG, GL2PS_BSP_SORT, options, GL_RGBA, 0, NULL, 0, 0, 0, 0, f, "");
     for (size_t i = 0; i < n; i++) {
         GL2PSvertex v[3];
@@ -34,7 +33,6 @@ size_t peer_gl2ps(const double *triangles, size_t n, bool best_root, double (*no
         gl2psAddPolyPrimitive(GL2PS_TRIANGLE, 3, v, 0, 0, 0, 0xffff, 1, 1, 0, 0, 0);
     }
     gl2psEndPage();
-    *seconds = now() - start;
     size_t count = count_polygons(f);
     fclose(f);
     return count;

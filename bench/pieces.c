@@ -1,0 +1,153 @@
+/* pieces.c: pieces per object, height and time of every method on every scene, beside gl2ps.
+ *
+ *     bench_pieces [-t SECONDS] SCENE...        a file, or KIND:N for a generated scene
+ *
+ * One thread; seconds are processor time. At leaf 0 every object ends in a cut, as polygons do in the peers.
+ * gl2ps sorts triangles by a BSP and writes every piece as a polygon; its height cannot be seen from outside.
+ * The last column compares the number of pieces with that of density at leaf 0 (where there is none: leaf 1). */
+#include "apart.h"
+#include "bench.h"
+#include "peers/peers.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct subject {
+    froe_scene *scene;
+    char name[32];
+    double objects, yardstick; /* pieces of density */
+    const char *method;
+    uint32_t leaf;
+    double *triangles; /* 9 numbers each, scaled to the page; NULL: not all objects are triangles */
+    bool best_root;
+} subject;
+
+enum { PIECES, HEIGHT, SECONDS, COLUMNS };
+
+static bool build(const void *user, double *out) {
+    const subject *s = user;
+    const double start = bench_cpu();
+    froe_tree *tree = bench_build(s->scene, s->method, NULL, s->leaf, 1, NULL);
+    out[SECONDS] = bench_cpu() - start;
+    const froe_report r = froe_tree_report(tree);
+    out[PIECES] = (double)r.fragments;
+    out[HEIGHT] = (double)r.height;
+    return true;
+}
+
+static void print(const subject *s, const char *method, const char *leaf, const char *trouble, const double *out) {
+    printf("%-16s %7.0f %-16s %4s ", s->name, s->objects, method, leaf);
+    if (trouble) {
+        printf("%9s\n", trouble);
+    } else {
+        printf("%9.3f", out[PIECES] / s->objects);
+        if (out[HEIGHT] > 0)
+            printf(" %7.0f %7.2f", out[HEIGHT], out[HEIGHT] / log2(s->objects));
+        else
+            printf(" %7s %7s", "-", "-");
+        printf(" %9.4f %7.2f\n", out[SECONDS], s->yardstick > 0 ? out[PIECES] / s->yardstick : 1.0);
+    }
+}
+
+/** Every object of this method's kinds, and for leaf 0 all of one kind that cuts can hold. */
+static bool serves(const froe_method_info *m, const froe_scene *scene, uint32_t leaf) {
+    const int dim = froe_scene_dim(scene);
+    uint32_t kinds = 0;
+    for (int k = 0; k < FROE_KIND_COUNT; k++) kinds |= (uint32_t)(froe_scene_kind_count(scene, (froe_kind)k) > 0) << k;
+    const uint32_t full = dim == 2 ? 1u << FROE_SEGMENT : dim == 3 ? 1u << FROE_POLYGON : 0;
+    return m->dims >> dim & 1 && !(kinds & ~m->kinds) && (leaf > 0 || kinds == full);
+}
+
+static void ours(subject *s, const char *method, unsigned limit) {
+    double out[COLUMNS];
+    s->method = method;
+    const char *trouble = bench_apart(build, s, limit, out, COLUMNS);
+    if (!trouble && !(s->yardstick > 0) && !strcmp(method, "density")) s->yardstick = out[PIECES];
+    print(s, method, s->leaf ? "1" : "0", trouble, out);
+}
+
+static void all_of_ours(subject *s, unsigned limit) {
+    const froe_method_info *m;
+    for (s->leaf = 0; s->leaf < 2; s->leaf++) { /* density first: the others are compared with it */
+        for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++)
+            if (!strcmp(m->name, "density") && serves(m, s->scene, s->leaf)) ours(s, m->name, limit);
+        for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++)
+            if (strcmp(m->name, "density") != 0 && serves(m, s->scene, s->leaf)) ours(s, m->name, limit);
+    }
+}
+
+#ifdef HAVE_GL2PS
+/** The scene's triangles, enlarged to fill a page of 1000 units; NULL if it has other objects. */
+static double *page(const froe_scene *scene) {
+    enum { PAGE = 1000 };
+    const size_t n = froe_scene_object_count(scene);
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], extent = 0;
+    if (froe_scene_dim(scene) != 3 || !froe_scene_bounds(scene, lo, hi)) return NULL;
+    for (int k = 0; k < 3; k++) extent = fmax(extent, hi[k] - lo[k]);
+    double *out = calloc(n, 9 * sizeof *out);
+    for (uint32_t i = 0; out && i < n; i++) {
+        const froe_object o = froe_scene_object(scene, i);
+        if (o.kind != FROE_POLYGON || o.corners > 3) {
+            free(out);
+            return NULL;
+        }
+        for (uint32_t k = 0; k < 9; k++) /* one of zero area repeats its last corner */
+            out[9 * (size_t)i + k] =
+                PAGE / extent *
+                (froe_scene_vertex(scene, froe_scene_corner(scene, i, k / 3 < o.corners ? k / 3 : 0))[k % 3] -
+                 lo[k % 3]);
+    }
+    return out;
+}
+
+static bool sort_and_write(const void *user, double *out) {
+    const subject *s = user;
+    out[HEIGHT] = 0;
+    const double start = bench_cpu();
+    out[PIECES] = (double)peer_gl2ps(s->triangles, (size_t)s->objects, s->best_root);
+    out[SECONDS] = bench_cpu() - start;
+    return out[PIECES] > 0;
+}
+
+static void theirs(subject *s, unsigned limit) {
+    double out[COLUMNS];
+    s->triangles = page(s->scene);
+    for (int best = 0; s->triangles && best < 2; best++) {
+        s->best_root = best;
+        const char *trouble = bench_apart(sort_and_write, s, limit, out, COLUMNS);
+        print(s, best ? "gl2ps best root" : "gl2ps", "0", trouble, out);
+    }
+    free(s->triangles);
+}
+#endif
+
+static froe_scene *open_scene(const char *arg, char name[32]) {
+    const char *colon = strchr(arg, ':');
+    if (!colon) {
+        bench_name(arg, name);
+        return bench_read(arg);
+    }
+    snprintf(name, 32, "%.*s", (int)(colon - arg), arg);
+    return bench_generate(name, strtoull(colon + 1, NULL, 10), 1);
+}
+
+int main(int argc, char **argv) {
+    unsigned limit = 120;
+    int at = 1;
+    if (argc > 2 && !strcmp(argv[1], "-t")) limit = (unsigned)strtoul(argv[2], NULL, 10), at = 3;
+    bench_head("pieces per object, all methods and gl2ps, one thread", 1);
+    printf("%-16s %7s %-16s %4s %9s %7s %7s %9s %7s\n", "scene", "n", "method", "leaf", "pieces/n", "height", "/log2 n",
+           "cpu s", "x ours");
+    for (; at < argc; at++) {
+        subject s = {0};
+        s.scene = open_scene(argv[at], s.name);
+        s.objects = (double)froe_scene_object_count(s.scene);
+        all_of_ours(&s, limit);
+#ifdef HAVE_GL2PS
+        theirs(&s, limit);
+#endif
+        froe_scene_free(s.scene);
+    }
+    return 0;
+}
