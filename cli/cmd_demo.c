@@ -166,7 +166,7 @@ const cli_command cli_command_demo = {
     .about = "Builds, checks and draws a floor plan, a map whose borders cross, and a house, all carried within the "
              "program. Writes the scenes, trees and pictures and a page, index.html, that shows them with their "
              "reports and the commands that made them. Needs no display and no network.",
-    .examples = "froe demo\nfroe demo -o /tmp/froe-demo --quiet\n",
+    .examples = "froe demo\nfroe demo -o pictures --quiet\n",
     .parts = parts,
     .defaults = &(const demo_args){.common = CLI_COMMON_DEFAULTS, .output = "build/demo"},
     .size = sizeof(demo_args),

@@ -11,7 +11,6 @@ const demo_scene demo_scenes[] = {
                 "in depth order. Walls that no cut crosses stay whole.",
         .credit = "Freedoom 0.12.1, BSD-3-Clause style, © Contributors to the Freedoom project.",
         .dim = 2,
-        .compare = "",
         .steps =
             {
                 {"info freedoom-e1m1.geojson", NULL},
@@ -31,7 +30,6 @@ const demo_scene demo_scenes[] = {
                 "crossing is decided exactly, and every segment is exactly the union of its pieces.",
         .credit = "world-atlas 2.0.2, ISC; Natural Earth, public domain.",
         .dim = 2,
-        .compare = "",
         .steps =
             {
                 {"info countries-110m.json", NULL},
@@ -51,7 +49,6 @@ const demo_scene demo_scenes[] = {
         .credit = "FZK-Haus, KIT/IAI (Karlsruhe Institute of Technology, Institute for Automation and Applied "
                   "Informatics), from assimp's test models.",
         .dim = 3,
-        .compare = "",
         .steps =
             {
                 {"info fzk-haus.glb", NULL},

@@ -16,8 +16,7 @@ typedef struct demo_scene {
     const char *file; /**< of the embedded files */
     const char *text; /**< what it is and what to look for */
     const char *credit;
-    int dim;                     /**< methods that serve it are compared */
-    const char *compare;         /**< options of the comparison, after "build FILE" */
+    int dim;                     /**< the methods that serve it are compared */
     demo_step steps[DEMO_STEPS]; /**< ended by a NULL command; the first build is the one the page reports */
 } demo_scene;
 
