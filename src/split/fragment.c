@@ -1,5 +1,6 @@
 /* fragment.c: classifying and cutting one fragment, exactly. */
 #include "split/fragment.h"
+#include "geom/filter.h"
 #include <string.h>
 
 froe_status split_set_new(const froe_scene *scene, const froe_allocator *alloc, split_set *out) {
@@ -17,6 +18,12 @@ void split_set_free(split_set *set) {
     array_free(&set->alloc, &set->spare);
     array_free(&set->alloc, &set->ring);
     num_context_free(&set->context);
+}
+
+void split_set_near(split_set *set, const double *near, size_t stride) {
+    set->near = near;
+    set->stride = stride;
+    set->near_corners = (uint32_t)(stride / (size_t)set->scene->dim);
 }
 
 /* ----------------------------------------------------------------- planes -- */
@@ -71,7 +78,7 @@ static inline int vertex_side(split_set *set, const split_plane *plane, const do
         double v = x[plane->plane.axis], c = plane->plane.c;
         return known_side(set, (v > c) - (v < c));
     }
-    int side = set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, x, 0) : NUM_UNSURE;
+    int side = set->context.first == NUM_FILTER ? filter_sign(filter_value(&plane->plane, x)) : NUM_UNSURE;
     if (side == NUM_UNSURE) return near_vertex_side(set, plane, x);
     set->context.stats.calls++;
     set->context.stats.filtered++;
@@ -176,17 +183,6 @@ int split_classify(split_set *set, const split_plane *plane, const split_fragmen
 }
 
 /* ---------------------------------------------------------------- cutting -- */
-
-uint32_t split_corner_count(const split_set *set, const split_fragment *f) {
-    if (f->count) return f->count;
-    return f->first ? (uint32_t)(set->stride / (size_t)set->scene->dim) : scene_corners(set->scene, f->object);
-}
-
-const double *split_image(const split_set *set, const split_fragment *f, uint32_t i) {
-    if (f->count) return set->corners.data[f->first + i].x;
-    if (f->first) return set->near + (f->first - 1) * set->stride + i * (size_t)set->scene->dim;
-    return scene_point(set->scene, f->object, i);
-}
 
 /** The i-th corner, made on the fly for whole objects. */
 static split_corner corner_at(const split_set *set, const split_fragment *f, uint32_t i) {

@@ -51,6 +51,7 @@ typedef struct split_set {
     num_context context;
     const double *near; /**< coordinates of whole objects, `stride` doubles each: see homes.h; or NULL */
     size_t stride;
+    uint32_t near_corners;  /**< stride / dim */
     const tree_draft *main; /**< nodes below draft->outer are its nodes */
     tree_draft *draft;
     ARRAY(split_fragment) items;
@@ -63,6 +64,8 @@ typedef struct split_set {
 
 froe_status split_set_new(const froe_scene *scene, const froe_allocator *alloc, split_set *out);
 void split_set_free(split_set *set);
+/** Lends the set near records: see homes.h. */
+void split_set_near(split_set *set, const double *near, size_t stride);
 
 /** Makes a cut ready for use: its plane and known vertices. In R^d, d > 3, AXIS cuts only. */
 split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut);
@@ -81,9 +84,16 @@ int split_classify(split_set *set, const split_plane *plane, const split_fragmen
 froe_status split_divide(split_set *set, const split_plane *plane, uint32_t node, const split_fragment *fragment,
                          const int8_t *sides, split_fragment *negative, split_fragment *positive);
 /** Number of corners, whole or not. */
-uint32_t split_corner_count(const split_set *set, const split_fragment *fragment);
+static inline uint32_t split_corner_count(const split_set *set, const split_fragment *f) {
+    if (f->count) return f->count;
+    return f->first ? set->near_corners : scene_corners(set->scene, f->object);
+}
 /** Image of the i-th corner, scene->dim doubles. */
-const double *split_image(const split_set *set, const split_fragment *fragment, uint32_t i);
+static inline const double *split_image(const split_set *set, const split_fragment *f, uint32_t i) {
+    if (f->count) return set->corners.data[f->first + i].x;
+    if (f->first) return set->near + (f->first - 1) * set->stride + i * (size_t)set->scene->dim;
+    return scene_point(set->scene, f->object, i);
+}
 /** Hands a fragment to the list begun last in the draft, that of `node` (ring numbering). */
 froe_status split_emit(split_set *set, uint32_t node, const split_fragment *fragment);
 #endif

@@ -59,8 +59,10 @@ static void enter_support(contest *c, uint32_t item) {
 static void enter_supports(contest *c) {
     uint32_t m = c->cell->count, tries = c->config->supports;
     for (uint32_t i = 0; i < (m <= tries ? m : tries) && !c->best.perfect; i++) {
-        uint64_t draw = base_hash(c->config->seed, c->cell->path, i);
-        enter_support(c, m <= tries ? i : base_below(draw, m));
+        if (m <= tries)
+            enter_support(c, i);
+        else
+            enter_support(c, base_below(base_hash(c->config->seed, c->cell->path, i), m));
     }
 }
 

@@ -60,7 +60,6 @@ static bool add_fragment(split_view *view, const split_set *set, const split_fra
     else
         for (uint32_t i = 0; i < n; i++) add_corner(view, split_image(set, f, i), dim);
     view->start.data[view->start.count++] = (uint32_t)view->x[0].count;
-    view->pairs &= n == 2;
     return true;
 }
 
@@ -71,14 +70,38 @@ static const split_fragment *shown(const split_set *set, const split_cell *cell,
     return set->items.data + cell->first + pick;
 }
 
+/** Segments in the plane, shown whole: the commonest case by far. False: there are others, nothing was done. */
+static bool fill_pairs(split_view *view, const split_set *set, const split_fragment *items) {
+    double *x = view->x[0].data, *y = view->x[1].data, reach[2] = {0, 0};
+    for (uint32_t i = 0; i < view->count; i++) {
+        if (split_corner_count(set, items + i) != 2 || scene_form(set->scene, items[i].object) != FROE_SEGMENT)
+            return false;
+        for (uint32_t k = 0; k < 2; k++, x++, y++) {
+            const double *p = split_image(set, items + i, k);
+            *x = p[0];
+            *y = p[1];
+            reach[0] = fabs(*x) > reach[0] ? fabs(*x) : reach[0];
+            reach[1] = fabs(*y) > reach[1] ? fabs(*y) : reach[1];
+        }
+    }
+    view->x[0].count = view->x[1].count = 2 * (size_t)view->count;
+    view->reach[0] = reach[0];
+    view->reach[1] = reach[1];
+    return true;
+}
+
 bool split_view_fill(split_view *view, const split_set *set, const split_cell *cell, uint32_t sample, uint64_t seed) {
     view->count = cell->count > sample ? sample : cell->count;
     view->weight = (double)cell->count / view->count;
+    view->pairs = false;
     if (set->scene->dim > 3) return true; /* axis-parallel planes are the only candidates */
     view->start.count = 0;
-    if (!array_push(&set->alloc, &view->start, 0)) return false;
-    view->pairs = set->scene->dim == 2;
     for (int k = 0; k < 3; k++) view->x[k].count = 0, view->reach[k] = 0;
+    if (!make_room(view, &set->alloc, set->scene->dim, 2 * view->count)) return false;
+    if (set->scene->dim == 2 && view->count == cell->count)
+        view->pairs = fill_pairs(view, set, set->items.data + cell->first);
+    if (view->pairs) return true;
+    view->start.data[view->start.count++] = 0;
     for (uint32_t i = 0; i < view->count; i++)
         if (!add_fragment(view, set, shown(set, cell, i, view->count, seed))) return false;
     view->side.count = 0;
