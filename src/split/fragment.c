@@ -20,12 +20,6 @@ void split_set_free(split_set *set) {
     num_context_free(&set->context);
 }
 
-void split_set_near(split_set *set, const double *near, size_t stride) {
-    set->near = near;
-    set->stride = stride;
-    set->near_corners = (uint32_t)(stride / (size_t)set->scene->dim);
-}
-
 /* ----------------------------------------------------------------- planes -- */
 
 split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut) {

@@ -28,7 +28,7 @@ typedef struct split_corner {
 
 typedef struct split_fragment {
     uint32_t object;
-    uint32_t first, count; /**< its corners; count 0: the whole object, at near record first - 1 unless first is 0 */
+    uint32_t first, count; /**< its corners; count 0: the whole object */
 } split_fragment;
 
 /** Classes of a fragment beside a cut. */
@@ -49,9 +49,6 @@ typedef struct split_set {
     const froe_scene *scene;
     froe_allocator alloc;
     num_context context;
-    const double *near; /**< coordinates of whole objects, `stride` doubles each: see homes.h; or NULL */
-    size_t stride;
-    uint32_t near_corners;  /**< stride / dim */
     const tree_draft *main; /**< nodes below draft->outer are its nodes */
     tree_draft *draft;
     ARRAY(split_fragment) items;
@@ -64,8 +61,6 @@ typedef struct split_set {
 
 froe_status split_set_new(const froe_scene *scene, const froe_allocator *alloc, split_set *out);
 void split_set_free(split_set *set);
-/** Lends the set near records: see homes.h. */
-void split_set_near(split_set *set, const double *near, size_t stride);
 
 /** Makes a cut ready for use: its plane and known vertices. In R^d, d > 3, AXIS cuts only. */
 split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut);
@@ -85,14 +80,11 @@ froe_status split_divide(split_set *set, const split_plane *plane, uint32_t node
                          const int8_t *sides, split_fragment *negative, split_fragment *positive);
 /** Number of corners, whole or not. */
 static inline uint32_t split_corner_count(const split_set *set, const split_fragment *f) {
-    if (f->count) return f->count;
-    return f->first ? set->near_corners : scene_corners(set->scene, f->object);
+    return f->count ? f->count : scene_corners(set->scene, f->object);
 }
 /** Image of the i-th corner, scene->dim doubles. */
 static inline const double *split_image(const split_set *set, const split_fragment *f, uint32_t i) {
-    if (f->count) return set->corners.data[f->first + i].x;
-    if (f->first) return set->near + (f->first - 1) * set->stride + i * (size_t)set->scene->dim;
-    return scene_point(set->scene, f->object, i);
+    return f->count ? set->corners.data[f->first + i].x : scene_point(set->scene, f->object, i);
 }
 /** Hands a fragment to the list begun last in the draft, that of `node` (ring numbering). */
 froe_status split_emit(split_set *set, uint32_t node, const split_fragment *fragment);

@@ -111,7 +111,6 @@ static froe_status start_workers(grow *g) {
         status = split_set_new(job->scene, &job->alloc, &work->set);
         if (status) break;
         if (job->first > work->set.context.first) work->set.context.first = job->first;
-        if (job->homes) split_set_near(&work->set, job->homes->near, job->homes->stride);
         if (g->method->scratch_new) status = g->method->scratch_new(g->method->config, work);
     }
     return status;

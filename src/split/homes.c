@@ -1,6 +1,5 @@
 /* homes.c: one descent per object, then a counting sort of the objects by home. */
 #include "split/homes.h"
-#include <string.h>
 
 enum { CHUNK = 8192, ABREAST = 8 }; /* objects per job, and going down together */
 
@@ -63,38 +62,18 @@ static void make_slices(const split_guard_node *nodes, const uint32_t *own, spli
     }
 }
 
-/** Doubles per object when all have as many corners and are nothing but corners; 0 otherwise. */
-static size_t uniform_stride(const froe_scene *scene) {
-    uint32_t n = scene_corners(scene, 0);
-    for (uint32_t i = 0; i < scene->object_count; i++)
-        if (scene_corners(scene, i) != n || scene_form(scene, i) == FROE_BALL) return 0;
-    return (size_t)n * (size_t)scene->dim;
-}
-
-static void copy_near(const froe_scene *scene, uint32_t object, double *to) {
-    size_t dim = (size_t)scene->dim;
-    for (uint32_t i = 0, n = scene_corners(scene, object); i < n; i++, to += dim)
-        memcpy(to, scene_point(scene, object, i), dim * sizeof *to);
-}
-
 /** Counting sort of the objects by home. `own` is zero. */
-static void sort_by_home(const froe_scene *scene, const split_guard_node *nodes, const uint32_t *home, uint32_t *own,
-                         split_homes *h) {
+static void sort_by_home(const split_guard_node *nodes, const uint32_t *home, uint32_t *own, split_homes *h) {
     for (size_t i = 0; i < h->object_count; i++) own[home[i]]++;
     make_slices(nodes, own, h);
     for (size_t v = 0; v < h->node_count; v++) own[v] = h->at[v];
-    for (uint32_t i = 0; i < h->object_count; i++) {
-        uint32_t place = own[home[i]]++;
-        h->ids[place] = i;
-        if (h->near) copy_near(scene, i, h->near + place * h->stride);
-    }
+    for (uint32_t i = 0; i < h->object_count; i++) h->ids[own[home[i]]++] = i;
 }
 
 void split_homes_free(const froe_allocator *alloc, split_homes *h) {
     base_free(alloc, h->ids, h->object_count * sizeof *h->ids);
     base_free(alloc, h->at, h->node_count * sizeof *h->at);
     base_free(alloc, h->end, h->node_count * sizeof *h->end);
-    base_free(alloc, h->near, h->object_count * h->stride * sizeof *h->near);
     *h = (split_homes){0};
 }
 
@@ -111,13 +90,11 @@ froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const
     h.ids = numbers(alloc, n);
     h.at = numbers(alloc, m);
     h.end = numbers(alloc, m);
-    h.stride = uniform_stride(scene);
-    h.near = base_realloc(alloc, NULL, 0, n * h.stride * sizeof *h.near);
     uint32_t *home = numbers(alloc, n), *own = base_calloc(alloc, m, sizeof *own);
-    froe_status status = h.ids && h.at && h.end && home && own && (h.near || !h.stride) ? FROE_OK : FROE_E_MEMORY;
+    froe_status status = h.ids && h.at && h.end && home && own ? FROE_OK : FROE_E_MEMORY;
     descent d = {scene, guard->nodes.data, task, home};
     if (!status) status = base_run(task, 0, (n + CHUNK - 1) / CHUNK, descend_chunk, &d);
-    if (!status) sort_by_home(scene, guard->nodes.data, home, own, &h);
+    if (!status) sort_by_home(guard->nodes.data, home, own, &h);
     base_free(alloc, home, n * sizeof *home);
     base_free(alloc, own, m * sizeof *own);
     if (status)

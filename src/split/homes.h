@@ -17,9 +17,6 @@
 typedef struct split_homes {
     uint32_t *ids;      /**< all objects, by home */
     uint32_t *at, *end; /**< per guard node: its slice of ids, its own homes first */
-    double *near;       /**< corners of the objects in the order of ids, `stride` doubles each, side by side for
-                             the caches; NULL when objects differ in their number of corners */
-    size_t stride;
     size_t object_count, node_count;
 } split_homes;
 
