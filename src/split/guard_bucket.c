@@ -15,7 +15,7 @@
 #define LEVELS_MAX 7
 #define BITS_MAX 15 /* dim * levels; 8 in 8 dimensions */
 #define CHUNKS_MAX 64
-#define CHUNK_COUNT (1u << 17) /* guards worth a thread's time */
+#define CHUNK_COUNT (1u << 15) /* guards worth a thread's time */
 #define PENDING 512            /* (2^dim - 1) * levels + 1 at most */
 
 enum { CODE = (1 << BITS_MAX) - 1, NOWHERE = UINT16_MAX }; /* a key is code + level of death << BITS_MAX, 0: never */

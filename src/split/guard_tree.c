@@ -321,7 +321,7 @@ froe_status split_guard_tree_build(const froe_allocator *alloc, base_task *task,
                   .start = task->done,
                   .share = span * task->scale / (double)(count ? count : 1),
                   .out = &tree};
-    b.job_count = task->threads == 1 ? UINT32_MAX : (uint32_t)(count / task->threads / 8 + (1 << 13));
+    b.job_count = task->threads == 1 ? UINT32_MAX : (uint32_t)(count / task->threads / 8 + (1 << 12));
     b.foreman.plan = &b.plan;
     b.foreman.nodes = &b.nodes;
     b.foreman.parallel = task->threads > 1;

@@ -200,7 +200,7 @@ static void moving_without_rounding_moves_the_tree(void **state) {
 static void threads_do_not_change_a_bit(void **state) {
     (void)state;
     static const guard_scene scenes[] = {SCENE_UNIFORM, SCENE_CLUSTERS, SCENE_NESTED, SCENE_CHAIN, SCENE_LATTICE};
-    enum { COUNT = 150000 };
+    enum { COUNT = 70000 };
     for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
         int dim = 2 + (int)(s % 2);
         double *guards = scene_new(scenes[s], s, COUNT, dim);
@@ -218,7 +218,7 @@ static void threads_do_not_change_a_bit(void **state) {
 
 static void large_scenes_follow_the_rule_too(void **state) {
     (void)state;
-    enum { COUNT = 300000 };
+    enum { COUNT = 100000 };
     double *guards = scene_new(SCENE_UNIFORM, 3, COUNT, 2);
     for (size_t i = 0; i < COUNT; i++) guards[i] = floor(guards[i] * 512) / 512; /* half of them on a coarse lattice */
     check_all_ways(guards, COUNT, (split_guard_options){.dim = 2, .k = 8}, 4);
@@ -235,7 +235,7 @@ typedef struct deep_scene {
 static void *build_deep(void *user) {
     deep_scene *d = user;
     for (int way = 0; way < WAYS; way++)
-        d->trees[way] = build(d->guards, 20000, (split_guard_options){.dim = 3, .way = (split_guard_way)way}, 1);
+        d->trees[way] = build(d->guards, 5000, (split_guard_options){.dim = 3, .way = (split_guard_way)way}, 1);
     return NULL;
 }
 
@@ -243,7 +243,7 @@ static void trees_thousands_of_levels_deep_need_no_stack(void **state) {
     (void)state;
     pthread_attr_t attr;
     pthread_t thread;
-    deep_scene d = {.guards = scene_new(SCENE_NESTED, 9, 20000, 3)};
+    deep_scene d = {.guards = scene_new(SCENE_NESTED, 9, 5000, 3)};
     assert_int_equal(pthread_attr_init(&attr), 0);
     assert_int_equal(pthread_attr_setstacksize(&attr, 1 << 16), 0);
     assert_int_equal(pthread_create(&thread, &attr, build_deep, &d), 0);
@@ -255,7 +255,7 @@ static void trees_thousands_of_levels_deep_need_no_stack(void **state) {
         assert_alike(&d.trees[0], &d.trees[way], 1, NULL);
         if (way) discard(&d.trees[way]);
     }
-    oracle_check(&d.trees[0], d.guards, 20000);
+    oracle_check(&d.trees[0], d.guards, 5000);
     discard(&d.trees[0]);
     free(d.guards);
 }
@@ -279,7 +279,7 @@ static froe_status try_build(void *user, const froe_allocator *alloc) {
 
 static void every_allocation_may_fail(void **state) {
     (void)state;
-    static const size_t counts[] = {0, 3, 2000, 40000};
+    static const size_t counts[] = {0, 3, 600, 9000};
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
         for (int way = 0; way < WAYS; way++) {
             double *guards = scene_new(c % 2 ? SCENE_CLUSTERS : SCENE_NESTED, c, counts[c], 2);
