@@ -69,7 +69,6 @@ static void root_cube(const guard_cube *box, int dim, guard_cube *root) {
     for (int i = 0; i < dim; i++) {
         root->lo[i] = box->lo[i] - pad;
         root->hi[i] = root->lo[i] + (pad + edge + pad);
-        if (root->hi[i] < box->hi[i]) root->hi[i] = box->hi[i];
         fits = fits && isfinite(root->lo[i]) && isfinite(root->hi[i]);
     }
     for (int i = 0; i < dim && !fits; i++) {

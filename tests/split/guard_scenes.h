@@ -15,17 +15,26 @@ typedef enum guard_scene {
     SCENE_LINE, /* along axis 0 */
     SCENE_DIAGONAL,
     SCENE_COPIES, /* eight at each place, nearly */
+    SCENE_COARSE, /* on few lines, which are middle planes */
     SCENE_ONE_PLACE,
     SCENE_HUGE, /* all finite doubles */
     SCENE_DENORMAL,
-    SCENE_ULPS,  /* a few doubles wide, axes unlike */
-    SCENE_FAR,   /* one axis far from the origin */
-    SCENE_MIXED, /* lattice, random and tiny coordinates */
+    SCENE_ULPS,   /* a few doubles wide, axes unlike */
+    SCENE_FAR,    /* one axis far from the origin */
+    SCENE_SHELLS, /* at distances from the root's corner that differ by rounding */
+    SCENE_MIXED,  /* lattice, random and tiny coordinates */
     SCENE_COUNT
 } guard_scene;
 
 static inline double scene_unit(uint64_t seed, uint64_t counter) { /* in [0, 1) */
     return (double)(base_hash(seed, 1, counter) >> 11) * 0x1p-53;
+}
+
+/* Guards 0 and 1 make the root's lower corner known; distances are of a few sizes. */
+static inline double scene_shell(uint64_t seed, size_t p, int axis, uint64_t at) {
+    double lo = axis < 2 ? 0.1 : 0.05;
+    uint64_t size = base_mix(at + seed) % 3 ? p % 4 : base_mix(at) % 16;
+    return p < 2 ? lo + (double)p : 0.1 + 0.25 * scene_unit(seed, 1000 + size);
 }
 
 static inline double scene_mixed(uint64_t seed, uint64_t counter) {
@@ -56,7 +65,10 @@ static inline double scene_coordinate(guard_scene scene, uint64_t seed, size_t c
     case SCENE_DIAGONAL:
         return along;
     case SCENE_COPIES:
+        if (p < 2) return (double)p; /* makes middle planes lattice planes */
         return floor(1024 * scene_unit(seed, 8 * (uint64_t)copy + (unsigned)axis)) / 1024;
+    case SCENE_COARSE:
+        return p < 2 ? (double)p : (53 * (4 + floor(9 * x)) - 168) / 512;
     case SCENE_ONE_PLACE:
         return p == 0 ? 0 : p == 1 ? 1 : 0.3;
     case SCENE_HUGE:
@@ -66,7 +78,9 @@ static inline double scene_coordinate(guard_scene scene, uint64_t seed, size_t c
     case SCENE_ULPS:
         return 1 + DBL_EPSILON * floor(100 * (axis + 1) * x);
     case SCENE_FAR:
-        return (axis == 0 ? 0x1p50 : 0) + floor(64 * x) * 0.25;
+        return (axis == 0 ? 0x1p50 : 0) + (axis == 0 ? floor(8 * x) / 4 : 2 * x);
+    case SCENE_SHELLS:
+        return scene_shell(seed, p, axis, at);
     default:
         return scene_mixed(seed, at);
     }

@@ -1,6 +1,7 @@
 /* The guard tree: against its rule, against itself in other orders, places and sizes, and in adversity. */
 #include "guard_oracle.h"
 #include "guard_scenes.h"
+#include "split/guard_shrink.h"
 #include <pthread.h>
 
 enum { WAYS = 4 };
@@ -108,12 +109,14 @@ static void check_scenes(int dim, size_t most, unsigned rounds) {
 
 static void all_ways_follow_the_rule_in_the_plane(void **state) {
     (void)state;
-    check_scenes(2, 200, 100);
+    check_scenes(2, 40, 100);
+    check_scenes(2, 200, 60);
     check_scenes(2, 3000, 4);
 }
 static void all_ways_follow_the_rule_in_space(void **state) {
     (void)state;
-    check_scenes(3, 200, 60);
+    check_scenes(3, 40, 60);
+    check_scenes(3, 200, 30);
     check_scenes(3, 3000, 3);
 }
 static void all_ways_follow_the_rule_in_four_to_eight_dimensions(void **state) {
@@ -125,6 +128,73 @@ static void all_ways_follow_the_rule_in_four_to_eight_dimensions(void **state) {
     check_scenes(8, 50, 3);
 }
 
+static void roundings_and_ties_follow_the_rule(void **state) {
+    (void)state;
+    static const guard_scene scenes[] = {SCENE_SHELLS, SCENE_FAR, SCENE_ULPS, SCENE_DENORMAL};
+    for (uint64_t seed = 0; seed < 6000; seed++) {
+        int dim = 2 + (int)(seed / 4 % 2);
+        size_t count = 4 + seed % 13;
+        double *guards = scene_new(scenes[seed % 4], seed, count, dim);
+        split_guard_options options = {.dim = dim, .k = (uint32_t)(seed / 8 % 5), .form = (split_form)(seed % 3)};
+        check_all_ways(guards, count, options, seed);
+        free(guards);
+    }
+}
+
+/* Two guards and the rule alone. */
+typedef struct two_guards {
+    guard_peeler peeler;
+    double points[2][2];
+    bool peeled[2];
+    uint32_t corner;
+    size_t at[2]; /* farthest on an axis */
+} two_guards;
+
+static const double *two_farthest(guard_peeler *self, int axis) {
+    two_guards *g = (two_guards *)self;
+    bool second_above = g->points[1][axis] > g->points[0][axis], above = guard_above(g->corner, 2, axis);
+    g->at[axis] = g->peeled[0] || (!g->peeled[1] && second_above != above);
+    return g->peeled[g->at[axis]] ? NULL : g->points[g->at[axis]];
+}
+
+static void two_peel(guard_peeler *self, int axis) {
+    two_guards *g = (two_guards *)self;
+    g->peeled[g->at[axis]] = true;
+}
+
+static void planes_that_rounding_throws_out_of_the_cube_are_left_out(void **state) {
+    (void)state;
+    for (uint32_t corner = 0; corner < 4; corner += 3) {
+        const guard_cube cube = {.lo = {1, 0}, .hi = {1 + 3 * DBL_EPSILON, 0.75}};
+        const double x = 1 + DBL_EPSILON, y = 0.375;
+        two_guards guards = {.peeler = {two_farthest, two_peel}, .points = {{x, y}, {x, y}}, .corner = corner};
+        guard_shrunk shrunk;
+        guard_shrink_rule(&cube, 2, corner, 1, &guards.peeler, &shrunk);
+        assert_int_equal(shrunk.count, 1);
+        assert_int_equal(shrunk.axes[0], 1);
+        assert_true(shrunk.values[0] == 0.375);
+        assert_int_equal(shrunk.inner, corner & 1);
+    }
+}
+
+static void planes_never_pass_a_guard_by_rounding(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 20000; seed++) {
+        uint32_t corner = 3 * (uint32_t)(seed % 2);
+        double sign = corner ? -1 : 1, v = -sign * 0.7 * scene_unit(seed, 0);
+        double far = sign * (0.2 + 0.3 * scene_unit(seed, 1)), near = 0.1 * scene_unit(seed, 2) * far;
+        two_guards guards = {
+            .peeler = {two_farthest, two_peel}, .points = {{far, near}, {near, far}}, .corner = corner};
+        guard_cube cube = {.lo = {v, v}, .hi = {v + 4, v + 4}};
+        if (corner) cube = (guard_cube){.lo = {v - 4, v - 4}, .hi = {v, v}};
+        guard_shrunk shrunk;
+        guard_shrink_rule(&cube, 2, corner, 2, &guards.peeler, &shrunk);
+        assert_int_equal(shrunk.count, 2); /* both are peeled at the same distance, and on their plane or beyond */
+        assert_true(corner ? far <= shrunk.cube.lo[0] : shrunk.cube.hi[0] <= far);
+        assert_true(shrunk.values[1] == far);
+    }
+}
+
 static void few_guards_make_one_leaf(void **state) {
     (void)state;
     const double two[] = {1, 2, 3, 4};
@@ -134,6 +204,26 @@ static void few_guards_make_one_leaf(void **state) {
         assert_int_equal(tree.nodes.data[0].guards, count);
         assert_int_equal(tree.height, 0);
         discard(&tree);
+    }
+}
+
+static void the_root_is_a_cube_with_all_guards_inside(void **state) {
+    (void)state;
+    for (int scene = 0; scene < SCENE_COUNT; scene++) {
+        double *guards = scene_new((guard_scene)scene, 3, 300, 3), edge = 0, unit = DBL_TRUE_MIN;
+        split_guard_tree tree = build(guards, 300, (split_guard_options){.dim = 3, .k = 9}, 1);
+        for (int i = 0; i < 3; i++) {
+            edge = fmax(edge, 0.5 * tree.hi[i] - 0.5 * tree.lo[i]);
+            unit = fmax(unit, fmax(fabs(tree.lo[i]), fabs(tree.hi[i])) * DBL_EPSILON);
+        }
+        for (int i = 0; i < 3; i++) {
+            assert_true(isfinite(tree.lo[i]) && isfinite(tree.hi[i]));
+            assert_true(edge - (0.5 * tree.hi[i] - 0.5 * tree.lo[i]) <= unit);
+            for (size_t p = scene == SCENE_HUGE ? 2 : 0; p < 300; p++)
+                assert_true(tree.lo[i] < guards[3 * p + (size_t)i] && guards[3 * p + (size_t)i] < tree.hi[i]);
+        }
+        discard(&tree);
+        free(guards);
     }
 }
 
@@ -218,11 +308,15 @@ static void threads_do_not_change_a_bit(void **state) {
 
 static void large_scenes_follow_the_rule_too(void **state) {
     (void)state;
-    enum { COUNT = 100000 };
-    double *guards = scene_new(SCENE_UNIFORM, 3, COUNT, 2);
-    for (size_t i = 0; i < COUNT; i++) guards[i] = floor(guards[i] * 512) / 512; /* half of them on a coarse lattice */
-    check_all_ways(guards, COUNT, (split_guard_options){.dim = 2, .k = 8}, 4);
-    free(guards);
+    static const guard_scene scenes[] = {SCENE_UNIFORM, SCENE_COPIES, SCENE_HUGE,  SCENE_FAR,
+                                         SCENE_ULPS,    SCENE_MIXED,  SCENE_COARSE};
+    static const uint32_t ks[] = {0, 5, 100, 300};
+    enum { COUNT = 10000 };
+    for (size_t s = 0; s < 4 * sizeof scenes / sizeof *scenes; s++) {
+        double *guards = scene_new(scenes[s / 4], s, COUNT, 2);
+        check_all_ways(guards, COUNT, (split_guard_options){.dim = 2, .k = ks[s % 4]}, 4);
+        free(guards);
+    }
 }
 
 /* ----------------------------------------------------------------- adversity -- */
@@ -355,7 +449,11 @@ int main(void) {
         cmocka_unit_test(all_ways_follow_the_rule_in_the_plane),
         cmocka_unit_test(all_ways_follow_the_rule_in_space),
         cmocka_unit_test(all_ways_follow_the_rule_in_four_to_eight_dimensions),
+        cmocka_unit_test(roundings_and_ties_follow_the_rule),
+        cmocka_unit_test(planes_that_rounding_throws_out_of_the_cube_are_left_out),
+        cmocka_unit_test(planes_never_pass_a_guard_by_rounding),
         cmocka_unit_test(few_guards_make_one_leaf),
+        cmocka_unit_test(the_root_is_a_cube_with_all_guards_inside),
         cmocka_unit_test(equal_guards_die_in_one_shrink),
         cmocka_unit_test(loads_and_forms_are_as_promised),
         cmocka_unit_test(scaling_by_a_power_of_two_scales_the_tree),
