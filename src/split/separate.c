@@ -122,9 +122,21 @@ static bool share_a_point(split_work *work, const split_cell *cell) {
     return true;
 }
 
+/** Room for the sides of any two objects of the cell, as split_classify wants it. */
+static bool make_room(split_set *set, const split_cell *cell) {
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        uint32_t n = split_corner_count(set, set->items.data + cell->first + i);
+        if (n > most) most = n;
+    }
+    set->sides.count = 0;
+    return array_reserve(&set->alloc, &set->sides, 2 * (size_t)most);
+}
+
 split_verdict split_separate(split_work *work, const split_cell *cell, double *normal, froe_cut *cut) {
     if (by_axis(work, cell, cut) && cell->attempt < 2) return SPLIT_CUT;
     if (work->set.scene->dim > 3 || share_a_point(work, cell)) return SPLIT_INSEPARABLE;
+    if (!make_room(&work->set, cell)) return SPLIT_MEMORY;
     for (uint32_t i = 0; i < cell->count; i++)
         for (uint32_t j = 0; j < i; j++)
             if (between(work, object_at(work, cell, i), object_at(work, cell, j), normal, cut)) return SPLIT_CUT;
