@@ -33,7 +33,7 @@ static const char *const forms[] = {"auto", "slabs", "cross", NULL};
 static const char *const no_yes[] = {"no", "yes", NULL};
 static const froe_option_info options[] = {
     [MODE] = {"mode", "how k is found: fixed, by doubling lambda, or tuned by cost", 0, 0, 2, modes, true},
-    [K] = {"k", "guards left in a cell of the guard stage; -1: 64 in the plane, 16 elsewhere", -1, -1, 1e9, NULL, true},
+    [K] = {"k", "guards left in a cell of the guard stage; -1: 256 in the plane, 16 elsewhere", -1, -1, 1e9, NULL, true},
     [FORM] = {"form", "outer cells of a shrink: slabs (de Berg) or a cross (Sacks)", 0, 0, 2, forms, true},
     [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by dimension", -1, -1, 1e9,
               NULL, true},
@@ -71,8 +71,8 @@ typedef struct density {
 static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
     bool plane = scene->dim == 2, segments = plane;
     for (uint32_t i = 0; i < scene->object_count && segments; i++) segments = scene_form(scene, i) == FROE_SEGMENT;
-    if (option[K] < 0) option[K] = plane ? 64 : 16;
-    if (option[STOP] < 0) option[STOP] = plane ? (leaf > 8 ? leaf : 8) : 256;
+    if (option[K] < 0) option[K] = plane ? 256 : 16;
+    if (option[STOP] < 0) option[STOP] = plane ? (leaf > 32 ? leaf : 32) : 256;
     if (option[SUPPORTS] < 0) option[SUPPORTS] = plane ? 8 : 20;
     if (option[QUANTILES] < 0) option[QUANTILES] = segments ? 0 : plane ? 3 : 10;
 }

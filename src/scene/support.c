@@ -29,8 +29,8 @@ void scene_object_bounds(const froe_scene *s, uint32_t object, double *lo, doubl
     for (uint32_t i = 1, n = scene_corners(s, object); i < n; i++) {
         x = scene_point(s, object, i);
         for (int k = 0; k < s->dim; k++) {
-            if (x[k] < lo[k]) lo[k] = x[k];
-            if (x[k] > hi[k]) hi[k] = x[k];
+            lo[k] = x[k] < lo[k] ? x[k] : lo[k]; /* without branches: which end is the lower one is anyone's guess */
+            hi[k] = x[k] > hi[k] ? x[k] : hi[k];
         }
     }
 }
