@@ -175,17 +175,15 @@ static void put_word(unsigned char *to, size_t value) {
 }
 
 static size_t put_glb(const char *path, size_t cut) {
-    char json[1500];
-    snprintf(json, sizeof json, instances, "");
     unsigned char glb[2048] = "glTF";
-    size_t text = strlen(json), padded = (text + 3) / 4 * 4, whole = 20 + padded + 8 + sizeof points;
+    size_t text = (size_t)snprintf((char *)glb + 20, 1500, instances, "");
+    size_t padded = (text + 3) / 4 * 4, whole = 20 + padded + 8 + sizeof points;
     assert_true(whole <= sizeof glb);
     put_word(glb + 4, 2);
     put_word(glb + 8, whole);
     put_word(glb + 12, padded);
     put_word(glb + 16, 0x4e4f534a); /* JSON */
-    memset(glb + 20, ' ', padded);
-    memcpy(glb + 20, json, text);
+    memset(glb + 20 + text, ' ', padded - text);
     put_word(glb + 20 + padded, sizeof points);
     put_word(glb + 24 + padded, 0x004e4942); /* BIN */
     memcpy(glb + 28 + padded, points, sizeof points);
