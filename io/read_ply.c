@@ -55,9 +55,10 @@ static const char *next_word(ply *p, char *word) {
     return word;
 }
 
-/* To the next line; false at the end of the file. */
+/* To the next line; false at the end of the file, or of its text: a zero byte. */
 static bool next_line(ply *p) {
     p->at += strcspn(p->at, "\r\n");
+    if (!*p->at) return false;
     if (*p->at == '\r') ++p->at;
     if (*p->at == '\n') ++p->at;
     return p->at < p->end;

@@ -47,6 +47,56 @@ static void one_model_comes_through_every_format(void **state) {
     check_pair("binary.stl", "Stereolithography (STL) (assimp)");
 }
 
+/* Binary, either byte order: double coordinates, a face of four, an edge, and a property that is left alone. */
+static void put_binary_ply(const char *path, bool big) {
+    static const double corners[4][3] = {{0.1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.1, 1, 0}};
+    static const unsigned short indices[] = {0, 1, 2, 3}, ends[] = {3, 1};
+    unsigned char bytes[1024];
+    int size = snprintf((char *)bytes, sizeof bytes,
+                        "ply\nformat binary_%s_endian 1.0\ncomment two\nelement vertex 4\nproperty double x\n"
+                        "property double y\nproperty uchar red\nproperty double z\nelement face 1\n"
+                        "property list uchar ushort vertex_indices\nelement edge 1\nproperty ushort vertex1\n"
+                        "property ushort vertex2\nend_header\n",
+                        big ? "big" : "little");
+    unsigned char *at = bytes + size;
+    for (int v = 0; v < 4; v++)
+        for (int k = 0; k < 3; k++) {
+            if (k == 2) *at++ = 200;
+            for (int i = 0; i < 8; i++) at[big ? 7 - i : i] = ((const unsigned char *)&corners[v][k])[i];
+            at += 8;
+        }
+    *at++ = 4;
+    for (int i = 0; i < 6; i++, at += 2) {
+        unsigned short value = i < 4 ? indices[i] : ends[i - 4];
+        at[big] = (unsigned char)value;
+        at[!big] = 0;
+    }
+    write_bytes(path, bytes, (size_t)(at - bytes));
+}
+
+static void binary_ply_comes_in_both_byte_orders(void **state) {
+    (void)state;
+    for (int big = 0; big < 2; big++) {
+        put_binary_ply("binary.ply", big);
+        froe_read_options options = froe_read_defaults();
+        options.faces = FROE_FACES_POLYGONS;
+        froe_read_report report;
+        froe_scene *scene = read_with("binary.ply", &options, &report);
+        assert_string_equal(report.precision, "float64");
+        assert_int_equal(froe_scene_object_count(scene), 2);
+        assert_int_equal(froe_scene_object(scene, 0).corners, 4);
+        assert_true(same_point(corner(scene, 0, 3), 0.1, 1, 0));
+        assert_int_equal(froe_scene_object(scene, 1).kind, FROE_SEGMENT);
+        assert_true(same_point(corner(scene, 1, 1), 1, 0, 0));
+        froe_scene_free(scene);
+    }
+    write_text("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                            "property float z\nend_header\n1 2 3\n4 5 6\n");
+    froe_scene *scene = read_scene("cloud.ply", NULL);
+    assert_int_equal(froe_scene_kind_count(scene, FROE_POINT), 2);
+    froe_scene_free(scene);
+}
+
 /* -------------------------------------------------------------- polygons -- */
 
 static const char *const solids = "OFF\n14 5 0\n"
@@ -241,6 +291,7 @@ static void doubles_survive_in_off_and_obj(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_model_comes_through_every_format),
+        cmocka_unit_test(binary_ply_comes_in_both_byte_orders),
         cmocka_unit_test(exactly_planar_convex_polygons_can_stay_whole),
         cmocka_unit_test(polygons_are_split_along_ears),
         cmocka_unit_test(a_comb_is_covered_once),

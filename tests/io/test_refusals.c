@@ -94,6 +94,13 @@ static void broken_models_are_refused(void **state) {
         {"a.obj", "once upon a time\n"},
         {"a.stl", "solid a\nfacet normal 0 0"},
         {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"},
+        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n0\n1\n"},
+        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 999999999\nproperty float x\nend_header\n0\n"},
+        {"a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\nend_header\n1 0\n"},
+        {"a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\nend_header\n-1\n"},
+        {"a.ply", "ply\nelement vertex 1\nproperty float x\nend_header\n0\n"},
+        {"a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty double x\nend_header\n1234567"},
+        {"a.ply", "ply\nformat odd 1.0\nend_header\n"},
         {"a.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scenes\":["},
         {"a.ifc", "ISO-10303-21;\nHEADER;\n"},
     };
@@ -101,6 +108,9 @@ static void broken_models_are_refused(void **state) {
         write_text(files[i].path, files[i].text);
         refuse(files[i].path, FROE_E_FORMAT, files[i].path);
     }
+    static const char zero[] = "ply\nformat ascii 1.0\0element vertex 1\nend_header\n";
+    write_bytes("zero.ply", zero, sizeof zero - 1);
+    refuse("zero.ply", FROE_E_FORMAT, "the header has no end");
     write_text("b.off", "4OFF\n1 0 0\n0 0 0 0\n");
     refuse("b.off", FROE_E_UNSUPPORTED, "b.off");
     write_text("b.obj", "v 0 0 0\n");
