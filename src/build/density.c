@@ -37,7 +37,7 @@ static const froe_option_info options[] = {
     [FORM] = {"form", "outer cells of a shrink: slabs (de Berg) or a cross (Sacks)", 0, 0, 2, forms, true},
     [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by dimension", -1, -1, 1e9,
               NULL, true},
-    [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never", 4, 0, 1e9, NULL,
+    [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never", 1.5, 0, 1e9, NULL,
                 false},
     [SUPPORTS] = {"supports", "supporting planes tried per cell; -1: by dimension", -1, -1, 1000, NULL, true},
     [QUANTILES] = {"quantiles", "axis-parallel planes tried per cell and axis; -1: by dimension", -1, -1, 1000, NULL,

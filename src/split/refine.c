@@ -73,11 +73,16 @@ static bool is_free(const split_set *set, const split_fragment *f) {
     return f->count > 0;
 }
 
+/** Free cuts: a few, evenly chosen from all, so that one of them balances. */
 static void enter_free_cuts(contest *c) {
-    const split_set *set = &c->work->set;
-    uint32_t entered = 0, most = c->config->supports > 4 ? c->config->supports : 4;
-    for (uint32_t i = 0; i < c->cell->count && entered < most && !c->best.perfect; i++)
-        if (is_free(set, set->items.data + c->cell->first + i)) enter_support(c, i), entered++;
+    const split_fragment *items = c->work->set.items.data + c->cell->first;
+    uint32_t all = 0, seen = 0, most = c->config->supports > 4 ? c->config->supports : 4;
+    for (uint32_t i = 0; i < c->cell->count; i++) all += is_free(&c->work->set, items + i);
+    for (uint32_t i = 0, next = 0; seen < all && !c->best.perfect; i++) {
+        if (!is_free(&c->work->set, items + i)) continue;
+        if (all <= most || seen >= (uint32_t)((2 * (uint64_t)next + 1) * all / (2 * most))) enter_support(c, i), next++;
+        seen++;
+    }
 }
 
 /** A plane through an edge of one polygon and a vertex of another: what balances the fan around a common
