@@ -1,4 +1,4 @@
-/* fuzz_read.c: any bytes as a CSV or OFF file: the formats that froe parses by itself. (What
+/* fuzz_read.c: any bytes as a CSV, OFF, PLY or OBJ file: the formats that froe parses by itself. (What
  * GDAL and assimp parse, their own fuzzers see to.) A header is put before the bytes, so that
  * they reach the right reader. */
 #include "support.h"
@@ -8,8 +8,9 @@
 static const struct {
     const char *header, *suffix;
 } forms[] = {
-    {"x;y\n", ".csv"},   {"x,y\n", ".csv"}, {"x,y,z,tag\n", ".csv"},     {"lo_x,lo_y,hi_x,hi_y\n", ".csv"},
-    {"x,y,r\n", ".csv"}, {"OFF\n", ".off"}, {"z\tx\ty\tnote\n", ".csv"},
+    {"x;y\n", ".csv"},     {"x,y\n", ".csv"}, {"x,y,z,tag\n", ".csv"},     {"lo_x,lo_y,hi_x,hi_y\n", ".csv"},
+    {"x,y,r\n", ".csv"},   {"OFF\n", ".off"}, {"z\tx\ty\tnote\n", ".csv"}, {"ply\n", ".ply"},
+    {"v 0 0 0\n", ".obj"},
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

@@ -112,11 +112,21 @@ static froe_status check(const char *path, const froe_read_options *o, froe_scen
     return FROE_OK;
 }
 
+/* Layers and attributes are things of maps: a filter must not be ignored in silence. */
+static froe_status check_filters(const io_source *source, io_reader *reader, froe_diagnostic *diag) {
+    const froe_read_options *o = source->options;
+    if (reader == io_read_ogr || (!o->layer && !o->where)) return FROE_OK;
+    return io_fail(diag, FROE_E_OPTIONS, "%s: is not a map: it has no %s", io_short(source->path),
+                   o->layer ? "layers" : "attributes to filter by");
+}
+
 static froe_status pour(const io_source *source, io_sink *sink, froe_scene **out) {
     if (is_moving(source))
         return io_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: holds moving features, which are no scene at rest",
                        io_short(source->path));
-    froe_status status = choose(source)(source, sink);
+    io_reader *reader = choose(source);
+    froe_status status = check_filters(source, reader, sink->diag);
+    if (!status) status = reader(source, sink);
     if (!status) status = io_sink_end_feature(sink);
     if (!status && !sink->total)
         status = io_fail(sink->diag, FROE_E_INPUT,

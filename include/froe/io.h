@@ -76,7 +76,8 @@ typedef struct froe_read_report {
  *
  * FROE_E_IO: missing, unreadable, a directory. FROE_E_FORMAT: empty, of no known type, truncated
  * or broken. FROE_E_INPUT: NaN or infinite coordinates, or no objects at all; the message names the
- * feature. FROE_E_OPTIONS: no such layer, a filter OGR cannot parse. FROE_E_UNSUPPORTED: moving
+ * feature. FROE_E_OPTIONS: no such layer, a filter OGR cannot apply, either of them
+ * for a file that is not a map. FROE_E_UNSUPPORTED: moving
  * features, more than 8 axes. FROE_E_MEMORY, FROE_E_CANCELLED, FROE_E_LIMIT. */
 FROE_API froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out,
                                froe_read_report *report, froe_diagnostic *diag);

@@ -129,6 +129,12 @@ static void wrong_calls_are_refused(void **state) {
     options.faces = (froe_faces)7;
     assert_int_equal(froe_read("x.csv", &options, &scene, NULL, NULL), FROE_E_OPTIONS);
     assert_null(scene);
+    options = froe_read_defaults();
+    options.layer = "roof";
+    refuse_with(FROE_TEST_DATA "/fzk-haus.glb", &options, FROE_E_OPTIONS, "it has no layers");
+    options.layer = NULL;
+    options.where = "x > 3";
+    refuse_with(FROE_TEST_DATA "/fzk-haus-boxes.csv", &options, FROE_E_OPTIONS, "no attributes");
 }
 
 /* ------------------------------------------------------------------ silence -- */
