@@ -33,7 +33,8 @@ static const char *const forms[] = {"auto", "slabs", "cross", NULL};
 static const char *const no_yes[] = {"no", "yes", NULL};
 static const froe_option_info options[] = {
     [MODE] = {"mode", "how k is found: fixed, by doubling lambda, or tuned by cost", 0, 0, 2, modes, true},
-    [K] = {"k", "guards left in a cell of the guard stage; -1: 256 in the plane, 16 elsewhere", -1, -1, 1e9, NULL, true},
+    [K] = {"k", "guards left in a cell of the guard stage; -1: 256 in the plane, 16 elsewhere", -1, -1, 1e9, NULL,
+           true},
     [FORM] = {"form", "outer cells of a shrink: slabs (de Berg) or a cross (Sacks)", 0, 0, 2, forms, true},
     [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by dimension", -1, -1, 1e9,
               NULL, true},
