@@ -1,6 +1,6 @@
 /* segments.c: a million disjoint short segments: time and bytes to build, beside Boost's packed R-tree.
  *
- *     bench_segments [N [KIND]]        default: 10^6 of "scatter"
+ *     bench_segments [N [KIND [SETTINGS]]]        default: 10^6 of "scatter", the defaults of density
  *
  * One thread. froe and Boost take turns; ratios are taken pair by pair, by the wall clock and by processor time,
  * because on a shared machine only the second is ours. Both start from coordinates in memory: Boost's time includes
@@ -29,12 +29,12 @@ static void read_clocks(double at[CLOCKS]) {
     at[WALL] = bench_now(), at[CPU] = bench_cpu();
 }
 
-static froe_report one_pair(const double *xyxy, size_t n, times *t, int run) {
+static froe_report one_pair(const double *xyxy, size_t n, const char *settings, times *t, int run) {
     double at[4][CLOCKS];
     read_clocks(at[0]);
     froe_scene *scene = bench_segments(xyxy, n);
     read_clocks(at[1]);
-    froe_tree *tree = bench_build(scene, "density", NULL, 1, 1, NULL);
+    froe_tree *tree = bench_build(scene, "density", settings, 1, 1, NULL);
     read_clocks(at[2]);
     const froe_report r = froe_tree_report(tree);
     froe_tree_free(tree);
@@ -77,7 +77,7 @@ int main(int argc, char **argv) {
     double *xyxy = flatten(scene, n);
     froe_scene_free(scene);
     froe_report r = {0};
-    for (int i = 0; i < RUNS; i++) r = one_pair(xyxy, n, &t, i);
+    for (int i = 0; i < RUNS; i++) r = one_pair(xyxy, n, argc > 3 ? argv[3] : NULL, &t, i);
     printf("%zu of %s, density, leaf 1: %.1f bytes and %.3f pieces an object, height %llu\n", n, kind,
            (double)r.bytes / (double)n, (double)r.fragments / (double)n, (unsigned long long)r.height);
     printf("%-10s %9s %9s %9s %9s %9s\n", "seconds", "scene", "build", "Boost", "ratio", "+ scene");
