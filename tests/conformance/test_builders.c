@@ -40,6 +40,13 @@ static void assert_same_tree(const froe_tree *a, const froe_tree *b) {
     if (a->bound_count > 1) assert_memory_equal(a->bounds + 1, b->bounds + 1, (a->bound_count - 1) * sizeof *a->bounds);
 }
 
+/** Small scenes must not slip by the guard stage of methods that have one. */
+static const char *settings_of(const froe_method_info *method) {
+    for (const froe_option_info *o = method->options; o && o->name; o++)
+        if (!strcmp(o->name, "stop")) return "k=4 stop=1";
+    return NULL;
+}
+
 static froe_build_options options(const char *method, uint32_t leaf) {
     froe_build_options o = froe_build_defaults();
     o.method = method;
@@ -83,9 +90,12 @@ static void check_audit(froe_scene *scene, const froe_method_info *method, const
     static const uint32_t leaves[] = {0, 1, 5};
     for (size_t i = may_end_in_cuts(scene) ? 0 : 1; i < 3; i++) {
         froe_build_options o = options(method->name, leaves[i]);
-        froe_tree *tree = build(scene, &o);
-        audit(tree, name, leaves[i]);
-        froe_tree_free(tree);
+        for (int variant = 0; variant < 2; variant++) {
+            if (variant && !(o.settings = settings_of(method))) break;
+            froe_tree *tree = build(scene, &o);
+            audit(tree, name, leaves[i]);
+            froe_tree_free(tree);
+        }
     }
 }
 
@@ -96,7 +106,7 @@ static froe_tree *build_from_stage(froe_scene *scene, const build_method *method
     base_task_init(&task, 1, NULL, NULL);
     build_job job = {
         .scene = scene, .alloc = base_allocator(NULL), .task = &task, .leaf = 1, .seed = 1, .first = first};
-    assert_int_equal(options_parse(method, NULL, job.option, NULL), FROE_OK);
+    assert_int_equal(options_parse(method, settings_of(&method->info), job.option, NULL), FROE_OK);
     if (method->resolve) method->resolve(scene, 1, job.option);
     assert_int_equal(method->build(&job, &tree), FROE_OK);
     return tree;
@@ -118,6 +128,7 @@ static void check_threads(froe_scene *scene, const froe_method_info *method, con
     (void)name;
     froe_tree *one = NULL, *three = NULL;
     froe_build_options o = options(method->name, 1);
+    o.settings = settings_of(method);
     o.max_fragments = BUDGET; /* on scenes that need more, all numbers of threads refuse alike */
     froe_status status = froe_build(scene, &o, &one, NULL);
     o.threads = 3;
@@ -172,6 +183,7 @@ static froe_status build_in(void *user, const froe_allocator *alloc) {
     froe_scene *scene = NULL;
     froe_tree *tree = NULL;
     froe_build_options o = options(f->method, 1);
+    if (!strcmp(f->method, "density")) o.settings = "k=4 stop=1";
     froe_status status = froe_generate(f->kind, 24, 7, alloc, &scene, NULL);
     if (!status) status = froe_build(scene, &o, &tree, NULL);
     froe_tree_free(tree);

@@ -75,6 +75,7 @@ static inline froe_tree *trees_build(froe_scene *scene, const char *method, uint
     o.method = method;
     o.leaf = leaf;
     o.threads = 1;
+    if (!strcmp(method, "density")) o.settings = "k=8 stop=1 growth=4"; /* so that small scenes have a guard stage */
     if (froe_build(scene, &o, &tree, &why) != FROE_OK) fail_msg("%s", why.message);
     return tree;
 }
