@@ -153,6 +153,7 @@ static bool one_point(const contest *c) {
 
 static bool balance_due(const split_refine *config, const split_cell *cell) {
     const double log_43 = 0.41503749927884381; /* log2(4/3) */
+    if (cell->depth + 78 < config->height) return false; /* 2^32 fragments are not 78 levels of quarters deep */
     return config->height > 0 && cell->depth + base_log2(cell->count) / log_43 >= config->height;
 }
 
