@@ -1,6 +1,6 @@
 /* random.h: all randomness is a hash of (seed, path of the node, counter), so that
- * it depends neither on the order of work nor on the number of threads
- * (spec: determinism). A path is 1 at the root; a child's comes from base_path(). */
+ * it depends neither on the order of work nor on the number of threads.
+ * A path is 1 at the root; a child's comes from base_path(). */
 #ifndef FROE_BASE_RANDOM_H
 #define FROE_BASE_RANDOM_H
 #include <stdint.h>

@@ -6,7 +6,6 @@
  *         /               n + 2 n ln n fragments on average (Sacks, lemma 12.1; Paterson and Yao 1990).
  *
  * Choosing the best of several random candidates gives fewer pieces in practice. */
-#include "base/log2.h"
 #include "build/method.h"
 #include "split/refine.h"
 

@@ -18,7 +18,6 @@ void split_scratch_free(split_work *work) {
     split_scratch *s = work->scratch;
     if (!s) return;
     split_view_free(&work->set.alloc, &s->view);
-    array_free(&work->set.alloc, &s->picks);
     base_free(&work->set.alloc, s, sizeof *s);
     work->scratch = NULL;
 }

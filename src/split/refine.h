@@ -24,7 +24,6 @@ typedef struct split_refine {
 /** What refining keeps per thread. */
 typedef struct split_scratch {
     split_view view;
-    ARRAY(uint32_t) picks;
     double normal[3]; /**< of a FROE_CUT_PLANE just chosen */
 } split_scratch;
 
