@@ -78,9 +78,10 @@ static froe_status deal(split_set *set, const split_cell *cell, const split_plan
         set->items.count = cell->first;
         return FROE_OK;
     }
+    if (set->items.count + n->of[SPLIT_BOTH] > INT32_MAX) return FROE_E_LIMIT; /* each becomes a piece at least */
     if (!array_reserve(&set->alloc, &set->spare, cell->count)) return FROE_E_MEMORY;
     if (!array_reserve(&set->alloc, &set->items, (size_t)n->of[SPLIT_BOTH])) return FROE_E_MEMORY;
-    if (cell->count) memcpy(set->spare.data, set->items.data + cell->first, cell->count * sizeof *set->spare.data);
+    memcpy(set->spare.data, set->items.data + cell->first, cell->count * sizeof *set->spare.data);
     split_fragment *pos = set->items.data + cell->first, *neg = pos + positive;
     const int8_t *sides = set->sides.data;
     for (uint32_t i = 0; i < cell->count; i++) {

@@ -3,15 +3,13 @@
 #include "split/cell.h"
 #include <string.h>
 
-enum {
-    TASK_TINY = 16,
-    TASK_LEAST = 1024,
-    TASK_SHARE = 64
-}; /* cells of at most max(least, n / share) fragments become tasks */
+/* Cells of at most max(least, n / share) fragments become tasks, except tiny ones, not worth the trouble. */
+enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_SHARE = 64 };
 
 typedef struct grow_task {
     split_cell cell;
-    uint32_t first_item, first_corner, corner_count; /**< in the store */
+    size_t first_item, first_corner; /**< in the store */
+    uint32_t corner_count;
     tree_draft draft;
 } grow_task;
 
@@ -62,8 +60,7 @@ static froe_status do_cell(grow *g, split_work *work, split_cell *cell) {
 static froe_status put_off(grow *g, split_work *work, const split_cell *cell) {
     const froe_allocator *alloc = &g->job->alloc;
     const split_set *set = &work->set;
-    grow_task task = {
-        .cell = *cell, .first_item = (uint32_t)g->store_items.count, .first_corner = (uint32_t)g->store_corners.count};
+    grow_task task = {.cell = *cell, .first_item = g->store_items.count, .first_corner = g->store_corners.count};
     if (!array_reserve(alloc, &g->store_items, cell->count)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < cell->count; i++) {
         split_fragment f = set->items.data[cell->first + i];
@@ -71,12 +68,12 @@ static froe_status put_off(grow *g, split_work *work, const split_cell *cell) {
             if (!array_reserve(alloc, &g->store_corners, f.count)) return FROE_E_MEMORY;
             memcpy(g->store_corners.data + g->store_corners.count, set->corners.data + f.first,
                    f.count * sizeof(split_corner));
-            f.first = (uint32_t)g->store_corners.count - task.first_corner;
+            f.first = (uint32_t)(g->store_corners.count - task.first_corner);
             g->store_corners.count += f.count;
         }
         g->store_items.data[g->store_items.count++] = f;
     }
-    task.corner_count = (uint32_t)g->store_corners.count - task.first_corner;
+    task.corner_count = (uint32_t)(g->store_corners.count - task.first_corner);
     draft_leaf(set->draft, cell->node, 0);
     work->set.items.count = cell->first;
     return array_push(alloc, &g->tasks, task) ? FROE_OK : FROE_E_MEMORY;
