@@ -35,14 +35,17 @@ static froe_status check_budget(grow *g, const split_work *work, size_t pieces_b
     return most && emitted + work->set.items.count > most ? FROE_E_BUDGET : FROE_OK;
 }
 
+static froe_status failure_of(split_verdict verdict) {
+    return verdict == SPLIT_MEMORY ? FROE_E_MEMORY : verdict == SPLIT_GIVE_UP ? FROE_E_BUDGET : FROE_E_CANCELLED;
+}
+
 /** Cuts or ends a cell below the guard stage. */
 static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     froe_cut cut = {.kind = FROE_CUT_NONE};
     froe_status status = cell_take(work, g->job->homes, cell, cell->wholes);
     for (bool useless = true; useless && !status; cell->attempt++) {
         split_verdict verdict = g->method->choose(g->method->config, work, cell, &cut);
-        if (verdict == SPLIT_MEMORY || verdict == SPLIT_GIVE_UP)
-            return verdict == SPLIT_MEMORY ? FROE_E_MEMORY : FROE_E_BUDGET;
+        if (verdict > SPLIT_CUT) return failure_of(verdict);
         if (verdict != SPLIT_CUT) return cell_leaf(work, cell, verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : 0);
         status = cell_cut(work, cell, &cut, &useless);
     }
@@ -90,7 +93,7 @@ static froe_status do_cells(grow *g, split_work *work, bool main_part) {
             status = put_off(g, work, &cell);
         else
             status = do_cell(g, work, &cell);
-        if (main_part && !status && !base_progress(g->job->task, g->job->task->done)) status = FROE_E_CANCELLED;
+        if (main_part && !status && !split_go_on(work)) status = FROE_E_CANCELLED;
         if (turn % 64 == 63 && base_cancelled(g->job->task)) status = status ? status : FROE_E_CANCELLED;
     }
     return status;
@@ -107,6 +110,8 @@ static froe_status start_workers(grow *g) {
         split_work *work = g->workers + g->worker_count;
         status = split_set_new(job->scene, &job->alloc, &work->set);
         if (status) break;
+        work->task = job->task;
+        work->calling = work == g->workers;
         if (job->first > work->set.context.first) work->set.context.first = job->first;
         if (g->method->scratch_new) status = g->method->scratch_new(g->method->config, work);
     }

@@ -31,7 +31,8 @@ typedef enum split_verdict {
     SPLIT_INSEPARABLE, /**< done, over capacity: nothing separates these objects */
     SPLIT_CUT,         /**< cut; the cut must lie through the cell's fragments or between them */
     SPLIT_GIVE_UP,     /**< end the whole build with FROE_E_BUDGET */
-    SPLIT_MEMORY       /**< out of memory */
+    SPLIT_MEMORY,      /**< out of memory */
+    SPLIT_CANCELLED    /**< split_go_on() said no */
 } split_verdict;
 
 /** One thread's working state; `scratch` is the builder's, one per worker. */
@@ -39,7 +40,14 @@ typedef struct split_work {
     split_set set;
     ARRAY(split_cell) cells;
     void *scratch;
+    base_task *task;
+    bool calling; /**< on the thread that the caller's call is on, the only one that talks to his callback */
 } split_work;
+
+/** False once the build is cancelled. For methods to ask in loops that one cell may make long. */
+static inline bool split_go_on(const split_work *work) {
+    return work->calling ? base_progress(work->task, work->task->done) : !base_cancelled(work->task);
+}
 
 /** A builder, as the loop sees it. `config` is shared by all threads, read only. */
 typedef struct split_method {

@@ -76,7 +76,7 @@ static bool between_hulls(split_work *work, uint32_t a, uint32_t b, froe_cut *cu
     const froe_scene *scene = work->set.scene;
     uint32_t n = scene_corners(scene, a) + scene_corners(scene, b), id[3];
     for (uint32_t i = 0; i < n; i++)
-        for (uint32_t j = i + 1; j < n; j++) {
+        for (uint32_t j = i + 1; j < n && split_go_on(work); j++) {
             id[0] = joint_corner(scene, a, b, i);
             id[1] = joint_corner(scene, a, b, j);
             if (scene->dim == 2) {
@@ -137,8 +137,11 @@ split_verdict split_separate(split_work *work, const split_cell *cell, double *n
     if (by_axis(work, cell, cut) && cell->attempt < 2) return SPLIT_CUT;
     if (work->set.scene->dim > 3 || share_a_point(work, cell)) return SPLIT_INSEPARABLE;
     if (!make_room(&work->set, cell)) return SPLIT_MEMORY;
-    for (uint32_t i = 0; i < cell->count; i++)
+    for (uint32_t i = 0; i < cell->count && split_go_on(work); i++) {
+        uint32_t a = object_at(work, cell, i);
+        if (scene_form(work->set.scene, a) < FROE_BALL) continue; /* boxes: by_axis() is complete for them */
         for (uint32_t j = 0; j < i; j++)
-            if (between(work, object_at(work, cell, i), object_at(work, cell, j), normal, cut)) return SPLIT_CUT;
-    return SPLIT_INSEPARABLE;
+            if (between(work, a, object_at(work, cell, j), normal, cut)) return SPLIT_CUT;
+    }
+    return base_cancelled(work->task) ? SPLIT_CANCELLED : SPLIT_INSEPARABLE;
 }

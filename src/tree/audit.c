@@ -256,7 +256,7 @@ static froe_status check_leaf(audit *a, uint32_t node) {
     if (count <= most) return FROE_OK;
     if (!flagged)
         return base_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", node, count, most);
-    const char *why = inseparable_refuted(&a->traces[0].context, t, list, count);
+    const char *why = inseparable_refuted(&a->traces[0].context, a->task, t, list, count);
     return why ? base_fail(a->diag, FROE_E_AUDIT, "node %u: called inseparable, but %s", node, why) : FROE_OK;
 }
 
@@ -264,12 +264,11 @@ static froe_status check_leaves(audit *a) {
     const froe_tree *t = a->tree;
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < t->node_count && !status; i++) {
-        if (!tree_is_leaf(t->nodes + i)) continue;
-        status = check_leaf(a, i);
-        if (i % 65536 == 0 && !base_progress(a->task, a->task->done))
-            return base_fail(a->diag, FROE_E_CANCELLED, "cancelled");
+        if (i % 65536 == 0) base_progress(a->task, a->task->done);
+        if (base_cancelled(a->task)) return base_fail(a->diag, FROE_E_CANCELLED, "cancelled");
+        if (tree_is_leaf(t->nodes + i)) status = check_leaf(a, i);
     }
-    return status;
+    return status || !base_cancelled(a->task) ? status : base_fail(a->diag, FROE_E_CANCELLED, "cancelled");
 }
 
 /* ----------------------------------------------------------------- promises -- */

@@ -4,6 +4,7 @@
 
 typedef struct pair {
     num_context *context;
+    base_task *task;
     const froe_scene *scene;
     uint32_t a, b;
 } pair;
@@ -24,6 +25,11 @@ static int hull_side(const pair *p, const geom_plane *plane, uint32_t object) {
 static int side_of(const pair *p, const geom_plane *plane, uint32_t object) {
     if (scene_form(p->scene, object) == FROE_HULL) return hull_side(p, plane, object);
     return geom_side_ball(p->context, plane, scene_point(p->scene, object, 0), scene_radius(p->scene, object));
+}
+
+/* To be asked in long loops. */
+static bool go_on(const pair *p) {
+    return base_progress(p->task, p->task->done);
 }
 
 static bool separates(const pair *p, const geom_plane *plane) {
@@ -63,7 +69,7 @@ static bool hulls_separated(const pair *p) {
     uint32_t n = scene_corners(p->scene, p->a) + scene_corners(p->scene, p->b);
     const double *x[3];
     for (uint32_t i = 0; i < n; i++)
-        for (uint32_t j = i + 1; j < n; j++) {
+        for (uint32_t j = i + 1; j < n && go_on(p); j++) {
             x[0] = joint_corner(p, i);
             x[1] = joint_corner(p, j);
             if (p->scene->dim == 2 && plane_separates(p, x)) return true;
@@ -127,21 +133,26 @@ static bool share_a_point(const froe_scene *s, const tree_piece *list, uint32_t 
     return true;
 }
 
-static bool any_pair_separated(num_context *context, const froe_scene *s, const tree_piece *list, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++)
+static bool any_pair_separated(pair p, const tree_piece *list, uint32_t count) {
+    for (uint32_t i = 0; i < count && go_on(&p); i++) {
+        p.a = list[i].object;
+        if (scene_form(p.scene, p.a) < FROE_BALL) continue; /* axis-parallel planes are complete for boxes */
         for (uint32_t j = 0; j < i; j++) {
-            pair p = {context, s, list[i].object, list[j].object};
+            p.b = list[j].object;
             if (separated(&p)) return true;
         }
+    }
     return false;
 }
 
-const char *inseparable_refuted(num_context *context, const froe_tree *tree, const tree_piece *list, uint32_t count) {
+const char *inseparable_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_piece *list,
+                                uint32_t count) {
     const froe_scene *s = tree->scene;
     if (one_point(s, list, count)) return NULL;
     for (uint32_t i = 0; i < count; i++)
         if (scene_form(s, list[i].object) <= FROE_POLYGON) return "the support of one of its objects would divide it";
     if (axis_separates(s, list, count)) return "an axis-parallel plane separates two of its objects";
     if (s->dim > 3 || share_a_point(s, list, count)) return NULL;
-    return any_pair_separated(context, s, list, count) ? "a plane separates two of its objects" : NULL;
+    pair p = {.context = context, .task = task, .scene = s};
+    return any_pair_separated(p, list, count) ? "a plane separates two of its objects" : NULL;
 }

@@ -1,6 +1,7 @@
 /* inseparable.h: may a leaf hold more objects than its capacity? */
 #ifndef FROE_TREE_INSEPARABLE_H
 #define FROE_TREE_INSEPARABLE_H
+#include "base/task.h"
 #include "geom/predicates.h"
 #include "tree/tree.h"
 
@@ -11,6 +12,8 @@
  *     for boxes;
  *   - two balls in R^2 or R^3 by the plane across the line of their centres, between them, in doubles;
  *   - two hulls by a plane through their corners: complete.
- * O(m dim), and O(m^2) pairs of balls or hulls when axis-parallel planes fail. */
-const char *inseparable_refuted(num_context *context, const froe_tree *tree, const tree_piece *list, uint32_t count);
+ * O(m dim), and O(m^2) pairs of balls or hulls when axis-parallel planes fail. On the calling thread of `task`;
+ * NULL, too, when that was cancelled meanwhile. */
+const char *inseparable_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_piece *list,
+                                uint32_t count);
 #endif
