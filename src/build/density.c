@@ -122,6 +122,12 @@ typedef struct guard_stage {
     split_homes homes;
 } guard_stage;
 
+static froe_status explain(const guard_stage *g, froe_status status) {
+    if (status == FROE_E_LIMIT) return base_fail(g->job->diag, status, "more than 2^31 guards or fragments");
+    if (status == FROE_E_CANCELLED) return base_fail(g->job->diag, status, "cancelled");
+    return status ? base_fail_memory(g->job->diag) : FROE_OK;
+}
+
 static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
     static const split_form form[] = {SPLIT_FORM_DEFAULT, SPLIT_FORM_U, SPLIT_FORM_S};
     split_guard_options o = {.dim = g->job->scene->dim, .k = k, .form = form[(int)g->job->option[FORM]]};
@@ -130,9 +136,7 @@ static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
     froe_status status =
         split_guard_tree_build(&g->job->alloc, g->job->task, span, &o, g->guards.points, g->guards.count, &g->tree);
     if (!status) status = split_homes_make(&g->job->alloc, g->job->task, g->job->scene, &g->tree, &g->homes);
-    if (status == FROE_E_LIMIT) return base_fail(g->job->diag, status, "more than 2^31 guards");
-    if (status == FROE_E_CANCELLED) return base_fail(g->job->diag, status, "cancelled");
-    return status ? base_fail_memory(g->job->diag) : FROE_OK;
+    return explain(g, status);
 }
 
 /** A job for the shared loop with this guard tree. */
@@ -143,7 +147,8 @@ static split_job guard_job(const guard_stage *g) {
     return split;
 }
 
-/** Carries the objects down the guard tree without building anything. FROE_E_BUDGET: a load above `most`. */
+/** Carries the objects down the guard tree without building anything. FROE_E_BUDGET: a load above `most`, which
+ * is no failure yet, so it gets no sentence. */
 static froe_status measure(guard_stage *g, uint32_t most, loads *out) {
     out->leaves = out->fragments = out->squares = 0;
     out->largest = 0;
@@ -154,7 +159,8 @@ static froe_status measure(guard_stage *g, uint32_t most, loads *out) {
     split.max_fragments = 0;
     split.span *= 0.1;
     split.diag = NULL;
-    return split_grow(&split, &method, NULL);
+    froe_status status = split_grow(&split, &method, NULL);
+    return status == FROE_E_BUDGET ? status : explain(g, status);
 }
 
 /** Sacks' loop, made safe: a round is given up at the first leaf above (1 + c_d) lambda objects, so that it
@@ -190,7 +196,7 @@ static froe_status guard_stage_make(guard_stage *g) {
     const froe_scene *scene = g->job->scene;
     froe_status status =
         split_guards_of(&g->job->alloc, g->job->task, 0.02, scene, NULL, scene->object_count, &g->guards);
-    if (status) return base_fail(g->job->diag, status, "%s", froe_status_text(status));
+    if (status) return explain(g, status);
     int mode = (int)g->job->option[MODE];
     if (mode == MODE_DOUBLING) return by_doubling(g);
     if (mode == MODE_TUNED) return by_cost(g);
