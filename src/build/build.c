@@ -1,6 +1,7 @@
 /* build.c: froe_build: check what is asked for, find the method, let it work. */
 #include "base/status.h"
 #include "build/options.h"
+#include <locale.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -104,6 +105,17 @@ static froe_status prepare(const froe_build_options *o, const build_method *meth
     return FROE_OK;
 }
 
+/** A caller's decimal comma must neither refuse settings nor get into trees. */
+static froe_status prepare_in_any_locale(const froe_build_options *o, const build_method *method, build_job *job) {
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), callers;
+    if (!plain) return base_fail_memory(job->diag);
+    callers = uselocale(plain);
+    froe_status status = prepare(o, method, job);
+    uselocale(callers);
+    freelocale(plain);
+    return status;
+}
+
 froe_status froe_build(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
     const build_method *method;
     base_task task;
@@ -116,7 +128,7 @@ froe_status froe_build(froe_scene *scene, const froe_build_options *options, fro
     if (status) return status;
     build_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag};
     base_task_init(&task, o.threads, o.progress, o.user);
-    status = prepare(&o, method, &job);
+    status = prepare_in_any_locale(&o, method, &job);
     if (!status && !base_progress(&task, 0)) status = base_fail(diag, FROE_E_CANCELLED, "cancelled");
     if (!status) status = method->build(&job, out);
     if (!status) base_progress(&task, 1);

@@ -27,7 +27,7 @@ static const froe_option_info *find(const build_method *method, const char *name
     return NULL;
 }
 
-/** A plain decimal number that fills the word. Locale does not matter: only digits, sign, point, e. */
+/** A plain decimal number that fills the word: only digits, sign, point, e. */
 static bool parse_number(const char *text, size_t length, double *out) {
     char copy[64], *end;
     if (!length || length >= sizeof copy || strspn(text, "+-.0123456789eE") < length) return false;
