@@ -5,6 +5,7 @@
 #include "support/memory.h"
 #include "tree/tree.h"
 #include <froe/io.h>
+#include <locale.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -96,6 +97,25 @@ static void check_audit(froe_scene *scene, const froe_method_info *method, const
             audit(tree, name, leaves[i]);
             froe_tree_free(tree);
         }
+    }
+}
+
+static bool has_option(const froe_method_info *method, const char *name) {
+    for (const froe_option_info *o = method->options; o && o->name; o++)
+        if (!strcmp(o->name, name)) return true;
+    return false;
+}
+
+/** With the ways to find k, and without a limit to growth. */
+static void check_modes(froe_scene *scene, const froe_method_info *method, const char *name) {
+    static const char *const settings[] = {"mode=doubling stop=1", "mode=tuned stop=4 form=slabs growth=0"};
+    if (!has_option(method, "mode")) return;
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        froe_build_options o = options(method->name, 1);
+        o.settings = settings[i];
+        froe_tree *tree = build(scene, &o);
+        audit(tree, name, 1);
+        froe_tree_free(tree);
     }
 }
 
@@ -201,6 +221,100 @@ static void a_build_survives_every_failing_allocation(void **state) {
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) test_memory_each(build_in, (void *)&faults[i]);
 }
 
+static bool count_to_fifty(void *user, double done) {
+    (void)done;
+    return ++*(int *)user < 50;
+}
+
+/** Any two of these balls overlap, but no point is in all: every pair is looked at, and nothing separates any. */
+static void long_work_on_one_cell_can_be_cancelled(void **state) {
+    enum { COUNT = 90 };
+    static const double centres[3][2] = {{0, 0}, {1.9, 0}, {0.95, 1.6}};
+    double coords[2 * COUNT], radii[COUNT];
+    froe_scene *scene;
+    froe_tree *tree = NULL;
+    froe_diagnostic diag = {0};
+    int calls = 0;
+    (void)state;
+    for (int i = 0; i < COUNT; i++) {
+        coords[2 * i] = centres[i % 3][0] + i * 0x1p-14;
+        coords[2 * i + 1] = centres[i % 3][1];
+        radii[i] = 1;
+    }
+    froe_objects balls = froe_objects_defaults();
+    balls.kind = FROE_BALL;
+    balls.count = COUNT;
+    balls.coords = coords;
+    balls.radii = radii;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &balls, NULL), FROE_OK);
+    froe_build_options o = options("density", 1);
+    o.settings = "stop=1000";
+    o.progress = count_to_fifty;
+    o.user = &calls;
+    assert_int_equal(froe_build(scene, &o, &tree, &diag), FROE_E_CANCELLED);
+    assert_string_equal(diag.message, "cancelled");
+    o.progress = NULL;
+    tree = build(scene, &o);
+    assert_int_equal(froe_tree_report(tree).inseparable, 1);
+    froe_audit_options audits = froe_audit_defaults();
+    audits.threads = 1;
+    audits.progress = count_to_fifty;
+    audits.user = &calls;
+    calls = 0;
+    assert_int_equal(froe_tree_audit(tree, &audits, &diag), FROE_E_CANCELLED);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
+static bool count_down(void *user, double done) {
+    (void)done;
+    return (*(int *)user)--;
+}
+
+/** Also by the stages that only look for settings. */
+static void every_cancelled_build_says_so(void **state) {
+    static const char *const settings[] = {"mode=fixed", "mode=doubling", "mode=tuned"};
+    (void)state;
+    for (int i = 0; i < 3 * 50; i++) {
+        int calls = i / 3 * 20;
+        froe_scene *scene;
+        froe_tree *tree = NULL;
+        froe_diagnostic diag = {0};
+        froe_build_options o = options("density", 1);
+        o.settings = settings[i % 3];
+        o.progress = count_down;
+        o.user = &calls;
+        assert_int_equal(froe_generate("segments", MANY, 7, NULL, &scene, NULL), FROE_OK);
+        froe_status status = froe_build(scene, &o, &tree, &diag);
+        assert_int_equal(diag.status, status);
+        assert_string_equal(diag.message, status ? "cancelled" : "");
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
+static void settings_have_decimal_points_in_any_locale(void **state) {
+    static const char *const locales[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "C"};
+    (void)state;
+    for (size_t i = 0; i < sizeof locales / sizeof *locales; i++) {
+        froe_scene *scene;
+        froe_build_options o = options("density", 1);
+        o.settings = "weight=0.25";
+        setlocale(LC_ALL, locales[i]); /* where it is not installed nothing changes */
+        assert_int_equal(froe_generate("segments", OBJECTS, 7, NULL, &scene, NULL), FROE_OK);
+        froe_tree *tree = build(scene, &o);
+        assert_non_null(strstr(froe_tree_report(tree).settings, "weight=0.25 "));
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
+static void every_way_to_find_k_passes_the_exact_audit(void **state) {
+    (void)state;
+    for_all(OBJECTS, check_modes);
+}
+
 static void every_tree_passes_the_exact_audit(void **state) {
     (void)state;
     for_all(OBJECTS, check_audit);
@@ -229,10 +343,14 @@ static void a_build_can_be_cancelled(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_tree_passes_the_exact_audit),
+        cmocka_unit_test(every_way_to_find_k_passes_the_exact_audit),
         cmocka_unit_test(a_tree_does_not_depend_on_filters),
         cmocka_unit_test(a_tree_does_not_depend_on_threads),
         cmocka_unit_test(a_budget_is_kept_to_the_piece),
         cmocka_unit_test(a_build_can_be_cancelled),
+        cmocka_unit_test(long_work_on_one_cell_can_be_cancelled),
+        cmocka_unit_test(every_cancelled_build_says_so),
+        cmocka_unit_test(settings_have_decimal_points_in_any_locale),
         cmocka_unit_test(a_build_survives_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
