@@ -22,10 +22,10 @@
  * most three in the sum:  |x - sum n w_true + c| <= ((1+u)^5 - 1) P < 5.1u P, and P itself
  * is computed to (1 +- 5u). The error of the normal adds at most n_err sum |w_true|; n_err is
  * rounded up by 2^-48, which pays for the roundings here. Hence e = 8u P + n_err sum |w| + TINY. */
-static inline num_ball filter_sum(const geom_plane *h, const double w[3], double c) {
+static inline num_ball filter_sum_in(int dim, const geom_plane *h, const double *w, double c) {
     double p0 = h->n[0] * w[0], p1 = h->n[1] * w[1], x = p0 + p1;
     double size = fabs(p0) + fabs(p1), spread = fabs(w[0]) + fabs(w[1]);
-    if (h->dim == 3) {
+    if (dim == 3) {
         double p2 = h->n[2] * w[2];
         x += p2;
         size += fabs(p2);
@@ -34,6 +34,10 @@ static inline num_ball filter_sum(const geom_plane *h, const double w[3], double
     x -= c;
     size += fabs(c);
     return (num_ball){x, 8 * FILTER_U * size + h->n_err * spread + NUM_BALL_TINY};
+}
+
+static inline num_ball filter_sum(const geom_plane *h, const double w[3], double c) {
+    return filter_sum_in(h->dim, h, w, c);
 }
 
 /* a - b for two doubles: one rounding, no underflow. */
@@ -49,6 +53,13 @@ static inline num_ball filter_value(const geom_plane *h, const double *x) {
     if (h->form == GEOM_VECTOR) return filter_sum(h, w, h->c);
     for (int k = 0; k < 3; k++) w[k] -= h->p[0][k];
     return filter_sum(h, w, 0);
+}
+
+/* The sign of f(x) in the plane, form POINTS, or NUM_UNSURE: the filter_value that builders ask for most. */
+static inline int filter_beside_line(const geom_plane *h, const double *x) {
+    const double w[2] = {x[0] - h->p[0][0], x[1] - h->p[0][1]};
+    num_ball f = filter_sum_in(2, h, w, 0);
+    return f.x > f.e ? 1 : f.x < -f.e ? -1 : NUM_UNSURE;
 }
 
 /* n . (v - u) */

@@ -169,8 +169,31 @@ static int classify_corners(split_set *set, const split_plane *plane, const spli
     return class;
 }
 
+/** Whole segments beside a line, the commonest question of all. */
+static int classify_pair(split_set *set, const split_plane *plane, const split_fragment *f) {
+    const double *u = split_image(set, f, 0), *v = split_image(set, f, 1);
+    int a = filter_beside_line(&plane->plane, u), b = filter_beside_line(&plane->plane, v);
+    unsigned sure = (a != NUM_UNSURE) + (b != NUM_UNSURE);
+    set->context.stats.calls += sure;
+    set->context.stats.filtered += sure;
+    if (a == NUM_UNSURE) a = near_vertex_side(set, plane, u);
+    if (b == NUM_UNSURE) b = near_vertex_side(set, plane, v);
+    if (a * b < 0) {
+        set->sides.data[set->sides.count++] = (int8_t)a;
+        set->sides.data[set->sides.count++] = (int8_t)b;
+    }
+    return class_of((a < 0) | (b < 0), (a > 0) | (b > 0));
+}
+
+static bool is_pair_beside_line(const split_set *set, const split_plane *plane, const split_fragment *f,
+                                froe_kind form) {
+    return form == FROE_SEGMENT && !f->count && plane->plane.form == GEOM_POINTS && plane->plane.dim == 2 &&
+           set->context.first == NUM_FILTER;
+}
+
 int split_classify(split_set *set, const split_plane *plane, const split_fragment *f) {
     froe_kind form = scene_form(set->scene, f->object);
+    if (is_pair_beside_line(set, plane, f, form)) return classify_pair(set, plane, f);
     if (form == FROE_BALL) return classify_ball(set, plane, f->object);
     if (form == FROE_BOX && plane->plane.form != GEOM_AXIS) return classify_box(set, plane, f->object);
     return classify_corners(set, plane, f, split_is_cut(form));
