@@ -17,7 +17,7 @@ function(froe_test area name)
   add_test(NAME ${area}/${name} COMMAND ${ARGN} WORKING_DIRECTORY ${scratch})
   set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${seconds}
     ENVIRONMENT_MODIFICATION
-    "UBSAN_OPTIONS=set:print_stacktrace=1;LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0")
+    "UBSAN_OPTIONS=set:print_stacktrace=1;LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0;TSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp")
 endfunction()
 
 # The core and the parts with everything visible, and what tests share: oracles, failing allocators.
