@@ -70,27 +70,21 @@ static froe_status emit_in_cut(split_set *set, const split_cell *cell, uint32_t 
     return status;
 }
 
-/** Replaces the cell's fragments by those of its children: positive below, negative on top. */
+/** Replaces the cell's fragments by those of its children: positive below, negative on top. A fragment leaves at
+ * most one on the positive side, so these close up in place while the negative ones wait aside. */
 static froe_status deal(split_set *set, const split_cell *cell, const split_plane *plane, const counts *n) {
-    uint32_t positive = n->of[SPLIT_POS] + n->of[SPLIT_BOTH], negative = n->of[SPLIT_NEG] + n->of[SPLIT_BOTH];
+    if (!array_reserve(&set->alloc, &set->items, n->of[SPLIT_BOTH])) return FROE_E_MEMORY;
     set->spare.count = 0;
-    if (!cell->count) { /* the arrays may not be there yet */
-        set->items.count = cell->first;
-        return FROE_OK;
-    }
-    if (set->items.count + n->of[SPLIT_BOTH] > INT32_MAX) return FROE_E_LIMIT; /* each becomes a piece at least */
     if (!array_reserve(&set->alloc, &set->spare, cell->count)) return FROE_E_MEMORY;
-    if (!array_reserve(&set->alloc, &set->items, (size_t)n->of[SPLIT_BOTH])) return FROE_E_MEMORY;
-    memcpy(set->spare.data, set->items.data + cell->first, cell->count * sizeof *set->spare.data);
-    split_fragment *pos = set->items.data + cell->first, *neg = pos + positive;
+    split_fragment *item = set->items.data + cell->first, *pos = item, *neg = set->spare.data;
     const int8_t *sides = set->sides.data;
     for (uint32_t i = 0; i < cell->count; i++) {
-        const split_fragment f = set->spare.data[i];
+        const split_fragment f = item[i];
         int class = set->classes.data[i];
-        if (class == SPLIT_NEG)
-            *neg++ = f;
-        else if (class == SPLIT_POS)
+        if (class == SPLIT_POS)
             *pos++ = f;
+        else if (class == SPLIT_NEG)
+            *neg++ = f;
         else if (class == SPLIT_BOTH && !split_is_cut(scene_form(set->scene, f.object)))
             *neg++ = *pos++ = f;
         else if (class == SPLIT_BOTH) {
@@ -99,7 +93,9 @@ static froe_status deal(split_set *set, const split_cell *cell, const split_plan
             sides += split_corner_count(set, &f);
         }
     }
-    set->items.count = cell->first + positive + negative;
+    size_t negative = (size_t)(neg - set->spare.data);
+    if (negative) memcpy(pos, set->spare.data, negative * sizeof *pos);
+    set->items.count = (size_t)(pos - set->items.data) + negative;
     return FROE_OK;
 }
 
