@@ -22,7 +22,7 @@ static const cli_option options[] = {
     {"output", 'o', CLI_TEXT, offsetof(build_args, output), "TREE",
      .help = "save the tree here (default: report only)"},
     {"method", 'm', CLI_TEXT, offsetof(build_args, method), "M",
-     .help = "a builder that froe methods lists, or auto (default), which chooses by dimension and kind of object"},
+     .help = "a builder that froe methods lists, or auto (default), which takes the one that serves the scene best"},
     {"for", 0, CLI_CHOICE, offsetof(build_args, purpose), "USE",
      .help = "what auto chooses for: pieces (default), query or draw", .choices = purposes},
     {"leaf", 0, CLI_WHOLE, offsetof(build_args, leaf), "K",

@@ -1,4 +1,5 @@
 /* writer.c: atomic text files, numbers and quotes. */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "writer.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -12,15 +13,19 @@ static froe_status fail(io_writer *w, int error) {
     return io_fail(w->diag, FROE_E_IO, "%s: cannot be written: %s", io_short(w->path), io_errno(error).text);
 }
 
+static const char *target_of(const io_writer *w) {
+    return w->real ? w->real : w->path;
+}
+
 /* A file that did not exist before, beside the target. -1 with errno. */
 static int create_beside(io_writer *w) {
     enum { ATTEMPTS = 100 };
-    size_t room = strlen(w->path) + 48;
+    size_t room = strlen(target_of(w)) + 48;
     char *name = io_buffer_add(&w->alloc, &w->temporary, room);
     if (!name) return errno = ENOMEM, -1;
     int file = -1;
     for (int i = 0; i < ATTEMPTS && file < 0; ++i) {
-        snprintf(name, room, "%s.%ld-%p-%d.tmp", w->path, (long)getpid(), (void *)w, i);
+        snprintf(name, room, "%s.%ld-%p-%d.tmp", target_of(w), (long)getpid(), (void *)w, i);
         file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file < 0 && errno != EEXIST) return -1;
     }
@@ -32,6 +37,7 @@ static int open_target(io_writer *w) {
     bool exists = !stat(w->path, &about);
     if (exists && S_ISDIR(about.st_mode)) return errno = EISDIR, -1;
     if (exists && !S_ISREG(about.st_mode)) return open(w->path, O_WRONLY | O_CLOEXEC);
+    if (exists && !(w->real = realpath(w->path, NULL))) return -1;
     int file = create_beside(w);
     if (file >= 0 && exists && fchmod(file, about.st_mode & 07777)) errno = 0; /* a courtesy; may fail */
     return file;
@@ -39,6 +45,12 @@ static int open_target(io_writer *w) {
 
 static const char *temporary_name(const io_writer *w) {
     return w->temporary.size ? w->temporary.data : NULL;
+}
+
+static void forget(io_writer *w) {
+    io_buffer_free(&w->alloc, &w->temporary);
+    io_locale_leave(&w->locale);
+    free(w->real);
 }
 
 froe_status io_writer_open(io_writer *w, const char *path, froe_diagnostic *diag) {
@@ -52,8 +64,7 @@ froe_status io_writer_open(io_writer *w, const char *path, froe_diagnostic *diag
         close(file);
         if (temporary_name(w)) unlink(temporary_name(w));
     }
-    io_buffer_free(&w->alloc, &w->temporary);
-    io_locale_leave(&w->locale);
+    forget(w);
     return error == ENOMEM ? io_fail_memory(diag) : fail(w, error);
 }
 
@@ -65,10 +76,9 @@ froe_status io_writer_close(io_writer *w, froe_status status) {
     if (!error && temporary && !status && fsync(fileno(w->file))) error = errno;
     if (fclose(w->file) && !error) error = errno;
     if (!status && error) status = fail(w, error);
-    if (temporary && !status && rename(temporary, w->path)) status = fail(w, errno);
+    if (temporary && !status && rename(temporary, target_of(w))) status = fail(w, errno);
     if (temporary && status) unlink(temporary);
-    io_buffer_free(&w->alloc, &w->temporary);
-    io_locale_leave(&w->locale);
+    forget(w);
     return status;
 }
 

@@ -12,6 +12,7 @@
 typedef struct io_writer {
     FILE *file;
     const char *path;
+    char *real;          /**< what a link points to: that is replaced, the link stays; NULL: path is no old file */
     io_buffer temporary; /**< its name; empty: the target itself is written */
     froe_allocator alloc;
     froe_diagnostic *diag;

@@ -245,6 +245,21 @@ static void a_file_is_whole_or_as_it_was(void **state) {
     froe_tree_free(tree);
 }
 
+static void a_link_stays_a_link(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(generated("segments", 50), 1);
+    write_text("behind.csv", "old");
+    unlink("link.csv");
+    assert_int_equal(symlink("behind.csv", "link.csv"), 0);
+    assert_int_equal(froe_export(tree, "link.csv", FROE_EXPORT_FRAGMENTS, NULL, NULL), FROE_OK);
+    froe_tree_free(tree);
+    struct stat about;
+    assert_int_equal(lstat("link.csv", &about), 0);
+    assert_true(S_ISLNK(about.st_mode));
+    assert_int_equal(stat("behind.csv", &about), 0);
+    assert_true(about.st_size > 100);
+}
+
 static void a_full_disk_is_told(void **state) {
     (void)state;
     if (access("/dev/full", W_OK)) skip();
@@ -302,6 +317,7 @@ int main(void) {
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(scenes_that_do_not_fit_their_file_are_refused),
         cmocka_unit_test(a_file_is_whole_or_as_it_was),
+        cmocka_unit_test(a_link_stays_a_link),
         cmocka_unit_test(a_full_disk_is_told),
         cmocka_unit_test(names_are_quoted),
     };
