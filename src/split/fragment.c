@@ -61,9 +61,11 @@ static int known_side(split_set *set, int side) {
 /** Beyond the filter: a vertex that the plane runs through by its making (equal coordinates are the
  * same vertex), or any other. */
 static int near_vertex_side(split_set *set, const split_plane *plane, const double *x) {
-    size_t size = (size_t)set->scene->dim * sizeof *x;
-    for (uint32_t i = 0; i < plane->known_count; i++)
-        if (!memcmp(plane->known[i], x, size)) return known_side(set, 0);
+    int dim = set->scene->dim;
+    for (uint32_t i = 0; i < plane->known_count; i++) {
+        const double *k = plane->known[i];
+        if (k[0] == x[0] && k[1] == x[1] && (dim == 2 || k[2] == x[2])) return known_side(set, 0);
+    }
     return geom_side_vertex(&set->context, &plane->plane, x);
 }
 
@@ -193,6 +195,7 @@ static bool is_pair_beside_line(const split_set *set, const split_plane *plane, 
 
 int split_classify(split_set *set, const split_plane *plane, const split_fragment *f) {
     froe_kind form = scene_form(set->scene, f->object);
+    if (plane->cut.kind == FROE_CUT_OBJECT && plane->cut.id[0] == f->object) return SPLIT_ON;
     if (is_pair_beside_line(set, plane, f, form)) return classify_pair(set, plane, f);
     if (form == FROE_BALL) return classify_ball(set, plane, f->object);
     if (form == FROE_BOX && plane->plane.form != GEOM_AXIS) return classify_box(set, plane, f->object);

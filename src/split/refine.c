@@ -26,7 +26,7 @@ void split_scratch_free(split_work *work) {
 typedef struct choice {
     froe_cut cut;
     double cost;
-    bool any, perfect; /**< perfect: splits nothing and halves the rest; no other can be better */
+    bool any, good; /**< good: splits nothing and leaves at most three quarters on a side; no better one is sought */
 } choice;
 
 /** The rules that hold for all candidates of one cell. */
@@ -44,7 +44,8 @@ static void enter(contest *c, const froe_cut *cut, split_tally tally) {
     double cost = split_cost(&c->scratch->view, tally, c->config->weight, c->strict);
     if (c->best.any && cost >= c->best.cost) return;
     uint32_t larger = tally.negative > tally.positive ? tally.negative : tally.positive;
-    c->best = (choice){*cut, cost, true, !tally.both && 2 * larger <= tally.negative + tally.positive + 1};
+    c->best = (choice){*cut, cost, true,
+                       !tally.both && 4 * (uint64_t)larger <= 3 * ((uint64_t)tally.negative + tally.positive) + 2};
 }
 
 static void enter_support(contest *c, uint32_t item) {
@@ -57,7 +58,7 @@ static void enter_support(contest *c, uint32_t item) {
 /** All fragments of a small cell, or a draw from a large one. */
 static void enter_supports(contest *c) {
     uint32_t m = c->cell->count, tries = c->config->supports;
-    for (uint32_t i = 0; i < (m <= tries ? m : tries) && !c->best.perfect; i++) {
+    for (uint32_t i = 0; i < (m <= tries ? m : tries) && !c->best.good; i++) {
         if (m <= tries)
             enter_support(c, i);
         else
@@ -77,7 +78,7 @@ static void enter_free_cuts(contest *c) {
     const split_fragment *items = c->work->set.items.data + c->cell->first;
     uint32_t all = 0, seen = 0, most = c->config->supports > 4 ? c->config->supports : 4;
     for (uint32_t i = 0; i < c->cell->count; i++) all += is_free(&c->work->set, items + i);
-    for (uint32_t i = 0, next = 0; seen < all && !c->best.perfect; i++) {
+    for (uint32_t i = 0, next = 0; seen < all && !c->best.good; i++) {
         if (!is_free(&c->work->set, items + i)) continue;
         if (all <= most || seen >= (uint32_t)((2 * (uint64_t)next + 1) * all / (2 * most))) enter_support(c, i), next++;
         seen++;
@@ -110,7 +111,7 @@ static void enter_edges(contest *c) {
 
 static bool enter_axes(contest *c) {
     split_view *view = &c->scratch->view;
-    for (int axis = 0; axis < c->work->set.scene->dim && !c->best.perfect; axis++) {
+    for (int axis = 0; axis < c->work->set.scene->dim && !c->best.good; axis++) {
         if (!split_view_extents(view, &c->work->set, c->cell, axis)) return false;
         size_t n = view->values.count, tries = c->config->quantiles;
         if (tries > n) tries = n;
@@ -151,7 +152,7 @@ static bool one_point(const contest *c) {
 }
 
 static bool balance_due(const split_refine *config, const split_cell *cell) {
-    const double log_43 = 0.41503749927884381; /* log2(4/3) */
+    const double log_43 = 0.41503749927884381;           /* log2(4/3) */
     if (cell->depth + 78 < config->height) return false; /* 2^32 fragments are not 78 levels of quarters deep */
     return config->height > 0 && cell->depth + base_log2(cell->count) / log_43 >= config->height;
 }
