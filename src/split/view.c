@@ -175,7 +175,7 @@ static split_tally count_pairs(const split_view *view, const rough *h) {
     uint32_t negative = 0, positive = 0, both = 0;
     for (uint32_t i = 0; i < view->count; i++, x += 2, y += 2) {
         double from = a * x[0] + b * y[0] - d, to = a * x[1] + b * y[1] - d;
-        uint32_t below = (from < to ? from : to) < -slack, above = (from > to ? from : to) > slack;
+        uint32_t below = (from < to ? from : to)<-slack, above = (from > to ? from : to)> slack;
         negative += below;
         positive += above;
         both += below & above;
