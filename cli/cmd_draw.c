@@ -116,6 +116,10 @@ static int set_window(const cli_reals *window, size_t dim, froe_draw_options *o)
     if (!window->count) return 0;
     if (window->count != 2 * dim)
         return cli_fail(CLI_USE, NULL, "--window: %zu numbers given, but this tree needs %zu", window->count, 2 * dim);
+    for (size_t k = 0; k < dim; k++)
+        if (!(window->at[k] < window->at[dim + k]))
+            return cli_fail(CLI_USE, NULL, "--window: the lower corner, %g on axis %zu, is not below the upper, %g",
+                            window->at[k], k, window->at[dim + k]);
     memcpy(o->lo, window->at, dim * sizeof(double));
     memcpy(o->hi, window->at + dim, dim * sizeof(double));
     return 0;

@@ -93,8 +93,8 @@ static froe_status do_cells(grow *g, split_work *work, bool main_part) {
             status = put_off(g, work, &cell);
         else
             status = do_cell(g, work, &cell);
-        if (main_part && !status && !split_go_on(work)) status = FROE_E_CANCELLED;
-        if (turn % 64 == 63 && base_cancelled(g->job->task)) status = status ? status : FROE_E_CANCELLED;
+        bool ask = main_part || turn % 64 == 63; /* in tasks, too: one may be all there is */
+        if (ask && !status && !split_go_on(work)) status = FROE_E_CANCELLED;
     }
     return status;
 }

@@ -340,6 +340,22 @@ static void a_build_can_be_cancelled(void **state) {
     for_all(OBJECTS, check_cancel);
 }
 
+/** All within one task: the callback is asked there, too. */
+static void a_long_build_of_few_objects_can_be_cancelled(void **state) {
+    (void)state;
+    for (int m = 0; froe_method_at((size_t)m); m++) {
+        froe_scene *scene = NULL;
+        froe_tree *tree = NULL;
+        int left = 10;
+        froe_build_options o = options(froe_method_at((size_t)m)->name, 1);
+        o.progress = refuse;
+        o.user = &left;
+        assert_int_equal(froe_generate("slats", 200, 7, NULL, &scene, NULL), FROE_OK);
+        assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_E_CANCELLED);
+        froe_scene_free(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_tree_passes_the_exact_audit),
@@ -351,6 +367,7 @@ int main(void) {
         cmocka_unit_test(long_work_on_one_cell_can_be_cancelled),
         cmocka_unit_test(every_cancelled_build_says_so),
         cmocka_unit_test(settings_have_decimal_points_in_any_locale),
+        cmocka_unit_test(a_long_build_of_few_objects_can_be_cancelled),
         cmocka_unit_test(a_build_survives_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
