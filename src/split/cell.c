@@ -73,6 +73,11 @@ static froe_status emit_in_cut(split_set *set, const split_cell *cell, uint32_t 
 /** Replaces the cell's fragments by those of its children: positive below, negative on top. A fragment leaves at
  * most one on the positive side, so these close up in place while the negative ones wait aside. */
 static froe_status deal(split_set *set, const split_cell *cell, const split_plane *plane, const counts *n) {
+    if (!cell->count) { /* the arrays may not be there yet */
+        set->items.count = cell->first;
+        return FROE_OK;
+    }
+    if (set->items.count + n->of[SPLIT_BOTH] > INT32_MAX) return FROE_E_LIMIT; /* each becomes a piece at least */
     if (!array_reserve(&set->alloc, &set->items, n->of[SPLIT_BOTH])) return FROE_E_MEMORY;
     set->spare.count = 0;
     if (!array_reserve(&set->alloc, &set->spare, cell->count)) return FROE_E_MEMORY;
