@@ -192,15 +192,21 @@ static froe_status by_cost(guard_stage *g) {
     return make_tree(g, best, 0);
 }
 
-static froe_status guard_stage_make(guard_stage *g) {
-    const froe_scene *scene = g->job->scene;
-    froe_status status =
-        split_guards_of(&g->job->alloc, g->job->task, 0.02, scene, NULL, scene->object_count, &g->guards);
-    if (status) return explain(g, status);
+static froe_status find_k(guard_stage *g) {
     int mode = (int)g->job->option[MODE];
     if (mode == MODE_DOUBLING) return by_doubling(g);
     if (mode == MODE_TUNED) return by_cost(g);
     return make_tree(g, (uint32_t)g->job->option[K], 0.1);
+}
+
+/** The guards go as soon as their tree stands: there are up to 2^d of them per object. */
+static froe_status guard_stage_make(guard_stage *g) {
+    const froe_scene *scene = g->job->scene;
+    froe_status status =
+        split_guards_of(&g->job->alloc, g->job->task, 0.02, scene, NULL, scene->object_count, &g->guards);
+    status = status ? explain(g, status) : find_k(g);
+    split_guards_free(&g->job->alloc, &g->guards);
+    return status;
 }
 
 /* ------------------------------------------------------------------ build -- */
@@ -245,7 +251,6 @@ static froe_status build(build_job *job, froe_tree **out) {
     }
     split_homes_free(&job->alloc, &g.homes);
     split_guard_tree_free(&job->alloc, &g.tree);
-    split_guards_free(&job->alloc, &g.guards);
     return status;
 }
 
