@@ -90,6 +90,14 @@ static void print_paragraph(FILE *out, const char *text, size_t length) {
     cli_wrap(out, text, length, 0, 0);
 }
 
+static void each_exit(FILE *out, void (*entry)(FILE *, const char *label, const char *help)) {
+    for (int i = 0; i < EXITS; i++) {
+        char code[8];
+        snprintf(code, sizeof code, "%d", exits[i].code);
+        entry(out, code, exits[i].meaning);
+    }
+}
+
 void cli_help(FILE *out) {
     fprintf(out, "%s\n\nUsage: froe COMMAND [options]\n\nCommands:\n", introduction);
     const cli_command *command;
@@ -98,11 +106,7 @@ void cli_help(FILE *out) {
     print_entry(out, "--version", "version, commit, and the libraries inside; --version --json as an object");
     print_entry(out, "-h, --help", "this text; froe COMMAND --help tells about one command");
     fputs("\nExit codes:\n", out);
-    for (int i = 0; i < EXITS; i++) {
-        char code[8];
-        snprintf(code, sizeof code, "%d", exits[i].code);
-        print_entry(out, code, exits[i].meaning);
-    }
+    each_exit(out, print_entry);
 }
 
 static void print_examples(FILE *out, const char *examples) {
@@ -166,11 +170,7 @@ static void roff_title(FILE *out, const cli_command *command) {
 
 static void roff_exits(FILE *out) {
     fputs(".SH EXIT STATUS\n", out);
-    for (int i = 0; i < EXITS; i++) {
-        char code[8];
-        snprintf(code, sizeof code, "%d", exits[i].code);
-        roff_entry(out, code, exits[i].meaning);
-    }
+    each_exit(out, roff_entry);
 }
 
 static void manual_of_command(FILE *out, const cli_command *command) {
