@@ -51,6 +51,9 @@ docs: build ## tables, outputs and the picture in the documents, as they come ou
 	@scripts/check-docs --accept $(BUILD)/stage *.md docs/*.md docs/*/*.md
 	@$(BUILD)/bin/froe build data/freedoom-e1m1.geojson -o $(BUILD)/floor.froe --quiet
 	@$(BUILD)/bin/froe draw $(BUILD)/floor.froe -o docs/pictures/floor-plan.png --no-legend --quiet
+	@$(BUILD)/bin/froe generate mixed -n 14 --seed 4 -o $(BUILD)/trapezoids.geojson --quiet
+	@$(BUILD)/bin/froe build $(BUILD)/trapezoids.geojson --method cylindrical --leaf 0 -o $(BUILD)/trapezoids.froe --quiet
+	@$(BUILD)/bin/froe draw $(BUILD)/trapezoids.froe -o docs/pictures/trapezoids.png --width 500 --no-legend --quiet
 
 format: deps-lint ## all sources as .clang-format says
 	@git ls-files '*.c' '*.h' | xargs clang-format -i

@@ -1,19 +1,23 @@
 /* cmd_build.c: froe build, from a scene to a tree and its report. */
 #include "command.h"
 #include "exit.h"
+#include "order.h"
 #include "progress.h"
 #include "scene.h"
 #include "tree_report.h"
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 typedef struct build_args {
     cli_common common;
     cli_scene_args scene;
-    const char *output, *method;
+    const char *output, *method, *order;
     char *settings;
     uint64_t leaf, max_fragments;
     int purpose;
+    bool split_intersections;
 } build_args;
 
 static const char *const purposes[] = {"pieces", "query", "draw", NULL};
@@ -27,10 +31,16 @@ static const cli_option options[] = {
      .help = "what auto chooses for: pieces (default), query or draw", .choices = purposes},
     {"leaf", 0, CLI_WHOLE, offsetof(build_args, leaf), "K",
      .help =
-         "most objects in a leaf (default 1); 0: every object ends in a cut (segments in the plane and polygons only)",
+         "most objects in a leaf (default: the method's own, mostly 1); 0: every object ends in a cut (segments in the "
+         "plane and polygons only)",
      .max = UINT32_MAX},
     {"option", 0, CLI_WORDS, offsetof(build_args, settings), "NAME=VALUE",
      .help = "set an option of the method; may be given again and again"},
+    {"order", 0, CLI_TEXT, offsetof(build_args, order), "FILE",
+     .help = "take the objects in the order of this file, one id a line, instead of a random one (cylindrical)"},
+    {"split-intersections", 0, CLI_FLAG, offsetof(build_args, split_intersections),
+     .help = "cut polygons that cross others instead of refusing them (cylindrical): the same as --option "
+             "crossing=split"},
     {"max-fragments", 0, CLI_WHOLE, offsetof(build_args, max_fragments), "N",
      .help = "give up beyond so many pieces (default 0: never)"},
     {0},
@@ -70,12 +80,24 @@ static int check_output(const char *scene, const char *output) {
     return cli_fail(CLI_USE, output, "is the scene itself; the tree needs a file of its own");
 }
 
-static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
+/* The settings with what other options stand for; to be freed. */
+static char *settings_of(const build_args *args) {
+    const char *more = args->split_intersections ? "crossing=split" : "", *given = args->settings ? args->settings : "";
+    const size_t size = strlen(given) + strlen(more) + 2;
+    char *text = malloc(size);
+    if (text) snprintf(text, size, "%s %s", given, more);
+    return text;
+}
+
+static int build_with(const build_args *args, const cli_order *order, const char *settings, froe_scene *scene,
+                      froe_tree **tree) {
     cli_progress bar = cli_progress_begin(&args->common, "building");
     froe_build_options o = froe_build_defaults();
     o.method = args->method;
     o.purpose = purposes[args->purpose];
-    o.settings = args->settings;
+    o.settings = settings;
+    o.order = order->ids;
+    o.order_count = order->count;
     o.leaf = (uint32_t)args->leaf;
     o.seed = args->common.seed;
     o.max_fragments = args->max_fragments;
@@ -86,6 +108,17 @@ static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
     const froe_status status = froe_build(scene, &o, tree, &diag);
     cli_progress_end(&bar);
     return status ? cli_fail_status(CLI_WORKING, args->scene.path, status, &diag) : 0;
+}
+
+static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
+    cli_order order = {NULL, 0};
+    int code = args->order ? cli_read_order(args->order, &order) : 0;
+    if (code) return code;
+    char *settings = settings_of(args);
+    code = settings ? build_with(args, &order, settings, scene, tree) : cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    free(settings);
+    free(order.ids);
+    return code;
 }
 
 static int save(const char *path, const froe_tree *tree) {
@@ -131,7 +164,7 @@ const cli_command cli_command_build = {
                 "froe build house.glb --method autopartition --leaf 0 --json\n"
                 "froe build map.gpkg --layer roads --where \"lanes > 2\" -o roads.froe\n",
     .parts = parts,
-    .defaults = &(const build_args){.common = CLI_COMMON_DEFAULTS, .method = "auto", .leaf = 1},
+    .defaults = &(const build_args){.common = CLI_COMMON_DEFAULTS, .method = "auto", .leaf = FROE_LEAF_OWN},
     .size = sizeof(build_args),
     .run = run,
 };

@@ -97,10 +97,13 @@ static int run_steps(const cli_common *common, const demo_scene *scene, demo_res
     return 0;
 }
 
-/* The method serves the dimension and the objects of the scene: segments in the plane, polygons in space. */
+/* The method serves the dimension and the objects of the scene: segments in the plane, polygons in space; and without
+ * being asked to cut them by each other, which in a house of many storeys would take a minute. */
 static bool serves(const froe_method_info *method, int dim) {
     const froe_kind kind = dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
-    return (method->dims >> dim & 1) && (method->kinds >> kind & 1);
+    const froe_option_info *o = method->options;
+    while (o && o->name && strcmp(o->name, "crossing") != 0) o++;
+    return (method->dims >> dim & 1) && (method->kinds >> kind & 1) && !(dim == 3 && o && o->name);
 }
 
 static int compare_methods(const cli_common *common, const demo_scene *scene, demo_result *result) {

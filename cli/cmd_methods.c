@@ -46,9 +46,9 @@ static json_t *option_json(const froe_option_info *o) {
 static json_t *method_json(const froe_method_info *m) {
     json_t *list = json_array();
     for (const froe_option_info *o = m->options; o && o->name; o++) json_array_append_new(list, option_json(o));
-    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o}", "name", m->name, "summary", m->summary, "source", m->source,
-                     "guarantee", m->guarantee, "dims", dims_json(m->dims), "kinds", kinds_json(m->kinds), "options",
-                     list);
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:i, s:o}", "name", m->name, "summary", m->summary, "source",
+                     m->source, "guarantee", m->guarantee, "dims", dims_json(m->dims), "kinds", kinds_json(m->kinds),
+                     "leaf", m->leaf ? (int)m->leaf : 1, "options", list);
 }
 
 /* ------------------------------------------------------------------- text -- */

@@ -49,14 +49,14 @@ static json_t *bounds_json(const froe_promise *promise) {
 json_t *cli_tree_json(const froe_tree *tree) {
     const froe_report r = froe_tree_report(tree);
     const double each = r.objects ? (double)r.fragments / (double)r.objects : 0;
-    return json_pack("{s:s, s:o, s:i, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:o, s:o}",
-                     "method", r.method, "settings", settings_json(r.settings ? r.settings : ""), "dim", r.dim, "leaf",
-                     (json_int_t)r.leaf, "seed", (json_int_t)r.seed, "objects", (json_int_t)r.objects, "nodes",
-                     (json_int_t)r.nodes, "leaves", (json_int_t)r.leaves, "fragments", (json_int_t)r.fragments,
-                     "pieces_per_object", each, "in_cut", (json_int_t)r.in_cut, "size", (json_int_t)r.size, "height",
-                     (json_int_t)r.height, "mean_depth", r.mean_depth, "max_leaf", (json_int_t)r.max_leaf,
-                     "inseparable", (json_int_t)r.inseparable, "bytes", (json_int_t)r.bytes, "predicates",
-                     predicates_json(&r.predicates), "bounds", bounds_json(r.promises));
+    return json_pack(
+        "{s:s, s:o, s:i, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:o, s:o}",
+        "method", r.method, "settings", settings_json(r.settings ? r.settings : ""), "dim", r.dim, "leaf",
+        (json_int_t)r.leaf, "seed", (json_int_t)r.seed, "objects", (json_int_t)r.objects, "nodes", (json_int_t)r.nodes,
+        "leaves", (json_int_t)r.leaves, "fragments", (json_int_t)r.fragments, "pieces_per_object", each, "in_cut",
+        (json_int_t)r.in_cut, "size", (json_int_t)r.size, "height", (json_int_t)r.height, "mean_depth", r.mean_depth,
+        "max_leaf", (json_int_t)r.max_leaf, "inseparable", (json_int_t)r.inseparable, "crowded", (json_int_t)r.crowded,
+        "bytes", (json_int_t)r.bytes, "predicates", predicates_json(&r.predicates), "bounds", bounds_json(r.promises));
 }
 
 int cli_report_build(const cli_common *common, const char *scene, const char *output, const froe_tree *tree,

@@ -1,8 +1,9 @@
 /* output.c: Cairo surfaces into memory. What could differ between two runs is
  * pinned: the date of a PDF, and the id that Cairo takes from a counter of the
  * process for the outer group of an SVG. */
-#include "output.h"
+#include "render.h"
 #include <cairo-pdf.h>
+#include <cairo-ps.h>
 #include <cairo-svg.h>
 #include <math.h>
 #include <string.h>
@@ -31,6 +32,11 @@ static cairo_surface_t *surface_for(draw_output *output, double width, double he
         cairo_surface_t *svg = cairo_svg_surface_create_for_stream(collect, output, width, height);
         cairo_svg_surface_set_document_unit(svg, CAIRO_SVG_UNIT_PX);
         return svg;
+    }
+    if ((int)output->format == DRAW_EPS) {
+        cairo_surface_t *eps = cairo_ps_surface_create_for_stream(collect, output, width, height);
+        cairo_ps_surface_set_eps(eps, 1);
+        return eps;
     }
     if (output->format == FROE_DRAW_PDF) return cairo_pdf_surface_create_for_stream(collect, output, width, height);
     return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)ceil(width * scale), (int)ceil(height * scale));
@@ -84,6 +90,18 @@ static void shorten_numbers(draw_output *output) {
     output->bytes.count = kept;
 }
 
+/* The date of a PostScript file becomes blanks. */
+static void blank_date(draw_output *output) {
+    static const char mark[] = "%%CreationDate:";
+    unsigned char *data = output->bytes.data;
+    const size_t count = output->bytes.count, head = count < 1024 ? count : 1024;
+    for (size_t i = 0; i + sizeof mark < head; i++) {
+        if (memcmp(data + i, mark, sizeof mark - 1) != 0) continue;
+        for (i += sizeof mark - 1; i < count && data[i] != '\n'; i++) data[i] = ' ';
+        return;
+    }
+}
+
 froe_status draw_output_finish(draw_output *output, froe_diagnostic *diag) {
     cairo_status_t status = cairo_status(output->cr);
     if (status == CAIRO_STATUS_SUCCESS && output->format == FROE_DRAW_PNG)
@@ -94,6 +112,7 @@ froe_status draw_output_finish(draw_output *output, froe_diagnostic *diag) {
         pin_group_id(output);
         shorten_numbers(output);
     }
+    if ((int)output->format == DRAW_EPS) blank_date(output);
     return failed(output, status, diag);
 }
 

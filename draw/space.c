@@ -141,6 +141,8 @@ draw_plane draw_space_plane(const draw_space *space, const froe_scene *scene, co
     for (int i = 0; i < count; i++) p[i] = froe_scene_vertex(scene, cut->id[i]);
     switch (cut->kind) {
     case FROE_CUT_AXIS:
+    case FROE_CUT_VERTEX:
+    case FROE_CUT_CROSSING: /* walls, x[0] = value as far as can be seen */
         axis = draw_space_axis(space, cut->axis);
         plane.n[axis] = space->sign[axis];
         plane.c = space->sign[axis] * draw_space_map(space, axis, cut->value);

@@ -25,6 +25,8 @@ static void look_at_scene(const froe_scene *scene) {
             sum += *froe_scene_vertex(scene, froe_scene_corner(scene, (uint32_t)i, corner));
         if (object.group != FROE_NONE) sum += froe_scene_group(scene, object.group).name[0];
     }
+    uint32_t ends[2];
+    for (uint32_t edge = 0; froe_scene_edge(scene, edge, ends); edge++) sum += *froe_scene_vertex(scene, ends[1]);
     if (froe_scene_bounds(scene, lo, hi)) sum += lo[0] + hi[froe_scene_dim(scene) - 1];
     volatile double used = sum;
     (void)used;

@@ -28,6 +28,7 @@
 #define FROE_DRAW_H
 
 #include <froe/froe.h>
+#include <froe/view.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -118,6 +119,59 @@ typedef bool froe_draw_write_fn(void *user, const void *bytes, size_t count);
 /** The same picture, byte for byte, to a callback. */
 FROE_API froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_draw_write_fn *fn, void *user,
                                      const froe_draw_options *options, froe_diagnostic *diag);
+
+/* ------------------------------------------------------------------ render -- */
+
+/** How faces are filled. */
+typedef enum froe_shading {
+    FROE_SHADE_FLAT = 0,  /**< lit from the upper left of the camera, two-sided */
+    FROE_SHADE_CEL = 1,   /**< the same in few steps: see cel_levels */
+    FROE_SHADE_PLAIN = 2, /**< one colour per material */
+    FROE_SHADE_WHITE = 3, /**< white: hides what is behind */
+    FROE_SHADE_NONE = 4,  /**< no fills: lines only */
+    FROE_SHADING_COUNT = 5
+} froe_shading;
+/** "flat", "cel", "plain", "white", "none"; NULL for other numbers. */
+FROE_API const char *froe_shading_name(froe_shading shading);
+
+typedef struct froe_render_options {
+    size_t size;          /**< set by froe_render_defaults() */
+    froe_camera camera;   /**< its page is the picture's */
+    bool millimetres;     /**< one unit of the page is a millimetre; otherwise a pixel (SVG, PNG) or point (PDF, EPS) */
+    froe_shading shading; /**< default FLAT */
+    unsigned cel_levels;  /**< 2 .. 64; default 4 */
+    froe_paint paint;     /**< default WHOLE */
+    double seam_width;    /**< WHOLE: underlap against seams, in units of the page; default 1; 0: none */
+    uint32_t lines;       /**< bits of froe_line; default border, silhouette, group, crease */
+    double crease;        /**< degrees; default 30 */
+    double line_width;    /**< default 1; silhouettes and borders; other kinds have 0.6 of it */
+    bool hidden;          /**< hidden lines, dashed */
+    const double *opacity;     /**< per group, 0 .. 1; NULL: 1 */
+    const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
+    bool cull_back;
+    uint32_t background;             /**< 0xRRGGBB, or FROE_DRAW_CLEAR (default) */
+    int decimals;                    /**< SVG: digits after the point, 0 .. 6; default 2 */
+    bool ids;                        /**< SVG: one element per face, with data-object and data-group */
+    const char *title, *description; /**< SVG, PDF: UTF-8; NULL: none */
+    double pixels;                   /**< PNG: pixels per unit of the page, 0.1 .. 64; default 1 */
+    const froe_allocator *alloc;
+    froe_progress_fn *progress;
+    void *user;
+} froe_render_options;
+FROE_API froe_render_options froe_render_defaults(void);
+
+typedef struct froe_render_report {
+    froe_picture_report picture;
+    froe_projection view;
+    uint64_t paths, bytes;
+} froe_render_report;
+
+/** The polygons of a tree in space as a picture with hidden surfaces removed, exactly: see froe_picture_new(). `path`
+ * ends in .svg, .pdf, .eps or .png and appears whole or not at all. Same tree and options: the same bytes (in PDF, EPS
+ * and PNG with the same Cairo). `report` may be NULL. FROE_E_OPTIONS: a value out of range, or EPS with an opacity
+ * below 1, which EPS does not have. Otherwise as froe_camera_place(), froe_picture_new(), froe_draw(). */
+FROE_API froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
+                                 froe_render_report *report, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

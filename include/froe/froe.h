@@ -45,8 +45,9 @@ extern "C" {
 
 /* ------------------------------------------------------------------ limits -- */
 
-#define FROE_MAX_DIM 8       /**< points, boxes and balls live in R^2 .. R^8 */
-#define FROE_NONE UINT32_MAX /**< "no object", "no group", "no face" */
+#define FROE_MAX_DIM 8           /**< points, boxes and balls live in R^2 .. R^8 */
+#define FROE_NONE UINT32_MAX     /**< "no object", "no group", "no face" */
+#define FROE_LEAF_OWN UINT32_MAX /**< the leaf capacity that a method has by itself */
 
 /* ------------------------------------------------------------------ status -- */
 
@@ -191,6 +192,9 @@ FROE_API froe_object froe_scene_object(const froe_scene *scene, uint32_t object)
  * corners may start at another one than given, so that the first three span its plane, and
  * drop a corner equal to the one before; a hull's ascend, each once. */
 FROE_API uint32_t froe_scene_corner(const froe_scene *scene, uint32_t object, uint32_t corner);
+/** Vertices of an edge of an object, in order. Edges are numbered through all objects by their first corners: edge i
+ * of object o has the number of the corners of all objects before o, plus i. False if there is no such edge. */
+FROE_API bool froe_scene_edge(const froe_scene *scene, uint32_t edge, uint32_t vertices[2]);
 /** dim exact coordinates of a vertex, NULL if there is none; valid as long as the scene does not grow. */
 FROE_API const double *froe_scene_vertex(const froe_scene *scene, uint32_t vertex);
 /** Strings live as long as the scene does not grow. */
@@ -233,6 +237,8 @@ typedef struct froe_method_info {
     const char *guarantee;           /**< what its size, height and time obey, or "none" */
     uint32_t dims;                   /**< bit d set: serves R^d */
     uint32_t kinds;                  /**< bit k set: serves froe_kind k */
+    uint32_t leaf;                   /**< its own leaf capacity; 0 stands for 1 */
+    uint32_t least_leaf;             /**< the smallest it takes */
     const froe_option_info *options; /**< ended by a NULL name */
 } froe_method_info;
 /** The i-th method; NULL past the last. "auto" is not listed. */
@@ -245,9 +251,12 @@ typedef struct froe_build_options {
     const char *method;         /**< "auto" (default) or a name listed by froe_method_at() */
     const char *purpose;        /**< what "auto" chooses for: "pieces" (default), "query", "draw" */
     const char *settings;       /**< "name=value name=value": options of the method; NULL or "": defaults */
-    uint32_t leaf;              /**< most objects in a leaf, default 1; 0: everything ends in cuts
-                                     (scenes of 2D segments or of 3D polygons only) */
+    uint32_t leaf;              /**< most objects in a leaf; FROE_LEAF_OWN (default): the method's own, mostly 1;
+                                     0: everything ends in cuts (scenes of 2D segments or of 3D polygons only) */
     uint64_t seed;              /**< of all random choices; default 1 */
+    const uint32_t *order;      /**< every object once, first things first, for methods that go by an order
+                                     (cylindrical); NULL: a random one, by the seed */
+    size_t order_count;         /**< as many as there are objects; 0 without */
     uint64_t max_fragments;     /**< budget for pieces; 0: none. Beyond it: FROE_E_BUDGET */
     unsigned threads;           /**< 0: one per processor; the tree does not depend on it */
     froe_progress_fn *progress; /**< may be NULL */
@@ -296,6 +305,7 @@ typedef struct froe_report {
     double mean_depth;               /**< over pieces */
     uint64_t max_leaf;               /**< pieces in the fullest leaf */
     uint64_t inseparable;            /**< leaves over capacity because nothing can separate them */
+    uint64_t crowded;                /**< leaves over capacity because more cuts would only make more pieces (index) */
     uint64_t bytes;                  /**< the tree without the scene */
     froe_predicate_stats predicates; /**< of the build; zero for an opened tree */
     const froe_promise *promises;    /**< ended by a NULL name */
@@ -318,8 +328,16 @@ typedef enum froe_cut_kind {
     FROE_CUT_VERTICES = 3, /**< through the vertices id[0..dim-1] */
     FROE_CUT_EDGE = 4,     /**< 3D: the vertical plane through the vertices id[0], id[1] */
     FROE_CUT_PLANE = 5,    /**< normal . x = value, for dim doubles normal */
-    FROE_CUT_KIND_COUNT = 6
+    FROE_CUT_VERTEX = 6,   /**< wall x[0] = ... through the vertex id[0], see below */
+    FROE_CUT_CROSSING = 7, /**< wall through the point where id[1] crosses id[0], from its right to its left:
+                                objects in 2D, projected edges in 3D (froe_scene_edge) */
+    FROE_CUT_KIND_COUNT = 8
 } froe_cut_kind;
+
+/* Walls are lines (2D) and planes (3D) x[0] = c that are sheared by an infinitesimal amount: points are
+ * on side 0 or 1 of one by their x and, where that is c, by their y. Only points with the same x and y as the
+ * vertex or crossing lie in it. So a wall cuts vertical segments, too, and pieces may have
+ * ends with equal coordinates. `value` is c, rounded, for output. */
 
 typedef struct froe_cut {
     froe_cut_kind kind;
@@ -337,6 +355,7 @@ typedef struct froe_node_info {
     size_t first_piece, piece_count; /**< its list: leaf list, or the pieces in the cut */
     bool guard;                      /**< belongs to the guard stage of a density tree */
     bool inseparable;                /**< a leaf over capacity that nothing can separate */
+    bool crowded;                    /**< a leaf over capacity that more cuts would not thin out */
 } froe_node_info;
 FROE_API froe_node froe_tree_root(const froe_tree *tree);
 FROE_API froe_node_info froe_tree_node(const froe_tree *tree, froe_node node);

@@ -18,13 +18,13 @@
 #include "base/log2.h"
 #include "base/status.h"
 #include "build/method.h"
+#include "split/finish.h"
 #include "split/guard_tree.h"
-#include "split/guards.h"
 #include "split/refine.h"
 #include <stdatomic.h>
 #include <string.h>
 
-enum { MODE, K, FORM, STOP, GROWTH, SUPPORTS, QUANTILES, EDGES, WEIGHT, HEIGHT, FREE, SAMPLE };
+enum { MODE, K, FORM, STOP, GROWTH, SUPPORTS, QUANTILES, EDGES, WEIGHT, HEIGHT, FREE, SMALL, SAMPLE };
 enum { STAR = 1024 }; /* most objects of a cell that may be left for being barren */
 enum { MODE_FIXED, MODE_DOUBLING, MODE_TUNED };
 
@@ -48,6 +48,8 @@ static const froe_option_info options[] = {
     [WEIGHT] = {"weight", "bits of information that outweigh one split", 0.1, 0, 100, NULL, false},
     [HEIGHT] = {"height", "balanced cuts beyond this many times log2 n levels; 0: no rule", 2, 0, 1e9, NULL, false},
     [FREE] = {"free", "cut first with fragments that cross their cell", 1, 0, 1, no_yes, true},
+    [SMALL] = {"small", "cells of at most so many segments in the plane are finished from a table of sides", 48, 0, 48,
+               NULL, true},
     [SAMPLE] = {"sample", "fragments scored per candidate, at most", 512, 8, 1e6, NULL, true},
     {0},
 };
@@ -94,6 +96,11 @@ static split_verdict choose(const void *config, split_work *work, const split_ce
     return split_refine_choose(&d->refine, work, cell, cut);
 }
 
+static froe_status finish(const void *config, split_work *work, const split_cell *cell, bool *done) {
+    const density *d = config;
+    return split_finish(&d->refine, work, cell, done);
+}
+
 static bool probe_in_guard_stage(const void *config, const split_cell *cell) {
     const density *d = config;
     return d->guard->nodes.data[cell->guard].child && split_load(cell);
@@ -117,7 +124,7 @@ static split_verdict probe(const void *config, split_work *work, const split_cel
 
 typedef struct guard_stage {
     build_job *job;
-    split_guards guards;
+    split_places places;
     split_guard_tree tree;
     split_homes homes;
 } guard_stage;
@@ -133,9 +140,8 @@ static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
     split_guard_options o = {.dim = g->job->scene->dim, .k = k, .form = form[(int)g->job->option[FORM]]};
     split_guard_tree_free(&g->job->alloc, &g->tree);
     split_homes_free(&g->job->alloc, &g->homes);
-    froe_status status =
-        split_guard_tree_build(&g->job->alloc, g->job->task, span, &o, g->guards.points, g->guards.count, &g->tree);
-    if (!status) status = split_homes_make(&g->job->alloc, g->job->task, g->job->scene, &g->tree, &g->homes);
+    froe_status status = split_guard_tree_of(&g->job->alloc, g->job->task, span, &o, &g->places, &g->tree);
+    if (!status) status = split_homes_make(&g->job->alloc, g->job->task, &g->places, &g->tree, &g->homes);
     return explain(g, status);
 }
 
@@ -194,19 +200,11 @@ static froe_status by_cost(guard_stage *g) {
 
 static froe_status find_k(guard_stage *g) {
     int mode = (int)g->job->option[MODE];
+    froe_status status = split_places_make(&g->job->alloc, g->job->task, g->job->scene, &g->places);
+    if (status) return explain(g, status);
     if (mode == MODE_DOUBLING) return by_doubling(g);
     if (mode == MODE_TUNED) return by_cost(g);
-    return make_tree(g, (uint32_t)g->job->option[K], 0.1);
-}
-
-/** The guards go as soon as their tree stands: there are up to 2^d of them per object. */
-static froe_status guard_stage_make(guard_stage *g) {
-    const froe_scene *scene = g->job->scene;
-    froe_status status =
-        split_guards_of(&g->job->alloc, g->job->task, 0.02, scene, NULL, scene->object_count, &g->guards);
-    status = status ? explain(g, status) : find_k(g);
-    split_guards_free(&g->job->alloc, &g->guards);
-    return status;
+    return make_tree(g, (uint32_t)g->job->option[K], 0.12);
 }
 
 /* ------------------------------------------------------------------ build -- */
@@ -221,35 +219,41 @@ static split_refine refine_of(const build_job *job) {
                           .sample = (uint32_t)job->option[SAMPLE],
                           .weight = job->option[WEIGHT],
                           .height = job->option[HEIGHT] * base_log2(n + 2),
+                          .small = (uint32_t)job->option[SMALL],
                           .free_cuts = job->option[FREE] != 0};
 }
 
-static void promise(build_job *job, const split_guard_tree *guard) {
+/** Returns where the fragments of the guard stage are to be noted, if they are promised. */
+static double *promise(build_job *job, const split_guard_tree *guard) {
     double growth = job->option[GROWTH];
     size_t bytes = (size_t)job->scene->dim * sizeof(double); /* beyond, meta stays 0 */
     memcpy(job->meta.root_lo, guard->lo, bytes);
     memcpy(job->meta.root_hi, guard->hi, bytes);
     build_promise(job, "guard_leaves", guard->promised, (double)guard->leaves);
-    if (growth > 0) build_promise(job, "guard_fragments", 2 * growth * job->scene->object_count, 0);
+    if (growth <= 0) return NULL;
+    build_promise(job, "guard_fragments", 2 * growth * job->scene->object_count, 0);
+    return &job->meta.promises[job->meta.promise_count - 1].measured;
 }
 
 static froe_status build(build_job *job, froe_tree **out) {
     guard_stage g = {.job = job};
-    froe_status status = guard_stage_make(&g);
+    froe_status status = find_k(&g);
     if (!status) {
         density d = {.refine = refine_of(job), .guard = &g.tree, .stop = (uint32_t)job->option[STOP]};
         d.growth = (float)job->option[GROWTH];
         d.patience = 2 * (uint32_t)job->scene->dim;
         split_method method = {.config = &d,
                                .choose = choose,
+                               .finish = finish,
                                .in_guard_stage = in_guard_stage,
                                .scratch_new = split_scratch_new,
                                .scratch_free = split_scratch_free};
-        promise(job, &g.tree);
         split_job split = guard_job(&g);
+        split.guard_fragments = promise(job, &g.tree);
         status = split_grow(&split, &method, out);
     }
     split_homes_free(&job->alloc, &g.homes);
+    split_places_free(&job->alloc, &g.places);
     split_guard_tree_free(&job->alloc, &g.tree);
     return status;
 }

@@ -48,7 +48,10 @@ static inline num_ball filter_difference(double a, double b) {
 
 /* f(x) */
 static inline num_ball filter_value(const geom_plane *h, const double *x) {
-    if (h->form == GEOM_AXIS) return filter_difference(x[h->axis], h->c);
+    if (h->form <= GEOM_AT_CROSSING) { /* a sure sign is that of the sheared plane, too */
+        num_ball f = filter_difference(x[h->axis], h->c);
+        return (num_ball){f.x, (f.e + h->c_err) * FILTER_UP};
+    }
     double w[3] = {x[0], x[1], h->dim == 3 ? x[2] : 0};
     if (h->form == GEOM_VECTOR) return filter_sum(h, w, h->c);
     for (int k = 0; k < 3; k++) w[k] -= h->p[0][k];
@@ -62,9 +65,38 @@ static inline int filter_beside_line(const geom_plane *h, const double *x) {
     return f.x > f.e ? 1 : f.x < -f.e ? -1 : NUM_UNSURE;
 }
 
+/* A line of the plane and no more than its filter needs: f(x) = n . (x - o), as form POINTS has it. One rounding in
+ * n[k]. */
+typedef struct filter_line {
+    double o[2], n[2], n_err;
+} filter_line;
+
+/* trusted: num_rounding_trusted(), asked once for many lines. */
+static inline filter_line filter_line_through(const double *p, const double *q, bool trusted) {
+    filter_line h = {{p[0], p[1]}, {p[1] - q[1], q[0] - p[0]}, INFINITY};
+    if (trusted) h.n_err = 2 * FILTER_U * (fabs(h.n[0]) + fabs(h.n[1]));
+    return h;
+}
+
+/* Bound on the error of filter_line_value wherever |x[k] - o[k]| <= w[k]: that of filter_sum_in, whose sums and
+ * products grow with |w|. */
+static inline double filter_line_bound(const filter_line *h, double w0, double w1) {
+    double size = fabs(h->n[0]) * w0 + fabs(h->n[1]) * w1;
+    return (8 * FILTER_U * size + h->n_err * (w0 + w1) + NUM_BALL_TINY) * FILTER_UP;
+}
+
+/* What it adds to the bound, per unit, that x is an image with an error. */
+static inline double filter_line_reach(const filter_line *h) {
+    return (fabs(h->n[0]) + fabs(h->n[1]) + 2 * h->n_err) * FILTER_UP;
+}
+
+static inline double filter_line_value(const filter_line *h, double x, double y) {
+    return h->n[0] * (x - h->o[0]) + h->n[1] * (y - h->o[1]);
+}
+
 /* n . (v - u) */
 static inline num_ball filter_slope(const geom_plane *h, const double *u, const double *v) {
-    if (h->form == GEOM_AXIS) return filter_difference(v[h->axis], u[h->axis]);
+    if (h->form <= GEOM_AT_CROSSING) return filter_difference(v[h->axis], u[h->axis]);
     double w[3] = {v[0] - u[0], v[1] - u[1], h->dim == 3 ? v[2] - u[2] : 0};
     return filter_sum(h, w, 0);
 }

@@ -1,9 +1,19 @@
-/* formulas.h: the formulas of predicate_body.inc for balls (ball_*) and dyadic
- * numbers (dyadic_*), and the point that corners are measured from. */
+/* formulas.h: the formulas of predicate_body.inc for balls (ball_*), dyadic numbers (dyadic_*) and
+ * dyadic numbers with infinitesimals (sheared_*), and the point that corners are measured from. */
 #ifndef FROE_GEOM_FORMULAS_H
 #define FROE_GEOM_FORMULAS_H
 #include "geom/plane.h"
 #include "num/ball.h"
+#include "num/sheared.h"
+
+static inline bool geom_has_points(const geom_plane *plane) {
+    return plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL;
+}
+
+/** Is there a double point on it that needs no arithmetic? */
+static inline bool geom_has_origin(const geom_plane *plane) {
+    return plane->form == GEOM_AXIS || geom_has_points(plane);
+}
 
 #define T num_ball
 #define NAME(f) ball_##f
@@ -11,6 +21,7 @@
 #define ADD(a, b) num_ball_add(a, b)
 #define SUB(a, b) num_ball_sub(a, b)
 #define MUL(a, b) num_ball_mul(a, b)
+#define SHEAR(a) ((void)(a), num_ball_from(0))
 #include "geom/predicate_body.inc"
 
 #define T num_dyadic
@@ -19,14 +30,20 @@
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
 #define MUL(a, b) num_dyadic_mul(arena, a, b)
+#define SHEAR(a) ((void)(a), (num_dyadic){0})
 #include "geom/predicate_body.inc"
 
-static inline bool geom_has_points(const geom_plane *plane) {
-    return plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL;
-}
+#define T num_sheared
+#define NAME(f) sheared_##f
+#define FROM(x) num_sheared_from(arena, x)
+#define ADD(a, b) num_sheared_add(arena, a, b)
+#define SUB(a, b) num_sheared_sub(arena, a, b)
+#define MUL(a, b) num_sheared_mul(arena, a, b)
+#define SHEAR(a) num_sheared_shear(a)
+#include "geom/predicate_body.inc"
 
-/** Reorders three planes so that z, a point near their corner, lies on the first (unless all are
- * VECTOR planes). An axis plane alone takes its other coordinates from `near` (may be NULL). */
+/** Reorders three planes so that z, a point near their corner, lies on the first (unless none has an
+ * origin). An axis plane alone takes its other coordinates from `near` (may be NULL). */
 static inline void geom_corner_origin(const geom_plane *planes[3], const geom_plane *near, double z[3]) {
     int first = 0;
     for (int i = 2; i >= 0; i--)

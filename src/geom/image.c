@@ -9,11 +9,35 @@ static double rounded(num_arena *arena, double origin, num_dyadic offset, num_dy
     return num_dyadic_quotient(arena, num_dyadic_add(arena, shift, offset), divisor);
 }
 
+/* The same where both are polynomials in eps: its limit. */
+static double limit(num_arena *arena, double origin, const num_sheared *offset, const num_sheared *divisor) {
+    int order = num_sheared_order(divisor);
+    if (order == NUM_SHEARED_TERMS) order = 0; /* a file may say that parallel planes meet */
+    return rounded(arena, origin, offset->a[order], divisor->a[order]);
+}
+
+static void round_sheared_crossing(num_arena *arena, const double *u, const double *v, const geom_plane *a,
+                                   double *out) {
+    num_sheared offset[3], divisor;
+    sheared_crossing_point(arena, u, v, a, offset, &divisor);
+    for (int k = 0; k < a->dim; k++) out[k] = limit(arena, u[k], &offset[k], &divisor);
+}
+
 void geom_round_crossing(num_context *context, const double *u, const double *v, const geom_plane *a, double *out) {
     num_dyadic offset[3], divisor;
     context->arena.top = 0;
+    if (geom_is_sheared(a)) {
+        round_sheared_crossing(&context->arena, u, v, a, out);
+        return;
+    }
     dyadic_crossing_point(&context->arena, u, v, a, offset, &divisor);
     for (int k = 0; k < a->dim; k++) out[k] = rounded(&context->arena, u[k], offset[k], divisor);
+}
+
+static void round_sheared_corner(num_arena *arena, const geom_plane *const planes[3], const double z[3], double *out) {
+    num_sheared offset[3], divisor;
+    sheared_corner_point(arena, planes[0], planes[1], planes[2], z, offset, &divisor);
+    for (int k = 0; k < 3; k++) out[k] = limit(arena, z[k], &offset[k], &divisor);
 }
 
 void geom_round_corner(num_context *context, const geom_plane *s, const geom_plane *a, const geom_plane *b,
@@ -23,6 +47,10 @@ void geom_round_corner(num_context *context, const geom_plane *s, const geom_pla
     num_dyadic offset[3], divisor;
     geom_corner_origin(planes, NULL, z);
     context->arena.top = 0;
+    if (geom_is_sheared(s) || geom_is_sheared(a) || geom_is_sheared(b)) {
+        round_sheared_corner(&context->arena, planes, z, out);
+        return;
+    }
     dyadic_corner_point(&context->arena, planes[0], planes[1], planes[2], z, offset, &divisor);
     for (int k = 0; k < 3; k++) out[k] = rounded(&context->arena, z[k], offset[k], divisor);
 }
@@ -42,8 +70,8 @@ double geom_image_crossing(const double *u, const double *v, const geom_plane *a
         double error = confine(filter_add(num_ball_from(u[k]), step), u[k], v[k], out + k);
         worst = error > worst ? error : worst;
     }
-    if (a->form == GEOM_AXIS) out[a->axis] = a->c;
-    return worst;
+    if (a->form == GEOM_AXIS || a->form == GEOM_AT_VERTEX) out[a->axis] = a->c;
+    return geom_is_sheared(a) ? worst + NUM_BALL_TINY : worst; /* never exact: the true point is infinitely near */
 }
 
 /* -s(z) ab[k] - a(z) bs[k] - b(z) sa[k] */
@@ -60,7 +88,7 @@ double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_pl
     double z[3], worst = 0;
     geom_corner_origin(planes, NULL, z);
     for (int i = 0; i < 3; i++) n[i] = filter_normal(planes[i]), at[i] = filter_value(planes[i], z);
-    if (planes[0]->form != GEOM_VECTOR) at[0] = num_ball_from(0);
+    if (geom_has_origin(planes[0])) at[0] = num_ball_from(0);
     for (int i = 0; i < 3; i++) across[i] = filter_cross(&n[(i + 1) % 3], &n[(i + 2) % 3]);
     num_ball divisor = filter_dot(&n[0], &across[0]);
     for (int k = 0; k < 3; k++) {

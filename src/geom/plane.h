@@ -7,18 +7,37 @@
  *     3D  n = (q-p) x (r-p)          positive where p, q, r turn left
  * VERTICAL (3D) runs through p[0], p[1] and their vertical translates: n as in 2D, n_z = 0.
  * AXIS is x[axis] = c; VECTOR is p[0] . x = c. Here o = 0.
+ *
+ * AT_VERTEX and AT_CROSSING are the walls of cylindrical partitions: the line x[0] = c (3D: the plane) through
+ * p[0], or through the point where the line p[0]p[1] meets p[2]p[3] (3D: their projections), sheared by an
+ * infinitesimal amount, n = (1, eps, 0): points beside it are ordered by x, those with the same x by y.
+ * So no segment lies in such a line, and of two different points (x, y) one is on its left.
+ *
+ *         \
+ *     left  p  right       where x = p_x, what is above p is on its right, what is below on its left
+ *            \
+ *
  * The normal is never stored rounded for a decision: `n` is a double image with
  * a certified bound, for the filters only. */
 #ifndef FROE_GEOM_PLANE_H
 #define FROE_GEOM_PLANE_H
 #include "num/context.h"
 
-typedef enum geom_form { GEOM_AXIS, GEOM_POINTS, GEOM_VERTICAL, GEOM_VECTOR } geom_form;
+typedef enum geom_form {
+    GEOM_AXIS,
+    GEOM_AT_VERTEX, /* these three have the normal of an axis, as far as filters see */
+    GEOM_AT_CROSSING,
+    GEOM_POINTS,
+    GEOM_VERTICAL,
+    GEOM_VECTOR
+} geom_form;
 
 typedef struct geom_plane {
     geom_form form;
     int dim, axis;
-    double p[3][3], c;
+    double p[4][3];
+    double c;     /**< AT_CROSSING: rounded */
+    double c_err; /**< bound on |c - true c|, 0 but for AT_CROSSING */
     double n[3];  /**< rounded normal */
     double n_max; /**< max |n[k]| */
     double n_err; /**< bound on max |n[k] - true n[k]|; infinity: the filter does not apply */
@@ -29,6 +48,14 @@ geom_plane geom_plane_axis(int dim, int axis, double value);
 geom_plane geom_plane_points(int dim, const double *const points[]);
 geom_plane geom_plane_vertical(const double *p, const double *q);
 geom_plane geom_plane_vector(int dim, const double *normal, double value);
-/** Is the normal not zero? Exact. */
+geom_plane geom_plane_at_vertex(int dim, const double *p);
+/** Through the crossing of the lines ends[0] ends[1] and ends[2] ends[3], of which only x and y count. The second
+ * must cross the first from its right to its left (geom_plane_valid finds out). */
+geom_plane geom_plane_at_crossing(int dim, const double *const ends[4]);
+/** Is it a wall of a cylindrical partition, sheared? */
+static inline bool geom_is_sheared(const geom_plane *plane) {
+    return plane->form == GEOM_AT_VERTEX || plane->form == GEOM_AT_CROSSING;
+}
+/** Is the normal not zero, and do the lines of an AT_CROSSING cross as they must? Exact. */
 bool geom_plane_valid(num_context *context, const geom_plane *plane);
 #endif

@@ -4,15 +4,18 @@
  * touches. Each worker counts for itself; counts add up, the least example pair stays,
  * so threads do not show. */
 #include "base/status.h"
+#include "geom/contact.h"
 #include "measure/box_pairs.h"
-#include "measure/contacts.h"
+#include "scene/scene.h"
+
+typedef enum oddity { APART, CROSSING, T_JUNCTION, OVERLAP, ODDITIES } oddity;
 
 typedef struct tally {
     num_context context;
     bool ready;
     signed char *sides; /* of the corners of two polygons */
-    uint64_t counts[MEASURE_CONTACTS];
-    uint32_t first[MEASURE_CONTACTS][2];
+    uint64_t counts[ODDITIES];
+    uint32_t first[ODDITIES][2];
 } tally;
 
 typedef struct survey {
@@ -48,12 +51,32 @@ static void look_at_objects(survey *v, froe_defects *out) {
 
 /* ------------------------------------------------------------------- pairs -- */
 
+/* Is the way in which two segments, or two polygons, meet odd? */
+static oddity look_closely(tally *t, const froe_scene *s, uint32_t a, uint32_t b) {
+    static const oddity by_touch[] = {[GEOM_TOUCH_AT_CORNER] = APART,
+                                      [GEOM_TOUCH_ALONG] = APART,
+                                      [GEOM_TOUCH_JUNCTION] = T_JUNCTION,
+                                      [GEOM_TOUCH_EDGES] = CROSSING};
+    geom_body p = scene_body(s, a), q = scene_body(s, b);
+    geom_contact m =
+        s->dim == 2 ? geom_contact_segments(&t->context, &p, &q) : geom_contact_polygons(&t->context, &p, &q, t->sides);
+    switch (m.kind) {
+    case GEOM_CROSS:
+        return CROSSING;
+    case GEOM_OVERLAP:
+        return OVERLAP;
+    case GEOM_TOUCH:
+        return by_touch[m.touch];
+    default:
+        return APART;
+    }
+}
+
 static bool look_at_pair(void *user, unsigned worker, uint32_t i, uint32_t j) {
     survey *v = user;
     tally *t = v->tallies + worker;
     uint32_t a = v->objects[i < j ? i : j], b = v->objects[i < j ? j : i];
-    measure_contact contact = v->scene->dim == 2 ? measure_segments(&t->context, v->scene, a, b)
-                                                 : measure_polygons(&t->context, v->scene, a, b, t->sides);
+    oddity contact = look_closely(t, v->scene, a, b);
     uint32_t *first = t->first[contact];
     if (!t->counts[contact]++ || a < first[0] || (a == first[0] && b < first[1])) first[0] = a, first[1] = b;
     return true;
@@ -92,7 +115,7 @@ static froe_status look_at_pairs(survey *v) {
 
 /* ------------------------------------------------------------------ report -- */
 
-static uint64_t sum(const survey *v, measure_contact contact, uint32_t first[2]) {
+static uint64_t sum(const survey *v, oddity contact, uint32_t first[2]) {
     uint64_t count = 0;
     first[0] = first[1] = FROE_NONE;
     for (unsigned i = 0; v->tallies && i < v->task.threads; i++) {
@@ -122,9 +145,9 @@ static froe_status run(survey *v, froe_defects *out) {
     if (status) return status;
     look_at_objects(v, out);
     status = look_at_pairs(v);
-    out->crossings = sum(v, MEASURE_CROSSING, out->first_crossing);
-    out->t_junctions = sum(v, MEASURE_T_JUNCTION, out->first_t_junction);
-    out->overlaps = sum(v, MEASURE_OVERLAP, out->first_overlap);
+    out->crossings = sum(v, CROSSING, out->first_crossing);
+    out->t_junctions = sum(v, T_JUNCTION, out->first_t_junction);
+    out->overlaps = sum(v, OVERLAP, out->first_overlap);
     return status;
 }
 

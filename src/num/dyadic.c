@@ -20,15 +20,25 @@ __extension__ typedef unsigned __int128 wide;
  *     degree 4    3 cross products x 9                               3 618
  *     degree 6    4 triple products x 5                              4 000
  *     degree 9    4 products, 3 sums                                 2 093
- * about 16 000 limbs. Planes through an eye and a cut edge (normals of degree 5) take
- * at most 60 steps of degree 5 a plane (4 x 60 x 167), 27 of degree 10 (332), 20 of
- * degree 15 (497) and 7 of degree 21 (695): 63 800. */
+ * about 16 000 limbs. Sheared planes (num/sheared.h) have simpler normals, but numbers of up to three terms: at
+ * most six times the steps from degree 6 on, 50 000 limbs. Planes through an eye and a cut edge (normals of degree 5)
+ * take at most 60 steps of degree 5 a plane (4 x 60 x 167), 27 of degree 10 (332), 20 of degree 15 (497) and 7 of
+ * degree 21 (695): 63 800. */
 const size_t num_arena_bound = 1 << 16;
 
 froe_status num_arena_new(const froe_allocator *alloc, num_arena *out) {
     uint64_t *limbs = base_realloc(alloc, NULL, 0, num_arena_bound * sizeof *limbs);
     if (!limbs) return FROE_E_MEMORY;
     *out = (num_arena){limbs, 0, num_arena_bound, 0};
+    return FROE_OK;
+}
+
+froe_status num_arena_reserve(const froe_allocator *alloc, num_arena *arena, size_t limbs) {
+    if (arena->capacity >= limbs) return FROE_OK;
+    uint64_t *more = base_realloc(alloc, NULL, 0, limbs * sizeof *more);
+    if (!more) return FROE_E_MEMORY;
+    base_free(alloc, arena->limbs, arena->capacity * sizeof *arena->limbs);
+    *arena = (num_arena){more, 0, limbs, arena->high};
     return FROE_OK;
 }
 

@@ -17,6 +17,8 @@ typedef struct num_arena {
 /** Limbs that suffice for any predicate up to degree 15 on any finite doubles. */
 extern const size_t num_arena_bound;
 froe_status num_arena_new(const froe_allocator *alloc, num_arena *out);
+/** Room for so many limbs; what it held is lost. FROE_E_MEMORY. */
+froe_status num_arena_reserve(const froe_allocator *alloc, num_arena *arena, size_t limbs);
 void num_arena_free(const froe_allocator *alloc, num_arena *arena);
 
 typedef struct num_dyadic {

@@ -12,6 +12,7 @@
  * does so without a turn, which is looked for as well. */
 #include "scene/polygon.h"
 #include "geom/predicates.h"
+#include "geom/turn.h"
 
 typedef struct ring_view {
     num_context *context;
@@ -27,43 +28,14 @@ static const double *at(const ring_view *r, uint32_t i) {
 
 /* ---------------------------------------------------------------- the plane -- */
 
-int scene_projected_turn(num_context *context, int axis, const double *a, const double *b, const double *c) {
-    int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    double p[2] = {a[u], a[v]}, q[2] = {b[u], b[v]}, x[2] = {c[u], c[v]};
-    geom_plane line = geom_plane_points(2, (const double *const[]){p, q});
-    return geom_side_vertex(context, &line, x);
-}
-
-/** The axis along which a triangle looks largest: where to ask first. */
-static int guess_axis(const double *a, const double *b, const double *c) {
-    int best = 0;
-    double most = -1;
-    for (int k = 0; k < 3; k++) {
-        int u = (k + 1) % 3, v = (k + 2) % 3;
-        double area = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
-        if (area < 0) area = -area;
-        if (area > most) most = area, best = k;
-    }
-    return best;
-}
-
-int scene_projection_axis(num_context *context, const double *a, const double *b, const double *c) {
-    int first = guess_axis(a, b, c);
-    for (int i = 0; i < 3; i++) {
-        int axis = (first + i) % 3;
-        if (scene_projected_turn(context, axis, a, b, c) != 0) return axis;
-    }
-    return -1;
-}
-
 /** Turn of the projected corners i, j, k. */
 static int turn(const ring_view *r, uint32_t i, uint32_t j, uint32_t k) {
-    return scene_projected_turn(r->context, r->axis, at(r, i), at(r, j), at(r, k));
+    return geom_projected_turn(r->context, r->axis, at(r, i), at(r, j), at(r, k));
 }
 
 /** Projects along an axis that keeps corners 0, 1, k apart from a line; false if they are collinear. */
 static bool project(ring_view *r, uint32_t k) {
-    r->axis = scene_projection_axis(r->context, at(r, 0), at(r, 1), at(r, k));
+    r->axis = geom_projection_axis(r->context, at(r, 0), at(r, 1), at(r, k));
     return r->axis >= 0;
 }
 

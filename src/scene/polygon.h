@@ -17,9 +17,4 @@ bool scene_polygon_form(num_context *context, const double *coords, uint32_t *ri
                         scene_fault *fault);
 /** Is it such a ring already? */
 bool scene_polygon_valid(num_context *context, const double *coords, const uint32_t *ring, uint32_t count);
-
-/** The turn at b of three points in space, seen along an axis: 1 left, -1 right, 0 straight on or back. */
-int scene_projected_turn(num_context *context, int axis, const double *a, const double *b, const double *c);
-/** An axis along which three points do not look collinear; -1: they are. */
-int scene_projection_axis(num_context *context, const double *a, const double *b, const double *c);
 #endif

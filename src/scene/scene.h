@@ -14,6 +14,7 @@
 #ifndef FROE_SCENE_SCENE_H
 #define FROE_SCENE_SCENE_H
 #include "base/array.h"
+#include "geom/body.h"
 #include "geom/plane.h"
 #include <stdatomic.h>
 
@@ -60,6 +61,23 @@ static inline froe_kind scene_form(const froe_scene *s, uint32_t object) {
 static inline double scene_radius(const froe_scene *s, uint32_t object) { /* balls */
     return s->radii[scene_corner(s, object, 1)];
 }
+/** An object for geometry. */
+static inline geom_body scene_body(const froe_scene *s, uint32_t object) {
+    geom_body b = {
+        .form = scene_form(s, object), .dim = s->dim, .count = scene_corners(s, object), .coords = s->coords};
+    b.corners = s->corners + s->starts[object];
+    if (b.form != FROE_BALL) return b;
+    b.count = 1;
+    b.radius = scene_radius(s, object);
+    if (b.radius == 0) b.form = FROE_POINT;
+    return b;
+}
+
+/** The object whose corner number `corner` of all corners is. O(log objects), O(1) on triangles. */
+uint32_t scene_object_of(const froe_scene *s, uint32_t corner);
+
+/** The ends of a line that a FROE_CUT_CROSSING names: a segment in the plane, an edge in space. */
+void scene_crossing_line(const froe_scene *s, uint32_t id, const double *ends[2]);
 
 void scene_hold(froe_scene *scene); /**< one more owner; froe_scene_free() gives it up */
 
@@ -67,6 +85,23 @@ void scene_hold(froe_scene *scene); /**< one more owner; froe_scene_free() gives
 void scene_object_bounds(const froe_scene *s, uint32_t object, double *lo, double *hi);
 /** Of any ball; infinite where it leaves the range of doubles (a scene holds no such ball). */
 void scene_ball_bounds(int dim, const double *centre, double radius, double *lo, double *hi);
+
+/** The same, for loops over many objects that know the dimension. */
+static inline void scene_bounds_in(const froe_scene *s, int dim, uint32_t object, double *lo, double *hi) {
+    const double *x = scene_point(s, object, 0);
+    if (s->forms[object] == FROE_BALL) {
+        scene_ball_bounds(dim, x, scene_radius(s, object), lo, hi);
+        return;
+    }
+    for (int k = 0; k < dim; k++) lo[k] = hi[k] = x[k];
+    for (uint32_t i = 1, n = scene_corners(s, object); i < n; i++) {
+        x = scene_point(s, object, i);
+        for (int k = 0; k < dim; k++) {
+            lo[k] = x[k] < lo[k] ? x[k] : lo[k]; /* without branches: which end is the lower one is anyone's guess */
+            hi[k] = x[k] > hi[k] ? x[k] : hi[k];
+        }
+    }
+}
 
 /** The hyperplane an object lies in (its cut, FROE_CUT_OBJECT): 2D segments,
  * polygons. Other forms get a plane that contains them and needs no new numbers:

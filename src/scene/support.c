@@ -20,19 +20,7 @@ void scene_ball_bounds(int dim, const double *centre, double radius, double *lo,
 }
 
 void scene_object_bounds(const froe_scene *s, uint32_t object, double *lo, double *hi) {
-    const double *x = scene_point(s, object, 0);
-    if (s->forms[object] == FROE_BALL) {
-        scene_ball_bounds(s->dim, x, scene_radius(s, object), lo, hi);
-        return;
-    }
-    for (int k = 0; k < s->dim; k++) lo[k] = hi[k] = x[k];
-    for (uint32_t i = 1, n = scene_corners(s, object); i < n; i++) {
-        x = scene_point(s, object, i);
-        for (int k = 0; k < s->dim; k++) {
-            lo[k] = x[k] < lo[k] ? x[k] : lo[k]; /* without branches: which end is the lower one is anyone's guess */
-            hi[k] = x[k] > hi[k] ? x[k] : hi[k];
-        }
-    }
+    scene_bounds_in(s, s->dim, object, lo, hi);
 }
 
 /* ----------------------------------------------------------------- support -- */
@@ -74,6 +62,38 @@ froe_cut scene_support(const froe_scene *s, uint32_t object, geom_plane *plane) 
     return cut;
 }
 
+uint32_t scene_object_of(const froe_scene *s, uint32_t corner) {
+    uint32_t lo = 0, hi = s->object_count, guess = corner / 3; /* starts[lo] <= corner < starts[hi] */
+    if (guess < hi && s->starts[guess] <= corner && corner < s->starts[guess + 1]) return guess;
+    while (hi - lo > 1) {
+        uint32_t middle = lo + (hi - lo) / 2;
+        *(s->starts[middle] <= corner ? &lo : &hi) = middle;
+    }
+    return lo;
+}
+
+bool froe_scene_edge(const froe_scene *s, uint32_t edge, uint32_t vertices[2]) {
+    if (edge >= s->corner_count) return false;
+    uint32_t object = scene_object_of(s, edge), next = edge + 1 < s->starts[object + 1] ? edge + 1 : s->starts[object];
+    if (scene_form(s, object) != FROE_SEGMENT && scene_form(s, object) != FROE_POLYGON) return false;
+    vertices[0] = s->corners[edge];
+    vertices[1] = s->corners[next];
+    return true;
+}
+
+void scene_crossing_line(const froe_scene *s, uint32_t id, const double *ends[2]) {
+    uint32_t vertices[2];
+    froe_scene_edge(s, s->dim == 2 ? s->starts[id] : id, vertices);
+    for (int i = 0; i < 2; i++) ends[i] = scene_vertex(s, vertices[i]);
+}
+
+static geom_plane crossing_plane(const froe_scene *s, const froe_cut *cut) {
+    const double *ends[4];
+    scene_crossing_line(s, cut->id[0], ends);
+    scene_crossing_line(s, cut->id[1], ends + 2);
+    return geom_plane_at_crossing(s->dim, ends);
+}
+
 geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut) {
     const double *points[3] = {NULL};
     switch (cut->kind) {
@@ -88,6 +108,10 @@ geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut) {
         return geom_plane_vertical(scene_vertex(s, cut->id[0]), scene_vertex(s, cut->id[1]));
     case FROE_CUT_PLANE:
         return geom_plane_vector(s->dim, cut->normal, cut->value);
+    case FROE_CUT_VERTEX:
+        return geom_plane_at_vertex(s->dim, scene_vertex(s, cut->id[0]));
+    case FROE_CUT_CROSSING:
+        return crossing_plane(s, cut);
     default:
         return (geom_plane){.dim = s->dim};
     }

@@ -61,6 +61,14 @@ static froe_status classify(split_set *set, const split_cell *cell, const froe_c
     return classify_all(set, cell, plane, out);
 }
 
+froe_status cell_tally(split_work *work, const split_cell *cell, const froe_cut *cut, split_tally *out) {
+    split_plane plane = split_plane_of(work->set.scene, cut);
+    counts n;
+    froe_status status = classify_all(&work->set, cell, &plane, &n);
+    *out = (split_tally){n.of[SPLIT_NEG], n.of[SPLIT_POS], n.of[SPLIT_ON], n.of[SPLIT_BOTH]};
+    return status;
+}
+
 /** Lists the ON fragments in the cut. */
 static froe_status emit_in_cut(split_set *set, const split_cell *cell, uint32_t count) {
     if (!count) return FROE_OK;
@@ -115,7 +123,8 @@ static void make_children(const split_work *work, const split_cell *cell, uint32
                                .first = cell->first + (s ? 0 : positive),
                                .count = s ? positive : negative,
                                .corner_top = (uint32_t)work->set.corners.count,
-                               .guard = FROE_NONE};
+                               .guard = FROE_NONE,
+                               .frame = cell->frame};
 }
 
 /** Cuts in place and makes the children; *useless as for cell_cut, NULL: cut all the same. */
@@ -150,7 +159,7 @@ froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *c
     split_cell side[2];
     uint32_t in_cut;
     froe_status status = cut_in_two(work, cell, cut, 0, useless, side, &in_cut);
-    return status || *useless ? status : push_children(work, side);
+    return status || (useless && *useless) ? status : push_children(work, side);
 }
 
 /** Asks for the coordinates of objects that are about to be read, all at once: without this a cell of ten
@@ -199,5 +208,6 @@ froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *c
         side[s].wholes = job->homes->end[node->child + s] - side[s].whole;
     }
     note_progress(cell, in_cut, side);
+    work->guarded += in_cut;
     return push_children(work, side);
 }

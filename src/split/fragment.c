@@ -42,11 +42,15 @@ split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut) {
     return out;
 }
 
-geom_plane split_plane_at(const split_set *set, uint32_t node) {
+froe_cut split_cut_at(const split_set *set, uint32_t node) {
     bool own = node >= set->draft->outer;
     const tree_draft *draft = own ? set->draft : set->main;
-    froe_cut cut = tree_cut_view(draft->nodes.data + (own ? node - set->draft->outer : node), draft->cuts.data,
-                                 draft->normals.data);
+    return tree_cut_view(draft->nodes.data + (own ? node - set->draft->outer : node), draft->cuts.data,
+                         draft->normals.data);
+}
+
+geom_plane split_plane_at(const split_set *set, uint32_t node) {
+    froe_cut cut = split_cut_at(set, node);
     return scene_cut_plane(set->scene, &cut);
 }
 
@@ -74,10 +78,26 @@ static inline int vertex_side(split_set *set, const split_plane *plane, const do
         double v = x[plane->plane.axis], c = plane->plane.c;
         return known_side(set, (v > c) - (v < c));
     }
+    if (plane->plane.form == GEOM_AT_VERTEX) {
+        const double *p = plane->plane.p[0];
+        int k = x[0] == p[0]; /* the order by x, then y */
+        return known_side(set, (x[k] > p[k]) - (x[k] < p[k]));
+    }
     int side = set->context.first == NUM_FILTER ? filter_sign(filter_value(&plane->plane, x)) : NUM_UNSURE;
     if (side == NUM_UNSURE) return near_vertex_side(set, plane, x);
     set->context.stats.calls++;
     set->context.stats.filtered++;
+    return side;
+}
+
+/** The side on which all corners of a small polygon are; NUM_UNSURE: there is none. */
+static int object_side(split_set *set, const split_plane *plane, uint32_t object) {
+    enum { SMALL = 4 };
+    uint32_t n = scene_corners(set->scene, object);
+    if (n > SMALL) return NUM_UNSURE;
+    int side = vertex_side(set, plane, scene_point(set->scene, object, 0));
+    for (uint32_t i = 1; i < n; i++)
+        if (vertex_side(set, plane, scene_point(set->scene, object, i)) != side) return NUM_UNSURE;
     return side;
 }
 
@@ -91,13 +111,15 @@ static int derived_side(split_set *set, const split_plane *plane, uint32_t objec
         first = split_plane_at(set, k->c);
         return geom_side_crossing(&set->context, &plane->plane, from, to, &first);
     }
+    int side = object_side(set, plane, object);
+    if (side != NUM_UNSURE) return side;
     scene_support(set->scene, object, &own);
     first = split_plane_at(set, k->a);
     second = split_plane_at(set, k->b);
     return geom_side_corner(&set->context, &plane->plane, &own, &first, &second);
 }
 
-static int corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
+int split_corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
     if (k->type == SPLIT_VERTEX) return vertex_side(set, plane, k->x);
     int side = set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, k->x, k->error) : NUM_UNSURE;
     if (side == NUM_UNSURE) return derived_side(set, plane, object, k);
@@ -137,7 +159,7 @@ static int corner_sides(split_set *set, const split_plane *plane, const split_fr
     bool negative = false, positive = false;
     for (uint32_t i = 0; i < n; i++) {
         int side =
-            ring ? corner_side(set, plane, f->object, ring + i) : vertex_side(set, plane, split_image(set, f, i));
+            ring ? split_corner_side(set, plane, f->object, ring + i) : vertex_side(set, plane, split_image(set, f, i));
         negative |= side < 0;
         positive |= side > 0;
         set->sides.data[set->sides.count++] = (int8_t)side;
@@ -204,8 +226,7 @@ int split_classify(split_set *set, const split_plane *plane, const split_fragmen
 
 /* ---------------------------------------------------------------- cutting -- */
 
-/** The i-th corner, made on the fly for whole objects. */
-static split_corner corner_at(const split_set *set, const split_fragment *f, uint32_t i) {
+split_corner split_corner_of(const split_set *set, const split_fragment *f, uint32_t i) {
     if (f->count) return set->corners.data[f->first + i];
     split_corner k = {.edge = i, .type = SPLIT_VERTEX, .a = scene_corner(set->scene, f->object, i)};
     memcpy(k.x, scene_vertex(set->scene, k.a), (size_t)set->scene->dim * sizeof *k.x);
@@ -239,7 +260,7 @@ static void put(split_set *set, split_fragment *f, split_corner corner, uint32_t
 
 static void divide_segment(split_set *set, const split_plane *plane, uint32_t node, const split_fragment *f,
                            const int8_t *sides, split_fragment *const side[2]) {
-    split_corner start = corner_at(set, f, 0), end = corner_at(set, f, 1);
+    split_corner start = split_corner_of(set, f, 0), end = split_corner_of(set, f, 1);
     split_corner middle = crossing(set, plane, node, f->object, 0);
     split_fragment *first = side[sides[0] > 0], *last = side[sides[0] < 0];
     put(set, first, start, start.edge);
@@ -252,7 +273,7 @@ static void divide_polygon(split_set *set, const split_plane *plane, uint32_t no
                            const int8_t *sides, split_fragment *const side[2]) {
     uint32_t n = split_corner_count(set, f), cut = TREE_EDGE_CUT | node;
     for (uint32_t i = 0; i < n; i++) {
-        split_corner k = corner_at(set, f, i);
+        split_corner k = split_corner_of(set, f, i);
         int here = sides[i], next = sides[i + 1 < n ? i + 1 : 0];
         if (here)
             put(set, side[here > 0], k, k.edge);

@@ -64,7 +64,8 @@ void split_set_free(split_set *set);
 
 /** Makes a cut ready for use: its plane and known vertices. In R^d, d > 3, AXIS cuts only. */
 split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut);
-/** The plane of a node's cut, by ring numbering. */
+/** A node's cut, and its plane, by ring numbering. */
+froe_cut split_cut_at(const split_set *set, uint32_t node);
 geom_plane split_plane_at(const split_set *set, uint32_t node);
 
 /** Is the kind cut into fragments? */
@@ -75,6 +76,10 @@ static inline bool split_is_cut(froe_kind form) {
 /** Exact class of a fragment; when that is SPLIT_BOTH and the kind is cut, appends the
  * sides of its corners to set->sides, where the caller has made room. */
 int split_classify(split_set *set, const split_plane *plane, const split_fragment *fragment);
+/** The i-th corner, made on the fly for whole objects. */
+split_corner split_corner_of(const split_set *set, const split_fragment *fragment, uint32_t i);
+/** Exact side of a corner of a fragment of `object`. */
+int split_corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *corner);
 /** Cuts a fragment of class SPLIT_BOTH in two by the cut of `node`; sides as split_classify gave them. */
 froe_status split_divide(split_set *set, const split_plane *plane, uint32_t node, const split_fragment *fragment,
                          const int8_t *sides, split_fragment *negative, split_fragment *positive);

@@ -10,6 +10,7 @@ typedef struct grow_task {
     split_cell cell;
     size_t first_item, first_corner; /**< in the store */
     uint32_t corner_count;
+    uint32_t crossing[2]; /**< why it was refused */
     tree_draft draft;
 } grow_task;
 
@@ -36,18 +37,40 @@ static froe_status check_budget(grow *g, const split_work *work, size_t pieces_b
 }
 
 static froe_status failure_of(split_verdict verdict) {
-    return verdict == SPLIT_MEMORY ? FROE_E_MEMORY : verdict == SPLIT_GIVE_UP ? FROE_E_BUDGET : FROE_E_CANCELLED;
+    switch (verdict) {
+    case SPLIT_REFUSE:
+        return FROE_E_INPUT;
+    case SPLIT_GIVE_UP:
+        return FROE_E_BUDGET;
+    case SPLIT_CANCELLED:
+        return FROE_E_CANCELLED;
+    default:
+        return FROE_E_MEMORY;
+    }
+}
+
+/** Cuts the cell and tells its children so. */
+static froe_status divide(grow *g, split_work *work, const split_cell *cell, const froe_cut *cut, bool *useless) {
+    froe_status status = cell_cut(work, cell, cut, useless);
+    if (status || !g->method->divided || (useless && *useless)) return status;
+    split_cell *negative = work->cells.data + work->cells.count - 1;
+    g->method->divided(cell, cut, negative - 1, negative);
+    return FROE_OK;
 }
 
 /** Cuts or ends a cell below the guard stage. */
 static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     froe_cut cut = {.kind = FROE_CUT_NONE};
     froe_status status = cell_take(work, g->job->homes, cell, cell->wholes);
+    bool done = false;
+    if (g->method->finish && !status) status = g->method->finish(g->method->config, work, cell, &done);
+    if (done) return status;
     for (bool useless = true; useless && !status; cell->attempt++) {
         split_verdict verdict = g->method->choose(g->method->config, work, cell, &cut);
-        if (verdict > SPLIT_CUT) return failure_of(verdict);
-        if (verdict != SPLIT_CUT) return cell_leaf(work, cell, verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : 0);
-        status = cell_cut(work, cell, &cut, &useless);
+        if (verdict > SPLIT_CUT_ANYWAY) return failure_of(verdict);
+        if (verdict < SPLIT_CUT) return cell_leaf(work, cell, verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : 0);
+        if (verdict == SPLIT_CUT_ANYWAY) return divide(g, work, cell, &cut, NULL);
+        status = divide(g, work, cell, &cut, &useless);
     }
     return status;
 }
@@ -55,6 +78,7 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
 static froe_status do_cell(grow *g, split_work *work, split_cell *cell) {
     size_t pieces = work->set.draft->pieces.count;
     bool guard = cell->guard != FROE_NONE && g->method->in_guard_stage(g->method->config, cell);
+    if (cell->guard != FROE_NONE && !guard) work->guarded += split_load(cell);
     froe_status status = guard ? cell_cut_guard(work, g->job, cell) : refine_cell(g, work, cell);
     return status ? status : check_budget(g, work, pieces);
 }
@@ -76,6 +100,7 @@ static froe_status put_off(grow *g, split_work *work, const split_cell *cell) {
         }
         g->store_items.data[g->store_items.count++] = f;
     }
+    task.crossing[0] = FROE_NONE;
     task.corner_count = (uint32_t)(g->store_corners.count - task.first_corner);
     draft_leaf(set->draft, cell->node, 0);
     work->set.items.count = cell->first;
@@ -122,12 +147,14 @@ static froe_status start_workers(grow *g) {
 static froe_status push_root(grow *g, split_work *work) {
     uint32_t n = g->job->scene->object_count;
     split_cell root = {.path = 1, .guard = FROE_NONE, .growth = 1};
+    root.frame = (split_frame){{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
     if (g->job->guard && n) {
         root.guard = 0;
         root.wholes = n;
     } else {
         if (!array_reserve(&g->job->alloc, &work->set.items, n)) return FROE_E_MEMORY;
-        for (uint32_t i = 0; i < n; i++) work->set.items.data[i] = (split_fragment){.object = i};
+        const uint32_t *order = g->job->order;
+        for (uint32_t i = 0; i < n; i++) work->set.items.data[i] = (split_fragment){.object = order ? order[i] : i};
         work->set.items.count = root.count = n;
     }
     return array_push(&g->job->alloc, &work->cells, root) ? FROE_OK : FROE_E_MEMORY;
@@ -169,7 +196,9 @@ static froe_status do_task(void *user, unsigned worker, size_t index) {
     cell.first = 0;
     cell.corner_top = task->corner_count;
     if (!array_push(alloc, &work->cells, cell)) return FROE_E_MEMORY;
-    return do_cells(g, work, false);
+    status = do_cells(g, work, false);
+    if (status == FROE_E_INPUT) memcpy(task->crossing, work->crossing, sizeof task->crossing);
+    return status;
 }
 
 static froe_status seal(grow *g, froe_tree **out) {
@@ -178,6 +207,9 @@ static froe_status seal(grow *g, froe_tree **out) {
     tree_graft *grafts = base_calloc(alloc, count, sizeof *grafts);
     if (!grafts) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
+    uint64_t guarded = 0;
+    for (unsigned i = 0; i < g->worker_count; i++) guarded += g->workers[i].guarded;
+    if (g->job->guard_fragments) *g->job->guard_fragments = (double)guarded;
     for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
     base_free(alloc, grafts, (count ? count * sizeof *grafts : 1));
@@ -200,7 +232,17 @@ static void clean_up(grow *g) {
     draft_free(&g->main);
 }
 
+/** Two objects that cross: those of the main part, or of the first task that was refused. */
+static froe_status explain_crossing(const grow *g) {
+    const uint32_t *ids = g->workers[0].crossing;
+    for (size_t i = g->tasks.count; i-- > 0;)
+        if (g->tasks.data[i].crossing[0] != FROE_NONE) ids = g->tasks.data[i].crossing;
+    return base_fail_at(g->job->diag, FROE_E_INPUT, ids[0], FROE_NONE, FROE_NONE,
+                        "crosses object %u; with the setting crossing=split such objects are cut", ids[1]);
+}
+
 static froe_status explain(const split_job *job, froe_status status) {
+    if (status == FROE_E_INPUT) return status;
     if (status == FROE_E_BUDGET)
         return base_fail(job->diag, status, "more than max_fragments = %llu pieces are needed",
                          (unsigned long long)job->max_fragments);
@@ -216,6 +258,7 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
     if (!status) status = main_part(&g);
     if (!status) status = base_run(job->task, job->span, g.tasks.count, do_task, &g);
     if (!status && out) status = seal(&g, out);
+    if (status == FROE_E_INPUT) explain_crossing(&g);
     clean_up(&g);
     return explain(job, status);
 }

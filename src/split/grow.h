@@ -13,6 +13,11 @@
 #include "split/fragment.h"
 #include "split/homes.h"
 
+/** The walls left and right of a cell of a cylindrical partition, and the edges below and above: see cylinder.c. */
+typedef struct split_frame {
+    uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
+} split_frame;
+
 typedef struct split_cell {
     uint32_t node; /**< ring numbering */
     uint32_t depth;
@@ -24,12 +29,15 @@ typedef struct split_cell {
     float growth;           /**< fragmentation by the guard stage so far: see density.c */
     uint32_t barren;        /**< guard cuts in a row that left nearly all fragments in this cell */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
+    split_frame frame;
 } split_cell;
 
 typedef enum split_verdict {
     SPLIT_LEAF,        /**< done */
     SPLIT_INSEPARABLE, /**< done, over capacity: nothing separates these objects */
     SPLIT_CUT,         /**< cut; the cut must lie through the cell's fragments or between them */
+    SPLIT_CUT_ANYWAY,  /**< cut, whatever that separates */
+    SPLIT_REFUSE,      /**< end the whole build with FROE_E_INPUT: the objects work->crossing cross */
     SPLIT_GIVE_UP,     /**< end the whole build with FROE_E_BUDGET */
     SPLIT_MEMORY,      /**< out of memory */
     SPLIT_CANCELLED    /**< split_go_on() said no */
@@ -41,7 +49,9 @@ typedef struct split_work {
     ARRAY(split_cell) cells;
     void *scratch;
     base_task *task;
-    bool calling; /**< on the thread that the caller's call is on, the only one that talks to his callback */
+    uint64_t guarded;     /**< fragments in cells where the guard stage ended, and in its own cuts */
+    uint32_t crossing[2]; /**< on SPLIT_REFUSE; otherwise FROE_NONE */
+    bool calling;         /**< on the thread that the caller's call is on, the only one that talks to his callback */
 } split_work;
 
 /** False once the build is cancelled. For methods to ask in loops that one cell may make long. */
@@ -54,6 +64,11 @@ typedef struct split_method {
     const void *config;
     /** Names the cut of a cell whose fragments are set->items[first ..]. Deterministic. */
     split_verdict (*choose)(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
+    /** Grows the whole subtree of a cell at once; *done false: no, by cuts. NULL: never. */
+    froe_status (*finish)(const void *config, split_work *work, const split_cell *cell, bool *done);
+    /** Tells the children, positive and negative, of a cell that `cut` has just cut; NULL: nothing to tell. They
+     * have the frame of their parent so far. */
+    void (*divided)(const split_cell *cell, const froe_cut *cut, split_cell *positive, split_cell *negative);
     /** Is the cell to be cut by its node of the guard tree? NULL: never. */
     bool (*in_guard_stage)(const void *config, const split_cell *cell);
     /** Makes and frees a worker's scratch; may be NULL. */
@@ -66,11 +81,14 @@ typedef struct split_job {
     froe_allocator alloc;
     base_task *task;
     uint64_t max_fragments;        /**< 0: none */
+    const uint32_t *order;         /**< of the objects, in the root cell and among those of any other; NULL: by id
+                                        (no guard stage) */
     const split_guard_tree *guard; /**< NULL: no guard stage */
     const split_homes *homes;      /**< with guard */
     double span;                   /**< share of the task's progress */
     const tree_meta *meta;
-    num_stage first; /**< where predicates start: NUM_FILTER, later ones for tests */
+    double *guard_fragments; /**< receives the sum of split_work.guarded, before meta is read; may be NULL */
+    num_stage first;         /**< where predicates start: NUM_FILTER, later ones for tests */
     froe_diagnostic *diag;
 } split_job;
 

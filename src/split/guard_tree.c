@@ -8,11 +8,8 @@
  *
  * With one thread the jobs write there directly. Either way the array is the same. */
 #include "split/guard_work.h"
-#include <float.h>
-#include <math.h>
+#include "split/guards.h"
 #include <string.h>
-
-static const double PAD = 0.328125; /* 21/64 */
 
 typedef struct job {
     guard_item item;
@@ -35,8 +32,10 @@ typedef struct building {
     guard_worker foreman;
     guard_nodes nodes;    /* foreman's */
     double *main, *spare; /* count guards; spare only if the foreman needs it */
-    size_t bytes;
-    uint32_t job_count; /* items with at most so many guards are jobs */
+    size_t bytes;         /* of each */
+    split_guards guards;  /* of a scene, where they had to be written down */
+    uint32_t count;       /* guards in all, without those on the border */
+    uint32_t job_count;   /* items with at most so many guards are jobs */
     ARRAY(job) jobs;
     hand *hands;
     unsigned hand_count;
@@ -57,38 +56,12 @@ static void bounding_box(const double *guards, size_t count, int dim, guard_cube
     }
 }
 
-/* The bounding box as a cube, grown by a third of its edge all around: enough to have all guards strictly inside, and
- * no simple fraction, so that middle planes do not meet the lines on which flat scenes lie. */
-static void root_cube(const guard_cube *box, int dim, guard_cube *root) {
-    double edge = 0;
-    for (int i = 0; i < dim; i++)
-        if (box->hi[i] - box->lo[i] > edge) edge = box->hi[i] - box->lo[i];
-    if (edge == 0) edge = 1;
-    double pad = edge * PAD > 0 ? edge * PAD : edge;
-    bool fits = true;
-    for (int i = 0; i < dim; i++) {
-        root->lo[i] = box->lo[i] - pad;
-        root->hi[i] = root->lo[i] + (pad + edge + pad);
-        fits = fits && isfinite(root->lo[i]) && isfinite(root->hi[i]);
-    }
-    for (int i = 0; i < dim && !fits; i++) {
-        root->lo[i] = -DBL_MAX;
-        root->hi[i] = DBL_MAX;
-    }
-}
-
-static bool strictly_inside(const double *lo, const double *hi, const guard_cube *cube, int dim) {
-    for (int i = 0; i < dim; i++)
-        if (!(cube->lo[i] < lo[i] && hi[i] < cube->hi[i])) return false;
-    return true;
-}
-
 /* Rounding may put the border on guards, at 1e308 or where the scene is tiny and far from the origin: then
  * the others are copied. Returns their number. */
 static size_t drop_border(building *b, const double *guards, size_t count, const guard_cube *root) {
     size_t dim = (size_t)b->plan.dim, kept = 0;
     for (size_t p = 0; p < count; p++, guards += dim)
-        if (strictly_inside(guards, guards, root, b->plan.dim))
+        if (guard_strictly_inside(guards, guards, root, b->plan.dim))
             memcpy(b->main + kept++ * dim, guards, dim * sizeof *guards);
     return kept;
 }
@@ -99,18 +72,41 @@ static double promised_leaves(const guard_plan *plan, double guards) {
     return cells * (plan->k ? 2 * guards / plan->k - 1 : 2 * guards - 1) + 1;
 }
 
+static froe_status start(building *b, const guard_cube *root) {
+    memcpy(b->out->lo, root->lo, sizeof root->lo);
+    memcpy(b->out->hi, root->hi, sizeof root->hi);
+    return array_push(b->plan.alloc, &b->nodes, (split_guard_node){0}) ? FROE_OK : FROE_E_MEMORY;
+}
+
 static froe_status plant(building *b, const double *guards, size_t count) {
     guard_cube box, root = {.lo = {0}};
+    if (count > GUARD_LIMIT) return FROE_E_LIMIT;
+    b->bytes = (count ? count : 1) * (size_t)b->plan.dim * sizeof(double);
+    b->main = base_realloc(b->plan.alloc, NULL, 0, b->bytes);
+    if (!b->main) return FROE_E_MEMORY;
+    b->foreman.side[GUARD_MAIN] = b->main;
+    b->foreman.input = guards;
     bounding_box(guards, count, b->plan.dim, &box);
-    root_cube(&box, b->plan.dim, &root);
-    bool all = strictly_inside(box.lo, box.hi, &root, b->plan.dim);
+    guard_root(&box, b->plan.dim, &root);
+    froe_status status = start(b, &root);
+    bool all = guard_strictly_inside(box.lo, box.hi, &root, b->plan.dim);
     guard_item item = {.side = all ? GUARD_INPUT : GUARD_MAIN};
-    item.count = (uint32_t)(all ? count : drop_border(b, guards, count, &root));
-    b->out->promised = promised_leaves(&b->plan, item.count);
-    memcpy(b->out->lo, root.lo, sizeof root.lo);
-    memcpy(b->out->hi, root.hi, sizeof root.hi);
-    if (!array_push(b->plan.alloc, &b->nodes, (split_guard_node){0})) return FROE_E_MEMORY;
-    return guard_push(&b->foreman, NULL, &item, &root);
+    item.count = b->count = (uint32_t)(all ? count : drop_border(b, guards, count, &root));
+    return status ? status : guard_push(&b->foreman, NULL, &item, &root);
+}
+
+/* The same, for the guards of a scene: most of them, as a rule, need not be written down. */
+static froe_status plant_scene(building *b, const split_places *places) {
+    const froe_scene *scene = places->scene;
+    if (places->grid.levels && (uint64_t)scene->object_count << b->plan.dim <= GUARD_LIMIT) {
+        froe_status status = start(b, &places->root);
+        if (!status) status = guard_bucket_scene(&b->foreman, places, &b->main, &b->bytes, &b->count);
+        b->foreman.side[GUARD_MAIN] = b->main;
+        if (status || b->count) return status;
+        b->nodes.count = 0;
+    }
+    froe_status status = split_guards_of(b->plan.alloc, b->plan.task, 0, scene, NULL, scene->object_count, &b->guards);
+    return status ? status : plant(b, b->guards.points, b->guards.count);
 }
 
 /* ---- jobs */
@@ -265,17 +261,18 @@ static froe_status finish(building *b) {
     return status;
 }
 
-static froe_status build(building *b, double span, const double *guards, size_t count) {
-    const froe_allocator *alloc = b->plan.alloc;
-    b->main = base_realloc(alloc, NULL, 0, b->bytes);
-    b->hands = base_calloc(alloc, b->plan.task->threads, sizeof *b->hands);
-    if (!b->main || !b->hands) return FROE_E_MEMORY;
-    b->hand_count = b->plan.task->threads;
+static froe_status build(building *b, double span, const split_places *places, const double *guards, size_t count) {
+    const base_task *task = b->plan.task;
+    b->hands = base_calloc(b->plan.alloc, task->threads, sizeof *b->hands);
+    if (!b->hands) return FROE_E_MEMORY;
+    b->hand_count = task->threads;
     for (unsigned i = 0; i < b->hand_count; i++) b->hands[i].work.plan = &b->plan;
-    b->foreman.side[GUARD_MAIN] = b->main;
-    b->foreman.input = guards;
-    froe_status status = plant(b, guards, count);
-    if (!status) status = oversee(b);
+    froe_status status = places ? plant_scene(b, places) : plant(b, guards, count);
+    if (status) return status;
+    b->job_count = task->threads == 1 ? UINT32_MAX : b->count / task->threads / 8 + (1 << 12);
+    b->share = span * task->scale / (b->count ? b->count : 1);
+    b->out->promised = promised_leaves(&b->plan, b->count);
+    status = oversee(b);
     if (!status) status = base_run(b->plan.task, b->jobs.count ? span : 0, b->jobs.count, run_job, b);
     return status ? status : finish(b);
 }
@@ -293,6 +290,7 @@ static void clean_up(building *b) {
     array_free(alloc, &b->jobs);
     base_free(alloc, b->main, b->bytes);
     base_free(alloc, b->spare, b->bytes);
+    split_guards_free(alloc, &b->guards);
 }
 
 static uint32_t cell_load(int dim) { /* ceil(sqrt dim)^dim */
@@ -302,10 +300,9 @@ static uint32_t cell_load(int dim) { /* ceil(sqrt dim)^dim */
     return load;
 }
 
-froe_status split_guard_tree_build(const froe_allocator *alloc, base_task *task, double span,
-                                   const split_guard_options *options, const double *guards, size_t count,
-                                   split_guard_tree *out) {
-    if (count > GUARD_LIMIT) return FROE_E_LIMIT;
+static froe_status build_tree(const froe_allocator *alloc, base_task *task, double span,
+                              const split_guard_options *options, const split_places *places, const double *guards,
+                              size_t count, split_guard_tree *out) {
     int dim = options->dim;
     split_form form = options->form != SPLIT_FORM_DEFAULT ? options->form : options->k ? SPLIT_FORM_S : SPLIT_FORM_U;
     split_guard_tree tree = {.dim = dim, .k = options->k, .form = form, .cell_load = cell_load(dim)};
@@ -316,16 +313,13 @@ froe_status split_guard_tree_build(const froe_allocator *alloc, base_task *task,
                            .kill = options->k ? options->k : 1,
                            .form = form,
                            .way = options->way},
-                  .bytes = (count ? count : 1) * (size_t)dim * sizeof(double),
                   .start = task->done,
-                  .share = span * task->scale / (double)(count ? count : 1),
                   .out = &tree};
-    b.job_count = task->threads == 1 ? UINT32_MAX : (uint32_t)(count / task->threads / 8 + (1 << 12));
     b.foreman.plan = &b.plan;
     b.foreman.nodes = &b.nodes;
     b.foreman.parallel = task->threads > 1;
     double done = task->done + span * task->scale;
-    froe_status status = build(&b, span, guards, count);
+    froe_status status = build(&b, span, places, guards, count);
     if (!status && !base_progress(task, done)) status = FROE_E_CANCELLED;
     clean_up(&b);
     if (status)
@@ -333,6 +327,17 @@ froe_status split_guard_tree_build(const froe_allocator *alloc, base_task *task,
     else
         *out = tree;
     return status;
+}
+
+froe_status split_guard_tree_build(const froe_allocator *alloc, base_task *task, double span,
+                                   const split_guard_options *options, const double *guards, size_t count,
+                                   split_guard_tree *out) {
+    return build_tree(alloc, task, span, options, NULL, guards, count, out);
+}
+
+froe_status split_guard_tree_of(const froe_allocator *alloc, base_task *task, double span,
+                                const split_guard_options *options, const split_places *places, split_guard_tree *out) {
+    return build_tree(alloc, task, span, options, places, NULL, 0, out);
 }
 
 void split_guard_tree_free(const froe_allocator *alloc, split_guard_tree *tree) {

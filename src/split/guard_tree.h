@@ -17,6 +17,7 @@
 #define FROE_SPLIT_GUARD_TREE_H
 #include "base/array.h"
 #include "base/task.h"
+#include "split/places.h"
 
 /** How a shrink cuts off what is outside of the inner cube. */
 typedef enum split_form {
@@ -69,5 +70,8 @@ typedef struct split_guard_tree {
 froe_status split_guard_tree_build(const froe_allocator *alloc, base_task *task, double span,
                                    const split_guard_options *options, const double *guards, size_t count,
                                    split_guard_tree *out);
+/** The tree of all guards of a scene (guards.h). */
+froe_status split_guard_tree_of(const froe_allocator *alloc, base_task *task, double span,
+                                const split_guard_options *options, const split_places *places, split_guard_tree *out);
 void split_guard_tree_free(const froe_allocator *alloc, split_guard_tree *tree);
 #endif

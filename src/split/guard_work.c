@@ -8,12 +8,7 @@
 #include <string.h>
 
 enum { CREDIT = 8 };
-enum {
-    BUCKET_COUNT_2D = 2048, /* smaller items go one level at a time ... */
-    BUCKET_COUNT = 1 << 16, /* ... and above the plane all but those that threads may share */
-    BUCKET_TARGET = 16,     /* guards a bucket, roughly, where the histogram stays small */
-    BUCKET_BITS = 10        /* of the largest histogram */
-};
+enum { BUCKET_BITS = 10 }; /* of the largest histogram */
 
 void guard_worker_free(guard_worker *w) {
     const froe_allocator *alloc = w->plan->alloc;
@@ -72,18 +67,11 @@ void guard_pop(guard_worker *w, guard_item *item, guard_cube *cube) {
     }
 }
 
-/* Octree levels for a histogram with about BUCKET_TARGET guards a bucket. */
-static int bucket_levels(const guard_item *item, int dim) {
-    int bits = 0;
-    if (item->shrink || item->count < (dim == 2 ? BUCKET_COUNT_2D : BUCKET_COUNT)) return 1;
-    while (bits < BUCKET_BITS && item->count >> (bits + 1) >= BUCKET_TARGET) bits++;
-    return bits / dim;
-}
-
 froe_status guard_step(guard_worker *w, const guard_item *item, const guard_cube *cube) {
     split_guard_way way = w->plan->way;
     if (way == SPLIT_GUARD_PHASES || (way == SPLIT_GUARD_HYBRID && !item->credit)) return guard_phase(w, item, cube);
-    int levels = way == SPLIT_GUARD_PLAIN ? 1 : bucket_levels(item, w->plan->dim);
+    bool one = way == SPLIT_GUARD_PLAIN || item->shrink;
+    int levels = one ? 1 : guard_grid_levels(item->count, w->plan->dim, BUCKET_BITS);
     return levels > 1 ? guard_bucket(w, item, cube, levels) : guard_octree(w, item, cube);
 }
 

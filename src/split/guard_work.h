@@ -12,7 +12,9 @@
  * the middle. The corner of a cube is named by the orthant that it belongs to. */
 #ifndef FROE_SPLIT_GUARD_WORK_H
 #define FROE_SPLIT_GUARD_WORK_H
+#include "split/guard_grid.h"
 #include "split/guard_tree.h"
+#include "split/places.h"
 
 #define GUARD_CELLS (1u << FROE_MAX_DIM)
 #define GUARD_LIMIT 2147483646u /* guards, nodes */
@@ -25,10 +27,6 @@ typedef struct guard_plan {
     split_form form;
     split_guard_way way;
 } guard_plan;
-
-typedef struct guard_cube {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-} guard_cube;
 
 /* A step reads the item's guards on its side and writes those of smaller items at the same place on the other. */
 enum { GUARD_SPARE, GUARD_MAIN, GUARD_INPUT };
@@ -82,14 +80,6 @@ static inline uint8_t guard_other_side(uint8_t side) {
 static inline split_guard_node *guard_node(const guard_worker *w, uint32_t node) {
     return &w->nodes->data[w->origin + node];
 }
-/** Middle plane: exact enough to lie strictly inside whenever a double does, and without overflow. */
-static inline double guard_middle(double lo, double hi) {
-    return 0.5 * lo + 0.5 * hi;
-}
-/** Is the orthant of this code above on the axis? */
-static inline bool guard_above(uint32_t code, int dim, int axis) {
-    return code >> (dim - 1 - axis) & 1;
-}
 /** Cuts the cube down to one of its orthants. */
 static inline void guard_orthant(guard_cube *cube, const double *mid, uint32_t code, int dim) {
     for (int i = 0; i < dim; i++) {
@@ -115,8 +105,12 @@ void guard_leaf(guard_worker *w, uint32_t node, uint32_t guards);
 
 /* ---- steps; each spends credit and pushes what is left */
 froe_status guard_octree(guard_worker *w, const guard_item *item, const guard_cube *cube);
-/** levels >= 1, dim * levels <= 15 */
+/** levels >= 1, dim * levels <= GUARD_CODE_BITS */
 froe_status guard_bucket(guard_worker *w, const guard_item *item, const guard_cube *cube, int levels);
+/** The first step of all, on the guards of a scene, whose number becomes *count. Guards that go on are written to
+ * *main, whose memory, *bytes, is the caller's from then on. *count 0: nothing was done, since the root shrinks. */
+froe_status guard_bucket_scene(guard_worker *w, const split_places *places, double **main, size_t *bytes,
+                               uint32_t *count);
 froe_status guard_shrink(guard_worker *w, const guard_item *item, const guard_cube *cube, uint32_t corner);
 froe_status guard_phase(guard_worker *w, const guard_item *item, const guard_cube *cube);
 #endif

@@ -20,7 +20,8 @@ typedef struct split_homes {
     size_t object_count, node_count;
 } split_homes;
 
-froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const froe_scene *scene,
+/** The tree is that of the same scene. */
+froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const split_places *places,
                              const split_guard_tree *guard, split_homes *out);
 void split_homes_free(const froe_allocator *alloc, split_homes *homes);
 

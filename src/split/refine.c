@@ -2,7 +2,8 @@
 #include "split/refine.h"
 #include "base/log2.h"
 #include "base/random.h"
-#include "split/separate.h"
+#include "split/finish.h"
+#include "split/resort.h"
 #include <math.h>
 #include <string.h>
 
@@ -10,14 +11,18 @@ froe_status split_scratch_new(const void *config, split_work *work) {
     (void)config;
     work->scratch = base_calloc(&work->set.alloc, 1, sizeof(split_scratch));
     if (!work->scratch) return FROE_E_MEMORY;
-    split_view_init(&((split_scratch *)work->scratch)->view);
-    return FROE_OK;
+    split_scratch *s = work->scratch;
+    split_view_init(&s->view);
+    s->table = split_table_new(&work->set.alloc);
+    return s->table ? FROE_OK : FROE_E_MEMORY;
 }
 
 void split_scratch_free(split_work *work) {
     split_scratch *s = work->scratch;
     if (!s) return;
     split_view_free(&work->set.alloc, &s->view);
+    split_separator_free(&work->set.alloc, &s->separator);
+    split_table_free(&work->set.alloc, s->table);
     base_free(&work->set.alloc, s, sizeof *s);
     work->scratch = NULL;
 }
@@ -66,20 +71,13 @@ static void enter_supports(contest *c) {
     }
 }
 
-/** Does the fragment cross its cell from border to border? */
-static bool is_free(const split_set *set, const split_fragment *f) {
-    for (uint32_t i = 0; i < f->count; i++)
-        if (!(set->corners.data[f->first + i].edge & TREE_EDGE_CUT)) return false;
-    return f->count > 0;
-}
-
 /** Free cuts: a few, evenly chosen from all, so that one of them balances. */
 static void enter_free_cuts(contest *c) {
     const split_fragment *items = c->work->set.items.data + c->cell->first;
     uint32_t all = 0, seen = 0, most = c->config->supports > 4 ? c->config->supports : 4;
-    for (uint32_t i = 0; i < c->cell->count; i++) all += is_free(&c->work->set, items + i);
+    for (uint32_t i = 0; i < c->cell->count; i++) all += split_is_free(&c->work->set, items + i);
     for (uint32_t i = 0, next = 0; seen < all && !c->best.good; i++) {
-        if (!is_free(&c->work->set, items + i)) continue;
+        if (!split_is_free(&c->work->set, items + i)) continue;
         if (all <= most || seen >= (uint32_t)((2 * (uint64_t)next + 1) * all / (2 * most))) enter_support(c, i), next++;
         seen++;
     }
@@ -126,41 +124,11 @@ static bool enter_axes(contest *c) {
     return true;
 }
 
-/** The support of some fragment always takes that fragment out. */
-static bool any_support(contest *c, froe_cut *cut) {
-    const split_set *set = &c->work->set;
-    uint32_t m = c->cell->count, start = base_below(base_hash(c->config->seed, c->cell->path, 77), m);
-    for (uint32_t i = 0; i < m; i++) {
-        uint32_t object = set->items.data[c->cell->first + (start + i) % m].object;
-        *cut = scene_support_cut(set->scene, object);
-        if (cut->kind != FROE_CUT_NONE) return true;
-    }
-    return false;
-}
-
-/** Equal points, and nothing else, in the cell? */
-static bool one_point(const contest *c) {
-    const split_set *set = &c->work->set;
-    uint32_t vertex = FROE_NONE;
-    for (uint32_t i = 0; i < c->cell->count; i++) {
-        uint32_t object = set->items.data[c->cell->first + i].object;
-        if (scene_form(set->scene, object) != FROE_POINT) return false;
-        if (i && scene_corner(set->scene, object, 0) != vertex) return false;
-        vertex = scene_corner(set->scene, object, 0);
-    }
-    return true;
-}
-
-static bool balance_due(const split_refine *config, const split_cell *cell) {
-    const double log_43 = 0.41503749927884381;           /* log2(4/3) */
-    if (cell->depth + 78 < config->height) return false; /* 2^32 fragments are not 78 levels of quarters deep */
-    return config->height > 0 && cell->depth + base_log2(cell->count) / log_43 >= config->height;
-}
-
 /** A cut that certainly separates something, or the verdict that none exists. */
 static split_verdict last_resort(contest *c, froe_cut *cut) {
-    if (any_support(c, cut)) return SPLIT_CUT;
-    return split_separate(c->work, c->cell, c->scratch->normal, cut);
+    uint64_t draw = base_hash(c->config->seed, c->cell->path, 77);
+    if (split_any_support(&c->work->set, c->cell, draw, cut)) return SPLIT_CUT;
+    return split_separate(c->work, c->cell, &c->scratch->separator, cut);
 }
 
 /** Three vertices may lie on a line, which scores do not see. Exact. */
@@ -173,10 +141,10 @@ static bool is_plane(const contest *c, const froe_cut *cut) {
 split_verdict split_refine_choose(const split_refine *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     contest c = {.config = config, .work = work, .scratch = work->scratch, .cell = cell};
     if (cell->count <= config->leaf) return SPLIT_LEAF;
-    if (config->leaf && one_point(&c)) return SPLIT_INSEPARABLE;
+    if (config->leaf && split_one_point(&work->set, cell)) return SPLIT_INSEPARABLE;
     if (cell->attempt) return last_resort(&c, cut);
     if (config->supports == 1 && !config->quantiles && !config->free_cuts) return last_resort(&c, cut);
-    c.strict = balance_due(config, cell);
+    c.strict = split_balance_due(config, cell->depth, base_log2(cell->count));
     if (!split_view_fill(&c.scratch->view, &work->set, cell, config->sample, config->seed)) return SPLIT_MEMORY;
     if (config->free_cuts) enter_free_cuts(&c);
     if (!c.best.any) {

@@ -7,6 +7,7 @@
  * (Paterson and Yao 1990; Sacks, theorem 12.9). */
 #ifndef FROE_SPLIT_REFINE_H
 #define FROE_SPLIT_REFINE_H
+#include "split/separate.h"
 #include "split/view.h"
 
 typedef struct split_refine {
@@ -18,17 +19,27 @@ typedef struct split_refine {
     uint32_t sample;    /**< fragments scored per candidate, at most */
     double weight;      /**< of information against splits, in split_cost() */
     double height;      /**< cells deeper than this minus log_{4/3} m must be cut with balance; 0: no rule */
+    uint32_t small;     /**< cells of at most so many segments in the plane are finished at once (finish.h); <= 32 */
     bool free_cuts;
 } split_refine;
+
+typedef struct split_table split_table; /* finish.h */
 
 /** What refining keeps per thread. */
 typedef struct split_scratch {
     split_view view;
-    double normal[3]; /**< of a FROE_CUT_PLANE just chosen */
+    split_separator separator;
+    split_table *table;
 } split_scratch;
 
 froe_status split_scratch_new(const void *config, split_work *work);
 void split_scratch_free(split_work *work);
+
+/** Must a cell with 2^bits fragments be cut with balance? */
+static inline bool split_balance_due(const split_refine *config, uint32_t depth, double bits) {
+    const double log_43 = 0.41503749927884381; /* log2(4/3) */
+    return config->height > 0 && depth + bits / log_43 >= config->height;
+}
 
 /** The split_method.choose of autopartition, and of density below its guard stage. */
 split_verdict split_refine_choose(const split_refine *config, split_work *work, const split_cell *cell, froe_cut *cut);

@@ -54,49 +54,33 @@ static bool between_balls(split_work *work, uint32_t a, uint32_t b, double *norm
     return separates(work, cut, a, b);
 }
 
-/** The i-th vertex of two hulls taken together. */
-static uint32_t joint_corner(const froe_scene *scene, uint32_t a, uint32_t b, uint32_t i) {
-    uint32_t n = scene_corners(scene, a);
-    return i < n ? scene_corner(scene, a, i) : scene_corner(scene, b, i - n);
+/** Appends the corners of a hull; the caller has made room. */
+static void add_corners(const froe_scene *scene, uint32_t object, int set, split_separator *separator) {
+    for (uint32_t i = 0; i < scene_corners(scene, object); i++) {
+        uint32_t id = scene_corner(scene, object, i);
+        separator->corners.data[separator->corners.count++] = (geom_member){scene_vertex(scene, id), id, set};
+    }
 }
 
-static bool try_vertices(split_work *work, uint32_t a, uint32_t b, const uint32_t *id, froe_cut *cut) {
+static bool between_hulls(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
     const froe_scene *scene = work->set.scene;
-    const double *points[3];
-    for (int k = 0; k < scene->dim; k++) points[k] = scene_vertex(scene, id[k]);
-    geom_plane plane = geom_plane_points(scene->dim, points);
-    if (!geom_plane_valid(&work->set.context, &plane)) return false;
+    geom_member *corners = separator->corners.data;
+    separator->corners.count = 0;
+    add_corners(scene, a, -1, separator);
+    add_corners(scene, b, 1, separator);
+    uint32_t count = (uint32_t)separator->corners.count;
+    if (geom_between(&work->set.context, scene->dim, corners, count) != GEOM_YES) return false;
     *cut = (froe_cut){.kind = FROE_CUT_VERTICES};
-    for (int k = 0; k < scene->dim; k++) cut->id[k] = id[k];
-    return separates(work, cut, a, b);
-}
-
-/** All lines (2D) or planes (3D) through vertices of two hulls. */
-static bool between_hulls(split_work *work, uint32_t a, uint32_t b, froe_cut *cut) {
-    const froe_scene *scene = work->set.scene;
-    uint32_t n = scene_corners(scene, a) + scene_corners(scene, b), id[3];
-    for (uint32_t i = 0; i < n; i++)
-        for (uint32_t j = i + 1; j < n && split_go_on(work); j++) {
-            id[0] = joint_corner(scene, a, b, i);
-            id[1] = joint_corner(scene, a, b, j);
-            if (scene->dim == 2) {
-                if (id[0] != id[1] && try_vertices(work, a, b, id, cut)) return true;
-                continue;
-            }
-            for (uint32_t k = j + 1; k < n; k++) {
-                id[2] = joint_corner(scene, a, b, k);
-                if (try_vertices(work, a, b, id, cut)) return true;
-            }
-        }
-    return false;
+    for (int k = 0; k < scene->dim; k++) cut->id[k] = corners[k].id;
+    return true;
 }
 
 /** Pairs of unlike kinds are left to the axis-parallel planes. */
-static bool between(split_work *work, uint32_t a, uint32_t b, double *normal, froe_cut *cut) {
+static bool between(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
     const froe_scene *scene = work->set.scene;
     froe_kind fa = scene_form(scene, a), fb = scene_form(scene, b);
-    if (fa == FROE_BALL && fb == FROE_BALL) return between_balls(work, a, b, normal, cut);
-    if (fa == FROE_HULL && fb == FROE_HULL) return between_hulls(work, a, b, cut);
+    if (fa == FROE_BALL && fb == FROE_BALL) return between_balls(work, a, b, separator->normal, cut);
+    if (fa == FROE_HULL && fb == FROE_HULL) return between_hulls(work, a, b, separator, cut);
     return false;
 }
 
@@ -122,26 +106,30 @@ static bool share_a_point(split_work *work, const split_cell *cell) {
     return true;
 }
 
-/** Room for the sides of any two objects of the cell, as split_classify wants it. */
-static bool make_room(split_set *set, const split_cell *cell) {
+/** Room for the corners of any two hulls of the cell. */
+static bool make_room(split_set *set, const split_cell *cell, split_separator *separator) {
     uint32_t most = 0;
     for (uint32_t i = 0; i < cell->count; i++) {
         uint32_t n = split_corner_count(set, set->items.data + cell->first + i);
         if (n > most) most = n;
     }
-    set->sides.count = 0;
-    return array_reserve(&set->alloc, &set->sides, 2 * (size_t)most);
+    separator->corners.count = 0;
+    return array_reserve(&set->alloc, &separator->corners, 2 * (size_t)most);
 }
 
-split_verdict split_separate(split_work *work, const split_cell *cell, double *normal, froe_cut *cut) {
+split_verdict split_separate(split_work *work, const split_cell *cell, split_separator *separator, froe_cut *cut) {
     if (by_axis(work, cell, cut) && cell->attempt < 2) return SPLIT_CUT;
     if (work->set.scene->dim > 3 || share_a_point(work, cell)) return SPLIT_INSEPARABLE;
-    if (!make_room(&work->set, cell)) return SPLIT_MEMORY;
+    if (!make_room(&work->set, cell, separator)) return SPLIT_MEMORY;
     for (uint32_t i = 0; i < cell->count && split_go_on(work); i++) {
         uint32_t a = object_at(work, cell, i);
         if (scene_form(work->set.scene, a) < FROE_BALL) continue; /* boxes: by_axis() is complete for them */
         for (uint32_t j = 0; j < i; j++)
-            if (between(work, a, object_at(work, cell, j), normal, cut)) return SPLIT_CUT;
+            if (between(work, a, object_at(work, cell, j), separator, cut)) return SPLIT_CUT;
     }
     return base_cancelled(work->task) ? SPLIT_CANCELLED : SPLIT_INSEPARABLE;
+}
+
+void split_separator_free(const froe_allocator *alloc, split_separator *separator) {
+    array_free(alloc, &separator->corners);
 }

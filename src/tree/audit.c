@@ -9,16 +9,21 @@
  *      list holds lies in the cut. Rings are canonical (they name the cuts that made the part), so
  *      equal means the same names from any first corner. Balls, hulls and boxes beside oblique cuts:
  *      nothing that certainly is there is missing, nothing that certainly is not there is listed.
- *   5  Leaves: at most `leaf` pieces, none when that is 0, except where nothing separates them (inseparable.h).
+ *   5  Leaves: at most `leaf` pieces, none when that is 0, except where nothing separates them (inseparable.h), or,
+ *      in packed trees, where the builder says that more cuts would not pay.
  *   6  Promises: each holds, by the measured value and, where its name is known, measured again.
+ *
+ *   7  Blocks of packed trees: flags, units, and that no corner lies in a cut (packed_audit.h).
  *
  * The lists are checked object by object on threads; the violation reported is that of the lowest
  * object, whatever the number of threads. O(pieces x height). */
 #include "base/status.h"
 #include "base/task.h"
 #include "tree/inseparable.h"
+#include "tree/packed_audit.h"
 #include "tree/trace.h"
 #include "tree/validate.h"
+#include "tree/walk.h"
 #include <string.h>
 
 enum { CHUNK = 256 }; /* objects a job */
@@ -62,12 +67,12 @@ static froe_status check_structure(audit *a) {
 /* Counts once more, level by level instead of along paths: children come after their parents. */
 static froe_status count_again(const audit *a, froe_report *r) {
     const froe_tree *t = a->tree;
-    uint32_t *depth = base_calloc(&a->alloc, t->node_count, sizeof *depth), count;
+    uint32_t *depth = base_calloc(&a->alloc, t->node_count, sizeof *depth);
     double depths = 0;
     if (!depth) return base_fail_memory(a->diag);
     for (uint32_t i = 0; i < t->node_count; i++) {
         const tree_node *n = t->nodes + i;
-        tree_list(t, i, &count);
+        uint32_t count = tree_list(t, i).count;
         r->fragments += count;
         depths += (double)count * depth[i];
         if (tree_is_leaf(n)) {
@@ -75,6 +80,7 @@ static froe_status count_again(const audit *a, froe_report *r) {
             if (depth[i] > r->height) r->height = depth[i];
             if (count > r->max_leaf) r->max_leaf = count;
             r->inseparable += (n->flags & TREE_INSEPARABLE) != 0;
+            r->crowded += (n->flags & TREE_CROWDED) != 0;
         } else {
             r->in_cut += count;
             depth[n->child] = depth[n->child + 1] = depth[i] + 1;
@@ -95,7 +101,7 @@ static froe_status check_report(const audit *a) {
                 r->leaves == again.leaves && r->fragments == again.fragments && r->in_cut == again.in_cut &&
                 r->size == r->nodes + again.fragments && r->height == again.height &&
                 r->mean_depth == again.mean_depth && r->max_leaf == again.max_leaf &&
-                r->inseparable == again.inseparable;
+                r->inseparable == again.inseparable && r->crowded == again.crowded;
     return same ? FROE_OK : base_fail(a->diag, FROE_E_AUDIT, "the report does not tell what is in the tree");
 }
 
@@ -116,6 +122,16 @@ static froe_status check_guard_stage(const audit *a) {
 
 /* -------------------------------------------------------------------- lists -- */
 
+/* In the order of the pieces, which is that of a walk. */
+static froe_status place_pieces(audit *a) {
+    tree_walk walk = {.tree = a->tree};
+    while (tree_walk_next(&walk)) {
+        tree_objects list = tree_list(a->tree, walk.node);
+        for (uint32_t i = 0; i < list.count; i++) a->pieces[a->starts[tree_object(&list, i) + 1]++] = list.first + i;
+    }
+    return tree_walk_end(&walk) ? base_fail_memory(a->diag) : FROE_OK;
+}
+
 /* Sorts the pieces by object (counting). */
 static froe_status sort_pieces(audit *a) {
     const froe_tree *t = a->tree;
@@ -123,15 +139,18 @@ static froe_status sort_pieces(audit *a) {
     a->starts = base_calloc(&a->alloc, objects + 2, sizeof *a->starts);
     a->pieces = base_calloc(&a->alloc, t->piece_count, sizeof *a->pieces);
     if (!a->starts || !a->pieces) return base_fail_memory(a->diag);
-    for (uint32_t i = 0; i < t->piece_count; i++) a->starts[t->pieces[i].object + 2]++;
+    for (uint32_t node = 0; node < t->node_count; node++) {
+        tree_objects list = tree_list(t, node);
+        for (uint32_t i = 0; i < list.count; i++) a->starts[tree_object(&list, i) + 2]++;
+    }
     for (size_t i = 2; i < objects + 2; i++) a->starts[i] += a->starts[i - 1];
-    for (uint32_t i = 0; i < t->piece_count; i++) a->pieces[a->starts[t->pieces[i].object + 1]++] = i;
-    return FROE_OK;
+    return place_pieces(a);
 }
 
 /* One object being compared with its stored pieces. */
 typedef struct comparison {
     const froe_tree *tree;
+    num_context *context;
     const uint32_t *next, *end; /* its pieces not met yet */
     uint32_t object;
     froe_diagnostic *diag;
@@ -148,8 +167,8 @@ static bool differs(comparison *c, uint32_t node, const char *what) {
 
 static uint32_t node_of_piece(const froe_tree *t, uint32_t piece) {
     for (uint32_t i = 0; i < t->node_count; i++) {
-        uint32_t count, first = (uint32_t)(tree_list(t, i, &count) - t->pieces);
-        if (piece >= first && piece - first < count) return i;
+        tree_objects list = tree_list(t, i);
+        if (piece >= list.first && piece - list.first < list.count) return i;
     }
     return FROE_NONE;
 }
@@ -178,22 +197,34 @@ static bool shape_right(const comparison *c, const tree_piece *piece, const trac
     return rings_equal(c->tree->bounds + piece->ring, place, scene_form(c->tree->scene, c->object) == FROE_POLYGON);
 }
 
+/* A point has one corner, which is both ends. The ring that others are told must be the true one, too. */
+static const char *packed_wrong(const comparison *c, const trace_place *place, uint32_t i) {
+    uint32_t ring[2] = {place->ring[0], place->ring[place->count - 1]}, told[2];
+    if (place->count == 2) {
+        packed_ring(c->tree, c->context, place->node, c->object, told);
+        if (told[0] != ring[0] || told[1] != ring[1]) return "a piece of the wrong shape";
+    }
+    return packed_refuted(c->context, c->tree, place->node, i, ring);
+}
+
 /* Places and pieces come in the same order. */
 static bool compare_place(void *user, const trace_place *place) {
     comparison *c = user;
-    uint32_t count, first = (uint32_t)(tree_list(c->tree, place->node, &count) - c->tree->pieces);
-    if (c->next < c->end && *c->next < first) return stray(c);
-    if (c->next == c->end || *c->next - first >= count)
+    tree_objects list = tree_list(c->tree, place->node);
+    if (c->next < c->end && *c->next < list.first) return stray(c);
+    if (c->next == c->end || *c->next - list.first >= list.count)
         return !place->must || differs(c, place->node, "a piece is missing");
-    if (!shape_right(c, c->tree->pieces + *c->next, place))
-        return differs(c, place->node, "a piece of the wrong shape");
+    const char *why = tree_is_packed(c->tree) ? packed_wrong(c, place, *c->next - list.first)
+                      : shape_right(c, c->tree->pieces + *c->next, place) ? NULL
+                                                                          : "a piece of the wrong shape";
+    if (why) return differs(c, place->node, why);
     c->next++;
-    if (c->next < c->end && *c->next - first < count) return differs(c, place->node, "listed twice");
+    if (c->next < c->end && *c->next - list.first < list.count) return differs(c, place->node, "listed twice");
     return true;
 }
 
 static froe_status check_object(audit *a, unsigned worker, uint32_t object, froe_diagnostic *diag) {
-    comparison c = {.tree = a->tree, .object = object, .diag = diag};
+    comparison c = {.tree = a->tree, .context = &a->traces[worker].context, .object = object, .diag = diag};
     c.next = a->pieces + a->starts[object];
     c.end = a->pieces + a->starts[object + 1];
     froe_status status = trace_object(a->traces + worker, object, compare_place, &c);
@@ -249,14 +280,18 @@ static froe_status check_lists(audit *a) {
 
 static froe_status check_leaf(audit *a, uint32_t node) {
     const froe_tree *t = a->tree;
-    uint32_t count, most = t->meta.leaf;
-    const tree_piece *list = tree_list(t, node, &count);
+    uint32_t most = t->meta.leaf;
+    tree_objects list = tree_list(t, node);
     bool flagged = t->nodes[node].flags & TREE_INSEPARABLE;
-    if (count <= most && flagged) return bad_node(a, node, "called inseparable, but not over capacity");
-    if (count <= most) return FROE_OK;
+    if (list.count <= most && flagged) return bad_node(a, node, "called inseparable, but not over capacity");
+    bool crowded = t->nodes[node].flags & TREE_CROWDED;
+    if (list.count <= most && crowded) return bad_node(a, node, "called crowded, but not over capacity");
+    if (list.count <= most || crowded) return FROE_OK;
     if (!flagged)
-        return base_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", node, count, most);
-    const char *why = inseparable_refuted(&a->traces[0].context, a->task, t, list, count);
+        return base_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", node, list.count, most);
+    const char *why;
+    froe_status status = inseparable_refuted(&a->traces[0].context, a->task, t, &list, &why);
+    if (status) return base_fail_memory(a->diag);
     return why ? base_fail(a->diag, FROE_E_AUDIT, "node %u: called inseparable, but %s", node, why) : FROE_OK;
 }
 

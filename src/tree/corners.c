@@ -4,6 +4,7 @@
  * thread, pays nothing for it; a thread that finds it taken makes its own, and without memory
  * for that waits: this call has no way to fail. */
 #include "geom/predicates.h"
+#include "tree/packed.h"
 #include "tree/ring.h"
 #include <sched.h>
 #include <stdatomic.h>
@@ -71,25 +72,37 @@ static void whole_corners(const froe_tree *t, uint32_t object, size_t count, dou
     }
 }
 
-static void ring_corners(const froe_tree *t, const tree_piece *piece, size_t count, double *coords, froe_node *made) {
-    const uint32_t *ring = t->bounds + piece->ring;
+/* `length` entries make the ring; the first `count` corners are wanted. */
+static void ring_corners(num_context *context, const froe_tree *t, uint32_t object, const uint32_t *ring,
+                         uint32_t length, size_t count, double *coords, froe_node *made) {
     size_t dim = (size_t)t->scene->dim;
-    num_context own, *context = borrow(t, &own);
     for (uint32_t i = 0; i < count; i++) {
-        ring_point p = ring_point_at(t->scene, piece->object, ring + 1, ring[0], i);
-        round_point(context, t, piece->object, &p, coords + i * dim);
-        if (made) made[i].id1 = ring[1 + i] & TREE_EDGE_CUT ? (ring[1 + i] & ~TREE_EDGE_CUT) + 1 : 0;
+        ring_point p = ring_point_at(t->scene, object, ring, length, i);
+        round_point(context, t, object, &p, coords + i * dim);
+        if (made) made[i].id1 = ring[i] & TREE_EDGE_CUT ? (ring[i] & ~TREE_EDGE_CUT) + 1 : 0;
+    }
+}
+
+static void fragment_corners(const froe_tree *t, uint32_t piece, size_t count, double *coords, froe_node *made) {
+    num_context own, *context = borrow(t, &own);
+    if (tree_is_packed(t)) {
+        uint32_t leaf = packed_leaf(t, piece), object = packed_id(t, piece) & PACKED_OBJECT, ring[2];
+        packed_ring(t, context, leaf, object, ring);
+        ring_corners(context, t, object, ring, 2, count, coords, made);
+    } else {
+        const uint32_t *ring = t->bounds + t->pieces[piece].ring;
+        ring_corners(context, t, t->pieces[piece].object, ring + 1, ring[0], count, coords, made);
     }
     give_back(t, context);
 }
 
 size_t froe_tree_piece_corners(const froe_tree *tree, size_t piece, double *coords, froe_node *made, size_t capacity) {
     if (piece >= tree->piece_count) return 0;
-    const tree_piece *p = tree->pieces + piece;
-    size_t corners = froe_tree_piece(tree, piece).corners, count = corners < capacity ? corners : capacity;
-    if (p->ring)
-        ring_corners(tree, p, count, coords, made);
+    froe_piece p = froe_tree_piece(tree, piece);
+    size_t count = p.corners < capacity ? p.corners : capacity;
+    if (p.whole)
+        whole_corners(tree, p.object, count, coords, made);
     else
-        whole_corners(tree, p->object, count, coords, made);
-    return corners;
+        fragment_corners(tree, (uint32_t)piece, count, coords, made);
+    return p.corners;
 }

@@ -47,7 +47,7 @@ static froe_status table_cut(tree_draft *draft, const froe_cut *cut, uint32_t *i
         break;
     default:
         entry.a = cut->id[0];
-        entry.u.id.b = cut->kind == FROE_CUT_OBJECT ? 0 : cut->id[1];
+        entry.u.id.b = cut->kind == FROE_CUT_OBJECT || cut->kind == FROE_CUT_VERTEX ? 0 : cut->id[1];
         entry.u.id.c = cut->kind == FROE_CUT_VERTICES && draft->dim == 3 ? cut->id[2] : 0;
     }
     *index = (uint32_t)draft->cuts.count;

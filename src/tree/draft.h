@@ -38,6 +38,9 @@ froe_status draft_list(tree_draft *draft, uint32_t node);
  * `count` ring entries as in tree.h, nodes numbered as said above (+ outer). */
 froe_status draft_piece(tree_draft *draft, uint32_t node, uint32_t object, const uint32_t *ring, uint32_t count);
 
+/** A tree without arrays, which holds the scene; to be filled and finished. FROE_E_MEMORY. */
+froe_status draft_shell(const froe_allocator *alloc, froe_scene *scene, const tree_meta *meta, froe_tree **out);
+
 typedef struct tree_graft {
     uint32_t node; /**< a leaf of the main draft with an empty list, replaced */
     tree_draft *draft;

@@ -52,9 +52,13 @@ static part tree_part(const froe_tree *t, file_id id) {
     case FILE_CUTS:
         return (part){t->cuts, t->cut_count, sizeof *t->cuts};
     case FILE_PIECES:
-        return (part){t->pieces, t->piece_count, sizeof *t->pieces};
+        return (part){t->pieces, tree_is_packed(t) ? 0 : t->piece_count, sizeof *t->pieces};
     case FILE_BOUNDS:
         return (part){t->bounds, t->bound_count, sizeof *t->bounds};
+    case FILE_BLOCKS:
+        return (part){t->packed.blocks, t->packed.block_count, PACKED_BLOCK};
+    case FILE_OWNERS:
+        return (part){t->packed.owners, t->packed.owner_count, sizeof *t->packed.owners};
     default:
         return (part){t->normals, t->normal_count, sizeof *t->normals};
     }
@@ -89,7 +93,7 @@ static part scene_part(const froe_scene *s, file_id id) {
 }
 
 uint32_t file_part(const froe_tree *tree, file_id id, const void **data, uint64_t *size) {
-    part p = id <= FILE_NORMALS ? tree_part(tree, id) : scene_part(tree->scene, id);
+    part p = file_is_of_tree(id) ? tree_part(tree, id) : scene_part(tree->scene, id);
     *data = p.data;
     *size = p.count * p.item_size;
     return p.item_size;

@@ -8,7 +8,7 @@
  * mapping. Everything has one place only: two equal trees make equal files. */
 #ifndef FROE_TREE_FILE_H
 #define FROE_TREE_FILE_H
-#include "tree/tree.h"
+#include "tree/packed.h"
 
 #define FILE_VERSION 1u
 #define FILE_ALIGN 64u
@@ -34,6 +34,8 @@ typedef enum file_id {
     FILE_GROUPS,
     FILE_GROUP_TABLE,
     FILE_TEXT,
+    FILE_BLOCKS,
+    FILE_OWNERS,
     FILE_END
 } file_id;
 #define FILE_SECTIONS ((uint32_t)FILE_END - 1)
@@ -63,6 +65,9 @@ bool file_machine_fits(void);
 /** Checksum of bytes followed by zeros up to a multiple of 64, continuing `seed` (0 at first). A change within
  * any 8 aligned bytes changes it for certain. */
 uint64_t file_checksum(const void *bytes, size_t size, uint64_t seed);
+static inline bool file_is_of_tree(file_id id) { /* not of its scene */
+    return id <= FILE_NORMALS || id >= FILE_BLOCKS;
+}
 /** Where a section of a tree lies in memory: *data (NULL: absent) and its size; returns the size of an item. */
 uint32_t file_part(const froe_tree *tree, file_id id, const void **data, uint64_t *size);
 static inline uint64_t file_align(uint64_t offset) {

@@ -158,6 +158,10 @@ static froe_status claim_tree(const opening *o, froe_tree *t) {
     t->pieces = section(o, FILE_PIECES, &t->piece_count);
     t->bounds = section(o, FILE_BOUNDS, &t->bound_count);
     t->normals = section(o, FILE_NORMALS, &t->normal_count);
+    t->packed.blocks = section(o, FILE_BLOCKS, &t->packed.block_count);
+    t->packed.owners = section(o, FILE_OWNERS, &t->packed.owner_count);
+    if (tree_is_packed(t) && t->piece_count) return bad(o, "sections that do not fit together");
+    if (tree_is_packed(t)) t->piece_count = packed_count(t);
     return FROE_OK;
 }
 

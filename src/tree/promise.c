@@ -22,10 +22,9 @@ typedef struct stamps {
 } stamps;
 
 static void stamp_list(const froe_tree *t, stamps *s, uint32_t node, uint32_t cell) {
-    uint32_t count;
-    const tree_piece *list = tree_list(t, node, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t *last = s->cell + list[i].object;
+    tree_objects list = tree_list(t, node);
+    for (uint32_t i = 0; i < list.count; i++) {
+        uint32_t *last = s->cell + tree_object(&list, i);
         s->fragments += *last != cell + 1;
         *last = cell + 1;
     }
@@ -78,4 +77,9 @@ froe_status tree_fill_promises(froe_tree *t) {
         p->measured = t->promises[i].measured = measured;
     }
     return FROE_OK;
+}
+
+void tree_promise_anew(froe_tree *t, const char *name, double promised) {
+    for (uint32_t i = 0; i < t->meta.promise_count; i++)
+        if (!strcmp(t->meta.promises[i].name, name)) t->meta.promises[i].promised = t->promises[i].promised = promised;
 }

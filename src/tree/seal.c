@@ -185,17 +185,22 @@ static void copy_meta(const tree_meta *from, size_t dim, tree_meta *to) {
     memcpy(to->root_hi, from->root_hi, dim * sizeof *to->root_hi);
 }
 
+froe_status draft_shell(const froe_allocator *alloc, froe_scene *scene, const tree_meta *meta, froe_tree **out) {
+    froe_tree *t = base_calloc(alloc, 1, sizeof *t);
+    if (!t) return FROE_E_MEMORY;
+    t->alloc = *alloc;
+    t->scene = scene;
+    copy_meta(meta, (size_t)scene->dim, &t->meta);
+    scene_hold(scene);
+    *out = t;
+    return FROE_OK;
+}
+
 froe_status draft_seal(const tree_draft *main, const tree_graft *grafts, size_t graft_count, froe_scene *scene,
                        const tree_meta *meta, froe_tree **out) {
     seal s = {.main = main, .grafts = grafts, .graft_count = graft_count};
-    froe_status status;
-    s.tree = base_calloc(&main->alloc, 1, sizeof *s.tree);
-    if (!s.tree) return FROE_E_MEMORY;
-    s.tree->alloc = main->alloc;
-    s.tree->scene = scene;
-    copy_meta(meta, (size_t)scene->dim, &s.tree->meta);
-    scene_hold(scene);
-    status = fill_tree(&s);
+    froe_status status = draft_shell(&main->alloc, scene, meta, &s.tree);
+    if (!status) status = fill_tree(&s);
     free_scratch(&s);
     if (status)
         froe_tree_free(s.tree);

@@ -95,7 +95,7 @@ static int points_normal(const geom_plane *plane, double n[3], double q[3]) {
 shape_plane shape_plane_from(const geom_plane *plane, int exponent) {
     shape_plane out = {.axis = -1};
     double q[3] = {0};
-    if (plane->form == GEOM_AXIS) {
+    if (plane->form == GEOM_AXIS || geom_is_sheared(plane)) {
         out.axis = plane->axis;
         out.n[plane->axis] = 1;
         out.c = ldexp(plane->c, -exponent);

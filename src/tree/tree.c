@@ -1,4 +1,7 @@
 /* tree.c: what a finished tree tells about itself: nodes, cuts, pieces, counts. */
+#include "tree/file.h"
+#include "tree/packed.h"
+#include "tree/table.h"
 #include "tree/walk.h"
 #include <string.h>
 #include <sys/mman.h>
@@ -23,6 +26,7 @@ void froe_tree_free(froe_tree *tree) {
     if (!tree) return;
     froe_allocator alloc = tree->alloc;
     tree_spare_free(&alloc, tree->spare);
+    tree_table_free(&alloc, tree->packed.table);
     froe_scene_free(tree->scene); /* before the map: its arrays may lie there */
     if (tree->map) {
         munmap(tree->map, tree->map_size);
@@ -32,6 +36,8 @@ void froe_tree_free(froe_tree *tree) {
         give_array(&alloc, tree->pieces, tree->piece_count, sizeof *tree->pieces);
         give_array(&alloc, tree->bounds, tree->bound_count, sizeof *tree->bounds);
         give_array(&alloc, tree->normals, tree->normal_count, sizeof *tree->normals);
+        give_array(&alloc, tree->packed.owners, tree->packed.owner_count, sizeof *tree->packed.owners);
+        base_free(&alloc, tree->packed.memory, tree->packed.memory_size);
     }
     base_free(&alloc, tree, sizeof *tree);
 }
@@ -74,8 +80,7 @@ geom_plane tree_plane_at(const froe_tree *t, uint32_t node) {
 
 /* Counts one node; the sum of depths of its pieces goes to *depths. */
 static void count_node(const froe_tree *t, froe_report *r, uint32_t node, uint32_t depth, double *depths) {
-    uint32_t count;
-    tree_list(t, node, &count);
+    uint32_t count = tree_list(t, node).count;
     *depths += (double)depth * (double)count;
     if (!tree_is_leaf(t->nodes + node)) {
         r->in_cut += count;
@@ -85,6 +90,7 @@ static void count_node(const froe_tree *t, froe_report *r, uint32_t node, uint32
     if (depth > r->height) r->height = depth;
     if (count > r->max_leaf) r->max_leaf = count;
     if (t->nodes[node].flags & TREE_INSEPARABLE) r->inseparable++;
+    if (t->nodes[node].flags & TREE_CROWDED) r->crowded++;
 }
 
 static froe_status count_nodes(const froe_tree *t, froe_report *r) {
@@ -95,6 +101,14 @@ static froe_status count_nodes(const froe_tree *t, froe_report *r) {
     return tree_walk_end(&walk);
 }
 
+static uint64_t count_bytes(const froe_tree *t) {
+    uint64_t sum = t->packed.table ? tree_table_bytes(t->packed.table) : 0, size;
+    const void *data;
+    for (int id = FILE_NODES; id < FILE_END; id++)
+        if (file_is_of_tree((file_id)id)) file_part(t, (file_id)id, &data, &size), sum += size;
+    return sum;
+}
+
 froe_status tree_finish(froe_tree *t) {
     froe_report r = {.method = t->meta.method, .settings = t->meta.settings, .dim = t->scene->dim};
     r.leaf = t->meta.leaf;
@@ -103,8 +117,6 @@ froe_status tree_finish(froe_tree *t) {
     r.nodes = t->node_count;
     r.fragments = t->piece_count;
     r.size = r.nodes + r.fragments;
-    r.bytes = t->node_count * sizeof *t->nodes + t->cut_count * sizeof *t->cuts + t->piece_count * sizeof *t->pieces +
-              t->bound_count * sizeof *t->bounds + t->normal_count * sizeof *t->normals;
     r.predicates = t->predicates;
     r.promises = t->promises;
     for (uint32_t i = 0; i < t->meta.promise_count; i++) {
@@ -113,8 +125,11 @@ froe_status tree_finish(froe_tree *t) {
     }
     t->promises[t->meta.promise_count] = (froe_promise){0};
     froe_status status = count_nodes(t, &r);
+    if (!status) status = tree_table_new(t, &t->packed.table);
+    if (!status) status = tree_spare_new(&t->alloc, &t->spare);
+    r.bytes = count_bytes(t);
     t->report = r;
-    return status ? status : tree_spare_new(&t->alloc, &t->spare);
+    return status;
 }
 
 froe_report froe_tree_report(const froe_tree *tree) {
@@ -134,19 +149,29 @@ froe_node froe_tree_root(const froe_tree *tree) {
 
 froe_node_info froe_tree_node(const froe_tree *tree, froe_node node) {
     froe_node_info info = {0};
-    uint32_t id = node.id1 - 1, count;
+    uint32_t id = node.id1 - 1;
     if (id >= tree->node_count) return info;
     const tree_node *n = tree->nodes + id;
     info.cut = tree_cut_at(tree, id);
-    info.first_piece = (size_t)(tree_list(tree, id, &count) - tree->pieces);
-    info.piece_count = count;
+    if (info.cut.kind == FROE_CUT_VERTEX || info.cut.kind == FROE_CUT_CROSSING)
+        info.cut.value = tree_plane_at(tree, id).c;
+    tree_objects list = tree_list(tree, id);
+    info.first_piece = list.first;
+    info.piece_count = list.count;
     info.guard = n->flags & TREE_GUARD;
     info.inseparable = n->flags & TREE_INSEPARABLE;
+    info.crowded = n->flags & TREE_CROWDED;
     if (!tree_is_leaf(n)) {
         info.child[0].id1 = n->child + 1;
         info.child[1].id1 = n->child + 2;
     }
     return info;
+}
+
+/* A fragment of a segment has two corners, as the segment has. */
+static froe_piece packed_piece(const froe_tree *t, uint32_t piece) {
+    uint32_t id = packed_id(t, piece), object = id & PACKED_OBJECT;
+    return (froe_piece){object, packed_is_whole(id), scene_corners(t->scene, object)};
 }
 
 size_t froe_tree_piece_count(const froe_tree *tree) {
@@ -155,6 +180,7 @@ size_t froe_tree_piece_count(const froe_tree *tree) {
 
 froe_piece froe_tree_piece(const froe_tree *tree, size_t piece) {
     if (piece >= tree->piece_count) return (froe_piece){.object = FROE_NONE};
+    if (tree_is_packed(tree)) return packed_piece(tree, (uint32_t)piece);
     const tree_piece *p = tree->pieces + piece;
     froe_piece out = {.object = p->object, .whole = !p->ring};
     if (p->ring)

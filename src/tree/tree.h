@@ -3,7 +3,7 @@
  *     nodes        [0] root; children in pairs, after their parent, in depth-first order
  *       inner, cut plain:   axis, value in the node itself, no in-cut list (the guard stage)
  *       inner, cut tabled:  u.cut -> cuts[], which holds any cut and its in-cut list
- *       leaf:               u.list -> pieces[first .. first+count)
+ *       leaf:               u.list -> pieces[first .. first+count), or, in packed trees, the block `child`
  *     pieces       object + where its fragment's ring starts in `bounds` (0: the whole object)
  *     bounds       rings:  count, edge, edge, ...   edge = own edge i | CUT | node
  *     normals      dim doubles per FROE_CUT_PLANE
@@ -13,15 +13,18 @@
  * Lists of a subtree are one contiguous slice of `pieces`: node, left subtree, right subtree.
  * All arrays are packed in depth-first order: children are the next free pair when their parent is
  * visited, and cut, normal, list and rings of a node the next free places of their arrays; an empty
- * list has the place where it would begin. Unused fields are 0. tree/validate.c relies on it. */
+ * list has the place where it would begin. Unused fields are 0. tree/validate.c relies on it.
+ *
+ * A packed tree, one that is built to be queried, has plain cuts only and neither pieces nor bounds: its leaves are
+ * blocks (tree/packed.h). Pieces are numbered all the same; tree_list() reads the lists of both layouts. */
 #ifndef FROE_TREE_TREE_H
 #define FROE_TREE_TREE_H
 #include "scene/scene.h"
 
 #define TREE_EDGE_CUT 0x80000000u /**< ring entry: the rest is a node id; otherwise an own edge or end */
 
-enum { TREE_LEAF = 0, TREE_PLAIN = 1, TREE_TABLED = 2 }; /* tree_node.type */
-enum { TREE_GUARD = 1, TREE_INSEPARABLE = 2 };           /* tree_node.flags */
+enum { TREE_LEAF = 0, TREE_PLAIN = 1, TREE_TABLED = 2 };         /* tree_node.type */
+enum { TREE_GUARD = 1, TREE_INSEPARABLE = 2, TREE_CROWDED = 4 }; /* tree_node.flags */
 
 typedef struct tree_node { /* 16 bytes */
     union {
@@ -31,18 +34,18 @@ typedef struct tree_node { /* 16 bytes */
             uint32_t first, count;
         } list; /**< leaf */
     } u;
-    uint32_t child; /**< left child; right = child + 1; leaf: 0 */
+    uint32_t child; /**< left child; right = child + 1; leaf: 0, packed: its block */
     uint8_t type, flags, axis, unused;
 } tree_node;
 
 typedef struct tree_cut { /* 24 bytes */
     uint32_t kind;        /**< froe_cut_kind */
-    uint32_t a;           /**< axis | object | vertex 0 | index of a double in normals */
+    uint32_t a;           /**< axis | object | vertex 0 | edge 0 | index of a double in normals */
     union {
         double value; /**< AXIS, PLANE */
         struct {
             uint32_t b, c;
-        } id; /**< VERTICES, EDGE */
+        } id; /**< VERTICES, EDGE, CROSSING */
     } u;
     uint32_t first, count; /**< in-cut list */
 } tree_cut;
@@ -51,6 +54,8 @@ typedef struct tree_piece { /* 8 bytes */
     uint32_t object;
     uint32_t ring; /**< index into bounds, 0: whole */
 } tree_piece;
+
+typedef struct tree_table tree_table;
 
 #define TREE_PROMISES 12
 #define TREE_TEXT 512
@@ -68,6 +73,17 @@ typedef struct tree_meta {
     double root_lo[FROE_MAX_DIM], root_hi[FROE_MAX_DIM]; /**< root cube of the guard stage; 0,0 without one */
 } tree_meta;
 
+/** Leaf blocks and what belongs to them; all zero in other trees. */
+typedef struct tree_packed {
+    uint8_t *blocks;      /**< at a multiple of 64 */
+    uint32_t block_count; /**< of 64 bytes each; the last is a sentinel */
+    uint32_t owner_count;
+    uint32_t *owners;
+    void *memory; /**< that blocks lie in; NULL: in a mapped file */
+    size_t memory_size;
+    tree_table *table; /**< follows from the nodes; see tree/table.h */
+} tree_packed;
+
 /** A number context for calls that have no other (corners.c). */
 typedef struct tree_spare tree_spare;
 froe_status tree_spare_new(const froe_allocator *alloc, tree_spare **out);
@@ -83,6 +99,7 @@ struct froe_tree {
     tree_piece *pieces;
     uint32_t *bounds; /**< bounds[0] unused */
     double *normals;
+    tree_packed packed;
     froe_predicate_stats predicates; /**< of the build */
     froe_report report;              /**< computed once, by tree_finish */
     froe_promise promises[TREE_PROMISES + 1];
@@ -94,16 +111,40 @@ struct froe_tree {
 static inline bool tree_is_leaf(const tree_node *node) {
     return node->type == TREE_LEAF;
 }
-/** The in-cut or leaf list of a node. */
-static inline const tree_piece *tree_list(const froe_tree *t, uint32_t node, uint32_t *count) {
+/** The list of a node: pieces first .. first + count - 1, whose objects tree_object() tells. */
+typedef struct tree_objects {
+    const uint32_t *at;
+    uint32_t stride, mask;
+    uint32_t first, count;
+} tree_objects;
+
+static inline bool tree_is_packed(const froe_tree *t) {
+    return t->packed.blocks;
+}
+/** List of a packed leaf: in its block, behind 32 bytes and 8 for each fragment (tree/packed.h). */
+static inline tree_objects tree_packed_list(const froe_tree *t, const tree_node *n) {
+    size_t count = n->u.list.count, at = (size_t)n->child * 64 + 32 + 8 * count;
+    return (tree_objects){.at = (const uint32_t *)(const void *)(t->packed.blocks + at),
+                          .stride = 1,
+                          .mask = 0x3fffffffu,
+                          .first = n->u.list.first,
+                          .count = n->u.list.count};
+}
+/** The in-cut or leaf list of a node, wherever its layout keeps it. */
+static inline tree_objects tree_list(const froe_tree *t, uint32_t node) {
     const tree_node *n = t->nodes + node;
-    uint32_t first = 0;
-    *count = 0;
+    if (n->type == TREE_LEAF && tree_is_packed(t)) return tree_packed_list(t, n);
+    tree_objects list = {.stride = sizeof(tree_piece) / sizeof(uint32_t), .mask = UINT32_MAX};
     if (n->type == TREE_LEAF)
-        first = n->u.list.first, *count = n->u.list.count;
+        list.first = n->u.list.first, list.count = n->u.list.count;
     else if (n->type == TREE_TABLED)
-        first = t->cuts[n->u.cut].first, *count = t->cuts[n->u.cut].count;
-    return t->pieces + first;
+        list.first = t->cuts[n->u.cut].first, list.count = t->cuts[n->u.cut].count;
+    if (list.count) list.at = &t->pieces[list.first].object;
+    return list;
+}
+/** Object of the i-th piece of a list. */
+static inline uint32_t tree_object(const tree_objects *list, uint32_t i) {
+    return list->at[(size_t)i * list->stride] & list->mask;
 }
 /** A node's cut, given the tables it refers to; kind NONE at a leaf. */
 froe_cut tree_cut_view(const tree_node *node, const tree_cut *cuts, const double *normals);
@@ -119,6 +160,8 @@ froe_status tree_finish(froe_tree *tree);
  * pieces in a leaf), guard_leaves (cells of the guard stage), guard_fragments (over those cells and the stage's own
  * cuts). FROE_E_UNSUPPORTED for other names; FROE_E_MEMORY. */
 froe_status tree_measure(const froe_tree *tree, const char *name, double *out);
+/** Sets anew what is promised under a name, for what a builder finds out while it builds. */
+void tree_promise_anew(froe_tree *tree, const char *name, double promised);
 /** Measures the promises whose builder left that at 0, by tree_measure. FROE_E_MEMORY. */
 froe_status tree_fill_promises(froe_tree *tree);
 #endif

@@ -6,6 +6,7 @@
  * where it stands. What the pieces mean is the business of the audit. */
 #include "tree/validate.h"
 #include "base/status.h"
+#include "tree/packed.h"
 #include "tree/walk.h"
 #include <math.h>
 
@@ -34,6 +35,13 @@ static bool finite_root(const froe_tree *t, const double *x) {
     return true;
 }
 
+/* What a CROSSING may name: segments in the plane, edges in space. */
+static bool is_edge(const froe_scene *s, uint32_t id) {
+    uint32_t vertices[2];
+    if (s->dim == 2) return id < s->object_count && scene_form(s, id) == FROE_SEGMENT;
+    return froe_scene_edge(s, id, vertices);
+}
+
 static bool cut_ids_exist(const froe_scene *s, const tree_cut *cut) {
     bool space = s->dim == 3, b_free = cut->u.id.b == 0, c_free = cut->u.id.c == 0;
     uint32_t vertices = s->vertex_count;
@@ -43,8 +51,12 @@ static bool cut_ids_exist(const froe_scene *s, const tree_cut *cut) {
                c_free;
     case FROE_CUT_VERTICES:
         return cut->a < vertices && cut->u.id.b < vertices && (space ? cut->u.id.c < vertices : c_free);
-    default:
+    case FROE_CUT_EDGE:
         return space && cut->a < vertices && cut->u.id.b < vertices && c_free;
+    case FROE_CUT_VERTEX:
+        return cut->a < vertices && b_free && c_free;
+    default:
+        return is_edge(s, cut->a) && is_edge(s, cut->u.id.b) && c_free;
     }
 }
 
@@ -95,7 +107,7 @@ static froe_status check_list(check *c, uint32_t first, uint32_t count) {
     const froe_tree *t = c->tree;
     froe_status status = FROE_OK;
     if (first != c->pieces || count > t->piece_count - c->pieces) return bad_node(c, "a list out of place");
-    for (uint32_t i = first; !status && i < first + count; i++) {
+    for (uint32_t i = first; !status && !tree_is_packed(t) && i < first + count; i++) {
         const tree_piece *piece = t->pieces + i;
         if (piece->object >= t->scene->object_count)
             return bad_piece(c, piece->object, "an object that does not exist");
@@ -108,7 +120,7 @@ static froe_status check_list(check *c, uint32_t first, uint32_t count) {
 /* ------------------------------------------------------------------- nodes -- */
 
 static froe_status check_leaf(check *c, const tree_node *n) {
-    if (n->child || n->axis) return bad_node(c, "an unused field that is not 0");
+    if ((n->child && !tree_is_packed(c->tree)) || n->axis) return bad_node(c, "an unused field that is not 0");
     return check_list(c, n->u.list.first, n->u.list.count);
 }
 
@@ -128,9 +140,14 @@ static froe_status check_inner(check *c, const tree_node *n) {
     return check_list(c, cut->first, cut->count);
 }
 
+static int known_flags(const froe_tree *t, const tree_node *n) {
+    if (tree_is_packed(t)) return n->type == TREE_LEAF ? TREE_CROWDED : 0;
+    return TREE_GUARD | TREE_INSEPARABLE;
+}
+
 static froe_status check_node(check *c) {
     const tree_node *n = c->tree->nodes + c->walk.node;
-    if (n->type > TREE_TABLED || n->flags & ~(TREE_GUARD | TREE_INSEPARABLE) || n->unused)
+    if (n->type > TREE_TABLED || n->flags & ~known_flags(c->tree, n) || n->unused)
         return bad_node(c, "an unknown type or flag");
     return n->type == TREE_LEAF ? check_leaf(c, n) : check_inner(c, n);
 }
@@ -140,8 +157,9 @@ static froe_status check_nodes(check *c) {
     froe_status status = FROE_OK;
     c->nodes = c->bounds = 1;
     c->walk.tree = t;
-    if (!t->node_count || !t->bound_count || t->bounds[0] != 0)
-        return base_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: it has no root");
+    bool begun = tree_is_packed(t) ? !t->bound_count : t->bound_count && t->bounds[0] == 0;
+    if (tree_is_packed(t)) c->bounds = 0;
+    if (!t->node_count || !begun) return base_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: it has no root");
     while (!status && tree_walk_next(&c->walk)) status = check_node(c);
     if (tree_walk_end(&c->walk)) return base_fail_memory(c->diag);
     if (status) return status;
@@ -182,5 +200,6 @@ froe_status tree_validate(const froe_tree *tree, froe_diagnostic *diag) {
     if (num_context_new(&tree->alloc, &c.context)) return base_fail_memory(diag);
     froe_status status = check_nodes(&c);
     num_context_free(&c.context);
+    if (!status && tree_is_packed(tree)) status = packed_validate(tree, diag);
     return status;
 }

@@ -1,6 +1,8 @@
 /* consumer.c: a user's program. It has functions that are called as internal ones of
  * the library are; the library must neither see them nor clash with them. */
 #include <froe/froe.h>
+#include <froe/query.h>
+#include <froe/view.h>
 #include <stdio.h>
 
 void *base_realloc(void);

@@ -2,6 +2,8 @@
 #include "guard_oracle.h"
 #include "guard_scenes.h"
 #include "split/guard_shrink.h"
+#include "split/guards.h"
+#include "split/homes.h"
 #include <pthread.h>
 
 enum { WAYS = 4 };
@@ -444,6 +446,135 @@ static void too_many_guards_are_refused(void **state) {
     assert_int_equal(split_guard_tree_build(&alloc, &task, 1, &options, &none, (size_t)1 << 31, &tree), FROE_E_LIMIT);
 }
 
+/* ---------------------------------------------------------- guards of a scene -- */
+
+/* Boxes from guard to guard, or small ones, a third of them flat on some axis. */
+static froe_scene *boxes_of(const double *guards, size_t count, int dim, bool small) {
+    size_t d = (size_t)dim;
+    double *coords = malloc((count + 1) * 2 * d * sizeof *coords);
+    froe_scene *scene = NULL;
+    froe_objects o = froe_objects_defaults();
+    assert_non_null(coords);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < d; k++) {
+            double x = guards[i * d + k], y = i + 1 < count ? guards[(i + 1) * d + k] : x;
+            if (small) y = x + (y - x) * 0.01;
+            bool flat = !isfinite(y) || (i + k) % 3 == 0;
+            coords[2 * i * d + k] = x < y || flat ? x : y;
+            coords[(2 * i + 1) * d + k] = flat ? x : x < y ? y : x;
+        }
+    o.kind = FROE_BOX;
+    o.count = count;
+    o.coords = coords;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    free(coords);
+    return scene;
+}
+
+typedef struct staged { /* what density has before it grows anything */
+    split_places places;
+    split_guard_tree tree;
+    split_homes homes;
+} staged;
+
+static froe_status stage(const froe_allocator *alloc, const froe_scene *scene, split_guard_options options,
+                         unsigned threads, staged *out) {
+    base_task task;
+    memset(out, 0, sizeof *out);
+    base_task_init(&task, threads, NULL, NULL);
+    froe_status status = split_places_make(alloc, &task, scene, &out->places);
+    if (!status) status = split_guard_tree_of(alloc, &task, 1, &options, &out->places, &out->tree);
+    if (!status) assert_true(task.done == 1);
+    return status ? status : split_homes_make(alloc, &task, &out->places, &out->tree, &out->homes);
+}
+
+static void unstage(const froe_allocator *alloc, staged *s) {
+    split_places_free(alloc, &s->places);
+    split_guard_tree_free(alloc, &s->tree);
+    split_homes_free(alloc, &s->homes);
+}
+
+/* Each object is among those of the node that cuts it first. */
+static void check_homes(const froe_scene *scene, const staged *s) {
+    const split_guard_node *nodes = s->tree.nodes.data;
+    uint32_t *home = malloc(scene->object_count * sizeof *home);
+    assert_non_null(home);
+    memset(home, 0xff, scene->object_count * sizeof *home);
+    for (uint32_t v = 0; v < s->tree.nodes.count; v++)
+        for (uint32_t i = 0; i < split_homes_own(&s->homes, &s->tree, v); i++)
+            home[s->homes.ids[s->homes.at[v] + i]] = v;
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        uint32_t node = 0;
+        scene_object_bounds(scene, i, lo, hi);
+        while (nodes[node].child) {
+            bool below = lo[nodes[node].axis]<nodes[node].value, above = hi[nodes[node].axis]> nodes[node].value;
+            if (below == above) break;
+            node = nodes[node].child + above;
+        }
+        assert_int_equal(home[i], node);
+    }
+    free(home);
+}
+
+/* The tree of a scene is that of its guards written down, and its objects' homes are where comparisons lead. */
+static void check_scene(const froe_scene *scene, split_guard_options options) {
+    froe_allocator alloc = base_allocator(NULL);
+    base_task task;
+    split_guards guards;
+    base_task_init(&task, 1, NULL, NULL);
+    assert_int_equal(split_guards_of(&alloc, &task, 1, scene, NULL, froe_scene_object_count(scene), &guards), FROE_OK);
+    split_guard_tree expected = build(guards.points, guards.count, options, 1);
+    for (unsigned threads = 1; threads <= 3; threads += 2) {
+        staged s;
+        assert_int_equal(stage(&alloc, scene, options, threads, &s), FROE_OK);
+        assert_alike(&expected, &s.tree, 1, NULL);
+        assert_memory_equal(expected.lo, s.tree.lo, sizeof expected.lo);
+        assert_memory_equal(expected.hi, s.tree.hi, sizeof expected.hi);
+        assert_true(expected.promised == s.tree.promised);
+        check_homes(scene, &s);
+        unstage(&alloc, &s);
+    }
+    discard(&expected);
+    split_guards_free(&alloc, &guards);
+}
+
+static void a_scene_has_the_tree_of_its_guards_and_homes_in_it(void **state) {
+    static const int dims[] = {2, 2, 3, 5, 8};
+    static const size_t counts[] = {300, 9000, 9000, 3000, 300};
+    static const uint32_t ks[] = {0, 3, 16, 256};
+    (void)state;
+    for (int scene = 0; scene < SCENE_COUNT; scene++)
+        for (size_t i = 0; i < sizeof dims / sizeof *dims; i++) {
+            double *guards = scene_new((guard_scene)scene, i, counts[i], dims[i]);
+            froe_scene *boxes = boxes_of(guards, counts[i], dims[i], (scene + i) % 2);
+            check_scene(boxes, (split_guard_options){.dim = dims[i], .k = ks[(scene + i) % 4]});
+            froe_scene_free(boxes);
+            free(guards);
+        }
+}
+
+static froe_status try_stage(void *user, const froe_allocator *alloc) {
+    const split_guard_options options = {.dim = 2, .k = 4};
+    staged s;
+    froe_status status = stage(alloc, user, options, 2, &s);
+    unstage(alloc, &s);
+    return status;
+}
+
+static void every_allocation_for_a_scene_may_fail(void **state) {
+    static const guard_scene scenes[] = {SCENE_UNIFORM, SCENE_CLUSTERS, SCENE_NESTED};
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        double *guards = scene_new(scenes[i], 1, 3000, 2);
+        froe_scene *boxes = boxes_of(guards, 3000, 2, true);
+        assert_true(test_memory_each(try_stage, boxes) >= 3);
+        froe_scene_free(boxes);
+        free(guards);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_ways_follow_the_rule_in_the_plane),
@@ -465,6 +596,8 @@ int main(void) {
         cmocka_unit_test(cancelling_leaves_nothing_behind),
         cmocka_unit_test(progress_rises_by_its_span),
         cmocka_unit_test(too_many_guards_are_refused),
+        cmocka_unit_test(a_scene_has_the_tree_of_its_guards_and_homes_in_it),
+        cmocka_unit_test(every_allocation_for_a_scene_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,30 +76,6 @@ static inline void rational_dot(mpq_t out, mpq_t a[3], mpq_t b[3]) {
     for (int k = 0; k < 3; k++) rational_add_product(out, 1, a[k], b[k]);
 }
 
-/** From the definition in geom/plane.h, whatever image the plane carries. */
-static inline void rational_plane_set(rational_plane *h, const geom_plane *plane) {
-    rational_point p[3];
-    for (int i = 0; i < 3; i++) rational_point_init(&p[i]), rational_point_set(&p[i], plane->dim, plane->p[i]);
-    h->dim = plane->dim;
-    for (int k = 0; k < 3; k++) mpq_set_ui(h->n[k], 0, 1);
-    mpq_set_d(h->c, plane->c);
-    if (plane->form == GEOM_AXIS) mpq_set_ui(h->n[plane->axis], 1, 1);
-    if (plane->form == GEOM_VECTOR)
-        for (int k = 0; k < 3; k++) mpq_set(h->n[k], p[0].x[k]);
-    if (plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL) {
-        for (int i = 1; i < 3; i++)
-            for (int k = 0; k < 3; k++) mpq_sub(p[i].x[k], p[i].x[k], p[0].x[k]);
-        if (plane->form == GEOM_POINTS && plane->dim == 3) {
-            rational_cross(h->n, p[1].x, p[2].x);
-        } else {
-            mpq_neg(h->n[0], p[1].x[1]);
-            mpq_set(h->n[1], p[1].x[0]);
-        }
-        rational_dot(h->c, h->n, p[0].x);
-    }
-    for (int i = 0; i < 3; i++) rational_point_clear(&p[i]);
-}
-
 /** (n . x - c) w */
 static inline void rational_value(mpq_t out, rational_plane *h, rational_point *p) {
     rational_dot(out, h->n, p->x);
@@ -139,6 +115,63 @@ static inline bool rational_meet(rational_point *out, rational_plane *h, rationa
     mpq_clear(at_p);
     mpq_clear(at_q);
     return rational_point_orient(out);
+}
+
+/** The infinitesimal by which walls are sheared, as a number smaller than what predicates on doubles can tell apart. */
+#define RATIONAL_EPS_BITS 65536
+
+/** n = (1, eps, 0), c = n . p, where p is the vertex or the crossing. */
+static inline void rational_wall_set(rational_plane *h, const geom_plane *plane) {
+    rational_point p, q, at;
+    rational_point_init(&p), rational_point_init(&q), rational_point_init(&at);
+    rational_point_set(&at, 2, plane->p[0]);
+    if (plane->form == GEOM_AT_CROSSING) { /* the second line is that of n . x = c */
+        rational_point_set(&p, 2, plane->p[2]);
+        rational_point_set(&q, 2, plane->p[3]);
+        h->dim = 2;
+        mpq_sub(h->n[0], p.x[1], q.x[1]);
+        mpq_sub(h->n[1], q.x[0], p.x[0]);
+        mpq_set_ui(h->n[2], 0, 1);
+        rational_dot(h->c, h->n, p.x);
+        rational_point_set(&p, 2, plane->p[0]);
+        rational_point_set(&q, 2, plane->p[1]);
+        rational_meet(&at, h, &p, &q);
+    }
+    mpq_set_ui(h->n[0], 1, 1);
+    mpq_div_2exp(h->n[1], h->n[0], RATIONAL_EPS_BITS);
+    mpq_set_ui(h->n[2], 0, 1);
+    rational_dot(h->c, h->n, at.x);
+    mpq_div(h->c, h->c, at.w);
+    rational_point_clear(&p), rational_point_clear(&q), rational_point_clear(&at);
+}
+
+/** From the definition in geom/plane.h, whatever image the plane carries. */
+static inline void rational_plane_set(rational_plane *h, const geom_plane *plane) {
+    rational_point p[3];
+    if (geom_is_sheared(plane)) {
+        rational_wall_set(h, plane);
+        h->dim = plane->dim;
+        return;
+    }
+    for (int i = 0; i < 3; i++) rational_point_init(&p[i]), rational_point_set(&p[i], plane->dim, plane->p[i]);
+    h->dim = plane->dim;
+    for (int k = 0; k < 3; k++) mpq_set_ui(h->n[k], 0, 1);
+    mpq_set_d(h->c, plane->c);
+    if (plane->form == GEOM_AXIS) mpq_set_ui(h->n[plane->axis], 1, 1);
+    if (plane->form == GEOM_VECTOR)
+        for (int k = 0; k < 3; k++) mpq_set(h->n[k], p[0].x[k]);
+    if (plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL) {
+        for (int i = 1; i < 3; i++)
+            for (int k = 0; k < 3; k++) mpq_sub(p[i].x[k], p[i].x[k], p[0].x[k]);
+        if (plane->form == GEOM_POINTS && plane->dim == 3) {
+            rational_cross(h->n, p[1].x, p[2].x);
+        } else {
+            mpq_neg(h->n[0], p[1].x[1]);
+            mpq_set(h->n[1], p[1].x[0]);
+        }
+        rational_dot(h->c, h->n, p[0].x);
+    }
+    for (int i = 0; i < 3; i++) rational_point_clear(&p[i]);
 }
 
 /** The point on three planes, by Cramer's rule; false unless there is exactly one. */

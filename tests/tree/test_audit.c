@@ -96,11 +96,8 @@ static void huge_and_tiny_coordinates_pass(void **state) {
 /* ------------------------------------------------------- structure, violated -- */
 
 static uint32_t find_node(const froe_tree *t, unsigned type, uint32_t least) {
-    uint32_t count;
-    for (uint32_t i = 0; i < t->node_count; i++) {
-        tree_list(t, i, &count);
-        if (t->nodes[i].type == type && count >= least) return i;
-    }
+    for (uint32_t i = 0; i < t->node_count; i++)
+        if (t->nodes[i].type == type && tree_list(t, i).count >= least) return i;
     fail_msg("no such node");
     return 0;
 }

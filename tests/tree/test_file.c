@@ -80,9 +80,11 @@ static froe_scene *rich_scene(int dim) {
     return scene;
 }
 
-static froe_tree *rich_tree(int dim) {
-    froe_scene *scene = rich_scene(dim);
-    froe_tree *tree = trees_build(scene, "density", 1);
+enum { PLANE = 2, SPACE = 3, PACKED = 4, LAYOUTS };
+
+static froe_tree *rich_tree(int layout) {
+    froe_scene *scene = rich_scene(layout == SPACE ? 3 : 2);
+    froe_tree *tree = layout == PACKED ? trees_build(scene, "index", 2) : trees_build(scene, "density", 1);
     froe_scene_free(scene);
     return tree;
 }
@@ -149,8 +151,8 @@ static void look_at_all(const froe_tree *tree) {
 
 static void what_is_saved_is_opened(void **state) {
     (void)state;
-    for (int dim = 2; dim <= 3; dim++) {
-        froe_tree *tree = rich_tree(dim), *again;
+    for (int layout = PLANE; layout < LAYOUTS; layout++) {
+        froe_tree *tree = rich_tree(layout), *again;
         assert_saved(tree, NAME);
         again = opened(NAME);
         trees_assert_equal(tree, again);
@@ -190,19 +192,19 @@ static void checksums_are_as_specified(void **state) {
 static void files_are_as_specified(void **state) {
     (void)state;
     static const uint8_t magic[8] = {0x89, 0x66, 0x72, 0x6f, 0x65, 0x0d, 0x0a, 0x1a};
-    static const uint64_t items[17] = {1264, 16, 24, 8, 4, 8, 8, 1, 1, 4, 4, 8, 8, 4, 4, 16, 1};
+    static const uint64_t items[19] = {1264, 16, 24, 8, 4, 8, 8, 1, 1, 4, 4, 8, 8, 4, 4, 16, 1, 64, 4};
     froe_tree *tree = rich_tree(3);
     const froe_scene *scene = froe_tree_scene(tree);
-    size_t size, offset = 640;
+    size_t size, offset = 704;
     assert_saved(tree, NAME);
     uint8_t *bytes = slurp(NAME, &size);
     assert_memory_equal(bytes, magic, 8);
     assert_int_equal(number(bytes, 8, 4), 1);
-    assert_int_equal(number(bytes, 12, 4), 17);
+    assert_int_equal(number(bytes, 12, 4), 19);
     assert_int_equal(number(bytes, 16, 8), size);
     assert_int_equal(number(bytes, 24, 4), 3);
-    assert_true(number(bytes, 56, 8) == file_checksum(bytes + 64, 17 * 32, file_checksum(bytes, 56, 0)));
-    const uint64_t counts[17] = {1,
+    assert_true(number(bytes, 56, 8) == file_checksum(bytes + 64, 19 * 32, file_checksum(bytes, 56, 0)));
+    const uint64_t counts[19] = {1,
                                  tree->node_count,
                                  tree->cut_count,
                                  tree->piece_count,
@@ -218,8 +220,10 @@ static void files_are_as_specified(void **state) {
                                  froe_scene_object_count(scene),
                                  froe_scene_object_count(scene),
                                  1,
-                                 scene->text_size};
-    for (size_t i = 0; i < 17; i++) {
+                                 scene->text_size,
+                                 0,
+                                 0};
+    for (size_t i = 0; i < 19; i++) {
         const size_t entry = 64 + 32 * i;
         assert_int_equal(number(bytes, entry, 4), i + 1);
         assert_int_equal(number(bytes, entry + 4, 4), items[i]);
@@ -229,7 +233,7 @@ static void files_are_as_specified(void **state) {
         offset = (offset + counts[i] * items[i] + 63) / 64 * 64;
     }
     assert_int_equal(offset, size);
-    assert_string_equal(bytes + 640, "density");
+    assert_string_equal(bytes + 704, "density");
     free(bytes);
     froe_tree_free(tree);
     unlink(NAME);
@@ -289,8 +293,8 @@ static froe_status try_bytes(const uint8_t *bytes, size_t size, froe_diagnostic 
     return status;
 }
 
-static uint8_t *small_file(int dim, size_t *size) {
-    froe_tree *tree = rich_tree(dim);
+static uint8_t *small_file(int layout, size_t *size) {
+    froe_tree *tree = rich_tree(layout);
     assert_saved(tree, NAME);
     froe_tree_free(tree);
     return slurp(NAME, size);
@@ -300,7 +304,7 @@ static void every_changed_byte_is_noticed(void **state) {
     (void)state;
     size_t size;
     froe_diagnostic why;
-    uint8_t *bytes = small_file(2, &size);
+    uint8_t *bytes = small_file(PACKED, &size);
     assert_int_equal(try_bytes(bytes, size, &why), FROE_OK);
     for (size_t i = 0; i < size; i++) {
         uint8_t old = bytes[i];
@@ -318,7 +322,7 @@ static void every_truncation_is_noticed(void **state) {
     (void)state;
     size_t size;
     froe_diagnostic why;
-    uint8_t *bytes = small_file(2, &size);
+    uint8_t *bytes = small_file(PACKED, &size);
     for (size_t i = 0; i < size; i++)
         if (try_bytes(bytes, i, &why) != FROE_E_FORMAT) fail_msg("length %zu", i);
     uint8_t *longer = calloc(1, size + 64);
@@ -350,21 +354,21 @@ static void forge(uint8_t *bytes, size_t size) {
 /* Bytes of the structure must be refused even with right checksums; numbers may be others', but nothing may crash. */
 static void forged_files_are_refused_or_harmless(void **state) {
     (void)state;
-    for (int dim = 2; dim <= 3; dim++) {
+    for (int layout = PLANE; layout < LAYOUTS; layout++) {
         size_t size, opened_count = 0;
         froe_diagnostic why;
-        uint8_t *bytes = small_file(dim, &size), *copy = malloc(size);
+        uint8_t *bytes = small_file(layout, &size), *copy = malloc(size);
         assert_non_null(copy);
         for (size_t i = 0; i < size; i++) {
             static const uint8_t flips[] = {0x01, 0x80, 0xff};
-            for (size_t f = 0; f < (dim == 2 ? 3 : 1); f++) {
+            for (size_t f = 0; f < (layout != SPACE ? 3 : 1); f++) {
                 memcpy(copy, bytes, size);
-                copy[i] ^= dim == 2 ? flips[f] : flips[i % 3];
+                copy[i] ^= layout != SPACE ? flips[f] : flips[i % 3];
                 forge(copy, size);
                 opened_count += try_bytes(copy, size, &why) == FROE_OK;
             }
         }
-        assert_true(opened_count > 0 && opened_count < size * (dim == 2 ? 3 : 1));
+        assert_true(opened_count > 0 && opened_count < size * (layout != SPACE ? 3 : 1));
         free(copy);
         free(bytes);
     }
@@ -372,28 +376,34 @@ static void forged_files_are_refused_or_harmless(void **state) {
 }
 
 /* Words of the arrays that hold indices, replaced by every small number and some large ones. */
-static void forged_indices_are_refused_or_harmless(void **state) {
-    (void)state;
-    static const file_id indices[] = {FILE_NODES, FILE_CUTS, FILE_PIECES, FILE_BOUNDS, FILE_STARTS, FILE_CORNERS};
+static void forge_words(const uint8_t *bytes, size_t size, file_id id) {
     static const uint32_t values[] = {0,  1,          2,           3,           5,           8,
                                       13, 0x7fffffff, 0x80000000u, 0x80000001u, 0x80000002u, 0xffffffffu};
-    size_t size;
     froe_diagnostic why;
-    uint8_t *bytes = small_file(3, &size), *copy = malloc(size);
+    file_section s;
+    uint8_t *copy = malloc(size);
     assert_non_null(copy);
-    for (size_t k = 0; k < sizeof indices / sizeof *indices; k++) {
-        file_section s;
-        memcpy(&s, bytes + sizeof(file_header) + (indices[k] - 1) * sizeof s, sizeof s);
-        for (uint64_t at = 0; at + 4 <= s.size; at += 4)
-            for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
-                memcpy(copy, bytes, size);
-                memcpy(copy + s.offset + at, values + v, 4);
-                forge(copy, size);
-                (void)try_bytes(copy, size, &why);
-            }
-    }
+    memcpy(&s, bytes + sizeof(file_header) + (id - 1) * sizeof s, sizeof s);
+    for (uint64_t at = 0; at + 4 <= s.size; at += 4)
+        for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
+            memcpy(copy, bytes, size);
+            memcpy(copy + s.offset + at, values + v, 4);
+            forge(copy, size);
+            (void)try_bytes(copy, size, &why);
+        }
     free(copy);
-    free(bytes);
+}
+
+static void forged_indices_are_refused_or_harmless(void **state) {
+    (void)state;
+    static const file_id indices[] = {FILE_NODES,  FILE_CUTS,    FILE_PIECES, FILE_BOUNDS,
+                                      FILE_STARTS, FILE_CORNERS, FILE_BLOCKS, FILE_OWNERS};
+    for (int layout = SPACE; layout < LAYOUTS; layout++) {
+        size_t size;
+        uint8_t *bytes = small_file(layout, &size);
+        for (size_t k = 0; k < sizeof indices / sizeof *indices; k++) forge_words(bytes, size, indices[k]);
+        free(bytes);
+    }
     unlink(NAME);
 }
 

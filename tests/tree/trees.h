@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "support/memory.h"
 #include "tree/draft.h"
+#include "tree/packed.h"
 #include <string.h>
 
 /** A whole number in 0 .. n-1. */
@@ -97,8 +98,16 @@ static inline void trees_assert_equal(const froe_tree *a, const froe_tree *b) {
     assert_int_equal(a->normal_count, b->normal_count);
     assert_memory_equal(a->nodes, b->nodes, a->node_count * sizeof *a->nodes);
     if (a->cut_count) assert_memory_equal(a->cuts, b->cuts, a->cut_count * sizeof *a->cuts);
-    if (a->piece_count) assert_memory_equal(a->pieces, b->pieces, a->piece_count * sizeof *a->pieces);
-    assert_memory_equal(a->bounds, b->bounds, a->bound_count * sizeof *a->bounds);
+    assert_int_equal(tree_is_packed(a), tree_is_packed(b));
+    if (tree_is_packed(a)) {
+        assert_int_equal(a->packed.block_count, b->packed.block_count);
+        assert_memory_equal(a->packed.blocks, b->packed.blocks, (size_t)a->packed.block_count * PACKED_BLOCK);
+        assert_int_equal(a->packed.owner_count, b->packed.owner_count);
+        assert_memory_equal(a->packed.owners, b->packed.owners, a->packed.owner_count * sizeof *a->packed.owners);
+    } else if (a->piece_count) {
+        assert_memory_equal(a->pieces, b->pieces, a->piece_count * sizeof *a->pieces);
+    }
+    if (a->bound_count) assert_memory_equal(a->bounds, b->bounds, a->bound_count * sizeof *a->bounds);
     if (a->normal_count) assert_memory_equal(a->normals, b->normals, a->normal_count * sizeof *a->normals);
     assert_memory_equal(&a->meta, &b->meta, sizeof a->meta);
 }

@@ -1,4 +1,4 @@
-/* contacts.c: do two segments cross, do two convex polygons pierce each other?
+/* contact_polygons.c: do two convex polygons in space pierce each other, or touch?
  *
  * Polygons P and Q that both have corners strictly on both sides of the other's plane
  * meet the line where the planes meet, D = normal(P) x normal(Q), in an interval each:
@@ -10,73 +10,35 @@
  * behind Q to the front, and leaves it on its edge down; Q the other way round. The order of
  * two such points on the line is an orientation of their edges' four ends (Devillers and
  * Guigue: Faster triangle-triangle intersection tests, 2002): nothing is constructed. */
-#include "measure/contacts.h"
+#include "geom/contact.h"
 #include "geom/predicates.h"
-#include "scene/polygon.h"
-
-/* ---------------------------------------------------------------- segments -- */
-
-static int turn(num_context *context, const double *a, const double *b, const double *c) {
-    geom_plane line = geom_plane_points(2, (const double *const[]){a, b});
-    return geom_side_vertex(context, &line, c);
-}
-
-static bool less(const double *a, const double *b) {
-    return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
-}
-
-/* Do two segments of one line share more than a point? */
-static bool overlap_on_line(const double *const a[2], const double *const b[2]) {
-    int i = less(a[0], a[1]) ? 0 : 1, j = less(b[0], b[1]) ? 0 : 1;
-    return less(a[i], b[1 - j]) && less(b[j], a[1 - i]);
-}
-
-measure_contact measure_segments(num_context *context, const froe_scene *s, uint32_t a, uint32_t b) {
-    const double *p[2] = {scene_point(s, a, 0), scene_point(s, a, 1)};
-    const double *q[2] = {scene_point(s, b, 0), scene_point(s, b, 1)};
-    int side[2], other[2];
-    for (int i = 0; i < 2; i++) side[i] = turn(context, p[0], p[1], q[i]);
-    if (side[0] * side[1] > 0) return MEASURE_APART;
-    if (!side[0] && !side[1]) return overlap_on_line(p, q) ? MEASURE_OVERLAP : MEASURE_APART;
-    for (int i = 0; i < 2; i++) other[i] = turn(context, q[0], q[1], p[i]);
-    bool across = side[0] * side[1] < 0, crossed = other[0] * other[1] < 0;
-    if (across && crossed) return MEASURE_CROSSING;
-    bool touched = side[0] * side[1] == 0 && crossed, touching = other[0] * other[1] == 0 && across;
-    return touched || touching ? MEASURE_T_JUNCTION : MEASURE_APART; /* else: a common corner, or nothing */
-}
-
-/* ---------------------------------------------------------------- polygons -- */
+#include "geom/turn.h"
 
 /* A polygon, and on which side of the other's plane its corners lie. */
 typedef struct polygon {
     num_context *context;
-    const froe_scene *scene;
-    uint32_t object, count;
+    const geom_body *body;
+    uint32_t count;
     signed char *sides;
     bool front, behind, on; /* are there such corners? */
 } polygon;
 
-static polygon polygon_of(num_context *context, const froe_scene *s, uint32_t object, signed char *sides) {
-    return (polygon){
-        .context = context, .scene = s, .object = object, .count = scene_corners(s, object), .sides = sides};
-}
-
 static const double *corner(const polygon *p, uint32_t i) {
-    return scene_point(p->scene, p->object, i < p->count ? i : 0);
+    return geom_body_point(p->body, i < p->count ? i : 0);
 }
 
-static bool has_corner(const polygon *p, uint32_t vertex) {
+static bool has_corner(const polygon *p, const double *x) {
     for (uint32_t i = 0; i < p->count; i++)
-        if (scene_corner(p->scene, p->object, i) == vertex) return true;
+        if (geom_same_point(corner(p, i), x, 3)) return true;
     return false;
 }
 
 /* False: all corners are strictly on one side, and the polygons apart. */
 static bool find_sides(polygon *p, const polygon *other) {
-    geom_plane plane;
-    scene_support(other->scene, other->object, &plane);
+    geom_plane plane =
+        geom_plane_points(3, (const double *const[]){corner(other, 0), corner(other, 1), corner(other, 2)});
     for (uint32_t i = 0; i < p->count; i++) {
-        bool common = has_corner(other, scene_corner(p->scene, p->object, i));
+        bool common = has_corner(other, corner(p, i));
         int side = common ? 0 : geom_side_vertex(p->context, &plane, corner(p, i));
         p->sides[i] = (signed char)side;
         p->front |= side > 0;
@@ -114,22 +76,21 @@ static bool pierce(const polygon *p, const polygon *q) {
 
 /* A projection that keeps the polygon's area, and which way it turns there. */
 static int projection(const polygon *p, int *axis) {
-    *axis = scene_projection_axis(p->context, corner(p, 0), corner(p, 1), corner(p, 2));
-    return scene_projected_turn(p->context, *axis, corner(p, 0), corner(p, 1), corner(p, 2));
+    *axis = geom_projection_axis(p->context, corner(p, 0), corner(p, 1), corner(p, 2));
+    return geom_projected_turn(p->context, *axis, corner(p, 0), corner(p, 1), corner(p, 2));
 }
 
 /* Is x, a point of the plane of p, in p? */
 static bool contains(const polygon *p, const double *x) {
     int axis, way = projection(p, &axis);
     for (uint32_t i = 0; i < p->count; i++)
-        if (scene_projected_turn(p->context, axis, corner(p, i), corner(p, i + 1), x) == -way) return false;
+        if (geom_projected_turn(p->context, axis, corner(p, i), corner(p, i + 1), x) == -way) return false;
     return true;
 }
 
 static bool holds_corner(const polygon *p, const polygon *q) {
     for (uint32_t i = 0; i < q->count; i++)
-        if (q->sides[i] == 0 && !has_corner(p, scene_corner(q->scene, q->object, i)) && contains(p, corner(q, i)))
-            return true;
+        if (q->sides[i] == 0 && !has_corner(p, corner(q, i)) && contains(p, corner(q, i))) return true;
     return false;
 }
 
@@ -139,7 +100,7 @@ static bool separates(const polygon *p, const polygon *q) {
     for (uint32_t i = 0; i < p->count; i++) {
         uint32_t j = 0;
         while (j < q->count &&
-               scene_projected_turn(p->context, axis, corner(p, i), corner(p, i + 1), corner(q, j)) != way)
+               geom_projected_turn(p->context, axis, corner(p, i), corner(p, i + 1), corner(q, j)) != way)
             j++;
         if (j == q->count) return true;
     }
@@ -158,10 +119,11 @@ static bool line_meets(const polygon *p, const double *u, const double *v) {
 }
 
 /* Is the line between two corners of p an edge of it? */
-static bool is_edge(const polygon *p, uint32_t a, uint32_t b) {
-    for (uint32_t i = 0, j = p->count - 1; i < p->count; j = i++) {
-        uint32_t c = scene_corner(p->scene, p->object, i), d = scene_corner(p->scene, p->object, j);
-        if ((a == c && b == d) || (a == d && b == c)) return true;
+static bool is_edge(const polygon *p, const double *a, const double *b) {
+    for (uint32_t i = 0; i < p->count; i++) {
+        const double *c = corner(p, i), *d = corner(p, i + 1);
+        if (geom_same_point(a, c, 3) && geom_same_point(b, d, 3)) return true;
+        if (geom_same_point(a, d, 3) && geom_same_point(b, c, 3)) return true;
     }
     return false;
 }
@@ -170,20 +132,35 @@ static bool is_edge(const polygon *p, uint32_t a, uint32_t b) {
  * corner of either in the other but common ones, this is the only way left to meet. */
 static bool edge_touches(const polygon *p, const polygon *q) {
     for (uint32_t i = 0, j = q->count - 1; i < q->count; j = i++) {
-        uint32_t a = scene_corner(q->scene, q->object, j), b = scene_corner(q->scene, q->object, i);
-        if (q->sides[j] * q->sides[i] < 0 && line_meets(p, corner(q, j), corner(q, i))) return true;
+        const double *a = corner(q, j), *b = corner(q, i);
+        if (q->sides[j] * q->sides[i] < 0 && line_meets(p, a, b)) return true;
         if (!q->sides[j] && !q->sides[i] && has_corner(p, a) && has_corner(p, b) && !is_edge(p, a, b)) return true;
     }
     return false;
 }
 
-measure_contact measure_polygons(num_context *context, const froe_scene *s, uint32_t a, uint32_t b,
-                                 signed char *sides) {
-    polygon p = polygon_of(context, s, a, sides), q = polygon_of(context, s, b, sides + scene_corners(s, a));
-    if (!find_sides(&q, &p) || !find_sides(&p, &q)) return MEASURE_APART;
+static uint32_t common_corners(const polygon *p, const polygon *q) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < p->count; i++) count += has_corner(q, corner(p, i));
+    return count;
+}
+
+geom_contact geom_contact_polygons(num_context *context, const geom_body *a, const geom_body *b, signed char *sides) {
+    polygon p = {.context = context, .body = a, .count = a->count, .sides = sides};
+    polygon q = {.context = context, .body = b, .count = b->count, .sides = sides + a->count};
+    geom_contact m = {GEOM_APART, GEOM_TOUCH_SOMEHOW};
+    if (!find_sides(&q, &p) || !find_sides(&p, &q)) return m;
     bool coplanar = !q.front && !q.behind;
-    if (coplanar && !separates(&p, &q) && !separates(&q, &p)) return MEASURE_OVERLAP;
-    if (p.front && p.behind && q.front && q.behind && pierce(&p, &q)) return MEASURE_CROSSING;
-    if (holds_corner(&p, &q) || holds_corner(&q, &p)) return MEASURE_T_JUNCTION;
-    return !coplanar && (edge_touches(&p, &q) || edge_touches(&q, &p)) ? MEASURE_CROSSING : MEASURE_APART;
+    if (coplanar && !separates(&p, &q) && !separates(&q, &p)) return (geom_contact){GEOM_OVERLAP, m.touch};
+    if (p.front && p.behind && q.front && q.behind && pierce(&p, &q)) return (geom_contact){GEOM_CROSS, m.touch};
+    m.kind = GEOM_TOUCH;
+    if (holds_corner(&p, &q) || holds_corner(&q, &p))
+        m.touch = GEOM_TOUCH_JUNCTION;
+    else if (!coplanar && (edge_touches(&p, &q) || edge_touches(&q, &p)))
+        m.touch = GEOM_TOUCH_EDGES;
+    else if (!common_corners(&p, &q))
+        m.kind = GEOM_APART;
+    else
+        m.touch = common_corners(&p, &q) == 1 ? GEOM_TOUCH_AT_CORNER : GEOM_TOUCH_ALONG;
+    return m;
 }

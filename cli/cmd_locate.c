@@ -1,0 +1,135 @@
+/* cmd_locate.c: froe locate, the objects that contain points, or lie above or below them. */
+#include "command.h"
+#include "exit.h"
+#include "queries.h"
+#include "tree_report.h"
+
+typedef struct locate_args {
+    cli_common common;
+    cli_query_args query;
+    bool above, below;
+} locate_args;
+
+static const cli_column columns[] = {{"", true}, {0}};
+
+static const cli_option options[] = {
+    {NULL, 0, CLI_TEXT, offsetof(locate_args, query.tree), "TREE", .help = "a tree that froe build saved",
+     .required = true},
+    {"points", 0, CLI_TEXT, offsetof(locate_args, query.input), "CSV",
+     .help = "the points, x,y[,z...]; - for standard input", .required = true},
+    {"above", 0, CLI_FLAG, offsetof(locate_args, above), .help = "the first segment above each point instead (plane)"},
+    {"below", 0, CLI_FLAG, offsetof(locate_args, below), .help = "the first segment below"},
+    {0},
+};
+
+static const cli_part parts[] = {{"Locate", options, 0},
+                                 {"Queries", cli_query_options, offsetof(locate_args, query)},
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
+
+typedef struct locating {
+    const locate_args *args;
+    froe_query *query;
+    const froe_scene *scene;
+} locating;
+
+/* "query,object,group": the group an object belongs to, if any. */
+static void put_objects(const locating *l, const cli_block *block, const froe_answers *answers, cli_answers *out) {
+    for (size_t i = 0; i < block->count; i++)
+        for (size_t j = answers->starts[i]; j < answers->starts[i + 1]; j++) {
+            const uint32_t group = froe_scene_object(l->scene, answers->ids[j]).group;
+            cli_answers_whole(out, block->ids[i]);
+            cli_answers_whole(out, answers->ids[j]);
+            if (group == FROE_NONE)
+                cli_answers_none(out);
+            else
+                cli_answers_whole(out, group);
+            cli_answers_end(out);
+        }
+}
+
+static froe_status answer(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
+    const locating *l = user;
+    const double *points = block->numbers + block->starts[0] * block->width;
+    froe_answers answers = {0};
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = (unsigned)l->args->common.threads;
+    const froe_status status = froe_batch_locate(l->query, points, block->count, &o, &answers, diag);
+    if (status) return status;
+    if (l->args->query.count) {
+        cli_answers_lists(out, block->ids, &answers, true);
+    } else {
+        cli_answers_sort(&answers);
+        put_objects(l, block, &answers, out);
+    }
+    froe_answers_free(&answers);
+    return FROE_OK;
+}
+
+/* Above or below; all points of a block are tried before the first answer is written. */
+static froe_status answer_vertical(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
+    const locating *l = user;
+    const int direction = l->args->above ? 1 : -1;
+    for (int writing = 0; writing < 2; writing++)
+        for (size_t i = 0; i < block->count; i++) {
+            uint32_t object;
+            const double *point = block->numbers + block->starts[i] * block->width;
+            const froe_status status = froe_query_vertical(l->query, point, direction, &object, diag);
+            if (status) return diag->object = (uint32_t)i, status;
+            if (!writing) continue;
+            if (l->args->query.count)
+                cli_answers_pair(out, block->ids[i], object != FROE_NONE);
+            else if (object != FROE_NONE)
+                cli_answers_pair(out, block->ids[i], object);
+        }
+    return FROE_OK;
+}
+
+static const char *header(const locate_args *args) {
+    if (args->query.count) return "query,count";
+    return args->above || args->below ? "query,object" : "query,object,group";
+}
+
+static int ask(const locate_args *args, const froe_tree *tree) {
+    locating l = {.args = args, .scene = froe_tree_scene(tree)};
+    froe_diagnostic diag;
+    const froe_status status = froe_query_new(tree, &l.query, &diag);
+    if (status) return cli_fail_status(CLI_WORKING, args->query.tree, status, &diag);
+    const cli_queries queries = {.common = &args->common,
+                                 .args = &args->query,
+                                 .columns = columns,
+                                 .dim = froe_scene_dim(l.scene),
+                                 .header = header(args),
+                                 .answer = args->above || args->below ? answer_vertical : answer,
+                                 .user = &l,
+                                 .query = l.query};
+    const int code = cli_queries_run(&queries);
+    froe_query_free(l.query);
+    return code;
+}
+
+static int run(const void *given) {
+    const locate_args *args = given;
+    froe_tree *tree;
+    if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above and --below exclude each other");
+    int code = cli_open_tree(args->query.tree, &tree);
+    if (code) return code;
+    code = ask(args, tree);
+    froe_tree_free(tree);
+    return code;
+}
+
+const cli_command cli_command_locate = {
+    .name = "locate",
+    .summary = "find the objects that contain points, or lie above or below them",
+    .about = "Prints one line query,object,group for each object that contains a point, in the order of the points, "
+             "then of the objects; group is the one the object belongs to, empty if there is none. With --above or "
+             "--below, one line query,object for each point that has a segment there. Objects are closed, and "
+             "answers are exact. A query's number is that of its row, from 0.\n\n"
+             "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
+    .examples = "froe locate house.froe --points sensors.csv\nfroe locate map.froe --points towns.csv --above\n",
+    .parts = parts,
+    .defaults = &(const locate_args){.common = CLI_COMMON_DEFAULTS},
+    .size = sizeof(locate_args),
+    .run = run,
+};

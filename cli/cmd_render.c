@@ -1,0 +1,368 @@
+/* cmd_render.c: froe render, hidden surfaces removed, exactly. */
+#include "command.h"
+#include "exit.h"
+#include "progress.h"
+#include "tree_report.h"
+#include <froe/draw.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct render_args {
+    cli_common common;
+    const char *tree, *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading;
+    int direction, up_axis, paint, preset;
+    double fov, scale, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
+    uint64_t decimals;                                                 /**< UINT64_MAX: not given */
+    cli_reals eye, target, up;
+    bool parallel, hidden, cull_back, ids;
+} render_args;
+
+static const char *const directions[] = {"corner", "iso", "front", "back", "left", "right", "top", "bottom", NULL};
+static const char *const axes[] = {"x", "y", "z", NULL};
+static const char *const paints[] = {"whole", "regions", "fragments", NULL};
+static const char *const presets[] = {"illustration", "technical", "plotter", "web", "print", NULL};
+enum { ILLUSTRATION, TECHNICAL, PLOTTER, WEB, PRINT };
+
+static const cli_option what[] = {
+    {NULL, 0, CLI_TEXT, offsetof(render_args, tree), "TREE",
+     .help = "a tree of polygons in space, built with leaf 1 or 0", .required = true},
+    {"output", 'o', CLI_TEXT, offsetof(render_args, output), "FILE", .help = ".svg, .pdf, .eps or .png",
+     .required = true},
+    {"preset", 0, CLI_CHOICE, offsetof(render_args, preset), "NAME",
+     .help =
+         "what the other options begin with: illustration (default), technical (parallel, lines, hidden ones dashed), "
+         "plotter (visible regions that do not overlap), web (short files), print (millimetres)",
+     .choices = presets},
+    {"size", 0, CLI_TEXT, offsetof(render_args, size), "WxH",
+     .help = "of the page: 1000x1000 (default), or in millimetres, 160x120mm"},
+    {"margin", 0, CLI_REAL, offsetof(render_args, margin), "M",
+     .help = "around the picture (default 1/50 of the width)"},
+    {0},
+};
+
+static const cli_option camera[] = {
+    {"view", 0, CLI_CHOICE, offsetof(render_args, direction), "FROM",
+     .help = "corner (default), iso, front, back, left, right, top or bottom", .choices = directions},
+    {"up", 0, CLI_CHOICE, offsetof(render_args, up_axis), "AXIS",
+     .help = "the axis that points up: x, y (as in glTF) or z (default)", .choices = axes},
+    {"eye", 0, CLI_REALS, offsetof(render_args, eye), "X,Y,Z",
+     .help = "look from here, at the middle of the scene or the target; nothing is fitted"},
+    {"target", 0, CLI_REALS, offsetof(render_args, target), "X,Y,Z", .help = "look at this point"},
+    {"parallel", 0, CLI_FLAG, offsetof(render_args, parallel), .help = "parallel instead of perspective projection"},
+    {"fov", 0, CLI_REAL, offsetof(render_args, fov), "DEGREES", .help = "vertical angle of view (default 35)"},
+    {"scale", 0, CLI_REAL, offsetof(render_args, scale), "S",
+     .help = "parallel: units of the page per unit of the scene (default: as fits)"},
+    {0},
+};
+
+static const cli_option look[] = {
+    {"style", 0, CLI_TEXT, offsetof(render_args, shading), "STYLE",
+     .help = "flat (default), cel, cel:N with N steps, plain, white, or none (lines only)"},
+    {"paint", 0, CLI_CHOICE, offsetof(render_args, paint), "SHAPES",
+     .help = "whole faces (default), visible regions, or fragments of the tree", .choices = paints},
+    {"seam-width", 0, CLI_REAL, offsetof(render_args, seam_width), "U",
+     .help = "how far faces go under later neighbours, against seams (default 1; 0: not at all)"},
+    {"line-kinds", 0, CLI_TEXT, offsetof(render_args, lines), "KINDS",
+     .help = "border, silhouette, group, crease, mesh, parted by commas; or none (default: all but mesh)"},
+    {"line-width", 0, CLI_REAL, offsetof(render_args, line_width), "W",
+     .help = "of borders and silhouettes (default 1)"},
+    {"crease", 0, CLI_REAL, offsetof(render_args, crease), "DEGREES",
+     .help = "angle that makes an edge a line (default 30)"},
+    {"hidden", 0, CLI_FLAG, offsetof(render_args, hidden), .help = "hidden lines as well, dashed"},
+    {"opacity", 0, CLI_TEXT, offsetof(render_args, opacity), "NAME=A,...", .help = "of a material or group, 0 to 1"},
+    {"priority", 0, CLI_TEXT, offsetof(render_args, priority), "NAME=K,...",
+     .help = "of faces that overlap in one plane the one with the higher K is seen (default 0, then the later)"},
+    {"cull-back", 0, CLI_FLAG, offsetof(render_args, cull_back), .help = "leave out faces seen from behind"},
+    {"background", 0, CLI_TEXT, offsetof(render_args, background), "RRGGBB",
+     .help = "colour of the page (default: clear)"},
+    {0},
+};
+
+static const cli_option file[] = {
+    {"decimals", 0, CLI_WHOLE, offsetof(render_args, decimals), "N", .help = "SVG: digits after the point (default 2)",
+     .max = 6},
+    {"ids", 0, CLI_FLAG, offsetof(render_args, ids),
+     .help = "SVG: one element per face, with data-object and data-group"},
+    {"title", 0, CLI_TEXT, offsetof(render_args, title), "TEXT", .help = "SVG, PDF: title of the picture"},
+    {"desc", 0, CLI_TEXT, offsetof(render_args, description), "TEXT", .help = "SVG: description of the picture"},
+    {"pixels", 0, CLI_REAL, offsetof(render_args, pixels), "S", .help = "PNG: pixels per unit of the page (default 1)"},
+    {0},
+};
+
+static const cli_part parts[] = {{"Picture", what, 0},
+                                 {"Camera", camera, 0},
+                                 {"Look", look, 0},
+                                 {"File", file, 0},
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
+
+/* ---------------------------------------------------------------------- options -- */
+
+static void set_number(double given, double *field) {
+    if (!isnan(given)) *field = given;
+}
+
+static void set_preset(int preset, froe_render_options *o) {
+    if (preset == TECHNICAL) {
+        o->shading = FROE_SHADE_NONE;
+        o->camera.parallel = true;
+        o->hidden = true;
+    } else if (preset == PLOTTER) {
+        o->shading = FROE_SHADE_WHITE;
+        o->paint = FROE_PAINT_REGIONS;
+    } else if (preset == WEB) {
+        o->decimals = 1;
+    } else if (preset == PRINT) {
+        o->millimetres = true;
+        o->camera.width = 160, o->camera.height = 120;
+        o->seam_width = o->line_width = 0.2;
+        o->decimals = 3;
+    }
+}
+
+static int set_size(const char *text, froe_render_options *o) {
+    char *end = NULL;
+    if (!text) return 0;
+    o->camera.width = strtod(text, &end);
+    const bool times = end != text && *end == 'x';
+    const char *second = times ? end + 1 : text;
+    if (times) o->camera.height = strtod(second, &end);
+    const bool mm = strcmp(end, "mm") == 0;
+    if (!times || end == second || (*end && !mm))
+        return cli_fail(CLI_USE, NULL, "--size: '%s' is not like 1000x800 or 160x120mm", text);
+    if (mm && !o->millimetres) o->seam_width = o->line_width = 0.2;
+    o->millimetres = mm;
+    return 0;
+}
+
+static int set_point(const char *name, const cli_reals *given, double out[3]) {
+    if (!given->count) return 0;
+    if (given->count != 3) return cli_fail(CLI_USE, NULL, "--%s: %zu numbers given, 3 needed", name, given->count);
+    memcpy(out, given->at, 3 * sizeof *out);
+    return 0;
+}
+
+/* Directions of the views, for z up: right, towards the front (-y), up. */
+static void set_direction(int direction, int up, double eye[3]) {
+    static const double from[][3] = {{3, -5, 2}, {1, -1, 1}, {0, -1, 0}, {0, 1, 0},
+                                     {-1, 0, 0}, {1, 0, 0},  {0, 0, 1},  {0, 0, -1}};
+    const double *d = from[direction];
+    for (int k = 0; k < 3; k++) eye[k] = 0;
+    eye[up] = d[2];
+    eye[(up + 1) % 3] = up == 1 ? -d[1] : d[0]; /* y up: z points at the viewer */
+    eye[(up + 2) % 3] = up == 1 ? d[0] : d[1];
+}
+
+static int set_camera(const render_args *args, const froe_scene *scene, froe_camera *c) {
+    double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
+    froe_scene_bounds(scene, lo, hi);
+    for (int k = 0; k < 3; k++) c->up[k] = k == args->up_axis, c->target[k] = 0;
+    set_direction(args->direction, args->up_axis, c->eye);
+    if (args->eye.count || args->target.count) {
+        for (int k = 0; k < 3; k++) c->target[k] = 0.5 * lo[k] + 0.5 * hi[k];
+        int code = set_point("target", &args->target, c->target);
+        for (int k = 0; k < 3; k++) c->eye[k] += c->target[k];
+        if (!code) code = set_point("eye", &args->eye, c->eye);
+        if (code) return code;
+        c->fit = !args->eye.count;
+    }
+    if (args->parallel || args->direction > 0) c->parallel = true;
+    set_number(args->fov, &c->fov);
+    if (!isnan(args->scale) && !(args->scale > 0))
+        return cli_fail(CLI_USE, NULL, "--scale: %g is no scale: it must be more than 0", args->scale);
+    set_number(args->scale, &c->scale);
+    c->margin = c->width / 50;
+    set_number(args->margin, &c->margin);
+    return 0;
+}
+
+static int set_style(const char *text, froe_render_options *o) {
+    if (!text) return 0;
+    char *end;
+    if (strncmp(text, "cel:", 4) == 0) {
+        o->shading = FROE_SHADE_CEL;
+        o->cel_levels = (unsigned)strtoul(text + 4, &end, 10);
+        return end != text + 4 && !*end ? 0 : cli_fail(CLI_USE, NULL, "--style: '%s' is not like cel:4", text);
+    }
+    for (int s = 0; s < FROE_SHADING_COUNT; s++)
+        if (strcmp(text, froe_shading_name((froe_shading)s)) == 0) {
+            o->shading = (froe_shading)s;
+            return 0;
+        }
+    return cli_fail(CLI_USE, NULL, "--style: '%s' is not one of flat, cel, cel:N, plain, white, none", text);
+}
+
+static uint32_t line_bit(const char *name, size_t length) {
+    for (uint32_t bit = 1; bit <= FROE_LINE_MESH; bit <<= 1) {
+        const char *known = froe_line_name((froe_line)bit);
+        if (known && strlen(known) == length && memcmp(known, name, length) == 0) return bit;
+    }
+    return 0;
+}
+
+static int set_lines(const char *list, uint32_t *lines) {
+    if (!list) return 0;
+    *lines = 0;
+    while (*list && strcmp(list, "none") != 0) {
+        const size_t length = strcspn(list, ",");
+        const uint32_t bit = line_bit(list, length);
+        if (!bit)
+            return cli_fail(CLI_USE, NULL, "--line-kinds: '%.*s' is not one of border, silhouette, group, crease, mesh",
+                            (int)length, list);
+        *lines |= bit;
+        list += length + (list[length] == ',');
+    }
+    return 0;
+}
+
+static int set_background(const char *text, uint32_t *background) {
+    if (!text || strcmp(text, "clear") == 0) return 0;
+    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
+        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear", text);
+    *background = (uint32_t)strtoul(text, NULL, 16);
+    return 0;
+}
+
+/* NAME=VALUE,...: the value goes to every group of that name or material. */
+static int set_groups(const char *option, const char *list, const froe_scene *scene, double *values) {
+    const size_t groups = froe_scene_group_count(scene);
+    while (list && *list) {
+        const size_t length = strcspn(list, ",");
+        const char *equals = memchr(list, '=', length);
+        char *end = NULL;
+        const double value = equals ? strtod(equals + 1, &end) : 0;
+        bool any = false;
+        if (!equals || end != list + length || end == equals + 1)
+            return cli_fail(CLI_USE, NULL, "--%s: '%.*s' is not like NAME=1", option, (int)length, list);
+        const size_t name = (size_t)(equals - list);
+        for (uint32_t g = 0; g < groups; g++) {
+            const froe_group group = froe_scene_group(scene, g);
+            const bool same = (strlen(group.name) == name && !memcmp(group.name, list, name)) ||
+                              (strlen(group.material) == name && !memcmp(group.material, list, name));
+            if (same) values[g] = value, any = true;
+        }
+        if (!any)
+            return cli_fail(CLI_USE, NULL, "--%s: no group or material is called '%.*s'", option, (int)name, list);
+        list += length + (list[length] == ',');
+    }
+    return 0;
+}
+
+static int set_options(const render_args *args, const froe_scene *scene, froe_render_options *o) {
+    set_preset(args->preset, o);
+    int code = set_size(args->size, o);
+    if (!code) code = set_camera(args, scene, &o->camera);
+    if (!code) code = set_style(args->shading, o);
+    if (!code) code = set_lines(args->lines, &o->lines);
+    if (!code) code = set_background(args->background, &o->background);
+    if (args->paint) o->paint = (froe_paint)args->paint;
+    set_number(args->seam_width, &o->seam_width);
+    set_number(args->line_width, &o->line_width);
+    set_number(args->crease, &o->crease);
+    set_number(args->pixels, &o->pixels);
+    if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
+    o->hidden |= args->hidden;
+    o->cull_back = args->cull_back;
+    o->ids = args->ids;
+    o->title = args->title, o->description = args->description;
+    return code;
+}
+
+/* --------------------------------------------------------------------- rendering -- */
+
+static json_t *report_json(const render_args *args, const froe_render_report *r) {
+    const froe_picture_report *p = &r->picture;
+    return json_pack("{s:s, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "tree", args->tree, "output",
+                     args->output, "paint", froe_paint_name(p->paint), "fragments", (json_int_t)p->visibility.pieces,
+                     "visible_fragments", (json_int_t)p->visibility.visible_pieces, "visible_faces",
+                     (json_int_t)p->visibility.visible_patches, "arcs", (json_int_t)p->arcs, "late_faces",
+                     (json_int_t)p->late, "shapes", (json_int_t)p->shapes, "lines", (json_int_t)p->strokes, "paths",
+                     (json_int_t)r->paths, "bytes", (json_int_t)r->bytes, "exact_calls",
+                     (json_int_t)p->visibility.predicates.exact);
+}
+
+static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {
+    if (r->view.up_axis >= 0 && !args->common.quiet)
+        (void)cli_fail(0, args->output, "note: up lies along the line of view; axis %s points up instead",
+                       axes[r->view.up_axis]);
+    if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
+        (void)cli_fail(0, args->output,
+                       "note: too many faces overlap for an order of whole ones; fragments were painted");
+    if (!r->picture.shapes && !r->picture.strokes)
+        (void)cli_fail(0, args->output, "note: nothing is visible from here");
+}
+
+static int render(const render_args *args, const froe_tree *tree, froe_render_options *o) {
+    froe_diagnostic diag;
+    froe_render_report report;
+    cli_progress bar = cli_progress_begin(&args->common, "looking");
+    o->progress = cli_progress_step;
+    o->user = &bar;
+    const froe_status status = froe_render(tree, args->output, o, &report, &diag);
+    cli_progress_end(&bar);
+    if (status == FROE_E_ARG || status == FROE_E_OPTIONS) return cli_fail(CLI_USE, NULL, "%s", diag.message);
+    if (status) return cli_fail_status(CLI_WRITING, args->output, status, &diag);
+    warn(args, o, &report);
+    return cli_report(&args->common, NULL, report_json(args, &report));
+}
+
+static int render_groups(const render_args *args, const froe_tree *tree) {
+    const froe_scene *scene = froe_tree_scene(tree);
+    const size_t groups = froe_scene_group_count(scene);
+    froe_render_options o = froe_render_defaults();
+    double *values = calloc(2 * groups + 1, sizeof *values);
+    int32_t *priorities = calloc(groups + 1, sizeof *priorities);
+    int code = values && priorities ? set_options(args, scene, &o) : cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    for (size_t g = 0; !code && g < groups; g++) values[g] = 1;
+    if (!code) code = set_groups("opacity", args->opacity, scene, values);
+    if (!code) code = set_groups("priority", args->priority, scene, values + groups);
+    for (size_t g = 0; !code && g < groups; g++) {
+        if (fabs(values[groups + g]) > 1e9)
+            code = cli_fail(CLI_USE, NULL, "--priority: %g is too large", values[groups + g]);
+        priorities[g] = (int32_t)values[groups + g];
+    }
+    if (args->opacity) o.opacity = values;
+    if (args->priority) o.priorities = priorities;
+    if (!code) code = render(args, tree, &o);
+    free(values), free(priorities);
+    return code;
+}
+
+static int run(const void *given) {
+    const render_args *args = given;
+    froe_tree *tree;
+    int code = cli_open_tree(args->tree, &tree);
+    if (code) return code;
+    if (froe_scene_dim(froe_tree_scene(tree)) != 3)
+        code = cli_fail(CLI_USE, args->tree, "a scene in the plane has no hidden surfaces: use froe draw");
+    else
+        code = render_groups(args, tree);
+    froe_tree_free(tree);
+    return code;
+}
+
+const cli_command cli_command_render = {
+    .name = "render",
+    .summary = "exact hidden-surface removal to SVG, PDF, EPS or PNG",
+    .about = "Finds, exactly, which parts of all faces and edges are visible, and paints whole faces in an order that "
+             "shows just these: few shapes, no cracks, nothing sorted by distance. Faces that intersect are cut. The "
+             "same tree and options give the same bytes.",
+    .examples = "froe render house.froe -o house.svg --up y\n"
+                "froe render house.froe -o front.pdf --preset technical --view front --up y --size 160x120mm\n"
+                "froe render house.froe -o glass.svg --up y --opacity 'Glass=0.3'\n"
+                "froe render house.froe -o room.svg --up y --eye 4,1.6,-3 --target 8,1.2,-6 --fov 70\n",
+    .parts = parts,
+    .defaults = &(const render_args){.common = CLI_COMMON_DEFAULTS,
+                                     .up_axis = 2,
+                                     .fov = NAN,
+                                     .scale = NAN,
+                                     .margin = NAN,
+                                     .seam_width = NAN,
+                                     .line_width = NAN,
+                                     .crease = NAN,
+                                     .pixels = NAN,
+                                     .decimals = UINT64_MAX},
+    .size = sizeof(render_args),
+    .run = run,
+};

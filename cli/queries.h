@@ -1,0 +1,48 @@
+/* queries.h: the frame of the commands that ask a tree: rows of numbers come in, rows of answers go out.
+ *
+ *     CSV --rows.h--> block of queries --the command--> answers.h --> standard output
+ *
+ * A file may have any length; a block has a few thousand queries, so that a command can hand them to the
+ * batch calls of the library. A malformed row or a bad query is named with its line. It ends the run, or with
+ * --keep-going is passed over; either way the exit code tells. */
+#ifndef FROE_CLI_QUERIES_H
+#define FROE_CLI_QUERIES_H
+#include "answers.h"
+#include "options.h"
+#include "rows.h"
+#include <froe/query.h>
+
+/** Shared by all query commands; their own tables name the operand and the input. */
+typedef struct cli_query_args {
+    const char *tree, *input;
+    bool keep_going, count;
+} cli_query_args;
+extern const cli_option cli_query_options[];
+
+/** Queries in the order of the input. Query i has the rows starts[i] .. starts[i+1] of `numbers`, each `width`
+ * numbers; without a column `query` one row each. */
+typedef struct cli_block {
+    size_t count, width;
+    const size_t *starts;
+    const double *numbers;
+    const uint64_t *ids; /**< what the column `query` of the answers says */
+} cli_block;
+
+/** Answers a block. Either all of it, or FROE_E_INPUT with diag->object telling the position of the
+ * first bad query and nothing written; other failures end the run. */
+typedef froe_status cli_answer_fn(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag);
+
+typedef struct cli_queries {
+    const cli_common *common;
+    const cli_query_args *args;
+    const cli_column *columns; /**< if the first is "query", consecutive rows with the same number are one query */
+    int dim;
+    const char *header; /**< of the answers */
+    cli_answer_fn *answer;
+    void *user;
+    froe_query *query; /**< whose statistics --json prints; may be NULL */
+} cli_queries;
+
+/** Reads, asks, writes. Returns an exit code. */
+int cli_queries_run(const cli_queries *queries);
+#endif

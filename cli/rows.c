@@ -1,0 +1,148 @@
+/* rows.c: headers, fields and numbers. */
+#include "rows.h"
+#include "exit.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NAME = 32 };
+
+/* ------------------------------------------------------------------ fields -- */
+
+/* Reads a line without its end into rows->text. False: there is none. */
+static bool next_line(cli_rows *rows) {
+    ssize_t length = getline(&rows->text, &rows->capacity, rows->file);
+    if (length < 0) return false;
+    rows->line++;
+    while (length && strchr("\r\n", rows->text[length - 1])) length--;
+    rows->text[length] = '\0';
+    return true;
+}
+
+/* Ends the field at *at, trims it, moves *at to the next one or to NULL. */
+static char *next_field(char **at, char separator) {
+    char *field = *at + strspn(*at, " "), *end = strchr(field, separator);
+    *at = end ? end + 1 : NULL;
+    if (!end) end = field + strlen(field);
+    while (end > field && strchr(" \t", end[-1])) end--;
+    if (end > field + 1 && *field == '"' && end[-1] == '"') field++, end--;
+    *end = '\0';
+    return field;
+}
+
+static bool is_blank(const char *text) {
+    return !text[strspn(text, " \t")];
+}
+
+/* ------------------------------------------------------------------ header -- */
+
+static void axis_name(const char *prefix, int axis, bool numbered, char *out) {
+    if (numbered || axis >= 4)
+        snprintf(out, NAME, "%sx%d", prefix, axis + 1);
+    else
+        snprintf(out, NAME, "%s%c", prefix, "xyzw"[axis]);
+}
+
+/* Which number has this name? -1: none. */
+static int number_of(const cli_column *columns, int dim, const char *name) {
+    char wanted[NAME], numbered[NAME];
+    int number = 0;
+    for (; columns->name; columns++)
+        for (int axis = 0; axis < (columns->axes ? dim : 1); axis++, number++) {
+            snprintf(wanted, NAME, "%s", columns->name);
+            snprintf(numbered, NAME, "%s", columns->name);
+            if (columns->axes)
+                axis_name(columns->name, axis, false, wanted), axis_name(columns->name, axis, true, numbered);
+            if (!strcmp(name, wanted) || !strcmp(name, numbered)) return number;
+        }
+    return -1;
+}
+
+/* "x,y,r": the header that was expected. */
+static void header_text(const cli_column *columns, int dim, char *out, size_t size) {
+    size_t length = 0;
+    char name[NAME];
+    for (; columns->name; columns++)
+        for (int axis = 0; axis < (columns->axes ? dim : 1) && length < size; axis++) {
+            snprintf(name, NAME, "%s", columns->name);
+            if (columns->axes) axis_name(columns->name, axis, false, name);
+            length += (size_t)snprintf(out + length, size - length, "%s%s", length ? "," : "", name);
+        }
+}
+
+static size_t count_numbers(const cli_column *columns, int dim) {
+    size_t count = 0;
+    for (; columns->name; columns++) count += columns->axes ? (size_t)dim : 1;
+    return count;
+}
+
+/* Finds the columns in the header line; false: some number has none, or two. */
+static bool read_header(cli_rows *rows, const cli_column *columns, int dim) {
+    unsigned found = 0;
+    char *at = rows->text;
+    if (!strncmp(at, "\xef\xbb\xbf", 3)) at += 3;
+    rows->separator = strchr(at, ',') ? ',' : strchr(at, ';') ? ';' : '\t';
+    for (rows->columns = 0; at; rows->columns++) {
+        if (rows->columns == CLI_ROW_COLUMNS) return false;
+        int number = number_of(columns, dim, next_field(&at, rows->separator));
+        if (number >= 0 && found >> number & 1) return false;
+        if (number >= 0) found |= 1u << number;
+        rows->place[rows->columns] = (signed char)number;
+    }
+    return found == (1u << rows->numbers) - 1;
+}
+
+int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows *out) {
+    const bool standard = !strcmp(path, "-");
+    char expected[200];
+    *out = (cli_rows){.path = standard ? "standard input" : path, .numbers = count_numbers(columns, dim)};
+    out->file = standard ? stdin : fopen(path, "r");
+    if (!out->file) return cli_fail(CLI_INPUT, path, "%s", strerror(errno));
+    header_text(columns, dim, expected, sizeof expected);
+    int code = 0;
+    if (!next_line(out))
+        code = cli_fail(CLI_INPUT, out->path, "no header line; %s was expected", expected);
+    else if (!read_header(out, columns, dim))
+        code = cli_fail(CLI_INPUT, out->path, "line 1: the header must name the columns %s, each once", expected);
+    if (code) cli_rows_close(out);
+    return code;
+}
+
+void cli_rows_close(cli_rows *rows) {
+    if (rows->file && rows->file != stdin) fclose(rows->file);
+    free(rows->text);
+    *rows = (cli_rows){0};
+}
+
+/* -------------------------------------------------------------------- rows -- */
+
+static bool read_numbers(cli_rows *rows, double *values) {
+    char *at = rows->text, *end;
+    size_t column = 0;
+    for (; at && column < rows->columns; column++) {
+        const char *field = next_field(&at, rows->separator);
+        if (rows->place[column] < 0) continue;
+        values[rows->place[column]] = strtod(field, &end);
+        if (end != field && !*end) continue;
+        if (*field)
+            snprintf(rows->reason, sizeof rows->reason, "'%.40s' is not a number", field);
+        else
+            snprintf(rows->reason, sizeof rows->reason, "column %zu is empty", column + 1);
+        return false;
+    }
+    if (!at && column == rows->columns) return true;
+    while (at) next_field(&at, rows->separator), column++;
+    snprintf(rows->reason, sizeof rows->reason, "it has %zu columns, the header %zu", column, rows->columns);
+    return false;
+}
+
+cli_row cli_rows_next(cli_rows *rows, double *values) {
+    do {
+        if (next_line(rows)) continue;
+        if (!ferror(rows->file)) return CLI_ROWS_END;
+        cli_fail(CLI_INPUT, rows->path, "line %llu: %s", (unsigned long long)rows->line + 1, strerror(errno));
+        return CLI_ROWS_FAILED;
+    } while (is_blank(rows->text));
+    rows->row = rows->rows++;
+    return read_numbers(rows, values) ? CLI_ROW_READ : CLI_ROW_BAD;
+}

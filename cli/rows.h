@@ -1,0 +1,46 @@
+/* rows.h: the numbers of a CSV, row by row, from a file of any length or from standard input.
+ *
+ *     static const cli_column columns[] = {{"lo_", true}, {"hi_", true}, {0}};
+ *     cli_rows rows;
+ *     code = cli_rows_open("boxes.csv", columns, dim, &rows);       // lo_x,lo_y,hi_x,hi_y
+ *     while (cli_rows_next(&rows, values) == CLI_ROW_READ) ...
+ *     cli_rows_close(&rows);
+ *
+ * The header line names the columns, in any order; columns of other names are passed over. Axes are
+ * x, y, z, w or x1, x2, ...; separators commas, semicolons or tabs. Empty lines do not count as rows. */
+#ifndef FROE_CLI_ROWS_H
+#define FROE_CLI_ROWS_H
+#include <froe/froe.h>
+#include <stdio.h>
+
+/** A column, or one for each axis: then `name` is what stands before x, y, ... */
+typedef struct cli_column {
+    const char *name; /**< NULL ends the list */
+    bool axes;
+} cli_column;
+
+enum { CLI_ROW_NUMBERS = 2 * FROE_MAX_DIM + 2, CLI_ROW_COLUMNS = 64 };
+typedef enum cli_row { CLI_ROW_READ, CLI_ROW_BAD, CLI_ROWS_END, CLI_ROWS_FAILED } cli_row;
+
+typedef struct cli_rows {
+    const char *path; /**< as messages name it */
+    FILE *file;
+    char *text; /**< the current line */
+    size_t capacity;
+    uint64_t line; /**< of `text`, from 1 */
+    uint64_t row;  /**< of `text`, from 0, bad ones included */
+    uint64_t rows; /**< read so far */
+    size_t numbers;
+    size_t columns;
+    signed char place[CLI_ROW_COLUMNS]; /**< which number a column holds, -1: none */
+    char separator;
+    char reason[120]; /**< what is wrong with a bad row */
+} cli_rows;
+
+/** Opens a file ("-": standard input) and reads its header. Returns 0, or an exit code after saying why. */
+int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows *out);
+/** Reads the next row's numbers, in the order of the columns asked for. CLI_ROW_BAD: `reason` says why, and the next
+ * call goes on behind it. CLI_ROWS_FAILED: the file cannot be read on, and that has been said. */
+cli_row cli_rows_next(cli_rows *rows, double *values);
+void cli_rows_close(cli_rows *rows);
+#endif

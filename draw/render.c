@@ -1,0 +1,171 @@
+/* render.c: the public calls for pictures with hidden surfaces removed: checked, looked at, painted, handed over. */
+#include "render.h"
+#include <math.h>
+#include <string.h>
+
+froe_render_options froe_render_defaults(void) {
+    return (froe_render_options){
+        .size = sizeof(froe_render_options),
+        .camera = froe_camera_defaults(),
+        .cel_levels = 4,
+        .seam_width = 1,
+        .lines = FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_GROUP | FROE_LINE_CREASE,
+        .crease = 30,
+        .line_width = 1,
+        .background = FROE_DRAW_CLEAR,
+        .decimals = 2,
+        .pixels = 1,
+    };
+}
+
+const char *froe_shading_name(froe_shading shading) {
+    static const char *const names[FROE_SHADING_COUNT] = {"flat", "cel", "plain", "white", "none"};
+    return shading >= 0 && shading < FROE_SHADING_COUNT ? names[shading] : NULL;
+}
+
+/* ---------------------------------------------------------------------- checking -- */
+
+static bool format_of(const char *path, int *format) {
+    const size_t length = strlen(path);
+    if (length > 4 && (!strcmp(path + length - 4, ".eps") || !strcmp(path + length - 4, ".EPS"))) {
+        *format = DRAW_EPS;
+        return true;
+    }
+    froe_draw_format known;
+    if (!froe_draw_format_of(path, &known)) return false;
+    *format = (int)known;
+    return true;
+}
+
+static froe_status check_opacity(const froe_scene *scene, const froe_render_options *o, int format,
+                                 froe_diagnostic *diag) {
+    for (size_t g = 0; o->opacity && g < froe_scene_group_count(scene); g++) {
+        if (!(o->opacity[g] >= 0 && o->opacity[g] <= 1))
+            return draw_fail(diag, FROE_E_OPTIONS, "The opacity of group %zu is %g, not 0 to 1.", g, o->opacity[g]);
+        if (o->opacity[g] < 1 && format == DRAW_EPS)
+            return draw_fail(diag, FROE_E_OPTIONS,
+                             "EPS has no opacity: use .svg, .pdf or .png, or make everything opaque.");
+    }
+    return FROE_OK;
+}
+
+typedef struct range {
+    const char *name;
+    double value, lo, hi;
+} range;
+
+static froe_status check(const froe_scene *scene, const froe_render_options *o, int format, froe_diagnostic *diag) {
+    if (o->size != sizeof *o)
+        return draw_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_render_defaults().");
+    const double pixels = format == FROE_DRAW_PNG ? o->pixels : 1;
+    const range ranges[] = {{"shading", o->shading, 0, FROE_SHADING_COUNT - 1},
+                            {"cel_levels", o->cel_levels, 2, 64},
+                            {"seam_width", o->seam_width, 0, 1e6},
+                            {"line_width", o->line_width, 0, 1e6},
+                            {"decimals", o->decimals, 0, 6},
+                            {"pixels", o->pixels, 0.1, 64},
+                            {"width", o->camera.width * pixels, 1, 32000},
+                            {"height", o->camera.height * pixels, 1, 32000}};
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const range *r = ranges + i;
+        if (!(r->value >= r->lo && r->value <= r->hi))
+            return draw_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
+                             r->value, r->lo, r->hi);
+    }
+    return check_opacity(scene, o, format, diag);
+}
+
+/* ----------------------------------------------------------------------- making -- */
+
+/* What is given per group, per patch. */
+static froe_status spread_groups(draw_render *r) {
+    const froe_render_options *o = r->options;
+    if (o->opacity) r->clear = draw_calloc(&r->alloc, r->patches + 1, 1);
+    if (o->priorities) r->priorities = draw_calloc(&r->alloc, r->patches + 1, sizeof *r->priorities);
+    if ((o->opacity && !r->clear) || (o->priorities && !r->priorities)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < r->patches; i++) {
+        const uint32_t group = froe_surface_patch(r->surface, i).group;
+        if (group == FROE_NONE) continue;
+        if (r->clear) r->clear[i] = o->opacity[group] < 1;
+        if (r->priorities) r->priorities[i] = o->priorities[group];
+    }
+    return FROE_OK;
+}
+
+static froe_status look(draw_render *r, froe_diagnostic *diag) {
+    const froe_render_options *o = r->options;
+    froe_picture_options p = froe_picture_defaults();
+    p.view = &r->view;
+    p.paint = o->paint;
+    p.no_fills = o->shading == FROE_SHADE_NONE;
+    p.underlap = o->seam_width;
+    p.styles = r->style_of;
+    p.clear = r->clear;
+    p.priorities = r->priorities;
+    p.cull_back = o->cull_back;
+    p.lines = o->line_width > 0 ? o->lines : 0;
+    p.crease = o->crease;
+    p.hidden = o->hidden;
+    p.alloc = &r->alloc;
+    p.progress = o->progress;
+    p.user = o->user;
+    return froe_picture_new(r->tree, r->surface, &p, &r->picture, diag);
+}
+
+static froe_status prepare(draw_render *r, froe_diagnostic *diag) {
+    froe_status status = froe_camera_place(&r->options->camera, r->scene, &r->view, diag);
+    if (!status) status = froe_surface_new(r->scene, &r->alloc, &r->surface, diag);
+    if (status) return status;
+    r->patches = froe_surface_patch_count(r->surface);
+    status = draw_shade(r);
+    if (!status) status = spread_groups(r);
+    return status ? draw_fail_memory(diag) : look(r, diag);
+}
+
+static froe_status paint(draw_render *r, int format, draw_output *output, froe_diagnostic *diag) {
+    const froe_render_options *o = r->options;
+    if (format == FROE_DRAW_SVG) {
+        *output = (draw_output){.alloc = r->alloc};
+        return draw_svg(r, output) ? FROE_OK : draw_fail_memory(diag);
+    }
+    const double unit = format == FROE_DRAW_PNG ? 1 : o->millimetres ? 72 / 25.4 : 1;
+    froe_status status = draw_output_begin(output, &r->alloc, (froe_draw_format)format, o->camera.width * unit,
+                                           o->camera.height * unit, o->pixels, o->title, diag);
+    if (status) return status;
+    cairo_scale(output->cr, unit, unit);
+    draw_cairo(r, output->cr);
+    return draw_output_finish(output, diag);
+}
+
+static void free_render(draw_render *r) {
+    froe_picture_free(r->picture);
+    froe_surface_free(r->surface);
+    draw_free(&r->alloc, r->style_of, (r->patches + 1) * sizeof *r->style_of);
+    draw_free(&r->alloc, r->clear, r->patches + 1);
+    draw_free(&r->alloc, r->priorities, (r->patches + 1) * sizeof *r->priorities);
+    draw_release(&r->alloc, &r->styles);
+}
+
+froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
+                        froe_render_report *report, froe_diagnostic *diag) {
+    const froe_render_options standard = froe_render_defaults();
+    int format = 0;
+    if (!tree || !path) return draw_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
+    if (!options) options = &standard;
+    if (!format_of(path, &format))
+        return draw_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf, .eps or .png.",
+                         path);
+    draw_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options};
+    froe_status status = check(r.scene, options, format, diag);
+    if (status) return status;
+    r.alloc = draw_allocator(options->alloc);
+    draw_output output = {.alloc = r.alloc};
+    status = prepare(&r, diag);
+    if (!status) status = paint(&r, format, &output, diag);
+    if (!status) status = draw_save(path, output.bytes.data, output.bytes.count, &r.alloc, diag);
+    if (!status && report)
+        *report = (froe_render_report){froe_picture_statistics(r.picture), r.view, r.paths, output.bytes.count};
+    draw_output_free(&output);
+    free_render(&r);
+    return status;
+}

@@ -1,0 +1,89 @@
+/* shade.c: colours of faces: one hue per material, lit by a lamp that is fixed to the camera. */
+#include "render.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Muted, of like weight, and apart for the colour-blind; materials take them in the order they come. */
+static const uint32_t hues[] = {0xE9E4D8, 0xB8CBD6, 0xD9B48F, 0xB9C7A0, 0xC9B6CF, 0xE3CF8E, 0xC9A79C, 0xA8C4BE};
+
+static double channel(uint32_t colour, int shift) {
+    return (double)(colour >> shift & 255);
+}
+
+static uint32_t lit(uint32_t colour, double light) {
+    uint32_t out = 0;
+    for (int shift = 0; shift < 24; shift += 8) out |= (uint32_t)floor(channel(colour, shift) * light + 0.5) << shift;
+    return out;
+}
+
+/* How much the lamp, to the upper left of the camera, lights a polygon: 0 .. 1, from both sides. */
+static double light_on(const draw_render *r, uint32_t object) {
+    const double *p[3];
+    double n[3], lamp[3], length = 0, lamp_length = 0, dot = 0;
+    for (uint32_t i = 0; i < 3; i++) p[i] = froe_scene_vertex(r->scene, froe_scene_corner(r->scene, object, i));
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        n[k] = (p[1][a] - p[0][a]) * (p[2][b] - p[0][b]) - (p[1][b] - p[0][b]) * (p[2][a] - p[0][a]);
+        lamp[k] = 0.55 * r->view.back[k] + 0.7 * r->view.up[k] - 0.45 * r->view.right[k];
+    }
+    for (int k = 0; k < 3; k++) length += n[k] * n[k], lamp_length += lamp[k] * lamp[k], dot += n[k] * lamp[k];
+    const double at = fabs(dot) / sqrt(length * lamp_length);
+    return at >= 0 && at <= 1 ? at : 1;
+}
+
+/* Materials by the order in which they first occur. */
+static uint32_t *number_materials(const draw_render *r) {
+    const size_t groups = froe_scene_group_count(r->scene);
+    uint32_t count = 0, *out = draw_calloc(&r->alloc, groups + 1, sizeof *out);
+    for (uint32_t g = 0; out && g < groups; g++) {
+        const char *material = froe_scene_group(r->scene, g).material;
+        uint32_t before = 0;
+        while (before < g && strcmp(froe_scene_group(r->scene, before).material, material) != 0) before++;
+        out[g] = before < g ? out[before] : count++;
+    }
+    return out;
+}
+
+static draw_style style_of(const draw_render *r, uint32_t patch, const uint32_t *materials) {
+    const froe_render_options *o = r->options;
+    const froe_patch p = froe_surface_patch(r->surface, patch);
+    const double opacity = o->opacity && p.group != FROE_NONE ? o->opacity[p.group] : 1;
+    const uint32_t alpha = (uint32_t)floor(opacity * 255 + 0.5);
+    uint32_t colour = p.group == FROE_NONE ? hues[0] : hues[materials[p.group] % (sizeof hues / sizeof *hues)];
+    double light = light_on(r, p.objects[0]);
+    if (o->shading == FROE_SHADE_CEL) light = (floor(light * 0.9999 * o->cel_levels) + 0.5) / o->cel_levels;
+    if (o->shading == FROE_SHADE_WHITE) return alpha << 24 | 0xFFFFFF;
+    if (o->shading != FROE_SHADE_PLAIN) colour = lit(colour, 0.45 + 0.55 * light);
+    return alpha << 24 | colour;
+}
+
+static int ascending(const void *a, const void *b) {
+    const draw_style x = *(const draw_style *)a, y = *(const draw_style *)b;
+    return (x > y) - (x < y);
+}
+
+froe_status draw_shade(draw_render *r) {
+    uint32_t *materials = number_materials(r);
+    r->style_of = draw_calloc(&r->alloc, r->patches + 1, sizeof *r->style_of);
+    bool ok = materials && r->style_of && draw_reserve(&r->alloc, &r->styles, r->patches + 1);
+    for (uint32_t i = 0; ok && i < r->patches; i++)
+        r->styles.data[r->styles.count++] = r->style_of[i] = style_of(r, i, materials);
+    if (ok && r->styles.count) {
+        size_t kept = 1;
+        qsort(r->styles.data, r->styles.count, sizeof *r->styles.data, ascending);
+        for (size_t i = 1; i < r->styles.count; i++)
+            if (r->styles.data[i] != r->styles.data[i - 1]) r->styles.data[kept++] = r->styles.data[i];
+        r->styles.count = kept;
+        for (size_t i = 0; i < r->patches; i++) {
+            const draw_style *found = bsearch(&r->style_of[i], r->styles.data, kept, sizeof *r->styles.data, ascending);
+            r->style_of[i] = (uint32_t)(found - r->styles.data);
+        }
+    }
+    draw_free(&r->alloc, materials, (froe_scene_group_count(r->scene) + 1) * sizeof *materials);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+double draw_line_width(const froe_render_options *options, froe_line kind) {
+    return kind == FROE_LINE_BORDER || kind == FROE_LINE_SILHOUETTE ? options->line_width : 0.6 * options->line_width;
+}

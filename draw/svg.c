@@ -1,0 +1,243 @@
+/* svg.c: the picture as compact SVG: relative coordinates on a grid, shared separators, one path per run of a style.
+ *
+ * Differences are taken between rounded points, so that errors do not add up. All rings turn the same way and fill by
+ * the nonzero rule: faces seen from behind and from the front may share a path. */
+#include "render.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct svg_writer {
+    draw_render *render;
+    draw_output *output;
+    double grid;   /* steps of the grid in a unit of the page */
+    int64_t at[2]; /* where the last path command ended, on the grid */
+    char command;  /* the last one written; numbers may follow without repeating it */
+    bool number;   /* the last thing written is a number */
+    bool point;    /* ... with a decimal point */
+    bool ok;
+} svg_writer;
+
+static void put(svg_writer *w, const char *text, size_t length) {
+    w->ok = w->ok && draw_reserve(&w->output->alloc, &w->output->bytes, length);
+    if (!w->ok) return;
+    memcpy(w->output->bytes.data + w->output->bytes.count, text, length);
+    w->output->bytes.count += length;
+}
+
+static void put_text(svg_writer *w, const char *text) {
+    put(w, text, strlen(text));
+}
+
+static void put_escaped(svg_writer *w, const char *text) {
+    for (; *text; text++) {
+        const char *as = *text == '<'   ? "&lt;"
+                         : *text == '>' ? "&gt;"
+                         : *text == '&' ? "&amp;"
+                         : *text == '"' ? "&quot;"
+                                        : NULL;
+        if (as)
+            put_text(w, as);
+        else
+            put(w, text, 1);
+    }
+}
+
+/* A number of steps of the grid, as short as it gets: ".5", "-3", "12.25". */
+static size_t format_steps(const svg_writer *w, int64_t steps, char out[32]) {
+    const int decimals = w->render->options->decimals;
+    const uint64_t size = steps < 0 ? (uint64_t)-steps : (uint64_t)steps, unit = (uint64_t)w->grid;
+    char *o = out;
+    if (steps < 0) *o++ = '-';
+    if (size / unit || size % unit == 0) o += snprintf(o, 24, "%llu", (unsigned long long)(size / unit));
+    if (size % unit) {
+        o += snprintf(o, 16, ".%0*llu", decimals, (unsigned long long)(size % unit));
+        while (o[-1] == '0') o--;
+    }
+    return (size_t)(o - out);
+}
+
+static void put_number(svg_writer *w, int64_t steps) {
+    char text[48];
+    const size_t length = format_steps(w, steps, text);
+    const bool point = memchr(text, '.', length) != NULL;
+    if (w->number && text[0] != '-' && !(text[0] == '.' && w->point)) put(w, " ", 1);
+    put(w, text, length);
+    w->number = true;
+    w->point = point;
+}
+
+static void put_command(svg_writer *w, char command) {
+    if (w->command != command) {
+        put(w, &command, 1);
+        w->number = false;
+    }
+    w->command = command;
+}
+
+static int64_t step_of(const svg_writer *w, double x) {
+    return (int64_t)floor(x * w->grid + 0.5);
+}
+
+static void line_to(svg_writer *w, int64_t x, int64_t y) {
+    const int64_t dx = x - w->at[0], dy = y - w->at[1];
+    if (!dx && !dy) return;
+    put_command(w, dy == 0 ? 'h' : dx == 0 ? 'v' : 'l');
+    if (dx) put_number(w, dx);
+    if (dy) put_number(w, dy);
+    w->at[0] = x, w->at[1] = y;
+}
+
+/* One ring or polyline. The first of a path begins with an absolute move. */
+static void put_points(svg_writer *w, const double *points, size_t count, bool closed) {
+    const int64_t x = step_of(w, points[0]), y = step_of(w, points[1]);
+    const bool first = w->command == 0;
+    w->command = 0;
+    put_command(w, first ? 'M' : 'm');
+    put_number(w, first ? x : x - w->at[0]);
+    put_number(w, first ? y : y - w->at[1]);
+    w->at[0] = x, w->at[1] = y;
+    for (size_t i = 1; i < count; i++) line_to(w, step_of(w, points[2 * i]), step_of(w, points[2 * i + 1]));
+    if (!closed) return;
+    put_text(w, "z");
+    w->command = 'z';
+    w->number = false;
+    w->at[0] = x, w->at[1] = y; /* closing leads back */
+}
+
+/* Does anything of a ring remain on the grid? */
+static bool has_extent(const svg_writer *w, const double *points, size_t count) {
+    int64_t area = 0;
+    for (size_t i = 1; i + 1 < count; i++) {
+        const int64_t x = step_of(w, points[0]), y = step_of(w, points[1]);
+        const int64_t a = step_of(w, points[2 * i]) - x, b = step_of(w, points[2 * i + 1]) - y,
+                      c = step_of(w, points[2 * i + 2]) - x, d = step_of(w, points[2 * i + 3]) - y;
+        area += a * d - b * c;
+    }
+    return area != 0;
+}
+
+/* ------------------------------------------------------------------------ parts -- */
+
+static void begin_path(svg_writer *w) {
+    w->command = 0;
+    w->number = false;
+    w->render->paths++;
+}
+
+static void put_colour(svg_writer *w, uint32_t colour) {
+    char text[16];
+    const uint32_t r = colour >> 16 & 255, g = colour >> 8 & 255, b = colour & 255;
+    if (r % 17 == 0 && g % 17 == 0 && b % 17 == 0)
+        snprintf(text, sizeof text, "#%x%x%x", r / 17, g / 17, b / 17);
+    else
+        snprintf(text, sizeof text, "#%02x%02x%02x", r, g, b);
+    put_text(w, text);
+}
+
+static void put_style(svg_writer *w, draw_style style) {
+    char text[48];
+    put_text(w, "<path fill=\"");
+    put_colour(w, style);
+    if (style >> 24 < 255) {
+        snprintf(text, sizeof text, "\" fill-opacity=\"0.%02u", (style >> 24) * 100 / 255);
+        put_text(w, text);
+    }
+}
+
+static void put_ids(svg_writer *w, uint32_t patch) {
+    const froe_patch p = froe_surface_patch(w->render->surface, patch);
+    char text[64];
+    snprintf(text, sizeof text, "\" data-object=\"%u\" data-group=\"", p.objects[0]);
+    put_text(w, text);
+    if (p.group != FROE_NONE) put_escaped(w, froe_scene_group(w->render->scene, p.group).name);
+}
+
+static void put_shape(svg_writer *w, const froe_shape *s) {
+    for (size_t i = 0; i < s->ring_count; i++) {
+        size_t count;
+        const double *ring = froe_picture_ring(w->render->picture, s->first_ring + i, &count);
+        if (has_extent(w, ring, count)) put_points(w, ring, count, true);
+    }
+}
+
+/* Shapes of one style that follow each other share a path, unless each shall be known by itself or is seen through. */
+static void put_shapes(svg_writer *w) {
+    const draw_render *r = w->render;
+    const size_t count = froe_picture_shape_count(r->picture);
+    for (size_t i = 0; i < count && w->ok;) {
+        const froe_shape first = froe_picture_shape(r->picture, i);
+        const draw_style style = r->styles.data[first.style];
+        put_style(w, style);
+        if (r->options->ids) put_ids(w, first.patch);
+        put_text(w, "\" d=\"");
+        begin_path(w);
+        put_shape(w, &first);
+        for (i++; i < count && !r->options->ids && style >> 24 == 255; i++) {
+            const froe_shape next = froe_picture_shape(r->picture, i);
+            if (next.style != first.style) break;
+            put_shape(w, &next);
+        }
+        put_text(w, "\"/>\n");
+    }
+}
+
+static void put_strokes(svg_writer *w) {
+    const draw_render *r = w->render;
+    const size_t count = froe_picture_stroke_count(r->picture);
+    char text[160];
+    if (count) put_text(w, "<g fill=\"none\" stroke=\"#1b2630\" stroke-linejoin=\"round\">\n");
+    for (size_t i = 0; i < count && w->ok;) {
+        const froe_stroke first = froe_picture_stroke(r->picture, i);
+        const double width = draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
+        snprintf(text, sizeof text, "<path class=\"%s%s\" stroke-width=\"%.3g\"", froe_line_name(first.kind),
+                 first.hidden ? " hidden" : "", width);
+        put_text(w, text);
+        if (first.hidden) {
+            snprintf(text, sizeof text, " stroke-dasharray=\"%.3g %.3g\"", 4 * width, 3 * width);
+            put_text(w, text);
+        }
+        put_text(w, " d=\"");
+        begin_path(w);
+        for (; i < count; i++) {
+            const froe_stroke s = froe_picture_stroke(r->picture, i);
+            if (s.kind != first.kind || s.hidden != first.hidden) break;
+            put_points(w, s.points, s.count, s.closed);
+        }
+        put_text(w, "\"/>\n");
+    }
+    if (count) put_text(w, "</g>\n");
+}
+
+static void put_head(svg_writer *w) {
+    const froe_render_options *o = w->render->options;
+    const char *unit = o->millimetres ? "mm" : "";
+    char text[256];
+    snprintf(
+        text, sizeof text,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.10g%s\" height=\"%.10g%s\" viewBox=\"0 0 %.10g %.10g\" "
+        "role=\"img\">\n",
+        o->camera.width, unit, o->camera.height, unit, o->camera.width, o->camera.height);
+    put_text(w, text);
+    const char *const parts[2][2] = {{"title", o->title}, {"desc", o->description}};
+    for (int i = 0; i < 2; i++) {
+        if (!parts[i][1]) continue;
+        put_text(w, "<"), put_text(w, parts[i][0]), put_text(w, ">");
+        put_escaped(w, parts[i][1]);
+        put_text(w, "</"), put_text(w, parts[i][0]), put_text(w, ">\n");
+    }
+    if (o->background == FROE_DRAW_CLEAR) return;
+    put_text(w, "<rect width=\"100%\" height=\"100%\" fill=\"");
+    put_colour(w, o->background);
+    put_text(w, "\"/>\n");
+}
+
+bool draw_svg(draw_render *render, draw_output *output) {
+    svg_writer w = {.render = render, .output = output, .grid = 1, .ok = true};
+    for (int i = 0; i < render->options->decimals; i++) w.grid *= 10;
+    put_head(&w);
+    put_shapes(&w);
+    put_strokes(&w);
+    put_text(&w, "</svg>\n");
+    return w.ok;
+}

@@ -1,0 +1,211 @@
+/* query.h: questions to a tree: what meets this range?
+ *
+ *     froe_query *q;
+ *     froe_query_new(tree, &q, NULL);                     // one a thread; froe_query_fork() for more
+ *     froe_range window = froe_range_defaults();
+ *     window.points = (double[]){lo_x, lo_y, hi_x, hi_y};
+ *     froe_list found;
+ *     froe_query_range(q, &window, &found, NULL);         // found.ids[0 .. found.count)
+ *     ...
+ *     froe_query_free(q);
+ *
+ * Ranges and objects are closed: touching counts as meeting. Every answer is the exact one for the doubles given,
+ * on every tree, from every builder. Each object is reported once, in an order that depends on the tree
+ * and the query alone.
+ *
+ * A query context holds what one thread needs to ask: stacks, marks, numbers. It grows with the
+ * first queries and then allocates nothing. What is prepared once for all threads (the structure
+ * that locates points in deep trees, the borders of groups) is shared by its forks.
+ *
+ * Bad queries (NaN, infinity where no bound may be infinite, lo > hi, a negative radius, a
+ * direction of length zero) are FROE_E_INPUT and leave the context as it was. */
+#ifndef FROE_QUERY_H
+#define FROE_QUERY_H
+#include <froe/froe.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ----------------------------------------------------------------- context -- */
+
+/** What one thread asks with. The tree must outlive it. */
+typedef struct froe_query froe_query;
+
+/** A context for a tree, with the tree's allocator. FROE_E_MEMORY. O(1); it grows with the answers, to at
+ * most a few bytes per object. */
+FROE_API froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnostic *diag);
+/** Another context for the same tree, for another thread; shares what was prepared. */
+FROE_API froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diagnostic *diag);
+FROE_API void froe_query_free(froe_query *query);
+
+/** What the queries of a context have cost since it was made or last asked. */
+typedef struct froe_query_stats {
+    uint64_t queries, nodes, leaves; /**< visited */
+    uint64_t tests;                  /**< objects tested against a query */
+    uint64_t exact;                  /**< ... of these, decided by exact numbers */
+    uint64_t slices;                 /**< lists reported without a test */
+} froe_query_stats;
+/** Returns the counts and starts again at 0. */
+FROE_API froe_query_stats froe_query_statistics(froe_query *query);
+
+/** Objects (or groups) found. The array belongs to the context and lives until its next call. */
+typedef struct froe_list {
+    const uint32_t *ids;
+    size_t count;
+} froe_list;
+
+/* ------------------------------------------------------------------ ranges -- */
+
+/** Shapes of ranges. dim is that of the tree; `points` are dim doubles each. */
+typedef enum froe_range_shape {
+    FROE_SHAPE_BOX = 0,        /**< points: lo, hi; bounds may be infinite */
+    FROE_SHAPE_BALL = 1,       /**< points: centre; radius */
+    FROE_SHAPE_SIMPLEX = 2,    /**< points: dim + 1 corners, in any order, degenerate or not; dim 2 or 3 */
+    FROE_SHAPE_CAPSULE = 3,    /**< points: the two ends of its axis; radius; dim 2 or 3 */
+    FROE_SHAPE_HALFSPACES = 4, /**< count of them: points[i] . x <= offsets[i]; may be unbounded or empty; dim 2 or 3 */
+    FROE_SHAPE_HULL = 5,       /**< convex hull of `count` points; dim 2 or 3 */
+    FROE_SHAPE_SEGMENT = 6,    /**< points: two ends; dim 2 or 3 */
+    FROE_SHAPE_RAY = 7,        /**< points: origin, direction; dim 2 or 3 */
+    FROE_SHAPE_COUNT = 8
+} froe_range_shape;
+/** "box", "ball", ...; NULL for other numbers. */
+FROE_API const char *froe_range_shape_name(froe_range_shape shape);
+
+/** A closed convex set, by arrays the caller keeps. */
+typedef struct froe_range {
+    size_t size; /**< set by froe_range_defaults() */
+    froe_range_shape shape;
+    const double *points;
+    size_t count;          /**< of halfspaces or hull points; ignored otherwise */
+    const double *offsets; /**< halfspaces only */
+    double radius;         /**< balls and capsules; >= 0 */
+    double eps;            /**< >= 0. 0: exact. Otherwise everything that meets Q is reported, and nothing that
+                                does not meet Q_eps, the points within eps * diam(Q) of Q (de Berg & Streppel).
+                                FROE_E_INPUT for unbounded ranges */
+} froe_range;
+FROE_API froe_range froe_range_defaults(void); /**< a box without points, exact */
+
+/** All objects that meet the range. */
+FROE_API froe_status froe_query_range(froe_query *query, const froe_range *range, froe_list *out,
+                                      froe_diagnostic *diag);
+/** How many there are. */
+FROE_API froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_t *out, froe_diagnostic *diag);
+/** One of them, FROE_NONE if there is none: stops at the first found. */
+FROE_API froe_status froe_query_any(froe_query *query, const froe_range *range, uint32_t *out, froe_diagnostic *diag);
+
+/* ------------------------------------------------------------------ locate -- */
+
+/** The objects that contain a point of dim doubles. For a point on no cut one leaf: O(log n) for the axis-parallel
+ * cuts of deep trees (de Berg, Theorem 3.1), O(height) in shallow ones and below oblique cuts. */
+FROE_API froe_status froe_query_locate(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag);
+
+/* --------------------------------------------------------------------- ray -- */
+
+/** Where a ray meets an object first: at origin + t * direction. */
+typedef struct froe_hit {
+    uint32_t object;
+    double t; /**< the double nearest to the exact parameter */
+} froe_hit;
+/** Hits, owned by the context as froe_list is. */
+typedef struct froe_hits {
+    const froe_hit *hits;
+    size_t count;
+} froe_hits;
+
+/** The first object met for 0 <= t <= t_max (which may be infinite), decided exactly; of several met
+ * at the same point, that with the lowest id. hit->object FROE_NONE if there is none. */
+FROE_API froe_status froe_query_ray(froe_query *query, const double *origin, const double *direction, double t_max,
+                                    froe_hit *hit, froe_diagnostic *diag);
+/** All objects met, by t, then id. */
+FROE_API froe_status froe_query_ray_all(froe_query *query, const double *origin, const double *direction, double t_max,
+                                        froe_hits *out, froe_diagnostic *diag);
+/** Any object met, FROE_NONE if there is none. */
+FROE_API froe_status froe_query_ray_any(froe_query *query, const double *origin, const double *direction, double t_max,
+                                        uint32_t *object, froe_diagnostic *diag);
+/** The first segment of the plane that the vertical ray from the point meets, upwards
+ * (direction 1) or downwards (-1); FROE_NONE if there is none. A segment through the point comes first; of
+ * several met at the same point, that with the lowest id. Objects of other kinds are passed over.
+ * FROE_E_UNSUPPORTED: not in the plane. */
+FROE_API froe_status froe_query_vertical(froe_query *query, const double *point, int direction, uint32_t *object,
+                                         froe_diagnostic *diag);
+
+/* -------------------------------------------------------------------- near -- */
+
+/** An object and its Euclidean distance, the double nearest to the exact one. */
+typedef struct froe_neighbour {
+    uint32_t object;
+    double distance;
+} froe_neighbour;
+typedef struct froe_neighbours {
+    const froe_neighbour *items;
+    size_t count;
+} froe_neighbours;
+/** The k objects nearest to a point among those within `bound` (may be infinite), nearest first;
+ * equal distances, decided exactly, by id. */
+FROE_API froe_status froe_query_near(froe_query *query, const double *point, size_t k, double bound,
+                                     froe_neighbours *out, froe_diagnostic *diag);
+
+/* ------------------------------------------------------------------- pairs -- */
+
+/** How two objects meet. */
+typedef enum froe_meeting {
+    FROE_MEET_CROSS = 0,  /**< interiors (relative to each object's own dimension) meet in a set of lower dimension */
+    FROE_MEET_TOUCH = 1,  /**< they meet, but not their relative interiors */
+    FROE_MEET_OVERLAP = 2 /**< relative interiors meet in a piece of the dimension of the lower one */
+} froe_meeting;
+typedef struct froe_pair {
+    uint32_t a, b; /**< a < b */
+    froe_meeting kind;
+} froe_pair;
+typedef bool froe_pair_fn(void *user, const froe_pair *pair);
+/** All pairs of objects that meet, each once, by a, then b. `shared` false leaves out pairs that touch in nothing but
+ * one corner of both. A visitor that returns false ends the call with FROE_OK; it must not use the context. */
+FROE_API froe_status froe_query_pairs(froe_query *query, bool shared, froe_pair_fn *fn, void *user,
+                                      froe_diagnostic *diag);
+
+/* ------------------------------------------------------------------- batch -- */
+
+/** Answers of a batch: those of query i are ids[starts[i] .. starts[i+1]) (and values beside them:
+ * parameters or distances). Freed by froe_answers_free(). */
+typedef struct froe_answers {
+    size_t *starts; /**< one more than queries */
+    uint32_t *ids;
+    double *values; /**< NULL where there are none */
+    size_t queries;
+    froe_allocator alloc; /**< that the arrays came from */
+} froe_answers;
+FROE_API void froe_answers_free(froe_answers *answers);
+
+typedef struct froe_batch_options {
+    size_t size;                /**< set by froe_batch_defaults() */
+    unsigned threads;           /**< 0: one per processor; answers do not depend on it */
+    froe_progress_fn *progress; /**< may be NULL */
+    void *user;
+} froe_batch_options;
+FROE_API froe_batch_options froe_batch_defaults(void);
+
+/** The same questions over arrays, on several threads. options NULL: the defaults. The first bad query ends the
+ * call: diag->object tells its position. The tree's allocator must be callable from several threads at once
+ * when there are several. */
+FROE_API froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t count,
+                                      const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+/** points: dim doubles each. */
+FROE_API froe_status froe_batch_locate(froe_query *query, const double *points, size_t count,
+                                       const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+
+/** objects: count of them, the caller's; on failure they may hold anything. */
+FROE_API froe_status froe_batch_vertical(froe_query *query, const double *points, size_t count, int direction,
+                                         const froe_batch_options *options, uint32_t *objects, froe_diagnostic *diag);
+/** First hits. hits: count of them, the caller's; on failure they may hold anything. */
+FROE_API froe_status froe_batch_ray(froe_query *query, const double *origins, const double *directions, size_t count,
+                                    double t_max, const froe_batch_options *options, froe_hit *hits,
+                                    froe_diagnostic *diag);
+/** With distances as values. */
+FROE_API froe_status froe_batch_near(froe_query *query, const double *points, size_t count, size_t k, double bound,
+                                     const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

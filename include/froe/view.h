@@ -1,0 +1,307 @@
+/* view.h: what an eye sees of a scene of polygons in space, exactly: in which order, which parts
+ * of it, and how to paint that. Part of the core library.
+ *
+ *     froe_eye eye = {.at = {3, -7, 2}};
+ *     froe_tree_order(tree, &eye, NULL, paint, page, NULL);       // back to front: one piece at a time
+ *
+ * One tree serves every eye. Nothing is compared with an epsilon: on which side of a cut an eye
+ * is, is the sign of an exact expression in the doubles given.
+ */
+#ifndef FROE_VIEW_H
+#define FROE_VIEW_H
+
+#include <froe/froe.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --------------------------------------------------------------------- eye -- */
+
+/** Where a picture is seen from. Taken exactly, as the doubles given. */
+typedef struct froe_eye {
+    double at[3];  /**< a point; of a parallel eye the direction from the scene towards it, of any length but 0.
+                        In the plane at[2] is not looked at */
+    bool parallel; /**< infinitely far away: parallel projection */
+} froe_eye;
+
+/* ------------------------------------------------------------- depth order -- */
+
+typedef struct froe_order_options {
+    size_t size;           /**< set by froe_order_defaults() */
+    bool front_to_back;    /**< default false: back to front, the painter's order */
+    const uint32_t *ranks; /**< one per object, or NULL: its face, see froe_objects. Of pieces that lie in one cut
+                                those of higher rank are in front, from both sides, whatever the eye; of
+                                equal ranks those that come later in the tree */
+    unsigned threads;      /**< froe_tree_orders() only; 0: one per processor */
+    froe_progress_fn *progress;
+    void *user; /**< for progress */
+} froe_order_options;
+FROE_API froe_order_options froe_order_defaults(void);
+
+/** Receives one piece (see froe_tree_piece); false stops. */
+typedef bool froe_order_fn(void *user, size_t piece);
+
+/** Visits all pieces of a tree in R^2 or R^3 so that, as the eye sees them, none hides one that comes after it
+ * (front to back) or before it (back to front), by the side of the eye at each cut (Fuchs, Kedem, Naylor, "On visible
+ * surface generation by a priori tree structures", 1980). Pieces in a cut come between what is before
+ * and what is behind it. options NULL: the defaults. Stopping is no failure.
+ * FROE_E_ARG: NaN, infinity, or a direction of length 0. FROE_E_UNSUPPORTED: boxes, balls or hulls, which are never
+ * cut, or a leaf with several pieces that do not lie in one plane (build with leaf 1 or 0). FROE_E_MEMORY.
+ * O(nodes + pieces), O(height) memory. */
+FROE_API froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const froe_order_options *options,
+                                     froe_order_fn *fn, void *user, froe_diagnostic *diag);
+/** The same for `count` eyes at once: pieces[e * froe_tree_piece_count(tree) ..] receives the order of eye e. Each
+ * cut is looked at once for 32 eyes, and eyes are shared among threads. Also FROE_E_CANCELLED. */
+FROE_API froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t count,
+                                      const froe_order_options *options, uint32_t *pieces, froe_diagnostic *diag);
+
+/* ----------------------------------------------------------------- surface -- */
+
+/** What belongs together in the polygons of a scene in space, whoever looks at it. A patch is a maximal set of
+ * polygons of one group that lie in one plane, exactly, and hang together by edges that just two of them use, from
+ * their two sides. An edge is a pair of vertices between which at least one polygon has an edge. Polygons without
+ * area, segments and points belong to neither. Immutable; the scene may neither grow nor be freed before it. */
+typedef struct froe_surface froe_surface;
+/** alloc NULL: malloc. FROE_E_UNSUPPORTED: the scene is not in space. O(corners) time. */
+FROE_API froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *alloc, froe_surface **out,
+                                      froe_diagnostic *diag);
+FROE_API void froe_surface_free(froe_surface *surface);
+
+/** Ordered by the first object of each, ascending. */
+typedef struct froe_patch {
+    uint32_t group;          /**< of all its objects, or FROE_NONE */
+    const uint32_t *objects; /**< ascending */
+    size_t object_count;     /**< 0: there is no such patch */
+} froe_patch;
+FROE_API size_t froe_surface_patch_count(const froe_surface *surface);
+FROE_API froe_patch froe_surface_patch(const froe_surface *surface, uint32_t patch);
+/** FROE_NONE if the object belongs to none. */
+FROE_API uint32_t froe_surface_patch_of(const froe_surface *surface, uint32_t object);
+
+/** Ordered by their vertices. */
+typedef struct froe_edge {
+    uint32_t vertex[2];      /**< ascending */
+    const uint32_t *objects; /**< that use it, ascending; one that uses it twice is there twice */
+    size_t object_count;     /**< 0: there is no such edge */
+} froe_edge;
+FROE_API size_t froe_surface_edge_count(const froe_surface *surface);
+FROE_API froe_edge froe_surface_edge(const froe_surface *surface, uint32_t edge);
+/** The edge that leaves a corner of an object, or FROE_NONE. */
+FROE_API uint32_t froe_surface_edge_of(const froe_surface *surface, uint32_t object, uint32_t corner);
+
+/* -------------------------------------------------------------- visibility -- */
+
+#define FROE_WINDOW_MOST 64 /**< corners of a window */
+
+typedef struct froe_visibility_options {
+    size_t size;  /**< set by froe_visibility_defaults() */
+    froe_eye eye; /**< default: at the origin */
+    /** A convex polygon in space, 3 doubles a corner: only what is seen through it counts, before or behind it.
+     * NULL: everything around the eye counts (an eye at a point looks in all directions, as a lamp does). */
+    const double *window;
+    size_t window_corners;
+    const uint8_t *clear;        /**< per patch, not 0: one sees through it; NULL: all are opaque */
+    const int32_t *priorities;   /**< per patch; where patches overlap in one plane, the one of higher priority is seen,
+                                      of equal ones the later; NULL: all equal */
+    const uint8_t *edges;        /**< per edge, not 0: its intervals are wanted; NULL: all */
+    bool cull_back;              /**< polygons whose corners turn right, as the eye sees them, are not there */
+    const froe_allocator *alloc; /**< NULL: malloc */
+    froe_progress_fn *progress;  /**< may be NULL */
+    void *user;                  /**< for progress */
+} froe_visibility_options;
+FROE_API froe_visibility_options froe_visibility_defaults(void);
+
+/** What one eye sees. Immutable; belongs to tree and surface, which must outlive it. */
+typedef struct froe_visibility froe_visibility;
+
+/** Finds, exactly, which part of every polygon is visible, and which part of every edge.
+ *
+ * The pieces of the tree come front to back; those of them that are open are kept and, unless one sees through them,
+ * close the part of the picture that they take, which is a BSP of lines of sight (a beam tree). Each line is a plane
+ * through the eye and an edge, or through the eye and a cut of the tree across a polygon, and every side is decided
+ * from the input doubles. A part of an edge is visible where one of
+ * its faces is visible beside it; edges whose faces are all seen edge-on have no visible part. Segments and points of
+ * the scene are neither seen nor in the way.
+ *
+ * FROE_E_ARG: the eye is none, the surface is not of the tree's scene. FROE_E_OPTIONS. FROE_E_INPUT: the window, as the
+ * eye sees it, is not strictly convex. FROE_E_UNSUPPORTED: see froe_tree_order(). FROE_E_MEMORY, FROE_E_CANCELLED. Time
+ * and memory O(pieces + visible pieces) times the depth of the beam tree, about 20 to 60 on real scenes. */
+FROE_API froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surface,
+                                         const froe_visibility_options *options, froe_visibility **out,
+                                         froe_diagnostic *diag);
+FROE_API void froe_visibility_free(froe_visibility *visibility);
+
+/** A visible piece: a convex part of one polygon, seen whole. Those of a patch do not overlap. */
+typedef struct froe_visible {
+    uint32_t patch, object;
+    uint32_t piece;   /**< of the tree: froe_tree_piece() */
+    uint32_t place;   /**< of that piece front to back: pieces behind have higher places */
+    uint32_t corners; /**< 0: there is no such visible piece */
+} froe_visible;
+/** Visible pieces are ordered by patch, those of a patch front to back. */
+FROE_API size_t froe_visibility_piece_count(const froe_visibility *visibility);
+FROE_API froe_visible froe_visibility_piece(const froe_visibility *visibility, size_t i);
+/** Pieces of a patch: *first .. *first + the result - 1. */
+FROE_API size_t froe_visibility_of_patch(const froe_visibility *visibility, uint32_t patch, size_t *first);
+/** Corners in space, 3 doubles each, turning left as the eye sees them; up to `capacity` are written. They are rounded
+ * (only this output is), to some units in the last place of what the view resolves. Returns how many there are. */
+FROE_API size_t froe_visibility_corners(const froe_visibility *visibility, size_t i, double *coords, size_t capacity);
+
+/** A part of an edge, from + t (to - from) with t from its lower vertex (0) to its higher (1). */
+typedef struct froe_interval {
+    double from, to;
+} froe_interval;
+/** The visible intervals of an edge, ascending and disjoint, touching ones joined; what is between them is hidden.
+ * They were ordered and joined exactly; only these numbers are rounded. Live as long as the visibility. */
+FROE_API const froe_interval *froe_visibility_of_edge(const froe_visibility *visibility, uint32_t edge, size_t *count);
+
+/** Receives the visible region of a patch: ring i has the corners starts[i] .. starts[i+1] - 1, 3 doubles each. Outer
+ * rings turn left as the eye sees them, holes right. The arrays live until it returns; false stops. */
+typedef bool froe_region_fn(void *user, uint32_t patch, const double *coords, const size_t *starts, size_t rings);
+/** The visible regions of the patches that have one, as rings, in the order of their numbers, from `first` on, `count`
+ * patches. Pieces are joined exactly; corners are rounded as by froe_visibility_corners(). Where sides of one
+ * patch lie on one line of sight by different edges (T-junctions), a cut may stay. FROE_E_MEMORY. */
+FROE_API froe_status froe_visibility_regions(const froe_visibility *visibility, uint32_t first, uint32_t count,
+                                             froe_region_fn *fn, void *user, froe_diagnostic *diag);
+
+typedef struct froe_visibility_report {
+    uint64_t pieces;         /**< of the tree that were looked at before the picture was closed */
+    uint64_t visible_pieces; /**< convex parts that are visible */
+    uint64_t visible_patches;
+    uint64_t intervals;
+    uint64_t screen_nodes; /**< of the beam tree */
+    uint64_t lines;
+    froe_predicate_stats predicates;
+} froe_visibility_report;
+FROE_API froe_visibility_report froe_visibility_statistics(const froe_visibility *visibility);
+
+/* ------------------------------------------------------------------ camera -- */
+
+/** How a scene becomes a page. Lengths on the page are in units of the caller's choice; y points down. */
+typedef struct froe_camera {
+    size_t size;   /**< set by froe_camera_defaults() */
+    bool parallel; /**< parallel projection; default false: perspective */
+    bool fit;      /**< perspective: the eye moves along its line of view, and the page is centred, so that the
+                        whole scene just fits; parallel: the same by scale. Default true */
+    double eye[3], target[3]; /**< looked from, looked at. Default: from (3, -5, 2) at the origin, so that fitting
+                                   needs a direction only; fit aims at the middle of the scene instead of the target */
+    double up[3];             /**< what points up on the page; default (0, 0, 1) */
+    double fov;   /**< perspective: angle between the lower and the upper margin, degrees, 1 .. 170; default 35 */
+    double scale; /**< parallel: page units per unit of the scene; 0 (default): as fits */
+    double width, height, margin; /**< of the page; default 1000, 1000, 20 */
+} froe_camera;
+FROE_API froe_camera froe_camera_defaults(void);
+
+/** A camera put in place. */
+typedef struct froe_projection {
+    froe_eye eye;
+    double origin[3]; /**< seen at `centre` */
+    double right[3], up[3],
+        back[3];          /**< orthogonal and of length 1, up to rounding: the page's axes, and towards the eye */
+    double scale;         /**< page units per unit of the scene at distance 1 (parallel: at any) */
+    double centre[2];     /**< on the page */
+    double near;          /**< perspective: nothing nearer than this is drawn: 10^-6 of the scene's extent */
+    double width, height; /**< of the page */
+    double window[12];    /**< the page as a window in space: see froe_visibility_options */
+    int up_axis;          /**< -1, or the axis that took the place of an `up` along the line of view */
+} froe_projection;
+/** Computed in doubles by + - * / and square roots alone: the same everywhere. Only the eye, and the window as
+ * rounded, decide what is visible. FROE_E_OPTIONS: not from _defaults(), a size, angle or scale out of range.
+ * FROE_E_ARG: the eye is at the target, NaN or infinity. FROE_E_INPUT: nothing to fit. O(vertices). */
+FROE_API froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene, froe_projection *out,
+                                       froe_diagnostic *diag);
+/** Where a point is on the page; false, nothing written, when it is not before the eye. */
+FROE_API bool froe_project(const froe_projection *view, const double *point, double page[2]);
+
+/* ----------------------------------------------------------------- picture -- */
+
+/** What shapes a picture is made of. */
+typedef enum froe_paint {
+    FROE_PAINT_WHOLE = 0,     /**< whole patches in an order in which they paint each other over; few are clipped */
+    FROE_PAINT_REGIONS = 1,   /**< visible regions, which do not overlap: for plotters and cutters */
+    FROE_PAINT_FRAGMENTS = 2, /**< pieces of the tree that are visible anywhere, back to front */
+    FROE_PAINT_COUNT = 3
+} froe_paint;
+/** "whole", "regions", "fragments"; NULL for other numbers. */
+FROE_API const char *froe_paint_name(froe_paint paint);
+
+typedef struct froe_picture_options {
+    size_t size;                 /**< set by froe_picture_defaults() */
+    const froe_projection *view; /**< needed */
+    froe_paint paint;            /**< default WHOLE */
+    bool no_fills;               /**< lines only */
+    double underlap;             /**< WHOLE: how far, on the page, shapes go under neighbours that are painted later, so
+                                      that antialiasing shows no seams; 0 (default): not at all */
+    const uint32_t *styles;    /**< per patch; shapes of one style are put next to each other where the order allows it;
+                                    NULL: all of one style */
+    const uint8_t *clear;      /**< per patch, not 0: one sees through it; NULL: all are opaque */
+    const int32_t *priorities; /**< see froe_visibility_options */
+    bool cull_back;            /**< the same */
+    uint32_t lines;            /**< bits of froe_line; default 0: none */
+    double crease;             /**< degrees from which on an edge is a crease, 0 .. 180; default 30 */
+    bool hidden;               /**< hidden lines as well */
+    uint64_t max_graph;        /**< WHOLE: most pairs to compare; default 50 million. Beyond them the picture is made of
+                                    fragments and says so: see froe_picture_report */
+    const froe_allocator *alloc; /**< NULL: malloc */
+    froe_progress_fn *progress;
+    void *user;
+} froe_picture_options;
+FROE_API froe_picture_options froe_picture_defaults(void);
+
+/** Shapes and lines on a page, in the order in which they are painted. Immutable. */
+typedef struct froe_picture froe_picture;
+/** Looks, orders, and makes shapes. Every sample point of the page shows what a ray through it meets first: each patch
+ * comes after all others over whose visible parts it lies; where such demands run in circles a few patches are
+ * clipped to what is visible of them. One sees through `clear` patches, layer by layer.
+ * Failures as froe_visibility_new(). */
+FROE_API froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
+                                      const froe_picture_options *options, froe_picture **out, froe_diagnostic *diag);
+FROE_API void froe_picture_free(froe_picture *picture);
+
+typedef struct froe_shape {
+    uint32_t patch, style;
+    bool whole;        /**< the whole patch; otherwise clipped to what is visible, or a fragment */
+    size_t first_ring; /**< rings fill by the nonzero rule; outer ones turn left seen with y upwards */
+    size_t ring_count; /**< 0 with patch FROE_NONE: there is no such shape */
+} froe_shape;
+FROE_API size_t froe_picture_shape_count(const froe_picture *picture);
+FROE_API froe_shape froe_picture_shape(const froe_picture *picture, size_t i);
+/** Points of a ring on the page: 2 doubles each, not rounded to anything. */
+FROE_API const double *froe_picture_ring(const froe_picture *picture, size_t ring, size_t *points);
+
+/** Kinds of lines, as bits. An edge gets the first that applies. */
+typedef enum froe_line {
+    FROE_LINE_BORDER = 1,     /**< used by one polygon, or by more than two */
+    FROE_LINE_SILHOUETTE = 2, /**< between a polygon seen from the front and one seen from behind */
+    FROE_LINE_GROUP = 4,      /**< between different groups (objects, materials) */
+    FROE_LINE_CREASE = 8,     /**< between planes at an angle */
+    FROE_LINE_MESH = 16       /**< any other edge between patches */
+} froe_line;
+/** "border", "silhouette", "group", "crease", "mesh"; NULL for anything else. */
+FROE_API const char *froe_line_name(froe_line kind);
+
+typedef struct froe_stroke {
+    froe_line kind;
+    bool hidden, closed;
+    bool butt[2];         /**< the end is where something begins to hide the line: no round cap may stick out there */
+    const double *points; /**< 2 doubles each */
+    size_t count;         /**< 0: there is no such stroke */
+} froe_stroke;
+/** Polylines: hidden ones first, then by kind. */
+FROE_API size_t froe_picture_stroke_count(const froe_picture *picture);
+FROE_API froe_stroke froe_picture_stroke(const froe_picture *picture, size_t i);
+
+typedef struct froe_picture_report {
+    froe_visibility_report visibility;
+    froe_paint paint;      /**< what it is made of: FRAGMENTS although WHOLE was asked for when max_graph was reached */
+    uint64_t arcs, tests;  /**< of the order, and pairs compared for them */
+    uint64_t cyclic, late; /**< patches in circles, and those clipped (or divided) to break them */
+    uint64_t shapes, whole, points, strokes;
+} froe_picture_report;
+FROE_API froe_picture_report froe_picture_statistics(const froe_picture *picture);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,86 @@
+/* grain.c: the BSP with the fewest pieces: cuts along the mesh.
+ *
+ *      __/\__/\__        a froe splits wood along the grain: most cuts are planes through three vertices, above all
+ *     /\ a--v--b /\      through two consecutive edges of the mesh, which touch their neighbours and split few
+ *     \/__\/__\/__\      (split/grain.h)
+ *
+ * Height. A cell of m fragments needs N(m) levels when every cut leaves at most 7/10 on a side: N(m) = m for m <= 4,
+ * and 4
+ * + log_{10/7} (m / 4) beyond, less than 1.95 log2 m. A cut is balanced when both children need no more levels than are
+ * left of H = C log2 n + 2, or have at most 7/10 of the cell. So depth + N(m) never exceeds H (or N(n), if that is
+ * more), except where no balanced cut is found:
+ *   - axis-parallel cuts at a median of vertices: at most log2 v + 1 for each axis, for each of them halves the number
+ * of vertices that lie between others on that axis, which no other cut increases;
+ *   - other cuts, which take at least one fragment off each side: at most U on a path, where U is the number of
+ * fragments in the largest cell to which that happened. Each adds one level at most. Hence the promise: H, + 3 (log2 v
+ * + 1) if there were such medians, + U. */
+#include "split/grain.h"
+#include "base/log2.h"
+#include "base/status.h"
+#include "build/method.h"
+
+enum { EFFORT, HEIGHT, PEEL };
+enum { EFFORT_MIN = 3 };
+
+static const char *const efforts[] = {"fast", "default", "log", "min", NULL};
+static const froe_option_info options[] = {
+    [EFFORT] = {"effort", "how long to look for good cuts; min: and in a tree two and a half times as high", 1, 0, 3,
+                efforts, true},
+    [HEIGHT] = {"height", "C: at most C log2 n + 2 levels, if cuts can be found; 0: no limit; -1: 2, with effort=min 5",
+                -1, -1, 1000, NULL, false},
+    [PEEL] = {"peel", "cells of so many pieces may take as many levels: fewer pieces", 0, 0, 1e9, NULL, true},
+    {0},
+};
+
+static const split_effort presets[] = {
+    {.supports = 8, .starts = 4, .turns = 6, .sample = 512},
+    {.supports = 10, .starts = 16, .turns = 12, .sample = 2048},
+    {.supports = 20, .starts = 64, .turns = 20, .sample = 8192},
+    {.supports = 20, .starts = 64, .turns = 20, .sample = 8192},
+};
+
+static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
+    (void)scene;
+    (void)leaf;
+    if (option[HEIGHT] < 0) option[HEIGHT] = option[EFFORT] == EFFORT_MIN ? 5 : 2;
+}
+
+/** See the head of this file. Every cut leaves fewer fragments on either side, so n is a bound, too. */
+static double promised_height(const build_job *job, const split_grain *grain) {
+    double n = job->scene->object_count, v = job->scene->vertex_count;
+    double need = split_grain_need(job->leaf, n), bound = grain->height > need ? grain->height : need;
+    if (atomic_load(&grain->notes->medians)) bound += 3 * (base_log2(v + 1) + 1);
+    bound += atomic_load(&grain->notes->unbalanced) + grain->peel;
+    return grain->height > 0 && bound < n ? bound : n;
+}
+
+static froe_status build(build_job *job, froe_tree **out) {
+    split_grain_notes notes = {0, false};
+    split_grain grain = {.leaf = job->leaf,
+                         .seed = job->seed,
+                         .effort = presets[(int)job->option[EFFORT]],
+                         .peel = (uint32_t)job->option[PEEL],
+                         .notes = &notes};
+    if (job->option[HEIGHT] > 0) grain.height = job->option[HEIGHT] * base_log2(job->scene->object_count + 1.0) + 2;
+    split_method method = {.config = &grain,
+                           .choose = split_grain_choose,
+                           .scratch_new = split_grain_scratch_new,
+                           .scratch_free = split_grain_scratch_free};
+    split_job split = build_split_job(job);
+    build_promise(job, "height", promised_height(job, &grain), 0);
+    froe_status status = split_grow(&split, &method, out);
+    if (!status) tree_promise_anew(*out, "height", promised_height(job, &grain));
+    return status;
+}
+
+const build_method build_method_grain = {
+    .info = {.name = "grain",
+             .summary = "cuts along the mesh, through three vertices: fewest pieces of polygons",
+             .source = "froe's own; information against splits, after Paterson and Yao 1990",
+             .guarantee = "height <= C log2 n + 2, + 3 log2 v + U where no cut is balanced",
+             .dims = 1u << 3,
+             .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON,
+             .options = options},
+    .resolve = resolve,
+    .build = build,
+};

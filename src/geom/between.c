@@ -1,0 +1,125 @@
+/* between.c: see between.h. Nothing but signs of determinants decides. */
+#include "geom/between.h"
+#include "base/random.h"
+#include <string.h>
+
+/* Planes through the first `depth` of the points that were on the wrong side, and the points before `limit` on their
+ * right sides, so far as `next`. */
+typedef struct level {
+    uint32_t next, limit;
+    bool strict; /* some of those lies beside the plane, not in it */
+} level;
+
+typedef struct search {
+    num_context *context;
+    int dim, depth;
+    geom_member *members;
+    geom_member seeds[3]; /* they span a plane */
+    geom_member basis[3]; /* of the current plane; first those that it has to run through */
+    geom_plane plane;
+    int sign; /* the side of the plane on which set 1 has to be */
+    level levels[4];
+} search;
+
+/* The plane through the basis. False: it spans none. */
+static bool take_plane(search *s) {
+    const double *points[3] = {s->basis[0].x, s->basis[1].x, s->basis[2].x};
+    s->plane = geom_plane_points(s->dim, points);
+    return geom_plane_valid(s->context, &s->plane);
+}
+
+/* Any plane through the first `depth` of the basis: they are independent, so that some of the seeds complete them. */
+static void any_plane(search *s) {
+    int missing = s->dim - s->depth;
+    s->sign = 1;
+    for (int first = 0; first < s->dim; first++) {
+        for (int i = 0; i < missing; i++) s->basis[s->depth + i] = s->seeds[(first + i) % s->dim];
+        if (take_plane(s)) return;
+    }
+}
+
+static bool same_place(const search *s, const geom_member *a, const geom_member *b) {
+    for (int k = 0; k < s->dim; k++)
+        if (a->x[k] != b->x[k]) return false;
+    return true;
+}
+
+/* Makes dim of the points that span a plane the seeds. */
+static bool find_seeds(search *s, uint32_t count) {
+    uint32_t second = 1, third;
+    while (second < count && same_place(s, s->members, s->members + second)) second++;
+    if (second == count) return false;
+    s->seeds[0] = s->basis[0] = s->members[0];
+    s->seeds[1] = s->basis[1] = s->members[second];
+    for (third = second + 1; s->dim == 3 && third < count; third++) {
+        s->seeds[2] = s->basis[2] = s->members[third];
+        if (take_plane(s)) return true;
+    }
+    return s->dim == 2;
+}
+
+static void shuffle(geom_member *members, uint32_t count) {
+    for (uint32_t i = count; i > 1; i--) {
+        uint32_t j = base_below(base_mix(i), i);
+        geom_member m = members[j];
+        members[j] = members[i - 1];
+        members[i - 1] = m;
+    }
+}
+
+/* What was on the wrong side once will be so again: it comes first from now on. */
+static void move_to_front(geom_member *members, uint32_t at) {
+    geom_member m = members[at];
+    memmove(members + 1, members, at * sizeof m);
+    members[0] = m;
+}
+
+/* Takes up the planes through one point more. */
+static void descend(search *s) {
+    uint32_t at = s->levels[s->depth].next;
+    s->basis[s->depth++] = s->members[at];
+    s->levels[s->depth] = (level){.limit = at};
+    any_plane(s);
+}
+
+/* Goes back to the planes through one point less; the plane found is right for the point that was wrong, too. */
+static void ascend(search *s) {
+    bool strict = s->levels[s->depth--].strict;
+    level *l = s->levels + s->depth;
+    l->strict = strict;
+    move_to_front(s->members, l->next++);
+}
+
+/* Looks at the next point. False: no plane is right for it and for those before. */
+static bool step(search *s) {
+    level *l = s->levels + s->depth;
+    const geom_member *m = s->members + l->next;
+    int side = geom_side_vertex(s->context, &s->plane, m->x) * s->sign * m->set;
+    if (side < 0 && l->strict) {
+        if (s->depth == s->dim) return false;
+        descend(s);
+        return true;
+    }
+    if (side < 0) s->sign = -s->sign; /* all before lie in the plane: turned round it is as right for them */
+    l->strict |= side != 0;
+    l->next++;
+    return true;
+}
+
+geom_answer geom_between(num_context *context, int dim, geom_member *members, uint32_t count) {
+    search s = {.context = context, .dim = dim, .members = members, .levels = {{.limit = count}}};
+    shuffle(members, count);
+    if (!find_seeds(&s, count)) return GEOM_FLAT;
+    any_plane(&s);
+    for (;;) {
+        bool done = s.levels[s.depth].next == s.levels[s.depth].limit;
+        if (done && !s.depth) break;
+        if (done)
+            ascend(&s);
+        else if (!step(&s))
+            return GEOM_NO;
+    }
+    if (!s.levels[0].strict) return GEOM_FLAT;
+    memcpy(members, s.basis, (size_t)dim * sizeof *members);
+    return GEOM_YES;
+}

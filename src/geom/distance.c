@@ -1,0 +1,127 @@
+/* distance.c: see distance.h. */
+#include "geom/distance.h"
+#include "geom/filter.h"
+#include "geom/formulas.h"
+#include "geom/gap.h"
+#include "num/root.h"
+
+#define T num_ball
+#define NAME(f) ball_##f
+#define FROM(x) num_ball_from(x)
+#define ADD(a, b) num_ball_add(a, b)
+#define SUB(a, b) num_ball_sub(a, b)
+#define MUL(a, b) num_ball_mul(a, b)
+#include "geom/distance_body.inc"
+
+#define T num_dyadic
+#define NAME(f) dyadic_##f
+#define FROM(x) num_dyadic_from(arena, x)
+#define ADD(a, b) num_dyadic_add(arena, a, b)
+#define SUB(a, b) num_dyadic_sub(arena, a, b)
+#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "geom/distance_body.inc"
+
+static num_ratio exact_square(num_arena *arena, const double *point, const geom_distance *d) {
+    num_ratio s;
+    s.top = dyadic_square(arena, d, point, &s.bottom);
+    return s;
+}
+
+static void find_simplex(num_context *context, const double *point, const geom_body *body, geom_distance *d) {
+    geom_body at = geom_body_at(body->dim, point);
+    geom_gap gap = geom_gap_between(context, body, &at);
+    d->count = gap.zero ? 0 : gap.count;
+    for (int i = 0; i < d->count; i++) d->corner[i] = geom_body_point(body, gap.a[i]);
+}
+
+geom_distance geom_distance_from(num_context *context, const double *point, const geom_body *body) {
+    geom_distance d = {.dim = body->dim, .radius = body->form == FROE_BALL ? body->radius : 0};
+    if (body->form == FROE_POINT || body->form == FROE_BOX || body->form == FROE_BALL) {
+        d.lo = geom_body_point(body, 0);
+        d.hi = body->form == FROE_BOX ? geom_body_point(body, 1) : d.lo;
+    } else {
+        find_simplex(context, point, body, &d);
+    }
+    num_ball bottom, top = ball_square(NULL, &d, point, &bottom);
+    d.square = bottom.x == 1 && bottom.e == 0 ? top : filter_div(top, bottom);
+    if (context->first == NUM_EXACT) d.square = (num_ball){0, INFINITY};
+    return d;
+}
+
+num_ball geom_distance_image(const geom_distance *a) {
+    num_ball d = num_ball_sqrt(a->square);
+    return a->radius > 0 ? filter_sub(d, num_ball_from(a->radius)) : d;
+}
+
+/* ------------------------------------------------------------- comparisons -- */
+
+/* S - r^2 */
+static int beyond_radius(num_arena *arena, num_ratio s, double radius) {
+    num_dyadic r = num_dyadic_from(arena, radius);
+    return num_dyadic_compare(s.top, num_dyadic_mul(arena, num_dyadic_mul(arena, r, r), s.bottom));
+}
+
+/* sqrt(S) - r - x, x >= 0 */
+static int beyond_both(num_arena *arena, num_ratio s, double radius, num_dyadic x) {
+    num_dyadic sum = num_dyadic_add(arena, num_dyadic_from(arena, radius), x);
+    return num_dyadic_compare(s.top, num_dyadic_mul(arena, num_dyadic_mul(arena, sum, sum), s.bottom));
+}
+
+static int compare_images(const geom_distance *a, const geom_distance *b) {
+    if (a->radius > 0 || b->radius > 0) return filter_sign(filter_sub(geom_distance_image(a), geom_distance_image(b)));
+    return filter_sign(filter_sub(a->square, b->square));
+}
+
+int geom_distance_compare(num_context *context, const double *point, const geom_distance *a, const geom_distance *b) {
+    context->stats.calls++;
+    int sure = compare_images(a, b);
+    bool inside = a->radius > 0 || b->radius > 0; /* then images below 0 mean 0 */
+    if (sure != NUM_UNSURE && !(inside && filter_sign(geom_distance_image(sure > 0 ? a : b)) != 1)) {
+        context->stats.filtered++;
+        return sure;
+    }
+    num_arena *arena = &context->arena;
+    arena->top = 0;
+    context->stats.exact++;
+    num_ratio s = exact_square(arena, point, a), t = exact_square(arena, point, b);
+    bool out_a = beyond_radius(arena, s, a->radius) > 0, out_b = beyond_radius(arena, t, b->radius) > 0;
+    if (!out_a || !out_b) return out_a - out_b;
+    num_dyadic e = num_dyadic_sub(arena, num_dyadic_from(arena, a->radius), num_dyadic_from(arena, b->radius));
+    return num_roots_compare(arena, s, t, e);
+}
+
+int geom_distance_compare_to(num_context *context, const double *point, const geom_distance *a, double bound) {
+    if (isinf(bound)) return -1;
+    context->stats.calls++;
+    int sure = filter_sign(filter_sub(geom_distance_image(a), num_ball_from(bound)));
+    if (sure == 1 || (sure == -1 && bound > 0)) {
+        context->stats.filtered++;
+        return sure;
+    }
+    num_arena *arena = &context->arena;
+    arena->top = 0;
+    context->stats.exact++;
+    num_ratio s = exact_square(arena, point, a);
+    int sign = beyond_both(arena, s, a->radius, num_dyadic_from(arena, bound));
+    return sign < 0 && bound == 0 ? 0 : sign;
+}
+
+/* ---------------------------------------------------------------- rounding -- */
+
+typedef struct rounding {
+    num_ratio square;
+    double radius;
+} rounding;
+
+static int against(void *user, num_arena *arena, num_dyadic x) {
+    const rounding *r = user;
+    return beyond_both(arena, r->square, r->radius, x);
+}
+
+double geom_distance_round(num_context *context, const double *point, const geom_distance *a) {
+    num_arena *arena = &context->arena;
+    arena->top = 0;
+    rounding r = {exact_square(arena, point, a), a->radius};
+    if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;
+    return num_nearest(arena, against, &r, geom_distance_image(a).x);
+}

@@ -1,0 +1,212 @@
+/* eye.c: sides of eyes, and sides of points and meetings in a picture: filter, balls, dyadic numbers. */
+#include "geom/eye.h"
+#include "geom/formulas.h"
+#include "geom/predicates.h"
+#include <string.h>
+
+#define T num_ball
+#define NAME(f) ball_##f
+#define FROM(x) num_ball_from(x)
+#define ADD(a, b) num_ball_add(a, b)
+#define SUB(a, b) num_ball_sub(a, b)
+#define MUL(a, b) num_ball_mul(a, b)
+#include "geom/eye_body.inc"
+
+#define T num_dyadic
+#define NAME(f) dyadic_##f
+#define FROM(x) num_dyadic_from(arena, x)
+#define ADD(a, b) num_dyadic_add(arena, a, b)
+#define SUB(a, b) num_dyadic_sub(arena, a, b)
+#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "geom/eye_body.inc"
+
+geom_eye geom_eye_make(bool parallel, const double *at, const double *origin) {
+    geom_eye eye = {.parallel = parallel};
+    memcpy(eye.at, at, sizeof eye.at);
+    if (origin) memcpy(eye.origin, origin, sizeof eye.origin);
+    for (int k = 1; k < 3; k++)
+        if (fabs(at[k]) > fabs(at[eye.axis])) eye.axis = k;
+    return eye;
+}
+
+/* --------------------------------------------------------------- who answers -- */
+
+static int filtered(num_context *context, int sign) {
+    context->stats.filtered++;
+    return sign;
+}
+
+static int refined(num_context *context, int sign) {
+    context->stats.refined++;
+    return sign;
+}
+
+static int exact(num_context *context, int sign) {
+    context->stats.exact++;
+    context->stats.exact_zero += sign == 0;
+    return sign;
+}
+
+static num_arena *fresh(num_context *context) {
+    context->arena.top = 0;
+    return &context->arena;
+}
+
+/* ------------------------------------------------------------ side of an eye -- */
+
+static num_dyadic exact_slope(num_arena *arena, const geom_plane *plane, const geom_eye *eye) {
+    num_dyadic n[3];
+    dyadic_normal(arena, plane, n);
+    return dyadic_at_eye(arena, plane, n, eye);
+}
+
+int geom_side_of_eye(num_context *context, const geom_plane *plane, const geom_eye *eye) {
+    static const double zero[3] = {0, 0, 0};
+    if (!eye->parallel) return geom_side_vertex(context, plane, eye->at);
+    context->stats.calls++;
+    if (geom_is_sheared(plane)) { /* n = (1, eps, 0) */
+        double d = eye->at[0] != 0 ? eye->at[0] : eye->at[1];
+        context->stats.by_id++;
+        return (d > 0) - (d < 0);
+    }
+    if (context->first == NUM_FILTER) {
+        int sure = filter_sign(filter_slope(plane, zero, eye->at));
+        if (sure != NUM_UNSURE) return filtered(context, sure);
+    }
+    if (context->first <= NUM_BALL) {
+        num_ball n[3];
+        ball_normal(NULL, plane, n);
+        int sure = num_ball_sign(ball_at_eye(NULL, plane, n, eye));
+        if (sure != NUM_UNSURE) return refined(context, sure);
+    }
+    return exact(context, exact_slope(fresh(context), plane, eye).sign);
+}
+
+/* Shewchuk's static bound for orient3d ("Adaptive precision floating-point arithmetic", 1997, table 4), plus what
+ * underflows may cost; overflows make it infinite or NaN, and then nothing is sure. */
+int geom_side_of_eye_filter(const double *p, const double *q, const double *r, const geom_eye *eye) {
+    const double *e = eye->at;
+    const double a0 = q[0] - p[0], a1 = q[1] - p[1], a2 = q[2] - p[2];
+    const double b0 = r[0] - p[0], b1 = r[1] - p[1], b2 = r[2] - p[2];
+    const double w0 = eye->parallel ? e[0] : e[0] - p[0], w1 = eye->parallel ? e[1] : e[1] - p[1],
+                 w2 = eye->parallel ? e[2] : e[2] - p[2];
+    const double p01 = a0 * b1, p10 = a1 * b0, p12 = a1 * b2, p21 = a2 * b1, p20 = a2 * b0, p02 = a0 * b2;
+    const double value = w0 * (p12 - p21) + w1 * (p20 - p02) + w2 * (p01 - p10);
+    const double size =
+        fabs(w0) * (fabs(p12) + fabs(p21)) + fabs(w1) * (fabs(p20) + fabs(p02)) + fabs(w2) * (fabs(p01) + fabs(p10));
+    const double bound = 8 * FILTER_U * size + NUM_BALL_TINY * (1 + fabs(w0) + fabs(w1) + fabs(w2));
+    return value > bound ? 1 : value < -bound ? -1 : NUM_UNSURE;
+}
+
+/* ------------------------------------------------------------------ images -- */
+
+static filter_vector gather(const num_ball x[3]) {
+    filter_vector out = {.most = 0};
+    for (int k = 0; k < 3; k++) {
+        out.x[k] = x[k].x;
+        out.most = filter_greater(out.most, fabs(x[k].x));
+        out.e = filter_greater(out.e, x[k].e);
+        if (!(x[k].e <= 0x1p1000)) out.e = INFINITY; /* NaN too */
+    }
+    return out;
+}
+
+filter_vector geom_ray_image(const geom_eye *eye, const double *x) {
+    num_ball r[3];
+    ball_ray(NULL, eye, x, r);
+    return gather(r);
+}
+
+filter_vector geom_line_image(const geom_eye *eye, const geom_line *line) {
+    num_ball n[3];
+    ball_line(NULL, eye, line, n);
+    return gather(n);
+}
+
+/* ------------------------------------------------------------------- sides -- */
+
+static bool same_point(const double *a, const double *b) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* Is x one of the points that make the line? */
+static bool holds(const geom_line *h, const double *x) {
+    return h->kind == GEOM_SIGHT_EDGE && (same_point(h->u, x) || same_point(h->v, x));
+}
+
+static num_ball filter_at_eye(const geom_plane *plane, const geom_eye *eye) {
+    static const double zero[3] = {0, 0, 0};
+    return eye->parallel ? filter_slope(plane, zero, eye->at) : filter_value(plane, eye->at);
+}
+
+/* The filter of cut_at_point; edges have theirs in the image of the line. */
+static int point_filter(const geom_eye *eye, const geom_line *h, const double *x) {
+    if (h->kind != GEOM_SIGHT_CUT) return NUM_UNSURE;
+    const num_ball left = filter_mul(filter_at_eye(h->a, eye), filter_value(h->s, x));
+    const num_ball right = filter_mul(filter_at_eye(h->s, eye), filter_value(h->a, x));
+    return filter_sign(filter_sub(left, right));
+}
+
+int geom_line_side_point(num_context *context, const geom_eye *eye, const geom_line *h, const double *x) {
+    context->stats.calls++;
+    if (context->first == NUM_FILTER) {
+        int sure = point_filter(eye, h, x);
+        if (sure != NUM_UNSURE) return filtered(context, sure);
+        if (holds(h, x)) {
+            context->stats.by_id++;
+            return 0;
+        }
+    }
+    if (context->first <= NUM_BALL) {
+        int sure = num_ball_sign(ball_line_at_point(NULL, eye, h, x));
+        if (sure != NUM_UNSURE) return refined(context, sure);
+    }
+    return exact(context, dyadic_line_at_point(fresh(context), eye, h, x).sign);
+}
+
+int geom_line_side_meeting(num_context *context, const geom_eye *eye, const geom_line *h, const geom_line *a,
+                           const geom_line *b) {
+    context->stats.calls++;
+    if (context->first <= NUM_BALL) {
+        int sure = num_ball_sign(ball_line_at_meeting(NULL, eye, h, a, b));
+        if (sure != NUM_UNSURE) return refined(context, sure);
+    }
+    return exact(context, dyadic_line_at_meeting(fresh(context), eye, h, a, b).sign);
+}
+
+/* ------------------------------------------------------------------- output -- */
+
+/* x / max |x|, rounded. */
+static void round_vector(num_arena *arena, const num_dyadic x[3], double out[3]) {
+    num_dyadic most = {0};
+    for (int k = 0; k < 3; k++) {
+        num_dyadic size = x[k];
+        size.sign *= size.sign;
+        if (num_dyadic_compare(size, most) > 0) most = size;
+    }
+    for (int k = 0; k < 3; k++) out[k] = num_dyadic_quotient(arena, x[k], most);
+}
+
+void geom_line_round(num_context *context, const geom_eye *eye, const geom_line *line, double out[3]) {
+    num_dyadic n[3];
+    num_arena *arena = fresh(context);
+    dyadic_line(arena, eye, line, n);
+    round_vector(arena, n, out);
+}
+
+void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_line *a, const geom_line *b,
+                        double out[3]) {
+    num_arena *arena = fresh(context);
+    num_dyadic n_a[3], n_b[3], ray[3];
+    dyadic_line(arena, eye, a, n_a);
+    dyadic_line(arena, eye, b, n_b);
+    dyadic_cross(arena, n_a, n_b, ray);
+    round_vector(arena, ray, out);
+}
+
+double geom_share_round(num_context *context, const geom_eye *eye, const geom_line *line, const double *u,
+                        const double *v) {
+    num_arena *arena = fresh(context);
+    num_dyadic at_u = dyadic_line_at_point(arena, eye, line, u), at_v = dyadic_line_at_point(arena, eye, line, v);
+    return num_dyadic_quotient(arena, at_u, num_dyadic_sub(arena, at_u, at_v));
+}

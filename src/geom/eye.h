@@ -1,0 +1,64 @@
+/* eye.h: what an eye sees of points, lines and planes, exactly. The eye is a point, or
+ * infinitely far away in a direction.
+ *
+ *            . x           A point x is seen as its ray r(x), a vector of R^3 up to a positive factor; a
+ *           /              line of the picture is a plane through the eye, which is a covector h of the same
+ *      eye o------ . y     space:  sign h.r(x) tells the side of x.  The line through x and y is r(x) x r(y), two
+ *           \              lines g, h meet in g x h, and that meets f where det(g, h, f) = 0: everything is
+ *            . z           a determinant, and nothing is ever divided (Stolfi, Oriented Projective Geometry, 1991).
+ *
+ *     eye at e                r(x) = e - x
+ *     parallel, towards d     r(x) = (w_i d_k - w_k d_i, w_j d_k - w_k d_j, d_k),  w = x - origin, d_k the largest of d
+ *
+ * In both, det(r(p), r(q), r(r)) > 0 where p, q, r turn left as the eye sees them. A picture of all
+ * directions around an eye at a point is a sphere: rays behind the eye are as good as any others.
+ *
+ * Two kinds of lines occur. EDGE runs through two points: degree 2. CUT is where plane a cuts an object
+ * with support s: h(x) = a(E) s(x) - s(E) a(x), the plane of the pencil of s and a through the eye; degree 5. */
+#ifndef FROE_GEOM_EYE_H
+#define FROE_GEOM_EYE_H
+#include "geom/filter.h"
+
+typedef struct geom_eye {
+    bool parallel;
+    int axis;         /**< k: where |at| is largest; parallel only */
+    double at[3];     /**< the point, or the direction towards the eye */
+    double origin[3]; /**< any point near the scene; parallel only */
+} geom_eye;
+
+/** `at` finite, and for a parallel eye not zero. `origin` may be NULL. */
+geom_eye geom_eye_make(bool parallel, const double *at, const double *origin);
+/** Side of a plane (of R^2 or R^3) on which the eye is: -1, 0 or 1. */
+int geom_side_of_eye(num_context *context, const geom_plane *plane, const geom_eye *eye);
+/** The same for the plane through p, q and r, without making it: -1, 1 or NUM_UNSURE. ~5 ns. */
+int geom_side_of_eye_filter(const double *p, const double *q, const double *r, const geom_eye *eye);
+
+typedef enum geom_sight { GEOM_SIGHT_EDGE, GEOM_SIGHT_CUT } geom_sight;
+typedef struct geom_line {
+    geom_sight kind;
+    const double *u, *v;     /**< EDGE */
+    const geom_plane *s, *a; /**< CUT: not parallel, and the eye not on s */
+} geom_line;
+
+/** Images for filters: every component within .e of the true one. */
+filter_vector geom_ray_image(const geom_eye *eye, const double *x);
+filter_vector geom_line_image(const geom_eye *eye, const geom_line *line);
+/** -1, 1 or NUM_UNSURE. */
+static inline int geom_line_image_side(const filter_vector *line, const filter_vector *ray) {
+    return filter_sign(filter_dot(line, ray));
+}
+
+/** Side of line h on which the point x is. */
+int geom_line_side_point(num_context *context, const geom_eye *eye, const geom_line *h, const double *x);
+/** Sign of det(a, b, h): side of h on which the ray a x b is. */
+int geom_line_side_meeting(num_context *context, const geom_eye *eye, const geom_line *h, const geom_line *a,
+                           const geom_line *b);
+/** A line's covector, and the ray a x b, divided by their largest components and then rounded. REQUIRES: they are
+ * not zero. For output, and for images that filters can use where the quick ones are too coarse. */
+void geom_line_round(num_context *context, const geom_eye *eye, const geom_line *line, double out[3]);
+void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_line *a, const geom_line *b,
+                        double out[3]);
+/** The t, rounded, for which u + t (v - u) is seen on the line. REQUIRES: u and v are on different sides. */
+double geom_share_round(num_context *context, const geom_eye *eye, const geom_line *line, const double *u,
+                        const double *v);
+#endif

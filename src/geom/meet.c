@@ -1,0 +1,172 @@
+/* meet.c: corners as numbers of each type, and which type decides. */
+#include "geom/meet.h"
+#include "geom/filter.h"
+#include "geom/formulas.h"
+#include <string.h>
+
+/* As for num_arena_bound (num/dyadic.c): corners of planes are fractions of degree 3, differences of them have
+ * degree 7 along an edge, and the longest polynomial, a squared height times squared weights, degree 44. A face takes
+ * at most 120 steps of degree 14 (464 limbs) and 40 of degree 44 (1 454); a simplex has four corners of 300 steps
+ * of degree 4 (134). All that a step keeps is a simplex and a face. */
+const size_t geom_meet_arena = (size_t)1 << 18;
+
+/* ----------------------------------------------------------------- balls -- */
+
+static void ball_place(num_arena *arena, const geom_convex *c, uint32_t i, num_ball x[3], num_ball *weight) {
+    const double *p = c->core == GEOM_CORE_BOX ? NULL : geom_convex_point(c, c->core == GEOM_CORE_RAY ? 0 : i);
+    (void)arena;
+    *weight = num_ball_from(1);
+    for (int k = 0; k < 3; k++) x[k] = num_ball_from(k < c->dim ? p ? p[k] : geom_convex_coordinate(c, i, k) : 0);
+    if (c->core == GEOM_CORE_PLANES)
+        for (int k = 0; k < c->dim; k++) x[k].e = c->error;
+    if (c->core == GEOM_CORE_RAY && i)
+        for (int k = 0; k < c->dim; k++)
+            x[k] = num_ball_add(
+                x[k], num_ball_mul(num_ball_from(ldexp(1, c->power)), num_ball_from(geom_convex_point(c, 1)[k])));
+}
+
+/* As far as is certain. */
+static num_ball ball_lowest(num_arena *arena, const geom_convex *c, const num_ball v[3], uint32_t *at,
+                            num_ball *weight) {
+    double best = INFINITY, low = INFINITY;
+    *at = 0;
+    for (uint32_t i = 0; i < c->count; i++) {
+        num_ball x[3], value;
+        ball_place(arena, c, i, x, weight);
+        value = ball_dot(arena, v, x);
+        if (!(value.e < INFINITY)) return (num_ball){0, INFINITY};
+        if (value.x < best) best = value.x, *at = i;
+        if (value.x - value.e < low) low = value.x - value.e;
+    }
+    return (num_ball){best, ((best - low) + FILTER_U * (fabs(best) + fabs(low))) * NUM_BALL_UP + NUM_BALL_TINY};
+}
+
+#define T num_ball
+#define NAME(f) ball_##f
+#define FROM(x) num_ball_from(x)
+#define ADD(a, b) num_ball_add(a, b)
+#define SUB(a, b) num_ball_sub(a, b)
+#define MUL(a, b) num_ball_mul(a, b)
+#define SIGN(a) num_ball_sign(a)
+#include "geom/meet_body.inc"
+
+/* --------------------------------------------------------------- dyadics -- */
+
+/* A corner where planes meet, by Cramer's rule. */
+static void dyadic_place_meeting(num_arena *arena, const geom_convex *c, uint32_t i, num_dyadic x[3],
+                                 num_dyadic *weight) {
+    const uint32_t *of = c->meetings[i].planes;
+    const geom_plane *planes[3] = {c->planes + of[0], c->planes + of[1], c->planes + of[2]};
+    double z[3];
+    geom_corner_origin(planes, NULL, z);
+    dyadic_corner_point(arena, planes[0], planes[1], planes[2], z, x, weight);
+    for (int k = 0; k < 3; k++) {
+        x[k] = num_dyadic_add(arena, x[k], num_dyadic_mul(arena, num_dyadic_from(arena, z[k]), *weight));
+        x[k].sign *= weight->sign;
+    }
+    weight->sign = 1;
+}
+
+static void dyadic_place(num_arena *arena, const geom_convex *c, uint32_t i, num_dyadic x[3], num_dyadic *weight) {
+    x[2] = (num_dyadic){0};
+    *weight = num_dyadic_from(arena, 1);
+    switch (c->core) {
+    case GEOM_CORE_PLANES:
+        dyadic_place_meeting(arena, c, i, x, weight);
+        return;
+    case GEOM_CORE_RAY:
+        for (int k = 0; k < c->dim; k++) {
+            x[k] = num_dyadic_from(arena, geom_convex_point(c, 0)[k]);
+            num_dyadic step = num_dyadic_mul(arena, num_dyadic_scaled(arena, 1, 1, c->power),
+                                             num_dyadic_from(arena, geom_convex_point(c, 1)[k]));
+            if (i) x[k] = num_dyadic_add(arena, x[k], step);
+        }
+        return;
+    default:
+        for (int k = 0; k < c->dim; k++) x[k] = num_dyadic_from(arena, geom_convex_coordinate(c, i, k));
+    }
+}
+
+static num_dyadic dyadic_lowest(num_arena *arena, const geom_convex *c, const num_dyadic v[3], uint32_t *at,
+                                num_dyadic *weight) {
+    const size_t base = arena->top;
+    num_dyadic best[3], x[3], w;
+    *at = 0;
+    dyadic_place(arena, c, 0, best, weight);
+    for (uint32_t i = 1; i < c->count; i++) {
+        const size_t top = arena->top;
+        dyadic_place(arena, c, i, x, &w);
+        for (int k = 0; k < 3; k++)
+            x[k] = num_dyadic_sub(arena, num_dyadic_mul(arena, x[k], *weight), num_dyadic_mul(arena, best[k], w));
+        const bool lower = dyadic_dot(arena, v, x).sign < 0;
+        arena->top = lower ? base : top;
+        if (!lower) continue;
+        *at = i;
+        dyadic_place(arena, c, i, best, weight);
+    }
+    return dyadic_dot(arena, v, best);
+}
+
+#define T num_dyadic
+#define NAME(f) dyadic_##f
+#define FROM(x) num_dyadic_from(arena, x)
+#define ADD(a, b) num_dyadic_add(arena, a, b)
+#define SUB(a, b) num_dyadic_sub(arena, a, b)
+#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#define SIGN(a) (a).sign
+#include "geom/meet_body.inc"
+
+/* -------------------------------------------------------------- decisions -- */
+
+enum { MOST_STEPS = 40, NO_END = -1 };
+
+bool geom_meet(num_context *context, const geom_convex *a, const geom_convex *b) {
+    int meets = NUM_UNSURE;
+    context->stats.calls++;
+    if (context->first != NUM_EXACT) meets = ball_meet(&context->arena, a, b, MOST_STEPS);
+    if (meets != NUM_UNSURE) {
+        context->stats.refined++;
+        return meets;
+    }
+    context->stats.exact++;
+    return dyadic_meet(&context->arena, a, b, NO_END);
+}
+
+bool geom_meet_surely(num_context *context, const geom_convex *a, const geom_convex *b) {
+    return context->first != NUM_EXACT && ball_meet(&context->arena, a, b, MOST_STEPS) == 1;
+}
+
+/* Twice: squared radius minus squared gaps. */
+bool geom_meet_boxes(num_context *context, int dim, const double *lo_a, const double *hi_a, double radius_a,
+                     const double *lo_b, const double *hi_b, double radius_b) {
+    double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
+    int gaps = 0;
+    for (int k = 0; k < dim; k++) {
+        if (hi_a[k] < lo_b[k])
+            from[gaps] = hi_a[k], to[gaps++] = lo_b[k];
+        else if (hi_b[k] < lo_a[k])
+            from[gaps] = hi_b[k], to[gaps++] = lo_a[k];
+    }
+    if (!gaps || (radius_a == 0 && radius_b == 0)) return !gaps;
+    context->stats.calls++;
+    if (context->first != NUM_EXACT) {
+        num_ball r = num_ball_add(num_ball_from(radius_a), num_ball_from(radius_b)), rest = num_ball_mul(r, r);
+        for (int i = 0; i < gaps; i++) {
+            num_ball gap = num_ball_sub(num_ball_from(to[i]), num_ball_from(from[i]));
+            rest = num_ball_sub(rest, num_ball_mul(gap, gap));
+        }
+        int sign = num_ball_sign(rest);
+        context->stats.refined += sign != NUM_UNSURE;
+        if (sign != NUM_UNSURE) return sign >= 0;
+    }
+    num_arena *arena = &context->arena;
+    arena->top = 0;
+    context->stats.exact++;
+    num_dyadic r = num_dyadic_add(arena, num_dyadic_from(arena, radius_a), num_dyadic_from(arena, radius_b));
+    num_dyadic rest = num_dyadic_mul(arena, r, r);
+    for (int i = 0; i < gaps; i++) {
+        num_dyadic gap = num_dyadic_sub(arena, num_dyadic_from(arena, to[i]), num_dyadic_from(arena, from[i]));
+        rest = num_dyadic_sub(arena, rest, num_dyadic_mul(arena, gap, gap));
+    }
+    return rest.sign >= 0;
+}

@@ -1,0 +1,180 @@
+/* polytope.c: all lines where two planes meet, and what the other halfspaces leave of each. */
+#include "geom/polytope.h"
+#include "geom/formulas.h"
+#include "geom/predicates.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------ planes -- */
+
+static bool add_plane(const froe_allocator *alloc, geom_polytope *p, geom_plane plane, int sense) {
+    return array_push(alloc, &p->planes, plane) && array_push(alloc, &p->senses, (int8_t)sense);
+}
+
+/* The box, z = 0 in the plane, then the halfspaces. Halfspaces without a direction hold everything or nothing: then
+ * *empty. */
+static bool lay_planes(const froe_allocator *alloc, int dim, const double *normals, const double *offsets, size_t count,
+                       const double *lo, const double *hi, geom_polytope *p, bool *empty) {
+    bool ok = true;
+    for (int k = 0; k < dim && ok; k++)
+        ok = add_plane(alloc, p, geom_plane_axis(3, k, lo[k]), -1) &&
+             add_plane(alloc, p, geom_plane_axis(3, k, hi[k]), 1);
+    for (size_t i = 0; i < count && ok; i++) {
+        double n[3] = {0};
+        memcpy(n, normals + i * (size_t)dim, (size_t)dim * sizeof *n);
+        if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+            *empty |= offsets[i] < 0;
+        else
+            ok = add_plane(alloc, p, geom_plane_vector(3, n, offsets[i]), 1);
+    }
+    return ok && add_plane(alloc, p, geom_plane_axis(3, 2, 0), 1); /* in space unused */
+}
+
+/* ------------------------------------------------------------------- lines -- */
+
+/* Sign of n_a . (n_b x n_c). */
+static int turn(num_context *context, const geom_plane *a, const geom_plane *b, const geom_plane *c) {
+    num_ball u[3], v[3], w[3], cross[3];
+    num_dyadic d[3], e[3], f[3], product[3];
+    if (context->first != NUM_EXACT) {
+        ball_normal(NULL, a, u), ball_normal(NULL, b, v), ball_normal(NULL, c, w);
+        ball_cross(NULL, v, w, cross);
+        int sign = num_ball_sign(ball_dot(NULL, u, cross));
+        if (sign != NUM_UNSURE) return sign;
+    }
+    num_arena *arena = &context->arena;
+    arena->top = 0;
+    dyadic_normal(arena, a, d), dyadic_normal(arena, b, e), dyadic_normal(arena, c, f);
+    dyadic_cross(arena, e, f, product);
+    return dyadic_dot(arena, d, product).sign;
+}
+
+/* The line where planes a and b meet, and the planes that end what is left of it: after[1] in the direction
+ * n_a x n_b, after[0] against it. */
+typedef struct line {
+    num_context *context;
+    const geom_polytope *polytope;
+    uint32_t a, b, after[2];
+    bool put_off; /* was a plane parallel to it while it had no end? */
+} line;
+
+/* Is the point where the line meets plane `at` within halfspace `of`? Outside -1, on its border 0, inside 1. */
+static int within(const line *l, uint32_t of, uint32_t at) {
+    const geom_plane *planes = l->polytope->planes.data;
+    int side = geom_side_corner(l->context, planes + of, planes + l->a, planes + l->b, planes + at);
+    return -side * l->polytope->senses.data[of];
+}
+
+/* Takes from the line what a halfspace does not hold; false: nothing is left. */
+static bool cut_line(line *l, uint32_t plane) {
+    const geom_plane *planes = l->polytope->planes.data;
+    int way = turn(l->context, planes + plane, planes + l->a, planes + l->b) * l->polytope->senses.data[plane];
+    if (!way && l->after[0] == FROE_NONE) return l->put_off = true;
+    if (!way) return within(l, plane, l->after[0]) >= 0;
+    uint32_t *end = &l->after[way > 0], other = l->after[way < 0];
+    if (*end != FROE_NONE && within(l, *end, plane) <= 0) return true;
+    *end = plane;
+    return other == FROE_NONE || within(l, plane, other) >= 0;
+}
+
+/* The box ends every line. */
+static bool find_ends(line *l, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++)
+        if (i != l->a && i != l->b && !cut_line(l, i)) return false;
+    for (uint32_t i = 0; i < count && l->put_off; i++) {
+        const geom_plane *planes = l->polytope->planes.data;
+        if (i == l->a || i == l->b || turn(l->context, planes + i, planes + l->a, planes + l->b)) continue;
+        if (within(l, i, l->after[0]) < 0) return false;
+    }
+    return true;
+}
+
+static int by_number(const void *a, const void *b) {
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+static bool add_corner(const froe_allocator *alloc, geom_polytope *p, uint32_t a, uint32_t b, uint32_t c) {
+    geom_meeting corner = {{a, b, c}};
+    qsort(corner.planes, 3, sizeof *corner.planes, by_number);
+    return array_push(alloc, &p->corners, corner);
+}
+
+static bool parallel(num_context *context, const geom_plane *a, const geom_plane *b) {
+    for (int k = 0; k < 3; k++) {
+        geom_plane axis = geom_plane_axis(3, k, 0);
+        if (turn(context, a, b, &axis)) return false;
+    }
+    return true;
+}
+
+static bool add_line(num_context *context, const froe_allocator *alloc, geom_polytope *p, uint32_t a, uint32_t b,
+                     uint32_t count) {
+    line l = {.context = context, .polytope = p, .a = a, .b = b, .after = {FROE_NONE, FROE_NONE}};
+    if (parallel(context, p->planes.data + a, p->planes.data + b) || !find_ends(&l, count)) return true;
+    return add_corner(alloc, p, a, b, l.after[0]) && add_corner(alloc, p, a, b, l.after[1]);
+}
+
+/* ----------------------------------------------------------------- corners -- */
+
+static int by_planes(const void *a, const void *b) {
+    return memcmp(a, b, sizeof(geom_meeting));
+}
+
+/* A corner is found on each of its lines. */
+static void drop_repeated(geom_polytope *p) {
+    size_t kept = 0;
+    if (p->corners.count) qsort(p->corners.data, p->corners.count, sizeof *p->corners.data, by_planes);
+    for (size_t i = 0; i < p->corners.count; i++)
+        if (!i || by_planes(p->corners.data + i, p->corners.data + kept - 1))
+            p->corners.data[kept++] = p->corners.data[i];
+    p->corners.count = kept;
+}
+
+static bool add_images(const froe_allocator *alloc, int dim, geom_polytope *p) {
+    if (!array_reserve(alloc, &p->images, p->corners.count * (size_t)dim)) return false;
+    p->error = 0;
+    for (size_t i = 0; i < p->corners.count; i++) {
+        const uint32_t *of = p->corners.data[i].planes;
+        const geom_plane *planes = p->planes.data;
+        double x[3], error = geom_image_corner(planes + of[0], planes + of[1], planes + of[2], x);
+        memcpy(p->images.data + p->images.count, x, (size_t)dim * sizeof *x);
+        p->images.count += (size_t)dim;
+        if (!(error <= p->error)) p->error = error;
+    }
+    return true;
+}
+
+bool geom_polytope_make(num_context *context, const froe_allocator *alloc, int dim, const double *normals,
+                        const double *offsets, size_t count, const double *lo, const double *hi, geom_polytope *out) {
+    bool empty = false, ok;
+    out->planes.count = out->senses.count = out->corners.count = out->images.count = 0;
+    ok = lay_planes(alloc, dim, normals, offsets, count, lo, hi, out, &empty);
+    if (!ok || empty) return ok;
+    uint32_t most = (uint32_t)out->planes.count - 1;
+    for (uint32_t a = 0; a < most && ok; a++) {
+        if (dim == 2)
+            ok = add_line(context, alloc, out, a, most, most);
+        else
+            for (uint32_t b = a + 1; b < most && ok; b++) ok = add_line(context, alloc, out, a, b, most);
+    }
+    drop_repeated(out);
+    return ok && add_images(alloc, dim, out);
+}
+
+void geom_polytope_free(geom_polytope *p, const froe_allocator *alloc) {
+    array_free(alloc, &p->planes);
+    array_free(alloc, &p->senses);
+    array_free(alloc, &p->corners);
+    array_free(alloc, &p->images);
+}
+
+geom_convex geom_polytope_convex(const geom_polytope *p, int dim) {
+    return (geom_convex){.core = GEOM_CORE_PLANES,
+                         .dim = dim,
+                         .count = (uint32_t)p->corners.count,
+                         .coords = p->images.data,
+                         .error = p->error,
+                         .planes = p->planes.data,
+                         .meetings = p->corners.data};
+}

@@ -1,0 +1,91 @@
+/* context.c: making, sharing and freeing query contexts and their parts. */
+#include "query/context.h"
+#include "base/status.h"
+#include "query/packed.h"
+
+static froe_status take(const froe_tree *tree, query_shared *shared, froe_query **out) {
+    froe_query *q = base_calloc(&tree->alloc, 1, sizeof *q);
+    if (!q) return FROE_E_MEMORY;
+    q->tree = tree;
+    q->alloc = tree->alloc;
+    if (num_context_new(&tree->alloc, &q->numbers)) {
+        base_free(&tree->alloc, q, sizeof *q);
+        return FROE_E_MEMORY;
+    }
+    q->shared = shared;
+    if (tree_is_packed(tree) && packed_work_new(tree, &q->packed)) {
+        num_context_free(&q->numbers);
+        base_free(&tree->alloc, q, sizeof *q);
+        return FROE_E_MEMORY;
+    }
+    query_marks_clear(&q->marks);
+    *out = q;
+    return FROE_OK;
+}
+
+froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnostic *diag) {
+    if (!tree || !out) return base_fail(diag, FROE_E_ARG, "froe_query_new: NULL argument.");
+    query_shared *shared = base_calloc(&tree->alloc, 1, sizeof *shared);
+    if (!shared) return base_fail_memory(diag);
+    if (take(tree, shared, out)) {
+        base_free(&tree->alloc, shared, sizeof *shared);
+        return base_fail_memory(diag);
+    }
+    atomic_init(&shared->holds, 1);
+    return FROE_OK;
+}
+
+froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diagnostic *diag) {
+    if (!query || !out) return base_fail(diag, FROE_E_ARG, "froe_query_fork: NULL argument.");
+    if (take(query->tree, query->shared, out)) return base_fail_memory(diag);
+    (*out)->numbers.first = query->numbers.first;
+    atomic_fetch_add(&query->shared->holds, 1);
+    return FROE_OK;
+}
+
+static void release(query_shared *shared, const froe_allocator *alloc) {
+    if (atomic_fetch_sub(&shared->holds, 1) > 1) return;
+    for (int i = 0; i < QUERY_PARTS; i++) {
+        query_part *part = atomic_load(&shared->parts[i]);
+        if (part) part->free(alloc, part);
+    }
+    base_free(alloc, shared, sizeof *shared);
+}
+
+void froe_query_free(froe_query *query) {
+    if (!query) return;
+    froe_allocator alloc = query->alloc;
+    release(query->shared, &alloc);
+    num_context_free(&query->numbers);
+    query_marks_free(&query->marks, &alloc);
+    query_ray_free(&query->ray, &alloc);
+    query_near_free(&query->near, &alloc);
+    query_range_free(&query->range, &alloc);
+    packed_work_free(query->packed, &alloc);
+    array_free(&alloc, &query->found);
+    base_free(&alloc, query, sizeof *query);
+}
+
+froe_query_stats froe_query_statistics(froe_query *query) {
+    froe_query_stats stats = query->stats;
+    query->stats = (froe_query_stats){0};
+    return stats;
+}
+
+froe_status query_prepare(froe_query *query, query_part_id id, query_make_fn *make, const query_part **out,
+                          froe_diagnostic *diag) {
+    query_part *part = atomic_load_explicit(&query->shared->parts[id], memory_order_acquire), *there = NULL;
+    if (!part) {
+        froe_status status = make(query, &part, diag);
+        if (status) {
+            if (part) part->free(&query->alloc, part);
+            return status;
+        }
+        if (!atomic_compare_exchange_strong(&query->shared->parts[id], &there, part)) {
+            part->free(&query->alloc, part);
+            part = there;
+        }
+    }
+    *out = part;
+    return FROE_OK;
+}

@@ -1,0 +1,54 @@
+/* cuts.c: planes of all tabled cuts, laid out for filters. */
+#include "query/cuts.h"
+#include "base/status.h"
+#include <string.h>
+
+static void free_planes(const froe_allocator *alloc, query_part *part) {
+    query_planes *p = (query_planes *)part;
+    base_free(alloc, p->planes, p->count * sizeof *p->planes);
+    base_free(alloc, p, sizeof *p);
+}
+
+/* x[0] = c, where c is known up to c_err only: as (x - (c - k)) - k with a k so large that what is charged
+ * for its rounding covers the error. */
+static query_plane lay_out_wall(const geom_plane *plane) {
+    double k = plane->c_err / (4 * FILTER_U) + fabs(plane->c) / 2;
+    query_plane out = {.n = {1}, .o = {plane->c - k}, .c = k, .n_err = k < 0x1p1000 ? 0 : INFINITY};
+    return out;
+}
+
+static query_plane lay_out(const geom_plane *plane) {
+    query_plane out = {.c = plane->c, .n_err = plane->n_err};
+    if (plane->form == GEOM_AT_CROSSING) return lay_out_wall(plane);
+    memcpy(out.n, plane->n, sizeof out.n);
+    if (plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL) memcpy(out.o, plane->p[0], sizeof out.o);
+    return out;
+}
+
+static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    const froe_tree *t = q->tree;
+    query_planes *p = base_calloc(&q->alloc, 1, sizeof *p);
+    if (!p) return base_fail_memory(diag);
+    p->part.free = free_planes;
+    *out = &p->part;
+    bool oblique = false;
+    for (uint32_t i = 0; i < t->cut_count; i++) oblique |= t->cuts[i].kind != FROE_CUT_AXIS;
+    if (!oblique) return FROE_OK;
+    p->planes = base_calloc(&q->alloc, t->cut_count, sizeof *p->planes);
+    if (!p->planes) return base_fail_memory(diag);
+    p->count = t->cut_count;
+    for (uint32_t v = 0; v < t->node_count; v++) {
+        const tree_node *node = t->nodes + v;
+        if (node->type != TREE_TABLED || t->cuts[node->u.cut].kind == FROE_CUT_AXIS) continue;
+        geom_plane plane = tree_plane_at(t, v);
+        p->planes[node->u.cut] = lay_out(&plane);
+    }
+    return FROE_OK;
+}
+
+froe_status query_planes_of(froe_query *query, const query_planes **out, froe_diagnostic *diag) {
+    const query_part *part;
+    froe_status status = query_prepare(query, QUERY_PLANES, make, &part, diag);
+    if (status == FROE_OK) *out = (const query_planes *)part;
+    return status;
+}

@@ -1,0 +1,307 @@
+/* range_take.c: a caller's range is checked and prepared. */
+#include "base/status.h"
+#include "geom/filter.h"
+#include "query/context.h"
+#include <string.h>
+
+static const char *const names[FROE_SHAPE_COUNT] = {"box",        "ball", "simplex", "capsule",
+                                                    "halfspaces", "hull", "segment", "ray"};
+
+const char *froe_range_shape_name(froe_range_shape shape) {
+    return (unsigned)shape < FROE_SHAPE_COUNT ? names[shape] : NULL;
+}
+
+froe_range froe_range_defaults(void) {
+    return (froe_range){.size = sizeof(froe_range)};
+}
+
+void query_range_free(query_range *r, const froe_allocator *alloc) {
+    geom_range_free(&r->range, alloc);
+    geom_polytope_free(&r->polytope, alloc);
+    array_free(alloc, &r->nodes);
+    array_free(alloc, &r->boxes);
+}
+
+/* ---------------------------------------------------------------- checking -- */
+
+static size_t point_count(const froe_range *r, size_t dim) {
+    switch (r->shape) {
+    case FROE_SHAPE_BALL:
+        return 1;
+    case FROE_SHAPE_SIMPLEX:
+        return dim + 1;
+    case FROE_SHAPE_HALFSPACES:
+    case FROE_SHAPE_HULL:
+        return r->count;
+    default:
+        return 2;
+    }
+}
+
+static bool has_radius(froe_range_shape shape) {
+    return shape == FROE_SHAPE_BALL || shape == FROE_SHAPE_CAPSULE;
+}
+
+/* Coordinate i; boxes may be unbounded. */
+static bool coordinate_fits(const froe_range *r, size_t i, size_t dim) {
+    const double x = r->points[i];
+    if (isfinite(x)) return true;
+    return r->shape == FROE_SHAPE_BOX && (i < dim ? x == -INFINITY : x == INFINITY);
+}
+
+static froe_status check_numbers(const froe_range *r, size_t dim, froe_diagnostic *diag) {
+    const size_t count = point_count(r, dim);
+    for (size_t i = 0; i < count * dim; i++)
+        if (!coordinate_fits(r, i, dim))
+            return base_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], r->points[i]);
+    for (size_t i = 0; r->shape == FROE_SHAPE_HALFSPACES && i < count; i++)
+        if (!isfinite(r->offsets[i]))
+            return base_fail(diag, FROE_E_INPUT, "A halfspace has the offset %g.", r->offsets[i]);
+    for (size_t k = 0; r->shape == FROE_SHAPE_BOX && k < dim; k++)
+        if (r->points[k] > r->points[dim + k])
+            return base_fail(diag, FROE_E_INPUT, "A box has lo %g > hi %g on axis %zu.", r->points[k],
+                             r->points[dim + k], k);
+    if (has_radius(r->shape) && !(r->radius >= 0 && isfinite(r->radius)))
+        return base_fail(diag, FROE_E_INPUT, "A %s has the radius %g.", names[r->shape], r->radius);
+    if (!(r->eps >= 0 && isfinite(r->eps))) return base_fail(diag, FROE_E_INPUT, "A range has eps %g.", r->eps);
+    size_t zeros = 0;
+    while (r->shape == FROE_SHAPE_RAY && zeros < dim && r->points[dim + zeros] == 0) zeros++;
+    if (zeros == dim) return base_fail(diag, FROE_E_INPUT, "A ray has no direction.");
+    return FROE_OK;
+}
+
+froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *diag) {
+    if (r->size != sizeof *r || (unsigned)r->shape >= FROE_SHAPE_COUNT)
+        return base_fail(diag, FROE_E_OPTIONS, "A range must come from froe_range_defaults() and have a shape.");
+    if (dim > 3 && r->shape != FROE_SHAPE_BOX && r->shape != FROE_SHAPE_BALL)
+        return base_fail(diag, FROE_E_UNSUPPORTED, "There is no %s in %d dimensions.", names[r->shape], dim);
+    const size_t count = point_count(r, (size_t)dim);
+    const bool halfspaces = r->shape == FROE_SHAPE_HALFSPACES;
+    if ((count && !r->points) || (halfspaces && count && !r->offsets))
+        return base_fail(diag, FROE_E_ARG, "A %s without points.", names[r->shape]);
+    if (!count && !halfspaces) return base_fail(diag, FROE_E_INPUT, "A hull of no points.");
+    if (count > UINT32_MAX / 8) return base_fail(diag, FROE_E_ARG, "A %s of too many points.", names[r->shape]);
+    return check_numbers(r, (size_t)dim, diag);
+}
+
+/* ------------------------------------------------------------------ facets -- */
+
+/* A normal of the line through p and q, of the plane through p, q and r; of any length. */
+static void normal_of(int dim, const double *p, const double *q, const double *r, double n[3]) {
+    double d[3] = {0}, e[3] = {0};
+    for (int k = 0; k < dim; k++) d[k] = q[k] - p[k], e[k] = dim == 3 ? r[k] - p[k] : 0;
+    if (dim == 2) e[2] = 1;
+    for (int k = 0; k < 3; k++) n[k] = d[(k + 1) % 3] * e[(k + 2) % 3] - d[(k + 2) % 3] * e[(k + 1) % 3];
+}
+
+/* Both ways: which of them is the outer one is not asked. */
+static bool add_slab(geom_range *r, const froe_allocator *alloc, double n[3]) {
+    const double back[3] = {-n[0], -n[1], -n[2]};
+    return geom_range_add_facet(r, alloc, n) && geom_range_add_facet(r, alloc, back);
+}
+
+/* Each side of a simplex. */
+static bool add_simplex_facets(geom_range *r, const froe_allocator *alloc) {
+    const uint32_t count = r->set.count;
+    bool ok = true;
+    for (uint32_t i = 0; i < count && ok; i++) {
+        double n[3];
+        const double *p[3];
+        for (uint32_t j = 0; j < 3; j++) p[j] = geom_convex_point(&r->set, (i + j) % count);
+        normal_of(r->dim, p[0], p[1], p[2], n);
+        ok = add_slab(r, alloc, n);
+    }
+    return ok;
+}
+
+/* Across the axis of a capsule. */
+static bool add_capsule_facets(geom_range *r, const froe_allocator *alloc) {
+    const double *p = geom_convex_point(&r->set, 0), *q = geom_convex_point(&r->set, 1);
+    bool ok = true;
+    for (int axis = r->dim == 2 ? 2 : 0; axis < 3 && ok; axis++) {
+        double n[3], up[3] = {0};
+        for (int k = 0; k < r->dim; k++) up[k] = p[k];
+        if (axis < r->dim) up[axis] += fabs(q[axis] - p[axis]) + 1;
+        normal_of(r->dim, p, q, up, n);
+        ok = add_slab(r, alloc, n);
+    }
+    return ok;
+}
+
+/* In the directions between the axes. */
+static bool add_hull_facets(geom_range *r, const froe_allocator *alloc) {
+    bool ok = true;
+    for (int i = 0; i < 27 && ok; i++) {
+        const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
+        double n[3] = {x, y, z};
+        int axes = (n[0] != 0) + (n[1] != 0) + (n[2] != 0);
+        if (axes > 1 && (r->dim == 3 || n[2] == 0)) ok = geom_range_add_facet(r, alloc, n);
+    }
+    return ok;
+}
+
+static bool add_halfspaces(geom_range *r, const froe_allocator *alloc, const froe_range *from) {
+    if (!array_reserve(alloc, &r->facets, from->count)) return false;
+    for (size_t i = 0; i < from->count; i++) {
+        geom_facet f = {.c = from->offsets[i]};
+        double square = 0;
+        for (int k = 0; k < r->dim; k++) {
+            f.n[k] = from->points[i * (size_t)r->dim + (size_t)k];
+            square += f.n[k] * f.n[k];
+        }
+        f.norm = sqrt(square) * (1 + 0x1p-48);
+        r->facets.data[r->facets.count++] = f;
+    }
+    return true;
+}
+
+static bool add_facets(geom_range *r, const froe_allocator *alloc, const froe_range *from) {
+    r->facets.count = 0;
+    switch (from->shape) {
+    case FROE_SHAPE_SIMPLEX:
+        return add_simplex_facets(r, alloc);
+    case FROE_SHAPE_CAPSULE:
+        return add_capsule_facets(r, alloc);
+    case FROE_SHAPE_HULL:
+        return add_hull_facets(r, alloc);
+    case FROE_SHAPE_HALFSPACES:
+        return add_halfspaces(r, alloc, from);
+    default:
+        return true;
+    }
+}
+
+/* ------------------------------------------------------------------ bounds -- */
+
+static void take_bounds(geom_range *r, const froe_range *from) {
+    const size_t dim = (size_t)r->dim;
+    for (size_t k = 0; k < dim; k++) r->lo[k] = -INFINITY, r->hi[k] = INFINITY;
+    if (from->shape == FROE_SHAPE_BOX) {
+        memcpy(r->lo, from->points, dim * sizeof *r->lo);
+        memcpy(r->hi, from->points + dim, dim * sizeof *r->hi);
+    } else if (from->shape == FROE_SHAPE_RAY) {
+        for (size_t k = 0; k < dim; k++) {
+            if (from->points[dim + k] >= 0) r->lo[k] = from->points[k];
+            if (from->points[dim + k] <= 0) r->hi[k] = from->points[k];
+        }
+    } else if (from->shape != FROE_SHAPE_HALFSPACES) {
+        geom_range_bound(r);
+    }
+}
+
+enum { FEW_POINTS = 256 };
+
+/* The greatest distance of two points of a set, about. */
+static double spread(size_t dim, const double *points, size_t count) {
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < i; j++) {
+            double square = 0;
+            for (size_t k = 0; k < dim; k++) {
+                const double d = points[i * dim + k] - points[j * dim + k];
+                square += d * d;
+            }
+            most = filter_greater(most, square);
+        }
+    return sqrt(most);
+}
+
+/* A lower bound of it: the greatest extent along an axis. */
+static double extent(const geom_range *r) {
+    double most = 0;
+    for (int k = 0; k < r->dim; k++) most = filter_greater(most, r->hi[k] - r->lo[k]);
+    return most;
+}
+
+/* A lower bound of the diameter; of halfspaces that of their corners. */
+static double diameter(const geom_range *r, const froe_range *from) {
+    const size_t dim = (size_t)r->dim;
+    const size_t count = from->shape == FROE_SHAPE_HALFSPACES ? r->set.count : point_count(from, dim);
+    const double *points = from->shape == FROE_SHAPE_HALFSPACES ? r->set.coords : from->points;
+    const double most = count <= FEW_POINTS ? spread(dim, points, count) : extent(r);
+    const double radius = has_radius(from->shape) ? from->radius : 0;
+    const double size = (most - 4 * r->set.error) * (1 - 0x1p-45) + 2 * radius;
+    return size > 0x1p-500 ? size * (1 - 0x1p-45) : 0;
+}
+
+static bool is_unbounded(const froe_range *from, size_t dim) {
+    if (from->shape == FROE_SHAPE_RAY) return true;
+    for (size_t i = 0; from->shape == FROE_SHAPE_BOX && i < 2 * dim; i++)
+        if (!isfinite(from->points[i])) return true;
+    return false;
+}
+
+/* Halfspaces within a box that holds all numbers: which of its planes makes a corner bounds what they do not. */
+static froe_status measure_halfspaces(froe_query *q, const froe_range *from, froe_diagnostic *diag) {
+    static const double lo[3] = {-0x1p1023, -0x1p1023, -0x1p1023}, hi[3] = {0x1p1023, 0x1p1023, 0x1p1023};
+    query_range *r = &q->range;
+    const uint32_t dim = (uint32_t)r->range.dim;
+    if (!geom_polytope_make(&q->numbers, &q->alloc, (int)dim, from->points, from->offsets, from->count, lo, hi,
+                            &r->polytope))
+        return base_fail_memory(diag);
+    for (size_t i = 0; i < r->polytope.corners.count; i++)
+        for (int j = 0; j < 3; j++)
+            if (r->polytope.corners.data[i].planes[j] < 2 * dim)
+                return base_fail(diag, FROE_E_INPUT, "Halfspaces without a bound have no eps.");
+    r->range.set = geom_polytope_convex(&r->polytope, (int)dim);
+    return FROE_OK;
+}
+
+static froe_status take_margin(froe_query *q, const froe_range *from, froe_diagnostic *diag) {
+    query_range *r = &q->range;
+    r->margin = 0;
+    if (from->eps == 0) return FROE_OK;
+    if (is_unbounded(from, (size_t)r->range.dim))
+        return base_fail(diag, FROE_E_INPUT, "A %s without a bound has no eps.", names[from->shape]);
+    if (from->shape == FROE_SHAPE_HALFSPACES) {
+        const froe_status status = measure_halfspaces(q, from, diag);
+        if (status) return status;
+    }
+    const double margin = from->eps * diameter(&r->range, from) * (1 - 0x1p-45);
+    r->margin = margin > 0x1p-900 && isfinite(margin) ? margin : 0;
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------------------ taking -- */
+
+static geom_range_kind kind_of(froe_range_shape shape) {
+    switch (shape) {
+    case FROE_SHAPE_BOX:
+        return GEOM_RANGE_BOX;
+    case FROE_SHAPE_BALL:
+        return GEOM_RANGE_BALL;
+    case FROE_SHAPE_SEGMENT:
+    case FROE_SHAPE_RAY:
+        return GEOM_RANGE_THIN;
+    default:
+        return GEOM_RANGE_SOLID;
+    }
+}
+
+static geom_convex set_of(const froe_range *from, int dim) {
+    geom_convex set = {.dim = dim, .coords = from->points, .count = (uint32_t)point_count(from, (size_t)dim)};
+    if (has_radius(from->shape)) set.radius = from->radius;
+    if (from->shape == FROE_SHAPE_RAY) set.core = GEOM_CORE_RAY;
+    if (from->shape == FROE_SHAPE_BOX) set.core = GEOM_CORE_BOX, set.count = 1u << dim;
+    if (from->shape == FROE_SHAPE_HALFSPACES) set.count = 0;
+    return set;
+}
+
+froe_status query_range_take(froe_query *q, const froe_range *from, froe_diagnostic *diag) {
+    query_range *r = &q->range;
+    const int dim = q->tree->scene->dim;
+    froe_status status = query_range_check(from, dim, diag);
+    if (status) return status;
+    r->from = from;
+    r->shape = from->shape;
+    r->polytope_made = false;
+    r->range.kind = kind_of(from->shape);
+    r->range.dim = dim;
+    r->range.set = set_of(from, dim);
+    take_bounds(&r->range, from);
+    status = take_margin(q, from, diag);
+    if (status) return status;
+    r->range.facets.count = 0;
+    if (q->numbers.first != NUM_EXACT && !add_facets(&r->range, &q->alloc, from)) return base_fail_memory(diag);
+    return FROE_OK;
+}

@@ -1,0 +1,96 @@
+/* ray_walk.c: which lists does a ray come by, in which order?
+ *
+ *     child 0  |  child 1        A cut parts the ray at one parameter. What is known of it is an interval; before it,
+ *        o-----|=====>           the ray is on one side, after it on the other, and within it perhaps in the cut. So
+ *      enter  lo hi   leave      the first child, the list of the cut and the second child are visited in this order,
+ *              |                 each for its own interval, cut down to that of the node.
+ *
+ * Intervals are rounded outwards, and a ray that may be parallel to a cut is on both sides throughout: with objects
+ * listed where they meet open cells, and regions closed, no object is missed. The stack is as deep as the tree at most.
+ */
+#include "base/status.h"
+#include "query/cuts.h"
+#include "query/ray.h"
+
+/* Where the ray crosses a cut, at most; first: the side it comes from. */
+typedef struct crossing {
+    double lo, hi;
+    int first;
+    bool both; /* in or beside the cut all the way */
+} crossing;
+
+/* Of -value / slope, each within its error. Not finite: anywhere. */
+static crossing crossing_of(double value, double value_error, double slope, double slope_error) {
+    num_ball t = filter_div((num_ball){-value, value_error}, (num_ball){slope, slope_error});
+    if (!(t.e < INFINITY) || !isfinite(t.x)) return (crossing){.both = true};
+    return (crossing){t.x - t.e * (1 + 0x1p-50), t.x + t.e * (1 + 0x1p-50), slope < 0, false};
+}
+
+static crossing cross_axis(const geom_ray *ray, int axis, double value) {
+    const double ahead = value - ray->o[axis], d = ray->d[axis];
+    if (d == 0) { /* 0 == 0 means within the cut */
+        const double side = ahead > 0 ? INFINITY : -(double)INFINITY;
+        return (crossing){side, side, 0, ahead == 0};
+    }
+    const double t = ahead / d, e = 0x1p-51 * fabs(t) + 0x1p-1070;
+    if (!isfinite(t)) return (crossing){.both = true};
+    return (crossing){t - e, t + e, d < 0, false};
+}
+
+static crossing cross_plane(const geom_ray *ray, const query_plane *plane) {
+    double value_error, slope_error;
+    const double value = query_plane_value(plane, ray->o, &value_error);
+    const double slope = query_plane_slope(plane, ray->d, &slope_error);
+    return crossing_of(value, value_error, slope, slope_error);
+}
+
+static bool push(froe_query *q, query_step step) {
+    if (step.enter > step.leave || step.enter > q->ray.limit || step.enter == INFINITY) return true;
+    return array_push(&q->alloc, &q->ray.steps, step);
+}
+
+/* Replaces an inner node by what the ray visits of it: the first to come on top. */
+static bool divide(froe_query *q, const query_planes *planes, const query_step *s) {
+    const froe_tree *t = q->tree;
+    const tree_node *node = t->nodes + s->node;
+    const query_cut cut = query_cut_at(t, planes, node);
+    const crossing c =
+        cut.axis >= 0 ? cross_axis(&q->ray.ray, cut.axis, cut.value) : cross_plane(&q->ray.ray, cut.plane);
+    query_step first = {node->child + (uint32_t)c.first, false, s->enter, s->leave}, list = *s, second = first;
+    second.node = node->child + 1 - (uint32_t)c.first;
+    list.list = true;
+    if (!c.both) {
+        list.enter = second.enter = c.lo > s->enter ? c.lo : s->enter;
+        list.leave = first.leave = c.hi < s->leave ? c.hi : s->leave;
+    }
+    const bool listed = node->type == TREE_TABLED && t->cuts[node->u.cut].count;
+    return push(q, second) && (!listed || push(q, list)) && push(q, first);
+}
+
+froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
+    const query_planes *planes;
+    froe_status status = query_planes_of(q, &planes, diag);
+    q->ray.steps.count = 0;
+    if (!status && !push(q, (query_step){0, false, 0, INFINITY})) status = base_fail_memory(diag);
+    return status;
+}
+
+froe_status query_walk_next(froe_query *q, tree_objects *list) {
+    const query_planes *planes;
+    froe_status status = query_planes_of(q, &planes, NULL); /* they are there */
+    list->count = 0;
+    while (!status && q->ray.steps.count) {
+        const query_step s = q->ray.steps.data[--q->ray.steps.count];
+        if (s.enter > q->ray.limit) continue;
+        const bool leaf = tree_is_leaf(q->tree->nodes + s.node);
+        q->stats.nodes += !s.list;
+        q->stats.leaves += leaf;
+        if (leaf || s.list) {
+            *list = tree_list(q->tree, s.node);
+            if (list->count) return FROE_OK;
+        } else if (!divide(q, planes, &s)) {
+            return FROE_E_MEMORY;
+        }
+    }
+    return status;
+}

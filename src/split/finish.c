@@ -1,0 +1,394 @@
+/* finish.c: small cells of segments: the table is filled, then cut by masks. */
+#include "split/finish.h"
+#include "base/random.h"
+#include "geom/filter.h"
+#include <string.h>
+
+enum { ROOM = 64 }; /* columns: as many as a mask has bits */
+
+typedef uint64_t mask; /* a set of columns */
+
+/** The line of a piece that was there at the start, and its row. */
+typedef struct row {
+    filter_line line;
+    mask known;        /* pieces that the row tells about */
+    mask below, above; /* with an end there, by more than rounding could do */
+    mask sure;         /* for which below and above are the exact answer */
+} row;
+
+/** A cell on its way. */
+typedef struct part {
+    mask set;
+    uint64_t path;
+    uint32_t node, depth, corner_top, columns;
+} part;
+
+struct split_table {
+    split_fragment piece[ROOM];
+    double x[2][ROOM], y[2][ROOM]; /* images of both ends */
+    double error[ROOM];            /* of both images */
+    double lo[2], hi[2];           /* the box of all images so far */
+    mask bits[ROOM];               /* bits[i] = 1 << i */
+    mask free;                     /* pieces that cross their cell from border to border */
+    uint8_t line[ROOM];            /* the row of the piece's own line */
+    uint32_t columns;
+    row rows[FINISH_MOST];
+    part stack[ROOM + 2]; /* a cut takes a piece out, so no path is longer than ROOM */
+    uint32_t parts;
+};
+
+typedef struct finish {
+    const split_refine *config;
+    split_set *set;
+    split_table *t;
+    const double *xlog2;
+} finish;
+
+split_table *split_table_new(const froe_allocator *alloc) {
+    split_table *t = base_calloc(alloc, 1, sizeof *t);
+    for (uint32_t i = 0; t && i < ROOM; i++) t->bits[i] = (mask)1 << i;
+    return t;
+}
+
+void split_table_free(const froe_allocator *alloc, split_table *table) {
+    base_free(alloc, table, sizeof *table);
+}
+
+/* -------------------------------------------------------------------- masks -- */
+
+static mask bit(uint32_t column) {
+    return (mask)1 << column;
+}
+
+/** Takes the lowest column out of a set that is not empty. */
+static uint32_t take(mask *set) {
+    uint32_t column = (uint32_t)__builtin_ctzll(*set);
+    *set &= *set - 1;
+    return column;
+}
+
+static uint32_t size(mask set) { /* the plain architecture has no instruction for it */
+    set -= set >> 1 & 0x5555555555555555u;
+    set = (set & 0x3333333333333333u) + (set >> 2 & 0x3333333333333333u);
+    set = (set + (set >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+    return (uint32_t)(set * 0x0101010101010101u >> 56);
+}
+
+static void put(mask *set, mask which, bool in) {
+    *set = in ? *set | which : *set & ~which;
+}
+
+/* ---------------------------------------------------------------- the table -- */
+
+static void stretch(split_table *t, int axis, double x) {
+    t->lo[axis] = x < t->lo[axis] ? x : t->lo[axis];
+    t->hi[axis] = x > t->hi[axis] ? x : t->hi[axis];
+}
+
+/** Fills what is above the rows in a piece's column. */
+static void load_piece(finish *f, uint32_t column, const split_fragment *piece) {
+    split_table *t = f->t;
+    const split_corner *ring = f->set->corners.data + piece->first;
+    t->piece[column] = *piece;
+    t->error[column] = piece->count ? filter_greater(ring[0].error, ring[1].error) : 0;
+    for (uint32_t i = 0; i < 2; i++) {
+        const double *x = split_image(f->set, piece, i);
+        stretch(t, 0, t->x[i][column] = x[0]);
+        stretch(t, 1, t->y[i][column] = x[1]);
+    }
+    put(&t->free, bit(column), piece->count && ring[0].edge & ring[1].edge & TREE_EDGE_CUT);
+}
+
+static void load(finish *f, const split_cell *cell) {
+    const froe_scene *scene = f->set->scene;
+    split_table *t = f->t;
+    bool trusted = num_rounding_trusted();
+    t->columns = cell->count;
+    for (int k = 0; k < 2; k++) t->lo[k] = INFINITY, t->hi[k] = -INFINITY;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const split_fragment *piece = f->set->items.data + cell->first + i;
+        const double *p = scene_point(scene, piece->object, 0), *q = scene_point(scene, piece->object, 1);
+        load_piece(f, i, piece);
+        t->line[i] = (uint8_t)i;
+        t->rows[i].line = filter_line_through(p, q, trusted);
+        t->rows[i].known = 0;
+    }
+}
+
+/** The greater distance of x from the ends of an interval. */
+static double farthest(double lo, double hi, double x) {
+    return filter_greater(fabs(lo - x), fabs(hi - x));
+}
+
+/** Fills a row for all columns, with one bound on all errors of values. Two pieces go at a time, or more, where the
+ * machine can. */
+static void fill_row(const split_table *t, row *r) {
+    const filter_line h = r->line;
+    const double reach = filter_line_reach(&h);
+    const double bound =
+        filter_line_bound(&h, farthest(t->lo[0], t->hi[0], h.o[0]), farthest(t->lo[1], t->hi[1], h.o[1]));
+    mask below[2] = {0, 0}, above[2] = {0, 0};
+    for (uint32_t i = 0; i < t->columns; i++) {
+        double u = filter_line_value(&h, t->x[0][i], t->y[0][i]), v = filter_line_value(&h, t->x[1][i], t->y[1][i]);
+        double e = bound + reach * t->error[i];
+        mask here = t->bits[i];
+        below[0] |= u < -e ? here : 0;
+        below[1] |= v < -e ? here : 0;
+        above[0] |= u > e ? here : 0;
+        above[1] |= v > e ? here : 0;
+    }
+    r->below = below[0] | below[1];
+    r->above = above[0] | above[1];
+    r->sure = (below[0] | above[0]) & (below[1] | above[1]);
+}
+
+/** One place of a row. */
+static void fill_place(const split_table *t, row *r, uint32_t column) {
+    const filter_line *h = &r->line;
+    bool below = false, above = false, sure = true;
+    for (int i = 0; i < 2; i++) {
+        double x = t->x[i][column], y = t->y[i][column], value = filter_line_value(h, x, y);
+        double e = filter_line_bound(h, fabs(x - h->o[0]), fabs(y - h->o[1])) + filter_line_reach(h) * t->error[column];
+        below |= value < -e;
+        above |= value > e;
+        sure &= (value < -e) | (value > e);
+    }
+    put(&r->below, bit(column), below);
+    put(&r->above, bit(column), above);
+    put(&r->sure, bit(column), sure);
+}
+
+/** The row of a piece's line, which knows all pieces of a set then. */
+static row *row_of(finish *f, uint32_t piece, mask set) {
+    split_table *t = f->t;
+    row *r = t->rows + t->line[piece];
+    mask missing = set & ~r->known;
+    if (!missing) return r;
+    if (4 * size(missing) >= t->columns)
+        fill_row(t, r);
+    else
+        while (missing) fill_place(t, r, take(&missing));
+    if (f->set->context.first != NUM_FILTER) r->sure = 0;
+    r->known |= set;
+    r->below &= ~bit(piece);
+    r->above &= ~bit(piece);
+    r->sure |= bit(piece);
+    return r;
+}
+
+/** A piece got halves in columns `one`, where it was, and `other`: they are where it was, unless that is both sides. */
+static void inherit(row *r, uint32_t one, uint32_t other) {
+    bool known = r->known & ~(r->below & r->above) & bit(one);
+    put(&r->known, bit(one) | bit(other), known);
+    put(&r->below, bit(other), r->below & bit(one));
+    put(&r->above, bit(other), r->above & bit(one));
+    put(&r->sure, bit(other), r->sure & bit(one));
+}
+
+/* ------------------------------------------------------------------- choice -- */
+
+/** The piece whose line is the best cut of a part that is not empty. */
+static uint32_t choose(finish *f, const part *p) {
+    const split_table *t = f->t;
+    const double *xl = f->xlog2;
+    uint32_t m = size(p->set), best = 0;
+    double whole = xl[m], least = INFINITY;
+    bool strict = m > 4 && split_balance_due(f->config, p->depth, whole / m);
+    mask left = f->config->free_cuts && p->set & t->free ? p->set & t->free : p->set;
+    while (left) {
+        uint32_t i = take(&left);
+        const row *r = row_of(f, i, p->set);
+        uint32_t splits = size(r->below & r->above & p->set);
+        uint32_t a = size(r->below & p->set), b = size(r->above & p->set), larger = a > b ? a : b;
+        double cost = splits - f->config->weight * (whole - xl[a] - xl[b] + splits * (whole / m));
+        if (strict && 4 * larger > 3 * m) cost += 0x1p20 * ((double)larger / m - 0.75);
+        if (cost >= least) continue;
+        least = cost;
+        best = i;
+        if (!splits && 4 * larger <= 3 * (a + b) + 2) break;
+    }
+    return best;
+}
+
+/* ---------------------------------------------------------------------- cut -- */
+
+/** Lists pieces at a node. */
+static froe_status list(finish *f, uint32_t node, mask set) {
+    if (!set) return FROE_OK;
+    froe_status status = draft_list(f->set->draft, node - f->set->draft->outer);
+    while (set && !status) status = split_emit(f->set, node, f->t->piece + take(&set));
+    return status;
+}
+
+/** Makes a row the exact answer for the pieces of a set. */
+static froe_status make_sure(finish *f, row *r, const froe_cut *by, mask set) {
+    num_context *context = &f->set->context;
+    mask left = set & ~r->sure;
+    uint32_t known = 2 * size(set & r->sure);
+    context->stats.calls += known;
+    context->stats.filtered += known;
+    if (!left) return FROE_OK;
+    split_plane plane = split_plane_of(f->set->scene, by);
+    while (left) {
+        uint32_t i = take(&left);
+        f->set->sides.count = 0;
+        if (!array_reserve(&f->set->alloc, &f->set->sides, 2)) return FROE_E_MEMORY;
+        int class = split_classify(f->set, &plane, f->t->piece + i);
+        put(&r->below, bit(i), class == SPLIT_NEG || class == SPLIT_BOTH);
+        put(&r->above, bit(i), class == SPLIT_POS || class == SPLIT_BOTH);
+        put(&r->sure, bit(i), true);
+    }
+    return FROE_OK;
+}
+
+/** Of equal objects the lowest id serves as the cut. */
+static uint32_t lowest_equal(const finish *f, uint32_t piece, mask on) {
+    const split_fragment *all = f->t->piece;
+    uint32_t best = piece;
+    for (on &= ~bit(piece); on;) {
+        uint32_t i = take(&on);
+        if (all[i].object < all[best].object && scene_equal(f->set->scene, all[i].object, all[best].object)) best = i;
+    }
+    return best;
+}
+
+/** The cut along a piece, or along its lowest equal; its row, exact for this part. */
+static froe_status settle(finish *f, const part *p, uint32_t piece, froe_cut *by, row **out) {
+    for (;;) {
+        row *r = row_of(f, piece, p->set);
+        *by = (froe_cut){.kind = FROE_CUT_OBJECT, .id = {f->t->piece[piece].object}};
+        *out = r;
+        froe_status status = make_sure(f, r, by, p->set);
+        uint32_t lowest = lowest_equal(f, piece, p->set & ~(r->below | r->above));
+        if (status || lowest == piece) return status;
+        piece = lowest;
+    }
+}
+
+/** Divides a piece; the rows of `set` learn about its halves. */
+static froe_status divide(finish *f, const split_plane *plane, uint32_t node, uint32_t column, mask set) {
+    split_set *s = f->set;
+    split_table *t = f->t;
+    split_fragment whole = t->piece[column], below, above;
+    uint32_t other = t->columns++;
+    s->sides.count = 0;
+    if (!array_reserve(&s->alloc, &s->sides, 2)) return FROE_E_MEMORY;
+    split_classify(s, plane, &whole);
+    froe_status status = split_divide(s, plane, node, &whole, s->sides.data, &below, &above);
+    if (status) return status;
+    load_piece(f, column, &below);
+    load_piece(f, other, &above);
+    t->line[other] = t->line[column];
+    while (set) inherit(t->rows + t->line[take(&set)], column, other);
+    return FROE_OK;
+}
+
+/** Divides what the cut splits: lower halves stay in their columns, *upper are the others. */
+static froe_status divide_all(finish *f, const froe_cut *by, uint32_t node, mask both, mask set, mask *upper) {
+    froe_status status = FROE_OK;
+    *upper = 0;
+    if (!both) return FROE_OK;
+    split_plane plane = split_plane_of(f->set->scene, by);
+    while (both && !status) {
+        *upper |= bit(f->t->columns);
+        status = divide(f, &plane, node, take(&both), set);
+    }
+    return status;
+}
+
+static void push_parts(finish *f, const part *p, uint32_t child, const mask side[2]) {
+    split_table *t = f->t;
+    for (int k = 1; k >= 0; k--)
+        t->stack[t->parts++] = (part){.set = side[k],
+                                      .path = base_path(p->path, k),
+                                      .node = child + (uint32_t)k,
+                                      .depth = p->depth + 1,
+                                      .corner_top = (uint32_t)f->set->corners.count,
+                                      .columns = t->columns};
+}
+
+/** *full: there are too few columns, and nothing was done. */
+static froe_status cut_part(finish *f, const part *p, bool *full) {
+    tree_draft *draft = f->set->draft;
+    froe_cut by;
+    row *r;
+    uint32_t child;
+    froe_status status = settle(f, p, choose(f, p), &by, &r);
+    if (status) return status;
+    mask below = r->below & p->set, above = r->above & p->set, both = below & above, upper;
+    *full = f->t->columns + size(both) > ROOM;
+    if (*full) return FROE_OK;
+    status = draft_split(draft, p->node - draft->outer, &by, 0, &child);
+    if (!status) status = list(f, p->node, p->set & ~(below | above));
+    if (!status) status = divide_all(f, &by, p->node, both, below | above, &upper);
+    if (!status) push_parts(f, p, draft->outer + child, (const mask[2]){below, (above & ~both) | upper});
+    return status;
+}
+
+/** Hands over all parts, the topmost too, as ordinary cells. */
+static froe_status give_back(finish *f, split_work *work) {
+    split_set *s = f->set;
+    const split_table *t = f->t;
+    if (!array_reserve(&s->alloc, &work->cells, t->parts) || !array_reserve(&s->alloc, &s->items, ROOM))
+        return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < t->parts; i++) {
+        const part *p = t->stack + i;
+        work->cells.data[work->cells.count++] = (split_cell){.node = p->node,
+                                                             .depth = p->depth,
+                                                             .path = p->path,
+                                                             .first = (uint32_t)s->items.count,
+                                                             .count = size(p->set),
+                                                             .corner_top = p->corner_top,
+                                                             .guard = FROE_NONE};
+        for (mask left = p->set; left;) s->items.data[s->items.count++] = t->piece[take(&left)];
+    }
+    return FROE_OK;
+}
+
+static froe_status do_part(finish *f, const part *p, bool *full) {
+    f->set->corners.count = p->corner_top;
+    f->t->columns = p->columns;
+    if (size(p->set) > f->config->leaf) return cut_part(f, p, full);
+    draft_leaf(f->set->draft, p->node - f->set->draft->outer, 0);
+    return list(f, p->node, p->set);
+}
+
+static bool fits(const split_refine *config, const split_set *set, const split_cell *cell) {
+    if (set->scene->dim != 2 || cell->count > config->small || !cell->count) return false;
+    for (uint32_t i = 0; i < cell->count; i++)
+        if (scene_form(set->scene, set->items.data[cell->first + i].object) != FROE_SEGMENT) return false;
+    return true;
+}
+
+/** Does parts until none is left, or one has no columns for its halves. */
+static froe_status do_parts(finish *f, bool *full) {
+    split_table *t = f->t;
+    froe_status status = FROE_OK;
+    while (t->parts && !*full && !status) {
+        part p = t->stack[--t->parts];
+        status = do_part(f, &p, full);
+    }
+    t->parts += *full; /* p is still there */
+    return status;
+}
+
+froe_status split_finish(const split_refine *config, split_work *work, const split_cell *cell, bool *done) {
+    split_scratch *scratch = work->scratch;
+    split_table *t = scratch->table;
+    finish f = {config, &work->set, t, scratch->view.xlog2};
+    bool full = false;
+    *done = fits(config, &work->set, cell);
+    if (!*done) return FROE_OK;
+    load(&f, cell);
+    t->parts = 1;
+    t->stack[0] = (part){.set = ~(mask)0 >> (ROOM - cell->count),
+                         .path = cell->path,
+                         .node = cell->node,
+                         .depth = cell->depth,
+                         .corner_top = (uint32_t)work->set.corners.count,
+                         .columns = cell->count};
+    froe_status status = do_parts(&f, &full);
+    *done = !full || t->stack[0].node != cell->node; /* else its very first cut splits too much for the table */
+    if (*done) work->set.items.count = cell->first;
+    return *done && full && !status ? give_back(&f, work) : status;
+}

@@ -1,0 +1,25 @@
+/* finish.h: the whole subtree of a small cell of segments in the plane, from one table of sides.
+ *
+ *                  a b c d e        A row for the line of each piece, a column for each piece: below (-), above (+),
+ *     line of a    0 - + + -        in the line (0), or across it (x). What the filters are sure of is asked once for
+ *     line of b    + 0 x + +        all levels of the subtree.
+ *     line of c    - - 0 + x
+ *     line of d    ...              A row is two bit masks and a cell is another, so counting bits tells how a line
+ *                                   would deal with a cell. The line of b splits c: its halves get a column each,
+ *     { a b c d e }  by b:          and inherit whatever c was not across.
+ *     { c- } and { a c+ d e }
+ *
+ * The best line by split_cost() wins, free cuts first, as in refine.h, but all lines compete. */
+#ifndef FROE_SPLIT_FINISH_H
+#define FROE_SPLIT_FINISH_H
+#include "split/refine.h"
+
+enum { FINISH_MOST = 48 }; /* pieces of a cell that can be finished, at most */
+
+/** Memory for a worker's table. */
+split_table *split_table_new(const froe_allocator *alloc);
+void split_table_free(const froe_allocator *alloc, split_table *table);
+
+/** Grows the subtree of a cell of few segments in the plane. *done false: it is no such cell, nothing was done. */
+froe_status split_finish(const split_refine *config, split_work *work, const split_cell *cell, bool *done);
+#endif

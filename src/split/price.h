@@ -1,0 +1,37 @@
+/* price.h: what a cut costs: the fragments it splits against what it tells about where they are.
+ *
+ * A cell of m fragments leaves log2 m bits open for each. A cut that leaves A and B fragments on its sides,
+ * of which it splits S, and takes the rest out of the search, gains
+ *     g = xl(m) - xl(A) - xl(B) + S log2 m   bits,   xl(k) = k log2 k,
+ * and costs S - w g. A side of more than `most` fragments costs more than any splits. */
+#ifndef FROE_SPLIT_PRICE_H
+#define FROE_SPLIT_PRICE_H
+#include "split/view.h"
+
+enum { SPLIT_PRICE_TABLE = 4096 };
+
+typedef struct split_price {
+    double xlog2[SPLIT_PRICE_TABLE]; /**< k log2 k of small k */
+} split_price;
+
+typedef struct split_terms {
+    double weight; /**< w */
+    double most;   /**< fragments of the cell that may be left on a side */
+} split_terms;
+
+void split_price_init(split_price *price);
+/** Of a cut that deals so with a cell of which one fragment in `weight` is shown. Lower is better. */
+double split_price_of(const split_price *price, const split_terms *terms, split_tally tally, double weight);
+
+/** Fragments on the fuller side, split ones included. */
+static inline uint32_t split_tally_larger(split_tally t) {
+    return (t.negative > t.positive ? t.negative : t.positive) + t.both;
+}
+static inline uint32_t split_tally_all(split_tally t) {
+    return t.negative + t.positive + t.on + t.both;
+}
+/** Does the cut separate anything? Then each side has fewer fragments than the cell. */
+static inline bool split_tally_useful(split_tally t) {
+    return t.on || (t.negative && t.positive);
+}
+#endif

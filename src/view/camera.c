@@ -1,0 +1,228 @@
+/* camera.c: from eye, target and page to a projection. */
+#include "view/camera.h"
+#include "base/status.h"
+#include "scene/scene.h"
+#include <math.h>
+#include <string.h>
+
+froe_camera froe_camera_defaults(void) {
+    return (froe_camera){.size = sizeof(froe_camera),
+                         .fit = true,
+                         .eye = {3, -5, 2},
+                         .up = {0, 0, 1},
+                         .fov = 35,
+                         .width = 1000,
+                         .height = 1000,
+                         .margin = 20};
+}
+
+/* ---------------------------------------------------------------------- vectors -- */
+
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double *a, const double *b, double *out) {
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        out[k] = a[i] * b[j] - a[j] * b[i];
+    }
+}
+
+/* To length 1, first to largest component 1 against overflow; false for (nearly) no length. */
+static bool normalize(double *v) {
+    const double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    if (!(most > 0) || !isfinite(most)) return false;
+    for (int k = 0; k < 3; k++) v[k] /= most;
+    const double length = sqrt(dot(v, v));
+    for (int k = 0; k < 3; k++) v[k] /= length;
+    return true;
+}
+
+/* tan x = x / (1 - x^2 / (3 - x^2 / (5 - ...))) (Lambert 1761): converges for every x, fast below pi / 2. */
+double view_tan(double degrees) {
+    const double x = degrees * (3.14159265358979323846 / 180), square = x * x;
+    double below = 61;
+    for (int k = 59; k > 0; k -= 2) below = k - square / below;
+    return x / below;
+}
+
+/* -------------------------------------------------------------------- projecting -- */
+
+void view_camera_point(const froe_projection *view, const double *point, double out[3]) {
+    double w[3];
+    for (int k = 0; k < 3; k++) w[k] = point[k] - view->origin[k];
+    out[0] = dot(w, view->right);
+    out[1] = dot(w, view->up);
+    out[2] = -dot(w, view->back);
+}
+
+void view_camera_page(const froe_projection *view, const double at[3], double page[2]) {
+    const double scale = view->eye.parallel ? view->scale : view->scale / at[2];
+    page[0] = view->centre[0] + scale * at[0];
+    page[1] = view->centre[1] - scale * at[1];
+}
+
+bool froe_project(const froe_projection *view, const double *point, double page[2]) {
+    double at[3];
+    view_camera_point(view, point, at);
+    if (!view->eye.parallel && !(at[2] > 0)) return false;
+    view_camera_page(view, at, page);
+    return true;
+}
+
+void view_camera_ray(const froe_projection *view, const double origin[3], int axis, const double ray[3],
+                     double page[2]) {
+    double at[3];
+    if (view->eye.parallel) {
+        double point[3] = {origin[0], origin[1], origin[2]};
+        for (int c = 0; c < 2; c++) point[(axis + 1 + c) % 3] += ray[c] / ray[2];
+        view_camera_point(view, point, at);
+    } else { /* the ray runs from the point to the eye */
+        at[0] = -dot(ray, view->right), at[1] = -dot(ray, view->up), at[2] = dot(ray, view->back);
+    }
+    view_camera_page(view, at, page);
+}
+
+/* ---------------------------------------------------------------------- placing -- */
+
+static froe_status check(const froe_camera *c, froe_diagnostic *diag) {
+    if (c->size != sizeof *c) return base_fail(diag, FROE_E_OPTIONS, "the camera is not from froe_camera_defaults()");
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(c->eye[k]) || !isfinite(c->target[k]) || !isfinite(c->up[k]))
+            return base_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
+                                "coordinate %d of eye, target or up is not a finite number", k);
+    if (!(c->width > 0 && c->height > 0 && c->width <= 1e9 && c->height <= 1e9))
+        return base_fail(diag, FROE_E_OPTIONS, "a page of %g x %g is none", c->width, c->height);
+    if (!(c->margin >= 0 && 2 * c->margin < fmin(c->width, c->height)))
+        return base_fail(diag, FROE_E_OPTIONS, "a margin of %g leaves nothing of a page of %g x %g", c->margin,
+                         c->width, c->height);
+    if (!c->parallel && !(c->fov >= 1 && c->fov <= 170))
+        return base_fail(diag, FROE_E_OPTIONS, "an angle of view of %g degrees is not in 1 .. 170", c->fov);
+    if (!(c->scale >= 0) || !isfinite(c->scale))
+        return base_fail(diag, FROE_E_OPTIONS, "a scale of %g is none", c->scale);
+    return FROE_OK;
+}
+
+/* The page's axes. An up along the line of view gives way to the first axis that is not. */
+static froe_status set_axes(const froe_camera *c, froe_projection *out, froe_diagnostic *diag) {
+    double up[3] = {c->up[0], c->up[1], c->up[2]};
+    for (int k = 0; k < 3; k++) out->back[k] = c->eye[k] - c->target[k];
+    if (!normalize(out->back))
+        return base_fail(diag, FROE_E_ARG, "the eye is where it looks at: there is no direction");
+    out->up_axis = -1;
+    for (int axis = -1; axis < 3; axis++) {
+        if (axis >= 0)
+            for (int k = 0; k < 3; k++) up[k] = k == axis;
+        if (!normalize(up)) continue;
+        cross(up, out->back, out->right);
+        out->up_axis = axis;
+        if (dot(out->right, out->right) > 1e-12) break;
+    }
+    normalize(out->right);
+    cross(out->back, out->right, out->up);
+    return FROE_OK;
+}
+
+/* Bounds of all vertices on the page; false when one is not before the eye, or there is none. */
+static bool page_bounds(const froe_projection *view, const froe_scene *scene, double lo[2], double hi[2]) {
+    for (uint32_t i = 0; i < scene->vertex_count; i++) {
+        double page[2];
+        if (!froe_project(view, scene_vertex(scene, i), page)) return false;
+        for (int k = 0; k < 2; k++) {
+            lo[k] = i ? fmin(lo[k], page[k]) : page[k];
+            hi[k] = i ? fmax(hi[k], page[k]) : page[k];
+        }
+    }
+    return scene->vertex_count > 0;
+}
+
+/* The distance from which the angle of view takes in every vertex. */
+static double distance_for(const froe_projection *view, const froe_camera *c, const froe_scene *scene,
+                           const double *aim) {
+    const double most_y = view_tan(c->fov / 2),
+                 most_x = most_y * (c->width - 2 * c->margin) / (c->height - 2 * c->margin);
+    double distance = 0;
+    for (uint32_t i = 0; i < scene->vertex_count; i++) {
+        double w[3];
+        for (int k = 0; k < 3; k++) w[k] = scene_vertex(scene, i)[k] - aim[k];
+        const double out = dot(w, view->back);
+        distance = fmax(distance, out + fabs(dot(w, view->right)) / most_x);
+        distance = fmax(distance, out + fabs(dot(w, view->up)) / most_y);
+    }
+    return distance;
+}
+
+/* Scale (unless it is given) and centre, so that the scene fills the page within its margin. */
+static froe_status fill_page(const froe_camera *c, const froe_scene *scene, froe_projection *out,
+                             froe_diagnostic *diag) {
+    double lo[2], hi[2];
+    out->scale = c->parallel && c->scale > 0 ? c->scale : 1;
+    out->centre[0] = out->centre[1] = 0;
+    if (!page_bounds(out, scene, lo, hi))
+        return base_fail(diag, FROE_E_INPUT, "there is nothing before the eye to fit");
+    if (!(c->parallel && c->scale > 0)) {
+        const double x = hi[0] - lo[0], y = hi[1] - lo[1], room_x = c->width - 2 * c->margin,
+                     room_y = c->height - 2 * c->margin;
+        const double scale = x * room_y > y * room_x ? room_x / x : room_y / y;
+        out->scale = isfinite(scale) && scale > 0 ? scale : 1;
+    }
+    const double given = c->parallel && c->scale > 0 ? c->scale : 1;
+    for (int k = 0; k < 2; k++)
+        out->centre[k] = 0.5 * (k ? c->height : c->width) - 0.5 * (lo[k] + hi[k]) * (out->scale / given);
+    return FROE_OK;
+}
+
+static double extent_of(const froe_scene *scene) {
+    double sum = 0;
+    for (int k = 0; k < 3 && scene->object_count; k++)
+        sum += (scene->hi[k] - scene->lo[k]) * (scene->hi[k] - scene->lo[k]);
+    return sum > 0 && isfinite(sum) ? sqrt(sum) : 1;
+}
+
+/* The corners of the page, in space, at the distance of the scene. */
+static void set_window(froe_projection *out, double distance) {
+    for (int i = 0; i < 4; i++) {
+        const double x = (i == 1 || i == 2 ? out->width : 0) - out->centre[0],
+                     y = out->centre[1] - (i < 2 ? 0 : out->height);
+        const double reach = out->eye.parallel ? 1 / out->scale : distance / out->scale,
+                     depth = out->eye.parallel ? 0 : distance;
+        for (int k = 0; k < 3; k++)
+            out->window[3 * i + k] =
+                out->origin[k] + reach * (x * out->right[k] + y * out->up[k]) - depth * out->back[k];
+    }
+}
+
+froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene, froe_projection *out,
+                              froe_diagnostic *diag) {
+    if (!camera || !scene || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (scene->dim != 3)
+        return base_fail(diag, FROE_E_UNSUPPORTED, "cameras look at scenes in space, not in R^%d", scene->dim);
+    froe_projection view = {.width = camera->width, .height = camera->height, .eye.parallel = camera->parallel};
+    froe_status status = check(camera, diag);
+    if (!status) status = set_axes(camera, &view, diag);
+    if (status) return status;
+    const double extent = extent_of(scene);
+    double distance = extent;
+    for (int k = 0; k < 3; k++) {
+        const double middle = scene->object_count ? 0.5 * scene->lo[k] + 0.5 * scene->hi[k] : 0;
+        view.origin[k] = camera->fit ? middle : camera->parallel ? camera->target[k] : camera->eye[k];
+    }
+    if (camera->fit && !camera->parallel) {
+        distance = distance_for(&view, camera, scene, view.origin);
+        if (!(distance > 0)) distance = extent;
+        for (int k = 0; k < 3; k++) view.origin[k] += distance * view.back[k];
+    }
+    memcpy(view.eye.at, camera->parallel ? view.back : view.origin, sizeof view.eye.at);
+    view.near = 1e-6 * extent;
+    view.centre[0] = 0.5 * camera->width, view.centre[1] = 0.5 * camera->height;
+    if (camera->fit || (camera->parallel && !(camera->scale > 0)))
+        status = fill_page(camera, scene, &view, diag);
+    else
+        view.scale =
+            camera->parallel ? camera->scale : (0.5 * camera->height - camera->margin) / view_tan(camera->fov / 2);
+    if (status) return status;
+    set_window(&view, distance);
+    *out = view;
+    return FROE_OK;
+}

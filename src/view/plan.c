@@ -1,0 +1,62 @@
+/* plan.c: from who lies over whom to an order.
+ *
+ * Where all is opaque, circles are broken by patches that will be painted clipped to what is visible of them: what
+ * they would spoil they no longer touch. Where one sees through something, that is no way out: a clipped patch still
+ * has to come before what is seen through in front of it. There patches in circles are divided into their pieces, and
+ * arcs are found anew; in the end all are pieces, whose order by the tree has no circles, so this ends. */
+#include "view/picture.h"
+
+static froe_status find_graph(view_painter *p) {
+    const froe_allocator *alloc = &p->picture->alloc;
+    froe_picture_report *report = &p->picture->report;
+    view_graph_free(alloc, &p->graph);
+    froe_status status = view_parts_make(&p->parts, p->sights);
+    if (!status) status = view_find_arcs(&p->parts, p->sights, p->options->max_graph, &p->arcs, &report->tests);
+    if (!status) status = view_graph_new(alloc, (uint32_t)p->parts.nodes.count, p->arcs.data, p->arcs.count, &p->graph);
+    if (status) return status;
+    const size_t n = p->parts.nodes.count;
+    uint8_t *fixed = base_calloc(alloc, n + 1, 1);
+    if (!fixed) return FROE_E_MEMORY;
+    for (size_t i = 0; i < n; i++) fixed[i] = p->parts.nodes.data[i].piece != FROE_NONE;
+    status = view_graph_break(alloc, &p->graph, fixed);
+    base_free(alloc, fixed, n + 1);
+    report->arcs = p->graph.arc_count;
+    if (!report->cyclic) report->cyclic = p->graph.cyclic;
+    return status;
+}
+
+/* Divides the patches of late nodes. False when there was none. */
+static bool split_late(view_painter *p) {
+    bool any = false;
+    for (uint32_t v = 0; v < p->graph.count; v++) {
+        const paint_node *node = p->parts.nodes.data + v;
+        if (!p->graph.late[v] || node->piece != FROE_NONE) continue;
+        p->picture->report.late++;
+        p->parts.split[node->patch] = 1;
+        any = true;
+    }
+    return any;
+}
+
+static froe_status sort_nodes(view_painter *p) {
+    const froe_allocator *alloc = &p->picture->alloc;
+    const size_t n = p->parts.nodes.count;
+    uint32_t count = 1, *styles = base_calloc(alloc, n + 1, sizeof *styles);
+    p->order = base_calloc(alloc, n + 1, sizeof *p->order);
+    if (styles && p->options->styles)
+        for (size_t i = 0; i < n; i++) {
+            styles[i] = p->options->styles[p->parts.nodes.data[i].patch];
+            if (styles[i] >= count) count = styles[i] + 1;
+        }
+    const bool ok = styles && p->order && view_graph_sort(alloc, &p->graph, styles, count, p->order) == FROE_OK;
+    base_free(alloc, styles, (n + 1) * sizeof *styles);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+froe_status view_plan_whole(view_painter *p) {
+    const bool clear = p->places != NULL;
+    froe_status status = find_graph(p);
+    while (!status && clear && split_late(p)) status = find_graph(p);
+    if (!clear) p->picture->report.late = p->graph.late_count;
+    return status ? status : sort_nodes(p);
+}

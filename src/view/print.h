@@ -1,0 +1,42 @@
+/* print.h: polygons on the page, in doubles: projected, and cut to what is before the eye and near the page.
+ *
+ * Nothing visible is decided with these. They find pairs that may overlap, and become output. Rings are cut one by one
+ * (Sutherland and Hodgman 1974); where a ring is not convex that leaves doubled lines along the cut, without area. */
+#ifndef FROE_VIEW_PRINT_H
+#define FROE_VIEW_PRINT_H
+#include "base/array.h"
+#include "view/camera.h"
+
+typedef struct print_point {
+    double x, y;
+} print_point;
+
+typedef ARRAY(print_point) print_ring;
+
+/** A ring in the camera's coordinates on its way to the page. */
+typedef struct print_press {
+    froe_allocator alloc;
+    const froe_projection *view;
+    ARRAY(double) at[2]; /**< 3 a point; cut from one to the other */
+} print_press;
+
+/** How far a page is kept beyond its sides, in its own size: whole faces that leave it are cut there. */
+#define PRINT_BEYOND 1.5
+
+void print_free(print_press *press);
+static inline void print_begin(print_press *press) {
+    press->at[0].count = 0;
+}
+/** Adds a point of space to the ring. False without memory. */
+bool print_add(print_press *press, const double *point);
+/** Appends the ring to `out`; *cut: it had to be cut, or lies wholly away. False without memory. */
+bool print_end(print_press *press, print_ring *out, bool *cut);
+/** Narrows a segment of space, from + t (to - from) with t in share[0] .. share[1], to what is before the eye and on
+ * the page itself, `beyond` further. False when nothing is left. */
+bool print_clip_segment(const froe_projection *view, const double *from, const double *to, double beyond,
+                        double share[2]);
+/** Twice the signed area; positive when it turns left on a page with y upwards, as the eye sees it. */
+double print_area(const print_point *ring, size_t count);
+/** Do two convex rings, turning left, overlap by more than `margin` in every direction? (Separating axes.) */
+bool print_overlap(const print_point *a, size_t a_count, const print_point *b, size_t b_count, double margin);
+#endif

@@ -1,0 +1,194 @@
+/* test_render.c: rendered files: the same bytes again, SVG that says what the picture holds, refusals. */
+#include "pictures.h"
+#include <stdio.h>
+
+static char *read_file(const char *path, size_t *count) {
+    FILE *f = fopen(path, "rb");
+    assert_non_null(f);
+    char *bytes = calloc(1, 1 << 22);
+    *count = fread(bytes, 1, (1 << 22) - 1, f);
+    fclose(f);
+    return bytes;
+}
+
+static char *render(const froe_tree *tree, const char *path, const froe_render_options *o, froe_render_report *report,
+                    size_t *count) {
+    froe_diagnostic why = {.message = ""};
+    if (froe_render(tree, path, o, report, &why)) fail_msg("%s", why.message);
+    return read_file(path, count);
+}
+
+static size_t occurrences(const char *text, const char *word) {
+    size_t n = 0;
+    for (const char *at = text; (at = strstr(at, word)) != NULL; at++) n++;
+    return n;
+}
+
+/* A cube of two materials, one of them glass. */
+static froe_tree *cube(void) {
+    static const int face[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    froe_scene *scene = scene_of(3);
+    uint32_t group[2];
+    const froe_group stone = {.name = "cube", .material = "stone"}, glass = {.name = "cube", .material = "glass"};
+    assert_int_equal(froe_scene_add_group(scene, &stone, &group[0]), FROE_OK);
+    assert_int_equal(froe_scene_add_group(scene, &glass, &group[1]), FROE_OK);
+    for (int f = 0; f < 6; f++) {
+        double x[12];
+        const size_t starts[2] = {0, 4};
+        for (int i = 0; i < 4; i++)
+            for (int k = 0; k < 3; k++) x[3 * i + k] = face[f][i] >> k & 1;
+        froe_objects o = froe_objects_defaults();
+        o.count = 1, o.coords = x, o.starts = starts, o.group = group[f % 2];
+        assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    }
+    return tree_of(scene, "density", 1);
+}
+
+static void the_same_bytes_in_every_format(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(random_triangles(60, 0.6), "density", 1);
+    const char *const names[][2] = {{"a.svg", "b.svg"}, {"a.pdf", "b.pdf"}, {"a.eps", "b.eps"}, {"a.png", "b.png"}};
+    for (int f = 0; f < 4; f++) {
+        size_t count[2];
+        froe_render_report report;
+        char *a = render(tree, names[f][0], NULL, &report, &count[0]),
+             *b = render(tree, names[f][1], NULL, NULL, &count[1]);
+        assert_int_equal(count[0], count[1]);
+        assert_int_equal(count[0], report.bytes);
+        assert_memory_equal(a, b, count[0]);
+        free(a), free(b);
+    }
+    froe_tree_free(tree);
+}
+
+static void a_cube_shows_three_faces_and_nine_edges(void **state) {
+    (void)state;
+    froe_tree *tree = cube();
+    froe_render_options o = froe_render_defaults();
+    froe_render_report report;
+    size_t count;
+    o.ids = true;
+    o.title = "a < b & c";
+    char *svg = render(tree, "cube.svg", &o, &report, &count);
+    assert_int_equal(report.picture.shapes, 3);
+    assert_int_equal(report.picture.late, 0);
+    assert_int_equal(report.picture.points, 12 + 2 * 3); /* seams of the three inner edges, two points each */
+    assert_int_equal(occurrences(svg, "data-object="), 3);
+    assert_int_equal(occurrences(svg, "<title>a &lt; b &amp; c</title>"), 1);
+    assert_int_equal(occurrences(svg, "class=\"silhouette\""), 1);
+    free(svg);
+    o = froe_render_defaults();
+    o.hidden = true;
+    o.shading = FROE_SHADE_NONE;
+    svg = render(tree, "lines.svg", &o, &report, &count);
+    assert_int_equal(report.picture.shapes, 0);
+    assert_int_equal(occurrences(svg, " hidden\""), 2);
+    assert_int_equal(occurrences(svg, "stroke-dasharray"), 2);
+    free(svg);
+    froe_tree_free(tree);
+}
+
+static void through_glass_one_sees_what_is_behind(void **state) {
+    (void)state;
+    froe_tree *tree = cube();
+    froe_render_options o = froe_render_defaults();
+    froe_render_report report;
+    const double opacity[2] = {1, 0.25}, bad[2] = {1, 2};
+    size_t count;
+    froe_diagnostic why;
+    o.opacity = opacity;
+    char *svg = render(tree, "glass.svg", &o, &report, &count);
+    assert_true(report.picture.shapes > 3);
+    assert_true(occurrences(svg, "fill-opacity=\"0.25\"") > 0);
+    free(svg);
+    free(render(tree, "glass.pdf", &o, &report, &count));
+    assert_int_equal(froe_render(tree, "glass.eps", &o, NULL, &why), FROE_E_OPTIONS);
+    assert_non_null(strstr(why.message, "EPS has no opacity"));
+    o.opacity = bad;
+    assert_int_equal(froe_render(tree, "glass.svg", &o, NULL, &why), FROE_E_OPTIONS);
+    froe_tree_free(tree);
+}
+
+/* Rounding to the grid moves points by half a step at most, however long a path is. */
+static void coordinates_do_not_drift(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(random_triangles(200, 0.2), "density", 1);
+    froe_render_options o = froe_render_defaults();
+    froe_render_report report;
+    size_t count[3];
+    for (int decimals = 0; decimals < 3; decimals++) {
+        o.decimals = decimals;
+        free(render(tree, "decimals.svg", &o, &report, &count[decimals]));
+    }
+    assert_true(count[0] < count[1] && count[1] < count[2]);
+    /* Followed step by step, a path of hundreds of rings stays on the page. */
+    o.lines = 0, o.seam_width = 0, o.shading = FROE_SHADE_WHITE;
+    char *svg = render(tree, "drift.svg", &o, &report, &count[0]), *at = strstr(svg, " d=\"") + 4;
+    double x = 0, y = 0, start[2] = {0, 0}, lo = 1e9, hi = -1e9;
+    for (char command = 0; *at != '"';) {
+        if ((*at >= 'a' && *at <= 'z') || *at == 'M') {
+            command = *at++;
+            if (command == 'z') x = start[0], y = start[1];
+            continue;
+        }
+        if (*at == ' ') at++;
+        const double first = strtod(at, &at);
+        if (*at == ' ') at++;
+        const double second = command == 'h' || command == 'v' ? 0 : strtod(at, &at);
+        x = command == 'M' ? first : x + (command == 'v' ? 0 : first);
+        y = command == 'M' ? second : y + (command == 'v' ? first : command == 'h' ? 0 : second);
+        if (command == 'm' || command == 'M') start[0] = x, start[1] = y;
+        lo = x < lo ? x : lo, hi = x > hi ? x : hi;
+        assert_true(x > -1 && x < 1001 && y > -1 && y < 1001);
+    }
+    assert_true(hi - lo > 300);
+    free(svg);
+    froe_tree_free(tree);
+}
+
+static void bad_options_are_refused_and_leave_no_file(void **state) {
+    (void)state;
+    froe_tree *tree = cube(), *flat = tree_of(random_segments(10, 0.1, 1, 0), "density", 1);
+    froe_diagnostic why;
+    froe_render_options o = froe_render_defaults();
+    o.decimals = 7;
+    assert_int_equal(froe_render(tree, "none.svg", &o, NULL, &why), FROE_E_OPTIONS);
+    o = froe_render_defaults();
+    o.camera.width = 0;
+    assert_int_equal(froe_render(tree, "none.svg", &o, NULL, &why), FROE_E_OPTIONS);
+    o = froe_render_defaults();
+    memcpy(o.camera.eye, o.camera.target, sizeof o.camera.eye);
+    assert_int_equal(froe_render(tree, "none.svg", &o, NULL, &why), FROE_E_ARG);
+    o.size = 1;
+    assert_int_equal(froe_render(tree, "none.svg", &o, NULL, &why), FROE_E_OPTIONS);
+    assert_int_equal(froe_render(tree, "none.gif", NULL, NULL, &why), FROE_E_OPTIONS);
+    assert_int_equal(froe_render(flat, "none.svg", NULL, NULL, &why), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_render(tree, "no/such/folder/none.svg", NULL, NULL, &why), FROE_E_IO);
+    assert_null(fopen("none.svg", "rb"));
+    froe_tree_free(tree), froe_tree_free(flat);
+}
+
+static froe_status render_with(void *user, const froe_allocator *alloc) {
+    froe_render_options o = froe_render_defaults();
+    o.alloc = alloc;
+    return froe_render(user, "memory.svg", &o, NULL, NULL);
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    froe_tree *tree = cube();
+    assert_true(test_memory_each(render_with, tree) > 30);
+    froe_tree_free(tree);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_same_bytes_in_every_format),
+        cmocka_unit_test(a_cube_shows_three_faces_and_nine_edges),
+        cmocka_unit_test(through_glass_one_sees_what_is_behind),
+        cmocka_unit_test(coordinates_do_not_drift),
+        cmocka_unit_test(bad_options_are_refused_and_leave_no_file),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

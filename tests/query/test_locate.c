@@ -1,0 +1,178 @@
+/* Locating points against brute force in rationals, and batches against single queries. */
+#include "query/ranges.h"
+
+enum { DECISIONS = 1000000 };
+
+static world worlds[8];
+static size_t world_count;
+
+static void add_world(const char *name, froe_scene *scene, bool lattice) {
+    worlds[world_count] = world_begin(name, scene);
+    worlds[world_count++].lattice = lattice;
+}
+
+static int begin(void **state) {
+    (void)state;
+    add_world("lattice", world_mixture(2, FLAT_KINDS, 80, 12, 0.4, 2), true);
+    add_world("solids in the plane", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 60, 0, 0.4, 3), false);
+    add_world("lattice of solids", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 40, 12, 0.5, 4), true);
+    add_world("lattice in space", world_mixture(3, FLAT_KINDS | 1 << FROE_POLYGON, 40, 6, 0.6, 6), true);
+    add_world("solids in space", world_mixture(3, SOLID_KINDS | 1 << FROE_HULL, 50, 0, 0.5, 7), false);
+    add_world("floor plan", world_read("freedoom-e1m1.geojson"), false);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    for (size_t i = 0; i < world_count; i++) world_end(&worlds[i]);
+    return 0;
+}
+
+static size_t locate(const world *w, uint64_t seed, size_t *held) {
+    world_dice d = {seed, 0};
+    double x[FROE_MAX_DIM];
+    bool *found = calloc(w->count, sizeof *found);
+    world_point(w, &d, x);
+    oracle_set point = oracle_points(w->dim, x, 1, 0);
+    for (size_t t = 0; t < w->tree_count; t++) {
+        froe_list list;
+        assert_int_equal(froe_query_locate(w->queries[t], x, &list, NULL), FROE_OK);
+        memset(found, 0, w->count * sizeof *found);
+        for (size_t i = 0; i < list.count; i++) {
+            assert_false(found[list.ids[i]]);
+            found[list.ids[i]] = true;
+        }
+        for (uint32_t i = 0; i < w->count; i++)
+            if (found[i] != oracle_meet(&w->objects[i], &point))
+                fail_msg("%s, tree %zu: object %u is%s found at %a %a", w->name, t, i, found[i] ? "" : " not", x[0],
+                         x[1]);
+        *held += list.count;
+    }
+    oracle_set_free(&point);
+    free(found);
+    return w->count * w->tree_count;
+}
+
+static void points_are_found_in_what_contains_them(void **state) {
+    size_t decisions = 0, held = 0;
+    (void)state;
+    for (uint64_t seed = 0; decisions < DECISIONS; seed++)
+        for (size_t i = 0; i < world_count; i++) decisions += locate(&worlds[i], 100 * seed + i, &held);
+    assert_true(held > 1000);
+}
+
+static void points_outside_and_bad_points(void **state) {
+    const double far[3] = {1e300, -1e300, 1e300}, bad[3] = {0, NAN, 0};
+    froe_list list;
+    froe_diagnostic diag;
+    (void)state;
+    for (size_t i = 0; i < world_count; i++)
+        for (size_t t = 0; t < worlds[i].tree_count; t++) {
+            assert_int_equal(froe_query_locate(worlds[i].queries[t], far, &list, NULL), FROE_OK);
+            assert_int_equal(list.count, 0);
+        }
+    assert_int_equal(froe_query_locate(worlds[0].queries[0], bad, &list, &diag), FROE_E_INPUT);
+    assert_string_equal(diag.message, "A point has nan as a coordinate.");
+    assert_int_equal(froe_query_locate(worlds[0].queries[0], NULL, &list, NULL), FROE_E_ARG);
+}
+
+/* ------------------------------------------------------------------ batches -- */
+
+enum { MANY = 1500 };
+
+static void batches_answer_as_single_queries_with_any_number_of_threads(void **state) {
+    const world *w = &worlds[1];
+    static question questions[MANY];
+    static froe_range ranges[MANY];
+    static double points[2 * MANY];
+    (void)state;
+    for (size_t i = 0; i < MANY; i++) {
+        world_dice d = {i, 5};
+        make(w, &d, (froe_range_shape)(i % FROE_SHAPE_COUNT), &questions[i]);
+        ranges[i] = questions[i].range;
+        world_point(w, &d, points + 2 * i);
+    }
+    for (unsigned threads = 1; threads <= 4; threads += 3)
+        for (int kind = 0; kind < 2; kind++) {
+            froe_batch_options o = froe_batch_defaults();
+            froe_answers answers;
+            froe_list list;
+            o.threads = threads;
+            froe_query_statistics(w->queries[0]);
+            if (kind)
+                assert_int_equal(froe_batch_range(w->queries[0], ranges, MANY, &o, &answers, NULL), FROE_OK);
+            else
+                assert_int_equal(froe_batch_locate(w->queries[0], points, MANY, &o, &answers, NULL), FROE_OK);
+            assert_int_equal(froe_query_statistics(w->queries[0]).queries, MANY);
+            assert_int_equal(answers.queries, MANY);
+            for (size_t i = 0; i < MANY; i++) {
+                if (kind)
+                    assert_int_equal(froe_query_range(w->queries[0], &ranges[i], &list, NULL), FROE_OK);
+                else
+                    assert_int_equal(froe_query_locate(w->queries[0], points + 2 * i, &list, NULL), FROE_OK);
+                assert_int_equal(answers.starts[i + 1] - answers.starts[i], list.count);
+                if (list.count)
+                    assert_memory_equal(answers.ids + answers.starts[i], list.ids, list.count * sizeof *list.ids);
+            }
+            froe_answers_free(&answers);
+        }
+    for (size_t i = 0; i < MANY; i++) oracle_set_free(&questions[i].set);
+}
+
+static void the_first_bad_query_of_a_batch_is_named(void **state) {
+    static double points[2 * MANY];
+    froe_answers answers = {.queries = 77};
+    froe_diagnostic diag;
+    froe_batch_options raw = {0};
+    (void)state;
+    points[2 * 700 + 1] = NAN;
+    points[2 * 1400] = INFINITY;
+    assert_int_equal(froe_batch_locate(worlds[0].queries[0], points, MANY, NULL, &answers, &diag), FROE_E_INPUT);
+    assert_int_equal(diag.object, 700);
+    assert_int_equal(answers.queries, 77);
+    assert_int_equal(froe_batch_locate(worlds[0].queries[0], points, 1, &raw, &answers, NULL), FROE_E_OPTIONS);
+    assert_int_equal(froe_batch_locate(worlds[0].queries[0], points, 0, NULL, &answers, NULL), FROE_OK);
+    assert_int_equal(answers.starts[0], 0);
+    froe_answers_free(&answers);
+    froe_answers_free(NULL);
+}
+
+static froe_status locate_many(void *user, const froe_allocator *alloc) {
+    static double points[2 * 600];
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_query *q = NULL;
+    froe_answers answers = {0};
+    froe_build_options build = froe_build_defaults();
+    froe_batch_options o = froe_batch_defaults();
+    (void)user;
+    build.method = "autopartition";
+    build.threads = 1;
+    o.threads = 2;
+    froe_status status = froe_scene_new(2, alloc, &scene);
+    if (!status) status = trees_scatter(scene, FROE_SEGMENT, 9, 3, 0.9, 1);
+    if (!status) status = froe_build(scene, &build, &tree, NULL);
+    if (!status) status = froe_query_new(tree, &q, NULL);
+    if (!status) status = froe_batch_locate(q, points, 600, &o, &answers, NULL);
+    froe_answers_free(&answers);
+    froe_query_free(q);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    return status;
+}
+
+static void batches_survive_every_failing_allocation(void **state) {
+    (void)state;
+    assert_true(test_memory_each(locate_many, NULL) > 10);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_are_found_in_what_contains_them),
+        cmocka_unit_test(points_outside_and_bad_points),
+        cmocka_unit_test(batches_answer_as_single_queries_with_any_number_of_threads),
+        cmocka_unit_test(the_first_bad_query_of_a_batch_is_named),
+        cmocka_unit_test(batches_survive_every_failing_allocation),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}

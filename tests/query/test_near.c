@@ -1,0 +1,193 @@
+/* The nearest objects, against brute force in whole numbers: every builder; points anywhere, on vertices and cuts,
+ * at equal distances from several objects, far outside. */
+#include "query/context.h"
+#include "query/exact_world.h"
+
+static uint64_t decisions, ties;
+
+/** An object and its distance, times 2^shift, by the oracle. */
+typedef struct item {
+    uint32_t object;
+    exact_value distance;
+} item;
+
+typedef struct ask {
+    double point[FROE_MAX_DIM], bound;
+    size_t k;
+} ask;
+
+static void draw(const world *w, world_dice *d, ask *a) {
+    static const size_t counts[] = {1, 1, 2, 5, 1000};
+    world_point(w, d, a->point);
+    if (world_below(d, 8) == 0)
+        for (int k = 0; k < w->dim; k++) a->point[k] += w->scale * 3;
+    for (int k = 0; k < w->dim; k++)
+        if (!isfinite(a->point[k])) a->point[k] = w->origin[k];
+    a->k = counts[world_below(d, 5)];
+    a->bound = world_below(d, 3) ? INFINITY : world_below(d, 2) ? 0 : w->scale * 0.25;
+    if (w->lattice && !isinf(a->bound)) a->bound = floor(a->bound);
+}
+
+/** Where an item belongs among those sorted by distance, then number; it has the highest number. */
+static size_t place_of(const item *x, const item *sorted, size_t count) {
+    size_t low = 0;
+    while (low < count) {
+        const size_t middle = (low + count) / 2;
+        if (exact_compare(&x->distance, &sorted[middle].distance) < 0)
+            count = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+/** The first k objects within the bound. */
+static size_t brute_force(const world *w, const ask *a, const exact_body *bodies, int shift, item *out) {
+    size_t count = 0;
+    exact_value bound = exact_value_of(isinf(a->bound) ? 1 : a->bound, shift);
+    for (uint32_t i = 0; i < w->count; i++) {
+        const size_t mark = exact_mark();
+        const exact_value distance = exact_distance(a->point, &bodies[i]);
+        item x = {i, exact_keep(mark, &distance)};
+        decisions++;
+        if (!isinf(a->bound) && exact_compare(&x.distance, &bound) > 0) continue;
+        const size_t at = place_of(&x, out, count);
+        ties += at && !exact_compare(&x.distance, &out[at - 1].distance);
+        if (at >= a->k) continue;
+        count += count < a->k;
+        memmove(out + at + 1, out + at, (count - 1 - at) * sizeof *out);
+        out[at] = x;
+    }
+    return count;
+}
+
+static void check_tree(const world *w, froe_query *q, const ask *a, const item *expected, size_t count, int shift) {
+    froe_neighbours got;
+    const size_t most = count < a->k ? count : a->k;
+    assert_int_equal(froe_query_near(q, a->point, a->k, a->bound, &got, NULL), FROE_OK);
+    assert_int_equal(got.count, most);
+    for (size_t i = 0; i < most; i++) {
+        if (got.items[i].object != expected[i].object)
+            fail_msg("%s, %s: neighbour %zu is %u, not %u", w->name, froe_tree_report(q->tree).method, i,
+                     got.items[i].object, expected[i].object);
+        if (i < 20) assert_true(exact_rounds_to(&expected[i].distance, got.items[i].distance, shift));
+    }
+}
+
+static void check_world(world w, int points) {
+    world_dice d = {7, 0};
+    item *expected = calloc(w.count + 1, sizeof *expected);
+    exact_body *bodies = calloc(w.count + 1, sizeof *bodies);
+    const int shift = exact_world_shift(&w);
+    for (int i = 0; i < points; i++) {
+        ask a = {.k = 0};
+        draw(&w, &d, &a);
+        const int power = exact_shift(exact_shift(shift, a.point, FROE_MAX_DIM), &(double){w.scale * 0.25}, 1);
+        exact_world_begin(&w, power, bodies);
+        const size_t count = brute_force(&w, &a, bodies, power, expected);
+        for (size_t t = 0; t < w.tree_count; t++) check_tree(&w, w.queries[t], &a, expected, count, power);
+    }
+    free(bodies);
+    free(expected);
+    world_end(&w);
+}
+
+static void neighbours_in_generated_scenes(void **state) {
+    (void)state;
+    for (size_t g = 0; froe_generator_at(g); g++) {
+        const char *name = froe_generator_at(g)->name;
+        const bool slow = strstr(name, "huge") || strstr(name, "denormal");
+        check_world(world_begin(name, world_generate(name, 60)), (slow ? 20 : 150) / EXACT_SHARE);
+    }
+}
+
+static void neighbours_among_all_kinds_on_lattices_and_off(void **state) {
+    (void)state;
+    const unsigned flat = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_BOX | 1u << FROE_BALL | 1u << FROE_HULL;
+    const unsigned many = 1u << FROE_POINT | 1u << FROE_BOX | 1u << FROE_BALL;
+    for (uint64_t seed = 1; seed <= 6; seed++) {
+        const uint32_t grid = seed % 2 ? 0 : (uint32_t)seed;
+        world w[] = {world_begin("plane", world_mixture(2, flat, 8, grid, 0.4, seed)),
+                     world_begin("space", world_mixture(3, flat | 1u << FROE_POLYGON, 8, grid, 0.5, seed)),
+                     world_begin("five dimensions", world_mixture(5, many, 20, grid, 0.8, seed))};
+        for (size_t i = 0; i < sizeof w / sizeof *w; i++) {
+            w[i].lattice = grid;
+            check_world(w[i], 300 / EXACT_SHARE);
+        }
+    }
+}
+
+static void neighbours_in_real_scenes(void **state) {
+    (void)state;
+    static const char *const files[] = {"freedoom-e1m1.geojson", "countries-110m.json", "utah-teapot.obj",
+                                        "fzk-haus-boxes.csv"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        check_world(world_begin(files[i], world_read(files[i])), 16 / EXACT_SHARE);
+}
+
+static void neighbours_in_scenes_of_one_object_or_none(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 4; dim++) check_world(world_begin("none", world_mixture(dim, 0, 0, 0, 1, 1)), 20);
+    for (int kind = 0; kind < FROE_KIND_COUNT; kind++)
+        for (int dim = kind == FROE_POLYGON ? 3 : 2; dim <= 3; dim++)
+            check_world(world_begin("one", world_mixture(dim, 1u << kind, 1, 3, 1, 1)), 40);
+}
+
+static void bad_questions_are_refused_and_change_nothing(void **state) {
+    (void)state;
+    froe_tree *tree = trees_grow(2, FROE_SEGMENT, 20, 0, 0.3, "density", 1);
+    froe_query *q;
+    froe_diagnostic why;
+    froe_neighbours before, got;
+    const double x[2] = {0.5, 0.5}, nan[2] = {NAN, 0};
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    assert_int_equal(froe_query_near(q, x, 3, INFINITY, &before, NULL), FROE_OK);
+    const uint32_t first = before.items[0].object;
+    assert_int_equal(froe_query_near(q, nan, 3, INFINITY, &got, &why), FROE_E_INPUT);
+    assert_string_equal(why.message, "A point has nan as coordinate 0.");
+    assert_int_equal(froe_query_near(q, x, 3, -1, &got, &why), FROE_E_INPUT);
+    assert_string_equal(why.message, "Neighbours are to be within -1.");
+    assert_int_equal(froe_query_near(q, x, 3, NAN, &got, NULL), FROE_E_INPUT);
+    assert_int_equal(froe_query_near(NULL, x, 3, 1, &got, NULL), FROE_E_ARG);
+    assert_int_equal(froe_query_near(q, NULL, 3, 1, &got, NULL), FROE_E_ARG);
+    assert_int_equal(before.items[0].object, first);
+    assert_int_equal(froe_query_near(q, x, 0, INFINITY, &got, NULL), FROE_OK);
+    assert_int_equal(got.count, 0);
+    froe_query_free(q);
+    froe_tree_free(tree);
+}
+
+static froe_status ask_without_memory(void *user, const froe_allocator *alloc) {
+    froe_tree tree = *(const froe_tree *)user;
+    froe_query *q;
+    froe_neighbours got;
+    tree.alloc = *alloc;
+    froe_status status = froe_query_new(&tree, &q, NULL);
+    if (status) return status;
+    status = froe_query_near(q, (const double[]){0.4, 0.6}, 30, INFINITY, &got, NULL);
+    if (!status) assert_int_equal(got.count, 30);
+    froe_query_free(q);
+    return status;
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    froe_tree *tree = trees_grow(2, FROE_SEGMENT, 100, 0, 0.3, "density", 1);
+    assert_true(test_memory_each(ask_without_memory, tree) > 5);
+    froe_tree_free(tree);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(neighbours_in_generated_scenes),
+        cmocka_unit_test(neighbours_among_all_kinds_on_lattices_and_off),
+        cmocka_unit_test(neighbours_in_real_scenes),
+        cmocka_unit_test(neighbours_in_scenes_of_one_object_or_none),
+        cmocka_unit_test(bad_questions_are_refused_and_change_nothing),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    int failed = cmocka_run_group_tests_name("query/near", tests, NULL, NULL);
+    print_message("%llu decisions, %llu ties\n", (unsigned long long)decisions, (unsigned long long)ties);
+    if (EXACT_SHARE == 1) assert_true(decisions > 1000000 && ties > 10000);
+    return failed;
+}

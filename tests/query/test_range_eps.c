@@ -1,0 +1,97 @@
+/* Approximate ranges: all that meet, and nothing further away than eps times the diameter. */
+#include "query/ranges.h"
+
+/* ------------------------------------------------------------------- worlds -- */
+
+static world worlds[16];
+static size_t world_count;
+
+static void add_world(const char *name, froe_scene *scene, bool lattice) {
+    worlds[world_count] = world_begin(name, scene);
+    worlds[world_count++].lattice = lattice;
+}
+
+static int begin(void **state) {
+    (void)state;
+    add_world("segments", world_mixture(2, 1 << FROE_SEGMENT, 300, 0, 0.15, 1), false);
+    add_world("lattice", world_mixture(2, FLAT_KINDS, 80, 12, 0.4, 2), true);
+    add_world("solids in the plane", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 50, 0, 0.15, 3),
+              false);
+    add_world("lattice of solids", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 30, 12, 0.4, 4), true);
+    add_world("polygons", world_mixture(3, 1 << FROE_POLYGON, 150, 0, 0.2, 5), false);
+    add_world("lattice in space", world_mixture(3, FLAT_KINDS | 1 << FROE_POLYGON, 40, 6, 0.6, 6), true);
+    add_world("solids in space",
+              world_mixture(3, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL | 1 << FROE_POLYGON, 30, 0, 0.2, 7), false);
+    add_world("floor plan", world_read("freedoom-e1m1.geojson"), false);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    for (size_t i = 0; i < world_count; i++) world_end(&worlds[i]);
+    return 0;
+}
+
+/* -------------------------------------------------------------- approximately -- */
+
+/** All that meet, and nothing further away than eps times the diameter. */
+static void check_eps(const world *w, froe_range_shape shape, uint64_t seed, double eps, size_t *more) {
+    world_dice d = {seed, 0};
+    question q;
+    make(w, &d, shape, &q);
+    q.range.eps = eps;
+    double diameter = 0;
+    if (shape == FROE_SHAPE_HALFSPACES) { /* all of them */
+        static const double lo[3] = {-1e9, -1e9, -1e9}, hi[3] = {1e9, 1e9, 1e9};
+        oracle_set_free(&q.set);
+        q.set = oracle_halfspaces(w->dim, q.points, q.offsets, q.range.count, lo, hi);
+    }
+    for (size_t i = 0; i < q.set.count; i++)
+        for (size_t j = 0; j < i; j++) {
+            double square = 0;
+            for (int k = 0; k < w->dim; k++)
+                square +=
+                    pow(q.set.image[i * (size_t)w->dim + (size_t)k] - q.set.image[j * (size_t)w->dim + (size_t)k], 2);
+            diameter = fmax(diameter, sqrt(square));
+        }
+    for (size_t t = 0; t < w->tree_count; t++) {
+        froe_list list;
+        froe_status status = froe_query_range(w->queries[t], &q.range, &list, NULL);
+        if (status) break; /* unbounded */
+        bool *found = calloc(w->count + 1, sizeof *found);
+        oracle_set grown = q.set;
+        grown.radius += eps * (diameter + 2 * grown.radius) * (1 + 1e-12);
+        for (size_t i = 0; i < list.count; i++) {
+            assert_false(found[list.ids[i]]);
+            found[list.ids[i]] = true;
+        }
+        for (uint32_t i = 0; i < w->count; i++) {
+            bool meets = truth(w, &q, i);
+            if (meets && !found[i]) explain(w, &q, t, i, false);
+            if (found[i] && !meets) {
+                (*more)++;
+                if (!oracle_meet(&w->objects[i], &grown)) explain(w, &q, t, i, true);
+            }
+        }
+        free(found);
+    }
+    oracle_set_free(&q.set);
+}
+
+static void approximate_answers_keep_their_contract(void **state) {
+    (void)state;
+    for (int shape = 0; shape <= FROE_SHAPE_HULL; shape++) {
+        size_t more = 0;
+        for (uint64_t seed = 0; seed < 24; seed++)
+            for (size_t i = 0; i < world_count; i++)
+                check_eps(&worlds[i], (froe_range_shape)shape, 7000 * seed + i, seed % 2 ? 0.5 : 0.05, &more);
+        assert_true(more > 0); /* otherwise nothing was tested */
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(approximate_answers_keep_their_contract),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}

@@ -1,0 +1,129 @@
+/* worlds.h: scenes to ask, with a tree by every builder that serves them and an oracle for every object. */
+#ifndef FROE_TESTS_QUERY_WORLDS_H
+#define FROE_TESTS_QUERY_WORLDS_H
+#include "oracle/convex.h"
+#include "tree/trees.h"
+#include <froe/io.h>
+#include <froe/query.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { WORLD_TREES = 24 };
+
+typedef struct world {
+    const char *name;
+    int dim;
+    size_t count; /**< of objects */
+    froe_scene *scene;
+    oracle_set *objects; /**< up to three dimensions */
+    froe_tree *trees[WORLD_TREES];
+    froe_query *queries[WORLD_TREES];
+    size_t tree_count;
+    double scale; /**< queries lie in about 0 .. scale on each axis, plus `origin` */
+    double origin[FROE_MAX_DIM];
+    bool lattice;
+} world;
+
+/** Adds a tree, unless the builder does not serve the scene. */
+static inline void world_build(world *w, const char *method, uint32_t leaf) {
+    froe_build_options o = froe_build_defaults();
+    froe_tree *tree;
+    o.method = method;
+    o.leaf = leaf;
+    o.threads = 1;
+    o.max_fragments = 40 * w->count + 40000;
+    if (!strcmp(method, "density")) o.settings = "k=8 stop=1 growth=4";
+    if (!strcmp(method, "cylindrical")) o.settings = "crossing=split";
+    froe_status status = froe_build(w->scene, &o, &tree, NULL);
+    if (status) {
+        assert_true(status == FROE_E_UNSUPPORTED || status == FROE_E_OPTIONS || status == FROE_E_BUDGET);
+        return;
+    }
+    assert_true(w->tree_count < WORLD_TREES);
+    assert_int_equal(froe_query_new(tree, &w->queries[w->tree_count], NULL), FROE_OK);
+    w->trees[w->tree_count++] = tree;
+}
+
+/** Takes over the scene; all builders. */
+static inline world world_begin(const char *name, froe_scene *scene) {
+    world w = {.name = name, .dim = froe_scene_dim(scene), .count = froe_scene_object_count(scene), .scene = scene};
+    double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
+    for (size_t m = 0; froe_method_at(m); m++) {
+        world_build(&w, froe_method_at(m)->name, 1);
+        world_build(&w, froe_method_at(m)->name, 6);
+        if (w.dim == 2) world_build(&w, froe_method_at(m)->name, 0);
+    }
+    assert_true(w.tree_count > 0);
+    froe_scene_bounds(scene, lo, hi);
+    for (int k = 0; k < w.dim; k++) w.origin[k] = lo[k], w.scale = fmax(w.scale, hi[k] - lo[k]);
+    if (w.scale == 0) w.scale = 1;
+    w.objects = calloc(w.count + 1, sizeof *w.objects);
+    for (uint32_t i = 0; i < w.count && w.dim <= 3; i++) w.objects[i] = oracle_object(scene, i);
+    return w;
+}
+
+static inline void world_end(world *w) {
+    for (size_t i = 0; i < w->tree_count; i++) {
+        froe_query_free(w->queries[i]);
+        froe_tree_free(w->trees[i]);
+    }
+    for (uint32_t i = 0; i < w->count && w->dim <= 3; i++) oracle_set_free(&w->objects[i]);
+    free(w->objects);
+    froe_scene_free(w->scene);
+}
+
+/** A scene of several kinds, `count` of each in the mask. */
+static inline froe_scene *world_mixture(int dim, unsigned kinds, size_t count, uint32_t grid, double size,
+                                        uint64_t seed) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    for (int kind = 0; kind < FROE_KIND_COUNT; kind++)
+        if (kinds >> kind & 1)
+            assert_int_equal(trees_scatter(scene, (froe_kind)kind, count, grid, size, seed + (uint64_t)kind), FROE_OK);
+    return scene;
+}
+
+static inline froe_scene *world_read(const char *file) {
+    char path[500];
+    froe_scene *scene;
+    snprintf(path, sizeof path, "%s/%s", FROE_TEST_DATA, file);
+    assert_int_equal(froe_read(path, NULL, &scene, NULL, NULL), FROE_OK);
+    return scene;
+}
+
+static inline froe_scene *world_generate(const char *kind, size_t n) {
+    froe_scene *scene;
+    assert_int_equal(froe_generate(kind, n, 5, NULL, &scene, NULL), FROE_OK);
+    return scene;
+}
+
+/** Random numbers of one test. */
+typedef struct world_dice {
+    uint64_t seed, counter;
+} world_dice;
+static inline uint32_t world_below(world_dice *d, uint32_t n) {
+    return trees_random(d->seed, d->counter++, n);
+}
+static inline double world_unit(world_dice *d) {
+    return trees_unit(d->seed, d->counter++);
+}
+
+/** A point to ask about: anywhere, on a vertex, or with coordinates of vertices, which cuts have, too. */
+static inline void world_point(const world *w, world_dice *d, double *x) {
+    uint32_t vertices = (uint32_t)froe_scene_vertex_count(w->scene), style = world_below(d, 4);
+    for (int k = 0; k < w->dim; k++) {
+        x[k] = w->origin[k] + w->scale * (1.2 * world_unit(d) - 0.1);
+        if (w->lattice) x[k] = floor(x[k]);
+        if (style == 1 && vertices) x[k] = froe_scene_vertex(w->scene, world_below(d, vertices))[k];
+    }
+    if (style == 2 && vertices)
+        memcpy(x, froe_scene_vertex(w->scene, world_below(d, vertices)), (size_t)w->dim * sizeof *x);
+}
+/** One near another, by about `size` of the scene. */
+static inline void world_near(const world *w, world_dice *d, double size, const double *from, double *x) {
+    for (int k = 0; k < w->dim; k++) {
+        x[k] = from[k] + w->scale * size * (2 * world_unit(d) - 1);
+        if (w->lattice) x[k] = floor(x[k]);
+    }
+}
+#endif

@@ -1,0 +1,82 @@
+/* meshes.h: scenes of triangles for tests of the grain builder. */
+#ifndef FROE_TESTS_SPLIT_MESHES_H
+#define FROE_TESTS_SPLIT_MESHES_H
+#include <froe/froe.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "support/fuzz.h"
+
+typedef enum mesh_kind {
+    MESH_LOOSE,   /**< small triangles that meet now and then */
+    MESH_HILLS,   /**< a bumpy, irregular network */
+    MESH_LATTICE, /**< coordinates 0 .. 3: shared corners, common planes, duplicates, triangles without area */
+    MESH_FAN,     /**< around one vertex */
+    MESH_HAIR,    /**< long, thin, nearly parallel */
+    MESH_KINDS
+} mesh_kind;
+
+static inline froe_scene *mesh_of(const double *coords, size_t n) {
+    froe_scene *scene;
+    froe_objects o = froe_objects_defaults();
+    o.count = n;
+    o.coords = coords;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    return scene;
+}
+
+static inline void mesh_loose(fuzz_source *r, double *x) {
+    double centre[3] = {fuzz_unit(r), fuzz_unit(r), fuzz_unit(r)};
+    for (int k = 0; k < 9; k++) x[k] = centre[k % 3] + 0.2 * fuzz_unit(r);
+}
+
+/** Vertex i, j of a grid, shaken; a function of its place alone. */
+static inline void mesh_hill(uint64_t seed, int i, int j, double *x) {
+    fuzz_source r = {seed * 1000003 + (uint64_t)(1000 * i + j)};
+    x[0] = i + 0.3 * fuzz_unit(&r);
+    x[1] = j + 0.3 * fuzz_unit(&r);
+    x[2] = 0.02 * (x[0] - 6) * (x[1] - 6) + 0.2 * fuzz_unit(&r);
+}
+
+static inline void mesh_hills(uint64_t seed, size_t index, size_t width, double *x) {
+    int i = (int)(index / 2 % width), j = (int)(index / 2 / width), upper = (int)(index % 2);
+    mesh_hill(seed, i + 1, j, x);
+    mesh_hill(seed, i + upper, j + upper, x + 3);
+    mesh_hill(seed, i, j + 1, x + 6);
+}
+
+static inline void mesh_triangle(fuzz_source *r, mesh_kind kind, size_t index, size_t n, double *x) {
+    size_t width = 1;
+    while (2 * width * width < n) width++;
+    switch (kind) {
+    case MESH_LOOSE:
+        mesh_loose(r, x);
+        break;
+    case MESH_HILLS:
+        mesh_hills(3, index, width, x);
+        break;
+    case MESH_LATTICE:
+        for (int k = 0; k < 9; k++) x[k] = fuzz_int(r, 0, 3);
+        break;
+    case MESH_FAN:
+        for (int k = 0; k < 9; k++) x[k] = k < 3 ? 0 : fuzz_unit(r);
+        break;
+    default:
+        for (int k = 0; k < 9; k++) x[k] = fuzz_unit(r) * (k % 3 ? 1e-3 : 1);
+        for (int k = 0; k < 9; k++) x[k] += k % 3 ? 0.1 * (double)(index % 7) : 0;
+    }
+}
+
+static inline froe_scene *mesh_new(mesh_kind kind, size_t n) {
+    fuzz_source random = {7};
+    double *x = test_malloc(9 * n * sizeof *x);
+    for (size_t i = 0; i < n; i++) mesh_triangle(&random, kind, i, n, x + 9 * i);
+    froe_scene *scene = mesh_of(x, n);
+    test_free(x);
+    return scene;
+}
+#endif

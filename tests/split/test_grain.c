@@ -1,0 +1,341 @@
+/* test_grain.c: how the grain builder scores planes: against exact counts and against brute force, in every cell of
+ * whole builds; and what it promises. */
+#include "build/method.h"
+#include "split/cell.h"
+#include "split/contest.h"
+#include "split/sweep.h"
+#include "tree/tree.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "meshes.h"
+
+/** A builder that looks at each cell before grain cuts it. */
+typedef struct watch {
+    split_grain grain;
+    split_grain_notes notes;
+    void (*look)(struct watch *w, split_work *work, const split_cell *cell);
+    split_facets facets;
+    split_sweep sweep;
+    split_price price;
+    fuzz_source random;
+    size_t compared, wrong;
+} watch;
+
+static split_verdict watch_and_choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+    watch *w = (watch *)(void *)(uintptr_t)config;
+    if (cell->count > 1 && !cell->attempt) w->look(w, work, cell);
+    return split_grain_choose(&w->grain, work, cell, cut);
+}
+
+/** Builds a tree of a generated scene, with one thread, looking at all cells. */
+static watch build_watching(mesh_kind kind, size_t n, void (*look)(watch *, split_work *, const split_cell *)) {
+    froe_scene *scene = mesh_new(kind, n);
+    base_task task;
+    tree_meta meta = {0};
+    froe_allocator alloc = base_allocator(NULL);
+    watch w = {.grain = {.seed = 5, .effort = {4, 4, 6, 256}, .height = 30}, .look = look, .random = {9}};
+    w.grain.notes = &w.notes;
+    base_task_init(&task, 1, NULL, NULL);
+    assert_int_equal(split_facets_new(&alloc, scene, &w.facets), FROE_OK);
+    split_price_init(&w.price);
+    split_job job = {.scene = scene, .alloc = alloc, .task = &task, .meta = &meta};
+    split_method method = {.config = &w,
+                           .choose = watch_and_choose,
+                           .scratch_new = split_grain_scratch_new,
+                           .scratch_free = split_grain_scratch_free};
+    assert_int_equal(split_grow(&job, &method, NULL), FROE_OK);
+    assert_true(w.compared > 100);
+    split_sweep_free(&alloc, &w.sweep);
+    split_facets_free(&alloc, &w.facets);
+    froe_scene_free(scene);
+    return w;
+}
+
+static uint32_t drawn_vertex(watch *w, const split_work *work, const split_cell *cell) {
+    uint32_t item = base_below(fuzz_bits(&w->random), cell->count);
+    uint32_t object = work->set.items.data[cell->first + item].object;
+    uint32_t corner = base_below(fuzz_bits(&w->random), scene_corners(work->set.scene, object));
+    return scene_corner(work->set.scene, object, corner);
+}
+
+static bool drawn_triple(watch *w, const split_work *work, const split_cell *cell, uint32_t id[3]) {
+    for (int k = 0; k < 3; k++) id[k] = drawn_vertex(w, work, cell);
+    return id[0] != id[1] && id[1] != id[2] && id[2] != id[0];
+}
+
+static void compare_tallies(watch *w, split_tally a, split_tally b) {
+    w->wrong += a.negative != b.negative || a.positive != b.positive || a.on != b.on || a.both != b.both;
+    w->compared++;
+}
+
+/* ---------------------------------------------------------------- scoring -- */
+
+static void compare_with_exact(watch *w, split_work *work, const split_cell *cell) {
+    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    for (int i = 0; i < 6; i++) {
+        froe_cut cut = {.kind = FROE_CUT_VERTICES};
+        split_facet_plane plane;
+        split_tally tally;
+        if (!drawn_triple(w, work, cell, cut.id)) continue;
+        if (!split_facets_plane(&w->facets, work->set.scene, cut.id, 1e-5, &plane)) continue;
+        assert_int_equal(cell_tally(work, cell, &cut, &tally), FROE_OK);
+        compare_tallies(w, split_facets_count(&w->facets, &plane), tally);
+    }
+}
+
+static void compare_axes_with_exact(watch *w, split_work *work, const split_cell *cell) {
+    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    for (int i = 0; i < 6; i++) {
+        uint32_t vertex = drawn_vertex(w, work, cell);
+        froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = i % 3};
+        cut.value = scene_vertex(work->set.scene, vertex)[cut.axis];
+        split_facet_plane plane = split_facets_axis(&w->facets, cut.axis, cut.value);
+        split_tally tally;
+        assert_int_equal(cell_tally(work, cell, &cut, &tally), FROE_OK);
+        compare_tallies(w, split_facets_count(&w->facets, &plane), tally);
+    }
+}
+
+static void all_shown_scored_counts_are_the_exact_ones(void **state) {
+    (void)state;
+    assert_int_equal(build_watching(MESH_LOOSE, 250, compare_with_exact).wrong, 0);
+    assert_int_equal(build_watching(MESH_HILLS, 400, compare_with_exact).wrong, 0);
+    assert_int_equal(build_watching(MESH_FAN, 100, compare_with_exact).wrong, 0);
+}
+
+/** But for corners that rounding moved out of a plane, or into one. */
+static void exact_coincidences_are_scored_as_such(void **state) {
+    watch planes, axes;
+    (void)state;
+    planes = build_watching(MESH_LATTICE, 100, compare_with_exact);
+    axes = build_watching(MESH_LATTICE, 100, compare_axes_with_exact);
+    assert_true(200 * planes.wrong < planes.compared);
+    assert_true(200 * axes.wrong < axes.compared);
+}
+
+/** However thin the triangle: where the plane is hardly known, its own vertices are on it all the same. */
+static void compare_zeros(watch *w, split_work *work, const split_cell *cell) {
+    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    for (int i = 0; i < 6; i++) {
+        uint32_t id[3];
+        split_facet_plane plane;
+        if (!drawn_triple(w, work, cell, id)) continue;
+        if (!split_facets_plane(&w->facets, work->set.scene, id, 0, &plane)) continue;
+        plane.slack = 0;
+        split_facets_count(&w->facets, &plane);
+        for (int k = 0; k < 3; k++) {
+            uint32_t at = w->facets.place[id[k]];
+            if (at < w->facets.corners) assert_int_equal(w->facets.side.data[at], 0);
+        }
+        w->compared++;
+    }
+}
+
+static void vertices_of_a_plane_lie_in_it_by_their_ids(void **state) {
+    (void)state;
+    build_watching(MESH_HAIR, 80, compare_zeros);
+}
+
+static void compare_outside(watch *w, split_work *work, const split_cell *cell) {
+    const split_facets *f = &w->facets;
+    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    for (uint32_t i = 0; i < f->corners; i++) {
+        assert_true(fabs(f->x.data[i]) <= 0.5 && fabs(f->y.data[i]) <= 0.5 && fabs(f->z.data[i]) <= 0.5);
+        if (f->vertex.data[i] != FROE_NONE) assert_int_equal(f->place[f->vertex.data[i]], i);
+        w->compared++;
+    }
+    for (size_t i = 0; i < f->vertices.count; i++) {
+        assert_true(f->vertex.data[f->vertices.data[i]] != FROE_NONE);
+        assert_int_equal(i < f->inside, f->vertices.data[i] < f->corners);
+    }
+}
+
+static void corners_lie_around_the_middle_and_know_their_vertices(void **state) {
+    (void)state;
+    for (mesh_kind kind = 0; kind < MESH_KINDS; kind++) build_watching(kind, 80, compare_outside);
+}
+
+/* ----------------------------------------------------------------- sweeps -- */
+
+static double cost_of(watch *w, const split_work *work, const uint32_t id[3], const split_terms *terms) {
+    split_facet_plane plane;
+    if (!split_facets_plane(&w->facets, work->set.scene, id, 1e-12, &plane)) return INFINITY;
+    split_tally tally = split_facets_count(&w->facets, &plane);
+    return split_tally_useful(tally) ? split_price_of(&w->price, terms, tally, 1) : (double)INFINITY;
+}
+
+static void compare_pencil(watch *w, split_work *work, const split_cell *cell) {
+    const split_terms terms = {0.1, cell->count / 2};
+    uint32_t id[3], best;
+    double least = INFINITY;
+    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    if (!drawn_triple(w, work, cell, id)) return;
+    assert_true(split_sweep_pencil(&w->sweep, &work->set, &w->facets, &w->price, &terms, id[0], id[1], &best));
+    for (size_t i = 0; i < w->facets.vertices.count; i++) {
+        id[2] = w->facets.vertex.data[w->facets.vertices.data[i]];
+        double cost = id[2] == id[0] || id[2] == id[1] ? (double)INFINITY : cost_of(w, work, id, &terms);
+        if (cost < least) least = cost;
+    }
+    id[2] = best;
+    if (best == FROE_NONE)
+        assert_true(isinf(least));
+    else
+        assert_true(cost_of(w, work, id, &terms) == least);
+    w->compared++;
+}
+
+static void a_pencil_has_the_best_of_its_planes(void **state) {
+    (void)state;
+    build_watching(MESH_LOOSE, 200, compare_pencil);
+    build_watching(MESH_HILLS, 300, compare_pencil);
+}
+
+static void compare_axis(watch *w, split_work *work, const split_cell *cell) {
+    const split_terms terms = {0.1, cell->count};
+    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    for (int axis = 0; axis < 3; axis++) {
+        uint32_t best;
+        double least = INFINITY, found = INFINITY;
+        assert_true(split_sweep_axis(&w->sweep, &work->set, &w->facets, &w->price, &terms, axis, &best));
+        for (uint32_t i = 0; i < w->facets.corners; i++) {
+            double value = split_facets_coordinate(&w->facets, work->set.scene, i, axis);
+            split_facet_plane plane = split_facets_axis(&w->facets, axis, value);
+            split_tally tally = split_facets_count(&w->facets, &plane);
+            double cost = split_tally_useful(tally) ? split_price_of(&w->price, &terms, tally, 1) : (double)INFINITY;
+            least = cost < least ? cost : least;
+            if (i == best) found = cost;
+        }
+        assert_true(found == least);
+        w->compared++;
+    }
+}
+
+static void an_axis_has_the_best_of_its_planes(void **state) {
+    (void)state;
+    build_watching(MESH_LOOSE, 200, compare_axis);
+    build_watching(MESH_HILLS, 200, compare_axis);
+}
+
+/* ------------------------------------------------------------------ prices -- */
+
+static void prices_know_splits_balance_and_limits(void **state) {
+    split_price *price = test_malloc(sizeof *price);
+    split_terms terms = {0.1, 100};
+    (void)state;
+    split_price_init(price);
+    split_tally even = {50, 50, 0, 0}, odd = {70, 30, 0, 0}, split = {49, 50, 0, 1}, on = {50, 49, 1, 0};
+    assert_true(split_price_of(price, &terms, even, 1) < split_price_of(price, &terms, odd, 1));
+    assert_true(split_price_of(price, &terms, even, 1) < split_price_of(price, &terms, split, 1));
+    assert_true(split_price_of(price, &terms, on, 1) < split_price_of(price, &terms, even, 1));
+    terms.most = 60;
+    assert_true(split_price_of(price, &terms, odd, 1) > 1000);
+    assert_true(split_price_of(price, &terms, even, 1) < 0);
+    /* shown by halves, the same cell costs the same */
+    split_tally whole = {60, 40, 6, 20}, half = {30, 20, 3, 10};
+    terms.most = 1000;
+    assert_true(fabs(split_price_of(price, &terms, whole, 1) - split_price_of(price, &terms, half, 2)) < 1e-9);
+    test_free(price);
+}
+
+/* ----------------------------------------------------------------- promises -- */
+
+static froe_tree *build(froe_scene *scene, const char *settings, uint32_t leaf) {
+    froe_build_options o = froe_build_defaults();
+    froe_diagnostic diag = {0};
+    froe_tree *tree = NULL;
+    o.method = "grain";
+    o.settings = settings;
+    o.leaf = leaf;
+    o.threads = 1;
+    if (froe_build(scene, &o, &tree, &diag)) fail_msg("%s", diag.message);
+    return tree;
+}
+
+static void meshes_keep_the_height_asked_for(void **state) {
+    static const char *const settings[] = {"height=2", "height=3", "effort=fast", "effort=min", "height=4 effort=fast"};
+    static const double most[] = {2, 3, 2, 5, 4};
+    (void)state;
+    for (size_t i = 0; i < sizeof most / sizeof *most; i++) {
+        froe_scene *scene = mesh_new(MESH_HILLS, 700);
+        for (uint32_t leaf = 0; leaf < 3; leaf++) {
+            froe_tree *tree = build(scene, settings[i], leaf);
+            froe_report r = froe_tree_report(tree);
+            assert_true((double)r.height <= most[i] * log2((double)r.objects + 1) + 2);
+            assert_true(fabs(r.promises[0].promised - most[i] * log2((double)r.objects + 1) - 2) < 1e-6);
+            froe_tree_free(tree);
+        }
+        froe_scene_free(scene);
+    }
+}
+
+static void more_height_and_more_effort_mean_fewer_pieces(void **state) {
+    static const char *const settings[] = {"effort=fast", "effort=log", "effort=min"};
+    uint64_t pieces[3];
+    froe_scene *scene = mesh_new(MESH_HILLS, 1500);
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        froe_tree *tree = build(scene, settings[i], 1);
+        pieces[i] = froe_tree_report(tree).fragments;
+        froe_tree_free(tree);
+    }
+    froe_scene_free(scene);
+    assert_true(pieces[2] < pieces[1] && pieces[1] < pieces[0]);
+}
+
+/** The same scene, 2^k times as large, or turned by quarters about an axis. */
+static froe_scene *changed(const froe_scene *from, double factor, bool turn) {
+    size_t n = froe_scene_object_count(from);
+    double *x = test_malloc(9 * n * sizeof *x);
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < 3; k++) {
+            const double *p = froe_scene_vertex(from, froe_scene_corner(from, i, k));
+            double *q = x + 9 * (size_t)i + 3 * k;
+            q[0] = factor * (turn ? -p[1] : p[0]);
+            q[1] = factor * (turn ? p[0] : p[1]);
+            q[2] = factor * p[2];
+        }
+    froe_scene *scene = mesh_of(x, n);
+    test_free(x);
+    return scene;
+}
+
+static double pieces_of(const froe_scene *from, double factor, bool turn) {
+    froe_scene *scene = changed(from, factor, turn);
+    froe_tree *tree = build(scene, NULL, 1);
+    double pieces = (double)froe_tree_report(tree).fragments;
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    return pieces;
+}
+
+static void scale_changes_nothing_and_quarter_turns_hardly_anything(void **state) {
+    froe_scene *scene = mesh_new(MESH_HILLS, 900);
+    (void)state;
+    double pieces = pieces_of(scene, 1, false);
+    assert_true(pieces_of(scene, 0x1p60, false) == pieces);
+    assert_true(pieces_of(scene, 0x1p-60, false) == pieces);
+    assert_true(fabs(pieces_of(scene, 1, true) / pieces - 1) < 0.03);
+    froe_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_shown_scored_counts_are_the_exact_ones),
+        cmocka_unit_test(exact_coincidences_are_scored_as_such),
+        cmocka_unit_test(vertices_of_a_plane_lie_in_it_by_their_ids),
+        cmocka_unit_test(corners_lie_around_the_middle_and_know_their_vertices),
+        cmocka_unit_test(a_pencil_has_the_best_of_its_planes),
+        cmocka_unit_test(an_axis_has_the_best_of_its_planes),
+        cmocka_unit_test(prices_know_splits_balance_and_limits),
+        cmocka_unit_test(meshes_keep_the_height_asked_for),
+        cmocka_unit_test(more_height_and_more_effort_mean_fewer_pieces),
+        cmocka_unit_test(scale_changes_nothing_and_quarter_turns_hardly_anything),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,133 @@
+/* test_solids.c: boxes, balls and hulls that overlap or touch: what is told apart, at what cost, and that the exact
+ * audit agrees. */
+#include "split/grow.h"
+#include <froe/froe.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "support/fuzz.h"
+
+typedef struct solids {
+    froe_scene *scene;
+    fuzz_source random;
+} solids;
+
+static solids begin(int dim) {
+    solids s = {.random = {1}};
+    assert_int_equal(froe_scene_new(dim, NULL, &s.scene), FROE_OK);
+    return s;
+}
+
+static void add(solids *s, froe_kind kind, size_t count, const double *coords, const double *radii,
+                const size_t *starts) {
+    froe_objects objects = froe_objects_defaults();
+    objects.kind = kind;
+    objects.count = count;
+    objects.coords = coords;
+    objects.radii = radii;
+    objects.starts = starts;
+    assert_int_equal(froe_scene_add(s->scene, &objects, NULL), FROE_OK);
+}
+
+/** A hull of n random points of a sphere. */
+static void add_round(solids *s, size_t n, double x, double radius) {
+    double *coords = test_malloc(3 * n * sizeof *coords);
+    const size_t starts[2] = {0, n};
+    for (size_t i = 0; i < n; i++) {
+        double *p = coords + 3 * i, square = 0;
+        for (int k = 0; k < 3; k++) {
+            p[k] = fuzz_unit(&s->random);
+            square += p[k] * p[k];
+        }
+        for (int k = 0; k < 3; k++) p[k] = p[k] / sqrt(square) * radius + (k == 0 ? x : 0);
+    }
+    add(s, FROE_HULL, 1, coords, NULL, starts);
+    test_free(coords);
+}
+
+/** Builds, audits by exact arithmetic alone, and frees the scene. */
+static froe_tree *build(solids *s, uint32_t leaf, uint64_t most) {
+    froe_build_options o = froe_build_defaults();
+    froe_audit_options exact = froe_audit_defaults();
+    froe_diagnostic diag = {0};
+    froe_tree *tree = NULL;
+    o.method = "density";
+    o.leaf = leaf;
+    o.threads = exact.threads = 1;
+    o.max_fragments = most;
+    exact.exact_only = true;
+    if (froe_build(s->scene, &o, &tree, &diag)) fail_msg("%s", diag.message);
+    if (froe_tree_audit(tree, &exact, &diag)) fail_msg("%s", diag.message);
+    froe_scene_free(s->scene);
+    return tree;
+}
+
+static uint64_t inseparable_of(solids *s) {
+    froe_tree *tree = build(s, 1, 0);
+    uint64_t count = froe_tree_report(tree).inseparable;
+    froe_tree_free(tree);
+    return count;
+}
+
+/* ------------------------------------------------------------------- hulls -- */
+
+/** Trying all planes would take 400^4 / 12 questions: 2 * 10^9. */
+static void hulls_of_many_corners_are_told_apart_by_few_questions(void **state) {
+    (void)state;
+    for (int overlap = 0; overlap < 2; overlap++) {
+        solids s = begin(3);
+        add_round(&s, 200, 0, 1);
+        add_round(&s, 200, overlap ? 1.5 : 1.9999, 1); /* their boxes overlap in both cases, nearly */
+        froe_tree *tree = build(&s, 1, 0);
+        assert_true(froe_tree_report(tree).predicates.calls < 20000);
+        assert_int_equal(froe_tree_report(tree).inseparable, overlap);
+        froe_tree_free(tree);
+    }
+}
+
+/** Two tetrahedra, one face each in the plane x + y + z = 1. */
+static void hulls_that_touch_are_told_apart(void **state) {
+    static const double coords[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const size_t starts[] = {0, 4, 8};
+    solids s = begin(3);
+    (void)state;
+    add(&s, FROE_HULL, 2, coords, NULL, starts);
+    assert_int_equal(inseparable_of(&s), 0);
+}
+
+/** A triangle, as a hull, on a slanted face of a tetrahedron: the cut holds it. */
+static void a_flat_hull_on_another_ends_in_the_cut(void **state) {
+    static const double coords[] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 2, 1, 1, 1, 2, 1, 1, 1, 2};
+    static const size_t starts[] = {0, 4, 7};
+    solids s = begin(3);
+    (void)state;
+    add(&s, FROE_HULL, 2, coords, NULL, starts);
+    froe_tree *tree = build(&s, 1, 0);
+    assert_int_equal(froe_tree_report(tree).inseparable, 0);
+    assert_int_equal(froe_tree_report(tree).in_cut, 1);
+    froe_tree_free(tree);
+}
+
+/** Two triangles in the plane z = x + y, on either side of y = x - 1/4: nothing but axis-parallel cuts is tried. */
+static void hulls_in_one_plane_are_left_to_axis_parallel_cuts(void **state) {
+    static const double coords[] = {0, 0, 0, 3, 3, 6, 0, 3, 3, 0.5, 0, 0.5, 3.5, 3, 6.5, 3.5, 0, 3.5};
+    static const size_t starts[] = {0, 3, 6};
+    solids s = begin(3);
+    (void)state;
+    add(&s, FROE_HULL, 2, coords, NULL, starts);
+    assert_int_equal(inseparable_of(&s), 1);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hulls_of_many_corners_are_told_apart_by_few_questions),
+        cmocka_unit_test(hulls_that_touch_are_told_apart),
+        cmocka_unit_test(a_flat_hull_on_another_ends_in_the_cut),
+        cmocka_unit_test(hulls_in_one_plane_are_left_to_axis_parallel_cuts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,423 @@
+/* test_picture.c: what is painted last at a point of the page against what an exact ray through it meets first.
+ *
+ * The oracle of test_visibility.c, one step further: shapes, as they are handed to a writer, before rounding. With
+ * patches that one sees through, the whole stack of layers down to the first opaque one must be painted, farthest
+ * first. */
+#include "rays.h"
+#include "view/picture.h"
+
+typedef struct page {
+    const froe_tree *tree;
+    froe_surface *surface;
+    froe_projection view;
+    froe_picture_options options;
+    froe_picture *picture;
+    rational_point from, to;
+    uint64_t shown, empty, layers;
+} page;
+
+static void open_page(page *p, const froe_tree *tree) {
+    *p = (page){.tree = tree, .options = froe_picture_defaults()};
+    assert_int_equal(froe_surface_new(tree->scene, NULL, &p->surface, NULL), FROE_OK);
+    p->options.view = &p->view;
+    rational_point_init(&p->from);
+    rational_point_init(&p->to);
+}
+
+static void close_page(page *p) {
+    froe_surface_free(p->surface);
+    rational_point_clear(&p->from);
+    rational_point_clear(&p->to);
+}
+
+static bool inside_shape(const page *p, const froe_shape *s, double x, double y) {
+    int turns = 0;
+    for (size_t r = 0; r < s->ring_count; r++) {
+        size_t n;
+        const double *ring = froe_picture_ring(p->picture, s->first_ring + r, &n);
+        for (size_t i = 0; i < n; i++) {
+            const double *a = ring + 2 * i, *b = ring + 2 * ((i + 1) % n);
+            if ((a[1] <= y) == (b[1] <= y)) continue;
+            if (((a[0] - x) * (b[1] - y) - (b[0] - x) * (a[1] - y) > 0) == (b[1] > y)) turns += b[1] > y ? 1 : -1;
+        }
+    }
+    return turns != 0;
+}
+
+/* The point of space at a place of the page, at the distance of the scene. */
+static void point_at(const page *p, double x, double y, double out[3]) {
+    for (int k = 0; k < 3; k++) {
+        const double *w = p->view.window;
+        out[k] = w[k] + (w[3 + k] - w[k]) * (x / p->view.width) + (w[9 + k] - w[k]) * (y / p->view.height);
+    }
+}
+
+typedef struct layer {
+    uint32_t patch, place;
+    double t;
+} layer;
+
+static bool is_clear(const page *p, uint32_t patch) {
+    return p->options.clear && p->options.clear[patch];
+}
+
+/* Patches met by the ray, nearest first, down to the first opaque one. */
+static uint32_t layers_of(page *p, layer *out, uint32_t most) {
+    const froe_scene *s = p->tree->scene;
+    uint32_t count = 0, kept = 0;
+    mpq_t t, *ts = calloc(most, sizeof *ts);
+    rational_point x;
+    mpq_init(t);
+    rational_point_init(&x);
+    for (uint32_t o = 0; o < s->object_count && count < most; o++) {
+        const uint32_t patch = p->surface->patch_of[o];
+        if (patch == FROE_NONE || !rays_hit(s, &p->from, &p->to, o, t, &x)) continue;
+        uint32_t i = count++;
+        mpq_init(ts[i]);
+        for (; i && (mpq_cmp(ts[i - 1], t) > 0 || (mpq_equal(ts[i - 1], t) && out[i - 1].patch < patch)); i--) {
+            mpq_set(ts[i], ts[i - 1]);
+            out[i] = out[i - 1];
+        }
+        mpq_set(ts[i], t);
+        out[i].patch = patch;
+    }
+    while (kept < count) {
+        kept++;
+        if (!is_clear(p, out[kept - 1].patch)) break;
+    }
+    for (uint32_t i = 0; i < count; i++) mpq_clear(ts[i]);
+    free(ts);
+    mpq_clear(t);
+    rational_point_clear(&x);
+    return kept;
+}
+
+static void check_sample(page *p, double x, double y) {
+    enum { MOST = 64 };
+    layer expected[MOST];
+    uint32_t painted[MOST], count = 0;
+    double to[3];
+    point_at(p, x, y, to);
+    rational_point_set(&p->to, 3, to);
+    const uint32_t wanted = layers_of(p, expected, MOST);
+    for (size_t i = 0; i < froe_picture_shape_count(p->picture); i++) {
+        const froe_shape s = froe_picture_shape(p->picture, i);
+        if (!inside_shape(p, &s, x, y)) continue;
+        if (!is_clear(p, s.patch)) count = 0;
+        assert_true(count < MOST);
+        painted[count++] = s.patch;
+    }
+    bool right = count == wanted;
+    for (uint32_t i = 0; right && i < count; i++) right = painted[i] == expected[count - 1 - i].patch;
+    if (!right)
+        fail_msg("at (%.17g, %.17g): %u layers painted, the last of patch %d; %u expected, the first of patch %d", x, y,
+                 count, count ? (int)painted[count - 1] : -1, wanted, wanted ? (int)expected[0].patch : -1);
+    p->shown += count > 0;
+    p->empty += count == 0;
+    p->layers += count;
+}
+
+/* The camera of an eye that lies anywhere, looking at the middle. */
+static void set_view(page *p, uint32_t e) {
+    froe_camera c = froe_camera_defaults();
+    froe_diagnostic why = {.message = ""};
+    const froe_eye eye = rays_eye(p->tree, e);
+    const froe_scene *s = p->tree->scene;
+    c.parallel = eye.parallel;
+    c.fit = e % 3 != 0; /* otherwise the eye stays, often amid the scene */
+    c.fov = 80;
+    for (int k = 0; k < 3; k++) {
+        c.target[k] = 0.5 * (s->lo[k] + s->hi[k]) + 0.01 * k;
+        c.eye[k] = eye.parallel ? c.target[k] + eye.at[k] : eye.at[k];
+    }
+    if (froe_camera_place(&c, s, &p->view, &why)) fail_msg("%s", why.message);
+    rational_point_set(&p->from, 3, p->view.eye.at);
+    if (p->view.eye.parallel) mpq_set_ui(p->from.w, 0, 1);
+}
+
+static void check_view(page *p, uint32_t samples, uint32_t seed) {
+    froe_diagnostic why = {.message = ""};
+    if (froe_picture_new(p->tree, p->surface, &p->options, &p->picture, &why)) fail_msg("%s", why.message);
+    for (uint32_t i = 0; i < samples; i++)
+        check_sample(p, p->view.width * trees_unit(seed, 2 * i), p->view.height * trees_unit(seed, 2 * i + 1));
+}
+
+static froe_picture_report check_tree(froe_tree *tree, uint32_t eyes, uint32_t samples, froe_paint paint,
+                                      bool through) {
+    page p;
+    froe_picture_report sum = {.late = 0};
+    open_page(&p, tree);
+    uint8_t *clear = calloc(p.surface->patch_count + 1, 1);
+    for (uint32_t i = 0; i < p.surface->patch_count; i++) clear[i] = through && trees_random(11, i, 2);
+    p.options.paint = paint;
+    p.options.underlap = through ? 0 : 3;
+    if (through) p.options.clear = clear;
+    for (uint32_t e = 0; e < eyes; e++) {
+        set_view(&p, e);
+        check_view(&p, samples, e);
+        const froe_picture_report r = froe_picture_statistics(p.picture);
+        assert_int_equal(r.paint, paint);
+        sum.late += r.late, sum.cyclic += r.cyclic, sum.whole += r.whole, sum.shapes += r.shapes, sum.arcs += r.arcs;
+        froe_picture_free(p.picture);
+    }
+    print_message("  %s: %d samples show something, %d nothing, %.2f layers; %d shapes, %d whole, %d late\n",
+                  froe_paint_name(paint), (int)p.shown, (int)p.empty, (double)p.layers / (double)(p.shown + 1),
+                  (int)sum.shapes, (int)sum.whole, (int)sum.late);
+    assert_true(p.shown > eyes);
+    free(clear);
+    close_page(&p);
+    froe_tree_free(tree);
+    return sum;
+}
+
+static froe_tree *random_tree(void) {
+    return trees_grow(3, FROE_POLYGON, 80, 0, 1, "density", 1);
+}
+
+static froe_tree *lattice_tree(void) {
+    return trees_grow(3, FROE_POLYGON, 80, 3, 2, "density", 1);
+}
+
+/* Triangles that hang together, so that underlap has somewhere to go: a rough landscape. */
+static froe_tree *landscape(void) {
+    enum { N = 9 };
+    froe_scene *scene;
+    double x[N * N * 3];
+    uint32_t ids[(N - 1) * (N - 1) * 6], count = 0;
+    for (uint32_t i = 0; i < N * N; i++)
+        x[3 * i] = i % N, x[3 * i + 1] = (double)i / N, x[3 * i + 2] = 4 * trees_unit(2, i);
+    for (uint32_t i = 0; i < N * N; i++)
+        if (i % N < N - 1 && i / N < N - 1) {
+            const uint32_t quad[6] = {i, i + 1, i + N, i + 1, i + N + 1, i + N};
+            for (int k = 0; k < 6; k++) ids[count++] = quad[k];
+        }
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    froe_objects o = froe_objects_defaults();
+    o.count = count / 3, o.coords = x, o.point_count = N * N, o.indices = ids;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    froe_scene_free(scene);
+    return tree;
+}
+
+static void whole_patches_paint_each_other_over(void **state) {
+    (void)state;
+    froe_picture_report r = check_tree(random_tree(), 8, 60, FROE_PAINT_WHOLE, false);
+    assert_true(r.late > 0 && r.whole > r.late && r.whole + r.late == r.shapes);
+    check_tree(lattice_tree(), 8, 60, FROE_PAINT_WHOLE, false);
+    r = check_tree(landscape(), 8, 60, FROE_PAINT_WHOLE, false);
+    assert_int_equal(r.late, 0);
+}
+
+static void regions_and_fragments_show_the_same(void **state) {
+    (void)state;
+    check_tree(random_tree(), 5, 40, FROE_PAINT_REGIONS, false);
+    check_tree(lattice_tree(), 5, 40, FROE_PAINT_REGIONS, false);
+    check_tree(random_tree(), 5, 40, FROE_PAINT_FRAGMENTS, false);
+    check_tree(lattice_tree(), 5, 40, FROE_PAINT_FRAGMENTS, false);
+}
+
+static void layers_that_one_sees_through_come_in_their_order(void **state) {
+    (void)state;
+    const froe_picture_report r = check_tree(random_tree(), 8, 50, FROE_PAINT_WHOLE, true);
+    assert_true(r.late > 0);
+    check_tree(lattice_tree(), 8, 50, FROE_PAINT_WHOLE, true);
+    check_tree(landscape(), 5, 50, FROE_PAINT_WHOLE, true);
+}
+
+static void beyond_its_budget_a_picture_is_made_of_fragments_and_says_so(void **state) {
+    (void)state;
+    froe_tree *tree = random_tree();
+    page p;
+    open_page(&p, tree);
+    p.options.max_graph = 10;
+    set_view(&p, 1);
+    check_view(&p, 40, 1);
+    assert_int_equal(froe_picture_statistics(p.picture).paint, FROE_PAINT_FRAGMENTS);
+    froe_picture_free(p.picture);
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
+/* Shapes of one style lie next to each other where nothing is in the way. */
+static void styles_come_together(void **state) {
+    (void)state;
+    froe_tree *tree = landscape();
+    page p;
+    open_page(&p, tree);
+    uint32_t *styles = calloc(p.surface->patch_count, sizeof *styles), runs[2] = {0, 0};
+    for (uint32_t i = 0; i < p.surface->patch_count; i++) styles[i] = i % 3;
+    set_view(&p, 1);
+    for (int with = 0; with < 2; with++) {
+        p.options.styles = with ? styles : NULL;
+        check_view(&p, 20, 1);
+        for (size_t i = 1; i < froe_picture_shape_count(p.picture); i++)
+            runs[with] +=
+                styles[froe_picture_shape(p.picture, i).patch] != styles[froe_picture_shape(p.picture, i - 1).patch];
+        froe_picture_free(p.picture);
+    }
+    assert_true(3 * runs[1] < runs[0]);
+    free(styles);
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
+/* All strokes of a kind together are as long as the intervals they come from, and far fewer. */
+static void strokes_are_the_intervals_chained(void **state) {
+    (void)state;
+    froe_tree *tree = landscape();
+    page p;
+    open_page(&p, tree);
+    p.options.lines = 31;
+    p.options.hidden = true;
+    for (uint32_t e = 1; e < 6; e++) {
+        if (e % 3 == 0) continue;
+        set_view(&p, e);
+        check_view(&p, 1, 1);
+        froe_visibility_options o = froe_visibility_defaults();
+        froe_visibility *v;
+        double expected[2] = {0, 0}, found[2] = {0, 0};
+        uint64_t pieces = 0;
+        o.eye = p.view.eye;
+        o.window = p.view.window, o.window_corners = 4;
+        assert_int_equal(froe_visibility_new(tree, p.surface, &o, &v, NULL), FROE_OK);
+        for (uint32_t i = 0; i < p.surface->edge_count; i++) {
+            size_t count;
+            const froe_interval *x = froe_visibility_of_edge(v, i, &count);
+            const froe_edge edge = froe_surface_edge(p.surface, i);
+            double last[2], at[2];
+            const double *a = scene_vertex(tree->scene, edge.vertex[0]), *b = scene_vertex(tree->scene, edge.vertex[1]);
+            if (p.surface->patch_of[edge.objects[0]] == p.surface->patch_of[edge.objects[edge.object_count - 1]] &&
+                edge.object_count == 2)
+                continue;
+            assert_true(froe_project(&p.view, a, last));
+            for (size_t k = 0; k < 2 * count + 1; k++) {
+                const double t = k == 2 * count ? 1 : k % 2 ? x[k / 2].to : x[k / 2].from;
+                double point[3];
+                for (int c = 0; c < 3; c++) point[c] = a[c] + t * (b[c] - a[c]);
+                assert_true(froe_project(&p.view, point, at));
+                expected[k % 2 == 0] += hypot(at[0] - last[0], at[1] - last[1]);
+                memcpy(last, at, sizeof at);
+            }
+            pieces += 2 * count + 1;
+        }
+        for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
+            const froe_stroke s = froe_picture_stroke(p.picture, i);
+            assert_true(s.count >= 2 && froe_line_name(s.kind));
+            for (size_t k = 0; k + !s.closed < s.count; k++) {
+                const double *a = s.points + 2 * k, *b = s.points + 2 * ((k + 1) % s.count);
+                found[s.hidden] += hypot(a[0] - b[0], a[1] - b[1]);
+            }
+        }
+        assert_true(expected[0] > 100 && expected[1] > 100);
+        for (int h = 0; h < 2; h++) assert_true(fabs(found[h] - expected[h]) < 1e-3 * expected[h]);
+        assert_true(2 * froe_picture_stroke_count(p.picture) < pieces);
+        froe_visibility_free(v);
+        froe_picture_free(p.picture);
+    }
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
+static void bad_cameras_are_refused(void **state) {
+    (void)state;
+    froe_tree *tree = random_tree();
+    froe_projection view;
+    froe_diagnostic why;
+    froe_camera c = froe_camera_defaults();
+    memcpy(c.eye, c.target, sizeof c.eye);
+    assert_int_equal(froe_camera_place(&c, tree->scene, &view, &why), FROE_E_ARG);
+    assert_non_null(strstr(why.message, "where it looks"));
+    c = froe_camera_defaults();
+    c.fov = 180;
+    assert_int_equal(froe_camera_place(&c, tree->scene, &view, &why), FROE_E_OPTIONS);
+    c = froe_camera_defaults();
+    c.scale = -1;
+    assert_int_equal(froe_camera_place(&c, tree->scene, &view, &why), FROE_E_OPTIONS);
+    c = froe_camera_defaults();
+    c.width = 0;
+    assert_int_equal(froe_camera_place(&c, tree->scene, &view, &why), FROE_E_OPTIONS);
+    c = froe_camera_defaults();
+    c.margin = 600;
+    assert_int_equal(froe_camera_place(&c, tree->scene, &view, &why), FROE_E_OPTIONS);
+    c = froe_camera_defaults();
+    c.eye[1] = (double)NAN;
+    assert_int_equal(froe_camera_place(&c, tree->scene, &view, &why), FROE_E_ARG);
+    c = froe_camera_defaults();
+    c.eye[0] = c.eye[1] = 0;
+    assert_int_equal(froe_camera_place(&c, tree->scene, &view, &why), FROE_OK);
+    assert_int_equal(view.up_axis, 0);
+    froe_tree_free(tree);
+    tree = trees_grow(3, FROE_POLYGON, 0, 0, 1, "density", 1);
+    c = froe_camera_defaults();
+    assert_int_equal(froe_camera_place(&c, tree->scene, &view, &why), FROE_E_INPUT);
+    froe_tree_free(tree);
+}
+
+/* Every vertex within the margins, and two sides of the page reached. */
+static void what_is_fitted_fills_the_page(void **state) {
+    (void)state;
+    froe_tree *tree = random_tree();
+    for (int parallel = 0; parallel < 2; parallel++) {
+        froe_camera c = froe_camera_defaults();
+        froe_projection view;
+        double lo[2] = {1e9, 1e9}, hi[2] = {0, 0};
+        c.parallel = parallel;
+        c.width = 600, c.height = 900, c.margin = 10;
+        assert_int_equal(froe_camera_place(&c, tree->scene, &view, NULL), FROE_OK);
+        for (uint32_t i = 0; i < tree->scene->vertex_count; i++) {
+            double at[2];
+            assert_true(froe_project(&view, scene_vertex(tree->scene, i), at));
+            for (int k = 0; k < 2; k++) lo[k] = fmin(lo[k], at[k]), hi[k] = fmax(hi[k], at[k]);
+        }
+        assert_true(lo[0] > 10 - 1e-6 && lo[1] > 10 - 1e-6 && hi[0] < 590 + 1e-6 && hi[1] < 890 + 1e-6);
+        assert_true(hi[0] - lo[0] > 580 - 1e-6 || hi[1] - lo[1] > 880 - 1e-6);
+    }
+    froe_tree_free(tree);
+}
+
+static froe_status picture_with(void *user, const froe_allocator *alloc) {
+    page *p = user;
+    froe_picture *picture = NULL;
+    p->options.alloc = alloc;
+    froe_status status = froe_picture_new(p->tree, p->surface, &p->options, &picture, NULL);
+    froe_picture_free(picture);
+    return status;
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    froe_tree *tree = trees_grow(3, FROE_POLYGON, 25, 0, 1, "density", 1);
+    page p;
+    open_page(&p, tree);
+    uint8_t *clear = calloc(p.surface->patch_count, 1);
+    set_view(&p, 1);
+    p.options.lines = 31;
+    p.options.underlap = 1;
+    for (int paint = 0; paint < FROE_PAINT_COUNT; paint++) {
+        p.options.paint = (froe_paint)paint;
+        assert_true(test_memory_each(picture_with, &p) > 20);
+    }
+    clear[0] = clear[5] = 1;
+    p.options.paint = FROE_PAINT_WHOLE;
+    p.options.clear = clear;
+    assert_true(test_memory_each(picture_with, &p) > 20);
+    free(clear);
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(whole_patches_paint_each_other_over),
+        cmocka_unit_test(regions_and_fragments_show_the_same),
+        cmocka_unit_test(layers_that_one_sees_through_come_in_their_order),
+        cmocka_unit_test(beyond_its_budget_a_picture_is_made_of_fragments_and_says_so),
+        cmocka_unit_test(styles_come_together),
+        cmocka_unit_test(strokes_are_the_intervals_chained),
+        cmocka_unit_test(bad_cameras_are_refused),
+        cmocka_unit_test(what_is_fitted_fills_the_page),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
