@@ -1,0 +1,98 @@
+/* motion.h: flight plans from inside: knots, pieces between them, and where a vertex is at a tick.
+ *
+ *     tick u  =  the time  begin + u 2^power,   0 <= u <= last_tick <= 2^52
+ *
+ *     knots   o------o---------o-----o         times are any doubles, not ticks in general
+ *     ticks   | | | | | | | | | | | | |
+ *             1 1 1 1 2 2 2 2 2 3 3 3 3        the piece a tick belongs to: the last that begins at or before it
+ *
+ * Positions are homogeneous, (X/W, Y/W) with W > 0. A linear piece p0 -> p1 has
+ *     X = p0 (t1-t) + p1 (t-t0),   W = t1-t0,
+ * a quadratic one Bezier's form with the squares; so knots are met exactly from both sides, and nothing is divided. */
+#ifndef FROE_KINETIC_MOTION_H
+#define FROE_KINETIC_MOTION_H
+#include "base/array.h"
+#include "num/ball.h"
+#include "num/dyadic.h"
+#include <froe/kinetic.h>
+
+__extension__ typedef __int128 motion_int;
+
+typedef struct motion_knot {
+    double time, at[2], control[2]; /**< control[0] NaN: the piece that begins here is linear */
+    int64_t tick;                   /**< the first at or after `time`; far away: +- MOTION_FAR */
+    int16_t unit, bits; /**< of times while the piece lasts, measured from its ends: whole multiples of 2^unit, below
+                             2^bits of them */
+} motion_knot;
+
+#define MOTION_FAR ((int64_t)1 << 62)
+
+typedef struct motion_plan {
+    size_t first;   /**< knot */
+    uint32_t count; /**< knots, >= 1 */
+} motion_plan;
+
+typedef struct motion_object {
+    uint32_t vertices[2];
+    uint32_t group;
+    double birth, death; /**< clipped to the window */
+    int64_t first, last; /**< ticks at which it is there; first > last: none */
+    uint64_t tag;
+} motion_object;
+
+struct froe_motion {
+    froe_allocator alloc;
+    double begin, end;
+    int power;         /**< a tick is 2^power, power >= -1074 */
+    int64_t last_tick; /**< the last in the window */
+    int unit, top;     /**< all coordinates are multiples of 2^unit, below 2^top in size */
+    ARRAY(motion_knot) knots;
+    ARRAY(motion_plan) plans; /**< [vertex] */
+    ARRAY(motion_object) objects;
+    froe_scene *names; /**< a scene of groups alone */
+};
+
+/** The first tick at or after a time / the last at or before it; beyond +-2^62: +-MOTION_FAR. Exact. */
+int64_t motion_tick_after(const froe_motion *m, double time);
+int64_t motion_tick_before(const froe_motion *m, double time);
+
+/** Gives a vertex another plan; `life` is what it has to cover: two times. What it replaces stays in memory. The
+ * same failures as froe_motion_add(), then nothing is changed. */
+froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const double *times, const double *coords,
+                          const double *controls, const double life[2], froe_diagnostic *diag);
+
+/* ------------------------------------------------------------------ pieces -- */
+
+typedef struct motion_piece {
+    const motion_knot *from, *to; /**< equal: it stands still */
+    int degree;                   /**< 0, 1 or 2 */
+    int64_t last;                 /**< the last tick that belongs to it; MOTION_FAR: it ends with the plan */
+} motion_piece;
+
+/** The piece a tick belongs to. REQUIRES: the plan covers it. O(log knots). */
+motion_piece motion_piece_at(const froe_motion *m, uint32_t vertex, int64_t tick);
+/** The piece after knot number `knot` of the vertex's plan. */
+motion_piece motion_piece_after(const froe_motion *m, uint32_t vertex, uint32_t knot);
+
+/** X, Y, W in units of 2^unit (of the motion) as stack integers of less than 2^126. False: too wide. */
+bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_int out[3]);
+/** X, Y, W: always there. Takes less than 4000 limbs of the arena, for any finite doubles. */
+void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic out[3]);
+/** X, Y, W with error bounds. */
+void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball out[3]);
+/** x and y themselves, each no further than the returned error from the truth (infinite if there is no telling). */
+double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double out[2]);
+
+/** The piece as polynomials in ticks s counted from `tick`:
+ *     X = x[0] + x[1] s + x[2] s^2,  Y alike,  W = w (constant)
+ * for degree + 1 coefficients; the others are 0. The tick may lie anywhere. Less than 8000 limbs. */
+typedef struct motion_dyadic_curve {
+    num_dyadic x[3], y[3], w;
+} motion_dyadic_curve;
+typedef struct motion_ball_curve {
+    num_ball x[3], y[3], w;
+} motion_ball_curve;
+void motion_curve_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
+                         motion_dyadic_curve *out);
+void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_ball_curve *out);
+#endif

@@ -1,0 +1,238 @@
+/* motion_add.c: flight plans enter a motion, all of a batch or nothing; and what may be wrong with them.
+ *
+ * Knots are written behind the published counts; a batch that fails is forgotten. */
+#include "base/status.h"
+#include "kinetic/motion.h"
+#include "scene/scene.h"
+#include <string.h>
+
+#define LIMIT 2147483646u /* ids stay below 2^31 - 2 */
+
+typedef struct adding {
+    froe_motion *motion;
+    const froe_moving *batch;
+    froe_diagnostic *diag;
+    size_t knots;  /* of the batch so far */
+    int unit, top; /* of the coordinates so far */
+} adding;
+
+/* ------------------------------------------------------------ widths of numbers -- */
+
+/* The power of 2 of the last bit of x, INT16_MAX for 0. */
+static int last_bit(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    uint64_t mantissa = bits & 0xfffffffffffffu, power = bits >> 52 & 0x7ff;
+    if (power)
+        mantissa |= (uint64_t)1 << 52;
+    else
+        power = 1;
+    return mantissa ? (int)power - 1075 + __builtin_ctzll(mantissa) : INT16_MAX;
+}
+
+/* The least e with |x| < 2^e, INT16_MIN for 0. */
+static int top_bit(double x) {
+    int e = INT16_MIN;
+    if (x != 0) frexp(x, &e);
+    return e;
+}
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+static int most(int a, int b) {
+    return a > b ? a : b;
+}
+
+/* The unit of times in the piece that begins at a knot, and how many of them it lasts. */
+static void measure(const froe_motion *m, motion_knot *knot, const motion_knot *next) {
+    enum { SPARE = 120 }; /* no time itself may be wider */
+    int unit = least(least(last_bit(m->begin), m->power), least(last_bit(knot->time), last_bit(next->time)));
+    int top = most(most(top_bit(m->begin), top_bit(m->end)), most(top_bit(knot->time), top_bit(next->time)));
+    knot->unit = (int16_t)unit;
+    knot->bits = INT16_MAX;
+    if (top - unit <= SPARE) knot->bits = (int16_t)(top_bit(next->time - knot->time) + 1 - unit);
+}
+
+/* -------------------------------------------------------------------- one plan -- */
+
+typedef struct plan_input {
+    size_t count;
+    const double *times, *coords, *controls;
+    uint32_t vertex; /* for messages */
+} plan_input;
+
+static froe_status fail_at_knot(adding *a, const plan_input *p, size_t i, const char *what, double value) {
+    return base_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u: %s %zu is %g", p->vertex,
+                        what, i, value);
+}
+
+/* One finite number of the plan; -0 becomes +0. */
+static froe_status take_number(adding *a, const plan_input *p, size_t i, const char *what, double value, double *out) {
+    if (!isfinite(value)) return fail_at_knot(a, p, i, what, value);
+    *out = value + 0.0;
+    a->unit = least(a->unit, last_bit(*out));
+    a->top = most(a->top, top_bit(*out));
+    return FROE_OK;
+}
+
+static froe_status take_knot(adding *a, const plan_input *p, size_t i, motion_knot *knot) {
+    *knot = (motion_knot){.time = p->times[i] + 0.0, .control = {NAN, NAN}, .bits = 0};
+    if (!isfinite(knot->time)) return fail_at_knot(a, p, i, "time", knot->time);
+    if (i && !(knot->time > knot[-1].time))
+        return base_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
+                            "vertex %u: time %zu, %.17g, is not after time %zu, %.17g", p->vertex, i, knot->time, i - 1,
+                            knot[-1].time);
+    knot->tick = motion_tick_after(a->motion, knot->time);
+    froe_status status = take_number(a, p, i, "x", p->coords[2 * i], &knot->at[0]);
+    if (!status) status = take_number(a, p, i, "y", p->coords[2 * i + 1], &knot->at[1]);
+    const double *c = p->controls && i + 1 < p->count ? p->controls + 2 * i : knot->control;
+    if (status || (isnan(c[0]) && isnan(c[1]))) return status;
+    status = take_number(a, p, i, "the x of control point", c[0], &knot->control[0]);
+    return status ? status : take_number(a, p, i, "the y of control point", c[1], &knot->control[1]);
+}
+
+/* Appends the knots of a plan. REQUIRES: room. */
+static froe_status take_plan(adding *a, const plan_input *p, motion_plan *plan) {
+    if (!p->count)
+        return base_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u has no flight plan",
+                            p->vertex);
+    if (p->count > LIMIT) return base_fail(a->diag, FROE_E_LIMIT, "vertex %u: more than %u times", p->vertex, LIMIT);
+    *plan = (motion_plan){a->motion->knots.count + a->knots, (uint32_t)p->count};
+    motion_knot *knots = a->motion->knots.data + plan->first;
+    for (size_t i = 0; i < p->count; i++) {
+        froe_status status = take_knot(a, p, i, knots + i);
+        if (status) return status;
+        if (i) measure(a->motion, knots + i - 1, knots + i);
+    }
+    a->knots += p->count;
+    return FROE_OK;
+}
+
+/* Does a plan cover a life? */
+static froe_status check_cover(const adding *a, const motion_plan *plan, uint32_t vertex, uint32_t object, double birth,
+                               double death) {
+    const motion_knot *first = a->motion->knots.data + plan->first, *last = first + plan->count - 1;
+    if (plan->count == 1 || birth > death || (first->time <= birth && death <= last->time)) return FROE_OK;
+    bool late = first->time > birth;
+    double plan_end = late ? first->time : last->time, life_end = late ? birth : death;
+    const char *begins = late ? "begins" : "ends", *after = late ? "after" : "before";
+    if (object == FROE_NONE)
+        return base_fail_at(a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
+                            "the plan of vertex %u %s at %.17g, %s %.17g", vertex, begins, plan_end, after, life_end);
+    return base_fail_at(a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
+                        "segment %u: the plan of its vertex %u %s at %.17g, %s the segment's time in the window does, "
+                        "at %.17g",
+                        object, vertex, begins, plan_end, after, life_end);
+}
+
+/* --------------------------------------------------------------------- a batch -- */
+
+static froe_status check(const adding *a) {
+    const froe_moving *b = a->batch;
+    if (b->size != sizeof *b) return base_fail(a->diag, FROE_E_OPTIONS, "batch not from froe_moving_defaults()");
+    if ((b->vertex_count && (!b->starts || !b->times || !b->coords)) || (b->count && !b->vertex_count))
+        return base_fail(a->diag, FROE_E_ARG, "segments without flight plans");
+    const froe_motion *m = a->motion;
+    if (b->vertex_count > LIMIT - m->plans.count || b->count > LIMIT - m->objects.count)
+        return base_fail(a->diag, FROE_E_LIMIT, "more than %u vertices or segments", LIMIT);
+    for (size_t v = 0; v < b->vertex_count; v++)
+        if (b->starts[v] > b->starts[v + 1])
+            return base_fail(a->diag, FROE_E_ARG, "the plan of vertex %zu ends before it starts", v);
+    for (uint32_t j = 0; j < b->count; j++) {
+        uint32_t group = b->groups ? b->groups[j] : b->group;
+        if (group != FROE_NONE && group >= m->names->group_count)
+            return base_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE,
+                                "segment %u belongs to group %u, which does not exist", j, group);
+    }
+    return FROE_OK;
+}
+
+static froe_status reserve(const adding *a) {
+    froe_motion *m = a->motion;
+    const froe_moving *b = a->batch;
+    size_t knots = b->vertex_count ? b->starts[b->vertex_count] - b->starts[0] : 0;
+    bool room = array_reserve(&m->alloc, &m->knots, knots) && array_reserve(&m->alloc, &m->plans, b->vertex_count) &&
+                array_reserve(&m->alloc, &m->objects, b->count);
+    return room ? FROE_OK : base_fail_memory(a->diag);
+}
+
+static froe_status take_vertices(adding *a) {
+    const froe_moving *b = a->batch;
+    for (size_t v = 0; v < b->vertex_count; v++) {
+        size_t start = b->starts[v];
+        plan_input plan = {b->starts[v + 1] - start, b->times + start, b->coords + 2 * start, NULL, (uint32_t)v};
+        if (b->controls) plan.controls = b->controls + 2 * start;
+        froe_status status = take_plan(a, &plan, a->motion->plans.data + a->motion->plans.count + v);
+        if (status) return status;
+    }
+    return FROE_OK;
+}
+
+static froe_status set_life(const adding *a, uint32_t j, motion_object *o) {
+    const froe_motion *m = a->motion;
+    const froe_moving *b = a->batch;
+    double birth = b->births ? b->births[j] : m->begin, death = b->deaths ? b->deaths[j] : m->end;
+    if (!(birth <= death) || birth == (double)INFINITY || death == -(double)INFINITY)
+        return base_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u lives from %g to %g", j, birth,
+                            death);
+    o->birth = birth > m->begin ? birth + 0.0 : m->begin;
+    o->death = death < m->end ? death + 0.0 : m->end;
+    o->first = motion_tick_after(m, o->birth);
+    o->last = motion_tick_before(m, o->death);
+    return FROE_OK;
+}
+
+static froe_status take_segment(const adding *a, uint32_t j, motion_object *o) {
+    const froe_moving *b = a->batch;
+    const froe_motion *m = a->motion;
+    froe_status status = set_life(a, j, o);
+    for (int k = 0; k < 2 && !status; k++) {
+        uint32_t v = b->vertices ? b->vertices[2 * (size_t)j + (size_t)k] : 2 * j + (uint32_t)k;
+        if (v >= b->vertex_count)
+            return base_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u: there is no vertex %u", j,
+                                v);
+        o->vertices[k] = (uint32_t)m->plans.count + v;
+        status = check_cover(a, m->plans.data + o->vertices[k], v, j, o->birth, o->death);
+    }
+    o->tag = b->tags ? b->tags[j] : m->objects.count + j;
+    o->group = b->groups ? b->groups[j] : b->group;
+    return status;
+}
+
+static void commit(const adding *a) {
+    froe_motion *m = a->motion;
+    m->unit = a->unit;
+    m->top = a->top;
+    m->knots.count += a->knots;
+}
+
+froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag) {
+    if (!motion || !batch) return base_fail(diag, FROE_E_ARG, "no motion or no batch");
+    adding a = {motion, batch, diag, 0, motion->unit, motion->top};
+    froe_status status = check(&a);
+    if (!status) status = reserve(&a);
+    if (!status) status = take_vertices(&a);
+    for (uint32_t j = 0; j < batch->count && !status; j++)
+        status = take_segment(&a, j, motion->objects.data + motion->objects.count + j);
+    if (status) return status;
+    commit(&a);
+    motion->plans.count += batch->vertex_count;
+    motion->objects.count += batch->count;
+    return FROE_OK;
+}
+
+froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const double *times, const double *coords,
+                          const double *controls, const double life[2], froe_diagnostic *diag) {
+    adding a = {m, NULL, diag, 0, m->unit, m->top};
+    plan_input input = {count, times, coords, controls, vertex};
+    motion_plan plan;
+    if (!array_reserve(&m->alloc, &m->knots, count)) return base_fail_memory(diag);
+    froe_status status = take_plan(&a, &input, &plan);
+    if (!status) status = check_cover(&a, &plan, vertex, FROE_NONE, life[0], life[1]);
+    if (status) return status;
+    commit(&a);
+    m->plans.data[vertex] = plan;
+    return FROE_OK;
+}

@@ -1,0 +1,167 @@
+/* place.c: where a vertex is at a tick: as stack integers, as dyadic numbers, with error bounds, in doubles.
+ *
+ * Stack integers count coordinates in units of 2^unit of the whole motion, and times in a unit of the piece, in which
+ * its ends, the window's and all ticks are whole. */
+#include "kinetic/motion.h"
+#include <string.h>
+
+#define T num_dyadic
+#define CURVE motion_dyadic_curve
+#define NAME(f) dyadic_##f
+#define POINT(x) num_dyadic_from(arena, x)
+#define TIME(x) num_dyadic_from(arena, x)
+#define TICKS(u) num_dyadic_scaled(arena, 1, (uint64_t)(u), m->power)
+#define ONE num_dyadic_scaled(arena, 1, 1, 0)
+#define ADD(a, b) num_dyadic_add(arena, a, b)
+#define SUB(a, b) num_dyadic_sub(arena, a, b)
+#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "kinetic/place_body.inc"
+
+#define T num_ball
+#define CURVE motion_ball_curve
+#define NAME(f) ball_##f
+#define POINT(x) num_ball_from(x)
+#define TIME(x) num_ball_from(x)
+#define TICKS(u) num_ball_from(ldexp((double)(u), m->power))
+#define ONE num_ball_from(1)
+#define ADD(a, b) num_ball_add(a, b)
+#define SUB(a, b) num_ball_sub(a, b)
+#define MUL(a, b) num_ball_mul(a, b)
+#include "kinetic/place_body.inc"
+
+/* x / 2^unit, which is whole. */
+static motion_int whole_of(double x, int unit) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    int power = (int)(bits >> 52 & 0x7ff);
+    motion_int mantissa = (motion_int)(bits & 0xfffffffffffffu);
+    if (power)
+        mantissa |= (motion_int)1 << 52;
+    else
+        power = 1;
+    if (!mantissa) return 0;
+    int shift = power - 1075 - unit;
+    mantissa = shift >= 0 ? mantissa << shift : mantissa >> -shift;
+    return bits >> 63 ? -mantissa : mantissa;
+}
+
+#define T motion_int
+#define NAME(f) whole_##f
+#define POINT(x) whole_of(x, m->unit)
+#define TIME(x) whole_of(x, piece->from->unit)
+#define TICKS(u) ((motion_int)(u) << (m->power - piece->from->unit))
+#define ONE 1
+#define ADD(a, b) ((a) + (b))
+#define SUB(a, b) ((a) - (b))
+#define MUL(a, b) ((a) * (b))
+#include "kinetic/place_body.inc"
+
+bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_int out[3]) {
+    enum { MOST = 125 }; /* a sum of three products with weights whose sum is W */
+    if (m->top - m->unit + piece->degree * piece->from->bits > MOST) return false;
+    whole_place(NULL, m, piece, tick, out);
+    return true;
+}
+
+void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic out[3]) {
+    dyadic_place(arena, m, piece, tick, out);
+}
+
+void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball out[3]) {
+    ball_place(NULL, m, piece, tick, out);
+}
+
+void motion_curve_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
+                         motion_dyadic_curve *out) {
+    dyadic_curve(arena, m, piece, tick, out);
+}
+
+void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_ball_curve *out) {
+    ball_curve(NULL, m, piece, tick, out);
+}
+
+/* --------------------------------------------------------------- in doubles -- */
+
+/* a / b, b > 0. */
+static num_ball divide(num_ball a, num_ball b) {
+    double q = a.x / b.x, least = b.x - b.e;
+    if (!(least > 0)) return (num_ball){q, (double)INFINITY};
+    return (num_ball){q, (((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP) + NUM_BALL_TINY};
+}
+
+static num_ball between(double p, double q, num_ball share) {
+    num_ball from = num_ball_from(p);
+    return num_ball_add(from, num_ball_mul(share, num_ball_sub(num_ball_from(q), from)));
+}
+
+/* De Casteljau. */
+static num_ball along(const motion_piece *piece, num_ball share, int k) {
+    double p = piece->from->at[k], q = piece->to->at[k], c = piece->from->control[k];
+    if (piece->degree < 2) return between(p, q, share);
+    num_ball from = between(p, c, share), to = between(c, q, share);
+    return num_ball_add(from, num_ball_mul(share, num_ball_sub(to, from)));
+}
+
+double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double out[2]) {
+    num_ball share = num_ball_from(0);
+    if (piece->degree) {
+        ball_weights w = ball_weigh(NULL, m, piece, tick);
+        share = divide(w.b, num_ball_add(w.a, w.b));
+    }
+    num_ball x = along(piece, share, 0), y = along(piece, share, 1);
+    out[0] = x.x;
+    out[1] = y.x;
+    if (!(x.e < (double)INFINITY && y.e < (double)INFINITY)) return (double)INFINITY; /* NaN, too */
+    return x.e > y.e ? x.e : y.e;
+}
+
+/* -------------------------------------------------------------------- pieces -- */
+
+static motion_piece piece_of(const motion_knot *from, bool alone) {
+    motion_piece piece = {from, alone ? from : from + 1, 0, MOTION_FAR};
+    if (!alone) piece.degree = isnan(from->control[0]) ? 1 : 2;
+    return piece;
+}
+
+motion_piece motion_piece_after(const froe_motion *m, uint32_t vertex, uint32_t knot) {
+    const motion_plan *plan = m->plans.data + vertex;
+    const motion_knot *from = m->knots.data + plan->first + knot;
+    motion_piece piece = piece_of(from, plan->count == 1);
+    if (knot + 2 < plan->count) piece.last = from[1].tick - 1;
+    return piece;
+}
+
+motion_piece motion_piece_at(const froe_motion *m, uint32_t vertex, int64_t tick) {
+    const motion_plan *plan = m->plans.data + vertex;
+    const motion_knot *knots = m->knots.data + plan->first;
+    uint32_t low = 0, high = plan->count > 1 ? plan->count - 1 : 1; /* of the knots that begin pieces */
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (knots[middle].tick <= tick)
+            low = middle;
+        else
+            high = middle;
+    }
+    return motion_piece_after(m, vertex, low);
+}
+
+bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, double at[2]) {
+    if (!m || vertex >= m->plans.count || !isfinite(time)) return false;
+    const motion_plan *plan = m->plans.data + vertex;
+    const motion_knot *knots = m->knots.data + plan->first;
+    uint32_t low = 0, high = plan->count > 1 ? plan->count - 1 : 1;
+    if (plan->count > 1 && (time < knots[0].time || time > knots[plan->count - 1].time)) return false;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (knots[middle].time <= time)
+            low = middle;
+        else
+            high = middle;
+    }
+    motion_piece piece = piece_of(knots + low, plan->count == 1);
+    num_ball share = num_ball_from(0);
+    if (piece.degree) /* halves: ends may be as far apart as doubles go */
+        share.x = (0.5 * time - 0.5 * piece.from->time) / (0.5 * piece.to->time - 0.5 * piece.from->time);
+    for (int k = 0; k < 2; k++) at[k] = share.x < 1 ? along(&piece, share, k).x : piece.to->at[k];
+    return true;
+}
