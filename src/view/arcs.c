@@ -3,109 +3,20 @@
  * Each node may be painted whole, once, if it comes after every node that paints, behind it, where it is visible: then
  * the last to paint any point is the one that is visible there. A grid on the page finds pairs of a visible piece and a
  * part; separating axes in doubles decide almost all of them, sightlines the rest: parts that touch must not count. */
+#include "view/grid.h"
 #include "view/parts.h"
-#include <math.h>
-
-enum { CELLS_MOST = 512, ENTRIES_A_PART = 12 };
-
-typedef struct grid {
-    uint32_t cells;    /* a side */
-    uint32_t *starts;  /* cells^2 + 1 */
-    uint32_t *entries; /* parts */
-    double wide, high; /* of a cell */
-} grid;
 
 typedef struct finder {
     view_parts *parts;
     view_sights *sights;
     view_arcs *arcs;
-    grid grid;
+    view_grid grid;
     print_ring piece;
     view_ring ring;
     uint32_t *stamps; /* per part: the visible piece + 1 that it was compared with last */
     uint32_t *known;  /* per node: the node + 1 that is known to come after it */
     uint64_t most, *tests;
 } finder;
-
-/* ------------------------------------------------------------------------- grid -- */
-
-typedef struct cell_range {
-    uint32_t x0, y0, x1, y1; /* inclusive */
-} cell_range;
-
-static uint32_t cell_at(double x, double size, uint32_t cells) {
-    const double at = floor(x / size);
-    return at >= 0 ? at < cells ? (uint32_t)at : cells - 1 : 0;
-}
-
-static cell_range range_of(const grid *g, const print_point *ring, size_t count) {
-    double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
-    for (size_t i = 0; i < count; i++) {
-        x0 = fmin(x0, ring[i].x), x1 = fmax(x1, ring[i].x);
-        y0 = fmin(y0, ring[i].y), y1 = fmax(y1, ring[i].y);
-    }
-    const double slack = 1e-9; /* of a cell: rounding must not part neighbours */
-    return (cell_range){
-        cell_at(x0 - slack * g->wide, g->wide, g->cells), cell_at(y0 - slack * g->high, g->high, g->cells),
-        cell_at(x1 + slack * g->wide, g->wide, g->cells), cell_at(y1 + slack * g->high, g->high, g->cells)};
-}
-
-static uint64_t entries_for(finder *f) {
-    uint64_t total = 0;
-    for (size_t i = 0; i < f->parts->parts.count; i++) {
-        const paint_part *p = f->parts->parts.data + i;
-        const cell_range r = range_of(&f->grid, f->parts->points.data + p->first, p->count);
-        total += (uint64_t)(r.x1 - r.x0 + 1) * (r.y1 - r.y0 + 1);
-    }
-    return total;
-}
-
-static void set_cells(finder *f, uint32_t cells) {
-    f->grid.cells = cells;
-    f->grid.wide = f->parts->view->width / cells;
-    f->grid.high = f->parts->view->height / cells;
-}
-
-/* As fine as the number of parts asks for, but not so fine that large parts fill the memory. */
-static uint64_t choose_cells(finder *f) {
-    const double wanted = sqrt((double)f->parts->parts.count);
-    uint32_t cells = wanted < 8 ? 8 : wanted > CELLS_MOST ? CELLS_MOST : (uint32_t)wanted;
-    for (;; cells /= 2) {
-        set_cells(f, cells);
-        const uint64_t entries = entries_for(f);
-        if (cells <= 8 || entries <= ENTRIES_A_PART * (uint64_t)f->parts->parts.count) return entries;
-    }
-}
-
-static void fill_grid(finder *f, bool count_only) {
-    grid *g = &f->grid;
-    for (size_t i = f->parts->parts.count; i-- > 0;) {
-        const paint_part *p = f->parts->parts.data + i;
-        const cell_range r = range_of(g, f->parts->points.data + p->first, p->count);
-        for (uint32_t y = r.y0; y <= r.y1; y++)
-            for (uint32_t x = r.x0; x <= r.x1; x++) {
-                const size_t cell = (size_t)y * g->cells + x;
-                if (count_only)
-                    g->starts[cell]++;
-                else
-                    g->entries[--g->starts[cell]] = (uint32_t)i;
-            }
-    }
-}
-
-static bool make_grid(finder *f, uint64_t *entry_count) {
-    const froe_allocator *alloc = &f->parts->v->alloc;
-    grid *g = &f->grid;
-    *entry_count = choose_cells(f);
-    const size_t cells = (size_t)g->cells * g->cells;
-    g->starts = base_calloc(alloc, cells + 1, sizeof *g->starts);
-    g->entries = *entry_count < UINT32_MAX ? base_calloc(alloc, *entry_count + 1, sizeof *g->entries) : NULL;
-    if (!g->starts || !g->entries) return false;
-    fill_grid(f, true);
-    for (size_t i = 1; i <= cells; i++) g->starts[i] += g->starts[i - 1]; /* ends, which filling lowers to starts */
-    fill_grid(f, false);
-    return true;
-}
 
 /* ---------------------------------------------------------------------- overlap -- */
 
@@ -167,11 +78,11 @@ static froe_status compare(finder *f, uint32_t visible, uint32_t i) {
 
 static froe_status compare_piece(finder *f, uint32_t visible) {
     froe_status status = FROE_OK;
-    const grid *g = &f->grid;
+    const view_grid *g = &f->grid;
     f->piece.count = 0;
     if (!view_print_visible(f->parts, visible, &f->piece)) return FROE_E_MEMORY;
     if (f->piece.count < 3) return FROE_OK;
-    const cell_range r = range_of(g, f->piece.data, f->piece.count);
+    const view_cells r = view_grid_cells(g, f->piece.data, f->piece.count, 0);
     for (uint32_t y = r.y0; y <= r.y1; y++)
         for (uint32_t x = r.x0; x <= r.x1; x++) {
             const size_t cell = (size_t)y * g->cells + x;
@@ -181,22 +92,25 @@ static froe_status compare_piece(finder *f, uint32_t visible) {
     return status;
 }
 
+static const print_point *points_of(const void *user, size_t i, size_t *points) {
+    const view_parts *p = user;
+    *points = p->parts.data[i].count;
+    return p->points.data + p->parts.data[i].first;
+}
+
 froe_status view_find_arcs(view_parts *parts, view_sights *sights, uint64_t most, view_arcs *arcs, uint64_t *tests) {
     const froe_allocator *alloc = &parts->v->alloc;
     finder f = {.parts = parts, .sights = sights, .arcs = arcs, .most = most, .tests = tests};
     const size_t part_count = parts->parts.count, node_count = parts->nodes.count;
-    uint64_t entries = 0;
     arcs->count = 0;
     f.stamps = base_calloc(alloc, part_count + 1, sizeof *f.stamps);
     f.known = base_calloc(alloc, node_count + 1, sizeof *f.known);
-    const bool ok = f.stamps && f.known && make_grid(&f, &entries);
-    froe_status status = ok ? FROE_OK : FROE_E_MEMORY;
+    froe_status status = f.stamps && f.known ? FROE_OK : FROE_E_MEMORY;
+    if (!status) status = view_grid_new(alloc, parts->view, part_count, points_of, parts, &f.grid);
     for (uint32_t i = 0; i < parts->v->piece_count && !status; i++) status = compare_piece(&f, i);
     base_free(alloc, f.stamps, (part_count + 1) * sizeof *f.stamps);
     base_free(alloc, f.known, (node_count + 1) * sizeof *f.known);
-    if (f.grid.starts)
-        base_free(alloc, f.grid.starts, ((size_t)f.grid.cells * f.grid.cells + 1) * sizeof *f.grid.starts);
-    base_free(alloc, f.grid.entries, (entries + 1) * sizeof *f.grid.entries);
+    view_grid_free(alloc, &f.grid);
     array_free(alloc, &f.piece);
     array_free(alloc, &f.ring);
     return status;
