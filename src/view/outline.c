@@ -19,6 +19,7 @@ void view_outliner_free(view_outliner *o) {
     array_free(&o->alloc, &o->sides);
     array_free(&o->alloc, &o->starts);
     array_free(&o->alloc, &o->ring);
+    array_free(&o->alloc, &o->detours);
     print_free(&o->press);
 }
 
@@ -36,9 +37,9 @@ static bool is_drawn(const view_outliner *o, uint32_t object) {
     return facing > 0 || (facing < 0 && !o->cull_back);
 }
 
-static bool add_side(view_outliner *o, uint32_t edge, uint32_t from, uint32_t to) {
+static bool add_side(view_outliner *o, uint32_t edge, uint32_t object, uint32_t from, uint32_t to) {
     const uint32_t side = (uint32_t)o->sides.count;
-    if (!array_push(&o->alloc, &o->sides, (outline_side){edge, to, o->first_side[from]}) ||
+    if (!array_push(&o->alloc, &o->sides, (outline_side){edge, to, object, o->first_side[from]}) ||
         !array_push(&o->alloc, &o->starts, from))
         return false;
     o->first_side[from] = side;
@@ -54,7 +55,7 @@ static bool add_sides(view_outliner *o, uint32_t patch, uint32_t object) {
         const uint32_t edge = s->edge_of[scene->starts[object] + i], other = across(s, edge, object);
         const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
         if (other != FROE_NONE && s->patch_of[other] == patch && is_drawn(o, other)) continue;
-        if (!add_side(o, edge, front ? a : b, front ? b : a)) return false;
+        if (!add_side(o, edge, object, front ? a : b, front ? b : a)) return false;
     }
     return true;
 }
@@ -106,14 +107,41 @@ static bool apex(const view_outliner *o, uint32_t object, print_point a, print_p
     return *height > 1e-6 * o->underlap;
 }
 
-static bool put_underlap(const view_outliner *o, uint32_t object, print_point a, print_point b, print_ring *points) {
+/* From a and b towards c, which is `height` away from ab, as far as the width of the underlap; or just c. */
+static outline_detour detour_by(const view_outliner *o, print_point a, print_point b, print_point c, double height) {
+    const double t = height > o->underlap ? o->underlap / height : 1;
+    if (t > 0.99) return (outline_detour){1, {c}};
+    return (outline_detour){
+        2, {{a.x + t * (c.x - a.x), a.y + t * (c.y - a.y)}, {b.x + t * (c.x - b.x), b.y + t * (c.y - b.y)}}};
+}
+
+/* A side where the patch is hidden, and with it what hides it ends, is drawn short; see seams.h. */
+static bool trim(view_outliner *o, uint32_t object, print_point a, print_point b, outline_detour *out) {
     print_point c;
     double height;
-    if (object == FROE_NONE || !apex(o, object, a, b, &c, &height)) return true;
-    const double t = height > o->underlap ? o->underlap / height : 1;
-    if (t > 0.99) return array_push(&o->alloc, points, c);
-    return array_push(&o->alloc, points, ((print_point){a.x + t * (c.x - a.x), a.y + t * (c.y - a.y)})) &&
-           array_push(&o->alloc, points, ((print_point){b.x + t * (c.x - b.x), b.y + t * (c.y - b.y)}));
+    bool hidden;
+    if (!apex(o, object, b, a, &c, &height)) return true;
+    const outline_detour d = detour_by(o, a, b, c, height);
+    const print_point ring[4] = {a, b, d.at[d.count - 1], d.at[0]};
+    if (!view_seams_hidden(o->seams, o->node, ring, 2 + d.count, &hidden)) return false;
+    if (hidden) *out = d;
+    return true;
+}
+
+static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline_detour *out) {
+    const outline_side *s = o->sides.data + side;
+    const uint32_t object = under(o, patch, s->edge);
+    const print_point a = page_of(o, o->starts.data[side]), b = page_of(o, s->to);
+    print_point c;
+    double height;
+    bool bare;
+    out->count = 0;
+    if (object != FROE_NONE && apex(o, object, a, b, &c, &height)) {
+        *out = detour_by(o, a, b, c, height);
+        return true;
+    }
+    if (!o->seams) return true;
+    return view_seams_look(o->seams, o->node, a, b, &bare) && (!bare || trim(o, s->object, a, b, out));
 }
 
 /* ------------------------------------------------------------------------ rings -- */
@@ -138,21 +166,41 @@ static bool press_ring(view_outliner *o, print_ring *points, bool *cut) {
     return print_end(&o->press, points, cut);
 }
 
-static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, view_ring_ends *ends) {
-    const size_t n = o->ring.count, first = points->count;
+/* Strips along the sides of a ring as it is printed. */
+static bool look_along(view_outliner *o, const print_point *ring, size_t count) {
+    bool bare;
+    for (size_t i = 0; o->seams && i < count; i++)
+        if (!view_seams_look(o->seams, o->node, ring[i], ring[i + 1 < count ? i + 1 : 0], &bare)) return false;
+    return true;
+}
+
+static bool put_sides(view_outliner *o, uint32_t patch, print_ring *points) {
+    const size_t n = o->ring.count;
+    o->detours.count = 0;
+    if (!array_reserve(&o->alloc, &o->detours, n) || !array_reserve(&o->alloc, points, 3 * n)) return false;
+    for (size_t i = 0; i < n; i++)
+        if (!find_detour(o, patch, o->ring.data[i], &o->detours.data[i])) return false;
+    for (size_t i = 0; i < n; i++) {
+        const size_t j = i ? i - 1 : n - 1;
+        const uint32_t side = o->ring.data[i], before = o->ring.data[j], a = o->starts.data[side];
+        const outline_detour *d = o->detours.data + i;
+        const bool plain = !d->count && !o->detours.data[j].count;
+        if (plain && is_straight(o, o->starts.data[before], a, o->sides.data[side].to)) continue;
+        points->data[points->count++] = page_of(o, a);
+        for (uint32_t k = 0; k < d->count; k++) points->data[points->count++] = d->at[k];
+    }
+    return true;
+}
+
+static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
+    const size_t first = points->count;
     bool cut;
     if (!press_ring(o, points, &cut)) return false;
-    if (!cut) {
+    if (cut) {
+        if (!look_along(o, points->data + first, points->count - first)) return false;
+    } else {
         points->count = first;
-        for (size_t i = 0; i < n; i++) {
-            const uint32_t side = o->ring.data[i], before = o->ring.data[i ? i - 1 : n - 1], a = o->starts.data[side],
-                           b = o->sides.data[side].to;
-            const uint32_t object = under(o, patch, o->sides.data[side].edge);
-            const bool plain = object == FROE_NONE && under(o, patch, o->sides.data[before].edge) == FROE_NONE;
-            if (plain && is_straight(o, o->starts.data[before], a, b)) continue;
-            const print_point p = page_of(o, a);
-            if (!array_push(&o->alloc, points, p) || !put_underlap(o, object, p, page_of(o, b), points)) return false;
-        }
+        if (!put_sides(o, patch, points)) return false;
     }
     if (points->count - first < 3) {
         points->count = first;
@@ -161,7 +209,7 @@ static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, view_
     return array_push(&o->alloc, ends, (uint32_t)points->count);
 }
 
-static bool put_rings(view_outliner *o, uint32_t patch, print_ring *points, view_ring_ends *ends) {
+static bool put_rings(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
     for (uint32_t i = 0; i < o->sides.count; i++) {
         if (!take_ring(o, i)) return false;
         if (o->ring.count > 2 && !put_ring(o, patch, points, ends)) return false;
@@ -169,7 +217,7 @@ static bool put_rings(view_outliner *o, uint32_t patch, print_ring *points, view
     return true;
 }
 
-bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, view_ring_ends *ends) {
+bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
     const froe_surface *s = o->sights->surface;
     bool ok = true;
     o->sides.count = o->starts.count = 0;

@@ -22,7 +22,22 @@ static bool end_ring(froe_picture *picture, size_t first) {
     return array_push(&picture->alloc, &picture->ring_ends, (uint32_t)picture->points.count);
 }
 
-static bool put_region(view_painter *p, uint32_t patch) {
+/* What lies along the sides of the last ring, which begins at `first`; strips come after all rings of a shape. */
+static bool look_along(view_painter *p, uint32_t node, size_t first) {
+    const print_point *ring = p->picture->points.data + first;
+    const size_t n = p->picture->points.count - first;
+    bool bare;
+    for (size_t i = 0; p->seams.parts && i < n; i++)
+        if (!view_seams_look(&p->seams, node, ring[i], ring[i + 1 < n ? i + 1 : 0], &bare)) return false;
+    return true;
+}
+
+static bool put_strips(view_painter *p) {
+    return !p->seams.parts || view_seams_flush(&p->seams, &p->picture->points, &p->picture->ring_ends);
+}
+
+/* `node` paints it; FROE_NONE: by itself. */
+static bool put_region(view_painter *p, uint32_t patch, uint32_t node) {
     froe_picture *picture = p->picture;
     const view_region *r = &p->region;
     const view_sights *s = p->sights;
@@ -36,31 +51,37 @@ static bool put_region(view_painter *p, uint32_t patch) {
                             page);
             picture->points.data[picture->points.count++] = (print_point){page[0], page[1]};
         }
-        if (!end_ring(picture, first)) return false;
+        if (!end_ring(picture, first) || (node != FROE_NONE && !look_along(p, node, first))) return false;
     }
+    if (node != FROE_NONE && !put_strips(p)) return false;
     view_end_shape(picture);
     return true;
 }
 
+static bool is_clear(const view_painter *p, uint32_t patch) {
+    return p->options->clear && p->options->clear[patch];
+}
+
 /* The visible parts of one piece of the tree. */
-static bool put_parts_of_piece(view_painter *p, const paint_node *node) {
+static bool put_parts_of_piece(view_painter *p, uint32_t number) {
     froe_picture *picture = p->picture;
+    const paint_node *node = p->parts.nodes.data + number;
+    const bool opaque = !is_clear(p, node->patch);
     const froe_visibility *v = p->v;
     if (!view_begin_shape(picture, node->patch, false)) return false;
     for (uint32_t i = v->patch_starts[node->patch]; i < v->patch_starts[node->patch + 1]; i++) {
         const size_t first = picture->points.count;
         if (v->pieces[i].piece != node->piece) continue;
-        if (!view_print_visible(&p->parts, i, &picture->points) || !end_ring(picture, first)) return false;
+        if (!view_print_visible(&p->parts, i, &picture->points) || !end_ring(picture, first) ||
+            (opaque && !look_along(p, number, first)))
+            return false;
     }
+    if (!put_strips(p)) return false;
     view_end_shape(picture);
     return true;
 }
 
 /* ------------------------------------------------------------------------- whole -- */
-
-static bool is_clear(const view_painter *p, uint32_t patch) {
-    return p->options->clear && p->options->clear[patch];
-}
 
 /* Runs of patches of one style; patches painted whole and opaque get the number of theirs. */
 static void number_runs(view_painter *p) {
@@ -76,10 +97,12 @@ static void number_runs(view_painter *p) {
     }
 }
 
-static bool put_whole(view_painter *p, uint32_t patch) {
+static bool put_whole(view_painter *p, uint32_t patch, uint32_t node) {
     froe_picture *picture = p->picture;
+    p->outliner.node = node;
+    p->outliner.seams = p->seams.parts && !is_clear(p, patch) ? &p->seams : NULL;
     if (!view_begin_shape(picture, patch, true) ||
-        !view_outline(&p->outliner, patch, &picture->points, &picture->ring_ends))
+        !view_outline(&p->outliner, patch, &picture->points, &picture->ring_ends) || !put_strips(p))
         return false;
     view_end_shape(picture);
     return true;
@@ -92,7 +115,8 @@ static froe_status begin_outlines(view_painter *p) {
     number_runs(p);
     p->outliner.underlap = p->options->underlap;
     p->outliner.runs = p->runs;
-    return FROE_OK;
+    if (!(p->options->underlap > 0)) return FROE_OK;
+    return view_seams_new(&p->seams, &p->parts, p->order, p->options->styles, p->options->clear, p->options->underlap);
 }
 
 froe_status view_paint_whole(view_painter *p) {
@@ -100,9 +124,9 @@ froe_status view_paint_whole(view_painter *p) {
     for (uint32_t i = 0; i < p->graph.count; i++) {
         const uint32_t v = p->order[i];
         const paint_node *node = p->parts.nodes.data + v;
-        const bool ok = node->piece != FROE_NONE ? put_parts_of_piece(p, node)
-                        : p->graph.late[v]       ? put_region(p, node->patch)
-                                                 : put_whole(p, node->patch);
+        const bool ok = node->piece != FROE_NONE ? put_parts_of_piece(p, v)
+                        : p->graph.late[v]       ? put_region(p, node->patch, v)
+                                                 : put_whole(p, node->patch, v);
         if (!ok) return FROE_E_MEMORY;
         if (p->picture->points.count > INT32_MAX) return FROE_E_LIMIT;
     }
@@ -128,7 +152,7 @@ froe_status view_paint_regions(view_painter *p) {
     size_t count;
     base_pair *pairs = list_by_style(p, &count);
     bool ok = pairs != NULL;
-    for (size_t i = 0; ok && i < count; i++) ok = put_region(p, pairs[i].value);
+    for (size_t i = 0; ok && i < count; i++) ok = put_region(p, pairs[i].value, FROE_NONE);
     base_free(&p->picture->alloc, pairs, (2 * (size_t)p->v->surface->patch_count + 1) * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

@@ -112,6 +112,7 @@ static froe_status note_styles(view_painter *p) {
 static void free_painter(view_painter *p) {
     const froe_allocator *alloc = &p->picture->alloc;
     view_outliner_free(&p->outliner);
+    view_seams_free(&p->seams);
     view_graph_free(alloc, &p->graph);
     array_free(alloc, &p->arcs);
     view_region_free(alloc, &p->region);

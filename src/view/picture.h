@@ -19,8 +19,8 @@ struct froe_picture {
     froe_allocator alloc;
     uint32_t *styles; /**< per shape */
     ARRAY(picture_shape) shapes;
-    print_ring points;        /**< of the rings of all shapes */
-    view_ring_ends ring_ends; /**< per ring: where its points end */
+    print_ring points;    /**< of the rings of all shapes */
+    print_ends ring_ends; /**< per ring: where its points end */
     ARRAY(picture_stroke) strokes;
     print_ring stroke_points;
     froe_picture_report report;
@@ -36,6 +36,7 @@ typedef struct view_painter {
     view_arcs arcs;
     view_graph graph;
     view_outliner outliner;
+    view_seams seams;
     view_region region;
     uint32_t *order;  /**< of the nodes */
     uint32_t *places; /**< per piece of the tree, when something is clear */

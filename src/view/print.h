@@ -12,6 +12,8 @@ typedef struct print_point {
 } print_point;
 
 typedef ARRAY(print_point) print_ring;
+/** Per ring of several: where its points end. */
+typedef ARRAY(uint32_t) print_ends;
 
 /** A ring in the camera's coordinates on its way to the page. */
 typedef struct print_press {

@@ -117,10 +117,16 @@ static void check_sample(page *p, double x, double y) {
     p->layers += count;
 }
 
+static void place(page *p, const froe_camera *c) {
+    froe_diagnostic why = {.message = ""};
+    if (froe_camera_place(c, p->tree->scene, &p->view, &why)) fail_msg("%s", why.message);
+    rational_point_set(&p->from, 3, p->view.eye.at);
+    if (p->view.eye.parallel) mpq_set_ui(p->from.w, 0, 1);
+}
+
 /* The camera of an eye that lies anywhere, looking at the middle. */
 static void set_view(page *p, uint32_t e) {
     froe_camera c = froe_camera_defaults();
-    froe_diagnostic why = {.message = ""};
     const froe_eye eye = rays_eye(p->tree, e);
     const froe_scene *s = p->tree->scene;
     c.parallel = eye.parallel;
@@ -130,9 +136,7 @@ static void set_view(page *p, uint32_t e) {
         c.target[k] = 0.5 * (s->lo[k] + s->hi[k]) + 0.01 * k;
         c.eye[k] = eye.parallel ? c.target[k] + eye.at[k] : eye.at[k];
     }
-    if (froe_camera_place(&c, s, &p->view, &why)) fail_msg("%s", why.message);
-    rational_point_set(&p->from, 3, p->view.eye.at);
-    if (p->view.eye.parallel) mpq_set_ui(p->from.w, 0, 1);
+    place(p, &c);
 }
 
 static void check_view(page *p, uint32_t samples, uint32_t seed) {
@@ -150,7 +154,7 @@ static froe_picture_report check_tree(froe_tree *tree, uint32_t eyes, uint32_t s
     uint8_t *clear = calloc(p.surface->patch_count + 1, 1);
     for (uint32_t i = 0; i < p.surface->patch_count; i++) clear[i] = through && trees_random(11, i, 2);
     p.options.paint = paint;
-    p.options.underlap = through ? 0 : 3;
+    p.options.underlap = 3;
     if (through) p.options.clear = clear;
     for (uint32_t e = 0; e < eyes; e++) {
         set_view(&p, e);
@@ -223,6 +227,92 @@ static void layers_that_one_sees_through_come_in_their_order(void **state) {
     assert_true(r.late > 0);
     check_tree(lattice_tree(), 8, 50, FROE_PAINT_WHOLE, true);
     check_tree(landscape(), 5, 50, FROE_PAINT_WHOLE, true);
+}
+
+/* A tall wall beside two low ones, in one plane: they share no edge, for the middle of the tall one's is no corner. */
+static froe_tree *junction(void) {
+    const double x[] = {0, 0, 0, 2, 0, 0, 2, 0, 2, 0, 0, 2, 2, 0, 0, 3, 0, 0,
+                        3, 0, 1, 2, 0, 1, 2, 0, 1, 3, 0, 1, 3, 0, 2, 2, 0, 2};
+    const size_t starts[] = {0, 4, 8, 12};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    froe_objects o = froe_objects_defaults();
+    o.count = 3, o.coords = x, o.starts = starts;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    froe_scene_free(scene);
+    return tree;
+}
+
+static uint32_t shapes_at(const page *p, double x, double y) {
+    uint32_t count = 0;
+    for (size_t i = 0; i < froe_picture_shape_count(p->picture); i++) {
+        const froe_shape s = froe_picture_shape(p->picture, i);
+        count += inside_shape(p, &s, x, y);
+    }
+    return count;
+}
+
+/* Seen close, on either side of the border, one of the two is extended under the other. */
+static void shapes_go_under_later_ones_where_corners_are_not_shared(void **state) {
+    (void)state;
+    froe_tree *tree = junction();
+    const uint32_t styles[] = {0, 1, 2};
+    page p;
+    open_page(&p, tree);
+    p.options.styles = styles;
+    froe_camera c = froe_camera_defaults();
+    c.parallel = true;
+    c.eye[0] = c.eye[2] = 0;
+    place(&p, &c);
+    for (int with = 0; with < 2; with++) {
+        p.options.underlap = with;
+        check_view(&p, 50, 1);
+        for (int k = 1; k < 8; k++) {
+            const double at[3] = {2, 0, 0.25 * k + 0.01};
+            double spot[2];
+            assert_true(froe_project(&p.view, at, spot));
+            assert_int_equal(shapes_at(&p, spot[0] - 0.4, spot[1]) + shapes_at(&p, spot[0] + 0.4, spot[1]), 2 + with);
+        }
+        froe_picture_free(p.picture);
+    }
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
+/* Two roofs from one ridge, the farther one seen below the eaves of the nearer one: along the ridge
+ * it is hidden and would shine through. */
+static void what_is_hidden_ends_before_what_hides_it(void **state) {
+    (void)state;
+    const double x[] = {0, 0, 4, 9, 0, 4, 9, -6, -2, 0, -6, -2, 0, 0, 4, 9, 0, 4, 9, -4.5, 1.5, 0, -4.5, 1.5};
+    const size_t starts[] = {0, 4, 8};
+    const uint32_t styles[] = {0, 1};
+    froe_scene *scene;
+    page p;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    froe_objects o = froe_objects_defaults();
+    o.count = 2, o.coords = x, o.starts = starts;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    froe_scene_free(scene);
+    open_page(&p, tree);
+    p.options.styles = styles;
+    froe_camera c = froe_camera_defaults();
+    c.parallel = true;
+    c.eye[0] = 0, c.eye[1] = -1, c.eye[2] = 0.2;
+    place(&p, &c);
+    for (int with = 0; with < 2; with++) {
+        double at[3] = {4.5, 0, 4}, spot[2];
+        p.options.underlap = with;
+        check_view(&p, 50, 1);
+        assert_int_equal(froe_picture_shape_count(p.picture), 2);
+        assert_true(froe_project(&p.view, at, spot));
+        assert_int_equal(shapes_at(&p, spot[0], spot[1] + 0.4), 2 - with);
+        assert_int_equal(shapes_at(&p, spot[0], spot[1] + 2), 2);
+        froe_picture_free(p.picture);
+    }
+    close_page(&p);
+    froe_tree_free(tree);
 }
 
 static void beyond_its_budget_a_picture_is_made_of_fragments_and_says_so(void **state) {
@@ -412,6 +502,8 @@ int main(void) {
         cmocka_unit_test(whole_patches_paint_each_other_over),
         cmocka_unit_test(regions_and_fragments_show_the_same),
         cmocka_unit_test(layers_that_one_sees_through_come_in_their_order),
+        cmocka_unit_test(shapes_go_under_later_ones_where_corners_are_not_shared),
+        cmocka_unit_test(what_is_hidden_ends_before_what_hides_it),
         cmocka_unit_test(beyond_its_budget_a_picture_is_made_of_fragments_and_says_so),
         cmocka_unit_test(styles_come_together),
         cmocka_unit_test(strokes_are_the_intervals_chained),
