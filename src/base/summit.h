@@ -1,0 +1,36 @@
+/* summit.h: numbers at positions 0 .. size - 1, raised over ranges; where is the first, the last, that is high enough?
+ *
+ *             max                    each node: what was added to its whole range, and the maximum of what
+ *            /    \                  its children have on top of that. Sums commute with maxima, so a raise
+ *         max      max               touches O(log size) nodes, and a search skips every node that is too low.
+ *        /   \    /   \
+ *       x0   x1  x2   x3
+ */
+#ifndef FROE_BASE_SUMMIT_H
+#define FROE_BASE_SUMMIT_H
+#include "base/memory.h"
+
+typedef struct base_summit_node {
+    int64_t add; /**< to all below, itself included */
+    int64_t max; /**< of all below, with add, without the adds above */
+} base_summit_node;
+
+typedef struct base_summit {
+    uint32_t size;          /**< a power of two */
+    base_summit_node *node; /**< [1] is the root, [2 i] and [2 i + 1] the children of [i] */
+} base_summit;
+#define BASE_SUMMIT_NONE UINT32_MAX
+
+/** All numbers 0. FROE_E_MEMORY. */
+froe_status base_summit_new(const froe_allocator *alloc, uint32_t size, base_summit *out);
+void base_summit_free(const froe_allocator *alloc, base_summit *s);
+/** Adds `by` to the numbers at from .. end - 1; nothing when end <= from. O(log size). */
+void base_summit_raise(base_summit *s, uint32_t from, uint32_t end, int64_t by);
+/** The first position in from .. end - 1 whose number is at least `level`, or BASE_SUMMIT_NONE.
+ * O(log^2 size), as the last one and the greatest number. */
+uint32_t base_summit_first(const base_summit *s, uint32_t from, uint32_t end, int64_t level);
+/** The last one. */
+uint32_t base_summit_last(const base_summit *s, uint32_t from, uint32_t end, int64_t level);
+/** The greatest number in from .. end - 1, from < end. */
+int64_t base_summit_max(const base_summit *s, uint32_t from, uint32_t end);
+#endif

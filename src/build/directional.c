@@ -1,0 +1,135 @@
+/* directional.c: boxes, cut where the room beside them pays for what is divided.
+ *
+ *      +----+ ......         Beside each side of a box lies a room, delta times as wide as the box. A cut may divide
+ *      |    | :    :         boxes if it goes through enough rooms that no cut has touched so far; those die. Each box
+ *      +----+ :....:         has 2 d rooms, so that happens a bounded number of times: size linear in n, as long as
+ *         :  |               few boxes reach across the neighbourhood of another (low directional density).
+ *         cut
+ *
+ * Tobola and Nechvile, "Linear size BSP trees for scenes with low directional density", with their cuts weighted, so
+ * that the bound on fragments can be proved (split/boxes.h), and cuts that divide nothing first. The stages are those
+ * of split/boxes_sweep.c. A cell is swept in time linear in its events; where a cut leaves one side with less than 1/8,
+ * the cell goes on in trees that pay for the smaller side alone (split/boxes_carve.c): O(N log^2 N) for N fragments
+ * however unbalanced. Both choose the same cuts. */
+#include "base/status.h"
+#include "build/method.h"
+#include "split/boxes.h"
+#include <math.h>
+
+enum { MODE, DELTA, TRADE, STRUCTURE };
+enum { AUTO, SWEEP, TREES };
+enum {
+    CARVE_LEAST = 256,
+    CARVE_SHARE = 8
+}; /* trees are for cells of so many, where a side gets less than this share */
+
+static const char *const modes[] = {"solid", "faces", NULL};
+static const char *const structures[] = {"auto", "sweep", "trees", NULL};
+static const froe_option_info options[] = {
+    [MODE] = {"mode", "cells end when no cut separates boxes, or when no face is left inside", 0, 0, 1, modes, true},
+    [DELTA] = {"delta", "room beside a box, in sides of the box", 0.5, 0, 1e6, NULL, false},
+    [TRADE] = {"trade", "boxes that may be divided for one room: more: better balanced", 2, 1, 64, NULL, true},
+    [STRUCTURE] = {"structure", "how cuts are found; all find the same", AUTO, 0, 2, structures, true},
+    {0},
+};
+
+static froe_status begin(build_job *job, boxes *b) {
+    uint32_t n = job->scene->object_count;
+    boxes_cell root = {.cover = FROE_NONE};
+    for (int k = 0; k < b->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
+    uint32_t *objects = base_calloc(&job->alloc, n, sizeof *objects);
+    if (!objects) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < n; i++) objects[i] = i;
+    froe_status status = boxes_open(b, root, objects, n);
+    base_free(&job->alloc, objects, n ? n * sizeof *objects : 1);
+    return status;
+}
+
+static froe_status check_budget(const build_job *job, const boxes *b, uint64_t more) {
+    uint64_t pieces = b->draft.pieces.count + b->fragments.count + more;
+    return job->max_fragments && pieces > job->max_fragments ? FROE_E_BUDGET : FROE_OK;
+}
+
+/** Lists what is in the cell: its fragments, and the boxes that cover it. */
+static froe_status end_leaf(const build_job *job, boxes *b, const boxes_cell *cell) {
+    uint32_t load = cell->count + cell->covers;
+    froe_status status = check_budget(job, b, cell->covers);
+    draft_leaf(&b->draft, cell->node, load > job->leaf ? TREE_INSEPARABLE : 0);
+    if (load && !status) status = draft_list(&b->draft, cell->node);
+    for (uint32_t i = 0; i < cell->count && !status; i++)
+        status = draft_piece(&b->draft, cell->node, b->fragments.data[cell->first + i].object, NULL, 0);
+    for (uint32_t i = cell->cover; i != FROE_NONE && !status; i = b->covers.data[i].next)
+        status = draft_piece(&b->draft, cell->node, b->covers.data[i].object, NULL, 0);
+    boxes_drop(b, cell);
+    return status;
+}
+
+/** Is the cut so far off balance that the cell is worth trees? */
+static bool worth_trees(const build_job *job, const boxes_cell *cell, const boxes_cut *cut) {
+    if (job->option[STRUCTURE] != AUTO) return job->option[STRUCTURE] == TREES && cell->count > 1;
+    uint32_t less = cut->below < cut->above ? cut->below : cut->above;
+    return cell->count >= CARVE_LEAST && less + cut->divided < cell->count / CARVE_SHARE;
+}
+
+static froe_status do_cell(const build_job *job, boxes *b, const boxes_cell *cell) {
+    uint32_t load = cell->count + cell->covers;
+    boxes_cut cut;
+    if (!cell->count || (!b->faces && load <= job->leaf)) return end_leaf(job, b, cell);
+    froe_status status = boxes_sweep(b, cell, &cut);
+    if (status) return status;
+    if (!cut.found) return end_leaf(job, b, cell);
+    status = worth_trees(job, cell, &cut) ? boxes_carve(b, cell, job->task) : boxes_divide(b, cell, &cut);
+    return status ? status : check_budget(job, b, 0);
+}
+
+static froe_status explain(const build_job *job, froe_status status) {
+    if (status == FROE_E_BUDGET)
+        return base_fail(job->diag, status, "more than max_fragments = %llu pieces are needed",
+                         (unsigned long long)job->max_fragments);
+    if (status == FROE_E_LIMIT) return base_fail(job->diag, status, "the tree needs more than 2^30 nodes or pieces");
+    if (status == FROE_E_CANCELLED) return base_fail(job->diag, status, "cancelled");
+    return status ? base_fail_memory(job->diag) : FROE_OK;
+}
+
+/** All cells; the progress shown is the share of boxes that are in leaves. */
+static froe_status do_cells(const build_job *job, boxes *b) {
+    double n = job->scene->object_count, from = job->task->done, left;
+    froe_status status = FROE_OK;
+    for (uint32_t turn = 0; b->cells.count && !status; turn++) {
+        boxes_cell cell = b->cells.data[--b->cells.count];
+        status = do_cell(job, b, &cell);
+        if (status || turn % 256) continue;
+        left = (double)b->fragments.count < n ? (double)b->fragments.count / n : 1;
+        if (!base_progress(job->task, from + 0.9 * (1 - left) * (1 - from))) status = FROE_E_CANCELLED;
+    }
+    return status;
+}
+
+static froe_status build(build_job *job, froe_tree **out) {
+    boxes b = {.dim = 0};
+    uint32_t trade = (uint32_t)job->option[TRADE], n = job->scene->object_count;
+    froe_status status = boxes_new(job->scene, &job->alloc, job->option[DELTA], trade, job->option[MODE] != 0, &b);
+    double bound = boxes_bound(&b, n);
+    if (!status && n && bound == 0)
+        status = base_fail(job->diag, FROE_E_OPTIONS, "option 'trade': %u is too much in dimension %d", trade, b.dim);
+    else {
+        if (!status) status = begin(job, &b);
+        if (!status) status = do_cells(job, &b);
+        build_promise(job, "fragments", bound + (double)b.paid, 0);
+        if (!status) status = draft_seal(&b.draft, NULL, 0, job->scene, &job->meta, out);
+        status = explain(job, status);
+    }
+    boxes_free(&b);
+    return status;
+}
+
+const build_method build_method_directional = {
+    .info = {.name = "directional",
+             .summary = "boxes, cut where the room beside them pays for what is divided",
+             .source = "Tobola and Nechvile: BSP for scenes with low directional density",
+             .guarantee = "O(n) fragments at low directional density; O(N log^2 N) time for N",
+             .dims = BUILD_DIMS_ALL,
+             .kinds = 1u << FROE_POINT | 1u << FROE_BOX,
+             .options = options},
+    .build = build,
+};

@@ -1,0 +1,126 @@
+/* boxes.h: boxes in a cell, each with the room beside it, seen along one axis at a time.
+ *
+ *      before         lo     the box      hi         after
+ *         [............[==================]............]         room: delta times the side, as it was before
+ *                                                                any cut, on both sides; closed intervals
+ *              |                          |
+ *           a cut here ends            a cut here divides nothing
+ *           the room before
+ *
+ * A room is alive as long as no cut has touched it: while it lies strictly inside the cell. A cut may divide boxes
+ * in exchange for rooms, which die for ever: that bounds how often (Tobola and Nechvile, lemma 3.3). Alive is
+ * what the coordinates say, so fragments carry no history.
+ *
+ *     fragments         [ ... | of a cell | ... | of the current cell ]
+ *     events[axis]      [ ... | ends on the axis, ascending | ... | of the current cell ]
+ *
+ * An event is an end strictly inside the cell; those of rooms only as long as they are alive. */
+#ifndef FROE_SPLIT_BOXES_H
+#define FROE_SPLIT_BOXES_H
+#include "base/array.h"
+#include "base/radix.h"
+#include "base/task.h"
+#include "scene/scene.h"
+#include "tree/draft.h"
+
+typedef enum boxes_end { BOXES_BEFORE, BOXES_LO, BOXES_HI, BOXES_AFTER, BOXES_FLAT } boxes_end;
+
+typedef struct boxes_event {
+    double x;
+    uint32_t fragment; /**< counted from the cell's first */
+    uint32_t end;      /**< boxes_end; FLAT: a box without extent on this axis, both of its ends */
+} boxes_event;
+
+typedef struct boxes_fragment {
+    uint32_t object;
+    uint16_t inside; /**< bits 2 k, 2 k + 1: are lo and hi on axis k strictly inside the cell? */
+    uint16_t alive;  /**< bits 2 k, 2 k + 1: are the rooms before and after alive? */
+} boxes_fragment;
+
+/** A box that covers a cell, and with it all cells below. */
+typedef struct boxes_cover {
+    uint32_t object, next; /**< next: the one above, or FROE_NONE */
+} boxes_cover;
+
+typedef struct boxes_cell {
+    uint32_t node;
+    uint32_t first, count; /**< fragments */
+    uint32_t cover, covers;
+    size_t event[FROE_MAX_DIM];
+    uint32_t events[FROE_MAX_DIM];
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+} boxes_cell;
+
+/** A cut x[axis] = c with what it does: boxes wholly below, wholly above (flat ones in the cut are both), divided. */
+typedef struct boxes_cut {
+    bool found;
+    bool forced; /**< no lemma bounds what it divides */
+    int axis;
+    double c;
+    uint32_t below, above, divided;
+} boxes_cut;
+
+typedef struct boxes {
+    const froe_scene *scene;
+    froe_allocator alloc;
+    int dim;
+    double delta;  /**< room per side */
+    int64_t trade; /**< weight of boxes that may be divided for one weight of rooms */
+    bool faces;    /**< until no face is left in a cell, in place of: until no cut separates boxes */
+    tree_draft draft;
+    uint64_t paid; /**< weight of what forced cuts divided: see boxes_bound() */
+    ARRAY(boxes_fragment) fragments;
+    ARRAY(boxes_event) events[FROE_MAX_DIM];
+    ARRAY(boxes_cell) cells;
+    ARRAY(boxes_cover) covers;
+    /* scratch of the cell at hand */
+    ARRAY(int64_t) weights;
+    ARRAY(uint16_t) marks;
+    ARRAY(uint32_t) names;
+    ARRAY(uint32_t) objects;
+    ARRAY(boxes_fragment) spare;
+    ARRAY(boxes_event) spare_events;
+    ARRAY(base_pair) pairs;
+} boxes;
+
+/** FROE_E_MEMORY; free it whatever happens. */
+froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, double delta, uint32_t trade, bool faces,
+                      boxes *out);
+void boxes_free(boxes *b);
+
+/** Ends on all axes, in the order of boxes_end. Computed once, in doubles: whatever rounding does, a box is the same
+ * in every cell. */
+void boxes_ends(const boxes *b, uint32_t object, double end[FROE_MAX_DIM][4]);
+/** Pushes a cell whose node, bounds and covers are given, and fills it with what `count` ascending objects, each with
+ * a point strictly inside, have in it. */
+froe_status boxes_open(boxes *b, boxes_cell cell, const uint32_t *objects, uint32_t count);
+/** Replaces the cell on top, taken off b->cells, by its children; emits what lies in the cut. */
+froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut);
+/** Takes the fragments and events of the topmost cell off their stacks. */
+void boxes_drop(boxes *b, const boxes_cell *cell);
+/** One more box that covers the cell. */
+bool boxes_add_cover(boxes *b, boxes_cell *cell, uint32_t object);
+/** Makes `node` inner: x[axis] = c. */
+froe_status boxes_split_node(boxes *b, uint32_t node, const boxes_cut *cut, uint32_t *child);
+
+/** Weight of a fragment for cuts across `axis`: the product over the other axes of g[rooms alive there],
+ * g = 1, 1 + trade, 2 + 2 trade. With it no lemma cut and no cut that divides nothing raises the sum over all
+ * fragments of the product over all axes; at the start that is at most boxes_bound(), and each fragment counts 1 at
+ * least: so there are never more fragments than that, and what forced cuts divided (paid). */
+int64_t boxes_weight(const boxes *b, uint16_t alive, int axis);
+/** n (2 + 2 trade)^dim, or 0 where weights would not fit. */
+double boxes_bound(const boxes *b, uint32_t n);
+
+/** Is `a`, beside what was found so far on the same axis, walking upwards, the better one? See boxes_sweep.c. */
+bool boxes_better_on_axis(const boxes_cut *a, const boxes_cut *best, bool fewest);
+/** And beside the best of the axes before? */
+bool boxes_better(const boxes_cut *a, const boxes_cut *best, bool fewest);
+/** What two stages found becomes the choice. `least`: fewest divided; `lemma`: paid for by rooms. */
+boxes_cut boxes_decide(const boxes_cut *least, const boxes_cut *lemma);
+/** The cut of a cell by sweeping over its events; not found: it is a leaf. O(events). */
+froe_status boxes_sweep(boxes *b, const boxes_cell *cell, boxes_cut *out);
+
+/** Cuts the cell on top, taken off b->cells, until half of its fragments are left, in trees that give and take single
+ * boxes: the same cuts as sweeps, in time for the smaller side of each. Pushes all cells that result. */
+froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task);
+#endif

@@ -1,0 +1,136 @@
+/* boxes_sweep.c: which cut for a cell of boxes? One walk over the ends on each axis.
+ *
+ *     divided    ___/---\_____/--\__/-----\___      boxes that x[axis] = c would divide: open intervals
+ *     rooms      /---\ /---\ ...                    rooms alive that contain c: closed intervals
+ *
+ * Both are weighted sums that change at events only, and at an event they are no worse than beside it, so events are
+ * all candidates there are. With below and above, the numbers of boxes wholly on the two sides, in this order of
+ * preference:
+ *
+ *     free      divides nothing, and has boxes on both sides            the best balanced over all axes
+ *     lemma     divided <= trade * rooms, boxes on both sides           the best balanced
+ *     peel      divides nothing, a face in the cut (faces mode)
+ *     forced    through a face, dividing fewest boxes                   (boxes on both sides, but in faces mode)
+ *
+ * Balance is min(below, above). Of equals on an axis the outermost is taken, on the side where it lies: it divides
+ * fewest. (Tobola and Nechvile, section 5: lemma 3.3, weighted; the specification's order of stages.) Where no end of a
+ * box lies before another's beginning, all boxes share a point: nothing separates them, and the cell is a leaf. */
+#include "split/boxes.h"
+
+typedef struct sweep {
+    int64_t rooms, weight; /* weight: of the boxes divided */
+    uint32_t divided, below, above;
+} sweep;
+
+typedef struct sweep_found {
+    boxes_cut least, lemma;
+} sweep_found;
+
+/* -------------------------------------------------------------- comparisons -- */
+
+static uint32_t balance(const boxes_cut *cut) {
+    return cut->below < cut->above ? cut->below : cut->above;
+}
+
+bool boxes_better_on_axis(const boxes_cut *a, const boxes_cut *best, bool fewest) {
+    if (!best->found) return true;
+    if (fewest && a->divided != best->divided) return a->divided < best->divided;
+    if (balance(a) != balance(best)) return balance(a) > balance(best);
+    if (best->below <= best->above) return a->below > a->above && a->divided < best->divided;
+    return true; /* both beyond the median: the outer one */
+}
+
+bool boxes_better(const boxes_cut *a, const boxes_cut *best, bool fewest) {
+    if (!a->found || !best->found) return a->found;
+    if (fewest && a->divided != best->divided) return a->divided < best->divided;
+    return balance(a) != balance(best) ? balance(a) > balance(best) : a->divided < best->divided;
+}
+
+boxes_cut boxes_decide(const boxes_cut *least, const boxes_cut *lemma) {
+    bool free = least->found && !least->divided && balance(least);
+    boxes_cut cut = lemma->found && !free ? *lemma : *least;
+    cut.forced = !free && !lemma->found;
+    return cut;
+}
+
+/* ------------------------------------------------------------------ sweeping -- */
+
+/* Before the first event: boxes that begin at the border of the cell or before. */
+static sweep start(boxes *b, const boxes_cell *cell, int axis) {
+    sweep s = {0};
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const boxes_fragment *f = b->fragments.data + cell->first + i;
+        bool begins = f->inside >> 2 * axis & 1;
+        b->weights.data[i] = boxes_weight(b, f->alive, axis);
+        s.above += begins;
+        s.divided += !begins;
+        s.weight += begins ? 0 : b->weights.data[i];
+    }
+    return s;
+}
+
+/* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. */
+static const boxes_event *arrive(const boxes *b, const boxes_cell *cell, sweep *s, int axis, const boxes_event *e,
+                                 const boxes_event *end, bool *face) {
+    *face = false;
+    for (double x = e->x; e < end && e->x == x; e++) {
+        int64_t w = b->weights.data[e->fragment];
+        *face |= e->end == BOXES_LO || e->end == BOXES_HI || e->end == BOXES_FLAT;
+        if (e->end == BOXES_BEFORE) s->rooms += w;
+        if (e->end == BOXES_FLAT) s->below++;
+        if (e->end != BOXES_HI) continue;
+        s->below++;
+        s->divided--;
+        s->weight -= w;
+        if (b->fragments.data[cell->first + e->fragment].alive >> (2 * axis + 1) & 1) s->rooms += w;
+    }
+    return e;
+}
+
+/* Leaves them behind. */
+static void leave(const boxes *b, const boxes_cell *cell, sweep *s, int axis, const boxes_event *e,
+                  const boxes_event *end) {
+    for (; e < end; e++) {
+        int64_t w = b->weights.data[e->fragment];
+        if (e->end == BOXES_AFTER) s->rooms -= w;
+        if (e->end == BOXES_FLAT) s->above--;
+        if (e->end != BOXES_LO) continue;
+        s->above--;
+        s->divided++;
+        s->weight += w;
+        if (b->fragments.data[cell->first + e->fragment].alive >> 2 * axis & 1) s->rooms -= w;
+    }
+}
+
+static void consider(const boxes *b, const sweep *s, int axis, double x, bool face, sweep_found *best) {
+    boxes_cut cut = {.found = true, .axis = axis, .c = x, .below = s->below, .above = s->above, .divided = s->divided};
+    bool separates = s->below && s->above;
+    if (face && (separates || b->faces) && boxes_better_on_axis(&cut, &best->least, true)) best->least = cut;
+    bool paid = b->trade * s->rooms >= s->weight;
+    if (separates && paid && boxes_better_on_axis(&cut, &best->lemma, false)) best->lemma = cut;
+}
+
+static void sweep_axis(boxes *b, const boxes_cell *cell, int axis, sweep_found *best) {
+    sweep s = start(b, cell, axis);
+    sweep_found here = {0};
+    const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
+    while (e < end) {
+        bool face;
+        const boxes_event *next = arrive(b, cell, &s, axis, e, end, &face);
+        consider(b, &s, axis, e->x, face, &here);
+        leave(b, cell, &s, axis, e, next);
+        e = next;
+    }
+    if (boxes_better(&here.least, &best->least, true)) best->least = here.least;
+    if (boxes_better(&here.lemma, &best->lemma, false)) best->lemma = here.lemma;
+}
+
+froe_status boxes_sweep(boxes *b, const boxes_cell *cell, boxes_cut *out) {
+    sweep_found best = {0};
+    b->weights.count = 0;
+    if (!array_reserve(&b->alloc, &b->weights, cell->count)) return FROE_E_MEMORY;
+    for (int k = 0; k < b->dim; k++)
+        if (cell->events[k]) sweep_axis(b, cell, k, &best);
+    *out = boxes_decide(&best.least, &best.lemma);
+    return FROE_OK;
+}
