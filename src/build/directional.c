@@ -16,17 +16,18 @@
 #include "split/boxes.h"
 #include <math.h>
 
-enum { MODE, DELTA, TRADE, STRUCTURE };
+enum { BOXES, DELTA, TRADE, STRUCTURE };
 enum { AUTO, SWEEP, TREES };
 enum {
     CARVE_LEAST = 256,
     CARVE_SHARE = 8
 }; /* trees are for cells of so many, where a side gets less than this share */
 
-static const char *const modes[] = {"solid", "faces", NULL};
+static const char *const kinds[] = {"solid", "faces", NULL};
 static const char *const structures[] = {"auto", "sweep", "trees", NULL};
 static const froe_option_info options[] = {
-    [MODE] = {"mode", "cells end when no cut separates boxes, or when no face is left inside", 0, 0, 1, modes, true},
+    [BOXES] = {"boxes", "solid: cells end when no cut separates boxes; faces: when no face is left inside", 0, 0, 1,
+               kinds, true},
     [DELTA] = {"delta", "room beside a box, in sides of the box", 0.5, 0, 1e6, NULL, false},
     [TRADE] = {"trade", "boxes that may be divided for one room: more: better balanced", 2, 1, 64, NULL, true},
     [STRUCTURE] = {"structure", "how cuts are found; all find the same", AUTO, 0, 2, structures, true},
@@ -54,6 +55,7 @@ static froe_status check_budget(const build_job *job, const boxes *b, uint64_t m
 static froe_status end_leaf(const build_job *job, boxes *b, const boxes_cell *cell) {
     uint32_t load = cell->count + cell->covers;
     froe_status status = check_budget(job, b, cell->covers);
+    b->covered += cell->covers;
     draft_leaf(&b->draft, cell->node, load > job->leaf ? TREE_INSEPARABLE : 0);
     if (load && !status) status = draft_list(&b->draft, cell->node);
     for (uint32_t i = 0; i < cell->count && !status; i++)
@@ -108,14 +110,14 @@ static froe_status do_cells(const build_job *job, boxes *b) {
 static froe_status build(build_job *job, froe_tree **out) {
     boxes b = {.dim = 0};
     uint32_t trade = (uint32_t)job->option[TRADE], n = job->scene->object_count;
-    froe_status status = boxes_new(job->scene, &job->alloc, job->option[DELTA], trade, job->option[MODE] != 0, &b);
+    froe_status status = boxes_new(job->scene, &job->alloc, job->option[DELTA], trade, job->option[BOXES] != 0, &b);
     double bound = boxes_bound(&b, n);
     if (!status && n && bound == 0)
         status = base_fail(job->diag, FROE_E_OPTIONS, "option 'trade': %u is too much in dimension %d", trade, b.dim);
     else {
         if (!status) status = begin(job, &b);
         if (!status) status = do_cells(job, &b);
-        build_promise(job, "fragments", bound + (double)b.paid, 0);
+        build_promise(job, "fragments", bound + (double)b.paid + (double)b.covered, 0);
         if (!status) status = draft_seal(&b.draft, NULL, 0, job->scene, &job->meta, out);
         status = explain(job, status);
     }

@@ -68,7 +68,8 @@ typedef struct boxes {
     int64_t trade; /**< weight of boxes that may be divided for one weight of rooms */
     bool faces;    /**< until no face is left in a cell, in place of: until no cut separates boxes */
     tree_draft draft;
-    uint64_t paid; /**< weight of what forced cuts divided: see boxes_bound() */
+    uint64_t paid;    /**< weight of what forced cuts divided: see boxes_bound() */
+    uint64_t covered; /**< covers listed in leaves */
     ARRAY(boxes_fragment) fragments;
     ARRAY(boxes_event) events[FROE_MAX_DIM];
     ARRAY(boxes_cell) cells;

@@ -1,0 +1,163 @@
+/* make_boxes.c: boxes as they come in plans, cities and circuits, and the worst ones. Disjoint, but for debris. */
+#include "maker.h"
+#include <string.h>
+
+static void add(io_maker *m, const double *lo, const double *hi) {
+    if (!io_done(m)) m->status = io_sink_box(&m->sink, lo, hi);
+}
+
+/* Cells of a circuit: rows of one height, cells of several widths side by side, now and then a gap. */
+void io_make_rows(io_maker *m) {
+    double width = 4 * (double)(io_root(m->n, 2) + 1);
+    for (size_t row = 0; !io_done(m); row++) {
+        double x = io_below(m, 4), y = (double)(row * 10);
+        while (x < width && !io_done(m)) {
+            const double lo[2] = {x, y}, hi[2] = {x + 1 + io_below(m, 8), y + 8};
+            add(m, lo, hi);
+            x = hi[0] + (io_below(m, 4) ? 0 : 1 + io_below(m, 3));
+        }
+    }
+}
+
+/* Are all unit cells of a box free? Then they are taken. */
+static bool take_cells(uint8_t *taken, size_t side, const size_t *from, const size_t *extent) {
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t z = from[2]; z < from[2] + extent[2]; z++)
+            for (size_t y = from[1]; y < from[1] + extent[1]; y++) {
+                uint8_t *row = taken + (z * side + y) * side;
+                for (size_t x = from[0]; x < from[0] + extent[0]; x++) {
+                    if (!pass && row[x]) return false;
+                    row[x] = (uint8_t)pass | row[x];
+                }
+            }
+    return true;
+}
+
+/* One box in the unit cells that it has taken, not quite filling them. */
+static void add_in_cells(io_maker *m, const size_t *from, const size_t *extent) {
+    double lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        lo[k] = (double)from[k] + io_between(m, 0, 0.3);
+        hi[k] = (double)(from[k] + extent[k]) - io_between(m, 0, 0.3);
+    }
+    add(m, lo, hi);
+}
+
+/* Boxes of `wide` x `wide` x `other` cells, the odd axis at random, anywhere they find room among the others. */
+static void pack(io_maker *m, size_t wide, size_t other) {
+    size_t volume = wide * wide * other, side = io_root(4 * volume * m->n, 3) + wide + other;
+    io_buffer cells = {0};
+    uint8_t *taken = io_buffer_add(&m->sink.alloc, &cells, side * side * side);
+    if (taken)
+        memset(taken, 0, side * side * side);
+    else
+        m->status = io_fail_memory(m->sink.diag);
+    while (!io_done(m)) {
+        int odd = (int)io_below(m, 3);
+        size_t from[3], extent[3];
+        for (int k = 0; k < 3; k++) {
+            extent[k] = k == odd ? other : wide;
+            from[k] = io_below(m, (uint32_t)(side - extent[k] + 1));
+        }
+        if (take_cells(taken, side, from, extent)) add_in_cells(m, from, extent);
+    }
+    io_buffer_free(&m->sink.alloc, &cells);
+}
+
+void io_make_sticks(io_maker *m) {
+    pack(m, 1, 8);
+}
+
+void io_make_slabs(io_maker *m) {
+    pack(m, 6, 1);
+}
+
+/* Towers on lots of 16 x 16, blocks of 4 x 4 lots between streets; all stand on the ground. */
+void io_make_towers(io_maker *m) {
+    enum { LOTS = 4, STREET = 8, LOT = 16 };
+    size_t side = io_root(m->n, 2) + 1;
+    for (size_t i = 0; !io_done(m); i++) {
+        size_t place[2] = {i % side, i / side};
+        double lo[3] = {0, 0, 0}, hi[3];
+        for (int k = 0; k < 2; k++) {
+            double lot = (double)(place[k] * LOT + place[k] / LOTS * STREET);
+            lo[k] = lot + io_below(m, 4);
+            hi[k] = lot + 10 + io_below(m, 7); /* up to the neighbour's lot: some touch */
+        }
+        hi[2] = 8 + 4 * (double)io_below(m, 20);
+        add(m, lo, hi);
+    }
+}
+
+/* A building of rooms: walls with thickness, storey by storey, with doors left open. */
+void io_make_panels(io_maker *m) {
+    enum { ROOM = 32, HEIGHT = 24, THICK = 2 };
+    size_t side = io_root(m->n / 4, 3) + 1;
+    for (size_t i = 0; !io_done(m); i++) {
+        double at[3], lo[3], hi[3];
+        io_grid(i, side, 3, at);
+        for (int k = 0; k < 3; k++) at[k] *= k < 2 ? ROOM : HEIGHT;
+        const double ceiling[3] = {at[0] + ROOM, at[1] + ROOM, at[2] + THICK};
+        add(m, at, ceiling);
+        for (int axis = 0; axis < 2; axis++) {
+            double door = 4 + io_below(m, 16);
+            for (int half = 0; half < 2; half++) {
+                for (int k = 0; k < 3; k++) lo[k] = at[k], hi[k] = at[k] + (k == 2 ? HEIGHT : THICK);
+                lo[2] += THICK;
+                lo[axis] = at[axis] + (half ? door + 6 : THICK);
+                hi[axis] = at[axis] + (half ? ROOM : door);
+                add(m, lo, hi);
+            }
+        }
+    }
+}
+
+/* Cubes in cubes in cubes: one centre. */
+void io_make_shells(io_maker *m) {
+    for (size_t i = 1; !io_done(m); i++) {
+        double r = (double)i;
+        const double lo[3] = {-r, -r, -r}, hi[3] = {r, r, r};
+        add(m, lo, hi);
+    }
+}
+
+/* k x k bars in each of the three directions, through one cube, without touching: n^(3/2) fragments in any partition by
+ * axis-parallel planes (Paterson and Yao 1992). */
+void io_make_bars(io_maker *m) {
+    size_t side = io_root(m->n / 3, 2) + 1;
+    for (size_t i = 0; !io_done(m); i++) {
+        int along = (int)(i % 3);
+        size_t place = i / 3;
+        double lo[3], hi[3];
+        const double at[2] = {(double)(4 * (place % side)), (double)(4 * (place / side))};
+        for (int k = 0; k < 3; k++) {
+            int turn = (k - along + 3) % 3; /* 0: along; 1, 2: across, in places that the others leave free */
+            lo[k] = turn ? at[turn - 1] + (turn == 1 ? 0 : 2) : 0;
+            hi[k] = turn ? lo[k] + 1 : (double)(4 * side);
+        }
+        add(m, lo, hi);
+    }
+}
+
+/* Unit cubes side by side. */
+void io_make_bricks(io_maker *m) {
+    size_t side = io_root(m->n, 3) + 1;
+    for (size_t i = 0; !io_done(m); i++) {
+        double lo[3], hi[3];
+        io_grid(i, side, 3, lo);
+        for (int k = 0; k < 3; k++) hi[k] = lo[k] + 1;
+        add(m, lo, hi);
+    }
+}
+
+/* Boxes with corners on a tiny lattice: overlapping, equal, nested, touching, and without extent. */
+void io_make_debris(io_maker *m) {
+    while (!io_done(m)) {
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        for (int k = 0; k < m->sink.dim; k++) {
+            lo[k] = io_below(m, 6);
+            hi[k] = lo[k] + io_below(m, 4);
+        }
+        add(m, lo, hi);
+    }
+}
