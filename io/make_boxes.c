@@ -80,9 +80,9 @@ void io_make_towers(io_maker *m) {
         size_t place[2] = {i % side, i / side};
         double lo[3] = {0, 0, 0}, hi[3];
         for (int k = 0; k < 2; k++) {
-            double lot = (double)(place[k] * LOT + place[k] / LOTS * STREET);
-            lo[k] = lot + io_below(m, 4);
-            hi[k] = lot + 10 + io_below(m, 7); /* up to the neighbour's lot: some touch */
+            size_t streets = place[k] / LOTS, lot = place[k] * LOT + streets * STREET;
+            lo[k] = (double)lot + io_below(m, 4);
+            hi[k] = (double)lot + 10 + io_below(m, 7); /* up to the neighbour's lot: some touch */
         }
         hi[2] = 8 + 4 * (double)io_below(m, 20);
         add(m, lo, hi);
@@ -127,9 +127,9 @@ void io_make_bars(io_maker *m) {
     size_t side = io_root(m->n / 3, 2) + 1;
     for (size_t i = 0; !io_done(m); i++) {
         int along = (int)(i % 3);
-        size_t place = i / 3;
+        size_t place = i / 3, row = place / side, column = place % side;
         double lo[3], hi[3];
-        const double at[2] = {(double)(4 * (place % side)), (double)(4 * (place / side))};
+        const double at[2] = {4 * (double)column, 4 * (double)row};
         for (int k = 0; k < 3; k++) {
             int turn = (k - along + 3) % 3; /* 0: along; 1, 2: across, in places that the others leave free */
             lo[k] = turn ? at[turn - 1] + (turn == 1 ? 0 : 2) : 0;
