@@ -7,7 +7,7 @@
 enum { CELL = 40 }; /* a number and what follows it */
 
 void cli_answers_flush(cli_answers *out) {
-    fwrite(out->text, 1, out->length, stdout);
+    if (!out->mute) fwrite(out->text, 1, out->length, stdout);
     out->length = 0;
 }
 
@@ -46,6 +46,22 @@ void cli_answers_text(cli_answers *out, const char *value) {
     if (length >= CELL) length = CELL - 1;
     memcpy(room(out), value, length);
     end_cell(out, length);
+}
+
+static void put(cli_answers *out, char c) {
+    *room(out) = c;
+    out->length++;
+}
+
+void cli_answers_name(cli_answers *out, const char *value) {
+    const bool quoted = strpbrk(value, ",\"\r\n");
+    if (quoted) put(out, '"');
+    for (const char *c = value; *c; c++) {
+        if (*c == '"') put(out, '"');
+        put(out, *c);
+    }
+    if (quoted) put(out, '"');
+    cli_answers_none(out);
 }
 
 void cli_answers_none(cli_answers *out) {

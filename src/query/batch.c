@@ -5,6 +5,7 @@
  */
 #include "base/status.h"
 #include "base/task.h"
+#include "query/areas.h"
 #include "query/packed.h"
 #include <string.h>
 
@@ -62,6 +63,18 @@ static froe_status ask_range(const batch *b, froe_query *q, size_t i, froe_diagn
 
 static froe_status ask_locate(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
     return query_locate(q, point_of(b, b->points, i), diag);
+}
+
+/* Has answers that lie elsewhere in the context where those of ranges do. */
+static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    froe_list groups;
+    const froe_status status = froe_query_groups(q, point_of(b, b->points, i), &groups, diag);
+    q->found.count = 0;
+    if (status) return status;
+    if (!array_reserve(&q->alloc, &q->found, groups.count)) return base_fail_memory(diag);
+    if (groups.count) memcpy(q->found.data, groups.ids, groups.count * sizeof *groups.ids);
+    q->found.count = groups.count;
+    return FROE_OK;
 }
 
 static froe_status ask_vertical(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
@@ -234,6 +247,16 @@ froe_status froe_batch_locate(froe_query *query, const double *points, size_t co
                               froe_answers *out, froe_diagnostic *diag) {
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_locate: NULL argument.");
     batch b = {.query = query, .ask = ask_locate, .points = points, .count = count};
+    return run(&b, options, out, diag);
+}
+
+froe_status froe_batch_groups(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
+                              froe_answers *out, froe_diagnostic *diag) {
+    if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_groups: NULL argument.");
+    batch b = {.query = query, .ask = ask_groups, .points = points, .count = count};
+    const query_areas *areas;
+    const froe_status status = query_groups_prepare(query, &areas, diag); /* once for all threads */
+    if (status) return status;
     return run(&b, options, out, diag);
 }
 

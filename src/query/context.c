@@ -62,6 +62,8 @@ void froe_query_free(froe_query *query) {
     query_near_free(&query->near, &alloc);
     query_range_free(&query->range, &alloc);
     packed_work_free(query->packed, &alloc);
+    array_free(&alloc, &query->groups.inside);
+    array_free(&alloc, &query->groups.touched);
     array_free(&alloc, &query->found);
     base_free(&alloc, query, sizeof *query);
 }

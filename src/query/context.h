@@ -11,6 +11,7 @@
 #ifndef FROE_QUERY_CONTEXT_H
 #define FROE_QUERY_CONTEXT_H
 #include "query/marks.h"
+#include "query/members.h"
 #include "query/near.h"
 #include "query/range.h"
 #include "query/ray.h"
@@ -22,7 +23,7 @@ typedef struct query_part {
     void (*free)(const froe_allocator *alloc, struct query_part *part);
 } query_part;
 /** A new part is one more number here. */
-typedef enum query_part_id { QUERY_PLANES, QUERY_CENTROIDS, QUERY_PARTS } query_part_id;
+typedef enum query_part_id { QUERY_PLANES, QUERY_CENTROIDS, QUERY_AREAS, QUERY_PARTS } query_part_id;
 
 typedef struct query_shared {
     atomic_uint holds;
@@ -40,7 +41,10 @@ struct froe_query {
     query_near near;
     query_range range;
     struct packed_work *packed; /**< packed trees only (query/packed.h) */
-    ARRAY(uint32_t) found;      /**< objects reported by the query in progress, or by the last one */
+    struct {
+        query_members inside, touched;
+    } groups;              /**< of a point, while it is looked for (query/areas.h) */
+    ARRAY(uint32_t) found; /**< objects reported by the query in progress, or by the last one */
 };
 
 /** Makes one; *out has what was taken also on failure, for query_part's free (which must bear that). */

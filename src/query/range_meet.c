@@ -3,6 +3,7 @@
 #include "geom/predicates.h"
 #include "query/context.h"
 #include "query/objects.h"
+#include "query/segment.h"
 #include <string.h>
 
 /* ------------------------------------------------------------------- boxes -- */
@@ -173,6 +174,10 @@ static bool decide(froe_query *q, uint32_t object, bool *memory) {
         if (boxlike)
             return geom_meet_boxes(&q->numbers, s->dim, lo, hi, radius, from->points, from->points, from->radius);
         return set_meets(q, object);
+    case FROE_SHAPE_SEGMENT:
+        if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return set_meets(q, object);
+        return query_segments_meet(&q->numbers, from->points, from->points + 2, scene_point(s, object, 0),
+                                   scene_point(s, object, 1));
     case FROE_SHAPE_HALFSPACES:
         return halfspaces_meet(q, object, memory);
     default:

@@ -40,6 +40,18 @@ bool query_segment_meets_box(num_context *numbers, const double *u, const double
     return query_turn(numbers, u, v, one) * query_turn(numbers, u, v, other) <= 0;
 }
 
+static bool apart_on_axis(int k, const double *a, const double *b, const double *u, const double *v) {
+    const double lo = u[k] < v[k] ? u[k] : v[k], hi = u[k] < v[k] ? v[k] : u[k];
+    return (a[k] < lo && b[k] < lo) || (a[k] > hi && b[k] > hi);
+}
+
+/* On one line they meet if their boxes do. */
+bool query_segments_meet(num_context *numbers, const double *a, const double *b, const double *u, const double *v) {
+    if (apart_on_axis(0, a, b, u, v) || apart_on_axis(1, a, b, u, v)) return false;
+    return query_turn(numbers, a, b, u) * query_turn(numbers, a, b, v) <= 0 &&
+           query_turn(numbers, u, v, a) * query_turn(numbers, u, v, b) <= 0;
+}
+
 /* ------------------------------------------------------------------ heights -- */
 
 static bool upright_height(const double *u, const double *v, const double *point, int direction, query_height *out) {

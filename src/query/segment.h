@@ -9,6 +9,9 @@ int query_turn(num_context *numbers, const double *u, const double *v, const dou
 bool query_segment_meets_box(num_context *numbers, const double *u, const double *v, const double *lo,
                              const double *hi);
 
+/** Do the closed segments ab and uv meet? */
+bool query_segments_meet(num_context *numbers, const double *a, const double *b, const double *u, const double *v);
+
 /** Where a vertical ray first meets a segment: at (x, y), or where the line uv is at x. */
 typedef struct query_height {
     bool known; /**< y is it */
