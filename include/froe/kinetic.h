@@ -103,6 +103,49 @@ FROE_API froe_moving_knot froe_motion_knot(const froe_motion *motion, uint32_t v
  * coordinate nearby. False (nothing written): its plan does not cover the time. O(log knots). */
 FROE_API bool froe_motion_position(const froe_motion *motion, uint32_t vertex, double time, double at[2]);
 
+/* ---------------------------------------------------------------- contacts -- */
+
+/** Two objects meet, as closed segments, from one instant to another: a maximal interval. Its ends are certain: between
+ * the two doubles given for each, which are equal where the instant is known exactly and neighbours or nearly so
+ * otherwise. */
+typedef struct froe_contact {
+    uint32_t a, b;             /**< objects, a < b */
+    double begin[2], end[2];   /**< low <= true time <= high */
+    bool instant;              /**< they meet at one instant alone: they pass or graze one another */
+    bool since_start, to_stop; /**< they meet already when the time asked for, or the later of both, begins; they
+                                    still meet when it, or the earlier, ends */
+} froe_contact;
+
+typedef struct froe_contact_statistics {
+    uint64_t boxes;      /**< boxes in the plane and in time that the objects were put in */
+    uint64_t candidates; /**< pairs of them that touch */
+    uint64_t exact;      /**< of these, not decided by doubles with error bounds */
+} froe_contact_statistics;
+
+typedef struct froe_contact_options {
+    size_t size;     /**< set by froe_contact_defaults() */
+    double from, to; /**< the time asked for; NaN (default): as the window */
+    bool first;      /**< only what may be the first contact of all: one, or several whose beginnings
+                          two doubles cannot tell apart */
+    bool apart;      /**< leave out pairs of objects of one group */
+    froe_contact_statistics *statistics; /**< filled in on FROE_OK; may be NULL */
+    unsigned threads;                    /**< 0: one per processor */
+    froe_progress_fn *progress;          /**< may be NULL */
+    void *user;                          /**< for progress */
+} froe_contact_options;
+FROE_API froe_contact_options froe_contact_defaults(void); /**< all contacts in the window */
+
+/** Receives one contact; false stops, which is no failure. */
+typedef bool froe_contact_fn(void *user, const froe_contact *contact);
+
+/** All contacts between moving objects, in the order of their beginnings (low, high, a, b). None is missed, however
+ * short, grazing ones included: candidates come from boxes in the plane and in time, times from the roots of exact
+ * polynomials (degree up to 4). Objects that share a vertex always meet there, and are left out. options NULL:
+ * the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen within 2^-2047 of the
+ * time between two knots. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
+FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
+                                          froe_contact_fn *fn, void *user, froe_diagnostic *diag);
+
 #ifdef __cplusplus
 }
 #endif

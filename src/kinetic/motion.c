@@ -76,7 +76,9 @@ froe_status froe_motion_new(const froe_motion_options *options, const froe_alloc
     if (!options || !out) return base_fail(diag, FROE_E_ARG, "no options, or no place for the motion");
     if (options->size != sizeof *options)
         return base_fail(diag, FROE_E_OPTIONS, "options not from froe_motion_defaults()");
-    froe_motion window = {.alloc = base_allocator(alloc), .unit = INT16_MAX, .top = INT16_MIN};
+    froe_motion window = {.alloc = base_allocator(alloc), .unit = INT16_MAX, .top = INT16_MIN}; /* nothing yet */
+    window.time_unit = INT16_MAX;
+    window.time_top = INT16_MIN;
     froe_status status = set_window(&window, options, diag);
     if (status) return status;
     froe_motion *m = base_realloc(&window.alloc, NULL, 0, sizeof *m);

@@ -43,9 +43,10 @@ typedef struct motion_object {
 struct froe_motion {
     froe_allocator alloc;
     double begin, end;
-    int power;         /**< a tick is 2^power, power >= -1074 */
-    int64_t last_tick; /**< the last in the window */
-    int unit, top;     /**< all coordinates are multiples of 2^unit, below 2^top in size */
+    int power;               /**< a tick is 2^power, power >= -1074 */
+    int64_t last_tick;       /**< the last in the window */
+    int unit, top;           /**< all coordinates are multiples of 2^unit, below 2^top in size */
+    int time_unit, time_top; /**< all times, alike */
     ARRAY(motion_knot) knots;
     ARRAY(motion_plan) plans; /**< [vertex] */
     ARRAY(motion_object) objects;
@@ -71,6 +72,8 @@ typedef struct motion_piece {
 
 /** The piece a tick belongs to. REQUIRES: the plan covers it. O(log knots). */
 motion_piece motion_piece_at(const froe_motion *m, uint32_t vertex, int64_t tick);
+/** The last piece that begins at or before a time within the plan. */
+motion_piece motion_piece_at_time(const froe_motion *m, uint32_t vertex, double time);
 /** The piece after knot number `knot` of the vertex's plan. */
 motion_piece motion_piece_after(const froe_motion *m, uint32_t vertex, uint32_t knot);
 
@@ -82,6 +85,9 @@ void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *p
 void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball out[3]);
 /** x and y themselves, each no further than the returned error from the truth (infinite if there is no telling). */
 double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double out[2]);
+
+/** Extends lo .. hi to hold the piece between two times, rounded outwards, to at most +-DBL_MAX. */
+void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double lo[2], double hi[2]);
 
 /** The piece as polynomials in ticks s counted from `tick`:
  *     X = x[0] + x[1] s + x[2] s^2,  Y alike,  W = w (constant)
@@ -95,4 +101,8 @@ typedef struct motion_ball_curve {
 void motion_curve_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
                          motion_dyadic_curve *out);
 void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_ball_curve *out);
+/** The same in shares s of the time between two instants: t = from + s (to - from). */
+void motion_span_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
+                        motion_dyadic_curve *out);
+void motion_span_ball(const froe_motion *m, const motion_piece *piece, double from, double to, motion_ball_curve *out);
 #endif

@@ -14,6 +14,7 @@ typedef struct adding {
     froe_diagnostic *diag;
     size_t knots;  /* of the batch so far */
     int unit, top; /* of the coordinates so far */
+    int time_unit, time_top;
 } adding;
 
 /* ------------------------------------------------------------ widths of numbers -- */
@@ -77,6 +78,11 @@ static froe_status take_number(adding *a, const plan_input *p, size_t i, const c
     return FROE_OK;
 }
 
+static void take_time(adding *a, double time) {
+    a->time_unit = least(a->time_unit, last_bit(time));
+    a->time_top = most(a->time_top, top_bit(time));
+}
+
 static froe_status take_knot(adding *a, const plan_input *p, size_t i, motion_knot *knot) {
     *knot = (motion_knot){.time = p->times[i] + 0.0, .control = {NAN, NAN}, .bits = 0};
     if (!isfinite(knot->time)) return fail_at_knot(a, p, i, "time", knot->time);
@@ -85,6 +91,7 @@ static froe_status take_knot(adding *a, const plan_input *p, size_t i, motion_kn
                             "vertex %u: time %zu, %.17g, is not after time %zu, %.17g", p->vertex, i, knot->time, i - 1,
                             knot[-1].time);
     knot->tick = motion_tick_after(a->motion, knot->time);
+    take_time(a, knot->time);
     froe_status status = take_number(a, p, i, "x", p->coords[2 * i], &knot->at[0]);
     if (!status) status = take_number(a, p, i, "y", p->coords[2 * i + 1], &knot->at[1]);
     const double *c = p->controls && i + 1 < p->count ? p->controls + 2 * i : knot->control;
@@ -170,7 +177,7 @@ static froe_status take_vertices(adding *a) {
     return FROE_OK;
 }
 
-static froe_status set_life(const adding *a, uint32_t j, motion_object *o) {
+static froe_status set_life(adding *a, uint32_t j, motion_object *o) {
     const froe_motion *m = a->motion;
     const froe_moving *b = a->batch;
     double birth = b->births ? b->births[j] : m->begin, death = b->deaths ? b->deaths[j] : m->end;
@@ -179,12 +186,14 @@ static froe_status set_life(const adding *a, uint32_t j, motion_object *o) {
                             death);
     o->birth = birth > m->begin ? birth + 0.0 : m->begin;
     o->death = death < m->end ? death + 0.0 : m->end;
+    take_time(a, o->birth);
+    take_time(a, o->death);
     o->first = motion_tick_after(m, o->birth);
     o->last = motion_tick_before(m, o->death);
     return FROE_OK;
 }
 
-static froe_status take_segment(const adding *a, uint32_t j, motion_object *o) {
+static froe_status take_segment(adding *a, uint32_t j, motion_object *o) {
     const froe_moving *b = a->batch;
     const froe_motion *m = a->motion;
     froe_status status = set_life(a, j, o);
@@ -201,16 +210,25 @@ static froe_status take_segment(const adding *a, uint32_t j, motion_object *o) {
     return status;
 }
 
+static adding begin(froe_motion *m, const froe_moving *batch, froe_diagnostic *diag) {
+    adding a = {.motion = m, .batch = batch, .diag = diag, .unit = m->unit, .top = m->top};
+    a.time_unit = least(m->time_unit, least(last_bit(m->begin), last_bit(m->end)));
+    a.time_top = most(m->time_top, most(top_bit(m->begin), top_bit(m->end)));
+    return a;
+}
+
 static void commit(const adding *a) {
     froe_motion *m = a->motion;
     m->unit = a->unit;
     m->top = a->top;
+    m->time_unit = a->time_unit;
+    m->time_top = a->time_top;
     m->knots.count += a->knots;
 }
 
 froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag) {
     if (!motion || !batch) return base_fail(diag, FROE_E_ARG, "no motion or no batch");
-    adding a = {motion, batch, diag, 0, motion->unit, motion->top};
+    adding a = begin(motion, batch, diag);
     froe_status status = check(&a);
     if (!status) status = reserve(&a);
     if (!status) status = take_vertices(&a);
@@ -225,7 +243,7 @@ froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_
 
 froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const double *times, const double *coords,
                           const double *controls, const double life[2], froe_diagnostic *diag) {
-    adding a = {m, NULL, diag, 0, m->unit, m->top};
+    adding a = begin(m, NULL, diag);
     plan_input input = {count, times, coords, controls, vertex};
     motion_plan plan;
     if (!array_reserve(&m->alloc, &m->knots, count)) return base_fail_memory(diag);

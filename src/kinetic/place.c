@@ -3,6 +3,7 @@
  * Stack integers count coordinates in units of 2^unit of the whole motion, and times in a unit of the piece, in which
  * its ends, the window's and all ticks are whole. */
 #include "kinetic/motion.h"
+#include <float.h>
 #include <string.h>
 
 #define T num_dyadic
@@ -10,7 +11,6 @@
 #define NAME(f) dyadic_##f
 #define POINT(x) num_dyadic_from(arena, x)
 #define TIME(x) num_dyadic_from(arena, x)
-#define TICKS(u) num_dyadic_scaled(arena, 1, (uint64_t)(u), m->power)
 #define ONE num_dyadic_scaled(arena, 1, 1, 0)
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
@@ -22,7 +22,6 @@
 #define NAME(f) ball_##f
 #define POINT(x) num_ball_from(x)
 #define TIME(x) num_ball_from(x)
-#define TICKS(u) num_ball_from(ldexp((double)(u), m->power))
 #define ONE num_ball_from(1)
 #define ADD(a, b) num_ball_add(a, b)
 #define SUB(a, b) num_ball_sub(a, b)
@@ -49,7 +48,6 @@ static motion_int whole_of(double x, int unit) {
 #define NAME(f) whole_##f
 #define POINT(x) whole_of(x, m->unit)
 #define TIME(x) whole_of(x, piece->from->unit)
-#define TICKS(u) ((motion_int)(u) << (m->power - piece->from->unit))
 #define ONE 1
 #define ADD(a, b) ((a) + (b))
 #define SUB(a, b) ((a) - (b))
@@ -59,25 +57,46 @@ static motion_int whole_of(double x, int unit) {
 bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_int out[3]) {
     enum { MOST = 125 }; /* a sum of three products with weights whose sum is W */
     if (m->top - m->unit + piece->degree * piece->from->bits > MOST) return false;
-    whole_place(NULL, m, piece, tick, out);
+    motion_int passed = piece->degree ? (motion_int)tick << (m->power - piece->from->unit) : 0;
+    whole_place(NULL, m, piece, passed, out);
     return true;
 }
 
+static num_dyadic dyadic_ticks(num_arena *arena, const froe_motion *m, int64_t ticks) {
+    return num_dyadic_scaled(arena, 1, (uint64_t)ticks, m->power);
+}
+
+static num_ball ball_ticks(const froe_motion *m, int64_t ticks) {
+    return num_ball_from(ldexp((double)ticks, m->power));
+}
+
 void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic out[3]) {
-    dyadic_place(arena, m, piece, tick, out);
+    dyadic_place(arena, m, piece, dyadic_ticks(arena, m, tick), out);
 }
 
 void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball out[3]) {
-    ball_place(NULL, m, piece, tick, out);
+    ball_place(NULL, m, piece, ball_ticks(m, tick), out);
 }
 
 void motion_curve_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
                          motion_dyadic_curve *out) {
-    dyadic_curve(arena, m, piece, tick, out);
+    dyadic_curve(arena, m, piece, dyadic_ticks(arena, m, tick), dyadic_ticks(arena, m, 1), out);
 }
 
 void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_ball_curve *out) {
-    ball_curve(NULL, m, piece, tick, out);
+    ball_curve(NULL, m, piece, ball_ticks(m, tick), ball_ticks(m, 1), out);
+}
+
+void motion_span_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
+                        motion_dyadic_curve *out) {
+    num_dyadic a = num_dyadic_from(arena, from), b = num_dyadic_from(arena, to);
+    num_dyadic begin = num_dyadic_from(arena, m->begin);
+    dyadic_curve(arena, m, piece, num_dyadic_sub(arena, a, begin), num_dyadic_sub(arena, b, a), out);
+}
+
+void motion_span_ball(const froe_motion *m, const motion_piece *piece, double from, double to, motion_ball_curve *out) {
+    num_ball a = num_ball_from(from), b = num_ball_from(to);
+    ball_curve(NULL, m, piece, num_ball_sub(a, num_ball_from(m->begin)), num_ball_sub(b, a), out);
 }
 
 /* --------------------------------------------------------------- in doubles -- */
@@ -94,25 +113,47 @@ static num_ball between(double p, double q, num_ball share) {
     return num_ball_add(from, num_ball_mul(share, num_ball_sub(num_ball_from(q), from)));
 }
 
-/* De Casteljau. */
-static num_ball along(const motion_piece *piece, num_ball share, int k) {
+/* De Casteljau; with two different shares, the blossom. */
+static num_ball along(const motion_piece *piece, num_ball s, num_ball t, int k) {
     double p = piece->from->at[k], q = piece->to->at[k], c = piece->from->control[k];
-    if (piece->degree < 2) return between(p, q, share);
-    num_ball from = between(p, c, share), to = between(c, q, share);
-    return num_ball_add(from, num_ball_mul(share, num_ball_sub(to, from)));
+    if (piece->degree < 2) return between(p, q, s);
+    num_ball from = between(p, c, s), to = between(c, q, s);
+    return num_ball_add(from, num_ball_mul(t, num_ball_sub(to, from)));
+}
+
+/* How much of the piece has passed. */
+static num_ball share_of(const froe_motion *m, const motion_piece *piece, num_ball passed) {
+    if (!piece->degree) return num_ball_from(0);
+    ball_weights w = ball_weigh(NULL, m, piece, passed);
+    return divide(w.b, num_ball_add(w.a, w.b));
 }
 
 double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double out[2]) {
-    num_ball share = num_ball_from(0);
-    if (piece->degree) {
-        ball_weights w = ball_weigh(NULL, m, piece, tick);
-        share = divide(w.b, num_ball_add(w.a, w.b));
-    }
-    num_ball x = along(piece, share, 0), y = along(piece, share, 1);
+    num_ball share = share_of(m, piece, ball_ticks(m, tick));
+    num_ball x = along(piece, share, share, 0), y = along(piece, share, share, 1);
     out[0] = x.x;
     out[1] = y.x;
     if (!(x.e < (double)INFINITY && y.e < (double)INFINITY)) return (double)INFINITY; /* NaN, too */
     return x.e > y.e ? x.e : y.e;
+}
+
+static void extend(num_ball x, double *lo, double *hi) {
+    double low = nextafter(x.x - x.e, -DBL_MAX), high = nextafter(x.x + x.e, DBL_MAX);
+    if (!(low >= *lo)) *lo = low >= -DBL_MAX ? low : -DBL_MAX;
+    if (!(high <= *hi)) *hi = high <= DBL_MAX ? high : DBL_MAX;
+}
+
+/* The ends and, of a parabola, the control point of the part (the blossom of both shares). */
+void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double lo[2],
+                   double hi[2]) {
+    num_ball begin = num_ball_from(m->begin);
+    num_ball s = share_of(m, piece, num_ball_sub(num_ball_from(from), begin));
+    num_ball t = share_of(m, piece, num_ball_sub(num_ball_from(to), begin));
+    for (int k = 0; k < 2; k++) {
+        extend(along(piece, s, s, k), &lo[k], &hi[k]);
+        extend(along(piece, t, t, k), &lo[k], &hi[k]);
+        if (piece->degree == 2) extend(along(piece, s, t, k), &lo[k], &hi[k]);
+    }
 }
 
 /* -------------------------------------------------------------------- pieces -- */
@@ -145,12 +186,10 @@ motion_piece motion_piece_at(const froe_motion *m, uint32_t vertex, int64_t tick
     return motion_piece_after(m, vertex, low);
 }
 
-bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, double at[2]) {
-    if (!m || vertex >= m->plans.count || !isfinite(time)) return false;
+motion_piece motion_piece_at_time(const froe_motion *m, uint32_t vertex, double time) {
     const motion_plan *plan = m->plans.data + vertex;
     const motion_knot *knots = m->knots.data + plan->first;
     uint32_t low = 0, high = plan->count > 1 ? plan->count - 1 : 1;
-    if (plan->count > 1 && (time < knots[0].time || time > knots[plan->count - 1].time)) return false;
     while (high - low > 1) {
         uint32_t middle = low + (high - low) / 2;
         if (knots[middle].time <= time)
@@ -158,10 +197,16 @@ bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, do
         else
             high = middle;
     }
-    motion_piece piece = piece_of(knots + low, plan->count == 1);
+    return motion_piece_after(m, vertex, low);
+}
+
+bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, double at[2]) {
+    if (!m || vertex >= m->plans.count || !isfinite(time)) return false;
+    motion_piece piece = motion_piece_at_time(m, vertex, time);
+    if (piece.degree && (time < piece.from->time || time > piece.to->time)) return false;
     num_ball share = num_ball_from(0);
     if (piece.degree) /* halves: ends may be as far apart as doubles go */
         share.x = (0.5 * time - 0.5 * piece.from->time) / (0.5 * piece.to->time - 0.5 * piece.from->time);
-    for (int k = 0; k < 2; k++) at[k] = share.x < 1 ? along(&piece, share, k).x : piece.to->at[k];
+    for (int k = 0; k < 2; k++) at[k] = share.x < 1 ? along(&piece, share, share, k).x : piece.to->at[k];
     return true;
 }

@@ -5,7 +5,7 @@
  * so threads do not show. */
 #include "base/status.h"
 #include "geom/contact.h"
-#include "measure/box_pairs.h"
+#include "geom/box_pairs.h"
 #include "scene/scene.h"
 
 typedef enum oddity { APART, CROSSING, T_JUNCTION, OVERLAP, ODDITIES } oddity;
@@ -110,7 +110,7 @@ static froe_status look_at_pairs(survey *v) {
     if (!status) status = find_boxes(v);
     if (status) return status;
     const double *hi = v->boxes + (size_t)v->count * (size_t)dim;
-    return measure_box_pairs(v->alloc, &v->task, 1, dim, v->count, v->boxes, hi, look_at_pair, v);
+    return geom_box_pairs(v->alloc, &v->task, 1, dim, v->count, v->boxes, hi, look_at_pair, v);
 }
 
 /* ------------------------------------------------------------------ report -- */

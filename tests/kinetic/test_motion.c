@@ -248,7 +248,8 @@ static const struct {
 } windows[] = {{0, 30, 0},           {300000, 330000, 0x1p-17}, {1.7e9, 1.7e9 + 1, 0},
                {-0.3, 0.1, 0x1p-20}, {0, 0x1p-1070, 0},         {-1e300, 1e300, 0}};
 
-static void check_motion(fuzz_source *r, num_arena *arena, fuzz_class kind, size_t window, bool quadratic, tally *seen) {
+static void check_motion(fuzz_source *r, num_arena *arena, fuzz_class kind, size_t window, bool quadratic,
+                         tally *seen) {
     froe_motion *m = motion_over(windows[window].begin, windows[window].end, windows[window].tick);
     for (int i = 0; i < MOST_VERTICES; i++) assert_true(add_random(r, kind, m, quadratic));
     for (uint32_t v = 0; v < MOST_VERTICES; v++) {

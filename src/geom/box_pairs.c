@@ -13,7 +13,7 @@
  * equal. Ranks are all different, so ranges halve, at most b - a intervals have an end inside,
  * and neither equal coordinates nor nested boxes can spoil the balance. All lists stay sorted
  * along axis 0, where a plain scan ends it. */
-#include "measure/box_pairs.h"
+#include "geom/box_pairs.h"
 #include "base/array.h"
 #include "base/radix.h"
 #include "base/status.h"
@@ -54,7 +54,7 @@ typedef struct search {
     uint32_t count, slabs;
     box *boxes; /* by lo[0] */
     worker *workers;
-    measure_pair_fn *fn;
+    geom_pair_fn *fn;
     void *user;
 } search;
 
@@ -259,8 +259,8 @@ static froe_status run_slab(void *user, unsigned number, size_t slab) {
     return run(s, w);
 }
 
-froe_status measure_box_pairs(const froe_allocator *alloc, base_task *task, double span, int dim, uint32_t count,
-                              const double *lo, const double *hi, measure_pair_fn *fn, void *user) {
+froe_status geom_box_pairs(const froe_allocator *alloc, base_task *task, double span, int dim, uint32_t count,
+                              const double *lo, const double *hi, geom_pair_fn *fn, void *user) {
     search s = {.alloc = alloc, .task = task, .dim = dim, .count = count, .fn = fn, .user = user};
     if (count < 2) return FROE_OK;
     froe_status status = rank_boxes(&s, lo, hi);

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "measure/box_pairs.h"
+#include "geom/box_pairs.h"
 #include <string.h>
 
 enum { MOST = 3000 };
@@ -48,7 +48,7 @@ static uint64_t check(const boxes *x, unsigned threads) {
     uint64_t pairs = 0;
     base_task_init(&task, threads, NULL, NULL);
     assert_non_null(m.seen);
-    assert_int_equal(measure_box_pairs(&alloc, &task, 1, x->dim, x->count, x->lo, x->hi, note, &m), FROE_OK);
+    assert_int_equal(geom_box_pairs(&alloc, &task, 1, x->dim, x->count, x->lo, x->hi, note, &m), FROE_OK);
     for (uint32_t b = 0; b < x->count; b++)
         for (uint32_t a = 0; a < b; a++) {
             bool expected = touch(x, a, b);
@@ -146,7 +146,7 @@ static void many_boxes_of_awkward_shapes_are_quick(void **state) {
         froe_allocator alloc = base_allocator(NULL);
         base_task task;
         base_task_init(&task, 2, NULL, NULL);
-        assert_int_equal(measure_box_pairs(&alloc, &task, 1, 3, N, lo, hi, count_only, &pairs), FROE_OK);
+        assert_int_equal(geom_box_pairs(&alloc, &task, 1, 3, N, lo, hi, count_only, &pairs), FROE_OK);
         if (shape < 2)
             assert_int_equal(pairs, expected[shape]);
         else
@@ -174,7 +174,7 @@ static void a_scene_with_far_too_many_pairs_can_be_cancelled(void **state) {
         froe_allocator alloc = test_memory_begin(&memory);
         base_task task;
         base_task_init(&task, threads, stop_after, &calls);
-        assert_int_equal(measure_box_pairs(&alloc, &task, 1, 2, N, lo, hi, count_only, &pairs), FROE_E_CANCELLED);
+        assert_int_equal(geom_box_pairs(&alloc, &task, 1, 2, N, lo, hi, count_only, &pairs), FROE_E_CANCELLED);
         assert_true(pairs < 1000000000);
         test_memory_end(&memory);
     }
@@ -187,7 +187,7 @@ static froe_status enumerate(void *user, const froe_allocator *alloc) {
     _Atomic uint64_t pairs = 0;
     base_task task;
     base_task_init(&task, 1, NULL, NULL);
-    return measure_box_pairs(alloc, &task, 1, b->dim, b->count, b->lo, b->hi, count_only, &pairs);
+    return geom_box_pairs(alloc, &task, 1, b->dim, b->count, b->lo, b->hi, count_only, &pairs);
 }
 
 static void every_failing_allocation_is_survived(void **state) {

@@ -1,0 +1,280 @@
+/* contacts.c: when do moving objects meet?
+ *
+ *     slices (slices.h)  ->  pairs whose boxes touch  ->  spans of time (meet.h)  ->  joined, sorted, told
+ *
+ * Slices of two objects that touch have a time in common, and all these times together are the time in which both live;
+ * so spans that end and begin at the instant where two such times meet are one contact. */
+#include "base/sort.h"
+#include "base/status.h"
+#include "geom/box_pairs.h"
+#include "kinetic/meet.h"
+#include "kinetic/slices.h"
+
+froe_contact_options froe_contact_defaults(void) {
+    return (froe_contact_options){.size = sizeof(froe_contact_options), .from = NAN, .to = NAN};
+}
+
+/* A span of one pair of slices. */
+typedef struct record {
+    uint32_t a, b;
+    meet_span span;
+} record;
+
+typedef ARRAY(record) record_array;
+
+typedef struct worker {
+    meet_worker meet;
+    record_array records;
+    uint64_t candidates;
+    froe_status status;
+    uint32_t failed[2];
+} worker;
+
+typedef struct search {
+    const froe_motion *m;
+    const froe_contact_options *o;
+    double from, to;
+    base_task task;
+    motion_slices slices;
+    worker *workers;
+    record_array records; /* of all workers */
+    froe_contact *contacts;
+    size_t contact_count;
+} search;
+
+/* ------------------------------------------------------------------- one pair -- */
+
+static bool share_a_vertex(const motion_object *a, const motion_object *b) {
+    for (int i = 0; i < 4; i++)
+        if (a->vertices[i / 2] == b->vertices[i % 2]) return true;
+    return false;
+}
+
+static bool is_asked_for(const search *s, const motion_object *a, const motion_object *b) {
+    return !share_a_vertex(a, b) && !(s->o->apart && a->group != FROE_NONE && a->group == b->group);
+}
+
+static double later(double a, double b) {
+    return a > b ? a : b;
+}
+
+static double earlier(double a, double b) {
+    return a < b ? a : b;
+}
+
+/* The time both live in, within the time asked for. */
+static void common_life(const search *s, uint32_t a, uint32_t b, double life[2]) {
+    const motion_object *p = s->m->objects.data + a, *q = s->m->objects.data + b;
+    life[0] = later(s->from, later(p->birth, q->birth));
+    life[1] = earlier(s->to, earlier(p->death, q->death));
+}
+
+/* Meets two slices; those that have but an instant in common do so at the end of longer ones, unless it is all
+ * there is. */
+static bool look_at_slices(void *user, unsigned number, uint32_t i, uint32_t j) {
+    search *s = user;
+    worker *w = s->workers + number;
+    const motion_slice *p = s->slices.slices.data + i, *q = s->slices.slices.data + j;
+    if (p->object > q->object) {
+        const motion_slice *swap = p;
+        p = q;
+        q = swap;
+    }
+    const froe_motion *m = s->m;
+    if (p->object == q->object || !is_asked_for(s, m->objects.data + p->object, m->objects.data + q->object))
+        return true;
+    double from = later(p->from, q->from), to = earlier(p->to, q->to), life[2];
+    common_life(s, p->object, q->object, life);
+    if (from > to || (from == to && life[0] < life[1])) return true;
+    w->candidates++;
+    w->status = meet_find(m, &w->meet, p->object, q->object, from, to);
+    w->failed[0] = p->object;
+    w->failed[1] = q->object;
+    for (int k = 0; k < w->meet.span_count && !w->status; k++)
+        if (!array_push(&m->alloc, &w->records, (record){p->object, q->object, w->meet.spans[k]}))
+            w->status = FROE_E_MEMORY;
+    return !w->status;
+}
+
+static froe_status find_spans(search *s, froe_diagnostic *diag) {
+    unsigned threads = s->task.threads;
+    s->workers = base_calloc(&s->m->alloc, threads, sizeof *s->workers);
+    froe_status status = s->workers ? FROE_OK : FROE_E_MEMORY;
+    for (unsigned i = 0; i < threads && !status; i++) status = meet_worker_new(s->m, &s->workers[i].meet);
+    if (!status)
+        status = geom_box_pairs(&s->m->alloc, &s->task, 1, 3, (uint32_t)s->slices.slices.count, s->slices.lo.data,
+                                s->slices.hi.data, look_at_slices, s);
+    for (unsigned i = 0; s->workers && i < threads; i++) {
+        const worker *w = s->workers + i;
+        if (w->status == FROE_E_LIMIT)
+            return base_fail_at(diag, w->status, w->failed[0], FROE_NONE, FROE_NONE,
+                                "segments %u and %u: two things happen too close to be told apart", w->failed[0],
+                                w->failed[1]);
+        if (w->status) status = w->status;
+    }
+    return status;
+}
+
+/* ----------------------------------------------------------------- all of them -- */
+
+static int compare_records(void *user, uint32_t i, uint32_t j) {
+    const search *s = user;
+    const record *a = s->records.data + i, *b = s->records.data + j;
+    if (a->a != b->a) return a->a < b->a ? -1 : 1;
+    if (a->b != b->b) return a->b < b->b ? -1 : 1;
+    double x = a->span.begin.low, y = b->span.begin.low;
+    if (x != y) return x < y ? -1 : 1;
+    x = a->span.end.high, y = b->span.end.high;
+    if (x != y) return x < y ? -1 : 1;
+    return a->span.from_start - b->span.from_start; /* what ends at an instant, before what begins there */
+}
+
+static int compare_contacts(void *user, uint32_t i, uint32_t j) {
+    const search *s = user;
+    const froe_contact *a = s->contacts + i, *b = s->contacts + j;
+    for (int k = 0; k < 2; k++)
+        if (a->begin[k] != b->begin[k]) return a->begin[k] < b->begin[k] ? -1 : 1;
+    if (a->a != b->a) return a->a < b->a ? -1 : 1;
+    return a->b < b->b ? -1 : a->b > b->b;
+}
+
+/* The numbers 0 .. count-1 in order; to be freed as 2 count + 1 numbers. */
+static uint32_t *sorted(search *s, size_t count, base_compare_fn *compare) {
+    uint32_t *order = base_calloc(&s->m->alloc, 2 * count + 1, sizeof *order);
+    if (!order) return NULL;
+    for (uint32_t i = 0; i < count; i++) order[i] = i;
+    base_merge_sort(order, order + count, count, compare, s);
+    return order;
+}
+
+static void free_order(const search *s, uint32_t *order, size_t count) {
+    base_free(&s->m->alloc, order, (2 * count + 1) * sizeof *order);
+}
+
+static froe_status gather(search *s) {
+    size_t count = 0;
+    for (unsigned i = 0; i < s->task.threads; i++) count += s->workers[i].records.count;
+    if (count >= UINT32_MAX / 2) return FROE_E_LIMIT;
+    if (!array_reserve(&s->m->alloc, &s->records, count)) return FROE_E_MEMORY;
+    for (unsigned i = 0; i < s->task.threads; i++) {
+        const worker *w = s->workers + i;
+        for (size_t k = 0; k < w->records.count; k++) s->records.data[s->records.count++] = w->records.data[k];
+    }
+    return FROE_OK;
+}
+
+static froe_contact contact_of(const search *s, const record *r) {
+    double life[2];
+    common_life(s, r->a, r->b, life);
+    froe_contact c = {.a = r->a, .b = r->b, .instant = r->span.instant};
+    c.begin[0] = r->span.begin.low, c.begin[1] = r->span.begin.high;
+    c.end[0] = r->span.end.low, c.end[1] = r->span.end.high;
+    c.since_start = r->span.from_start && c.begin[0] == life[0];
+    c.to_stop = r->span.to_end && c.end[1] == life[1];
+    return c;
+}
+
+/* Does a contact go on where its last span ended? */
+static bool goes_on(const record *last, const record *next) {
+    return last->a == next->a && last->b == next->b && last->span.to_end && next->span.from_start &&
+           last->span.end.high == next->span.begin.low;
+}
+
+static void join(search *s, const uint32_t *order) {
+    const record *last = NULL;
+    for (size_t i = 0; i < s->records.count; i++) {
+        const record *r = s->records.data + order[i];
+        froe_contact next = contact_of(s, r);
+        if (last && goes_on(last, r)) {
+            froe_contact *c = s->contacts + s->contact_count - 1;
+            for (int k = 0; k < 2; k++) c->end[k] = next.end[k];
+            c->to_stop = next.to_stop;
+            c->instant = c->instant && next.instant;
+        } else {
+            s->contacts[s->contact_count++] = next;
+        }
+        last = r;
+    }
+}
+
+static froe_status make_contacts(search *s) {
+    froe_status status = gather(s);
+    if (status) return status;
+    size_t count = s->records.count;
+    s->contacts = base_calloc(&s->m->alloc, count + 1, sizeof *s->contacts);
+    uint32_t *order = sorted(s, count, compare_records);
+    if (s->contacts && order) join(s, order);
+    status = s->contacts && order ? FROE_OK : FROE_E_MEMORY;
+    free_order(s, order, count);
+    return status;
+}
+
+static froe_status tell(search *s, froe_contact_fn *fn, void *user) {
+    uint32_t *order = sorted(s, s->contact_count, compare_contacts);
+    if (!order) return FROE_E_MEMORY;
+    double first = (double)INFINITY; /* the first contact begins no later */
+    for (size_t i = 0; i < s->contact_count && s->o->first; i++) first = earlier(first, s->contacts[i].begin[1]);
+    for (size_t i = 0; i < s->contact_count; i++) {
+        const froe_contact *c = s->contacts + order[i];
+        if (c->begin[0] > first || !fn(user, c)) break;
+    }
+    free_order(s, order, s->contact_count);
+    return FROE_OK;
+}
+
+/* --------------------------------------------------------------------- a search -- */
+
+static froe_status check(search *s, froe_diagnostic *diag) {
+    const froe_contact_options *o = s->o;
+    if (o->size != sizeof *o) return base_fail(diag, FROE_E_OPTIONS, "options not from froe_contact_defaults()");
+    s->from = isnan(o->from) ? s->m->begin : o->from;
+    s->to = isnan(o->to) ? s->m->end : o->to;
+    if (s->from > s->to || s->from < s->m->begin || s->to > s->m->end)
+        return base_fail(diag, FROE_E_OPTIONS, "the time %.17g .. %.17g does not lie in the window %.17g .. %.17g",
+                         s->from, s->to, s->m->begin, s->m->end);
+    return FROE_OK;
+}
+
+static void count_up(const search *s, froe_contact_statistics *out) {
+    *out = (froe_contact_statistics){.boxes = s->slices.slices.count};
+    for (unsigned i = 0; i < s->task.threads; i++) {
+        out->candidates += s->workers[i].candidates;
+        out->exact += s->workers[i].meet.stats.exact;
+    }
+}
+
+static void search_free(search *s) {
+    const froe_allocator *alloc = &s->m->alloc;
+    for (unsigned i = 0; s->workers && i < s->task.threads; i++) {
+        meet_worker_free(s->m, &s->workers[i].meet);
+        array_free(alloc, &s->workers[i].records);
+    }
+    base_free(alloc, s->workers, s->task.threads * sizeof *s->workers);
+    base_free(alloc, s->contacts, (s->records.count + 1) * sizeof *s->contacts);
+    array_free(alloc, &s->records);
+    motion_slices_free(s->m, &s->slices);
+}
+
+static froe_status explain(froe_status status, froe_diagnostic *diag) {
+    if (status == FROE_E_MEMORY) return base_fail_memory(diag);
+    if (status == FROE_E_CANCELLED) return base_fail(diag, status, "cancelled by the progress function");
+    return status;
+}
+
+froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options, froe_contact_fn *fn,
+                                 void *user, froe_diagnostic *diag) {
+    const froe_contact_options standard = froe_contact_defaults();
+    if (!motion || !fn) return base_fail(diag, FROE_E_ARG, "no motion, or nobody to tell the contacts to");
+    search s = {.m = motion, .o = options ? options : &standard};
+    froe_status status = check(&s, diag);
+    if (status) return status;
+    base_task_init(&s.task, s.o->threads, s.o->progress, s.o->user);
+    status = motion_slices_find(motion, s.from, s.to, &s.slices);
+    if (status == FROE_E_LIMIT) return base_fail(diag, status, "more than 2^31 boxes in the plane and in time");
+    if (!status) status = find_spans(&s, diag);
+    if (!status) status = make_contacts(&s);
+    if (!status) status = tell(&s, fn, user);
+    if (!status && s.o->statistics) count_up(&s, s.o->statistics);
+    search_free(&s);
+    return explain(status, diag);
+}

@@ -1,0 +1,111 @@
+/* slices.c: see slices.h. How finely is a matter of speed alone. */
+#include "kinetic/slices.h"
+#include <float.h>
+
+enum {
+    MOST_CUTS = 64,  /* of one piece */
+    MOST_LEVEL = 24, /* cuts are at whole multiples of the window's 2^-24, or coarser */
+};
+#define SLICE_LIMIT ((size_t)1 << 31)
+
+typedef struct slicing {
+    const froe_motion *m;
+    motion_slices *out;
+    double spacing; /* the side of a square that an object has for itself */
+} slicing;
+
+/* What the objects have for themselves, roughly: the scene's extent is that of all knots. */
+static double typical_spacing(const froe_motion *m) {
+    double lo[2] = {DBL_MAX, DBL_MAX}, hi[2] = {-DBL_MAX, -DBL_MAX};
+    for (size_t i = 0; i < m->knots.count; i++)
+        for (int k = 0; k < 2; k++) {
+            double x = m->knots.data[i].at[k];
+            if (x < lo[k]) lo[k] = x;
+            if (x > hi[k]) hi[k] = x;
+        }
+    double width = hi[0] - lo[0], height = hi[1] - lo[1], n = (double)(m->objects.count + 1);
+    return sqrt((width / n + DBL_MIN) * (height > width / 16 ? height : width / 16));
+}
+
+static bool put(slicing *s, uint32_t object, const motion_piece piece[2], double from, double to) {
+    double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {-(double)INFINITY, -(double)INFINITY};
+    for (int i = 0; i < 2; i++) motion_extend(s->m, &piece[i], from, to, lo, hi);
+    const froe_allocator *alloc = &s->m->alloc;
+    motion_slices *out = s->out;
+    if (!array_reserve(alloc, &out->lo, 3) || !array_reserve(alloc, &out->hi, 3)) return false;
+    if (!array_push(alloc, &out->slices, (motion_slice){object, from, to})) return false;
+    const double low[3] = {lo[0], lo[1], from}, high[3] = {hi[0], hi[1], to};
+    for (int k = 0; k < 3; k++) {
+        out->lo.data[out->lo.count++] = low[k];
+        out->hi.data[out->hi.count++] = high[k];
+    }
+    return true;
+}
+
+/* How many times farther than the object is large do its vertices go? */
+static double travel(const slicing *s, const motion_piece piece[2], double from, double to) {
+    double way = 0, size = s->spacing, at[2][2];
+    for (int i = 0; i < 2; i++) {
+        double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {-(double)INFINITY, -(double)INFINITY};
+        motion_extend(s->m, &piece[i], from, to, lo, hi);
+        for (int k = 0; k < 2; k++) {
+            if (hi[k] - lo[k] > way) way = hi[k] - lo[k];
+            at[i][k] = lo[k];
+        }
+    }
+    for (int k = 0; k < 2; k++)
+        if (fabs(at[0][k] - at[1][k]) > size) size = fabs(at[0][k] - at[1][k]);
+    return way / size;
+}
+
+/* Cuts a time in which neither vertex changes its piece. */
+static bool cut_piece(slicing *s, uint32_t object, const motion_piece piece[2], double from, double to) {
+    const froe_motion *m = s->m;
+    double length = m->end - m->begin, cuts = travel(s, piece, from, to), step = length, next = from;
+    if (!(cuts < MOST_CUTS)) cuts = MOST_CUTS;
+    for (int level = 0; level < MOST_LEVEL && step * cuts > to - from; level++) step *= 0.5;
+    for (double k = floor((from - m->begin) / step) + 1; next < to && cuts > 1; k++) {
+        double end = m->begin + k * step;
+        if (!(end > next)) continue;
+        if (end >= to) break;
+        if (!put(s, object, piece, next, end)) return false;
+        next = end;
+    }
+    return put(s, object, piece, next, to);
+}
+
+static bool slice_object(slicing *s, uint32_t object, double from, double to) {
+    const motion_object *o = s->m->objects.data + object;
+    if (o->birth > from) from = o->birth;
+    if (o->death < to) to = o->death;
+    while (from <= to) {
+        motion_piece piece[2];
+        double end = to;
+        for (int i = 0; i < 2; i++) {
+            piece[i] = motion_piece_at_time(s->m, o->vertices[i], from);
+            if (piece[i].degree && piece[i].to->time > from && piece[i].to->time < end) end = piece[i].to->time;
+        }
+        if (!cut_piece(s, object, piece, from, end)) return false;
+        if (end == to) break;
+        from = end;
+    }
+    return true;
+}
+
+froe_status motion_slices_find(const froe_motion *m, double from, double to, motion_slices *out) {
+    *out = (motion_slices){.slices = {0}};
+    slicing s = {m, out, typical_spacing(m)};
+    froe_status status = FROE_OK;
+    for (uint32_t i = 0; i < m->objects.count && !status; i++) {
+        if (!slice_object(&s, i, from, to)) status = FROE_E_MEMORY;
+        if (out->slices.count >= SLICE_LIMIT) status = FROE_E_LIMIT;
+    }
+    if (status) motion_slices_free(m, out);
+    return status;
+}
+
+void motion_slices_free(const froe_motion *m, motion_slices *s) {
+    array_free(&m->alloc, &s->slices);
+    array_free(&m->alloc, &s->lo);
+    array_free(&m->alloc, &s->hi);
+}

@@ -1,0 +1,206 @@
+/* isolate.c: bisection by Sturm's counts until a root is alone, by signs from then on. */
+#include "num/isolate.h"
+#include <string.h>
+
+static num_dyadic fraction(const uint64_t *limbs) {
+    int low = 0, high = NUM_FRACTION_LIMBS;
+    while (high > 0 && !limbs[high - 1]) high--;
+    while (low < high && !limbs[low]) low++;
+    if (low == high) return (num_dyadic){0};
+    return (num_dyadic){1, low - NUM_FRACTION_LIMBS, (uint32_t)(high - low), limbs + low};
+}
+
+/* Sets the bit of 2^-depth. */
+static void set_bit(uint64_t *limbs, int depth) {
+    int bit = 64 * NUM_FRACTION_LIMBS - depth;
+    limbs[bit / 64] |= (uint64_t)1 << (bit % 64);
+}
+
+static num_dyadic power_of_half(num_arena *arena, int depth) {
+    return num_dyadic_scaled(arena, 1, 1, -depth);
+}
+
+num_dyadic num_isolated_low(const num_isolated *root) {
+    return fraction(root->lo);
+}
+
+num_dyadic num_isolated_high(num_arena *arena, const num_isolated *root) {
+    num_dyadic low = fraction(root->lo);
+    return root->exact ? low : num_dyadic_add(arena, low, power_of_half(arena, root->depth));
+}
+
+num_ball num_isolated_ball(const num_isolated *root) {
+    const uint64_t *top = root->lo + NUM_FRACTION_LIMBS - 1;
+    double low = (double)(top[0] >> 11) * 0x1p-53; /* what is cut off is below 2^-53 */
+    bool cut = (top[0] & 0x7ff) || root->depth > 64;
+    if (root->exact) return (num_ball){low, cut ? 0x1p-53 : 0};
+    double half = ldexp(0.5, -root->depth); /* low + half may round: one more unit */
+    return (num_ball){low + half, half * NUM_BALL_UP + 0x1p-53 + (cut ? 0x1p-53 : 0)};
+}
+
+/* Sign of the polynomial at lo. */
+static int sign_at_low(num_arena *arena, const num_isolated *at) {
+    num_isolated point = *at;
+    point.exact = true; /* for its ball */
+    int sign = num_ball_sign(num_ball_poly_at(&at->of->near, num_isolated_ball(&point)));
+    return sign == NUM_UNSURE ? num_poly_sign(arena, &at->of->chain.p[0], fraction(at->lo)) : sign;
+}
+
+/* The upper half of an interval. */
+static num_isolated upper_half(const num_isolated *root) {
+    num_isolated half = *root;
+    set_bit(half.lo, ++half.depth);
+    return half;
+}
+
+/* ------------------------------------------------------------------ one root -- */
+
+/* Is the root above the middle, where the polynomial has that sign? */
+static bool is_above(num_arena *arena, const num_isolated *root, const num_isolated *half, int sign) {
+    const num_chain *chain = &root->of->chain;
+    if (!root->even) return sign == root->low_sign;
+    return num_chain_variations(arena, chain, fraction(root->lo)) ==
+           num_chain_variations(arena, chain, fraction(half->lo));
+}
+
+bool num_isolated_refine(num_arena *arena, num_isolated *root) {
+    if (root->exact) return true;
+    if (root->depth == NUM_MOST_DEPTH) return false;
+    num_isolated half = upper_half(root);
+    int sign = sign_at_low(arena, &half);
+    half.exact = sign == 0;
+    if (sign == 0 || is_above(arena, root, &half, sign))
+        *root = half;
+    else
+        root->depth++;
+    return true;
+}
+
+bool num_isolated_narrow(num_arena *arena, num_isolated *root, int depth) {
+    while (!root->exact && root->depth < depth)
+        if (!num_isolated_refine(arena, root)) return false;
+    return true;
+}
+
+/* ----------------------------------------------------------------- isolation -- */
+
+/* Is there one root between lo and its upper end? Neither end is a root. */
+static bool is_alone(num_arena *arena, num_isolated *at) {
+    const num_chain *chain = &at->of->chain;
+    size_t mark = arena->top;
+    num_dyadic low = fraction(at->lo), high = num_isolated_high(arena, at);
+    bool alone = num_chain_variations(arena, chain, low) - num_chain_variations(arena, chain, high) == 1;
+    if (alone) {
+        at->low_sign = num_poly_sign(arena, &chain->p[0], low);
+        at->even = at->low_sign == num_poly_sign(arena, &chain->p[0], high);
+    }
+    arena->top = mark;
+    return alone;
+}
+
+typedef enum outcome { FOUND, HIT, TOO_CLOSE } outcome;
+
+/* Narrows 0 .. 1 to the k-th root, k = 1, 2, ...; `before`: variations at 0. HIT: what is now exact is a root, maybe
+ * another one. Sturm's theorem does not speak of points that are multiple roots. */
+static outcome find(num_arena *arena, int before, int k, num_isolated *at) {
+    const num_chain *chain = &at->of->chain;
+    while (!is_alone(arena, at)) {
+        if (at->depth == NUM_MOST_DEPTH) return TOO_CLOSE;
+        num_isolated half = upper_half(at);
+        num_dyadic middle = fraction(half.lo);
+        half.exact = !num_poly_sign(arena, &chain->p[0], middle);
+        if (half.exact || before - num_chain_variations(arena, chain, middle) < k)
+            *at = half;
+        else
+            at->depth++;
+        if (half.exact) return HIT;
+    }
+    return FOUND;
+}
+
+/* All roots of the chain's polynomial behind the `exact` ones that are known, until a middle is hit. */
+static outcome find_all(num_arena *arena, num_isolation *out, int exact) {
+    int before = num_chain_variations(arena, &out->chain, (num_dyadic){0});
+    size_t mark = arena->top;
+    int count = before - num_chain_variations(arena, &out->chain, num_dyadic_scaled(arena, 1, 1, 0));
+    arena->top = mark;
+    for (int k = 1; k <= count; k++) {
+        num_isolated *at = &out->root[exact + k - 1];
+        *at = (num_isolated){.of = out};
+        outcome found = find(arena, before, k, at);
+        if (found == HIT) out->root[exact] = *at;
+        if (found != FOUND) return found;
+    }
+    out->count = exact + count;
+    return FOUND;
+}
+
+/* Puts the exact roots, which come first and in any order, in their places. Roots of one polynomial are apart. */
+static void sort_roots(num_arena *arena, num_isolation *out) {
+    for (int i = 1; i < out->count; i++) {
+        num_isolated moved = out->root[i];
+        int j = i;
+        for (; j > 0 && num_isolated_compare(arena, &moved, &out->root[j - 1]) < 0; j--)
+            out->root[j] = out->root[j - 1];
+        out->root[j] = moved;
+    }
+}
+
+void num_isolate(num_arena *arena, const num_poly *f, num_isolation *out) {
+    num_poly inside = num_poly_without(arena, f, (num_dyadic){0});
+    inside = num_poly_without(arena, &inside, num_dyadic_scaled(arena, 1, 1, 0));
+    outcome found = HIT;
+    for (int exact = 0; found == HIT; exact++) {
+        if (exact) inside = num_poly_without(arena, &inside, fraction(out->root[exact - 1].lo));
+        out->chain = num_chain_of(arena, &inside, NULL);
+        out->near = num_poly_balls(arena, &inside);
+        found = find_all(arena, out, exact);
+    }
+    if (found == TOO_CLOSE) out->count = -1;
+    sort_roots(arena, out);
+}
+
+/* --------------------------------------------------------------- comparisons -- */
+
+/* By Tarski's query: the sum over one root. */
+static int exact_sign(num_arena *arena, const num_isolated *root, const num_poly *g) {
+    size_t mark = arena->top;
+    num_chain chain = num_chain_of(arena, &root->of->chain.p[0], g);
+    int low = num_chain_variations(arena, &chain, fraction(root->lo));
+    int sign = low - num_chain_variations(arena, &chain, num_isolated_high(arena, root));
+    arena->top = mark;
+    return sign;
+}
+
+int num_isolated_sign(num_arena *arena, const num_isolated *root, const num_poly *g, const num_ball_poly *near) {
+    int sign = num_ball_sign(num_ball_poly_at(near, num_isolated_ball(root)));
+    if (sign != NUM_UNSURE) return sign;
+    return root->exact ? num_poly_sign(arena, g, fraction(root->lo)) : exact_sign(arena, root, g);
+}
+
+/* -1, 1: apart; 0: one interval holds the other, or they are the same point. */
+static int place(num_arena *arena, const num_isolated *a, const num_isolated *b) {
+    size_t mark = arena->top;
+    num_dyadic low_a = fraction(a->lo), low_b = fraction(b->lo);
+    num_dyadic high_a = num_isolated_high(arena, a), high_b = num_isolated_high(arena, b);
+    int below = num_dyadic_compare(high_a, low_b), above = num_dyadic_compare(high_b, low_a);
+    arena->top = mark;
+    bool points = a->exact && b->exact;
+    return below < 0 || (below == 0 && !points) ? -1 : above < 0 || (above == 0 && !points) ? 1 : 0;
+}
+
+int num_isolated_compare(num_arena *arena, num_isolated *a, num_isolated *b) {
+    enum { PATIENCE = 24 }; /* halvings before the exact question */
+    for (int round = 0;; round++) {
+        int order = place(arena, a, b);
+        if (order) return order;
+        if (a->exact && b->exact) return 0;
+        /* the outer polynomial has one root in the outer interval, which holds the inner root */
+        if (round == PATIENCE) {
+            num_isolated *inner = a->exact || (!b->exact && a->depth >= b->depth) ? a : b, *outer = inner == a ? b : a;
+            if (!num_isolated_sign(arena, inner, &outer->of->chain.p[0], &outer->of->near)) return 0;
+        }
+        num_isolated *wider = b->exact || (!a->exact && a->depth <= b->depth) ? a : b;
+        if (!num_isolated_refine(arena, wider)) return NUM_UNSURE;
+    }
+}

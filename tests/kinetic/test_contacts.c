@@ -1,0 +1,308 @@
+/* test_contacts.c: contacts of moving segments against whole numbers, pair by pair. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "kinetic/meet.h"
+#include "motions.h"
+#include "oracle/moving.h"
+#include "support/memory.h"
+
+enum { MOST_CONTACTS = 8192 };
+
+typedef struct found {
+    froe_contact list[MOST_CONTACTS];
+    size_t count;
+} found;
+
+static bool note(void *user, const froe_contact *c) {
+    found *f = user;
+    assert_true(f->count < MOST_CONTACTS);
+    f->list[f->count++] = *c;
+    return true;
+}
+
+static froe_motion *motion_of(const froe_moving *batch, const froe_allocator *alloc) {
+    froe_motion_options o = froe_motion_defaults();
+    o.begin = 0;
+    o.end = 8;
+    froe_motion *m = NULL;
+    assert_int_equal(froe_motion_new(&o, alloc, &m, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add(m, batch, NULL), FROE_OK);
+    return m;
+}
+
+static void find(const froe_motion *m, const froe_contact_options *o, found *out) {
+    out->count = 0;
+    assert_int_equal(froe_motion_contacts(m, o, note, out, NULL), FROE_OK);
+}
+
+/* ------------------------------------------------------------ against the oracle -- */
+
+/* Do the two enclosures of one instant overlap, and is ours as narrow as doubles allow? */
+static void assert_same_instant(const double ours[2], mpq_t theirs[2]) {
+    mpq_t low, high;
+    mpq_inits(low, high, NULL);
+    mpq_set_d(low, ours[0]);
+    mpq_set_d(high, ours[1]);
+    assert_true(mpq_cmp(low, theirs[1]) <= 0 && mpq_cmp(theirs[0], high) <= 0);
+    assert_true(ours[1] - ours[0] <= 8 * 0x1p-50); /* times up to 8 */
+    mpq_clears(low, high, NULL);
+}
+
+/* What was found about a pair, in order of time. */
+static int of_pair(const found *f, uint32_t a, uint32_t b, const froe_contact **out) {
+    int count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        if (f->list[i].a == a && f->list[i].b == b) out[count++] = &f->list[i];
+    return count;
+}
+
+typedef struct tally {
+    int contacts, instants, from_start, lasting;
+} tally;
+
+static void check_pair(const froe_motion *m, const found *f, uint32_t a, uint32_t b, oracle_contacts *truth, tally *t) {
+    const froe_contact *ours[ORACLE_MOST];
+    oracle_contacts_find(truth, m, a, b);
+    assert_int_equal(of_pair(f, a, b, ours), truth->count);
+    for (int i = 0; i < truth->count; i++) {
+        oracle_contact *c = &truth->list[i];
+        assert_same_instant(ours[i]->begin, c->begin);
+        assert_same_instant(ours[i]->end, c->end);
+        assert_int_equal(ours[i]->instant, c->instant);
+        assert_int_equal(ours[i]->since_start, c->since_start);
+        assert_int_equal(ours[i]->to_stop, c->to_stop);
+        t->contacts++;
+        t->instants += c->instant;
+        t->from_start += c->since_start;
+        t->lasting += !c->instant;
+    }
+}
+
+static void check_motion(const froe_motion *m, tally *t) {
+    static found f, again;
+    froe_contact_options o = froe_contact_defaults();
+    o.threads = 1;
+    find(m, &o, &f);
+    o.threads = 3;
+    find(m, &o, &again);
+    assert_int_equal(f.count, again.count);
+    assert_memory_equal(f.list, again.list, f.count * sizeof *f.list);
+    oracle_contacts truth;
+    oracle_contacts_init(&truth);
+    for (uint32_t a = 0; a < froe_motion_object_count(m); a++)
+        for (uint32_t b = a + 1; b < froe_motion_object_count(m); b++) check_pair(m, &f, a, b, &truth, t);
+    oracle_contacts_clear(&truth);
+}
+
+static void contacts_are_those_of_exact_brute_force(void **state) {
+    (void)state;
+    static motion_arrays arrays;
+    fuzz_source r = {11};
+    for (int kind = 0; kind < MOTION_KINDS; kind++) {
+        tally t = {0, 0, 0, 0};
+        for (int round = 0; round < 2; round++) {
+            froe_moving batch = motion_make(&r, (motion_kind)kind, kind == MOTION_QUADRATIC ? 4 : 6, &arrays);
+            froe_motion *m = motion_of(&batch, NULL);
+            check_motion(m, &t);
+            froe_motion_free(m);
+        }
+        assert_true(t.contacts >= 8);
+        if (kind >= MOTION_LATTICE && kind != MOTION_RIGID) assert_true(t.instants > 3 && t.lasting > 10);
+    }
+}
+
+/* ------------------------------------------------------------------- known cases -- */
+
+static size_t contacts_of(const froe_moving *batch, const froe_contact_options *o, found *out) {
+    froe_motion *m = motion_of(batch, NULL);
+    find(m, o, out);
+    froe_motion_free(m);
+    return out->count;
+}
+
+/* A parabola that touches a standing segment in one point at t = 4, known exactly; from y = 8 down to 0 and up. */
+static void a_grazing_contact_is_one_instant(void **state) {
+    (void)state;
+    static found f;
+    const double times[] = {0, 8, 0, 8, 0, 0}, xy[] = {0, 8, 8, 8, 0, 12, 8, 12, -1, 0, 9, 0};
+    const double controls[] = {4, -8, 0, 0, 4, -4, 0, 0, 0, 0, 0, 0};
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 4;
+    b.count = 2;
+    b.starts = (const size_t[]){0, 2, 4, 5, 6};
+    b.times = times;
+    b.coords = xy;
+    b.controls = controls;
+    assert_int_equal(contacts_of(&b, NULL, &f), 1);
+    const froe_contact *c = &f.list[0];
+    assert_true(c->begin[0] == 4 && c->begin[1] == 4 && c->end[0] == 4 && c->end[1] == 4);
+    assert_true(c->instant && !c->since_start && !c->to_stop);
+}
+
+/* Three moving points that meet a wall at 1/3, 2 and 7 of the window, and one that never does. */
+static const double wall_times[] = {0, 0, 0, 8, 0, 8, 0, 8, 0, 8, 0, 8, 0, 8, 0, 8, 0, 8};
+static const double wall_xy[] = {0,  -9, 0, 9, 1,  1, -23, 1, 2, 1, -22, 1, 2, 3, -6, 3, 3, 3,
+                                 -5, 3,  7, 5, -1, 5, 8,   5, 0, 5, 9,   7, 9, 7, 9,  8, 9, 8};
+
+static froe_moving wall(void) {
+    static const size_t starts[] = {0, 1, 2, 4, 6, 8, 10, 12, 14, 16, 18};
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 10;
+    b.count = 5;
+    b.starts = starts;
+    b.times = wall_times;
+    b.coords = wall_xy;
+    return b;
+}
+
+static void times_are_enclosed_and_the_first_is_found(void **state) {
+    (void)state;
+    static found f;
+    froe_moving b = wall();
+    assert_int_equal(contacts_of(&b, NULL, &f), 3);
+    assert_true(f.list[0].b == 1 && f.list[1].b == 2 && f.list[2].b == 3);
+    assert_true(f.list[0].begin[0] < 1.0 / 3 + 1e-15 && f.list[0].begin[1] >= 1.0 / 3 && !f.list[0].to_stop);
+    assert_true(f.list[0].begin[1] - f.list[0].begin[0] < 4e-16 * 8);
+    assert_true(f.list[1].begin[0] <= 2 && f.list[1].begin[1] >= 2 && f.list[1].end[0] <= 3 && f.list[1].end[1] >= 3);
+    assert_true(f.list[2].to_stop && f.list[2].end[1] == 8 && !f.list[2].instant);
+    froe_contact_options o = froe_contact_defaults();
+    froe_contact_statistics statistics;
+    o.first = true;
+    o.statistics = &statistics;
+    assert_int_equal(contacts_of(&b, &o, &f), 1);
+    assert_int_equal(f.list[0].b, 1);
+    assert_true(statistics.boxes >= 5 && statistics.candidates >= 3 && statistics.exact >= 3);
+    o.first = false;
+    o.from = 2.5;
+    o.to = 7;
+    assert_int_equal(contacts_of(&b, &o, &f), 2);
+    assert_true(f.list[0].b == 2 && f.list[0].since_start && f.list[0].begin[0] == 2.5);
+    assert_true(f.list[1].b == 3 && f.list[1].to_stop && f.list[1].instant && f.list[1].begin[1] == 7);
+}
+
+static void objects_of_one_group_or_vertex_may_be_left_out(void **state) {
+    (void)state;
+    static found f;
+    froe_moving b = wall();
+    b.vertices = (const uint32_t[]){0, 1, 2, 3, 0, 5, 6, 7, 8, 9}; /* the third hangs on the wall */
+    assert_int_equal(contacts_of(&b, NULL, &f), 2);
+    for (size_t i = 0; i < f.count; i++) assert_false(f.list[i].a == 0 && f.list[i].b == 2);
+    froe_motion_options w = froe_motion_defaults();
+    w.begin = 0;
+    w.end = 8;
+    froe_motion *m = NULL;
+    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+    for (int i = 0; i < 2; i++) assert_int_equal(froe_motion_add_group(m, &(froe_group){.name = "g"}, NULL), FROE_OK);
+    b = wall();
+    b.groups = (const uint32_t[]){0, 0, 1, FROE_NONE, FROE_NONE};
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+    froe_contact_options o = froe_contact_defaults();
+    o.apart = true;
+    find(m, &o, &f);
+    assert_int_equal(f.count, 2);
+    assert_int_equal(f.list[0].b, 2);
+    froe_motion_free(m);
+}
+
+/* ------------------------------------------------------------- refusals and limits -- */
+
+static bool stop_at_once(void *user, const froe_contact *c) {
+    (void)c;
+    ++*(int *)user;
+    return false;
+}
+
+static bool no_progress(void *user, double done) {
+    (void)user;
+    (void)done;
+    return false;
+}
+
+static void bad_options_are_refused_and_calls_can_be_stopped(void **state) {
+    (void)state;
+    froe_moving b = wall();
+    froe_motion *m = motion_of(&b, NULL);
+    int told = 0;
+    froe_diagnostic diag;
+    assert_int_equal(froe_motion_contacts(m, NULL, stop_at_once, &told, NULL), FROE_OK);
+    assert_int_equal(told, 1);
+    assert_int_equal(froe_motion_contacts(m, NULL, NULL, NULL, NULL), FROE_E_ARG);
+    froe_contact_options o = froe_contact_defaults();
+    o.from = 9;
+    assert_int_equal(froe_motion_contacts(m, &o, stop_at_once, &told, &diag), FROE_E_OPTIONS);
+    assert_string_equal(diag.message, "the time 9 .. 8 does not lie in the window 0 .. 8");
+    o = froe_contact_defaults();
+    o.progress = no_progress;
+    assert_int_equal(froe_motion_contacts(m, &o, stop_at_once, &told, NULL), FROE_E_CANCELLED);
+    o.size = 0;
+    assert_int_equal(froe_motion_contacts(m, &o, stop_at_once, &told, NULL), FROE_E_OPTIONS);
+    assert_int_equal(told, 1);
+    froe_motion_free(m);
+}
+
+/* The widest numbers that doubles make: the arena must hold whatever comes. */
+static void nasty_coordinates_stay_within_the_arena(void **state) {
+    (void)state;
+    static motion_arrays arrays;
+    fuzz_source r = {5};
+    for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
+        froe_moving batch = motion_make(&r, kind % 2 ? MOTION_PARABOLIC : MOTION_LATTICE, 2, &arrays);
+        fuzz_points(&r, (fuzz_class)kind, 2, arrays.xy, arrays.starts[4]);
+        for (size_t i = 0; i < 2 * arrays.starts[4]; i++)
+            if (!isnan(arrays.controls[i])) arrays.controls[i] = fuzz_coordinate(&r, (fuzz_class)kind);
+        froe_motion *m = motion_of(&batch, NULL);
+        meet_worker *w = calloc(1, sizeof *w);
+        assert_non_null(w);
+        assert_int_equal(meet_worker_new(m, w), FROE_OK);
+        for (int t = 0; t < 8; t++) { /* no knot within */
+            froe_status status = meet_find(m, w, 0, 1, t, t + 1);
+            assert_true(status == FROE_OK || status == FROE_E_LIMIT);
+        }
+        assert_true(w->arena.high < w->arena.capacity / 2);
+        meet_worker_free(m, w);
+        free(w);
+        froe_motion_free(m);
+    }
+}
+
+static froe_status find_with(void *user, const froe_allocator *alloc) {
+    static found f;
+    froe_motion_options w = froe_motion_defaults();
+    w.begin = 0;
+    w.end = 8;
+    froe_motion *m = NULL;
+    froe_moving b = wall();
+    froe_contact_options o = froe_contact_defaults();
+    o.threads = 2;
+    f.count = 0;
+    froe_status status = froe_motion_new(&w, alloc, &m, NULL);
+    if (!status) status = froe_motion_add(m, &b, NULL);
+    if (!status) status = froe_motion_contacts(m, &o, note, &f, NULL);
+    if (!status) assert_int_equal(f.count, 3);
+    (void)user;
+    froe_motion_free(m);
+    return status;
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    assert_true(test_memory_each(find_with, NULL) > 10);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(contacts_are_those_of_exact_brute_force),
+        cmocka_unit_test(a_grazing_contact_is_one_instant),
+        cmocka_unit_test(times_are_enclosed_and_the_first_is_found),
+        cmocka_unit_test(objects_of_one_group_or_vertex_may_be_left_out),
+        cmocka_unit_test(bad_options_are_refused_and_calls_can_be_stopped),
+        cmocka_unit_test(nasty_coordinates_stay_within_the_arena),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
