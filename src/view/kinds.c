@@ -22,7 +22,7 @@ static double cosine(const froe_scene *s, uint32_t a, uint32_t b) {
     return dot / sqrt(pp * qq);
 }
 
-/* The kind of an edge between two polygons of different patches. */
+/* The kind of an edge between two polygons across which no patch goes on. */
 static froe_line kind_of_pair(view_sights *sights, uint32_t edge, uint32_t a, uint32_t b, uint32_t wanted,
                               double limit) {
     const froe_surface *s = sights->surface;
@@ -42,12 +42,8 @@ void view_line_kinds(view_sights *sights, uint32_t wanted, double crease, uint8_
     for (uint32_t e = 0; e < s->edge_count; e++) {
         const uint32_t *use = s->uses + s->edge_starts[e], count = s->edge_starts[e + 1] - s->edge_starts[e];
         froe_line kind = FROE_LINE_BORDER;
-        if (count == 2 && use[0] != use[1]) {
-            if (s->patch_of[use[0]] == s->patch_of[use[1]])
-                kind = (froe_line)0;
-            else
-                kind = kind_of_pair(sights, e, use[0], use[1], wanted, limit);
-        }
+        if (count == 2 && use[0] != use[1])
+            kind = s->inside[e] ? (froe_line)0 : kind_of_pair(sights, e, use[0], use[1], wanted, limit);
         kinds[e] = (uint8_t)(kind & wanted);
     }
 }

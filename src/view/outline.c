@@ -25,11 +25,10 @@ void view_outliner_free(view_outliner *o) {
 
 /* ------------------------------------------------------------------------ sides -- */
 
-/* The other polygon at an edge that just two use; FROE_NONE. */
+/* The polygon with which the patch goes on across an edge; FROE_NONE. */
 static uint32_t across(const froe_surface *s, uint32_t edge, uint32_t object) {
     const uint32_t *use = s->uses + s->edge_starts[edge];
-    if (s->edge_starts[edge + 1] - s->edge_starts[edge] != 2 || use[0] == use[1]) return FROE_NONE;
-    return use[0] == object ? use[1] : use[0];
+    return !s->inside[edge] ? FROE_NONE : use[0] == object ? use[1] : use[0];
 }
 
 static bool is_drawn(const view_outliner *o, uint32_t object) {
@@ -46,15 +45,15 @@ static bool add_side(view_outliner *o, uint32_t edge, uint32_t object, uint32_t 
     return true;
 }
 
-/* The sides of one polygon, as they turn left; not those it shares with another of its patch. */
-static bool add_sides(view_outliner *o, uint32_t patch, uint32_t object) {
+/* The sides of one polygon, as they turn left; not those across which the patch goes on. */
+static bool add_sides(view_outliner *o, uint32_t object) {
     const froe_surface *s = o->sights->surface;
     const froe_scene *scene = s->scene;
     const bool front = view_facing(o->sights, object) > 0;
     for (uint32_t i = 0, n = scene_corners(scene, object); i < n; i++) {
         const uint32_t edge = s->edge_of[scene->starts[object] + i], other = across(s, edge, object);
         const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
-        if (other != FROE_NONE && s->patch_of[other] == patch && is_drawn(o, other)) continue;
+        if (other != FROE_NONE && is_drawn(o, other)) continue;
         if (!add_side(o, edge, object, front ? a : b, front ? b : a)) return false;
     }
     return true;
@@ -222,7 +221,7 @@ bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, print_en
     bool ok = true;
     o->sides.count = o->starts.count = 0;
     for (uint32_t m = s->patch_starts[patch]; ok && m < s->patch_starts[patch + 1]; m++)
-        ok = !is_drawn(o, s->members[m]) || add_sides(o, patch, s->members[m]);
+        ok = !is_drawn(o, s->members[m]) || add_sides(o, s->members[m]);
     ok = ok && put_rings(o, patch, points, ends);
     for (size_t i = 0; i < o->starts.count; i++) o->first_side[o->starts.data[i]] = FROE_NONE;
     return ok;

@@ -48,12 +48,13 @@ static uint32_t group_of(const froe_scene *s, uint32_t object) {
     return s->groups ? s->groups[object] : FROE_NONE;
 }
 
-static void unite_neighbours(const froe_surface *s, num_context *context, uint32_t *parent) {
+static void unite_neighbours(froe_surface *s, num_context *context, uint32_t *parent) {
     for (uint32_t e = 0; e < s->edge_count; e++) {
         const uint32_t *use = s->uses + s->edge_starts[e];
         if (s->edge_starts[e + 1] - s->edge_starts[e] != 2 || use[0] == use[1]) continue;
-        if (group_of(s->scene, use[0]) == group_of(s->scene, use[1]) && continues(s, context, e, use[0], use[1]))
-            unite(parent, use[0], use[1]);
+        s->inside[e] =
+            group_of(s->scene, use[0]) == group_of(s->scene, use[1]) && continues(s, context, e, use[0], use[1]);
+        if (s->inside[e]) unite(parent, use[0], use[1]);
     }
 }
 
@@ -99,7 +100,8 @@ froe_status surface_find_patches(froe_surface *s, num_context *context) {
     s->patch_starts = base_calloc(&s->alloc, n + 2, sizeof *s->patch_starts);
     s->members = base_calloc(&s->alloc, n + 1, sizeof *s->members);
     s->straight = base_calloc(&s->alloc, corners + 1, sizeof *s->straight);
-    const bool ok = parent && s->patch_of && s->patch_starts && s->members && s->straight;
+    s->inside = base_calloc(&s->alloc, (size_t)s->edge_count + 1, sizeof *s->inside);
+    const bool ok = parent && s->patch_of && s->patch_starts && s->members && s->straight && s->inside;
     if (ok) {
         for (uint32_t o = 0; o < n; o++) parent[o] = o;
         unite_neighbours(s, context, parent);

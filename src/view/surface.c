@@ -14,6 +14,7 @@ void froe_surface_free(froe_surface *s) {
     free_words(s, s->vertices, 2 * (size_t)s->edge_count);
     free_words(s, s->edge_starts, (size_t)s->edge_count + 1);
     free_words(s, s->uses, s->use_count);
+    base_free(&alloc, s->inside, (size_t)s->edge_count + 1);
     free_words(s, s->patch_of, n + 1);
     free_words(s, s->patch_starts, n + 2);
     free_words(s, s->members, n + 1);

@@ -4,6 +4,7 @@
  * patches that one sees through, the whole stack of layers down to the first opaque one must be painted, farthest
  * first. */
 #include "rays.h"
+#include "view/order.h"
 #include "view/picture.h"
 
 typedef struct page {
@@ -202,6 +203,52 @@ static froe_tree *landscape(void) {
     froe_tree *tree = trees_build(scene, "density", 1);
     froe_scene_free(scene);
     return tree;
+}
+
+/* Six triangles of one plane, one patch, round a corner and back over each other: A B C and A B D lie on the same side
+ * of their edge A B, which therefore is border. A wall stands behind them.
+ *
+ *      X -------- Y
+ *      | \      / |
+ *      |   C - D  |
+ *      | / `\/` \ |
+ *      A -------- B */
+static froe_tree *folded_patch(void) {
+    enum { A, B, C, D, X, Y };
+    const double points[9][3] = {{0, 0, 0}, {4, 0, 0},    {1, 3, 0},    {3, 3, 0},  {0, 6, 0},
+                                 {6, 6, 0}, {-9, -8, -1}, {17, -8, -1}, {3, 20, -1}};
+    const uint32_t ids[21] = {A, B, C, A, B, D, A, C, X, C, Y, X, C, D, Y, D, B, Y, 6, 7, 8};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    froe_objects o = froe_objects_defaults();
+    o.count = 7, o.coords = points[0], o.point_count = 9, o.indices = ids;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    froe_scene_free(scene);
+    return tree;
+}
+
+static void a_patch_may_lie_over_itself(void **state) {
+    (void)state;
+    froe_tree *tree = folded_patch();
+    page p;
+    open_page(&p, tree);
+    assert_int_equal(froe_surface_patch_count(p.surface), 2);
+    uint8_t kinds[32];
+    for (uint32_t e = 0; e < 6; e++) {
+        view_sights sights;
+        geom_eye eye;
+        set_view(&p, e);
+        assert_int_equal(view_eye_of(tree, &p.view.eye, &eye, NULL), FROE_OK);
+        assert_int_equal(view_sights_new(&sights, tree, p.surface, &eye, NULL, 0, &tree->alloc), FROE_OK);
+        assert_true(froe_surface_edge_count(p.surface) <= sizeof kinds);
+        view_line_kinds(&sights, FROE_LINE_SILHOUETTE, 30, kinds);
+        assert_int_equal(kinds[0], FROE_LINE_SILHOUETTE); /* A B */
+        view_sights_free(&sights);
+    }
+    close_page(&p);
+    check_tree(tree, 6, 200, FROE_PAINT_WHOLE, false);
+    check_tree(folded_patch(), 6, 200, FROE_PAINT_REGIONS, false);
 }
 
 static void whole_patches_paint_each_other_over(void **state) {
@@ -500,6 +547,7 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whole_patches_paint_each_other_over),
+        cmocka_unit_test(a_patch_may_lie_over_itself),
         cmocka_unit_test(regions_and_fragments_show_the_same),
         cmocka_unit_test(layers_that_one_sees_through_come_in_their_order),
         cmocka_unit_test(shapes_go_under_later_ones_where_corners_are_not_shared),
