@@ -302,11 +302,12 @@ typedef struct froe_report {
     uint64_t fragments; /**< pieces in all leaf and in-cut lists */
     uint64_t in_cut;    /**< ... of these, in in-cut lists */
     uint64_t size, height;
-    double mean_depth;               /**< over pieces */
-    uint64_t max_leaf;               /**< pieces in the fullest leaf */
-    uint64_t inseparable;            /**< leaves over capacity because nothing can separate them */
-    uint64_t crowded;                /**< leaves over capacity because more cuts would only make more pieces (index) */
-    uint64_t bytes;                  /**< the tree without the scene */
+    double mean_depth;    /**< over pieces */
+    uint64_t max_leaf;    /**< pieces in the fullest leaf */
+    uint64_t inseparable; /**< leaves over capacity because nothing can separate them */
+    uint64_t crowded;     /**< leaves over capacity because more cuts would make too many pieces: of solids that
+                             mostly overlap (density), of objects that no cut thins out (index) */
+    uint64_t bytes;       /**< the tree without the scene */
     froe_predicate_stats predicates; /**< of the build; zero for an opened tree */
     const froe_promise *promises;    /**< ended by a NULL name */
 } froe_report;

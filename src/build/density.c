@@ -24,7 +24,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-enum { MODE, K, FORM, STOP, GROWTH, SUPPORTS, QUANTILES, EDGES, WEIGHT, HEIGHT, FREE, SMALL, SAMPLE };
+enum { MODE, K, FORM, STOP, GROWTH, SUPPORTS, QUANTILES, EDGES, WEIGHT, HEIGHT, FREE, SMALL, SAMPLE, COPY };
 enum { STAR = 1024 }; /* most objects of a cell that may be left for being barren */
 enum { MODE_FIXED, MODE_DOUBLING, MODE_TUNED };
 
@@ -51,6 +51,8 @@ static const froe_option_info options[] = {
     [SMALL] = {"small", "cells of at most so many segments in the plane are finished from a table of sides", 48, 0, 48,
                NULL, true},
     [SAMPLE] = {"sample", "fragments scored per candidate, at most", 512, 8, 1e6, NULL, true},
+    [COPY] = {"copy", "what it costs to list a solid once more, in comparisons with all of its cell; 0: none is spared",
+              0.5, 0, 100, NULL, false},
     {0},
 };
 
@@ -218,6 +220,7 @@ static split_refine refine_of(const build_job *job) {
                           .edges = (uint32_t)job->option[EDGES],
                           .sample = (uint32_t)job->option[SAMPLE],
                           .weight = job->option[WEIGHT],
+                          .copy = job->option[COPY],
                           .height = job->option[HEIGHT] * base_log2(n + 2),
                           .small = (uint32_t)job->option[SMALL],
                           .free_cuts = job->option[FREE] != 0};

@@ -49,6 +49,10 @@ static froe_status failure_of(split_verdict verdict) {
     }
 }
 
+static uint8_t leaf_flags(split_verdict verdict) {
+    return verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : verdict == SPLIT_CROWDED ? TREE_CROWDED : 0;
+}
+
 /** Cuts the cell and tells its children so. */
 static froe_status divide(grow *g, split_work *work, const split_cell *cell, const froe_cut *cut, bool *useless) {
     froe_status status = cell_cut(work, cell, cut, useless);
@@ -68,7 +72,7 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     for (bool useless = true; useless && !status; cell->attempt++) {
         split_verdict verdict = g->method->choose(g->method->config, work, cell, &cut);
         if (verdict > SPLIT_CUT_ANYWAY) return failure_of(verdict);
-        if (verdict < SPLIT_CUT) return cell_leaf(work, cell, verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : 0);
+        if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
         if (verdict == SPLIT_CUT_ANYWAY) return divide(g, work, cell, &cut, NULL);
         status = divide(g, work, cell, &cut, &useless);
     }

@@ -35,6 +35,7 @@ typedef struct split_cell {
 typedef enum split_verdict {
     SPLIT_LEAF,        /**< done */
     SPLIT_INSEPARABLE, /**< done, over capacity: nothing separates these objects */
+    SPLIT_CROWDED,     /**< done, over capacity: separating these solids would not pay (tree/crowd.h) */
     SPLIT_CUT,         /**< cut; the cut must lie through the cell's fragments or between them */
     SPLIT_CUT_ANYWAY,  /**< cut, whatever that separates */
     SPLIT_REFUSE,      /**< end the whole build with FROE_E_INPUT: the objects work->crossing cross */

@@ -2,10 +2,14 @@
 #include "split/refine.h"
 #include "base/log2.h"
 #include "base/random.h"
+#include "split/cell.h"
 #include "split/finish.h"
 #include "split/resort.h"
 #include <math.h>
 #include <string.h>
+
+/* Candidates in cells of solids: ends of extents an axis, planes between pairs. */
+enum { QUANTILES = 10, SEPARATORS = 32 };
 
 froe_status split_scratch_new(const void *config, split_work *work) {
     (void)config;
@@ -41,16 +45,28 @@ typedef struct contest {
     split_scratch *scratch;
     const split_cell *cell;
     bool strict; /**< balance is due: see split_cost() */
+    bool solids; /**< there is nothing but boxes, balls and hulls */
     choice best;
 } contest;
 
+/** Comparisons of pairs that are left, of all, and copies, at their price. 1: as much as without the cut. */
+static double solids_cost(split_tally t, double copy) {
+    double m = t.negative + t.positive + t.on + t.both, a = t.negative + t.both, b = t.positive + t.both;
+    return (a * a + b * b) / (m * m) + copy * t.both / m;
+}
+
 static void enter(contest *c, const froe_cut *cut, split_tally tally) {
     if (!tally.on && (!tally.negative || !tally.positive)) return; /* separates nothing */
-    double cost = split_cost(&c->scratch->view, tally, c->config->weight, c->strict);
+    double cost = c->solids ? solids_cost(tally, c->config->copy)
+                            : split_cost(&c->scratch->view, tally, c->config->weight, c->strict);
     if (c->best.any && cost >= c->best.cost) return;
     uint32_t larger = tally.negative > tally.positive ? tally.negative : tally.positive;
     c->best = (choice){*cut, cost, true,
                        !tally.both && 4 * (uint64_t)larger <= 3 * ((uint64_t)tally.negative + tally.positive) + 2};
+    if (cut->kind != FROE_CUT_PLANE) return;
+    split_separator *s = &c->scratch->separator;
+    memcpy(s->best, cut->normal, sizeof s->best);
+    c->best.cut.normal = s->best;
 }
 
 static void enter_support(contest *c, uint32_t item) {
@@ -107,11 +123,11 @@ static void enter_edges(contest *c) {
         enter_edge(c, base_hash(c->config->seed, c->cell->path, 100000 + i));
 }
 
-static bool enter_axes(contest *c) {
+static bool enter_axes(contest *c, size_t quantiles) {
     split_view *view = &c->scratch->view;
     for (int axis = 0; axis < c->work->set.scene->dim && !c->best.good; axis++) {
         if (!split_view_extents(view, &c->work->set, c->cell, axis)) return false;
-        size_t n = view->values.count, tries = c->config->quantiles;
+        size_t n = view->values.count, tries = quantiles;
         if (tries > n) tries = n;
         for (size_t i = 0, last = n; i < tries; i++) {
             size_t at = (2 * i + 1) * n / (2 * tries);
@@ -122,6 +138,73 @@ static bool enter_axes(contest *c) {
         }
     }
     return true;
+}
+
+static uint32_t item_object(const contest *c, uint32_t i) {
+    return c->work->set.items.data[c->cell->first + i].object;
+}
+
+static double centre_distance(const froe_scene *scene, uint32_t a, uint32_t b) {
+    double lo[2][FROE_MAX_DIM], hi[2][FROE_MAX_DIM], square = 0;
+    scene_object_bounds(scene, a, lo[0], hi[0]);
+    scene_object_bounds(scene, b, lo[1], hi[1]);
+    for (int k = 0; k < scene->dim; k++) {
+        double d = 0.5 * lo[0][k] + 0.5 * hi[0][k] - (0.5 * lo[1][k] + 0.5 * hi[1][k]);
+        square += d * d;
+    }
+    return square;
+}
+
+/** Planes between an object and the nearest of 1, 2, 4, ... 128 others. */
+static void enter_separators(contest *c) {
+    const froe_scene *scene = c->work->set.scene;
+    uint32_t m = c->cell->count;
+    for (uint64_t i = 0; i < SEPARATORS && scene->dim <= 3 && !c->best.good; i++) {
+        uint64_t draw = base_hash(c->config->seed, c->cell->path, 200000 + i);
+        uint32_t a = item_object(c, base_below(draw, m)), b = FROE_NONE;
+        for (uint32_t t = 0; t < 1u << i % 8; t++) {
+            uint32_t other = item_object(c, base_below(base_mix(draw + 1 + t), m));
+            if (other == a || (b != FROE_NONE && centre_distance(scene, a, other) >= centre_distance(scene, a, b)))
+                continue;
+            b = other;
+        }
+        froe_cut cut;
+        if (b != FROE_NONE && split_separate_pair(c->work, a, b, &c->scratch->separator, &cut))
+            enter(c, &cut, split_view_count(&c->scratch->view, scene, &cut));
+    }
+}
+
+static bool solids_only(const contest *c) {
+    uint32_t i = 0;
+    while (i < c->cell->count && scene_form(c->work->set.scene, item_object(c, i)) >= FROE_BOX) i++;
+    return i == c->cell->count;
+}
+
+/** When no candidate separates anything: any plane that does. */
+static split_verdict enter_any_separator(contest *c) {
+    split_tally tally;
+    froe_cut cut;
+    split_verdict verdict = split_separate(c->work, c->cell, &c->scratch->separator, &cut);
+    if (verdict != SPLIT_CUT) return verdict;
+    if (cell_tally(c->work, c->cell, &cut, &tally)) return SPLIT_MEMORY;
+    enter(c, &cut, tally);
+    return SPLIT_CUT;
+}
+
+/** The cheapest of some cuts, unless none pays and the cell is crowded. */
+static split_verdict choose_among_solids(contest *c, froe_cut *cut) {
+    const split_refine *config = c->config;
+    split_separator *separator = &c->scratch->separator;
+    if (!split_separator_ready(&c->work->set, c->cell, separator)) return SPLIT_MEMORY;
+    if (!c->cell->attempt) {
+        if (!enter_axes(c, config->quantiles > QUANTILES ? config->quantiles : QUANTILES)) return SPLIT_MEMORY;
+        enter_separators(c);
+    }
+    split_verdict verdict = c->best.any ? SPLIT_CUT : enter_any_separator(c);
+    if (verdict != SPLIT_CUT) return verdict;
+    if (c->best.cost > 1 && config->copy > 0 && split_crowded(c->work, c->cell, separator)) return SPLIT_CROWDED;
+    *cut = c->best.cut;
+    return SPLIT_CUT;
 }
 
 /** A cut that certainly separates something, or the verdict that none exists. */
@@ -142,14 +225,16 @@ split_verdict split_refine_choose(const split_refine *config, split_work *work, 
     contest c = {.config = config, .work = work, .scratch = work->scratch, .cell = cell};
     if (cell->count <= config->leaf) return SPLIT_LEAF;
     if (config->leaf && split_one_point(&work->set, cell)) return SPLIT_INSEPARABLE;
-    if (cell->attempt) return last_resort(&c, cut);
-    if (config->supports == 1 && !config->quantiles && !config->free_cuts) return last_resort(&c, cut);
+    c.solids = solids_only(&c);
+    if (cell->attempt && !c.solids) return last_resort(&c, cut);
+    if (!c.solids && config->supports == 1 && !config->quantiles && !config->free_cuts) return last_resort(&c, cut);
     c.strict = split_balance_due(config, cell->depth, base_log2(cell->count));
     if (!split_view_fill(&c.scratch->view, &work->set, cell, config->sample, config->seed)) return SPLIT_MEMORY;
+    if (c.solids) return choose_among_solids(&c, cut);
     if (config->free_cuts) enter_free_cuts(&c);
     if (!c.best.any) {
         enter_supports(&c);
-        if (config->quantiles && !enter_axes(&c)) return SPLIT_MEMORY;
+        if (config->quantiles && !enter_axes(&c, config->quantiles)) return SPLIT_MEMORY;
         if (c.strict && work->set.scene->dim == 3) enter_edges(&c);
     }
     if (!c.best.any || !is_plane(&c, &c.best.cut)) return last_resort(&c, cut);

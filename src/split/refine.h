@@ -4,7 +4,10 @@
  * extents, and, for kinds that are never cut, separating planes (separate.h). The best by
  * split_cost() wins; a free cut, a fragment that crosses its cell from border to border,
  * beats all others since it splits nothing that its plane does not have to split
- * (Paterson and Yao 1990; Sacks, theorem 12.9). */
+ * (Paterson and Yao 1990; Sacks, theorem 12.9).
+ *
+ * Boxes, balls and hulls are never split, but listed on both sides. Where they overlap, to tell two apart
+ * copies many; a cell in which that does not pay becomes a crowded leaf (tree/crowd.h). */
 #ifndef FROE_SPLIT_REFINE_H
 #define FROE_SPLIT_REFINE_H
 #include "split/separate.h"
@@ -18,6 +21,7 @@ typedef struct split_refine {
     uint32_t edges;     /**< planes through an edge and a vertex tried per cell where balance is due; 3D */
     uint32_t sample;    /**< fragments scored per candidate, at most */
     double weight;      /**< of information against splits, in split_cost() */
+    double copy;        /**< what one more entry of a solid costs, in comparisons with all of its cell; 0: nothing */
     double height;      /**< cells deeper than this minus log_{4/3} m must be cut with balance; 0: no rule */
     uint32_t small;     /**< cells of at most so many segments in the plane are finished at once (finish.h); <= 32 */
     bool free_cuts;

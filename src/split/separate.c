@@ -1,5 +1,6 @@
 /* separate.c: see separate.h. Every plane found is checked by the exact predicates before it counts. */
 #include "split/separate.h"
+#include "tree/crowd.h"
 #include <math.h>
 
 static uint32_t object_at(const split_work *work, const split_cell *cell, uint32_t i) {
@@ -76,8 +77,9 @@ static bool between_hulls(split_work *work, uint32_t a, uint32_t b, split_separa
 }
 
 /** Pairs of unlike kinds are left to the axis-parallel planes. */
-static bool between(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
+bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
     const froe_scene *scene = work->set.scene;
+    if (scene->dim > 3) return false;
     froe_kind fa = scene_form(scene, a), fb = scene_form(scene, b);
     if (fa == FROE_BALL && fb == FROE_BALL) return between_balls(work, a, b, separator->normal, cut);
     if (fa == FROE_HULL && fb == FROE_HULL) return between_hulls(work, a, b, separator, cut);
@@ -106,8 +108,7 @@ static bool share_a_point(split_work *work, const split_cell *cell) {
     return true;
 }
 
-/** Room for the corners of any two hulls of the cell. */
-static bool make_room(split_set *set, const split_cell *cell, split_separator *separator) {
+bool split_separator_ready(const split_set *set, const split_cell *cell, split_separator *separator) {
     uint32_t most = 0;
     for (uint32_t i = 0; i < cell->count; i++) {
         uint32_t n = split_corner_count(set, set->items.data + cell->first + i);
@@ -120,14 +121,35 @@ static bool make_room(split_set *set, const split_cell *cell, split_separator *s
 split_verdict split_separate(split_work *work, const split_cell *cell, split_separator *separator, froe_cut *cut) {
     if (by_axis(work, cell, cut) && cell->attempt < 2) return SPLIT_CUT;
     if (work->set.scene->dim > 3 || share_a_point(work, cell)) return SPLIT_INSEPARABLE;
-    if (!make_room(&work->set, cell, separator)) return SPLIT_MEMORY;
+    if (!split_separator_ready(&work->set, cell, separator)) return SPLIT_MEMORY;
     for (uint32_t i = 0; i < cell->count && split_go_on(work); i++) {
         uint32_t a = object_at(work, cell, i);
         if (scene_form(work->set.scene, a) < FROE_BALL) continue; /* boxes: by_axis() is complete for them */
         for (uint32_t j = 0; j < i; j++)
-            if (between(work, a, object_at(work, cell, j), separator, cut)) return SPLIT_CUT;
+            if (split_separate_pair(work, a, object_at(work, cell, j), separator, cut)) return SPLIT_CUT;
     }
     return base_cancelled(work->task) ? SPLIT_CANCELLED : SPLIT_INSEPARABLE;
+}
+
+/** On some axis one of them ends where, or before, one begins: as in by_axis(). */
+static bool apart_on_an_axis(const froe_scene *scene, uint32_t a, uint32_t b) {
+    double lo[2][FROE_MAX_DIM], hi[2][FROE_MAX_DIM];
+    scene_object_bounds(scene, a, lo[0], hi[0]);
+    scene_object_bounds(scene, b, lo[1], hi[1]);
+    for (int k = 0; k < scene->dim; k++)
+        if (fmin(hi[0][k], hi[1][k]) <= fmax(lo[0][k], lo[1][k])) return true;
+    return false;
+}
+
+bool split_crowded(split_work *work, const split_cell *cell, split_separator *separator) {
+    tree_crowd crowd = tree_crowd_of(cell->count);
+    while (!tree_crowd_known(&crowd) && split_go_on(work)) {
+        uint32_t a = object_at(work, cell, crowd.a), b = object_at(work, cell, crowd.b);
+        froe_cut cut;
+        tree_crowd_tell(&crowd,
+                        apart_on_an_axis(work->set.scene, a, b) || split_separate_pair(work, a, b, separator, &cut));
+    }
+    return tree_crowd_is(&crowd);
 }
 
 void split_separator_free(const froe_allocator *alloc, split_separator *separator) {

@@ -4,9 +4,10 @@
 #include "geom/between.h"
 #include "split/grow.h"
 
-/** What the search keeps per thread: the normal of a FROE_CUT_PLANE found last, and corners being looked at. */
+/** What the search keeps per thread: the normals of the FROE_CUT_PLANE found last and of the best, and corners being
+ * looked at. */
 typedef struct split_separator {
-    double normal[3];
+    double normal[3], best[3];
     ARRAY(geom_member) corners;
 } split_separator;
 
@@ -20,5 +21,13 @@ typedef struct split_separator {
  * The cut may point to the separator. O(m d) first, O(m^2) pairs of balls or of hulls only when axis planes fail.
  * SPLIT_MEMORY, SPLIT_CANCELLED. */
 split_verdict split_separate(split_work *work, const split_cell *cell, split_separator *separator, froe_cut *cut);
+
+/** Room for any pair of the cell. False without memory. */
+bool split_separator_ready(const split_set *set, const split_cell *cell, split_separator *separator);
+/** A plane between two balls or two hulls, of the second and third kinds above. REQUIRES: ready. */
+bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut);
+/** Can half of the pairs of the cell not be told apart? Of all pairs, in cells of many objects of those that stand
+ * near each other (tree_crowd). REQUIRES: ready. O(m) pairs of them, at most m^2 / 2. */
+bool split_crowded(split_work *work, const split_cell *cell, split_separator *separator);
 void split_separator_free(const froe_allocator *alloc, split_separator *separator);
 #endif

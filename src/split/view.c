@@ -8,6 +8,7 @@
 
 void split_view_free(const froe_allocator *alloc, split_view *view) {
     for (int k = 0; k < 3; k++) array_free(alloc, &view->x[k]);
+    array_free(alloc, &view->radius);
     array_free(alloc, &view->start);
     array_free(alloc, &view->side);
     array_free(alloc, &view->values);
@@ -19,23 +20,24 @@ void split_view_init(split_view *view) {
     for (uint32_t k = 2; k < SPLIT_TABLE; k++) view->xlog2[k] = k * base_log2(k);
 }
 
-/** Appends one corner. The caller has made room. */
-static void add_corner(split_view *view, const double *x, int dim) {
+/** Appends one corner, or ball. The caller has made room. */
+static void add_corner(split_view *view, const double *x, double radius, int dim) {
     size_t at = view->x[0].count++;
     for (int k = 0; k < dim; k++) {
-        double size = fabs(x[k]);
+        double size = fabs(x[k]) + radius;
         view->x[k].data[at] = x[k];
         if (size > view->reach[k]) view->reach[k] = size;
     }
+    view->radius.data[at] = radius;
+    view->round |= radius > 0;
 }
 
-/** Boxes and balls are shown by the corners of their bounding boxes. */
 static void add_box(split_view *view, const split_set *set, uint32_t object, int dim) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], x[3];
     scene_object_bounds(set->scene, object, lo, hi);
     for (unsigned corner = 0; corner < 1u << dim; corner++) {
         for (int k = 0; k < dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
-        add_corner(view, x, dim);
+        add_corner(view, x, 0, dim);
     }
 }
 
@@ -45,20 +47,21 @@ static bool make_room(split_view *view, const froe_allocator *alloc, int dim, ui
         view->x[k].count = view->x[0].count;
         if (!array_reserve(alloc, &view->x[k], n)) return false;
     }
-    return array_reserve(alloc, &view->start, 1);
+    view->radius.count = view->x[0].count;
+    return array_reserve(alloc, &view->radius, n) && array_reserve(alloc, &view->start, 1);
 }
 
 static bool add_fragment(split_view *view, const split_set *set, const split_fragment *f) {
     const froe_scene *scene = set->scene;
     int dim = scene->dim;
     froe_kind form = scene_form(scene, f->object);
-    bool boxed = form == FROE_BOX || form == FROE_BALL;
-    uint32_t n = boxed ? 1u << dim : split_corner_count(set, f);
+    uint32_t n = form == FROE_BOX ? 1u << dim : split_corner_count(set, f);
     if (!make_room(view, &set->alloc, dim, n)) return false;
-    if (boxed)
+    if (form == FROE_BOX)
         add_box(view, set, f->object, dim);
     else
-        for (uint32_t i = 0; i < n; i++) add_corner(view, split_image(set, f, i), dim);
+        for (uint32_t i = 0; i < n; i++)
+            add_corner(view, split_image(set, f, i), form == FROE_BALL ? scene_radius(scene, f->object) : 0, dim);
     view->start.data[view->start.count++] = (uint32_t)view->x[0].count;
     return true;
 }
@@ -93,7 +96,7 @@ static bool fill_pairs(split_view *view, const split_set *set, const split_fragm
 bool split_view_fill(split_view *view, const split_set *set, const split_cell *cell, uint32_t sample, uint64_t seed) {
     view->count = cell->count > sample ? sample : cell->count;
     view->weight = (double)cell->count / view->count;
-    view->pairs = false;
+    view->pairs = view->round = false;
     if (set->scene->dim > 3) return true; /* axis-parallel planes are the only candidates */
     view->start.count = 0;
     for (int k = 0; k < 3; k++) view->x[k].count = 0, view->reach[k] = 0;
@@ -168,6 +171,18 @@ static void find_sides(split_view *view, int dim, const rough *h) {
         for (size_t i = 0; i < n; i++) side[i] = side_of(a * x[i] + b * y[i] + c * z[i] - d, slack);
 }
 
+/** The same where some corners are centres of balls: these reach further by their radius. */
+static void find_sides_round(split_view *view, int dim, const rough *h) {
+    double square = 0, slack = slack_of(view, dim, h);
+    for (int k = 0; k < dim; k++) square += h->n[k] * h->n[k];
+    double length = sqrt(square);
+    for (size_t i = 0; i < view->x[0].count; i++) {
+        double value = -h->d;
+        for (int k = 0; k < dim; k++) value += h->n[k] * view->x[k].data[i];
+        view->side.data[i] = side_of(value, slack - view->radius.data[i] * length);
+    }
+}
+
 /** Counts segments in the plane, the commonest case by far, without a detour. */
 static split_tally count_pairs(const split_view *view, const rough *h) {
     const double *x = view->x[0].data, *y = view->x[1].data;
@@ -187,7 +202,7 @@ static split_tally count_rings(split_view *view, int dim, const rough *h) {
     uint32_t of[4] = {0}; /* on, negative, positive, both */
     const uint32_t *start = view->start.data;
     const uint8_t *side = view->side.data;
-    find_sides(view, dim, h);
+    view->round ? find_sides_round(view, dim, h) : find_sides(view, dim, h);
     for (uint32_t i = 0; i < view->count; i++) {
         unsigned seen = 0;
         for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[j];

@@ -9,8 +9,8 @@
  *      list holds lies in the cut. Rings are canonical (they name the cuts that made the part), so
  *      equal means the same names from any first corner. Balls, hulls and boxes beside oblique cuts:
  *      nothing that certainly is there is missing, nothing that certainly is not there is listed.
- *   5  Leaves: at most `leaf` pieces, none when that is 0, except where nothing separates them (inseparable.h), or,
- *      in packed trees, where the builder says that more cuts would not pay.
+ *   5  Leaves: at most `leaf` pieces, none when that is 0, except where nothing separates them (inseparable.h), where
+ *      solids crowd (crowd.h), or, in packed trees, where the builder says that more cuts would not pay.
  *   6  Promises: each holds, by the measured value and, where its name is known, measured again.
  *
  *   7  Blocks of packed trees: flags, units, and that no corner lies in a cut (packed_audit.h).
@@ -282,17 +282,17 @@ static froe_status check_leaf(audit *a, uint32_t node) {
     const froe_tree *t = a->tree;
     uint32_t most = t->meta.leaf;
     tree_objects list = tree_list(t, node);
-    bool flagged = t->nodes[node].flags & TREE_INSEPARABLE;
-    if (list.count <= most && flagged) return bad_node(a, node, "called inseparable, but not over capacity");
-    bool crowded = t->nodes[node].flags & TREE_CROWDED;
-    if (list.count <= most && crowded) return bad_node(a, node, "called crowded, but not over capacity");
-    if (list.count <= most || crowded) return FROE_OK;
-    if (!flagged)
+    bool crowded = t->nodes[node].flags & TREE_CROWDED, flagged = t->nodes[node].flags & TREE_INSEPARABLE;
+    const char *name = crowded ? "crowded" : "inseparable", *why = NULL;
+    if (list.count <= most && (crowded || flagged))
+        return base_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but not over capacity", node, name);
+    if (list.count <= most || (crowded && tree_is_packed(t))) return FROE_OK;
+    if (!crowded && !flagged)
         return base_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", node, list.count, most);
-    const char *why;
-    froe_status status = inseparable_refuted(&a->traces[0].context, a->task, t, &list, &why);
+    froe_status status =
+        (crowded ? crowded_refuted : inseparable_refuted)(&a->traces[0].context, a->task, t, &list, &why);
     if (status) return base_fail_memory(a->diag);
-    return why ? base_fail(a->diag, FROE_E_AUDIT, "node %u: called inseparable, but %s", node, why) : FROE_OK;
+    return why ? base_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but %s", node, name, why) : FROE_OK;
 }
 
 static froe_status check_leaves(audit *a) {

@@ -1,5 +1,6 @@
 /* inseparable.c: looking for a cut between the objects of a leaf that claims there is none. */
 #include "tree/inseparable.h"
+#include "tree/crowd.h"
 #include "tree/normals.h"
 #include <math.h>
 
@@ -71,19 +72,38 @@ static bool one_point(const froe_scene *s, const tree_objects *list) {
     return true;
 }
 
-/* On some axis one object ends before, or where, one begins. */
-static bool axis_separates(const froe_scene *s, const tree_objects *list) {
-    double least_hi[FROE_MAX_DIM], most_lo[FROE_MAX_DIM], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    for (uint32_t i = 0; i < list->count; i++) {
-        scene_object_bounds(s, tree_object(list, i), lo, hi);
-        for (int k = 0; k < s->dim; k++) {
-            least_hi[k] = i && least_hi[k] <= hi[k] ? least_hi[k] : hi[k];
-            most_lo[k] = i && most_lo[k] >= lo[k] ? most_lo[k] : lo[k];
-        }
+/* What objects are between on each axis: the first end of one, and the last beginning. */
+typedef struct gauge {
+    double least_hi[FROE_MAX_DIM], most_lo[FROE_MAX_DIM];
+} gauge;
+
+static void gauge_take(gauge *g, const froe_scene *s, uint32_t object, bool first) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    scene_object_bounds(s, object, lo, hi);
+    for (int k = 0; k < s->dim; k++) {
+        g->least_hi[k] = !first && g->least_hi[k] <= hi[k] ? g->least_hi[k] : hi[k];
+        g->most_lo[k] = !first && g->most_lo[k] >= lo[k] ? g->most_lo[k] : lo[k];
     }
-    for (int k = 0; k < s->dim; k++)
-        if (least_hi[k] <= most_lo[k]) return true;
+}
+
+/* On some axis one object ends before, or where, one begins. */
+static bool gauge_separates(const gauge *g, int dim) {
+    for (int k = 0; k < dim; k++)
+        if (g->least_hi[k] <= g->most_lo[k]) return true;
     return false;
+}
+
+static bool axis_separates(const froe_scene *s, const tree_objects *list) {
+    gauge g;
+    for (uint32_t i = 0; i < list->count; i++) gauge_take(&g, s, tree_object(list, i), !i);
+    return gauge_separates(&g, s->dim);
+}
+
+static bool axis_separates_pair(const pair *p) {
+    gauge g;
+    gauge_take(&g, p->scene, p->a, true);
+    gauge_take(&g, p->scene, p->b, false);
+    return gauge_separates(&g, p->scene->dim);
 }
 
 /* Balls that all certainly hold one point inside cannot be separated two by two: the centre of the smallest is tried.
@@ -140,5 +160,32 @@ froe_status inseparable_refuted(num_context *context, base_task *task, const fro
     froe_status status = any_pair_separated(&p, list, &found);
     normals_free(&m);
     if (!status && found) *why = "a plane separates two of its objects";
+    return status;
+}
+
+static froe_status count_crowd(pair *p, const tree_objects *list, tree_crowd *crowd) {
+    while (!tree_crowd_known(crowd) && go_on(p)) {
+        p->a = tree_object(list, crowd->a);
+        p->b = tree_object(list, crowd->b);
+        bool apart = axis_separates_pair(p);
+        froe_status status = apart || p->scene->dim > 3 ? FROE_OK : separated(p, &apart);
+        if (status) return status;
+        tree_crowd_tell(crowd, apart);
+    }
+    return FROE_OK;
+}
+
+froe_status crowded_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_objects *list,
+                            const char **why) {
+    const froe_scene *s = tree->scene;
+    *why = "the support of one of its objects would divide it";
+    for (uint32_t i = 0; i < list->count; i++)
+        if (scene_form(s, tree_object(list, i)) <= FROE_POLYGON) return FROE_OK;
+    normals m = {.context = context, .alloc = tree->alloc, .dim = s->dim};
+    pair p = {.context = context, .task = task, .scene = s, .normals = &m};
+    tree_crowd crowd = tree_crowd_of(list->count);
+    froe_status status = count_crowd(&p, list, &crowd);
+    normals_free(&m);
+    *why = tree_crowd_is(&crowd) || base_cancelled(task) ? NULL : "most pairs of its objects can be separated";
     return status;
 }

@@ -1,4 +1,5 @@
-/* inseparable.h: may a leaf hold more objects than its capacity? */
+/* inseparable.h: may a leaf hold more objects than its capacity? Because nothing separates them, or because they crowd.
+ */
 #ifndef FROE_TREE_INSEPARABLE_H
 #define FROE_TREE_INSEPARABLE_H
 #include "base/task.h"
@@ -17,4 +18,9 @@
  * NULL, too, when that was cancelled meanwhile. FROE_E_MEMORY. */
 froe_status inseparable_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_objects *list,
                                 const char **why);
+
+/** Why the objects of a leaf do not crowd (crowd.h), as a clause; NULL: they do. All have to be boxes, balls or hulls,
+ * and half of the pairs that count inseparable in the sense above. O(m) pairs, at most m^2 / 2. Else as above. */
+froe_status crowded_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_objects *list,
+                            const char **why);
 #endif

@@ -126,7 +126,7 @@ static froe_status check_leaf(check *c, const tree_node *n) {
 
 static froe_status check_inner(check *c, const tree_node *n) {
     const froe_tree *t = c->tree;
-    if (n->flags & TREE_INSEPARABLE) return bad_node(c, "an unknown flag");
+    if (n->flags & (TREE_INSEPARABLE | TREE_CROWDED)) return bad_node(c, "an unknown flag");
     if (n->child != c->nodes || t->node_count - c->nodes < 2) return bad_node(c, "children out of place");
     c->nodes += 2;
     if (n->type == TREE_PLAIN) {
@@ -142,7 +142,7 @@ static froe_status check_inner(check *c, const tree_node *n) {
 
 static int known_flags(const froe_tree *t, const tree_node *n) {
     if (tree_is_packed(t)) return n->type == TREE_LEAF ? TREE_CROWDED : 0;
-    return TREE_GUARD | TREE_INSEPARABLE;
+    return TREE_GUARD | TREE_INSEPARABLE | TREE_CROWDED;
 }
 
 static froe_status check_node(check *c) {

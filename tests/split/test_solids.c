@@ -122,8 +122,125 @@ static void hulls_in_one_plane_are_left_to_axis_parallel_cuts(void **state) {
     assert_int_equal(inseparable_of(&s), 1);
 }
 
+/* --------------------------------------------------------- heavy overlap -- */
+
+/** From 0 to 1. */
+static double share(solids *s) {
+    return 0.5 + 0.5 * fuzz_unit(&s->random);
+}
+
+/** n boxes in the unit cube, half as wide as `reach` to one and a half times; bars: all across on some axis. */
+static void add_boxes(solids *s, int dim, size_t n, double reach, bool bars) {
+    for (size_t i = 0; i < n; i++) {
+        double coords[2 * FROE_MAX_DIM];
+        int across = bars ? (int)(i % (size_t)dim) : -1;
+        for (int k = 0; k < dim; k++) {
+            double at = share(s), half = k == across ? 1 : reach * (0.5 + share(s));
+            coords[k] = at - half;
+            coords[dim + k] = at + half;
+        }
+        add(s, FROE_BOX, 1, coords, NULL, NULL);
+    }
+}
+
+static void add_balls(solids *s, int dim, size_t n, double radius) {
+    for (size_t i = 0; i < n; i++) {
+        double centre[3] = {0};
+        for (int k = 0; k < dim; k++) centre[k] = share(s);
+        add(s, FROE_BALL, 1, centre, &radius, NULL);
+    }
+}
+
+/** Hulls of 2^dim points, one in each orthant around a centre, none further than `reach` from it on any axis. */
+static void add_hulls(solids *s, int dim, size_t n, double reach) {
+    const size_t corners = (size_t)1 << dim, starts[2] = {0, corners};
+    for (size_t i = 0; i < n; i++) {
+        double coords[8 * 3], centre[3];
+        for (int k = 0; k < dim; k++) centre[k] = share(s);
+        for (size_t j = 0; j < corners; j++)
+            for (int k = 0; k < dim; k++)
+                coords[j * (size_t)dim + (size_t)k] = centre[k] + (j >> k & 1 ? reach : -reach) * (1 - 0.5 * share(s));
+        add(s, FROE_HULL, 1, coords, NULL, starts);
+    }
+}
+
+/** Pairs of objects whose bounding boxes overlap. */
+static uint64_t overlaps(const froe_scene *scene) {
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        for (uint32_t j = 0; j < i; j++) {
+            double lo[2][FROE_MAX_DIM], hi[2][FROE_MAX_DIM];
+            bool meet = true;
+            scene_object_bounds(scene, i, lo[0], hi[0]);
+            scene_object_bounds(scene, j, lo[1], hi[1]);
+            for (int k = 0; k < scene->dim; k++) meet &= hi[0][k] > lo[1][k] && hi[1][k] > lo[0][k];
+            count += meet;
+        }
+    return count;
+}
+
+/** No partition spares anybody the pairs that overlap; with less than three entries for each, and for each object,
+ * nobody can complain. (All separable pairs told apart: up to 10^6 pieces and more.) */
+static void assert_few_pieces(solids *s) {
+    uint64_t most = 3 * (s->scene->object_count + overlaps(s->scene));
+    froe_tree *tree = build(s, 1, most);
+    froe_report r = froe_tree_report(tree);
+    assert_true(r.fragments <= most);
+    assert_true(r.max_leaf <= 1 || r.inseparable + r.crowded > 0);
+    froe_tree_free(tree);
+}
+
+static void overlapping_balls_cost_no_more_than_they_overlap(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (double radius = 0.5; radius > 0.01; radius /= 2) {
+            solids s = begin(dim);
+            add_balls(&s, dim, 300, radius);
+            assert_few_pieces(&s);
+        }
+}
+
+static void overlapping_boxes_cost_no_more_than_they_overlap(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 4; dim++)
+        for (int bars = 0; bars < 1 + (dim == 2); bars++) /* in space, bars that are disjoint cost many pieces, too */
+            for (double reach = 0.4; reach > 0.01; reach /= 3) {
+                solids s = begin(dim);
+                add_boxes(&s, dim, 250, reach, bars);
+                assert_few_pieces(&s);
+            }
+}
+
+static void overlapping_hulls_cost_no_more_than_they_overlap(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (double reach = 0.4; reach > 0.01; reach /= 4) {
+            solids s = begin(dim);
+            add_hulls(&s, dim, 100, reach);
+            assert_few_pieces(&s);
+        }
+}
+
+/** Three layers of a brick wall, without mortar. */
+static void what_only_touches_is_always_told_apart(void **state) {
+    solids s = begin(2);
+    (void)state;
+    for (int row = 0; row < 3; row++)
+        for (int i = 0; i < 20; i++) {
+            const double coords[4] = {2 * i + row % 2, row, 2 * i + row % 2 + 2, row + 1};
+            add(&s, FROE_BOX, 1, coords, NULL, NULL);
+        }
+    froe_tree *tree = build(&s, 1, 0);
+    assert_int_equal(froe_tree_report(tree).max_leaf, 1);
+    froe_tree_free(tree);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(overlapping_balls_cost_no_more_than_they_overlap),
+        cmocka_unit_test(overlapping_boxes_cost_no_more_than_they_overlap),
+        cmocka_unit_test(overlapping_hulls_cost_no_more_than_they_overlap),
+        cmocka_unit_test(what_only_touches_is_always_told_apart),
         cmocka_unit_test(hulls_of_many_corners_are_told_apart_by_few_questions),
         cmocka_unit_test(hulls_that_touch_are_told_apart),
         cmocka_unit_test(a_flat_hull_on_another_ends_in_the_cut),

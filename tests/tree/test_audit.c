@@ -129,8 +129,9 @@ static void broken_structure_is_found(void **state) {
         {&t->nodes[0].child, 4, 3, "children out of place"},
         {&t->nodes[leaf].child, 4, 1, "unused field"},
         {&t->nodes[leaf].type, 1, 3, "unknown type"},
-        {&t->nodes[leaf].flags, 1, 4, "unknown type or flag"},
+        {&t->nodes[leaf].flags, 1, 8, "unknown type or flag"},
         {&t->nodes[plain].flags, 1, TREE_INSEPARABLE, "unknown flag"},
+        {&t->nodes[plain].flags, 1, TREE_CROWDED, "unknown flag"},
         {&t->nodes[plain].axis, 1, 2, "cut that does not exist"},
         {&t->nodes[leaf].u.list.first, 4, 77777, "list out of place"},
         {&t->nodes[leaf].u.list.count, 4, UINT32_MAX, "list out of place"},
@@ -504,6 +505,21 @@ static void overfull_leaves_are_found(void **state) {
     assert_crowd(crowd(2, FROE_SEGMENT, 2, segments, NULL, NULL, TREE_INSEPARABLE), "support");
 }
 
+static void crowds_that_are_none_are_found(void **state) {
+    (void)state;
+    /* two overlapping pairs of three; one of three; a flat box, which ends in a cut, in another */
+    const double most[12] = {0, 0, 2, 2, 1, 1, 4, 4, 3, 3, 5, 5}, few[12] = {0, 0, 2, 2, 1, 1, 4, 4, 5, 5, 6, 6};
+    const double flat[8] = {0, 0, 2, 2, 1, -1, 1, 3}, points[4] = {0, 0, 1, 0};
+    const double centres[6] = {0, 0, 1, 1, 2, 2}, radii[3] = {1, 1, 1}, small[3] = {1, 0.3, 1};
+    assert_crowd(crowd(2, FROE_BOX, 3, most, NULL, NULL, TREE_CROWDED), NULL);
+    assert_crowd(crowd(2, FROE_BOX, 3, few, NULL, NULL, TREE_CROWDED), "called crowded, but most pairs");
+    assert_crowd(crowd(2, FROE_BOX, 2, flat, NULL, NULL, TREE_CROWDED), "called crowded, but most pairs");
+    assert_crowd(crowd(2, FROE_BOX, 1, most, NULL, NULL, TREE_CROWDED), "called crowded, but not over capacity");
+    assert_crowd(crowd(2, FROE_POINT, 2, points, NULL, NULL, TREE_CROWDED), "called crowded, but the support");
+    assert_crowd(crowd(2, FROE_BALL, 3, centres, radii, NULL, TREE_CROWDED), NULL);
+    assert_crowd(crowd(2, FROE_BALL, 3, centres, small, NULL, TREE_CROWDED), "called crowded, but most pairs");
+}
+
 static void separable_boxes_are_found(void **state) {
     (void)state;
     const double overlapping[12] = {0, 0, 2, 2, 1, 1, 3, 3, 1, 0, 2, 3}, touching[8] = {0, 0, 1, 1, 1, 0, 2, 1};
@@ -642,6 +658,7 @@ int main(void) {
         cmocka_unit_test(boxes_among_axis_parallel_cuts_are_exact),
         cmocka_unit_test(solids_beside_oblique_cuts_are_enclosed),
         cmocka_unit_test(overfull_leaves_are_found),
+        cmocka_unit_test(crowds_that_are_none_are_found),
         cmocka_unit_test(separable_boxes_are_found),
         cmocka_unit_test(separable_balls_and_hulls_are_found),
         cmocka_unit_test(leaf_zero_means_empty_leaves),
