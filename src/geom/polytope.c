@@ -1,8 +1,8 @@
 /* polytope.c: all lines where two planes meet, and what the other halfspaces leave of each. */
 #include "geom/polytope.h"
+#include "base/sort.h"
 #include "geom/formulas.h"
 #include "geom/predicates.h"
-#include <stdlib.h>
 #include <string.h>
 
 /* ------------------------------------------------------------------ planes -- */
@@ -96,7 +96,7 @@ static int by_number(const void *a, const void *b) {
 
 static bool add_corner(const froe_allocator *alloc, geom_polytope *p, uint32_t a, uint32_t b, uint32_t c) {
     geom_meeting corner = {{a, b, c}};
-    qsort(corner.planes, 3, sizeof *corner.planes, by_number);
+    base_sort(corner.planes, 3, sizeof *corner.planes, by_number);
     return array_push(alloc, &p->corners, corner);
 }
 
@@ -124,7 +124,7 @@ static int by_planes(const void *a, const void *b) {
 /* A corner is found on each of its lines. */
 static void drop_repeated(geom_polytope *p) {
     size_t kept = 0;
-    if (p->corners.count) qsort(p->corners.data, p->corners.count, sizeof *p->corners.data, by_planes);
+    base_sort(p->corners.data, p->corners.count, sizeof *p->corners.data, by_planes);
     for (size_t i = 0; i < p->corners.count; i++)
         if (!i || by_planes(p->corners.data + i, p->corners.data + kept - 1))
             p->corners.data[kept++] = p->corners.data[i];

@@ -1,7 +1,7 @@
 /* resort.c: see resort.h. */
 #include "split/resort.h"
 #include "base/random.h"
-#include <stdlib.h>
+#include "base/sort.h"
 
 static bool any_of(const split_set *set, const split_cell *cell, uint64_t draw, bool only_free, froe_cut *cut) {
     uint32_t m = cell->count, start = base_below(draw, m);
@@ -28,17 +28,12 @@ bool split_is_free(const split_set *set, const split_fragment *f) {
     return f->count > 0;
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /** The median of the inner coordinates on an axis, and how many there are. */
 static size_t inner_median(split_facets *f, const froe_scene *scene, int axis, double *median) {
     double *x = f->x.data; /* local coordinates, no longer needed: there is room for as many */
     size_t count = f->inside, lo = 0, hi = count;
     for (size_t i = 0; i < count; i++) x[i] = scene_vertex(scene, f->vertex.data[f->vertices.data[i]])[axis];
-    qsort(x, count, sizeof *x, ascending);
+    base_sort(x, count, sizeof *x, base_compare_doubles);
     while (lo < count && x[lo] == x[0]) lo++;
     while (hi > lo && x[hi - 1] == x[count - 1]) hi--;
     if (hi > lo) *median = x[lo + (hi - lo) / 2];

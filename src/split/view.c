@@ -2,8 +2,8 @@
 #include "split/view.h"
 #include "base/log2.h"
 #include "base/random.h"
+#include "base/sort.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 void split_view_free(const froe_allocator *alloc, split_view *view) {
@@ -218,11 +218,6 @@ split_tally split_view_count(split_view *view, const froe_scene *scene, const fr
 
 /* ------------------------------------------------------------ axis extents -- */
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void extent(const split_set *set, const split_fragment *f, int axis, double *low, double *high) {
     froe_kind form = scene_form(set->scene, f->object);
     if (form >= FROE_BOX) {
@@ -256,7 +251,7 @@ bool split_view_extents(split_view *view, const split_set *set, const split_cell
         view->values.data[view->values.count++] = low;
         view->values.data[view->values.count++] = high;
     }
-    qsort(view->values.data, view->values.count, sizeof(double), ascending);
+    base_sort(view->values.data, view->values.count, sizeof(double), base_compare_doubles);
     return true;
 }
 
