@@ -12,8 +12,8 @@ typedef struct render_args {
     cli_common common;
     const char *tree, *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading;
     int direction, up_axis, paint, preset;
-    double fov, scale, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
-    uint64_t decimals;                                                 /**< UINT64_MAX: not given */
+    double halo, fov, scale, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
+    uint64_t decimals;                                                       /**< UINT64_MAX: not given */
     cli_reals eye, target, up;
     bool parallel, hidden, cull_back, ids;
 } render_args;
@@ -64,11 +64,13 @@ static const cli_option look[] = {
     {"seam-width", 0, CLI_REAL, offsetof(render_args, seam_width), "U",
      .help = "how far faces go under later neighbours, against seams (default 1; 0: not at all)"},
     {"line-kinds", 0, CLI_TEXT, offsetof(render_args, lines), "KINDS",
-     .help = "border, silhouette, group, crease, mesh, parted by commas; or none (default: all but mesh)"},
+     .help = "border, silhouette, object, material, crease, crossing, mesh, parted by commas; or none (default: all "
+             "but mesh)"},
     {"line-width", 0, CLI_REAL, offsetof(render_args, line_width), "W",
      .help = "of borders and silhouettes (default 1)"},
     {"crease", 0, CLI_REAL, offsetof(render_args, crease), "DEGREES",
      .help = "angle that makes an edge a line (default 30)"},
+    {"halo", 0, CLI_REAL, offsetof(render_args, halo), "G", .help = "gap in lines before nearer lines (default 0)"},
     {"hidden", 0, CLI_FLAG, offsetof(render_args, hidden), .help = "hidden lines as well, dashed"},
     {"opacity", 0, CLI_TEXT, offsetof(render_args, opacity), "NAME=A,...", .help = "of a material or group, 0 to 1"},
     {"priority", 0, CLI_TEXT, offsetof(render_args, priority), "NAME=K,...",
@@ -194,7 +196,7 @@ static int set_style(const char *text, froe_render_options *o) {
 }
 
 static uint32_t line_bit(const char *name, size_t length) {
-    for (uint32_t bit = 1; bit <= FROE_LINE_MESH; bit <<= 1) {
+    for (uint32_t bit = 1; bit < FROE_LINE_END; bit <<= 1) {
         const char *known = froe_line_name((froe_line)bit);
         if (known && strlen(known) == length && memcmp(known, name, length) == 0) return bit;
     }
@@ -208,8 +210,10 @@ static int set_lines(const char *list, uint32_t *lines) {
         const size_t length = strcspn(list, ",");
         const uint32_t bit = line_bit(list, length);
         if (!bit)
-            return cli_fail(CLI_USE, NULL, "--line-kinds: '%.*s' is not one of border, silhouette, group, crease, mesh",
-                            (int)length, list);
+            return cli_fail(
+                CLI_USE, NULL,
+                "--line-kinds: '%.*s' is not one of border, silhouette, object, material, crease, crossing, mesh",
+                (int)length, list);
         *lines |= bit;
         list += length + (list[length] == ',');
     }
@@ -260,6 +264,7 @@ static int set_options(const render_args *args, const froe_scene *scene, froe_re
     set_number(args->seam_width, &o->seam_width);
     set_number(args->line_width, &o->line_width);
     set_number(args->crease, &o->crease);
+    set_number(args->halo, &o->halo);
     set_number(args->pixels, &o->pixels);
     if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
     o->hidden |= args->hidden;
@@ -355,6 +360,7 @@ const cli_command cli_command_render = {
     .parts = parts,
     .defaults = &(const render_args){.common = CLI_COMMON_DEFAULTS,
                                      .up_axis = 2,
+                                     .halo = NAN,
                                      .fov = NAN,
                                      .scale = NAN,
                                      .margin = NAN,

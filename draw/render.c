@@ -9,7 +9,8 @@ froe_render_options froe_render_defaults(void) {
         .camera = froe_camera_defaults(),
         .cel_levels = 4,
         .seam_width = 1,
-        .lines = FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_GROUP | FROE_LINE_CREASE,
+        .lines = FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_OBJECT | FROE_LINE_MATERIAL | FROE_LINE_CREASE |
+                 FROE_LINE_CROSSING,
         .crease = 30,
         .line_width = 1,
         .background = FROE_DRAW_CLEAR,
@@ -62,6 +63,7 @@ static froe_status check(const froe_scene *scene, const froe_render_options *o, 
                             {"cel_levels", o->cel_levels, 2, 64},
                             {"seam_width", o->seam_width, 0, 1e6},
                             {"line_width", o->line_width, 0, 1e6},
+                            {"halo", o->halo, 0, 1e6},
                             {"decimals", o->decimals, 0, 6},
                             {"pixels", o->pixels, 0.1, 64},
                             {"width", o->camera.width * pixels, 1, 32000},
@@ -106,6 +108,7 @@ static froe_status look(draw_render *r, froe_diagnostic *diag) {
     p.lines = o->line_width > 0 ? o->lines : 0;
     p.crease = o->crease;
     p.hidden = o->hidden;
+    p.halo = o->halo;
     p.alloc = &r->alloc;
     p.progress = o->progress;
     p.user = o->user;

@@ -142,10 +142,11 @@ typedef struct froe_render_options {
     unsigned cel_levels;  /**< 2 .. 64; default 4 */
     froe_paint paint;     /**< default WHOLE */
     double seam_width;    /**< WHOLE: underlap against seams, in units of the page; default 1; 0: none */
-    uint32_t lines;       /**< bits of froe_line; default border, silhouette, group, crease */
+    uint32_t lines;       /**< bits of froe_line; default all but mesh */
     double crease;        /**< degrees; default 30 */
-    double line_width;    /**< default 1; silhouettes and borders; other kinds have 0.6 of it */
+    double line_width;    /**< default 1; silhouettes and borders; crossings have 0.8, other kinds 0.6 of it */
     bool hidden;          /**< hidden lines, dashed */
+    double halo;          /**< gap in lines before nearer ones; default 0 */
     const double *opacity;     /**< per group, 0 .. 1; NULL: 1 */
     const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
     bool cull_back;

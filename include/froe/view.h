@@ -105,6 +105,7 @@ typedef struct froe_visibility_options {
     const int32_t *priorities;   /**< per patch; where patches overlap in one plane, the one of higher priority is seen,
                                       of equal ones the later; NULL: all equal */
     const uint8_t *edges;        /**< per edge, not 0: its intervals are wanted; NULL: all */
+    bool crossings;              /**< lines along which polygons pass through each other are wanted */
     bool cull_back;              /**< polygons whose corners turn right, as the eye sees them, are not there */
     const froe_allocator *alloc; /**< NULL: malloc */
     froe_progress_fn *progress;  /**< may be NULL */
@@ -155,6 +156,15 @@ typedef struct froe_interval {
 /** The visible intervals of an edge, ascending and disjoint, touching ones joined; what is between them is hidden.
  * They were ordered and joined exactly; only these numbers are rounded. Live as long as the visibility. */
 FROE_API const froe_interval *froe_visibility_of_edge(const froe_visibility *visibility, uint32_t edge, size_t *count);
+
+/** A visible part of the line along which a patch passes through polygons of another plane. */
+typedef struct froe_crossing {
+    uint32_t patch;        /**< the one of the two that the tree has cut */
+    double from[3], to[3]; /**< rounded as by froe_visibility_corners() */
+} froe_crossing;
+/** All of them, when they were wanted; found and joined exactly. Where a polygon is seen edge-on there is none. They
+ * live as long as the visibility. */
+FROE_API const froe_crossing *froe_visibility_crossings(const froe_visibility *visibility, size_t *count);
 
 /** Receives the visible region of a patch: ring i has the corners starts[i] .. starts[i+1] - 1, 3 doubles each. Outer
  * rings turn left as the eye sees them, holes right. The arrays live until it returns; false stops. */
@@ -240,7 +250,8 @@ typedef struct froe_picture_options {
     bool cull_back;            /**< the same */
     uint32_t lines;            /**< bits of froe_line; default 0: none */
     double crease;             /**< degrees from which on an edge is a crease, 0 .. 180; default 30 */
-    bool hidden;               /**< hidden lines as well */
+    bool hidden;               /**< hidden lines as well, each place of the page once */
+    double halo;               /**< gap in lines before a nearer line, on the page; default 0: none */
     uint64_t max_graph;        /**< WHOLE: most pairs to compare; default 50 million. Beyond them the picture is made of
                                     fragments and says so: see froe_picture_report */
     const froe_allocator *alloc; /**< NULL: malloc */
@@ -274,11 +285,14 @@ FROE_API const double *froe_picture_ring(const froe_picture *picture, size_t rin
 typedef enum froe_line {
     FROE_LINE_BORDER = 1,     /**< used by one polygon, or by more than two */
     FROE_LINE_SILHOUETTE = 2, /**< between a polygon seen from the front and one seen from behind */
-    FROE_LINE_GROUP = 4,      /**< between different groups (objects, materials) */
-    FROE_LINE_CREASE = 8,     /**< between planes at an angle */
-    FROE_LINE_MESH = 16       /**< any other edge between patches */
+    FROE_LINE_OBJECT = 4,     /**< between groups of different names, or of one name and material */
+    FROE_LINE_MATERIAL = 8,   /**< between groups of one name and different materials */
+    FROE_LINE_CREASE = 16,    /**< between planes at an angle */
+    FROE_LINE_MESH = 32,      /**< any other edge between patches */
+    FROE_LINE_CROSSING = 64,  /**< no edge: where polygons pass through each other; only visible parts */
+    FROE_LINE_END = 128       /**< no kind */
 } froe_line;
-/** "border", "silhouette", "group", "crease", "mesh"; NULL for anything else. */
+/** "border", "silhouette", "object", "material", "crease", "mesh", "crossing"; NULL for anything else. */
 FROE_API const char *froe_line_name(froe_line kind);
 
 typedef struct froe_stroke {

@@ -6,16 +6,15 @@
 #include "view/visibility.h"
 
 /* b is a meeting. */
-static int compare_with_meeting(view_sights *s, uint32_t edge, const view_end *a, const view_end *b) {
-    const uint32_t own = view_line_of_edge(s, edge);
-    const int side = view_side(s, b->way >> 1, &a->ray, a->vertex, 2 * own, a->way);
+int view_compare_along(view_sights *s, uint32_t line, const view_end *a, const view_end *b) {
+    const int side = view_side(s, b->way >> 1, &a->ray, a->vertex, 2 * line, a->way);
     return b->way & 1 ? side : -side;
 }
 
 int view_compare_ends(view_sights *s, uint32_t edge, const view_end *a, const view_end *b) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
-    if (b->vertex == FROE_NONE) return compare_with_meeting(s, edge, a, b);
-    if (a->vertex == FROE_NONE) return -compare_with_meeting(s, edge, b, a);
+    if (b->vertex == FROE_NONE) return view_compare_along(s, view_line_of_edge(s, edge), a, b);
+    if (a->vertex == FROE_NONE) return -view_compare_along(s, view_line_of_edge(s, edge), b, a);
     return (a->vertex == v[1]) - (b->vertex == v[1]);
 }
 

@@ -5,9 +5,17 @@
  * from the rest, in doubles. */
 #include "view/picture.h"
 #include <math.h>
+#include <string.h>
 
 static uint32_t group_of(const froe_scene *s, uint32_t object) {
     return s->groups ? s->groups[object] : FROE_NONE;
+}
+
+static froe_line change_of(const froe_scene *s, uint32_t a, uint32_t b) {
+    if (a == b) return (froe_line)0;
+    if (a == FROE_NONE || b == FROE_NONE) return FROE_LINE_OBJECT;
+    const froe_group x = froe_scene_group(s, a), y = froe_scene_group(s, b);
+    return !strcmp(x.name, y.name) && strcmp(x.material, y.material) != 0 ? FROE_LINE_MATERIAL : FROE_LINE_OBJECT;
 }
 
 static double cosine(const froe_scene *s, uint32_t a, uint32_t b) {
@@ -30,7 +38,8 @@ static froe_line kind_of_pair(view_sights *sights, uint32_t edge, uint32_t a, ui
                         surface_ascends(s, b, edge); /* the second runs the other way than its neighbour asks */
     const int x = view_facing(sights, a), y = view_facing(sights, b) * (turned ? -1 : 1);
     if (wanted & FROE_LINE_SILHOUETTE && (x > 0) != (y > 0)) return FROE_LINE_SILHOUETTE;
-    if (wanted & FROE_LINE_GROUP && group_of(s->scene, a) != group_of(s->scene, b)) return FROE_LINE_GROUP;
+    const froe_line change = change_of(s->scene, group_of(s->scene, a), group_of(s->scene, b));
+    if (wanted & change) return change;
     const double c = cosine(s->scene, a, b) * (turned ? -1 : 1);
     return wanted & FROE_LINE_CREASE && c <= limit ? FROE_LINE_CREASE : FROE_LINE_MESH;
 }

@@ -19,12 +19,16 @@ const char *froe_line_name(froe_line kind) {
         return "border";
     case FROE_LINE_SILHOUETTE:
         return "silhouette";
-    case FROE_LINE_GROUP:
-        return "group";
+    case FROE_LINE_OBJECT:
+        return "object";
+    case FROE_LINE_MATERIAL:
+        return "material";
     case FROE_LINE_CREASE:
         return "crease";
     case FROE_LINE_MESH:
         return "mesh";
+    case FROE_LINE_CROSSING:
+        return "crossing";
     default:
         return NULL;
     }
@@ -56,6 +60,7 @@ static froe_status look(view_painter *p, const froe_tree *tree, const froe_surfa
     look.priorities = o->priorities;
     look.edges = kinds;
     look.cull_back = o->cull_back;
+    look.crossings = o->lines & FROE_LINE_CROSSING;
     look.alloc = &p->picture->alloc;
     look.progress = o->progress;
     look.user = o->user;
@@ -151,6 +156,7 @@ static froe_status check(const froe_picture_options *o, froe_diagnostic *diag) {
         return base_fail(diag, FROE_E_OPTIONS, "no such paint: %d", (int)o->paint);
     if (!(o->underlap >= 0) || !isfinite(o->underlap))
         return base_fail(diag, FROE_E_OPTIONS, "an underlap of %g is none", o->underlap);
+    if (!(o->halo >= 0) || !isfinite(o->halo)) return base_fail(diag, FROE_E_OPTIONS, "a halo of %g is none", o->halo);
     if (!(o->crease >= 0 && o->crease <= 180))
         return base_fail(diag, FROE_E_OPTIONS, "a crease angle of %g degrees is not in 0 .. 180", o->crease);
     return FROE_OK;

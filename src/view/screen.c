@@ -214,11 +214,10 @@ static bool pass_stretch(view_screen *s, const view_screen_node *n, uint32_t own
     return push_stretch(s, n->child[from > 0], &first) && push_stretch(s, n->child[to > 0], &last);
 }
 
-froe_status view_screen_classify(view_screen *s, const view_stretch *stretch, const view_corner *ring, uint32_t count,
-                                 view_stretch_fn *fn, void *user) {
-    const uint32_t own = view_line_of_edge(s->sights, stretch->edge);
+froe_status view_screen_classify(view_screen *s, const view_stretch *stretch, uint32_t own, const view_corner *ring,
+                                 uint32_t count, view_stretch_fn *fn, void *user) {
     s->stretches.count = 0;
-    bool ok = own != FROE_NONE && push_stretch(s, s->root, stretch);
+    bool ok = push_stretch(s, s->root, stretch);
     while (ok && s->stretches.count) {
         const view_pending_stretch top = s->stretches.data[--s->stretches.count];
         if (top.node < VIEW_COVERED)

@@ -34,7 +34,7 @@ typedef struct view_end {
 } view_end;
 
 typedef struct view_stretch {
-    uint32_t edge;
+    uint32_t edge; /**< or a line where it is no edge: see crossings.h */
     view_end end[2];
 } view_stretch;
 
@@ -72,9 +72,9 @@ froe_status view_screen_insert(view_screen *screen, const view_corner *ring, uin
                                view_beam_fn *fn, void *user);
 /** Receives an open stretch. */
 typedef bool view_stretch_fn(void *user, const view_stretch *part);
-/** Sends a stretch of an edge of a face down the tree; `ring` is the face's beam. On a line of the tree it goes to the
- * side where the face is: a line is seen where its face is seen beside it. (The other side says nothing: with the eye
- * in a cut, what lies beyond that cut may not have been looked at.) */
-froe_status view_screen_classify(view_screen *screen, const view_stretch *stretch, const view_corner *ring,
-                                 uint32_t count, view_stretch_fn *fn, void *user);
+/** Sends a stretch of a line `own` beside a face, such as one of its edges, down the tree; `ring` is the face's beam.
+ * On a line of the tree it goes to the side where the face is: a line is seen where its face is seen beside it. (The
+ * other side says nothing: with the eye in a cut, what lies beyond that cut may not have been looked at.) */
+froe_status view_screen_classify(view_screen *screen, const view_stretch *stretch, uint32_t own,
+                                 const view_corner *ring, uint32_t count, view_stretch_fn *fn, void *user);
 #endif

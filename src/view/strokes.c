@@ -2,20 +2,15 @@
  *
  * At a vertex where several could go on, the straightest does. Where a line ends because something begins to hide it, a
  * round cap would stick out over what hides it: such ends are marked. */
+#include "view/strokes.h"
 #include "view/picture.h"
 #include <math.h>
-
-typedef struct segment {
-    uint32_t vertex[2]; /* FROE_NONE: it ends within its edge */
-    print_point at[2];
-    uint8_t kind, hidden, used;
-} segment;
 
 typedef struct chainer {
     view_painter *p;
     const froe_allocator *alloc;
     const uint8_t *kinds;
-    ARRAY(segment) segments;
+    view_segments segments;
     ARRAY(base_pair) ends; /* by class and vertex: 2 * segment + end; twice as long for sorting */
     size_t end_count;
     print_ring forth, back;
@@ -23,15 +18,18 @@ typedef struct chainer {
 
 /* -------------------------------------------------------------------- segments -- */
 
-static uint32_t class_of(const segment *s) {
+static uint32_t class_of(const view_segment *s) {
     return (s->hidden ? 0u : 256u) + s->kind;
 }
 
-static print_point page_at(const chainer *c, const double *u, const double *v, double t) {
-    double x[3], page[2] = {0, 0};
+static void set_end(const chainer *c, view_segment *s, int e, const double *u, const double *v, double t) {
+    const froe_projection *view = c->p->options->view;
+    double x[3], at[3], page[2];
     for (int k = 0; k < 3; k++) x[k] = t == 1 ? v[k] : u[k] + t * (v[k] - u[k]);
-    (void)froe_project(c->p->options->view, x, page);
-    return (print_point){page[0], page[1]};
+    view_camera_point(view, x, at);
+    view_camera_page(view, at, page);
+    s->at[e] = (print_point){page[0], page[1]};
+    s->near[e] = view->eye.parallel ? -at[2] : 1 / at[2];
 }
 
 /* The part of an edge between two shares, as far as it is on the page. */
@@ -40,10 +38,10 @@ static bool add_segment(chainer *c, uint32_t edge, double from, double to, bool 
     const double *a = view_vertex(c->p->sights, v[0]), *b = view_vertex(c->p->sights, v[1]);
     double share[2] = {from, to};
     if (!(from < to) || !print_clip_segment(c->p->options->view, a, b, hidden ? 0 : 1e-6, share)) return true;
-    segment s = {.kind = c->kinds[edge], .hidden = hidden};
+    view_segment s = {.kind = c->kinds[edge], .hidden = hidden};
     s.vertex[0] = share[0] == 0 ? v[0] : FROE_NONE;
     s.vertex[1] = share[1] == 1 ? v[1] : FROE_NONE;
-    for (int i = 0; i < 2; i++) s.at[i] = page_at(c, a, b, share[i]);
+    for (int i = 0; i < 2; i++) set_end(c, &s, i, a, b, share[i]);
     return array_push(c->alloc, &c->segments, s);
 }
 
@@ -59,12 +57,47 @@ static bool add_edge(chainer *c, uint32_t edge) {
     return !c->p->options->hidden || add_segment(c, edge, last, 1, true);
 }
 
+/* Ends of crossings at one place of the page get one number, above those of vertices. */
+static bool number_crossings(chainer *c, size_t first) {
+    const size_t n = 2 * (c->segments.count - first);
+    const double fine = 1e6 / (c->p->options->view->width + c->p->options->view->height);
+    uint32_t number = c->p->sights->tree->scene->vertex_count;
+    base_pair *pairs = base_calloc(c->alloc, 2 * n + 1, sizeof *pairs);
+    for (size_t i = 0; pairs && i < n; i++) {
+        const print_point at = c->segments.data[first + i / 2].at[i % 2];
+        const uint64_t x = (uint64_t)(int64_t)floor(at.x * fine + 0.5) & UINT32_MAX,
+                       y = (uint64_t)(int64_t)floor(at.y * fine + 0.5) & UINT32_MAX;
+        pairs[i] = (base_pair){x << 32 | y, (uint32_t)i};
+    }
+    if (pairs) base_radix_sort(pairs, pairs + n, n);
+    for (size_t i = 0; pairs && i < n; i++) {
+        number += i && pairs[i].key != pairs[i - 1].key;
+        c->segments.data[first + pairs[i].value / 2].vertex[pairs[i].value % 2] = number;
+    }
+    base_free(c->alloc, pairs, (2 * n + 1) * sizeof *pairs);
+    return pairs != NULL;
+}
+
+static bool add_crossings(chainer *c) {
+    size_t count;
+    const size_t first = c->segments.count;
+    const froe_crossing *x = froe_visibility_crossings(c->p->v, &count);
+    for (size_t i = 0; i < count; i++) {
+        double share[2] = {0, 1};
+        if (!print_clip_segment(c->p->options->view, x[i].from, x[i].to, 1e-6, share)) continue;
+        view_segment s = {.kind = FROE_LINE_CROSSING};
+        for (int e = 0; e < 2; e++) set_end(c, &s, e, x[i].from, x[i].to, share[e]);
+        if (!array_push(c->alloc, &c->segments, s)) return false;
+    }
+    return number_crossings(c, first);
+}
+
 static bool list_ends(chainer *c) {
     const size_t n = c->segments.count;
     if (!array_reserve(c->alloc, &c->ends, 4 * n)) return false;
     c->end_count = 0;
     for (uint32_t i = 0; i < n; i++) {
-        const segment *s = c->segments.data + i;
+        const view_segment *s = c->segments.data + i;
         for (uint32_t e = 0; e < 2; e++)
             if (s->vertex[e] != FROE_NONE)
                 c->ends.data[c->end_count++] = (base_pair){(uint64_t)class_of(s) << 32 | s->vertex[e], 2 * i + e};
@@ -89,7 +122,7 @@ static size_t first_end(const chainer *c, uint64_t key) {
 
 /* The unused segment that goes on straightest beyond end `e` of segment `i`: 2 * segment + end; FROE_NONE. */
 static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
-    const segment *s = c->segments.data + i;
+    const view_segment *s = c->segments.data + i;
     if (s->vertex[e] == FROE_NONE) return FROE_NONE;
     const uint64_t key = (uint64_t)class_of(s) << 32 | s->vertex[e];
     const double dx = s->at[e].x - s->at[!e].x, dy = s->at[e].y - s->at[!e].y;
@@ -97,7 +130,7 @@ static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
     uint32_t found = FROE_NONE;
     for (size_t k = first_end(c, key); k < c->end_count && c->ends.data[k].key == key; k++) {
         const uint32_t other = c->ends.data[k].value >> 1, end = c->ends.data[k].value & 1;
-        const segment *t = c->segments.data + other;
+        const view_segment *t = c->segments.data + other;
         if (t->used) continue;
         const double x = t->at[!end].x - t->at[end].x, y = t->at[!end].y - t->at[end].y, length = sqrt(x * x + y * y);
         const double along = length > 0 ? (dx * x + dy * y) / length : 0;
@@ -121,7 +154,7 @@ static bool follow(chainer *c, uint32_t i, uint32_t e, print_ring *out, uint32_t
 
 static bool put_stroke(chainer *c, uint32_t i) {
     froe_picture *picture = c->p->picture;
-    segment *s = c->segments.data + i;
+    view_segment *s = c->segments.data + i;
     uint32_t start, end;
     s->used = 1;
     if (!follow(c, i, 1, &c->forth, &end) || !follow(c, i, 0, &c->back, &start)) return false;
@@ -141,13 +174,11 @@ static bool put_stroke(chainer *c, uint32_t i) {
 
 /* Hidden lines first, then by kind. */
 static bool put_strokes(chainer *c) {
-    static const froe_line kinds[] = {FROE_LINE_MESH, FROE_LINE_CREASE, FROE_LINE_GROUP, FROE_LINE_SILHOUETTE,
-                                      FROE_LINE_BORDER};
     for (int hidden = 1; hidden >= 0; hidden--)
-        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        for (uint32_t kind = FROE_LINE_END >> 1; kind; kind >>= 1)
             for (uint32_t i = 0; i < c->segments.count; i++) {
-                const segment *s = c->segments.data + i;
-                if (s->used || s->kind != kinds[k] || s->hidden != hidden) continue;
+                const view_segment *s = c->segments.data + i;
+                if (s->used || s->kind != kind || s->hidden != hidden) continue;
                 if (!put_stroke(c, i)) return false;
             }
     return true;
@@ -157,6 +188,9 @@ froe_status view_make_strokes(view_painter *painter, const uint8_t *kinds) {
     chainer c = {.p = painter, .alloc = &painter->picture->alloc, .kinds = kinds};
     bool ok = true;
     for (uint32_t e = 0; ok && e < painter->sights->surface->edge_count; e++) ok = !kinds[e] || add_edge(&c, e);
+    ok = ok && add_crossings(&c);
+    if (ok && (painter->options->hidden || painter->options->halo > 0))
+        ok = !view_cut_segments(c.alloc, painter->options->view, painter->options->halo, &c.segments);
     ok = ok && list_ends(&c) && put_strokes(&c);
     array_free(c.alloc, &c.segments);
     array_free(c.alloc, &c.ends);

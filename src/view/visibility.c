@@ -1,6 +1,6 @@
 /* visibility.c: pieces front to back, each sent down the beam tree. */
-#include "view/visibility.h"
 #include "base/status.h"
+#include "view/crossings.h"
 #include "view/order.h"
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,8 @@ typedef struct looker {
     base_task task;
     view_screen screen;
     view_ring ring;
-    view_stretches stretches;
+    view_stretches stretches, crossings;
+    view_crosser crosser;
     ARRAY(view_piece) pieces;
     uint32_t *ranks; /* per object */
     view_piece now;
@@ -46,9 +47,11 @@ static froe_status look_at_edges(looker *k, uint32_t piece) {
     view_stretch stretch;
     for (uint32_t i = 0, n = view_side_count(&k->v->sights, piece); i < n && !status; i++) {
         const bool part = view_stretch_of(&k->v->sights, piece, i, &stretch, &status);
-        if (part && (!k->options->edges || k->options->edges[stretch.edge]))
-            status = view_screen_classify(&k->screen, &stretch, k->ring.data, (uint32_t)k->ring.count, keep_stretch, k);
+        if (!part || (k->options->edges && !k->options->edges[stretch.edge])) continue;
+        status = view_screen_classify(&k->screen, &stretch, view_line_of_edge(&k->v->sights, stretch.edge),
+                                      k->ring.data, (uint32_t)k->ring.count, keep_stretch, k);
     }
+    if (!status && k->options->crossings) status = view_look_at_crossings(&k->crosser, piece, &k->ring, &k->crossings);
     return status;
 }
 
@@ -119,14 +122,19 @@ static froe_status look(looker *k, const geom_eye *eye) {
     froe_status status = view_sights_new(&v->sights, v->tree, v->surface, eye, k->options->window,
                                          (uint32_t)k->options->window_corners, &v->alloc);
     if (!status) status = view_screen_new(&k->screen, &v->sights);
+    k->crosser = (view_crosser){.sights = &v->sights, .screen = &k->screen};
     if (!status) status = view_rank_objects(&v->alloc, v->surface, k->options->priorities, &k->ranks);
     if (!status) status = look_at_all(k);
     if (!status) status = sort_pieces(k);
     if (!status) status = view_join_intervals(v, &k->stretches);
+    if (!status) status = view_join_crossings(v, &k->crossings);
     if (!status) note_counts(v, &k->screen);
     view_screen_free(&k->screen);
     array_free(&v->alloc, &k->ring);
     array_free(&v->alloc, &k->stretches);
+    array_free(&v->alloc, &k->crossings);
+    array_free(&v->alloc, &k->crosser.list_ring);
+    array_free(&v->alloc, &k->crosser.open);
     array_free(&v->alloc, &k->pieces);
     base_free(&v->alloc, k->ranks, ((size_t)v->surface->scene->object_count + 1) * sizeof *k->ranks);
     return status;
@@ -197,6 +205,7 @@ void froe_visibility_free(froe_visibility *v) {
     array_free(&alloc, &v->corners);
     base_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);
     base_free(&alloc, v->intervals, v->interval_room * sizeof *v->intervals);
+    array_free(&alloc, &v->crossings);
     base_free(&alloc, v->edge_starts, ((size_t)v->surface->edge_count + 1) * sizeof *v->edge_starts);
     base_free(&alloc, v, sizeof *v);
 }
@@ -231,6 +240,11 @@ const froe_interval *froe_visibility_of_edge(const froe_visibility *v, uint32_t 
     const bool there = edge < v->surface->edge_count;
     *count = there ? v->edge_starts[edge + 1] - v->edge_starts[edge] : 0;
     return v->intervals + (there ? v->edge_starts[edge] : 0);
+}
+
+const froe_crossing *froe_visibility_crossings(const froe_visibility *v, size_t *count) {
+    *count = v->crossings.count;
+    return v->crossings.data;
 }
 
 froe_visibility_report froe_visibility_statistics(const froe_visibility *v) {

@@ -22,6 +22,7 @@ struct froe_visibility {
     uint32_t interval_count;
     size_t interval_room;
     uint32_t *edge_starts; /**< edge_count + 1, into intervals */
+    ARRAY(froe_crossing) crossings;
     froe_visibility_report report;
 };
 
@@ -35,6 +36,8 @@ froe_status view_rank_objects(const froe_allocator *alloc, const froe_surface *s
 froe_status view_find_places(const froe_visibility *v, const int32_t *priorities, uint32_t *places);
 /** Joins the visible stretches of each edge to intervals. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches);
+/** Compares two meetings of a line of sight with others along it: -1 the first comes first. Exact. */
+int view_compare_along(view_sights *sights, uint32_t line, const view_end *a, const view_end *b);
 /** Where the end of a stretch lies on its edge, compared with another: -1 nearer to the lower vertex. Exact. */
 int view_compare_ends(view_sights *sights, uint32_t edge, const view_end *a, const view_end *b);
 #endif

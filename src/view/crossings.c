@@ -1,0 +1,130 @@
+/* crossings.c: cut sides within the polygons of their cuts. */
+#include "view/crossings.h"
+#include "base/sort.h"
+
+/* ---------------------------------------------------------------------- finding -- */
+
+/* The side that leaves corner i of a beam, along its line: see side_of() in region.c. */
+static view_stretch stretch_of(const view_ring *ring, uint32_t i) {
+    const uint32_t count = (uint32_t)ring->count, j = i + 1 < count ? i + 1 : 0;
+    const view_corner *k = ring->data + i, *next = ring->data + j;
+    const view_way before = ring->data[i ? i - 1 : count - 1].way;
+    const uint32_t turned = k->way & 1;
+    view_stretch s = {.edge = k->way >> 1};
+    s.end[turned] = (view_end){k->ray, k->vertex, before ^ 1 ^ turned};
+    s.end[!turned] = (view_end){next->ray, next->vertex, next->way ^ turned};
+    return s;
+}
+
+static int side_of_end(view_sights *s, uint32_t line, const view_end *end, uint32_t own) {
+    return view_side(s, line, &end->ray, end->vertex, 2 * own, end->way);
+}
+
+/* Cuts a stretch to the inside of a beam; false when nothing is left, or it runs along the border. */
+static bool cut_to_beam(view_sights *s, const view_ring *beam, view_stretch *part) {
+    const uint32_t own = part->edge;
+    for (size_t i = 0; i < beam->count; i++) {
+        const uint32_t line = beam->data[i].way >> 1;
+        const int turn = beam->data[i].way & 1 ? -1 : 1, from = side_of_end(s, line, &part->end[0], own),
+                  to = side_of_end(s, line, &part->end[1], own);
+        if (turn * from <= 0 && turn * to <= 0) return false;
+        if (from * to >= 0) continue;
+        view_end middle = {.vertex = FROE_NONE, .way = 2 * line + (from < 0)};
+        middle.ray = view_meeting(s, 2 * own, middle.way);
+        part->end[turn * from > 0] = middle; /* the end outside moves in */
+    }
+    return true;
+}
+
+/* The node whose cut makes side `way` of a piece; FROE_NONE: no cut does. */
+static uint32_t node_of(const view_sights *s, view_way way) {
+    const view_line *l = s->lines.data + (way >> 1);
+    return l->kind == VIEW_CUT ? l->b : FROE_NONE;
+}
+
+static bool keep_open(void *user, const view_stretch *part) {
+    view_crosser *c = user;
+    return array_push(&c->sights->alloc, &c->open, *part);
+}
+
+/* What of the open stretches lies inside a piece of the list. */
+static bool keep_inside(view_crosser *c, uint32_t piece, view_stretches *out) {
+    if (!view_beam_of(c->sights, piece, &c->list_ring)) return false;
+    for (size_t i = 0; i < c->open.count; i++) {
+        view_stretch part = c->open.data[i];
+        if (cut_to_beam(c->sights, &c->list_ring, &part) && !array_push(&c->sights->alloc, out, part)) return false;
+    }
+    return true;
+}
+
+froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_ring *ring, view_stretches *out) {
+    view_sights *s = c->sights;
+    const uint32_t patch = s->surface->patch_of[s->tree->pieces[piece].object];
+    for (uint32_t i = 0; i < ring->count; i++) {
+        const uint32_t node = node_of(s, ring->data[i].way);
+        if (node == FROE_NONE) continue;
+        const tree_objects list = tree_list(s->tree, node);
+        if (!list.count) continue;
+        const view_stretch side = stretch_of(ring, i);
+        c->open.count = 0; /* first what is open: most is hidden */
+        const froe_status status =
+            view_screen_classify(c->screen, &side, side.edge, ring->data, (uint32_t)ring->count, keep_open, c);
+        if (status) return status;
+        for (uint32_t k = 0; c->open.count && k < list.count; k++) {
+            const uint32_t object = tree_object(&list, k), other = s->surface->patch_of[object];
+            if (other == FROE_NONE || other == patch || !view_facing(s, object)) continue;
+            if (!keep_inside(c, list.first + k, out)) return FROE_E_MEMORY;
+        }
+    }
+    return FROE_OK;
+}
+
+/* ---------------------------------------------------------------------- joining -- */
+
+typedef struct joiner {
+    froe_visibility *v;
+    const view_stretch *stretches;
+} joiner;
+
+static int by_line(void *user, uint32_t a, uint32_t b) {
+    const joiner *j = user;
+    const view_stretch *x = j->stretches + a, *y = j->stretches + b;
+    if (x->edge != y->edge) return x->edge < y->edge ? -1 : 1;
+    return view_compare_along(&j->v->sights, x->edge, &x->end[0], &y->end[0]);
+}
+
+static bool put_crossing(froe_visibility *v, uint32_t line, const view_end *from, const view_end *to) {
+    froe_crossing x = {.patch = v->sights.lines.data[line].a};
+    view_point_on(&v->sights, x.patch, from->ray.x, x.from);
+    view_point_on(&v->sights, x.patch, to->ray.x, x.to);
+    return array_push(&v->alloc, &v->crossings, x);
+}
+
+static bool join(joiner *j, const uint32_t *items, size_t count) {
+    view_sights *s = &j->v->sights;
+    for (size_t i = 0; i < count;) {
+        const view_stretch *first = j->stretches + items[i];
+        const uint32_t line = first->edge;
+        const view_end *to = &first->end[1];
+        for (i++; i < count; i++) {
+            const view_stretch *next = j->stretches + items[i];
+            if (next->edge != line || view_compare_along(s, line, &next->end[0], to) > 0) break;
+            if (view_compare_along(s, line, &next->end[1], to) > 0) to = &next->end[1];
+        }
+        if (!put_crossing(j->v, line, &first->end[0], to)) return false;
+    }
+    return true;
+}
+
+froe_status view_join_crossings(froe_visibility *v, const view_stretches *stretches) {
+    joiner j = {v, stretches->data};
+    const size_t n = stretches->count;
+    if (n > INT32_MAX) return FROE_E_LIMIT;
+    uint32_t *items = base_calloc(&v->alloc, 2 * n + 1, sizeof *items);
+    if (!items) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < n; i++) items[i] = i;
+    base_merge_sort(items, items + n, n, by_line, &j);
+    const bool ok = join(&j, items, n);
+    base_free(&v->alloc, items, (2 * n + 1) * sizeof *items);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

@@ -1,0 +1,22 @@
+/* crossings.h: lines along which polygons pass through each other, and what is visible of them.
+ *
+ *        __B__                A tree has cut A along the plane of B, and keeps B in the list of that cut. So the line
+ * is /  :  /               the part of A's cut side that lies inside pieces of the list; from the eye these are
+ *   A--/---*-/--A             beams, and the side a stretch of a line of sight like any other.
+ *     /____:/ */
+#ifndef FROE_VIEW_CROSSINGS_H
+#define FROE_VIEW_CROSSINGS_H
+#include "view/visibility.h"
+
+typedef struct view_crosser {
+    view_sights *sights;
+    view_screen *screen;
+    view_stretches open; /**< of one side */
+    view_ring list_ring; /**< of a piece in the cut */
+} view_crosser;
+/** Finds the stretches along which polygons in cuts cross a piece whose beam is `ring`, as far as they are open, and
+ * appends them, with the number of their line for an edge. FROE_E_MEMORY. */
+froe_status view_look_at_crossings(view_crosser *crosser, uint32_t piece, const view_ring *ring, view_stretches *out);
+/** Joins what was found to the crossings of the visibility. FROE_E_MEMORY. */
+froe_status view_join_crossings(froe_visibility *v, const view_stretches *stretches);
+#endif

@@ -1,0 +1,170 @@
+/* test_crossings.c: lines along which triangles pass through each other, against each pair of triangles by itself. */
+#include "rays.h"
+#include <math.h>
+
+typedef double point[3];
+
+static void sub(const double *a, const double *b, double *out) {
+    for (int k = 0; k < 3; k++) out[k] = a[k] - b[k];
+}
+
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double *a, const double *b, double *out) {
+    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static void normal_of(const froe_scene *s, uint32_t object, double *n) {
+    point u, v;
+    sub(scene_point(s, object, 1), scene_point(s, object, 0), u);
+    sub(scene_point(s, object, 2), scene_point(s, object, 0), v);
+    cross(u, v, n);
+}
+
+/* How far inside a triangle a point of its plane is, in shares: negative outside. */
+static double inside(const froe_scene *s, uint32_t object, const double *x) {
+    point n, u, v, w;
+    double least = 1;
+    normal_of(s, object, n);
+    for (uint32_t i = 0; i < 3; i++) {
+        sub(scene_point(s, object, (i + 1) % 3), scene_point(s, object, i), u);
+        sub(x, scene_point(s, object, i), v);
+        cross(u, v, w);
+        least = fmin(least, dot(w, n) / dot(n, n));
+    }
+    return least;
+}
+
+/* Appends where edges of a pierce b. */
+static int pierce(const froe_scene *s, uint32_t a, uint32_t b, point *out, int count) {
+    point n, u;
+    normal_of(s, b, n);
+    for (uint32_t i = 0; i < 3; i++) {
+        const double *p = scene_point(s, a, i), *q = scene_point(s, a, (i + 1) % 3), *o = scene_point(s, b, 0);
+        sub(p, o, u);
+        const double at_p = dot(n, u);
+        sub(q, o, u);
+        const double at_q = dot(n, u);
+        if ((at_p > 0) == (at_q > 0)) continue;
+        for (int k = 0; k < 3; k++) out[count][k] = p[k] + at_p / (at_p - at_q) * (q[k] - p[k]);
+        if (inside(s, b, out[count]) > 0) count++;
+    }
+    return count;
+}
+
+/* Is a point before everything but two triangles? 1, 0, or -1: too close to call. */
+static int in_sight(const froe_scene *s, const froe_eye *eye, const double *x, uint32_t a, uint32_t b) {
+    int seen = 1;
+    for (uint32_t o = 0; o < s->object_count; o++) {
+        point n, way, u, hit;
+        if (o == a || o == b) continue;
+        normal_of(s, o, n);
+        for (int k = 0; k < 3; k++) way[k] = eye->parallel ? eye->at[k] : eye->at[k] - x[k];
+        sub(scene_point(s, o, 0), x, u);
+        const double t = dot(n, u) / dot(n, way);
+        for (int k = 0; k < 3; k++) hit[k] = x[k] + t * way[k];
+        const double depth = inside(s, o, hit);
+        if (t < -1e-6 || (!eye->parallel && t > 1 + 1e-6) || depth < -1e-6) continue;
+        if (t < 1e-6 || depth < 1e-6) return -1;
+        seen = 0;
+    }
+    return seen;
+}
+
+static bool is_edge_on(const froe_scene *s, const froe_eye *eye, uint32_t object) {
+    point n, u;
+    normal_of(s, object, n);
+    sub(eye->at, scene_point(s, object, 0), u);
+    return fabs(dot(n, eye->parallel ? eye->at : u)) < 1e-12;
+}
+
+static bool is_found(const froe_visibility *v, const double *x) {
+    size_t count;
+    const froe_crossing *c = froe_visibility_crossings(v, &count);
+    for (size_t i = 0; i < count; i++) {
+        point u, w;
+        sub(c[i].to, c[i].from, u);
+        sub(x, c[i].from, w);
+        const double t = dot(w, u) / dot(u, u);
+        if (!(t > -1e-9 && t < 1 + 1e-9)) continue;
+        for (int k = 0; k < 3; k++) w[k] -= t * u[k];
+        if (dot(w, w) < 1e-18) return true;
+    }
+    return false;
+}
+
+static void check_eye(const froe_tree *tree, const froe_surface *surface, uint32_t e, uint32_t counts[2]) {
+    const froe_scene *s = tree->scene;
+    froe_visibility_options o = froe_visibility_defaults();
+    froe_visibility *v;
+    o.eye = rays_eye(tree, e);
+    o.crossings = true;
+    assert_int_equal(froe_visibility_new(tree, surface, &o, &v, NULL), FROE_OK);
+    for (uint32_t a = 0; a < s->object_count; a++)
+        for (uint32_t b = 0; b < a; b++) {
+            point ends[6];
+            if (is_edge_on(s, &o.eye, a) || is_edge_on(s, &o.eye, b)) continue;
+            if (pierce(s, b, a, ends, pierce(s, a, b, ends, 0)) != 2) continue;
+            for (int k = 1; k < 8; k++) {
+                point x;
+                for (int c = 0; c < 3; c++) x[c] = ends[0][c] + (k + 0.03) / 8 * (ends[1][c] - ends[0][c]);
+                const int seen = in_sight(s, &o.eye, x, a, b);
+                if (seen < 0) continue;
+                if (is_found(v, x) != seen)
+                    fail_msg("eye %u: triangles %u and %u, share %d/8: %s", e, b, a, k, seen ? "missing" : "hidden");
+                counts[seen]++;
+            }
+        }
+    froe_visibility_free(v);
+}
+
+static void lines_of_crossing_triangles_are_found_where_they_are_seen(void **state) {
+    (void)state;
+    froe_tree *tree = trees_grow(3, FROE_POLYGON, 60, 0, 1, "density", 1);
+    froe_surface *surface;
+    uint32_t counts[2] = {0, 0};
+    assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+    for (uint32_t e = 0; e < 6; e++) check_eye(tree, surface, e, counts);
+    print_message("  %u points seen, %u hidden\n", counts[1], counts[0]);
+    assert_true(counts[0] > 50 && counts[1] > 50);
+    froe_surface_free(surface);
+    froe_tree_free(tree);
+}
+
+/* A sheet that ends on another, or passes beside it, crosses nothing. */
+static void touching_is_no_crossing(void **state) {
+    (void)state;
+    const double x[] = {0, 0, 0, 4, 0, 0, 4, 4, 0,  0, 4, 0,  1, 1, 0, 3, 1, 0,
+                        3, 1, 2, 1, 1, 2, 5, 1, -1, 7, 1, -1, 7, 1, 1, 5, 1, 1};
+    const size_t starts[] = {0, 4, 8, 12};
+    froe_scene *scene;
+    froe_surface *surface;
+    froe_visibility *v;
+    size_t count;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    froe_objects o = froe_objects_defaults();
+    o.count = 3, o.coords = x, o.starts = starts;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    froe_scene_free(scene);
+    assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+    froe_visibility_options look = froe_visibility_defaults();
+    look.eye = (froe_eye){.at = {1, -3, 2}, .parallel = true};
+    look.crossings = true;
+    assert_int_equal(froe_visibility_new(tree, surface, &look, &v, NULL), FROE_OK);
+    (void)froe_visibility_crossings(v, &count);
+    assert_int_equal(count, 0);
+    froe_visibility_free(v);
+    froe_surface_free(surface);
+    froe_tree_free(tree);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_of_crossing_triangles_are_found_where_they_are_seen),
+        cmocka_unit_test(touching_is_no_crossing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
