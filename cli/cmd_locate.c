@@ -3,6 +3,7 @@
 #include "exit.h"
 #include "queries.h"
 #include "tree_report.h"
+#include <stdlib.h>
 
 typedef struct locate_args {
     cli_common common;
@@ -33,6 +34,7 @@ typedef struct locating {
     const locate_args *args;
     froe_query *query;
     const froe_scene *scene;
+    uint32_t objects[CLI_BLOCK];
 } locating;
 
 static void put_group(cli_answers *out, uint32_t group) {
@@ -119,23 +121,21 @@ static froe_status answer_groups(void *user, const cli_block *block, cli_answers
     return FROE_OK;
 }
 
-/* Above or below; all points of a block are tried before the first answer is written. */
+/* Above or below. */
 static froe_status answer_vertical(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    const locating *l = user;
-    const int direction = l->args->above ? 1 : -1;
-    for (int writing = 0; writing < 2; writing++)
-        for (size_t i = 0; i < block->count; i++) {
-            uint32_t object;
-            const double *point = block->numbers + block->starts[i] * block->width;
-            const froe_status status = froe_query_vertical(l->query, point, direction, &object, diag);
-            if (status) return diag->object = (uint32_t)i, status;
-            if (!writing) continue;
-            if (l->args->query.count)
-                cli_answers_pair(out, block->ids[i], object != FROE_NONE);
-            else if (object != FROE_NONE)
-                cli_answers_pair(out, block->ids[i], object);
-        }
-    return FROE_OK;
+    locating *l = user;
+    const double *points = block->numbers + block->starts[0] * block->width;
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = (unsigned)l->args->common.threads;
+    const froe_status status =
+        froe_batch_vertical(l->query, points, block->count, l->args->above ? 1 : -1, &o, l->objects, diag);
+    for (size_t i = 0; !status && i < block->count; i++) {
+        if (l->args->query.count)
+            cli_answers_pair(out, block->ids[i], l->objects[i] != FROE_NONE);
+        else if (l->objects[i] != FROE_NONE)
+            cli_answers_pair(out, block->ids[i], l->objects[i]);
+    }
+    return status;
 }
 
 static const char *header(const locate_args *args) {
@@ -145,22 +145,29 @@ static const char *header(const locate_args *args) {
 }
 
 static int ask(const locate_args *args, const froe_tree *tree) {
-    locating l = {.args = args, .scene = froe_tree_scene(tree)};
+    locating *l = calloc(1, sizeof *l);
+    if (!l) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    l->args = args;
+    l->scene = froe_tree_scene(tree);
     froe_diagnostic diag;
-    const froe_status status = froe_query_new(tree, &l.query, &diag);
-    if (status) return cli_fail_status(CLI_WORKING, args->query.tree, status, &diag);
+    const froe_status status = froe_query_new(tree, &l->query, &diag);
+    if (status) {
+        free(l);
+        return cli_fail_status(CLI_WORKING, args->query.tree, status, &diag);
+    }
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns,
-                                 .dim = froe_scene_dim(l.scene),
+                                 .dim = froe_scene_dim(l->scene),
                                  .header = header(args),
                                  .answer = args->above || args->below ? answer_vertical
                                            : args->groups             ? answer_groups
                                                                       : answer,
-                                 .user = &l,
-                                 .query = l.query};
+                                 .user = l,
+                                 .query = l->query};
     const int code = cli_queries_run(&queries);
-    froe_query_free(l.query);
+    froe_query_free(l->query);
+    free(l);
     return code;
 }
 

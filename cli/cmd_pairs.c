@@ -68,7 +68,9 @@ static int ask(const pairs_args *args, const froe_tree *tree, writing *w) {
     w->mute = args->count || args->common.json;
     w->bar = cli_progress_begin(&args->common, "searching");
     if (!args->common.json) printf("%s\n", args->count ? "kind,count" : "a,b,kind");
-    status = froe_query_pairs(query, !args->no_corners, put_pair, w, &diag);
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = (unsigned)args->common.threads;
+    status = froe_batch_pairs(query, !args->no_corners, &o, put_pair, w, &diag);
     cli_progress_end(&w->bar);
     froe_query_free(query);
     if (status) return cli_fail_status(CLI_WORKING, args->tree, status, &diag);

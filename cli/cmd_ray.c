@@ -81,19 +81,21 @@ static froe_status answer_first(shooting *s, const cli_block *block, cli_answers
     return FROE_OK;
 }
 
-/* All rays of a block are tried before the first answer is written. */
 static froe_status answer_all(shooting *s, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    for (int writing = 0; writing < 2; writing++)
-        for (size_t i = 0; i < block->count; i++) {
-            const double *origin = s->origins + i * s->dim, *direction = s->directions + i * s->dim;
-            froe_hits hits;
-            const froe_status status =
-                froe_query_ray_all(s->query, origin, direction, writing ? s->args->t_max : 0, &hits, diag);
-            if (status) return diag->object = (uint32_t)i, status;
-            if (writing && s->args->query.count) cli_answers_pair(out, block->ids[i], hits.count);
-            for (size_t j = 0; writing && !s->args->query.count && j < hits.count; j++)
-                put_hit(out, block->ids[i], &hits.hits[j]);
-        }
+    froe_answers met = {0};
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = (unsigned)s->args->common.threads;
+    const froe_status status =
+        froe_batch_ray_all(s->query, s->origins, s->directions, block->count, s->args->t_max, &o, &met, diag);
+    if (status) return status;
+    if (s->args->query.count) {
+        cli_answers_lists(out, block->ids, &met, true);
+    } else {
+        for (size_t i = 0; i < block->count; i++)
+            for (size_t j = met.starts[i]; j < met.starts[i + 1]; j++)
+                put_hit(out, block->ids[i], &(froe_hit){met.ids[j], met.values[j]});
+    }
+    froe_answers_free(&met);
     return FROE_OK;
 }
 

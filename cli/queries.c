@@ -14,8 +14,6 @@ const cli_option cli_query_options[] = {
     {0},
 };
 
-enum { BLOCK = 4096 };
-
 /* A run in progress. Rows of the query being gathered lie behind those of the `count` whole ones. */
 typedef struct run {
     const cli_queries *q;
@@ -25,8 +23,8 @@ typedef struct run {
     bool refused;      /* was anything bad? */
     int code;          /* why the run ends early */
     size_t count, gathered, width;
-    size_t starts[BLOCK + 1];
-    uint64_t ids[BLOCK + 1], lines[BLOCK + 1];
+    size_t starts[CLI_BLOCK + 1];
+    uint64_t ids[CLI_BLOCK + 1], lines[CLI_BLOCK + 1];
     double *numbers;
     size_t room; /* for rows */
     uint64_t answered;
@@ -51,7 +49,7 @@ static size_t rows_held(const run *r) {
 
 static bool make_room(run *r) {
     if (rows_held(r) < r->room) return true;
-    const size_t room = 2 * r->room + BLOCK;
+    const size_t room = 2 * r->room + CLI_BLOCK;
     double *numbers = realloc(r->numbers, room * r->width * sizeof *numbers);
     if (!numbers) {
         r->code = cli_fail(CLI_RESOURCES, NULL, "out of memory");
@@ -109,7 +107,7 @@ static void add_bad_row(run *r, const double *values) {
 /* Reads until the block is full or the file ends. */
 static void read_block(run *r) {
     double values[CLI_ROW_NUMBERS];
-    while (!r->code && !r->ended && r->count < BLOCK) {
+    while (!r->code && !r->ended && r->count < CLI_BLOCK) {
         values[0] = NAN;
         switch (cli_rows_next(&r->rows, values)) {
         case CLI_ROW_READ:

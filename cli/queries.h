@@ -19,6 +19,8 @@ typedef struct cli_query_args {
 } cli_query_args;
 extern const cli_option cli_query_options[];
 
+enum { CLI_BLOCK = 4096 }; /**< queries at most */
+
 /** Queries in the order of the input. Query i has the rows starts[i] .. starts[i+1] of `numbers`, each `width`
  * numbers; without a column `query` one row each. */
 typedef struct cli_block {

@@ -217,9 +217,21 @@ FROE_API froe_status froe_batch_vertical(froe_query *query, const double *points
 FROE_API froe_status froe_batch_ray(froe_query *query, const double *origins, const double *directions, size_t count,
                                     double t_max, const froe_batch_options *options, froe_hit *hits,
                                     froe_diagnostic *diag);
+/** Any object met by each ray; objects: count of them, as for froe_batch_vertical(). */
+FROE_API froe_status froe_batch_ray_any(froe_query *query, const double *origins, const double *directions,
+                                        size_t count, double t_max, const froe_batch_options *options,
+                                        uint32_t *objects, froe_diagnostic *diag);
+/** All objects met, with parameters as values. */
+FROE_API froe_status froe_batch_ray_all(froe_query *query, const double *origins, const double *directions,
+                                        size_t count, double t_max, const froe_batch_options *options,
+                                        froe_answers *out, froe_diagnostic *diag);
 /** With distances as values. */
 FROE_API froe_status froe_batch_near(froe_query *query, const double *points, size_t count, size_t k, double bound,
                                      const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+/** froe_query_pairs() on several threads: the same pairs in the same order, told by the calling thread. On packed trees
+ * (method index) one thread finds them, leaf by leaf, which is faster yet. FROE_E_CANCELLED. */
+FROE_API froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options,
+                                      froe_pair_fn *fn, void *fn_user, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

@@ -4,9 +4,9 @@
  *     answers   one after the other, in the order of the queries
  */
 #include "base/status.h"
-#include "base/task.h"
 #include "query/areas.h"
 #include "query/packed.h"
+#include "query/workers.h"
 #include <string.h>
 
 enum { CHUNK = 256 };
@@ -22,8 +22,12 @@ typedef struct batch batch;
 /** Asks question i. Objects found are left in q->found, unless they go to the caller's array. */
 typedef froe_status ask_fn(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag);
 
+/** The number beside answer i of the last question. */
+typedef double value_fn(const froe_query *q, size_t i);
+
 struct batch {
-    froe_query *query, **workers;
+    froe_query *query;
+    query_workers workers;
     ask_fn *ask;
     const froe_range *ranges; /* or ... */
     const double *points, *directions;
@@ -32,15 +36,10 @@ struct batch {
     int direction;
     froe_hit *hits;    /* the caller's */
     uint32_t *objects; /* the caller's */
-    bool valued;       /* distances beside the ids? */
+    value_fn *value;   /* NULL: ids are all */
     size_t count, chunk_count;
-    unsigned threads;
     chunk *chunks;
 };
-
-froe_batch_options froe_batch_defaults(void) {
-    return (froe_batch_options){.size = sizeof(froe_batch_options)};
-}
 
 void froe_answers_free(froe_answers *answers) {
     if (!answers || !answers->starts) return;
@@ -65,18 +64,6 @@ static froe_status ask_locate(const batch *b, froe_query *q, size_t i, froe_diag
     return query_locate(q, point_of(b, b->points, i), diag);
 }
 
-/* Has answers that lie elsewhere in the context where those of ranges do. */
-static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
-    froe_list groups;
-    const froe_status status = froe_query_groups(q, point_of(b, b->points, i), &groups, diag);
-    q->found.count = 0;
-    if (status) return status;
-    if (!array_reserve(&q->alloc, &q->found, groups.count)) return base_fail_memory(diag);
-    if (groups.count) memcpy(q->found.data, groups.ids, groups.count * sizeof *groups.ids);
-    q->found.count = groups.count;
-    return FROE_OK;
-}
-
 static froe_status ask_vertical(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
     return froe_query_vertical(q, point_of(b, b->points, i), b->direction, b->objects + i, diag);
 }
@@ -85,24 +72,58 @@ static froe_status ask_ray(const batch *b, froe_query *q, size_t i, froe_diagnos
     return froe_query_ray(q, point_of(b, b->points, i), point_of(b, b->directions, i), b->limit, b->hits + i, diag);
 }
 
-static froe_status ask_near(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
-    froe_neighbours near;
-    const froe_status status = froe_query_near(q, point_of(b, b->points, i), b->k, b->limit, &near, diag);
+static froe_status ask_ray_any(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    return froe_query_ray_any(q, point_of(b, b->points, i), point_of(b, b->directions, i), b->limit, b->objects + i,
+                              diag);
+}
+
+/* Room for the answers of a question that left them elsewhere. */
+static froe_status clear_found(froe_query *q, size_t count, froe_diagnostic *diag) {
     q->found.count = 0;
-    if (status) return status;
-    if (!array_reserve(&q->alloc, &q->found, near.count)) return base_fail_memory(diag);
-    for (size_t n = 0; n < near.count; n++) q->found.data[q->found.count++] = near.items[n].object;
-    return FROE_OK;
+    return array_reserve(&q->alloc, &q->found, count) ? FROE_OK : base_fail_memory(diag);
+}
+
+static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    froe_list groups = {0};
+    froe_status status = froe_query_groups(q, point_of(b, b->points, i), &groups, diag);
+    if (!status) status = clear_found(q, groups.count, diag);
+    for (size_t n = 0; !status && n < groups.count; n++) query_found(q, groups.ids[n]);
+    return status;
+}
+
+static froe_status ask_ray_all(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    froe_hits met = {0};
+    froe_status status =
+        froe_query_ray_all(q, point_of(b, b->points, i), point_of(b, b->directions, i), b->limit, &met, diag);
+    if (!status) status = clear_found(q, met.count, diag);
+    for (size_t n = 0; !status && n < met.count; n++) query_found(q, met.hits[n].object);
+    return status;
+}
+
+static double parameter_of(const froe_query *q, size_t i) {
+    return q->ray.hits.data[q->ray.met.count + i].t;
+}
+
+static froe_status ask_near(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    froe_neighbours near = {0};
+    froe_status status = froe_query_near(q, point_of(b, b->points, i), b->k, b->limit, &near, diag);
+    if (!status) status = clear_found(q, near.count, diag);
+    for (size_t n = 0; !status && n < near.count; n++) query_found(q, near.items[n].object);
+    return status;
+}
+
+static double distance_of(const froe_query *q, size_t i) {
+    return q->near.out.data[i].distance;
 }
 
 /* Appends what a query found to its chunk. */
 static bool append(const batch *b, const froe_query *q, chunk *c) {
     const size_t count = q->found.count;
     if (!array_reserve(&q->alloc, &c->ids, count)) return false;
-    if (b->valued && !array_reserve(&q->alloc, &c->values, count)) return false;
+    if (b->value && !array_reserve(&q->alloc, &c->values, count)) return false;
     if (count) memcpy(c->ids.data + c->ids.count, q->found.data, count * sizeof *q->found.data);
     c->ids.count += count;
-    for (size_t i = 0; b->valued && i < count; i++) c->values.data[c->values.count++] = q->near.out.data[i].distance;
+    for (size_t i = 0; b->value && i < count; i++) c->values.data[c->values.count++] = b->value(q, i);
     return true;
 }
 
@@ -119,7 +140,7 @@ static froe_status answer_flock(const batch *b, froe_query *q, size_t first, siz
 
 static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     const batch *b = user;
-    froe_query *q = b->workers[worker];
+    froe_query *q = b->workers.queries[worker];
     chunk *c = b->chunks + job;
     const size_t first = job * CHUNK, end = first + CHUNK < b->count ? first + CHUNK : b->count;
     if (b->ask == ask_vertical && q->packed) return answer_flock(b, q, first, end, &c->diag);
@@ -145,8 +166,8 @@ static froe_status gather(const batch *b, froe_answers *out) {
     answers.starts = base_calloc(alloc, b->count + 1, sizeof *answers.starts);
     if (!answers.starts) return FROE_E_MEMORY;
     answers.ids = base_calloc(alloc, total ? total : 1, sizeof *answers.ids);
-    if (b->valued) answers.values = base_calloc(alloc, total ? total : 1, sizeof *answers.values);
-    if (!answers.ids || (b->valued && !answers.values)) {
+    if (b->value) answers.values = base_calloc(alloc, total ? total : 1, sizeof *answers.values);
+    if (!answers.ids || (b->value && !answers.values)) {
         base_free(alloc, answers.starts, (b->count + 1) * sizeof *answers.starts);
         base_free(alloc, answers.ids, (total ? total : 1) * sizeof *answers.ids);
         base_free(alloc, answers.values, (total ? total : 1) * sizeof *answers.values);
@@ -164,44 +185,7 @@ static froe_status gather(const batch *b, froe_answers *out) {
     return FROE_OK;
 }
 
-/* ----------------------------------------------------------------- workers -- */
-
-/* The first is the caller's own context. */
-static froe_status take_workers(batch *b) {
-    const froe_allocator *alloc = &b->query->alloc;
-    b->workers = base_calloc(alloc, b->threads, sizeof(froe_query *));
-    b->chunks = base_calloc(alloc, b->chunk_count, sizeof *b->chunks);
-    if (!b->workers || !b->chunks) return FROE_E_MEMORY;
-    b->workers[0] = b->query;
-    for (unsigned i = 1; i < b->threads; i++) {
-        const froe_status status = froe_query_fork(b->query, &b->workers[i], NULL);
-        if (status) return status;
-    }
-    return FROE_OK;
-}
-
-static void add_statistics(froe_query_stats *sum, const froe_query_stats *more) {
-    sum->queries += more->queries;
-    sum->nodes += more->nodes;
-    sum->leaves += more->leaves;
-    sum->tests += more->tests;
-    sum->exact += more->exact;
-    sum->slices += more->slices;
-}
-
-static void give_workers(batch *b) {
-    const froe_allocator *alloc = &b->query->alloc;
-    for (unsigned i = 1; b->workers && i < b->threads; i++) {
-        if (b->workers[i]) add_statistics(&b->query->stats, &b->workers[i]->stats);
-        froe_query_free(b->workers[i]);
-    }
-    for (size_t i = 0; b->chunks && i < b->chunk_count; i++) {
-        array_free(alloc, &b->chunks[i].ids);
-        array_free(alloc, &b->chunks[i].values);
-    }
-    if (b->workers) base_free(alloc, b->workers, b->threads * sizeof(froe_query *));
-    if (b->chunks) base_free(alloc, b->chunks, b->chunk_count * sizeof *b->chunks);
-}
+/* ----------------------------------------------------------------- running -- */
 
 /* What the first bad query said. */
 static froe_status explain(const batch *b, froe_status status, froe_diagnostic *diag) {
@@ -214,25 +198,26 @@ static froe_status explain(const batch *b, froe_status status, froe_diagnostic *
     return base_fail_memory(diag);
 }
 
+static froe_status work(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+    froe_status status = query_workers_take(b->query, options, b->chunk_count, &b->workers, diag);
+    if (!status && (status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b))) explain(b, status, diag);
+    if (!status && out && (status = gather(b, out))) base_fail_memory(diag);
+    query_workers_give(&b->workers);
+    return status;
+}
+
 static froe_status run(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
-    base_task task;
-    if (options && options->size != sizeof *options)
-        return base_fail(diag, FROE_E_OPTIONS, "Batch options must come from froe_batch_defaults().");
+    const froe_allocator *alloc = &b->query->alloc;
     if (b->count > UINT32_MAX - 1) return base_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
-    base_task_init(&task, options ? options->threads : 0, options ? options->progress : NULL,
-                   options ? options->user : NULL);
     b->chunk_count = (b->count + CHUNK - 1) / CHUNK;
-    if (!b->chunk_count) return out && gather(b, out) ? base_fail_memory(diag) : FROE_OK;
-    if (task.threads > b->chunk_count) task.threads = (unsigned)b->chunk_count;
-    b->threads = task.threads;
-    froe_status status = take_workers(b);
-    if (status)
-        base_fail_memory(diag);
-    else if ((status = base_run(&task, 1, b->chunk_count, answer_chunk, b)))
-        explain(b, status, diag);
-    else if (out && (status = gather(b, out)))
-        base_fail_memory(diag);
-    give_workers(b);
+    b->chunks = base_calloc(alloc, b->chunk_count, sizeof *b->chunks);
+    if (!b->chunks) return base_fail_memory(diag);
+    const froe_status status = work(b, options, out, diag);
+    for (size_t i = 0; i < b->chunk_count; i++) {
+        array_free(alloc, &b->chunks[i].ids);
+        array_free(alloc, &b->chunks[i].values);
+    }
+    base_free(alloc, b->chunks, b->chunk_count * sizeof *b->chunks);
     return status;
 }
 
@@ -270,20 +255,45 @@ froe_status froe_batch_vertical(froe_query *query, const double *points, size_t 
     return run(&b, options, NULL, diag);
 }
 
+/* The rays of a call; its answers are `hits`, `objects` or `out`. */
+static froe_status run_rays(froe_query *query, const double *origins, const double *directions, size_t count,
+                            double t_max, batch *b, const froe_batch_options *options, froe_answers *out,
+                            froe_diagnostic *diag) {
+    if (!query || (count && (!origins || !directions || (!b->hits && !b->objects && !out))))
+        return base_fail(diag, FROE_E_ARG, "A batch of rays: NULL argument.");
+    b->query = query;
+    b->points = origins;
+    b->directions = directions;
+    b->count = count;
+    b->limit = t_max;
+    return run(b, options, out, diag);
+}
+
 froe_status froe_batch_ray(froe_query *query, const double *origins, const double *directions, size_t count,
                            double t_max, const froe_batch_options *options, froe_hit *hits, froe_diagnostic *diag) {
-    if (!query || (count && (!origins || !directions || !hits)))
-        return base_fail(diag, FROE_E_ARG, "froe_batch_ray: NULL argument.");
-    batch b = {.query = query, .ask = ask_ray, .points = origins, .directions = directions, .count = count};
-    b.limit = t_max;
-    b.hits = hits;
-    return run(&b, options, NULL, diag);
+    batch b = {.ask = ask_ray, .hits = hits};
+    return run_rays(query, origins, directions, count, t_max, &b, options, NULL, diag);
+}
+
+froe_status froe_batch_ray_any(froe_query *query, const double *origins, const double *directions, size_t count,
+                               double t_max, const froe_batch_options *options, uint32_t *objects,
+                               froe_diagnostic *diag) {
+    batch b = {.ask = ask_ray_any, .objects = objects};
+    return run_rays(query, origins, directions, count, t_max, &b, options, NULL, diag);
+}
+
+froe_status froe_batch_ray_all(froe_query *query, const double *origins, const double *directions, size_t count,
+                               double t_max, const froe_batch_options *options, froe_answers *out,
+                               froe_diagnostic *diag) {
+    batch b = {.ask = ask_ray_all, .value = parameter_of};
+    if (!out) return base_fail(diag, FROE_E_ARG, "froe_batch_ray_all: NULL argument.");
+    return run_rays(query, origins, directions, count, t_max, &b, options, out, diag);
 }
 
 froe_status froe_batch_near(froe_query *query, const double *points, size_t count, size_t k, double bound,
                             const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_near: NULL argument.");
     batch b = {.query = query, .ask = ask_near, .points = points, .count = count, .k = k, .limit = bound};
-    b.valued = true;
+    b.value = distance_of;
     return run(&b, options, out, diag);
 }

@@ -10,7 +10,6 @@
 #include <string.h>
 
 void query_near_free(query_near *n, const froe_allocator *alloc) {
-    array_free(alloc, &n->bounds);
     array_free(alloc, &n->places);
     array_free(alloc, &n->free);
     array_free(alloc, &n->heap);

@@ -14,19 +14,22 @@ typedef struct query_neighbour {
     uint32_t object;
 } query_neighbour;
 
-/** Distances of regions are squares of lower bounds, all coordinates times `scale`, a power of 2 that keeps the
- * squares in range. A place waits on the heap: the list of an inner node and one of its children. */
+/** A node that waits. */
+typedef struct query_place {
+    double bound; /**< of its distance */
+    uint32_t node;
+} query_place;
+
+/** Distances of nodes are squares of lower bounds, all coordinates times `scale`, a power of 2 that keeps the squares
+ * in range. */
 typedef struct query_near {
     double point[FROE_MAX_DIM];
     double scale;
     double limit;   /**< what is further away is passed over; may fall while the tree is walked */
-    size_t width;   /**< doubles a place: its bound, that of oblique cuts alone, and what is missing on each axis */
-    uint32_t child; /**< where to go on, FROE_NONE: with the nearest place */
-    ARRAY(double) bounds;
-    ARRAY(uint32_t) places; /**< node and side */
-    ARRAY(uint32_t) free;   /**< places to be used again */
-    ARRAY(uint32_t) heap;
-    double here[FROE_MAX_DIM + 2]; /**< the bounds of `child` */
+    query_place at; /**< where to go on; node FROE_NONE: at the nearest that waits */
+    ARRAY(query_place) places;
+    ARRAY(uint32_t) free; /**< places to be used again */
+    ARRAY(uint32_t) heap; /**< of places */
     ARRAY(query_neighbour) found;
     ARRAY(uint32_t) order;
     ARRAY(froe_neighbour) out;

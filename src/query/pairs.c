@@ -2,29 +2,47 @@
  *
  * Objects that touch across a cut need not share a list, so each object in turn is asked for as a closed range,
  * which misses nothing (range_walk.c); of two that meet, the one with the lower id finds the other. How they meet is
- * then decided exactly (geom/contact.h). */
+ * then decided exactly (geom/contact.h).
+ *
+ *     objects    0 .. 63 | 64 .. 127 | ...    jobs, a wave of them at a time, told in order when it is whole */
 #include "base/status.h"
 #include "geom/contact.h"
-#include "query/context.h"
 #include "query/heap.h"
 #include "query/packed.h"
+#include "query/workers.h"
 #include <string.h>
 
-typedef struct search {
+enum { CHUNK = 64, WAVE = 32 }; /* objects a job; jobs a thread before what they found is told */
+
+/* What a thread needs beside its context. */
+typedef struct desk {
     froe_query *q;
     ARRAY(double) points;     /* of the object that asks */
     ARRAY(signed char) sides; /* for geom_contact_of() */
+} desk;
+
+typedef struct chunk {
+    ARRAY(froe_pair) pairs;
+} chunk;
+
+typedef struct search {
+    query_workers workers;
+    bool shared;
+    desk *desks;        /* [thread] */
+    chunk *chunks;      /* of a wave */
+    size_t chunk_count; /* most of a wave */
+    uint32_t first;     /* object of the wave */
 } search;
 
 /* An object as a range. False without memory. */
-static bool take(search *s, const geom_body *b, froe_range *range) {
+static bool take(desk *d, const geom_body *b, froe_range *range) {
     const size_t dim = (size_t)b->dim, count = b->form == FROE_POINT ? 2 : b->count;
-    s->points.count = 0;
-    if (!array_reserve(&s->q->alloc, &s->points, count * dim)) return false;
+    d->points.count = 0;
+    if (!array_reserve(&d->q->alloc, &d->points, count * dim)) return false;
     for (uint32_t i = 0; i < count; i++)
-        memcpy(s->points.data + i * dim, geom_body_point(b, b->form == FROE_POINT ? 0 : i), dim * sizeof(double));
+        memcpy(d->points.data + i * dim, geom_body_point(b, b->form == FROE_POINT ? 0 : i), dim * sizeof(double));
     *range = froe_range_defaults();
-    range->points = s->points.data;
+    range->points = d->points.data;
     range->count = b->count;
     range->radius = b->radius;
     range->shape = b->form == FROE_BALL                              ? FROE_SHAPE_BALL
@@ -48,46 +66,102 @@ static void keep_later(froe_query *q, uint32_t object) {
     query_heap_sort(q->found.data, kept, greater, NULL);
 }
 
-/* Tells the pairs of one object with later ones; *more: does the caller want others? */
-static froe_status tell(search *s, uint32_t object, const geom_body *a, bool shared, froe_pair_fn *fn, void *user,
-                        bool *more) {
+/* Adds the pairs of an object with those found. False without memory. */
+static bool add_pairs(desk *d, uint32_t object, const geom_body *a, bool shared, chunk *out) {
     static const froe_meeting kinds[GEOM_CONTACTS] = {
         [GEOM_CROSS] = FROE_MEET_CROSS, [GEOM_TOUCH] = FROE_MEET_TOUCH, [GEOM_OVERLAP] = FROE_MEET_OVERLAP};
-    froe_query *q = s->q;
-    for (size_t i = 0; i < q->found.count && *more; i++) {
+    froe_query *q = d->q;
+    for (size_t i = 0; i < q->found.count; i++) {
         const geom_body b = scene_body(q->tree->scene, q->found.data[i]);
-        s->sides.count = 0;
-        if (!array_reserve(&q->alloc, &s->sides, (size_t)a->count + b.count)) return FROE_E_MEMORY;
-        const geom_contact c = geom_contact_of(&q->numbers, a, &b, s->sides.data);
+        d->sides.count = 0;
+        if (!array_reserve(&q->alloc, &d->sides, (size_t)a->count + b.count)) return false;
+        const geom_contact c = geom_contact_of(&q->numbers, a, &b, d->sides.data);
         if (!shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) continue;
-        *more = fn(user, &(froe_pair){object, q->found.data[i], kinds[c.kind]});
+        if (!array_push(&q->alloc, &out->pairs, (froe_pair){object, q->found.data[i], kinds[c.kind]})) return false;
+    }
+    return true;
+}
+
+/* Finds the pairs of some objects with later ones. */
+static froe_status find(void *user, unsigned worker, size_t job) {
+    search *s = user;
+    desk *d = s->desks + worker;
+    chunk *out = s->chunks + job;
+    const froe_scene *scene = d->q->tree->scene;
+    const uint32_t first = s->first + (uint32_t)job * CHUNK, left = scene->object_count - first;
+    out->pairs.count = 0;
+    for (uint32_t i = first; i < first + (left < CHUNK ? left : CHUNK); i++) {
+        const geom_body body = scene_body(scene, i);
+        froe_range range;
+        if (!take(d, &body, &range)) return FROE_E_MEMORY;
+        const froe_status status = query_range_ask(d->q, &range, false, NULL);
+        if (status) return status;
+        keep_later(d->q, i);
+        if (!add_pairs(d, i, &body, s->shared, out)) return FROE_E_MEMORY;
     }
     return FROE_OK;
 }
 
-static froe_status find(search *s, bool shared, froe_pair_fn *fn, void *user, froe_diagnostic *diag) {
-    const froe_scene *scene = s->q->tree->scene;
-    froe_status status = FROE_OK;
-    bool more = true;
-    for (uint32_t i = 0; i < scene->object_count && more && !status; i++) {
-        const geom_body body = scene_body(scene, i);
-        froe_range range;
-        if (!take(s, &body, &range)) return base_fail_memory(diag);
-        status = query_range_ask(s->q, &range, false, diag);
+/* Wave after wave is found by all threads, then told in order. */
+static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, void *user) {
+    const uint64_t jobs = ((uint64_t)objects + CHUNK - 1) / CHUNK;
+    for (uint64_t done = 0; done < jobs; done += s->chunk_count) {
+        const size_t count = jobs - done < s->chunk_count ? (size_t)(jobs - done) : s->chunk_count;
+        s->first = (uint32_t)done * CHUNK;
+        const froe_status status = base_run(&s->workers.task, (double)count / (double)jobs, count, find, s);
         if (status) return status;
-        keep_later(s->q, i);
-        if (tell(s, i, &body, shared, fn, user, &more)) return base_fail_memory(diag);
+        for (size_t i = 0; i < count; i++)
+            for (size_t n = 0; n < s->chunks[i].pairs.count; n++)
+                if (!fn(user, s->chunks[i].pairs.data + n)) return FROE_OK;
     }
+    return FROE_OK;
+}
+
+static bool take_desks(search *s, const froe_allocator *alloc) {
+    const unsigned threads = s->workers.count;
+    s->chunk_count = threads > 1 ? (size_t)threads * WAVE : 1;
+    s->desks = base_calloc(alloc, threads, sizeof *s->desks);
+    s->chunks = base_calloc(alloc, s->chunk_count, sizeof *s->chunks);
+    for (unsigned i = 0; s->desks && i < threads; i++) s->desks[i].q = s->workers.queries[i];
+    return s->desks && s->chunks;
+}
+
+static void give_desks(search *s, const froe_allocator *alloc) {
+    for (unsigned i = 0; s->desks && i < s->workers.count; i++) {
+        array_free(alloc, &s->desks[i].points);
+        array_free(alloc, &s->desks[i].sides);
+    }
+    for (size_t i = 0; s->chunks && i < s->chunk_count; i++) array_free(alloc, &s->chunks[i].pairs);
+    base_free(alloc, s->desks, s->workers.count * sizeof *s->desks);
+    base_free(alloc, s->chunks, s->chunk_count * sizeof *s->chunks);
+}
+
+static froe_status find_pairs(froe_query *query, bool shared, const froe_batch_options *options, froe_pair_fn *fn,
+                              void *user, froe_diagnostic *diag) {
+    const uint32_t objects = query->tree->scene->object_count;
+    search s = {.shared = shared};
+    froe_status status = query_workers_take(query, options, (objects + CHUNK - 1) / CHUNK, &s.workers, diag);
+    if (!status) {
+        status = take_desks(&s, &query->alloc) ? search_all(&s, objects, fn, user) : FROE_E_MEMORY;
+        give_desks(&s, &query->alloc);
+        if (status == FROE_E_CANCELLED) base_fail(diag, status, "cancelled");
+        if (status == FROE_E_MEMORY) base_fail_memory(diag);
+    }
+    query_workers_give(&s.workers);
     return status;
 }
 
-froe_status froe_query_pairs(froe_query *query, bool shared, froe_pair_fn *fn, void *user, froe_diagnostic *diag) {
-    if (!query || !fn) return base_fail(diag, FROE_E_ARG, "froe_query_pairs: NULL argument.");
-    froe_status status = query->packed ? packed_pairs(query, shared, fn, user) : FROE_E_LIMIT;
+froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options, froe_pair_fn *fn,
+                             void *fn_user, froe_diagnostic *diag) {
+    if (!query || !fn) return base_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
+    if (options && options->size != sizeof *options) return query_workers_refuse(diag);
+    const froe_status status = query->packed ? packed_pairs(query, shared, fn, fn_user) : FROE_E_LIMIT;
     if (status != FROE_E_LIMIT) return status ? base_fail_memory(diag) : FROE_OK;
-    search s = {.q = query};
-    status = find(&s, shared, fn, user, diag);
-    array_free(&query->alloc, &s.points);
-    array_free(&query->alloc, &s.sides);
-    return status;
+    return find_pairs(query, shared, options, fn, fn_user, diag);
+}
+
+froe_status froe_query_pairs(froe_query *query, bool shared, froe_pair_fn *fn, void *user, froe_diagnostic *diag) {
+    froe_batch_options alone = froe_batch_defaults();
+    alone.threads = 1;
+    return froe_batch_pairs(query, shared, &alone, fn, user, diag);
 }

@@ -153,10 +153,12 @@ static void draw_batch(void) {
 
 static void check_batch(froe_query *q, unsigned threads) {
     static froe_hit hits[QUERIES];
-    static uint32_t above[QUERIES];
+    static uint32_t above[QUERIES], any[QUERIES];
     froe_batch_options o = froe_batch_defaults();
-    froe_answers near;
+    froe_answers near, all;
     o.threads = threads;
+    assert_int_equal(froe_batch_ray_any(q, origins, directions, QUERIES, 2, &o, any, NULL), FROE_OK);
+    assert_int_equal(froe_batch_ray_all(q, origins, directions, QUERIES, 2, &o, &all, NULL), FROE_OK);
     assert_int_equal(froe_batch_ray(q, origins, directions, QUERIES, 2, &o, hits, NULL), FROE_OK);
     assert_int_equal(froe_batch_vertical(q, origins, QUERIES, 1, &o, above, NULL), FROE_OK);
     assert_int_equal(froe_batch_near(q, origins, QUERIES, K, 0.2, &o, &near, NULL), FROE_OK);
@@ -170,6 +172,15 @@ static void check_batch(froe_query *q, unsigned threads) {
         assert_true(hit.object == hits[i].object && (hit.object == FROE_NONE || hit.t == hits[i].t));
         assert_int_equal(froe_query_vertical(q, x, 1, &object, NULL), FROE_OK);
         assert_int_equal(object, above[i]);
+        assert_int_equal(froe_query_ray_any(q, x, directions + 2 * i, 2, &object, NULL), FROE_OK);
+        assert_int_equal(object, any[i]);
+        froe_hits hits_all;
+        assert_int_equal(froe_query_ray_all(q, x, directions + 2 * i, 2, &hits_all, NULL), FROE_OK);
+        assert_int_equal(hits_all.count, all.starts[i + 1] - all.starts[i]);
+        for (size_t n = 0; n < hits_all.count; n++) {
+            assert_int_equal(hits_all.hits[n].object, all.ids[all.starts[i] + n]);
+            assert_true(hits_all.hits[n].t == all.values[all.starts[i] + n]);
+        }
         assert_int_equal(froe_query_near(q, x, K, 0.2, &items, NULL), FROE_OK);
         assert_int_equal(items.count, near.starts[i + 1] - near.starts[i]);
         for (size_t n = 0; n < items.count; n++) {
@@ -178,6 +189,7 @@ static void check_batch(froe_query *q, unsigned threads) {
         }
     }
     froe_answers_free(&near);
+    froe_answers_free(&all);
 }
 
 static void batches_answer_as_single_questions_do(void **state) {
@@ -190,6 +202,48 @@ static void batches_answer_as_single_questions_do(void **state) {
     check_batch(q, 3);
     froe_query_free(q);
     froe_tree_free(tree);
+}
+
+/* Pairs as they were told. */
+typedef struct told {
+    froe_pair pairs[20000];
+    size_t count, most;
+} told;
+
+static bool remember(void *user, const froe_pair *met) {
+    told *t = user;
+    assert_true(t->count < sizeof t->pairs / sizeof *t->pairs);
+    t->pairs[t->count++] = *met;
+    return t->count < t->most;
+}
+
+static void pairs_are_told_in_order_with_any_number_of_threads(void **state) {
+    (void)state;
+    static told one, many;
+    for (int dim = 2; dim <= 3; dim++) {
+        froe_tree *tree =
+            trees_grow(dim, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, 1500, 0, dim == 2 ? 0.1 : 0.3, "density", 1);
+        froe_query *q;
+        froe_batch_options o = froe_batch_defaults(), raw = {0};
+        froe_diagnostic why;
+        one.count = 0, one.most = SIZE_MAX;
+        assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+        assert_int_equal(froe_query_pairs(q, true, remember, &one, NULL), FROE_OK);
+        assert_true(one.count > 1000);
+        for (o.threads = 1; o.threads <= 5; o.threads += 2) {
+            many.count = 0, many.most = SIZE_MAX;
+            assert_int_equal(froe_batch_pairs(q, true, &o, remember, &many, NULL), FROE_OK);
+            assert_int_equal(many.count, one.count);
+            assert_memory_equal(many.pairs, one.pairs, one.count * sizeof *one.pairs);
+            many.count = 0, many.most = 77;
+            assert_int_equal(froe_batch_pairs(q, true, &o, remember, &many, NULL), FROE_OK);
+            assert_int_equal(many.count, 77);
+        }
+        assert_int_equal(froe_batch_pairs(q, true, &raw, remember, &many, &why), FROE_E_OPTIONS);
+        assert_int_equal(froe_batch_pairs(q, true, NULL, NULL, NULL, &why), FROE_E_ARG);
+        froe_query_free(q);
+        froe_tree_free(tree);
+    }
 }
 
 static void the_first_bad_question_of_a_batch_is_named(void **state) {
@@ -232,6 +286,12 @@ static froe_status batch_without_memory(void *user, const froe_allocator *alloc)
     status = froe_batch_ray(q, origins, directions, 20, 2, &o, hits, NULL);
     if (!status) status = froe_batch_near(q, origins, 20, K, 1, &o, &near, NULL);
     if (!status) froe_answers_free(&near);
+    if (!status) status = froe_batch_ray_all(q, origins, directions, 20, 2, &o, &near, NULL);
+    if (!status) froe_answers_free(&near);
+    static told all;
+    all.count = 0, all.most = SIZE_MAX;
+    o.threads = 2;
+    if (!status) status = froe_batch_pairs(q, true, &o, remember, &all, NULL);
     froe_query_free(q);
     return status;
 }
@@ -252,6 +312,7 @@ int main(void) {
         cmocka_unit_test(pairs_in_scenes_of_one_object_or_none),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(batches_answer_as_single_questions_do),
+        cmocka_unit_test(pairs_are_told_in_order_with_any_number_of_threads),
         cmocka_unit_test(the_first_bad_question_of_a_batch_is_named),
         cmocka_unit_test(every_allocation_of_a_batch_may_fail),
     };

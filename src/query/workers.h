@@ -1,0 +1,20 @@
+/* workers.h: several contexts for one call: the caller's own and forks of it, one a thread. */
+#ifndef FROE_QUERY_WORKERS_H
+#define FROE_QUERY_WORKERS_H
+#include "base/task.h"
+#include "query/context.h"
+
+typedef struct query_workers {
+    base_task task;
+    froe_query **queries; /**< [task.threads]; the first is the caller's */
+    unsigned count;
+} query_workers;
+
+/** For at most `jobs` jobs at a time. FROE_E_OPTIONS, FROE_E_MEMORY; query_workers_give() gives back what was had. */
+froe_status query_workers_take(froe_query *query, const froe_batch_options *options, size_t jobs, query_workers *out,
+                               froe_diagnostic *diag);
+/** What is said of options that come from nowhere: FROE_E_OPTIONS. */
+froe_status query_workers_refuse(froe_diagnostic *diag);
+/** Adds up what they have counted, and frees the forks. */
+void query_workers_give(query_workers *workers);
+#endif
