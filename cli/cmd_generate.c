@@ -18,7 +18,7 @@ static const cli_option options[] = {
     {"number", 'n', CLI_WHOLE, offsetof(generate_args, n), "N", .help = "how many objects, about (default 1000)",
      .min = 1, .max = UINT32_MAX},
     {"output", 'o', CLI_TEXT, offsetof(generate_args, output), "FILE",
-     .help = ".geojson (plane), .csv (points, boxes, balls), .off or .obj (polygons)"},
+     .help = ".geojson (plane), .csv (points, boxes, balls), .off or .obj (polygons), .mfjson (moving)"},
     {"list", 0, CLI_FLAG, offsetof(generate_args, list), .help = "list the kinds"},
     {0},
 };
@@ -31,6 +31,10 @@ static int list_kinds(const cli_common *common) {
     for (size_t i = 0; (g = froe_generator_at(i)) != NULL; i++)
         json_array_append_new(kinds, json_pack("{s:s, s:i, s:s, s:s}", "name", g->name, "dim", g->dim, "kind",
                                                froe_kind_name(g->kind), "summary", g->summary));
+    const froe_motion_generator_info *moving;
+    for (size_t i = 0; (moving = froe_motion_generator_at(i)) != NULL; i++)
+        json_array_append_new(kinds, json_pack("{s:s, s:i, s:s, s:s}", "name", moving->name, "dim", 2, "kind", "moving",
+                                               "summary", moving->summary));
     return cli_report(common, NULL, json_pack("{s:o}", "kinds", kinds));
 }
 
@@ -43,9 +47,39 @@ static int check_kind(const char *kind) {
         if (strcmp(g->name, kind) == 0) return 0;
         names[count++] = g->name;
     }
+    const froe_motion_generator_info *moving;
+    for (size_t i = 0; (moving = froe_motion_generator_at(i)) != NULL && count < MOST; i++) {
+        if (strcmp(moving->name, kind) == 0) return 0;
+        names[count++] = moving->name;
+    }
     const char *hint = cli_nearest(kind, names, count);
     if (hint) return cli_fail(CLI_USE, NULL, "unknown kind '%s'; did you mean '%s'?", kind, hint);
     return cli_fail(CLI_USE, NULL, "unknown kind '%s'; froe generate --list tells what there is", kind);
+}
+
+static bool is_moving(const char *kind) {
+    const froe_motion_generator_info *g;
+    for (size_t i = 0; (g = froe_motion_generator_at(i)) != NULL; i++)
+        if (strcmp(g->name, kind) == 0) return true;
+    return false;
+}
+
+static int report(const generate_args *args, int dim, size_t objects) {
+    return cli_report(&args->common, NULL,
+                      json_pack("{s:s, s:i, s:I, s:I, s:s}", "kind", args->kind, "dim", dim, "objects",
+                                (json_int_t)objects, "seed", (json_int_t)args->common.seed, "output", args->output));
+}
+
+static int generate_motion(const generate_args *args) {
+    froe_motion *motion;
+    froe_diagnostic diag = {0};
+    froe_status status = froe_generate_motion(args->kind, (size_t)args->n, args->common.seed, NULL, &motion, &diag);
+    if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
+    status = cli_interrupted() ? FROE_E_CANCELLED : froe_write_motion(motion, args->output, &diag);
+    const int code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag)
+                            : report(args, 2, froe_motion_object_count(motion));
+    froe_motion_free(motion);
+    return code;
 }
 
 static int generate(const generate_args *args) {
@@ -54,12 +88,8 @@ static int generate(const generate_args *args) {
     froe_status status = froe_generate(args->kind, (size_t)args->n, args->common.seed, NULL, &scene, &diag);
     if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
     status = cli_interrupted() ? FROE_E_CANCELLED : froe_write_scene(scene, args->output, &diag);
-    int code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag) : 0;
-    if (!code)
-        code = cli_report(&args->common, NULL,
-                          json_pack("{s:s, s:i, s:I, s:I, s:s}", "kind", args->kind, "dim", froe_scene_dim(scene),
-                                    "objects", (json_int_t)froe_scene_object_count(scene), "seed",
-                                    (json_int_t)args->common.seed, "output", args->output));
+    const int code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag)
+                            : report(args, froe_scene_dim(scene), froe_scene_object_count(scene));
     froe_scene_free(scene);
     return code;
 }
@@ -71,7 +101,7 @@ static int run(const void *given) {
     const int code = check_kind(args->kind);
     if (code) return code;
     if (!args->output) return cli_fail(CLI_USE, NULL, "-o FILE is missing; try --help");
-    return generate(args);
+    return is_moving(args->kind) ? generate_motion(args) : generate(args);
 }
 
 const cli_command cli_command_generate = {

@@ -4,14 +4,14 @@
  *     froe_read_options o = froe_read_defaults();
  *     if (froe_read("floor.geojson", &o, &scene, &report, &diag)) puts(diag.message);
  *
- * A companion library (link froe-io) on top of froe.h alone. Plane maps are read
+ * A companion library (link froe-io) on top of froe.h and kinetic.h alone. Plane maps are read
  * by GDAL's OGR, solid models by assimp, numbers in CSV by froe itself. Nothing is
  * printed: what those libraries have to say ends up in the diagnostic. All
  * functions may be called from several threads at once. */
 #ifndef FROE_IO_H
 #define FROE_IO_H
 
-#include <froe/froe.h>
+#include <froe/kinetic.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -113,6 +113,66 @@ FROE_API froe_export_options froe_export_defaults(void);
 FROE_API froe_status froe_export(const froe_tree *tree, const char *path, froe_export_what what,
                                  const froe_export_options *options, froe_diagnostic *diag);
 
+/* ------------------------------------------------------------------ motion -- */
+
+typedef struct froe_motion_read_options {
+    size_t size;                 /**< set by froe_motion_read_defaults() */
+    double from, to;             /**< the window; NaN (default): the first and the last instant in the file */
+    const froe_allocator *alloc; /**< of the motion and of the reader's own arrays; NULL: malloc */
+} froe_motion_read_options;
+FROE_API froe_motion_read_options froe_motion_read_defaults(void);
+
+typedef struct froe_motion_report {
+    uint64_t features;  /**< with a motion */
+    uint64_t still;     /**< without one: left out */
+    uint64_t pieces;    /**< of flight plans: times between two instants */
+    uint64_t flattened; /**< features whose z was left out */
+    double seconds;     /**< from call to return, by the wall clock */
+} froe_motion_report;
+
+/** Reads OGC Moving Features JSON (19-045r3): MovingPoint, MovingLineString, MovingPolygon and collections of them
+ * (prisms), in a Feature or a FeatureCollection. Lines and rings become one segment per pair of neighbours, which
+ * share vertices; a point becomes a segment without length. Each feature is a group, named by the first of name, title,
+ * label and id among its properties, or its id, or its first property that is a text; the tag is its number, from 0.
+ * Its segments live from its first instant to its last.
+ * Times are milliseconds since 1970 (ISO 8601), or the numbers of the file as they are. Numbers become the nearest
+ * doubles. Interpolation is Linear (also where nothing is said) or Quadratic: the parabolas that continue one another
+ * with the same velocity, the first of them through the first three instants; a member `controls` beside
+ * `coordinates`, of one geometry less, gives their control points itself. Coordinate systems are not looked at.
+ * FROE_E_UNSUPPORTED: Discrete, Step and Cubic interpolation, other geometries. FROE_E_FORMAT: no JSON, not of this
+ * form. FROE_E_INPUT: times that do not increase, geometries that change their number of points, a window in which
+ * nothing is; the message names the feature. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_LIMIT. options, report
+ * and diag may be NULL. */
+FROE_API froe_status froe_read_motion(const char *path, const froe_motion_read_options *options, froe_motion **out,
+                                      froe_motion_report *report, froe_diagnostic *diag);
+
+/** Writes a motion as MF-JSON so that froe_read_motion() gives it back: objects that follow one another with a common
+ * vertex in one group become one line or polygon. Numbers have the digits that give the same doubles again.
+ * FROE_E_UNSUPPORTED: the vertices of one feature have different instants, or its segments do not live as long as
+ * its plans. FROE_E_IO, FROE_E_MEMORY. */
+FROE_API froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_diagnostic *diag);
+
+/** Writes contacts, in their order, as a table: .csv with the header
+ *     a,b,begin_low,begin_high,end_low,end_high,instant,since_start,to_stop,a_name,b_name
+ * (0 and 1 for no and yes, names of groups), or .json, an array of objects with the same members. FROE_E_UNSUPPORTED:
+ * another extension. FROE_E_IO, FROE_E_MEMORY. */
+FROE_API froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *contacts, size_t count,
+                                         const char *path, froe_diagnostic *diag);
+
+typedef struct froe_animation_options {
+    size_t size;    /**< set by froe_animation_defaults() */
+    double width;   /**< of the picture, in pixels; default 960 */
+    double seconds; /**< that the whole window takes to play; default 20 */
+} froe_animation_options;
+FROE_API froe_animation_options froe_animation_defaults(void);
+
+/** A motion to look at, objects red while they are in contact: .svg, an animated picture (SMIL; parabolas by chords),
+ * or .html, a page of its own that plays it, with a slider for the time and a list of the contacts. The same bytes on
+ * every platform. FROE_E_UNSUPPORTED: another extension. FROE_E_OPTIONS, FROE_E_IO, FROE_E_MEMORY. options may be NULL.
+ */
+FROE_API froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
+                                  const froe_animation_options *options, const char *path, froe_diagnostic *diag);
+
 /* ---------------------------------------------------------------- generate -- */
 
 /** A kind of made-up scene. */
@@ -131,6 +191,17 @@ FROE_API const froe_generator_info *froe_generator_at(size_t i);
  * FROE_E_ARG: n is 0. FROE_E_OPTIONS: no such kind. FROE_E_LIMIT, FROE_E_MEMORY. */
 FROE_API froe_status froe_generate(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc,
                                    froe_scene **out, froe_diagnostic *diag);
+
+/** A kind of made-up motion. */
+typedef struct froe_motion_generator_info {
+    const char *name;    /**< e.g. "moving" */
+    const char *summary; /**< one line */
+} froe_motion_generator_info;
+/** The i-th kind; NULL past the last. */
+FROE_API const froe_motion_generator_info *froe_motion_generator_at(size_t i);
+/** About n moving segments, in the window 0 .. 60; else as froe_generate(). */
+FROE_API froe_status froe_generate_motion(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc,
+                                          froe_motion **out, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

@@ -229,10 +229,35 @@ static void set_coordinate(mpq_t c[3], const froe_moving_knot *p, const froe_mov
     mpq_clears(a, b, span, factor, one, NULL);
 }
 
-/* The piece that is in force just after the time t, or at it at the end of the plan. */
-static void curve_set(curve *out, const froe_motion *m, uint32_t vertex, double t) {
+/* Number of the piece that is in force just after the time t, or at it at the end of the plan. */
+static size_t piece_at(const froe_motion *m, uint32_t vertex, double t) {
     size_t count = froe_motion_knot_count(m, vertex), i = 0;
     while (i + 2 < count && froe_motion_knot(m, vertex, i + 1).time <= t) i++;
+    return i;
+}
+
+/* Is one object on one side of the other along an axis, by the hulls of the pieces that are in force at t? */
+static bool hulls_apart(const froe_motion *m, const uint32_t v[4], double t) {
+    double lo[2][2], hi[2][2];
+    for (int n = 0; n < 4; n++) lo[n / 2][n % 2] = INFINITY, hi[n / 2][n % 2] = -INFINITY;
+    for (int n = 0; n < 4; n++) {
+        size_t i = piece_at(m, v[n], t);
+        for (size_t j = i; j < i + 2 && j < froe_motion_knot_count(m, v[n]); j++) {
+            froe_moving_knot p = froe_motion_knot(m, v[n], j);
+            for (int k = 0; k < 2; k++) {
+                double c = j > i || isnan(p.control[k]) ? p.at[k] : p.control[k];
+                lo[n / 2][k] = fmin(lo[n / 2][k], fmin(p.at[k], c));
+                hi[n / 2][k] = fmax(hi[n / 2][k], fmax(p.at[k], c));
+            }
+        }
+    }
+    for (int k = 0; k < 2; k++)
+        if (lo[0][k] > hi[1][k] || lo[1][k] > hi[0][k]) return true;
+    return false;
+}
+
+static void curve_set(curve *out, const froe_motion *m, uint32_t vertex, double t) {
+    size_t count = froe_motion_knot_count(m, vertex), i = piece_at(m, vertex, t);
     froe_moving_knot p = froe_motion_knot(m, vertex, i), q = p;
     if (count > 1) q = froe_motion_knot(m, vertex, i + 1);
     mpq_t c[2][3];
@@ -528,9 +553,14 @@ void oracle_contacts_find(oracle_contacts *out, const froe_motion *m, uint32_t a
     }
     for (bool first = true; from < to; first = false) {
         double end = next_knot(m, v, from, to);
-        stretch_set(&s, m, v, from, end);
-        tell_stretch(&s, &tale, first);
-        chain_free(s.sturm);
+        if (hulls_apart(m, v, from)) {
+            assert(!tale.now);
+            tale.fresh = false;
+        } else {
+            stretch_set(&s, m, v, from, end);
+            tell_stretch(&s, &tale, first);
+            chain_free(s.sturm);
+        }
         from = end;
     }
     for (int i = 0; i < out->count; i++) out->list[i].to_stop = tale.now && i + 1 == out->count;

@@ -1,0 +1,408 @@
+/* read_motion.c: OGC Moving Features JSON (19-045r3), by jansson.
+ *
+ *     feature -> temporalGeometry (or its prisms) -> one flight plan a point, one segment a pair of neighbours
+ *
+ * The file is walked twice: for its first and last instant, and for what moves. */
+#include "datetime.h"
+#include "read.h"
+#include <jansson.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct reading {
+    const char *path;
+    froe_motion_read_options options;
+    froe_allocator alloc;
+    froe_diagnostic *diag;
+    froe_motion_report report;
+    froe_motion *motion; /* NULL on the first walk */
+    double first, last;  /* instant of all */
+    size_t number;       /* of the feature */
+    uint32_t group;
+    bool flat; /* no z so far */
+    /* of one geometry */
+    io_buffer times, coords, controls, starts, vertices, births, deaths, tags;
+    size_t instants, points; /* points: of each instant, rings without their last */
+} reading;
+
+typedef enum form { POINT, LINE, POLYGON, FORMS } form;
+static const char *const forms[FORMS] = {"MovingPoint", "MovingLineString", "MovingPolygon"};
+
+static froe_status fail_feature(const reading *r, froe_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+static froe_status fail_feature(const reading *r, froe_status status, const char *format, ...) {
+    char reason[160];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(reason, sizeof reason, format, args);
+    va_end(args);
+    return io_fail(r->diag, status, "%s: feature %zu: %s", io_short(r->path), r->number, reason);
+}
+
+static froe_status no_memory(const reading *r) {
+    return io_fail_memory(r->diag);
+}
+
+/* -------------------------------------------------------------------- instants -- */
+
+static froe_status take_instant(const reading *r, const json_t *value, size_t i, double *out) {
+    if (json_is_number(value))
+        *out = json_number_value(value);
+    else if (!json_is_string(value) || !io_datetime(json_string_value(value), out))
+        return fail_feature(r, FROE_E_FORMAT, "datetime %zu is neither a number nor an ISO 8601 instant", i);
+    return FROE_OK;
+}
+
+static froe_status take_instants(reading *r, const json_t *geometry) {
+    const json_t *datetimes = json_object_get(geometry, "datetimes"), *value;
+    size_t i;
+    r->times.size = 0;
+    r->instants = json_array_size(datetimes);
+    if (!r->instants) return fail_feature(r, FROE_E_FORMAT, "datetimes are missing");
+    json_array_foreach(datetimes, i, value) {
+        double t = 0;
+        froe_status status = take_instant(r, value, i, &t);
+        if (status) return status;
+        if (!io_buffer_put(&r->alloc, &r->times, &t, sizeof t)) return no_memory(r);
+        if (t < r->first) r->first = t;
+        if (t > r->last) r->last = t;
+    }
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------------------ coordinates -- */
+
+static froe_status take_position(reading *r, const json_t *position, size_t instant, io_buffer *to) {
+    double p[2];
+    if (json_array_size(position) < 2)
+        return fail_feature(r, FROE_E_FORMAT, "at instant %zu a position is no array of two numbers", instant);
+    for (size_t k = 0; k < 2; k++) {
+        const json_t *x = json_array_get(position, k);
+        if (!json_is_number(x))
+            return fail_feature(r, FROE_E_FORMAT, "at instant %zu a coordinate is no number", instant);
+        p[k] = json_number_value(x);
+    }
+    if (json_array_size(position) > 2) r->flat = false;
+    return io_buffer_put(&r->alloc, to, p, sizeof p) ? FROE_OK : no_memory(r);
+}
+
+/* One ring, without its last point, which is the first again; `rings` receives its number of points. */
+static froe_status take_ring(reading *r, const json_t *ring, size_t instant, io_buffer *to, io_buffer *rings) {
+    size_t count = json_array_size(ring);
+    if (count < 4 || !json_equal(json_array_get(ring, 0), json_array_get(ring, count - 1)))
+        return fail_feature(r, FROE_E_INPUT, "at instant %zu a ring is not closed, or has less than three corners",
+                            instant);
+    froe_status status = FROE_OK;
+    for (size_t i = 0; i + 1 < count && !status; i++) status = take_position(r, json_array_get(ring, i), instant, to);
+    count--;
+    if (!status && !io_buffer_put(&r->alloc, rings, &count, sizeof count)) status = no_memory(r);
+    return status;
+}
+
+/* The points of one instant, and how many there are in each line or ring. */
+static froe_status take_geometry(reading *r, form kind, const json_t *geometry, size_t instant, io_buffer *to,
+                                 io_buffer *rings) {
+    froe_status status = FROE_OK;
+    size_t count = json_array_size(geometry), i;
+    const json_t *item;
+    if (kind == POINT) return take_position(r, geometry, instant, to);
+    if (!count) return fail_feature(r, FROE_E_INPUT, "at instant %zu there is no geometry", instant);
+    json_array_foreach(geometry, i, item) {
+        if (kind == LINE)
+            status = take_position(r, item, instant, to);
+        else
+            status = take_ring(r, item, instant, to, rings);
+        if (status) return status;
+    }
+    if (kind == LINE && !io_buffer_put(&r->alloc, rings, &count, sizeof count)) status = no_memory(r);
+    return status;
+}
+
+/* All instants of an array: the same points at each, in `to` one instant after the other. */
+static froe_status take_all(reading *r, form kind, const json_t *array, const char *what, size_t count, io_buffer *to,
+                            io_buffer *rings) {
+    if (json_array_size(array) != count)
+        return fail_feature(r, FROE_E_FORMAT, "%zu %s for %zu instants", json_array_size(array), what, r->instants);
+    to->size = 0;
+    io_buffer here = {0};
+    froe_status status = FROE_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        here.size = 0;
+        status = take_geometry(r, kind, json_array_get(array, i), i, to, &here);
+        if (status) break;
+        size_t points = to->size / (2 * sizeof(double)) / (i + 1);
+        if (rings->size == 0 && rings->data == NULL) {
+            r->points = points;
+            if (!io_buffer_put(&r->alloc, rings, here.data, here.size)) status = no_memory(r);
+        } else if (here.size != rings->size || (here.size && memcmp(here.data, rings->data, here.size) != 0) ||
+                   points != r->points) {
+            status = fail_feature(r, FROE_E_INPUT, "at instant %zu it has not as many points as at instant 0", i);
+        }
+    }
+    io_buffer_free(&r->alloc, &here);
+    return status;
+}
+
+/* ------------------------------------------------------------------- parabolas -- */
+
+/* The parabolas with one velocity where they meet: control points  c = p0 + v h / 2,  and  v' = 2 (p1 - c) / h.  The
+ * first velocity is that of the parabola through the first three instants. */
+static froe_status make_spline(reading *r) {
+    const double *t = r->times.data, *p = r->coords.data;
+    size_t n = r->instants, width = 2 * r->points;
+    if (n < 3) return fail_feature(r, FROE_E_INPUT, "quadratic interpolation needs three instants");
+    r->controls.size = 0;
+    double *c = io_buffer_add(&r->alloc, &r->controls, (n - 1) * width * sizeof *c);
+    if (!c) return no_memory(r);
+    double h0 = t[1] - t[0], h1 = t[2] - t[1];
+    for (size_t k = 0; k < width; k++) {
+        double s0 = (p[width + k] - p[k]) / h0, s1 = (p[2 * width + k] - p[width + k]) / h1;
+        double velocity = s0 - (s1 - s0) * h0 / (h0 + h1);
+        for (size_t i = 0; i + 1 < n; i++) {
+            double h = t[i + 1] - t[i], control = p[i * width + k] + 0.5 * velocity * h;
+            c[i * width + k] = control;
+            velocity = 2 * (p[(i + 1) * width + k] - control) / h;
+        }
+    }
+    return FROE_OK;
+}
+
+static froe_status take_interpolation(reading *r, form kind, const json_t *geometry, io_buffer *rings,
+                                      bool *parabolas) {
+    const json_t *said = json_object_get(geometry, "interpolation"), *given = json_object_get(geometry, "controls");
+    if (!said) said = json_object_get(geometry, "interpolations"); /* drafts */
+    if (json_is_array(said)) said = json_array_get(said, 0);
+    const char *name = json_is_string(said) ? json_string_value(said) : "Linear";
+    *parabolas = strcmp(name, "Quadratic") == 0;
+    if (strcmp(name, "Linear") == 0) return FROE_OK;
+    if (!*parabolas)
+        return fail_feature(r, FROE_E_UNSUPPORTED, "interpolation '%.40s': froe knows Linear and Quadratic motion",
+                            name);
+    if (given) return take_all(r, kind, given, "controls", r->instants - 1, &r->controls, rings);
+    return make_spline(r);
+}
+
+/* ---------------------------------------------------------------------- plans -- */
+
+/* From one instant after the other to one point after the other. */
+static bool transpose(reading *r, bool parabolas, io_buffer *times, io_buffer *coords, io_buffer *controls) {
+    const double *t = r->times.data, *p = r->coords.data, *c = r->controls.data;
+    r->starts.size = 0;
+    for (size_t v = 0; v <= r->points; v++) {
+        size_t start = v * r->instants;
+        if (!io_buffer_put(&r->alloc, &r->starts, &start, sizeof start)) return false;
+        for (size_t i = 0; i < r->instants && v < r->points; i++) {
+            size_t at = 2 * (i * r->points + v);
+            const double none[2] = {NAN, NAN};
+            const double *control = parabolas && i + 1 < r->instants ? c + at : none;
+            if (!io_buffer_put(&r->alloc, times, t + i, sizeof *t) ||
+                !io_buffer_put(&r->alloc, coords, p + at, 2 * sizeof *p) ||
+                !io_buffer_put(&r->alloc, controls, control, 2 * sizeof *c))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool put_segment(reading *r, size_t a, size_t b) {
+    const double *t = r->times.data;
+    const uint32_t ends[2] = {(uint32_t)a, (uint32_t)b};
+    const uint64_t tag = r->number;
+    return io_buffer_put(&r->alloc, &r->vertices, ends, sizeof ends) &&
+           io_buffer_put(&r->alloc, &r->births, t, sizeof *t) &&
+           io_buffer_put(&r->alloc, &r->deaths, t + r->instants - 1, sizeof *t) &&
+           io_buffer_put(&r->alloc, &r->tags, &tag, sizeof tag);
+}
+
+/* Lines from point to point, rings back to their first, a point to itself. */
+static bool put_segments(reading *r, form kind, const io_buffer *rings) {
+    const size_t *counts = rings->data;
+    size_t lines = rings->size / sizeof *counts, first = 0;
+    r->vertices.size = r->births.size = r->deaths.size = r->tags.size = 0;
+    if (kind == POINT) return put_segment(r, 0, 0);
+    for (size_t k = 0; k < lines; first += counts[k++])
+        for (size_t i = 0; i + (kind == LINE) < counts[k]; i++)
+            if (!put_segment(r, first + i, first + (i + 1) % counts[k])) return false;
+    return true;
+}
+
+static froe_status add(reading *r, const io_buffer *times, const io_buffer *coords, const io_buffer *controls) {
+    froe_diagnostic why;
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = r->points;
+    b.starts = r->starts.data;
+    b.times = times->data;
+    b.coords = coords->data;
+    b.controls = controls->data;
+    b.count = r->tags.size / sizeof(uint64_t);
+    b.vertices = r->vertices.data;
+    b.births = r->births.data;
+    b.deaths = r->deaths.data;
+    b.tags = r->tags.data;
+    b.group = r->group;
+    froe_status status = froe_motion_add(r->motion, &b, &why);
+    if (status == FROE_E_MEMORY) return no_memory(r);
+    r->report.pieces += r->points * (r->instants - 1);
+    return status ? fail_feature(r, status, "%s", why.message) : FROE_OK;
+}
+
+static froe_status add_geometry(reading *r, form kind, const json_t *geometry) {
+    io_buffer rings = {0}, times = {0}, coords = {0}, controls = {0};
+    bool parabolas = false;
+    froe_status status =
+        take_all(r, kind, json_object_get(geometry, "coordinates"), "geometries", r->instants, &r->coords, &rings);
+    if (!status) status = take_interpolation(r, kind, geometry, &rings, &parabolas);
+    if (!status && (!transpose(r, parabolas, &times, &coords, &controls) || !put_segments(r, kind, &rings)))
+        status = no_memory(r);
+    if (!status) status = add(r, &times, &coords, &controls);
+    io_buffer_free(&r->alloc, &rings);
+    io_buffer_free(&r->alloc, &times);
+    io_buffer_free(&r->alloc, &coords);
+    io_buffer_free(&r->alloc, &controls);
+    return status;
+}
+
+/* -------------------------------------------------------------------- features -- */
+
+static froe_status take_moving(reading *r, const json_t *geometry) {
+    const char *type = json_string_value(json_object_get(geometry, "type"));
+    int which = 0;
+    while (which < FORMS && type && strcmp(type, forms[which]) != 0) which++;
+    if (!type || which == FORMS)
+        return fail_feature(r, type ? FROE_E_UNSUPPORTED : FROE_E_FORMAT, "geometry of the type '%.40s'",
+                            type ? type : "");
+    froe_status status = take_instants(r, geometry);
+    return status || !r->motion ? status : add_geometry(r, (form)which, geometry);
+}
+
+/* What a feature is called: by its properties, or its id. */
+static const char *name_of(const json_t *feature, char number[32]) {
+    static const char *const keys[] = {"name", "title", "label", "id"};
+    json_t *properties = json_object_get(feature, "properties"), *id = json_object_get(feature, "id"), *value;
+    const char *key;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        value = json_object_get(properties, keys[i]);
+        if (json_is_string(value)) return json_string_value(value);
+    }
+    if (json_is_string(id)) return json_string_value(id);
+    json_object_foreach(properties, key, value) if (json_is_string(value)) return json_string_value(value);
+    if (json_is_integer(id)) snprintf(number, 32, "%lld", (long long)json_integer_value(id));
+    return number;
+}
+
+static froe_status begin_feature(reading *r, const json_t *feature) {
+    char number[32];
+    snprintf(number, sizeof number, "%zu", r->number);
+    const froe_group group = {.name = name_of(feature, number)};
+    r->flat = true;
+    r->report.features++;
+    froe_status status = froe_motion_add_group(r->motion, &group, &r->group);
+    return status == FROE_E_MEMORY ? no_memory(r)
+           : status                ? fail_feature(r, status, "has no room for its name")
+                                   : FROE_OK;
+}
+
+static froe_status take_feature(reading *r, const json_t *feature) {
+    const json_t *geometry = json_object_get(feature, "temporalGeometry"), *prism;
+    const json_t *prisms = json_object_get(geometry, "prisms");
+    size_t i;
+    if (!json_is_object(geometry)) {
+        r->report.still += r->motion != NULL;
+        return FROE_OK;
+    }
+    froe_status status = r->motion ? begin_feature(r, feature) : FROE_OK;
+    if (!status && !prisms) status = take_moving(r, geometry);
+    json_array_foreach(prisms, i, prism) if (!status) status = take_moving(r, prism);
+    if (!r->flat && r->motion) r->report.flattened++;
+    return status;
+}
+
+static froe_status take_features(reading *r, const json_t *root) {
+    const json_t *features = json_object_get(root, "features"), *feature;
+    const char *type = json_string_value(json_object_get(root, "type"));
+    size_t i;
+    r->number = 0;
+    if (type && strcmp(type, "Feature") == 0) return take_feature(r, root);
+    if (!json_is_array(features))
+        return io_fail(r->diag, FROE_E_FORMAT, "%s: is neither a Feature nor a FeatureCollection", io_short(r->path));
+    json_array_foreach(features, i, feature) {
+        r->number = i;
+        froe_status status = take_feature(r, feature);
+        if (status) return status;
+    }
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------------------------ file -- */
+
+static froe_status open_window(reading *r) {
+    froe_diagnostic why;
+    froe_motion_options w = froe_motion_defaults();
+    if (!(r->first <= r->last)) return io_fail(r->diag, FROE_E_INPUT, "%s: nothing moves in it", io_short(r->path));
+    w.begin = isnan(r->options.from) ? r->first : r->options.from;
+    w.end = isnan(r->options.to) ? r->last : r->options.to;
+    if (w.begin > r->last || w.end < r->first)
+        return io_fail(r->diag, FROE_E_INPUT, "%s: nothing is there from %.17g to %.17g: all is from %.17g to %.17g",
+                       io_short(r->path), w.begin, w.end, r->first, r->last);
+    froe_status status = froe_motion_new(&w, r->options.alloc, &r->motion, &why);
+    if (status == FROE_E_MEMORY) return no_memory(r);
+    return status ? io_fail(r->diag, status, "%s: %s", io_short(r->path), why.message) : FROE_OK;
+}
+
+static froe_status load(reading *r, json_t **root) {
+    json_error_t error;
+    *root = json_load_file(r->path, 0, &error);
+    if (*root) return FROE_OK;
+    enum json_error_code code = json_error_code(&error);
+    if (code == json_error_out_of_memory) return no_memory(r);
+    if (code == json_error_cannot_open_file)
+        return io_fail(r->diag, FROE_E_IO, "%s: cannot be opened", io_short(r->path));
+    return io_fail(r->diag, FROE_E_FORMAT, "%s: line %d: %s", io_short(r->path), error.line, error.text);
+}
+
+static froe_status read_file(reading *r) {
+    json_t *root;
+    froe_status status = load(r, &root);
+    if (status) return status;
+    status = take_features(r, root);
+    if (!status) status = open_window(r);
+    if (!status) status = take_features(r, root);
+    json_decref(root);
+    return status;
+}
+
+static void free_buffers(reading *r) {
+    io_buffer *const all[] = {&r->times,    &r->coords, &r->controls, &r->starts,
+                              &r->vertices, &r->births, &r->deaths,   &r->tags};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) io_buffer_free(&r->alloc, all[i]);
+}
+
+froe_motion_read_options froe_motion_read_defaults(void) {
+    return (froe_motion_read_options){.size = sizeof(froe_motion_read_options), .from = NAN, .to = NAN};
+}
+
+froe_status froe_read_motion(const char *path, const froe_motion_read_options *options, froe_motion **out,
+                             froe_motion_report *report, froe_diagnostic *diag) {
+    double start = io_seconds();
+    if (!path || !out) return io_fail(diag, FROE_E_ARG, "froe_read_motion: path and out must not be NULL");
+    if (options && options->size != sizeof *options)
+        return io_fail(diag, FROE_E_OPTIONS,
+                       "froe_read_motion: the options do not come from "
+                       "froe_motion_read_defaults()");
+    reading r = {.path = path, .options = options ? *options : froe_motion_read_defaults(), .diag = diag};
+    r.alloc = io_allocator(r.options.alloc);
+    r.first = (double)INFINITY;
+    r.last = -(double)INFINITY;
+    froe_status status = read_file(&r);
+    free_buffers(&r);
+    if (status) {
+        froe_motion_free(r.motion);
+        return status;
+    }
+    r.report.seconds = io_seconds() - start;
+    if (report) *report = r.report;
+    *out = r.motion;
+    return FROE_OK;
+}
