@@ -64,6 +64,10 @@ static int by_place(const void *a, const void *b) {
 }
 
 static void put(oracle_canvas *c, size_t sample, uint32_t patch, bool clear) {
+    if (!clear && c->top[sample] != FROE_NONE) { /* nobody needs what was there */
+        c->layers[c->top[sample]] = (oracle_layer){patch, FROE_NONE};
+        return;
+    }
     if (c->count == c->room) c->layers = grow(c->layers, (c->room = 2 * c->room + 1024) * sizeof *c->layers);
     c->layers[c->count] = (oracle_layer){patch, clear ? c->top[sample] : FROE_NONE};
     c->top[sample] = (uint32_t)c->count++;

@@ -107,11 +107,13 @@ static void ray_at(const froe_projection *view, const double page[2], double ray
     ray[2] = 1;
 }
 
-static double depth_of(const oracle_triangle *t, bool parallel, const double ray[3]) {
-    const double a = dot(t->normal[0], ray), b = dot(t->normal[1], ray), c = dot(t->normal[2], ray);
-    if (!((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0))) return 0;
+/* Where the weights have a sign (1 or -1); not positive where they do not, or behind the eye. */
+static double depth_of(const oracle_triangle *t, bool parallel, const double ray[3], int sign) {
+    const double a = sign * dot(t->normal[0], ray), b = sign * dot(t->normal[1], ray),
+                 c = sign * dot(t->normal[2], ray);
+    if (!(a > 0 && b > 0 && c > 0)) return 0;
     if (parallel) return (a * t->depth[0] + b * t->depth[1] + c * t->depth[2]) / (a + b + c);
-    return t->volume / (a + b + c);
+    return sign * t->volume / (a + b + c);
 }
 
 double oracle_depth(const oracle_triangles *triangles, size_t i, const double page[2], bool *doubt) {
@@ -126,7 +128,8 @@ double oracle_depth(const oracle_triangles *triangles, size_t i, const double pa
         right += at < -unsure;
     }
     *doubt = left < 3 && right < 3 && !(left && right);
-    return depth_of(t, triangles->view->eye.parallel, ray);
+    const bool parallel = triangles->view->eye.parallel;
+    return fmax(depth_of(t, parallel, ray, 1), depth_of(t, parallel, ray, -1));
 }
 
 /* -------------------------------------------------------------------------- hits -- */
@@ -143,27 +146,51 @@ static uint32_t range(double lo, double hi, double size, uint32_t cells, uint32_
     return from <= 0 ? 0 : from < cells ? (uint32_t)from : cells;
 }
 
+/* Narrows lo .. hi, places on one row of the page, to where the weights of a triangle may have one sign. */
+static void narrow(const oracle_triangle *t, const froe_projection *view, double v, int sign, double *lo, double *hi) {
+    for (int c = 0; c < 3; c++) {
+        const double slope = sign * t->normal[c][0], rest = sign * (t->normal[c][1] * v + t->normal[c][2]);
+        const double at = view->centre[0] - view->scale * rest / slope;
+        if (slope > 0)
+            *lo = fmax(*lo, at);
+        else if (slope < 0)
+            *hi = fmin(*hi, at);
+    }
+}
+
+typedef void meet_fn(void *user, size_t sample, double depth, uint32_t patch);
+
+/* All samples whose rays meet a triangle. */
+static void meet(const oracle_triangles *triangles, const oracle_grid *grid, size_t i, meet_fn *fn, void *user) {
+    const oracle_triangle *t = triangles->at + i;
+    const froe_projection *view = triangles->view;
+    uint32_t y1, x1, y0 = range(t->lo[1], t->hi[1], view->height, grid->high, &y1);
+    for (uint32_t y = y0; y < y1; y++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            double page[2], ray[3], lo = t->lo[0], hi = t->hi[0];
+            oracle_place(grid, view, (size_t)y * grid->wide, page);
+            ray_at(view, page, ray);
+            narrow(t, view, ray[1], sign, &lo, &hi);
+            if (!(lo <= hi)) continue;
+            for (uint32_t x = range(lo, hi, view->width, grid->wide, &x1); x < x1; x++) {
+                const size_t sample = (size_t)y * grid->wide + x;
+                oracle_place(grid, view, sample, page);
+                ray_at(view, page, ray);
+                const double depth = depth_of(t, view->eye.parallel, ray, sign);
+                if (depth > 0) fn(user, sample, depth, t->patch);
+            }
+        }
+}
+
 typedef struct collector {
     oracle_hit *hits;
     size_t count, room;
 } collector;
 
-static void collect(collector *c, const oracle_triangles *triangles, const oracle_grid *grid, size_t i) {
-    const oracle_triangle *t = triangles->at + i;
-    const froe_projection *view = triangles->view;
-    uint32_t x1, y1, x0 = range(t->lo[0], t->hi[0], view->width, grid->wide, &x1),
-                     y0 = range(t->lo[1], t->hi[1], view->height, grid->high, &y1);
-    for (uint32_t y = y0; y < y1; y++)
-        for (uint32_t x = x0; x < x1; x++) {
-            const uint32_t sample = y * grid->wide + x;
-            double page[2], ray[3];
-            oracle_place(grid, view, sample, page);
-            ray_at(view, page, ray);
-            const double depth = depth_of(t, view->eye.parallel, ray);
-            if (!(depth > 0)) continue;
-            if (c->count == c->room) c->hits = grow(c->hits, (c->room = 2 * c->room + 1024) * sizeof *c->hits);
-            c->hits[c->count++] = (oracle_hit){depth, sample, t->patch};
-        }
+static void collect(void *user, size_t sample, double depth, uint32_t patch) {
+    collector *c = user;
+    if (c->count == c->room) c->hits = grow(c->hits, (c->room = 2 * c->room + 1024) * sizeof *c->hits);
+    c->hits[c->count++] = (oracle_hit){depth, (uint32_t)sample, patch};
 }
 
 static int by_sample(const void *a, const void *b) {
@@ -189,7 +216,7 @@ static void rank(oracle_hit *hits, size_t count) {
 oracle_hits oracle_hits_new(const oracle_triangles *triangles, oracle_grid grid) {
     const size_t samples = (size_t)grid.wide * grid.high;
     collector c = {.hits = NULL};
-    for (size_t i = 0; i < triangles->count; i++) collect(&c, triangles, &grid, i);
+    for (size_t i = 0; i < triangles->count; i++) meet(triangles, &grid, i, collect, &c);
     oracle_hits h = {grid, grow(c.hits, c.count * sizeof *c.hits), grow(NULL, (samples + 1) * sizeof *h.starts)};
     qsort(h.hits, c.count, sizeof *h.hits, by_sample);
     for (size_t i = 0, at = 0; i < samples; i++) {
@@ -205,6 +232,36 @@ void oracle_hits_free(oracle_hits *hits) {
     free(hits->hits);
     free(hits->starts);
 }
+
+/* ----------------------------------------------------------------------- nearest -- */
+
+static void keep_nearest(void *user, size_t sample, double depth, uint32_t patch) {
+    oracle_nearest *n = user;
+    if (depth < n->depth[sample]) n->depth[sample] = depth, n->patch[sample] = patch;
+}
+
+static void note_tie(void *user, size_t sample, double depth, uint32_t patch) {
+    oracle_nearest *n = user;
+    if (patch != n->patch[sample] && depth <= n->depth[sample] * (1 + ORACLE_TIE)) n->tie[sample] = 1;
+}
+
+oracle_nearest oracle_nearest_new(const oracle_triangles *triangles, oracle_grid grid) {
+    const size_t samples = (size_t)grid.wide * grid.high;
+    oracle_nearest n = {grid, grow(NULL, samples * sizeof *n.depth), grow(NULL, samples * sizeof *n.patch),
+                        grow(NULL, samples)};
+    for (size_t i = 0; i < samples; i++) n.depth[i] = INFINITY, n.patch[i] = FROE_NONE, n.tie[i] = 0;
+    for (size_t i = 0; i < triangles->count; i++) meet(triangles, &grid, i, keep_nearest, &n);
+    for (size_t i = 0; i < triangles->count; i++) meet(triangles, &grid, i, note_tie, &n);
+    return n;
+}
+
+void oracle_nearest_free(oracle_nearest *n) {
+    free(n->depth);
+    free(n->patch);
+    free(n->tie);
+}
+
+/* ------------------------------------------------------------------------- stacks -- */
 
 size_t oracle_stack(const oracle_hits *h, size_t sample, const uint8_t *clear, bool *tie) {
     const oracle_hit *hits = h->hits + h->starts[sample];

@@ -62,6 +62,17 @@ double oracle_depth(const oracle_triangles *triangles, size_t i, const double pa
 /** The place of a sample on the page. */
 void oracle_place(const oracle_grid *grid, const froe_projection *view, size_t sample, double page[2]);
 
+/** Only the nearest hit of every sample, for grids of millions. */
+typedef struct oracle_nearest {
+    oracle_grid grid;
+    double *depth;   /**< INFINITY: nothing is met */
+    uint32_t *patch; /**< FROE_NONE */
+    uint8_t *tie;    /**< another patch is as near */
+} oracle_nearest;
+
+oracle_nearest oracle_nearest_new(const oracle_triangles *triangles, oracle_grid grid);
+void oracle_nearest_free(oracle_nearest *nearest);
+
 oracle_hits oracle_hits_new(const oracle_triangles *triangles, oracle_grid grid);
 void oracle_hits_free(oracle_hits *hits);
 /** How many hits of a sample are seen: down to the first patch that is not clear (clear NULL: none is). *tie: another
