@@ -47,7 +47,7 @@ static double number(const char **at) {
     return strtod(text, NULL);
 }
 
-static void paint_path(const char *d, oracle_canvas *canvas) {
+static void paint_path(const char *d, double scale, oracle_canvas *canvas) {
     double at[2] = {0, 0}, start[2] = {0, 0};
     for (char command = 0; *d && *d != '"';) {
         if (strchr("MmlhvLz", *d)) command = *d++;
@@ -57,9 +57,9 @@ static void paint_path(const char *d, oracle_canvas *canvas) {
             memcpy(to, start, sizeof to);
             while (*d == ' ') d++;
         } else if (command == 'h' || command == 'v') {
-            to[command == 'v'] += number(&d);
+            to[command == 'v'] += scale * number(&d);
         } else {
-            for (int k = 0; k < 2; k++) to[k] = (along ? at[k] : 0) + number(&d);
+            for (int k = 0; k < 2; k++) to[k] = (along ? at[k] : 0) + scale * number(&d);
         }
         if (command == 'm' || command == 'M')
             memcpy(start, to, sizeof start), command = command == 'm' ? 'l' : 'L';
@@ -88,11 +88,13 @@ svg_count svg_paint(const char *path, oracle_canvas *canvas, void (*seen)(void *
                     void *user) {
     svg_count count = {0, 0};
     char *text = read_file(path, &count.bytes);
+    double scale = 1;
     for (const char *at = text; (at = strchr(at, '<')) != NULL; at++) {
         const char *d = strncmp(at, "<path ", 6) ? NULL : attribute(at, " d=\"");
         const char *points = strncmp(at, "<polygon ", 9) ? NULL : attribute(at, " points=\"");
-        const char *object = attribute(at, " data-object=\"");
-        if (d) paint_path(d, canvas);
+        const char *object = attribute(at, " data-object=\""), *scaled = attribute(at, " transform=\"scale(");
+        if (scaled) scale = strtod(scaled, NULL);
+        if (d) paint_path(d, scale, canvas);
         if (points) paint_polygon(points, canvas);
         if (object && seen) seen(user, (uint32_t)strtoul(object, NULL, 10), colour_of(at));
         if (!d && !points) continue;

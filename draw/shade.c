@@ -7,6 +7,10 @@
 /* Muted, of like weight, and apart for the colour-blind; materials take them in the order they come. */
 static const uint32_t hues[] = {0xE9E4D8, 0xB8CBD6, 0xD9B48F, 0xB9C7A0, 0xC9B6CF, 0xE3CF8E, 0xC9A79C, 0xA8C4BE};
 
+/* Steps of light of flat shading: one is at most two of 255, which nobody sees, and neighbours on a smooth surface
+ * share a path more often. */
+enum { LIGHTS = 64 };
+
 static double channel(uint32_t colour, int shift) {
     return (double)(colour >> shift & 255);
 }
@@ -51,8 +55,9 @@ static draw_style style_of(const draw_render *r, uint32_t patch, const uint32_t 
     const double opacity = o->opacity && p.group != FROE_NONE ? o->opacity[p.group] : 1;
     const uint32_t alpha = (uint32_t)floor(opacity * 255 + 0.5);
     uint32_t colour = p.group == FROE_NONE ? hues[0] : hues[materials[p.group] % (sizeof hues / sizeof *hues)];
-    double light = light_on(r, p.objects[0]);
-    if (o->shading == FROE_SHADE_CEL) light = (floor(light * 0.9999 * o->cel_levels) + 0.5) / o->cel_levels;
+    const double lit_by = light_on(r, p.objects[0]);
+    const double light = o->shading == FROE_SHADE_CEL ? (floor(lit_by * 0.9999 * o->cel_levels) + 0.5) / o->cel_levels
+                                                      : floor(lit_by * LIGHTS + 0.5) / LIGHTS;
     if (o->shading == FROE_SHADE_WHITE) return alpha << 24 | 0xFFFFFF;
     if (o->shading != FROE_SHADE_PLAIN) colour = lit(colour, 0.45 + 0.55 * light);
     return alpha << 24 | colour;

@@ -1,20 +1,29 @@
 /* svg.c: the picture as compact SVG: relative coordinates on a grid, shared separators, one path per run of a style.
  *
- * Differences are taken between rounded points, so that errors do not add up. All rings turn the same way and fill by
- * the nonzero rule: faces seen from behind and from the front may share a path. */
+ * Coordinates are whole numbers of steps of the grid, scaled to the page by a group around everything: no decimal
+ * points. Differences are taken between rounded points, so that errors do not add up. All rings turn the same way and
+ * fill by the nonzero rule: faces seen from behind and from the front may share a path. */
 #include "render.h"
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* A ring of the path in the making. Paths are unions: their rings may come in any order. */
+typedef struct svg_ring {
+    const double *points;
+    size_t count;
+    double x, y; /* of its first point */
+} svg_ring;
 
 typedef struct svg_writer {
     draw_render *render;
     draw_output *output;
-    double grid;   /* steps of the grid in a unit of the page */
+    double grid; /* steps of the grid in a unit of the page */
+    DRAW_ARRAY(svg_ring) rings;
     int64_t at[2]; /* where the last path command ended, on the grid */
     char command;  /* the last one written; numbers may follow without repeating it */
     bool number;   /* the last thing written is a number */
-    bool point;    /* ... with a decimal point */
     bool ok;
 } svg_writer;
 
@@ -43,28 +52,11 @@ static void put_escaped(svg_writer *w, const char *text) {
     }
 }
 
-/* A number of steps of the grid, as short as it gets: ".5", "-3", "12.25". */
-static size_t format_steps(const svg_writer *w, int64_t steps, char out[32]) {
-    const int decimals = w->render->options->decimals;
-    const uint64_t size = steps < 0 ? (uint64_t)-steps : (uint64_t)steps, unit = (uint64_t)w->grid;
-    char *o = out;
-    if (steps < 0) *o++ = '-';
-    if (size / unit || size % unit == 0) o += snprintf(o, 24, "%llu", (unsigned long long)(size / unit));
-    if (size % unit) {
-        o += snprintf(o, 16, ".%0*llu", decimals, (unsigned long long)(size % unit));
-        while (o[-1] == '0') o--;
-    }
-    return (size_t)(o - out);
-}
-
 static void put_number(svg_writer *w, int64_t steps) {
-    char text[48];
-    const size_t length = format_steps(w, steps, text);
-    const bool point = memchr(text, '.', length) != NULL;
-    if (w->number && text[0] != '-' && !(text[0] == '.' && w->point)) put(w, " ", 1);
-    put(w, text, length);
+    char text[32];
+    const int length = snprintf(text, sizeof text, "%s%lld", w->number && steps >= 0 ? " " : "", (long long)steps);
+    put(w, text, (size_t)length);
     w->number = true;
-    w->point = point;
 }
 
 static void put_command(svg_writer *w, char command) {
@@ -88,16 +80,21 @@ static void line_to(svg_writer *w, int64_t x, int64_t y) {
     w->at[0] = x, w->at[1] = y;
 }
 
-/* One ring or polyline. The first of a path begins with an absolute move. */
-static void put_points(svg_writer *w, const double *points, size_t count, bool closed) {
-    const int64_t x = step_of(w, points[0]), y = step_of(w, points[1]);
+/* One ring or polyline, from point `start` on. The first move of a path is absolute; lines may follow a move without
+ * saying so. */
+static void put_points(svg_writer *w, const double *points, size_t count, size_t start, bool closed) {
+    const int64_t x = step_of(w, points[2 * start]), y = step_of(w, points[2 * start + 1]);
     const bool first = w->command == 0;
     w->command = 0;
-    put_command(w, first ? 'M' : 'm');
+    put_command(w, 'm');
     put_number(w, first ? x : x - w->at[0]);
     put_number(w, first ? y : y - w->at[1]);
+    w->command = 'l';
     w->at[0] = x, w->at[1] = y;
-    for (size_t i = 1; i < count; i++) line_to(w, step_of(w, points[2 * i]), step_of(w, points[2 * i + 1]));
+    for (size_t i = 1; i < count; i++) {
+        const double *p = points + 2 * ((start + i) % count);
+        line_to(w, step_of(w, p[0]), step_of(w, p[1]));
+    }
     if (!closed) return;
     put_text(w, "z");
     w->command = 'z';
@@ -153,12 +150,51 @@ static void put_ids(svg_writer *w, uint32_t patch) {
     if (p.group != FROE_NONE) put_escaped(w, froe_scene_group(w->render->scene, p.group).name);
 }
 
-static void put_shape(svg_writer *w, const froe_shape *s) {
+static void take_shape(svg_writer *w, const froe_shape *s) {
     for (size_t i = 0; i < s->ring_count; i++) {
         size_t count;
         const double *ring = froe_picture_ring(w->render->picture, s->first_ring + i, &count);
-        if (has_extent(w, ring, count)) put_points(w, ring, count, true);
+        w->ok = w->ok && draw_push(&w->output->alloc, &w->rings, (svg_ring){ring, count, ring[0], ring[1]});
     }
+}
+
+static int along_strips(const void *a, const void *b) {
+    const svg_ring *p = a, *q = b;
+    if (p->x != q->x) return p->x < q->x ? -1 : 1;
+    if (p->y != q->y) return p->y < q->y ? -1 : 1;
+    return p->points < q->points ? -1 : p->points > q->points;
+}
+
+/* Down one strip of the page and up the next, so that moves are short. */
+static void sort_rings(svg_writer *w) {
+    const double wide = w->render->options->camera.width / ceil(sqrt(0.5 * (double)w->rings.count));
+    for (size_t i = 0; i < w->rings.count; i++) {
+        svg_ring *r = w->rings.data + i;
+        r->x = floor(r->x / wide);
+        if (fmod(r->x, 2) != 0) r->y = -r->y;
+    }
+    if (w->rings.count) qsort(w->rings.data, w->rings.count, sizeof *w->rings.data, along_strips);
+}
+
+/* The corner of a ring that is nearest to where the last one ended. */
+static size_t nearest_corner(const svg_writer *w, const svg_ring *r) {
+    int64_t least = INT64_MAX;
+    size_t found = 0;
+    for (size_t i = 0; i < r->count; i++) {
+        const int64_t far =
+            llabs(step_of(w, r->points[2 * i]) - w->at[0]) + llabs(step_of(w, r->points[2 * i + 1]) - w->at[1]);
+        if (far < least) least = far, found = i;
+    }
+    return found;
+}
+
+static void put_rings(svg_writer *w) {
+    sort_rings(w);
+    for (size_t i = 0; i < w->rings.count; i++) {
+        const svg_ring *r = w->rings.data + i;
+        if (has_extent(w, r->points, r->count)) put_points(w, r->points, r->count, nearest_corner(w, r), true);
+    }
+    w->rings.count = 0;
 }
 
 /* Shapes of one style that follow each other share a path, unless each shall be known by itself or is seen through. */
@@ -172,12 +208,13 @@ static void put_shapes(svg_writer *w) {
         if (r->options->ids) put_ids(w, first.patch);
         put_text(w, "\" d=\"");
         begin_path(w);
-        put_shape(w, &first);
+        take_shape(w, &first);
         for (i++; i < count && !r->options->ids && style >> 24 == 255; i++) {
             const froe_shape next = froe_picture_shape(r->picture, i);
             if (next.style != first.style) break;
-            put_shape(w, &next);
+            take_shape(w, &next);
         }
+        put_rings(w);
         put_text(w, "\"/>\n");
     }
 }
@@ -189,7 +226,7 @@ static void put_strokes(svg_writer *w) {
     if (count) put_text(w, "<g fill=\"none\" stroke=\"#1b2630\" stroke-linejoin=\"round\">\n");
     for (size_t i = 0; i < count && w->ok;) {
         const froe_stroke first = froe_picture_stroke(r->picture, i);
-        const double width = draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
+        const double width = w->grid * draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
         snprintf(text, sizeof text, "<path class=\"%s%s\" stroke-width=\"%.3g\"", froe_line_name(first.kind),
                  first.hidden ? " hidden" : "", width);
         put_text(w, text);
@@ -202,7 +239,7 @@ static void put_strokes(svg_writer *w) {
         for (; i < count; i++) {
             const froe_stroke s = froe_picture_stroke(r->picture, i);
             if (s.kind != first.kind || s.hidden != first.hidden) break;
-            put_points(w, s.points, s.count, s.closed);
+            put_points(w, s.points, s.count, 0, s.closed);
         }
         put_text(w, "\"/>\n");
     }
@@ -232,12 +269,22 @@ static void put_head(svg_writer *w) {
     put_text(w, "\"/>\n");
 }
 
+/* Everything else is in steps of the grid. */
+static void put_scale(svg_writer *w) {
+    char text[64];
+    if (w->grid == 1) return;
+    snprintf(text, sizeof text, "<g transform=\"scale(%.*f)\">\n", w->render->options->decimals, 1 / w->grid);
+    put_text(w, text);
+}
+
 bool draw_svg(draw_render *render, draw_output *output) {
     svg_writer w = {.render = render, .output = output, .grid = 1, .ok = true};
     for (int i = 0; i < render->options->decimals; i++) w.grid *= 10;
     put_head(&w);
+    put_scale(&w);
     put_shapes(&w);
     put_strokes(&w);
-    put_text(&w, "</svg>\n");
+    put_text(&w, w.grid == 1 ? "</svg>\n" : "</g>\n</svg>\n");
+    draw_release(&output->alloc, &w.rings);
     return w.ok;
 }
