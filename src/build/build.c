@@ -71,7 +71,7 @@ static froe_status refuse_method(const char *name, froe_diagnostic *diag) {
 static const char *automatic(const froe_scene *scene, const char *purpose) {
     uint32_t kinds = kinds_of(scene), flat = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON;
     bool plane = scene->dim == 2 && !(kinds & ~(1u << FROE_POINT | 1u << FROE_SEGMENT));
-    if (plane && !strcmp(purpose, "query")) return "index";
+    if ((plane || scene->dim == 3) && !strcmp(purpose, "query")) return "index";
     if (kinds == 1u << FROE_BOX) return "directional";
     bool polygons = scene->dim == 3 && kinds >> FROE_POLYGON & 1 && !(kinds & ~flat);
     return polygons && strcmp(purpose, "query") != 0 ? "grain" : "density";

@@ -1,4 +1,4 @@
-/* index.c: trees to be queried: middle cuts, packed leaves.
+/* index.c: trees to be queried: middle cuts, packed leaves. In space: build/space.c.
  *
  *     +-------+---+---+    Cells are halved across their longer side until they hold at most `leaf` fragments: the
  *     |       | \ |   |    octree rule, with binary cuts. Large cells are halved many times at once (split/grid.h),
@@ -18,7 +18,7 @@
 #include "base/log2.h"
 #include "base/radix.h"
 #include "base/status.h"
-#include "build/method.h"
+#include "build/space.h"
 #include "split/grid.h"
 #include "split/halve.h"
 #include "tree/packer.h"
@@ -419,13 +419,10 @@ static froe_status grow(index_work *w, froe_tree **out) {
     return status;
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_in_plane(build_job *job, froe_tree **out) {
     index_work w = {.job = job, .axis = {.context = &w.context}};
-    if (job->scene->object_count > PACKED_OBJECT)
-        return base_fail(job->diag, FROE_E_LIMIT, "method 'index' serves at most 2^30 objects");
-    build_promise(job, "fragments", 2 * job->option[GROWTH] * job->scene->object_count, 0);
     froe_status status = num_context_new(&job->alloc, &w.context);
-    if (status) return base_fail_memory(job->diag);
+    if (status) return status;
     if (job->first > w.context.first) w.context.first = job->first;
     status = packer_new(&job->alloc, job->scene->object_count, job->leaf, &w.packer);
     if (!status) {
@@ -434,16 +431,33 @@ static froe_status build(build_job *job, froe_tree **out) {
     }
     clean_up(&w);
     num_context_free(&w.context);
-    return explain(job, status);
+    return status;
+}
+
+static bool serves(const froe_scene *s, uint32_t object) {
+    return s->dim == 3 || s->kinds[object] == FROE_POINT || s->kinds[object] == FROE_SEGMENT;
+}
+
+static froe_status build(build_job *job, froe_tree **out) {
+    const froe_scene *s = job->scene;
+    if (s->object_count > PACKED_OBJECT)
+        return base_fail(job->diag, FROE_E_LIMIT, "method 'index' serves at most 2^30 objects");
+    for (uint32_t i = 0; i < s->object_count; i++)
+        if (!serves(s, i))
+            return base_fail_at(job->diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
+                                "method 'index' does not serve objects of kind '%s' in the plane",
+                                froe_kind_name((froe_kind)s->kinds[i]));
+    build_promise(job, "fragments", 2 * job->option[GROWTH] * s->object_count, 0);
+    return explain(job, s->dim == 3 ? build_in_space(job, job->option[GROWTH], out) : build_in_plane(job, out));
 }
 
 const build_method build_method_index = {
     .info = {.name = "index",
-             .summary = "middle cuts and packed leaves, made to be queried",
-             .source = "the octree rule, in binary cuts; layout and queries are froe's own",
+             .summary = "made to be queried: middle cuts or, in space, cuts by surface area; packed leaves",
+             .source = "the octree rule, in binary cuts; MacDonald and Booth 1990; layout and queries are froe's own",
              .guarantee = "at most 2 growth n fragments; leaves over capacity where more cuts do not pay",
-             .dims = 1u << 2,
-             .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT,
+             .dims = 1u << 2 | 1u << 3,
+             .kinds = BUILD_KINDS_ALL,
              .leaf = 24,
              .least_leaf = 1,
              .options = options},

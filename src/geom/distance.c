@@ -72,8 +72,21 @@ static int compare_images(const geom_distance *a, const geom_distance *b) {
     return filter_sign(filter_sub(a->square, b->square));
 }
 
+/* Do both come from the same corners? Objects of one scene share them. */
+static bool same_source(const geom_distance *a, const geom_distance *b) {
+    if (a->lo || b->lo || a->count != b->count || a->radius != b->radius) return false;
+    int shared = 0;
+    for (int i = 0; i < a->count; i++)
+        for (int j = 0; j < b->count; j++) shared += a->corner[i] == b->corner[j];
+    return shared == a->count;
+}
+
 int geom_distance_compare(num_context *context, const double *point, const geom_distance *a, const geom_distance *b) {
     context->stats.calls++;
+    if (same_source(a, b)) {
+        context->stats.filtered++;
+        return 0;
+    }
     int sure = compare_images(a, b);
     bool inside = a->radius > 0 || b->radius > 0; /* then images below 0 mean 0 */
     if (sure != NUM_UNSURE && !(inside && filter_sign(geom_distance_image(sure > 0 ? a : b)) != 1)) {

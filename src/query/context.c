@@ -2,6 +2,7 @@
 #include "query/context.h"
 #include "base/status.h"
 #include "query/packed.h"
+#include "query/space.h"
 
 static froe_status take(const froe_tree *tree, query_shared *shared, froe_query **out) {
     froe_query *q = base_calloc(&tree->alloc, 1, sizeof *q);
@@ -13,7 +14,10 @@ static froe_status take(const froe_tree *tree, query_shared *shared, froe_query 
         return FROE_E_MEMORY;
     }
     q->shared = shared;
-    if (tree_is_packed(tree) && packed_work_new(tree, &q->packed)) {
+    froe_status status = tree_is_space(tree)    ? space_work_new(tree, &q->space)
+                         : tree_is_packed(tree) ? packed_work_new(tree, &q->packed)
+                                                : FROE_OK;
+    if (status) {
         num_context_free(&q->numbers);
         base_free(&tree->alloc, q, sizeof *q);
         return FROE_E_MEMORY;
@@ -64,6 +68,7 @@ void froe_query_free(froe_query *query) {
     packed_work_free(query->packed, &alloc);
     array_free(&alloc, &query->groups.inside);
     array_free(&alloc, &query->groups.touched);
+    space_work_free(query->space, &alloc);
     array_free(&alloc, &query->found);
     base_free(&alloc, query, sizeof *query);
 }

@@ -40,7 +40,8 @@ struct froe_query {
     query_ray ray;
     query_near near;
     query_range range;
-    struct packed_work *packed; /**< packed trees only (query/packed.h) */
+    struct packed_work *packed; /**< packed trees of the plane only (query/packed.h) */
+    struct space_work *space;   /**< packed trees of space only (query/space.h) */
     struct {
         query_members inside, touched;
     } groups;              /**< of a point, while it is looked for (query/areas.h) */

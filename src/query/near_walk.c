@@ -8,6 +8,7 @@
  * All bounds are rounded down; a node may be nearer than thought, but no object is passed over. */
 #include "query/contents.h"
 #include "query/heap.h"
+#include "query/space.h"
 
 /* What is left of a distance when rounding is taken off; 2^-1070: of products below the least normal double. */
 static double rounded_down(double distance) {
@@ -56,12 +57,14 @@ static double bound_of(const query_near *n, const query_contents *c, uint32_t no
 froe_status query_near_begin(froe_query *q, froe_diagnostic *diag) {
     const query_contents *contents;
     query_near *n = &q->near;
-    const froe_status status = query_contents_of(q, &contents, diag);
-    if (status) return status;
     n->places.count = n->free.count = n->heap.count = 0;
     n->scale = scale_for(q->tree->scene, n->point);
-    n->at = (query_place){bound_of(n, contents, 0), 0};
-    return FROE_OK;
+    n->packed = false;
+    if (q->space && space_walk_near(q, &n->packed)) return FROE_E_MEMORY;
+    if (n->packed) return FROE_OK;
+    const froe_status status = query_contents_of(q, &contents, diag);
+    if (!status) n->at = (query_place){bound_of(n, contents, 0), 0};
+    return status;
 }
 
 /* ------------------------------------------------------------------ places -- */
@@ -120,6 +123,7 @@ static bool go_on(froe_query *q, const query_contents *c, uint32_t child) {
 froe_status query_near_next(froe_query *q, tree_objects *list) {
     const froe_tree *t = q->tree;
     query_near *n = &q->near;
+    if (n->packed) return space_walk_next(q, list);
     const query_contents *contents;
     froe_status status = query_contents_of(q, &contents, NULL); /* they are there */
     list->count = 0;

@@ -1,5 +1,6 @@
 /* packed_avx2.c: sixteen floats in two registers, truth values as lanes of ones. */
 #include "query/packed_kernel.h"
+#include "query/space_kernel.h"
 
 #ifdef PACKED_X86
 #include <immintrin.h>
@@ -10,6 +11,7 @@
 #define LANES_KERNEL __attribute__((target(TARGET))) static
 #define KERNELS packed_kernels_avx2
 #define KERNELS_NAME "avx2"
+#define SPACE_KERNELS space_kernels_avx2
 
 typedef struct lanes {
     __m256 a, b;
@@ -20,6 +22,21 @@ LANES lanes lanes_units(const uint16_t *p) {
     __m256i a = _mm256_cvtepu16_epi32(_mm_loadu_si128((const void *)p));
     __m256i b = _mm256_cvtepu16_epi32(_mm_loadu_si128((const void *)(p + 8)));
     return (lanes){_mm256_cvtepi32_ps(a), _mm256_cvtepi32_ps(b)};
+}
+LANES lanes lanes_bytes(const uint8_t *p) {
+    __m128i all = _mm_loadu_si128((const void *)p);
+    __m256i a = _mm256_cvtepu8_epi32(all), b = _mm256_cvtepu8_epi32(_mm_srli_si128(all, 8));
+    return (lanes){_mm256_cvtepi32_ps(a), _mm256_cvtepi32_ps(b)};
+}
+LANES void lanes_store(float *x, lanes a) {
+    _mm256_storeu_ps(x, a.a);
+    _mm256_storeu_ps(x + 8, a.b);
+}
+LANES lanes lanes_sqrt(lanes x) {
+    return (lanes){_mm256_sqrt_ps(x.a), _mm256_sqrt_ps(x.b)};
+}
+LANES lanes lanes_pick(lanes_mask m, lanes x, lanes y) {
+    return (lanes){_mm256_blendv_ps(y.a, x.a, m.a), _mm256_blendv_ps(y.b, x.b, m.b)};
 }
 LANES lanes lanes_set(float x) {
     return (lanes){_mm256_set1_ps(x), _mm256_set1_ps(x)};
@@ -93,4 +110,5 @@ LANES uint32_t lanes_put(uint32_t *out, const uint32_t *ids, uint32_t bits) {
 }
 
 #include "query/packed_kernel.inc"
+#include "query/space_kernel.inc"
 #endif

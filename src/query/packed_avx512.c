@@ -1,5 +1,6 @@
 /* packed_avx512.c: sixteen floats in one register, truth values in mask registers. */
 #include "query/packed_kernel.h"
+#include "query/space_kernel.h"
 
 #ifdef PACKED_X86
 #include <immintrin.h>
@@ -10,12 +11,25 @@
 #define LANES_KERNEL __attribute__((target(TARGET))) static
 #define KERNELS packed_kernels_avx512
 #define KERNELS_NAME "avx512"
+#define SPACE_KERNELS space_kernels_avx512
 
 typedef __m512 lanes;
 typedef __mmask16 lanes_mask;
 
 LANES lanes lanes_units(const uint16_t *p) {
     return _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(_mm256_loadu_si256((const void *)p)));
+}
+LANES lanes lanes_bytes(const uint8_t *p) {
+    return _mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(_mm_loadu_si128((const void *)p)));
+}
+LANES void lanes_store(float *x, lanes a) {
+    _mm512_storeu_ps(x, a);
+}
+LANES lanes lanes_sqrt(lanes a) {
+    return _mm512_sqrt_ps(a);
+}
+LANES lanes lanes_pick(lanes_mask m, lanes a, lanes b) {
+    return _mm512_mask_blend_ps(m, b, a);
 }
 LANES lanes lanes_set(float x) {
     return _mm512_set1_ps(x);
@@ -76,4 +90,5 @@ LANES uint32_t lanes_put(uint32_t *out, const uint32_t *ids, uint32_t bits) {
 }
 
 #include "query/packed_kernel.inc"
+#include "query/space_kernel.inc"
 #endif

@@ -1,5 +1,6 @@
 /* packed_plain.c: sixteen floats as four short vectors, in the notation that gcc and clang have for any machine. */
 #include "query/packed_kernel.h"
+#include "query/space_kernel.h"
 #include <math.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #define LANES_KERNEL static
 #define KERNELS packed_kernels_plain
 #define KERNELS_NAME "plain"
+#define SPACE_KERNELS space_kernels_plain
 #define EACH for (int i = 0; i < 4; i++)
 
 typedef float floats __attribute__((vector_size(16)));
@@ -25,6 +27,22 @@ LANES lanes lanes_units(const uint16_t *p) {
     lanes r;
     EACH r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
     return r;
+}
+LANES lanes lanes_bytes(const uint8_t *p) {
+    lanes r;
+    EACH r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
+    return r;
+}
+LANES void lanes_store(float *x, lanes a) {
+    memcpy(x, &a, sizeof a);
+}
+LANES lanes lanes_sqrt(lanes a) {
+    EACH a.x[i] = (floats){sqrtf(a.x[i][0]), sqrtf(a.x[i][1]), sqrtf(a.x[i][2]), sqrtf(a.x[i][3])};
+    return a;
+}
+LANES lanes lanes_pick(lanes_mask m, lanes a, lanes b) {
+    EACH a.x[i] = pick(m.x[i], a.x[i], b.x[i]);
+    return a;
 }
 LANES lanes lanes_set(float x) {
     lanes r;
@@ -111,6 +129,7 @@ LANES uint32_t lanes_put(uint32_t *out, const uint32_t *ids, uint32_t which) {
 }
 
 #include "query/packed_kernel.inc"
+#include "query/space_kernel.inc"
 
 /* -------------------------------------------------------------- which ones -- */
 
@@ -133,4 +152,13 @@ const packed_kernels *packed_kernels_at(size_t i) {
 #endif
     all[count++] = &packed_kernels_plain;
     return i < count ? all[i] : NULL;
+}
+
+const space_kernels *space_kernels_at(size_t i) {
+    const packed_kernels *same = packed_kernels_at(i);
+#ifdef PACKED_X86
+    if (same == &packed_kernels_avx512) return &space_kernels_avx512;
+    if (same == &packed_kernels_avx2) return &space_kernels_avx2;
+#endif
+    return same ? &space_kernels_plain : NULL;
 }

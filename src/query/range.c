@@ -1,10 +1,26 @@
 /* range.c: the public calls: all objects that meet a range, how many, or one of them. */
 #include "base/status.h"
 #include "query/packed.h"
+#include "query/space.h"
 
 /* A window on a packed tree goes its own, faster way. */
+static bool is_window(const froe_range *range) {
+    return range->size == sizeof *range && range->shape == FROE_SHAPE_BOX && range->eps == 0;
+}
 static bool is_packed_window(const froe_query *q, const froe_range *range) {
-    return q->packed && range->size == sizeof *range && range->shape == FROE_SHAPE_BOX && range->eps == 0;
+    return q->packed && is_window(range);
+}
+static bool is_space_window(const froe_query *q, const froe_range *range) {
+    return q->space && q->tree->packed.wide && is_window(range);
+}
+
+static froe_status ask_space(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
+    froe_status status = query_range_check(range, 3, diag);
+    if (status) return status;
+    query_begin(q);
+    q->range.from = range;
+    status = space_range(q, range->points, range->points + 3, any);
+    return status ? base_fail_memory(diag) : FROE_OK;
 }
 
 static froe_status ask_packed(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
@@ -17,6 +33,7 @@ static froe_status ask_packed(froe_query *q, const froe_range *range, bool any, 
 
 froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
     if (is_packed_window(q, range)) return ask_packed(q, range, any, diag);
+    if (is_space_window(q, range)) return ask_space(q, range, any, diag);
     froe_status status = query_range_take(q, range, diag);
     if (status) return status;
     query_begin(q);

@@ -11,6 +11,7 @@
  * (segments, rays) have an interval of their parameter instead: origin + t direction. */
 #include "query/centroids.h"
 #include "query/cuts.h"
+#include "tree/space.h"
 #include <string.h>
 
 typedef struct walk {
@@ -42,15 +43,16 @@ static void test_list(walk *w, const tree_objects *list) {
     }
 }
 
-/* Of a list whose region is in the range: only solids may be listed where they are not. */
+/* Of a list whose region is in the range: only solids, and whatever packed trees of space hold, may be listed where
+ * they are not. */
 static void take_list(walk *w, const tree_objects *list) {
     froe_query *q = w->q;
     if (!query_expect(q, list->count)) w->memory = true;
     for (uint32_t i = 0; i < list->count && !w->memory; i++) {
         const uint32_t object = tree_object(list, i);
         if (query_seen(q, list, i, object)) continue;
-        if (w->tree->scene->forms[object] < FROE_BOX || query_range_meets(q, object, &w->memory))
-            query_found(q, object);
+        const bool there = w->tree->scene->forms[object] < FROE_BOX && !tree_is_space(w->tree);
+        if (there || query_range_meets(q, object, &w->memory)) query_found(q, object);
         if (w->r->any && q->found.count) return;
     }
 }

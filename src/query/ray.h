@@ -24,6 +24,7 @@ typedef struct query_met {
 typedef struct query_ray {
     geom_ray ray;
     double limit; /**< what the ray reaches only after this is passed over; may fall while it is walked */
+    bool packed;  /**< walked by query/space.h */
     ARRAY(query_step) steps;
     ARRAY(query_met) met;
     ARRAY(uint32_t) order;

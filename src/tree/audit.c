@@ -13,7 +13,8 @@
  *      solids crowd (crowd.h), or, in packed trees, where the builder says that more cuts would not pay.
  *   6  Promises: each holds, by the measured value and, where its name is known, measured again.
  *
- *   7  Blocks of packed trees: flags, units, and that no corner lies in a cut (packed_audit.h).
+ *   7  Blocks of packed trees: flags, units, and that no corner lies in a cut (packed_audit.h); in space, where
+ *      objects may be listed beside the cells they are in, units and boxes (space_audit.c).
  *
  * The lists are checked object by object on threads; the violation reported is that of the lowest
  * object, whatever the number of threads. O(pieces x height). */
@@ -21,6 +22,7 @@
 #include "base/task.h"
 #include "tree/inseparable.h"
 #include "tree/packed_audit.h"
+#include "tree/space.h"
 #include "tree/trace.h"
 #include "tree/validate.h"
 #include "tree/walk.h"
@@ -207,10 +209,31 @@ static const char *packed_wrong(const comparison *c, const trace_place *place, u
     return packed_refuted(c->context, c->tree, place->node, i, ring);
 }
 
+/* In packed trees of space objects may be listed beside the cells they are in; space_refuted() sees to those. */
+static bool find_place(comparison *c, const trace_place *place) {
+    tree_objects list = tree_list(c->tree, place->node);
+    while (c->next < c->end && *c->next < list.first) c->next++;
+    bool listed = c->next < c->end && *c->next - list.first < list.count;
+    return listed || !place->must || differs(c, place->node, "a piece is missing");
+}
+
+/* All pieces of an object: each right in its leaf, no two in one. */
+static bool space_pieces_right(comparison *c) {
+    uint32_t last = FROE_NONE;
+    for (const uint32_t *piece = c->next; piece < c->end; piece++) {
+        uint32_t leaf = packed_leaf(c->tree, *piece);
+        const char *why = leaf == last ? "listed twice" : space_refuted(c->context, c->tree, *piece);
+        if (why) return differs(c, leaf, why);
+        last = leaf;
+    }
+    return true;
+}
+
 /* Places and pieces come in the same order. */
 static bool compare_place(void *user, const trace_place *place) {
     comparison *c = user;
     tree_objects list = tree_list(c->tree, place->node);
+    if (tree_is_space(c->tree)) return find_place(c, place);
     if (c->next < c->end && *c->next < list.first) return stray(c);
     if (c->next == c->end || *c->next - list.first >= list.count)
         return !place->must || differs(c, place->node, "a piece is missing");
@@ -227,9 +250,11 @@ static froe_status check_object(audit *a, unsigned worker, uint32_t object, froe
     comparison c = {.tree = a->tree, .context = &a->traces[worker].context, .object = object, .diag = diag};
     c.next = a->pieces + a->starts[object];
     c.end = a->pieces + a->starts[object + 1];
+    bool space = tree_is_space(a->tree);
+    if (space && !space_pieces_right(&c)) return FROE_E_AUDIT;
     froe_status status = trace_object(a->traces + worker, object, compare_place, &c);
     if (status) return base_fail_memory(diag);
-    if (!c.failed && c.next < c.end) stray(&c);
+    if (!c.failed && !space && c.next < c.end) stray(&c);
     return c.failed ? FROE_E_AUDIT : FROE_OK;
 }
 

@@ -61,13 +61,21 @@ static uint32_t first_piece(const froe_tree *t, uint32_t node) {
     return t->nodes[node].u.list.first;
 }
 
-uint32_t packed_leaf(const froe_tree *t, uint32_t piece) {
+uint32_t packed_leaf_in(const froe_tree *t, uint32_t piece, double *lo, double *hi) {
     uint32_t node = 0;
+    for (int k = 0; k < t->scene->dim; k++) lo[k] = t->meta.root_lo[k], hi[k] = t->meta.root_hi[k];
     while (!tree_is_leaf(t->nodes + node)) {
-        uint32_t child = t->nodes[node].child;
-        node = child + (piece >= first_piece(t, child + 1));
+        const tree_node *n = t->nodes + node;
+        bool upper = piece >= first_piece(t, n->child + 1);
+        (upper ? lo : hi)[n->axis] = n->u.value;
+        node = n->child + upper;
     }
     return node;
+}
+
+uint32_t packed_leaf(const froe_tree *t, uint32_t piece) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    return packed_leaf_in(t, piece, lo, hi);
 }
 
 /* The child that holds a cell with this lower corner. */

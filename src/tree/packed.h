@@ -101,6 +101,8 @@ froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag);
 double packed_scale(const packed_box *box);
 /** The leaf that lists a piece. O(height^2), whatever the number of pieces: nothing is stored for it. */
 uint32_t packed_leaf(const froe_tree *t, uint32_t piece);
+/** The same with its cell; sides without a cut are those of the root box. */
+uint32_t packed_leaf_in(const froe_tree *t, uint32_t piece, double *lo, double *hi);
 /** The leaf that a block is of, and its cell; sides without a cut are those of the root box. O(height). */
 uint32_t packed_cell(const froe_tree *t, const packed_header *block, packed_box *box);
 /** Ring of a fragment that a leaf lists and that is not whole, as in tree.h. Exact. O(height). */

@@ -4,7 +4,7 @@
  * of the scene that a block can hold, and owners repeat the ids with PACKED_START in their order. Units may be
  * anything: they cannot lead a query astray further than to a wrong answer, and those the audit finds. */
 #include "base/status.h"
-#include "tree/packed.h"
+#include "tree/space.h"
 #include "tree/walk.h"
 #include <math.h>
 
@@ -77,6 +77,7 @@ static bool root_fits(const froe_tree *t) {
 }
 
 froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
+    if (tree_is_space(t)) return space_validate(t, diag);
     packed_check c = {.tree = t, .diag = diag};
     tree_walk walk = {.tree = t};
     froe_status status = root_fits(t) && !t->cut_count ? FROE_OK : bad(&c, 0, "not a tree that can be packed");

@@ -64,23 +64,44 @@ froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, 
     return FROE_OK;
 }
 
-froe_status packer_leaf(tree_packer *p, uint32_t node, const packed_box *box, const packed_fragment *fragments,
-                        uint32_t count, uint8_t flags) {
-    uint32_t size = packed_size(count), owner = (uint32_t)p->owners.count;
+/* Makes a node a leaf of so many pieces and blocks, which are yet to be written. */
+static froe_status take_leaf(tree_packer *p, uint32_t node, uint32_t count, uint32_t size, uint8_t flags,
+                             void **block) {
     if (count > MOST_NODES - p->piece_count) return FROE_E_LIMIT;
     froe_status status = make_room(p, size);
     if (status) return status;
-    if (!array_reserve(&p->alloc, &p->owners, count)) return FROE_E_MEMORY;
-    memset(block_at(p, p->block_count + size - 1), 0, PACKED_BLOCK); /* what follows the ids */
-    packed_write((packed_header *)(void *)block_at(p, p->block_count), box, owner, fragments, count);
-    for (uint32_t i = 0; i < count; i++) {
-        p->owners.data[p->owners.count] = fragments[i].id & PACKED_OBJECT;
-        p->owners.count += fragments[i].id >> 31;
-    }
+    *block = block_at(p, p->block_count);
     p->nodes.data[node] =
         (tree_node){.u.list = {p->piece_count, count}, .child = p->block_count, .type = TREE_LEAF, .flags = flags};
     p->piece_count += count;
     p->block_count += size;
+    return FROE_OK;
+}
+
+froe_status packer_leaf(tree_packer *p, uint32_t node, const packed_box *box, const packed_fragment *fragments,
+                        uint32_t count, uint8_t flags) {
+    uint32_t size = packed_size(count), owner = (uint32_t)p->owners.count;
+    void *block;
+    if (!array_reserve(&p->alloc, &p->owners, count)) return FROE_E_MEMORY;
+    froe_status status = take_leaf(p, node, count, size, flags, &block);
+    if (status) return status;
+    memset((uint8_t *)block + (size_t)(size - 1) * PACKED_BLOCK, 0, PACKED_BLOCK); /* what follows the ids */
+    packed_write(block, box, owner, fragments, count);
+    for (uint32_t i = 0; i < count; i++) {
+        p->owners.data[p->owners.count] = fragments[i].id & PACKED_OBJECT;
+        p->owners.count += fragments[i].id >> 31;
+    }
+    return FROE_OK;
+}
+
+froe_status packer_space_leaf(tree_packer *p, uint32_t node, const froe_scene *scene, space_item *items, uint32_t count,
+                              uint8_t flags) {
+    uint32_t triangles = space_sort(scene, items, count), size = space_size(count, triangles);
+    void *block;
+    froe_status status = take_leaf(p, node, count, size, flags, &block);
+    if (status) return status;
+    memset(block, 0, (size_t)size * PACKED_BLOCK);
+    space_write(block, scene, items, count, triangles);
     return FROE_OK;
 }
 
@@ -97,7 +118,7 @@ static froe_status seal_blocks(tree_packer *p) {
     if (status) return status;
     packed_header *sentinel = (packed_header *)(void *)block_at(p, p->block_count);
     memset(sentinel, 0, PACKED_BLOCK);
-    sentinel->owner = (uint32_t)p->owners.count;
+    sentinel->owner = (uint32_t)p->owners.count; /* 0 in trees of space */
     return FROE_OK;
 }
 

@@ -11,7 +11,7 @@
  * renumbered at the end: what is written is the tree. */
 #ifndef FROE_TREE_PACKER_H
 #define FROE_TREE_PACKER_H
-#include "tree/packed.h"
+#include "tree/space.h"
 
 typedef struct tree_packer {
     froe_allocator alloc;
@@ -31,6 +31,9 @@ froe_status packer_split(tree_packer *packer, uint32_t node, int axis, double va
 /** flags: TREE_CROWDED or 0. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status packer_leaf(tree_packer *packer, uint32_t node, const packed_box *box, const packed_fragment *fragments,
                         uint32_t count, uint8_t flags);
+/** The same in space; brings the items into the order of the block. FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status packer_space_leaf(tree_packer *packer, uint32_t node, const froe_scene *scene, space_item *items,
+                              uint32_t count, uint8_t flags);
 /** The finished tree, which takes the packer's arrays and holds the scene. FROE_E_MEMORY. */
 froe_status packer_seal(tree_packer *packer, froe_scene *scene, const tree_meta *meta, froe_tree **out);
 #endif

@@ -46,7 +46,7 @@ static bool grid_fits(const froe_tree *t) {
         double side = t->meta.root_hi[k] - t->meta.root_lo[k];
         if (!(side >= 0x1p-900 && side <= 0x1p900)) return false;
     }
-    return tree_is_packed(t);
+    return tree_is_packed(t) && t->scene->dim == 2;
 }
 
 /* ----------------------------------------------------------------- filling -- */

@@ -1,8 +1,8 @@
 /* tree.c: what a finished tree tells about itself: nodes, cuts, pieces, counts. */
 #include "tree/file.h"
-#include "tree/packed.h"
 #include "tree/table.h"
 #include "tree/walk.h"
+#include "tree/wide.h"
 #include <string.h>
 #include <sys/mman.h>
 
@@ -27,6 +27,7 @@ void froe_tree_free(froe_tree *tree) {
     froe_allocator alloc = tree->alloc;
     tree_spare_free(&alloc, tree->spare);
     tree_table_free(&alloc, tree->packed.table);
+    tree_wide_free(&alloc, tree->packed.wide);
     froe_scene_free(tree->scene); /* before the map: its arrays may lie there */
     if (tree->map) {
         munmap(tree->map, tree->map_size);
@@ -102,7 +103,7 @@ static froe_status count_nodes(const froe_tree *t, froe_report *r) {
 }
 
 static uint64_t count_bytes(const froe_tree *t) {
-    uint64_t sum = t->packed.table ? tree_table_bytes(t->packed.table) : 0, size;
+    uint64_t sum = tree_table_bytes(t->packed.table) + tree_wide_bytes(t->packed.wide), size;
     const void *data;
     for (int id = FILE_NODES; id < FILE_END; id++)
         if (file_is_of_tree((file_id)id)) file_part(t, (file_id)id, &data, &size), sum += size;
@@ -126,6 +127,7 @@ froe_status tree_finish(froe_tree *t) {
     t->promises[t->meta.promise_count] = (froe_promise){0};
     froe_status status = count_nodes(t, &r);
     if (!status) status = tree_table_new(t, &t->packed.table);
+    if (!status) status = tree_wide_new(t, &t->packed.wide);
     if (!status) status = tree_spare_new(&t->alloc, &t->spare);
     r.bytes = count_bytes(t);
     t->report = r;
@@ -169,9 +171,20 @@ froe_node_info froe_tree_node(const froe_tree *tree, froe_node node) {
 }
 
 /* A fragment of a segment has two corners, as the segment has. */
-static froe_piece packed_piece(const froe_tree *t, uint32_t piece) {
+static froe_piece plane_piece(const froe_tree *t, uint32_t piece) {
     uint32_t id = packed_id(t, piece), object = id & PACKED_OBJECT;
     return (froe_piece){object, packed_is_whole(id), scene_corners(t->scene, object)};
+}
+
+static uint32_t piece_corners(const froe_scene *s, uint32_t object) {
+    return scene_form(s, object) == FROE_BALL ? 1 : scene_corners(s, object);
+}
+
+/* Nothing is cut in packed trees of space. */
+static froe_piece space_piece(const froe_tree *t, uint32_t piece) {
+    tree_objects list = tree_list(t, packed_leaf(t, piece));
+    uint32_t object = tree_object(&list, piece - list.first);
+    return (froe_piece){object, true, piece_corners(t->scene, object)};
 }
 
 size_t froe_tree_piece_count(const froe_tree *tree) {
@@ -180,12 +193,13 @@ size_t froe_tree_piece_count(const froe_tree *tree) {
 
 froe_piece froe_tree_piece(const froe_tree *tree, size_t piece) {
     if (piece >= tree->piece_count) return (froe_piece){.object = FROE_NONE};
-    if (tree_is_packed(tree)) return packed_piece(tree, (uint32_t)piece);
+    if (tree_is_space(tree)) return space_piece(tree, (uint32_t)piece);
+    if (tree_is_packed(tree)) return plane_piece(tree, (uint32_t)piece);
     const tree_piece *p = tree->pieces + piece;
     froe_piece out = {.object = p->object, .whole = !p->ring};
     if (p->ring)
         out.corners = tree->bounds[p->ring];
     else
-        out.corners = scene_form(tree->scene, p->object) == FROE_BALL ? 1 : scene_corners(tree->scene, p->object);
+        out.corners = piece_corners(tree->scene, p->object);
     return out;
 }

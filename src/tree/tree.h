@@ -56,6 +56,7 @@ typedef struct tree_piece { /* 8 bytes */
 } tree_piece;
 
 typedef struct tree_table tree_table;
+typedef struct tree_wide tree_wide;
 
 #define TREE_PROMISES 12
 #define TREE_TEXT 512
@@ -81,7 +82,8 @@ typedef struct tree_packed {
     uint32_t *owners;
     void *memory; /**< that blocks lie in; NULL: in a mapped file */
     size_t memory_size;
-    tree_table *table; /**< follows from the nodes; see tree/table.h */
+    tree_table *table; /**< of the plane; follows from the nodes: tree/table.h */
+    tree_wide *wide;   /**< of space; follows from the nodes and boxes: tree/wide.h */
 } tree_packed;
 
 /** A number context for calls that have no other (corners.c). */
@@ -121,9 +123,10 @@ typedef struct tree_objects {
 static inline bool tree_is_packed(const froe_tree *t) {
     return t->packed.blocks;
 }
-/** List of a packed leaf: in its block, behind 32 bytes and 8 for each fragment (tree/packed.h). */
+/** List of a packed leaf: in its block, behind 32 bytes and 8 for each fragment (tree/packed.h); in space behind 64
+ * (tree/space.h). */
 static inline tree_objects tree_packed_list(const froe_tree *t, const tree_node *n) {
-    size_t count = n->u.list.count, at = (size_t)n->child * 64 + 32 + 8 * count;
+    size_t count = n->u.list.count, at = (size_t)n->child * 64 + (t->scene->dim == 3 ? 64 : 32 + 8 * count);
     return (tree_objects){.at = (const uint32_t *)(const void *)(t->packed.blocks + at),
                           .stride = 1,
                           .mask = 0x3fffffffu,

@@ -2,6 +2,7 @@
 #include "view/order.h"
 #include "base/status.h"
 #include "geom/predicates.h"
+#include "tree/space.h"
 #include <math.h>
 
 froe_status view_order_begin(view_order *order, const froe_tree *tree, const geom_eye *eye, bool front_to_back,
@@ -167,6 +168,10 @@ froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
     num_context context;
     froe_status status = check_kinds(tree->scene, diag);
     if (status) return status;
+    if (tree_is_space(tree))
+        return base_fail(diag, FROE_E_UNSUPPORTED,
+                         "a tree of method '%s' lists whole objects, which are in no depth order: build another one",
+                         tree->meta.method);
     if (tree->report.max_leaf <= 1) return FROE_OK;
     if (num_context_new(&tree->alloc, &context)) return base_fail_memory(diag);
     for (uint32_t node = 0; node < tree->node_count && !status; node++) {

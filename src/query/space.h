@@ -1,0 +1,42 @@
+/* space.h: searches of packed trees of space (tree/space.h), by their wide nodes (tree/wide.h).
+ *
+ *     stack     [ ... | key, what | key, what ]     wide nodes, leaves and objects, the least key on top
+ *
+ * A walk takes what is on top: of a node it puts the children back that may be met, of a leaf the objects; an
+ * object it hands out, to be decided exactly by whoever asked. Keys are lower bounds: of a ray's parameter, or of
+ * squared distances. So objects come nearly in order, few are looked at that are not the answer, and of those that
+ * could be it none is missed. */
+#ifndef FROE_QUERY_SPACE_H
+#define FROE_QUERY_SPACE_H
+#include "query/context.h"
+#include "query/space_kernel.h"
+
+/** What a context has for packed trees of space. */
+typedef struct space_work {
+    const space_kernels *kernels;
+    bool near; /**< by distance, not along a ray */
+    space_ray ray;
+    space_point point;
+    double per;      /**< units of the ray's parameter, of squared distances, per 1 */
+    double told;     /**< the limit as it was last seen, and ... */
+    float limit;     /**< ... what it means for keys */
+    uint32_t object; /**< the one handed out */
+    ARRAY(uint64_t) stack;
+    ARRAY(uint32_t) objects, others; /**< from kernels */
+    ARRAY(float) keys;
+} space_work;
+
+froe_status space_work_new(const froe_tree *t, space_work **out);
+void space_work_free(space_work *work, const froe_allocator *alloc);
+
+/** Begins along query->ray, or around query->near.point. *begun false: these are not for single precision, and the
+ * general walk has to do it. FROE_E_MEMORY. */
+froe_status space_walk_ray(froe_query *query, bool *begun);
+froe_status space_walk_near(froe_query *query, bool *begun);
+/** The next object, as a list; none: there is none left. FROE_E_MEMORY. */
+froe_status space_walk_next(froe_query *query, tree_objects *list);
+
+/** Objects that meet a closed box, or, with `any`, some of them if there are any: they are query->found. The caller
+ * has begun the query and set query->range.from. FROE_E_MEMORY. */
+froe_status space_range(froe_query *query, const double *lo, const double *hi, bool any);
+#endif

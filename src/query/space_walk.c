@@ -1,0 +1,208 @@
+/* space_walk.c: objects along a ray, or around a point, in the order of lower bounds.
+ *
+ * In the coordinates of the wide tree the scene is within [-1/2, 1/2]. A ray o + t d becomes o' + u d' with u = t *
+ * per, by powers of 2 alone but for o' = (o - middle) * scale; keys are u - start, where it comes to the scene. */
+#include "query/space.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define OBJECT 0x40000000u
+enum { MOST_SORTED = 64 };
+
+froe_status space_work_new(const froe_tree *t, space_work **out) {
+    *out = base_calloc(&t->alloc, 1, sizeof **out);
+    if (!*out) return FROE_E_MEMORY;
+    (*out)->kernels = space_kernels_at(0);
+    return FROE_OK;
+}
+
+void space_work_free(space_work *work, const froe_allocator *alloc) {
+    if (!work) return;
+    array_free(alloc, &work->stack);
+    array_free(alloc, &work->objects);
+    array_free(alloc, &work->others);
+    array_free(alloc, &work->keys);
+    base_free(alloc, work, sizeof *work);
+}
+
+/* ------------------------------------------------------------------- begin -- */
+
+static froe_status begin(froe_query *q, bool near, bool meets) {
+    space_work *w = q->space;
+    w->near = near;
+    w->told = -1;
+    w->stack.count = 0;
+    return !meets || array_push(&q->alloc, &w->stack, 0) ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* Rounding of o', of planes and of their difference costs 2^-51 of their sizes; where the ray hardly moves along an
+ * axis, it is taken to move by 2^-60, which is nothing beside 2^-37. */
+static bool frame_axis(space_ray *r, int k) {
+    bool slow = fabs(r->d[k]) < 0x1p-60;
+    r->inverse[k] = slow ? copysign(0x1p60, r->d[k]) : 1 / r->d[k];
+    r->slack[k] = fabs(r->inverse[k]) * (0x1p-48 * (fabs(r->o[k]) + 1) + (slow ? 0x1p-37 : 0));
+    return fabs(r->o[k]) <= 0x1p20;
+}
+
+static void order_axes(space_ray *r) {
+    int last = fabs(r->d[1]) > fabs(r->d[0]) ? 1 : 0;
+    if (fabs(r->d[2]) > fabs(r->d[last])) last = 2;
+    for (int k = 0, i = 0; k < 3; k++)
+        if (k != last) r->axis[i++] = k;
+    r->axis[2] = last;
+}
+
+/* False: it misses the scene. */
+static bool find_start(space_ray *r, const tree_meta *m) {
+    double enter = 0, leave = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        double a = (m->root_lo[k] - r->wide->middle[k]) * r->wide->scale;
+        double b = (m->root_hi[k] - r->wide->middle[k]) * r->wide->scale;
+        double s = (a - r->o[k]) * r->inverse[k], t = (b - r->o[k]) * r->inverse[k];
+        enter = fmax(enter, fmin(s, t) - r->slack[k]);
+        leave = fmin(leave, fmax(s, t) + r->slack[k]);
+    }
+    r->start = enter;
+    for (int k = 0; k < 3; k++) r->slack[k] += 0x1p-50 * enter;
+    return enter <= leave;
+}
+
+froe_status space_walk_ray(froe_query *q, bool *begun) {
+    const tree_wide *wide = q->tree->packed.wide;
+    const geom_ray *ray = &q->ray.ray;
+    space_ray *r = &q->space->ray;
+    double most = 0;
+    int exponent;
+    for (int k = 0; k < 3; k++) most = fmax(most, fabs(ray->d[k]));
+    frexp(most, &exponent);
+    *begun = wide && exponent > -300 && exponent < 300;
+    r->wide = wide;
+    for (int k = 0; *begun && k < 3; k++) {
+        r->d[k] = ldexp(ray->d[k], -exponent);
+        r->o[k] = (ray->o[k] - wide->middle[k]) * wide->scale;
+        *begun = frame_axis(r, k);
+    }
+    if (!*begun) return FROE_OK;
+    order_axes(r);
+    q->space->per = ldexp(wide->scale, exponent);
+    return begin(q, false, find_start(r, &q->tree->meta));
+}
+
+froe_status space_walk_near(froe_query *q, bool *begun) {
+    const tree_wide *wide = q->tree->packed.wide;
+    space_point *p = &q->space->point;
+    *begun = wide;
+    p->wide = wide;
+    for (int k = 0; *begun && k < 3; k++) {
+        p->x[k] = q->near.point[k];
+        p->at[k] = (p->x[k] - wide->middle[k]) * wide->scale;
+        *begun = fabs(p->at[k]) <= 0x1p10;
+    }
+    if (!*begun) return FROE_OK;
+    q->space->per = (wide->scale / q->near.scale) * (wide->scale / q->near.scale);
+    return begin(q, true, true);
+}
+
+/* -------------------------------------------------------------------- limit -- */
+
+/* Rounded up. */
+static float limit_of(const space_work *w, double limit) {
+    double x = limit * w->per, start = w->near ? 0 : w->ray.start;
+    x = x + 0x1p-20 * fabs(x - start) + 0x1p-50 * start - start;
+    if (x < 0) return -1;
+    return x < FLT_MAX ? (float)(x * (1 + 0x1p-22)) + FLT_MIN : (float)INFINITY;
+}
+
+static float current_limit(froe_query *q) {
+    space_work *w = q->space;
+    double limit = w->near ? q->near.limit : q->ray.limit;
+    if (limit != w->told) w->told = limit, w->limit = limit_of(w, limit);
+    return w->limit;
+}
+
+/* -------------------------------------------------------------------- stack -- */
+
+static uint64_t entry(float key, uint32_t what) {
+    uint32_t bits;
+    memcpy(&bits, &key, sizeof bits); /* of numbers that are not negative: in their order */
+    return (uint64_t)bits << 32 | what;
+}
+
+/* The last entries, so that the least is on top. */
+static void sort_top(space_work *w, size_t from) {
+    uint64_t *e = w->stack.data;
+    if (w->stack.count - from > MOST_SORTED) return;
+    for (size_t i = from + 1; i < w->stack.count; i++) {
+        uint64_t x = e[i];
+        size_t j = i;
+        for (; j > from && e[j - 1] < x; j--) e[j] = e[j - 1];
+        e[j] = x;
+    }
+}
+
+/* All of a node, and of a leaf as much as one of 24 triangles has. */
+static void ask_for(const froe_tree *t, uint32_t child) {
+    const bool leaf = child & WIDE_LEAF;
+    const uint8_t *at = leaf ? t->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK
+                             : (const uint8_t *)(t->packed.wide->nodes + child);
+    for (int i = 0; i < (leaf ? 640 : 192); i += 64) __builtin_prefetch(at + i);
+}
+
+static bool push_children(froe_query *q, uint32_t index) {
+    space_work *w = q->space;
+    const wide_node *n = q->tree->packed.wide->nodes + index;
+    float keys[PACKED_LANES];
+    size_t from = w->stack.count;
+    uint32_t bits = w->near ? w->kernels->near_node(n, &w->point, w->limit, keys)
+                            : w->kernels->ray_node(n, &w->ray, w->limit, keys);
+    q->stats.nodes++;
+    if (!array_reserve(&q->alloc, &w->stack, PACKED_LANES)) return false;
+    for (; bits; bits &= bits - 1) {
+        uint32_t i = (uint32_t)__builtin_ctz(bits);
+        ask_for(q->tree, n->child[i]);
+        w->stack.data[w->stack.count++] = entry(keys[i], n->child[i]);
+    }
+    sort_top(w, from);
+    return true;
+}
+
+static bool push_objects(froe_query *q, uint32_t block, float key) {
+    space_work *w = q->space;
+    const space_header *h = space_block(q->tree, block);
+    const size_t room = h->count + PACKED_LANES, from = w->stack.count;
+    if (!array_reserve(&q->alloc, &w->objects, room) || !array_reserve(&q->alloc, &w->keys, room) ||
+        !array_reserve(&q->alloc, &w->stack, room))
+        return false;
+    space_found found = {w->objects.data, w->keys.data, 0};
+    if (w->near)
+        w->kernels->near(h, &w->point, key, w->limit, &found);
+    else
+        w->kernels->ray(h, &w->ray, key, w->limit, &found);
+    q->stats.leaves++;
+    for (size_t i = 0; i < found.count; i++)
+        w->stack.data[w->stack.count++] = entry(found.keys[i], OBJECT | found.objects[i]);
+    sort_top(w, from);
+    return true;
+}
+
+froe_status space_walk_next(froe_query *q, tree_objects *list) {
+    space_work *w = q->space;
+    const float limit = current_limit(q);
+    list->count = 0;
+    while (w->stack.count) {
+        const uint64_t top = w->stack.data[--w->stack.count];
+        const uint32_t bits = (uint32_t)(top >> 32), what = (uint32_t)top;
+        float key;
+        memcpy(&key, &bits, sizeof key);
+        if (key > limit) continue;
+        if (what & OBJECT && !(what & WIDE_LEAF)) {
+            w->object = what & WIDE_INDEX;
+            *list = (tree_objects){.at = &w->object, .stride = 1, .mask = UINT32_MAX, .count = 1};
+            return FROE_OK;
+        }
+        if (!(what & WIDE_LEAF ? push_objects(q, what & WIDE_INDEX, key) : push_children(q, what)))
+            return FROE_E_MEMORY;
+    }
+    return FROE_OK;
+}

@@ -1,0 +1,258 @@
+/* Packed trees of space: the same answers as brute force, on all kernels that the machine has; validation and audit of
+ * blocks. (What tests/query asks of all builders is asked of these, too.) */
+#include "oracle/convex.h"
+#include "query/space.h"
+#include "tree/trees.h"
+#include "tree/validate.h"
+#include <stdlib.h>
+
+typedef struct kind_of_scene {
+    const char *name;
+    uint32_t count, grid, leaf;
+    double size, scale, shift;
+} kind_of_scene;
+
+static const kind_of_scene kinds[] = {
+    {"random", 600, 0, 24, 0.2, 1, 0},
+    {"large", 150, 0, 8, 1.2, 1, 0},
+    {"small leaves", 300, 0, 2, 0.3, 1, 0},
+    {"lattice", 300, 6, 8, 0.6, 1, 0},
+    {"huge", 200, 0, 6, 0.5, 0x1p390, 0},
+    {"too large for single precision", 100, 0, 6, 0.5, 0x1p900, 0},
+    {"tiny", 200, 0, 6, 0.5, 0x1p-390, 0},
+    {"far away", 300, 0, 8, 0.2, 1, 0x1p30},
+    {"so far away that units are less than doubles can tell", 300, 0, 8, 0.2, 0x1p-8, 0x1p40},
+    {"one", 1, 0, 24, 0.2, 1, 0},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds, QUERIES = 120 };
+
+static double place(const kind_of_scene *k, double x) {
+    return (k->grid ? floor(x * k->grid) : x) * k->scale + k->shift;
+}
+
+/* Triangles, and a few of everything else. */
+static froe_tree *tree_of(const kind_of_scene *k) {
+    froe_scene *scene;
+    froe_tree *tree;
+    froe_diagnostic why;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < k->count; i++) {
+        double c[9], lo[3], hi[3], radius = 0.05 * k->scale;
+        for (uint32_t j = 0; j < 9; j++) {
+            double at = trees_unit(1, 9 * i + j % 3), x = at + k->size * (trees_unit(2, 9 * i + j) - 0.5);
+            c[j] = place(k, x);
+        }
+        assert_int_equal(trees_add(scene, FROE_POLYGON, 1, c, NULL, NULL), FROE_OK);
+        for (int j = 0; j < 3; j++) lo[j] = fmin(c[j], c[3 + j]), hi[j] = fmax(c[j], c[3 + j]);
+        const double box[6] = {lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]};
+        if (i % 10 == 3) assert_int_equal(trees_add(scene, FROE_BOX, 1, box, NULL, NULL), FROE_OK);
+        froe_objects ball = froe_objects_defaults();
+        ball.kind = FROE_BALL, ball.count = 1, ball.coords = c, ball.radii = &radius;
+        if (i % 10 == 5) assert_int_equal(froe_scene_add(scene, &ball, NULL), FROE_OK);
+        if (i % 10 == 7) assert_int_equal(trees_add(scene, FROE_SEGMENT, 1, c, NULL, NULL), FROE_OK);
+        if (i % 10 == 9) assert_int_equal(trees_add(scene, FROE_POINT, 1, c, NULL, NULL), FROE_OK);
+    }
+    froe_build_options o = froe_build_defaults();
+    o.method = "index", o.leaf = k->leaf;
+    if (froe_build(scene, &o, &tree, &why)) fail_msg("%s: %s", k->name, why.message);
+    froe_scene_free(scene);
+    assert_true(tree_is_space(tree));
+    if (froe_tree_audit(tree, NULL, &why)) fail_msg("%s: %s", k->name, why.message);
+    return tree;
+}
+
+/* Coordinates that a search may trip over: of corners, of cuts, anything in and around the scene. */
+static void odd_point(const froe_tree *t, uint64_t draw, double x[3]) {
+    const froe_scene *s = t->scene;
+    for (int k = 0; k < 3; k++) {
+        double lo = t->meta.root_lo[k], hi = t->meta.root_hi[k],
+               share = 1.2 * trees_unit(11, 3 * draw + (uint64_t)k) - 0.1;
+        const tree_node *node = t->nodes + trees_random(12, 3 * draw + (uint64_t)k, t->node_count);
+        x[k] = lo * (1 - share) + hi * share;
+        uint32_t style = trees_random(13, 3 * draw + (uint64_t)k, 5);
+        if (style == 0) x[k] = scene_vertex(s, trees_random(14, 3 * draw + (uint64_t)k, s->vertex_count))[k];
+        if (style == 1 && !tree_is_leaf(node) && node->axis == k) x[k] = node->u.value;
+    }
+    if (draw % 4 == 0) memcpy(x, scene_vertex(s, trees_random(15, draw, s->vertex_count)), 3 * sizeof *x);
+}
+
+/* A general tree of the same scene, which other tests compare with oracles. */
+static froe_tree *reference_of(const froe_tree *t) {
+    froe_build_options o = froe_build_defaults();
+    froe_tree *tree;
+    o.method = "density", o.leaf = 1000000;
+    assert_int_equal(froe_build(t->scene, &o, &tree, NULL), FROE_OK);
+    return tree;
+}
+
+static int ascending(const void *a, const void *b) {
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+static void check_window(froe_query *q, froe_query *reference, uint64_t draw, const char *name) {
+    double w[6], x[3], y[3];
+    froe_range range = froe_range_defaults();
+    froe_list found, wanted;
+    uint64_t count;
+    odd_point(q->tree, 2 * draw, x);
+    odd_point(q->tree, 2 * draw + 1, y);
+    for (int k = 0; k < 3; k++) {
+        double step = trees_unit(21, draw) * 0.3 * (y[k] - x[k]);
+        double other = draw % 3 == 0 ? y[k] : draw % 3 == 1 ? x[k] + step : x[k];
+        w[k] = fmin(x[k], other), w[3 + k] = fmax(x[k], other);
+        if (draw % 11 == 7) w[k] = -INFINITY;
+    }
+    range.points = w;
+    assert_int_equal(froe_query_range(reference, &range, &wanted, NULL), FROE_OK);
+    assert_int_equal(froe_query_range(q, &range, &found, NULL), FROE_OK);
+    qsort((void *)(uintptr_t)found.ids, found.count, sizeof *found.ids, ascending);
+    qsort((void *)(uintptr_t)wanted.ids, wanted.count, sizeof *wanted.ids, ascending);
+    if (found.count != wanted.count || (found.count && memcmp(found.ids, wanted.ids, found.count * sizeof *found.ids)))
+        fail_msg("%s, window %d: %zu objects, not %zu", name, (int)draw, found.count, wanted.count);
+    size_t wanted_count = wanted.count;
+    assert_int_equal(froe_query_count(q, &range, &count, NULL), FROE_OK);
+    assert_int_equal(count, wanted_count);
+}
+
+static void check_ray(froe_query *q, froe_query *reference, uint64_t draw, const char *name) {
+    double o[3], to[3], d[3];
+    froe_hit hit, wanted;
+    uint32_t any;
+    odd_point(q->tree, 1000 + 2 * draw, o);
+    odd_point(q->tree, 1001 + 2 * draw, to);
+    for (int k = 0; k < 3; k++) d[k] = to[k] - o[k];
+    if (draw % 5 == 1) d[draw % 3] = 0;
+    if (draw % 7 == 1) d[draw % 3] *= 0x1p-70;
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0) d[2] = q->tree->meta.root_hi[2] - q->tree->meta.root_lo[2];
+    if (d[2] == 0 && d[0] == 0 && d[1] == 0) d[2] = 1;
+    if (draw % 9 == 2)
+        for (int k = 0; k < 3; k++) o[k] -= 100 * d[k];
+    assert_int_equal(froe_query_ray(reference, o, d, INFINITY, &wanted, NULL), FROE_OK);
+    assert_int_equal(froe_query_ray(q, o, d, INFINITY, &hit, NULL), FROE_OK);
+    if (hit.object != wanted.object || hit.t != wanted.t)
+        fail_msg("%s, ray %d: object %u at %a, not %u at %a", name, (int)draw, hit.object, hit.t, wanted.object,
+                 wanted.t);
+    assert_int_equal(froe_query_ray_any(q, o, d, INFINITY, &any, NULL), FROE_OK);
+    assert_int_equal(any == FROE_NONE, wanted.object == FROE_NONE);
+}
+
+static void check_near(froe_query *q, froe_query *reference, uint64_t draw, const char *name) {
+    double x[3];
+    froe_neighbours found, wanted;
+    odd_point(q->tree, 5000 + draw, x);
+    size_t k = 1 + draw % 4;
+    assert_int_equal(froe_query_near(reference, x, k, INFINITY, &wanted, NULL), FROE_OK);
+    assert_int_equal(froe_query_near(q, x, k, INFINITY, &found, NULL), FROE_OK);
+    assert_int_equal(found.count, wanted.count);
+    for (size_t i = 0; i < found.count; i++)
+        if (found.items[i].object != wanted.items[i].object || found.items[i].distance != wanted.items[i].distance)
+            fail_msg("%s, point %d: neighbour %zu is %u, not %u", name, (int)draw, i, found.items[i].object,
+                     wanted.items[i].object);
+}
+
+static void every_kernel_gives_the_answers_of_general_trees(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        froe_tree *tree = tree_of(kinds + i), *general = reference_of(tree);
+        for (size_t kernel = 0; space_kernels_at(kernel); kernel++) {
+            froe_query *q, *reference;
+            assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+            assert_int_equal(froe_query_new(general, &reference, NULL), FROE_OK);
+            q->space->kernels = space_kernels_at(kernel);
+            for (uint64_t draw = 0; draw < QUERIES; draw++) {
+                check_window(q, reference, draw, kinds[i].name);
+                check_ray(q, reference, draw, kinds[i].name);
+                check_near(q, reference, draw, kinds[i].name);
+            }
+            froe_query_free(q);
+            froe_query_free(reference);
+        }
+        froe_tree_free(general);
+        froe_tree_free(tree);
+    }
+}
+
+/* ------------------------------------------------------------------- kernels -- */
+
+static void assert_same(const space_found *a, const space_found *b) {
+    assert_int_equal(a->count, b->count);
+    assert_memory_equal(a->objects, b->objects, a->count * sizeof *a->objects);
+    assert_memory_equal(a->keys, b->keys, a->count * sizeof *a->keys);
+}
+
+/* Bit for bit. */
+static void kernels_agree(void **state) {
+    froe_tree *t = tree_of(kinds + 1);
+    const tree_wide *wide = t->packed.wide;
+    const space_kernels *first = space_kernels_at(0), *other;
+    uint32_t room = (uint32_t)t->report.max_leaf + PACKED_LANES, objects[2][512];
+    float keys[2][512], near[2][PACKED_LANES];
+    froe_query *q;
+    (void)state;
+    assert_true(room <= 512);
+    assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
+    for (size_t kernel = 1; (other = space_kernels_at(kernel)); kernel++)
+        for (uint64_t draw = 0; draw < 20; draw++) {
+            bool begun;
+            odd_point(t, 2 * draw, q->ray.ray.o);
+            odd_point(t, 2 * draw + 1, q->ray.ray.d);
+            memcpy(q->near.point, q->ray.ray.o, sizeof(double[3]));
+            q->near.scale = 1;
+            assert_int_equal(space_walk_ray(q, &begun), FROE_OK);
+            assert_true(begun);
+            assert_int_equal(space_walk_near(q, &begun), FROE_OK);
+            assert_true(begun);
+            for (size_t n = 0; n < wide->count; n++) {
+                const wide_node *node = wide->nodes + n;
+                uint32_t a = first->ray_node(node, &q->space->ray, INFINITY, near[0]);
+                assert_int_equal(a, other->ray_node(node, &q->space->ray, INFINITY, near[1]));
+                assert_memory_equal(near[0], near[1], node->count * sizeof(float));
+                a = first->near_node(node, &q->space->point, 1, near[0]);
+                assert_int_equal(a, other->near_node(node, &q->space->point, 1, near[1]));
+                assert_memory_equal(near[0], near[1], node->count * sizeof(float));
+            }
+            for (uint32_t n = 0; n < t->node_count; n++) {
+                if (!tree_is_leaf(t->nodes + n)) continue;
+                const space_header *h = space_block(t, t->nodes[n].child);
+                space_found a = {objects[0], keys[0], 0}, b = {objects[1], keys[1], 0};
+                first->ray(h, &q->space->ray, 0, INFINITY, &a);
+                other->ray(h, &q->space->ray, 0, INFINITY, &b);
+                assert_same(&a, &b);
+                a.count = b.count = 0;
+                first->near(h, &q->space->point, 0, 0.5f, &a);
+                other->near(h, &q->space->point, 0, 0.5f, &b);
+                assert_same(&a, &b);
+            }
+        }
+    froe_query_free(q);
+    froe_tree_free(t);
+}
+
+/* -------------------------------------------------------------------- blocks -- */
+
+/* Every byte of a block changed in turn: refused, or found by the audit, or of no consequence for answers. */
+static void damaged_blocks_are_noticed(void **state) {
+    const kind_of_scene k = {"small", 12, 0, 6, 0.5, 1, 0};
+    froe_tree *t = tree_of(&k);
+    size_t bytes = (size_t)t->packed.block_count * PACKED_BLOCK, silent = 0;
+    (void)state;
+    for (size_t i = 0; i < bytes; i++) {
+        const uint8_t was = t->packed.blocks[i];
+        t->packed.blocks[i] = (uint8_t)(was ^ 0x20);
+        if (!tree_validate(t, NULL) && !froe_tree_audit(t, NULL, NULL)) silent++;
+        t->packed.blocks[i] = was;
+    }
+    assert_int_equal(froe_tree_audit(t, NULL, NULL), FROE_OK);
+    if (silent * 8 > bytes) fail_msg("%zu of %zu bytes", silent, bytes); /* a wider box does no harm */
+    froe_tree_free(t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kernel_gives_the_answers_of_general_trees),
+        cmocka_unit_test(kernels_agree),
+        cmocka_unit_test(damaged_blocks_are_noticed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
