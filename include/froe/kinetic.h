@@ -146,6 +146,96 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
 FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
                                           froe_contact_fn *fn, void *user, froe_diagnostic *diag);
 
+/* --------------------------------------------------------------- partition -- */
+
+/** A cylindrical partition of a motion (Agarwal, Erickson and Guibas, "Kinetic BSPs for intersecting segments and
+ * disjoint triangles", SODA 1998) that is kept right while time goes on: at each tick it stands at it is, node for
+ * node, what the builder `cylindrical` would make of the same segments in the same order. */
+typedef struct froe_kinetic froe_kinetic;
+
+typedef struct froe_kinetic_options {
+    size_t size;           /**< set by froe_kinetic_defaults() */
+    uint64_t seed;         /**< of the order in which segments cut; default 1 */
+    const uint32_t *order; /**< all objects, the first to cut first; NULL: random. Motion must not depend on it */
+    uint64_t epoch; /**< a fresh random order after so many events, against motion that adapts itself to the order;
+                         0 (default): never. Not with `order` */
+} froe_kinetic_options;
+FROE_API froe_kinetic_options froe_kinetic_defaults(void);
+
+/** The partition at the first odd tick of the window. The motion must outlive it; while it lives, plans are changed and
+ * objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one, FROE_E_MEMORY.
+ * Expected O(n log^2 n + k log n) for n segments with k crossings. */
+FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
+                                      const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
+FROE_API void froe_kinetic_free(froe_kinetic *kinetic);
+
+/** What happens at an instant. */
+typedef enum froe_event_kind {
+    FROE_EVENT_VERTICES,        /**< a vertex passes over or under another */
+    FROE_EVENT_VERTEX_CROSSING, /**< a vertex passes over or under a crossing */
+    FROE_EVENT_CROSSINGS,       /**< a crossing passes over or under another */
+    FROE_EVENT_CONTACT,         /**< an end of a segment meets another segment */
+    FROE_EVENT_TRIPLE,          /**< three segments meet in one point */
+    FROE_EVENT_TURN,            /**< the ends of a segment change sides */
+    FROE_EVENT_BATCH,           /**< several of these at once, at the same place or one above the other */
+    FROE_EVENT_PLAN,            /**< the flight of a segment takes another piece */
+    FROE_EVENT_APPEAR,
+    FROE_EVENT_DISAPPEAR,
+    FROE_EVENT_KINDS
+} froe_event_kind;
+FROE_API const char *froe_event_name(froe_event_kind kind);
+
+typedef struct froe_event {
+    froe_event_kind kind;
+    uint32_t objects[4];   /**< the segments it is about; of several that share a vertex, one */
+    unsigned object_count; /**< may be more than 4 for batches: the others are not told */
+    int64_t tick;          /**< at which the partition has changed */
+    double early, late;    /**< it happened after `early`, and at or before `late`, the time of the tick */
+} froe_event;
+
+/** Told of each event, in the order in which they happen. false: froe_kinetic_advance returns when the tick is done. */
+typedef bool froe_event_fn(void *user, const froe_event *event);
+
+/** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; what happens is told to `visit`
+ * (may be NULL). FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free it.
+ * FROE_E_CANCELLED: `visit` said so; the partition stands right after the event. Expected polylogarithmic in n for
+ * each event, if the motion does not depend on the order. */
+FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
+                                          froe_diagnostic *diag);
+/** The time of the tick at which it stands. */
+FROE_API double froe_kinetic_time(const froe_kinetic *kinetic);
+/** The time of the tick of the next event at the earliest; INFINITY: nothing happens in the rest of the window. */
+FROE_API double froe_kinetic_next(const froe_kinetic *kinetic);
+
+/** Objects added to the motion meanwhile take part from now on. Those whose time has come appear at once. */
+FROE_API froe_status froe_kinetic_update(froe_kinetic *kinetic, froe_diagnostic *diag);
+/** Gives a vertex another plan from now on, as in froe_moving: `count` times, coordinates and controls (NULL: linear).
+ * Where it is now may change: then its segments leave here and appear there. The failures of froe_motion_add, and then
+ * nothing is changed. */
+FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex, size_t count, const double *times,
+                                         const double *coords, const double *controls, froe_diagnostic *diag);
+/** Takes an object out, for good. FROE_E_ARG: there is no such object. */
+FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object, froe_diagnostic *diag);
+
+/** Is everything as it should be? Certificates, and each node against a partition made from scratch. FROE_E_INPUT: no;
+ * FROE_E_MEMORY. For tests: as expensive as a new one. */
+FROE_API froe_status froe_kinetic_audit(froe_kinetic *kinetic, froe_diagnostic *diag);
+
+typedef struct froe_kinetic_stats {
+    uint64_t events[FROE_EVENT_KINDS];
+    uint64_t surgeries;         /**< of slabs */
+    uint64_t batches;           /**< groups of certificates that failed together */
+    uint64_t rebuilds;          /**< of whole cells */
+    uint64_t restarts;          /**< of the whole tree */
+    uint64_t stuck;             /**< ticks that could not be settled: always 0 */
+    uint64_t nodes_touched;     /**< split, joined or made */
+    uint64_t certificates_made; /**< whose time of failure had to be found */
+    size_t nodes, certificates; /**< at present */
+    uint32_t height;            /**< of the tree in nodes, at present */
+} froe_kinetic_stats;
+/** O(nodes). */
+FROE_API froe_kinetic_stats froe_kinetic_statistics(const froe_kinetic *kinetic);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,73 @@
+/* audit.c: is a live partition what would be made from scratch? */
+#include "base/status.h"
+#include "kinetic/live.h"
+
+static bool same_node(const froe_kinetic *k, uint32_t a, const froe_kinetic *l, uint32_t b) {
+    const live_node *m = node_at(k, a), *n = node_at(l, b);
+    if (m->segment != n->segment || m->wall[0] != n->wall[0] || m->wall[1] != n->wall[1] || m->cut != n->cut)
+        return false;
+    for (int i = 0; i < 4; i++)
+        if (!m->child[i] != !n->child[i]) return false;
+    return true;
+}
+
+froe_status live_compare(const froe_kinetic *k, const froe_kinetic *fresh, uint32_t found[2]) {
+    ARRAY(uint32_t) stack = {0};
+    const uint32_t top[2] = {node_at(k, ROOT)->child[0], node_at(fresh, ROOT)->child[0]};
+    found[0] = found[1] = !top[0] != !top[1] ? top[0] + top[1] : LEAF;
+    bool room = array_reserve(&k->alloc, &stack, 2);
+    if (room && top[0] && top[1]) stack.data[0] = top[0], stack.data[1] = top[1], stack.count = 2;
+    while (room && stack.count && !found[0]) {
+        uint32_t b = stack.data[--stack.count], a = stack.data[--stack.count];
+        if (!same_node(k, a, fresh, b)) found[0] = a, found[1] = b;
+        room = array_reserve(&k->alloc, &stack, 8);
+        for (int i = 0; i < 4 && room && !found[0]; i++) {
+            if (!node_at(k, a)->child[i]) continue;
+            stack.data[stack.count++] = node_at(k, a)->child[i];
+            stack.data[stack.count++] = node_at(fresh, b)->child[i];
+        }
+    }
+    array_free(&k->alloc, &stack);
+    return room ? FROE_OK : FROE_E_MEMORY;
+}
+
+static froe_status tell(const froe_kinetic *k, const froe_kinetic *fresh, const uint32_t node[2],
+                        froe_diagnostic *diag) {
+    const live_node *m = node_at(k, node[0]), *n = node_at(fresh, node[1]);
+    unsigned has[2] = {0, 0};
+    for (unsigned i = 0; i < 4; i++) has[0] |= (m->child[i] != LEAF) << i, has[1] |= (n->child[i] != LEAF) << i;
+    return base_fail_at(
+        diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
+        "a node of segment %u with walls %x %x and children %x is, from scratch, one of segment %u with "
+        "walls %x %x and children %x",
+        m->segment, m->wall[0], m->wall[1], has[0], n->segment, n->wall[0], n->wall[1], has[1]);
+}
+
+static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
+    for (size_t i = 0; i < k->queue.count; i++) {
+        const live_cert c = k->certs.data[k->queue.data[i]];
+        if (c.tick <= k->now.tick) return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d is overdue", c.kind);
+        if (c.kind <= CERT_TURN && now_holds(&k->now, &c.claim) < 0)
+            return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d does not hold", c.kind);
+    }
+    return FROE_OK;
+}
+
+froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
+    if (!k) return base_fail(diag, FROE_E_ARG, "froe_kinetic_audit: NULL");
+    froe_kinetic *fresh = NULL;
+    froe_status status = live_copy(k, &fresh);
+    if (status) return base_fail_memory(diag);
+    uint32_t node[2];
+    status = live_compare(k, fresh, node);
+    if (status)
+        base_fail_memory(diag);
+    else if (node[0])
+        status = tell(k, fresh, node, diag);
+    else if (k->node_count != fresh->node_count)
+        status = base_fail(diag, FROE_E_INPUT, "%zu nodes, %zu from scratch", k->node_count, fresh->node_count);
+    else
+        status = audit_certificates(k, diag);
+    froe_kinetic_free(fresh);
+    return status;
+}

@@ -1,0 +1,280 @@
+/* live.h: a cylindrical partition that is kept right while its segments move (Agarwal, Erickson and Guibas, "Kinetic
+ * BSPs for intersecting segments and disjoint triangles", SODA 1998).
+ *
+ *      left wall :       top        : right wall      A node is a cell and the segment s that cuts it first. Where
+ *                :__________________:                 s ends inside, at a vertex of its own (END_0, END_1) or where
+ *                : LEFT : UP /: RI- :                 it crosses top or bottom (the number of that segment), there
+ *                :      :  s/ : GHT :                 is a wall; so a node has up to four children. Walls, top and
+ *                :______:__/__:_____:                 bottom of a cell are not stored, but found from the nodes
+ *                   DOWN  bottom                      above.
+ *
+ * The tree is a function of the order of the segments (their keys) and of where they are; what there is to do when that
+ * changes is in surgery.h, and how to know that it does in certificates.h. */
+#ifndef FROE_KINETIC_LIVE_H
+#define FROE_KINETIC_LIVE_H
+#include "kinetic/now.h"
+
+enum { LEFT, RIGHT, UP, DOWN };
+
+/** Ends of a segment in a cell that are not crossings. */
+#define END_0 0xfffffffeu
+#define END_1 0xfffffffdu
+#define END_NONE 0xffffffffu
+#define CERT_NONE 0xffffffffu
+
+/** Leaves are node 0. The root is child 0 of ROOT; the other places hold what is not in the tree. */
+enum { LEAF, ROOT, PARTS, FIRST_NODE };
+
+typedef struct live_node {
+    uint32_t segment;
+    uint32_t wall[2]; /**< LEFT and RIGHT: END_0, END_1, END_NONE, or the segment that is crossed there */
+    uint32_t child[4];
+    uint32_t parent;
+    uint32_t next, previous; /**< nodes of the same segment; next also links free nodes */
+    uint32_t cert[3];        /**< order of the walls of the regions to the left, in the middle, to the right */
+    uint32_t stamp;          /**< of the last surgery that touched it */
+    uint8_t slot;            /**< which child of its parent it is */
+    bool cut;                /**< the subtree has a wall of its own */
+} live_node;
+
+typedef struct live_cell {
+    now_name wall[2];
+    uint32_t top, bottom; /**< segments or FROE_NONE */
+} live_cell;
+
+typedef struct live_end {
+    uint32_t node;    /**< with a wall through this end; LEAF: there is none */
+    uint32_t cert[2]; /**< next segment above, below */
+    uint32_t next;    /**< end of another segment at the same vertex: 2 segment + end */
+    uint32_t stamp;
+} live_end;
+
+typedef struct live_segment {
+    uint64_t key;
+    uint32_t nodes; /**< the first of its nodes */
+    uint32_t turn;  /**< certificate: left end before right end */
+    uint32_t life;  /**< certificate: appears, disappears */
+    uint32_t pairs; /**< the first pair with a segment in the same line: 2 pair + which of the two it is */
+    uint32_t stamp;
+    bool alive; /**< it has been born and has not died */
+    bool here;  /**< it is among those of which the tree is made: alive, and not just a point */
+    live_end end[2];
+} live_segment;
+
+typedef enum cert_kind {
+    CERT_LEFT, /**< owner: node; order of the walls of its left region */
+    CERT_MIDDLE,
+    CERT_RIGHT,
+    CERT_ABOVE, /**< owner: 2 segment + end; the vertex is below the next segment above */
+    CERT_BELOW,
+    CERT_TURN,   /**< owner: segment; the order of its ends */
+    CERT_PAIR,   /**< owner: pair; two segments in one line, whose ends keep their order */
+    CERT_COURSE, /**< owner: vertex; the piece of its plan lasts */
+    CERT_LIFE,   /**< owner: segment; there or not */
+    CERT_FREE
+} cert_kind;
+
+typedef struct live_cert {
+    int64_t tick;   /**< first odd tick after which it does not hold */
+    uint32_t place; /**< in the queue; CERT_NONE: never */
+    uint32_t owner;
+    uint32_t next; /**< free certificates */
+    cert_kind kind;
+    now_claim claim;
+} live_cert;
+
+/** Two segments in one line: where they overlap, the later one in order is not in the tree. */
+typedef struct live_pair {
+    uint32_t segment[2]; /**< the earlier first */
+    uint32_t next[2];    /**< pairs of the same segment; next[0] also links free pairs */
+    uint32_t cert;
+} live_pair;
+
+typedef struct live_task {
+    live_cell cell;
+    size_t first, count; /**< of the list: segments by key */
+    uint32_t parent;
+    uint8_t slot;
+} live_task;
+
+typedef struct live_visit {
+    live_cell cell;
+    uint32_t node;
+    bool back;
+} live_visit;
+
+/** A part of a tree that is split or joined, and where the results go. */
+typedef struct live_cutting {
+    uint32_t a, b; /**< nodes */
+    uint32_t parent[2];
+    uint8_t slot[2];
+} live_cutting;
+
+/** Fail ticks of certificates that were dropped since the last surgery began: many come back elsewhere. */
+typedef struct live_recent {
+    now_claim claim;
+    uint32_t stamp;
+    int64_t tick;
+} live_recent;
+enum { RECENT = 1 << 10 };
+
+/** Who is told of events. */
+typedef struct live_watcher {
+    froe_event_fn *visit;
+    void *user;
+} live_watcher;
+
+/** Certificates that fail together at nearby places, as one: a group. */
+typedef struct live_item {
+    uint32_t cert;
+    cert_kind kind;
+    now_claim claim;
+    double low, high; /**< the slab */
+} live_item;
+
+struct froe_kinetic {
+    froe_allocator alloc;
+    now_state now;
+    froe_kinetic_options options;
+    uint64_t epoch, epoch_events; /**< orders drawn so far, events until the last */
+    uint32_t stamp, list_stamp;
+    bool short_of_memory; /**< the tree may be incomplete */
+    bool still;           /**< it will never move: no certificates */
+    bool broken;          /**< parts do not fit: the tree is not what it should be */
+    ARRAY(live_node) nodes;
+    uint32_t free_node;
+    size_t node_count;
+    ARRAY(live_segment) segments;
+    ARRAY(uint32_t) vertices; /**< first end at each vertex: 2 segment + end, or FROE_NONE */
+    ARRAY(uint32_t) courses;  /**< certificate of each vertex */
+    ARRAY(live_cert) certs;
+    uint32_t free_cert;
+    ARRAY(live_pair) pairs;
+    uint32_t free_pair;
+    ARRAY(uint32_t) queue; /**< certificates, the first to fail on top */
+    ARRAY(uint32_t) list;  /**< segments waiting to be built with */
+    ARRAY(live_task) tasks;
+    ARRAY(live_visit) visits;
+    ARRAY(live_cutting) cuttings;
+    ARRAY(uint32_t) ends;  /**< whose walls came or went: 2 segment + end */
+    ARRAY(uint32_t) order; /**< scratch */
+    ARRAY(live_item) items;
+    ARRAY(live_item) pending; /**< others that wait for their turn */
+    ARRAY(uint32_t) roots;    /**< nodes where surgery is needed */
+    ARRAY(uint32_t) leaving;  /**< 2 segment + 1: whose plan or life changes now; 2 segment: who may come to light */
+    ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */
+    live_recent *recent;
+    froe_kinetic_stats counts;
+};
+
+static inline live_node *node_at(const froe_kinetic *k, uint32_t node) {
+    return k->nodes.data + node;
+}
+static inline live_segment *segment_at(const froe_kinetic *k, uint32_t segment) {
+    return k->segments.data + segment;
+}
+/** Is s before t in the order in which segments cut? */
+static inline bool comes_before(const froe_kinetic *k, uint32_t s, uint32_t t) {
+    uint64_t a = segment_at(k, s)->key, b = segment_at(k, t)->key;
+    return a < b || (a == b && s < t);
+}
+/** The point that a segment ends at in a cell. */
+static inline now_name wall_name(const froe_kinetic *k, uint32_t segment, uint32_t end) {
+    if (end >= END_1)
+        return end == END_NONE ? (now_name){0, NAME_NONE}
+                               : (now_name){k->now.segments.data[segment].end[END_0 - end], NAME_VERTEX};
+    return name_crossing(segment, end);
+}
+static inline bool is_end(uint32_t wall) {
+    return wall == END_0 || wall == END_1;
+}
+
+/* nodes.c */
+/** LEAF: no memory. Linked to its segment, not to a parent. */
+uint32_t live_new_node(froe_kinetic *k, uint32_t segment, const uint32_t wall[2]);
+void live_free_node(froe_kinetic *k, uint32_t node);
+void live_attach(froe_kinetic *k, uint32_t parent, uint8_t slot, uint32_t node);
+/** Which end's wall this node has; the node of an END wall is known by its end. */
+void live_own_end(froe_kinetic *k, uint32_t node, int side);
+live_cell live_plane(void);
+live_cell live_cell_of(const froe_kinetic *k, uint32_t node);
+/** The cell of a child. REQUIRES: there is a wall on that side. */
+live_cell live_child_cell(const froe_kinetic *k, const live_cell *cell, uint32_t node, int slot);
+/** Adds the segments of a subtree to the list, each once, and frees the nodes if asked to. */
+void live_collect(froe_kinetic *k, uint32_t node, bool free_them);
+/** Adds one. */
+void live_list(froe_kinetic *k, uint32_t segment);
+/** An empty list. */
+void live_new_list(froe_kinetic *k);
+/** A wall came or went that runs through an end: 2 segment + end. */
+void live_touch_end(froe_kinetic *k, uint32_t end);
+
+/* grow.c */
+/** Where the segment ends in a cell. False: it does not reach into it. */
+bool live_clip(froe_kinetic *k, uint32_t segment, const live_cell *cell, uint32_t end[2]);
+/** The tree of the segments on the list from `first` on, those that reach into the cell, made from scratch. The list
+ * is cut back to `first`. */
+void live_grow(froe_kinetic *k, const live_cell *cell, size_t first, uint32_t parent, uint8_t slot);
+
+/* surgery.c */
+/** Cuts the tree `node` along now.line[line]. REQUIRES: its place in the tree is given up. */
+void live_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]);
+/** The inverse. Sets `broken` where the parts do not fit. */
+void live_join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot);
+/** What lies between the two lines is made anew in the cell of a node. */
+void live_slab(froe_kinetic *k, uint32_t node);
+/** Everything in the cell of a node is made anew, also of the segments already on the list. */
+void live_rebuild(froe_kinetic *k, uint32_t node);
+/** The whole tree, whatever state it is in. */
+void live_restart(froe_kinetic *k);
+
+/* queue.c */
+uint32_t live_new_cert(froe_kinetic *k, cert_kind kind, uint32_t owner, int64_t tick, const now_claim *claim);
+void live_drop_cert(froe_kinetic *k, uint32_t cert);
+void live_set_tick(froe_kinetic *k, uint32_t cert, int64_t tick);
+/** When a claim fails that was dropped in this surgery; -1: not known. */
+int64_t live_recall(const froe_kinetic *k, const now_claim *claim);
+/** The certificates due at a tick, as k->order. */
+void live_due(froe_kinetic *k, int64_t tick);
+
+/* certificates.c */
+/** After surgery in the subtree at child `slot` of `parent`: certificates of all that was touched, and above. */
+void live_certify(froe_kinetic *k, uint32_t parent, uint8_t slot);
+/** Looks up which end is left, and watches it. */
+void live_certify_turn(froe_kinetic *k, uint32_t segment);
+void live_forget_turn(froe_kinetic *k, uint32_t segment);
+
+/* pairs.c */
+/** Watches segments in one line. */
+void live_watch_pair(froe_kinetic *k, uint32_t s, uint32_t t);
+/** The other segments in the line of s, as k->order. */
+void live_partners(froe_kinetic *k, uint32_t s);
+void live_forget_pairs(froe_kinetic *k, uint32_t s);
+
+/* change.c */
+/** It takes part from now on, if it has a length, but is not in the tree yet. */
+void live_enroll(froe_kinetic *k, uint32_t segment);
+/** It does not any more. */
+void live_unroll(froe_kinetic *k, uint32_t segment);
+/** It takes part, and is in the tree. */
+void live_insert(froe_kinetic *k, uint32_t segment);
+void live_remove(froe_kinetic *k, uint32_t segment);
+/** (Re)sets when the segment appears or goes, and when the flight of its ends changes. */
+void live_schedule(froe_kinetic *k, uint32_t segment);
+
+/* kinetic.c */
+/** The same segments in the same order at the same time, made from scratch, and still. */
+froe_status live_copy(const froe_kinetic *k, froe_kinetic **out);
+
+/* audit.c */
+/** The first node of each that differs from that of the other; LEAF: none. FROE_E_MEMORY. */
+froe_status live_compare(const froe_kinetic *k, const froe_kinetic *other, uint32_t found[2]);
+
+/* events.c */
+/** The next tick at which something happens; NOW_NEVER: nothing does. */
+int64_t live_next_tick(const froe_kinetic *k);
+/** Goes to that tick, or to `tick` if nothing happens before. False: the visitor had enough. */
+bool live_step(froe_kinetic *k, int64_t tick, const live_watcher *watcher);
+/** The last odd tick of the window. */
+int64_t live_last_tick(const froe_kinetic *k);
+#endif

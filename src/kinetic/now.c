@@ -1,0 +1,352 @@
+/* now.c: places, order and sides just after a tick: in doubles with error bounds, then exactly. */
+#include "kinetic/now.h"
+#include <math.h>
+
+froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out) {
+    now_state now = {.motion = motion};
+    froe_status status = num_context_new(alloc, &now.context);
+    if (status) return status;
+    now.memories = base_calloc(&now.context.alloc, NOW_MEMORIES, sizeof *now.memories);
+    if (!now.memories || num_arena_reserve(&now.context.alloc, &now.context.arena, POLY_LIMBS) || now_grow(&now)) {
+        now_free(&now);
+        return FROE_E_MEMORY;
+    }
+    for (size_t i = 0; i < NOW_MEMORIES; i++) now.memories[i].tick = -1;
+    *out = now;
+    return FROE_OK;
+}
+
+void now_free(now_state *now) {
+    const froe_allocator *alloc = &now->context.alloc;
+    array_free(alloc, &now->courses);
+    array_free(alloc, &now->segments);
+    base_free(alloc, now->memories, NOW_MEMORIES * sizeof *now->memories);
+    num_context_free(&now->context);
+}
+
+froe_status now_grow(now_state *now) {
+    const froe_allocator *alloc = &now->context.alloc;
+    const froe_motion *m = now->motion;
+    for (size_t v = 0; v < now->courses.count; v++) now_forget(now, (uint32_t)v); /* their knots may have moved */
+    if (!array_reserve(alloc, &now->courses, m->plans.count - now->courses.count) ||
+        !array_reserve(alloc, &now->segments, m->objects.count - now->segments.count))
+        return FROE_E_MEMORY;
+    while (now->courses.count < m->plans.count) now->courses.data[now->courses.count++] = (now_course){.last = -1};
+    while (now->segments.count < m->objects.count) {
+        const uint32_t *v = m->objects.data[now->segments.count].vertices;
+        now->segments.data[now->segments.count++] = (now_segment){{v[0], v[1]}, false};
+    }
+    return FROE_OK;
+}
+
+void now_forget(now_state *now, uint32_t vertex) {
+    now->courses.data[vertex].last = -1;
+    now->courses.data[vertex].tick = -1;
+}
+
+/* ------------------------------------------------------------------ places -- */
+
+/* a / b, b > 0. */
+static num_ball divide(num_ball a, num_ball b) {
+    double q = a.x / b.x, least = b.x - b.e;
+    if (!(least > 0)) return (num_ball){q, (double)INFINITY};
+    return (num_ball){q, ((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP + NUM_BALL_TINY};
+}
+
+/* The coefficients in doubles, and what is lost by that until s = span. */
+static double in_doubles(const poly_ball *p, num_ball w, double span, double out[3]) {
+    double error = 0, size = 0, power = 1;
+    for (int i = 0; i < 3; i++, power *= span) {
+        num_ball c = i <= p->degree ? divide(p->c[i], w) : num_ball_from(0);
+        out[i] = c.x;
+        error += c.e * power;
+        size += fabs(c.x) * power;
+    }
+    return (error + size * 0x1p-50) * NUM_BALL_UP + NUM_BALL_TINY;
+}
+
+static void set_course(now_state *now, uint32_t vertex, now_course *c) {
+    const froe_motion *m = now->motion;
+    c->piece = motion_piece_at(m, vertex, now->tick);
+    c->last = c->piece.last < m->last_tick ? c->piece.last : m->last_tick | 1;
+    c->base = now->tick;
+    c->tick = -1;
+    ball_point p;
+    ball_vertex(m, &c->piece, c->base, &p);
+    double span = (double)(c->last - c->base);
+    double ex = in_doubles(&p.x, p.w.c[0], span, c->x), ey = in_doubles(&p.y, p.w.c[0], span, c->y);
+    c->error = ex > ey ? ex : ey;
+    if (!(c->error < (double)INFINITY)) c->error = (double)INFINITY;
+}
+
+/* Pieces are looked up once, when the first tick of theirs has come; trials of later ticks do not leave them. */
+static now_course *course_of(now_state *now, uint32_t vertex) {
+    now_course *c = now->courses.data + vertex;
+    if (now->tick > c->last || now->tick < c->base) set_course(now, vertex, c);
+    if (c->tick != now->tick) {
+        double s = (double)(now->tick - c->base);
+        c->at[0] = c->x[0] + s * (c->x[1] + s * c->x[2]);
+        c->at[1] = c->y[0] + s * (c->y[1] + s * c->y[2]);
+        c->tick = now->tick;
+    }
+    return c;
+}
+
+int64_t now_course_last(now_state *now, uint32_t vertex) {
+    return course_of(now, vertex)->last;
+}
+
+typedef struct ball2 {
+    num_ball x, y;
+} ball2;
+
+static ball2 vertex_ball(now_state *now, uint32_t vertex) {
+    const now_course *c = course_of(now, vertex);
+    return (ball2){{c->at[0], c->error}, {c->at[1], c->error}};
+}
+
+static ball2 minus(ball2 a, ball2 b) {
+    return (ball2){num_ball_sub(a.x, b.x), num_ball_sub(a.y, b.y)};
+}
+
+static num_ball cross(ball2 a, ball2 b) {
+    return num_ball_sub(num_ball_mul(a.x, b.y), num_ball_mul(a.y, b.x));
+}
+
+static void exact_at(now_state *now, uint32_t vertex, exact_point *out) {
+    exact_vertex_at(&now->context.arena, now->motion, &course_of(now, vertex)->piece, now->tick, out);
+}
+
+static void exact_along(now_state *now, uint32_t vertex, exact_point *out) {
+    exact_vertex(&now->context.arena, now->motion, &course_of(now, vertex)->piece, now->tick, out);
+}
+
+typedef void get_exact(now_state *now, uint32_t vertex, exact_point *out);
+
+static void named_exact(now_state *now, now_name p, get_exact *get, exact_point *out) {
+    if (p.b == NAME_VERTEX) {
+        get(now, p.a, out);
+        return;
+    }
+    const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
+    exact_point v[4];
+    get(now, s[0], v), get(now, s[1], v + 1), get(now, t[0], v + 2), get(now, t[1], v + 3);
+    exact_crossing(&now->context.arena, v, out);
+}
+
+/* Rounded from exact numbers, where the filter says little. */
+static now_spot exact_spot(now_state *now, now_name p) {
+    num_arena *arena = &now->context.arena;
+    arena->top = 0;
+    exact_point e;
+    named_exact(now, p, exact_at, &e);
+    if (!e.w.c[0].sign) return (now_spot){0, 0, (double)INFINITY};
+    now_spot spot = {num_dyadic_quotient(arena, e.x.c[0], e.w.c[0]), num_dyadic_quotient(arena, e.y.c[0], e.w.c[0]), 0};
+    spot.error = (fabs(spot.x) + fabs(spot.y)) * 0x1p-52 + NUM_BALL_TINY;
+    return spot;
+}
+
+static now_spot crossing_spot(now_state *now, now_name p) {
+    const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
+    ball2 a = vertex_ball(now, s[0]), d = minus(vertex_ball(now, s[1]), a);
+    ball2 c = vertex_ball(now, t[0]), e = minus(vertex_ball(now, t[1]), c);
+    num_ball turn = cross(d, e), shift = cross(minus(c, a), e);
+    if (turn.x < 0) turn.x = -turn.x, shift.x = -shift.x;
+    num_ball share = divide(shift, turn);
+    num_ball x = num_ball_add(a.x, num_ball_mul(share, d.x)), y = num_ball_add(a.y, num_ball_mul(share, d.y));
+    double error = x.e > y.e ? x.e : y.e, size = fabs(d.x.x) + fabs(d.y.x);
+    if (!(error < size * 0x1p-20) || !isfinite(x.x) || !isfinite(y.x)) return exact_spot(now, p);
+    return (now_spot){x.x, y.x, error};
+}
+
+now_spot now_spot_of(now_state *now, now_name p) {
+    if (p.b == NAME_VERTEX) {
+        const now_course *c = course_of(now, p.a);
+        return (now_spot){c->at[0], c->at[1], c->error};
+    }
+    uint64_t hash = ((uint64_t)p.a << 32 | (uint32_t)p.b) * 0x9e3779b97f4a7c15u;
+    now_memory *known = now->memories + (hash >> 52);
+    if (known->tick != now->tick || !name_is(known->name, p))
+        *known = (now_memory){p, now->tick, crossing_spot(now, p)};
+    return known->spot;
+}
+
+/* ------------------------------------------------------------------- order -- */
+
+static int negative(const poly_exact *w) {
+    return exact_sign(w);
+}
+
+/* -1, 0, 1 in one coordinate. */
+static int order_of(now_state *now, const exact_point *p, const exact_point *q, int axis) {
+    poly_exact order;
+    exact_order(&now->context.arena, p, q, axis, &order);
+    return -exact_sign(&order) * negative(&p->w) * negative(&q->w);
+}
+
+static void note_tie(now_state *now, now_name p, now_name q) {
+    if (now->ties + 2 <= NOW_TIES) now->tied[now->ties] = p, now->tied[now->ties + 1] = q;
+    now->ties += 2;
+}
+
+/* Along the pieces, for points that are equal in x at the tick. */
+static int compare_after(now_state *now, now_name p, now_name q) {
+    exact_point a, b;
+    now->context.arena.top = 0;
+    named_exact(now, p, exact_along, &a);
+    named_exact(now, q, exact_along, &b);
+    if (!negative(&a.w) || !negative(&b.w)) return now->lost = true, 1;
+    int order = order_of(now, &a, &b, 0);
+    if (!order) order = order_of(now, &a, &b, 1);
+    note_tie(now, p, q);
+    return order;
+}
+
+static int compare_exactly(now_state *now, now_name p, now_name q) {
+    exact_point a, b;
+    now->context.stats.exact++;
+    now->context.arena.top = 0;
+    named_exact(now, p, exact_at, &a);
+    named_exact(now, q, exact_at, &b);
+    if (!a.w.c[0].sign || !b.w.c[0].sign) return compare_after(now, p, q);
+    int order = order_of(now, &a, &b, 0);
+    return order ? order : compare_after(now, p, q);
+}
+
+/* A point on the line is behind it. */
+static int compare_to_line(now_state *now, now_name p, double line) {
+    now_spot spot = now_spot_of(now, p);
+    double d = spot.x - line, error = spot.error + fabs(d) * 0x1p-52;
+    if (fabs(d) > error) return d < 0 ? -1 : 1;
+    num_arena *arena = &now->context.arena;
+    exact_point e;
+    arena->top = 0;
+    named_exact(now, p, exact_at, &e);
+    if (!e.w.c[0].sign) return now->lost = true, 1;
+    num_dyadic at = num_dyadic_mul(arena, num_dyadic_from(arena, line), e.w.c[0]);
+    int sign = num_dyadic_compare(e.x.c[0], at) * e.w.c[0].sign;
+    return sign < 0 ? -1 : 1;
+}
+
+int now_compare(now_state *now, now_name p, now_name q) {
+    now->context.stats.calls++;
+    if (name_is(p, q)) return 0;
+    if (p.b == NAME_LINE && q.b == NAME_LINE) return now->line[p.a] < now->line[q.a] ? -1 : 1;
+    if (q.b == NAME_LINE) return compare_to_line(now, p, now->line[q.a]);
+    if (p.b == NAME_LINE) return -compare_to_line(now, q, now->line[p.a]);
+    now_spot a = now_spot_of(now, p), b = now_spot_of(now, q);
+    double d = a.x - b.x, error = (a.error + b.error + fabs(d) * 0x1p-52) * NUM_BALL_UP;
+    if (fabs(d) > error) return d < 0 ? -1 : 1;
+    return compare_exactly(now, p, q);
+}
+
+static int side_with(now_state *now, uint32_t segment, uint32_t vertex, get_exact *get) {
+    exact_point a, b, q;
+    poly_exact turn;
+    now->context.arena.top = 0;
+    get(now, now_vertex(now, segment, 0), &a);
+    get(now, now_vertex(now, segment, 1), &b);
+    get(now, vertex, &q);
+    exact_turn(&now->context.arena, &a, &b, &q, &turn);
+    return exact_sign(&turn);
+}
+
+int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
+    uint32_t u = now_vertex(now, segment, 0), v = now_vertex(now, segment, 1);
+    now->context.stats.calls++;
+    if (vertex == u || vertex == v) return 0;
+    ball2 a = vertex_ball(now, u), d = minus(vertex_ball(now, v), a);
+    int sign = num_ball_sign(cross(d, minus(vertex_ball(now, vertex), a)));
+    if (sign == 1 || sign == -1) return sign;
+    now->context.stats.exact++;
+    sign = side_with(now, segment, vertex, exact_at);
+    if (sign) return sign;
+    note_tie(now, (now_name){segment, NAME_SEGMENT}, (now_name){vertex, NAME_VERTEX});
+    return side_with(now, segment, vertex, exact_along);
+}
+
+/* ------------------------------------------------------------------ claims -- */
+
+int now_holds(now_state *now, const now_claim *claim) {
+    if (claim->p.b == NAME_SEGMENT) return now_side(now, claim->p.a, claim->q.a) * claim->above;
+    return now_compare(now, claim->p, claim->q) < 0 ? 1 : -1;
+}
+
+static void ball_along(now_state *now, uint32_t vertex, ball_point *out) {
+    ball_vertex(now->motion, &course_of(now, vertex)->piece, now->tick, out);
+}
+
+static void named_ball(now_state *now, now_name p, ball_point *out) {
+    if (p.b == NAME_VERTEX) {
+        ball_along(now, p.a, out);
+        return;
+    }
+    const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
+    ball_point v[4];
+    ball_along(now, s[0], v), ball_along(now, s[1], v + 1), ball_along(now, t[0], v + 2), ball_along(now, t[1], v + 3);
+    ball_crossing(v, out);
+}
+
+/* The sign of the denominators now; 0 if that is not certain. */
+static int ball_denominator(const poly_ball *w) {
+    int sign = num_ball_sign(w->c[0]);
+    return sign == NUM_UNSURE ? 0 : sign;
+}
+
+static void ball_negate(poly_ball *p) {
+    for (int i = 0; i <= p->degree; i++) p->c[i].x = -p->c[i].x;
+}
+
+static int exact_denominators(now_state *now, now_name p, now_name q) {
+    exact_point a, b;
+    now->context.arena.top = 0;
+    named_exact(now, p, exact_along, &a);
+    named_exact(now, q, exact_along, &b);
+    return negative(&a.w) * negative(&b.w);
+}
+
+void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out) {
+    if (claim->p.b == NAME_SEGMENT) {
+        ball_point a, b, q;
+        ball_along(now, now_vertex(now, claim->p.a, 0), &a);
+        ball_along(now, now_vertex(now, claim->p.a, 1), &b);
+        ball_along(now, claim->q.a, &q);
+        ball_turn(&a, &b, &q, out);
+        if (claim->above < 0) ball_negate(out);
+        return;
+    }
+    ball_point a, b;
+    named_ball(now, claim->p, &a);
+    named_ball(now, claim->q, &b);
+    ball_order(&a, &b, axis, out);
+    int sign = ball_denominator(&a.w) * ball_denominator(&b.w);
+    if (!sign) sign = exact_denominators(now, claim->p, claim->q);
+    if (sign < 0) ball_negate(out);
+}
+
+void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exact *out) {
+    int sign = claim->above;
+    num_arena *arena = &now->context.arena;
+    exact_point a, b, q;
+    arena->top = 0;
+    if (claim->p.b == NAME_SEGMENT) {
+        exact_along(now, now_vertex(now, claim->p.a, 0), &a);
+        exact_along(now, now_vertex(now, claim->p.a, 1), &b);
+        exact_along(now, claim->q.a, &q);
+        exact_turn(arena, &a, &b, &q, out);
+    } else {
+        named_exact(now, claim->p, exact_along, &a);
+        named_exact(now, claim->q, exact_along, &b);
+        exact_order(arena, &a, &b, axis, out);
+        sign = negative(&a.w) * negative(&b.w);
+    }
+    if (sign < 0)
+        for (int i = 0; i <= out->degree; i++) out->c[i].sign = -out->c[i].sign;
+}
+
+int now_claim_axis(now_state *now, const now_claim *claim) {
+    if (claim->p.b == NAME_SEGMENT) return 0;
+    poly_exact p;
+    now_claim_exact(now, claim, 0, &p);
+    return !exact_sign(&p);
+}

@@ -1,0 +1,128 @@
+/* now.h: where everything is at the tick that a kinetic structure has come to, and just after it.
+ *
+ *     tick  ----+----+----+----          The structure is right just after each tick that it stands at: what is
+ *               u \                      equal at u is told apart by where it is u + an infinitesimal, and if it
+ *                  u+                    is still equal then, it stays so until a flight plan takes another piece.
+ *
+ * Points go by name: a vertex, where the lines of two segments cross, or a line x = c that does not move. They are
+ * ordered by x and then y, as if all vertical lines were slightly inclined (see num/sheared.h): x + eps y. */
+#ifndef FROE_KINETIC_NOW_H
+#define FROE_KINETIC_NOW_H
+#include "kinetic/poly.h"
+#include "num/context.h"
+
+enum {
+    NAME_NONE = -1,   /**< no point: the border of an unbounded cell */
+    NAME_VERTEX = -2, /**< vertex a */
+    NAME_LINE = -3,   /**< the line x = line[a], y from -infinity on */
+    NAME_SEGMENT = -4 /**< not a point: segment a */
+};
+
+/** Names of points: b >= 0 says that it is the crossing of segments a < b. */
+typedef struct now_name {
+    uint32_t a;
+    int32_t b;
+} now_name;
+
+/** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2, s = tick - base. */
+typedef struct now_course {
+    motion_piece piece;
+    int64_t last, base; /**< the last tick of the piece; -1: not looked at yet */
+    double x[3], y[3], error;
+    int64_t tick; /**< at which `at` is */
+    double at[2];
+} now_course;
+
+/** Roughly where a point is: no coordinate is further off than `error`. */
+typedef struct now_spot {
+    double x, y, error;
+} now_spot;
+
+typedef struct now_memory {
+    now_name name;
+    int64_t tick;
+    now_spot spot;
+} now_memory;
+enum { NOW_MEMORIES = 1 << 12, NOW_TIES = 256 };
+
+typedef struct now_segment {
+    uint32_t end[2]; /**< vertices */
+    bool turned;     /**< end[1] is on the left */
+} now_segment;
+
+typedef struct now_state {
+    froe_motion *motion;
+    int64_t tick;
+    double line[2];
+    ARRAY(now_course) courses;   /**< [vertex] */
+    ARRAY(now_segment) segments; /**< [object] */
+    now_memory *memories;        /**< of crossings, by a hash of their names */
+    num_context context;
+    now_name tied[NOW_TIES]; /**< points, and segments, that coincide though they have other names */
+    size_t ties;             /**< how many; more than NOW_TIES: the others are not told */
+    bool lost;               /**< somebody asked where parallel lines cross */
+} now_state;
+
+froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out);
+void now_free(now_state *now);
+/** After the motion got more objects or other plans. */
+froe_status now_grow(now_state *now);
+/** Forgets where a vertex flies. */
+void now_forget(now_state *now, uint32_t vertex);
+
+static inline bool name_is(now_name p, now_name q) {
+    return p.a == q.a && p.b == q.b;
+}
+static inline bool name_is_crossing(now_name p) {
+    return p.b >= 0;
+}
+static inline bool name_is_vertex(now_name p) {
+    return p.b == NAME_VERTEX;
+}
+static inline bool name_exists(now_name p) {
+    return p.b != NAME_NONE;
+}
+static inline now_name name_crossing(uint32_t s, uint32_t t) {
+    return s < t ? (now_name){s, (int32_t)t} : (now_name){t, (int32_t)s};
+}
+/** Which end of a segment is on the left (side 0) or right (1): 0 or 1. */
+static inline int now_end(const now_state *now, uint32_t segment, int side) {
+    return side ^ (int)now->segments.data[segment].turned;
+}
+static inline uint32_t now_vertex(const now_state *now, uint32_t segment, int side) {
+    return now->segments.data[segment].end[now_end(now, segment, side)];
+}
+
+/** Up to and including which tick the flight of a vertex is one polynomial. */
+int64_t now_course_last(now_state *now, uint32_t vertex);
+/** REQUIRES: a vertex or a crossing. */
+now_spot now_spot_of(now_state *now, now_name p);
+/** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last. */
+int now_compare(now_state *now, now_name p, now_name q);
+/** 1, 0, -1: the vertex is above, on or below the line of a segment just after now. */
+int now_side(now_state *now, uint32_t segment, uint32_t vertex);
+
+/** What a certificate claims: p is before q; or the segment p.a (of b NAME_SEGMENT) has vertex q.a above or below it.
+ */
+typedef struct now_claim {
+    now_name p, q;
+    int above; /**< 1 or -1 for segments */
+} now_claim;
+
+static inline bool claim_is(const now_claim *c, const now_claim *d) {
+    return name_is(c->p, d->p) && name_is(c->q, d->q) && c->above == d->above;
+}
+
+#define NOW_NEVER INT64_MAX
+/** 1: the claim holds just after now; -1: it does not; 0 (segments): the vertex rides on the line. */
+int now_holds(now_state *now, const now_claim *claim);
+/** The first odd tick after which the claim does not hold, or the present one; NOW_NEVER if none comes before the
+ * flight of one of its vertices takes another piece. */
+int64_t now_first_failure(now_state *now, const now_claim *claim);
+
+/** The polynomials behind a claim about time from now on: > 0 while it holds. In coordinate `axis` for points. */
+void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out);
+void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exact *out);
+/** Does it depend on the order of y, because x are the same for ever? Resets the arena. */
+int now_claim_axis(now_state *now, const now_claim *claim);
+#endif

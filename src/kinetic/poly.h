@@ -1,0 +1,53 @@
+/* poly.h: polynomials in time, as numbers with error bounds (ball_*) and exactly (exact_*): moving points, where
+ * the lines of moving segments cross, and what the order of such points is and on which side of a line they are. */
+#ifndef FROE_KINETIC_POLY_H
+#define FROE_KINETIC_POLY_H
+#include "kinetic/motion.h"
+
+/** Coefficients of the worst: the order of two crossings of segments that fly along parabolas. */
+enum { POLY_TERMS = 11 };
+/** Limbs that suffice for any of these polynomials, and for shifting and scaling it. */
+enum { POLY_LIMBS = 1 << 19 };
+
+typedef struct poly_ball {
+    int degree;
+    num_ball c[POLY_TERMS];
+} poly_ball;
+typedef struct poly_exact {
+    int degree;
+    num_dyadic c[POLY_TERMS];
+} poly_exact;
+
+/** A point (x/w, y/w); w is not 0, and greater than 0 for vertices. */
+typedef struct ball_point {
+    poly_ball x, y, w;
+} ball_point;
+typedef struct exact_point {
+    poly_exact x, y, w;
+} exact_point;
+
+/** A vertex, time being counted in ticks from `tick`. */
+void ball_vertex(const froe_motion *m, const motion_piece *piece, int64_t tick, ball_point *out);
+void exact_vertex(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, exact_point *out);
+/** The same at that tick alone: of degree 0. */
+void exact_vertex_at(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, exact_point *out);
+
+/** Where the line p[0] p[1] crosses the line p[2] p[3]. */
+void ball_crossing(const ball_point p[4], ball_point *out);
+void exact_crossing(num_arena *arena, const exact_point p[4], exact_point *out);
+
+/** Of the sign of q - p in coordinate `axis` times that of both denominators. */
+void ball_order(const ball_point *p, const ball_point *q, int axis, poly_ball *out);
+void exact_order(num_arena *arena, const exact_point *p, const exact_point *q, int axis, poly_exact *out);
+
+/** > 0: the vertex q is on the left of ab, vertices too. */
+void ball_turn(const ball_point *a, const ball_point *b, const ball_point *q, poly_ball *out);
+void exact_turn(num_arena *arena, const exact_point *a, const exact_point *b, const exact_point *q, poly_exact *out);
+
+/** The sign of the polynomial just after its time 0; 0: it is 0 for ever. */
+int exact_sign(const poly_exact *p);
+
+/** How often the polynomial changes its sign within low < s < low + 2^power, at most (and by an even number less);
+ * *sign: what it has there if it does not, which may be 0. Exact: Descartes' rule. */
+int exact_variations(num_arena *arena, const poly_exact *p, int64_t low, int power, int *sign);
+#endif

@@ -1,0 +1,107 @@
+/* moving.h: motions of every kind that a partition in motion has to live with, from integers. */
+#ifndef FROE_TESTS_KINETIC_MOVING_H
+#define FROE_TESTS_KINETIC_MOVING_H
+#include "kinetic/live.h"
+#include "support/fuzz.h"
+#include <stdlib.h>
+
+/** Segments from a grid, each on its way for MOVING_TIME. */
+typedef struct moving_kind {
+    const char *name;
+    int count, grid, length, speed, spin;
+    int legs;    /**< pieces of each plan */
+    bool curved; /**< on parabolas */
+    bool chains; /**< each segment begins where the last one ends */
+    bool rigid;  /**< all with the speed of the first */
+    bool twice;  /**< each two segments are the same */
+    bool upright;
+    bool lanes;  /**< on lines y = const, along them */
+    bool mortal; /**< they come and go */
+    bool back;   /**< the second half is the first in reverse: 2 legs */
+} moving_kind;
+
+enum { MOVING_TIME = 64, MOVING_MOST = 256, MOVING_LEGS = 8 };
+
+typedef struct moving_data {
+    size_t starts[2 * MOVING_MOST + 1];
+    double times[2 * MOVING_MOST * (MOVING_LEGS + 1)], xy[4 * MOVING_MOST * (MOVING_LEGS + 1)];
+    double controls[4 * MOVING_MOST * (MOVING_LEGS + 1)], births[MOVING_MOST], deaths[MOVING_MOST];
+    uint32_t vertices[2 * MOVING_MOST];
+} moving_data;
+
+static void moving_plan(const moving_kind *kind, fuzz_source *r, moving_data *d, size_t v, const int at[2],
+                        const int speed[2]) {
+    int w[2] = {speed[0], speed[1]}, p[2] = {at[0], at[1]};
+    int legs = kind->legs ? kind->legs : 1;
+    size_t first = d->starts[v];
+    for (int j = 0; j <= legs; j++) {
+        size_t i = first + (size_t)j;
+        d->times[i] = (double)MOVING_TIME * j / legs;
+        for (int c = 0; c < 2; c++) {
+            d->xy[2 * i + (size_t)c] = kind->back && j == 2 ? at[c] : p[c];
+            d->controls[2 * i + (size_t)c] =
+                kind->curved ? p[c] + fuzz_int(r, -kind->grid / 4 - 1, kind->grid / 4 + 1) : (double)NAN;
+            p[c] += w[c] * MOVING_TIME / legs;
+            if (!kind->rigid) w[c] = kind->lanes && c ? 0 : -w[c] + fuzz_int(r, -1, 1);
+        }
+    }
+    if (kind->back && kind->curved)
+        for (size_t c = 0; c < 2; c++) d->controls[2 * first + 2 + c] = d->controls[2 * first + c];
+    d->starts[v + 1] = first + (size_t)legs + 1;
+}
+
+/** A motion of this kind; the caller frees it. */
+static froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const froe_allocator *alloc) {
+    moving_data *d = calloc(1, sizeof *d);
+    fuzz_source r = {seed};
+    int speed[2] = {0, 0}, at[2][2] = {{0, 0}, {0, 0}};
+    assert_non_null(d);
+    for (size_t i = 0; i < (size_t)kind->count; i++) {
+        bool again = kind->twice && i % 2, chained = kind->chains && i % 5;
+        for (int c = 0; c < 2 && !again; c++) {
+            if (!kind->rigid || !i) speed[c] = kind->lanes && c ? 0 : fuzz_int(&r, -kind->speed, kind->speed);
+            at[0][c] = chained ? at[1][c] : fuzz_int(&r, 0, kind->grid);
+            int step = fuzz_int(&r, -kind->length, kind->length);
+            at[1][c] = at[0][c] + (kind->upright && !c ? 0 : kind->lanes && c ? 0 : step);
+        }
+        if (at[0][0] == at[1][0] && at[0][1] == at[1][1]) at[1][kind->lanes ? 0 : 1]++;
+        for (size_t e = 0; e < 2; e++) {
+            int w[2] = {speed[0], speed[1]};
+            for (int c = 0; c < 2 && !kind->rigid && !kind->twice; c++)
+                if (!kind->lanes || !c) w[c] += fuzz_int(&r, -kind->spin, kind->spin);
+            if (again) {
+                size_t old = 2 * (i - 1) + e, legs = d->starts[old + 1] - d->starts[old];
+                for (size_t j = 0; j < legs; j++) {
+                    size_t to = d->starts[2 * i + e] + j, from = d->starts[old] + j;
+                    d->times[to] = d->times[from];
+                    memcpy(d->xy + 2 * to, d->xy + 2 * from, 2 * sizeof *d->xy);
+                    memcpy(d->controls + 2 * to, d->controls + 2 * from, 2 * sizeof *d->xy);
+                }
+                d->starts[2 * i + e + 1] = d->starts[2 * i + e] + legs;
+            } else {
+                moving_plan(kind, &r, d, 2 * i + e, at[e], w);
+            }
+            d->vertices[2 * i + e] = (uint32_t)(2 * i + e);
+        }
+        if (chained) d->vertices[2 * i] = (uint32_t)(2 * i - 1);
+        d->births[i] = kind->mortal ? fuzz_int(&r, -20, 40) : 0;
+        d->deaths[i] = kind->mortal ? d->births[i] + fuzz_int(&r, 0, 40) : MOVING_TIME;
+    }
+    froe_motion *m = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    w.end = MOVING_TIME;
+    w.begin = 0;
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 2 * (size_t)kind->count;
+    b.count = (size_t)kind->count;
+    b.starts = d->starts, b.times = d->times, b.coords = d->xy, b.controls = d->controls;
+    b.vertices = d->vertices, b.births = d->births, b.deaths = d->deaths;
+    froe_status status = froe_motion_new(&w, alloc, &m, NULL);
+    if (!status) status = froe_motion_add(m, &b, NULL);
+    free(d);
+    if (!status) return m;
+    assert_int_equal(status, FROE_E_MEMORY);
+    froe_motion_free(m);
+    return NULL;
+}
+#endif

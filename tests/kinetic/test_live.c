@@ -1,0 +1,269 @@
+/* test_live.c: partitions of moving segments against partitions made from scratch, after every event. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "kinetic/moving.h"
+#include "support/memory.h"
+
+static froe_kinetic *start(froe_motion *m, uint64_t seed) {
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_kinetic *k = NULL;
+    froe_diagnostic why = {0};
+    o.seed = seed;
+    if (froe_kinetic_new(m, &o, NULL, &k, &why)) fail_msg("%s", why.message);
+    return k;
+}
+
+static void audit(froe_kinetic *k, const char *what) {
+    froe_diagnostic why = {0};
+    if (froe_kinetic_audit(k, &why)) fail_msg("%s at %.12g: %s", what, froe_kinetic_time(k), why.message);
+}
+
+/* From event to event, and to a tick between each two. */
+static void run(froe_kinetic *k, const char *what, uint64_t most) {
+    fuzz_source r = {1};
+    audit(k, what);
+    for (uint64_t steps = 0; steps < most; steps++) {
+        double next = froe_kinetic_next(k), now = froe_kinetic_time(k);
+        if (!(next <= MOVING_TIME)) break;
+        if (fuzz_int(&r, 0, 7) == 0) {
+            assert_int_equal(froe_kinetic_advance(k, now + 0.4 * (next - now), NULL, NULL, NULL), FROE_OK);
+            if (froe_kinetic_time(k) < next) audit(k, what);
+        }
+        assert_int_equal(froe_kinetic_advance(k, next, NULL, NULL, NULL), FROE_OK);
+        audit(k, what);
+    }
+}
+
+static const moving_kind kinds[] = {
+    {.name = "random", .count = 24, .grid = 8000, .length = 4000, .speed = 60, .spin = 40},
+    {.name = "many small", .count = 90, .grid = 8000, .length = 900, .speed = 90, .spin = 20},
+    {.name = "parabolas", .count = 16, .grid = 8000, .length = 3000, .speed = 40, .spin = 30, .curved = true},
+    {.name = "rotation", .count = 12, .grid = 3000, .length = 3000, .speed = 1, .spin = 90, .curved = true},
+    {.name = "lattice 8", .count = 20, .grid = 8, .length = 4, .speed = 1, .spin = 1},
+    {.name = "lattice 16", .count = 30, .grid = 16, .length = 6, .speed = 2, .spin = 1},
+    {.name = "lattice 40", .count = 30, .grid = 40, .length = 15, .speed = 2, .spin = 2},
+    {.name = "lattice 100", .count = 40, .grid = 100, .length = 60, .speed = 5, .spin = 3},
+    {.name = "rigid", .count = 40, .grid = 12, .length = 6, .speed = 5, .rigid = true},
+    {.name = "chains", .count = 40, .grid = 3000, .length = 900, .speed = 30, .spin = 20, .chains = true},
+    {.name = "lattice chains", .count = 25, .grid = 20, .length = 6, .speed = 1, .spin = 1, .chains = true},
+    {.name = "bouncing", .count = 20, .grid = 4000, .length = 1500, .speed = 60, .spin = 20, .legs = 6},
+    {.name = "lattice bouncing", .count = 16, .grid = 24, .length = 8, .speed = 2, .spin = 1, .legs = 6},
+    {.name = "twins", .count = 24, .grid = 1000, .length = 500, .speed = 12, .twice = true, .legs = 3},
+    {.name = "upright", .count = 24, .grid = 200, .length = 90, .speed = 5, .spin = 0, .upright = true},
+    {.name = "nearly upright", .count = 20, .grid = 200, .length = 90, .speed = 5, .spin = 1, .upright = true},
+    {.name = "lanes", .count = 24, .grid = 12, .length = 5, .speed = 2, .spin = 1, .lanes = true, .legs = 3},
+    {.name = "mortal", .count = 40, .grid = 2000, .length = 900, .speed = 30, .spin = 10, .mortal = true},
+    {.name = "mortal lattice", .count = 24, .grid = 16, .length = 6, .speed = 2, .spin = 1, .mortal = true},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static void test_every_event(void **state) {
+    (void)state;
+    uint64_t events = 0, kind_events[FROE_EVENT_KINDS] = {0};
+    for (size_t i = 0; i < KINDS; i++)
+        for (uint64_t seed = 1; seed <= 3; seed++) {
+            froe_motion *m = moving_new(kinds + i, seed, NULL);
+            froe_kinetic *k = start(m, seed);
+            run(k, kinds[i].name, 240);
+            froe_kinetic_stats s = froe_kinetic_statistics(k);
+            assert_int_equal(s.stuck, 0);
+            for (int j = 0; j < FROE_EVENT_KINDS; j++) kind_events[j] += s.events[j], events += s.events[j];
+            froe_kinetic_free(k);
+            froe_motion_free(m);
+        }
+    for (int j = 0; j < FROE_EVENT_KINDS; j++)
+        if (!kind_events[j]) fail_msg("no event of kind %s", froe_event_name((froe_event_kind)j));
+    assert_true(events >= 10000);
+}
+
+/* In general position there is nothing to fall back to. */
+static void test_general_position(void **state) {
+    (void)state;
+    static const moving_kind general = {
+        .name = "general", .count = 120, .grid = 1 << 16, .length = 1 << 13, .speed = 300, .spin = 100};
+    froe_motion *m = moving_new(&general, 5, NULL);
+    froe_kinetic *k = start(m, 5);
+    assert_int_equal(froe_kinetic_advance(k, MOVING_TIME / 4, NULL, NULL, NULL), FROE_OK);
+    audit(k, "general");
+    froe_kinetic_stats s = froe_kinetic_statistics(k);
+    assert_int_equal(s.rebuilds + s.restarts + s.stuck, 0);
+    assert_true(s.surgeries > 1000);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
+/* There and back again: positions at tick t and at the last but t are the same, and so is the tree. */
+static void test_reversal(void **state) {
+    (void)state;
+    static const moving_kind ways[] = {
+        {.name = "back", .count = 30, .grid = 4096, .length = 2000, .speed = 64, .spin = 32, .legs = 2, .back = true},
+        {.name = "curved back",
+         .count = 16,
+         .grid = 4096,
+         .length = 2000,
+         .speed = 64,
+         .spin = 32,
+         .legs = 2,
+         .curved = true,
+         .back = true},
+        {.name = "lattice back", .count = 24, .grid = 16, .length = 6, .speed = 2, .spin = 1, .legs = 2, .back = true},
+    };
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        froe_motion *m = moving_new(ways + i, 3 + i, NULL);
+        froe_kinetic *k = start(m, 9), *first = start(m, 9);
+        assert_int_equal(froe_kinetic_advance(k, MOVING_TIME, NULL, NULL, NULL), FROE_OK);
+        assert_int_equal(k->now.tick, m->last_tick - 1);
+        audit(k, ways[i].name);
+        uint32_t node[2];
+        assert_int_equal(live_compare(k, first, node), FROE_OK);
+        assert_int_equal(node[0], LEAF);
+        assert_int_equal(k->node_count, first->node_count);
+        froe_kinetic_free(first);
+        froe_kinetic_free(k);
+        froe_motion_free(m);
+    }
+}
+
+/* -------------------------------------------------------------------- changes -- */
+
+static void test_changes(void **state) {
+    (void)state;
+    fuzz_source r = {77};
+    froe_motion *m = moving_new(kinds + 9, 4, NULL);
+    froe_kinetic *k = start(m, 4);
+    for (int i = 0; i < 60; i++) {
+        double now = froe_kinetic_time(k);
+        assert_int_equal(froe_kinetic_advance(k, now + 0.9, NULL, NULL, NULL), FROE_OK);
+        now = froe_kinetic_time(k);
+        uint32_t vertex = (uint32_t)fuzz_int(&r, 0, (int)froe_motion_vertex_count(m) - 1);
+        double times[2] = {now - 1, MOVING_TIME}, at[2], xy[4];
+        if (!froe_motion_position(m, vertex, now, at)) continue;
+        for (int c = 0; c < 2; c++) xy[c] = at[c], xy[2 + c] = fuzz_int(&r, 0, 3000);
+        if (i % 3 == 0) {
+            assert_int_equal(froe_kinetic_replan(k, vertex, 2, times, xy, NULL, NULL), FROE_OK);
+        } else if (i % 3 == 1) {
+            times[1] = now; /* too short */
+            froe_diagnostic why = {0};
+            froe_status status = froe_kinetic_replan(k, vertex, 2, times, xy, NULL, &why);
+            assert_true(status == FROE_E_INPUT || status == FROE_OK);
+        } else {
+            uint32_t gone = (uint32_t)fuzz_int(&r, 0, kinds[9].count - 1);
+            assert_int_equal(froe_kinetic_remove(k, gone, NULL), FROE_OK);
+            froe_moving b = froe_moving_defaults();
+            const size_t starts[3] = {0, 2, 4};
+            const double when[4] = {now - 1, MOVING_TIME, now - 1, MOVING_TIME};
+            double where[8];
+            for (int c = 0; c < 8; c++) where[c] = fuzz_int(&r, 0, 3000);
+            const double birth = now + (i % 2);
+            b.vertex_count = 2, b.count = 1, b.starts = starts, b.times = when, b.coords = where, b.births = &birth;
+            assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+            assert_int_equal(froe_kinetic_update(k, NULL), FROE_OK);
+        }
+        audit(k, "changes");
+    }
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
+static void test_epochs(void **state) {
+    (void)state;
+    froe_motion *m = moving_new(kinds, 2, NULL);
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_kinetic *k = NULL;
+    o.epoch = 50;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+    uint64_t key = segment_at(k, 0)->key;
+    run(k, "epochs", 120);
+    assert_true(segment_at(k, 0)->key != key);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
+static void test_order(void **state) {
+    (void)state;
+    enum { N = 24 };
+    froe_motion *m = moving_new(kinds, 2, NULL);
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_kinetic *k = NULL;
+    froe_diagnostic why = {0};
+    uint32_t order[N];
+    for (uint32_t i = 0; i < N; i++) order[i] = N - 1 - i;
+    o.order = order;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+    assert_int_equal(node_at(k, node_at(k, ROOT)->child[0])->segment, N - 1);
+    run(k, "order", 50);
+    froe_kinetic_free(k);
+    order[3] = 5;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, &why), FROE_E_OPTIONS);
+    o.order = NULL;
+    o.size = 0;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, &why), FROE_E_OPTIONS);
+    froe_motion_free(m);
+}
+
+/* ------------------------------------------------------------------- refusals -- */
+
+static bool count_three(void *user, const froe_event *event) {
+    assert_true(event->early < event->late && event->object_count);
+    return ++*(int *)user < 3;
+}
+
+static void test_calls(void **state) {
+    (void)state;
+    froe_motion *m = moving_new(kinds, 1, NULL);
+    froe_kinetic *k = start(m, 1);
+    int seen = 0;
+    froe_diagnostic why = {0};
+    assert_int_equal(froe_kinetic_advance(k, MOVING_TIME, count_three, &seen, &why), FROE_E_CANCELLED);
+    assert_true(seen >= 3);
+    audit(k, "cancelled");
+    assert_int_equal(froe_kinetic_advance(k, 0, NULL, NULL, &why), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_advance(k, MOVING_TIME + 1, NULL, NULL, &why), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_advance(k, (double)NAN, NULL, NULL, &why), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_remove(k, 1000, &why), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_replan(k, 1000, 0, NULL, NULL, NULL, &why), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_new(NULL, NULL, NULL, &k, &why), FROE_E_ARG);
+    assert_null(froe_event_name(FROE_EVENT_KINDS));
+    froe_kinetic_free(k);
+    froe_kinetic_free(NULL);
+    froe_motion_free(m);
+}
+
+static froe_status with_memory(void *user, const froe_allocator *alloc) {
+    froe_motion *m = user;
+    froe_kinetic *k = NULL;
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_status status = froe_kinetic_new(m, &o, alloc, &k, NULL);
+    if (status) return status;
+    status = froe_kinetic_advance(k, MOVING_TIME / 4.0 + 0.5, NULL, NULL, NULL);
+    if (!status) status = froe_kinetic_audit(k, NULL);
+    froe_kinetic_free(k);
+    return status;
+}
+
+static void test_memory_runs_out(void **state) {
+    (void)state;
+    static const moving_kind few = {
+        .name = "few", .count = 4, .grid = 8, .length = 8, .speed = 1, .spin = 1, .legs = 4, .lanes = true};
+    for (uint64_t seed = 1; seed <= 2; seed++) {
+        moving_kind kind = few;
+        kind.lanes = seed == 1;
+        froe_motion *m = moving_new(&kind, seed, NULL);
+        test_memory_each(with_memory, m);
+        froe_motion_free(m);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_event), cmocka_unit_test(test_general_position), cmocka_unit_test(test_reversal),
+        cmocka_unit_test(test_changes),     cmocka_unit_test(test_epochs),           cmocka_unit_test(test_order),
+        cmocka_unit_test(test_calls),       cmocka_unit_test(test_memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
