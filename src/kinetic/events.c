@@ -53,10 +53,10 @@ static bool third_crossing(now_name p, now_name q, now_name *out) {
 
 /* A vertex, and a crossing of a segment that ends at it with another: which one? */
 static uint32_t met_segment(const froe_kinetic *k, now_name p, now_name q) {
-    if (name_is_crossing(p)) return name_is_crossing(q) ? FROE_NONE : met_segment(k, q, p);
-    if (!name_is_crossing(q)) return FROE_NONE;
-    if (has_end(k, q.a, p.a)) return (uint32_t)q.b;
-    return has_end(k, (uint32_t)q.b, p.a) ? q.a : FROE_NONE;
+    now_name vertex = name_is_vertex(p) ? p : q, crossing = name_is_vertex(p) ? q : p;
+    if (!name_is_vertex(vertex) || !name_is_crossing(crossing)) return FROE_NONE;
+    if (has_end(k, crossing.a, vertex.a)) return (uint32_t)crossing.b;
+    return has_end(k, (uint32_t)crossing.b, vertex.a) ? crossing.a : FROE_NONE;
 }
 
 static void find_slab(froe_kinetic *k, live_item *item) {
@@ -135,8 +135,6 @@ static void involve(froe_kinetic *k, now_name p) {
 typedef struct group {
     const live_item *items;
     size_t count;
-    bool careful; /**< coincidences, or more than one thing at once */
-    bool turns;
     double low, high;
 } group;
 
@@ -407,10 +405,9 @@ static void gather(froe_kinetic *k) {
 /* The items from i on whose slabs hang together. */
 static group group_from(const froe_kinetic *k, size_t i) {
     const live_item *items = k->items.data;
-    group g = {items + i, 1, false, items[i].kind == CERT_TURN, items[i].low, items[i].high};
+    group g = {items + i, 1, items[i].low, items[i].high};
     for (size_t j = i + 1; j < k->items.count && items[j].low <= g.high; j++, g.count++) {
         if (items[j].high > g.high) g.high = items[j].high;
-        g.turns |= items[j].kind == CERT_TURN;
     }
     return g;
 }

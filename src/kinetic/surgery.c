@@ -53,8 +53,8 @@ static void split_node(froe_kinetic *k, const live_cutting *c, now_name line) {
     if (!half) return;
     live_attach(k, c->parent[0], c->slot[0], c->a);
     live_attach(k, c->parent[1], c->slot[1], half);
-    for (uint8_t i = UP; i <= DOWN; i++)
-        push(k, node_at(k, c->a)->child[i], LEAF, (uint32_t[]){c->a, half}, (uint8_t[]){i, i});
+    for (int i = UP; i <= DOWN; i++)
+        push(k, node_at(k, c->a)->child[i], LEAF, (uint32_t[]){c->a, half}, (uint8_t[]){(uint8_t)i, (uint8_t)i});
 }
 
 void live_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]) {
