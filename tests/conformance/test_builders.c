@@ -22,6 +22,9 @@ enum {
 static bool serves(const froe_method_info *m, const froe_scene *scene) {
     for (int k = 0; k < FROE_KIND_COUNT; k++)
         if (froe_scene_kind_count(scene, (froe_kind)k) && !(m->kinds >> k & 1)) return false;
+    const size_t flat = froe_scene_kind_count(scene, FROE_POINT) + froe_scene_kind_count(scene, FROE_SEGMENT);
+    const bool plane = froe_scene_dim(scene) == 2;
+    if (plane && !strcmp(m->name, "index") && flat < froe_scene_object_count(scene)) return false;
     return m->dims >> froe_scene_dim(scene) & 1;
 }
 
