@@ -34,9 +34,9 @@ static const froe_option_info options[] = {
 
 static const split_effort presets[] = {
     {.supports = 8, .starts = 4, .turns = 6, .sample = 512},
-    {.supports = 10, .starts = 16, .turns = 12, .sample = 2048},
-    {.supports = 20, .starts = 64, .turns = 20, .sample = 8192},
-    {.supports = 20, .starts = 64, .turns = 20, .sample = 8192},
+    {.supports = 20, .starts = 16, .turns = 12, .sample = 2048},
+    {.supports = 40, .starts = 64, .turns = 20, .sample = 8192},
+    {.supports = 40, .starts = 64, .turns = 20, .sample = 8192, .again = true},
 };
 
 static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
@@ -75,10 +75,10 @@ static froe_status build(build_job *job, froe_tree **out) {
 
 const build_method build_method_grain = {
     .info = {.name = "grain",
-             .summary = "cuts along the mesh, through three vertices: fewest pieces of polygons",
+             .summary = "cuts along the mesh, through its vertices: fewest pieces",
              .source = "froe's own; information against splits, after Paterson and Yao 1990",
              .guarantee = "height <= C log2 n + 2, + 3 log2 v + U where no cut is balanced",
-             .dims = 1u << 3,
+             .dims = 1u << 2 | 1u << 3,
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON,
              .options = options},
     .resolve = resolve,

@@ -1,6 +1,7 @@
 /* candidates.c: see candidates.h. Draws depend on the path of the cell, not on threads. */
 #include "split/candidates.h"
 #include <math.h>
+#include <string.h>
 
 static uint32_t drawn_object(split_contest *c) {
     return c->work->set.items.data[c->cell->first + split_draw(c, c->cell->count)].object;
@@ -21,7 +22,7 @@ static void enter_support(split_contest *c, uint32_t object) {
         k.axis = cut.axis;
         k.value = cut.value;
     } else if (cut.kind == FROE_CUT_OBJECT) {
-        for (uint32_t i = 0; i < 3; i++) k.id[i] = scene_corner(scene, object, i);
+        for (uint32_t i = 0; i < (uint32_t)scene->dim; i++) k.id[i] = scene_corner(scene, object, i);
     } else {
         return; /* a segment askew in space: split_any_support() knows it */
     }
@@ -38,7 +39,7 @@ void split_enter_supports(split_contest *c) {
 /* ------------------------------------------------------------------- axes -- */
 
 void split_enter_axes(split_contest *c) {
-    for (int axis = 0; axis < 3 && !c->done && !c->failed; axis++) {
+    for (int axis = 0; axis < c->work->set.scene->dim && !c->done && !c->failed; axis++) {
         split_candidate k = {.kind = SPLIT_AXIS, .axis = axis};
         uint32_t corner;
         c->failed |= !split_sweep_axis(c->sweep, &c->work->set, c->facets, c->price, &c->terms, axis, &corner);
@@ -48,48 +49,49 @@ void split_enter_axes(split_contest *c) {
     }
 }
 
-/* ---------------------------------------------------------- three vertices -- */
+/* ------------------------------------------------------- through vertices -- */
 
-/** An edge of some object of the cell; false: it has none. */
-static bool drawn_edge(split_contest *c, uint32_t *a, uint32_t *b) {
+/** An edge of some object of the cell, in the plane an end of one; false: it has none. */
+static bool drawn_axle(split_contest *c, uint32_t axle[2]) {
     const froe_scene *scene = c->work->set.scene;
     uint32_t object = drawn_object(c), n = scene_corners(scene, object), i = split_draw(c, n);
-    *a = scene_corner(scene, object, i);
-    *b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
-    return n > 1;
+    axle[0] = scene_corner(scene, object, i);
+    axle[1] = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
+    return n > 1 || scene->dim == 2;
 }
 
-/** The best plane through a, b and another vertex. False: there is none. */
-static bool turn_about(split_contest *c, uint32_t a, uint32_t b, split_candidate *out) {
-    uint32_t v;
-    c->failed |= !split_sweep_pencil(c->sweep, &c->work->set, c->facets, c->price, &c->terms, a, b, &v);
-    *out = (split_candidate){.kind = SPLIT_TRIPLE, .id = {a, b, v}};
-    return !c->failed && v != FROE_NONE && v != a && v != b && split_contest_score(c, out);
+/** The best plane through the axle and another vertex. False: there is none. */
+static bool turn_about(split_contest *c, const uint32_t *axle, split_candidate *out) {
+    uint32_t v, last = (uint32_t)c->work->set.scene->dim - 1;
+    c->failed |= !split_sweep_pencil(c->sweep, &c->work->set, c->facets, c->price, &c->terms, axle, &v);
+    *out = (split_candidate){.kind = SPLIT_THROUGH};
+    memcpy(out->id, axle, last * sizeof *axle);
+    out->id[last] = v;
+    return !c->failed && v != FROE_NONE && v != axle[0] && v != axle[last - 1] && split_contest_score(c, out);
 }
 
-/** Exchanges vertices of k, whose last is the best with the others, until none of the three can be improved. */
+/** Exchanges vertices of k, whose last is the best with the others, until none of them can be improved. */
 static void improve(split_contest *c, split_candidate *k) {
-    uint32_t failures = 0;
-    for (uint32_t i = 1; i < c->config->effort.turns && failures < 2 && !c->failed; i++) {
+    uint32_t failures = 0, last = (uint32_t)c->work->set.scene->dim - 1;
+    for (uint32_t i = 1; i < c->config->effort.turns && failures < last && !c->failed; i++) {
         split_candidate next;
-        if (turn_about(c, k->id[1], k->id[2], &next) && next.cost < k->cost) {
+        if (turn_about(c, k->id + 1, &next) && next.cost < k->cost) {
             *k = next;
             failures = 0;
         } else {
-            uint32_t kept = k->id[0];
-            k->id[0] = k->id[1];
-            k->id[1] = k->id[2];
-            k->id[2] = kept;
+            uint32_t first = k->id[0];
+            memmove(k->id, k->id + 1, last * sizeof first);
+            k->id[last] = first;
             failures++;
         }
     }
 }
 
-void split_enter_triples(split_contest *c) {
+void split_enter_through(split_contest *c) {
     for (uint32_t i = 0; i < c->config->effort.starts && !c->done && !c->failed; i++) {
-        uint32_t a, b;
+        uint32_t axle[2];
         split_candidate k;
-        if (!drawn_edge(c, &a, &b) || !turn_about(c, a, b, &k)) continue;
+        if (!drawn_axle(c, axle) || !turn_about(c, axle, &k)) continue;
         improve(c, &k);
         split_contest_enter(c, &k);
     }

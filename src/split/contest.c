@@ -1,6 +1,7 @@
 /* contest.c: see contest.h. */
 #include "split/contest.h"
 #include "split/cell.h"
+#include "split/crossing.h"
 
 #define THIN 1e-5 /* triples thinner than this give no plane worth trying */
 
@@ -9,6 +10,7 @@ void split_contest_show(split_contest *c, uint32_t sample) {
     c->failed |= !split_facets_fill(c->facets, set, c->cell, sample, c->config->seed);
     c->room = c->facets->weight == 1 ? 1 : SPLIT_FINALISTS;
     c->count = 0;
+    c->done = false;
 }
 
 bool split_contest_score(split_contest *c, split_candidate *k) {
@@ -19,7 +21,10 @@ bool split_contest_score(split_contest *c, split_candidate *k) {
     else if (!split_facets_plane(c->facets, scene, k->id, k->kind == SPLIT_SUPPORT ? 0 : THIN, &plane))
         return false;
     split_tally tally = split_facets_count(c->facets, &plane);
-    k->cost = split_price_of(c->price, &c->terms, tally, c->facets->weight);
+    k->due = 0;
+    if (k->kind == SPLIT_SUPPORT && tally.both)
+        k->due = c->facets->weight * split_crossing_count(c->facets, scene, k->object, &plane);
+    k->cost = split_price_of(c->price, &c->terms, tally, c->facets->weight) - k->due;
     return split_tally_useful(tally);
 }
 
@@ -36,14 +41,14 @@ static bool verify(split_contest *c, split_candidate *k, split_tally *tally) {
     if (!is_plane(c->work, &cut)) return false;
     if (cell_tally(c->work, c->cell, &cut, tally)) c->failed = true;
     if (c->failed || !split_tally_useful(*tally)) return false;
-    k->cost = split_price_of(c->price, &c->terms, *tally, 1);
+    k->cost = split_price_of(c->price, &c->terms, *tally, 1) - k->due;
     return true;
 }
 
-/** Nothing is much better than a cut without splits that leaves at most 5/8 on a side. */
-static bool hard_to_beat(split_tally t) {
+/** Nothing is much better than a cut without splits but those due that leaves at most 7/10 on a side. */
+static bool hard_to_beat(split_tally t, double due) {
     uint64_t all = split_tally_all(t), larger = split_tally_larger(t);
-    return !t.both && (all <= 4 || 10 * larger <= 7 * all);
+    return t.both <= due && (all <= 4 || 10 * larger <= 7 * all);
 }
 
 static void insert(split_contest *c, const split_candidate *k) {
@@ -59,7 +64,7 @@ void split_contest_enter(split_contest *c, const split_candidate *candidate) {
         split_tally tally;
         if (!verify(c, &k, &tally) || (c->count && c->best[0].cost <= k.cost)) return;
         c->tally = tally;
-        c->done = hard_to_beat(tally);
+        c->done = hard_to_beat(tally, k.due);
     }
     insert(c, &k);
 }

@@ -12,14 +12,15 @@
 
 enum { SPLIT_FINALISTS = 16 };
 
-typedef enum split_candidate_kind { SPLIT_SUPPORT, SPLIT_TRIPLE, SPLIT_AXIS } split_candidate_kind;
+typedef enum split_candidate_kind { SPLIT_SUPPORT, SPLIT_THROUGH, SPLIT_AXIS } split_candidate_kind;
 
 typedef struct split_candidate {
     split_candidate_kind kind;
-    uint32_t id[3];  /**< SUPPORT, TRIPLE: vertices that span the plane */
+    uint32_t id[3];  /**< SUPPORT, THROUGH: the vertices that span the plane, as many as dimensions */
     uint32_t object; /**< SUPPORT */
     int axis;        /**< AXIS */
     double value;
+    double due; /**< SUPPORT: splits that no other cut saves (crossing.h) */
     double cost;
 } split_candidate;
 

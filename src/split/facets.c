@@ -5,7 +5,7 @@
 #include <string.h>
 
 froe_status split_facets_new(const froe_allocator *alloc, const froe_scene *scene, split_facets *out) {
-    *out = (split_facets){.place_count = scene->vertex_count};
+    *out = (split_facets){.place_count = scene->vertex_count, .dim = scene->dim};
     out->place = base_calloc(alloc, out->place_count, sizeof *out->place);
     if (!out->place) return FROE_E_MEMORY;
     memset(out->place, 0xff, out->place_count * sizeof *out->place);
@@ -46,7 +46,7 @@ static uint32_t add_corner(split_facets *f, const double *x, uint32_t vertex) {
     uint32_t at = (uint32_t)f->x.count++;
     f->x.data[at] = x[0];
     f->y.data[at] = x[1];
-    f->z.data[at] = x[2];
+    f->z.data[at] = f->dim == 3 ? x[2] : 0;
     f->vertex.data[at] = vertex;
     f->vertex.count = at + 1;
     return at;
@@ -62,7 +62,7 @@ static uint32_t add_vertex(split_facets *f, const froe_scene *scene, uint32_t ve
 
 /** Where a corner lies; where that is beyond doubles, any place of its object will do. */
 static const double *image(const split_set *set, const split_fragment *item, const split_corner *k) {
-    bool known = isfinite(k->x[0]) && isfinite(k->x[1]) && isfinite(k->x[2]);
+    bool known = isfinite(k->x[0]) && isfinite(k->x[1]) && (set->scene->dim == 2 || isfinite(k->x[2]));
     return known ? k->x : scene_point(set->scene, item->object, 0);
 }
 
@@ -143,32 +143,41 @@ bool split_facets_fill(split_facets *f, const split_set *set, const split_cell *
 /* ----------------------------------------------------------------- planes -- */
 
 void split_facets_local(const split_facets *f, const double *x, double out[3]) {
-    for (int k = 0; k < 3; k++) out[k] = (0.5 * x[k] - f->middle[k]) * f->scale;
+    for (int k = 0; k < 3; k++) out[k] = k < f->dim ? (0.5 * x[k] - f->middle[k]) * f->scale : 0;
 }
 
 static double dot(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/** The vector from x to y, and its squared length. */
-static double edge(const split_facets *f, const double *x, const double *y, double out[3]) {
-    for (int k = 0; k < 3; k++) out[k] = (0.5 * y[k] - 0.5 * x[k]) * f->scale;
+/** The vector between two vertices, and its squared length. */
+static double edge(const split_facets *f, const froe_scene *scene, uint32_t a, uint32_t b, double out[3]) {
+    const double *x = scene_vertex(scene, a), *y = scene_vertex(scene, b);
+    for (int k = 0; k < 3; k++) out[k] = k < f->dim ? (0.5 * y[k] - 0.5 * x[k]) * f->scale : 0;
     return dot(out, out);
+}
+
+/** A normal of the plane through vertices, as long as twice their triangle's area; returns the square of their longest
+ * distance. In the plane both are the distance of the two vertices. */
+static double normal_of(const split_facets *f, const froe_scene *scene, const uint32_t *id, double n[3]) {
+    double u[3], v[3] = {0, 0, -1}, w[3], longest = edge(f, scene, id[0], id[1], u);
+    if (f->dim == 3) {
+        double vv = edge(f, scene, id[0], id[2], v), ww = edge(f, scene, id[1], id[2], w);
+        longest = vv > longest ? vv : longest;
+        longest = ww > longest ? ww : longest;
+    }
+    n[0] = u[1] * v[2] - u[2] * v[1];
+    n[1] = u[2] * v[0] - u[0] * v[2];
+    n[2] = u[0] * v[1] - u[1] * v[0];
+    return f->dim == 3 ? longest : sqrt(longest);
 }
 
 bool split_facets_plane(const split_facets *f, const froe_scene *scene, const uint32_t id[3], double thin,
                         split_facet_plane *out) {
-    const double *p = scene_vertex(scene, id[0]), *q = scene_vertex(scene, id[1]), *r = scene_vertex(scene, id[2]);
-    double u[3], v[3], w[3], at[3], uu = edge(f, p, q, u), vv = edge(f, p, r, v), ww = edge(f, q, r, w);
-    double *n = out->n, longest = uu > vv ? uu : vv;
-    if (ww > longest) longest = ww;
-    n[0] = u[1] * v[2] - u[2] * v[1];
-    n[1] = u[2] * v[0] - u[0] * v[2];
-    n[2] = u[0] * v[1] - u[1] * v[0];
-    double length = sqrt(dot(n, n)), over = 1 / length;
+    double *n = out->n, longest = normal_of(f, scene, id, n), length = sqrt(dot(n, n)), over = 1 / length, at[3];
     if (!(length > thin * longest) || !(length > 0x1p-900) || !(length < 0x1p900)) return false; /* NaN, too */
-    split_facets_local(f, p, at);
-    for (int k = 0; k < 3; k++) n[k] *= over, out->known[k] = f->place[id[k]];
+    split_facets_local(f, scene_vertex(scene, id[0]), at);
+    for (int k = 0; k < 3; k++) n[k] *= over, out->known[k] = k < f->dim ? f->place[id[k]] : FROE_NONE;
     out->d = dot(n, at);
     /* a few roundings of the normal, which weigh more the thinner the triangle, and of the sums */
     out->slack = 0x1p-48 * (1 + longest * over) * (1 + sqrt(dot(at, at)));

@@ -16,7 +16,8 @@
 #include "split/view.h"
 
 typedef struct split_facets {
-    ARRAY(double) x, y, z;    /**< corners, then vertices outside */
+    int dim;
+    ARRAY(double) x, y, z;    /**< corners, then vertices outside; z = 0 in the plane */
     ARRAY(uint32_t) vertex;   /**< the input vertex each is, or FROE_NONE */
     ARRAY(uint32_t) vertices; /**< those that are one, the corners first */
     uint32_t corners, inside; /**< how many of the former are corners; of the latter */
@@ -53,5 +54,6 @@ bool split_facets_plane(const split_facets *facets, const froe_scene *scene, con
 split_facet_plane split_facets_axis(const split_facets *facets, int axis, double value);
 /** A coordinate of a corner, in the scene; rounded once more where the corner is no vertex. */
 double split_facets_coordinate(const split_facets *facets, const froe_scene *scene, uint32_t corner, int axis);
+/** Deals the fragments shown to sides; those of their corners stay in `side`. */
 split_tally split_facets_count(split_facets *facets, const split_facet_plane *plane);
 #endif

@@ -6,9 +6,11 @@
 #include "split/resort.h"
 #include <string.h>
 
-#define SHARE 0.7    /* of a cell that a balanced cut may leave on a side, whatever the budget */
-#define HALVING 0.15 /* splits that one bit is worth while a cell is too large for the levels left, */
-#define PEELING 0.02 /* and once it is not */
+#define SHARE 0.7 /* of a cell that a balanced cut may leave on a side, whatever the budget */
+static const double halving[] = {0.05, 0.15}; /* splits that one bit is worth while a cell is too large for the levels
+                                                 left, in the plane and in space; */
+#define PEELING 0.02                          /* and once it is not */
+#define DEAR 0.04                             /* splits for a bit that are worth looking again */
 enum { PEEL = 4, PEEL_MOST = 100, FEW = 4 };
 
 typedef struct scratch {
@@ -60,12 +62,13 @@ static double manageable(uint32_t leaf, double levels, double most) {
     return n;
 }
 
-static split_terms terms_of(const split_grain *config, const split_cell *cell) {
+static split_terms terms_of(const split_grain *config, int dim, const split_cell *cell) {
     double m = cell->count, levels = config->height - cell->depth, share = SHARE * m;
-    if (m <= config->peel || config->height <= 0) return (split_terms){m <= config->peel ? PEELING : HALVING, m};
+    if (m <= config->peel || config->height <= 0)
+        return (split_terms){m <= config->peel ? PEELING : halving[dim == 3], m};
     double most = manageable(config->leaf, levels - 1, m);
     bool peel = m <= PEEL * levels && m <= PEEL_MOST;
-    return (split_terms){peel ? PEELING : HALVING, most > share ? most : share};
+    return (split_terms){peel ? PEELING : halving[dim == 3], most > share ? most : share};
 }
 
 static bool limited(const split_contest *c) {
@@ -107,7 +110,8 @@ static split_verdict balance_vertices(split_contest *c, froe_cut *cut) {
 
 /* ----------------------------------------------------------------- choice -- */
 
-/** Those that did best on a sample, on all fragments. */
+/** Those that did best on a sample, on all fragments. Where corners lie closer together than doubles tell, a sample is
+ * full of cuts that seem to split nothing and split all: if no finalist is worth its splits, supports are, perhaps. */
 static void run_off(split_contest *c) {
     split_candidate last[SPLIT_FINALISTS];
     uint32_t count = c->count;
@@ -116,6 +120,33 @@ static void run_off(split_contest *c) {
     split_contest_show(c, c->cell->count);
     for (uint32_t i = 0; i < count && !c->failed; i++)
         if (split_contest_score(c, &last[i])) split_contest_enter(c, &last[i]);
+    if (!c->count || c->best[0].cost > 0) split_enter_supports(c);
+}
+
+static void hold(split_contest *c) {
+    split_contest_show(c, c->config->effort.sample);
+    if (c->failed) return;
+    split_enter_supports(c);
+    split_enter_axes(c);
+    split_enter_through(c);
+    run_off(c);
+}
+
+/** Splits that the best cut makes for each bit that it tells; negative: it tells nothing. */
+static double splits_per_bit(const split_contest *c) {
+    const split_terms bits = {1, c->cell->count};
+    double splits = c->tally.both - c->best[0].due;
+    double gain = c->tally.both - split_price_of(c->price, &bits, c->tally, 1);
+    return gain > 0 ? splits / gain : -1;
+}
+
+/** Where bits turn out dearer than thought, as no cut is without splits, the contest is held once more at their actual
+ * price: a step of Dinkelbach's method (1967) towards the fewest splits per bit. */
+static void hold_at_actual_price(split_contest *c) {
+    double actual = !c->config->effort.again || c->failed || !c->count ? 0 : splits_per_bit(c);
+    if (actual <= DEAR || actual <= c->terms.weight) return;
+    c->terms.weight = actual;
+    hold(c);
 }
 
 split_verdict split_grain_choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
@@ -125,13 +156,9 @@ split_verdict split_grain_choose(const void *config, split_work *work, const spl
     if (cell->count <= c.config->leaf) return SPLIT_LEAF;
     if (c.config->leaf && split_one_point(&work->set, cell)) return SPLIT_INSEPARABLE;
     if (cell->attempt || cell->count == 1) return take_one(&c, cut);
-    c.terms = terms_of(c.config, cell);
-    split_contest_show(&c, c.config->effort.sample);
-    if (c.failed) return SPLIT_MEMORY;
-    split_enter_supports(&c);
-    split_enter_axes(&c);
-    split_enter_triples(&c);
-    run_off(&c);
+    c.terms = terms_of(c.config, work->set.scene->dim, cell);
+    hold(&c);
+    hold_at_actual_price(&c);
     if (c.failed) return SPLIT_MEMORY;
     if (c.count) *cut = split_candidate_cut(&c.best[0]);
     if (limited(&c) && (!c.count || split_tally_larger(c.tally) > c.terms.most)) return balance_vertices(&c, cut);

@@ -1,4 +1,5 @@
-/* grain.h: choosing cuts along the grain: planes through three vertices that follow the mesh.
+/* grain.h: choosing cuts along the grain: planes through three vertices that follow the mesh; in the plane, lines
+ * through two.
  *
  *      __/\__/\__          a supporting plane at a saddle crosses about sqrt(m) of the m triangles of
  *     /\ a--v--b /\        its cell; the plane through two consecutive edges a-v-b shares them, and
@@ -19,6 +20,7 @@ typedef struct split_effort {
     uint32_t starts;   /**< edges from which triples are sought */
     uint32_t turns;    /**< pencils swept from each */
     uint32_t sample;   /**< fragments looked at, at most */
+    bool again;        /**< look again where no cut is without splits */
 } split_effort;
 
 /** What did not go as hoped; several threads add to it. */

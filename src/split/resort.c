@@ -42,7 +42,7 @@ static size_t inner_median(split_facets *f, const froe_scene *scene, int axis, d
 
 bool split_vertex_median(split_facets *f, const froe_scene *scene, froe_cut *cut) {
     size_t most = 0;
-    for (int axis = 0; axis < 3; axis++) {
+    for (int axis = 0; axis < scene->dim; axis++) {
         double median = 0;
         size_t inner = inner_median(f, scene, axis, &median);
         if (inner <= most) continue;

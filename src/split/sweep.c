@@ -179,18 +179,28 @@ static void look_along(split_sweep *s, const split_facets *t, const double p[3],
     }
 }
 
+/** The line that a pencil turns about: a point and a unit vector. In the plane it stands upright on a vertex. */
+static bool axle_of(const split_facets *facets, const froe_scene *scene, const uint32_t *axle, double p[3],
+                    double e[3]) {
+    double q[3], square = 0;
+    split_facets_local(facets, scene_vertex(scene, axle[0]), p);
+    if (scene->dim == 3)
+        split_facets_local(facets, scene_vertex(scene, axle[1]), q);
+    else
+        memcpy(q, (double[]){p[0], p[1], 1}, sizeof q);
+    for (int k = 0; k < 3; k++) e[k] = q[k] - p[k], square += e[k] * e[k];
+    double length = sqrt(square);
+    for (int k = 0; k < 3; k++) e[k] /= length;
+    return length > 0x1p-100 && length < 0x1p100;
+}
+
 bool split_sweep_pencil(split_sweep *s, const split_set *set, const split_facets *facets, const split_price *price,
-                        const split_terms *terms, uint32_t a, uint32_t b, uint32_t *best) {
-    double p[3], q[3], e[3], square = 0;
+                        const split_terms *terms, const uint32_t *axle, uint32_t *best) {
+    double p[3], e[3];
     *best = FROE_NONE;
     if (facets->x.count > SPLIT_SWEEP_MOST) return true;
     if (!make_room(s, &set->alloc, facets->x.count)) return false;
-    split_facets_local(facets, scene_vertex(set->scene, a), p);
-    split_facets_local(facets, scene_vertex(set->scene, b), q);
-    for (int k = 0; k < 3; k++) e[k] = q[k] - p[k], square += e[k] * e[k];
-    double length = sqrt(square);
-    if (!(length > 0x1p-100) || !(length < 0x1p100)) return true;
-    for (int k = 0; k < 3; k++) e[k] /= length;
+    if (!axle_of(facets, set->scene, axle, p, e)) return true;
     look_along(s, facets, p, e);
     uint32_t corner = winner(s, facets, price, terms, false);
     if (corner != FROE_NONE) *best = facets->vertex.data[corner];

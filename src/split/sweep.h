@@ -28,10 +28,10 @@ typedef struct split_sweep {
 enum { SPLIT_SWEEP_MOST = 1 << 24 }; /* corners in a sweep */
 
 void split_sweep_free(const froe_allocator *alloc, split_sweep *sweep);
-/** Of the planes through vertices a and b of the scene and another vertex shown, the one of least price: that vertex,
- * or FROE_NONE when none separates anything. False: no memory. */
+/** Of the planes through the axle, two vertices of the scene (in the plane: lines through one), and another vertex
+ * shown, the one of least price: that vertex, or FROE_NONE when none separates anything. False: no memory. */
 bool split_sweep_pencil(split_sweep *sweep, const split_set *set, const split_facets *facets, const split_price *price,
-                        const split_terms *terms, uint32_t a, uint32_t b, uint32_t *best);
+                        const split_terms *terms, const uint32_t *axle, uint32_t *best);
 /** Of the planes across an axis through a corner shown, the one of least price: that corner, or FROE_NONE. */
 bool split_sweep_axis(split_sweep *sweep, const split_set *set, const split_facets *facets, const split_price *price,
                       const split_terms *terms, int axis, uint32_t *best);

@@ -1,4 +1,4 @@
-/* meshes.h: scenes of triangles for tests of the grain builder. */
+/* meshes.h: scenes of triangles, and of segments in the plane, for tests of the grain builder. */
 #ifndef FROE_TESTS_SPLIT_MESHES_H
 #define FROE_TESTS_SPLIT_MESHES_H
 #include <froe/froe.h>
@@ -16,15 +16,23 @@ typedef enum mesh_kind {
     MESH_LATTICE, /**< coordinates 0 .. 3: shared corners, common planes, duplicates, triangles without area */
     MESH_FAN,     /**< around one vertex */
     MESH_HAIR,    /**< long, thin, nearly parallel */
+    MESH_STROKES, /**< segments in the plane that cross now and then */
+    MESH_MAP,     /**< edges of a shaken grid in the plane */
     MESH_KINDS
 } mesh_kind;
 
-static inline froe_scene *mesh_of(const double *coords, size_t n) {
+static inline int mesh_dim(mesh_kind kind) {
+    return kind < MESH_STROKES ? 3 : 2;
+}
+
+/** Of n triangles in space or segments in the plane. */
+static inline froe_scene *mesh_of(int dim, const double *coords, size_t n) {
     froe_scene *scene;
     froe_objects o = froe_objects_defaults();
+    o.kind = dim == 3 ? FROE_POLYGON : FROE_SEGMENT;
     o.count = n;
     o.coords = coords;
-    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
     assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
     return scene;
 }
@@ -49,7 +57,21 @@ static inline void mesh_hills(uint64_t seed, size_t index, size_t width, double 
     mesh_hill(seed, i, j + 1, x + 6);
 }
 
-static inline void mesh_triangle(fuzz_source *r, mesh_kind kind, size_t index, size_t n, double *x) {
+/** The edges right and up from vertex i, j of a grid by turns. */
+static inline void mesh_map(uint64_t seed, size_t index, size_t width, double *x) {
+    int i = (int)(index / 2 % width), j = (int)(index / 2 / width), right = (int)(index % 2);
+    double p[3], q[3];
+    mesh_hill(seed, i, j, p);
+    mesh_hill(seed, i + right, j + 1 - right, q);
+    for (int k = 0; k < 2; k++) x[k] = p[k], x[2 + k] = q[k];
+}
+
+static inline void mesh_stroke(fuzz_source *r, double *x) {
+    double centre[2] = {fuzz_unit(r), fuzz_unit(r)};
+    for (int k = 0; k < 4; k++) x[k] = centre[k % 2] + 0.2 * fuzz_unit(r);
+}
+
+static inline void mesh_object(fuzz_source *r, mesh_kind kind, size_t index, size_t n, double *x) {
     size_t width = 1;
     while (2 * width * width < n) width++;
     switch (kind) {
@@ -65,6 +87,12 @@ static inline void mesh_triangle(fuzz_source *r, mesh_kind kind, size_t index, s
     case MESH_FAN:
         for (int k = 0; k < 9; k++) x[k] = k < 3 ? 0 : fuzz_unit(r);
         break;
+    case MESH_STROKES:
+        mesh_stroke(r, x);
+        break;
+    case MESH_MAP:
+        mesh_map(3, index, width, x);
+        break;
     default:
         for (int k = 0; k < 9; k++) x[k] = fuzz_unit(r) * (k % 3 ? 1e-3 : 1);
         for (int k = 0; k < 9; k++) x[k] += k % 3 ? 0.1 * (double)(index % 7) : 0;
@@ -73,9 +101,10 @@ static inline void mesh_triangle(fuzz_source *r, mesh_kind kind, size_t index, s
 
 static inline froe_scene *mesh_new(mesh_kind kind, size_t n) {
     fuzz_source random = {7};
-    double *x = test_malloc(9 * n * sizeof *x);
-    for (size_t i = 0; i < n; i++) mesh_triangle(&random, kind, i, n, x + 9 * i);
-    froe_scene *scene = mesh_of(x, n);
+    size_t each = kind < MESH_STROKES ? 9 : 4;
+    double *x = test_malloc(each * n * sizeof *x);
+    for (size_t i = 0; i < n; i++) mesh_object(&random, kind, i, n, x + each * i);
+    froe_scene *scene = mesh_of(mesh_dim(kind), x, n);
     test_free(x);
     return scene;
 }
