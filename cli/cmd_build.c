@@ -33,7 +33,7 @@ static const cli_option options[] = {
      .help =
          "most objects in a leaf (default: the method's own, mostly 1); 0: every object ends in a cut (segments in the "
          "plane and polygons only)",
-     .max = UINT32_MAX},
+     .max = INT32_MAX},
     {"option", 0, CLI_WORDS, offsetof(build_args, settings), "NAME=VALUE",
      .help = "set an option of the method; may be given again and again"},
     {"order", 0, CLI_TEXT, offsetof(build_args, order), "FILE",

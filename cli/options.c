@@ -178,12 +178,25 @@ static int add_word(char **field, const char *text) {
     return 0;
 }
 
+/* Where a file is to be named, nothing is no name; other texts may be empty. */
+static bool names_a_file(const cli_option *option) {
+    static const char *const files[] = {"TREE", "FILE", "CSV", "DIR", "SCENE"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (!strcmp(option->value, files[i])) return true;
+    return false;
+}
+
+static int set_text(const cli_option *option, const char **field, const char *text) {
+    if (!*text && names_a_file(option)) return refuse_value(option, text, "the name of a file");
+    *field = text;
+    return 0;
+}
+
 static int set_value(place found, const char *text) {
     void *field = found.base + found.option->at;
     switch (found.option->type) {
     case CLI_TEXT:
-        *(const char **)field = text;
-        return 0;
+        return set_text(found.option, field, text);
     case CLI_WORDS:
         return add_word(field, text);
     case CLI_WHOLE:

@@ -78,6 +78,9 @@ static froe_status check_ranges(const froe_draw_options *o, froe_diagnostic *dia
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
         const range *r = ranges + i;
         if (r->value >= r->lo && r->value <= r->hi) continue;
+        if (r->lo == -HUGE_VAL)
+            return draw_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be at most %g.", r->name,
+                             r->value, r->hi);
         return draw_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
                          r->value, r->lo, r->hi);
     }

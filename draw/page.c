@@ -176,8 +176,8 @@ void draw_page_close(const draw_page *page, cairo_t *cr, const draw_legend *lege
     draw_count(merged, legend->merged);
     draw_count(leaves, legend->merged_leaves);
     static const char *const notes[] = {
-        "%s regions too small or too deep to show are drawn as one each, in the mean depth of their %s cells",
-        "%s parts pulled apart, each in the mean depth of its cells, %s in all"};
-    snprintf(text, sizeof text, notes[legend->parts], merged, leaves);
+        "%s region%s too small or too deep to show: drawn as one each, in the mean depth of their %s cells",
+        "%s part%s pulled apart, each in the mean depth of its cells, %s in all"};
+    snprintf(text, sizeof text, notes[legend->parts], merged, legend->merged == 1 ? "" : "s", leaves);
     fitted(page, cr, text, y + 1.5 * page->text, page->inner_width);
 }

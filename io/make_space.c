@@ -149,6 +149,7 @@ static void on_sphere(size_t k, size_t i, size_t j, double *to) {
 /* 4k(k - 1) triangles, with the greatest k that gives no more than n (at least 2). */
 void io_make_sphere(io_maker *m) {
     size_t k = io_root(m->n / 4, 2) + 1;
+    if (k < 2) k = 2;
     while (k > 2 && 4 * k * (k - 1) > m->n) --k;
     for (size_t i = 0; i < k && !m->status; ++i)
         for (size_t j = 0; j < 2 * k && !m->status; ++j) {

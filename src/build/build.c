@@ -166,7 +166,7 @@ froe_status froe_build(froe_scene *scene, const froe_build_options *options, fro
     froe_build_options o = options ? *options : froe_build_defaults();
     if (o.size != sizeof o) return base_fail(diag, FROE_E_OPTIONS, "options do not come from froe_build_defaults()");
     if (o.leaf > INT32_MAX && o.leaf != FROE_LEAF_OWN)
-        return base_fail(diag, FROE_E_OPTIONS, "leaf capacity %u is out of range", o.leaf);
+        return base_fail(diag, FROE_E_OPTIONS, "leaf capacity %u is above %d, the largest there is", o.leaf, INT32_MAX);
     froe_status status = choose_method(&o, scene, &method, diag);
     if (!status && o.leaf == FROE_LEAF_OWN) o.leaf = method->info.leaf ? method->info.leaf : 1;
     if (!status) status = check_scene(method, scene, o.leaf, diag);

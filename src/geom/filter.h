@@ -16,6 +16,16 @@
 #define FILTER_U 0x1p-53
 #define FILTER_UP (1 + 0x1p-49)
 
+/* A power of two that brings a tiny size to about 1; 1 for all others. Products of tiny numbers drown in NUM_BALL_TINY;
+ * signs know no scale, so the normal of a plane through tiny differences is lifted first: an exact multiplication. */
+#define FILTER_SMALL 0x1p-250
+static inline double filter_lift(double most) {
+    int exponent;
+    if (most >= FILTER_SMALL || !(most > 0)) return 1;
+    frexp(most, &exponent);
+    return ldexp(1, exponent < -1000 ? 1000 : -exponent);
+}
+
 /* sum n[k] w[k] - c, where w[k] = fl(x[k] - o[k]) has relative error u.
  *
  * Let P = sum |n[k] w[k]| + |c|. Each term suffers one rounding in w, one in the product and at
@@ -65,8 +75,8 @@ static inline int filter_beside_line(const geom_plane *h, const double *x) {
     return f.x > f.e ? 1 : f.x < -f.e ? -1 : NUM_UNSURE;
 }
 
-/* A line of the plane and no more than its filter needs: f(x) = n . (x - o), as form POINTS has it. One rounding in
- * n[k]. */
+/* A line of the plane and no more than its filter needs: f(x) = n . (x - o), as form POINTS has it, or a positive
+ * multiple of that. One rounding in n[k]. */
 typedef struct filter_line {
     double o[2], n[2], n_err;
 } filter_line;
@@ -74,6 +84,8 @@ typedef struct filter_line {
 /* trusted: num_rounding_trusted(), asked once for many lines. */
 static inline filter_line filter_line_through(const double *p, const double *q, bool trusted) {
     filter_line h = {{p[0], p[1]}, {p[1] - q[1], q[0] - p[0]}, INFINITY};
+    const double lift = filter_lift(fmax(fabs(h.n[0]), fabs(h.n[1])));
+    if (lift != 1) h.n[0] *= lift, h.n[1] *= lift;
     if (trusted) h.n_err = 2 * FILTER_U * (fabs(h.n[0]) + fabs(h.n[1]));
     return h;
 }

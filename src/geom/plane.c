@@ -9,13 +9,37 @@ static geom_plane blank(geom_form form, int dim) {
     return plane;
 }
 
+static bool n_is_small(const num_ball *n) {
+    return fabs(n[0].x) < FILTER_SMALL && fabs(n[1].x) < FILTER_SMALL && fabs(n[2].x) < FILTER_SMALL;
+}
+
+/* The same plane with all coordinates multiplied by a power of two, so that its points are about 1 apart where they are
+ * next to nothing apart. False: not needed, or it would overflow. */
+static bool lifted(const geom_plane *plane, geom_plane *out) {
+    int points = plane->form == GEOM_POINTS ? plane->dim : 2, dim = plane->form == GEOM_POINTS ? plane->dim : 2;
+    double most = 0, largest = 0;
+    for (int i = 0; i < points; i++)
+        for (int k = 0; k < dim; k++) {
+            most = filter_greater(most, fabs(plane->p[i][k] - plane->p[0][k]));
+            largest = filter_greater(largest, fabs(plane->p[i][k]));
+        }
+    double lift = filter_lift(most);
+    if (lift == 1 || !(largest * lift <= 0x1p500)) return false;
+    *out = *plane;
+    for (int i = 0; i < points; i++)
+        for (int k = 0; k < dim; k++) out->p[i][k] *= lift;
+    return true;
+}
+
 /* Fills n, n_max and n_err from the defining points. The bound is rounded up once more, so that
  * the filters may add their error terms without minding the rounding of the sum. Where
  * the rounding is wrong there is no image: then no filter and no shortcut applies. */
 static void image_normal(geom_plane *plane) {
     num_ball n[3];
+    geom_plane multiple;
     plane->n_err = INFINITY; /* n not known yet */
     ball_normal(NULL, plane, n);
+    if (n_is_small(n) && lifted(plane, &multiple)) ball_normal(NULL, &multiple, n);
     double most = 0, error = 0;
     bool certain = num_rounding_trusted();
     for (int k = 0; k < 3; k++) {

@@ -18,7 +18,7 @@
  *            \
  *
  * The normal is never stored rounded for a decision: `n` is a double image with
- * a certified bound, for the filters only. */
+ * a certified bound, for the filters only; of a tiny normal it is the image of a positive multiple. */
 #ifndef FROE_GEOM_PLANE_H
 #define FROE_GEOM_PLANE_H
 #include "num/context.h"

@@ -47,7 +47,7 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(flat, width, 1e300, "width");
     REFUSED(flat, height, -1, "height");
     REFUSED(flat, height, 40000, "height");
-    REFUSED(flat, margin, 1000, "margin");
+    REFUSED(flat, margin, 1000, "at most 480");
     REFUSED(flat, scale, 0, "scale");
     REFUSED(flat, detail, 0.0 / 0.0, "detail");
     REFUSED(solid, axis, 3, "axis");

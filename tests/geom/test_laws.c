@@ -233,6 +233,26 @@ static void a_wrong_rounding_mode_makes_slow_not_wrong(void **state) {
     }
 }
 
+/* Vertices beside planes through tiny differences: no need for exact numbers as long as these are normal. */
+static void filters_know_no_scale(void **state) {
+    num_context *context = *state;
+    for (int exponent = 0; exponent > -900; exponent -= 30) {
+        fuzz_source r = {7};
+        froe_predicate_stats before = context->stats;
+        for (int i = 0; i < 200; i++) {
+            double p[4][3];
+            const double *points[3] = {p[0], p[1], p[2]};
+            for (int j = 0; j < 12; j++) p[j / 3][j % 3] = ldexp(fuzz_unit(&r), j < 9 ? exponent : exponent / 2);
+            for (int dim = 2; dim <= 3; dim++) {
+                geom_plane plane = geom_plane_points(dim, points);
+                geom_side_vertex(context, &plane, p[3]);
+            }
+        }
+        assert_true(context->stats.filtered - before.filtered > 396);
+        assert_true(context->stats.exact == before.exact);
+    }
+}
+
 static int setup(void **state) {
     static num_context context;
     *state = &context;
@@ -247,6 +267,7 @@ static int teardown(void **state) {
 int main(void) {
 #define LAW(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
+        LAW(filters_know_no_scale),
         LAW(scaling_by_a_power_of_two_changes_nothing),
         LAW(an_exact_translation_changes_nothing),
         LAW(exchanging_two_axes_mirrors_and_rotating_all_three_does_not),
