@@ -95,8 +95,9 @@ static int by_line(void *user, uint32_t a, uint32_t b) {
 
 static bool put_crossing(froe_visibility *v, uint32_t line, const view_end *from, const view_end *to) {
     froe_crossing x = {.patch = v->sights.lines.data[line].a};
-    view_point_on(&v->sights, x.patch, from->ray.x, x.from);
-    view_point_on(&v->sights, x.patch, to->ray.x, x.to);
+    const geom_plane plane = view_plane_of(&v->sights, x.patch);
+    view_point_on(&v->sights, &plane, from->ray.x, x.from);
+    view_point_on(&v->sights, &plane, to->ray.x, x.to);
     return array_push(&v->alloc, &v->crossings, x);
 }
 

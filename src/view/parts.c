@@ -30,11 +30,12 @@ void view_parts_free(view_parts *p) {
 
 /* A ring of sightlines in the plane of a patch, onto the page. */
 static bool print_ring_of(view_parts *p, uint32_t patch, const view_corner *ring, size_t count, print_ring *out) {
+    const geom_plane plane = view_plane_of(&p->v->sights, patch);
     bool cut;
     print_begin(&p->press);
     for (size_t i = 0; i < count; i++) {
         double x[3];
-        view_point_on(&p->v->sights, patch, ring[i].ray.x, x);
+        view_point_on(&p->v->sights, &plane, ring[i].ray.x, x);
         if (!print_add(&p->press, x)) return false;
     }
     return print_end(&p->press, out, &cut);

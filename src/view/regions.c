@@ -10,13 +10,14 @@ typedef struct giver {
 
 static bool give(giver *g, const froe_visibility *v, uint32_t patch, froe_region_fn *fn, void *user, bool *go_on) {
     const view_region *r = &g->region;
+    const geom_plane plane = view_plane_of(&v->sights, patch);
     g->coords.count = g->starts.count = 0;
     if (!array_reserve(&v->alloc, &g->coords, 3 * r->corners.count) ||
         !array_reserve(&v->alloc, &g->starts, r->starts.count))
         return false;
     for (size_t i = 0; i < r->starts.count; i++) g->starts.data[i] = r->starts.data[i];
     for (size_t i = 0; i < r->corners.count; i++)
-        view_point_on(&v->sights, patch, v->corners.data[r->corners.data[i]].ray.x, g->coords.data + 3 * i);
+        view_point_on(&v->sights, &plane, v->corners.data[r->corners.data[i]].ray.x, g->coords.data + 3 * i);
     *go_on = fn(user, patch, g->coords.data, g->starts.data, r->starts.count - 1);
     return true;
 }

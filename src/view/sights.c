@@ -149,20 +149,24 @@ double view_share_round(view_sights *s, uint32_t line, uint32_t u, uint32_t v) {
     return geom_share_round(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
 }
 
-/* x = e - t r, or for a parallel eye x = y + t d with y the point of the ray in the plane w_k = 0. */
-void view_point_on(const view_sights *s, uint32_t patch, const double ray[3], double out[3]) {
-    const geom_eye *eye = &s->eye;
+geom_plane view_plane_of(const view_sights *s, uint32_t patch) {
     geom_plane plane;
-    double start[3], way[3], at = 0, slope = 0;
     scene_support(s->tree->scene, surface_first(s->surface, patch), &plane);
+    return plane;
+}
+
+/* x = e - t r, or for a parallel eye x = y + t d with y the point of the ray in the plane w_k = 0. */
+void view_point_on(const view_sights *s, const geom_plane *plane, const double ray[3], double out[3]) {
+    const geom_eye *eye = &s->eye;
+    double start[3], way[3], at = 0, slope = 0;
     for (int k = 0; k < 3; k++) {
         start[k] = eye->parallel ? eye->origin[k] : eye->at[k];
         way[k] = eye->parallel ? eye->at[k] : -ray[k];
     }
     for (int c = 0; c < 2 && eye->parallel; c++) start[(eye->axis + 1 + c) % 3] += ray[c] / ray[2];
     for (int k = 0; k < 3; k++) {
-        at += plane.n[k] * (start[k] - plane.p[0][k]);
-        slope += plane.n[k] * way[k];
+        at += plane->n[k] * (start[k] - plane->p[0][k]);
+        slope += plane->n[k] * way[k];
     }
     for (int k = 0; k < 3; k++) out[k] = start[k] - way[k] * (at / slope);
 }

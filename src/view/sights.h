@@ -79,6 +79,7 @@ static inline int view_side(view_sights *s, uint32_t line, const filter_vector *
 
 /** Where a line meets the segment from vertex u (0) to vertex v (1), rounded. */
 double view_share_round(view_sights *sights, uint32_t line, uint32_t u, uint32_t v);
-/** The point of a patch's plane that is seen along a ray, in doubles. */
-void view_point_on(const view_sights *sights, uint32_t patch, const double ray[3], double out[3]);
+/** The plane of a patch, and the point of it that is seen along a ray, in doubles. */
+geom_plane view_plane_of(const view_sights *sights, uint32_t patch);
+void view_point_on(const view_sights *sights, const geom_plane *plane, const double ray[3], double out[3]);
 #endif

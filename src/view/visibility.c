@@ -231,8 +231,9 @@ size_t froe_visibility_of_patch(const froe_visibility *v, uint32_t patch, size_t
 size_t froe_visibility_corners(const froe_visibility *v, size_t i, double *coords, size_t capacity) {
     if (i >= v->piece_count) return 0;
     const view_piece *p = v->pieces + i;
+    const geom_plane plane = view_plane_of(&v->sights, p->patch);
     for (uint32_t c = 0; c < p->count && c < capacity; c++)
-        view_point_on(&v->sights, p->patch, v->corners.data[p->first + c].ray.x, coords + 3 * (size_t)c);
+        view_point_on(&v->sights, &plane, v->corners.data[p->first + c].ray.x, coords + 3 * (size_t)c);
     return p->count;
 }
 
