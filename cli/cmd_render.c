@@ -5,20 +5,27 @@
 #include "tree_report.h"
 #include <froe/draw.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct render_args {
     cli_common common;
-    const char *tree, *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading;
-    int direction, up_axis, paint, preset;
-    double halo, fov, scale, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
-    uint64_t decimals;                                                       /**< UINT64_MAX: not given */
+    const char *tree, *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
+    int direction, up_axis, paint, preset, seams, ids, layers, hidden;
+    double halo, fov, unit, min_area, seconds, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
+    uint64_t decimals;  /**< UINT64_MAX: not given */
+    uint64_t turntable; /**< frames; 0: none */
     cli_reals eye, target, up;
-    bool parallel, hidden, cull_back, ids;
+    bool parallel, cull_back, animate;
 } render_args;
 
-static const char *const directions[] = {"corner", "iso", "front", "back", "left", "right", "top", "bottom", NULL};
+static const char *const directions[] = {"corner", "iso", "front",  "back",     "left",
+                                         "right",  "top", "bottom", "dimetric", NULL};
+static const char *const seams[] = {"underlap", "none", "twice", "stroke", NULL};
+static const char *const hiddens[] = {"none", "dashed", NULL};
+static const char *const ids[] = {"none", "object", "face", NULL};
+static const char *const layers[] = {"none", "object", NULL};
 static const char *const axes[] = {"x", "y", "z", NULL};
 static const char *const paints[] = {"whole", "regions", "fragments", NULL};
 static const char *const presets[] = {"illustration", "technical", "plotter", "web", "print", NULL};
@@ -43,7 +50,7 @@ static const cli_option what[] = {
 
 static const cli_option camera[] = {
     {"view", 0, CLI_CHOICE, offsetof(render_args, direction), "FROM",
-     .help = "corner (default), iso, front, back, left, right, top or bottom", .choices = directions},
+     .help = "corner (default), iso, dimetric, front, back, left, right, top or bottom", .choices = directions},
     {"up", 0, CLI_CHOICE, offsetof(render_args, up_axis), "AXIS",
      .help = "the axis that points up: x, y (as in glTF) or z (default)", .choices = axes},
     {"eye", 0, CLI_REALS, offsetof(render_args, eye), "X,Y,Z",
@@ -51,8 +58,17 @@ static const cli_option camera[] = {
     {"target", 0, CLI_REALS, offsetof(render_args, target), "X,Y,Z", .help = "look at this point"},
     {"parallel", 0, CLI_FLAG, offsetof(render_args, parallel), .help = "parallel instead of perspective projection"},
     {"fov", 0, CLI_REAL, offsetof(render_args, fov), "DEGREES", .help = "vertical angle of view (default 35)"},
-    {"scale", 0, CLI_REAL, offsetof(render_args, scale), "S",
-     .help = "parallel: units of the page per unit of the scene (default: as fits)"},
+    {"scale", 0, CLI_TEXT, offsetof(render_args, scale), "S",
+     .help = "parallel: units of the page per unit of the scene; or true to scale on a page in millimetres, 1:50 "
+             "(default: as fits)"},
+    {"unit", 0, CLI_REAL, offsetof(render_args, unit), "METRES",
+     .help = "for --scale 1:50: how long a unit of the scene is (default 1)"},
+    {"turntable", 0, CLI_WHOLE, offsetof(render_args, turntable), "N",
+     .help = "N pictures from all around; the name of the file says where their number goes, pic-%03d.svg", .min = 1,
+     .max = 100000},
+    {"animate", 0, CLI_FLAG, offsetof(render_args, animate),
+     .help = "all pictures of the turntable in one SVG that moves"},
+    {"seconds", 0, CLI_REAL, offsetof(render_args, seconds), "S", .help = "of a round (default 8)"},
     {0},
 };
 
@@ -61,8 +77,14 @@ static const cli_option look[] = {
      .help = "flat (default), cel, cel:N with N steps, plain, white, or none (lines only)"},
     {"paint", 0, CLI_CHOICE, offsetof(render_args, paint), "SHAPES",
      .help = "whole faces (default), visible regions, or fragments of the tree", .choices = paints},
-    {"seam-width", 0, CLI_REAL, offsetof(render_args, seam_width), "U",
-     .help = "how far faces go under later neighbours, against seams (default 1; 0: not at all)"},
+    {"seams", 0, CLI_CHOICE, offsetof(render_args, seams), "HOW",
+     .help =
+         "against background that shines through between faces: underlap (default; they go under later neighbours), "
+         "twice (all is painted twice), stroke (in their own colour), none",
+     .choices = seams},
+    {"seam-width", 0, CLI_REAL, offsetof(render_args, seam_width), "U", .help = "of underlap and strokes (default 1)"},
+    {"min-area", 0, CLI_REAL, offsetof(render_args, min_area), "A",
+     .help = "leave out faces of which less is visible, in square units of the page (default 0)"},
     {"line-kinds", 0, CLI_TEXT, offsetof(render_args, lines), "KINDS",
      .help = "border, silhouette, object, material, crease, crossing, mesh, parted by commas; or none (default: all "
              "but mesh)"},
@@ -71,7 +93,8 @@ static const cli_option look[] = {
     {"crease", 0, CLI_REAL, offsetof(render_args, crease), "DEGREES",
      .help = "angle that makes an edge a line (default 30)"},
     {"halo", 0, CLI_REAL, offsetof(render_args, halo), "G", .help = "gap in lines before nearer lines (default 0)"},
-    {"hidden", 0, CLI_FLAG, offsetof(render_args, hidden), .help = "hidden lines as well, dashed"},
+    {"hidden", 0, CLI_CHOICE, offsetof(render_args, hidden), "HOW", .help = "hidden lines: none (default) or dashed",
+     .choices = hiddens},
     {"opacity", 0, CLI_TEXT, offsetof(render_args, opacity), "NAME=A,...", .help = "of a material or group, 0 to 1"},
     {"priority", 0, CLI_TEXT, offsetof(render_args, priority), "NAME=K,...",
      .help = "of faces that overlap in one plane the one with the higher K is seen (default 0, then the later)"},
@@ -84,8 +107,12 @@ static const cli_option look[] = {
 static const cli_option file[] = {
     {"decimals", 0, CLI_WHOLE, offsetof(render_args, decimals), "N", .help = "SVG: digits after the point (default 2)",
      .max = 6},
-    {"ids", 0, CLI_FLAG, offsetof(render_args, ids),
-     .help = "SVG: one element per face, with data-object and data-group"},
+    {"ids", 0, CLI_CHOICE, offsetof(render_args, ids), "WHAT",
+     .help = "SVG: none (default), object (data-group on every path) or face (a path each, with data-object as well)",
+     .choices = ids},
+    {"layers", 0, CLI_CHOICE, offsetof(render_args, layers), "WHAT",
+     .help = "SVG: none (default) or object: a group with data-layer around each run of faces of one object",
+     .choices = layers},
     {"title", 0, CLI_TEXT, offsetof(render_args, title), "TEXT", .help = "SVG, PDF: title of the picture"},
     {"desc", 0, CLI_TEXT, offsetof(render_args, description), "TEXT", .help = "SVG: description of the picture"},
     {"pixels", 0, CLI_REAL, offsetof(render_args, pixels), "S", .help = "PNG: pixels per unit of the page (default 1)"},
@@ -147,8 +174,8 @@ static int set_point(const char *name, const cli_reals *given, double out[3]) {
 
 /* Directions of the views, for z up: right, towards the front (-y), up. */
 static void set_direction(int direction, int up, double eye[3]) {
-    static const double from[][3] = {{3, -5, 2}, {1, -1, 1}, {0, -1, 0}, {0, 1, 0},
-                                     {-1, 0, 0}, {1, 0, 0},  {0, 0, 1},  {0, 0, -1}};
+    static const double from[][3] = {{3, -5, 2}, {1, -1, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0},
+                                     {1, 0, 0},  {0, 0, 1},  {0, 0, -1}, {1, -4, 2}};
     const double *d = from[direction];
     for (int k = 0; k < 3; k++) eye[k] = 0;
     eye[up] = d[2];
@@ -171,11 +198,31 @@ static int set_camera(const render_args *args, const froe_scene *scene, froe_cam
     }
     if (args->parallel || args->direction > 0) c->parallel = true;
     set_number(args->fov, &c->fov);
-    if (!isnan(args->scale) && !(args->scale > 0))
-        return cli_fail(CLI_USE, NULL, "--scale: %g is no scale: it must be more than 0", args->scale);
-    set_number(args->scale, &c->scale);
     c->margin = c->width / 50;
     set_number(args->margin, &c->margin);
+    return 0;
+}
+
+/* S, or 1:50. */
+static int set_scale(const render_args *args, froe_render_options *o) {
+    char *end;
+    if (!args->scale) return 0;
+    double scale = strtod(args->scale, &end);
+    if (end != args->scale && *end == ':') {
+        const char *second = end + 1;
+        const double to = strtod(second, &end);
+        if (end == second || !o->millimetres)
+            return cli_fail(CLI_USE, NULL, "--scale: '%s' needs a page in millimetres, such as --size 160x120mm",
+                            args->scale);
+        scale = scale / to * 1000 * (isnan(args->unit) ? 1 : args->unit);
+    }
+    if (end == args->scale || *end)
+        return cli_fail(CLI_USE, NULL, "--scale: '%s' is not like 2.5 or 1:50", args->scale);
+    if (!(scale > 0) || isinf(scale))
+        return cli_fail(CLI_USE, NULL, "--scale: %s is no scale: it must be more than 0", args->scale);
+    if (!o->camera.parallel)
+        return cli_fail(CLI_USE, NULL, "--scale: perspective has none: add --parallel, or use --fov");
+    o->camera.scale = scale;
     return 0;
 }
 
@@ -257,6 +304,7 @@ static int set_options(const render_args *args, const froe_scene *scene, froe_re
     set_preset(args->preset, o);
     int code = set_size(args->size, o);
     if (!code) code = set_camera(args, scene, &o->camera);
+    if (!code) code = set_scale(args, o);
     if (!code) code = set_style(args->shading, o);
     if (!code) code = set_lines(args->lines, &o->lines);
     if (!code) code = set_background(args->background, &o->background);
@@ -267,9 +315,12 @@ static int set_options(const render_args *args, const froe_scene *scene, froe_re
     set_number(args->halo, &o->halo);
     set_number(args->pixels, &o->pixels);
     if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
-    o->hidden |= args->hidden;
+    if (args->hidden >= 0) o->hidden = args->hidden > 0;
     o->cull_back = args->cull_back;
-    o->ids = args->ids;
+    o->ids = (froe_ids)args->ids;
+    o->layers = args->layers > 0;
+    o->seams = (froe_seams)args->seams;
+    set_number(args->min_area, &o->min_area);
     o->title = args->title, o->description = args->description;
     return code;
 }
@@ -278,13 +329,14 @@ static int set_options(const render_args *args, const froe_scene *scene, froe_re
 
 static json_t *report_json(const render_args *args, const froe_render_report *r) {
     const froe_picture_report *p = &r->picture;
-    return json_pack("{s:s, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "tree", args->tree, "output",
-                     args->output, "paint", froe_paint_name(p->paint), "fragments", (json_int_t)p->visibility.pieces,
-                     "visible_fragments", (json_int_t)p->visibility.visible_pieces, "visible_faces",
-                     (json_int_t)p->visibility.visible_patches, "arcs", (json_int_t)p->arcs, "late_faces",
-                     (json_int_t)p->late, "shapes", (json_int_t)p->shapes, "lines", (json_int_t)p->strokes, "paths",
-                     (json_int_t)r->paths, "bytes", (json_int_t)r->bytes, "exact_calls",
-                     (json_int_t)p->visibility.predicates.exact);
+    return json_pack("{s:s, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "tree", args->tree,
+                     "output", args->output, "paint", froe_paint_name(p->paint), "fragments",
+                     (json_int_t)p->visibility.pieces, "visible_fragments", (json_int_t)p->visibility.visible_pieces,
+                     "visible_faces", (json_int_t)p->visibility.visible_patches, "arcs", (json_int_t)p->arcs,
+                     "late_faces", (json_int_t)p->late, "shapes", (json_int_t)p->shapes, "lines",
+                     (json_int_t)p->strokes, "paths", (json_int_t)r->paths, "bytes", (json_int_t)r->bytes,
+                     "exact_calls", (json_int_t)p->visibility.predicates.exact, "left_out_faces",
+                     (json_int_t)p->left_out, "left_out_area", p->left_out_area);
 }
 
 static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {
@@ -298,13 +350,70 @@ static void warn(const render_args *args, const froe_render_options *o, const fr
         (void)cli_fail(0, args->output, "note: nothing is visible from here");
 }
 
+/* The name of frame i: "pic-%03d.svg" has one %d, perhaps with a width; false: it has not. */
+static bool name_frame(const char *pattern, size_t i, char *out, size_t room) {
+    const char *percent = strchr(pattern, '%'), *at = percent;
+    char *end;
+    if (!percent) return false;
+    const bool zeros = at[1] == '0';
+    const long width = strtol(at + 1, &end, 10);
+    if (*end != 'd' || width < 0 || width > 20 || strchr(end, '%')) return false;
+    const int head = (int)(percent - pattern);
+    const int length = zeros ? snprintf(out, room, "%.*s%0*zu%s", head, pattern, (int)width, i, end + 1)
+                             : snprintf(out, room, "%.*s%*zu%s", head, pattern, (int)width, i, end + 1);
+    return length > 0 && (size_t)length < room;
+}
+
+static froe_status render_frames(const render_args *args, const froe_tree *tree, froe_render_options *o,
+                                 const froe_camera *cameras, froe_render_report *report, froe_diagnostic *diag) {
+    const double seconds = isnan(args->seconds) ? 8 : args->seconds;
+    if (args->animate)
+        return froe_render_animation(tree, args->output, o, cameras, args->turntable, seconds, report, diag);
+    froe_status status = FROE_OK;
+    for (size_t i = 0; !status && i < args->turntable; i++) {
+        char path[4096];
+        if (!name_frame(args->output, i, path, sizeof path)) return FROE_E_ARG;
+        o->camera = cameras[i];
+        status = froe_render(tree, path, o, report, diag);
+    }
+    return status;
+}
+
+static froe_status render_turning(const render_args *args, const froe_tree *tree, froe_render_options *o,
+                                  froe_render_report *report, froe_diagnostic *diag) {
+    froe_camera *cameras = calloc(args->turntable, sizeof *cameras);
+    if (!cameras) {
+        snprintf(diag->message, sizeof diag->message, "out of memory");
+        return FROE_E_MEMORY;
+    }
+    froe_status status = froe_camera_turn(&o->camera, froe_tree_scene(tree), args->turntable, cameras, diag);
+    if (!status) status = render_frames(args, tree, o, cameras, report, diag);
+    free(cameras);
+    return status;
+}
+
+static int check_turning(const render_args *args) {
+    char path[4096];
+    if (args->animate && !args->turntable) return cli_fail(CLI_USE, NULL, "--animate needs --turntable");
+    if (args->turntable && (args->eye.count || args->target.count))
+        return cli_fail(CLI_USE, NULL,
+                        "--turntable goes around the middle of the scene: --eye and --target do not apply");
+    if (args->turntable && !args->animate && !name_frame(args->output, 0, path, sizeof path))
+        return cli_fail(CLI_USE, NULL, "--turntable: the file must be called like pic-%%03d.svg, not '%s'",
+                        args->output);
+    return 0;
+}
+
 static int render(const render_args *args, const froe_tree *tree, froe_render_options *o) {
     froe_diagnostic diag;
     froe_render_report report;
+    const int code = check_turning(args);
+    if (code) return code;
     cli_progress bar = cli_progress_begin(&args->common, "looking");
     o->progress = cli_progress_step;
     o->user = &bar;
-    const froe_status status = froe_render(tree, args->output, o, &report, &diag);
+    const froe_status status = args->turntable ? render_turning(args, tree, o, &report, &diag)
+                                               : froe_render(tree, args->output, o, &report, &diag);
     cli_progress_end(&bar);
     if (status == FROE_E_ARG || status == FROE_E_OPTIONS) return cli_fail(CLI_USE, NULL, "%s", diag.message);
     if (status) return cli_fail_status(CLI_WRITING, args->output, status, &diag);
@@ -355,14 +464,18 @@ const cli_command cli_command_render = {
              "same tree and options give the same bytes.",
     .examples = "froe render house.froe -o house.svg --up y\n"
                 "froe render house.froe -o front.pdf --preset technical --view front --up y --size 160x120mm\n"
+                "froe render house.froe -o turn.svg --up y --turntable 36 --animate\n"
                 "froe render house.froe -o glass.svg --up y --opacity 'Glass=0.3'\n"
                 "froe render house.froe -o room.svg --up y --eye 4,1.6,-3 --target 8,1.2,-6 --fov 70\n",
     .parts = parts,
     .defaults = &(const render_args){.common = CLI_COMMON_DEFAULTS,
                                      .up_axis = 2,
+                                     .hidden = -1,
                                      .halo = NAN,
                                      .fov = NAN,
-                                     .scale = NAN,
+                                     .unit = NAN,
+                                     .min_area = NAN,
+                                     .seconds = NAN,
                                      .margin = NAN,
                                      .seam_width = NAN,
                                      .line_width = NAN,

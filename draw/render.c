@@ -24,6 +24,11 @@ const char *froe_shading_name(froe_shading shading) {
     return shading >= 0 && shading < FROE_SHADING_COUNT ? names[shading] : NULL;
 }
 
+const char *froe_seams_name(froe_seams seams) {
+    static const char *const names[FROE_SEAMS_COUNT] = {"underlap", "none", "twice", "stroke"};
+    return seams >= 0 && seams < FROE_SEAMS_COUNT ? names[seams] : NULL;
+}
+
 /* ---------------------------------------------------------------------- checking -- */
 
 static bool format_of(const char *path, int *format) {
@@ -43,6 +48,8 @@ static froe_status check_opacity(const froe_scene *scene, const froe_render_opti
     for (size_t g = 0; o->opacity && g < froe_scene_group_count(scene); g++) {
         if (!(o->opacity[g] >= 0 && o->opacity[g] <= 1))
             return draw_fail(diag, FROE_E_OPTIONS, "The opacity of group %zu is %g, not 0 to 1.", g, o->opacity[g]);
+        if (o->opacity[g] < 1 && o->seams == FROE_SEAMS_TWICE)
+            return draw_fail(diag, FROE_E_OPTIONS, "What one sees through cannot be painted twice: use other seams.");
         if (o->opacity[g] < 1 && format == DRAW_EPS)
             return draw_fail(diag, FROE_E_OPTIONS,
                              "EPS has no opacity: use .svg, .pdf or .png, or make everything opaque.");
@@ -61,6 +68,9 @@ static froe_status check(const froe_scene *scene, const froe_render_options *o, 
     const double pixels = format == FROE_DRAW_PNG ? o->pixels : 1;
     const range ranges[] = {{"shading", o->shading, 0, FROE_SHADING_COUNT - 1},
                             {"cel_levels", o->cel_levels, 2, 64},
+                            {"seams", o->seams, 0, FROE_SEAMS_COUNT - 1},
+                            {"ids", o->ids, 0, FROE_IDS_FACE},
+                            {"min_area", o->min_area, 0, 1e18},
                             {"seam_width", o->seam_width, 0, 1e6},
                             {"line_width", o->line_width, 0, 1e6},
                             {"halo", o->halo, 0, 1e6},
@@ -100,8 +110,9 @@ static froe_status look(draw_render *r, froe_diagnostic *diag) {
     p.view = &r->view;
     p.paint = o->paint;
     p.no_fills = o->shading == FROE_SHADE_NONE;
-    p.underlap = o->seam_width;
-    p.styles = r->style_of;
+    p.underlap = o->seams == FROE_SEAMS_UNDERLAP ? o->seam_width : 0;
+    p.styles = r->keys ? r->keys : r->style_of;
+    p.min_area = o->min_area;
     p.clear = r->clear;
     p.priorities = r->priorities;
     p.cull_back = o->cull_back;
@@ -115,8 +126,8 @@ static froe_status look(draw_render *r, froe_diagnostic *diag) {
     return froe_picture_new(r->tree, r->surface, &p, &r->picture, diag);
 }
 
-static froe_status prepare(draw_render *r, froe_diagnostic *diag) {
-    froe_status status = froe_camera_place(&r->options->camera, r->scene, &r->view, diag);
+static froe_status prepare(draw_render *r, const froe_camera *camera, froe_diagnostic *diag) {
+    froe_status status = froe_camera_place(camera, r->scene, &r->view, diag);
     if (!status) status = froe_surface_new(r->scene, &r->alloc, &r->surface, diag);
     if (status) return status;
     r->patches = froe_surface_patch_count(r->surface);
@@ -128,8 +139,9 @@ static froe_status prepare(draw_render *r, froe_diagnostic *diag) {
 static froe_status paint(draw_render *r, int format, draw_output *output, froe_diagnostic *diag) {
     const froe_render_options *o = r->options;
     if (format == FROE_DRAW_SVG) {
-        *output = (draw_output){.alloc = r->alloc};
-        return draw_svg(r, output) ? FROE_OK : draw_fail_memory(diag);
+        const draw_frame always = {0};
+        const bool ok = draw_svg_begin(r, output) && draw_svg_picture(r, output, &always) && draw_svg_end(r, output);
+        return ok ? FROE_OK : draw_fail_memory(diag);
     }
     const double unit = format == FROE_DRAW_PNG ? 1 : o->millimetres ? 72 / 25.4 : 1;
     froe_status status = draw_output_begin(output, &r->alloc, (froe_draw_format)format, o->camera.width * unit,
@@ -146,6 +158,8 @@ static void free_render(draw_render *r) {
     draw_free(&r->alloc, r->style_of, (r->patches + 1) * sizeof *r->style_of);
     draw_free(&r->alloc, r->clear, r->patches + 1);
     draw_free(&r->alloc, r->priorities, (r->patches + 1) * sizeof *r->priorities);
+    draw_free(&r->alloc, r->layer_of, (froe_scene_group_count(r->scene) + 1) * sizeof *r->layer_of);
+    draw_free(&r->alloc, r->keys, (r->patches + 1) * sizeof *r->keys);
     draw_release(&r->alloc, &r->styles);
 }
 
@@ -163,12 +177,52 @@ froe_status froe_render(const froe_tree *tree, const char *path, const froe_rend
     if (status) return status;
     r.alloc = draw_allocator(options->alloc);
     draw_output output = {.alloc = r.alloc};
-    status = prepare(&r, diag);
+    status = prepare(&r, &options->camera, diag);
     if (!status) status = paint(&r, format, &output, diag);
     if (!status) status = draw_save(path, output.bytes.data, output.bytes.count, &r.alloc, diag);
     if (!status && report)
         *report = (froe_render_report){froe_picture_statistics(r.picture), r.view, r.paths, output.bytes.count};
     draw_output_free(&output);
     free_render(&r);
+    return status;
+}
+
+/* ------------------------------------------------------------------------ turning -- */
+
+static froe_status add_frame(draw_render *r, const froe_camera *camera, const draw_frame *frame, draw_output *output,
+                             froe_diagnostic *diag) {
+    froe_status status = prepare(r, camera, diag);
+    if (!status && frame->i == 0 && !draw_svg_begin(r, output)) status = draw_fail_memory(diag);
+    if (!status && !draw_svg_picture(r, output, frame)) status = draw_fail_memory(diag);
+    if (!status && frame->i + 1 == frame->count && !draw_svg_end(r, output)) status = draw_fail_memory(diag);
+    return status;
+}
+
+froe_status froe_render_animation(const froe_tree *tree, const char *path, const froe_render_options *options,
+                                  const froe_camera *cameras, size_t count, double seconds, froe_render_report *report,
+                                  froe_diagnostic *diag) {
+    const froe_render_options standard = froe_render_defaults();
+    int format = 0;
+    uint64_t paths = 0;
+    if (!tree || !path || !cameras || !count)
+        return draw_fail(diag, FROE_E_ARG, "An animation needs a tree, a path and cameras.");
+    if (!options) options = &standard;
+    if (!format_of(path, &format) || format != FROE_DRAW_SVG)
+        return draw_fail(diag, FROE_E_OPTIONS, "Only SVG moves: '%.140s' does not end in .svg.", path);
+    if (!(seconds > 0 && seconds <= 1e6))
+        return draw_fail(diag, FROE_E_OPTIONS, "A round of %g seconds is none.", seconds);
+    froe_status status = check(froe_tree_scene(tree), options, format, diag);
+    draw_output output = {.alloc = draw_allocator(options->alloc)};
+    for (size_t i = 0; !status && i < count; i++) {
+        draw_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options, .alloc = output.alloc};
+        const draw_frame frame = {i, count, seconds};
+        status = add_frame(&r, cameras + i, &frame, &output, diag);
+        paths += r.paths;
+        if (!status && report)
+            *report = (froe_render_report){froe_picture_statistics(r.picture), r.view, paths, output.bytes.count};
+        free_render(&r);
+    }
+    if (!status) status = draw_save(path, output.bytes.data, output.bytes.count, &output.alloc, diag);
+    draw_output_free(&output);
     return status;
 }

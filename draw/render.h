@@ -19,6 +19,8 @@ typedef struct draw_render {
     size_t patches;
     uint32_t *style_of;            /**< per patch, into styles */
     DRAW_ARRAY(draw_style) styles; /**< ascending, each once */
+    uint32_t *layer_of;            /**< per group: the first of its name; NULL: there are no layers */
+    uint32_t *keys;                /**< per patch: what the order of painting keeps together; NULL: styles */
     uint8_t *clear;                /**< per patch; NULL: all are opaque */
     int32_t *priorities;           /**< per patch; NULL */
     uint64_t paths;
@@ -28,8 +30,25 @@ typedef struct draw_render {
 froe_status draw_shade(draw_render *render);
 /** Width of a kind of line in units of the page. */
 double draw_line_width(const froe_render_options *options, froe_line kind);
-/** Writes the picture as SVG into bytes. False without memory. */
-bool draw_svg(draw_render *render, draw_output *output);
+/** Colour of a shape. */
+static inline draw_style draw_style_of(const draw_render *render, const froe_shape *shape) {
+    return render->styles.data[render->style_of[shape->patch]];
+}
+/** May a shape share the path of another that it follows? */
+bool draw_joins(const draw_render *render, const froe_shape *first, const froe_shape *next);
+/** Layer of a shape; FROE_NONE. */
+uint32_t draw_layer_of(const draw_render *render, const froe_shape *shape);
+
+/** When a picture is shown: the i-th of `count`, for a share of `seconds`. count 0: always. */
+typedef struct draw_frame {
+    size_t i, count;
+    double seconds;
+} draw_frame;
+/** Write the beginning of an SVG, a picture (if `frame` says so, only for its time), and the end. False without memory.
+ */
+bool draw_svg_begin(draw_render *render, draw_output *output);
+bool draw_svg_picture(draw_render *render, draw_output *output, const draw_frame *frame);
+bool draw_svg_end(draw_render *render, draw_output *output);
 /** Paints it onto a Cairo page. */
 void draw_cairo(draw_render *render, cairo_t *cr);
 #endif

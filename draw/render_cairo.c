@@ -27,14 +27,15 @@ static void paint_shapes(draw_render *r, cairo_t *cr) {
     const size_t count = froe_picture_shape_count(r->picture);
     for (size_t i = 0; i < count;) {
         const froe_shape first = froe_picture_shape(r->picture, i);
-        const draw_style style = r->styles.data[first.style];
+        const draw_style style = draw_style_of(r, &first);
         set_colour(cr, style, (style >> 24) / 255.0);
         add_shape(r, cr, &first);
-        for (i++; i < count && style >> 24 == 255; i++) {
+        for (i++; i < count; i++) {
             const froe_shape next = froe_picture_shape(r->picture, i);
-            if (next.style != first.style) break;
+            if (!draw_joins(r, &first, &next)) break;
             add_shape(r, cr, &next);
         }
+        if (r->options->seams == FROE_SEAMS_STROKE) cairo_stroke_preserve(cr);
         cairo_fill(cr);
         r->paths++;
     }
@@ -66,6 +67,9 @@ void draw_cairo(draw_render *r, cairo_t *cr) {
         cairo_paint(cr);
     }
     cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
+    cairo_set_line_width(cr, r->options->seam_width);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     paint_shapes(r, cr);
+    if (r->options->seams == FROE_SEAMS_TWICE) paint_shapes(r, cr);
     paint_strokes(r, cr);
 }

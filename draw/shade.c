@@ -36,17 +36,52 @@ static double light_on(const draw_render *r, uint32_t object) {
     return at >= 0 && at <= 1 ? at : 1;
 }
 
+static const char *name_of(const draw_render *r, uint32_t group, bool material) {
+    const froe_group g = froe_scene_group(r->scene, group);
+    return material ? g.material : g.name;
+}
+
+/* Per group: the first with its name, or its material. */
+static uint32_t *first_of_name(const draw_render *r, bool material) {
+    const size_t groups = froe_scene_group_count(r->scene);
+    uint32_t *out = draw_calloc(&r->alloc, groups + 1, sizeof *out);
+    for (uint32_t g = 0; out && g < groups; g++)
+        while (out[g] < g && strcmp(name_of(r, out[g], material), name_of(r, g, material)) != 0) out[g]++;
+    return out;
+}
+
 /* Materials by the order in which they first occur. */
 static uint32_t *number_materials(const draw_render *r) {
-    const size_t groups = froe_scene_group_count(r->scene);
-    uint32_t count = 0, *out = draw_calloc(&r->alloc, groups + 1, sizeof *out);
-    for (uint32_t g = 0; out && g < groups; g++) {
-        const char *material = froe_scene_group(r->scene, g).material;
-        uint32_t before = 0;
-        while (before < g && strcmp(froe_scene_group(r->scene, before).material, material) != 0) before++;
-        out[g] = before < g ? out[before] : count++;
-    }
+    uint32_t count = 0, *out = first_of_name(r, true);
+    for (uint32_t g = 0; out && g < froe_scene_group_count(r->scene); g++) out[g] = out[g] < g ? out[out[g]] : count++;
     return out;
+}
+
+/* What the order of painting keeps together: layers, or groups, or colours alone. */
+static bool find_keys(draw_render *r) {
+    const froe_render_options *o = r->options;
+    if (o->layers && !(r->layer_of = first_of_name(r, false))) return false;
+    if (!o->layers && o->ids != FROE_IDS_OBJECT) return true;
+    r->keys = draw_calloc(&r->alloc, r->patches + 1, sizeof *r->keys);
+    for (uint32_t i = 0; r->keys && i < r->patches; i++) {
+        const uint32_t group = froe_surface_patch(r->surface, i).group;
+        r->keys[i] = group == FROE_NONE ? 0 : 1 + (r->layer_of ? r->layer_of[group] : group);
+    }
+    return r->keys != NULL;
+}
+
+uint32_t draw_layer_of(const draw_render *r, const froe_shape *shape) {
+    const uint32_t group = froe_surface_patch(r->surface, shape->patch).group;
+    return r->layer_of && group != FROE_NONE ? r->layer_of[group] : FROE_NONE;
+}
+
+bool draw_joins(const draw_render *r, const froe_shape *first, const froe_shape *next) {
+    const froe_ids ids = r->options->ids;
+    if (ids == FROE_IDS_FACE || draw_style_of(r, first) >> 24 < 255) return false;
+    if (draw_style_of(r, first) != draw_style_of(r, next) || draw_layer_of(r, first) != draw_layer_of(r, next))
+        return false;
+    return ids == FROE_IDS_NONE ||
+           froe_surface_patch(r->surface, first->patch).group == froe_surface_patch(r->surface, next->patch).group;
 }
 
 static draw_style style_of(const draw_render *r, uint32_t patch, const uint32_t *materials) {
@@ -85,6 +120,7 @@ froe_status draw_shade(draw_render *r) {
             r->style_of[i] = (uint32_t)(found - r->styles.data);
         }
     }
+    ok = ok && find_keys(r);
     draw_free(&r->alloc, materials, (froe_scene_group_count(r->scene) + 1) * sizeof *materials);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

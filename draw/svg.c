@@ -25,6 +25,7 @@ typedef struct svg_writer {
     char command;  /* the last one written; numbers may follow without repeating it */
     bool number;   /* the last thing written is a number */
     bool ok;
+    size_t frame;
 } svg_writer;
 
 static void put(svg_writer *w, const char *text, size_t length) {
@@ -145,8 +146,12 @@ static void put_style(svg_writer *w, draw_style style) {
 static void put_ids(svg_writer *w, uint32_t patch) {
     const froe_patch p = froe_surface_patch(w->render->surface, patch);
     char text[64];
-    snprintf(text, sizeof text, "\" data-object=\"%u\" data-group=\"", p.objects[0]);
-    put_text(w, text);
+    if (w->render->options->ids == FROE_IDS_NONE) return;
+    if (w->render->options->ids == FROE_IDS_FACE) {
+        snprintf(text, sizeof text, "\" data-object=\"%u", p.objects[0]);
+        put_text(w, text);
+    }
+    put_text(w, "\" data-group=\"");
     if (p.group != FROE_NONE) put_escaped(w, froe_scene_group(w->render->scene, p.group).name);
 }
 
@@ -197,26 +202,57 @@ static void put_rings(svg_writer *w) {
     w->rings.count = 0;
 }
 
-/* Shapes of one style that follow each other share a path, unless each shall be known by itself or is seen through. */
+/* A stroke of the fill's own colour, as wide as seams may be. */
+static void put_own_stroke(svg_writer *w, draw_style style) {
+    char text[48];
+    if (w->render->options->seams != FROE_SEAMS_STROKE) return;
+    put_text(w, "\" stroke=\"");
+    put_colour(w, style);
+    snprintf(text, sizeof text, "\" stroke-width=\"%.3g", w->grid * w->render->options->seam_width);
+    put_text(w, text);
+}
+
+/* Ends the layer that is open, and begins that of a shape. */
+static void put_layer(svg_writer *w, uint32_t *open, uint32_t layer) {
+    if (*open == layer) return;
+    if (*open != FROE_NONE) put_text(w, "</g>\n");
+    if (layer != FROE_NONE) {
+        put_text(w, "<g data-layer=\"");
+        put_escaped(w, froe_scene_group(w->render->scene, layer).name);
+        put_text(w, "\">\n");
+    }
+    *open = layer;
+}
+
 static void put_shapes(svg_writer *w) {
     const draw_render *r = w->render;
     const size_t count = froe_picture_shape_count(r->picture);
+    const bool twice = r->options->seams == FROE_SEAMS_TWICE;
+    uint32_t layer = FROE_NONE;
+    char text[64];
+    snprintf(text, sizeof text, "<g id=\"fills%zu\">\n", w->frame);
+    if (twice) put_text(w, text);
     for (size_t i = 0; i < count && w->ok;) {
         const froe_shape first = froe_picture_shape(r->picture, i);
-        const draw_style style = r->styles.data[first.style];
+        const draw_style style = draw_style_of(r, &first);
+        put_layer(w, &layer, draw_layer_of(r, &first));
         put_style(w, style);
-        if (r->options->ids) put_ids(w, first.patch);
+        put_own_stroke(w, style);
+        put_ids(w, first.patch);
         put_text(w, "\" d=\"");
         begin_path(w);
         take_shape(w, &first);
-        for (i++; i < count && !r->options->ids && style >> 24 == 255; i++) {
+        for (i++; i < count; i++) {
             const froe_shape next = froe_picture_shape(r->picture, i);
-            if (next.style != first.style) break;
+            if (!draw_joins(r, &first, &next)) break;
             take_shape(w, &next);
         }
         put_rings(w);
         put_text(w, "\"/>\n");
     }
+    put_layer(w, &layer, FROE_NONE);
+    snprintf(text, sizeof text, "</g>\n<use href=\"#fills%zu\"/>\n", w->frame);
+    if (twice) put_text(w, text);
 }
 
 static void put_strokes(svg_writer *w) {
@@ -277,14 +313,50 @@ static void put_scale(svg_writer *w) {
     put_text(w, text);
 }
 
-bool draw_svg(draw_render *render, draw_output *output) {
+/* Shown for the i-th of `count` equal times, again and again; the first also where nothing moves. */
+static void put_times(svg_writer *w, const draw_frame *f) {
+    const double from = (double)f->i / (double)f->count, to = (double)(f->i + 1) / (double)f->count;
+    char text[256];
+    snprintf(
+        text, sizeof text,
+        "<g%s>\n<animate attributeName=\"display\" calcMode=\"discrete\" dur=\"%.6gs\" repeatCount=\"indefinite\" ",
+        f->i ? " display=\"none\"" : "", f->seconds);
+    put_text(w, text);
+    if (f->i == 0)
+        snprintf(text, sizeof text, "values=\"inline;none\" keyTimes=\"0;%.6g\"/>\n", to);
+    else if (f->i + 1 < f->count)
+        snprintf(text, sizeof text, "values=\"none;inline;none\" keyTimes=\"0;%.6g;%.6g\"/>\n", from, to);
+    else
+        snprintf(text, sizeof text, "values=\"none;inline\" keyTimes=\"0;%.6g\"/>\n", from);
+    put_text(w, text);
+}
+
+static svg_writer writer_of(draw_render *render, draw_output *output) {
     svg_writer w = {.render = render, .output = output, .grid = 1, .ok = true};
     for (int i = 0; i < render->options->decimals; i++) w.grid *= 10;
+    return w;
+}
+
+bool draw_svg_begin(draw_render *render, draw_output *output) {
+    svg_writer w = writer_of(render, output);
     put_head(&w);
     put_scale(&w);
+    return w.ok;
+}
+
+bool draw_svg_picture(draw_render *render, draw_output *output, const draw_frame *frame) {
+    svg_writer w = writer_of(render, output);
+    w.frame = frame->i;
+    if (frame->count > 1) put_times(&w, frame);
     put_shapes(&w);
     put_strokes(&w);
-    put_text(&w, w.grid == 1 ? "</svg>\n" : "</g>\n</svg>\n");
+    if (frame->count > 1) put_text(&w, "</g>\n");
     draw_release(&output->alloc, &w.rings);
+    return w.ok;
+}
+
+bool draw_svg_end(draw_render *render, draw_output *output) {
+    svg_writer w = writer_of(render, output);
+    put_text(&w, w.grid == 1 ? "</svg>\n" : "</g>\n</svg>\n");
     return w.ok;
 }

@@ -134,6 +134,25 @@ typedef enum froe_shading {
 /** "flat", "cel", "plain", "white", "none"; NULL for other numbers. */
 FROE_API const char *froe_shading_name(froe_shading shading);
 
+/** What is done about the background that shines through between antialiased shapes. */
+typedef enum froe_seams {
+    FROE_SEAMS_UNDERLAP = 0, /**< WHOLE: shapes go under later neighbours by seam_width */
+    FROE_SEAMS_NONE = 1,
+    FROE_SEAMS_TWICE = 2, /**< all fills are painted twice; only where everything is opaque */
+    FROE_SEAMS_STROKE =
+        3, /**< every fill gets a stroke of its own colour, seam_width wide; outlines grow by half of it */
+    FROE_SEAMS_COUNT = 4
+} froe_seams;
+/** "underlap", "none", "twice", "stroke"; NULL for other numbers. */
+FROE_API const char *froe_seams_name(froe_seams seams);
+
+/** What SVG tells of where shapes come from. */
+typedef enum froe_ids {
+    FROE_IDS_NONE = 0,
+    FROE_IDS_OBJECT = 1, /**< one path for shapes of one colour and group that follow each other, with data-group */
+    FROE_IDS_FACE = 2    /**< one path per face, with data-object and data-group */
+} froe_ids;
+
 typedef struct froe_render_options {
     size_t size;          /**< set by froe_render_defaults() */
     froe_camera camera;   /**< its page is the picture's */
@@ -141,7 +160,8 @@ typedef struct froe_render_options {
     froe_shading shading; /**< default FLAT */
     unsigned cel_levels;  /**< 2 .. 64; default 4 */
     froe_paint paint;     /**< default WHOLE */
-    double seam_width;    /**< WHOLE: underlap against seams, in units of the page; default 1; 0: none */
+    froe_seams seams;     /**< default UNDERLAP */
+    double seam_width;    /**< in units of the page; default 1 */
     uint32_t lines;       /**< bits of froe_line; default all but mesh */
     double crease;        /**< degrees; default 30 */
     double line_width;    /**< default 1; silhouettes and borders; crossings have 0.8, other kinds 0.6 of it */
@@ -150,9 +170,12 @@ typedef struct froe_render_options {
     const double *opacity;     /**< per group, 0 .. 1; NULL: 1 */
     const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
     bool cull_back;
-    uint32_t background;             /**< 0xRRGGBB, or FROE_DRAW_CLEAR (default) */
-    int decimals;                    /**< SVG: digits after the point, 0 .. 6; default 2 */
-    bool ids;                        /**< SVG: one element per face, with data-object and data-group */
+    uint32_t background; /**< 0xRRGGBB, or FROE_DRAW_CLEAR (default) */
+    int decimals;        /**< SVG: digits after the point, 0 .. 6; default 2 */
+    froe_ids ids;        /**< default NONE */
+    bool layers; /**< SVG: shapes of one object (groups of one name) that follow each other are a group with data-layer;
+                      the order of painting keeps objects together where it can */
+    double min_area;                 /**< see froe_picture_options */
     const char *title, *description; /**< SVG, PDF: UTF-8; NULL: none */
     double pixels;                   /**< PNG: pixels per unit of the page, 0.1 .. 64; default 1 */
     const froe_allocator *alloc;
@@ -173,6 +196,12 @@ typedef struct froe_render_report {
  * below 1, which EPS does not have. Otherwise as froe_camera_place(), froe_picture_new(), froe_draw(). */
 FROE_API froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
                                  froe_render_report *report, froe_diagnostic *diag);
+/** One SVG that shows a picture from each of `count` cameras (see froe_camera_turn) in turn, for ever, in `seconds` a
+ * round; where nothing moves (in print) it shows the first. options->camera gives the page; all cameras must have the
+ * same. `report`: of the last, but for paths and bytes, which are those of the file. Otherwise as froe_render(). */
+FROE_API froe_status froe_render_animation(const froe_tree *tree, const char *path, const froe_render_options *options,
+                                           const froe_camera *cameras, size_t count, double seconds,
+                                           froe_render_report *report, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

@@ -221,6 +221,11 @@ typedef struct froe_projection {
  * FROE_E_ARG: the eye is at the target, NaN or infinity. FROE_E_INPUT: nothing to fit. O(vertices). */
 FROE_API froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene, froe_projection *out,
                                        froe_diagnostic *diag);
+/** A turntable: cameras[0 .. count-1] look at the middle of the scene as `camera` looks at its target, the i-th turned
+ * by 360 i / count degrees about `up`, all from one distance and at one scale, at which the scene stays within the
+ * page. Failures as froe_camera_place(). */
+FROE_API froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene, size_t count,
+                                      froe_camera *cameras, froe_diagnostic *diag);
 /** Where a point is on the page; false, nothing written, when it is not before the eye. */
 FROE_API bool froe_project(const froe_projection *view, const double *point, double page[2]);
 
@@ -252,6 +257,8 @@ typedef struct froe_picture_options {
     double crease;             /**< degrees from which on an edge is a crease, 0 .. 180; default 30 */
     bool hidden;               /**< hidden lines as well, each place of the page once */
     double halo;               /**< gap in lines before a nearer line, on the page; default 0: none */
+    double min_area;           /**< patches of which less is visible, in square units of the page, are left out; the
+                                    report says how many and how much; default 0 */
     uint64_t max_graph;        /**< WHOLE: most pairs to compare; default 50 million. Beyond them the picture is made of
                                     fragments and says so: see froe_picture_report */
     const froe_allocator *alloc; /**< NULL: malloc */
@@ -312,6 +319,8 @@ typedef struct froe_picture_report {
     uint64_t arcs, tests;  /**< of the order, and pairs compared for them */
     uint64_t cyclic, late; /**< patches in circles, and those clipped (or divided) to break them */
     uint64_t shapes, whole, points, strokes;
+    uint64_t left_out;    /**< patches, by min_area */
+    double left_out_area; /**< of all of them together */
 } froe_picture_report;
 FROE_API froe_picture_report froe_picture_statistics(const froe_picture *picture);
 

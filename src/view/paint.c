@@ -1,6 +1,32 @@
 /* paint.c: shapes: whole patches and clipped ones, visible regions, fragments. */
 #include "view/picture.h"
 
+froe_status view_leave_out(view_painter *p) {
+    const froe_visibility *v = p->v;
+    froe_picture_report *report = &p->picture->report;
+    print_ring ring = {0};
+    bool ok = (p->left_out = base_calloc(&v->alloc, (size_t)v->surface->patch_count + 1, 1)) != NULL;
+    for (uint32_t patch = 0; ok && patch < v->surface->patch_count; patch++) {
+        const uint32_t first = v->patch_starts[patch], end = v->patch_starts[patch + 1];
+        double area = 0;
+        for (uint32_t i = first; ok && i < end; i++) {
+            ring.count = 0;
+            ok = view_print_visible(&p->parts, i, &ring);
+            area += 0.5 * print_area(ring.data, ring.count);
+        }
+        if (first == end || area >= p->options->min_area) continue;
+        p->left_out[patch] = 1;
+        report->left_out++;
+        report->left_out_area += area;
+    }
+    array_free(&v->alloc, &ring);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+static bool is_left_out(const view_painter *p, uint32_t patch) {
+    return p->left_out && p->left_out[patch];
+}
+
 bool view_begin_shape(froe_picture *picture, uint32_t patch, bool whole) {
     return array_push(&picture->alloc, &picture->shapes,
                       (picture_shape){patch, (uint32_t)picture->ring_ends.count, 0, whole});
@@ -124,9 +150,10 @@ froe_status view_paint_whole(view_painter *p) {
     for (uint32_t i = 0; i < p->graph.count; i++) {
         const uint32_t v = p->order[i];
         const paint_node *node = p->parts.nodes.data + v;
-        const bool ok = node->piece != FROE_NONE ? put_parts_of_piece(p, v)
-                        : p->graph.late[v]       ? put_region(p, node->patch, v)
-                                                 : put_whole(p, node->patch, v);
+        const bool ok = is_left_out(p, node->patch) ? true
+                        : node->piece != FROE_NONE  ? put_parts_of_piece(p, v)
+                        : p->graph.late[v]          ? put_region(p, node->patch, v)
+                                                    : put_whole(p, node->patch, v);
         if (!ok) return FROE_E_MEMORY;
         if (p->picture->points.count > INT32_MAX) return FROE_E_LIMIT;
     }
@@ -142,7 +169,7 @@ static base_pair *list_by_style(view_painter *p, size_t *count) {
     base_pair *pairs = base_calloc(&p->picture->alloc, 2 * (size_t)patches + 1, sizeof *pairs);
     *count = 0;
     for (uint32_t i = 0; pairs && i < patches; i++)
-        if (v->patch_starts[i] < v->patch_starts[i + 1])
+        if (v->patch_starts[i] < v->patch_starts[i + 1] && !is_left_out(p, i))
             pairs[(*count)++] = (base_pair){p->options->styles ? p->options->styles[i] : 0, i};
     if (pairs) base_radix_sort(pairs, pairs + *count, *count);
     return pairs;
@@ -174,6 +201,7 @@ static bool put_piece(view_painter *p, uint32_t piece) {
     froe_picture *picture = p->picture;
     const size_t first = picture->points.count;
     const uint32_t patch = p->v->surface->patch_of[p->v->tree->pieces[piece].object];
+    if (is_left_out(p, patch)) return true;
     if (!view_begin_shape(picture, patch, false) || !view_print_piece(&p->parts, p->sights, piece, &picture->points) ||
         !end_ring(picture, first))
         return false;

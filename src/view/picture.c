@@ -96,6 +96,7 @@ static froe_status paint_fills(view_painter *p) {
             status = FROE_OK;
         }
     }
+    if (!status && p->options->min_area > 0) status = view_leave_out(p);
     if (status) return status;
     return report->paint == FROE_PAINT_WHOLE     ? view_paint_whole(p)
            : report->paint == FROE_PAINT_REGIONS ? view_paint_regions(p)
@@ -124,6 +125,7 @@ static void free_painter(view_painter *p) {
     base_free(alloc, p->order, (p->parts.nodes.count + 1) * sizeof *p->order);
     if (p->v) {
         base_free(alloc, p->places, ((size_t)p->v->tree->piece_count + 1) * sizeof *p->places);
+        base_free(alloc, p->left_out, (size_t)p->v->surface->patch_count + 1);
         base_free(alloc, p->runs, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->runs);
     }
     view_parts_free(&p->parts);
@@ -156,6 +158,8 @@ static froe_status check(const froe_picture_options *o, froe_diagnostic *diag) {
         return base_fail(diag, FROE_E_OPTIONS, "no such paint: %d", (int)o->paint);
     if (!(o->underlap >= 0) || !isfinite(o->underlap))
         return base_fail(diag, FROE_E_OPTIONS, "an underlap of %g is none", o->underlap);
+    if (!(o->min_area >= 0) || !isfinite(o->min_area))
+        return base_fail(diag, FROE_E_OPTIONS, "a least area of %g is none", o->min_area);
     if (!(o->halo >= 0) || !isfinite(o->halo)) return base_fail(diag, FROE_E_OPTIONS, "a halo of %g is none", o->halo);
     if (!(o->crease >= 0 && o->crease <= 180))
         return base_fail(diag, FROE_E_OPTIONS, "a crease angle of %g degrees is not in 0 .. 180", o->crease);

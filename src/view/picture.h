@@ -38,13 +38,16 @@ typedef struct view_painter {
     view_outliner outliner;
     view_seams seams;
     view_region region;
-    uint32_t *order;  /**< of the nodes */
-    uint32_t *places; /**< per piece of the tree, when something is clear */
-    uint32_t *runs;   /**< per patch, see view_outliner */
+    uint32_t *order;   /**< of the nodes */
+    uint32_t *places;  /**< per piece of the tree, when something is clear */
+    uint8_t *left_out; /**< per patch; NULL: none is */
+    uint32_t *runs;    /**< per patch, see view_outliner */
 } view_painter;
 
 /** Finds an order of whole patches, of which some may be late or split. FROE_E_BUDGET. */
 froe_status view_plan_whole(view_painter *painter);
+/** Notes the patches of which too little is visible. FROE_E_MEMORY. */
+froe_status view_leave_out(view_painter *painter);
 /** Appends the shapes of that plan; of visible regions; of fragments. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_paint_whole(view_painter *painter);
 froe_status view_paint_regions(view_painter *painter);

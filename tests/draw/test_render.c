@@ -67,7 +67,7 @@ static void a_cube_shows_three_faces_and_nine_edges(void **state) {
     froe_render_options o = froe_render_defaults();
     froe_render_report report;
     size_t count;
-    o.ids = true;
+    o.ids = FROE_IDS_FACE;
     o.title = "a < b & c";
     char *svg = render(tree, "cube.svg", &o, &report, &count);
     assert_int_equal(report.picture.shapes, 3);
@@ -174,10 +174,44 @@ static froe_status render_with(void *user, const froe_allocator *alloc) {
     return froe_render(user, "memory.svg", &o, NULL, NULL);
 }
 
+static froe_status animate_with(void *user, const froe_allocator *alloc) {
+    froe_render_options o = froe_render_defaults();
+    froe_camera cameras[2];
+    o.alloc = alloc;
+    o.layers = true;
+    o.ids = FROE_IDS_OBJECT;
+    const froe_status status = froe_camera_turn(&o.camera, froe_tree_scene(user), 2, cameras, NULL);
+    return status ? status : froe_render_animation(user, "memory.svg", &o, cameras, 2, 4, NULL, NULL);
+}
+
+static void an_animation_shows_each_picture_for_its_time(void **state) {
+    (void)state;
+    froe_tree *tree = cube();
+    froe_render_options o = froe_render_defaults();
+    froe_camera cameras[4];
+    froe_render_report report;
+    froe_diagnostic why = {.message = ""};
+    size_t size;
+    assert_int_equal(froe_camera_turn(&o.camera, froe_tree_scene(tree), 4, cameras, NULL), FROE_OK);
+    if (froe_render_animation(tree, "turn.svg", &o, cameras, 4, 2, &report, &why)) fail_msg("%s", why.message);
+    char *text = read_file("turn.svg", &size);
+    assert_int_equal(size, report.bytes);
+    assert_int_equal(occurrences(text, "<animate "), 4);
+    assert_int_equal(occurrences(text, "<g display=\"none\">"), 3);
+    assert_int_equal(occurrences(text, "<path "), report.paths);
+    assert_int_equal(occurrences(text, "<g"), occurrences(text, "</g>"));
+    assert_int_equal(froe_render_animation(tree, "turn.png", &o, cameras, 4, 2, NULL, &why), FROE_E_OPTIONS);
+    assert_int_equal(froe_render_animation(tree, "none.svg", &o, cameras, 4, 0, NULL, &why), FROE_E_OPTIONS);
+    assert_int_equal(froe_render_animation(tree, "none.svg", &o, cameras, 0, 1, NULL, &why), FROE_E_ARG);
+    free(text);
+    froe_tree_free(tree);
+}
+
 static void every_allocation_may_fail(void **state) {
     (void)state;
     froe_tree *tree = cube();
     assert_true(test_memory_each(render_with, tree) > 30);
+    assert_true(test_memory_each(animate_with, tree) > 60);
     froe_tree_free(tree);
 }
 
@@ -188,6 +222,7 @@ int main(void) {
         cmocka_unit_test(through_glass_one_sees_what_is_behind),
         cmocka_unit_test(coordinates_do_not_drift),
         cmocka_unit_test(bad_options_are_refused_and_leave_no_file),
+        cmocka_unit_test(an_animation_shows_each_picture_for_its_time),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -557,6 +557,55 @@ static void what_is_fitted_fills_the_page(void **state) {
     froe_tree_free(tree);
 }
 
+/* Seen from all around, everything stays within the margins; opposite pictures are turned by half a round. */
+static void a_turntable_keeps_scale_and_page(void **state) {
+    (void)state;
+    enum { N = 6 };
+    froe_tree *tree = random_tree();
+    for (int parallel = 0; parallel < 2; parallel++) {
+        froe_camera c = froe_camera_defaults(), turned[N];
+        froe_projection view[N];
+        c.parallel = parallel;
+        c.margin = 10;
+        assert_int_equal(froe_camera_turn(&c, tree->scene, N, turned, NULL), FROE_OK);
+        for (int f = 0; f < N; f++) {
+            assert_int_equal(froe_camera_place(&turned[f], tree->scene, &view[f], NULL), FROE_OK);
+            assert_true(fabs(view[f].scale - view[0].scale) < 1e-9 * view[0].scale);
+            for (uint32_t i = 0; i < tree->scene->vertex_count; i++) {
+                double at[2];
+                assert_true(froe_project(&view[f], scene_vertex(tree->scene, i), at));
+                for (int k = 0; k < 2; k++) assert_true(at[k] > 10 - 1e-6 && at[k] < 990 + 1e-6);
+            }
+        }
+        for (int k = 0; k < 3; k++) assert_true(fabs(view[0].right[k] + view[3].right[k]) < 1e-12);
+        c.up[2] = 0;
+        assert_int_equal(froe_camera_turn(&c, tree->scene, N, turned, NULL), FROE_E_ARG);
+    }
+    froe_tree_free(tree);
+}
+
+/* What is left out is what the report says, and all of it with a limit above everything. */
+static void small_faces_may_be_left_out(void **state) {
+    (void)state;
+    froe_tree *tree = random_tree();
+    page p;
+    open_page(&p, tree);
+    set_view(&p, 1);
+    size_t shapes[3];
+    for (int i = 0; i < 3; i++) {
+        p.options.min_area = i == 0 ? 0 : i == 1 ? 500 : 1e12;
+        assert_int_equal(froe_picture_new(p.tree, p.surface, &p.options, &p.picture, NULL), FROE_OK);
+        const froe_picture_report r = froe_picture_statistics(p.picture);
+        shapes[i] = froe_picture_shape_count(p.picture);
+        assert_int_equal(shapes[i] + r.left_out, shapes[0]);
+        assert_true(i == 0 || (r.left_out > 0 && r.left_out_area <= (double)r.left_out * p.options.min_area));
+        froe_picture_free(p.picture);
+    }
+    assert_true(shapes[1] > 0 && shapes[2] == 0);
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
 static froe_status picture_with(void *user, const froe_allocator *alloc) {
     page *p = user;
     froe_picture *picture = NULL;
@@ -575,6 +624,9 @@ static void every_allocation_may_fail(void **state) {
     set_view(&p, 1);
     p.options.lines = 127;
     p.options.underlap = 1;
+    p.options.halo = 1;
+    p.options.hidden = true;
+    p.options.min_area = 1;
     for (int paint = 0; paint < FROE_PAINT_COUNT; paint++) {
         p.options.paint = (froe_paint)paint;
         assert_true(test_memory_each(picture_with, &p) > 20);
@@ -602,6 +654,8 @@ int main(void) {
         cmocka_unit_test(halos_part_lines_and_hidden_ones_are_drawn_once),
         cmocka_unit_test(bad_cameras_are_refused),
         cmocka_unit_test(what_is_fitted_fills_the_page),
+        cmocka_unit_test(a_turntable_keeps_scale_and_page),
+        cmocka_unit_test(small_faces_may_be_left_out),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
