@@ -223,6 +223,27 @@ static void motions_that_the_format_cannot_say_are_refused(void **state) {
     froe_motion_free(m);
 }
 
+static void pictures_and_tables_refuse_what_they_cannot_show(void **state) {
+    (void)state;
+    froe_motion *m = NULL;
+    froe_diagnostic diag;
+    assert_int_equal(froe_generate_motion("moving", 3, 1, NULL, &m, NULL), FROE_OK);
+    const froe_contact strange = {.a = 1, .b = 7};
+    froe_animation_options o = froe_animation_defaults();
+    assert_int_equal(froe_animate(m, NULL, 0, NULL, "a.svg", NULL), FROE_OK);
+    assert_int_equal(froe_animate(m, NULL, 0, &o, "a.html", NULL), FROE_OK);
+    assert_int_equal(froe_animate(m, NULL, 1, &o, "a.html", NULL), FROE_E_ARG);
+    assert_int_equal(froe_animate(m, &strange, 1, &o, "a.html", &diag), FROE_E_ARG);
+    assert_string_equal(diag.message, "froe_animate: contact 0 is of objects that are not there");
+    assert_int_equal(froe_animate(m, NULL, 0, &o, "a.png", NULL), FROE_E_UNSUPPORTED);
+    o.seconds = NAN;
+    assert_int_equal(froe_animate(m, NULL, 0, &o, "a.svg", NULL), FROE_E_OPTIONS);
+    assert_int_equal(froe_write_contacts(m, NULL, 0, "a.csv", NULL), FROE_OK);
+    assert_int_equal(froe_write_contacts(m, NULL, 0, "a.txt", NULL), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_write_contacts(m, NULL, 1, "a.csv", NULL), FROE_E_ARG);
+    froe_motion_free(m);
+}
+
 static void real_cars_are_read_unrounded(void **state) {
     (void)state;
     froe_motion *m = NULL;
@@ -263,6 +284,7 @@ int main(void) {
         cmocka_unit_test(what_is_wrong_is_said_with_the_feature),
         cmocka_unit_test(every_kind_of_motion_survives_a_file),
         cmocka_unit_test(motions_that_the_format_cannot_say_are_refused),
+        cmocka_unit_test(pictures_and_tables_refuse_what_they_cannot_show),
         cmocka_unit_test(real_cars_are_read_unrounded),
         cmocka_unit_test(every_allocation_may_fail),
     };
