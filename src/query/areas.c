@@ -2,6 +2,7 @@
 #include "query/areas.h"
 #include "base/status.h"
 #include "query/segment.h"
+#include "tree/packed.h"
 #include <string.h>
 
 /* ---------------------------------------------------------------- crossing -- */
@@ -35,11 +36,48 @@ static bool pass(froe_query *q, const query_areas *areas, uint32_t object, const
     return query_members_flip(&q->groups.inside, &q->alloc, s->groups[object]);
 }
 
-bool query_areas_pass(froe_query *q, const query_areas *areas, const tree_objects *list, const double *from,
+/* A segment in the units of a block, and by how much values of its line may be wrong there. */
+typedef struct unit_segment {
+    double from[2], step[2], error;
+} unit_segment;
+
+/* Of coordinates with an error of a unit or so; a rounding of points of the cell is far less than another. */
+static unit_segment segment_in(const packed_header *block, const double *from, const double *to) {
+    unit_segment s;
+    for (int k = 0; k < 2; k++) {
+        s.from[k] = (from[k] - block->lo[k]) * block->scale;
+        s.step[k] = (to[k] - block->lo[k]) * block->scale - s.from[k];
+    }
+    s.error = (fabs(s.step[0]) + fabs(s.step[1]) + 1) * (block->error + 1.0);
+    return s;
+}
+
+static double beside(const unit_segment *s, uint16_t x, uint16_t y) {
+    return s->step[0] * (y - s->from[1]) - s->step[1] * (x - s->from[0]);
+}
+
+/* Fragments that are surely on one side of the line are passed over without a look at their objects. */
+static bool pass_block(froe_query *q, const query_areas *areas, const query_leaf *leaf, const double *from,
+                       const double *to) {
+    const uint32_t count = leaf->list.count;
+    const packed_header *block =
+        (const packed_header *)(const void *)(q->tree->packed.blocks + (size_t)leaf->place * PACKED_BLOCK);
+    const uint16_t *px = packed_units(block), *py = px + count, *qx = py + count, *qy = qx + count;
+    const unit_segment s = segment_in(block, from, to);
+    for (uint32_t i = 0; i < count; i++) {
+        const double a = beside(&s, px[i], py[i]), b = beside(&s, qx[i], qy[i]);
+        if ((a > s.error && b > s.error) || (a < -s.error && b < -s.error)) continue;
+        if (!pass(q, areas, tree_object(&leaf->list, i), from, to)) return false;
+    }
+    return true;
+}
+
+bool query_areas_pass(froe_query *q, const query_areas *areas, const query_leaf *leaf, const double *from,
                       const double *to) {
-    q->stats.tests += list->count;
-    for (uint32_t i = 0; i < list->count; i++)
-        if (!pass(q, areas, tree_object(list, i), from, to)) return false;
+    q->stats.tests += leaf->list.count;
+    if (tree_is_packed(q->tree) && q->numbers.first == NUM_FILTER) return pass_block(q, areas, leaf, from, to);
+    for (uint32_t i = 0; i < leaf->list.count; i++)
+        if (!pass(q, areas, tree_object(&leaf->list, i), from, to)) return false;
     return true;
 }
 

@@ -54,9 +54,9 @@ froe_status query_areas_of(froe_query *query, const query_areas **out, froe_diag
 froe_status query_groups_prepare(froe_query *query, const query_areas **out, froe_diagnostic *diag);
 
 /** Flips in query->groups.inside the groups whose borders the segment crosses an odd number of times, and adds to
- * query->groups.touched those of which `to` is a point or on the border, as far as a list tells. `from` is on no
- * border. False without memory. */
-bool query_areas_pass(froe_query *query, const query_areas *areas, const tree_objects *list, const double *from,
+ * query->groups.touched those of which `to` is a point or on the border, as far as a leaf's list tells. Both points are
+ * in its closed cell, `from` on no border. False without memory. */
+bool query_areas_pass(froe_query *query, const query_areas *areas, const query_leaf *leaf, const double *from,
                       const double *to);
 /** The same for all objects. */
 froe_status query_areas_travel(froe_query *query, const query_areas *areas, const double *from, const double *to,

@@ -19,7 +19,7 @@ static froe_status come_from_reference(froe_query *q, const query_areas *areas, 
     const query_reference *r = areas->references.data + (slot & ~AREA_FAR);
     if (!query_sets_copy(&areas->sets, &q->alloc, r->set, &q->groups.inside)) return base_fail_memory(diag);
     if (slot & AREA_FAR || leaf.on_cut) return query_areas_travel(q, areas, r->at, point, diag);
-    if (!query_areas_pass(q, areas, &leaf.list, r->at, point)) return base_fail_memory(diag);
+    if (!query_areas_pass(q, areas, &leaf, r->at, point)) return base_fail_memory(diag);
     q->stats.exact += q->numbers.stats.exact - exact;
     return FROE_OK;
 }

@@ -209,24 +209,33 @@ static bool go_beside(const walk *w, const query_cut *cut, int side, double *sta
 /* Cuts passed in a row before the centroids are asked: about what asking them costs. */
 enum { PATIENCE = 16 };
 
-/* The node where the range meets the next cut, below this one, which becomes the region of the state. Where the
- * range reaches the border of the region, cuts beyond do not matter: the box to be found ends just inside. */
-static uint32_t jump(const walk *w, uint32_t node, double *state) {
-    const geom_range *range = &w->r->range;
-    const place p = place_of(w, state);
+/* The deepest node below this one whose region holds what of a box is in this one's: it, or one further down. Where the
+ * box reaches the border of the region, cuts beyond do not matter: what is looked for ends just inside. */
+static uint32_t deepest_below(const walk *w, uint32_t node, double *lo, double *hi) {
     const double *region = query_centroid_box(w->centroids, node); /* empty below oblique cuts */
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     for (int k = 0; k < w->dim; k++) {
         const double inside[2] = {nextafter(region[k], INFINITY), nextafter(region[w->dim + k], -INFINITY)};
         if (inside[0] > inside[1]) return node;
-        lo[k] = filter_greater(filter_greater(p.part_lo[k], range->lo[k]), inside[0]);
-        hi[k] = p.part_hi[k] < range->hi[k] ? p.part_hi[k] : range->hi[k];
-        hi[k] = hi[k] < inside[1] ? hi[k] : inside[1];
+        if (lo[k] < inside[0]) lo[k] = inside[0];
+        if (hi[k] > inside[1]) hi[k] = inside[1];
         if (lo[k] > inside[1]) lo[k] = inside[1];
         if (hi[k] < inside[0]) hi[k] = inside[0];
     }
     const uint32_t found = query_centroid_find(w->centroids, lo, hi);
-    if (found <= node) return node;
+    return found > node ? found : node;
+}
+
+/* The node where the range meets the next cut, below this one, which becomes the region of the state. */
+static uint32_t jump(const walk *w, uint32_t node, double *state) {
+    const geom_range *range = &w->r->range;
+    const place p = place_of(w, state);
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    for (int k = 0; k < w->dim; k++) {
+        lo[k] = filter_greater(p.part_lo[k], range->lo[k]);
+        hi[k] = p.part_hi[k] < range->hi[k] ? p.part_hi[k] : range->hi[k];
+    }
+    const uint32_t found = deepest_below(w, node, lo, hi);
+    if (found == node) return node;
     const double *box = query_centroid_box(w->centroids, found);
     for (int k = 0; k < w->dim; k++) {
         p.lo[k] = filter_greater(p.lo[k], box[k]);
@@ -335,8 +344,26 @@ static unsigned divide(const walk *w, const query_cut *cut, const double *t, dou
     return 3;
 }
 
+/* The same for the part of a thin range with parameters in an interval: its bounds, rounded outwards. An infinite
+ * parameter is in no region. */
+static uint32_t jump_thin(const walk *w, uint32_t node, const double *t) {
+    const geom_convex *set = &w->r->range.set;
+    const double *o = geom_convex_point(set, 0), *e = geom_convex_point(set, 1);
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    for (int k = 0; k < w->dim; k++) {
+        const double d = set->core == GEOM_CORE_RAY ? e[k] : e[k] - o[k], x = o[k] + t[0] * d, y = o[k] + t[1] * d;
+        const double error = 8 * FILTER_U * (fabs(o[k]) + t[1] * fabs(d)) + NUM_BALL_TINY;
+        if (!(x - error > -INFINITY && y + error < INFINITY && x + error < INFINITY && y - error > -INFINITY))
+            return node;
+        lo[k] = (x < y ? x : y) - error;
+        hi[k] = (x < y ? y : x) + error;
+    }
+    return deepest_below(w, node, lo, hi);
+}
+
 static void follow_thin(walk *w, uint32_t node, double *t) {
-    while (!done(w)) {
+    for (int steps = 0; !done(w); steps++) {
+        if (steps == PATIENCE && w->centroids->deep) node = jump_thin(w, node, t);
         const tree_node *n = w->tree->nodes + node;
         double below[2], above[2];
         w->q->stats.nodes++;
@@ -350,6 +377,7 @@ static void follow_thin(walk *w, uint32_t node, double *t) {
         if (sides == 3) {
             push(w, n->child + 1, above);
             if (n->type == TREE_TABLED) visit_list(w, node);
+            steps = 0;
         }
         memcpy(t, sides == 2 ? above : below, 2 * sizeof *t);
         node = n->child + (sides == 2);

@@ -48,13 +48,14 @@ static void deep_chains_are_searched_in_few_steps(void **state) {
         froe_range range = froe_range_defaults();
         froe_list list;
         range.points = points;
-        if (i % 3 == 1) { /* the same as a ball, and as a hull */
+        if (i % 4 == 1) { /* the same as a ball, as a hull and as a segment */
             points[0] = 0.5 * (lo + hi);
             points[1] = 0;
             range.shape = FROE_SHAPE_BALL;
             range.radius = 0.5 * (hi - lo);
         }
-        if (i % 3 == 2) range.shape = FROE_SHAPE_HULL, range.count = 2, points[1] = 0;
+        if (i % 4 == 2) range.shape = FROE_SHAPE_HULL, range.count = 2, points[1] = 0;
+        if (i % 4 == 3) range.shape = FROE_SHAPE_SEGMENT, points[1] = 0;
         assert_int_equal(froe_query_range(q, &range, &list, NULL), FROE_OK);
         assert_int_equal(list.count, first <= last ? (size_t)(last - first) + 1 : 0);
         for (size_t j = 0; j < list.count; j++) assert_true(list.ids[j] >= first && list.ids[j] <= last);
