@@ -29,7 +29,7 @@ function(froe_pkgconfig file description requires requires_private libs_private)
 endfunction()
 
 froe_install(froe froe)
-install(FILES include/froe/query.h include/froe/view.h include/froe/kinetic.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/froe)
+install(FILES include/froe/query.h include/froe/view.h include/froe/kinetic.h include/froe/measure.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/froe)
 froe_pkgconfig(froe "${PROJECT_DESCRIPTION}" "" "" "-lm -pthread")
 if(FROE_HAS_IO)
   froe_install(froe_io io)

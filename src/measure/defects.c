@@ -4,8 +4,8 @@
  * touches. Each worker counts for itself; counts add up, the least example pair stays,
  * so threads do not show. */
 #include "base/status.h"
-#include "geom/contact.h"
 #include "geom/box_pairs.h"
+#include "geom/contact.h"
 #include "scene/scene.h"
 
 typedef enum oddity { APART, CROSSING, T_JUNCTION, OVERLAP, ODDITIES } oddity;

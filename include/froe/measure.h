@@ -1,0 +1,106 @@
+/* measure.h: what a scene is like: how fat, how dense, how cluttered.
+ *
+ * The sizes that methods promise depend on such properties (de Berg 2000; de Berg and Streppel; Tobola and Nechvile),
+ * so these tell which promises are worth something on a scene at hand.
+ *
+ *     froe_measure_options o = froe_measure_defaults();
+ *     froe_density density;
+ *     froe_measure_density(scene, &o, &density, NULL);     // density.lower <= lambda <= density.upper
+ *
+ * Bounds that are called certified hold exactly for the doubles of the scene; distributions are computed in
+ * doubles. Where a scene has more objects than `samples`, a random sample of so many is looked at, the same for the
+ * same seed: lower bounds stay certified, upper bounds and distributions are then those of the sample. All functions
+ * leave the scene as it is. */
+#ifndef FROE_MEASURE_H
+#define FROE_MEASURE_H
+#include <froe/froe.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct froe_measure_options {
+    size_t size;      /**< set by froe_measure_defaults() */
+    uint32_t samples; /**< objects, or for clutter cubes, looked at, at most; 0: all objects */
+    uint64_t seed;
+    froe_progress_fn *progress; /**< may be NULL */
+    void *user;
+} froe_measure_options;
+FROE_API froe_measure_options froe_measure_defaults(void); /**< 20,000 samples, seed 1 */
+
+/** How values are distributed. All 0 without any. */
+typedef struct froe_spread {
+    uint64_t count;
+    double least, q05, q25, median, q75, q95, most, mean;
+} froe_spread;
+
+/* ----------------------------------------------------------------- fatness -- */
+
+/** Fatness of convex objects: volume over that of the smallest enclosing ball (de Berg and Streppel; at most 1). */
+typedef struct froe_fatness {
+    froe_spread full;   /**< of objects of the dimension of the scene, but hulls */
+    froe_spread flat;   /**< of polygons in space: area over that of the smallest enclosing disc */
+    froe_spread sliver; /**< of polygons in space: width across their longest edge, over its length */
+    uint64_t thin;      /**< objects without volume: fatness 0 (points, segments; in space polygons, flat boxes) */
+    uint64_t left_out;  /**< hulls */
+} froe_fatness;
+/** FROE_E_MEMORY, FROE_E_CANCELLED. O(n), but O(corners^2) for polygons of many corners. */
+FROE_API froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_options *options,
+                                          froe_fatness *out, froe_diagnostic *diag);
+
+/* ----------------------------------------------------------------- density -- */
+
+typedef enum froe_size {
+    FROE_SIZE_RADIUS,  /**< of the smallest enclosing ball, against that of a ball (de Berg) */
+    FROE_SIZE_DIAMETER /**< against that of a ball (de Berg and Streppel; Sacks) */
+} froe_size;
+
+/** The density lambda of a scene: the most objects, of at least the size of a ball, that meet a ball. */
+typedef struct froe_density {
+    uint32_t lower, upper;               /**< certified; upper: of the objects looked at (count) */
+    uint64_t count;                      /**< objects looked at */
+    double centre[FROE_MAX_DIM], radius; /**< a ball that meets `lower` objects of at least its size */
+    froe_spread load; /**< per object: objects of at least its size within three radii of its centre */
+} froe_density;
+/** Only balls of the size of an object matter. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log n + sum of loads). */
+FROE_API froe_status froe_measure_density(const froe_scene *scene, froe_size size, const froe_measure_options *options,
+                                          froe_density *out, froe_diagnostic *diag);
+
+/* ----------------------------------------------------------------- clutter -- */
+
+/** The clutter factor kappa (de Berg): the most objects that meet an open cube without a guard, a corner of the
+ * bounding box of an object, inside. */
+typedef struct froe_clutter {
+    uint32_t lower; /**< certified: that cube shows it */
+    double lo[FROE_MAX_DIM],
+        hi[FROE_MAX_DIM]; /**< the cube (sides equal up to rounding, and never longer than the first) */
+    uint64_t count;       /**< cubes grown */
+    froe_spread load;     /**< of the cubes that cannot grow any more */
+} froe_clutter;
+/** Grows empty cubes at random places until opposite sides are blocked, and moves the best ones sideways.
+ * FROE_E_MEMORY, FROE_E_CANCELLED. O(n log n + samples (log n + loads)). */
+FROE_API froe_status froe_measure_clutter(const froe_scene *scene, const froe_measure_options *options,
+                                          froe_clutter *out, froe_diagnostic *diag);
+
+/* ------------------------------------------------------- directional density -- */
+
+/** Directional density of the bounding boxes of objects (Tobola and Nechvile): how many other boxes cross the
+ * plane of a face within its neighbourhood. Boxes that meet the inside of the box itself do not count. */
+typedef struct froe_directional {
+    double delta;
+    uint64_t count;       /**< boxes looked at */
+    froe_spread simple;   /**< most of all faces, each widened by delta times its own sides */
+    froe_spread extended; /**< most of all faces, widened by (1 + 2 delta) times the longest side of the face */
+    froe_spread paired; /**< least over the axes, but the longest, of the two faces across it, widened by (1 + 2 delta)
+                             times the longest side of the box: the condition of the linear bound */
+} froe_directional;
+/** Exact counts, up to the rounding of the widened sides. FROE_E_ARG: delta < 0 or not finite. FROE_E_MEMORY,
+ * FROE_E_CANCELLED. O(n log n + d samples (log n + counts)). */
+FROE_API froe_status froe_measure_directional(const froe_scene *scene, double delta,
+                                              const froe_measure_options *options, froe_directional *out,
+                                              froe_diagnostic *diag);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

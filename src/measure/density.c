@@ -1,0 +1,164 @@
+/* density.c: bounds on the density lambda of a scene.
+ *
+ *          ____             Only balls of exactly the size of an object matter: a ball grown to the next size loses
+ *        /      \           nothing. So for each object o of radius r:
+ *       |  o  r  | 2r
+ *        \      /             N(o) = objects of at least the size of o within 3 r of its centre
+ *          ----
+ *                           Every ball of radius r that meets o has its contents in N(o): lambda <= max N(o).
+ *
+ * For the lower bound balls of radius r are tried around points near objects with a large N(o). Distances are compared
+ * exactly; sizes are what doubles make of them, so lambda is that of the scene with these sizes. */
+#include "base/random.h"
+#include "geom/distance.h"
+#include "measure/enclosing.h"
+#include "measure/hierarchy.h"
+#include "measure/sample.h"
+#include <math.h>
+#include <string.h>
+
+enum { TRIES = 48 }; /* balls tried at an object */
+
+typedef struct survey {
+    measure_sample sample;
+    measure_hierarchy objects;
+    num_context context;
+    froe_size kind;
+    double *lo, *hi, *size;
+    uint64_t *keys;
+    ARRAY(uint32_t) near; /* N(o) */
+    froe_density out;
+} survey;
+
+/* Is a corner of the object certainly within the radius of the point? */
+static bool surely_within(const survey *s, const double *point, double radius, uint32_t object) {
+    const froe_scene *scene = s->sample.scene;
+    bool found = false;
+    if (scene_form(scene, object) == FROE_BALL) return false;
+    for (uint32_t i = 0; i < scene_corners(scene, object) && !found; i++) {
+        const double *p = scene_point(scene, object, i);
+        double square = 0;
+        for (int k = 0; k < scene->dim; k++) square += (p[k] - point[k]) * (p[k] - point[k]);
+        found = square * (1 + 0x1p-40) < radius * radius;
+    }
+    return found;
+}
+
+static bool within(survey *s, const double *point, double radius, uint32_t object) {
+    if (surely_within(s, point, radius, object)) return true;
+    geom_body body = scene_body(s->sample.scene, object);
+    geom_distance distance = geom_distance_from(&s->context, point, &body);
+    return geom_distance_compare_to(&s->context, point, &distance, radius) <= 0;
+}
+
+/* N(o), in s->near. `reach` is 3 r, rounded up. */
+static bool find_near(survey *s, const double *centre, double reach, double least) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    for (int k = 0; k < s->objects.dim; k++) lo[k] = centre[k] - reach, hi[k] = centre[k] + reach;
+    measure_search search = measure_search_begin(&s->objects, lo, hi, least);
+    s->near.count = 0;
+    for (uint32_t i; (i = measure_search_next(&search)) != FROE_NONE;)
+        if (within(s, centre, reach, i) && !array_push(&s->sample.alloc, &s->near, i)) return false;
+    return true;
+}
+
+/* Counts what a ball of the size of the object meets; keeps the best ball. */
+static void try_ball(survey *s, const double *centre, double radius) {
+    uint32_t count = 0;
+    for (size_t i = 0; i < s->near.count; i++) count += within(s, centre, radius, s->near.data[i]);
+    if (count <= s->out.lower) return;
+    s->out.lower = count;
+    s->out.radius = radius;
+    memcpy(s->out.centre, centre, (size_t)s->objects.dim * sizeof(double));
+}
+
+/* A point of the box of an object, at random. */
+static void random_point(const survey *s, uint32_t object, uint64_t key, double *out) {
+    size_t at = (size_t)object * (size_t)s->objects.dim;
+    for (int k = 0; k < s->objects.dim; k++) {
+        double share = (double)(base_hash(key, 1, (uint64_t)k) >> 11) * 0x1p-53;
+        out[k] = s->lo[at + (size_t)k] * (1 - share) + s->hi[at + (size_t)k] * share;
+    }
+}
+
+/* One of N(o), at random, whatever their order: the one with the least hash. */
+static uint32_t random_near(const survey *s, uint64_t key) {
+    uint32_t chosen = s->near.data[0];
+    uint64_t least = UINT64_MAX;
+    for (size_t i = 0; i < s->near.count; i++) {
+        uint64_t hash = base_mix(s->keys[s->near.data[i]] ^ key);
+        if (hash < least) least = hash, chosen = s->near.data[i];
+    }
+    return chosen;
+}
+
+/* Balls around the centre, half-way to points of the objects near by, and around points of the object. */
+static void try_balls(survey *s, uint32_t object, const double *centre, double radius) {
+    double at[FROE_MAX_DIM];
+    try_ball(s, centre, radius);
+    for (uint64_t try = 0; try < TRIES && s->near.count > s->out.lower; try++) {
+        uint64_t key = base_hash(s->keys[object], 0, try);
+        bool between = try % 3 != 0;
+        random_point(s, between ? random_near(s, key) : object, key, at);
+        for (int k = 0; k < s->objects.dim && between; k++) at[k] = 0.5 * at[k] + 0.5 * centre[k];
+        try_ball(s, at, radius);
+    }
+}
+
+static froe_status note_object(survey *s, uint32_t object) {
+    double radius = s->kind == FROE_SIZE_RADIUS ? s->size[object] : 0.5 * s->size[object];
+    measure_ball ball = measure_enclosing(s->sample.scene, object);
+    double reach = (3 * radius + fmax(0, ball.radius - radius)) * (1 + 0x1p-40);
+    if (!find_near(s, ball.centre, reach, s->size[object])) return FROE_E_MEMORY;
+    uint32_t count = (uint32_t)s->near.count;
+    if (count > s->out.upper) s->out.upper = count;
+    if (count > s->out.lower) try_balls(s, object, ball.centre, radius);
+    return array_push(&s->sample.alloc, &s->sample.values[0], count) ? FROE_OK : FROE_E_MEMORY;
+}
+
+static froe_status begin(survey *s) {
+    const froe_scene *scene = s->sample.scene;
+    const froe_allocator *alloc = &s->sample.alloc;
+    size_t n = scene->object_count, dim = (size_t)scene->dim;
+    froe_status status = num_context_new(alloc, &s->context);
+    if (status) return status;
+    s->lo = base_calloc(alloc, n * dim, sizeof *s->lo);
+    s->hi = base_calloc(alloc, n * dim, sizeof *s->hi);
+    s->size = base_calloc(alloc, n, sizeof *s->size);
+    s->keys = base_calloc(alloc, n, sizeof *s->keys);
+    if (!s->lo || !s->hi || !s->size || !s->keys) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < n; i++) {
+        scene_object_bounds(scene, i, s->lo + i * dim, s->hi + i * dim);
+        s->keys[i] = measure_sample_key(&s->sample, i);
+        s->size[i] = s->kind == FROE_SIZE_RADIUS ? measure_enclosing(scene, i).radius : measure_diameter(scene, i);
+    }
+    return measure_hierarchy_new(alloc, scene->dim, (uint32_t)n, s->lo, s->hi, s->size, &s->objects);
+}
+
+static void end(survey *s) {
+    const froe_allocator *alloc = &s->sample.alloc;
+    size_t n = s->sample.scene->object_count, numbers = n * (size_t)s->sample.scene->dim;
+    if (s->context.alloc.fn) num_context_free(&s->context);
+    base_free(alloc, s->lo, numbers ? numbers * sizeof *s->lo : 1);
+    base_free(alloc, s->hi, numbers ? numbers * sizeof *s->hi : 1);
+    base_free(alloc, s->size, n ? n * sizeof *s->size : 1);
+    base_free(alloc, s->keys, n ? n * sizeof *s->keys : 1);
+    measure_hierarchy_free(&s->objects);
+    array_free(alloc, &s->near);
+}
+
+froe_status froe_measure_density(const froe_scene *scene, froe_size size, const froe_measure_options *options,
+                                 froe_density *out, froe_diagnostic *diag) {
+    survey s = {.kind = size};
+    froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
+    if (status) return status;
+    status = begin(&s);
+    for (uint32_t i = 0; i < s.sample.count && !status; i++)
+        status = measure_sample_go_on(&s.sample, i) ? note_object(&s, measure_sample_object(&s.sample, i))
+                                                    : FROE_E_CANCELLED;
+    s.out.count = s.sample.count;
+    if (!status) status = measure_sample_spread(&s.sample, 0, &s.out.load);
+    if (!status) *out = s.out;
+    end(&s);
+    return measure_sample_end(&s.sample, status, diag);
+}

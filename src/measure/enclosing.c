@@ -1,0 +1,148 @@
+/* enclosing.c: smallest enclosing balls, by exchange of support points.
+ *
+ *        o-----.         the ball of at most four points of support; the point furthest outside comes in, and the
+ *      .   .    o        smallest ball that is held by it and some of the others, and holds them all, is next. It
+ *     o  ball    .  o    grows each time, so this ends (an LP-type problem: Matousek, Sharir and Welzl 1996).
+ */
+#include "measure/enclosing.h"
+#include <math.h>
+#include <string.h>
+
+enum { SUPPORT = 4, ROUNDS = 1000 };
+#define SLACK (1 + 0x1p-40)
+
+typedef struct support {
+    const double *point[SUPPORT + 1];
+    int count;
+} support;
+
+static double square_distance(int dim, const double *a, const double *b) {
+    double sum = 0;
+    for (int k = 0; k < dim; k++) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return sum;
+}
+
+/* Solves a symmetric system of m <= 3 unknowns by elimination with pivots; false: (nearly) singular. */
+static bool solve(int m, double a[3][4]) {
+    for (int i = 0; i < m; i++) {
+        int pivot = i;
+        for (int j = i + 1; j < m; j++)
+            if (fabs(a[j][i]) > fabs(a[pivot][i])) pivot = j;
+        if (!(fabs(a[pivot][i]) > 0)) return false;
+        for (int k = 0; k <= m; k++) {
+            double swap = a[i][k];
+            a[i][k] = a[pivot][k];
+            a[pivot][k] = swap;
+        }
+        for (int j = 0; j < m; j++) {
+            double factor = j == i ? 0 : a[j][i] / a[i][i];
+            for (int k = i; k <= m; k++) a[j][k] -= factor * a[i][k];
+        }
+    }
+    for (int i = 0; i < m; i++) a[i][m] /= a[i][i];
+    return true;
+}
+
+/* The ball with all these points on its surface and its centre among them: centre = p0 + sum t_i v_i, v_i = p_i - p0,
+ * where 2 v_j . sum t_i v_i = |v_j|^2. */
+static bool circumscribe(int dim, const support *s, measure_ball *out) {
+    double v[3][3] = {{0}}, a[3][4] = {{0}};
+    int m = s->count - 1;
+    for (int i = 0; i < m; i++)
+        for (int k = 0; k < dim; k++) v[i][k] = s->point[i + 1][k] - s->point[0][k];
+    for (int i = 0; i < m; i++) {
+        for (int j = 0; j < m; j++)
+            for (int k = 0; k < dim; k++) a[i][j] += 2 * v[i][k] * v[j][k];
+        a[i][m] = a[i][i] / 2;
+    }
+    if (!solve(m, a)) return false;
+    for (int k = 0; k < dim; k++) {
+        out->centre[k] = s->point[0][k];
+        for (int i = 0; i < m; i++) out->centre[k] += a[i][m] * v[i][k];
+    }
+    out->radius = sqrt(square_distance(dim, out->centre, s->point[0]));
+    return isfinite(out->radius);
+}
+
+static bool holds(int dim, const measure_ball *ball, const support *s) {
+    bool all = true;
+    for (int i = 0; i < s->count; i++)
+        all = all && sqrt(square_distance(dim, ball->centre, s->point[i])) <= ball->radius * SLACK;
+    return all;
+}
+
+/* Of the balls held by the last point and some of the others, the smallest that holds all. */
+static bool exchange(int dim, support *s, measure_ball *ball) {
+    support best = {.count = 0};
+    measure_ball least = {.radius = INFINITY};
+    int others = s->count - 1;
+    for (unsigned set = 0; set < 1u << others; set++) {
+        support some = {{s->point[others]}, 1};
+        for (int i = 0; i < others; i++)
+            if (set >> i & 1) some.point[some.count++] = s->point[i];
+        measure_ball b;
+        if (some.count > dim + 1 || !circumscribe(dim, &some, &b)) continue;
+        if (b.radius < least.radius && holds(dim, &b, s)) least = b, best = some;
+    }
+    if (!best.count || least.radius <= ball->radius) return false; /* rounding: as near as doubles get */
+    *s = best;
+    *ball = least;
+    return true;
+}
+
+static measure_ball enclose_corners(const froe_scene *scene, uint32_t object) {
+    support s = {{scene_point(scene, object, 0)}, 1};
+    measure_ball ball = {.radius = 0};
+    memcpy(ball.centre, s.point[0], (size_t)scene->dim * sizeof(double));
+    for (int round = 0; round < ROUNDS; round++) {
+        double most = 0;
+        for (uint32_t i = 0; i < scene_corners(scene, object); i++) {
+            const double *p = scene_point(scene, object, i);
+            double far = square_distance(scene->dim, ball.centre, p);
+            if (far > most) most = far, s.point[s.count] = p;
+        }
+        if (sqrt(most) <= ball.radius * SLACK) break;
+        s.count++;
+        if (!exchange(scene->dim, &s, &ball)) return (ball.radius = sqrt(most), ball);
+    }
+    return ball;
+}
+
+static measure_ball enclose_box(const froe_scene *scene, uint32_t object) {
+    measure_ball ball;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], sum = 0;
+    scene_object_bounds(scene, object, lo, hi);
+    for (int k = 0; k < scene->dim; k++) {
+        double half = 0.5 * hi[k] - 0.5 * lo[k];
+        ball.centre[k] = lo[k] + half;
+        sum += half * half;
+    }
+    ball.radius = sqrt(sum);
+    return ball;
+}
+
+measure_ball measure_enclosing(const froe_scene *scene, uint32_t object) {
+    measure_ball ball;
+    switch (scene_form(scene, object)) {
+    case FROE_BOX:
+    case FROE_POINT:
+        return enclose_box(scene, object);
+    case FROE_BALL:
+        memcpy(ball.centre, scene_point(scene, object, 0), (size_t)scene->dim * sizeof(double));
+        ball.radius = scene_radius(scene, object);
+        return ball;
+    default:
+        return enclose_corners(scene, object);
+    }
+}
+
+double measure_diameter(const froe_scene *scene, uint32_t object) {
+    if (scene_form(scene, object) == FROE_BALL) return 2 * scene_radius(scene, object);
+    double most = 0;
+    for (uint32_t i = 1; i < scene_corners(scene, object); i++)
+        for (uint32_t j = 0; j < i; j++) {
+            double far = square_distance(scene->dim, scene_point(scene, object, i), scene_point(scene, object, j));
+            if (far > most) most = far;
+        }
+    return sqrt(most);
+}

@@ -1,0 +1,14 @@
+/* enclosing.h: how large objects are: smallest enclosing balls and diameters, in doubles. */
+#ifndef FROE_MEASURE_ENCLOSING_H
+#define FROE_MEASURE_ENCLOSING_H
+#include "scene/scene.h"
+
+typedef struct measure_ball {
+    double centre[FROE_MAX_DIM], radius;
+} measure_ball;
+
+/** The smallest ball around an object, up to rounding. Expected O(corners) and a few rounds more. */
+measure_ball measure_enclosing(const froe_scene *scene, uint32_t object);
+/** The greatest distance of two points of it. O(corners^2) for polygons and hulls. */
+double measure_diameter(const froe_scene *scene, uint32_t object);
+#endif

@@ -1,0 +1,108 @@
+/* fatness.c: volume over that of the smallest enclosing ball; of polygons in space, area over that of the disc. */
+#include "base/status.h"
+#include "measure/enclosing.h"
+#include "measure/sample.h"
+#include <math.h>
+
+enum { FULL, FLAT, SLIVER }; /* lists of values */
+
+/* Of the unit ball: pi r^2 in the plane, each dimension d from d - 2. */
+static double ball_volume(int dim, double radius) {
+    const double pi = 3.14159265358979323846;
+    double volume = dim % 2 ? 2 * radius : 1;
+    for (int d = dim % 2 ? 3 : 2; d <= dim; d += 2) volume *= 2 * pi / d * radius * radius;
+    return volume;
+}
+
+static double box_volume(const froe_scene *scene, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], volume = 1;
+    scene_object_bounds(scene, object, lo, hi);
+    for (int k = 0; k < scene->dim; k++) volume *= hi[k] - lo[k];
+    return volume;
+}
+
+static void cross(const double *a, const double *b, const double *c, double *out) {
+    double u[3], v[3];
+    for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
+    out[0] = u[1] * v[2] - u[2] * v[1];
+    out[1] = u[2] * v[0] - u[0] * v[2];
+    out[2] = u[0] * v[1] - u[1] * v[0];
+}
+
+static double length(const double *v) {
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+static double polygon_area(const froe_scene *scene, uint32_t object) {
+    double sum[3] = {0}, part[3];
+    for (uint32_t i = 2; i < scene_corners(scene, object); i++) {
+        cross(scene_point(scene, object, 0), scene_point(scene, object, i - 1), scene_point(scene, object, i), part);
+        for (int k = 0; k < 3; k++) sum[k] += 0.5 * part[k];
+    }
+    return length(sum);
+}
+
+/* Width across the longest edge, over its length. */
+static double sliver_ratio(const froe_scene *scene, uint32_t object) {
+    uint32_t n = scene_corners(scene, object), longest = 0;
+    double most = 0, width = 0, v[3];
+    for (uint32_t i = 0; i < n; i++) {
+        const double *a = scene_point(scene, object, i), *b = scene_point(scene, object, (i + 1) % n);
+        for (int k = 0; k < 3; k++) v[k] = b[k] - a[k];
+        if (length(v) > most) most = length(v), longest = i;
+    }
+    const double *a = scene_point(scene, object, longest), *b = scene_point(scene, object, (longest + 1) % n);
+    for (uint32_t i = 0; i < n; i++) {
+        cross(a, b, scene_point(scene, object, i), v);
+        if (length(v) > width) width = length(v);
+    }
+    return width / most / most;
+}
+
+static bool note(measure_sample *s, int list, double value) {
+    return array_push(&s->alloc, &s->values[list], value);
+}
+
+static bool note_object(measure_sample *s, uint32_t object, froe_fatness *out) {
+    const froe_scene *scene = s->scene;
+    measure_ball ball;
+    double volume;
+    switch (scene_form(scene, object)) {
+    case FROE_BALL:
+        out->thin += scene_radius(scene, object) == 0;
+        return note(s, FULL, scene_radius(scene, object) > 0);
+    case FROE_BOX:
+        ball = measure_enclosing(scene, object);
+        volume = box_volume(scene, object);
+        out->thin += volume == 0;
+        return note(s, FULL, volume > 0 ? volume / ball_volume(scene->dim, ball.radius) : 0);
+    case FROE_POLYGON:
+        out->thin++;
+        ball = measure_enclosing(scene, object);
+        return note(s, FLAT, polygon_area(scene, object) / ball_volume(2, ball.radius)) &&
+               note(s, SLIVER, sliver_ratio(scene, object));
+    case FROE_HULL:
+        out->left_out++;
+        return true;
+    default:
+        out->thin++;
+        return true;
+    }
+}
+
+froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_options *options, froe_fatness *out,
+                                 froe_diagnostic *diag) {
+    measure_sample s;
+    froe_status status = measure_sample_begin(scene, options, out, &s, diag);
+    if (status) return status;
+    froe_fatness found = {.thin = 0};
+    for (uint32_t i = 0; i < s.count && !status; i++) {
+        if (!measure_sample_go_on(&s, i)) status = FROE_E_CANCELLED;
+        if (!status && !note_object(&s, measure_sample_object(&s, i), &found)) status = FROE_E_MEMORY;
+    }
+    if (!status) status = measure_sample_spread(&s, FULL, &found.full);
+    if (!status) status = measure_sample_spread(&s, FLAT, &found.flat);
+    if (!status) status = measure_sample_spread(&s, SLIVER, &found.sliver);
+    if (!status) *out = found;
+    return measure_sample_end(&s, status, diag);
+}

@@ -1,0 +1,152 @@
+/* hierarchy.c: packing boxes along a curve, and searching. */
+#include "measure/hierarchy.h"
+#include "base/radix.h"
+#include <string.h>
+
+/* ------------------------------------------------------------------ packing -- */
+
+/* The place of a box along a Z-curve through the cells of a grid: the bits of its coordinates, interleaved. */
+static uint64_t place(const measure_hierarchy *h, const double *lo, const double *hi, const double *from,
+                      const double *to) {
+    int bits = 60 / h->dim < 16 ? 60 / h->dim : 16;
+    uint64_t cell[FROE_MAX_DIM], key = 0;
+    for (int k = 0; k < h->dim; k++) {
+        double half = 0.5 * to[k] - 0.5 * from[k], at = 0.25 * lo[k] + 0.25 * hi[k] - 0.5 * from[k];
+        double share = half > 0 ? at / half : 0;
+        cell[k] = share > 0 ? share < 1 ? (uint64_t)(share * (double)(1u << bits)) : (1u << bits) - 1u : 0;
+    }
+    for (int bit = bits - 1; bit >= 0; bit--)
+        for (int k = 0; k < h->dim; k++) key = key << 1 | (cell[k] >> bit & 1);
+    return key;
+}
+
+static void bounds(const measure_hierarchy *h, const double *lo, const double *hi, double *from, double *to) {
+    for (int k = 0; k < h->dim; k++) from[k] = lo[k], to[k] = hi[k];
+    for (size_t i = 1; i < h->count; i++)
+        for (int k = 0; k < h->dim; k++) {
+            size_t at = i * (size_t)h->dim + (size_t)k;
+            if (lo[at] < from[k]) from[k] = lo[at];
+            if (hi[at] > to[k]) to[k] = hi[at];
+        }
+}
+
+static froe_status order(measure_hierarchy *h, const double *lo, const double *hi) {
+    double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
+    base_pair *pairs = base_calloc(&h->alloc, 2 * (size_t)h->count, sizeof *pairs);
+    if (!pairs) return FROE_E_MEMORY;
+    bounds(h, lo, hi, from, to);
+    for (uint32_t i = 0; i < h->count; i++) {
+        size_t at = (size_t)i * (size_t)h->dim;
+        pairs[i] = (base_pair){place(h, lo + at, hi + at, from, to), i};
+    }
+    base_radix_sort(pairs, pairs + h->count, h->count);
+    for (uint32_t i = 0; i < h->count; i++) h->ids[i] = pairs[i].value;
+    base_free(&h->alloc, pairs, 2 * (size_t)h->count * sizeof *pairs);
+    return FROE_OK;
+}
+
+static void copy_entry(measure_hierarchy *h, uint32_t to, const double *lo, const double *hi, double size) {
+    size_t bytes = (size_t)h->dim * sizeof(double), at = (size_t)to * (size_t)h->dim;
+    memcpy(h->lo + at, lo, bytes);
+    memcpy(h->hi + at, hi, bytes);
+    h->size[to] = size;
+}
+
+static void widen_entry(measure_hierarchy *h, uint32_t to, uint32_t by) {
+    size_t a = (size_t)to * (size_t)h->dim, b = (size_t)by * (size_t)h->dim;
+    for (int k = 0; k < h->dim; k++, a++, b++) {
+        if (h->lo[b] < h->lo[a]) h->lo[a] = h->lo[b];
+        if (h->hi[b] > h->hi[a]) h->hi[a] = h->hi[b];
+    }
+    if (h->size[by] > h->size[to]) h->size[to] = h->size[by];
+}
+
+static void fill_level(measure_hierarchy *h, uint32_t level) {
+    uint32_t below = h->first[level - 1], end = h->first[level];
+    for (uint32_t child = below; child < end; child++) {
+        uint32_t node = end + (child - below) / MEASURE_FAN;
+        size_t at = (size_t)child * (size_t)h->dim;
+        if ((child - below) % MEASURE_FAN)
+            widen_entry(h, node, child);
+        else
+            copy_entry(h, node, h->lo + at, h->hi + at, h->size[child]);
+    }
+}
+
+static void lay_out(measure_hierarchy *h) {
+    uint32_t width = h->count;
+    h->first[0] = 0;
+    while (width) {
+        h->first[h->levels + 1] = h->first[h->levels] + width;
+        h->levels++;
+        width = width > 1 ? (width + MEASURE_FAN - 1) / MEASURE_FAN : 0;
+    }
+    h->entries = h->first[h->levels];
+}
+
+froe_status measure_hierarchy_new(const froe_allocator *alloc, int dim, uint32_t count, const double *lo,
+                                  const double *hi, const double *size, measure_hierarchy *out) {
+    *out = (measure_hierarchy){.alloc = *alloc, .dim = dim, .count = count};
+    lay_out(out);
+    size_t numbers = (size_t)out->entries * (size_t)dim;
+    out->ids = base_calloc(alloc, count, sizeof *out->ids);
+    out->lo = base_calloc(alloc, numbers, sizeof *out->lo);
+    out->hi = base_calloc(alloc, numbers, sizeof *out->hi);
+    out->size = base_calloc(alloc, out->entries, sizeof *out->size);
+    froe_status status = out->ids && out->lo && out->hi && out->size ? FROE_OK : FROE_E_MEMORY;
+    if (!status && count) status = order(out, lo, hi);
+    if (status) {
+        measure_hierarchy_free(out);
+        return status;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        size_t at = (size_t)out->ids[i] * (size_t)dim;
+        copy_entry(out, i, lo + at, hi + at, size ? size[out->ids[i]] : 0);
+    }
+    for (uint32_t level = 1; level < out->levels; level++) fill_level(out, level);
+    return FROE_OK;
+}
+
+void measure_hierarchy_free(measure_hierarchy *h) {
+    size_t numbers = (size_t)h->entries * (size_t)h->dim;
+    base_free(&h->alloc, h->ids, h->count ? h->count * sizeof *h->ids : 1);
+    base_free(&h->alloc, h->lo, numbers ? numbers * sizeof *h->lo : 1);
+    base_free(&h->alloc, h->hi, numbers ? numbers * sizeof *h->hi : 1);
+    base_free(&h->alloc, h->size, h->entries ? h->entries * sizeof *h->size : 1);
+    *h = (measure_hierarchy){.alloc = h->alloc};
+}
+
+/* ---------------------------------------------------------------- searching -- */
+
+measure_search measure_search_begin(const measure_hierarchy *h, const double *lo, const double *hi, double least) {
+    measure_search s = {.in = h, .lo = lo, .hi = hi, .least = least};
+    if (h->count) s.stack[s.top++] = h->entries - 1;
+    return s;
+}
+
+static bool matches(const measure_search *s, uint32_t entry) {
+    const double *lo = s->in->lo + (size_t)entry * (size_t)s->in->dim;
+    const double *hi = s->in->hi + (size_t)entry * (size_t)s->in->dim;
+    bool meets = s->in->size[entry] >= s->least;
+    for (int k = 0; k < s->in->dim && meets; k++) meets = lo[k] <= s->hi[k] && hi[k] >= s->lo[k];
+    return meets;
+}
+
+static void push_children(measure_search *s, uint32_t entry) {
+    const measure_hierarchy *h = s->in;
+    uint32_t level = 1;
+    while (entry >= h->first[level + 1]) level++;
+    uint32_t child = h->first[level - 1] + (entry - h->first[level]) * MEASURE_FAN, end = child + MEASURE_FAN;
+    if (end > h->first[level]) end = h->first[level];
+    while (end > child) s->stack[s->top++] = --end;
+}
+
+uint32_t measure_search_next(measure_search *s) {
+    while (s->top) {
+        uint32_t entry = s->stack[--s->top];
+        if (!matches(s, entry)) continue;
+        if (entry < s->in->count) return s->in->ids[entry];
+        push_children(s, entry);
+    }
+    return FROE_NONE;
+}

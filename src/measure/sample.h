@@ -1,0 +1,33 @@
+/* sample.h: what measures share: which objects are looked at, how values are distributed, and how long it takes. */
+#ifndef FROE_MEASURE_SAMPLE_H
+#define FROE_MEASURE_SAMPLE_H
+#include "base/array.h"
+#include "base/task.h"
+#include "scene/scene.h"
+#include <froe/measure.h>
+
+typedef struct measure_sample {
+    const froe_scene *scene;
+    froe_allocator alloc;
+    base_task task;
+    uint64_t seed;
+    uint32_t count; /**< of objects looked at */
+    ARRAY(double) values[3];
+} measure_sample;
+
+/** Takes the options (NULL: the defaults). FROE_E_ARG, FROE_E_OPTIONS. Free it whatever happens. */
+froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_options *options, const void *out,
+                                 measure_sample *sample, froe_diagnostic *diag);
+void measure_sample_free(measure_sample *sample);
+/** Object i of the sample: one at random of each of `count` equal runs of ids. */
+uint32_t measure_sample_object(const measure_sample *sample, uint32_t i);
+/** A number that names an object by its place and extent in the scene: the same in any order and at any scale 2^k, so
+ * that random choices that start from it are, too. */
+uint64_t measure_sample_key(const measure_sample *sample, uint32_t object);
+/** Reports progress; false: cancelled. To be called for each object. */
+bool measure_sample_go_on(measure_sample *sample, uint32_t i);
+/** How the values noted in list `which` are distributed; sorts them. FROE_E_MEMORY. */
+froe_status measure_sample_spread(measure_sample *sample, int which, froe_spread *out);
+/** Turns a status into what a public function returns. */
+froe_status measure_sample_end(measure_sample *sample, froe_status status, froe_diagnostic *diag);
+#endif

@@ -1,0 +1,369 @@
+/* test_measures.c: what a scene is said to be like, beside brute force: bounds that hold, counts that are right, and
+ * nothing that depends on the order or the scale of the objects. */
+#include "geom/meet.h"
+#include "measure/enclosing.h"
+#include "query/objects.h"
+#include <froe/measure.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "support/fuzz.h"
+#include "support/memory.h"
+
+static froe_measure_options all_objects(void) {
+    froe_measure_options o = froe_measure_defaults();
+    o.samples = 0;
+    return o;
+}
+
+/* A scene of boxes or segments with small whole coordinates, in the order of a permutation, times a scale. */
+enum { MOST = 64 };
+static froe_scene *make(froe_kind kind, int dim, int n, uint64_t seed, int turn, double scale) {
+    double coords[MOST][2][FROE_MAX_DIM], flat[MOST * 2 * FROE_MAX_DIM];
+    fuzz_source random = {seed};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < dim; k++) {
+            double at = floor(fuzz_unit(&random) * 32), extent = floor(fuzz_unit(&random) * 12);
+            coords[i][0][k] = scale * at;
+            coords[i][1][k] = scale * (at + (kind == FROE_BOX ? fabs(extent) : extent));
+        }
+    double *to = flat;
+    for (int i = 0; i < n; i++)
+        for (int e = 0; e < 2; e++)
+            for (int k = 0; k < dim; k++) *to++ = coords[(i * turn + turn / 2) % n][e][k];
+    froe_objects objects = froe_objects_defaults();
+    froe_scene *scene = NULL;
+    objects.kind = kind;
+    objects.count = (size_t)n;
+    objects.coords = flat;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &objects, NULL), FROE_OK);
+    return scene;
+}
+
+/* ---------------------------------------------------- clutter, exactly, in the plane -- */
+
+/* Does an object meet the open square? Everything is a multiple of 1/4 and small: doubles are exact. */
+static bool meets(num_context *context, const froe_scene *scene, uint32_t object, double x, double y, double side) {
+    const double points[4] = {x + 0x1p-20, y + 0x1p-20, x + side - 0x1p-20, y + side - 0x1p-20};
+    geom_convex square = {.core = GEOM_CORE_BOX, .dim = 2, .count = 4, .coords = points};
+    geom_convex body = query_convex(scene, object);
+    return geom_meet(context, &square, &body);
+}
+
+/* The most objects that meet an open square with its left and right, or upper and lower, sides at two guards: the
+ * square slides in steps of 1/4, which meets every place between two coordinates. */
+static uint32_t exact_clutter(froe_scene *scene, int axis) {
+    double guards[4 * MOST][2];
+    uint32_t n = scene->object_count, most = 0;
+    num_context context;
+    assert_int_equal(num_context_new(NULL, &context), FROE_OK);
+    for (uint32_t i = 0; i < n; i++) {
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        scene_object_bounds(scene, i, lo, hi);
+        for (int c = 0; c < 4; c++)
+            guards[4 * i + (uint32_t)c][0] = c & 1 ? hi[0] : lo[0],
+                           guards[4 * i + (uint32_t)c][1] = c & 2 ? hi[1] : lo[1];
+    }
+    for (uint32_t i = 0; i < 4 * n; i++)
+        for (uint32_t j = 0; j < 4 * n; j++) {
+            double a = guards[i][axis], side = guards[j][axis] - a;
+            for (double y = -12 - side; side > 0 && y < 44; y += 0.25) {
+                double from[2] = {a, y};
+                if (axis) from[0] = y, from[1] = a;
+                bool empty = true;
+                for (uint32_t g = 0; g < 4 * n && empty; g++)
+                    empty = guards[g][0] <= from[0] || guards[g][0] >= from[0] + side || guards[g][1] <= from[1] ||
+                            guards[g][1] >= from[1] + side;
+                if (!empty) continue;
+                uint32_t met = 0;
+                for (uint32_t o = 0; o < n; o++) met += meets(&context, scene, o, from[0], from[1], side);
+                if (met > most) most = met;
+            }
+        }
+    num_context_free(&context);
+    return most;
+}
+
+static void clutter_is_at_most_what_it_is(void **state) {
+    uint32_t found = 0;
+    enum { SCENES = 3 };
+    (void)state;
+    for (uint64_t seed = 1; seed <= SCENES; seed++) {
+        froe_scene *scene = make(FROE_SEGMENT, 2, 5, seed, 1, 1);
+        froe_measure_options o = all_objects();
+        froe_clutter clutter;
+        uint32_t best = 0, across = exact_clutter(scene, 0), along = exact_clutter(scene, 1);
+        uint32_t exact = across > along ? across : along;
+        for (o.seed = 1; o.seed <= 40; o.seed++) { /* as many starts as a scene of 200 objects has */
+            assert_int_equal(froe_measure_clutter(scene, &o, &clutter, NULL), FROE_OK);
+            assert_true(clutter.lower <= exact);
+            if (clutter.lower > best) best = clutter.lower;
+        }
+        found += best == exact;
+        froe_scene_free(scene);
+    }
+    assert_true(found >= SCENES - 1);
+}
+
+/* ------------------------------------------------------------------------ density -- */
+
+static double distance(const froe_scene *scene, const double *x, uint32_t object) { /* segments */
+    const double *a = scene_point(scene, object, 0), *b = scene_point(scene, object, scene_corners(scene, object) - 1);
+    double d[2] = {b[0] - a[0], b[1] - a[1]}, length = d[0] * d[0] + d[1] * d[1];
+    double t = length > 0 ? ((x[0] - a[0]) * d[0] + (x[1] - a[1]) * d[1]) / length : 0;
+    t = fmin(1, fmax(0, t));
+    return hypot(a[0] + t * d[0] - x[0], a[1] + t * d[1] - x[1]);
+}
+
+static uint32_t load_of_ball(const froe_scene *scene, const double *centre, double radius, double slack) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        count += measure_enclosing(scene, i).radius >= radius * (1 - slack) &&
+                 distance(scene, centre, i) <= radius * (1 + slack);
+    return count;
+}
+
+static void density_is_between_its_bounds(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= 8; seed++) {
+        froe_scene *scene = make(FROE_SEGMENT, 2, 40, seed, 1, 1);
+        froe_measure_options o = all_objects();
+        froe_density density;
+        fuzz_source random = {seed + 99};
+        assert_int_equal(froe_measure_density(scene, FROE_SIZE_RADIUS, &o, &density, NULL), FROE_OK);
+        assert_true(density.lower <= density.upper);
+        assert_true(load_of_ball(scene, density.centre, density.radius, 1e-9) >= density.lower);
+        uint32_t most = 0;
+        for (int i = 0; i < 4000; i++) {
+            const double centre[2] = {35 * fuzz_unit(&random), 35 * fuzz_unit(&random)};
+            double radius = measure_enclosing(scene, (uint32_t)i % 40).radius;
+            uint32_t load = load_of_ball(scene, centre, radius, 0);
+            if (load > most) most = load;
+        }
+        assert_true(most <= density.upper);
+        assert_true(density.lower + 1 >= most); /* 4,000 balls are hardly better */
+        froe_scene_free(scene);
+    }
+}
+
+/* -------------------------------------------------------------- directional density -- */
+
+static bool inside(double lo, double hi, double from, double to) {
+    return lo < to && hi > from;
+}
+
+/* The same by brute force, in three loops. */
+static uint32_t brute_crossings(const froe_scene *s, uint32_t e, int axis, int end, const double *room) {
+    double lo[2][FROE_MAX_DIM], hi[2][FROE_MAX_DIM];
+    uint32_t count = 0;
+    scene_object_bounds(s, e, lo[0], hi[0]);
+    for (uint32_t f = 0; f < s->object_count; f++) {
+        scene_object_bounds(s, f, lo[1], hi[1]);
+        bool near = true, within = true;
+        for (int k = 0; k < s->dim; k++) {
+            double c = end ? hi[0][k] : lo[0][k];
+            near = near && (k == axis ? lo[1][k] < c && c < hi[1][k]
+                                      : inside(lo[1][k], hi[1][k], lo[0][k] - room[k], hi[0][k] + room[k]));
+            within = within && inside(lo[1][k], hi[1][k], lo[0][k], hi[0][k]);
+        }
+        count += f != e && near && !within;
+    }
+    return count;
+}
+
+static void directional_counts_are_those_of_brute_force(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 5; dim++) {
+        froe_scene *s = make(FROE_BOX, dim, 50, 77, 1, 1);
+        froe_measure_options o = all_objects();
+        froe_directional found;
+        double sum = 0, most = 0, paired = 0;
+        assert_int_equal(froe_measure_directional(s, 0.5, &o, &found, NULL), FROE_OK);
+        for (uint32_t e = 0; e < s->object_count; e++) {
+            double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], room[FROE_MAX_DIM], here = 0, least = INFINITY;
+            int longest = 0;
+            scene_object_bounds(s, e, lo, hi);
+            for (int k = 1; k < dim; k++)
+                if (hi[k] - lo[k] > hi[longest] - lo[longest]) longest = k;
+            for (int axis = 0; axis < dim; axis++) {
+                for (int k = 0; k < dim; k++) room[k] = 0.5 * (hi[k] - lo[k]);
+                here = fmax(here, fmax(brute_crossings(s, e, axis, 0, room), brute_crossings(s, e, axis, 1, room)));
+                for (int k = 0; k < dim; k++) room[k] = 2 * (hi[longest] - lo[longest]);
+                if (axis == longest) continue;
+                least = fmin(least, fmax(brute_crossings(s, e, axis, 0, room), brute_crossings(s, e, axis, 1, room)));
+            }
+            sum += here;
+            most = fmax(most, here);
+            paired = fmax(paired, least);
+        }
+        assert_true(found.simple.most == most && found.paired.most == paired);
+        assert_true(fabs(found.simple.mean * (double)s->object_count - sum) < 1e-6);
+        froe_scene_free(s);
+    }
+}
+
+/* ---------------------------------------------------------------------- fatness -- */
+
+static void fatness_of_known_shapes(void **state) {
+    const double coords[] = {0, 0, 0, 1, 1, 1, 0, 0, 0, 2, 1, 0}; /* a cube; a flat box */
+    const double triangle[] = {0, 0, 0, 1, 0, 0, 0.5, 0.8660254037844386, 0};
+    const size_t starts[] = {0, 3};
+    froe_objects boxes = froe_objects_defaults(), polygon = froe_objects_defaults();
+    froe_scene *scene;
+    froe_fatness fatness;
+    (void)state;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    boxes.kind = FROE_BOX, boxes.count = 2, boxes.coords = coords;
+    polygon.kind = FROE_POLYGON, polygon.count = 1, polygon.coords = triangle, polygon.starts = starts;
+    assert_int_equal(froe_scene_add(scene, &boxes, NULL), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &polygon, NULL), FROE_OK);
+    assert_int_equal(froe_measure_fatness(scene, NULL, &fatness, NULL), FROE_OK);
+    assert_int_equal(fatness.full.count, 2);
+    assert_int_equal(fatness.thin, 2);
+    assert_true(fabs(fatness.full.most - 0.36755259694786) < 1e-9); /* 2 / (sqrt(3) pi) */
+    assert_true(fatness.full.least == 0);
+    assert_true(fabs(fatness.flat.most - 0.41349667) < 1e-7); /* 3 sqrt(3) / (4 pi) */
+    assert_true(fabs(fatness.sliver.most - 0.8660254037844386) < 1e-12);
+    froe_scene_free(scene);
+}
+
+static void enclosing_balls_enclose_and_touch(void **state) {
+    fuzz_source random = {12};
+    (void)state;
+    for (int round = 0; round < 500; round++) {
+        enum { N = 12 };
+        double coords[N * 3];
+        size_t starts[2] = {0, N};
+        froe_objects hull = froe_objects_defaults();
+        froe_scene *scene;
+        for (int i = 0; i < N * 3; i++) coords[i] = fuzz_unit(&random);
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        hull.kind = FROE_HULL, hull.count = 1, hull.coords = coords, hull.starts = starts;
+        assert_int_equal(froe_scene_add(scene, &hull, NULL), FROE_OK);
+        measure_ball ball = measure_enclosing(scene, 0);
+        int touching = 0;
+        for (int i = 0; i < N; i++) {
+            double d = 0;
+            for (int k = 0; k < 3; k++)
+                d += (coords[3 * i + k] - ball.centre[k]) * (coords[3 * i + k] - ball.centre[k]);
+            assert_true(sqrt(d) <= ball.radius * (1 + 1e-9));
+            touching += sqrt(d) >= ball.radius * (1 - 1e-9);
+        }
+        assert_true(touching >= 2 && ball.radius >= measure_diameter(scene, 0) / 2 * (1 - 1e-9));
+        assert_true(ball.radius <= measure_diameter(scene, 0) * 0.6123724356957946); /* Jung: sqrt(3 / 8) */
+        froe_scene_free(scene);
+    }
+}
+
+/* --------------------------------------------------------------- order and scale -- */
+
+static void order_and_scale_change_nothing(void **state) {
+    (void)state;
+    for (int kind = 0; kind < 2; kind++) {
+        froe_scene *scenes[3];
+        froe_kind form = kind ? FROE_BOX : FROE_SEGMENT;
+        scenes[0] = make(form, 2, 50, 9, 1, 1);
+        scenes[1] = make(form, 2, 50, 9, 7, 1);
+        scenes[2] = make(form, 2, 50, 9, 1, 0x1p-200);
+        froe_measure_options o = all_objects();
+        froe_clutter clutter[3];
+        froe_density density[3];
+        froe_directional directional[3];
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(froe_measure_clutter(scenes[i], &o, &clutter[i], NULL), FROE_OK);
+            assert_int_equal(froe_measure_density(scenes[i], FROE_SIZE_DIAMETER, &o, &density[i], NULL), FROE_OK);
+            assert_int_equal(froe_measure_directional(scenes[i], 0.5, &o, &directional[i], NULL), FROE_OK);
+            assert_int_equal(clutter[i].lower, clutter[0].lower);
+            assert_int_equal(density[i].lower, density[0].lower);
+            assert_int_equal(density[i].upper, density[0].upper);
+            assert_memory_equal(&clutter[i].load, &clutter[0].load, sizeof clutter[0].load);
+            assert_memory_equal(&density[i].load, &density[0].load, sizeof density[0].load);
+            assert_memory_equal(&directional[i].extended, &directional[0].extended, sizeof directional[0].extended);
+        }
+        for (int i = 0; i < 3; i++) froe_scene_free(scenes[i]);
+    }
+}
+
+/* ------------------------------------------------------------------------- limits -- */
+
+static void nothing_is_measured_without_objects(void **state) {
+    froe_scene *scene;
+    froe_clutter clutter;
+    froe_density density;
+    froe_fatness fatness;
+    froe_directional directional;
+    (void)state;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_measure_clutter(scene, NULL, &clutter, NULL), FROE_OK);
+    assert_int_equal(froe_measure_density(scene, FROE_SIZE_RADIUS, NULL, &density, NULL), FROE_OK);
+    assert_int_equal(froe_measure_fatness(scene, NULL, &fatness, NULL), FROE_OK);
+    assert_int_equal(froe_measure_directional(scene, 1, NULL, &directional, NULL), FROE_OK);
+    assert_int_equal(clutter.lower + density.upper + directional.count, 0);
+    assert_int_equal(froe_measure_directional(scene, -1, NULL, &directional, NULL), FROE_E_ARG);
+    assert_int_equal(froe_measure_directional(NULL, 1, NULL, &directional, NULL), FROE_E_ARG);
+    froe_scene_free(scene);
+}
+
+static froe_status measure_in(void *user, const froe_allocator *alloc) {
+    froe_scene *scene = NULL;
+    froe_clutter clutter;
+    froe_density density;
+    froe_fatness fatness;
+    froe_directional directional;
+    (void)user;
+    static const double coords[] = {0, 0, 0, 1, 1, 1, 0.5, 0.5, 0, 3, 1, 0, 1, 0, 2, 2, 2, 2};
+    froe_objects boxes = froe_objects_defaults();
+    boxes.kind = FROE_BOX, boxes.count = 3, boxes.coords = coords;
+    froe_status status = froe_scene_new(3, alloc, &scene);
+    if (!status) status = froe_scene_add(scene, &boxes, NULL);
+    if (!status) status = froe_measure_clutter(scene, NULL, &clutter, NULL);
+    if (!status) status = froe_measure_density(scene, FROE_SIZE_RADIUS, NULL, &density, NULL);
+    if (!status) status = froe_measure_fatness(scene, NULL, &fatness, NULL);
+    if (!status) status = froe_measure_directional(scene, 1, NULL, &directional, NULL);
+    froe_scene_free(scene);
+    return status;
+}
+
+static void measures_survive_every_failing_allocation(void **state) {
+    (void)state;
+    test_memory_each(measure_in, NULL);
+}
+
+static bool refuse(void *user, double done) {
+    (void)user;
+    (void)done;
+    return false;
+}
+
+static void measures_can_be_cancelled(void **state) {
+    froe_scene *scene = make(FROE_BOX, 3, 50, 3, 1, 1);
+    froe_measure_options o = all_objects();
+    froe_clutter clutter;
+    froe_density density;
+    (void)state;
+    o.progress = refuse;
+    assert_int_equal(froe_measure_clutter(scene, &o, &clutter, NULL), FROE_E_CANCELLED);
+    assert_int_equal(froe_measure_density(scene, FROE_SIZE_RADIUS, &o, &density, NULL), FROE_E_CANCELLED);
+    froe_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clutter_is_at_most_what_it_is),
+        cmocka_unit_test(density_is_between_its_bounds),
+        cmocka_unit_test(directional_counts_are_those_of_brute_force),
+        cmocka_unit_test(fatness_of_known_shapes),
+        cmocka_unit_test(enclosing_balls_enclose_and_touch),
+        cmocka_unit_test(order_and_scale_change_nothing),
+        cmocka_unit_test(nothing_is_measured_without_objects),
+        cmocka_unit_test(measures_survive_every_failing_allocation),
+        cmocka_unit_test(measures_can_be_cancelled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
