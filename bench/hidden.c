@@ -56,7 +56,7 @@ static void find_colours(subject *s) {
     froe_diagnostic why = {0};
     froe_render_options o = s->options;
     oracle_canvas canvas = oracle_canvas_new((oracle_grid){1, 1, {0, 0}}, &s->view);
-    o.ids = true;
+    o.ids = FROE_IDS_FACE;
     must(froe_render(s->tree, "colours.svg", &o, NULL, &why), &why);
     s->colours = need((froe_surface_patch_count(s->surface) + 1) * sizeof *s->colours);
     svg_paint("colours.svg", &canvas, note_colour, s);
