@@ -218,8 +218,8 @@ static void check_tree(froe_tree *tree, uint32_t eyes, uint32_t rays) {
 
 static void random_triangles(void **state) {
     (void)state;
-    check_tree(trees_grow(3, FROE_POLYGON, 60, 0, 1, "density", 1), 6, 40);
-    check_tree(trees_grow(3, FROE_POLYGON, 150, 0, 0.3, "autopartition", 0), 3, 40);
+    check_tree(trees_grow(3, FROE_POLYGON, 40, 0, 1, "density", 1), 5, 40);
+    check_tree(trees_grow(3, FROE_POLYGON, 80, 0, 0.3, "autopartition", 0), 2, 40);
 }
 
 static void triangles_of_a_lattice_with_overlaps_in_planes(void **state) {
