@@ -41,6 +41,8 @@ static int64_t next_even(int64_t s) {
     return s + (s & 1);
 }
 
+#define MOST_STEP ((int64_t)1 << 40) /* beyond, halving is left to find the place */
+
 /* The claim holds at `good` and not at `bad`, both even, and changes but once: find it, near a guess. */
 static int64_t bracket(const search *f, int64_t good, int64_t bad, int64_t guess) {
     int64_t step = 2, at = next_even(guess);
@@ -54,7 +56,7 @@ static int64_t bracket(const search *f, int64_t good, int64_t bad, int64_t guess
             good = at;
             at += step;
         }
-        step *= 4;
+        if (step < MOST_STEP) step *= 4;
     }
     return bad;
 }

@@ -55,7 +55,7 @@ static bool add_fragment(split_view *view, const split_set *set, const split_fra
     const froe_scene *scene = set->scene;
     int dim = scene->dim;
     froe_kind form = scene_form(scene, f->object);
-    uint32_t n = form == FROE_BOX ? 1u << dim : split_corner_count(set, f);
+    uint32_t n = form == FROE_BOX ? 1u << dim : form == FROE_BALL ? 1 : split_corner_count(set, f);
     if (!make_room(view, &set->alloc, dim, n)) return false;
     if (form == FROE_BOX)
         add_box(view, set, f->object, dim);

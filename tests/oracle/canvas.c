@@ -75,7 +75,7 @@ static void put(oracle_canvas *c, size_t sample, uint32_t patch, bool clear) {
 
 void oracle_fill(oracle_canvas *c, uint32_t patch, bool clear) {
     int turns = 0;
-    qsort(c->crossings, c->crossing_count, sizeof *c->crossings, by_place);
+    if (c->crossing_count) qsort(c->crossings, c->crossing_count, sizeof *c->crossings, by_place);
     for (size_t i = 0; i + 1 < c->crossing_count; i++) {
         const oracle_crossing *p = c->crossings + i;
         turns = (i && p[-1].row == p->row ? turns : 0) + p->turn;
