@@ -41,7 +41,7 @@ static watch build_watching(mesh_kind kind, size_t n, void (*look)(watch *, spli
     base_task task;
     tree_meta meta = {0};
     froe_allocator alloc = base_allocator(NULL);
-    watch w = {.grain = {.seed = 5, .effort = {4, 4, 6, 256}, .height = 30}, .look = look, .random = {9}};
+    watch w = {.grain = {.seed = 5, .effort = {4, 4, 6, 256, false}, .height = 30}, .look = look, .random = {9}};
     w.grain.notes = &w.notes;
     base_task_init(&task, 1, NULL, NULL);
     assert_int_equal(split_facets_new(&alloc, scene, &w.facets), FROE_OK);
