@@ -103,15 +103,16 @@ FROE_API froe_status froe_query_locate(froe_query *query, const double *point, f
 /** The groups that a point of the plane lies in, ascending: which countries of a map, say.
  *
  * A group whose segments are closed rings is an area, however many rings it has and however they lie: the points from
- * which a ray crosses its segments an odd number of times, so that a ring within a ring is a hole, and its border. Areas
- * may overlap and share borders; a point on a border lies in all groups whose border it is. Its rings are the segments
- * that share a face with another segment of the group, as those of polygons read from files do, or, if none does, all of
- * its segments. A group without faces whose segments do not close has only the points on them: rivers are no areas. A
- * group also has all points of its objects of other kinds.
+ * which a ray crosses its segments an odd number of times, so that a ring within a ring is a hole, and its border.
+ * Areas may overlap and share borders; a point on a border lies in all groups whose border it is. Its rings are the
+ * segments that share a face with another segment of the group, as those of polygons read from files do, or, if none
+ * does, all of its segments. A group without faces whose segments do not close has only the points on them: rivers are
+ * no areas. A group also has all points of its objects of other kinds.
  *
  * What is prepared at the first call takes a few bytes for each object and 28 for each leaf, and about as long as
  * building the tree. After that a point costs what froe_query_locate() does, and a few operations for each object of
- * one leaf. FROE_E_UNSUPPORTED: not in the plane; a group has faces that do not close (diag names it). FROE_E_MEMORY. */
+ * one leaf. FROE_E_UNSUPPORTED: not in the plane; a group has faces that do not close (diag names it). FROE_E_MEMORY.
+ */
 FROE_API froe_status froe_query_groups(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag);
 
 /* --------------------------------------------------------------------- ray -- */

@@ -260,7 +260,7 @@ static froe_status run_slab(void *user, unsigned number, size_t slab) {
 }
 
 froe_status geom_box_pairs(const froe_allocator *alloc, base_task *task, double span, int dim, uint32_t count,
-                              const double *lo, const double *hi, geom_pair_fn *fn, void *user) {
+                           const double *lo, const double *hi, geom_pair_fn *fn, void *user) {
     search s = {.alloc = alloc, .task = task, .dim = dim, .count = count, .fn = fn, .user = user};
     if (count < 2) return FROE_OK;
     froe_status status = rank_boxes(&s, lo, hi);

@@ -11,5 +11,5 @@ typedef bool geom_pair_fn(void *user, unsigned worker, uint32_t a, uint32_t b);
  * O(n log^(dim-1) n + pairs) time whatever the boxes, O(n) memory for each thread.
  * FROE_E_MEMORY, FROE_E_CANCELLED (also when fn stops). */
 froe_status geom_box_pairs(const froe_allocator *alloc, base_task *task, double span, int dim, uint32_t count,
-                              const double *lo, const double *hi, geom_pair_fn *fn, void *user);
+                           const double *lo, const double *hi, geom_pair_fn *fn, void *user);
 #endif

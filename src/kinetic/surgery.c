@@ -78,7 +78,10 @@ void live_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[
 static void merge(froe_kinetic *k, uint32_t a, uint32_t b) {
     live_node *m = node_at(k, a), *n = node_at(k, b);
     if (m->wall[RIGHT] != END_NONE || n->wall[LEFT] != END_NONE) k->broken = true;
-    for (uint8_t i = UP; i <= DOWN; i++) push(k, m->child[i], n->child[i], (uint32_t[]){a, a}, (uint8_t[]){i, i});
+    for (int i = UP; i <= DOWN; i++) {
+        const uint8_t side = (uint8_t)i;
+        push(k, m->child[i], n->child[i], (uint32_t[]){a, a}, (uint8_t[]){side, side});
+    }
     m->wall[RIGHT] = n->wall[RIGHT];
     n->wall[RIGHT] = END_NONE;
     live_attach(k, a, RIGHT, n->child[RIGHT]);
