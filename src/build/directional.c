@@ -84,15 +84,6 @@ static froe_status do_cell(const build_job *job, boxes *b, const boxes_cell *cel
     return status ? status : check_budget(job, b, 0);
 }
 
-static froe_status explain(const build_job *job, froe_status status) {
-    if (status == FROE_E_BUDGET)
-        return base_fail(job->diag, status, "more than max_fragments = %llu pieces are needed",
-                         (unsigned long long)job->max_fragments);
-    if (status == FROE_E_LIMIT) return base_fail(job->diag, status, "the tree needs more than 2^30 nodes or pieces");
-    if (status == FROE_E_CANCELLED) return base_fail(job->diag, status, "cancelled");
-    return status ? base_fail_memory(job->diag) : FROE_OK;
-}
-
 /** All cells; the progress shown is the share of boxes that are in leaves. */
 static froe_status do_cells(const build_job *job, boxes *b) {
     double n = job->scene->object_count, from = job->task->done, left;
@@ -119,7 +110,7 @@ static froe_status build(build_job *job, froe_tree **out) {
         if (!status) status = do_cells(job, &b);
         build_promise(job, "fragments", bound + (double)b.paid + (double)b.covered, 0);
         if (!status) status = draft_seal(&b.draft, NULL, 0, job->scene, &job->meta, out);
-        status = explain(job, status);
+        status = split_explain(job->diag, job->max_fragments, status);
     }
     boxes_free(&b);
     return status;

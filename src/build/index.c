@@ -394,19 +394,6 @@ static void clean_up(index_work *w) {
     for (int i = 0; i < 2; i++) array_free(alloc, &w->classes[i]);
 }
 
-static froe_status explain(const build_job *job, froe_status status) {
-    switch (status) {
-    case FROE_E_BUDGET:
-        return base_fail(job->diag, status, "more than %llu fragments", (unsigned long long)job->max_fragments);
-    case FROE_E_LIMIT:
-        return base_fail(job->diag, status, "more than 2^31 - 2 nodes or pieces");
-    case FROE_E_CANCELLED:
-        return base_fail(job->diag, status, "cancelled");
-    default:
-        return status ? base_fail_memory(job->diag) : FROE_OK;
-    }
-}
-
 static froe_status grow(index_work *w, froe_tree **out) {
     build_job *job = w->job;
     w->height = job->option[HEIGHT] > 0 ? job->option[HEIGHT] * base_log2(job->scene->object_count + 2.0) + 16 : 0;
@@ -448,7 +435,8 @@ static froe_status build(build_job *job, froe_tree **out) {
                                 "method 'index' does not serve objects of kind '%s' in the plane",
                                 froe_kind_name((froe_kind)s->kinds[i]));
     build_promise(job, "fragments", 2 * job->option[GROWTH] * s->object_count, 0);
-    return explain(job, s->dim == 3 ? build_in_space(job, job->option[GROWTH], out) : build_in_plane(job, out));
+    froe_status status = s->dim == 3 ? build_in_space(job, job->option[GROWTH], out) : build_in_plane(job, out);
+    return split_explain(job->diag, job->max_fragments, status);
 }
 
 const build_method build_method_index = {

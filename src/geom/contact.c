@@ -17,20 +17,12 @@
 #include "geom/turn.h"
 #include <string.h>
 
-#define T num_ball
-#define NAME(f) ball_##f
-#define FROM(x) num_ball_from(x)
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
+#include "num/ball_terms.inc"
+
 #include "geom/contact_body.inc"
 
-#define T num_dyadic
-#define NAME(f) dyadic_##f
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "num/dyadic_terms.inc"
+
 #include "geom/contact_body.inc"
 
 static const geom_contact apart = {GEOM_APART, GEOM_TOUCH_SOMEHOW}, overlap = {GEOM_OVERLAP, GEOM_TOUCH_SOMEHOW};

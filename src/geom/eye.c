@@ -4,20 +4,12 @@
 #include "geom/predicates.h"
 #include <string.h>
 
-#define T num_ball
-#define NAME(f) ball_##f
-#define FROM(x) num_ball_from(x)
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
+#include "num/ball_terms.inc"
+
 #include "geom/eye_body.inc"
 
-#define T num_dyadic
-#define NAME(f) dyadic_##f
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "num/dyadic_terms.inc"
+
 #include "geom/eye_body.inc"
 
 geom_eye geom_eye_make(bool parallel, const double *at, const double *origin) {
@@ -30,27 +22,6 @@ geom_eye geom_eye_make(bool parallel, const double *at, const double *origin) {
 }
 
 /* --------------------------------------------------------------- who answers -- */
-
-static int filtered(num_context *context, int sign) {
-    context->stats.filtered++;
-    return sign;
-}
-
-static int refined(num_context *context, int sign) {
-    context->stats.refined++;
-    return sign;
-}
-
-static int exact(num_context *context, int sign) {
-    context->stats.exact++;
-    context->stats.exact_zero += sign == 0;
-    return sign;
-}
-
-static num_arena *fresh(num_context *context) {
-    context->arena.top = 0;
-    return &context->arena;
-}
 
 /* ------------------------------------------------------------ side of an eye -- */
 
@@ -71,15 +42,15 @@ int geom_side_of_eye(num_context *context, const geom_plane *plane, const geom_e
     }
     if (context->first == NUM_FILTER) {
         int sure = filter_sign(filter_slope(plane, zero, eye->at));
-        if (sure != NUM_UNSURE) return filtered(context, sure);
+        if (sure != NUM_UNSURE) return num_filtered(context, sure);
     }
     if (context->first <= NUM_BALL) {
         num_ball n[3];
         ball_normal(NULL, plane, n);
         int sure = num_ball_sign(ball_at_eye(NULL, plane, n, eye));
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    return exact(context, exact_slope(fresh(context), plane, eye).sign);
+    return num_exact(context, exact_slope(num_fresh(context), plane, eye).sign);
 }
 
 /* Shewchuk's static bound for orient3d ("Adaptive precision floating-point arithmetic", 1997, table 4), plus what
@@ -151,7 +122,7 @@ int geom_line_side_point(num_context *context, const geom_eye *eye, const geom_l
     context->stats.calls++;
     if (context->first == NUM_FILTER) {
         int sure = point_filter(eye, h, x);
-        if (sure != NUM_UNSURE) return filtered(context, sure);
+        if (sure != NUM_UNSURE) return num_filtered(context, sure);
         if (holds(h, x)) {
             context->stats.by_id++;
             return 0;
@@ -159,9 +130,9 @@ int geom_line_side_point(num_context *context, const geom_eye *eye, const geom_l
     }
     if (context->first <= NUM_BALL) {
         int sure = num_ball_sign(ball_line_at_point(NULL, eye, h, x));
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    return exact(context, dyadic_line_at_point(fresh(context), eye, h, x).sign);
+    return num_exact(context, dyadic_line_at_point(num_fresh(context), eye, h, x).sign);
 }
 
 int geom_line_side_meeting(num_context *context, const geom_eye *eye, const geom_line *h, const geom_line *a,
@@ -169,9 +140,9 @@ int geom_line_side_meeting(num_context *context, const geom_eye *eye, const geom
     context->stats.calls++;
     if (context->first <= NUM_BALL) {
         int sure = num_ball_sign(ball_line_at_meeting(NULL, eye, h, a, b));
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    return exact(context, dyadic_line_at_meeting(fresh(context), eye, h, a, b).sign);
+    return num_exact(context, dyadic_line_at_meeting(num_fresh(context), eye, h, a, b).sign);
 }
 
 /* ------------------------------------------------------------------- output -- */
@@ -189,14 +160,14 @@ static void round_vector(num_arena *arena, const num_dyadic x[3], double out[3])
 
 void geom_line_round(num_context *context, const geom_eye *eye, const geom_line *line, double out[3]) {
     num_dyadic n[3];
-    num_arena *arena = fresh(context);
+    num_arena *arena = num_fresh(context);
     dyadic_line(arena, eye, line, n);
     round_vector(arena, n, out);
 }
 
 void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_line *a, const geom_line *b,
                         double out[3]) {
-    num_arena *arena = fresh(context);
+    num_arena *arena = num_fresh(context);
     num_dyadic n_a[3], n_b[3], ray[3];
     dyadic_line(arena, eye, a, n_a);
     dyadic_line(arena, eye, b, n_b);
@@ -206,7 +177,7 @@ void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_li
 
 double geom_share_round(num_context *context, const geom_eye *eye, const geom_line *line, const double *u,
                         const double *v) {
-    num_arena *arena = fresh(context);
+    num_arena *arena = num_fresh(context);
     num_dyadic at_u = dyadic_line_at_point(arena, eye, line, u), at_v = dyadic_line_at_point(arena, eye, line, v);
     return num_dyadic_quotient(arena, at_u, num_dyadic_sub(arena, at_u, at_v));
 }

@@ -15,21 +15,11 @@ static inline bool geom_has_origin(const geom_plane *plane) {
     return plane->form == GEOM_AXIS || geom_has_points(plane);
 }
 
-#define T num_ball
-#define NAME(f) ball_##f
-#define FROM(x) num_ball_from(x)
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
+#include "num/ball_terms.inc"
 #define SHEAR(a) ((void)(a), num_ball_from(0))
 #include "geom/predicate_body.inc"
 
-#define T num_dyadic
-#define NAME(f) dyadic_##f
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "num/dyadic_terms.inc"
 #define SHEAR(a) ((void)(a), (num_dyadic){0})
 #include "geom/predicate_body.inc"
 

@@ -26,23 +26,13 @@ static int sign_of(double x) {
 #define LESS(a, b) ((a) < (b))
 #include "geom/gap_body.inc"
 
-#define T num_ball
-#define NAME(f) ball_##f
-#define FROM(x) num_ball_from(x)
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
+#include "num/ball_terms.inc"
 #define SIGN(a) num_ball_sign(a)
 #define LESS(a, b) ((a).x < (b).x)
 #include "geom/gap_body.inc"
 
 /* The first corner that is nearer will do: to keep the least one would take room that grows with the corners. */
-#define T num_dyadic
-#define NAME(f) dyadic_##f
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "num/dyadic_terms.inc"
 #define SIGN(a) ((a).sign)
 #define LESS(a, b) ((void)(a), (void)(b), false)
 #include "geom/gap_body.inc"

@@ -41,12 +41,7 @@ static num_ball ball_lowest(num_arena *arena, const geom_convex *c, const num_ba
     return (num_ball){best, ((best - low) + FILTER_U * (fabs(best) + fabs(low))) * NUM_BALL_UP + NUM_BALL_TINY};
 }
 
-#define T num_ball
-#define NAME(f) ball_##f
-#define FROM(x) num_ball_from(x)
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
+#include "num/ball_terms.inc"
 #define SIGN(a) num_ball_sign(a)
 #include "geom/meet_body.inc"
 
@@ -107,12 +102,7 @@ static num_dyadic dyadic_lowest(num_arena *arena, const geom_convex *c, const nu
     return dyadic_dot(arena, v, best);
 }
 
-#define T num_dyadic
-#define NAME(f) dyadic_##f
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "num/dyadic_terms.inc"
 #define SIGN(a) (a).sign
 #include "geom/meet_body.inc"
 

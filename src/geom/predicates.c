@@ -19,32 +19,6 @@ static int ratio_sign(int value, int divisor) {
     return sure ? value * divisor : NUM_UNSURE;
 }
 
-static int by_id(num_context *context, int sign) {
-    context->stats.by_id++;
-    return sign;
-}
-
-static int filtered(num_context *context, int sign) {
-    context->stats.filtered++;
-    return sign;
-}
-
-static int refined(num_context *context, int sign) {
-    context->stats.refined++;
-    return sign;
-}
-
-static int exact(num_context *context, int sign) {
-    context->stats.exact++;
-    context->stats.exact_zero += sign == 0;
-    return sign;
-}
-
-static num_arena *fresh(num_context *context) {
-    context->arena.top = 0;
-    return &context->arena;
-}
-
 /* ------------------------------------------------------------ coincidences -- */
 
 static int point_count(const geom_plane *plane) {
@@ -128,24 +102,24 @@ static int along_line(const geom_plane *h, int i, int beside) {
 /* All stages, not counted as a call; h is not sheared. */
 static int plain_vertex(num_context *context, const geom_plane *h, const double *x) {
     if (context->first == NUM_FILTER) {
-        if (h->form == GEOM_AXIS) return by_id(context, sign_of(x[h->axis], h->c));
+        if (h->form == GEOM_AXIS) return num_by_id(context, sign_of(x[h->axis], h->c));
         int sure = filter_sign(filter_value(h, x));
-        if (sure != NUM_UNSURE) return filtered(context, sure);
-        if (holds(h, x)) return by_id(context, 0);
+        if (sure != NUM_UNSURE) return num_filtered(context, sure);
+        if (holds(h, x)) return num_by_id(context, 0);
     }
     if (context->first <= NUM_BALL) {
         int sure = num_ball_sign(ball_vertex(NULL, h, x));
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    return exact(context, dyadic_vertex(fresh(context), h, x).sign);
+    return num_exact(context, dyadic_vertex(num_fresh(context), h, x).sign);
 }
 
 /* The same for walls. */
 static int wall_vertex(num_context *context, const geom_plane *h, const double *x) {
     if (context->first == NUM_FILTER) {
-        if (h->form == GEOM_AT_VERTEX) return by_id(context, lexicographic(x, h->p[0]));
+        if (h->form == GEOM_AT_VERTEX) return num_by_id(context, lexicographic(x, h->p[0]));
         int sure = filter_sign(filter_value(h, x));
-        if (sure != NUM_UNSURE) return filtered(context, sure);
+        if (sure != NUM_UNSURE) return num_filtered(context, sure);
         for (int i = 0; i < 2; i++) {
             geom_plane other = crossing_line(h, 1 - i);
             if (is_end(h, i, x)) return along_line(h, i, plain_vertex(context, &other, x));
@@ -153,10 +127,10 @@ static int wall_vertex(num_context *context, const geom_plane *h, const double *
     }
     if (context->first <= NUM_BALL) {
         int sure = unless_zero(num_ball_sign(ball_vertex(NULL, h, x)), true);
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    int plain = dyadic_vertex(fresh(context), h, x).sign;
-    return exact(context, plain ? plain : num_sheared_sign(sheared_vertex(fresh(context), h, x)));
+    int plain = dyadic_vertex(num_fresh(context), h, x).sign;
+    return num_exact(context, plain ? plain : num_sheared_sign(sheared_vertex(num_fresh(context), h, x)));
 }
 
 static int vertex_side(num_context *context, const geom_plane *h, const double *x) {
@@ -185,10 +159,10 @@ static int crossing_ball(const geom_plane *h, const double *u, const double *v, 
 /* Exactly. Infinitesimals only where it depends on them. */
 static int crossing_sheared(num_context *context, const geom_plane *h, const double *u, const double *v,
                             const geom_plane *a) {
-    num_dyadic plain_divisor, plain = dyadic_crossing(fresh(context), h, u, v, a, &plain_divisor);
-    if (plain.sign && plain_divisor.sign) return exact(context, plain.sign * plain_divisor.sign);
-    num_sheared divisor, value = sheared_crossing(fresh(context), h, u, v, a, &divisor);
-    return exact(context, num_sheared_sign(value) * num_sheared_sign(divisor));
+    num_dyadic plain_divisor, plain = dyadic_crossing(num_fresh(context), h, u, v, a, &plain_divisor);
+    if (plain.sign && plain_divisor.sign) return num_exact(context, plain.sign * plain_divisor.sign);
+    num_sheared divisor, value = sheared_crossing(num_fresh(context), h, u, v, a, &divisor);
+    return num_exact(context, num_sheared_sign(value) * num_sheared_sign(divisor));
 }
 
 /* What is known of the crossing by definition: its side in *side, or a vertex that it is. */
@@ -203,19 +177,19 @@ static int plain_crossing(num_context *context, const geom_plane *h, const doubl
                           const geom_plane *a) {
     if (context->first == NUM_FILTER) {
         if (h->form == GEOM_AXIS && a->form == GEOM_AXIS && h->axis == a->axis)
-            return by_id(context, sign_of(a->c, h->c));
+            return num_by_id(context, sign_of(a->c, h->c));
         int sure = crossing_filter(h, u, v, a);
-        if (sure != NUM_UNSURE) return filtered(context, sure);
+        if (sure != NUM_UNSURE) return num_filtered(context, sure);
         const double *vertex = crossing_known(h, u, v, a, &sure);
-        if (sure != NUM_UNSURE) return by_id(context, sure);
+        if (sure != NUM_UNSURE) return num_by_id(context, sure);
         if (vertex) return plain_vertex(context, h, vertex);
     }
     if (context->first <= NUM_BALL) {
         int sure = crossing_ball(h, u, v, a);
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    num_dyadic divisor, value = dyadic_crossing(fresh(context), h, u, v, a, &divisor);
-    return exact(context, value.sign * divisor.sign);
+    num_dyadic divisor, value = dyadic_crossing(num_fresh(context), h, u, v, a, &divisor);
+    return num_exact(context, value.sign * divisor.sign);
 }
 
 /* Does the crossing of uv and a lie on line i of the wall h by definition? */
@@ -243,9 +217,9 @@ static int tie_at_wall(num_context *context, const geom_plane *h, const double *
     }
     if (u[0] == v[0]) return crossing_sheared(context, h, u, v, a);
     num_dyadic n[3];
-    dyadic_normal(fresh(context), h, n);
+    dyadic_normal(num_fresh(context), h, n);
     int rises = dyadic_slope(&context->arena, h, n, u, v).sign;
-    return rises ? rises * named_point(context, &line, a) : exact(context, 0);
+    return rises ? rises * named_point(context, &line, a) : num_exact(context, 0);
 }
 
 /* h is a wall, a is none. */
@@ -253,7 +227,7 @@ static int wall_crossing(num_context *context, const geom_plane *h, const double
                          const geom_plane *a) {
     if (context->first == NUM_FILTER) {
         int sure = crossing_filter(h, u, v, a);
-        if (sure != NUM_UNSURE) return filtered(context, sure);
+        if (sure != NUM_UNSURE) return num_filtered(context, sure);
         const double *vertex = crossing_known(h, u, v, a, &sure);
         if (vertex) return wall_vertex(context, h, vertex);
         for (int i = 0; i < 2 && h->form == GEOM_AT_CROSSING; i++) {
@@ -267,7 +241,7 @@ static int wall_crossing(num_context *context, const geom_plane *h, const double
     }
     if (context->first <= NUM_BALL) {
         int sure = unless_zero(crossing_ball(h, u, v, a), true);
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
     return crossing_sheared(context, h, u, v, a);
 }
@@ -275,7 +249,7 @@ static int wall_crossing(num_context *context, const geom_plane *h, const double
 /* Both are walls: what lies on the wall a is on the same side of h, wherever it is. */
 static int wall_wall(num_context *context, const geom_plane *h, const geom_plane *a) {
     if (a->form == GEOM_AT_VERTEX) return wall_vertex(context, h, a->p[0]);
-    if (same_plane(a, h)) return by_id(context, 0);
+    if (same_plane(a, h)) return num_by_id(context, 0);
     geom_plane second = crossing_line(a, 1);
     return wall_crossing(context, h, a->p[0], a->p[1], &second);
 }
@@ -285,9 +259,9 @@ static int crossing_at_wall(num_context *context, const geom_plane *h, const dou
                             const geom_plane *a) {
     if (context->first == NUM_FILTER) {
         int sure = crossing_filter(h, u, v, a);
-        if (sure != NUM_UNSURE) return filtered(context, sure);
+        if (sure != NUM_UNSURE) return num_filtered(context, sure);
         const double *vertex = crossing_known(h, u, v, a, &sure);
-        if (sure != NUM_UNSURE) return by_id(context, sure);
+        if (sure != NUM_UNSURE) return num_by_id(context, sure);
         if (vertex) return plain_vertex(context, h, vertex);
         for (int i = 0; i < 2 && a->form == GEOM_AT_CROSSING; i++) { /* of the line uv itself */
             geom_plane other = crossing_line(a, 1 - i);
@@ -296,10 +270,10 @@ static int crossing_at_wall(num_context *context, const geom_plane *h, const dou
     }
     if (context->first <= NUM_BALL) {
         int sure = unless_zero(crossing_ball(h, u, v, a), true);
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    num_dyadic divisor, value = dyadic_crossing(fresh(context), h, u, v, a, &divisor);
-    if (value.sign && divisor.sign) return exact(context, value.sign * divisor.sign);
+    num_dyadic divisor, value = dyadic_crossing(num_fresh(context), h, u, v, a, &divisor);
+    if (value.sign && divisor.sign) return num_exact(context, value.sign * divisor.sign);
     return context->first == NUM_FILTER ? tie_at_wall(context, h, u, v, a) : crossing_sheared(context, h, u, v, a);
 }
 
@@ -345,10 +319,10 @@ static const double *corner_known(const geom_plane *h, const geom_plane *const p
 static int sheared_corner_side(num_context *context, const geom_plane *h, const geom_plane *const planes[3],
                                const double z[3]) {
     num_dyadic plain_divisor,
-        plain = dyadic_corner(fresh(context), h, planes[0], planes[1], planes[2], z, &plain_divisor);
-    if (plain.sign && plain_divisor.sign) return exact(context, plain.sign * plain_divisor.sign);
-    num_sheared divisor, value = sheared_corner(fresh(context), h, planes[0], planes[1], planes[2], z, &divisor);
-    return exact(context, num_sheared_sign(value) * num_sheared_sign(divisor));
+        plain = dyadic_corner(num_fresh(context), h, planes[0], planes[1], planes[2], z, &plain_divisor);
+    if (plain.sign && plain_divisor.sign) return num_exact(context, plain.sign * plain_divisor.sign);
+    num_sheared divisor, value = sheared_corner(num_fresh(context), h, planes[0], planes[1], planes[2], z, &divisor);
+    return num_exact(context, num_sheared_sign(value) * num_sheared_sign(divisor));
 }
 
 /* The planes that are seen from above as lines. */
@@ -380,21 +354,21 @@ int geom_side_corner(num_context *context, const geom_plane *plane, const geom_p
     context->stats.calls++;
     if (context->first == NUM_FILTER) {
         int sure = corner_filter(plane, planes, z);
-        if (sure != NUM_UNSURE) return filtered(context, sure);
+        if (sure != NUM_UNSURE) return num_filtered(context, sure);
         const double *vertex = corner_known(plane, planes, &sure);
-        if (sure != NUM_UNSURE) return by_id(context, sure);
+        if (sure != NUM_UNSURE) return num_by_id(context, sure);
         if (vertex) return vertex_side(context, plane, vertex);
         if (is_upright(plane) && is_upright(a) && is_upright(b)) return upright_corner(context, plane, a, b);
-        if (sheared && is_inside(context, plane, s)) return by_id(context, 0);
+        if (sheared && is_inside(context, plane, s)) return num_by_id(context, 0);
     }
     if (context->first <= NUM_BALL) {
         num_ball divisor, value = ball_corner(NULL, plane, planes[0], planes[1], planes[2], z, &divisor);
         int sure = unless_zero(ratio_sign(num_ball_sign(value), num_ball_sign(divisor)), sheared);
-        if (sure != NUM_UNSURE) return refined(context, sure);
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
     if (sheared) return sheared_corner_side(context, plane, planes, z);
-    num_dyadic divisor, value = dyadic_corner(fresh(context), plane, planes[0], planes[1], planes[2], z, &divisor);
-    return exact(context, value.sign * divisor.sign);
+    num_dyadic divisor, value = dyadic_corner(num_fresh(context), plane, planes[0], planes[1], planes[2], z, &divisor);
+    return num_exact(context, value.sign * divisor.sign);
 }
 
 /* -------------------------------------------------------------------- ball -- */
@@ -431,13 +405,13 @@ int geom_side_ball(num_context *context, const geom_plane *plane, const double *
     if (radius == 0) return vertex_side(context, plane, centre);
     if (context->first == NUM_FILTER) {
         int side = ball_filter(plane, centre, radius, &sure);
-        if (sure) return filtered(context, side);
+        if (sure) return num_filtered(context, side);
     }
     if (context->first <= NUM_BALL) {
         num_ball at, reach = ball_ball(NULL, plane, centre, radius, &at);
         int side = ball_side(num_ball_sign(at), reach_of(plane, num_ball_sign(reach)), &sure);
-        if (sure) return refined(context, side);
+        if (sure) return num_refined(context, side);
     }
-    num_dyadic at, reach = dyadic_ball(fresh(context), plane, centre, radius, &at);
-    return exact(context, ball_side(at.sign, reach_of(plane, reach.sign), &sure));
+    num_dyadic at, reach = dyadic_ball(num_fresh(context), plane, centre, radius, &at);
+    return num_exact(context, ball_side(at.sign, reach_of(plane, reach.sign), &sure));
 }

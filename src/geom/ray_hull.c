@@ -23,21 +23,11 @@ typedef struct program {
     uint32_t basis[3];
 } program;
 
-#define T num_ball
-#define NAME(f) ball_##f
-#define FROM(x) num_ball_from(x)
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
+#include "num/ball_terms.inc"
 #define SIGN(a) num_ball_sign(a)
 #include "geom/ray_hull_body.inc"
 
-#define T num_dyadic
-#define NAME(f) dyadic_##f
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#include "num/dyadic_terms.inc"
 #define SIGN(a) ((a).sign)
 #include "geom/ray_hull_body.inc"
 

@@ -18,6 +18,30 @@ typedef struct num_context {
 /** Runs the self-test (num_machine_trusted) and takes the arena: the only step that may fail. */
 froe_status num_context_new(const froe_allocator *alloc, num_context *out);
 void num_context_free(num_context *context);
+
+/** Note how an answer was found, and pass it on. */
+static inline int num_by_id(num_context *context, int sign) {
+    context->stats.by_id++;
+    return sign;
+}
+static inline int num_filtered(num_context *context, int sign) {
+    context->stats.filtered++;
+    return sign;
+}
+static inline int num_refined(num_context *context, int sign) {
+    context->stats.refined++;
+    return sign;
+}
+static inline int num_exact(num_context *context, int sign) {
+    context->stats.exact++;
+    context->stats.exact_zero += sign == 0;
+    return sign;
+}
+/** The arena, for a new evaluation. */
+static inline num_arena *num_fresh(num_context *context) {
+    context->arena.top = 0;
+    return &context->arena;
+}
 void num_stats_add(froe_predicate_stats *sum, const froe_predicate_stats *more);
 
 /** Round to nearest, gradual underflow, no contraction, double evaluation: checked by

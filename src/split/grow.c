@@ -245,14 +245,13 @@ static froe_status explain_crossing(const grow *g) {
                         "crosses object %u; with the setting crossing=split such objects are cut", ids[1]);
 }
 
-static froe_status explain(const split_job *job, froe_status status) {
-    if (status == FROE_E_INPUT) return status;
+froe_status split_explain(froe_diagnostic *diag, uint64_t max_fragments, froe_status status) {
     if (status == FROE_E_BUDGET)
-        return base_fail(job->diag, status, "more than max_fragments = %llu pieces are needed",
-                         (unsigned long long)job->max_fragments);
-    if (status == FROE_E_LIMIT) return base_fail(job->diag, status, "the tree needs more than 2^31 nodes or pieces");
-    if (status == FROE_E_CANCELLED) return base_fail(job->diag, status, "cancelled");
-    return status ? base_fail_memory(job->diag) : FROE_OK;
+        return base_fail(diag, status, "more than max_fragments = %llu pieces are needed",
+                         (unsigned long long)max_fragments);
+    if (status == FROE_E_LIMIT) return base_fail(diag, status, "the tree needs more than 2^31 nodes or pieces");
+    if (status == FROE_E_CANCELLED) return base_fail(diag, status, "cancelled");
+    return status ? base_fail_memory(diag) : FROE_OK;
 }
 
 froe_status split_grow(const split_job *job, const split_method *method, froe_tree **out) {
@@ -264,5 +263,5 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
     if (!status && out) status = seal(&g, out);
     if (status == FROE_E_INPUT) explain_crossing(&g);
     clean_up(&g);
-    return explain(job, status);
+    return status == FROE_E_INPUT ? status : split_explain(job->diag, job->max_fragments, status);
 }

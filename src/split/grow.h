@@ -98,6 +98,8 @@ static inline uint32_t split_load(const split_cell *cell) {
     return cell->count + cell->wholes;
 }
 
+/** Says why growing a tree ended, for loops of their own, too: budget, limit, cancelled or memory. */
+froe_status split_explain(froe_diagnostic *diag, uint64_t max_fragments, froe_status status);
 /** Grows the whole tree over all objects of the scene. out NULL: for the method's own notes only. */
 froe_status split_grow(const split_job *job, const split_method *method, froe_tree **out);
 #endif
