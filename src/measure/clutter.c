@@ -29,11 +29,12 @@ typedef struct survey {
     measure_hierarchy guards, objects;
     num_context context;
     int dim;
-    size_t object_numbers, guard_numbers;
-    double *lo, *hi, *points; /* of the objects, of the guards */
-    double limit;             /* no side is longer */
-    uint64_t key, draws;      /* of random numbers: drawn anew for each place */
-    cube cubes[BEST];         /* the best from different places, best first */
+    measure_bounds bounds;
+    size_t guard_numbers;
+    double *points;      /* of the guards */
+    double limit;        /* no side is longer */
+    uint64_t key, draws; /* of random numbers: drawn anew for each place */
+    cube cubes[BEST];    /* the best from different places, best first */
     uint32_t met[BEST];
     uint64_t keys[BEST];
 } survey;
@@ -189,7 +190,8 @@ static void climb(survey *s, cube *best, uint32_t *most) {
 
 /* A place near an object, at a distance of any order of magnitude. */
 static void place(survey *s, uint32_t object, double *out) {
-    const double *lo = s->lo + (size_t)object * (size_t)s->dim, *hi = s->hi + (size_t)object * (size_t)s->dim;
+    const double *lo = s->bounds.lo + (size_t)object * (size_t)s->dim,
+                 *hi = s->bounds.hi + (size_t)object * (size_t)s->dim;
     double away = s->limit;
     for (uint32_t steps = base_below(base_hash(s->key, 2, s->draws++), 40); steps; steps--) away *= 0.5;
     for (int k = 0; k < s->dim; k++) {
@@ -235,7 +237,7 @@ static void add_guards(survey *s, size_t object, size_t corners) {
     double *to = s->points + object * corners * (size_t)s->dim;
     size_t at = object * (size_t)s->dim;
     for (size_t c = 0; c < corners; c++)
-        for (int k = 0; k < s->dim; k++) *to++ = c >> k & 1 ? s->hi[at + (size_t)k] : s->lo[at + (size_t)k];
+        for (int k = 0; k < s->dim; k++) *to++ = (c >> k & 1 ? s->bounds.hi : s->bounds.lo)[at + (size_t)k];
 }
 
 static froe_status begin(survey *s) {
@@ -243,29 +245,24 @@ static froe_status begin(survey *s) {
     const froe_allocator *alloc = &s->sample.alloc;
     size_t n = scene->object_count, corners = (size_t)1 << s->dim;
     froe_status status = num_context_new(alloc, &s->context);
+    if (!status) status = measure_bounds_new(&s->sample, &s->bounds);
     if (status) return status;
     if (n * corners > UINT32_MAX / 2) return FROE_E_LIMIT;
-    s->object_numbers = n * (size_t)s->dim;
-    s->guard_numbers = s->object_numbers * corners;
-    s->lo = base_calloc(alloc, s->object_numbers, sizeof *s->lo);
-    s->hi = base_calloc(alloc, s->object_numbers, sizeof *s->hi);
+    s->guard_numbers = s->bounds.numbers * corners;
     s->points = base_calloc(alloc, s->guard_numbers, sizeof *s->points);
-    if (!s->lo || !s->hi || !s->points) return FROE_E_MEMORY;
-    for (size_t i = 0; i < n; i++) {
-        scene_object_bounds(scene, (uint32_t)i, s->lo + i * (size_t)s->dim, s->hi + i * (size_t)s->dim);
-        add_guards(s, i, corners);
-    }
+    if (!s->points) return FROE_E_MEMORY;
+    for (size_t i = 0; i < n; i++) add_guards(s, i, corners);
     for (int k = 0; k < s->dim && n; k++) s->limit = fmax(s->limit, 3 * (scene->hi[k] - scene->lo[k]));
     if (s->limit > 0x1p1000) s->limit = 0x1p1000;
     status = measure_hierarchy_new(alloc, s->dim, (uint32_t)(n * corners), s->points, s->points, NULL, &s->guards);
-    return status ? status : measure_hierarchy_new(alloc, s->dim, (uint32_t)n, s->lo, s->hi, NULL, &s->objects);
+    return status ? status
+                  : measure_hierarchy_new(alloc, s->dim, (uint32_t)n, s->bounds.lo, s->bounds.hi, NULL, &s->objects);
 }
 
 static void end(survey *s) {
     const froe_allocator *alloc = &s->sample.alloc;
     if (s->context.alloc.fn) num_context_free(&s->context);
-    base_free(alloc, s->lo, s->object_numbers ? s->object_numbers * sizeof *s->lo : 1);
-    base_free(alloc, s->hi, s->object_numbers ? s->object_numbers * sizeof *s->hi : 1);
+    measure_bounds_free(&s->sample, &s->bounds);
     base_free(alloc, s->points, s->guard_numbers ? s->guard_numbers * sizeof *s->points : 1);
     measure_hierarchy_free(&s->guards);
     measure_hierarchy_free(&s->objects);

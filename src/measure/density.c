@@ -24,7 +24,8 @@ typedef struct survey {
     measure_hierarchy objects;
     num_context context;
     froe_size kind;
-    double *lo, *hi, *size;
+    measure_bounds bounds;
+    double *size;
     uint64_t *keys;
     ARRAY(uint32_t) near; /* N(o) */
     froe_density out;
@@ -77,7 +78,7 @@ static void random_point(const survey *s, uint32_t object, uint64_t key, double 
     size_t at = (size_t)object * (size_t)s->objects.dim;
     for (int k = 0; k < s->objects.dim; k++) {
         double share = (double)(base_hash(key, 1, (uint64_t)k) >> 11) * 0x1p-53;
-        out[k] = s->lo[at + (size_t)k] * (1 - share) + s->hi[at + (size_t)k] * share;
+        out[k] = s->bounds.lo[at + (size_t)k] * (1 - share) + s->bounds.hi[at + (size_t)k] * share;
     }
 }
 
@@ -119,28 +120,25 @@ static froe_status note_object(survey *s, uint32_t object) {
 static froe_status begin(survey *s) {
     const froe_scene *scene = s->sample.scene;
     const froe_allocator *alloc = &s->sample.alloc;
-    size_t n = scene->object_count, dim = (size_t)scene->dim;
+    size_t n = scene->object_count;
     froe_status status = num_context_new(alloc, &s->context);
+    if (!status) status = measure_bounds_new(&s->sample, &s->bounds);
     if (status) return status;
-    s->lo = base_calloc(alloc, n * dim, sizeof *s->lo);
-    s->hi = base_calloc(alloc, n * dim, sizeof *s->hi);
     s->size = base_calloc(alloc, n, sizeof *s->size);
     s->keys = base_calloc(alloc, n, sizeof *s->keys);
-    if (!s->lo || !s->hi || !s->size || !s->keys) return FROE_E_MEMORY;
+    if (!s->size || !s->keys) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
-        scene_object_bounds(scene, i, s->lo + i * dim, s->hi + i * dim);
         s->keys[i] = measure_sample_key(&s->sample, i);
         s->size[i] = s->kind == FROE_SIZE_RADIUS ? measure_enclosing(scene, i).radius : measure_diameter(scene, i);
     }
-    return measure_hierarchy_new(alloc, scene->dim, (uint32_t)n, s->lo, s->hi, s->size, &s->objects);
+    return measure_hierarchy_new(alloc, scene->dim, (uint32_t)n, s->bounds.lo, s->bounds.hi, s->size, &s->objects);
 }
 
 static void end(survey *s) {
     const froe_allocator *alloc = &s->sample.alloc;
-    size_t n = s->sample.scene->object_count, numbers = n * (size_t)s->sample.scene->dim;
+    size_t n = s->sample.scene->object_count;
     if (s->context.alloc.fn) num_context_free(&s->context);
-    base_free(alloc, s->lo, numbers ? numbers * sizeof *s->lo : 1);
-    base_free(alloc, s->hi, numbers ? numbers * sizeof *s->hi : 1);
+    measure_bounds_free(&s->sample, &s->bounds);
     base_free(alloc, s->size, n ? n * sizeof *s->size : 1);
     base_free(alloc, s->keys, n ? n * sizeof *s->keys : 1);
     measure_hierarchy_free(&s->objects);

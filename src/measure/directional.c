@@ -15,15 +15,15 @@
 typedef struct survey {
     measure_sample sample;
     measure_hierarchy boxes;
-    double *lo, *hi; /* of the bounding boxes, dim numbers each */
+    measure_bounds bounds;
     double delta;
 } survey;
 
 static const double *lo_of(const survey *s, uint32_t object) {
-    return s->lo + (size_t)object * (size_t)s->boxes.dim;
+    return s->bounds.lo + (size_t)object * (size_t)s->boxes.dim;
 }
 static const double *hi_of(const survey *s, uint32_t object) {
-    return s->hi + (size_t)object * (size_t)s->boxes.dim;
+    return s->bounds.hi + (size_t)object * (size_t)s->boxes.dim;
 }
 
 /* Do the insides of two boxes overlap? A flat box counts as inside where it lies strictly between. */
@@ -93,12 +93,10 @@ static bool note_box(survey *s, uint32_t object) {
 
 static froe_status find_boxes(survey *s) {
     const froe_scene *scene = s->sample.scene;
-    size_t dim = (size_t)scene->dim, numbers = scene->object_count * dim;
-    s->lo = base_calloc(&s->sample.alloc, numbers, sizeof *s->lo);
-    s->hi = base_calloc(&s->sample.alloc, numbers, sizeof *s->hi);
-    if (!s->lo || !s->hi) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < scene->object_count; i++) scene_object_bounds(scene, i, s->lo + i * dim, s->hi + i * dim);
-    return measure_hierarchy_new(&s->sample.alloc, scene->dim, scene->object_count, s->lo, s->hi, NULL, &s->boxes);
+    const measure_bounds *b = &s->bounds;
+    froe_status status = measure_bounds_new(&s->sample, &s->bounds);
+    if (status) return status;
+    return measure_hierarchy_new(&s->sample.alloc, scene->dim, scene->object_count, b->lo, b->hi, NULL, &s->boxes);
 }
 
 static froe_status look(survey *s, froe_directional *out) {
@@ -121,9 +119,7 @@ froe_status froe_measure_directional(const froe_scene *scene, double delta, cons
         return base_fail(diag, FROE_E_ARG, "delta = %g: a finite number >= 0 is needed", delta);
     status = find_boxes(&s);
     if (!status) status = look(&s, out);
-    size_t numbers = scene->object_count * (size_t)scene->dim;
     measure_hierarchy_free(&s.boxes);
-    base_free(&s.sample.alloc, s.lo, numbers ? numbers * sizeof *s.lo : 1);
-    base_free(&s.sample.alloc, s.hi, numbers ? numbers * sizeof *s.hi : 1);
+    measure_bounds_free(&s.sample, &s.bounds);
     return measure_sample_end(&s.sample, status, diag);
 }

@@ -24,6 +24,25 @@ void measure_sample_free(measure_sample *sample) {
     for (int i = 0; i < 3; i++) array_free(&sample->alloc, &sample->values[i]);
 }
 
+froe_status measure_bounds_new(const measure_sample *sample, measure_bounds *out) {
+    const froe_scene *scene = sample->scene;
+    size_t dim = (size_t)scene->dim;
+    out->numbers = scene->object_count * dim;
+    out->lo = base_calloc(&sample->alloc, out->numbers, sizeof *out->lo);
+    out->hi = base_calloc(&sample->alloc, out->numbers, sizeof *out->hi);
+    if (!out->lo || !out->hi) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        scene_object_bounds(scene, i, out->lo + i * dim, out->hi + i * dim);
+    return FROE_OK;
+}
+
+void measure_bounds_free(const measure_sample *sample, measure_bounds *bounds) {
+    size_t bytes = bounds->numbers ? bounds->numbers * sizeof(double) : 1;
+    base_free(&sample->alloc, bounds->lo, bytes);
+    base_free(&sample->alloc, bounds->hi, bytes);
+    *bounds = (measure_bounds){.numbers = 0};
+}
+
 uint32_t measure_sample_object(const measure_sample *sample, uint32_t i) {
     uint64_t n = sample->scene->object_count;
     uint32_t from = (uint32_t)(n * i / sample->count), end = (uint32_t)(n * (i + (uint64_t)1) / sample->count);

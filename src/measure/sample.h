@@ -19,6 +19,14 @@ typedef struct measure_sample {
 froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_options *options, const void *out,
                                  measure_sample *sample, froe_diagnostic *diag);
 void measure_sample_free(measure_sample *sample);
+/** The bounding boxes of all objects, dim numbers each. */
+typedef struct measure_bounds {
+    double *lo, *hi;
+    size_t numbers; /**< of each array */
+} measure_bounds;
+/** FROE_E_MEMORY; free them whatever happens. */
+froe_status measure_bounds_new(const measure_sample *sample, measure_bounds *out);
+void measure_bounds_free(const measure_sample *sample, measure_bounds *bounds);
 /** Object i of the sample: one at random of each of `count` equal runs of ids. */
 uint32_t measure_sample_object(const measure_sample *sample, uint32_t i);
 /** A number that names an object by its place and extent in the scene: the same in any order and at any scale 2^k, so
