@@ -78,6 +78,7 @@ static void open_subject(subject *s, const char *arg) {
     must(froe_surface_new(s->scene, NULL, &s->surface, &why), &why);
     s->options = froe_render_defaults();
     s->options.lines = 0;
+    s->options.own_colours = true; /* all opaque */
     if (y_up) {
         const double eye[3] = {3, 2, 5}, up[3] = {0, 1, 0};
         memcpy(s->options.camera.eye, eye, sizeof eye);

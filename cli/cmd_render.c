@@ -12,7 +12,7 @@
 typedef struct render_args {
     cli_common common;
     const char *tree, *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
-    int direction, up_axis, paint, preset, seams, ids, layers, hidden;
+    int direction, up_axis, paint, preset, seams, ids, layers, hidden, colours;
     double halo, fov, unit, min_area, seconds, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
     uint64_t decimals;  /**< UINT64_MAX: not given */
     uint64_t turntable; /**< frames; 0: none */
@@ -24,6 +24,7 @@ static const char *const directions[] = {"corner", "iso", "front",  "back",     
                                          "right",  "top", "bottom", "dimetric", NULL};
 static const char *const seams[] = {"underlap", "none", "twice", "stroke", NULL};
 static const char *const hiddens[] = {"none", "dashed", NULL};
+static const char *const colours[] = {"file", "own", NULL};
 static const char *const ids[] = {"none", "object", "face", NULL};
 static const char *const layers[] = {"none", "object", NULL};
 static const char *const axes[] = {"x", "y", "z", NULL};
@@ -75,6 +76,9 @@ static const cli_option camera[] = {
 static const cli_option look[] = {
     {"style", 0, CLI_TEXT, offsetof(render_args, shading), "STYLE",
      .help = "flat (default), cel, cel:N with N steps, plain, white, or none (lines only)"},
+    {"colours", 0, CLI_CHOICE, offsetof(render_args, colours), "FROM",
+     .help = "file (default): colours and opacity of the materials where the scene has them; or own: froe's, opaque",
+     .choices = colours},
     {"paint", 0, CLI_CHOICE, offsetof(render_args, paint), "SHAPES",
      .help = "whole faces (default), visible regions, or fragments of the tree", .choices = paints},
     {"seams", 0, CLI_CHOICE, offsetof(render_args, seams), "HOW",
@@ -317,6 +321,7 @@ static int set_options(const render_args *args, const froe_scene *scene, froe_re
     if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
     if (args->hidden >= 0) o->hidden = args->hidden > 0;
     o->cull_back = args->cull_back;
+    o->own_colours = args->colours > 0;
     o->ids = (froe_ids)args->ids;
     o->layers = args->layers > 0;
     o->seams = (froe_seams)args->seams;
@@ -428,7 +433,7 @@ static int render_groups(const render_args *args, const froe_tree *tree) {
     double *values = calloc(2 * groups + 1, sizeof *values);
     int32_t *priorities = calloc(groups + 1, sizeof *priorities);
     int code = values && priorities ? set_options(args, scene, &o) : cli_fail(CLI_RESOURCES, NULL, "out of memory");
-    for (size_t g = 0; !code && g < groups; g++) values[g] = 1;
+    for (size_t g = 0; !code && g < groups; g++) values[g] = NAN;
     if (!code) code = set_groups("opacity", args->opacity, scene, values);
     if (!code) code = set_groups("priority", args->priority, scene, values + groups);
     for (size_t g = 0; !code && g < groups; g++) {

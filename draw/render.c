@@ -45,14 +45,17 @@ static bool format_of(const char *path, int *format) {
 
 static froe_status check_opacity(const froe_scene *scene, const froe_render_options *o, int format,
                                  froe_diagnostic *diag) {
-    for (size_t g = 0; o->opacity && g < froe_scene_group_count(scene); g++) {
-        if (!(o->opacity[g] >= 0 && o->opacity[g] <= 1))
-            return draw_fail(diag, FROE_E_OPTIONS, "The opacity of group %zu is %g, not 0 to 1.", g, o->opacity[g]);
-        if (o->opacity[g] < 1 && o->seams == FROE_SEAMS_TWICE)
+    for (uint32_t g = 0; g < froe_scene_group_count(scene); g++) {
+        const double opacity = draw_opacity(scene, o, g);
+        if (!(opacity >= 0 && opacity <= 1))
+            return draw_fail(diag, FROE_E_OPTIONS, "The opacity of group %u is %g, not 0 to 1.", g, opacity);
+        if (opacity < 1 && o->seams == FROE_SEAMS_TWICE)
             return draw_fail(diag, FROE_E_OPTIONS, "What one sees through cannot be painted twice: use other seams.");
-        if (o->opacity[g] < 1 && format == DRAW_EPS)
-            return draw_fail(diag, FROE_E_OPTIONS,
-                             "EPS has no opacity: use .svg, .pdf or .png, or make everything opaque.");
+        if (opacity < 1 && format == DRAW_EPS)
+            return draw_fail(
+                diag, FROE_E_OPTIONS,
+                "EPS has no opacity, and '%s' (group %u) has: use .svg, .pdf or .png, or make everything opaque.",
+                froe_scene_group(scene, g).material, g);
     }
     return FROE_OK;
 }
@@ -92,13 +95,15 @@ static froe_status check(const froe_scene *scene, const froe_render_options *o, 
 /* What is given per group, per patch. */
 static froe_status spread_groups(draw_render *r) {
     const froe_render_options *o = r->options;
-    if (o->opacity) r->clear = draw_calloc(&r->alloc, r->patches + 1, 1);
+    bool any = false;
+    for (uint32_t g = 0; g < froe_scene_group_count(r->scene); g++) any = any || draw_opacity(r->scene, o, g) < 1;
+    if (any) r->clear = draw_calloc(&r->alloc, r->patches + 1, 1);
     if (o->priorities) r->priorities = draw_calloc(&r->alloc, r->patches + 1, sizeof *r->priorities);
-    if ((o->opacity && !r->clear) || (o->priorities && !r->priorities)) return FROE_E_MEMORY;
+    if ((any && !r->clear) || (o->priorities && !r->priorities)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < r->patches; i++) {
         const uint32_t group = froe_surface_patch(r->surface, i).group;
         if (group == FROE_NONE) continue;
-        if (r->clear) r->clear[i] = o->opacity[group] < 1;
+        if (r->clear) r->clear[i] = draw_opacity(r->scene, o, group) < 1;
         if (r->priorities) r->priorities[i] = o->priorities[group];
     }
     return FROE_OK;

@@ -26,6 +26,8 @@ typedef struct draw_render {
     uint64_t paths;
 } draw_render;
 
+/** Opacity of a group, 0 .. 1; of FROE_NONE 1. */
+double draw_opacity(const froe_scene *scene, const froe_render_options *options, uint32_t group);
 /** Fills style_of and styles. FROE_E_MEMORY. */
 froe_status draw_shade(draw_render *render);
 /** Width of a kind of line in units of the page. */

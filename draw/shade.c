@@ -1,4 +1,5 @@
-/* shade.c: colours of faces: one hue per material, lit by a lamp that is fixed to the camera. */
+/* shade.c: colours of faces: those of their groups, or one hue per material, lit by a lamp that is fixed to the camera.
+ */
 #include "render.h"
 #include <math.h>
 #include <stdlib.h>
@@ -84,12 +85,31 @@ bool draw_joins(const draw_render *r, const froe_shape *first, const froe_shape 
            froe_surface_patch(r->surface, first->patch).group == froe_surface_patch(r->surface, next->patch).group;
 }
 
+/* 0: the scene gives none, or it is not wanted. */
+static uint32_t given_colour(const froe_scene *scene, const froe_render_options *o, uint32_t group) {
+    const bool wanted = !o->own_colours && o->shading != FROE_SHADE_WHITE && o->shading != FROE_SHADE_NONE;
+    return wanted ? froe_scene_group(scene, group).colour : 0;
+}
+
+double draw_opacity(const froe_scene *scene, const froe_render_options *o, uint32_t group) {
+    if (group == FROE_NONE) return 1;
+    if (o->opacity && !isnan(o->opacity[group])) return o->opacity[group];
+    const uint32_t colour = given_colour(scene, o, group);
+    return colour ? (colour & 255) / 255.0 : 1;
+}
+
+/* 0xRRGGBB. */
+static uint32_t colour_of(const draw_render *r, uint32_t group, const uint32_t *materials) {
+    if (group == FROE_NONE) return hues[0];
+    const uint32_t given = given_colour(r->scene, r->options, group);
+    return given ? given >> 8 : hues[materials[group] % (sizeof hues / sizeof *hues)];
+}
+
 static draw_style style_of(const draw_render *r, uint32_t patch, const uint32_t *materials) {
     const froe_render_options *o = r->options;
     const froe_patch p = froe_surface_patch(r->surface, patch);
-    const double opacity = o->opacity && p.group != FROE_NONE ? o->opacity[p.group] : 1;
-    const uint32_t alpha = (uint32_t)floor(opacity * 255 + 0.5);
-    uint32_t colour = p.group == FROE_NONE ? hues[0] : hues[materials[p.group] % (sizeof hues / sizeof *hues)];
+    const uint32_t alpha = (uint32_t)floor(draw_opacity(r->scene, o, p.group) * 255 + 0.5);
+    uint32_t colour = colour_of(r, p.group, materials);
     const double lit_by = light_on(r, p.objects[0]);
     const double light = o->shading == FROE_SHADE_CEL ? (floor(lit_by * 0.9999 * o->cel_levels) + 0.5) / o->cel_levels
                                                       : floor(lit_by * LIGHTS + 0.5) / LIGHTS;

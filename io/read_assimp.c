@@ -2,13 +2,16 @@
  * file: no post-processing step of assimp runs, for those that weld, drop or split do
  * so within tolerances. Its coordinates are single precision; node transforms are
  * multiplied out in double. Nodes are walked with a stack of our own. */
+#include "mtl.h"
 #include "read.h"
+#include <assimp/GltfMaterial.h>
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>
 #include <assimp/material.h>
 #include <assimp/metadata.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
@@ -45,6 +48,7 @@ typedef struct walk {
     io_buffer corners;   /* of a face, doubles */
     io_buffer materials; /* of the current node: pairs material, group (uint32_t) */
     uint64_t faces, faces_done;
+    bool linear; /* colours are shares of light (glTF), not of sRGB */
 } walk;
 
 static froe_status out_of_memory(walk *w) {
@@ -112,6 +116,38 @@ static const char *material_name(walk *w, unsigned index, struct aiString *name)
     return name->data;
 }
 
+/* From shares of light to sRGB (IEC 61966-2-1). */
+static double srgb(double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
+}
+
+/* glTF sees through materials only when they say so. */
+static double opacity_of(const struct aiMaterial *material, double alpha) {
+    struct aiString blending = {.length = 0};
+    float opacity = 1;
+    if (!aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &blending))
+        return strcmp(blending.data, "BLEND") ? 1 : alpha;
+    aiGetMaterialFloat(material, AI_MATKEY_OPACITY, &opacity);
+    return opacity;
+}
+
+/* 0: there is none, or it is made up by assimp, or a picture says it. */
+static uint32_t material_colour(walk *w, unsigned index) {
+    struct aiColor4D c;
+    struct aiString name;
+    if (index >= w->scene->mNumMaterials || !strcmp(material_name(w, index, &name), AI_DEFAULT_MATERIAL_NAME)) return 0;
+    const struct aiMaterial *material = w->scene->mMaterials[index];
+    if (aiGetMaterialTextureCount(material, aiTextureType_DIFFUSE) ||
+        aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR))
+        return 0;
+    if (aiGetMaterialColor(material, AI_MATKEY_BASE_COLOR, &c) &&
+        aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &c))
+        return 0;
+    double rgba[4] = {c.r, c.g, c.b, opacity_of(material, c.a)};
+    for (int k = 0; w->linear && k < 3; k++) rgba[k] = srgb(rgba[k]);
+    return io_colour(rgba);
+}
+
 /* One group for each node and name of a material, or with `boxes` for each node. */
 static froe_status enter_group(walk *w, const struct aiNode *node, unsigned material) {
     struct aiString name, other;
@@ -121,7 +157,7 @@ static froe_status enter_group(walk *w, const struct aiNode *node, unsigned mate
         bool same = w->sink->boxes || known[i] == material || !strcmp(material_name(w, known[i], &other), name.data);
         if (same) return w->sink->group = known[i + 1], FROE_OK;
     }
-    froe_group group = {.name = node->mName.data, .material = name.data};
+    froe_group group = {.name = node->mName.data, .material = name.data, .colour = material_colour(w, material)};
     froe_status status = io_sink_group(w->sink, &group);
     if (status) return status;
     uint32_t pair[2] = {material, w->sink->group};
@@ -216,6 +252,7 @@ froe_status io_read_assimp(const io_source *source, io_sink *sink) {
     if (!scene) return FROE_E_FORMAT;
     walk w = {.scene = scene, .sink = sink, .faces = count_faces(scene)};
     set_format(source, sink, scene);
+    w.linear = !strncmp(sink->report.format, "glTF", 4);
     sink->unit = "face";
     sink->report.layers = 1;
     status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "has no nodes");

@@ -1,5 +1,5 @@
 /* read_obj.c: Wavefront OBJ in double precision: vertices, points, lines and faces,
- * groups (o, g) and materials (usemtl). Free-form curves and surfaces are skipped and
+ * groups (o, g) and materials (usemtl, coloured by mtllib). Free-form curves and surfaces are skipped and
  * counted. Each pair of an object's name and a material is one group, wherever in
  * the file its faces are.
  *
@@ -7,6 +7,7 @@
  *     usemtl tiles
  *     f 1/1/1 2/2/1 -1//1        indices from 1; negative: from the last vertex back
  */
+#include "mtl.h"
 #include "read.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,6 +25,8 @@ enum { BUCKETS = 4096 };
 
 typedef struct obj {
     io_sink *sink;
+    const char *path;
+    io_materials materials;
     char *line;      /* the current one, ended by a NUL */
     uint64_t number; /* of the line, from 1 */
     io_buffer points, corners;
@@ -64,7 +67,8 @@ static froe_status enter_group(obj *o) {
         o->sink->group = k->group;
         return FROE_OK;
     }
-    froe_group group = {.name = o->name, .material = o->material};
+    froe_group group = {
+        .name = o->name, .material = o->material, .colour = io_material_colour(&o->materials, o->material)};
     froe_status status = io_sink_group(o->sink, &group);
     if (status) return status;
     known *added = io_buffer_add(&o->sink->alloc, &o->groups, sizeof *added);
@@ -76,13 +80,24 @@ static froe_status enter_group(obj *o) {
     return FROE_OK;
 }
 
-static void set_name(obj *o, char *to, const char *from) {
+/* What follows a word, without blanks around it, filled up with zeros. */
+static void copy_rest(char *to, size_t room, const char *from) {
     from += strspn(from, " \t");
     size_t length = strlen(from);
     while (length && strchr(" \t\r", from[length - 1])) --length;
-    memset(to, 0, NAME_ROOM);
-    memcpy(to, from, length < NAME_ROOM ? length : NAME_ROOM - 1);
+    memset(to, 0, room);
+    memcpy(to, from, length < room ? length : room - 1);
+}
+
+static void set_name(obj *o, char *to, const char *from) {
+    copy_rest(to, NAME_ROOM, from);
     o->regroup = true;
+}
+
+static froe_status read_library(obj *o, const char *from) {
+    char name[1024];
+    copy_rest(name, sizeof name, from);
+    return io_materials_read(o->sink, o->path, name, &o->materials);
 }
 
 /* -------------------------------------------------------------- elements -- */
@@ -148,6 +163,7 @@ static froe_status read_line(obj *o) {
     const char *line = o->line + strspn(o->line, " \t");
     if (starts(line, "v")) return read_vertex(o, line + 1);
     if (starts(line, "f") || starts(line, "l") || starts(line, "p")) return read_element(o, *line, line + 1);
+    if (starts(line, "mtllib")) return read_library(o, line + 6);
     if (starts(line, "usemtl")) return set_name(o, o->material, line + 6), FROE_OK;
     if (starts(line, "curv") || starts(line, "curv2") || starts(line, "surf"))
         return ++o->sink->report.skipped, FROE_OK;
@@ -196,6 +212,7 @@ froe_status io_read_obj(const io_source *source, io_sink *sink) {
     if (!status) {
         memset(o, 0, sizeof *o);
         o->sink = sink;
+        o->path = source->path;
         io_report_format(sink, "float64", "OBJ");
         sink->report.layers = 1;
         sink->unit = "line";
@@ -206,6 +223,7 @@ froe_status io_read_obj(const io_source *source, io_sink *sink) {
         io_buffer_free(&sink->alloc, &o->points);
         io_buffer_free(&sink->alloc, &o->corners);
         io_buffer_free(&sink->alloc, &o->groups);
+        io_materials_free(sink, &o->materials);
     }
     io_buffer_free(&sink->alloc, &state);
     io_buffer_free(&sink->alloc, &text);

@@ -167,7 +167,9 @@ typedef struct froe_render_options {
     double line_width;    /**< default 1; silhouettes and borders; crossings have 0.8, other kinds 0.6 of it */
     bool hidden;          /**< hidden lines, dashed */
     double halo;          /**< gap in lines before nearer ones; default 0 */
-    const double *opacity;     /**< per group, 0 .. 1; NULL: 1 */
+    bool own_colours;     /**< not those of groups, nor their opacity, but froe's; default false. So it is, whatever is
+                                    said here, in white and in lines alone */
+    const double *opacity;     /**< per group, 0 .. 1; NaN, or all NULL: that of its colour, or 1 */
     const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
     bool cull_back;
     uint32_t background; /**< 0xRRGGBB, or FROE_DRAW_CLEAR (default) */

@@ -163,6 +163,7 @@ FROE_API froe_status froe_scene_add(froe_scene *scene, const froe_objects *batch
 typedef struct froe_group {
     const char *name, *material;
     const char *left, *right; /**< what lies left and right of its segments; "" unknown */
+    uint32_t colour;          /**< 0xRRGGBBAA: red, green and blue of sRGB, opacity; 0: unknown */
 } froe_group;
 FROE_API froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uint32_t *id);
 

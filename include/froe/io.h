@@ -60,10 +60,15 @@ typedef struct froe_read_report {
  *                   the axes are called x y z w x5 x6 x7 x8 (or x1 ... x8), columns come in any order,
  *                   a column `tag` (a whole number below 2^64) becomes the tag, others are left alone.
  *                   Decimal numbers become the nearest doubles, whatever the locale.
- *   OFF, OBJ, PLY   dimension 3, double precision (binary PLY: its own). In OBJ each pair of an object's (o, g) name
- * and a material is a group. assimp          glTF, STL, IFC, FBX, ...: dimension 3, single precision; node transforms
- * are applied in double; each pair of a node and a material of its faces is a group. Points and lines of a model become
- * points and segments. OGR             GeoJSON, TopoJSON, Shapefile, GeoPackage, FlatGeobuf, DXF, OSM, WKT in CSV, ...:
+ *   OFF, OBJ, PLY   dimension 3, double precision (binary PLY: its own). In OBJ each pair of an
+ *                   object's (o, g) name and a material is a group, coloured by the MTL beside it.
+ *
+ *   assimp          glTF, STL, IFC, FBX, ...: dimension 3, single precision; node transforms are
+ *                   applied in double; each pair of a node and a material of its faces is a group,
+ *                   with the colour of the material. Points and lines of a model become points and
+ *                   segments.
+ *
+ *   OGR             GeoJSON, TopoJSON, Shapefile, GeoPackage, FlatGeobuf, DXF, OSM, WKT in CSV, ...:
  *                   dimension 2. Lines and polygon rings become one segment per pair of vertices, in
  *                   the order of feature, part, ring, vertex; points become points; the tag is the
  *                   feature's id in its layer. Every polygon feature is a group, and so is any other

@@ -32,6 +32,7 @@ froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uin
         g->material = put_text(store, group->material);
         g->left = put_text(store, group->left);
         g->right = put_text(store, group->right);
+        g->colour = group->colour;
         if (id) *id = (uint32_t)store->group_table.count - 1;
     }
     scene_publish(scene);
@@ -39,8 +40,8 @@ froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uin
 }
 
 froe_group froe_scene_group(const froe_scene *scene, uint32_t group) {
-    if (group >= scene->group_count) return (froe_group){"", "", "", ""};
+    if (group >= scene->group_count) return (froe_group){"", "", "", "", 0};
     const scene_group *g = scene->group_table + group;
     const char *text = scene->text;
-    return (froe_group){text + g->name, text + g->material, text + g->left, text + g->right};
+    return (froe_group){text + g->name, text + g->material, text + g->left, text + g->right, g->colour};
 }

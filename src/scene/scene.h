@@ -20,6 +20,7 @@
 
 typedef struct scene_group {
     uint32_t name, material, left, right; /**< offsets into text */
+    uint32_t colour;                      /**< see froe_group */
 } scene_group;
 
 struct froe_scene {

@@ -58,7 +58,7 @@ typedef struct file_section {
 _Static_assert(sizeof(file_header) == 64 && sizeof(file_section) == 32, "as specified");
 _Static_assert(sizeof(tree_meta) == 1264 && sizeof(tree_promise) == 48, "as specified");
 _Static_assert(sizeof(tree_node) == 16 && sizeof(tree_cut) == 24 && sizeof(tree_piece) == 8, "as specified");
-_Static_assert(sizeof(scene_group) == 16, "as specified");
+_Static_assert(sizeof(scene_group) == 20, "as specified");
 
 /** Does this machine store numbers as the file does? */
 bool file_machine_fits(void);

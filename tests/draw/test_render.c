@@ -1,5 +1,6 @@
 /* test_render.c: rendered files: the same bytes again, SVG that says what the picture holds, refusals. */
 #include "pictures.h"
+#include <math.h>
 #include <stdio.h>
 
 static char *read_file(const char *path, size_t *count) {
@@ -24,12 +25,13 @@ static size_t occurrences(const char *text, const char *word) {
     return n;
 }
 
-/* A cube of two materials, one of them glass. */
-static froe_tree *cube(void) {
+/* A cube of two materials, one of them glass, of the colour given. */
+static froe_tree *cube_with(uint32_t colour) {
     static const int face[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     froe_scene *scene = scene_of(3);
     uint32_t group[2];
-    const froe_group stone = {.name = "cube", .material = "stone"}, glass = {.name = "cube", .material = "glass"};
+    const froe_group stone = {.name = "cube", .material = "stone"},
+                     glass = {.name = "cube", .material = "glass", .colour = colour};
     assert_int_equal(froe_scene_add_group(scene, &stone, &group[0]), FROE_OK);
     assert_int_equal(froe_scene_add_group(scene, &glass, &group[1]), FROE_OK);
     for (int f = 0; f < 6; f++) {
@@ -42,6 +44,10 @@ static froe_tree *cube(void) {
         assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
     }
     return tree_of(scene, "density", 1);
+}
+
+static froe_tree *cube(void) {
+    return cube_with(0);
 }
 
 static void the_same_bytes_in_every_format(void **state) {
@@ -107,6 +113,36 @@ static void through_glass_one_sees_what_is_behind(void **state) {
     o.opacity = bad;
     assert_int_equal(froe_render(tree, "glass.svg", &o, NULL, &why), FROE_E_OPTIONS);
     froe_tree_free(tree);
+}
+
+/* Colours and opacity of the scene hold unless told otherwise, also of a tree that was saved. */
+static void a_scene_brings_its_colours(void **state) {
+    (void)state;
+    froe_tree *tree = cube_with(0x123456CC), *opened;
+    froe_render_options o = froe_render_defaults();
+    froe_render_report report;
+    const double opacity[2] = {NAN, 1};
+    size_t count;
+    assert_int_equal(froe_tree_save(tree, "cube.froe", NULL), FROE_OK);
+    froe_tree_free(tree);
+    assert_int_equal(froe_tree_open("cube.froe", NULL, &opened, NULL), FROE_OK);
+    o.shading = FROE_SHADE_PLAIN;
+    char *svg = render(opened, "colours.svg", &o, &report, &count);
+    assert_true(occurrences(svg, "#123456") > 0);
+    assert_true(occurrences(svg, "fill-opacity=\"0.80\"") > 0);
+    free(svg);
+    o.opacity = opacity;
+    svg = render(opened, "opaque.svg", &o, &report, &count);
+    assert_true(occurrences(svg, "#123456") > 0);
+    assert_int_equal(occurrences(svg, "fill-opacity"), 0);
+    free(svg);
+    o.opacity = NULL;
+    o.own_colours = true;
+    svg = render(opened, "own.svg", &o, &report, &count);
+    assert_int_equal(occurrences(svg, "#123456"), 0);
+    assert_int_equal(occurrences(svg, "fill-opacity"), 0);
+    free(svg);
+    froe_tree_free(opened);
 }
 
 /* Rounding to the grid moves points by half a step at most, however long a path is. */
@@ -220,6 +256,7 @@ int main(void) {
         cmocka_unit_test(the_same_bytes_in_every_format),
         cmocka_unit_test(a_cube_shows_three_faces_and_nine_edges),
         cmocka_unit_test(through_glass_one_sees_what_is_behind),
+        cmocka_unit_test(a_scene_brings_its_colours),
         cmocka_unit_test(coordinates_do_not_drift),
         cmocka_unit_test(bad_options_are_refused_and_leave_no_file),
         cmocka_unit_test(an_animation_shows_each_picture_for_its_time),

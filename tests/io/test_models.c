@@ -191,12 +191,35 @@ static void names_and_materials_become_groups(void **state) {
     froe_scene_free(scene);
 }
 
+/* Colours come from the library beside the model; what is no file of colours at or below it adds none. */
+static void materials_bring_their_colours(void **state) {
+    (void)state;
+    write_text("colours.mtl",
+               "newmtl tiles\r\nKd 0.8 0.1 0 # red\nnewmtl glass\n Kd 0.5\nd 0.4\nnewmtl fog\nKd 1 1 2\nTr 1\n"
+               "newmtl none\nd 0.5\nnewmtl painted\nKd 1 1 1\nmap_Kd wood.png\n");
+    write_text("colours.obj",
+               "mtllib missing.mtl\nmtllib ../colours.mtl\nmtllib /colours.mtl\nmtllib .\nmtllib colours.mtl\n"
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl tiles\nf 1 2 3\nusemtl glass\nf 1 2 3\nusemtl fog\nf 1 2 3\n"
+               "usemtl none\nf 1 2 3\nusemtl painted\nf 1 2 3\nusemtl unknown\nf 1 2 3\n");
+    static const uint32_t colours[] = {0xCC1A00FF, 0x80808066, 0xFFFFFF00, 0, 0, 0};
+    froe_read_report report;
+    froe_scene *scene = read_scene("colours.obj", &report);
+    assert_int_equal(froe_scene_group_count(scene), 6);
+    for (uint32_t g = 0; g < 6; g++) assert_int_equal(froe_scene_group(scene, g).colour, colours[g]);
+    froe_scene_free(scene);
+    write_bytes("colours.mtl", "newmtl tiles\0", 13);
+    scene = read_scene("colours.obj", &report);
+    assert_int_equal(froe_scene_group(scene, 0).colour, 0);
+    froe_scene_free(scene);
+}
+
 /* Two nodes show one mesh, one of them moved inside a scaled parent; %s is where the three points are. */
 static const char *const instances =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
     "\"nodes\":[{\"name\":\"still\",\"mesh\":0},{\"name\":\"parent\",\"scale\":[2,2,2],\"children\":[2]},"
     "{\"name\":\"moved\",\"mesh\":0,\"translation\":[10,0,1]}],"
-    "\"materials\":[{\"name\":\"stone\"}],"
+    "\"materials\":[{\"name\":\"stone\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.2140411,0,0.5]},"
+    "\"alphaMode\":\"BLEND\"}],"
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],"
     "\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
@@ -217,6 +240,7 @@ static void check_instances(const char *path) {
     assert_string_equal(froe_scene_group(scene, 0).name, "still");
     assert_string_equal(froe_scene_group(scene, 1).name, "moved");
     assert_string_equal(froe_scene_group(scene, 1).material, "stone");
+    assert_int_equal(froe_scene_group(scene, 1).colour, 0xFF800080); /* 0.214 of light is half of sRGB */
     froe_scene_free(scene);
 }
 
@@ -297,6 +321,7 @@ int main(void) {
         cmocka_unit_test(a_comb_is_covered_once),
         cmocka_unit_test(polygons_that_are_not_simple_are_split_all_the_same),
         cmocka_unit_test(names_and_materials_become_groups),
+        cmocka_unit_test(materials_bring_their_colours),
         cmocka_unit_test(transforms_of_nodes_are_applied),
         cmocka_unit_test(a_truncated_glb_is_refused_wherever_it_ends),
         cmocka_unit_test(boxes_of_a_model_are_those_of_its_objects),

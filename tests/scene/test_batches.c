@@ -148,7 +148,7 @@ static void labels_appear_with_the_first_object_that_has_them(void **state) {
     add(s, batch_of(FROE_POINT, 2, xy));
     assert_int_equal(froe_scene_add_group(s, &group, &id), FROE_OK);
     assert_int_equal(id, 0);
-    group = (froe_group){.material = "wood", .right = ""};
+    group = (froe_group){.material = "wood", .right = "", .colour = 0xA0522DFF};
     assert_int_equal(froe_scene_add_group(s, &group, &id), FROE_OK);
     assert_int_equal(id, 1);
     assert_null(s->tags);
@@ -423,7 +423,7 @@ static froe_status fill(void *user, const froe_allocator *alloc) {
     uint32_t faces[100];
     for (int i = 0; i < 800; i++) xy[i] = i * i % 101;
     for (uint32_t i = 0; i < 100; i++) tags[i] = i, faces[i] = i;
-    const froe_group group = {"n", "m", "l", "r"};
+    const froe_group group = {"n", "m", "l", "r", 0x11223344};
     froe_objects b = batch_of(FROE_SEGMENT, 100, xy);
     for (int round = 0; round < 2 && !status; round++) {
         size_t objects = froe_scene_object_count(s), vertices = froe_scene_vertex_count(s);

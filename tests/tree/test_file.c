@@ -192,7 +192,7 @@ static void checksums_are_as_specified(void **state) {
 static void files_are_as_specified(void **state) {
     (void)state;
     static const uint8_t magic[8] = {0x89, 0x66, 0x72, 0x6f, 0x65, 0x0d, 0x0a, 0x1a};
-    static const uint64_t items[19] = {1264, 16, 24, 8, 4, 8, 8, 1, 1, 4, 4, 8, 8, 4, 4, 16, 1, 64, 4};
+    static const uint64_t items[19] = {1264, 16, 24, 8, 4, 8, 8, 1, 1, 4, 4, 8, 8, 4, 4, 20, 1, 64, 4};
     froe_tree *tree = rich_tree(3);
     const froe_scene *scene = froe_tree_scene(tree);
     size_t size, offset = 704;
