@@ -1,0 +1,96 @@
+/* axis.c: scales of figures. Ticks stand at 1, 2 and 5 times powers of ten, on logarithmic axes of many decades at the
+ * powers alone. */
+#include "axis.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+draw_axis draw_axis_new(bool log) {
+    return (draw_axis){.log = log, .lo = INFINITY, .hi = -INFINITY};
+}
+
+bool draw_axis_shows(const draw_axis *axis, double value) {
+    return isfinite(value) && fabs(value) < 1e15 && (!axis->log || value > 1e-15);
+}
+
+void draw_axis_add(draw_axis *axis, double value) {
+    if (!draw_axis_shows(axis, value)) return;
+    if (value < axis->lo) axis->lo = value;
+    if (value > axis->hi) axis->hi = value;
+}
+
+/* The tick distance that gives some six of them: 1, 2 or 5 times a power of ten. */
+static double step_of(const draw_axis *axis) {
+    const double raw = (axis->hi - axis->lo) / 6, power = pow(10, floor(log10(raw)));
+    const double share = raw / power;
+    return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+}
+
+void draw_axis_round(draw_axis *axis) {
+    if (axis->lo > axis->hi) axis->lo = axis->log ? 1 : 0, axis->hi = axis->log ? 10 : 1;
+    if (axis->log) {
+        if (axis->hi < axis->lo * 3) axis->lo /= 2, axis->hi *= 2;
+        axis->lo /= 1.1, axis->hi *= 1.1;
+        return;
+    }
+    if (axis->lo > 0) axis->lo = 0;
+    if (axis->hi <= axis->lo) axis->hi = axis->lo + 1;
+    const double step = step_of(axis);
+    axis->lo = step * floor(axis->lo / step);
+    axis->hi = step * ceil(axis->hi / step);
+}
+
+double draw_axis_at(const draw_axis *axis, double value) {
+    double share = (value - axis->lo) / (axis->hi - axis->lo);
+    if (axis->log) share = log10(value / axis->lo) / log10(axis->hi / axis->lo);
+    return axis->from + share * (axis->to - axis->from);
+}
+
+static size_t linear_ticks(const draw_axis *axis, double *out) {
+    const double step = step_of(axis), first = ceil(axis->lo / step - 1e-9);
+    size_t count = 0;
+    for (double i = first; count < DRAW_TICKS && i * step <= axis->hi + 1e-9 * step; i++) out[count++] = i * step;
+    return count;
+}
+
+size_t draw_axis_ticks(const draw_axis *axis, double *out) {
+    if (!axis->log) return linear_ticks(axis, out);
+    const double decades = log10(axis->hi / axis->lo);
+    const int each = decades < 2.5 ? 3 : 1, stride = decades < 9 ? 1 : 3;
+    size_t count = 0;
+    for (int e = (int)floor(log10(axis->lo)); e <= (int)ceil(log10(axis->hi)); e++)
+        for (int i = 0; i < each && e % stride == 0; i++) {
+            const double value = (i == 0 ? 1 : i == 1 ? 2 : 5) * pow(10, e);
+            if (value >= axis->lo && value <= axis->hi && count < DRAW_TICKS) out[count++] = value;
+        }
+    return count;
+}
+
+/* Whole numbers of thousandths, so that no decimal point comes from the locale. */
+static void put_thousandths(long long value, const char *suffix, char *text) {
+    const long long size = value < 0 ? -value : value;
+    int used = snprintf(text, 16, "%s%lld", value < 0 ? "-" : "", size / 1000);
+    if (size % 1000) {
+        used += snprintf(text + used, 6, ".%03lld", size % 1000);
+        while (text[used - 1] == '0') text[--used] = '\0';
+    }
+    snprintf(text + used, 3, "%s", suffix);
+}
+
+void draw_axis_label(double value, char *text) {
+    static const struct {
+        double unit;
+        const char *suffix;
+    } units[] = {{1e12, "T"}, {1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}};
+    const double size = fabs(value) * (1 + 1e-12);
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (size >= units[i].unit) {
+            put_thousandths(llround(value / units[i].unit * 1000), units[i].suffix, text);
+            return;
+        }
+    const int power = value == 0 ? 0 : (int)floor(log10(size));
+    if (power >= -3)
+        put_thousandths(llround(value * 1000), "", text);
+    else
+        snprintf(text, 24, "%.0fe%d", value / pow(10, power), power);
+}
