@@ -1,6 +1,7 @@
 /* cmd_build.c: froe build, from a scene to a tree and its report. */
 #include "command.h"
 #include "exit.h"
+#include "methods.h"
 #include "order.h"
 #include "progress.h"
 #include "scene.h"
@@ -52,25 +53,6 @@ static const cli_part parts[] = {
     {"Options", cli_common_options, 0},
     {0},
 };
-
-/* "unknown method" is worth a list of the known ones. */
-static int check_method(const char *method) {
-    enum { MOST = 64 };
-    const char *names[MOST] = {"auto"};
-    size_t count = 1;
-    char list[400] = "auto";
-    const froe_method_info *info;
-    for (size_t i = 0; (info = froe_method_at(i)) != NULL && count < MOST; i++) {
-        const size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, ", %s", info->name);
-        names[count++] = info->name;
-    }
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(names[i], method) == 0) return 0;
-    const char *hint = cli_nearest(method, names, count);
-    if (!hint) return cli_fail(CLI_USE, NULL, "unknown method '%s'; there are %s", method, list);
-    return cli_fail(CLI_USE, NULL, "unknown method '%s', did you mean '%s'? There are %s", method, hint, list);
-}
 
 /* A slip of the hand must not cost the scene. */
 static int check_output(const char *scene, const char *output) {
@@ -141,7 +123,7 @@ static int build_and_report(const build_args *args, froe_scene *scene, double se
 
 static int run(const void *given) {
     const build_args *args = given;
-    int code = check_method(args->method);
+    int code = cli_check_method(args->method, true);
     if (!code) code = check_output(args->scene.path, args->output);
     if (code) return code;
     froe_scene *scene;

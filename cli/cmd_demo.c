@@ -4,8 +4,8 @@
  * folder of the demo; their reports are printed and become the page's tables. */
 #include "command.h"
 #include "demo/page.h"
-#include "embedded.h"
 #include "exit.h"
+#include "files.h"
 #include "progress.h"
 #include "report.h"
 #include <errno.h>
@@ -46,22 +46,15 @@ static int make_folder(const char *path) {
     return made ? 0 : cli_fail(CLI_RESOURCES, path, "%s", strerror(errno));
 }
 
-static const cli_embedded *find_embedded(const char *name) {
-    for (const cli_embedded *file = cli_embedded_files; file->name; file++)
-        if (strcmp(file->name, name) == 0) return file;
-    return NULL;
+static void put_bytes(FILE *out, const void *file) {
+    const cli_embedded *f = file;
+    fwrite(f->bytes, 1, f->size, out);
 }
 
 static int unpack(const char *name) {
-    const cli_embedded *file = find_embedded(name);
+    const cli_embedded *file = cli_embedded_named(name);
     if (!file) return cli_fail(CLI_INPUT, name, "this program was built without it");
-    FILE *out = fopen(name, "wb");
-    if (!out) return cli_fail(CLI_RESOURCES, name, "%s", strerror(errno));
-    const bool written = fwrite(file->bytes, 1, file->size, out) == file->size;
-    if (fclose(out) == 0 && written) return 0;
-    const int error = errno;
-    remove(name);
-    return cli_fail(CLI_RESOURCES, name, "%s", strerror(error));
+    return cli_write_file(name, put_bytes, file);
 }
 
 /* --------------------------------------------------------------- commands -- */
@@ -143,8 +136,7 @@ static int run_scenes(const cli_common *common, demo_result *results) {
     int code = 0;
     for (int i = 0; !code && i < SCENES && demo_scenes[i].title; i++)
         code = run_scene(common, &demo_scenes[i], &results[i]);
-    const cli_embedded *style = find_embedded("style.css");
-    if (!code) code = demo_write_page("index.html", results, (const char *)style->bytes, style->size);
+    if (!code) code = demo_write_page("index.html", results);
     return code;
 }
 

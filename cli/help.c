@@ -61,7 +61,9 @@ static void print_part(FILE *out, const cli_part *part) {
 static void synopsis(FILE *out, const cli_command *command) {
     for (const cli_part *part = command->parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++)
-            if (!option->name) fprintf(out, option->required ? " %s" : " [%s]", option->value);
+            if (!option->name)
+                fprintf(out, option->required ? " %s%s" : " [%s%s]", option->value,
+                        option->type == CLI_TEXTS ? "..." : "");
     for (const cli_part *part = command->parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++) {
             if (!option->name || !option->required) continue;

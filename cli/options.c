@@ -84,7 +84,8 @@ static place find_letter(const cli_part *parts, void *args, char letter) {
 static place find_operand(const cli_part *parts, void *args, int position) {
     for (const cli_part *part = parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++)
-            if (!option->name && position-- == 0) return (place){option, (char *)args + part->at};
+            if (!option->name && (option->type == CLI_TEXTS || position-- == 0))
+                return (place){option, (char *)args + part->at};
     return (place){0};
 }
 
@@ -192,6 +193,14 @@ static int set_text(const cli_option *option, const char **field, const char *te
     return 0;
 }
 
+static int add_text(const cli_option *option, cli_texts *field, const char *text) {
+    const size_t most = sizeof field->at / sizeof *field->at;
+    if (field->count == most) return cli_fail(CLI_USE, NULL, "more than %zu times %s", most, option->value);
+    const int code = set_text(option, &field->at[field->count], text);
+    field->count += !code;
+    return code;
+}
+
 static int set_value(place found, const char *text) {
     void *field = found.base + found.option->at;
     switch (found.option->type) {
@@ -207,6 +216,8 @@ static int set_value(place found, const char *text) {
         return set_choice(found.option, field, text);
     case CLI_REALS:
         return set_reals(found.option, field, text);
+    case CLI_TEXTS:
+        return add_text(found.option, field, text);
     case CLI_FLAG:
     case CLI_END:
         break;
@@ -265,6 +276,8 @@ static bool is_set(const cli_option *option, const char *base) {
         return *(char *const *)field != NULL;
     case CLI_WHOLE:
         return *(const uint64_t *)field != 0;
+    case CLI_TEXTS:
+        return ((const cli_texts *)field)->count != 0;
     default:
         return true;
     }

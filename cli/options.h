@@ -25,6 +25,7 @@ typedef enum cli_type {
     CLI_REAL = 5,   /**< a finite number; double */
     CLI_CHOICE = 6, /**< one of `choices`; int, its position */
     CLI_REALS = 7,  /**< finite numbers parted by commas; cli_reals */
+    CLI_TEXTS = 8,  /**< operands only: all that are left; cli_texts */
 } cli_type;
 
 /** The value of a CLI_REALS option. */
@@ -32,6 +33,12 @@ typedef struct cli_reals {
     size_t count; /**< 0: not given */
     double at[16];
 } cli_reals;
+
+/** The value of a CLI_TEXTS operand. */
+typedef struct cli_texts {
+    size_t count;
+    const char *at[64]; /**< into argv */
+} cli_texts;
 
 typedef struct cli_option {
     const char *name; /**< long name without its dashes; NULL: an operand */

@@ -10,7 +10,7 @@ typedef struct cli_scene_args {
     int faces;
     bool boxes;
 } cli_scene_args;
-extern const cli_option cli_scene_options[];
+extern const cli_option cli_scene_options[]; /**< the first is SCENE itself */
 /** What SCENE may be, for the `about` of a command. */
 #define CLI_SCENE_ABOUT                                                                                                \
     "SCENE is a plane map in any format that OGR reads (GeoJSON, TopoJSON, Shapefile, GeoPackage, FlatGeobuf, DXF, "   \

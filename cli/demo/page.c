@@ -1,11 +1,9 @@
 /* page.c: lays out scenes, pictures and reports as a page that needs nothing
  * but the pictures beside it: no scripts, no fonts, no network. */
 #include "demo/page.h"
-#include "demo/html.h"
-#include "exit.h"
-#include "version.h"
-#include <errno.h>
-#include <froe/froe.h>
+#include "files.h"
+#include "html.h"
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -125,29 +123,17 @@ static void put_scene(FILE *out, const demo_scene *scene, const demo_result *res
     fputs("</p>\n</section>\n", out);
 }
 
-static void put_page(FILE *out, const demo_result *results, const char *style, size_t style_size) {
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-          "<title>froe: binary space partitions of real scenes</title>\n<style>\n",
-          out);
-    fwrite(style, 1, style_size, out);
-    fputs("</style>\n</head>\n<body>\n<header>\n<h1>froe</h1>\n<p>Binary space partitions that stay small on real "
+static void put_page(FILE *out, const void *given) {
+    const demo_result *results = given;
+    html_begin(out, "froe: binary space partitions of real scenes", NULL);
+    fputs("<header>\n<h1>froe</h1>\n<p>Binary space partitions that stay small on real "
           "scenes, exactly. A froe is the tool that splits wood along the grain instead of sawing across it.</p>\n"
           "</header>\n<main>\n",
           out);
     for (size_t i = 0; demo_scenes[i].title; i++) put_scene(out, &demo_scenes[i], &results[i]);
-    fprintf(out, "</main>\n<footer>froe %s, commit %s</footer>\n</body>\n</html>\n", froe_version(), cli_commit());
+    html_end(out);
 }
 
-int demo_write_page(const char *path, const demo_result *results, const char *style, size_t style_size) {
-    char beside[64];
-    snprintf(beside, sizeof beside, "%s.part", path);
-    FILE *out = fopen(beside, "w");
-    if (!out) return cli_fail(CLI_RESOURCES, path, "%s", strerror(errno));
-    put_page(out, results, style, style_size);
-    const bool written = !ferror(out);
-    if (fclose(out) == 0 && written && rename(beside, path) == 0) return 0;
-    const int error = errno;
-    remove(beside);
-    return cli_fail(CLI_RESOURCES, path, "%s", strerror(error));
+int demo_write_page(const char *path, const demo_result *results) {
+    return cli_write_file(path, put_page, results);
 }

@@ -10,7 +10,7 @@ typedef struct demo_result {
     json_t *methods;            /**< array: the reports of the same build by every method */
 } demo_result;
 
-/** Writes the page, whole or not at all. `results` are in the order of demo_scenes;
- * `style` is CSS. Returns 0 or an exit code after saying why. */
-int demo_write_page(const char *path, const demo_result *results, const char *style, size_t style_size);
+/** Writes the page, whole or not at all. `results` are in the order of demo_scenes.
+ * Returns 0 or an exit code after saying why. */
+int demo_write_page(const char *path, const demo_result *results);
 #endif

@@ -245,6 +245,10 @@ typedef struct froe_method_info {
 /** The i-th method; NULL past the last. "auto" is not listed. */
 FROE_API const froe_method_info *froe_method_at(size_t i);
 
+/** The method that "auto" stands for on a scene, for a purpose: "pieces" (NULL: this one), "query" or "draw".
+ * NULL: there is no such purpose. O(n). */
+FROE_API const char *froe_method_auto(const froe_scene *scene, const char *purpose);
+
 /* ------------------------------------------------------------------- build -- */
 
 typedef struct froe_build_options {

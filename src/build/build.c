@@ -77,14 +77,20 @@ static const char *automatic(const froe_scene *scene, const char *purpose) {
     return polygons && strcmp(purpose, "query") != 0 ? "grain" : "density";
 }
 
+const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
+    static const char *const purposes[] = {"pieces", "query", "draw"};
+    if (!scene) return NULL;
+    for (size_t i = 0; i < sizeof purposes / sizeof *purposes; i++)
+        if (!strcmp(purpose ? purpose : purposes[0], purposes[i])) return automatic(scene, purposes[i]);
+    return NULL;
+}
+
 static froe_status choose_method(const froe_build_options *o, const froe_scene *scene, const build_method **out,
                                  froe_diagnostic *diag) {
-    static const char *const purposes[] = {"pieces", "query", "draw"};
-    const char *purpose = o->purpose ? o->purpose : "pieces", *name = o->method ? o->method : "auto";
-    bool known = false;
-    for (size_t i = 0; i < sizeof purposes / sizeof *purposes; i++) known |= !strcmp(purpose, purposes[i]);
-    if (!known) return base_fail(diag, FROE_E_OPTIONS, "unknown purpose '%s'; there are: pieces, query, draw", purpose);
-    if (!strcmp(name, "auto")) name = automatic(scene, purpose);
+    const char *name = o->method ? o->method : "auto", *best = froe_method_auto(scene, o->purpose);
+    if (!best)
+        return base_fail(diag, FROE_E_OPTIONS, "unknown purpose '%s'; there are: pieces, query, draw", o->purpose);
+    if (!strcmp(name, "auto")) name = best;
     *out = find_method(name);
     return *out ? FROE_OK : refuse_method(name, diag);
 }

@@ -1,5 +1,8 @@
 /* html.c: small pieces of HTML made from reports. */
-#include "demo/html.h"
+#include "html.h"
+#include "files.h"
+#include "version.h"
+#include <froe/froe.h>
 #include <string.h>
 
 void html_text(FILE *out, const char *text) {
@@ -118,4 +121,24 @@ void html_bounds(FILE *out, const json_t *bounds) {
                 share > 100 ? 100 : share);
     }
     fputs("</table>\n", out);
+}
+
+static void put_style(FILE *out, const char *name) {
+    const cli_embedded *style = name ? cli_embedded_named(name) : NULL;
+    if (style) fwrite(style->bytes, 1, style->size, out);
+}
+
+void html_begin(FILE *out, const char *title, const char *style) {
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
+          out);
+    html_text(out, title);
+    fputs("</title>\n<style>\n", out);
+    put_style(out, "page.css");
+    put_style(out, style);
+    fputs("</style>\n</head>\n<body>\n", out);
+}
+
+void html_end(FILE *out) {
+    fprintf(out, "</main>\n<footer>froe %s, commit %s</footer>\n</body>\n</html>\n", froe_version(), cli_commit());
 }

@@ -1,9 +1,14 @@
-/* html.h: reports as HTML, the third form beside text and JSON. */
-#ifndef FROE_CLI_DEMO_HTML_H
-#define FROE_CLI_DEMO_HTML_H
+/* html.h: pages, and reports as HTML, the third form beside text and JSON. */
+#ifndef FROE_CLI_HTML_H
+#define FROE_CLI_HTML_H
 #include <jansson.h>
 #include <stdio.h>
 
+/** The beginning of a page up to <body>, with the style that all pages share and the embedded file `style` (NULL:
+ * none). */
+void html_begin(FILE *out, const char *title, const char *style);
+/** The end of a page, from </main> on: what made it. */
+void html_end(FILE *out);
 /** Text with markup escaped. */
 void html_text(FILE *out, const char *text);
 /** A number for reading: thousands parted, reals with four digits; or text. */

@@ -1,0 +1,159 @@
+/* figures.c: from rows to series of numbers, drawn by the draw library. */
+#include "compare/figures.h"
+#include <froe/plot.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The series of one figure: one for each method that has points. */
+typedef struct figure {
+    froe_plot_series *series;
+    double *numbers; /* all coordinates */
+    size_t count, used;
+} figure;
+
+static bool put_bytes(void *user, const void *bytes, size_t count) {
+    return fwrite(bytes, 1, count, user) == count;
+}
+
+static double number(const json_t *object, const char *key) {
+    const json_t *value = json_object_get(object, key);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static size_t points_of(const json_t *rows, const char *list) {
+    size_t points = 0, i;
+    json_t *row;
+    json_array_foreach((json_t *)rows, i, row) {
+        const json_t *items = json_object_get(row, list);
+        points += json_array_size(items ? items : json_object_get(json_object_get(row, "queries"), list));
+    }
+    return points;
+}
+
+static bool begin(figure *f, const json_t *rows, const char *list) {
+    *f = (figure){.count = 0};
+    f->series = calloc(json_array_size(rows) + 1, sizeof *f->series);
+    f->numbers = calloc(2 * points_of(rows, list) + 1, sizeof *f->numbers);
+    return f->series && f->numbers;
+}
+
+static void end(figure *f) {
+    free(f->series);
+    free(f->numbers);
+}
+
+/* From an item of a list to a point; false: none. */
+typedef bool point_fn(const json_t *item, const char *key, double *x, double *y);
+
+static void add_series(figure *f, const json_t *row, const json_t *items, point_fn *fn, const char *key) {
+    double *x = f->numbers + f->used, *y = x + json_array_size(items);
+    size_t i, count = 0;
+    json_t *item;
+    json_array_foreach((json_t *)items, i, item) count += fn(item, key, x + count, y + count);
+    f->used += 2 * json_array_size(items);
+    if (count)
+        f->series[f->count++] = (froe_plot_series){json_string_value(json_object_get(row, "method")), x, y, count};
+}
+
+static bool put_figure(FILE *out, const json_t *rows, const char *list, point_fn *fn, const char *key,
+                       const froe_plot_options *options) {
+    figure f;
+    bool ok = begin(&f, rows, list);
+    size_t i;
+    json_t *row;
+    if (ok) json_array_foreach((json_t *)rows, i, row) {
+            const json_t *items = json_object_get(row, list);
+            add_series(&f, row, items ? items : json_object_get(json_object_get(row, "queries"), list), fn, key);
+        }
+    if (ok && f.count) {
+        fputs("<figure>", out);
+        ok = froe_plot_write(f.series, f.count, put_bytes, out, options, NULL) != FROE_E_MEMORY;
+        fputs("</figure>\n", out);
+    }
+    end(&f);
+    return ok;
+}
+
+/* ------------------------------------------------------------------- growth -- */
+
+static bool per_object(const json_t *item, const char *key, double *x, double *y) {
+    *x = number(item, "objects");
+    *y = number(item, key) / *x;
+    return *y > 0;
+}
+
+static bool plain(const json_t *item, const char *key, double *x, double *y) {
+    *x = number(item, "objects");
+    *y = number(item, key);
+    return *y > 0;
+}
+
+static bool put_growth(FILE *out, const json_t *rows) {
+    froe_plot_options o = froe_plot_defaults();
+    o.x_label = "objects n, from the middle outwards", o.log_x = o.log_y = true;
+    o.title = "Size against n", o.y_label = "nodes and list entries";
+    bool ok = put_figure(out, rows, "growth", plain, "size", &o);
+    o.title = "Pieces per object", o.y_label = "pieces / n";
+    ok = ok && put_figure(out, rows, "growth", per_object, "fragments", &o);
+    o.title = "Height", o.y_label = "edges on the longest path";
+    ok = ok && put_figure(out, rows, "growth", plain, "height", &o);
+    o.title = "Time to build", o.y_label = "seconds";
+    return ok && put_figure(out, rows, "growth", plain, "seconds", &o);
+}
+
+/* ---------------------------------------------------------------------- eps -- */
+
+static bool by_eps(const json_t *item, const char *key, double *x, double *y) {
+    const double eps = number(item, "eps");
+    *x = 1 / eps;
+    *y = number(item, key);
+    return eps > 0 && *y > 0;
+}
+
+static bool put_eps(FILE *out, const json_t *rows) {
+    froe_plot_options o = froe_plot_defaults();
+    o.x_label = "1 / eps", o.log_x = o.log_y = true;
+    o.title = "Cost against 1 / eps", o.y_label = "nodes visited a query";
+    bool ok = put_figure(out, rows, "by_eps", by_eps, "nodes", &o);
+    o.title = "Time against 1 / eps", o.y_label = "microseconds a query";
+    return ok && put_figure(out, rows, "by_eps", by_eps, "microseconds", &o);
+}
+
+/* -------------------------------------------------------------------- loads -- */
+
+static bool load(const json_t *item, const char *key, double *x, double *y) {
+    *x = number(item, "load");
+    *y = number(item, key);
+    return true;
+}
+
+/* A small figure for each method. */
+static bool put_loads(FILE *out, const json_t *rows) {
+    bool ok = true;
+    size_t i;
+    json_t *row;
+    fputs("<h3>Loads of leaves</h3>\n<div class=\"plots small\">\n", out);
+    json_array_foreach((json_t *)rows, i, row) {
+        const json_t *bins = json_object_get(row, "leaf_loads");
+        if (!bins || !ok) continue;
+        froe_plot_options o = froe_plot_defaults();
+        o.kind = FROE_PLOT_COLUMNS, o.width = 260, o.height = 170;
+        o.title = json_string_value(json_object_get(row, "method"));
+        o.x_label = "pieces in a leaf", o.y_label = "leaves";
+        const double step = number(json_array_get(bins, 1), "load") - number(json_array_get(bins, 0), "load");
+        o.column = step > 0 ? 0.8 * step : 0.8;
+        json_t *one = json_pack("[O]", row);
+        ok = one && put_figure(out, one, "leaf_loads", load, "leaves", &o);
+        json_decref(one);
+    }
+    fputs("</div>\n", out);
+    return ok;
+}
+
+bool figures_put(FILE *out, const json_t *rows) {
+    fputs("<div class=\"plots\">\n", out);
+    const bool ok = put_growth(out, rows) && put_eps(out, rows);
+    fputs("</div>\n", out);
+    return ok && put_loads(out, rows);
+}

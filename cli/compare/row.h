@@ -1,0 +1,29 @@
+/* row.h: one method on one scene: its tree, what it costs to ask, how it grows; or why there is none. */
+#ifndef FROE_CLI_COMPARE_ROW_H
+#define FROE_CLI_COMPARE_ROW_H
+#include "compare/workload.h"
+#include "options.h"
+
+/** What all rows share. */
+typedef struct compare_plan {
+    const cli_common *common;
+    uint32_t leaf;     /**< as in froe_build_options */
+    double seconds;    /**< for a build, and for each kind of query; beyond: given up */
+    double pieces;     /**< per object; beyond: given up */
+    uint64_t queries;  /**< of each kind */
+    uint64_t halvings; /**< parts of the scene built besides: n / 2, n / 4, ... */
+    bool times;        /**< tell what a clock says */
+    bool pictures;     /**< draw cells */
+} compare_plan;
+
+/** A scene and its objects from the middle outwards (part.h). */
+typedef struct compare_scene {
+    froe_scene *scene;
+    uint32_t *order;
+} compare_scene;
+
+/** {"method", "status": "ok"} and the tree's report with "seconds", "queries" (workload.h), "leaf_loads", "growth" and,
+ * for pages, "picture" (PNG, base64); or "status": "failed" and a "note" that says why. NULL: interrupted, or
+ * no memory. */
+json_t *compare_row(const compare_plan *plan, const compare_scene *scene, const char *method);
+#endif

@@ -1,0 +1,190 @@
+/* table.c: the comparison as a table. */
+#include "compare/table.h"
+#include "report.h"
+#include <math.h>
+#include <string.h>
+
+const table_column table_columns[] = {{"pieces/n", "/fragments", 3},
+                                      {"size/n", "/size", 3},
+                                      {"height", "height", 0},
+                                      {"depth", "mean_depth", 3},
+                                      {"fullest", "max_leaf", 0},
+                                      {"bytes/n", "/bytes", 3},
+                                      {"build s", "seconds.build", 3},
+                                      {"kept", "?kept", 0},
+                                      {"point", "queries.point.nodes", 3},
+                                      {"window", "queries.window.nodes", 3},
+                                      {"ray", "queries.ray.nodes", 3},
+                                      {"approx", "queries.approximate.nodes", 3},
+                                      {"point us", "queries.point.microseconds", 3},
+                                      {"window us", "queries.window.microseconds", 3},
+                                      {"ray us", "queries.ray.microseconds", 3},
+                                      {"approx us", "queries.approximate.microseconds", 3},
+                                      {"note", "note", 0},
+                                      {0}};
+
+/* "a.b.c" from the row. */
+static const json_t *find(const json_t *row, const char *path) {
+    char key[64];
+    while (row && *path) {
+        const size_t length = strcspn(path, ".");
+        snprintf(key, sizeof key, "%.*s", (int)length, path);
+        row = json_object_get(row, key);
+        path += length + (path[length] == '.');
+    }
+    return row;
+}
+
+/* "2 of 3" promises hold. */
+static json_t *kept_json(const json_t *row) {
+    const json_t *bounds = json_object_get(row, "bounds");
+    const char *name;
+    json_t *bound;
+    int kept = 0;
+    if (!json_object_size(bounds)) return json_null();
+    json_object_foreach((json_t *)bounds, name, bound) {
+        (void)name;
+        kept += json_number_value(json_object_get(bound, "measured")) <=
+                json_number_value(json_object_get(bound, "promised"));
+    }
+    return json_sprintf("%d of %d", kept, (int)json_object_size(bounds));
+}
+
+static double rounded(double value, int digits) {
+    if (!digits || value == 0 || !isfinite(value)) return value;
+    const double unit = pow(10, floor(log10(fabs(value))) - digits + 1);
+    return unit >= 1 ? round(value / unit) * unit : round(value / unit) / round(1 / unit);
+}
+
+json_t *table_value(const json_t *row, const table_column *column) {
+    if (strcmp(column->path, "?kept") == 0) return kept_json(row);
+    const bool each = *column->path == '/';
+    const json_t *value = find(row, column->path + each);
+    if (!value || json_is_null(value)) return json_null();
+    if (!json_is_number(value)) return json_incref((json_t *)value);
+    const double n = json_number_value(json_object_get(row, "objects"));
+    const double number = json_number_value(value) / (each && n > 0 ? n : 1);
+    return json_real(rounded(number, column->digits));
+}
+
+/* Columns that no row fills are left out. */
+static bool used(const json_t *rows, const table_column *column) {
+    bool found = false;
+    size_t i;
+    json_t *row;
+    json_array_foreach((json_t *)rows, i, row) {
+        json_t *value = table_value(row, column);
+        found = found || (json_is_number(value) || json_string_length(value));
+        json_decref(value);
+    }
+    return found;
+}
+
+/* Rows that failed come last, so that the first one tells which columns hold numbers. */
+static json_t *rows_report(const json_t *rows) {
+    json_t *table = json_object();
+    for (int failed = 0; failed < 2; failed++) {
+        size_t i;
+        json_t *row;
+        json_array_foreach((json_t *)rows, i, row) {
+            if ((strcmp(json_string_value(json_object_get(row, "status")), "ok") != 0) != failed) continue;
+            json_t *cells = json_object();
+            for (const table_column *c = table_columns; c->name; c++)
+                if (used(rows, c)) json_object_set_new(cells, c->name, table_value(row, c));
+            json_object_set_new(table, json_string_value(json_object_get(row, "method")), cells);
+        }
+    }
+    return table;
+}
+
+static json_t *choices_report(const json_t *scenes) {
+    json_t *table = json_array();
+    size_t i;
+    json_t *scene, *choice;
+    json_array_foreach((json_t *)scenes, i, scene) {
+        const char *purpose;
+        json_object_foreach(json_object_get(scene, "auto"), purpose, choice) {
+            json_t *row = json_pack("{s:O, s:s}", "scene", json_object_get(scene, "scene"), "for", purpose);
+            json_object_update(row, choice);
+            json_object_set_new(row, "ratio", table_value(choice, &(table_column){"", "ratio", 3}));
+            json_array_append_new(table, row);
+        }
+    }
+    return table;
+}
+
+json_t *table_report(const json_t *comparison) {
+    json_t *out = json_object();
+    const json_t *scenes = json_object_get(comparison, "scenes");
+    size_t i;
+    json_t *scene;
+    json_array_foreach((json_t *)scenes, i, scene) {
+        const json_t *rows = json_object_get(scene, "methods");
+        json_t *name = json_object_get(scene, "scene");
+        if (json_array_size(rows)) json_object_set_new(out, json_string_value(name), rows_report(rows));
+    }
+    json_object_set_new(out, "what auto chose", choices_report(scenes));
+    json_object_set(out, "auto in all", json_object_get(comparison, "auto"));
+    return out;
+}
+
+/* ---------------------------------------------------------------------- CSV -- */
+
+static const char *const csv_paths[] = {
+    "method",   "status",      "objects",           "dim",   "leaf",          "nodes",
+    "leaves",   "fragments",   "pieces_per_object", "size",  "height",        "mean_depth",
+    "max_leaf", "inseparable", "crowded",           "bytes", "seconds.build", NULL};
+static const char *const csv_kinds[] = {"point", "window", "ray", "approximate", NULL};
+static const char *const csv_costs[] = {"nodes", "nodes_p99", "leaves", "tests", "found", "microseconds", NULL};
+
+/* Text as RFC 4180 has it. */
+static void put_quoted(FILE *out, const char *text) {
+    if (!strpbrk(text, ",\"\r\n")) {
+        fputs(text, out);
+        return;
+    }
+    fputc('"', out);
+    for (; *text; text++) fprintf(out, *text == '"' ? "\"\"" : "%c", *text);
+    fputc('"', out);
+}
+
+static void put_cell(FILE *out, const json_t *value) {
+    char number[32];
+    if (json_is_number(value)) cli_number(number, json_number_value(value)), fputs(number, out);
+    if (json_is_string(value)) put_quoted(out, json_string_value(value));
+    fputc(',', out);
+}
+
+static void put_heading(FILE *out) {
+    fputs("scene,", out);
+    for (int i = 0; csv_paths[i]; i++) fprintf(out, "%s,", csv_paths[i]);
+    for (int k = 0; csv_kinds[k]; k++)
+        for (int c = 0; csv_costs[c]; c++) fprintf(out, "%s.%s,", csv_kinds[k], csv_costs[c]);
+    fputs("promises_kept,note\n", out);
+}
+
+static void put_row(FILE *out, const json_t *scene, const json_t *row) {
+    char path[64];
+    put_cell(out, scene);
+    for (int i = 0; csv_paths[i]; i++) put_cell(out, find(row, csv_paths[i]));
+    for (int k = 0; csv_kinds[k]; k++)
+        for (int c = 0; csv_costs[c]; c++) {
+            snprintf(path, sizeof path, "queries.%s.%s", csv_kinds[k], csv_costs[c]);
+            put_cell(out, find(row, path));
+        }
+    json_t *kept = kept_json(row);
+    put_cell(out, kept);
+    json_decref(kept);
+    const char *note = json_string_value(json_object_get(row, "note"));
+    put_quoted(out, note ? note : "");
+    fputc('\n', out);
+}
+
+void table_put_csv(FILE *out, const void *user) {
+    size_t i, j;
+    json_t *scene, *row;
+    put_heading(out);
+    json_array_foreach(json_object_get((const json_t *)user, "scenes"), i, scene)
+        json_array_foreach(json_object_get(scene, "methods"), j, row)
+            put_row(out, json_object_get(scene, "scene"), row);
+}

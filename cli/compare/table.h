@@ -1,0 +1,22 @@
+/* table.h: the comparison as a table: for the terminal, and as CSV. */
+#ifndef FROE_CLI_COMPARE_TABLE_H
+#define FROE_CLI_COMPARE_TABLE_H
+#include <jansson.h>
+#include <stdio.h>
+
+/** One column: where its number is found in a row (row.h), as "object.key", "?kept" for promises, or "/bytes" for a
+ * number per object. */
+typedef struct table_column {
+    const char *name, *path;
+    int digits; /**< that are worth reading; 0: all */
+} table_column;
+/** Of the terminal; ended by a NULL name. */
+extern const table_column table_columns[];
+
+/** What stands in a cell; null if there is nothing. */
+json_t *table_value(const json_t *row, const table_column *column);
+/** All scenes as tables of a report for the terminal, and how well auto chose. */
+json_t *table_report(const json_t *comparison);
+/** A cli_write_fn: every row in full as CSV; `user` is the comparison. */
+void table_put_csv(FILE *out, const void *user);
+#endif

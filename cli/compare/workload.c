@@ -1,0 +1,175 @@
+/* workload.c: queries near objects, where something is to be found, drawn from the seed alone.
+ *
+ * Each kind is asked twice: once to count nodes, query by query, which also warms the caches, and once by the clock. */
+#include "compare/workload.h"
+#include "compare/part.h"
+#include "progress.h"
+#include "report.h"
+#include <math.h>
+#include <stdlib.h>
+
+typedef enum query_kind { POINT, WINDOW, RAY, APPROXIMATE } query_kind;
+
+typedef struct run {
+    const workload *load;
+    const froe_scene *scene;
+    froe_query *query;
+    froe_diagnostic *diag;
+    int dim;
+    double side[FROE_MAX_DIM]; /* of the scene */
+    uint64_t key, draws;       /* of random numbers */
+    uint64_t *nodes;           /* by each query */
+} run;
+
+/* ------------------------------------------------------------------- drawing -- */
+
+/* A random number in [0, 1) (Steele, Lea and Flood 2014: splitmix64). */
+static double draw(run *r) {
+    uint64_t x = r->key + ++r->draws * 0x9E3779B97F4A7C15u;
+    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ x >> 27) * 0x94D049BB133111EBu;
+    return (double)((x ^ x >> 31) >> 11) * 0x1p-53;
+}
+
+/* A place near a corner of an object, `away` sides of the scene from it at most. */
+static void draw_place(run *r, double away, double *out) {
+    const uint32_t object = (uint32_t)(draw(r) * (double)froe_scene_object_count(r->scene));
+    const double *corner = part_corner(r->scene, object, (uint32_t)(draw(r) * 8));
+    for (int k = 0; k < r->dim; k++) out[k] = corner[k] + away * (2 * draw(r) - 1) * r->side[k];
+}
+
+static void draw_window(run *r, double share, double *points) {
+    draw_place(r, 0.5 * share, points);
+    for (int k = 0; k < r->dim; k++) {
+        const double half = 0.5 * share * r->side[k], middle = points[k];
+        points[k] = middle - half;
+        points[r->dim + k] = middle + half;
+    }
+}
+
+/* -------------------------------------------------------------------- asking -- */
+
+static froe_status ask_range(run *r, double share, double eps, uint64_t *found) {
+    double points[2 * FROE_MAX_DIM];
+    froe_range window = froe_range_defaults();
+    froe_list list;
+    draw_window(r, share, points);
+    window.points = points;
+    window.eps = eps;
+    const froe_status status = froe_query_range(r->query, &window, &list, r->diag);
+    if (!status) *found += list.count;
+    return status;
+}
+
+static froe_status ask_ray(run *r, uint64_t *found) {
+    double origin[FROE_MAX_DIM], direction[FROE_MAX_DIM];
+    froe_hit hit;
+    draw_place(r, 0.1, origin);
+    for (int k = 0; k < r->dim; k++) direction[k] = draw(r) - 0.5;
+    if (direction[0] == 0) direction[0] = 1;
+    const froe_status status = froe_query_ray(r->query, origin, direction, INFINITY, &hit, r->diag);
+    if (!status) *found += hit.object != FROE_NONE;
+    return status;
+}
+
+static froe_status ask(run *r, query_kind kind, double eps, uint64_t i, uint64_t *found) {
+    double point[FROE_MAX_DIM];
+    froe_list list;
+    froe_status status;
+    r->key = r->load->seed * 0xD1342543DE82EF95u + (uint64_t)kind;
+    r->draws = i << 8;
+    switch (kind) {
+    case POINT:
+        draw_place(r, 0.01, point);
+        status = froe_query_locate(r->query, point, &list, r->diag);
+        if (!status) *found += list.count;
+        return status;
+    case WINDOW:
+        return ask_range(r, 1.0 / 32, 0, found);
+    case RAY:
+        return ask_ray(r, found);
+    case APPROXIMATE:
+        break;
+    }
+    return ask_range(r, 1.0 / 8, eps, found);
+}
+
+/* ------------------------------------------------------------------ counting -- */
+
+static int by_value(const void *a, const void *b) {
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Does a kind of query end here: for want of time, or because nobody waits any more? */
+static bool over(const run *r, double started) {
+    return cli_interrupted() || cli_seconds() - started > r->load->seconds;
+}
+
+static json_t *costs_json(run *r, uint64_t asked, const froe_query_stats *sum, uint64_t found) {
+    const double each = asked ? 1 / (double)asked : 0;
+    qsort(r->nodes, asked, sizeof *r->nodes, by_value);
+    return json_pack("{s:I, s:f, s:I, s:f, s:f, s:f}", "asked", (json_int_t)asked, "nodes", each * (double)sum->nodes,
+                     "nodes_p99", (json_int_t)(asked ? r->nodes[asked * 99 / 100] : 0), "leaves",
+                     each * (double)sum->leaves, "tests", each * (double)sum->tests, "found", each * (double)found);
+}
+
+/* Counts first, then times. */
+static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe_status *status) {
+    froe_query_stats sum = {.queries = 0};
+    uint64_t found = 0, asked = 0;
+    const double started = cli_seconds();
+    froe_query_statistics(r->query);
+    while (asked < count && !*status && !over(r, started)) {
+        *status = ask(r, kind, eps, asked, &found);
+        const froe_query_stats one = froe_query_statistics(r->query);
+        sum.nodes += one.nodes, sum.leaves += one.leaves, sum.tests += one.tests;
+        r->nodes[asked++] = one.nodes;
+    }
+    if (*status) return NULL;
+    json_t *out = costs_json(r, asked, &sum, found);
+    if (!r->load->times || !asked) return out;
+    const double start = cli_seconds();
+    for (uint64_t i = 0; i < asked && !*status; i++) *status = ask(r, kind, eps, i, &found);
+    json_object_set_new(out, "microseconds", json_real(1e6 * (cli_seconds() - start) / (double)asked));
+    return out;
+}
+
+static json_t *measure_eps(run *r, froe_status *status) {
+    json_t *list = json_array();
+    for (int i = 0; i <= 7 && !*status; i++) {
+        const double eps = i < 7 ? ldexp(1, -i) : 0;
+        json_t *costs = measure(r, APPROXIMATE, eps, r->load->count / 4 + 1, status);
+        json_object_set_new(costs, "eps", json_real(eps));
+        json_array_append_new(list, costs);
+    }
+    return list;
+}
+
+static json_t *measure_all(run *r, froe_status *status) {
+    json_t *out = json_object();
+    const uint64_t count = r->load->count;
+    json_object_set_new(out, "point", measure(r, POINT, 0, count, status));
+    if (!*status) json_object_set_new(out, "window", measure(r, WINDOW, 0, count, status));
+    if (!*status && r->dim <= 3) json_object_set_new(out, "ray", measure(r, RAY, 0, count, status));
+    if (!*status) json_object_set_new(out, "by_eps", measure_eps(r, status));
+    if (!*status)
+        json_object_set(out, "approximate", json_array_get(json_object_get(out, "by_eps"), 3)); /* eps = 1/8 */
+    if (!*status) return out;
+    json_decref(out);
+    return NULL;
+}
+
+json_t *workload_run(const froe_tree *tree, const workload *load, froe_status *status, froe_diagnostic *diag) {
+    run r = {.load = load, .scene = froe_tree_scene(tree), .diag = diag};
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    r.dim = froe_scene_dim(r.scene);
+    if (!froe_scene_bounds(r.scene, lo, hi)) return json_object();
+    for (int k = 0; k < r.dim; k++) r.side[k] = fmin(hi[k] - lo[k], 0x1p1000); /* windows stay finite */
+    r.nodes = calloc(load->count + 1, sizeof *r.nodes);
+    *status = r.nodes ? froe_query_new(tree, &r.query, diag) : FROE_E_MEMORY;
+    json_t *out = *status ? NULL : measure_all(&r, status);
+    if (r.query) froe_query_free(r.query);
+    free(r.nodes);
+    return out;
+}

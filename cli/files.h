@@ -1,0 +1,14 @@
+/* files.h: files that the program writes, and those it carries within itself. */
+#ifndef FROE_CLI_FILES_H
+#define FROE_CLI_FILES_H
+#include "embedded.h"
+#include <stdio.h>
+
+/** Writes what belongs into the file. */
+typedef void cli_write_fn(FILE *out, const void *user);
+/** A file that appears whole or not at all: written beside its place, then moved there. What is no regular file (a
+ * device, a pipe) is written in place. Returns 0 or an exit code after saying why. */
+int cli_write_file(const char *path, cli_write_fn *fn, const void *user);
+/** The embedded file of that name, NULL if there is none. */
+const cli_embedded *cli_embedded_named(const char *name);
+#endif

@@ -1,0 +1,34 @@
+/* methods.c: names of builders on command lines. */
+#include "methods.h"
+#include "exit.h"
+#include "options.h"
+#include <stdio.h>
+#include <string.h>
+
+int cli_check_method(const char *name, bool may_be_auto) {
+    enum { MOST = 64 };
+    const char *names[MOST];
+    size_t count = 0;
+    char list[400] = "";
+    const froe_method_info *info;
+    if (may_be_auto) names[count++] = "auto";
+    for (size_t i = 0; (info = froe_method_at(i)) != NULL && count < MOST; i++) names[count++] = info->name;
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(names[i], name) == 0) return 0;
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
+    }
+    const char *hint = cli_nearest(name, names, count);
+    if (!hint) return cli_fail(CLI_USE, NULL, "unknown method '%s'; there are %s", name, list);
+    return cli_fail(CLI_USE, NULL, "unknown method '%s', did you mean '%s'? There are %s", name, hint, list);
+}
+
+bool cli_method_serves(const froe_method_info *method, const froe_scene *scene, uint32_t leaf) {
+    const int dim = froe_scene_dim(scene);
+    const froe_kind whole = dim == 2 ? FROE_SEGMENT : FROE_POLYGON; /* what leaf 0 is for */
+    bool serves = (method->dims >> dim & 1) && leaf >= method->least_leaf;
+    for (int k = 0; k < FROE_KIND_COUNT && serves; k++)
+        serves = !froe_scene_kind_count(scene, (froe_kind)k) ||
+                 ((method->kinds >> k & 1) && (leaf || ((froe_kind)k == whole && dim <= 3)));
+    return serves;
+}
