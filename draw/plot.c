@@ -187,11 +187,11 @@ static void put_lines(plot *p, size_t series) {
     double x, y;
     bool joined = false;
     put_text(p, "<path d=\"");
-    for (size_t i = 0; i < s->count; i++, joined = true)
-        if (place(p, s, i, &x, &y))
-            put_pair(p, joined ? "L" : "M", x, y);
-        else
-            joined = false;
+    for (size_t i = 0; i < s->count; i++) {
+        const bool shown = place(p, s, i, &x, &y);
+        if (shown) put_pair(p, joined ? "L" : "M", x, y);
+        joined = shown;
+    }
     put_style(p, series, true);
     put_text(p, "<path d=\"");
     for (size_t i = 0; i < s->count; i++)

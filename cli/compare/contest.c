@@ -18,17 +18,12 @@ static double pieces(const json_t *row) {
     return number(row, "leaf") <= 1 && number(row, "crowded") == 0 ? number(row, "fragments") : NAN;
 }
 
-static double effort(const json_t *costs) {
-    const double time = number(costs, "microseconds");
-    return isnan(time) ? 1 + number(costs, "nodes") + number(costs, "tests") : time;
-}
-
-static double least_effort(const json_t *rows, const char *kind) {
+static double least_time(const json_t *rows, const char *kind) {
     double least = INFINITY;
     size_t i;
     json_t *row;
     json_array_foreach((json_t *)rows, i, row) {
-        const double e = effort(json_object_get(json_object_get(row, "queries"), kind));
+        const double e = number(json_object_get(json_object_get(row, "queries"), kind), "microseconds");
         if (e < least) least = e; /* not for NaN */
     }
     return least;
@@ -39,9 +34,9 @@ static double query_cost(const json_t *rows, const json_t *row) {
     double sum = 0;
     int count = 0;
     for (int k = 0; k < KINDS; k++) {
-        const double least = least_effort(rows, kinds[k]);
+        const double least = least_time(rows, kinds[k]);
         if (!isfinite(least) || !(least > 0)) continue;
-        sum += effort(json_object_get(json_object_get(row, "queries"), kinds[k])) / least;
+        sum += number(json_object_get(json_object_get(row, "queries"), kinds[k]), "microseconds") / least;
         count++;
     }
     return count ? sum / count : NAN;
@@ -49,7 +44,7 @@ static double query_cost(const json_t *rows, const json_t *row) {
 
 static json_t *contest(const char *chosen, const char *purpose, const json_t *rows) {
     double best = INFINITY, own = NAN;
-    const char *winner = "";
+    const char *winner = NULL;
     size_t i;
     json_t *row;
     json_array_foreach((json_t *)rows, i, row) {
@@ -58,7 +53,7 @@ static json_t *contest(const char *chosen, const char *purpose, const json_t *ro
         if (cost < best) best = cost, winner = name;
         if (strcmp(name, chosen) == 0) own = cost;
     }
-    return json_pack("{s:s, s:s, s:o}", "auto", chosen, "best", winner, "ratio",
+    return json_pack("{s:s, s:s?, s:o}", "auto", chosen, "best", winner, "ratio",
                      own >= best ? json_real(own / best) : json_null());
 }
 

@@ -7,8 +7,8 @@
 /** For each purpose {"auto", "best", "ratio"}: the method that auto takes, the one that came out best, and how many
  * times its cost that of auto is; ratio null: auto's own row failed or is not there. The cost of pieces and draw is
  * fragments, among trees with leaves of one object at most (or more that nothing
- * separates); that of query the mean over kinds of queries of microseconds
- * relative to the quickest (without times: of nodes and tests). */
+ * separates); that of query the mean over kinds of queries of microseconds relative to the quickest; best and ratio are
+ * null without times. */
 json_t *contest_json(const froe_scene *scene, const json_t *rows);
 /** Over all scenes, for each purpose {"scenes", "best", "within_10_percent", "worst_ratio"}. */
 json_t *contest_sum_json(const json_t *scenes);
