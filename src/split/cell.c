@@ -155,11 +155,24 @@ static froe_status push_children(split_work *work, const split_cell side[2]) {
     return FROE_OK;
 }
 
+/** How a stage that may give cells up gets on: see density.c. */
+static void note_progress(const split_cell *parent, uint32_t in_cut, split_cell side[2]) {
+    float before = split_load(parent) ? (float)split_load(parent) : 1;
+    float after = (float)split_load(&side[0]) + (float)split_load(&side[1]) + (float)in_cut;
+    for (int s = 0; s < 2; s++) {
+        bool kept = 10 * (uint64_t)split_load(&side[s]) >= 9 * (uint64_t)split_load(parent);
+        side[s].growth = parent->growth * after / before;
+        side[s].barren = kept ? parent->barren + 1 : 0;
+    }
+}
+
 froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, bool *useless) {
     split_cell side[2];
     uint32_t in_cut;
     froe_status status = cut_in_two(work, cell, cut, 0, useless, side, &in_cut);
-    return status || (useless && *useless) ? status : push_children(work, side);
+    if (status || (useless && *useless)) return status;
+    note_progress(cell, in_cut, side);
+    return push_children(work, side);
 }
 
 /** Asks for the coordinates of objects that are about to be read, all at once: without this a cell of ten
@@ -181,17 +194,6 @@ froe_status cell_take(split_work *work, const split_homes *homes, split_cell *ce
     cell->whole += count;
     cell->wholes -= count;
     return FROE_OK;
-}
-
-/** How the guard stage gets on: see density.c. */
-static void note_progress(const split_cell *parent, uint32_t in_cut, split_cell side[2]) {
-    float before = (float)split_load(parent);
-    float after = (float)split_load(&side[0]) + (float)split_load(&side[1]) + (float)in_cut;
-    for (int s = 0; s < 2; s++) {
-        bool kept = 10 * (uint64_t)split_load(&side[s]) >= 9 * (uint64_t)split_load(parent);
-        side[s].growth = parent->growth * after / before;
-        side[s].barren = kept ? parent->barren + 1 : 0;
-    }
 }
 
 froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *cell) {

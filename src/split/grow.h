@@ -26,8 +26,8 @@ typedef struct split_cell {
     uint32_t whole, wholes; /**< and, in the guard stage, whole objects: homes->ids[whole ..], so many */
     uint32_t corner_top;    /**< corners from here on belong to cells that are done */
     uint32_t guard;         /**< node of the guard tree that this cell is, or FROE_NONE */
-    float growth;           /**< fragmentation by the guard stage so far: see density.c */
-    uint32_t barren;        /**< guard cuts in a row that left nearly all fragments in this cell */
+    float growth;           /**< fragmentation by the cuts so far: see density.c */
+    uint32_t barren;        /**< cuts in a row that left nearly all fragments in this cell */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
     split_frame frame;
 } split_cell;

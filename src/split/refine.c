@@ -25,6 +25,7 @@ void split_scratch_free(split_work *work) {
     split_scratch *s = work->scratch;
     if (!s) return;
     split_view_free(&work->set.alloc, &s->view);
+    split_axes_free(&work->set.alloc, &s->axes);
     split_separator_free(&work->set.alloc, &s->separator);
     split_table_free(&work->set.alloc, s->table);
     base_free(&work->set.alloc, s, sizeof *s);
@@ -174,17 +175,44 @@ static void enter_separators(contest *c) {
     }
 }
 
+/** Planes of facets, drawn at random: of the box around an object, one that lies in the cell or not. */
+static bool enter_facets(contest *c) {
+    const froe_scene *scene = c->work->set.scene;
+    for (uint32_t i = 0; i < c->config->supports && !c->best.good; i++) {
+        uint64_t draw = base_hash(c->config->seed, c->cell->path, 300000 + i);
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        int axis = (int)base_below(base_mix(draw + 1), (uint32_t)scene->dim);
+        scene_object_bounds(scene, item_object(c, base_below(draw, c->cell->count)), lo, hi);
+        froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis, .value = (base_mix(draw + 2) & 1 ? hi : lo)[axis]};
+        if (!split_view_extents(&c->scratch->view, &c->work->set, c->cell, axis)) return false;
+        enter(c, &cut, split_view_count_axis(&c->scratch->view, cut.value));
+    }
+    return true;
+}
+
 static bool solids_only(const contest *c) {
     uint32_t i = 0;
     while (i < c->cell->count && scene_form(c->work->set.scene, item_object(c, i)) >= FROE_BOX) i++;
     return i == c->cell->count;
 }
 
+/** A facet that separates something; complete for boxes. */
+static bool any_facet(const contest *c, froe_cut *cut) {
+    for (int k = 0; k < c->work->set.scene->dim && c->config->facets; k++) {
+        double from, to;
+        if (!split_axes_gap(&c->work->set, c->cell, k, &from, &to)) continue;
+        *cut = (froe_cut){.kind = FROE_CUT_AXIS, .axis = k, .value = from};
+        return true;
+    }
+    return false;
+}
+
 /** When no candidate separates anything: any plane that does. */
 static split_verdict enter_any_separator(contest *c) {
     split_tally tally;
     froe_cut cut;
-    split_verdict verdict = split_separate(c->work, c->cell, &c->scratch->separator, &cut);
+    split_verdict verdict = SPLIT_CUT;
+    if (!any_facet(c, &cut)) verdict = split_separate(c->work, c->cell, &c->scratch->separator, &cut);
     if (verdict != SPLIT_CUT) return verdict;
     if (cell_tally(c->work, c->cell, &cut, &tally)) return SPLIT_MEMORY;
     enter(c, &cut, tally);
@@ -196,7 +224,9 @@ static split_verdict choose_among_solids(contest *c, froe_cut *cut) {
     const split_refine *config = c->config;
     split_separator *separator = &c->scratch->separator;
     if (!split_separator_ready(&c->work->set, c->cell, separator)) return SPLIT_MEMORY;
-    if (!c->cell->attempt) {
+    if (!c->cell->attempt && config->facets) {
+        if (!enter_facets(c)) return SPLIT_MEMORY;
+    } else if (!c->cell->attempt) {
         if (!enter_axes(c, config->quantiles > QUANTILES ? config->quantiles : QUANTILES)) return SPLIT_MEMORY;
         enter_separators(c);
     }

@@ -10,8 +10,8 @@
  * copies many; a cell in which that does not pay becomes a crowded leaf (tree/crowd.h). */
 #ifndef FROE_SPLIT_REFINE_H
 #define FROE_SPLIT_REFINE_H
+#include "split/axes.h"
 #include "split/separate.h"
-#include "split/view.h"
 
 typedef struct split_refine {
     uint32_t leaf; /**< capacity */
@@ -25,6 +25,7 @@ typedef struct split_refine {
     double height;      /**< cells deeper than this minus log_{4/3} m must be cut with balance; 0: no rule */
     uint32_t small;     /**< cells of at most so many segments in the plane are finished at once (finish.h); <= 32 */
     bool free_cuts;
+    bool facets; /**< solids: planes of `supports` facets, drawn at random, in place of all others */
 } split_refine;
 
 typedef struct split_table split_table; /* finish.h */
@@ -32,6 +33,7 @@ typedef struct split_table split_table; /* finish.h */
 /** What refining keeps per thread. */
 typedef struct split_scratch {
     split_view view;
+    split_axes axes; /**< for builders */
     split_separator separator;
     split_table *table;
 } split_scratch;

@@ -218,7 +218,7 @@ split_tally split_view_count(split_view *view, const froe_scene *scene, const fr
 
 /* ------------------------------------------------------------ axis extents -- */
 
-static void extent(const split_set *set, const split_fragment *f, int axis, double *low, double *high) {
+void split_extent(const split_set *set, const split_fragment *f, int axis, double *low, double *high) {
     froe_kind form = scene_form(set->scene, f->object);
     if (form >= FROE_BOX) {
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -245,7 +245,7 @@ bool split_view_extents(split_view *view, const split_set *set, const split_cell
         return false;
     for (uint32_t i = 0; i < view->count; i++) {
         double low, high;
-        extent(set, set->items.data + cell->first + (size_t)i * step, axis, &low, &high);
+        split_extent(set, set->items.data + cell->first + (size_t)i * step, axis, &low, &high);
         view->low.data[view->low.count++] = low;
         view->high.data[view->high.count++] = high;
         view->values.data[view->values.count++] = low;

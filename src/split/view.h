@@ -37,6 +37,8 @@ bool split_view_fill(split_view *view, const split_set *set, const split_cell *c
 split_tally split_view_count(split_view *view, const froe_scene *scene, const froe_cut *cut);
 /** Counts for the plane x[axis] = value from the extents on that axis; any dimension. */
 split_tally split_view_count_axis(const split_view *view, double value);
+/** Where the image of a fragment begins and ends on an axis; solids with all of themselves. */
+void split_extent(const split_set *set, const split_fragment *fragment, int axis, double *low, double *high);
 /** Computes the extents on an axis, and their ends, sorted, as `values`. */
 bool split_view_extents(split_view *view, const split_set *set, const split_cell *cell, int axis);
 
