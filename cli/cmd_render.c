@@ -12,7 +12,7 @@
 typedef struct render_args {
     cli_common common;
     const char *tree, *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
-    int direction, up_axis, paint, preset, seams, ids, layers, hidden, colours;
+    int direction, up_axis, paint, preset, seams, ids, layers, hidden, colours, over;
     double halo, fov, unit, min_area, seconds, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
     uint64_t decimals;  /**< UINT64_MAX: not given */
     uint64_t turntable; /**< frames; 0: none */
@@ -24,6 +24,7 @@ static const char *const directions[] = {"corner", "iso", "front",  "back",     
                                          "right",  "top", "bottom", "dimetric", NULL};
 static const char *const seams[] = {"underlap", "none", "twice", "stroke", NULL};
 static const char *const hiddens[] = {"none", "dashed", NULL};
+static const char *const over[] = {"top", "interleaved", NULL};
 static const char *const colours[] = {"file", "own", NULL};
 static const char *const ids[] = {"none", "object", "face", NULL};
 static const char *const layers[] = {"none", "object", NULL};
@@ -89,6 +90,8 @@ static const cli_option look[] = {
     {"seam-width", 0, CLI_REAL, offsetof(render_args, seam_width), "U", .help = "of underlap and strokes (default 1)"},
     {"min-area", 0, CLI_REAL, offsetof(render_args, min_area), "A",
      .help = "leave out faces of which less is visible, in square units of the page (default 0)"},
+    {"lines", 0, CLI_CHOICE, offsetof(render_args, over), "WHERE",
+     .help = "top (default): over all faces; interleaved: under what is nearer", .choices = over},
     {"line-kinds", 0, CLI_TEXT, offsetof(render_args, lines), "KINDS",
      .help = "border, silhouette, object, material, crease, crossing, mesh, parted by commas; or none (default: all "
              "but mesh)"},
@@ -321,6 +324,7 @@ static int set_options(const render_args *args, const froe_scene *scene, froe_re
     if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
     if (args->hidden >= 0) o->hidden = args->hidden > 0;
     o->cull_back = args->cull_back;
+    o->interleaved = args->over > 0;
     o->own_colours = args->colours > 0;
     o->ids = (froe_ids)args->ids;
     o->layers = args->layers > 0;

@@ -43,6 +43,11 @@ static bool format_of(const char *path, int *format) {
     return true;
 }
 
+static froe_status check_seams(const froe_render_options *o, froe_diagnostic *diag) {
+    if (o->seams != FROE_SEAMS_TWICE || !o->interleaved) return FROE_OK;
+    return draw_fail(diag, FROE_E_OPTIONS, "Shapes with lines among them cannot be painted twice: use other seams.");
+}
+
 static froe_status check_opacity(const froe_scene *scene, const froe_render_options *o, int format,
                                  froe_diagnostic *diag) {
     for (uint32_t g = 0; g < froe_scene_group_count(scene); g++) {
@@ -87,7 +92,8 @@ static froe_status check(const froe_scene *scene, const froe_render_options *o, 
             return draw_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
                              r->value, r->lo, r->hi);
     }
-    return check_opacity(scene, o, format, diag);
+    const froe_status status = check_seams(o, diag);
+    return status ? status : check_opacity(scene, o, format, diag);
 }
 
 /* ----------------------------------------------------------------------- making -- */
@@ -123,6 +129,7 @@ static froe_status look(draw_render *r, froe_diagnostic *diag) {
     p.cull_back = o->cull_back;
     p.lines = o->line_width > 0 ? o->lines : 0;
     p.crease = o->crease;
+    p.interleave = o->interleaved ? 0.5 * o->line_width : 0;
     p.hidden = o->hidden;
     p.halo = o->halo;
     p.alloc = &r->alloc;

@@ -36,8 +36,18 @@ double draw_line_width(const froe_render_options *options, froe_line kind);
 static inline draw_style draw_style_of(const draw_render *render, const froe_shape *shape) {
     return render->styles.data[render->style_of[shape->patch]];
 }
-/** May a shape share the path of another that it follows? */
-bool draw_joins(const draw_render *render, const froe_shape *first, const froe_shape *next);
+/** How far a picture has been painted. */
+typedef struct draw_cursor {
+    size_t shape, stroke;
+} draw_cursor;
+/** What is painted as one path: shapes that may share it, or strokes of one kind. */
+typedef struct draw_run {
+    bool lines;
+    bool last; /**< no shape comes after it */
+    size_t first, end;
+} draw_run;
+/** The next of them; false: there is no more. */
+bool draw_next_run(const draw_render *render, draw_cursor *at, draw_run *run);
 /** Layer of a shape; FROE_NONE. */
 uint32_t draw_layer_of(const draw_render *render, const froe_shape *shape);
 

@@ -23,40 +23,43 @@ static void set_colour(cairo_t *cr, uint32_t colour, double opacity) {
         cairo_set_source_rgb(cr, r, g, b);
 }
 
-static void paint_shapes(draw_render *r, cairo_t *cr) {
-    const size_t count = froe_picture_shape_count(r->picture);
-    for (size_t i = 0; i < count;) {
-        const froe_shape first = froe_picture_shape(r->picture, i);
-        const draw_style style = draw_style_of(r, &first);
-        set_colour(cr, style, (style >> 24) / 255.0);
-        add_shape(r, cr, &first);
-        for (i++; i < count; i++) {
-            const froe_shape next = froe_picture_shape(r->picture, i);
-            if (!draw_joins(r, &first, &next)) break;
-            add_shape(r, cr, &next);
-        }
-        if (r->options->seams == FROE_SEAMS_STROKE) cairo_stroke_preserve(cr);
-        cairo_fill(cr);
-        r->paths++;
+static void paint_shapes(draw_render *r, cairo_t *cr, const draw_run *run) {
+    const froe_shape first = froe_picture_shape(r->picture, run->first);
+    const draw_style style = draw_style_of(r, &first);
+    set_colour(cr, style, (style >> 24) / 255.0);
+    for (size_t i = run->first; i < run->end; i++) {
+        const froe_shape shape = froe_picture_shape(r->picture, i);
+        add_shape(r, cr, &shape);
     }
+    cairo_set_line_width(cr, r->options->seam_width);
+    if (r->options->seams == FROE_SEAMS_STROKE) cairo_stroke_preserve(cr);
+    cairo_fill(cr);
 }
 
-static void paint_strokes(draw_render *r, cairo_t *cr) {
-    const size_t count = froe_picture_stroke_count(r->picture);
-    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+static void paint_strokes(draw_render *r, cairo_t *cr, const draw_run *run) {
+    const froe_stroke first = froe_picture_stroke(r->picture, run->first);
+    const double width = draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
+    const double dashes[2] = {4 * width, 3 * width};
     set_colour(cr, 0x1B2630, 1);
-    for (size_t i = 0; i < count;) {
-        const froe_stroke first = froe_picture_stroke(r->picture, i);
-        const double width = draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
-        const double dashes[2] = {4 * width, 3 * width};
-        cairo_set_line_width(cr, width);
-        cairo_set_dash(cr, dashes, first.hidden ? 2 : 0, 0);
-        for (; i < count; i++) {
-            const froe_stroke s = froe_picture_stroke(r->picture, i);
-            if (s.kind != first.kind || s.hidden != first.hidden) break;
-            add_path(cr, s.points, s.count, s.closed);
-        }
-        cairo_stroke(cr);
+    cairo_set_line_width(cr, width);
+    cairo_set_dash(cr, dashes, first.hidden ? 2 : 0, 0);
+    for (size_t i = run->first; i < run->end; i++) {
+        const froe_stroke s = froe_picture_stroke(r->picture, i);
+        add_path(cr, s.points, s.count, s.closed);
+    }
+    cairo_stroke(cr);
+    cairo_set_dash(cr, dashes, 0, 0);
+}
+
+static void paint_runs(draw_render *r, cairo_t *cr, bool lines) {
+    draw_cursor at = {0, 0};
+    draw_run run;
+    while (draw_next_run(r, &at, &run)) {
+        if (run.lines && !lines) continue;
+        if (run.lines)
+            paint_strokes(r, cr, &run);
+        else
+            paint_shapes(r, cr, &run);
         r->paths++;
     }
 }
@@ -67,9 +70,7 @@ void draw_cairo(draw_render *r, cairo_t *cr) {
         cairo_paint(cr);
     }
     cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
-    cairo_set_line_width(cr, r->options->seam_width);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-    paint_shapes(r, cr);
-    if (r->options->seams == FROE_SEAMS_TWICE) paint_shapes(r, cr);
-    paint_strokes(r, cr);
+    if (r->options->seams == FROE_SEAMS_TWICE) paint_runs(r, cr, false);
+    paint_runs(r, cr, true);
 }

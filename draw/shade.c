@@ -76,15 +76,6 @@ uint32_t draw_layer_of(const draw_render *r, const froe_shape *shape) {
     return r->layer_of && group != FROE_NONE ? r->layer_of[group] : FROE_NONE;
 }
 
-bool draw_joins(const draw_render *r, const froe_shape *first, const froe_shape *next) {
-    const froe_ids ids = r->options->ids;
-    if (ids == FROE_IDS_FACE || draw_style_of(r, first) >> 24 < 255) return false;
-    if (draw_style_of(r, first) != draw_style_of(r, next) || draw_layer_of(r, first) != draw_layer_of(r, next))
-        return false;
-    return ids == FROE_IDS_NONE ||
-           froe_surface_patch(r->surface, first->patch).group == froe_surface_patch(r->surface, next->patch).group;
-}
-
 /* 0: the scene gives none, or it is not wanted. */
 static uint32_t given_colour(const froe_scene *scene, const froe_render_options *o, uint32_t group) {
     const bool wanted = !o->own_colours && o->shading != FROE_SHADE_WHITE && o->shading != FROE_SHADE_NONE;

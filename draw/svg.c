@@ -26,6 +26,7 @@ typedef struct svg_writer {
     bool number;   /* the last thing written is a number */
     bool ok;
     size_t frame;
+    uint32_t layer; /* that is open; FROE_NONE */
 } svg_writer;
 
 static void put(svg_writer *w, const char *text, size_t length) {
@@ -213,73 +214,88 @@ static void put_own_stroke(svg_writer *w, draw_style style) {
 }
 
 /* Ends the layer that is open, and begins that of a shape. */
-static void put_layer(svg_writer *w, uint32_t *open, uint32_t layer) {
-    if (*open == layer) return;
-    if (*open != FROE_NONE) put_text(w, "</g>\n");
+static void put_layer(svg_writer *w, uint32_t layer) {
+    if (w->layer == layer) return;
+    if (w->layer != FROE_NONE) put_text(w, "</g>\n");
     if (layer != FROE_NONE) {
         put_text(w, "<g data-layer=\"");
         put_escaped(w, froe_scene_group(w->render->scene, layer).name);
         put_text(w, "\">\n");
     }
-    *open = layer;
+    w->layer = layer;
 }
 
-static void put_shapes(svg_writer *w) {
+static void put_shapes(svg_writer *w, const draw_run *run) {
     const draw_render *r = w->render;
-    const size_t count = froe_picture_shape_count(r->picture);
-    const bool twice = r->options->seams == FROE_SEAMS_TWICE;
-    uint32_t layer = FROE_NONE;
-    char text[64];
-    snprintf(text, sizeof text, "<g id=\"fills%zu\">\n", w->frame);
-    if (twice) put_text(w, text);
-    for (size_t i = 0; i < count && w->ok;) {
-        const froe_shape first = froe_picture_shape(r->picture, i);
-        const draw_style style = draw_style_of(r, &first);
-        put_layer(w, &layer, draw_layer_of(r, &first));
-        put_style(w, style);
-        put_own_stroke(w, style);
-        put_ids(w, first.patch);
-        put_text(w, "\" d=\"");
-        begin_path(w);
-        take_shape(w, &first);
-        for (i++; i < count; i++) {
-            const froe_shape next = froe_picture_shape(r->picture, i);
-            if (!draw_joins(r, &first, &next)) break;
-            take_shape(w, &next);
-        }
-        put_rings(w);
-        put_text(w, "\"/>\n");
+    const froe_shape first = froe_picture_shape(r->picture, run->first);
+    const draw_style style = draw_style_of(r, &first);
+    put_layer(w, draw_layer_of(r, &first));
+    put_style(w, style);
+    put_own_stroke(w, style);
+    put_ids(w, first.patch);
+    put_text(w, "\" d=\"");
+    begin_path(w);
+    for (size_t i = run->first; i < run->end; i++) {
+        const froe_shape shape = froe_picture_shape(r->picture, i);
+        take_shape(w, &shape);
     }
-    put_layer(w, &layer, FROE_NONE);
-    snprintf(text, sizeof text, "</g>\n<use href=\"#fills%zu\"/>\n", w->frame);
-    if (twice) put_text(w, text);
+    put_rings(w);
+    put_text(w, "\"/>\n");
 }
 
-static void put_strokes(svg_writer *w) {
+static void put_strokes(svg_writer *w, const draw_run *run) {
     const draw_render *r = w->render;
-    const size_t count = froe_picture_stroke_count(r->picture);
+    const froe_stroke first = froe_picture_stroke(r->picture, run->first);
+    const double width = w->grid * draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
     char text[160];
-    if (count) put_text(w, "<g fill=\"none\" stroke=\"#1b2630\" stroke-linejoin=\"round\">\n");
-    for (size_t i = 0; i < count && w->ok;) {
-        const froe_stroke first = froe_picture_stroke(r->picture, i);
-        const double width = w->grid * draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
-        snprintf(text, sizeof text, "<path class=\"%s%s\" stroke-width=\"%.3g\"", froe_line_name(first.kind),
-                 first.hidden ? " hidden" : "", width);
+    snprintf(text, sizeof text, "<path class=\"%s%s\" stroke-width=\"%.3g\"", froe_line_name(first.kind),
+             first.hidden ? " hidden" : "", width);
+    put_text(w, text);
+    if (first.hidden) {
+        snprintf(text, sizeof text, " stroke-dasharray=\"%.3g %.3g\"", 4 * width, 3 * width);
         put_text(w, text);
-        if (first.hidden) {
-            snprintf(text, sizeof text, " stroke-dasharray=\"%.3g %.3g\"", 4 * width, 3 * width);
-            put_text(w, text);
-        }
-        put_text(w, " d=\"");
-        begin_path(w);
-        for (; i < count; i++) {
-            const froe_stroke s = froe_picture_stroke(r->picture, i);
-            if (s.kind != first.kind || s.hidden != first.hidden) break;
-            put_points(w, s.points, s.count, 0, s.closed);
-        }
-        put_text(w, "\"/>\n");
     }
-    if (count) put_text(w, "</g>\n");
+    put_text(w, " d=\"");
+    begin_path(w);
+    for (size_t i = run->first; i < run->end; i++) {
+        const froe_stroke s = froe_picture_stroke(r->picture, i);
+        put_points(w, s.points, s.count, 0, s.closed);
+    }
+    put_text(w, "\"/>\n");
+}
+
+/* Fills that are painted twice are one group, which ends before the lines. */
+static void put_twice(svg_writer *w, bool begin) {
+    char text[64];
+    if (w->render->options->seams != FROE_SEAMS_TWICE) return;
+    snprintf(text, sizeof text, begin ? "<g id=\"fills%zu\">\n" : "</g>\n<use href=\"#fills%zu\"/>\n", w->frame);
+    put_text(w, text);
+}
+
+static void put_runs(svg_writer *w) {
+    draw_cursor at = {0, 0};
+    draw_run run;
+    bool lines = false;
+    w->layer = FROE_NONE;
+    put_twice(w, true);
+    while (w->ok && draw_next_run(w->render, &at, &run)) {
+        if (run.lines && !lines) {
+            put_layer(w, FROE_NONE);
+            if (run.last) put_twice(w, false);
+            put_text(w, "<g fill=\"none\" stroke=\"#1b2630\" stroke-linejoin=\"round\">\n");
+        }
+        if (!run.lines && lines) put_text(w, "</g>\n");
+        lines = run.lines;
+        if (lines)
+            put_strokes(w, &run);
+        else
+            put_shapes(w, &run);
+    }
+    put_layer(w, FROE_NONE);
+    if (lines)
+        put_text(w, "</g>\n");
+    else
+        put_twice(w, false);
 }
 
 static void put_head(svg_writer *w) {
@@ -348,8 +364,7 @@ bool draw_svg_picture(draw_render *render, draw_output *output, const draw_frame
     svg_writer w = writer_of(render, output);
     w.frame = frame->i;
     if (frame->count > 1) put_times(&w, frame);
-    put_shapes(&w);
-    put_strokes(&w);
+    put_runs(&w);
     if (frame->count > 1) put_text(&w, "</g>\n");
     draw_release(&output->alloc, &w.rings);
     return w.ok;

@@ -257,6 +257,9 @@ typedef struct froe_picture_options {
     double crease;             /**< degrees from which on an edge is a crease, 0 .. 180; default 30 */
     bool hidden;               /**< hidden lines as well, each place of the page once */
     double halo;               /**< gap in lines before a nearer line, on the page; default 0: none */
+    double interleave;         /**< WHOLE: half the width of a line. Each visible line is then painted before what is
+                                    nearer and visible within that reach, and after what is not; default 0: lines
+                                    are painted after all shapes */
     double min_area;           /**< patches of which less is visible, in square units of the page, are left out; the
                                     report says how many and how much; default 0 */
     uint64_t max_graph;        /**< WHOLE: most pairs to compare; default 50 million. Beyond them the picture is made of
@@ -306,10 +309,11 @@ typedef struct froe_stroke {
     froe_line kind;
     bool hidden, closed;
     bool butt[2];         /**< the end is where something begins to hide the line: no round cap may stick out there */
+    size_t place;         /**< shapes that are painted before it: all, unless lines are interleaved */
     const double *points; /**< 2 doubles each */
     size_t count;         /**< 0: there is no such stroke */
 } froe_stroke;
-/** Polylines: hidden ones first, then by kind. */
+/** Polylines, by place, then hidden ones first, then by kind. */
 FROE_API size_t froe_picture_stroke_count(const froe_picture *picture);
 FROE_API froe_stroke froe_picture_stroke(const froe_picture *picture, size_t i);
 

@@ -109,7 +109,7 @@ static bool put_parts_of_piece(view_painter *p, uint32_t number) {
 
 /* ------------------------------------------------------------------------- whole -- */
 
-/* Runs of patches of one style; patches painted whole and opaque get the number of theirs. */
+/* Runs of patches of one style without lines between; patches painted whole and opaque get the number of theirs. */
 static void number_runs(view_painter *p) {
     uint32_t run = 0, last = FROE_NONE;
     for (uint32_t i = 0; i < p->v->surface->patch_count; i++) p->runs[i] = FROE_NONE;
@@ -117,7 +117,7 @@ static void number_runs(view_painter *p) {
         const uint32_t v = p->order[i];
         const paint_node *node = p->parts.nodes.data + v;
         const uint32_t style = p->options->styles ? p->options->styles[node->patch] : 0;
-        run += style != last;
+        run += style != last || (p->breaks && p->breaks[i]);
         last = style;
         if (node->piece == FROE_NONE && !p->graph.late[v] && !is_clear(p, node->patch)) p->runs[node->patch] = run;
     }
@@ -142,14 +142,17 @@ static froe_status begin_outlines(view_painter *p) {
     p->outliner.underlap = p->options->underlap;
     p->outliner.runs = p->runs;
     if (!(p->options->underlap > 0)) return FROE_OK;
-    return view_seams_new(&p->seams, &p->parts, p->order, p->options->styles, p->options->clear, p->options->underlap);
+    return view_seams_new(&p->seams, &p->parts, p->order, p->breaks, p->options->styles, p->options->clear,
+                          p->options->underlap);
 }
 
 froe_status view_paint_whole(view_painter *p) {
-    if (begin_outlines(p)) return FROE_E_MEMORY;
+    p->painted = base_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->painted);
+    if (!p->painted || begin_outlines(p)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < p->graph.count; i++) {
         const uint32_t v = p->order[i];
         const paint_node *node = p->parts.nodes.data + v;
+        p->painted[i] = (uint32_t)p->picture->shapes.count;
         const bool ok = is_left_out(p, node->patch) ? true
                         : node->piece != FROE_NONE  ? put_parts_of_piece(p, v)
                         : p->graph.late[v]          ? put_region(p, node->patch, v)

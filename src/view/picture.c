@@ -79,7 +79,8 @@ static bool sees_through(const froe_picture_options *o, const froe_surface *surf
 
 /* -------------------------------------------------------------------- painting -- */
 
-static froe_status paint_fills(view_painter *p) {
+/* Who is painted after whom, as far as that matters. */
+static froe_status plan_fills(view_painter *p) {
     froe_picture_report *report = &p->picture->report;
     froe_status status = FROE_OK;
     report->paint = p->options->paint;
@@ -97,7 +98,12 @@ static froe_status paint_fills(view_painter *p) {
         }
     }
     if (!status && p->options->min_area > 0) status = view_leave_out(p);
-    if (status) return status;
+    return status;
+}
+
+static froe_status paint_fills(view_painter *p) {
+    const froe_picture_report *report = &p->picture->report;
+    if (p->options->no_fills) return FROE_OK;
     return report->paint == FROE_PAINT_WHOLE     ? view_paint_whole(p)
            : report->paint == FROE_PAINT_REGIONS ? view_paint_regions(p)
                                                  : view_paint_fragments(p);
@@ -123,6 +129,9 @@ static void free_painter(view_painter *p) {
     array_free(alloc, &p->arcs);
     view_region_free(alloc, &p->region);
     base_free(alloc, p->order, (p->parts.nodes.count + 1) * sizeof *p->order);
+    base_free(alloc, p->breaks, p->parts.nodes.count + 1);
+    array_free(alloc, &p->segments);
+    base_free(alloc, p->painted, (p->parts.nodes.count + 1) * sizeof *p->painted);
     if (p->v) {
         base_free(alloc, p->places, ((size_t)p->v->tree->piece_count + 1) * sizeof *p->places);
         base_free(alloc, p->left_out, (size_t)p->v->surface->patch_count + 1);
@@ -138,8 +147,10 @@ static froe_status make(view_painter *p, const froe_tree *tree, const froe_surfa
     froe_status status = p->options->lines ? find_kinds(p, tree, surface, kinds, diag) : FROE_OK;
     if (!status) status = look(p, tree, surface, kinds, diag);
     if (!status) {
-        status = paint_fills(p);
-        if (!status && p->options->lines) status = view_make_strokes(p, kinds);
+        if (p->options->lines) status = view_make_segments(p, kinds);
+        if (!status) status = plan_fills(p);
+        if (!status) status = paint_fills(p);
+        if (!status) status = view_make_strokes(p);
         if (!status) status = note_styles(p);
         if (status == FROE_E_MEMORY) base_fail_memory(diag);
         if (status == FROE_E_LIMIT) base_fail(diag, status, "the picture has more than 2^31 points or demands");
@@ -161,6 +172,8 @@ static froe_status check(const froe_picture_options *o, froe_diagnostic *diag) {
     if (!(o->min_area >= 0) || !isfinite(o->min_area))
         return base_fail(diag, FROE_E_OPTIONS, "a least area of %g is none", o->min_area);
     if (!(o->halo >= 0) || !isfinite(o->halo)) return base_fail(diag, FROE_E_OPTIONS, "a halo of %g is none", o->halo);
+    if (!(o->interleave >= 0) || !isfinite(o->interleave))
+        return base_fail(diag, FROE_E_OPTIONS, "lines that reach %g cannot be interleaved", o->interleave);
     if (!(o->crease >= 0 && o->crease <= 180))
         return base_fail(diag, FROE_E_OPTIONS, "a crease angle of %g degrees is not in 0 .. 180", o->crease);
     return FROE_OK;
@@ -229,6 +242,7 @@ froe_stroke froe_picture_stroke(const froe_picture *p, size_t i) {
                          .hidden = s->hidden,
                          .closed = s->closed,
                          .butt = {s->butt[0], s->butt[1]},
+                         .place = s->place,
                          .points = &p->stroke_points.data[s->first].x,
                          .count = s->count};
 }

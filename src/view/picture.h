@@ -4,6 +4,7 @@
 #include "view/outline.h"
 #include "view/parts.h"
 #include "view/region.h"
+#include "view/strokes.h"
 
 typedef struct picture_shape {
     uint32_t patch, first_ring, ring_count;
@@ -12,6 +13,7 @@ typedef struct picture_shape {
 
 typedef struct picture_stroke {
     uint32_t first, count; /**< in stroke_points */
+    uint32_t place;        /**< shapes that are painted before it */
     uint8_t kind, hidden, closed, butt[2];
 } picture_stroke;
 
@@ -38,14 +40,21 @@ typedef struct view_painter {
     view_outliner outliner;
     view_seams seams;
     view_region region;
-    uint32_t *order;   /**< of the nodes */
-    uint32_t *places;  /**< per piece of the tree, when something is clear */
-    uint8_t *left_out; /**< per patch; NULL: none is */
-    uint32_t *runs;    /**< per patch, see view_outliner */
+    uint32_t *order;        /**< of the nodes */
+    uint32_t *painted;      /**< per place in `order`: shapes there are before it is painted; NULL: not painted whole */
+    uint8_t *breaks;        /**< per place in `order`: lines come before it; NULL: all lines are on top */
+    view_segments segments; /**< of lines */
+    uint32_t *places;       /**< per piece of the tree, when something is clear */
+    uint8_t *left_out;      /**< per patch; NULL: none is */
+    uint32_t *runs;         /**< per patch, see view_outliner */
 } view_painter;
 
 /** Finds an order of whole patches, of which some may be late or split. FROE_E_BUDGET. */
 froe_status view_plan_whole(view_painter *painter);
+/** An order of the nodes of a graph of which those of the picture come first, then lines. FROE_E_MEMORY. */
+froe_status view_sort_nodes(const view_painter *painter, const view_graph *graph, uint32_t *order);
+/** The same order, with the places of visible segments in it, and so `breaks`. FROE_E_MEMORY. */
+froe_status view_interleave(view_painter *painter);
 /** Notes the patches of which too little is visible. FROE_E_MEMORY. */
 froe_status view_leave_out(view_painter *painter);
 /** Appends the shapes of that plan; of visible regions; of fragments. FROE_E_MEMORY, FROE_E_LIMIT. */
@@ -59,6 +68,8 @@ void view_end_shape(froe_picture *picture);
 
 /** Which edges are lines, and of which kind: 0 none. One byte an edge. */
 void view_line_kinds(view_sights *sights, uint32_t wanted, double crease, uint8_t *kinds);
-/** Appends the strokes of all visible (and hidden) intervals, chained. FROE_E_MEMORY. */
-froe_status view_make_strokes(view_painter *painter, const uint8_t *kinds);
+/** Makes segments of all visible (and hidden) intervals, cut as wished. FROE_E_MEMORY. */
+froe_status view_make_segments(view_painter *painter, const uint8_t *kinds);
+/** Appends the segments as strokes, chained. FROE_E_MEMORY. */
+froe_status view_make_strokes(view_painter *painter);
 #endif

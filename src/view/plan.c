@@ -38,19 +38,22 @@ static bool split_late(view_painter *p) {
     return any;
 }
 
-static froe_status sort_nodes(view_painter *p) {
+/* Lines have a style of their own. */
+static uint32_t style_of(const view_painter *p, uint32_t v, uint32_t lines) {
+    if (v >= p->parts.nodes.count) return lines;
+    return p->options->styles ? p->options->styles[p->parts.nodes.data[v].patch] : 0;
+}
+
+froe_status view_sort_nodes(const view_painter *p, const view_graph *graph, uint32_t *order) {
     const froe_allocator *alloc = &p->picture->alloc;
-    const size_t n = p->parts.nodes.count;
-    uint32_t count = 1, *styles = base_calloc(alloc, n + 1, sizeof *styles);
-    p->order = base_calloc(alloc, n + 1, sizeof *p->order);
-    if (styles && p->options->styles)
-        for (size_t i = 0; i < n; i++) {
-            styles[i] = p->options->styles[p->parts.nodes.data[i].patch];
-            if (styles[i] >= count) count = styles[i] + 1;
-        }
-    const bool ok = styles && p->order && view_graph_sort(alloc, &p->graph, styles, count, p->order) == FROE_OK;
-    base_free(alloc, styles, (n + 1) * sizeof *styles);
-    return ok ? FROE_OK : FROE_E_MEMORY;
+    uint32_t lines = 0, *styles = base_calloc(alloc, (size_t)graph->count + 1, sizeof *styles);
+    if (!styles) return FROE_E_MEMORY;
+    for (uint32_t v = 0; v < p->parts.nodes.count; v++)
+        if (style_of(p, v, 0) >= lines) lines = style_of(p, v, 0) + 1;
+    for (uint32_t v = 0; v < graph->count; v++) styles[v] = style_of(p, v, lines);
+    const froe_status status = view_graph_sort(alloc, graph, styles, lines + 1, order);
+    base_free(alloc, styles, ((size_t)graph->count + 1) * sizeof *styles);
+    return status;
 }
 
 froe_status view_plan_whole(view_painter *p) {
@@ -58,5 +61,8 @@ froe_status view_plan_whole(view_painter *p) {
     froe_status status = find_graph(p);
     while (!status && clear && split_late(p)) status = find_graph(p);
     if (!clear) p->picture->report.late = p->graph.late_count;
-    return status ? status : sort_nodes(p);
+    if (status) return status;
+    p->order = base_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->order);
+    if (!p->order) return FROE_E_MEMORY;
+    return p->options->interleave > 0 ? view_interleave(p) : view_sort_nodes(p, &p->graph, p->order);
 }

@@ -5,7 +5,7 @@
 
 /* ----------------------------------------------------------------- begin, end -- */
 
-static bool number_nodes(view_seams *s, const uint32_t *order, const uint32_t *styles) {
+static bool number_nodes(view_seams *s, const uint32_t *order, const uint8_t *breaks, const uint32_t *styles) {
     const froe_allocator *alloc = &s->parts->v->alloc;
     const size_t n = s->parts->nodes.count;
     uint32_t run = 0, last = FROE_NONE;
@@ -14,7 +14,7 @@ static bool number_nodes(view_seams *s, const uint32_t *order, const uint32_t *s
     if (!s->place || !s->run) return false;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t patch = s->parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
-        run += style != last;
+        run += style != last || (breaks && breaks[i]);
         last = style;
         s->place[order[i]] = i;
         s->run[order[i]] = run;
@@ -40,10 +40,10 @@ static const print_point *points_of(const void *user, size_t i, size_t *points) 
     return s->points.data + s->pieces.data[i].first;
 }
 
-froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *order, const uint32_t *styles,
-                           const uint8_t *clear, double width) {
+froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
+                           const uint32_t *styles, const uint8_t *clear, double width) {
     *s = (view_seams){.parts = parts, .clear = clear, .width = width};
-    if (!number_nodes(s, order, styles) || !print_pieces(s, parts)) return FROE_E_MEMORY;
+    if (!number_nodes(s, order, breaks, styles) || !print_pieces(s, parts)) return FROE_E_MEMORY;
     return view_grid_new(&parts->v->alloc, parts->view, s->pieces.count, points_of, s, &s->grid);
 }
 

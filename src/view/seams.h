@@ -47,9 +47,10 @@ typedef struct view_seams {
     print_ring clip[2];
 } view_seams;
 
-/** `order`: all nodes as they are painted; `styles` per patch, or NULL. FROE_E_MEMORY. */
-froe_status view_seams_new(view_seams *seams, view_parts *parts, const uint32_t *order, const uint32_t *styles,
-                           const uint8_t *clear, double width);
+/** `order`: all nodes as they are painted; `breaks` per place in it: something else is painted before; `styles` per
+ * patch; these two may be NULL. FROE_E_MEMORY. */
+froe_status view_seams_new(view_seams *seams, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
+                           const uint32_t *styles, const uint8_t *clear, double width);
 void view_seams_free(view_seams *seams);
 /** Looks along a side of a node's shape, which lies on its left as the eye sees it. Where the node is visible beside
  * it, strips are added; *bare: it is not, and what is visible there ends at the side as well. False without memory. */

@@ -7,7 +7,7 @@ typedef struct view_segment {
     uint32_t vertex[2]; /**< what it may be chained by; FROE_NONE: it ends within its line */
     print_point at[2];
     double near[2]; /**< grows towards the eye, linearly along the segment: 1 / depth, or in parallel - depth */
-    uint32_t place; /**< shapes that are painted before it */
+    uint32_t place; /**< nodes that are painted before it; FROE_NONE: all */
     uint8_t kind, hidden, used;
 } view_segment;
 typedef ARRAY(view_segment) view_segments;

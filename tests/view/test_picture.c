@@ -399,6 +399,15 @@ static void styles_come_together(void **state) {
     froe_tree_free(tree);
 }
 
+static double length_of(const froe_stroke *s) {
+    double sum = 0;
+    for (size_t k = 0; k + !s->closed < s->count; k++) {
+        const double *a = s->points + 2 * k, *b = s->points + 2 * ((k + 1) % s->count);
+        sum += hypot(a[0] - b[0], a[1] - b[1]);
+    }
+    return sum;
+}
+
 /* All strokes of a kind together are as long as the intervals they come from, and far fewer. */
 static void strokes_are_the_intervals_chained(void **state) {
     (void)state;
@@ -441,10 +450,7 @@ static void strokes_are_the_intervals_chained(void **state) {
         for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
             const froe_stroke s = froe_picture_stroke(p.picture, i);
             assert_true(s.count >= 2 && froe_line_name(s.kind));
-            for (size_t k = 0; k + !s.closed < s.count; k++) {
-                const double *a = s.points + 2 * k, *b = s.points + 2 * ((k + 1) % s.count);
-                found[s.hidden] += hypot(a[0] - b[0], a[1] - b[1]);
-            }
+            found[s.hidden] += length_of(&s);
         }
         assert_true(expected[0] > 100 && expected[1] > 100);
         assert_true(fabs(found[0] - expected[0]) < 1e-3 * expected[0]);
@@ -487,15 +493,80 @@ static void halos_part_lines_and_hidden_ones_are_drawn_once(void **state) {
         check_view(&p, 20, 1);
         for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
             const froe_stroke s = froe_picture_stroke(p.picture, i);
-            for (size_t k = 0; k + !s.closed < s.count; k++) {
-                const double *a = s.points + 2 * k, *b = s.points + 2 * ((k + 1) % s.count);
-                length[s.hidden] += hypot(a[0] - b[0], a[1] - b[1]);
-            }
+            length[s.hidden] += length_of(&s);
         }
         assert_true(fabs(length[0] - (240 + 200 - 4 * halo)) < 1e-6);
         assert_true(fabs(length[1] - 2 * 20) < 1e-6);
         froe_picture_free(p.picture);
     }
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
+/* Two walls, the far one beginning a hair beyond the side of the near one: what begins there goes under the near wall,
+ * whose own lines stay on top. On a landscape lines are as long as before, and come in the order of their places. */
+static void lines_may_go_under_what_is_nearer(void **state) {
+    (void)state;
+    const double x[] = {0, 0, 0, 10, 0, 0, 10, 0, 10, 0, 0, 10, 10.1, 9, 0, 20, 9, 0, 20, 9, 10, 10.1, 9, 10};
+    const size_t starts[] = {0, 4, 8};
+    froe_scene *scene;
+    page p;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    froe_objects o = froe_objects_defaults();
+    o.count = 2, o.coords = x, o.starts = starts;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    froe_scene_free(scene);
+    open_page(&p, tree);
+    p.options.lines = FROE_LINE_BORDER;
+    froe_camera c = froe_camera_defaults();
+    c.parallel = true;
+    c.scale = 10;
+    c.eye[0] = c.eye[2] = 0;
+    place(&p, &c);
+    for (int reach = 0; reach <= 2; reach += 2) {
+        double under = 0;
+        p.options.interleave = reach;
+        check_view(&p, 20, 1);
+        assert_int_equal(froe_picture_shape_count(p.picture), 2);
+        for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
+            const froe_stroke s = froe_picture_stroke(p.picture, i);
+            assert_true(s.place == 1 || s.place == 2);
+            if (s.place == 1) under += length_of(&s);
+        }
+        if (reach) assert_int_equal(froe_picture_shape(p.picture, 1).patch, 0);
+        assert_true(fabs(under - (reach ? 100 + 2 * 99 : 0)) < 1e-6);
+        froe_picture_free(p.picture);
+    }
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
+static void lines_among_shapes_are_the_same_lines(void **state) {
+    (void)state;
+    froe_tree *tree = landscape();
+    page p;
+    double length[2] = {0, 0};
+    size_t under = 0;
+    open_page(&p, tree);
+    p.options.lines = 127;
+    set_view(&p, 1);
+    for (int round = 0; round < 2; round++) {
+        size_t last = 0;
+        p.options.interleave = 2 * round;
+        check_view(&p, 1, 1);
+        for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
+            const froe_stroke s = froe_picture_stroke(p.picture, i);
+            assert_true(s.place >= last && s.place <= froe_picture_shape_count(p.picture));
+            under += s.place < froe_picture_shape_count(p.picture);
+            length[round] += length_of(&s);
+            last = s.place;
+        }
+        if (!round) assert_int_equal(under, 0);
+        froe_picture_free(p.picture);
+    }
+    assert_true(under > 0);
+    assert_true(fabs(length[0] - length[1]) < 1e-6 * length[0]);
     close_page(&p);
     froe_tree_free(tree);
 }
@@ -627,6 +698,7 @@ static void every_allocation_may_fail(void **state) {
     p.options.halo = 1;
     p.options.hidden = true;
     p.options.min_area = 1;
+    p.options.interleave = 1;
     for (int paint = 0; paint < FROE_PAINT_COUNT; paint++) {
         p.options.paint = (froe_paint)paint;
         assert_true(test_memory_each(picture_with, &p) > 20);
@@ -652,6 +724,8 @@ int main(void) {
         cmocka_unit_test(styles_come_together),
         cmocka_unit_test(strokes_are_the_intervals_chained),
         cmocka_unit_test(halos_part_lines_and_hidden_ones_are_drawn_once),
+        cmocka_unit_test(lines_may_go_under_what_is_nearer),
+        cmocka_unit_test(lines_among_shapes_are_the_same_lines),
         cmocka_unit_test(bad_cameras_are_refused),
         cmocka_unit_test(what_is_fitted_fills_the_page),
         cmocka_unit_test(a_turntable_keeps_scale_and_page),
