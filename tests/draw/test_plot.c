@@ -106,6 +106,22 @@ static void what_cannot_be_shown_is_left_out(void **state) {
     free(s);
 }
 
+static void lines_break_where_a_number_is_left_out(void **state) {
+    (void)state;
+    static const double gap[] = {1, 2, NAN, 3, 4}, level[] = {5, 5, 5, 5, 5};
+    const froe_plot_series one = {NULL, gap, level, 5};
+    sheet *s = calloc(1, sizeof *s);
+    assert_int_equal(froe_plot_write(&one, 1, take, s, NULL, NULL), FROE_OK);
+    char *end = strstr(s->text, "\" fill=\"none\"");
+    assert_non_null(end);
+    *end = '\0';
+    const char *path = end;
+    while (strncmp(path, "d=\"", 3) != 0) path--;
+    assert_int_equal(count_of(path, "M"), 2);
+    assert_int_equal(count_of(path, "L"), 2);
+    free(s);
+}
+
 /* A straight line on paper stays straight: equal factors are equal distances on a logarithmic axis. */
 static void equal_factors_are_equal_distances(void **state) {
     (void)state;
@@ -168,9 +184,13 @@ static void figures_survive_every_failing_allocation(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(axes_place_numbers_and_ticks),     cmocka_unit_test(labels_are_short_and_right),
-        cmocka_unit_test(what_cannot_be_shown_is_left_out), cmocka_unit_test(equal_factors_are_equal_distances),
-        cmocka_unit_test(bad_options_are_refused),          cmocka_unit_test(figures_survive_every_failing_allocation),
+        cmocka_unit_test(axes_place_numbers_and_ticks),
+        cmocka_unit_test(labels_are_short_and_right),
+        cmocka_unit_test(what_cannot_be_shown_is_left_out),
+        cmocka_unit_test(equal_factors_are_equal_distances),
+        cmocka_unit_test(lines_break_where_a_number_is_left_out),
+        cmocka_unit_test(bad_options_are_refused),
+        cmocka_unit_test(figures_survive_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
