@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install bench bench-peers oracle coverage docs format lint clean
+.PHONY: help build demo test install bench bench-peers claims oracle coverage docs format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -37,6 +37,11 @@ bench: deps-bench ## froe beside its peers, those that Debian has
 
 bench-peers: bench ## and those from the npm registry, where it can be reached
 	@bench/run-peers $(BUILD)/bench
+
+claims: deps-bench ## what the sources claim, measured: docs/claims.md
+	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
+	@cmake --build $(BUILD)/bench --parallel $(JOBS) --target bench_claims
+	@$(BUILD)/bench/bin/bench_claims docs/claims.md
 
 oracle: deps-bench ## pictures of large scenes against rays, half an hour
 	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON

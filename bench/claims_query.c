@@ -1,0 +1,159 @@
+/* claims_query.c: what the sources say of the cost of queries, as numbers of visited nodes. */
+#include "claims.h"
+#include <froe/query.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { QUERIES = 300 };
+
+typedef struct asker {
+    froe_query *query;
+    const froe_scene *scene;
+    int dim;
+    double side; /* longest of the scene */
+    uint64_t state;
+} asker;
+
+static asker begin(const claims_tree *t) {
+    asker a = {.scene = t->scene, .dim = froe_scene_dim(t->scene), .state = 1};
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    if (froe_query_new(t->tree, &a.query, NULL) || !froe_scene_bounds(t->scene, lo, hi)) exit(1);
+    for (int k = 0; k < a.dim; k++) a.side = fmax(a.side, hi[k] - lo[k]);
+    return a;
+}
+
+static double draw(asker *a) {
+    a->state = a->state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(a->state >> 11) * 0x1p-53;
+}
+
+/* A corner of a random object, moved by a random part of `away` sides of the scene. */
+static void draw_place(asker *a, double away, double *out) {
+    const uint32_t object = (uint32_t)(draw(a) * (double)froe_scene_object_count(a->scene));
+    const double *p = froe_scene_vertex(a->scene, froe_scene_corner(a->scene, object, 0));
+    for (int k = 0; k < a->dim; k++) out[k] = p[k] + away * a->side * (2 * draw(a) - 1);
+}
+
+/* Asks a kind of query many times; nodes, leaves and tests of all of them, divided by their number. */
+typedef froe_status ask_fn(asker *a, double parameter);
+static double cost(const claims_tree *t, ask_fn *fn, double parameter) {
+    asker a = begin(t);
+    for (int i = 0; i < QUERIES; i++)
+        if (fn(&a, parameter)) exit(1);
+    const froe_query_stats s = froe_query_statistics(a.query);
+    froe_query_free(a.query);
+    return (double)(s.nodes + s.leaves + s.tests) / QUERIES;
+}
+
+static froe_status locate(asker *a, double away) {
+    double point[FROE_MAX_DIM];
+    froe_list list;
+    draw_place(a, away, point);
+    return froe_query_locate(a->query, point, &list, NULL);
+}
+
+/* A ball much smaller than any object. */
+static froe_status tiny_ball(asker *a, double radius) {
+    double centre[FROE_MAX_DIM];
+    froe_range ball = froe_range_defaults();
+    froe_list list;
+    draw_place(a, radius, centre);
+    ball.shape = FROE_SHAPE_BALL;
+    ball.points = centre;
+    ball.radius = radius * a->side;
+    return froe_query_range(a->query, &ball, &list, NULL);
+}
+
+/* Is anything counted in a window of a third of the scene, within eps of its diameter? */
+static froe_status window(asker *a, double eps) {
+    double points[2 * FROE_MAX_DIM];
+    froe_range box = froe_range_defaults();
+    uint64_t count;
+    draw_place(a, 0.1, points);
+    for (int k = 0; k < a->dim; k++) {
+        const double middle = points[k];
+        points[k] = middle - a->side / 6;
+        points[a->dim + k] = middle + a->side / 6;
+    }
+    box.points = points;
+    box.eps = eps;
+    return froe_query_count(a->query, &box, &count, NULL);
+}
+
+/* ----------------------------------------------------------------- in n, in eps -- */
+
+static double growth(const char *kind, size_t from, int doublings, const char *method, ask_fn *fn, double parameter) {
+    claims_series s = {.count = 0};
+    for (int i = 0; i <= doublings; i++) {
+        claims_tree t = claims_build(kind, from << i, method, NULL, FROE_LEAF_OWN);
+        claims_add(&s, (double)t.report.objects, cost(&t, fn, parameter));
+        claims_free(&t);
+    }
+    return claims_slope(&s);
+}
+
+/* The guard stage alone, which is as deep as scenes are nested. */
+static claims_tree deep(size_t n) {
+    return claims_build("nested", n, "density", "k=1 stop=0 growth=0 height=0", FROE_LEAF_OWN);
+}
+static double deep_height(void) {
+    claims_tree t = deep(3200);
+    const double height = t.report.mean_depth / log2((double)t.report.objects);
+    claims_free(&t);
+    return height;
+}
+static double deep_location(void) {
+    claims_tree t = deep(3200);
+    const double visited = cost(&t, locate, 0) / t.report.mean_depth;
+    claims_free(&t);
+    return visited;
+}
+static double location(void) {
+    return fmax(growth("scatter", 2000, 5, "density", locate, 0.01),
+                growth("cuboids", 2000, 5, "density", locate, 0.01));
+}
+static double small_ranges(void) {
+    return fmax(growth("scatter", 2000, 5, "density", tiny_ball, 1e-6),
+                growth("cuboids", 2000, 5, "density", tiny_ball, 1e-6));
+}
+
+/* Exponent of the cost in 1 / eps. */
+static double by_eps(const char *kind, size_t n, const char *method) {
+    claims_series s = {.count = 0};
+    claims_tree t = claims_build(kind, n, method, NULL, FROE_LEAF_OWN);
+    for (int i = 2; i <= 6; i++) claims_add(&s, ldexp(1, i), cost(&t, window, ldexp(1, -i)));
+    claims_free(&t);
+    return claims_slope(&s);
+}
+static double bar_plane_by_eps(void) {
+    return by_eps("scatter", 60000, "bar");
+}
+static double bar_by_n(void) {
+    return growth("scatter", 8000, 4, "bar", window, 0.125);
+}
+static double bar_height(void) {
+    claims_series s = {.count = 0};
+    for (size_t n = 500; n <= 8000; n *= 2) {
+        claims_tree t = claims_build("nested", n, "bar", NULL, FROE_LEAF_OWN);
+        claims_add(&s, log((double)t.report.objects), (double)t.report.height);
+        claims_free(&t);
+    }
+    return claims_slope(&s);
+}
+
+const claim claims_query[] = {
+    {"de Berg, theorem 3.1", "guard stages may be far deeper than log n", "density", "mean depth / log2 n, nested", 20,
+     200, deep_height},
+    {"de Berg, theorem 3.1", "and yet points are located in O(log n)", "density",
+     "(nodes + leaves + tests) / mean depth, the same tree", 0, 0.2, deep_location},
+    {"de Berg, theorem 3.1", "the same elsewhere", "density",
+     "exponent of nodes + leaves + tests in n; worse of scatter, cuboids", -INFINITY, 0.3, location},
+    {"de Berg, corollary 3.2", "O(log n) for ranges smaller than objects", "density",
+     "exponent of nodes + leaves + tests in n; worse of scatter, cuboids", -INFINITY, 0.3, small_ranges},
+    {"de Berg and Streppel, corollary 2", "O(log n + 1 / eps) in the plane", "bar",
+     "exponent of nodes + leaves + tests in 1 / eps, scatter", -INFINITY, 1.05, bar_plane_by_eps},
+    {"de Berg and Streppel, corollary 2", "and whatever n", "bar",
+     "exponent of nodes + leaves + tests in n, eps = 1/8, scatter", -INFINITY, 0.25, bar_by_n},
+    {"de Berg and Streppel, theorem 1", "height O(log n) where others are as high as n", "bar",
+     "exponent of height in log n, nested", 0.5, 1.5, bar_height},
+    {0}};

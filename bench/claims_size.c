@@ -1,0 +1,391 @@
+/* claims_size.c: what the sources say of the size and height of partitions, and of the time to build them. */
+#include "claims.h"
+#include <froe/measure.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --------------------------------------------------------------------- growth -- */
+
+typedef double value_fn(const claims_tree *t);
+
+static double size(const claims_tree *t) {
+    return (double)t->report.size;
+}
+static double pieces(const claims_tree *t) {
+    return (double)t->report.fragments;
+}
+static double height(const claims_tree *t) {
+    return (double)t->report.height;
+}
+static double seconds_per_n_log_n(const claims_tree *t) {
+    const double n = (double)t->report.objects;
+    return t->seconds / (n * log(n));
+}
+static double seconds_per_n_log2_n(const claims_tree *t) {
+    const double n = (double)t->report.objects;
+    return t->seconds / (n * log(n) * log(n));
+}
+
+/* Exponent of a value in n, for n doubled so many times. */
+static double growth(const char *kind, size_t from, int doublings, const char *method, const char *settings,
+                     uint32_t leaf, value_fn *fn) {
+    claims_series s = {.count = 0};
+    for (int i = 0; i <= doublings; i++) {
+        claims_tree t = claims_build(kind, from << i, method, settings, leaf);
+        claims_add(&s, (double)t.report.objects, fn(&t));
+        claims_free(&t);
+    }
+    return claims_slope(&s);
+}
+
+/* The greatest exponent over kinds of scenes, ended by NULL. */
+static double worst_growth(const char *const *kinds, size_t from, int doublings, const char *method, value_fn *fn) {
+    double worst = -INFINITY;
+    for (; *kinds; kinds++) worst = fmax(worst, growth(*kinds, from, doublings, method, NULL, FROE_LEAF_OWN, fn));
+    return worst;
+}
+
+/* Time is noisy: the least of three. */
+static double time_growth(const char *kind, size_t from, int doublings, const char *method, value_fn *fn) {
+    claims_series s = {.count = 0};
+    for (int i = 0; i <= doublings; i++) {
+        double least = INFINITY, n = 0;
+        for (int round = 0; round < 3; round++) {
+            claims_tree t = claims_build(kind, from << i, method, NULL, FROE_LEAF_OWN);
+            least = fmin(least, fn(&t));
+            n = (double)t.report.objects;
+            claims_free(&t);
+        }
+        claims_add(&s, n, least);
+    }
+    return claims_slope(&s);
+}
+
+/* -------------------------------------------------------------------- de Berg -- */
+
+static const char *const uncluttered[] = {"cuboids", "city", "terrain", NULL};
+
+static double linear_size(void) {
+    return worst_growth(uncluttered, 2000, 4, "density", size);
+}
+static double linear_size_in_the_plane(void) {
+    static const char *const kinds[] = {"scatter", "rooms", "blocks", NULL};
+    return worst_growth(kinds, 4000, 4, "density", size);
+}
+
+/* Thin triangles along the lines of two saddles z = x y, one hair above the other: between each two lines of one kind
+ * and each two of the other no plane has room (after Chazelle). The gap shrinks with n; a fixed one would let few
+ * planes separate many. */
+static froe_scene *saddles(size_t n) {
+    const double lines = (double)n / 2, above = 0.25 / (lines * lines), width = 0.05 / (lines * lines);
+    double *coords = calloc(9 * n, sizeof *coords);
+    for (size_t i = 0; i < n; i++) {
+        const double t = ((double)(i / 2) + 0.5) / lines;
+        const double on_x[9] = {t, 0, 0, t, 1, t, t + width, 0.5, 0.5 * t};
+        const double on_y[9] = {0, t, above, 1, t, t + above, 0.5, t + width, 0.5 * t + above};
+        memcpy(coords + 9 * i, i % 2 ? on_y : on_x, sizeof on_x);
+    }
+    froe_scene *scene = NULL;
+    froe_objects o = froe_objects_defaults();
+    o.kind = FROE_POLYGON, o.count = n, o.coords = coords;
+    if (froe_scene_new(3, NULL, &scene) || froe_scene_add(scene, &o, NULL)) exit(1);
+    free(coords);
+    return scene;
+}
+
+static double saddles_growth(const char *method) {
+    claims_series s = {.count = 0};
+    for (size_t n = 64; n <= 512; n *= 2) {
+        froe_scene *scene = saddles(n);
+        froe_tree *tree = bench_build(scene, method, NULL, FROE_LEAF_OWN, 1, NULL);
+        claims_add(&s, (double)n, (double)froe_tree_report(tree).fragments);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+    return claims_slope(&s);
+}
+static double saddles_are_quadratic(void) {
+    return saddles_growth("density");
+}
+static double saddles_are_quadratic_for_grain(void) {
+    return saddles_growth("grain");
+}
+static double build_time(void) {
+    return fmax(time_growth("scatter", 16000, 4, "density", seconds_per_n_log_n),
+                time_growth("clusters", 16000, 4, "density", seconds_per_n_log_n));
+}
+
+/* A guard stage of guards down to k; nothing is refined. */
+static claims_tree guard_stage(const char *kind, size_t n, int k, const char *form) {
+    char settings[100];
+    snprintf(settings, sizeof settings, "k=%d form=%s", k, form);
+    return claims_build(kind, n, "density", settings, 1 << 30);
+}
+
+static const froe_promise *promised(const froe_report *r, const char *name) {
+    const froe_promise *p = r->promises;
+    while (p && p->name && strcmp(p->name, name) != 0) p++;
+    if (!p || !p->name) exit(1);
+    return p;
+}
+
+static double share_of_promise(const froe_report *r, const char *name) {
+    const froe_promise *p = promised(r, name);
+    return p->measured / p->promised;
+}
+
+static const char *const guarded[] = {"segments",  "clusters", "nested",  "lattice",   "star", "parallel",
+                                      "identical", "terrain",  "cuboids", "nested-3d", NULL};
+
+static double guard_leaves(const int *ks, const char *form) {
+    double worst = 0;
+    for (const char *const *kind = guarded; *kind; kind++)
+        for (const int *k = ks; *k >= 0; k++) {
+            claims_tree t = guard_stage(*kind, 600, *k, form);
+            worst = fmax(worst, share_of_promise(&t.report, "guard_leaves"));
+            claims_free(&t);
+        }
+    return worst;
+}
+static double guard_leaves_without_guards(void) {
+    return guard_leaves((const int[]){0, -1}, "slabs");
+}
+static double guard_leaves_with_guards(void) {
+    return guard_leaves((const int[]){1, 4, 16, 64, -1}, "cross");
+}
+static double guard_leaves_against_k(void) {
+    claims_series s = {.count = 0};
+    for (int k = 1; k <= 256; k *= 4) {
+        claims_tree t = guard_stage("segments", 20000, k, "cross");
+        claims_add(&s, k, promised(&t.report, "guard_leaves")->measured);
+        claims_free(&t);
+    }
+    return claims_slope(&s);
+}
+
+static froe_density density_of(const froe_scene *scene) {
+    froe_measure_options o = froe_measure_defaults();
+    froe_density d = {.upper = 0};
+    o.samples = 0;
+    froe_measure_density(scene, FROE_SIZE_DIAMETER, &o, &d, NULL);
+    return d;
+}
+
+/* Lambda at which doubling ends, from the load it promises, over twice the density. */
+static double doubling(void) {
+    double worst = 0;
+    for (const char *const *kind = guarded; *kind; kind++) {
+        claims_tree t = claims_build(*kind, 400, "density", "mode=doubling", FROE_LEAF_OWN);
+        const double c = t.report.dim == 2 ? 4 : 8, lambda = promised(&t.report, "guard_load")->promised / (1 + c);
+        worst = fmax(worst, lambda / (2 * (double)density_of(t.scene).upper));
+        claims_free(&t);
+    }
+    return worst;
+}
+
+/* Clutter over c_d lambda. */
+static double clutter_is_low_where_density_is(void) {
+    double worst = 0;
+    for (const char *const *kind = guarded; *kind; kind++) {
+        froe_scene *scene = bench_generate(*kind, 400, 1);
+        froe_clutter c = {.lower = 0};
+        froe_measure_clutter(scene, NULL, &c, NULL);
+        worst = fmax(worst, c.lower / ((froe_scene_dim(scene) == 2 ? 4.0 : 8.0) * density_of(scene).upper));
+        froe_scene_free(scene);
+    }
+    return worst;
+}
+
+/* ---------------------------------------------------------------------- Sacks -- */
+
+/* Pieces over n + 2 n ln n, the mean over seeds, the worst over scenes. */
+static double autopartition_in_the_plane(void) {
+    static const char *const kinds[] = {"disjoint", "rooms", "blocks", "parallel", "spiral", NULL};
+    double worst = 0;
+    for (const char *const *kind = kinds; *kind; kind++) {
+        double sum = 0;
+        for (unsigned seed = 1; seed <= 5; seed++) {
+            froe_scene *scene = bench_generate(*kind, 3000, seed);
+            froe_tree *tree = bench_build(scene, "autopartition", "free=no", 0, 1, NULL);
+            const froe_report r = froe_tree_report(tree);
+            const double n = (double)r.objects;
+            sum += (double)r.fragments / (n + 2 * n * log(n)) / 5;
+            froe_tree_free(tree);
+            froe_scene_free(scene);
+        }
+        worst = fmax(worst, sum);
+    }
+    return worst;
+}
+static double autopartition_in_space(void) {
+    return fmax(saddles_growth("autopartition"),
+                growth("disjoint-3d", 250, 3, "autopartition", NULL, FROE_LEAF_OWN, pieces));
+}
+
+/* n / lambda bundles of lambda long, nearly parallel segments, each in a cell of its own of a grid. */
+static froe_scene *bundles(size_t n, size_t lambda) {
+    double *xyxy = calloc(4 * n, sizeof *xyxy);
+    const size_t side = (size_t)ceil(sqrt((double)n / (double)lambda));
+    uint64_t state = 1;
+    for (size_t i = 0; i < n; i++) {
+        const size_t bundle = i / lambda, within = i % lambda;
+        double random[4];
+        for (int k = 0; k < 4; k++)
+            state = state * 6364136223846793005u + 1442695040888963407u, random[k] = (double)(state >> 11) * 0x1p-53;
+        const double gap = 0.8 / (double)lambda, y = (double)(bundle / side) + gap * ((double)within + 0.5);
+        double *s = xyxy + 4 * i;
+        s[0] = (double)(bundle % side) + 0.1 * random[0], s[1] = y + 0.4 * gap * (random[1] - 0.5);
+        s[2] = (double)(bundle % side) + 0.8 - 0.1 * random[2], s[3] = y + 0.4 * gap * (random[3] - 0.5);
+    }
+    froe_scene *scene = bench_segments(xyxy, n);
+    free(xyxy);
+    return scene;
+}
+
+static double size_against_lambda(void) {
+    claims_series s = {.count = 0};
+    for (size_t lambda = 4; lambda <= 1024; lambda *= 4) {
+        froe_scene *scene = bundles(16384, lambda);
+        froe_tree *tree =
+            bench_build(scene, "density", "k=8 supports=1 quantiles=0 edges=0 small=0 free=no", 1, 1, NULL);
+        claims_add(&s, log((double)lambda) + 1, (double)froe_tree_report(tree).size);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+    return claims_slope(&s);
+}
+
+/* --------------------------------------------------------- Tobola and Nechvile -- */
+
+static double directional_is_linear(void) {
+    static const char *const kinds[] = {"bricks", "sticks", "towers", "slabs", NULL};
+    return worst_growth(kinds, 2000, 4, "directional", pieces);
+}
+static double directional_bars(void) {
+    return growth("bars", 200, 4, "directional", NULL, FROE_LEAF_OWN, pieces);
+}
+static double directional_time(void) {
+    return fmax(time_growth("sticks", 4000, 4, "directional", seconds_per_n_log2_n),
+                time_growth("rows", 4000, 4, "directional", seconds_per_n_log2_n));
+}
+static double directional_potential(void) {
+    double worst = 0;
+    static const char *const kinds[] = {"sticks", "slabs", "towers", "panels", "bars", "debris-3d", "shells", NULL};
+    for (const char *const *kind = kinds; *kind; kind++) {
+        claims_tree t = claims_build(*kind, 2000, "directional", NULL, FROE_LEAF_OWN);
+        worst = fmax(worst, share_of_promise(&t.report, "fragments"));
+        claims_free(&t);
+    }
+    return worst;
+}
+
+/* ------------------------------------------------ Agarwal, Erickson and Guibas -- */
+
+static double nodes_per_n_log_n(const claims_tree *t) {
+    const double n = (double)t->report.objects;
+    return (double)t->report.nodes / (n * log(n));
+}
+static double nodes_per_crossing(const claims_tree *t) {
+    const double n = (double)t->report.objects, k = n * n / 4;
+    return (double)t->report.nodes / (n * log(n) + k);
+}
+static double cylindrical_size(void) {
+    return growth("disjoint", 1000, 5, "cylindrical", NULL, 0, nodes_per_n_log_n);
+}
+static double cylindrical_crossings(void) {
+    return growth("slats", 128, 3, "cylindrical", NULL, 0, nodes_per_crossing);
+}
+static double cylindrical_height(void) {
+    claims_series s = {.count = 0};
+    for (size_t n = 1000; n <= 32000; n *= 2) {
+        claims_tree t = claims_build("disjoint", n, "cylindrical", NULL, 0);
+        claims_add(&s, log((double)t.report.objects), height(&t));
+        claims_free(&t);
+    }
+    return claims_slope(&s);
+}
+
+/* ------------------------------------------------------------- all, and froe's own -- */
+
+/* The greatest measured / promised of all promises of all methods. */
+static double promises(void) {
+    static const char *const kinds[] = {"scatter", "rooms",     "star",  "wedge", "terrain",  "rooms-3d", "grid-3d",
+                                        "cuboids", "nested-3d", "boxes", "bars",  "balls-3d", NULL};
+    double worst = 0;
+    const froe_method_info *m;
+    for (const char *const *kind = kinds; *kind; kind++)
+        for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++) {
+            froe_scene *scene = bench_generate(*kind, 300, 1);
+            froe_build_options o = froe_build_defaults();
+            froe_tree *tree = NULL;
+            o.method = m->name;
+            if (claims_serves(m, scene) && froe_build(scene, &o, &tree, NULL) == FROE_OK) {
+                const froe_report r = froe_tree_report(tree);
+                for (const froe_promise *p = r.promises; p && p->name; p++)
+                    if (p->measured > 0) worst = fmax(worst, p->measured / p->promised);
+                froe_tree_free(tree);
+            }
+            froe_scene_free(scene);
+        }
+    return worst;
+}
+
+static double painters(void) {
+    static const char *const kinds[] = {"city", "rooms-3d", "cuboids", NULL};
+    double worst = 0;
+    for (const char *const *kind = kinds; *kind; kind++) {
+        claims_tree t = claims_build(*kind, 8000, "density", NULL, 1);
+        worst = fmax(worst, pieces(&t) / (double)t.report.objects);
+        claims_free(&t);
+    }
+    return worst;
+}
+
+const claim claims_size[] = {
+    {"de Berg, theorem 2.5", "linear size in uncluttered scenes", "density",
+     "exponent of nodes + pieces in n; worst of cuboids, city, terrain", 0.9, 1.05, linear_size},
+    {"de Berg, theorem 2.5", "the same in the plane", "density",
+     "exponent of nodes + pieces in n; worst of scatter, rooms, blocks", 0.9, 1.05, linear_size_in_the_plane},
+    {"de Berg, introduction (Chazelle)", "some scenes are quadratic for every partition", "density",
+     "exponent of pieces in n, lines of two saddles", 1.8, 2.2, saddles_are_quadratic},
+    {"de Berg, introduction (Chazelle)", "the same", "grain", "exponent of pieces in n, lines of two saddles", 1.8, 2.2,
+     saddles_are_quadratic_for_grain},
+    {"de Berg, theorem 2.5", "O(n log n) time", "density",
+     "exponent of time / (n log n) in n; worse of scatter, clusters", -INFINITY, 0.15, build_time},
+    {"de Berg, lemma 2.1", "(2 V - 1)(2^d - 1) + 1 leaves without guards inside", "density",
+     "leaves / bound, worst of ten scenes", 0, 1, guard_leaves_without_guards},
+    {"de Berg, lemma 2.8 corrected", "clutter <= c_d density, c_2 = 4, c_3 = 8", NULL,
+     "clutter found / (c_d density), worst of ten scenes", 0, 1, clutter_is_low_where_density_is},
+    {"de Berg, section 1", "few pieces for the painter", "density", "pieces / n, worst of city, rooms-3d, cuboids", 1,
+     3, painters},
+    {"Sacks, lemma 12.7", "(2^d - 1)(2 V / k - 1) + 1 leaves", "density",
+     "leaves / bound, worst of ten scenes and k = 1, 4, 16, 64", 0, 1, guard_leaves_with_guards},
+    {"Sacks, lemma 12.7", "leaves ~ n / k", "density", "exponent of leaves in k, segments", -1.15, -0.85,
+     guard_leaves_against_k},
+    {"Sacks, lemma 12.6", "cells with k guards meet k + c_d lambda objects: doubling ends below twice the density",
+     "density", "k at the end / (2 density), worst of ten scenes", 0, 1, doubling},
+    {"Sacks, lemma 12.1", "n + 2 n ln n expected pieces of disjoint segments", "autopartition",
+     "mean pieces / bound, worst of five scenes", 0, 1, autopartition_in_the_plane},
+    {"Sacks, lemma 12.1 in space", "O(n^2) expected pieces", "autopartition",
+     "exponent of pieces in n; worse of disjoint-3d, saddles", 1, 2.1, autopartition_in_space},
+    {"Sacks, theorem 12.8", "size O(n log lambda)", "density",
+     "exponent of size in 1 + ln lambda, bundles of lambda = 4 .. 1024 segments", 0, 1.1, size_against_lambda},
+    {"Tobola and Nechvile, section 5", "linear size at low directional density", "directional",
+     "exponent of pieces in n; worst of bricks, sticks, towers, slabs", 0.95, 1.1, directional_is_linear},
+    {"Tobola and Nechvile, section 3 (Paterson and Yao)", "n^1.5 where the density is high", "directional",
+     "exponent of pieces in n, bars", 1.35, 1.65, directional_bars},
+    {"Tobola and Nechvile, section 5", "O(n log^2 n) time", "directional",
+     "exponent of time / (n log^2 n) in n; worse of sticks, rows", -INFINITY, 0.15, directional_time},
+    {"Tobola and Nechvile, lemma 3.3 weighted", "(2 + 2 trade)^d n pieces and what faces divide", "directional",
+     "pieces / bound, worst of seven scenes", 0, 1, directional_potential},
+    {"Agarwal et al., theorem 2.3", "O(n log n) nodes of disjoint segments", "cylindrical",
+     "exponent of nodes / (n log n) in n, disjoint", -INFINITY, 0.05, cylindrical_size},
+    {"Agarwal et al., theorem 2.5", "O(n log n + k) nodes with k crossings", "cylindrical",
+     "exponent of nodes / (n log n + k) in n, slats", -INFINITY, 0.1, cylindrical_crossings},
+    {"Agarwal et al., theorem 2.3", "height O(log n)", "cylindrical", "exponent of height in log n, disjoint", 0.5, 1.4,
+     cylindrical_height},
+    {"all", "what methods promise of each tree", NULL, "measured / promised, worst of all methods and twelve scenes", 0,
+     1, promises},
+    {0}};
