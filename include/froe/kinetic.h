@@ -223,12 +223,12 @@ FROE_API froe_status froe_kinetic_audit(froe_kinetic *kinetic, froe_diagnostic *
 
 typedef struct froe_kinetic_stats {
     uint64_t events[FROE_EVENT_KINDS];
-    uint64_t surgeries;         /**< of slabs */
-    uint64_t batches;           /**< groups of certificates that failed together */
-    uint64_t rebuilds;          /**< of whole cells */
-    uint64_t restarts;          /**< of the whole tree */
-    uint64_t stuck;             /**< ticks that could not be settled: always 0 */
-    uint64_t nodes_touched;     /**< split, joined or made */
+    uint64_t surgeries;     /**< of slabs */
+    uint64_t batches;       /**< groups of certificates that failed together */
+    uint64_t crowds;        /**< groups with more at one place than the certificates name, or points that coincide */
+    uint64_t restarts;      /**< of the whole tree */
+    uint64_t stuck;         /**< ticks that could not be settled: always 0 */
+    uint64_t nodes_touched; /**< split, joined or made */
     uint64_t certificates_made; /**< whose time of failure had to be found */
     size_t nodes, certificates; /**< at present */
     uint32_t height;            /**< of the tree in nodes, at present */

@@ -16,7 +16,8 @@ static void insert_below(froe_kinetic *k, uint32_t segment, const live_task *at)
     if (!node || comes_before(k, segment, node_at(k, node)->segment)) {
         live_new_list(k);
         live_list(k, segment);
-        live_collect(k, node, true);
+        live_collect(k, node);
+        live_free_tree(k, node);
         live_grow(k, &at->cell, 0, at->parent, at->slot);
         return;
     }
@@ -94,7 +95,8 @@ static void remove_nodes(froe_kinetic *k, uint32_t segment) {
         k->stamp++;
         live_new_list(k);
         segment_at(k, segment)->stamp = k->list_stamp; /* it does not get on the list */
-        live_collect(k, node, true);
+        live_collect(k, node);
+        live_free_tree(k, node);
         live_grow(k, &cell, 0, parent, slot);
         touch_walls(k, &cell);
         live_certify(k, parent, slot);

@@ -15,68 +15,6 @@ int64_t live_last_tick(const froe_kinetic *k) {
     return (k->now.motion->last_tick - 1) | 1;
 }
 
-/* ------------------------------------------------------------------- slabs -- */
-
-static bool has_end(const froe_kinetic *k, uint32_t segment, uint32_t vertex) {
-    const uint32_t *end = k->now.segments.data[segment].end;
-    return end[0] == vertex || end[1] == vertex;
-}
-
-/* Widens a slab by a point. */
-static void reach(froe_kinetic *k, live_item *item, now_name p) {
-    now_spot spot = now_spot_of(&k->now, p);
-    double error = 2 * spot.error + fabs(spot.x) * 0x1p-51 + 0x1p-1060;
-    if (!(error < (double)INFINITY)) {
-        k->now.lost = true;
-        return;
-    }
-    if (spot.x - error < item->low) item->low = spot.x - error;
-    if (spot.x + error > item->high) item->high = spot.x + error;
-}
-
-/* Where the segments at a vertex cross another one. */
-static void reach_crossings(froe_kinetic *k, live_item *item, uint32_t vertex, uint32_t other) {
-    for (uint32_t e = k->vertices.data[vertex]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-        if (segment_at(k, e / 2)->here && e / 2 != other) reach(k, item, name_crossing(e / 2, other));
-}
-
-/* Of two crossings on one segment, where the other two cross. */
-static bool third_crossing(now_name p, now_name q, now_name *out) {
-    const uint32_t a[2] = {p.a, (uint32_t)p.b}, b[2] = {q.a, (uint32_t)q.b};
-    for (int i = 0; i < 4; i++)
-        if (a[i / 2] == b[i % 2]) {
-            *out = name_crossing(a[1 - i / 2], b[1 - i % 2]);
-            return true;
-        }
-    return false;
-}
-
-/* A vertex, and a crossing of a segment that ends at it with another: which one? */
-static uint32_t met_segment(const froe_kinetic *k, now_name p, now_name q) {
-    now_name vertex = name_is_vertex(p) ? p : q, crossing = name_is_vertex(p) ? q : p;
-    if (!name_is_vertex(vertex) || !name_is_crossing(crossing)) return FROE_NONE;
-    if (has_end(k, crossing.a, vertex.a)) return (uint32_t)crossing.b;
-    return has_end(k, (uint32_t)crossing.b, vertex.a) ? crossing.a : FROE_NONE;
-}
-
-static void find_slab(froe_kinetic *k, live_item *item) {
-    now_name p = item->claim.p, q = item->claim.q, third;
-    item->low = (double)INFINITY, item->high = -(double)INFINITY;
-    reach(k, item, q);
-    if (p.b == NAME_SEGMENT) {
-        reach_crossings(k, item, q.a, p.a);
-        return;
-    }
-    reach(k, item, p);
-    uint32_t met = met_segment(k, p, q);
-    if (met != FROE_NONE) reach_crossings(k, item, name_is_vertex(p) ? p.a : q.a, met);
-    if (name_is_crossing(p) && name_is_crossing(q) && third_crossing(p, q, &third)) {
-        bool lost = k->now.lost;
-        reach(k, item, third);
-        k->now.lost = lost; /* parallel lines cross nowhere: nothing to reach */
-    }
-}
-
 /* ------------------------------------------------------------------- cells -- */
 
 static uint32_t ancestor_with(const froe_kinetic *k, uint32_t node, uint32_t segment) {
@@ -91,7 +29,7 @@ static uint32_t node_of(const froe_kinetic *k, const live_item *item) {
     uint32_t node, met;
     if (item->kind <= CERT_RIGHT) {
         node = c->owner;
-        met = met_segment(k, item->claim.p, item->claim.q);
+        met = live_met_segment(k, item->claim.p, item->claim.q);
     } else {
         node = segment_at(k, c->owner / 2)->end[c->owner % 2].node;
         met = item->claim.p.a;
@@ -106,37 +44,28 @@ static bool is_inside(froe_kinetic *k, const live_cell *cell) {
            (!name_exists(cell->wall[RIGHT]) || now_compare(&k->now, cell->wall[RIGHT], line[1]) > 0);
 }
 
-/* Is a segment on the list of those that have a part in this? */
-static bool is_involved(const froe_kinetic *k, uint32_t segment) {
-    return segment != FROE_NONE && segment_at(k, segment)->stamp == k->list_stamp;
-}
-
 /* The nearest cell, from that of a node up, whose walls are outside the slab; and none of whose borders is
  * involved, if care is needed. */
 static uint32_t climb(froe_kinetic *k, uint32_t node, bool careful) {
     for (;; node = node_at(k, node)->parent) {
         if (node_at(k, node)->parent == ROOT) return node;
         live_cell cell = live_cell_of(k, node);
-        if (is_inside(k, &cell) && (!careful || (!is_involved(k, cell.top) && !is_involved(k, cell.bottom))))
+        if (is_inside(k, &cell) && (!careful || (!live_in_crew(k, cell.top) && !live_in_crew(k, cell.bottom))))
             return node;
     }
 }
 
-static void involve(froe_kinetic *k, now_name p) {
-    if (p.b == NAME_SEGMENT || name_is_crossing(p)) live_list(k, p.a);
-    if (name_is_crossing(p)) live_list(k, (uint32_t)p.b);
-    if (!name_is_vertex(p)) return;
-    for (uint32_t e = k->vertices.data[p.a]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-        if (segment_at(k, e / 2)->here) live_list(k, e / 2);
-}
-
 /* ------------------------------------------------------------------ groups -- */
 
+/* Items whose slabs hang together. */
 typedef struct group {
-    const live_item *items;
-    size_t count;
-    double low, high;
+    size_t first, count; /* of the items */
+    double slab[2];
 } group;
+
+static const live_item *item_of(const froe_kinetic *k, const group *g, size_t i) {
+    return k->items.data + g->first + i;
+}
 
 static bool is_current(const froe_kinetic *k, const live_item *item) {
     if (item->kind == CERT_TURN) return segment_at(k, item->cert)->here;
@@ -144,25 +73,27 @@ static bool is_current(const froe_kinetic *k, const live_item *item) {
     return c->kind == item->kind && claim_is(&c->claim, &item->claim) && c->tick <= k->now.tick;
 }
 
+/* As its place, 4 parent + slot, which outlives the node. */
 static void add_root(froe_kinetic *k, uint32_t node) {
     if (!node) return;
+    uint32_t place = 4 * node_at(k, node)->parent + node_at(k, node)->slot;
     for (size_t i = 0; i < k->roots.count; i++)
-        if (k->roots.data[i] == node) return;
-    if (!array_push(&k->alloc, &k->roots, node)) k->short_of_memory = true;
+        if (k->roots.data[i] == place) return;
+    if (!array_push(&k->alloc, &k->roots, place)) k->short_of_memory = true;
 }
 
-static void find_roots(froe_kinetic *k, const group *g, bool careful) {
-    k->roots.count = 0;
-    for (size_t i = 0; i < g->count; i++) {
-        const live_item *item = g->items + i;
-        if (!is_current(k, item)) continue;
-        if (item->kind == CERT_TURN) {
-            for (uint32_t n = segment_at(k, item->cert)->nodes; n; n = node_at(k, n)->next)
-                add_root(k, climb(k, n, careful));
-        } else {
-            add_root(k, climb(k, node_of(k, item), careful));
-        }
+static uint32_t root_at(const froe_kinetic *k, size_t i) {
+    return node_at(k, k->roots.data[i] / 4)->child[k->roots.data[i] % 4];
+}
+
+/* Where surgery is needed for an item. */
+static void add_roots(froe_kinetic *k, const live_item *item) {
+    if (!is_current(k, item)) return;
+    if (item->kind != CERT_TURN) {
+        add_root(k, climb(k, node_of(k, item), false));
+        return;
     }
+    for (uint32_t n = segment_at(k, item->cert)->nodes; n; n = node_at(k, n)->next) add_root(k, climb(k, n, false));
 }
 
 static uint32_t depth_of(const froe_kinetic *k, uint32_t node) {
@@ -180,122 +111,93 @@ static uint32_t common_ancestor(const froe_kinetic *k, uint32_t a, uint32_t b) {
     return a;
 }
 
-/* Leaves only those roots that are below no other; all in one if care is needed. */
-static void reduce_roots(froe_kinetic *k, bool careful) {
-    uint32_t *r = k->roots.data;
+/* Leaves only those roots that are below no other. */
+static void reduce_roots(froe_kinetic *k) {
     size_t kept = 0;
     for (size_t i = 0; i < k->roots.count; i++) {
         bool below = false;
-        for (size_t j = 0; j < k->roots.count && !below; j++) below = i != j && common_ancestor(k, r[i], r[j]) == r[j];
-        if (!below) r[kept++] = r[i];
+        for (size_t j = 0; j < k->roots.count && !below; j++)
+            below = i != j && common_ancestor(k, root_at(k, i), root_at(k, j)) == root_at(k, j);
+        if (!below) k->roots.data[kept++] = k->roots.data[i];
     }
     k->roots.count = kept;
-    while (careful && k->roots.count > 1) {
-        r[0] = common_ancestor(k, r[0], r[k->roots.count - 1]);
-        k->roots.count--;
-    }
 }
 
-/* Puts on the list who has a part in this: in the certificates, and in coincidences nearby. */
-static void list_involved(froe_kinetic *k, const group *g) {
-    live_new_list(k);
-    for (size_t i = 0; i < g->count; i++) {
-        if (g->items[i].kind == CERT_TURN) live_list(k, g->items[i].cert);
-        involve(k, g->items[i].claim.p);
-        involve(k, g->items[i].claim.q);
-    }
-    for (size_t i = 0; i < k->now.ties && i < NOW_TIES; i++) involve(k, k->now.tied[i]);
-}
-
-/* Surgery on slabs. Leaves the places of the cells it was done in as roots: 4 parent + slot. */
-static void operate(froe_kinetic *k, const group *g, bool careful) {
-    k->now.line[0] = g->low, k->now.line[1] = g->high;
-    list_involved(k, g);
-    find_roots(k, g, careful);
-    reduce_roots(k, careful);
-    for (size_t i = 0; i < k->roots.count && !k->now.lost && !k->broken && !k->short_of_memory; i++) {
-        const live_node *n = node_at(k, k->roots.data[i]);
-        uint32_t place = 4 * n->parent + n->slot;
-        live_slab(k, k->roots.data[i]);
-        k->roots.data[i] = place;
-    }
-}
-
-/* Certificates that are due but not in the group: what is made from scratch must not have them at its borders. */
-static void find_pending(froe_kinetic *k) {
-    k->pending.count = 0;
-    for (size_t i = 0; i < k->items.count; i++) {
-        if (k->items.data[i].kind != CERT_TURN) continue;
-        live_list(k, k->items.data[i].cert);
-        if (!array_push(&k->alloc, &k->pending, k->items.data[i])) k->short_of_memory = true;
-    }
-    live_due(k, k->now.tick);
-    for (size_t i = 0; i < k->order.count; i++) {
-        const live_cert *c = k->certs.data + k->order.data[i];
-        live_item item = {k->order.data[i], c->kind, c->claim, 0, 0};
-        if (c->kind >= CERT_TURN) continue;
-        find_slab(k, &item);
-        involve(k, item.claim.p);
-        involve(k, item.claim.q);
-        if (!array_push(&k->alloc, &k->pending, item)) k->short_of_memory = true;
-    }
-}
-
-static bool is_pending_at(froe_kinetic *k, now_name wall) {
-    if (!name_exists(wall)) return false;
-    now_spot spot = now_spot_of(&k->now, wall);
-    for (size_t i = 0; i < k->pending.count; i++) {
-        const live_item *p = k->pending.data + i;
-        if (spot.x + spot.error >= p->low && spot.x - spot.error <= p->high) return true;
-    }
-    return false;
-}
-
-static uint32_t climb_clear(froe_kinetic *k, uint32_t node) {
-    for (;; node = node_at(k, node)->parent) {
-        node = climb(k, node, true);
-        live_cell cell = live_cell_of(k, node);
-        if (node_at(k, node)->parent == ROOT ||
-            (!is_pending_at(k, cell.wall[LEFT]) && !is_pending_at(k, cell.wall[RIGHT])))
-            return node;
-    }
-}
-
-/* Where points coincide, more may have happened than certificates tell: a cell with all of it is made from scratch. */
-static void start_over(froe_kinetic *k, const group *g) {
-    if (!k->roots.count) return;
+/* The smallest subtree with all roots. */
+static uint32_t common_root(const froe_kinetic *k) {
     uint32_t node = LEAF;
     for (size_t i = 0; i < k->roots.count; i++) {
-        uint32_t parent = k->roots.data[i] / 4, at = node_at(k, parent)->child[k->roots.data[i] % 4];
-        if (!at) at = parent;
+        uint32_t at = root_at(k, i) ? root_at(k, i) : k->roots.data[i] / 4;
         node = node ? common_ancestor(k, node, at) : at;
     }
-    list_involved(k, g);
-    find_pending(k);
-    if (k->short_of_memory) return;
-    if (node == ROOT || k->now.ties > NOW_TIES || k->now.lost)
-        live_restart(k);
-    else
-        live_rebuild(k, climb_clear(k, node));
+    return node;
+}
+
+/* Who takes part, and where. False: points in one place that have nothing to do with one another. */
+static bool call_crew(froe_kinetic *k, const group *g) {
+    bool usual = true;
+    live_new_crew(k);
+    for (size_t i = 0; i < g->count; i++) usual &= live_join_item(k, item_of(k, g, i));
+    return usual;
+}
+
+static bool is_sound(const froe_kinetic *k) {
+    return !k->now.lost && !k->broken && !k->short_of_memory;
+}
+
+/* Surgery in small cells, if the event is a simple one. False: it is not, or strangers came. */
+static bool operate(froe_kinetic *k, const group *g, bool simple) {
+    k->roots.count = 0;
+    k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
+    for (size_t i = 0; i < g->count; i++) add_roots(k, item_of(k, g, i));
+    reduce_roots(k);
+    if (!simple) return false;
+    for (size_t i = 0; i < k->roots.count && is_sound(k); i++) {
+        uint32_t node = root_at(k, i);
+        if (node && !live_slab(k, node)) return false;
+    }
+    return true;
+}
+
+/* Widens the group's slab by what its crew has to do with, and takes in the items that it meets then. */
+static void widen(froe_kinetic *k, group *g) {
+    size_t count;
+    do {
+        count = k->crew.count;
+        live_reach_crew(k, g->slab);
+        for (; g->first + g->count < k->items.count; g->count++) {
+            const live_item *next = item_of(k, g, g->count);
+            if (next->slab[0] > g->slab[1]) break;
+            if (next->slab[1] > g->slab[1]) g->slab[1] = next->slab[1];
+            live_join_item(k, next);
+            add_roots(k, next);
+        }
+    } while (k->crew.count > count);
+}
+
+/* Surgery in one cell, none of whose borders has a part in this. */
+static void operate_carefully(froe_kinetic *k, group *g) {
+    do {
+        widen(k, g);
+        uint32_t node = common_root(k);
+        if (node == ROOT) k->broken = true; /* a new tree */
+        if (!node || !is_sound(k)) return;
+        k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
+        node = climb(k, node, true);
+        if (live_slab(k, node)) return;
+    } while (is_sound(k));
 }
 
 /* ------------------------------------------------------------------ events -- */
 
-static bool is_one_segment(const froe_kinetic *k, now_name p, now_name q) {
-    if (!name_is_vertex(p) || !name_is_vertex(q)) return false;
-    for (uint32_t e = k->vertices.data[p.a]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-        if (has_end(k, e / 2, q.a)) return true;
-    return false;
-}
-
 static froe_event_kind kind_of(const froe_kinetic *k, const live_item *item) {
     now_name p = item->claim.p, q = item->claim.q, third;
     if (item->kind == CERT_TURN) return FROE_EVENT_TURN;
-    if (item->kind > CERT_RIGHT || met_segment(k, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
-    if (is_one_segment(k, p, q)) return FROE_EVENT_TURN;
+    if (item->kind > CERT_RIGHT || live_met_segment(k, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
+    if (live_is_one_segment(k, p, q)) return FROE_EVENT_TURN;
     if (name_is_vertex(p) && name_is_vertex(q)) return FROE_EVENT_VERTICES;
     if (name_is_vertex(p) || name_is_vertex(q)) return FROE_EVENT_VERTEX_CROSSING;
-    return third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
+    return live_third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
 }
 
 static void add_object(froe_event *e, uint32_t object) {
@@ -338,10 +240,10 @@ static bool tell(froe_kinetic *k, const live_watcher *watcher, const froe_event 
 
 /* What the certificates of a group have in common. */
 static froe_event describe(const froe_kinetic *k, const group *g) {
-    froe_event e = event_at(k, kind_of(k, g->items));
+    froe_event e = event_at(k, kind_of(k, item_of(k, g, 0)));
     for (size_t i = 0; i < g->count; i++) {
-        if (kind_of(k, g->items + i) != e.kind) e.kind = FROE_EVENT_BATCH;
-        add_objects(k, &e, g->items + i);
+        if (kind_of(k, item_of(k, g, i)) != e.kind) e.kind = FROE_EVENT_BATCH;
+        add_objects(k, &e, item_of(k, g, i));
     }
     if ((e.kind == FROE_EVENT_TRIPLE && e.object_count > 3) || (e.kind == FROE_EVENT_TURN && e.object_count > 1) ||
         e.object_count > 4)
@@ -353,22 +255,21 @@ static froe_event describe(const froe_kinetic *k, const group *g) {
 
 static bool add_item(froe_kinetic *k, uint32_t cert) {
     const live_cert *c = k->certs.data + cert;
-    live_item item = {cert, c->kind, c->claim, 0, 0};
+    live_item item = {cert, c->kind, c->claim, {0, 0}};
     if (c->kind >= CERT_TURN) return true;
     if (now_holds(&k->now, &c->claim) >= 0) { /* between the last tick and this one it failed, and held again */
         live_set_tick(k, cert, now_first_failure(&k->now, &item.claim));
         return true;
     }
-    k->now.lost = false;
-    find_slab(k, &item);
+    live_find_slab(k, &item);
     return array_push(&k->alloc, &k->items, item);
 }
 
 static int by_low(void *user, uint32_t a, uint32_t b) {
     const live_item *items = ((const froe_kinetic *)user)->items.data;
     const live_item *x = items + a, *y = items + b;
-    if (x->low != y->low) return x->low < y->low ? -1 : 1;
-    return (x->high > y->high) - (x->high < y->high);
+    if (x->slab[0] != y->slab[0]) return x->slab[0] < y->slab[0] ? -1 : 1;
+    return (x->slab[1] > y->slab[1]) - (x->slab[1] < y->slab[1]);
 }
 
 /* Sorts the items by place; ties keep the order of the queue, which is a function of what happened before. */
@@ -390,8 +291,8 @@ static void gather(froe_kinetic *k) {
     k->items.count = 0;
     for (size_t i = 0; i < k->turning.count; i++) {
         const uint32_t s = k->turning.data[i], *end = k->now.segments.data[s].end;
-        live_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, 0, 0};
-        find_slab(k, &item);
+        live_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, {0, 0}};
+        live_find_slab(k, &item);
         if (!array_push(&k->alloc, &k->items, item)) k->short_of_memory = true;
     }
     k->turning.count = 0;
@@ -405,24 +306,42 @@ static void gather(froe_kinetic *k) {
 /* The items from i on whose slabs hang together. */
 static group group_from(const froe_kinetic *k, size_t i) {
     const live_item *items = k->items.data;
-    group g = {items + i, 1, items[i].low, items[i].high};
-    for (size_t j = i + 1; j < k->items.count && items[j].low <= g.high; j++, g.count++) {
-        if (items[j].high > g.high) g.high = items[j].high;
-    }
+    group g = {i, 1, {items[i].slab[0], items[i].slab[1]}};
+    for (size_t j = i + 1; j < k->items.count && items[j].slab[0] <= g.slab[1]; j++, g.count++)
+        if (items[j].slab[1] > g.slab[1]) g.slab[1] = items[j].slab[1];
     return g;
 }
 
-static bool handle_group(froe_kinetic *k, const group *g, unsigned round, const live_watcher *watcher) {
+/* Does a group look like one event, in one place or on one vertical line? */
+static bool is_one_event(const froe_kinetic *k, const group *g, const froe_event *event) {
+    switch (event->kind) {
+    case FROE_EVENT_CONTACT:
+        return g->count == 1 || event->object_count == 2;
+    case FROE_EVENT_TRIPLE:
+        return event->object_count == 3;
+    case FROE_EVENT_TURN:
+        return event->object_count == 1;
+    case FROE_EVENT_BATCH:
+        return false;
+    default:
+        for (size_t i = 1; i < g->count; i++)
+            if (!claim_is(&item_of(k, g, i)->claim, &item_of(k, g, 0)->claim)) return false;
+        return true;
+    }
+}
+
+static bool handle_group(froe_kinetic *k, group *g, unsigned round, const live_watcher *watcher) {
     froe_event event = describe(k, g);
-    bool careful = round >= CAREFUL_ROUND || event.kind == FROE_EVENT_BATCH;
-    k->now.ties = 0;
-    k->now.lost = !(g->high - g->low < (double)INFINITY);
-    operate(k, g, careful);
+    bool simple = call_crew(k, g) && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
+                  !live_has_loose_ends(k, item_of(k, g, 0));
+    k->now.lost = !(g->slab[0] <= g->slab[1]);
+    if (!operate(k, g, simple)) {
+        k->counts.crowds++;
+        operate_carefully(k, g);
+    }
     if (k->short_of_memory) return true;
-    if (k->now.lost || k->broken)
-        live_restart(k);
-    else if (k->now.ties || round >= CAREFUL_ROUND)
-        start_over(k, g);
+    if (!is_sound(k)) live_restart(k);
+    event = describe(k, g);
     k->counts.batches += event.kind == FROE_EVENT_BATCH;
     return round > 0 || tell(k, watcher, &event);
 }
@@ -461,7 +380,6 @@ static void leave(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
 
 /* Which segments have to be taken out before time goes on to the tick. */
 static void gather_leaving(froe_kinetic *k, int64_t tick) {
-    k->leaving.count = 0;
     live_due(k, tick);
     for (size_t i = 0; i < k->order.count; i++) {
         const live_cert *c = k->certs.data + k->order.data[i];
@@ -478,6 +396,17 @@ static void gather_leaving(froe_kinetic *k, int64_t tick) {
         uint32_t cert = k->order.data[i];
         if (k->certs.data[cert].kind == CERT_COURSE) live_set_tick(k, cert, NOW_NEVER);
     }
+}
+
+/* Takes them out. Where one goes, others may turn out to lie in one line, and have to go, too. */
+static void let_leave(froe_kinetic *k, int64_t tick) {
+    size_t gone = 0;
+    k->leaving.count = 0;
+    do {
+        gather_leaving(k, tick);
+        if (gone == k->leaving.count) return;
+        for (; gone < k->leaving.count && !k->short_of_memory; gone++) live_remove(k, k->leaving.data[gone] / 2);
+    } while (!k->short_of_memory);
 }
 
 /* Ends that change sides: before anything else is asked at this tick, as sides depend on it. */
@@ -523,8 +452,7 @@ bool live_step(froe_kinetic *k, int64_t tick, const live_watcher *watcher) {
         k->now.tick = tick;
         return true;
     }
-    gather_leaving(k, next);
-    for (size_t i = 0; i < k->leaving.count && !k->short_of_memory; i++) live_remove(k, k->leaving.data[i] / 2);
+    let_leave(k, next);
     k->now.tick = next;
     turn_segments(k);
     bool go_on = settle(k, watcher);

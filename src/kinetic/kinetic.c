@@ -147,7 +147,8 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->ends);
     array_free(&alloc, &k->order);
     array_free(&alloc, &k->items);
-    array_free(&alloc, &k->pending);
+    array_free(&alloc, &k->places);
+    array_free(&alloc, &k->crew);
     array_free(&alloc, &k->roots);
     array_free(&alloc, &k->leaving);
     array_free(&alloc, &k->turning);

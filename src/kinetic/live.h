@@ -56,8 +56,9 @@ typedef struct live_segment {
     uint32_t life;  /**< certificate: appears, disappears */
     uint32_t pairs; /**< the first pair with a segment in the same line: 2 pair + which of the two it is */
     uint32_t stamp;
-    bool alive; /**< it has been born and has not died */
-    bool here;  /**< it is among those of which the tree is made: alive, and not just a point */
+    uint32_t crew; /**< stamp of the last event that it takes part in */
+    bool alive;    /**< it has been born and has not died */
+    bool here;     /**< it is among those of which the tree is made: alive, and not just a point */
     live_end end[2];
 } live_segment;
 
@@ -129,15 +130,20 @@ typedef struct live_item {
     uint32_t cert;
     cert_kind kind;
     now_claim claim;
-    double low, high; /**< the slab */
+    double slab[2]; /**< of x */
 } live_item;
+
+/** Where something happens: a box, and how far what is there moves in a tick. */
+typedef struct live_place {
+    double low[2], high[2], speed;
+} live_place;
 
 struct froe_kinetic {
     froe_allocator alloc;
     now_state now;
     froe_kinetic_options options;
     uint64_t epoch, epoch_events; /**< orders drawn so far, events until the last */
-    uint32_t stamp, list_stamp;
+    uint32_t stamp, list_stamp, crew_stamp;
     bool short_of_memory; /**< the tree may be incomplete */
     bool still;           /**< it will never move: no certificates */
     bool broken;          /**< parts do not fit: the tree is not what it should be */
@@ -159,7 +165,8 @@ struct froe_kinetic {
     ARRAY(uint32_t) ends;  /**< whose walls came or went: 2 segment + end */
     ARRAY(uint32_t) order; /**< scratch */
     ARRAY(live_item) items;
-    ARRAY(live_item) pending; /**< others that wait for their turn */
+    ARRAY(live_place) places; /**< where things happen */
+    ARRAY(uint32_t) crew;     /**< segments that take part */
     ARRAY(uint32_t) roots;    /**< nodes where surgery is needed */
     ARRAY(uint32_t) leaving;  /**< 2 segment + 1: whose plan or life changes now; 2 segment: who may come to light */
     ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */
@@ -200,8 +207,9 @@ live_cell live_plane(void);
 live_cell live_cell_of(const froe_kinetic *k, uint32_t node);
 /** The cell of a child. REQUIRES: there is a wall on that side. */
 live_cell live_child_cell(const froe_kinetic *k, const live_cell *cell, uint32_t node, int slot);
-/** Adds the segments of a subtree to the list, each once, and frees the nodes if asked to. */
-void live_collect(froe_kinetic *k, uint32_t node, bool free_them);
+/** Adds the segments of a subtree to the list, each once. */
+void live_collect(froe_kinetic *k, uint32_t node);
+void live_free_tree(froe_kinetic *k, uint32_t node);
 /** Adds one. */
 void live_list(froe_kinetic *k, uint32_t segment);
 /** An empty list. */
@@ -221,12 +229,40 @@ void live_grow(froe_kinetic *k, const live_cell *cell, size_t first, uint32_t pa
 void live_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]);
 /** The inverse. Sets `broken` where the parts do not fit. */
 void live_join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot);
-/** What lies between the two lines is made anew in the cell of a node. */
-void live_slab(froe_kinetic *k, uint32_t node);
-/** Everything in the cell of a node is made anew, also of the segments already on the list. */
-void live_rebuild(froe_kinetic *k, uint32_t node);
+/** What lies between the two lines is made anew in the cell of a node. False: somebody comes near who is not of the
+ * crew; now he is, and the tree is as it was. */
+bool live_slab(froe_kinetic *k, uint32_t node);
 /** The whole tree, whatever state it is in. */
 void live_restart(froe_kinetic *k);
+
+/* crowd.c */
+/** Nobody, at no place. */
+void live_new_crew(froe_kinetic *k);
+bool live_in_crew(const froe_kinetic *k, uint32_t segment);
+void live_join_crew(froe_kinetic *k, uint32_t segment);
+/** Adds whom a certificate is about, and where. False: its points are in one place, and have nothing to do with one
+ * another. */
+bool live_join_item(froe_kinetic *k, const live_item *item);
+/** Has the crew, perhaps, ends in its places that the certificate does not speak of? */
+bool live_has_loose_ends(froe_kinetic *k, const live_item *item);
+/** Adds those that come near. False: nobody new. */
+bool live_find_strangers(froe_kinetic *k, const uint32_t *segments, size_t count);
+/** Widens a slab by where two segments meet, or may have met two ticks ago. */
+void live_reach_pair(froe_kinetic *k, double slab[2], uint32_t s, uint32_t t);
+/** Widens a slab by the ends and crossings of the crew that are near. */
+void live_reach_crew(froe_kinetic *k, double slab[2]);
+
+/* slab.c */
+/** Widens a slab by a point. Lines without a crossing: not at all. */
+void live_reach(froe_kinetic *k, double slab[2], now_name p);
+void live_find_slab(froe_kinetic *k, live_item *item);
+/** Of two crossings on one segment, where the other two cross. */
+bool live_third_crossing(now_name p, now_name q, now_name *out);
+/** A vertex, and a crossing of a segment that ends at it with another: which one? FROE_NONE: it is not so. */
+uint32_t live_met_segment(const froe_kinetic *k, now_name p, now_name q);
+/** Are they the two ends of one segment? */
+bool live_is_one_segment(const froe_kinetic *k, now_name p, now_name q);
+bool live_has_end(const froe_kinetic *k, uint32_t segment, uint32_t vertex);
 
 /* queue.c */
 uint32_t live_new_cert(froe_kinetic *k, cert_kind kind, uint32_t owner, int64_t tick, const now_claim *claim);

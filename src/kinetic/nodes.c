@@ -132,7 +132,8 @@ void live_list(froe_kinetic *k, uint32_t segment) {
     if (!array_push(&k->alloc, &k->list, segment)) k->short_of_memory = true;
 }
 
-void live_collect(froe_kinetic *k, uint32_t node, bool free_them) {
+/* Visits a subtree from the top down. */
+static void each_node(froe_kinetic *k, uint32_t node, void (*visit)(froe_kinetic *k, uint32_t node)) {
     k->order.count = 0;
     if (node && !array_push(&k->alloc, &k->order, node)) k->short_of_memory = true;
     while (k->order.count) {
@@ -144,7 +145,18 @@ void live_collect(froe_kinetic *k, uint32_t node, bool free_them) {
         const live_node *n = node_at(k, top);
         for (int i = 0; i < 4; i++)
             if (n->child[i]) k->order.data[k->order.count++] = n->child[i];
-        live_list(k, n->segment);
-        if (free_them) live_free_node(k, top);
+        visit(k, top);
     }
+}
+
+static void list_segment_of(froe_kinetic *k, uint32_t node) {
+    live_list(k, node_at(k, node)->segment);
+}
+
+void live_collect(froe_kinetic *k, uint32_t node) {
+    each_node(k, node, list_segment_of);
+}
+
+void live_free_tree(froe_kinetic *k, uint32_t node) {
+    each_node(k, node, live_free_node);
 }

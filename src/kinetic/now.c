@@ -77,6 +77,8 @@ static void set_course(now_state *now, uint32_t vertex, now_course *c) {
     double ex = in_doubles(&p.x, p.w.c[0], span, c->x), ey = in_doubles(&p.y, p.w.c[0], span, c->y);
     c->error = ex > ey ? ex : ey;
     if (!(c->error < (double)INFINITY)) c->error = (double)INFINITY;
+    double vx = fabs(c->x[1]) + 2 * span * fabs(c->x[2]), vy = fabs(c->y[1]) + 2 * span * fabs(c->y[2]);
+    c->speed = (vx > vy ? vx : vy) * (1 + 0x1p-20);
 }
 
 /* Pieces are looked up once, when the first tick of theirs has come; trials of later ticks do not leave them. */
@@ -94,6 +96,10 @@ static now_course *course_of(now_state *now, uint32_t vertex) {
 
 int64_t now_course_last(now_state *now, uint32_t vertex) {
     return course_of(now, vertex)->last;
+}
+
+double now_speed(now_state *now, uint32_t vertex) {
+    return course_of(now, vertex)->speed;
 }
 
 typedef struct ball2 {
@@ -184,11 +190,6 @@ static int order_of(now_state *now, const exact_point *p, const exact_point *q, 
     return -exact_sign(&order) * negative(&p->w) * negative(&q->w);
 }
 
-static void note_tie(now_state *now, now_name p, now_name q) {
-    if (now->ties + 2 <= NOW_TIES) now->tied[now->ties] = p, now->tied[now->ties + 1] = q;
-    now->ties += 2;
-}
-
 /* Along the pieces, for points that are equal in x at the tick. */
 static int compare_after(now_state *now, now_name p, now_name q) {
     exact_point a, b;
@@ -197,9 +198,7 @@ static int compare_after(now_state *now, now_name p, now_name q) {
     named_exact(now, q, exact_along, &b);
     if (!negative(&a.w) || !negative(&b.w)) return now->lost = true, 1;
     int order = order_of(now, &a, &b, 0);
-    if (!order) order = order_of(now, &a, &b, 1);
-    note_tie(now, p, q);
-    return order;
+    return order ? order : order_of(now, &a, &b, 1);
 }
 
 static int compare_exactly(now_state *now, now_name p, now_name q) {
@@ -260,9 +259,7 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
     if (sign == 1 || sign == -1) return sign;
     now->context.stats.exact++;
     sign = side_with(now, segment, vertex, exact_at);
-    if (sign) return sign;
-    note_tie(now, (now_name){segment, NAME_SEGMENT}, (now_name){vertex, NAME_VERTEX});
-    return side_with(now, segment, vertex, exact_along);
+    return sign ? sign : side_with(now, segment, vertex, exact_along);
 }
 
 /* ------------------------------------------------------------------ claims -- */

@@ -29,6 +29,7 @@ typedef struct now_course {
     motion_piece piece;
     int64_t last, base; /**< the last tick of the piece; -1: not looked at yet */
     double x[3], y[3], error;
+    double speed; /**< no coordinate changes by more in a tick; some slack included */
     int64_t tick; /**< at which `at` is */
     double at[2];
 } now_course;
@@ -43,7 +44,7 @@ typedef struct now_memory {
     int64_t tick;
     now_spot spot;
 } now_memory;
-enum { NOW_MEMORIES = 1 << 12, NOW_TIES = 256 };
+enum { NOW_MEMORIES = 1 << 12 };
 
 typedef struct now_segment {
     uint32_t end[2]; /**< vertices */
@@ -58,9 +59,7 @@ typedef struct now_state {
     ARRAY(now_segment) segments; /**< [object] */
     now_memory *memories;        /**< of crossings, by a hash of their names */
     num_context context;
-    now_name tied[NOW_TIES]; /**< points, and segments, that coincide though they have other names */
-    size_t ties;             /**< how many; more than NOW_TIES: the others are not told */
-    bool lost;               /**< somebody asked where parallel lines cross */
+    bool lost; /**< somebody asked where parallel lines cross */
 } now_state;
 
 froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out);
@@ -95,6 +94,8 @@ static inline uint32_t now_vertex(const now_state *now, uint32_t segment, int si
 
 /** Up to and including which tick the flight of a vertex is one polynomial. */
 int64_t now_course_last(now_state *now, uint32_t vertex);
+/** No coordinate of the vertex changes by more in a tick, as long as its piece lasts. */
+double now_speed(now_state *now, uint32_t vertex);
 /** REQUIRES: a vertex or a crossing. */
 now_spot now_spot_of(now_state *now, now_name p);
 /** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last. */

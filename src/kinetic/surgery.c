@@ -129,35 +129,36 @@ void live_join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t
 
 /* -------------------------------------------------------------------- slab -- */
 
-void live_slab(froe_kinetic *k, uint32_t node) {
+/* Does anybody in the slab, or on its borders, take part who is not of the crew? */
+static bool has_strangers(froe_kinetic *k, const live_cell *cell) {
+    const uint32_t border[2] = {cell->top, cell->bottom};
+    bool found = live_find_strangers(k, border, 2);
+    return live_find_strangers(k, k->list.data, k->list.count) || found;
+}
+
+bool live_slab(froe_kinetic *k, uint32_t node) {
     live_cell cell = live_cell_of(k, node), slab = cell;
     const uint32_t parent = node_at(k, node)->parent;
     const uint8_t slot = node_at(k, node)->slot;
     k->stamp++;
     live_new_list(k);
-    k->counts.surgeries++;
     live_split(k, node, 0, (uint32_t[]){PARTS, PARTS}, (uint8_t[]){0, 1});
     live_split(k, node_at(k, PARTS)->child[1], 1, (uint32_t[]){PARTS, PARTS}, (uint8_t[]){1, 2});
-    if (k->short_of_memory) return;
-    live_collect(k, node_at(k, PARTS)->child[1], true);
-    for (uint32_t i = 0; i < 2; i++) slab.wall[i] = (now_name){i, NAME_LINE};
-    live_grow(k, &slab, 0, PARTS, 1);
+    if (k->short_of_memory) return false;
+    live_collect(k, node_at(k, PARTS)->child[1]);
+    bool strangers = has_strangers(k, &cell);
+    if (!strangers) {
+        k->counts.surgeries++;
+        live_free_tree(k, node_at(k, PARTS)->child[1]);
+        for (uint32_t i = 0; i < 2; i++) slab.wall[i] = (now_name){i, NAME_LINE};
+        live_grow(k, &slab, 0, PARTS, 1);
+    }
     const uint32_t *part = node_at(k, PARTS)->child;
     live_join(k, part[0], part[1], PARTS, 0);
     part = node_at(k, PARTS)->child;
     live_join(k, part[0], part[2], parent, slot);
-    if (!k->broken && !k->now.lost) live_certify(k, parent, slot);
-}
-
-void live_rebuild(froe_kinetic *k, uint32_t node) {
-    live_cell cell = live_cell_of(k, node);
-    const uint32_t parent = node_at(k, node)->parent;
-    const uint8_t slot = node_at(k, node)->slot;
-    k->stamp++;
-    k->counts.rebuilds++;
-    live_collect(k, node, true);
-    live_grow(k, &cell, 0, parent, slot);
-    live_certify(k, parent, slot);
+    if (!strangers && !k->broken && !k->now.lost) live_certify(k, parent, slot);
+    return !strangers;
 }
 
 /* Nodes that hang nowhere any more count as free. */

@@ -57,6 +57,14 @@ static const moving_kind kinds[] = {
     {.name = "upright", .count = 24, .grid = 200, .length = 90, .speed = 5, .spin = 0, .upright = true},
     {.name = "nearly upright", .count = 20, .grid = 200, .length = 90, .speed = 5, .spin = 1, .upright = true},
     {.name = "lanes", .count = 24, .grid = 12, .length = 5, .speed = 2, .spin = 1, .lanes = true, .legs = 3},
+    {.name = "lanes that meet",
+     .count = 24,
+     .grid = 8,
+     .length = 4,
+     .speed = 1,
+     .lanes = true,
+     .twice = true,
+     .legs = 3},
     {.name = "mortal", .count = 40, .grid = 2000, .length = 900, .speed = 30, .spin = 10, .mortal = true},
     {.name = "mortal lattice", .count = 24, .grid = 16, .length = 6, .speed = 2, .spin = 1, .mortal = true},
 };
@@ -81,6 +89,28 @@ static void test_every_event(void **state) {
     assert_true(events >= 10000);
 }
 
+/* Segments on an integer lattice that do not turn: whole edges lie in one line for an instant, ends ride on others.
+ * What happens to those that have no certificates of their own was missed once, in these runs. */
+static void test_coincidences(void **state) {
+    (void)state;
+    static const struct {
+        int length, count;
+        uint64_t seeds[8];
+    } missed[] = {{3, 8, {1, 15, 18, 31, 49, 69, 95, 125}}, {5, 5, {15, 59, 81, 85, 128}}};
+    for (size_t i = 0; i < 2; i++)
+        for (int j = 0; j < missed[i].count; j++) {
+            const moving_kind kind = {
+                .name = "no turns", .count = 30, .grid = 8, .length = missed[i].length, .speed = 1};
+            froe_motion *m = moving_new(&kind, missed[i].seeds[j], NULL);
+            froe_kinetic *k = start(m, missed[i].seeds[j]);
+            run(k, kind.name, 180);
+            froe_kinetic_stats s = froe_kinetic_statistics(k);
+            assert_int_equal(s.restarts + s.stuck, 0);
+            froe_kinetic_free(k);
+            froe_motion_free(m);
+        }
+}
+
 /* In general position there is nothing to fall back to. */
 static void test_general_position(void **state) {
     (void)state;
@@ -91,7 +121,8 @@ static void test_general_position(void **state) {
     assert_int_equal(froe_kinetic_advance(k, MOVING_TIME / 4, NULL, NULL, NULL), FROE_OK);
     audit(k, "general");
     froe_kinetic_stats s = froe_kinetic_statistics(k);
-    assert_int_equal(s.rebuilds + s.restarts + s.stuck, 0);
+    assert_int_equal(s.restarts + s.stuck, 0);
+    assert_true(s.crowds <= s.batches);
     assert_true(s.surgeries > 1000);
     froe_kinetic_free(k);
     froe_motion_free(m);
@@ -261,9 +292,15 @@ static void test_memory_runs_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_event), cmocka_unit_test(test_general_position), cmocka_unit_test(test_reversal),
-        cmocka_unit_test(test_changes),     cmocka_unit_test(test_epochs),           cmocka_unit_test(test_order),
-        cmocka_unit_test(test_calls),       cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(test_every_event),
+        cmocka_unit_test(test_coincidences),
+        cmocka_unit_test(test_general_position),
+        cmocka_unit_test(test_reversal),
+        cmocka_unit_test(test_changes),
+        cmocka_unit_test(test_epochs),
+        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_calls),
+        cmocka_unit_test(test_memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
