@@ -54,29 +54,34 @@ static uint8_t leaf_flags(split_verdict verdict) {
 }
 
 /** Cuts the cell and tells its children so. */
-static froe_status divide(grow *g, split_work *work, const split_cell *cell, const froe_cut *cut, bool *useless) {
+static froe_status divide(const split_method *method, split_work *work, const split_cell *cell, const froe_cut *cut,
+                          bool *useless) {
     froe_status status = cell_cut(work, cell, cut, useless);
-    if (status || !g->method->divided || (useless && *useless)) return status;
+    if (status || !method->divided || (useless && *useless)) return status;
     split_cell *negative = work->cells.data + work->cells.count - 1;
-    g->method->divided(cell, cut, negative - 1, negative);
+    method->divided(cell, cut, negative - 1, negative);
     return FROE_OK;
+}
+
+froe_status split_step(const split_method *method, split_work *work, split_cell *cell) {
+    froe_cut cut = {.kind = FROE_CUT_NONE};
+    froe_status status = FROE_OK;
+    for (bool useless = true; useless && !status; cell->attempt++) {
+        split_verdict verdict = method->choose(method->config, work, cell, &cut);
+        if (verdict > SPLIT_CUT_ANYWAY) return failure_of(verdict);
+        if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
+        if (verdict == SPLIT_CUT_ANYWAY) return divide(method, work, cell, &cut, NULL);
+        status = divide(method, work, cell, &cut, &useless);
+    }
+    return status;
 }
 
 /** Cuts or ends a cell below the guard stage. */
 static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
-    froe_cut cut = {.kind = FROE_CUT_NONE};
     froe_status status = cell_take(work, g->job->homes, cell, cell->wholes);
     bool done = false;
     if (g->method->finish && !status) status = g->method->finish(g->method->config, work, cell, &done);
-    if (done) return status;
-    for (bool useless = true; useless && !status; cell->attempt++) {
-        split_verdict verdict = g->method->choose(g->method->config, work, cell, &cut);
-        if (verdict > SPLIT_CUT_ANYWAY) return failure_of(verdict);
-        if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
-        if (verdict == SPLIT_CUT_ANYWAY) return divide(g, work, cell, &cut, NULL);
-        status = divide(g, work, cell, &cut, &useless);
-    }
-    return status;
+    return status || done ? status : split_step(g->method, work, cell);
 }
 
 static froe_status do_cell(grow *g, split_work *work, split_cell *cell) {

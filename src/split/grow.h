@@ -98,6 +98,9 @@ static inline uint32_t split_load(const split_cell *cell) {
     return cell->count + cell->wholes;
 }
 
+/** One turn of the loop, for loops of their own, too: ends the cell, whose fragments are on top, or cuts it and pushes
+ * its children, the negative one last. */
+froe_status split_step(const split_method *method, split_work *work, split_cell *cell);
 /** Says why growing a tree ended, for loops of their own, too: budget, limit, cancelled or memory. */
 froe_status split_explain(froe_diagnostic *diag, uint64_t max_fragments, froe_status status);
 /** Grows the whole tree over all objects of the scene. out NULL: for the method's own notes only. */

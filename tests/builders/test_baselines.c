@@ -1,5 +1,5 @@
-/* test_baselines.c: kd, quad, grid, and autopartition on boxes: the cut of every node is the one its rule names, found
- * again by brute force; no scene makes them large. */
+/* test_baselines.c: kd, quad, grid, orthogonal paterson_yao, and autopartition on boxes: the cut of every node is the
+ * one its rule names, found again by brute force; no scene makes them large. */
 #include "tree/tree.h"
 #include <froe/io.h>
 #include <math.h>
@@ -319,6 +319,59 @@ static void the_lines_of_a_grid_are_even(void **state) {
     froe_scene_free(scene);
 }
 
+/* ------------------------------------------------------------- paterson_yao -- */
+
+/* A cut that divides nothing, if an end of an object names one; and no such cut is better balanced. */
+static void expect_free_first(const froe_tree *t, const members *m, const froe_cut *cut) {
+    deal mine = deal_of(t, m, cut->axis, cut->value);
+    int heavier = mine.below > mine.above ? mine.below : mine.above;
+    assert_true(separates(mine));
+    for (uint32_t i = 0; i < m->count; i++)
+        for (int k = 0; k < 2 * t->scene->dim; k++) {
+            extent e = extent_of(t, m->object[i]);
+            deal d = deal_of(t, m, k / 2, (k % 2 ? e.hi : e.lo)[k / 2]);
+            if (d.both || !separates(d)) continue;
+            assert_int_equal(mine.both, 0);
+            assert_true((d.below > d.above ? d.below : d.above) >= heavier);
+        }
+}
+
+static void free_cuts_come_first(void **state) {
+    static const char *const kinds[] = {"rows", "boxes", "sticks", "slabs", "towers", "panels", "bars", "debris-5d"};
+    (void)state;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        froe_scene *scene = generate(kinds[i], 100);
+        froe_tree *tree = build(scene, "paterson_yao", NULL, 1);
+        for_cuts(tree, expect_free_first);
+        audit(tree);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
+/* Axis-parallel segments and polygons are cut by axis-parallel planes alone; others are not, and slabs are for
+ * segments. */
+static void orthogonal_scenes_get_orthogonal_cuts(void **state) {
+    static const char *const kinds[] = {"walls", "cells", "nested", "walls-3d", "cells-3d", "nested-3d"};
+    froe_build_options o = froe_build_defaults();
+    froe_tree *none = NULL;
+    (void)state;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        froe_scene *scene = generate(kinds[i], 200);
+        froe_tree *tree = build(scene, "paterson_yao", NULL, 0);
+        for (uint32_t v = 0; v < tree->node_count; v++)
+            if (!tree_is_leaf(tree->nodes + v)) assert_int_equal(tree_cut_at(tree, v).kind, FROE_CUT_AXIS);
+        audit(tree);
+        o.method = "paterson_yao";
+        o.settings = "rule=slabs";
+        froe_tree_free(tree);
+        assert_int_equal(froe_build(scene, &o, &none, NULL), i < 3 ? FROE_OK : FROE_E_UNSUPPORTED);
+        froe_tree_free(none);
+        none = NULL;
+        froe_scene_free(scene);
+    }
+}
+
 /* ---------------------------------------------------------------- all of them -- */
 
 /* Long objects, and stars, which no axis-parallel cut ever thins out: 2 G n fragments by such cuts at most. */
@@ -373,6 +426,8 @@ int main(void) {
         cmocka_unit_test(kd_cuts_at_medians_or_where_surfaces_are_least),
         cmocka_unit_test(kd_halves_points),
         cmocka_unit_test(the_lines_of_a_grid_are_even),
+        cmocka_unit_test(free_cuts_come_first),
+        cmocka_unit_test(orthogonal_scenes_get_orthogonal_cuts),
         cmocka_unit_test(axis_parallel_cuts_end),
         cmocka_unit_test(autopartitions_of_boxes_run_through_facets),
     };

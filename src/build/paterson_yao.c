@@ -1,0 +1,136 @@
+/* paterson_yao.c: the deterministic partitions of Paterson and Yao.
+ *
+ *     slabs          segments of the plane: medians of the x of endpoints; where a segment crosses a slab, along it.
+ *                    O(n log n) for n disjoint ones (Efficient binary space partitions for hidden-surface removal and
+ *                    solid modeling, 1990). It is the conversion of a plan of vertical lines (split/convert.h).
+ *     orthogonal     axis-parallel objects: a cut that divides nothing, if there is one, the best balanced; else,
+ * across the axis with most ends to choose from, through the middle of them (Optimal binary space partitions for
+ * orthogonal objects, 1992; Murali, Agarwal and Vitter: Constructing binary space partitions for orthogonal rectangles
+ * in practice, 1998).
+ *
+ * Free cuts of the papers run through a facet that crosses its cell. In a cell of disjoint objects such a cut divides
+ * nothing; that is what is asked here, so that gaps count, too. */
+#include "base/status.h"
+#include "build/convert.h"
+#include "split/axial.h"
+#include <math.h>
+
+enum { RULE, GROWTH };
+enum { AUTO, SLABS, ORTHOGONAL };
+
+static const char *const rules[] = {"auto", "slabs", "orthogonal", NULL};
+static const froe_option_info options[] = {
+    [RULE] = {"rule", "auto: slabs for segments in the plane of which one is not axis-parallel", AUTO, 0, 2, rules,
+              true},
+    [GROWTH] = {"growth",
+                "fragments per fragment at which a cell is cut along its objects; 0: 4 where some are not "
+                "axis-parallel, else no limit",
+                0, 0, 1e9, NULL, false},
+    {0},
+};
+
+/* ------------------------------------------------------------ the scene's kind -- */
+
+/** In how many axes has the object an extent? */
+static int extents(const froe_scene *s, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    int count = 0;
+    scene_object_bounds(s, object, lo, hi);
+    for (int k = 0; k < s->dim; k++) count += lo[k] < hi[k];
+    return count;
+}
+
+/** Segments and polygons are, when they lie in axis-parallel lines and planes. */
+static bool is_orthogonal(const froe_scene *s) {
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        froe_kind form = scene_form(s, i);
+        int most = form == FROE_SEGMENT ? 1 : form == FROE_POLYGON ? 2 : s->dim;
+        if (extents(s, i) > most) return false;
+    }
+    return true;
+}
+
+static bool has_segments_alone(const froe_scene *s) {
+    for (uint32_t i = 0; i < s->object_count; i++)
+        if (scene_form(s, i) != FROE_SEGMENT && scene_form(s, i) != FROE_POINT) return false;
+    return s->dim == 2;
+}
+
+/* ------------------------------------------------------------------ orthogonal -- */
+
+typedef struct orthogonal_search {
+    froe_cut free, middle;
+    uint32_t heavier; /**< side of the best free cut; UINT32_MAX: there is none */
+    uint32_t uneven;  /**< by how much the sides of the middle cut differ */
+    uint32_t choice;  /**< candidates on its axis; 0: there are none */
+} orthogonal_search;
+
+static uint32_t larger(uint32_t a, uint32_t b) {
+    return a > b ? a : b;
+}
+
+/** Looks at all ends on an axis. */
+static void search_axis(split_axes *a, int axis, orthogonal_search *s) {
+    froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis}, middle = cut;
+    uint32_t choice = 0, least = UINT32_MAX;
+    while (split_axes_next(a)) {
+        const split_tally *t = &a->tally;
+        if (!split_tally_separates(t) || !isfinite(a->value)) continue;
+        uint32_t heavier = larger(t->negative, t->positive), uneven = 2 * heavier - t->negative - t->positive;
+        choice++;
+        cut.value = a->value;
+        if (!t->both && heavier < s->heavier) s->heavier = heavier, s->free = cut;
+        if (uneven < least) least = uneven, middle = cut;
+    }
+    if (choice <= s->choice) return;
+    s->choice = choice;
+    s->middle = middle;
+}
+
+static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+    const split_axial *axial = config;
+    split_axes *axes = &((split_scratch *)work->scratch)->axes;
+    orthogonal_search s = {.heavier = UINT32_MAX};
+    if (split_axial_over(axial, cell)) return split_refine_choose(&axial->refine, work, cell, cut);
+    for (int k = 0; k < work->set.scene->dim; k++) {
+        if (!split_axes_fill(axes, &work->set, cell, k)) return SPLIT_MEMORY;
+        search_axis(axes, k, &s);
+    }
+    if (!s.choice) return split_refine_choose(&axial->refine, work, cell, cut);
+    *cut = s.heavier < UINT32_MAX ? s.free : s.middle;
+    return SPLIT_CUT;
+}
+
+static froe_status build_orthogonal(build_job *job, froe_tree **out) {
+    double growth = job->option[GROWTH] > 0 ? job->option[GROWTH] : is_orthogonal(job->scene) ? (double)INFINITY : 4;
+    split_axial axial = split_axial_of(job->scene, job->leaf, job->seed, growth);
+    split_method method = {
+        .config = &axial, .choose = choose, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
+    split_job split = build_split_job(job);
+    build_promise(job, "height", job->scene->object_count, 0); /* each cut leaves less on both sides */
+    return split_grow(&split, &method, out);
+}
+
+/* ----------------------------------------------------------------------- build -- */
+
+static froe_status build(build_job *job, froe_tree **out) {
+    static const convert_plan slabs = {"kd", "axes=first", true};
+    int rule = (int)job->option[RULE];
+    bool segments = has_segments_alone(job->scene);
+    if (rule == SLABS && !segments)
+        return base_fail(job->diag, FROE_E_UNSUPPORTED, "rule=slabs is for segments and points of the plane only");
+    if (rule == AUTO) rule = segments && !is_orthogonal(job->scene) ? SLABS : ORTHOGONAL;
+    return rule == SLABS ? build_converted(job, &slabs, out) : build_orthogonal(job, out);
+}
+
+const build_method build_method_paterson_yao = {
+    .info = {.name = "paterson_yao",
+             .summary =
+                 "deterministic: slabs for segments of the plane, free cuts and medians for axis-parallel objects",
+             .source = "Paterson and Yao 1990, 1992; Murali, Agarwal and Vitter 1998",
+             .guarantee = "slabs: O(n log n) fragments of disjoint segments; orthogonal: none",
+             .dims = BUILD_DIMS_ALL,
+             .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON | 1u << FROE_BOX,
+             .options = options},
+    .build = build,
+};
