@@ -65,7 +65,8 @@ static froe_status build(build_job *job, froe_tree **out) {
     split_method method = {.config = &grain,
                            .choose = split_grain_choose,
                            .scratch_new = split_grain_scratch_new,
-                           .scratch_free = split_grain_scratch_free};
+                           .scratch_free = split_grain_scratch_free,
+                           .height = grain.height > 0 ? grain.height + grain.peel : 0};
     split_job split = build_split_job(job);
     build_promise(job, "height", promised_height(job, &grain), 0);
     froe_status status = split_grow(&split, &method, out);

@@ -1,10 +1,11 @@
 /* grow.c: the shared loop, in one thread down to small cells, then one task per small cell. */
 #include "base/status.h"
 #include "split/cell.h"
+#include <math.h>
 #include <string.h>
 
 /* Cells of at most max(least, n / share) fragments become tasks, except tiny ones, not worth the trouble. */
-enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_SHARE = 64 };
+enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_SHARE = 64, REGROWN = 4 };
 
 typedef struct grow_task {
     split_cell cell;
@@ -24,16 +25,25 @@ typedef struct grow {
     ARRAY(split_fragment) store_items;
     ARRAY(split_corner) store_corners; /**< fragments count from their task's first_corner */
     uint32_t task_size;
-    atomic_uint_least64_t emitted; /**< pieces in finished lists */
+    atomic_uint_least64_t emitted; /**< pieces in final drafts */
 } grow;
 
 /* --------------------------------------------------------------- one cell -- */
 
-static froe_status check_budget(grow *g, const split_work *work, size_t pieces_before) {
-    uint64_t most = g->job->max_fragments, more = work->set.draft->pieces.count - pieces_before;
-    uint64_t emitted = atomic_fetch_add(&g->emitted, more) + more;
-    /* each pending fragment will be one piece at least, so a refusal here is a refusal in any order of work */
-    return most && emitted + work->set.items.count > most ? FROE_E_BUDGET : FROE_OK;
+/** Each pending fragment will be one piece at least, and a subtree grown again has half as many as before at least: a
+ * refusal here is a refusal in any order of work. */
+static froe_status check_budget(const grow *g, const split_work *work) {
+    uint64_t most = g->job->max_fragments, count = work->set.draft->pieces.count + work->set.items.count;
+    if (work->most) return count > work->most ? FROE_E_BUDGET : FROE_OK;
+    if (g->method->height > 0 && work->set.draft != &g->main) count /= 2;
+    return most && atomic_load(&g->emitted) + count > most ? FROE_E_BUDGET : FROE_OK;
+}
+
+/** A draft is final. */
+static froe_status count_pieces(grow *g, const tree_draft *draft) {
+    uint64_t most = g->job->max_fragments, count = draft->pieces.count;
+    uint64_t emitted = atomic_fetch_add(&g->emitted, count) + count;
+    return most && emitted > most ? FROE_E_BUDGET : FROE_OK;
 }
 
 static froe_status failure_of(split_verdict verdict) {
@@ -85,11 +95,10 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
 }
 
 static froe_status do_cell(grow *g, split_work *work, split_cell *cell) {
-    size_t pieces = work->set.draft->pieces.count;
     bool guard = cell->guard != FROE_NONE && g->method->in_guard_stage(g->method->config, cell);
     if (cell->guard != FROE_NONE && !guard) work->guarded += split_load(cell);
     froe_status status = guard ? cell_cut_guard(work, g->job, cell) : refine_cell(g, work, cell);
-    return status ? status : check_budget(g, work, pieces);
+    return status ? status : check_budget(g, work);
 }
 
 /** Moves a small cell's fragments to the store, for a task. */
@@ -122,6 +131,7 @@ static froe_status do_cells(grow *g, split_work *work, bool main_part) {
     for (uint32_t turn = 0; work->cells.count && !status; turn++) {
         split_cell cell = work->cells.data[--work->cells.count];
         work->set.corners.count = cell.corner_top;
+        work->deepest = cell.depth > work->deepest ? cell.depth : work->deepest;
         uint32_t load = split_load(&cell);
         if (main_part && load <= g->task_size && load > TASK_TINY)
             status = put_off(g, work, &cell);
@@ -175,16 +185,16 @@ static froe_status main_part(grow *g) {
     work->set.draft = &g->main;
     g->task_size = n / TASK_SHARE > TASK_LEAST ? n / TASK_SHARE : TASK_LEAST;
     froe_status status = push_root(g, work);
-    return status ? status : do_cells(g, work, n > g->task_size);
+    if (!status) status = do_cells(g, work, n > g->task_size || g->method->height > 0);
+    return status ? status : count_pieces(g, &g->main);
 }
 
-/** Loads a task's fragments into a worker and finishes the subtree in the task's own draft. */
-static froe_status do_task(void *user, unsigned worker, size_t index) {
-    grow *g = user;
-    split_work *work = g->workers + worker;
+/** Loads a task's fragments into a worker and finishes the subtree in the task's own draft, as if it began `sunk`
+ * levels further down. */
+static froe_status grow_task_from(grow *g, split_work *work, grow_task *task, uint32_t sunk) {
     split_set *set = &work->set;
-    grow_task *task = g->tasks.data + index;
     const froe_allocator *alloc = &g->job->alloc;
+    task->draft = (tree_draft){0};
     froe_status status = draft_new(alloc, g->main.dim, (uint32_t)g->main.nodes.count, &task->draft);
     if (status) return status;
     set->main = &g->main;
@@ -204,10 +214,47 @@ static froe_status do_task(void *user, unsigned worker, size_t index) {
     cell.node = task->draft.outer;
     cell.first = 0;
     cell.corner_top = task->corner_count;
+    cell.depth += sunk;
+    work->deepest = 0;
     if (!array_push(alloc, &work->cells, cell)) return FROE_E_MEMORY;
     status = do_cells(g, work, false);
     if (status == FROE_E_INPUT) memcpy(task->crossing, work->crossing, sizeof task->crossing);
     return status;
+}
+
+/** Levels by which the subtree just grown goes beyond what the method wants. */
+static uint32_t levels_over(const grow *g, const split_work *work, uint32_t sunk) {
+    uint32_t deepest = work->deepest - sunk;
+    return g->method->height > 0 && deepest > g->method->height ? (uint32_t)ceil(deepest - g->method->height) : 0;
+}
+
+/** A subtree that is `over` levels too deep is grown again, each time as if it began as much further down as the last
+ * reached too far, while that helps. The lowest stays. */
+static froe_status regrow(grow *g, split_work *work, grow_task *task, uint32_t over) {
+    froe_status status = FROE_OK;
+    for (uint32_t turn = 0, sunk = 0; turn < REGROWN && over && !status; turn++) {
+        tree_draft before = task->draft;
+        size_t pieces = before.pieces.count;
+        sunk += over;
+        work->most = 2 * (uint64_t)pieces;
+        status = grow_task_from(g, work, task, sunk);
+        work->most = 0;
+        bool lower = !status && levels_over(g, work, sunk) < over && 2 * task->draft.pieces.count >= pieces;
+        if (status == FROE_E_BUDGET) status = FROE_OK;
+        draft_free(lower ? &before : &task->draft);
+        if (!lower) task->draft = before;
+        over = lower ? levels_over(g, work, sunk) : 0;
+    }
+    return status;
+}
+
+static froe_status do_task(void *user, unsigned worker, size_t index) {
+    grow *g = user;
+    split_work *work = g->workers + worker;
+    grow_task *task = g->tasks.data + index;
+    froe_status status = grow_task_from(g, work, task, 0);
+    if (!status) status = regrow(g, work, task, levels_over(g, work, 0));
+    return status ? status : count_pieces(g, &task->draft);
 }
 
 static froe_status seal(grow *g, froe_tree **out) {

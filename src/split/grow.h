@@ -52,6 +52,8 @@ typedef struct split_work {
     base_task *task;
     uint64_t guarded;     /**< fragments in cells where the guard stage ended, and in its own cuts */
     uint32_t crossing[2]; /**< on SPLIT_REFUSE; otherwise FROE_NONE */
+    uint32_t deepest;     /**< depth of the deepest cell of the current subtree */
+    uint64_t most;        /**< pieces that a subtree grown again may have; 0: the first time, max_fragments counts */
     bool calling;         /**< on the thread that the caller's call is on, the only one that talks to his callback */
 } split_work;
 
@@ -75,6 +77,8 @@ typedef struct split_method {
     /** Makes and frees a worker's scratch; may be NULL. */
     froe_status (*scratch_new)(const void *config, split_work *work);
     void (*scratch_free)(split_work *work);
+    /** Levels wanted: a small subtree that reaches deeper is grown again as if it began deeper. 0: any. */
+    double height;
 } split_method;
 
 typedef struct split_job {

@@ -324,6 +324,42 @@ static void meshes_keep_the_height_asked_for(void **state) {
     keep_the_height_asked_for(MESH_MAP, 700);
 }
 
+/** Of grain at 2 log2 n + 2 levels. */
+static uint64_t height_of(froe_scene *scene, bool again) {
+    split_grain_notes notes = {0, false};
+    split_grain grain = {.seed = 1, .effort = {4, 4, 6, 256, false}, .notes = &notes};
+    grain.height = 2 * log2((double)froe_scene_object_count(scene)) + 2;
+    split_method method = {.config = &grain,
+                           .choose = split_grain_choose,
+                           .scratch_new = split_grain_scratch_new,
+                           .scratch_free = split_grain_scratch_free,
+                           .height = again ? grain.height : 0};
+    base_task task;
+    tree_meta meta = {0};
+    split_job job = {.scene = scene, .alloc = base_allocator(NULL), .task = &task, .meta = &meta};
+    froe_tree *tree;
+    base_task_init(&task, 1, NULL, NULL);
+    assert_int_equal(split_grow(&job, &method, &tree), FROE_OK);
+    uint64_t height = froe_tree_report(tree).height;
+    assert_true(froe_tree_report(tree).objects == froe_scene_object_count(scene));
+    froe_tree_free(tree);
+    return height;
+}
+
+/** Where objects cross, cells cannot always be cut with balance. */
+static void subtrees_too_high_are_grown_again(void **state) {
+    static const mesh_kind kinds[] = {MESH_LATTICE, MESH_LATTICE, MESH_FAN, MESH_HAIR};
+    static const size_t counts[] = {33, 49, 109, 163};
+    (void)state;
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        froe_scene *scene = mesh_new(kinds[i], counts[i]);
+        double limit = 2 * log2((double)counts[i]) + 2;
+        assert_true((double)height_of(scene, false) > limit);
+        assert_true((double)height_of(scene, true) <= limit);
+        froe_scene_free(scene);
+    }
+}
+
 static void more_height_and_more_effort_mean_fewer_pieces(void **state) {
     static const char *const settings[] = {"effort=fast", "effort=log", "effort=min"};
     uint64_t pieces[3];
@@ -385,6 +421,7 @@ int main(void) {
         cmocka_unit_test(an_axis_has_the_best_of_its_planes),
         cmocka_unit_test(prices_know_splits_balance_and_limits),
         cmocka_unit_test(meshes_keep_the_height_asked_for),
+        cmocka_unit_test(subtrees_too_high_are_grown_again),
         cmocka_unit_test(more_height_and_more_effort_mean_fewer_pieces),
         cmocka_unit_test(scale_changes_nothing_and_quarter_turns_hardly_anything),
     };
