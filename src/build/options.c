@@ -67,10 +67,10 @@ froe_status options_parse(const build_method *method, const char *settings, doub
         const char *equal = memchr(w.text, '=', (size_t)w.length);
         size_t name = equal ? (size_t)(equal - w.text) : (size_t)w.length;
         const froe_option_info *o = find(method, w.text, name);
-        if (!o || !equal)
-            return base_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, w.length,
+        if (!o)
+            return base_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, (int)name,
                              w.text);
-        if (!parse_value(o, equal + 1, (size_t)w.length - name - 1, &value[o - options]))
+        if (!equal || !parse_value(o, equal + 1, (size_t)w.length - name - 1, &value[o - options]))
             return refuse_value(o, w, diag);
     }
     return FROE_OK;

@@ -63,12 +63,15 @@ static double manageable(uint32_t leaf, double levels, double most) {
 }
 
 static split_terms terms_of(const split_grain *config, int dim, const split_cell *cell) {
-    double m = cell->count, levels = config->height - cell->depth, share = SHARE * m;
-    if (m <= config->peel || config->height <= 0)
-        return (split_terms){m <= config->peel ? PEELING : halving[dim == 3], m};
-    double most = manageable(config->leaf, levels - 1, m);
-    bool peel = m <= PEEL * levels && m <= PEEL_MOST;
-    return (split_terms){peel ? PEELING : halving[dim == 3], most > share ? most : share};
+    double m = cell->count, share = SHARE * m, most = m;
+    bool peel = m <= config->peel || (config->height <= 0 && m <= PEEL_MOST);
+    if (m > config->peel && config->height > 0) {
+        double levels = config->height - cell->depth;
+        most = manageable(config->leaf, levels - 1, m);
+        most = most > share ? most : share;
+        peel = m <= PEEL * levels && m <= PEEL_MOST;
+    }
+    return (split_terms){peel ? PEELING : halving[dim == 3], most};
 }
 
 static bool limited(const split_contest *c) {

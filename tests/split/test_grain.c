@@ -361,17 +361,17 @@ static void subtrees_too_high_are_grown_again(void **state) {
 }
 
 static void more_height_and_more_effort_mean_fewer_pieces(void **state) {
-    static const char *const settings[] = {"effort=fast", "effort=log", "effort=min"};
-    uint64_t pieces[3];
+    static const char *const settings[] = {"effort=fast", "effort=log", "effort=min", "height=1000", "height=0"};
+    uint64_t pieces[5];
     froe_scene *scene = mesh_new(MESH_HILLS, 1500);
     (void)state;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 5; i++) {
         froe_tree *tree = build(scene, settings[i], 1);
         pieces[i] = froe_tree_report(tree).fragments;
         froe_tree_free(tree);
     }
     froe_scene_free(scene);
-    assert_true(pieces[2] < pieces[1] && pieces[1] < pieces[0]);
+    assert_true(pieces[2] < pieces[1] && pieces[1] < pieces[0] && pieces[3] == pieces[4]);
 }
 
 /** The same scene, 2^k times as large, or turned by quarters about an axis. */
