@@ -359,7 +359,7 @@ typedef struct froe_node_info {
     froe_cut cut;
     froe_node child[2];              /**< both none in a leaf */
     size_t first_piece, piece_count; /**< its list: leaf list, or the pieces in the cut */
-    bool guard;                      /**< belongs to the guard stage of a density tree */
+    bool guard;                      /**< belongs to the guard stage of a density or bar tree */
     bool inseparable;                /**< a leaf over capacity that nothing can separate */
     bool crowded;                    /**< a leaf over capacity that more cuts would not thin out */
 } froe_node_info;

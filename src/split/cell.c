@@ -166,10 +166,10 @@ static void note_progress(const split_cell *parent, uint32_t in_cut, split_cell 
     }
 }
 
-froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, bool *useless) {
+froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags, bool *useless) {
     split_cell side[2];
     uint32_t in_cut;
-    froe_status status = cut_in_two(work, cell, cut, 0, useless, side, &in_cut);
+    froe_status status = cut_in_two(work, cell, cut, flags, useless, side, &in_cut);
     if (status || (useless && *useless)) return status;
     note_progress(cell, in_cut, side);
     return push_children(work, side);

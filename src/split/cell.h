@@ -11,8 +11,8 @@ froe_status cell_take(split_work *work, const split_homes *homes, split_cell *ce
 froe_status cell_tally(split_work *work, const split_cell *cell, const froe_cut *cut, split_tally *out);
 /** Cuts a cell without whole objects. On success its fragments are replaced by those of the children, child 0
  * on top, and both children are pushed, child 0 last. *useless: nothing was done, since every fragment would have
- * stayed on one side; NULL: the cell is cut all the same. */
-froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, bool *useless);
+ * stayed on one side; NULL: the cell is cut all the same. `flags`: TREE_GUARD. */
+froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags, bool *useless);
 /** Cuts a cell by its node of the guard tree, whatever that separates. */
 froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *cell);
 #endif

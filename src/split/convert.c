@@ -77,7 +77,7 @@ static uint64_t pieces(const convert *c) {
 
 static froe_status cut_by_plan(convert *c, const split_cell *cell, uint32_t at, const region *r) {
     const point_node *n = c->job->plan->nodes.data + at;
-    froe_status status = cell_cut(&c->work, cell, &n->cut, NULL);
+    froe_status status = cell_cut(&c->work, cell, &n->cut, 0, NULL);
     return status ? status : push_children(c, cell->node, r, n->child, n->child + 1);
 }
 
@@ -86,7 +86,7 @@ static froe_status cut_along_chord(convert *c, const split_cell *cell, uint32_t 
     uint32_t item = chord_choose(&c->chords, set, cell, c->job->seed);
     froe_cut cut = scene_support_cut(set->scene, set->items.data[cell->first + item].object);
     uint64_t before = pieces(c);
-    froe_status status = cell_cut(&c->work, cell, &cut, NULL);
+    froe_status status = cell_cut(&c->work, cell, &cut, 0, NULL);
     if (status) return status;
     c->crossings += pieces(c) - before;
     return push_children(c, cell->node, r, at, at);

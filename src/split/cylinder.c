@@ -278,7 +278,11 @@ split_verdict split_cylinder_choose(const void *config, split_work *work, const 
     }
 }
 
-void split_cylinder_divided(const split_cell *cell, const froe_cut *cut, split_cell *positive, split_cell *negative) {
+void split_cylinder_divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut,
+                            bool guard, split_cell *positive, split_cell *negative) {
+    (void)config;
+    (void)work;
+    (void)guard;
     if (is_wall(cut->kind)) {
         positive->frame.wall[LEFT] = negative->frame.wall[RIGHT] = cell->node;
     } else if (cut->kind == FROE_CUT_EDGE) { /* runs to the right: its positive side is above */

@@ -14,5 +14,6 @@ typedef struct split_cylinder {
 /** split_method.choose for a split_cylinder: names the next cut for the first fragment of the cell. */
 split_verdict split_cylinder_choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
 /** split_method.divided: which walls and edges bound the children. */
-void split_cylinder_divided(const split_cell *cell, const froe_cut *cut, split_cell *positive, split_cell *negative);
+void split_cylinder_divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut,
+                            bool guard, split_cell *positive, split_cell *negative);
 #endif

@@ -65,11 +65,11 @@ static uint8_t leaf_flags(split_verdict verdict) {
 
 /** Cuts the cell and tells its children so. */
 static froe_status divide(const split_method *method, split_work *work, const split_cell *cell, const froe_cut *cut,
-                          bool *useless) {
-    froe_status status = cell_cut(work, cell, cut, useless);
+                          bool guard, bool *useless) {
+    froe_status status = cell_cut(work, cell, cut, guard ? TREE_GUARD : 0, useless);
     if (status || !method->divided || (useless && *useless)) return status;
     split_cell *negative = work->cells.data + work->cells.count - 1;
-    method->divided(cell, cut, negative - 1, negative);
+    method->divided(method->config, work, cell, cut, guard, negative - 1, negative);
     return FROE_OK;
 }
 
@@ -78,10 +78,10 @@ froe_status split_step(const split_method *method, split_work *work, split_cell 
     froe_status status = FROE_OK;
     for (bool useless = true; useless && !status; cell->attempt++) {
         split_verdict verdict = method->choose(method->config, work, cell, &cut);
-        if (verdict > SPLIT_CUT_ANYWAY) return failure_of(verdict);
+        if (verdict > SPLIT_CUT_GUARD) return failure_of(verdict);
         if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
-        if (verdict == SPLIT_CUT_ANYWAY) return divide(method, work, cell, &cut, NULL);
-        status = divide(method, work, cell, &cut, &useless);
+        if (verdict > SPLIT_CUT) return divide(method, work, cell, &cut, verdict == SPLIT_CUT_GUARD, NULL);
+        status = divide(method, work, cell, &cut, false, &useless);
     }
     return status;
 }
@@ -266,6 +266,7 @@ static froe_status seal(grow *g, froe_tree **out) {
     uint64_t guarded = 0;
     for (unsigned i = 0; i < g->worker_count; i++) guarded += g->workers[i].guarded;
     if (g->job->guard_fragments) *g->job->guard_fragments = (double)guarded;
+    if (g->method->note) g->method->note(g->method->config);
     for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
     base_free(alloc, grafts, (count ? count * sizeof *grafts : 1));

@@ -18,6 +18,12 @@ typedef struct split_frame {
     uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
 } split_frame;
 
+/** What bounds a cell of a BAR tree or a box: n . x of its facets, per direction (directions.h), or per axis. */
+typedef struct split_region {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    uint32_t goal, cuts; /**< this many guards at most are to be left in it, and how many cuts that has taken so far */
+} split_region;
+
 typedef struct split_cell {
     uint32_t node; /**< ring numbering */
     uint32_t depth;
@@ -29,7 +35,10 @@ typedef struct split_cell {
     float growth;           /**< fragmentation by the cuts so far: see density.c */
     uint32_t barren;        /**< cuts in a row that left nearly all fragments in this cell */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
-    split_frame frame;
+    union {                 /* what the method knows of its place; the root's is the method's to know */
+        split_frame frame;
+        split_region region;
+    };
 } split_cell;
 
 typedef enum split_verdict {
@@ -38,6 +47,7 @@ typedef enum split_verdict {
     SPLIT_CROWDED,     /**< done, over capacity: separating these solids would not pay (tree/crowd.h) */
     SPLIT_CUT,         /**< cut; the cut must lie through the cell's fragments or between them */
     SPLIT_CUT_ANYWAY,  /**< cut, whatever that separates */
+    SPLIT_CUT_GUARD,   /**< the same, in the guard stage: such cells have only such cells above them */
     SPLIT_REFUSE,      /**< end the whole build with FROE_E_INPUT: the objects work->crossing cross */
     SPLIT_GIVE_UP,     /**< end the whole build with FROE_E_BUDGET */
     SPLIT_MEMORY,      /**< out of memory */
@@ -70,10 +80,13 @@ typedef struct split_method {
     /** Grows the whole subtree of a cell at once; *done false: no, by cuts. NULL: never. */
     froe_status (*finish)(const void *config, split_work *work, const split_cell *cell, bool *done);
     /** Tells the children, positive and negative, of a cell that `cut` has just cut; NULL: nothing to tell. They
-     * have the frame of their parent so far. */
-    void (*divided)(const split_cell *cell, const froe_cut *cut, split_cell *positive, split_cell *negative);
+     * have the frame of their parent so far. `guard`: it was a SPLIT_CUT_GUARD. */
+    void (*divided)(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut, bool guard,
+                    split_cell *positive, split_cell *negative);
     /** Is the cell to be cut by its node of the guard tree? NULL: never. */
     bool (*in_guard_stage)(const void *config, const split_cell *cell);
+    /** Called once all cells are done, before job->meta is read; may be NULL. */
+    void (*note)(const void *config);
     /** Makes and frees a worker's scratch; may be NULL. */
     froe_status (*scratch_new)(const void *config, split_work *work);
     void (*scratch_free)(split_work *work);

@@ -11,24 +11,29 @@
 /* Candidates in cells of solids: ends of extents an axis, planes between pairs. */
 enum { QUANTILES = 10, SEPARATORS = 32 };
 
-froe_status split_scratch_new(const void *config, split_work *work) {
-    (void)config;
-    work->scratch = base_calloc(&work->set.alloc, 1, sizeof(split_scratch));
-    if (!work->scratch) return FROE_E_MEMORY;
-    split_scratch *s = work->scratch;
+froe_status split_scratch_begin(const froe_allocator *alloc, split_scratch *s) {
     split_view_init(&s->view);
-    s->table = split_table_new(&work->set.alloc);
+    s->table = split_table_new(alloc);
     return s->table ? FROE_OK : FROE_E_MEMORY;
 }
 
+void split_scratch_end(const froe_allocator *alloc, split_scratch *s) {
+    split_view_free(alloc, &s->view);
+    split_axes_free(alloc, &s->axes);
+    split_separator_free(alloc, &s->separator);
+    split_table_free(alloc, s->table);
+}
+
+froe_status split_scratch_new(const void *config, split_work *work) {
+    (void)config;
+    work->scratch = base_calloc(&work->set.alloc, 1, sizeof(split_scratch));
+    return work->scratch ? split_scratch_begin(&work->set.alloc, work->scratch) : FROE_E_MEMORY;
+}
+
 void split_scratch_free(split_work *work) {
-    split_scratch *s = work->scratch;
-    if (!s) return;
-    split_view_free(&work->set.alloc, &s->view);
-    split_axes_free(&work->set.alloc, &s->axes);
-    split_separator_free(&work->set.alloc, &s->separator);
-    split_table_free(&work->set.alloc, s->table);
-    base_free(&work->set.alloc, s, sizeof *s);
+    if (!work->scratch) return;
+    split_scratch_end(&work->set.alloc, work->scratch);
+    base_free(&work->set.alloc, work->scratch, sizeof(split_scratch));
     work->scratch = NULL;
 }
 

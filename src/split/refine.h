@@ -38,6 +38,10 @@ typedef struct split_scratch {
     split_table *table;
 } split_scratch;
 
+/** For methods whose scratch begins with a split_scratch, all zero so far. */
+froe_status split_scratch_begin(const froe_allocator *alloc, split_scratch *scratch);
+void split_scratch_end(const froe_allocator *alloc, split_scratch *scratch);
+/** split_method.scratch_new and scratch_free of those that need nothing else. */
 froe_status split_scratch_new(const void *config, split_work *work);
 void split_scratch_free(split_work *work);
 

@@ -115,8 +115,8 @@ static froe_status check_guard_stage(const audit *a) {
         if (!(n->flags & TREE_GUARD)) {
             for (uint32_t c = n->child; c < n->child + 2; c++)
                 if (t->nodes[c].flags & TREE_GUARD) return bad_node(a, c, "in the guard stage, but not its parent");
-        } else if (tree_cut_at(t, i).kind != FROE_CUT_AXIS) {
-            return bad_node(a, i, "in the guard stage, but its cut is not axis-parallel");
+        } else if (tree_cut_at(t, i).kind != FROE_CUT_AXIS && tree_cut_at(t, i).kind != FROE_CUT_PLANE) {
+            return bad_node(a, i, "in the guard stage, but its cut depends on the objects");
         }
     }
     return FROE_OK;

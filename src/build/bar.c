@@ -1,0 +1,397 @@
+/* bar.c: balanced aspect ratio: cells that stay fat, in a tree that stays low.
+ *
+ *     +-------+---+----+      points:  every cut is perpendicular to one of a few directions, leaves two fat cells, and
+ *     | .   . | ./|    |               at most three of them leave no more than two thirds (space: three quarters) of
+ *     |      /| / |  . |               the points. A convex range meets O(1/eps^(d-1)) cells of its size, and O(1) of
+ *     |    /  |/  |----|               each larger size.
+ *     | ./    | . | .  |      objects: the same on guards (split/bar_guards.h). Objects are carried down, and guards
+ *     +-------+---+----+               of objects that a cell has lost are forgotten, before its cut is chosen.
+ *
+ * Duncan, Goodrich and Kobourov (1999); de Berg and Streppel, "Approximate range searching using binary space
+ * partitions", section 4, theorem 3. The guards of a cell are made from the objects in it: that is all the pruning
+ * there is. What stays together in cells of few guards is refined as by density, but not fat any more.
+ *
+ * Where there are no such directions (option directions=0, always beyond space) cells are cubes, and the cuts those
+ * of a guard tree (split/cube_cut.h): fat, but not always low. */
+#include "base/log2.h"
+#include "base/status.h"
+#include "build/method.h"
+#include "split/bar_cut.h"
+#include "split/bar_guards.h"
+#include "split/cube_cut.h"
+#include "split/finish.h"
+#include "split/guard_grid.h"
+#include "split/refine.h"
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+enum { DIRECTIONS, ASPECT, GUARDS, K, STOP, GROWTH };
+enum {
+    LONG = 32,        /* objects of a cell that takes long enough to ask whether to go on */
+    STAR = 1024,      /* most objects of a cell that may be left when no cut balances its guards */
+    SAMPLE = 1 << 18, /* guards of a cell of objects that are looked at, at most */
+    PATIENCE = 24,    /* cuts after which such a cell is left: a guard in the tip of a large cell takes some */
+    SEQUENCE = 3      /* cuts that bring down a cell's points, at most */
+};
+#define LARGEST 0x1p1000  /* coordinates up to this have keys */
+#define SMALLEST 0x1p-900 /* and differences, if the largest is above this */
+
+static const char *const guard_kinds[] = {"hemisphere", "pairs", "boxes", NULL};
+static const froe_option_info options[] = {
+    [DIRECTIONS] = {"directions", "of cuts: 3 or 4 in the plane, 7 in space; 0: cells are cubes; -1: by dimension", -1,
+                    -1, 7, NULL, true},
+    [ASPECT] = {"aspect", "largest aspect ratio of a cell; -1: by directions", -1, -1, 1e6, NULL, false},
+    [GUARDS] = {"guards", "of an object: hemisphere (6, 8, 32), pairs (of directions: 12, 24), boxes (no guarantee)", 0,
+                0, 2, guard_kinds, true},
+    [K] = {"k", "guards left in a cell of the guard stage; -1: by kinds and dimension", -1, -1, 1e9, NULL, true},
+    [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by kinds", -1, -1, 1e9, NULL,
+              true},
+    [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never", 4, 0, 1e9, NULL,
+                false},
+    {0},
+};
+
+/* What the cells of all threads have come to. */
+typedef struct bar_notes {
+    atomic_uint_least32_t unbalanced; /* cells whose points no sequence of cuts has brought down */
+    _Atomic double aspect;
+} bar_notes;
+
+typedef struct bar {
+    build_job *job;
+    bar_notes *notes;
+    split_refine refine;
+    bar_rule rule;
+    bar_guards guards;
+    uint32_t *originals; /* lowest equal object: the others have no guards of their own */
+    split_region root;
+    double share; /* of its points that a cell's sequence of cuts may leave together */
+    uint32_t k, stop;
+    bool cubes, points; /* points: there is nothing else */
+} bar;
+
+/* What a thread works with. */
+typedef struct bar_scratch {
+    split_scratch refine; /* first: what refinement knows */
+    bar_search search;
+    bool planned;
+    uint32_t count; /* guards of the cell at hand */
+    double target;
+    froe_cut cut;
+} bar_scratch;
+
+static bool points_only(const froe_scene *scene) {
+    uint32_t i = 0;
+    while (i < scene->object_count && scene_form(scene, i) == FROE_POINT) i++;
+    return i == scene->object_count;
+}
+
+static double largest_coordinate(const froe_scene *scene) {
+    double most = 0;
+    for (int k = 0; k < scene->dim && scene->object_count; k++)
+        most = fmax(most, fmax(fabs(scene->lo[k]), fabs(scene->hi[k])));
+    return most;
+}
+
+static bool has_keys(const froe_scene *scene) {
+    const double most = largest_coordinate(scene);
+    return most == 0 || (most >= SMALLEST && most <= LARGEST);
+}
+
+static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
+    const bool points = points_only(scene);
+    (void)leaf;
+    if (option[DIRECTIONS] < 0) option[DIRECTIONS] = scene->dim > 3 || !has_keys(scene) ? 0 : scene->dim == 2 ? 4 : 7;
+    if (option[ASPECT] < 0) option[ASPECT] = option[DIRECTIONS] == 4 ? 4 : 6;
+    if (option[K] < 0) option[K] = points ? 1 : scene->dim == 2 ? 12 : 32;
+    if (option[STOP] < 0) option[STOP] = points ? 0 : 8;
+}
+
+/* ------------------------------------------------------------ guards of a cell -- */
+
+/** Is the point strictly between all facets? */
+static bool inside(const bar_rule *rule, const split_region *region, const double *keys) {
+    for (int i = 0; i < rule->directions.count; i++)
+        if (!(keys[i] > region->lo[i] && keys[i] < region->hi[i])) return false;
+    return true;
+}
+
+/** Appends the keys of those guards of an object that are inside. */
+static bool add_guards(const bar *b, const froe_allocator *alloc, bar_search *s, const split_region *region,
+                       uint32_t object) {
+    double guards[BAR_GUARDS_MOST * 3], *keys;
+    const froe_scene *scene = b->job->scene;
+    const int dim = scene->dim, g = b->rule.directions.count;
+    const uint32_t count = bar_guards_of(&b->guards, scene, object, guards);
+    const bool point = scene_form(scene, object) == FROE_POINT; /* it is inside, whatever keys say */
+    if (!array_reserve(alloc, &s->keys, count * (size_t)g)) return false;
+    for (uint32_t j = 0; j < count; j++) {
+        keys = s->keys.data + s->keys.count;
+        for (int i = 0; i < g; i++) keys[i] = split_key(&b->rule.directions, i, guards + j * (size_t)dim);
+        if (point || inside(&b->rule, region, keys)) s->keys.count += (size_t)g;
+    }
+    return true;
+}
+
+/** The keys of all guards inside, or of those of a sample of the objects. */
+static bool gather(const bar *b, const split_work *work, const split_cell *cell, const split_region *region) {
+    bar_scratch *scratch = work->scratch;
+    bar_search *s = &scratch->search;
+    const split_set *set = &work->set;
+    const uint64_t all = (uint64_t)cell->count * b->guards.count;
+    const uint32_t stride = b->points ? 1 : (uint32_t)(all / SAMPLE) + 1;
+    s->keys.count = 0;
+    for (uint32_t i = 0; i < cell->count; i += stride) {
+        const uint32_t object = set->items.data[cell->first + i].object;
+        if (b->originals[object] == object && !add_guards(b, &set->alloc, s, region, object)) return false;
+    }
+    scratch->count = (uint32_t)(s->keys.count / (size_t)b->rule.directions.count);
+    return true;
+}
+
+/** Takes the corners of the object's box that are strictly inside: as many as the ends that are, multiplied. */
+static uint64_t take_corners(const bar *b, const split_region *box, uint32_t object, cube_guards *g) {
+    const int dim = b->job->scene->dim;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    bool in[2][FROE_MAX_DIM];
+    uint64_t count = 1;
+    scene_object_bounds(b->job->scene, object, lo, hi);
+    for (int k = 0; k < dim; k++) {
+        in[0][k] = lo[k] > box->lo[k] && lo[k] < box->hi[k];
+        in[1][k] = hi[k] > box->lo[k] && hi[k] < box->hi[k];
+        count *= (uint64_t)in[0][k] + (in[1][k] && hi[k] > lo[k]);
+    }
+    for (int k = 0; k < dim && count; k++) {
+        g->lo[k] = fmin(g->lo[k], in[0][k] ? lo[k] : hi[k]);
+        g->hi[k] = fmax(g->hi[k], in[1][k] ? hi[k] : lo[k]);
+    }
+    return count;
+}
+
+/* -------------------------------------------------------------- the next cut -- */
+
+static bool plan_cube(const bar *b, const split_work *work, const split_cell *cell, const split_region *box,
+                      froe_cut *cut) {
+    cube_guards g;
+    uint64_t count = 0;
+    for (int k = 0; k < b->job->scene->dim; k++) g.lo[k] = INFINITY, g.hi[k] = -INFINITY;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const uint32_t object = work->set.items.data[cell->first + i].object;
+        if (b->originals[object] == object) count += take_corners(b, box, object, &g);
+    }
+    return count > b->k && cube_cut(box, b->job->scene->dim, &g, !b->points, cut);
+}
+
+static void note_aspect(bar_notes *notes, const bar_candidate *c) {
+    const double aspect = c->aspect[0] > c->aspect[1] ? c->aspect[0] : c->aspect[1];
+    double most = atomic_load(&notes->aspect);
+    while (aspect > most && !atomic_compare_exchange_weak(&notes->aspect, &most, aspect)) continue;
+}
+
+static froe_status plan_bar(const bar *b, const split_work *work, const split_cell *cell, const split_region *region,
+                            bar_scratch *s) {
+    bar_candidate c;
+    if (!gather(b, work, cell, region)) return FROE_E_MEMORY;
+    if (s->count <= b->k) return FROE_OK;
+    const bool old = region->goal && s->count > region->goal;
+    s->target = old ? region->goal : floor(b->share * s->count);
+    bar_found found = bar_search_cut(&b->rule, &work->set.alloc, &s->search, region, s->count, s->target, &c);
+    if (found == BAR_MEMORY) return FROE_E_MEMORY;
+    const bool stuck = found == BAR_UNBALANCED && old && region->cuts >= PATIENCE;
+    if (found == BAR_NONE || (stuck && !b->points && cell->count <= STAR)) return FROE_OK;
+    if (found == BAR_UNBALANCED || (old && region->cuts >= SEQUENCE)) atomic_fetch_add(&b->notes->unbalanced, 1);
+    note_aspect(b->notes, &c);
+    s->cut = split_directions_cut(&b->rule.directions, c.direction, c.value);
+    s->planned = true;
+    return FROE_OK;
+}
+
+/** Finds the cut of the guard stage, if the cell is still in it. */
+static froe_status plan(const bar *b, const split_work *work, const split_cell *cell) {
+    bar_scratch *s = work->scratch;
+    const split_region *region = cell->depth ? &cell->region : &b->root;
+    const double growth = b->job->option[GROWTH];
+    s->planned = false;
+    s->count = cell->count;
+    if (isnan(region->lo[0]) || cell->count <= b->refine.leaf) return FROE_OK;
+    froe_status status = FROE_OK;
+    if (cell->count > b->stop && !(growth > 0 && cell->growth >= growth)) {
+        if (b->cubes)
+            s->planned = plan_cube(b, work, cell, region, &s->cut);
+        else
+            status = plan_bar(b, work, cell, region, s);
+    }
+    if (!s->planned && s->count > 1) atomic_fetch_add(&b->notes->unbalanced, 1);
+    return status;
+}
+
+static froe_status finish(const void *config, split_work *work, const split_cell *cell, bool *done) {
+    const bar_scratch *s = work->scratch;
+    const bar *b = config;
+    if (cell->count >= LONG && !split_go_on(work)) return FROE_E_CANCELLED;
+    froe_status status = plan(b, work, cell);
+    return status || s->planned ? status : split_finish(&b->refine, work, cell, done);
+}
+
+static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+    const bar_scratch *s = work->scratch;
+    if (!s->planned) return split_refine_choose(&((const bar *)config)->refine, work, cell, cut);
+    *cut = s->cut;
+    return SPLIT_CUT_GUARD;
+}
+
+static void divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut, bool guard,
+                    split_cell *positive, split_cell *negative) {
+    const bar *b = config;
+    const bar_scratch *s = work->scratch;
+    split_region region = cell->depth ? cell->region : b->root;
+    if (guard && !b->cubes) {
+        const uint32_t goal = (uint32_t)s->target;
+        region.cuts = goal == region.goal ? region.cuts + 1 : 1;
+        region.goal = goal;
+    }
+    positive->region = negative->region = region;
+    if (!guard) { /* nothing is known of the shape of cells below */
+        positive->region.lo[0] = negative->region.lo[0] = NAN;
+        return;
+    }
+    const int i = b->cubes ? cut->axis : split_direction_of(&b->rule.directions, cut);
+    positive->region.lo[i] = negative->region.hi[i] = cut->value;
+}
+
+/* -------------------------------------------------------------------- build -- */
+
+static froe_status scratch_new(const void *config, split_work *work) {
+    (void)config;
+    work->scratch = base_calloc(&work->set.alloc, 1, sizeof(bar_scratch));
+    return work->scratch ? split_scratch_begin(&work->set.alloc, &((bar_scratch *)work->scratch)->refine)
+                         : FROE_E_MEMORY;
+}
+
+static void scratch_free(split_work *work) {
+    bar_scratch *s = work->scratch;
+    if (!s) return;
+    split_scratch_end(&work->set.alloc, &s->refine);
+    bar_search_free(&work->set.alloc, &s->search);
+    base_free(&work->set.alloc, s, sizeof *s);
+    work->scratch = NULL;
+}
+
+/** Cuts of three until a part has `share` of the points, and so on until there is one. */
+static double most_height(double share, uint32_t points) {
+    double height = 0;
+    for (double n = points; n > 1; n = floor(share * n)) height += SEQUENCE;
+    return height;
+}
+
+static void note(const void *config) {
+    const bar *b = config;
+    build_job *job = b->job;
+    if (job->option[GROWTH] > 0 && !b->points)
+        build_promise(job, "guard_fragments", 2 * job->option[GROWTH] * job->scene->object_count, 0);
+    if (b->cubes) return;
+    build_promise(job, "aspect", job->option[ASPECT], atomic_load(&b->notes->aspect));
+    if (b->points && !atomic_load(&b->notes->unbalanced))
+        build_promise(job, "height", most_height(b->share, job->scene->object_count), 0);
+}
+
+/** A cube that has all guards inside. */
+static void find_root(bar *b) {
+    const froe_scene *scene = b->job->scene;
+    const int dim = scene->dim;
+    guard_cube box, root;
+    memcpy(box.lo, scene->lo, sizeof box.lo);
+    memcpy(box.hi, scene->hi, sizeof box.hi);
+    for (uint32_t i = 0; i < scene->object_count && !b->cubes && !b->points; i++) {
+        double guards[BAR_GUARDS_MOST * 3];
+        const uint32_t count = bar_guards_of(&b->guards, scene, i, guards) * (uint32_t)dim;
+        for (uint32_t j = 0; j < count; j++) {
+            box.lo[j % (uint32_t)dim] = fmin(box.lo[j % (uint32_t)dim], guards[j]);
+            box.hi[j % (uint32_t)dim] = fmax(box.hi[j % (uint32_t)dim], guards[j]);
+        }
+    }
+    guard_root(&box, dim, &root);
+    b->root = bar_region_of(dim, root.lo, root.hi);
+    memcpy(b->job->meta.root_lo, root.lo, (size_t)dim * sizeof(double));
+    memcpy(b->job->meta.root_hi, root.hi, (size_t)dim * sizeof(double));
+}
+
+static froe_status refuse_directions(build_job *job) {
+    const int asked = (int)job->option[DIRECTIONS];
+    if (has_keys(job->scene))
+        return base_fail(job->diag, FROE_E_OPTIONS, "option 'directions': there are no %d in dimension %d", asked,
+                         job->scene->dim);
+    return base_fail(job->diag, FROE_E_UNSUPPORTED, "method 'bar' has no directions for coordinates of %g",
+                     largest_coordinate(job->scene));
+}
+
+/** What does not depend on objects one by one. */
+static froe_status begin(bar *b) {
+    build_job *job = b->job;
+    const int asked = (int)job->option[DIRECTIONS];
+    b->points = points_only(job->scene);
+    b->cubes = asked == 0;
+    if (!b->cubes && (!has_keys(job->scene) || !split_directions_of(job->scene->dim, asked, &b->rule.directions)))
+        return refuse_directions(job);
+    b->share = job->scene->dim == 2 ? 0.67 : 0.75;
+    b->rule.aspect = job->option[ASPECT] * (1 - 0x1p-30); /* pays for all rounding */
+    b->rule.through = !b->points;
+    b->rule.floor = SMALLEST * 0x1p-60;
+    b->k = (uint32_t)job->option[K];
+    b->stop = (uint32_t)job->option[STOP];
+    if (!b->cubes) bar_guards_make(&b->rule.directions, (bar_guard_kind)job->option[GUARDS], &b->guards);
+    find_root(b);
+    return FROE_OK;
+}
+
+/** As density refines what its own guard stage leaves. */
+static split_refine refine_of(const build_job *job) {
+    const froe_scene *scene = job->scene;
+    const bool plane = scene->dim == 2;
+    return (split_refine){.leaf = job->leaf,
+                          .seed = job->seed,
+                          .supports = plane ? 8 : 20,
+                          .quantiles = plane ? 3 : 10,
+                          .edges = 20,
+                          .sample = 512,
+                          .weight = 0.1,
+                          .copy = 0.5,
+                          .height = 2 * base_log2((double)scene->object_count + 2),
+                          .small = FINISH_MOST,
+                          .free_cuts = true};
+}
+
+static froe_status build(build_job *job, froe_tree **out) {
+    bar_notes notes = {0};
+    bar b = {.job = job, .notes = &notes, .refine = refine_of(job)};
+    const size_t bytes = ((size_t)job->scene->object_count + 1) * sizeof *b.originals;
+    froe_status status = begin(&b);
+    if (status) return status;
+    b.originals = base_realloc(&job->alloc, NULL, 0, bytes);
+    if (!b.originals) return base_fail_memory(job->diag);
+    status = scene_originals(job->scene, &job->alloc, b.originals);
+    split_method method = {.config = &b,
+                           .choose = choose,
+                           .finish = finish,
+                           .divided = divided,
+                           .note = note,
+                           .scratch_new = scratch_new,
+                           .scratch_free = scratch_free};
+    split_job split = build_split_job(job);
+    status = status ? base_fail_memory(job->diag) : split_grow(&split, &method, out);
+    base_free(&job->alloc, b.originals, bytes);
+    return status;
+}
+
+const build_method build_method_bar = {
+    .info = {.name = "bar",
+             .summary = "fat cells in a low tree: for ranges of any shape, exact or approximate",
+             .source = "Duncan, Goodrich and Kobourov 1999; de Berg and Streppel, theorem 3",
+             .guarantee = "2D, 3D: cells of bounded aspect; points: height O(log n); objects: O(lambda) a cell",
+             .dims = BUILD_DIMS_ALL,
+             .kinds = BUILD_KINDS_ALL,
+             .options = options},
+    .resolve = resolve,
+    .build = build,
+};
