@@ -29,14 +29,8 @@ static void insert_below(froe_kinetic *k, uint32_t segment, const live_task *at)
     }
 }
 
-/* What comes and goes next to a wall may be the next segment above or below its vertex. */
 static void touch_walls(froe_kinetic *k, const live_cell *cell) {
-    for (int side = 0; side < 2; side++) {
-        if (!name_is_vertex(cell->wall[side])) continue;
-        uint32_t e = k->vertices.data[cell->wall[side].a];
-        for (; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-            if (segment_at(k, e / 2)->end[e % 2].node) live_touch_end(k, e);
-    }
+    for (int side = 0; side < 2; side++) live_touch_wall(k, cell->wall[side]);
 }
 
 static void insert_nodes(froe_kinetic *k, uint32_t segment) {

@@ -160,8 +160,7 @@ static bool are_apart(froe_kinetic *k, const now_name name[2], const live_place 
     return true;
 }
 
-/* Are they about the same segments, so that they meet in one place? */
-static bool belong_together(const froe_kinetic *k, const live_item *item) {
+bool live_belong_together(const froe_kinetic *k, const live_item *item) {
     now_name p = item->claim.p, q = item->claim.q, third;
     if (item->kind == CERT_TURN || p.b == NAME_SEGMENT || live_met_segment(k, p, q) != FROE_NONE) return true;
     if (name_is_crossing(p) && name_is_crossing(q)) return live_third_crossing(p, q, &third);
@@ -179,7 +178,7 @@ bool live_join_item(froe_kinetic *k, const live_item *item) {
         place[i] = place_of(k, name[i], now_spot_of(&k->now, other).x);
         if (!array_push(&k->alloc, &k->places, place[i])) k->short_of_memory = true;
     }
-    return belong_together(k, item) || are_apart(k, name, place);
+    return live_belong_together(k, item) || are_apart(k, name, place);
 }
 
 bool live_has_loose_ends(froe_kinetic *k, const live_item *item) {

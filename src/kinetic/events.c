@@ -145,6 +145,17 @@ static bool is_sound(const froe_kinetic *k) {
     return !k->now.lost && !k->broken && !k->short_of_memory;
 }
 
+/* Surgery next to a wall that is passed, if that is all that happens. */
+static live_outcome pass(froe_kinetic *k, const group *g) {
+    live_outcome outcome = LIVE_DONE;
+    k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
+    for (size_t i = 0; i < g->count && !outcome && is_sound(k); i++) {
+        const live_item *item = item_of(k, g, i);
+        if (is_current(k, item)) outcome = live_belong_together(k, item) ? LIVE_NOT_NARROW : live_pass(k, item);
+    }
+    return outcome;
+}
+
 /* Surgery in small cells, if the event is a simple one. False: it is not, or strangers came. */
 static bool operate(froe_kinetic *k, const group *g, bool simple) {
     k->roots.count = 0;
@@ -335,7 +346,8 @@ static bool handle_group(froe_kinetic *k, group *g, unsigned round, const live_w
     bool simple = call_crew(k, g) && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
                   !live_has_loose_ends(k, item_of(k, g, 0));
     k->now.lost = !(g->slab[0] <= g->slab[1]);
-    if (!operate(k, g, simple)) {
+    live_outcome outcome = simple ? pass(k, g) : LIVE_NOT_NARROW;
+    if (outcome && !operate(k, g, simple && outcome == LIVE_NOT_NARROW)) {
         k->counts.crowds++;
         operate_carefully(k, g);
     }

@@ -216,6 +216,8 @@ void live_list(froe_kinetic *k, uint32_t segment);
 void live_new_list(froe_kinetic *k);
 /** A wall came or went that runs through an end: 2 segment + end. */
 void live_touch_end(froe_kinetic *k, uint32_t end);
+/** What is next to a wall came or went: it may be the next segment above or below its vertex, if it has one. */
+void live_touch_wall(froe_kinetic *k, now_name wall);
 
 /* grow.c */
 /** Where the segment ends in a cell. False: it does not reach into it. */
@@ -243,6 +245,8 @@ void live_join_crew(froe_kinetic *k, uint32_t segment);
 /** Adds whom a certificate is about, and where. False: its points are in one place, and have nothing to do with one
  * another. */
 bool live_join_item(froe_kinetic *k, const live_item *item);
+/** Are its points about the same segments, so that they meet in one place? */
+bool live_belong_together(const froe_kinetic *k, const live_item *item);
 /** Has the crew, perhaps, ends in its places that the certificate does not speak of? */
 bool live_has_loose_ends(froe_kinetic *k, const live_item *item);
 /** Adds those that come near. False: nobody new. */
@@ -263,6 +267,15 @@ uint32_t live_met_segment(const froe_kinetic *k, now_name p, now_name q);
 /** Are they the two ends of one segment? */
 bool live_is_one_segment(const froe_kinetic *k, now_name p, now_name q);
 bool live_has_end(const froe_kinetic *k, uint32_t segment, uint32_t vertex);
+
+/* narrow.c */
+typedef enum live_outcome {
+    LIVE_DONE,
+    LIVE_STRANGERS, /**< they are of the crew now; the tree is as it was */
+    LIVE_NOT_NARROW /**< nothing was done */
+} live_outcome;
+/** The point of a node passes a wall of its cell, away from the point that the wall belongs to. */
+live_outcome live_pass(froe_kinetic *k, const live_item *item);
 
 /* queue.c */
 uint32_t live_new_cert(froe_kinetic *k, cert_kind kind, uint32_t owner, int64_t tick, const now_claim *claim);

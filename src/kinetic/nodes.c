@@ -8,6 +8,12 @@ void live_touch_end(froe_kinetic *k, uint32_t end) {
     if (!array_push(&k->alloc, &k->ends, end)) k->short_of_memory = true;
 }
 
+void live_touch_wall(froe_kinetic *k, now_name wall) {
+    uint32_t e = name_is_vertex(wall) ? k->vertices.data[wall.a] : FROE_NONE;
+    for (; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
+        if (segment_at(k, e / 2)->end[e % 2].node) live_touch_end(k, e);
+}
+
 static live_end *end_of(froe_kinetic *k, uint32_t segment, uint32_t wall) {
     return segment_at(k, segment)->end + (END_0 - wall);
 }
