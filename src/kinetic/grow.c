@@ -11,6 +11,7 @@
 static bool clip_border(froe_kinetic *k, uint32_t segment, uint32_t border, int inside, now_name at[2],
                         uint32_t end[2]) {
     int side[2];
+    if (segment == border) return false;
     for (int i = 0; i < 2; i++) side[i] = now_side(&k->now, border, now_vertex(&k->now, segment, i)) * inside;
     if (!side[0] && !side[1]) live_watch_pair(k, border, segment);
     if (side[0] <= 0 && side[1] <= 0) return false;

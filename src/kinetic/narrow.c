@@ -7,9 +7,10 @@
  *        :   |     :                that has the wall: the paper's bound counts the thread of the point alone.
  *     ___:__(q)____:___
  *
- * The far cell is found by going down on the other side of the wall, past what comes before s in order: that is cut
- * by segments that the way to the near cell knows, too, or ends before the wall. What comes later than s is in the far
- * cell. Source: the shaves of the paper's section 2.3, made by cut, growth and join. */
+ * If there is another wall in a thin part, as of a vertex that has the same x for ever, it passes, too, and this is
+ * not for here. The far cell is found by going down on the other side of the wall, past what comes before s in order:
+ * that is cut by segments that the way to the near cell knows, too, or ends before the wall. What comes later than s is
+ * in the far cell. Source: the shaves of the paper's section 2.3, made by cut, growth and join. */
 #include "kinetic/live.h"
 
 /* A place in the tree, its cell, and which of its walls is passed. */
@@ -126,26 +127,36 @@ static bool has_strangers(froe_kinetic *k, const half *near, const half *far) {
     return live_find_strangers(k, k->list.data, k->list.count) || found;
 }
 
+/* Makes both thin parts anew. */
+static void grow_halves(froe_kinetic *k, const half h[2], now_name point) {
+    size_t count = k->list.count;
+    k->counts.surgeries++;
+    for (uint8_t i = 0; i < 2; i++) {
+        live_free_tree(k, node_at(k, PARTS)->child[2 * i]);
+        grow_thin(k, h + i, (uint8_t)(2 * i), count);
+        if (live_has_wall(k, node_at(k, PARTS)->child[2 * i], point)) k->broken = true; /* never seen */
+    }
+}
+
 live_outcome live_pass(froe_kinetic *k, const live_item *item) {
     half h[2];
     if (!find_halves(k, item, h, h + 1) || !is_wide(k, h) || !is_wide(k, h + 1)) return LIVE_NOT_NARROW;
+    const now_name point = h->side == LEFT ? item->claim.q : item->claim.p;
+    live_outcome outcome = LIVE_DONE;
     k->stamp++;
     live_new_list(k);
     for (uint8_t i = 0; i < 2; i++) cut_off(k, h + i, (uint8_t)(2 * i));
     if (k->short_of_memory) return LIVE_DONE;
     for (size_t i = 0; i < k->crew.count; i++) live_list(k, k->crew.data[i]);
-    for (int i = 0; i < 2; i++) live_collect(k, node_at(k, PARTS)->child[2 * i]);
-    bool strangers = has_strangers(k, h, h + 1);
-    size_t count = k->list.count;
-    k->counts.surgeries += !strangers;
-    for (uint8_t i = 0; i < 2 && !strangers; i++) {
-        live_free_tree(k, node_at(k, PARTS)->child[2 * i]);
-        grow_thin(k, h + i, (uint8_t)(2 * i), count);
+    for (int i = 0; i < 2; i++) {
+        live_collect(k, node_at(k, PARTS)->child[2 * i]);
+        if (live_has_wall(k, node_at(k, PARTS)->child[2 * i], point)) outcome = LIVE_NOT_NARROW;
     }
+    if (has_strangers(k, h, h + 1)) outcome = LIVE_STRANGERS;
+    if (!outcome) grow_halves(k, h, point);
     for (uint8_t i = 0; i < 2; i++) put_back(k, h + i, (uint8_t)(2 * i));
-    if (strangers) return LIVE_STRANGERS;
-    if (k->broken || k->now.lost) return LIVE_DONE;
-    live_touch_wall(k, h[0].cell.wall[h[0].side]);
+    if (outcome || k->broken || k->now.lost) return outcome;
+    live_touch_wall(k, h->cell.wall[h->side]);
     for (int i = 0; i < 2; i++) live_certify(k, h[i].parent, h[i].slot);
     return LIVE_DONE;
 }

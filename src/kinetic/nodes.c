@@ -102,9 +102,14 @@ static void widen(const froe_kinetic *k, live_cell *cell, const live_node *paren
     }
 }
 
+static bool is_closed(const live_cell *cell) {
+    return name_exists(cell->wall[LEFT]) && name_exists(cell->wall[RIGHT]) && cell->top != FROE_NONE &&
+           cell->bottom != FROE_NONE;
+}
+
 live_cell live_cell_of(const froe_kinetic *k, uint32_t node) {
     live_cell cell = live_plane();
-    for (const live_node *n = node_at(k, node); n->parent != ROOT; n = node_at(k, n->parent))
+    for (const live_node *n = node_at(k, node); n->parent != ROOT && !is_closed(&cell); n = node_at(k, n->parent))
         widen(k, &cell, node_at(k, n->parent), n->slot);
     return cell;
 }
@@ -138,8 +143,10 @@ void live_list(froe_kinetic *k, uint32_t segment) {
     if (!array_push(&k->alloc, &k->list, segment)) k->short_of_memory = true;
 }
 
+typedef void visit_node(froe_kinetic *k, uint32_t node, void *context);
+
 /* Visits a subtree from the top down. */
-static void each_node(froe_kinetic *k, uint32_t node, void (*visit)(froe_kinetic *k, uint32_t node)) {
+static void each_node(froe_kinetic *k, uint32_t node, visit_node *visit, void *context) {
     k->order.count = 0;
     if (node && !array_push(&k->alloc, &k->order, node)) k->short_of_memory = true;
     while (k->order.count) {
@@ -151,18 +158,43 @@ static void each_node(froe_kinetic *k, uint32_t node, void (*visit)(froe_kinetic
         const live_node *n = node_at(k, top);
         for (int i = 0; i < 4; i++)
             if (n->child[i]) k->order.data[k->order.count++] = n->child[i];
-        visit(k, top);
+        visit(k, top, context);
     }
 }
 
-static void list_segment_of(froe_kinetic *k, uint32_t node) {
+static void list_segment_of(froe_kinetic *k, uint32_t node, void *context) {
+    (void)context;
     live_list(k, node_at(k, node)->segment);
 }
 
 void live_collect(froe_kinetic *k, uint32_t node) {
-    each_node(k, node, list_segment_of);
+    each_node(k, node, list_segment_of, NULL);
+}
+
+static void free_one(froe_kinetic *k, uint32_t node, void *context) {
+    (void)context;
+    live_free_node(k, node);
 }
 
 void live_free_tree(froe_kinetic *k, uint32_t node) {
-    each_node(k, node, live_free_node);
+    each_node(k, node, free_one, NULL);
+}
+
+typedef struct wall_search {
+    now_name except;
+    bool found;
+} wall_search;
+
+static void look_for_wall(froe_kinetic *k, uint32_t node, void *context) {
+    wall_search *search = context;
+    const live_node *n = node_at(k, node);
+    for (int side = 0; side < 2; side++)
+        if (n->wall[side] != END_NONE && !name_is(wall_name(k, n->segment, n->wall[side]), search->except))
+            search->found = true;
+}
+
+bool live_has_wall(froe_kinetic *k, uint32_t node, now_name except) {
+    wall_search search = {except, false};
+    each_node(k, node, look_for_wall, &search);
+    return search.found;
 }

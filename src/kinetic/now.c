@@ -82,15 +82,17 @@ static void set_course(now_state *now, uint32_t vertex, now_course *c) {
 }
 
 /* Pieces are looked up once, when the first tick of theirs has come; trials of later ticks do not leave them. */
-static now_course *course_of(now_state *now, uint32_t vertex) {
-    now_course *c = now->courses.data + vertex;
+static void place_course(now_state *now, uint32_t vertex, now_course *c) {
     if (now->tick > c->last || now->tick < c->base) set_course(now, vertex, c);
-    if (c->tick != now->tick) {
-        double s = (double)(now->tick - c->base);
-        c->at[0] = c->x[0] + s * (c->x[1] + s * c->x[2]);
-        c->at[1] = c->y[0] + s * (c->y[1] + s * c->y[2]);
-        c->tick = now->tick;
-    }
+    double s = (double)(now->tick - c->base);
+    c->at[0] = c->x[0] + s * (c->x[1] + s * c->x[2]);
+    c->at[1] = c->y[0] + s * (c->y[1] + s * c->y[2]);
+    c->tick = now->tick;
+}
+
+static inline now_course *course_of(now_state *now, uint32_t vertex) {
+    now_course *c = now->courses.data + vertex;
+    if (c->tick != now->tick) place_course(now, vertex, c);
     return c;
 }
 
@@ -250,10 +252,21 @@ static int side_with(now_state *now, uint32_t segment, uint32_t vertex, get_exac
     return exact_sign(&turn);
 }
 
+/* The sign of ab x aq, from the coordinates as they are; NUM_UNSURE where rounding or their errors may matter. */
+static inline int quick_side(const now_course *a, const now_course *b, const now_course *q) {
+    double ux = b->at[0] - a->at[0], uy = b->at[1] - a->at[1], vx = q->at[0] - a->at[0], vy = q->at[1] - a->at[1];
+    double p = ux * vy, r = uy * vx, d = p - r, e = a->error + b->error, f = a->error + q->error;
+    double sum_u = fabs(ux) + fabs(uy), sum_v = fabs(vx) + fabs(vy);
+    double bound = (fabs(p) + fabs(r)) * 0x1p-50 + (sum_u * f + sum_v * e + 2 * e * f) * (1 + 0x1p-40) + NUM_BALL_TINY;
+    return d > bound ? 1 : d < -bound ? -1 : NUM_UNSURE;
+}
+
 int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
     uint32_t u = now_vertex(now, segment, 0), v = now_vertex(now, segment, 1);
     now->context.stats.calls++;
     if (vertex == u || vertex == v) return 0;
+    int quick = quick_side(course_of(now, u), course_of(now, v), course_of(now, vertex));
+    if (quick != NUM_UNSURE) return quick;
     ball2 a = vertex_ball(now, u), d = minus(vertex_ball(now, v), a);
     int sign = num_ball_sign(cross(d, minus(vertex_ball(now, vertex), a)));
     if (sign == 1 || sign == -1) return sign;

@@ -26,12 +26,12 @@ typedef struct now_name {
 
 /** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2, s = tick - base. */
 typedef struct now_course {
+    int64_t tick;        /**< at which `at` is; -1: at none */
+    double at[2], error; /**< no coordinate is further off */
+    double speed;        /**< no coordinate changes by more in a tick; some slack included */
+    int64_t last, base;  /**< the last tick of the piece; -1: not looked at yet */
+    double x[3], y[3];
     motion_piece piece;
-    int64_t last, base; /**< the last tick of the piece; -1: not looked at yet */
-    double x[3], y[3], error;
-    double speed; /**< no coordinate changes by more in a tick; some slack included */
-    int64_t tick; /**< at which `at` is */
-    double at[2];
 } now_course;
 
 /** Roughly where a point is: no coordinate is further off than `error`. */
