@@ -11,13 +11,19 @@ typedef struct measure_args {
     cli_scene_args scene;
     uint64_t samples;
     cli_reals deltas;
+    int counting;
 } measure_args;
 
+static const char *const countings[] = {[FROE_COUNT_SEARCH] = "search", [FROE_COUNT_TREES] = "trees", NULL};
 static const cli_option options[] = {
     {"samples", 0, CLI_WHOLE, offsetof(measure_args, samples), "N",
      .help = "objects, or cubes, looked at by each measure; 0: all objects", .max = UINT32_MAX},
     {"delta", 0, CLI_REALS, offsetof(measure_args, deltas), "D,...",
      .help = "room beside boxes, in sides, for directional density (default 0.25,0.5,1)"},
+    {"counting", 0, CLI_CHOICE, offsetof(measure_args, counting), "HOW",
+     .help = "for directional density: search (default), or range trees, which do not mind large counts; the numbers "
+             "are the same",
+     .choices = countings},
     {0},
 };
 
@@ -99,8 +105,9 @@ static int measure_fatness(survey *s, json_t *report) {
 }
 
 static json_t *directional_json(const froe_directional *d) {
-    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "delta", d->delta, "simple 95 %", d->simple.q95,
+    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "delta", d->delta, "simple 95 %", d->simple.q95,
                      "simple most", d->simple.most, "extended 95 %", d->extended.q95, "extended most", d->extended.most,
+                     "two-directional 95 %", d->two_directional.q95, "two-directional most", d->two_directional.most,
                      "paired 95 %", d->paired.q95, "paired most", d->paired.most);
 }
 
@@ -137,6 +144,7 @@ static int run(const void *given) {
     survey s = {.args = args, .scene = scene, .options = froe_measure_defaults()};
     s.options.samples = (uint32_t)args->samples;
     s.options.seed = args->common.seed;
+    s.options.counting = (froe_counting)args->counting;
     json_t *report = json_pack("{s:s, s:I, s:I, s:I, s:{}}", "file", args->scene.path, "objects",
                                (json_int_t)froe_scene_object_count(scene), "samples", (json_int_t)args->samples, "seed",
                                (json_int_t)args->common.seed, "distributions");
@@ -164,7 +172,8 @@ const cli_command cli_command_measure = {
     "diameter. Fatness is volume over "
     "that of the smallest enclosing ball. Directional density counts, for the bounding boxes of objects, boxes that "
     "cross "
-    "the plane of a face near it: simple, extended, and for the best pair of faces.\n\nBounds are certified. "
+    "the plane of a face near it: simple, extended, two-directional, and for the best pair of faces alone.\n\nBounds "
+    "are certified. "
     "Scenes of more objects than --samples are looked at in a random sample: then upper bounds are those of the "
     "sample.",
     .examples = "froe measure floor.geojson\nfroe measure house.glb --boxes --delta 0.5 --json\n",

@@ -19,14 +19,21 @@
 extern "C" {
 #endif
 
+/** How boxes are counted for directional density; the numbers are the same. */
+typedef enum froe_counting {
+    FROE_COUNT_SEARCH, /**< a packed hierarchy: fast where few are found */
+    FROE_COUNT_TREES   /**< range trees: O(log^(d - 1) n) a count however large, in as many times the space */
+} froe_counting;
+
 typedef struct froe_measure_options {
     size_t size;      /**< set by froe_measure_defaults() */
     uint32_t samples; /**< objects, or for clutter cubes, looked at, at most; 0: all objects */
     uint64_t seed;
+    froe_counting counting;
     froe_progress_fn *progress; /**< may be NULL */
     void *user;
 } froe_measure_options;
-FROE_API froe_measure_options froe_measure_defaults(void); /**< 20,000 samples, seed 1 */
+FROE_API froe_measure_options froe_measure_defaults(void); /**< 20,000 samples, seed 1, search */
 
 /** How values are distributed. All 0 without any. */
 typedef struct froe_spread {
@@ -84,18 +91,21 @@ FROE_API froe_status froe_measure_clutter(const froe_scene *scene, const froe_me
 
 /* ------------------------------------------------------- directional density -- */
 
-/** Directional density of the bounding boxes of objects (Tobola and Nechvile): how many other boxes cross the
- * plane of a face within its neighbourhood. Boxes that meet the inside of the box itself do not count. */
+/** Directional density of the bounding boxes of objects (Tobola and Nechvile, definitions 2.4, 3.2 and 4.1): how many
+ * other boxes cross the plane of a face within its neighbourhood. Boxes that meet the inside of the box itself do not
+ * count. Much: (1 + 2 delta) times the longest side, of the face (extended) or of the box. */
 typedef struct froe_directional {
     double delta;
-    uint64_t count;       /**< boxes looked at */
-    froe_spread simple;   /**< most of all faces, each widened by delta times its own sides */
-    froe_spread extended; /**< most of all faces, widened by (1 + 2 delta) times the longest side of the face */
-    froe_spread paired; /**< least over the axes, but the longest, of the two faces across it, widened by (1 + 2 delta)
-                             times the longest side of the box: the condition of the linear bound */
+    uint64_t count;              /**< boxes looked at */
+    froe_spread simple;          /**< most of all faces, each widened by delta times its own sides */
+    froe_spread extended;        /**< most of all faces, each widened by much */
+    froe_spread two_directional; /**< most of all faces, widened by much, but on one axis by delta times the side:
+                                      least over the choices of that axis, all but the longest */
+    froe_spread paired; /**< the same for the two faces across that axis alone: what a tree of linear size needs */
 } froe_directional;
 /** Exact counts, up to the rounding of the widened sides. FROE_E_ARG: delta < 0 or not finite. FROE_E_MEMORY,
- * FROE_E_CANCELLED. O(n log n + d samples (log n + counts)). */
+ * FROE_E_CANCELLED. O(n log n + d^2 samples (log n + counts)); by range trees O((n + d^2 samples) 2^d log^(d - 1) n).
+ */
 FROE_API froe_status froe_measure_directional(const froe_scene *scene, double delta,
                                               const froe_measure_options *options, froe_directional *out,
                                               froe_diagnostic *diag);

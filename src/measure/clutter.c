@@ -129,18 +129,18 @@ static bool corner_inside(const survey *s, uint32_t object, const double *points
     return found;
 }
 
+/* Of an object whose bounding box meets the box. */
 static bool object_meets(survey *s, uint32_t object, const double *points) {
     const froe_scene *scene = s->sample.scene;
-    if (corner_inside(s, object, points)) return true;
+    int form = scene_form(scene, object);
+    if (form == FROE_BOX || form == FROE_POINT || corner_inside(s, object, points)) return true;
     if (s->dim <= 3) {
         geom_convex a = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = points};
         geom_convex b = query_convex(scene, object);
         return geom_meet(&s->context, &a, &b);
     }
-    bool ball = scene_form(scene, object) == FROE_BALL, box = scene_form(scene, object) == FROE_BOX;
-    const double *p = scene_point(scene, object, 0), *q = box ? scene_point(scene, object, 1) : p;
-    double radius = ball ? scene_radius(scene, object) : 0;
-    return geom_meet_boxes(&s->context, s->dim, points, points + s->dim, 0, p, q, radius);
+    const double *p = scene_point(scene, object, 0); /* a ball */
+    return geom_meet_boxes(&s->context, s->dim, points, points + s->dim, 0, p, p, scene_radius(scene, object));
 }
 
 /* Objects that meet the open cube: that meet the largest closed one of doubles inside. */

@@ -2,124 +2,141 @@
  *
  *              |          |    f           Of box e and its upper face: f crosses the plane of the face within the
  *        ......|==========|..*****....     face widened by some room, so it counts, as long as it keeps out of the
- *              |    e     |  *****         inside of e.
+ *              |    e     |  *****         inside of e: as long as it does not cross the face itself.
  *              |          |  *****
  *
- * (Tobola and Nechvile, sections 4 and 5.1, with one rectangle in place of the union of two: that is what a cell can be
- * at most when no lemma cut is left.) Counted by search and test. */
+ * (Tobola and Nechvile, definitions 2.2, 3.2 and 4.1, and section 5.1 for one rectangle in place of the union of two:
+ * that is what a cell can be at most when no lemma cut is left.) */
 #include "base/status.h"
-#include "measure/hierarchy.h"
-#include "measure/sample.h"
+#include "measure/crossings.h"
 #include <math.h>
+
+/* Rooms that a face is widened by. From EVEN on: but little on axis form - EVEN, much on the others. */
+enum { NONE, SIMPLE, EXTENDED, EVEN };
 
 typedef struct survey {
     measure_sample sample;
-    measure_hierarchy boxes;
     measure_bounds bounds;
     double delta;
+    uint32_t *counts; /* for each object of the sample, each face, each form */
 } survey;
 
-static const double *lo_of(const survey *s, uint32_t object) {
-    return s->bounds.lo + (size_t)object * (size_t)s->boxes.dim;
-}
-static const double *hi_of(const survey *s, uint32_t object) {
-    return s->bounds.hi + (size_t)object * (size_t)s->boxes.dim;
+/* ------------------------------------------------------------------- windows -- */
+
+static size_t forms(int dim) {
+    return EVEN + (size_t)dim;
 }
 
-/* Do the insides of two boxes overlap? A flat box counts as inside where it lies strictly between. */
-static bool overlap(int dim, const double *lo, const double *hi, const double *from, const double *to) {
-    bool inside = true;
-    for (int k = 0; k < dim && inside; k++) inside = lo[k] < to[k] && hi[k] > from[k];
-    return inside;
+static size_t windows_each(int dim) {
+    return 2 * (size_t)dim * forms(dim);
 }
 
-/* Boxes that cross x[axis] = c within the face of `object`, widened on axis k by room[k]. */
-static uint32_t crossings(const survey *s, uint32_t object, int axis, double c, const double *room) {
-    int dim = s->boxes.dim;
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    for (int k = 0; k < dim; k++) lo[k] = lo_of(s, object)[k] - room[k], hi[k] = hi_of(s, object)[k] + room[k];
-    lo[axis] = hi[axis] = c;
-    measure_search search = measure_search_begin(&s->boxes, lo, hi, 0);
-    uint32_t count = 0;
-    for (uint32_t f; (f = measure_search_next(&search)) != FROE_NONE;) {
-        if (f == object || !overlap(dim, lo_of(s, f), hi_of(s, f), lo, hi)) continue;
-        count += !overlap(dim, lo_of(s, f), hi_of(s, f), lo_of(s, object), hi_of(s, object));
-    }
-    return count;
-}
-
-/* The greater count of the two faces across an axis. */
-static uint32_t worse_face(const survey *s, uint32_t object, int axis, const double *room) {
-    uint32_t low = crossings(s, object, axis, lo_of(s, object)[axis], room);
-    uint32_t high = crossings(s, object, axis, hi_of(s, object)[axis], room);
-    return low > high ? low : high;
-}
-
-/* Room of a face across `axis`: a share of each side, or of the longest side of the face, or of the box. */
-static double simple_room(const survey *s, const double *side, int axis, double *room) {
-    double longest = 0;
-    for (int k = 0; k < s->boxes.dim; k++) {
-        room[k] = s->delta * side[k];
-        if (k != axis && side[k] > longest) longest = side[k];
+static int longest_side(const survey *s, uint32_t object, double *side) {
+    int dim = s->sample.scene->dim, longest = 0;
+    size_t at = (size_t)object * (size_t)dim;
+    for (int k = 0; k < dim; k++) {
+        side[k] = s->bounds.hi[at + (size_t)k] - s->bounds.lo[at + (size_t)k];
+        if (side[k] > side[longest]) longest = k;
     }
     return longest;
 }
 
-static void even_room(const survey *s, double longest, double *room) {
-    for (int k = 0; k < s->boxes.dim; k++) room[k] = (1 + 2 * s->delta) * longest;
+static double much(const survey *s, double side) {
+    return side > 0 ? (1 + 2 * s->delta) * side : 0; /* the factor may be infinite */
 }
 
-static bool note_box(survey *s, uint32_t object) {
-    int dim = s->boxes.dim, longest = 0;
-    double side[FROE_MAX_DIM], room[FROE_MAX_DIM];
+/* What the face across `axis` of a box with these sides is widened by on axis k. */
+static double room(const survey *s, const double *side, int longest, int axis, int form, int k) {
+    double face = 0;
+    if (form == NONE) return 0;
+    if (form == SIMPLE || k == form - EVEN) return s->delta * side[k];
+    if (form != EXTENDED) return much(s, side[longest]);
+    for (int i = 0; i < s->sample.scene->dim; i++)
+        if (i != axis && side[i] > face) face = side[i];
+    return much(s, face);
+}
+
+/* Faces of an object: lower, then upper, on each axis; forms of each face. */
+static void window(const void *user, size_t i, double *lo, double *hi) {
+    const survey *s = user;
+    int dim = s->sample.scene->dim, form = (int)(i % forms(dim)), face = (int)(i % windows_each(dim) / forms(dim));
+    uint32_t object = measure_sample_object(&s->sample, (uint32_t)(i / windows_each(dim)));
+    size_t at = (size_t)object * (size_t)dim;
+    double side[FROE_MAX_DIM];
+    int longest = longest_side(s, object, side), axis = face / 2;
     for (int k = 0; k < dim; k++) {
-        side[k] = hi_of(s, object)[k] - lo_of(s, object)[k];
-        if (side[k] > side[longest]) longest = k;
+        double by = room(s, side, longest, axis, form, k);
+        lo[k] = s->bounds.lo[at + (size_t)k] - by;
+        hi[k] = s->bounds.hi[at + (size_t)k] + by;
     }
-    uint32_t simple = 0, extended = 0, paired = UINT32_MAX, count;
-    for (int k = 0; k < dim; k++) {
-        double face = simple_room(s, side, k, room);
-        if ((count = worse_face(s, object, k, room)) > simple) simple = count;
-        even_room(s, face, room);
-        if ((count = worse_face(s, object, k, room)) > extended) extended = count;
-        even_room(s, side[longest], room);
-        if (k != longest && (count = worse_face(s, object, k, room)) < paired) paired = count;
+    lo[axis] = hi[axis] = (face % 2 ? s->bounds.hi : s->bounds.lo)[at + (size_t)axis];
+}
+
+/* -------------------------------------------------------------------- results -- */
+
+/* The greater count of the two faces across an axis, without the boxes that cross a face itself. */
+static uint32_t worse_face(const survey *s, uint32_t i, int axis, size_t form) {
+    size_t each = forms(s->sample.scene->dim);
+    const uint32_t *low = s->counts + i * windows_each(s->sample.scene->dim) + 2 * (size_t)axis * each;
+    const uint32_t *high = low + each;
+    uint32_t a = low[form] - low[NONE], b = high[form] - high[NONE];
+    return a > b ? a : b;
+}
+
+static uint32_t worst_face(const survey *s, uint32_t i, size_t form) {
+    uint32_t most = 0;
+    for (int k = 0; k < s->sample.scene->dim; k++) {
+        uint32_t count = worse_face(s, i, k, form);
+        if (count > most) most = count;
     }
-    const uint32_t counts[3] = {simple, extended, paired};
-    for (int i = 0; i < 3; i++)
-        if (!array_push(&s->sample.alloc, &s->sample.values[i], counts[i])) return false;
+    return most;
+}
+
+static bool note_box(survey *s, uint32_t i) {
+    double side[FROE_MAX_DIM];
+    int longest = longest_side(s, measure_sample_object(&s->sample, i), side);
+    uint32_t paired = UINT32_MAX, directed = UINT32_MAX;
+    for (int thin = 0; thin < s->sample.scene->dim; thin++) {
+        size_t form = EVEN + (size_t)thin;
+        uint32_t pair = worse_face(s, i, thin, form), all = worst_face(s, i, form);
+        if (thin == longest) continue;
+        if (pair < paired) paired = pair;
+        if (all < directed) directed = all;
+    }
+    const uint32_t counts[4] = {worst_face(s, i, SIMPLE), worst_face(s, i, EXTENDED), directed, paired};
+    for (int k = 0; k < 4; k++)
+        if (!array_push(&s->sample.alloc, &s->sample.values[k], counts[k])) return false;
     return true;
 }
 
-static froe_status find_boxes(survey *s) {
-    const froe_scene *scene = s->sample.scene;
-    const measure_bounds *b = &s->bounds;
+static froe_status look(survey *s, froe_counting counting) {
+    measure_windows windows = {&s->bounds, s->sample.count * windows_each(s->sample.scene->dim), window, s};
     froe_status status = measure_bounds_new(&s->sample, &s->bounds);
-    if (status) return status;
-    return measure_hierarchy_new(&s->sample.alloc, scene->dim, scene->object_count, b->lo, b->hi, NULL, &s->boxes);
-}
-
-static froe_status look(survey *s, froe_directional *out) {
-    for (uint32_t i = 0; i < s->sample.count; i++) {
-        if (!measure_sample_go_on(&s->sample, i)) return FROE_E_CANCELLED;
-        if (!note_box(s, measure_sample_object(&s->sample, i))) return FROE_E_MEMORY;
-    }
-    *out = (froe_directional){.delta = s->delta, .count = s->sample.count};
-    froe_status status = measure_sample_spread(&s->sample, 0, &out->simple);
-    if (!status) status = measure_sample_spread(&s->sample, 1, &out->extended);
-    return status ? status : measure_sample_spread(&s->sample, 2, &out->paired);
+    s->counts = base_calloc(&s->sample.alloc, windows.count, sizeof *s->counts);
+    if (!status && !s->counts) status = FROE_E_MEMORY;
+    if (!status && windows.count)
+        status = (counting == FROE_COUNT_TREES ? measure_count_by_trees : measure_count_by_search)(&s->sample, &windows,
+                                                                                                   s->counts);
+    for (uint32_t i = 0; i < s->sample.count && !status; i++)
+        if (!note_box(s, i)) status = FROE_E_MEMORY;
+    base_free(&s->sample.alloc, s->counts, (windows.count ? windows.count : 1) * sizeof *s->counts);
+    measure_bounds_free(&s->sample, &s->bounds);
+    return status;
 }
 
 froe_status froe_measure_directional(const froe_scene *scene, double delta, const froe_measure_options *options,
                                      froe_directional *out, froe_diagnostic *diag) {
     survey s = {.delta = delta};
+    froe_counting counting = options ? options->counting : FROE_COUNT_SEARCH;
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;
     if (!(delta >= 0) || !isfinite(delta))
         return base_fail(diag, FROE_E_ARG, "delta = %g: a finite number >= 0 is needed", delta);
-    status = find_boxes(&s);
-    if (!status) status = look(&s, out);
-    measure_hierarchy_free(&s.boxes);
-    measure_bounds_free(&s.sample, &s.bounds);
+    status = look(&s, counting);
+    if (!status) *out = (froe_directional){.delta = delta, .count = s.sample.count};
+    if (!status) status = measure_sample_spread(&s.sample, 0, &out->simple);
+    if (!status) status = measure_sample_spread(&s.sample, 1, &out->extended);
+    if (!status) status = measure_sample_spread(&s.sample, 2, &out->two_directional);
+    if (!status) status = measure_sample_spread(&s.sample, 3, &out->paired);
     return measure_sample_end(&s.sample, status, diag);
 }

@@ -14,6 +14,8 @@ froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_opt
     *sample = (measure_sample){.scene = scene, .seed = o.seed};
     if (!scene || !out) return base_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
     if (o.size != sizeof o) return base_fail(diag, FROE_E_OPTIONS, "options do not come from froe_measure_defaults()");
+    if (o.counting != FROE_COUNT_SEARCH && o.counting != FROE_COUNT_TREES)
+        return base_fail(diag, FROE_E_OPTIONS, "counting = %d is no way to count", (int)o.counting);
     sample->alloc = scene->alloc;
     sample->count = o.samples && o.samples < scene->object_count ? o.samples : scene->object_count;
     base_task_init(&sample->task, 1, o.progress, o.user);
@@ -21,7 +23,7 @@ froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_opt
 }
 
 void measure_sample_free(measure_sample *sample) {
-    for (int i = 0; i < 3; i++) array_free(&sample->alloc, &sample->values[i]);
+    for (int i = 0; i < 4; i++) array_free(&sample->alloc, &sample->values[i]);
 }
 
 froe_status measure_bounds_new(const measure_sample *sample, measure_bounds *out) {

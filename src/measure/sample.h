@@ -12,7 +12,7 @@ typedef struct measure_sample {
     base_task task;
     uint64_t seed;
     uint32_t count; /**< of objects looked at */
-    ARRAY(double) values[3];
+    ARRAY(double) values[4];
 } measure_sample;
 
 /** Takes the options (NULL: the defaults). FROE_E_ARG, FROE_E_OPTIONS. Free it whatever happens. */

@@ -152,62 +152,6 @@ static void density_is_between_its_bounds(void **state) {
     }
 }
 
-/* -------------------------------------------------------------- directional density -- */
-
-static bool inside(double lo, double hi, double from, double to) {
-    return lo < to && hi > from;
-}
-
-/* The same by brute force, in three loops. */
-static uint32_t brute_crossings(const froe_scene *s, uint32_t e, int axis, int end, const double *room) {
-    double lo[2][FROE_MAX_DIM], hi[2][FROE_MAX_DIM];
-    uint32_t count = 0;
-    scene_object_bounds(s, e, lo[0], hi[0]);
-    for (uint32_t f = 0; f < s->object_count; f++) {
-        scene_object_bounds(s, f, lo[1], hi[1]);
-        bool near = true, within = true;
-        for (int k = 0; k < s->dim; k++) {
-            double c = end ? hi[0][k] : lo[0][k];
-            near = near && (k == axis ? lo[1][k] < c && c < hi[1][k]
-                                      : inside(lo[1][k], hi[1][k], lo[0][k] - room[k], hi[0][k] + room[k]));
-            within = within && inside(lo[1][k], hi[1][k], lo[0][k], hi[0][k]);
-        }
-        count += f != e && near && !within;
-    }
-    return count;
-}
-
-static void directional_counts_are_those_of_brute_force(void **state) {
-    (void)state;
-    for (int dim = 2; dim <= 5; dim++) {
-        froe_scene *s = make(FROE_BOX, dim, 50, 77, 1, 1);
-        froe_measure_options o = all_objects();
-        froe_directional found;
-        double sum = 0, most = 0, paired = 0;
-        assert_int_equal(froe_measure_directional(s, 0.5, &o, &found, NULL), FROE_OK);
-        for (uint32_t e = 0; e < s->object_count; e++) {
-            double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], room[FROE_MAX_DIM], here = 0, least = INFINITY;
-            int longest = 0;
-            scene_object_bounds(s, e, lo, hi);
-            for (int k = 1; k < dim; k++)
-                if (hi[k] - lo[k] > hi[longest] - lo[longest]) longest = k;
-            for (int axis = 0; axis < dim; axis++) {
-                for (int k = 0; k < dim; k++) room[k] = 0.5 * (hi[k] - lo[k]);
-                here = fmax(here, fmax(brute_crossings(s, e, axis, 0, room), brute_crossings(s, e, axis, 1, room)));
-                for (int k = 0; k < dim; k++) room[k] = 2 * (hi[longest] - lo[longest]);
-                if (axis == longest) continue;
-                least = fmin(least, fmax(brute_crossings(s, e, axis, 0, room), brute_crossings(s, e, axis, 1, room)));
-            }
-            sum += here;
-            most = fmax(most, here);
-            paired = fmax(paired, least);
-        }
-        assert_true(found.simple.most == most && found.paired.most == paired);
-        assert_true(fabs(found.simple.mean * (double)s->object_count - sum) < 1e-6);
-        froe_scene_free(s);
-    }
-}
-
 /* ---------------------------------------------------------------------- fatness -- */
 
 static void fatness_of_known_shapes(void **state) {
@@ -357,7 +301,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clutter_is_at_most_what_it_is),
         cmocka_unit_test(density_is_between_its_bounds),
-        cmocka_unit_test(directional_counts_are_those_of_brute_force),
         cmocka_unit_test(fatness_of_known_shapes),
         cmocka_unit_test(enclosing_balls_enclose_and_touch),
         cmocka_unit_test(order_and_scale_change_nothing),

@@ -1,0 +1,152 @@
+/* crossings.c: counting boxes that meet windows by search, and by range trees. */
+#include "measure/crossings.h"
+#include "base/radix.h"
+#include "measure/dominance.h"
+#include "measure/hierarchy.h"
+
+enum { STEP = 1024 }; /* windows between two reports of progress */
+
+static bool go_on(measure_sample *sample, size_t done, size_t all) {
+    return done % STEP || base_progress(&sample->task, (double)done / ((double)all + 1));
+}
+
+/* -------------------------------------------------------------------- search -- */
+
+static bool overlap(int dim, const double *lo, const double *hi, const double *from, const double *to) {
+    bool inside = true;
+    for (int k = 0; k < dim && inside; k++) inside = lo[k] < to[k] && hi[k] > from[k];
+    return inside;
+}
+
+static uint32_t look(const measure_hierarchy *boxes, const measure_windows *w, size_t i) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    uint32_t count = 0;
+    w->get(w->user, i, lo, hi);
+    measure_search search = measure_search_begin(boxes, lo, hi, 0);
+    for (uint32_t f; (f = measure_search_next(&search)) != FROE_NONE;) {
+        size_t at = (size_t)f * (size_t)boxes->dim;
+        count += overlap(boxes->dim, w->bounds->lo + at, w->bounds->hi + at, lo, hi);
+    }
+    return count;
+}
+
+froe_status measure_count_by_search(measure_sample *sample, const measure_windows *windows, uint32_t *out) {
+    const froe_scene *scene = sample->scene;
+    measure_hierarchy boxes;
+    froe_status status = measure_hierarchy_new(&sample->alloc, scene->dim, scene->object_count, windows->bounds->lo,
+                                               windows->bounds->hi, NULL, &boxes);
+    for (size_t i = 0; i < windows->count && !status; i++) {
+        if (go_on(sample, i, windows->count))
+            out[i] = look(&boxes, windows, i);
+        else
+            status = FROE_E_CANCELLED;
+    }
+    measure_hierarchy_free(&boxes);
+    return status;
+}
+
+/* --------------------------------------------------------------- ends in order -- */
+
+/* The lower or upper ends of all boxes on an axis, ascending; of equal ones those of flat boxes last. */
+typedef struct ends {
+    double *value;
+    bool *flat;
+    uint32_t *rank; /* of each box */
+} ends;
+
+static froe_status ends_new(const measure_sample *sample, const measure_bounds *bounds, int axis, bool upper,
+                            ends *out) {
+    const froe_allocator *alloc = &sample->alloc;
+    uint32_t n = sample->scene->object_count, count = 0;
+    size_t dim = (size_t)sample->scene->dim;
+    base_pair *pairs = base_calloc(alloc, 2 * (size_t)n, sizeof *pairs);
+    *out = (ends){base_calloc(alloc, n, sizeof *out->value), base_calloc(alloc, n, sizeof *out->flat),
+                  base_calloc(alloc, n, sizeof *out->rank)};
+    bool ok = pairs && out->value && out->flat && out->rank;
+    const double *lo = bounds->lo + axis, *hi = bounds->hi + axis, *x = upper ? hi : lo;
+    for (int flat = 0; flat < 2 && ok; flat++)
+        for (uint32_t i = 0; i < n; i++)
+            if ((lo[i * dim] == hi[i * dim]) == flat) pairs[count++] = (base_pair){base_double_key(x[i * dim]), i};
+    if (ok) base_radix_sort(pairs, pairs + n, n);
+    for (uint32_t r = 0; r < n && ok; r++) {
+        uint32_t i = pairs[r].value;
+        out->value[r] = x[i * dim];
+        out->flat[r] = lo[i * dim] == hi[i * dim];
+        out->rank[i] = r;
+    }
+    base_free(alloc, pairs, 2 * (size_t)n * sizeof *pairs);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+static void ends_free(const measure_sample *sample, ends *e) {
+    uint32_t n = sample->scene->object_count;
+    base_free(&sample->alloc, e->value, n * sizeof *e->value);
+    base_free(&sample->alloc, e->flat, n * sizeof *e->flat);
+    base_free(&sample->alloc, e->rank, n * sizeof *e->rank);
+}
+
+/* Ends before x, and of those at x: none (0), of boxes that are not flat (1), all (2). */
+static uint32_t ends_before(const ends *e, uint32_t count, double x, int with) {
+    uint32_t from = 0, end = count;
+    while (from < end) {
+        uint32_t i = from + (end - from) / 2;
+        if (e->value[i] < x || (e->value[i] == x && e->flat[i] < with))
+            from = i + 1;
+        else
+            end = i;
+    }
+    return from;
+}
+
+/* ---------------------------------------------------------------------- trees -- */
+
+typedef struct counter {
+    measure_sample *sample;
+    const measure_windows *windows;
+    ends ends[FROE_MAX_DIM][2]; /* lower, upper */
+    uint32_t *out;
+} counter;
+
+/* The corner that stands for window i where upper ends are asked for on the axes in `upper`. A box that begins before
+ * hi and ends up to lo: all that end there, but if lo = hi, not the flat ones at it, which do not begin before. */
+static void corner(const counter *c, size_t i, unsigned upper, uint32_t below[]) {
+    uint32_t n = c->sample->scene->object_count;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    c->windows->get(c->windows->user, i, lo, hi);
+    for (int k = 0; k < c->sample->scene->dim; k++)
+        below[k] = upper >> k & 1 ? ends_before(&c->ends[k][1], n, lo[k], lo[k] < hi[k] ? 2 : 1)
+                                  : ends_before(&c->ends[k][0], n, hi[k], 0);
+}
+
+/* Adds or takes away what a product of conditions says. */
+static froe_status add_product(counter *c, unsigned upper) {
+    int dim = c->sample->scene->dim;
+    size_t count = c->windows->count, products = (size_t)1 << dim;
+    uint32_t *rank[FROE_MAX_DIM], sign = 1;
+    measure_dominance tree;
+    for (int k = 0; k < dim; k++) {
+        rank[k] = c->ends[k][upper >> k & 1].rank;
+        if (upper >> k & 1) sign = 0 - sign;
+    }
+    froe_status status = measure_dominance_new(&c->sample->alloc, dim, c->sample->scene->object_count, rank, &tree);
+    for (size_t i = 0; i < count && !status; i++) {
+        uint32_t below[FROE_MAX_DIM];
+        corner(c, i, upper, below);
+        c->out[i] += sign * measure_dominance_count(&tree, below);
+        if (!go_on(c->sample, upper * count + i, products * count)) status = FROE_E_CANCELLED;
+    }
+    measure_dominance_free(&tree);
+    return status;
+}
+
+froe_status measure_count_by_trees(measure_sample *sample, const measure_windows *windows, uint32_t *out) {
+    int dim = sample->scene->dim;
+    counter c = {.sample = sample, .windows = windows, .out = out};
+    froe_status status = FROE_OK;
+    for (size_t i = 0; i < windows->count; i++) out[i] = 0;
+    for (int k = 0; k < 2 * dim && !status; k++)
+        status = ends_new(sample, windows->bounds, k / 2, k % 2, &c.ends[k / 2][k % 2]);
+    for (unsigned upper = 0; upper < 1u << dim && !status; upper++) status = add_product(&c, upper);
+    for (int k = 0; k < 2 * dim; k++) ends_free(sample, &c.ends[k / 2][k % 2]);
+    return status;
+}
