@@ -75,12 +75,10 @@ static bool worth_trees(const build_job *job, const boxes_cell *cell, const boxe
 
 static froe_status do_cell(const build_job *job, boxes *b, const boxes_cell *cell) {
     uint32_t load = cell->count + cell->covers;
-    boxes_cut cut;
     if (!cell->count || (!b->faces && load <= job->leaf)) return end_leaf(job, b, cell);
-    froe_status status = boxes_sweep(b, cell, &cut);
-    if (status) return status;
+    boxes_cut cut = boxes_sweep(b, cell);
     if (!cut.found) return end_leaf(job, b, cell);
-    status = worth_trees(job, cell, &cut) ? boxes_carve(b, cell, job->task) : boxes_divide(b, cell, &cut);
+    froe_status status = worth_trees(job, cell, &cut) ? boxes_carve(b, cell, job->task) : boxes_divide(b, cell, &cut);
     return status ? status : check_budget(job, b, 0);
 }
 

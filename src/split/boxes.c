@@ -9,6 +9,10 @@ enum { INSERTION = 24 };      /* so few events are sorted by insertion */
 froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, double delta, uint32_t trade, bool faces,
                       boxes *out) {
     *out = (boxes){.scene = scene, .alloc = *alloc, .dim = scene->dim, .delta = delta, .trade = trade, .faces = faces};
+    for (int some = 0; some <= scene->dim; some++) {
+        out->weight[some][0] = some ? out->weight[some - 1][0] * (1 + out->trade) : 1;
+        for (int both = 1; both <= some; both++) out->weight[some][both] = 2 * out->weight[some][both - 1];
+    }
     return draft_new(alloc, scene->dim, 0, &out->draft);
 }
 
@@ -18,9 +22,8 @@ void boxes_free(boxes *b) {
     array_free(&b->alloc, &b->fragments);
     array_free(&b->alloc, &b->cells);
     array_free(&b->alloc, &b->covers);
-    array_free(&b->alloc, &b->weights);
     array_free(&b->alloc, &b->marks);
-    array_free(&b->alloc, &b->names);
+    array_free(&b->alloc, &b->parts);
     array_free(&b->alloc, &b->objects);
     array_free(&b->alloc, &b->spare);
     array_free(&b->alloc, &b->spare_events);
@@ -29,13 +32,24 @@ void boxes_free(boxes *b) {
 
 /* ----------------------------------------------------------------- weights -- */
 
+/** How many of the bits 0, 2, 4, ... are set. */
+static uint8_t pairs_set(unsigned bits) {
+    bits = (bits & 0x1111) + (bits >> 2 & 0x1111);
+    return (uint8_t)((bits * 0x1111u >> 12) & 15);
+}
+
+/** Fills in what an event tells of the rooms of its fragment. */
+static void grade(boxes_event *e, uint16_t alive, int axis) {
+    unsigned others = alive & ~(3u << 2 * axis);
+    e->rooms = alive >> 2 * axis & 3;
+    e->some = pairs_set(others | others >> 1);
+    e->both = pairs_set(others & others >> 1);
+}
+
 int64_t boxes_weight(const boxes *b, uint16_t alive, int axis) {
-    int64_t weight = 1;
-    for (int k = 0; k < b->dim; k++) {
-        int rooms = k == axis ? 0 : (alive >> 2 * k & 1) + (alive >> (2 * k + 1) & 1);
-        weight *= rooms == 0 ? 1 : rooms == 1 ? 1 + b->trade : 2 + 2 * b->trade;
-    }
-    return weight;
+    boxes_event e;
+    grade(&e, alive, axis);
+    return b->weight[e.some][e.both];
 }
 
 double boxes_bound(const boxes *b, uint32_t n) {
@@ -60,7 +74,7 @@ void boxes_ends(const boxes *b, uint32_t object, double end[FROE_MAX_DIM][4]) {
 
 /** Appends an event of the fragment added last. */
 static void note(boxes *b, boxes_cell *cell, int axis, boxes_end end, double x) {
-    b->events[axis].data[b->events[axis].count++] = (boxes_event){x, cell->count, (uint32_t)end};
+    b->events[axis].data[b->events[axis].count++] = (boxes_event){.x = x, .fragment = cell->count, .end = (uint8_t)end};
     cell->events[axis]++;
 }
 
@@ -97,6 +111,13 @@ static void insert_sorted(boxes_event *e, uint32_t count) {
         for (; k && e[k - 1].x > x.x; k--) e[k] = e[k - 1];
         e[k] = x;
     }
+}
+
+/** What all events of a new cell on one axis, still in the order of their fragments, tell of them. */
+static void grade_events(boxes *b, const boxes_cell *cell, int axis) {
+    boxes_event *e = b->events[axis].data + cell->event[axis];
+    const boxes_fragment *item = b->fragments.data + cell->first;
+    for (uint32_t i = 0; i < cell->events[axis]; i++) grade(e + i, item[e[i].fragment].alive, axis);
 }
 
 /** Sorts the events of a new cell on one axis. */
@@ -139,8 +160,10 @@ froe_status boxes_open(boxes *b, boxes_cell cell, const uint32_t *objects, uint3
         } else if (!boxes_add_cover(b, &cell, f.object)) /* it has no events */
             return FROE_E_MEMORY;
     }
-    for (int k = 0; k < b->dim; k++)
+    for (int k = 0; k < b->dim; k++) {
+        grade_events(b, &cell, k);
         if (!sort_events(b, &cell, k)) return FROE_E_MEMORY;
+    }
     return array_push(&b->alloc, &b->cells, cell) ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -188,29 +211,26 @@ static boxes_fragment part(boxes_fragment f, unsigned mark, bool above, int axis
     return f;
 }
 
-/** Deals the fragments: those above close up in place, those below go on top of them. Names: what each fragment is
- * called on either side, FROE_NONE where it is not, or covers it. */
+/** Deals the fragments: those above close up in place, those below go on top of them. */
 static bool deal_fragments(boxes *b, const boxes_cell *cell, const boxes_cut *cut, boxes_cell side[2]) {
     boxes_fragment *item = b->fragments.data + cell->first;
-    uint32_t *names[2] = {b->names.data, b->names.data + cell->count};
+    boxes_parts *parts = b->parts.data;
     bool ok = true;
     b->fragments.count = cell->first;
     for (uint32_t i = 0; i < cell->count && ok; i++) {
         boxes_fragment whole = item[i];
         unsigned mark = b->marks.data[i];
         for (int s = 0; s < 2; s++) {
-            names[s][i] = FROE_NONE;
+            parts[i].name[s] = FROE_NONE;
             if (!(mark & (s ? MARK_ABOVE : MARK_BELOW))) continue;
             boxes_fragment f = part(whole, mark, s, cut->axis);
             if (!f.inside) {
                 ok = ok && boxes_add_cover(b, &side[s], f.object);
                 continue;
             }
-            names[s][i] = side[s].count++;
-            if (s)
-                item[names[s][i]] = f;
-            else
-                b->spare.data[names[s][i]] = f;
+            parts[i].name[s] = side[s].count++;
+            parts[i].alive[s] = f.alive;
+            (s ? item : b->spare.data)[parts[i].name[s]] = f;
         }
     }
     if (side[0].count) memcpy(item + side[1].count, b->spare.data, side[0].count * sizeof *item);
@@ -219,9 +239,13 @@ static bool deal_fragments(boxes *b, const boxes_cell *cell, const boxes_cut *cu
     return ok;
 }
 
-/** Does the event stay on the side? On the axis of the cut, when its end does. */
-static bool stays(const boxes_event *e, const uint32_t *names, const boxes_cut *cut, bool cut_axis, bool above) {
-    return names[e->fragment] != FROE_NONE && (!cut_axis || (above ? e->x > cut->c : e->x < cut->c));
+/** The event as a side sees it, if its fragment is there and, on the axis of the cut, its end. */
+static void hand_on(const boxes_event *e, const boxes_parts *parts, bool above, bool in, int axis, boxes_event **to) {
+    if (!in || parts->name[above] == FROE_NONE) return;
+    boxes_event *out = (*to)++;
+    *out = *e;
+    out->fragment = parts->name[above];
+    grade(out, parts->alive[above], axis);
 }
 
 static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, int axis, boxes_cell side[2]) {
@@ -230,13 +254,12 @@ static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, 
     if (!array_reserve(&b->alloc, &b->spare_events, count) || !array_reserve(&b->alloc, &b->events[axis], count))
         return false;
     boxes_event *item = b->events[axis].data + cell->event[axis], *above = item, *below = b->spare_events.data;
-    const uint32_t *names[2] = {b->names.data, b->names.data + cell->count};
+    bool other = axis != cut->axis;
     for (uint32_t i = 0; i < count; i++) {
         boxes_event e = item[i];
-        if (stays(&e, names[1], cut, axis == cut->axis, true))
-            *above++ = (boxes_event){e.x, names[1][e.fragment], e.end};
-        if (stays(&e, names[0], cut, axis == cut->axis, false))
-            *below++ = (boxes_event){e.x, names[0][e.fragment], e.end};
+        const boxes_parts *parts = b->parts.data + e.fragment;
+        hand_on(&e, parts, true, other || e.x > cut->c, axis, &above);
+        hand_on(&e, parts, false, other || e.x < cut->c, axis, &below);
     }
     side[1].events[axis] = (uint32_t)(above - item);
     side[0].events[axis] = (uint32_t)(below - b->spare_events.data);
@@ -275,9 +298,8 @@ froe_status boxes_split_node(boxes *b, uint32_t node, const boxes_cut *cut, uint
 }
 
 static bool make_room(boxes *b, const boxes_cell *cell) {
-    b->marks.count = b->names.count = b->spare.count = 0;
-    return array_reserve(&b->alloc, &b->marks, cell->count) &&
-           array_reserve(&b->alloc, &b->names, 2 * (size_t)cell->count) &&
+    b->marks.count = b->parts.count = b->spare.count = 0;
+    return array_reserve(&b->alloc, &b->marks, cell->count) && array_reserve(&b->alloc, &b->parts, cell->count) &&
            array_reserve(&b->alloc, &b->spare, cell->count) && array_reserve(&b->alloc, &b->fragments, cell->count) &&
            array_reserve(&b->alloc, &b->cells, 2);
 }

@@ -25,10 +25,13 @@
 
 typedef enum boxes_end { BOXES_BEFORE, BOXES_LO, BOXES_HI, BOXES_AFTER, BOXES_FLAT } boxes_end;
 
+/** With all that a sweep asks for, so that it reads events and nothing else. */
 typedef struct boxes_event {
     double x;
-    uint32_t fragment; /**< counted from the cell's first */
-    uint32_t end;      /**< boxes_end; FLAT: a box without extent on this axis, both of its ends */
+    uint32_t fragment;  /**< counted from the cell's first */
+    uint8_t end;        /**< boxes_end; FLAT: a box without extent on this axis, both of its ends */
+    uint8_t rooms;      /**< bits 0 and 1: are the rooms of the fragment on this axis alive? */
+    uint8_t some, both; /**< other axes on which a room is alive; on which both are: see boxes_weight() */
 } boxes_event;
 
 typedef struct boxes_fragment {
@@ -36,6 +39,12 @@ typedef struct boxes_fragment {
     uint16_t inside; /**< bits 2 k, 2 k + 1: are lo and hi on axis k strictly inside the cell? */
     uint16_t alive;  /**< bits 2 k, 2 k + 1: are the rooms before and after alive? */
 } boxes_fragment;
+
+/** What becomes of a fragment in a cut, below and above. */
+typedef struct boxes_parts {
+    uint32_t name[2];  /**< counted from the first of its side, or FROE_NONE: not there, or a cover */
+    uint16_t alive[2]; /**< its rooms there */
+} boxes_parts;
 
 /** A box that covers a cell, and with it all cells below. */
 typedef struct boxes_cover {
@@ -74,10 +83,10 @@ typedef struct boxes {
     ARRAY(boxes_event) events[FROE_MAX_DIM];
     ARRAY(boxes_cell) cells;
     ARRAY(boxes_cover) covers;
+    int64_t weight[FROE_MAX_DIM + 1][FROE_MAX_DIM + 1]; /**< [some][both] */
     /* scratch of the cell at hand */
-    ARRAY(int64_t) weights;
     ARRAY(uint16_t) marks;
-    ARRAY(uint32_t) names;
+    ARRAY(boxes_parts) parts;
     ARRAY(uint32_t) objects;
     ARRAY(boxes_fragment) spare;
     ARRAY(boxes_event) spare_events;
@@ -119,7 +128,7 @@ bool boxes_better(const boxes_cut *a, const boxes_cut *best, bool fewest);
 /** What two stages found becomes the choice. `least`: fewest divided; `lemma`: paid for by rooms. */
 boxes_cut boxes_decide(const boxes_cut *least, const boxes_cut *lemma);
 /** The cut of a cell by sweeping over its events; not found: it is a leaf. O(events). */
-froe_status boxes_sweep(boxes *b, const boxes_cell *cell, boxes_cut *out);
+boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell);
 
 /** Cuts the cell on top, taken off b->cells, until half of its fragments are left, in trees that give and take single
  * boxes: the same cuts as sweeps, in time for the smaller side of each. Pushes all cells that result. */

@@ -56,49 +56,43 @@ boxes_cut boxes_decide(const boxes_cut *least, const boxes_cut *lemma) {
 /* ------------------------------------------------------------------ sweeping -- */
 
 /* Before the first event: boxes that begin at the border of the cell or before. */
-static sweep start(boxes *b, const boxes_cell *cell, int axis) {
+static sweep start(const boxes *b, const boxes_cell *cell, int axis) {
     sweep s = {0};
     for (uint32_t i = 0; i < cell->count; i++) {
         const boxes_fragment *f = b->fragments.data + cell->first + i;
         bool begins = f->inside >> 2 * axis & 1;
-        b->weights.data[i] = boxes_weight(b, f->alive, axis);
         s.above += begins;
         s.divided += !begins;
-        s.weight += begins ? 0 : b->weights.data[i];
+        s.weight += begins ? 0 : boxes_weight(b, f->alive, axis);
     }
     return s;
 }
 
-/* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. */
-static const boxes_event *arrive(const boxes *b, const boxes_cell *cell, sweep *s, int axis, const boxes_event *e,
-                                 const boxes_event *end, bool *face) {
+/* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. No branches:
+ * ends come in no order that could be predicted. */
+static const boxes_event *arrive(const boxes *b, sweep *s, const boxes_event *e, const boxes_event *end, bool *face) {
     *face = false;
     for (double x = e->x; e < end && e->x == x; e++) {
-        int64_t w = b->weights.data[e->fragment];
-        *face |= e->end == BOXES_LO || e->end == BOXES_HI || e->end == BOXES_FLAT;
-        if (e->end == BOXES_BEFORE) s->rooms += w;
-        if (e->end == BOXES_FLAT) s->below++;
-        if (e->end != BOXES_HI) continue;
-        s->below++;
-        s->divided--;
-        s->weight -= w;
-        if (b->fragments.data[cell->first + e->fragment].alive >> (2 * axis + 1) & 1) s->rooms += w;
+        int64_t w = b->weight[e->some][e->both];
+        bool before = e->end == BOXES_BEFORE, hi = e->end == BOXES_HI, flat = e->end == BOXES_FLAT;
+        *face |= !before & (e->end != BOXES_AFTER);
+        s->below += hi | flat;
+        s->divided -= hi;
+        s->weight -= hi ? w : 0;
+        s->rooms += before | (hi & e->rooms >> 1) ? w : 0;
     }
     return e;
 }
 
 /* Leaves them behind. */
-static void leave(const boxes *b, const boxes_cell *cell, sweep *s, int axis, const boxes_event *e,
-                  const boxes_event *end) {
+static void leave(const boxes *b, sweep *s, const boxes_event *e, const boxes_event *end) {
     for (; e < end; e++) {
-        int64_t w = b->weights.data[e->fragment];
-        if (e->end == BOXES_AFTER) s->rooms -= w;
-        if (e->end == BOXES_FLAT) s->above--;
-        if (e->end != BOXES_LO) continue;
-        s->above--;
-        s->divided++;
-        s->weight += w;
-        if (b->fragments.data[cell->first + e->fragment].alive >> 2 * axis & 1) s->rooms -= w;
+        int64_t w = b->weight[e->some][e->both];
+        bool after = e->end == BOXES_AFTER, lo = e->end == BOXES_LO, flat = e->end == BOXES_FLAT;
+        s->above -= lo | flat;
+        s->divided += lo;
+        s->weight += lo ? w : 0;
+        s->rooms -= after | (lo & e->rooms) ? w : 0;
     }
 }
 
@@ -110,27 +104,24 @@ static void consider(const boxes *b, const sweep *s, int axis, double x, bool fa
     if (separates && paid && boxes_better_on_axis(&cut, &best->lemma, false)) best->lemma = cut;
 }
 
-static void sweep_axis(boxes *b, const boxes_cell *cell, int axis, sweep_found *best) {
+static void sweep_axis(const boxes *b, const boxes_cell *cell, int axis, sweep_found *best) {
     sweep s = start(b, cell, axis);
     sweep_found here = {0};
     const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
     while (e < end) {
         bool face;
-        const boxes_event *next = arrive(b, cell, &s, axis, e, end, &face);
+        const boxes_event *next = arrive(b, &s, e, end, &face);
         consider(b, &s, axis, e->x, face, &here);
-        leave(b, cell, &s, axis, e, next);
+        leave(b, &s, e, next);
         e = next;
     }
     if (boxes_better(&here.least, &best->least, true)) best->least = here.least;
     if (boxes_better(&here.lemma, &best->lemma, false)) best->lemma = here.lemma;
 }
 
-froe_status boxes_sweep(boxes *b, const boxes_cell *cell, boxes_cut *out) {
+boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
     sweep_found best = {0};
-    b->weights.count = 0;
-    if (!array_reserve(&b->alloc, &b->weights, cell->count)) return FROE_E_MEMORY;
     for (int k = 0; k < b->dim; k++)
         if (cell->events[k]) sweep_axis(b, cell, k, &best);
-    *out = boxes_decide(&best.least, &best.lemma);
-    return FROE_OK;
+    return boxes_decide(&best.least, &best.lemma);
 }
