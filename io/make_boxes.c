@@ -139,6 +139,42 @@ void io_make_bars(io_maker *m) {
     }
 }
 
+/* As wide as the stack is high: cluttered, since a cube between the rims meets all and has no corner inside; but of low
+ * directional density. */
+void io_make_plates(io_maker *m) {
+    double wide = 4 * (double)m->n;
+    for (size_t i = 0; !io_done(m); i++) {
+        double lo[3] = {0, 0, 2 * (double)i}, hi[3] = {wide, wide, 2 * (double)i + 1};
+        for (int k = 0; k < 2; k++) {
+            lo[k] += io_between(m, 0, wide / 16);
+            hi[k] -= io_between(m, 0, wide / 16);
+        }
+        add(m, lo, hi);
+    }
+}
+
+/* The other way round: uncluttered, since all are cubes, of one size where they are near each other; but across a plane
+ * of each large one lies a crowd of about root(n) / 2, on two axes at least. */
+void io_make_moons(io_maker *m) {
+    size_t crowd = io_root(m->n, 2) / 2 + 1, side = io_root(crowd, 2) + 1, row = io_root(m->n / (2 * crowd), 3) + 1;
+    double large = 2 * (double)side;
+    for (size_t i = 0; !io_done(m); i++) {
+        double at[3], lo[3], hi[3];
+        io_grid(i, row, 3, at);
+        for (int k = 0; k < 3; k++) at[k] *= 4 * large, hi[k] = at[k] + large;
+        add(m, at, hi);
+        for (size_t moon = 0; moon < 2 * crowd; moon++) {
+            int across = moon < crowd ? 1 : 2;
+            size_t place = moon % crowd;
+            lo[0] = at[0] + large + 2 * (double)(place / side) + 1 + io_between(m, 0, 0.5);
+            lo[3 - across] = at[3 - across] + 2 * (double)(place % side);
+            lo[across] = at[across] + large - 0.5;
+            for (int k = 0; k < 3; k++) hi[k] = lo[k] + 1;
+            add(m, lo, hi);
+        }
+    }
+}
+
 /* Unit cubes side by side. */
 void io_make_bricks(io_maker *m) {
     size_t side = io_root(m->n, 3) + 1;

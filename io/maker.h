@@ -52,9 +52,10 @@ void io_make_cuboid(io_maker *maker, const double *lo, const double *hi);
 void io_make_group(io_maker *maker, const char *word, size_t number, const char *material);
 
 /* the kinds, by file */
-io_make_fn io_make_points, io_make_boxes, io_make_balls;                                  /* make_simple.c */
-io_make_fn io_make_rows, io_make_sticks, io_make_slabs, io_make_towers, io_make_panels;   /* make_boxes.c */
-io_make_fn io_make_shells, io_make_bars, io_make_bricks, io_make_debris;                  /* make_boxes.c */
+io_make_fn io_make_points, io_make_boxes, io_make_balls;                                /* make_simple.c */
+io_make_fn io_make_rows, io_make_sticks, io_make_slabs, io_make_towers, io_make_panels; /* make_boxes.c */
+io_make_fn io_make_shells, io_make_bars, io_make_plates, io_make_moons, io_make_bricks,
+    io_make_debris;                                                                       /* make_boxes.c */
 io_make_fn io_make_segments, io_make_disjoint, io_make_mixed, io_make_clusters;           /* make_plane.c */
 io_make_fn io_make_parallel, io_make_hair, io_make_slats, io_make_star, io_make_spiral;   /* make_plane.c */
 io_make_fn io_make_nested, io_make_wedge, io_make_lattice, io_make_tiles, io_make_walls;  /* make_exact.c */

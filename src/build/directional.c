@@ -16,7 +16,7 @@
 #include "split/boxes.h"
 #include <math.h>
 
-enum { BOXES, DELTA, TRADE, STRUCTURE };
+enum { BOXES, DELTA, TRADE, BALANCE, SLACK, STRUCTURE };
 enum { AUTO, SWEEP, TREES };
 enum {
     CARVE_LEAST = 256,
@@ -30,6 +30,10 @@ static const froe_option_info options[] = {
                kinds, true},
     [DELTA] = {"delta", "room beside a box, in sides of the box", 0.5, 0, 1e6, NULL, false},
     [TRADE] = {"trade", "boxes that may be divided for one room: more: better balanced", 2, 1, 64, NULL, true},
+    [BALANCE] = {"balance",
+                 "cuts that divide nothing come first if at least so balanced, as a share of the balance of others", 0,
+                 0, 1, NULL, false},
+    [SLACK] = {"slack", "share of the balance that is given up to divide less", 0.25, 0, 1, NULL, false},
     [STRUCTURE] = {"structure", "how cuts are found; all find the same", AUTO, 0, 2, structures, true},
     {0},
 };
@@ -75,7 +79,7 @@ static bool worth_trees(const build_job *job, const boxes_cell *cell, const boxe
 
 static froe_status do_cell(const build_job *job, boxes *b, const boxes_cell *cell) {
     uint32_t load = cell->count + cell->covers;
-    if (!cell->count || (!b->faces && load <= job->leaf)) return end_leaf(job, b, cell);
+    if (!cell->count || (!b->options.faces && load <= job->leaf)) return end_leaf(job, b, cell);
     boxes_cut cut = boxes_sweep(b, cell);
     if (!cut.found) return end_leaf(job, b, cell);
     froe_status status = worth_trees(job, cell, &cut) ? boxes_carve(b, cell, job->task) : boxes_divide(b, cell, &cut);
@@ -99,7 +103,12 @@ static froe_status do_cells(const build_job *job, boxes *b) {
 static froe_status build(build_job *job, froe_tree **out) {
     boxes b = {.dim = 0};
     uint32_t trade = (uint32_t)job->option[TRADE], n = job->scene->object_count;
-    froe_status status = boxes_new(job->scene, &job->alloc, job->option[DELTA], trade, job->option[BOXES] != 0, &b);
+    boxes_options how = {.delta = job->option[DELTA],
+                         .trade = trade,
+                         .balance = job->option[BALANCE],
+                         .slack = job->option[SLACK],
+                         .faces = job->option[BOXES] != 0};
+    froe_status status = boxes_new(job->scene, &job->alloc, &how, &b);
     double bound = boxes_bound(&b, n);
     if (!status && n && bound == 0)
         status = base_fail(job->diag, FROE_E_OPTIONS, "option 'trade': %u is too much in dimension %d", trade, b.dim);

@@ -6,11 +6,10 @@
 enum { INSERTION = 24 };      /* so few events are sorted by insertion */
 #define BOXES_MOST (1u << 30) /* fragments on the stack: far below what node and piece numbers allow */
 
-froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, double delta, uint32_t trade, bool faces,
-                      boxes *out) {
-    *out = (boxes){.scene = scene, .alloc = *alloc, .dim = scene->dim, .delta = delta, .trade = trade, .faces = faces};
+froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, const boxes_options *options, boxes *out) {
+    *out = (boxes){.scene = scene, .alloc = *alloc, .dim = scene->dim, .options = *options};
     for (int some = 0; some <= scene->dim; some++) {
-        out->weight[some][0] = some ? out->weight[some - 1][0] * (1 + out->trade) : 1;
+        out->weight[some][0] = some ? out->weight[some - 1][0] * (1 + options->trade) : 1;
         for (int both = 1; both <= some; both++) out->weight[some][both] = 2 * out->weight[some][both - 1];
     }
     return draft_new(alloc, scene->dim, 0, &out->draft);
@@ -54,8 +53,8 @@ int64_t boxes_weight(const boxes *b, uint16_t alive, int axis) {
 
 double boxes_bound(const boxes *b, uint32_t n) {
     double most = 1;
-    for (int k = 0; k < b->dim; k++) most *= (double)(2 + 2 * b->trade);
-    return most * (double)b->trade <= 0x1p31 ? most * n : 0; /* times 2^31 fragments: no sum overflows */
+    for (int k = 0; k < b->dim; k++) most *= (double)(2 + 2 * b->options.trade);
+    return most * (double)b->options.trade <= 0x1p31 ? most * n : 0; /* times 2^31 fragments: no sum overflows */
 }
 
 /* ------------------------------------------------------------ opening a cell -- */
@@ -64,7 +63,7 @@ void boxes_ends(const boxes *b, uint32_t object, double end[FROE_MAX_DIM][4]) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     scene_object_bounds(b->scene, object, lo, hi);
     for (int k = 0; k < b->dim; k++) {
-        double room = b->delta * (hi[k] - lo[k]); /* infinite at worst: then there is no room */
+        double room = b->options.delta * (hi[k] - lo[k]); /* infinite at worst: then there is no room */
         end[k][BOXES_BEFORE] = lo[k] - room;
         end[k][BOXES_LO] = lo[k];
         end[k][BOXES_HI] = hi[k];

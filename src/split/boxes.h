@@ -69,13 +69,19 @@ typedef struct boxes_cut {
     uint32_t below, above, divided;
 } boxes_cut;
 
+typedef struct boxes_options {
+    double delta;   /**< room per side */
+    int64_t trade;  /**< weight of boxes that may be divided for one weight of rooms */
+    double balance; /**< of a free cut, at least this share of that of a lemma cut; 0: any */
+    double slack;   /**< balance given up to divide less: a share of it */
+    bool faces;     /**< until no face is left in a cell, in place of: until no cut separates boxes */
+} boxes_options;
+
 typedef struct boxes {
     const froe_scene *scene;
     froe_allocator alloc;
     int dim;
-    double delta;  /**< room per side */
-    int64_t trade; /**< weight of boxes that may be divided for one weight of rooms */
-    bool faces;    /**< until no face is left in a cell, in place of: until no cut separates boxes */
+    boxes_options options;
     tree_draft draft;
     uint64_t paid;    /**< weight of what forced cuts divided: see boxes_bound() */
     uint64_t covered; /**< covers listed in leaves */
@@ -94,8 +100,7 @@ typedef struct boxes {
 } boxes;
 
 /** FROE_E_MEMORY; free it whatever happens. */
-froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, double delta, uint32_t trade, bool faces,
-                      boxes *out);
+froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, const boxes_options *options, boxes *out);
 void boxes_free(boxes *b);
 
 /** Ends on all axes, in the order of boxes_end. Computed once, in doubles: whatever rounding does, a box is the same
@@ -125,8 +130,14 @@ double boxes_bound(const boxes *b, uint32_t n);
 bool boxes_better_on_axis(const boxes_cut *a, const boxes_cut *best, bool fewest);
 /** And beside the best of the axes before? */
 bool boxes_better(const boxes_cut *a, const boxes_cut *best, bool fewest);
-/** What two stages found becomes the choice. `least`: fewest divided; `lemma`: paid for by rooms. */
-boxes_cut boxes_decide(const boxes_cut *least, const boxes_cut *lemma);
+/** Of what two stages found (`least`: fewest divided; `lemma`: paid for by rooms), is the first one free? */
+bool boxes_free_cut(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
+/** How many boxes on both sides are enough for a lemma cut that divides less; 0: the one found will be taken as it is.
+ * Such a cut is the face that divides fewest on its axis, if rooms pay for it: not the best of all cuts that rooms pay
+ * for, which no tree finds in logarithmic time. */
+uint32_t boxes_narrow(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
+/** And what they found becomes the choice. */
+boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
 /** The cut of a cell by sweeping over its events; not found: it is a leaf. O(events). */
 boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell);
 

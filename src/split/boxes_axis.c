@@ -183,17 +183,35 @@ static void find(const search *s, int axis, bool fewest, boxes_spot *best) {
     if (search_above(s, axis, &other) && boxes_better_on_axis(&other.cut, &best->cut, fewest)) *best = other;
 }
 
+/* Positions with so many boxes on both sides, between two others; at least 1. */
+static search around(const boxes_axis *a, const base_summit *in, uint32_t lo, uint32_t hi, uint32_t least) {
+    const base_fenwick *begins = &a->ends[0];
+    uint32_t first = base_fenwick_select(&a->ends[1], least);
+    uint32_t last = begins->total >= least ? base_fenwick_select(begins, begins->total - least + 1) : 0;
+    uint32_t from = first > lo ? first : lo + 1, end = last < hi ? last + 1 : hi;
+    return (search){.a = a, .in = in, .from = from, .end = end, .middle = beyond_median(a, from, end)};
+}
+
+/* Sets the level to the fewest divided; is there a face at all? */
+static bool fewest_divided(search *s) {
+    s->in = &s->a->least;
+    if (s->from >= s->end) return false;
+    s->level = base_summit_max(s->in, s->from, s->end);
+    return s->level > -NO_FACE / 2;
+}
+
 void boxes_axis_best(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, bool anywhere, boxes_spot *least,
                      boxes_spot *lemma) {
     *least = *lemma = (boxes_spot){.at = 0};
-    uint32_t first_end = base_fenwick_select(&a->ends[1], 1);
-    uint32_t last_begin = a->ends[0].total ? base_fenwick_select(&a->ends[0], a->ends[0].total) : 0;
-    uint32_t from = first_end > lo ? first_end : lo + 1, end = last_begin < hi ? last_begin + 1 : hi;
-    search s = {.a = a, .in = &a->slack, .from = from, .end = end, .middle = beyond_median(a, from, end)};
+    search s = around(a, &a->slack, lo, hi, 1);
     find(&s, axis, false, lemma);
     if (anywhere) s.from = lo + 1, s.end = hi, s.middle = beyond_median(a, s.from, s.end);
-    if (s.from >= s.end) return;
-    s.in = &a->least;
-    s.level = base_summit_max(&a->least, s.from, s.end);
-    if (s.level > -NO_FACE / 2) find(&s, axis, true, least);
+    if (fewest_divided(&s)) find(&s, axis, true, least);
+}
+
+void boxes_axis_narrow(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, uint32_t least, boxes_spot *out) {
+    search s = around(a, &a->least, lo, hi, least);
+    *out = (boxes_spot){.at = 0};
+    if (fewest_divided(&s)) find(&s, axis, true, out);
+    if (out->cut.found && base_summit_max(&a->slack, out->at, out->at + 1) < 0) out->cut.found = false;
 }

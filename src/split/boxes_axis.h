@@ -60,4 +60,6 @@ static inline uint32_t boxes_axis_above(const boxes_axis *a, uint32_t at) {
 /** The best cuts strictly between two positions; anywhere: also with boxes on one side only. */
 void boxes_axis_best(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, bool anywhere, boxes_spot *least,
                      boxes_spot *lemma);
+/** The face that divides fewest with so many boxes on both sides, if rooms pay for it. */
+void boxes_axis_narrow(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, uint32_t least, boxes_spot *out);
 #endif

@@ -31,7 +31,7 @@ static unsigned rooms(const carve *c, uint32_t box, int axis) {
 
 static void weigh(carve *c, uint32_t box, int axis, int sign) {
     int64_t weight = boxes_weight(c->b, c->fragments[box].alive, axis);
-    boxes_axis_weigh(c->axis + axis, box, rooms(c, box, axis), sign * weight, c->b->trade);
+    boxes_axis_weigh(c->axis + axis, box, rooms(c, box, axis), sign * weight, c->b->options.trade);
 }
 
 static void give(carve *c, uint32_t box, bool there) {
@@ -223,11 +223,17 @@ static boxes_spot choose(const carve *c) {
     boxes_spot least = {.at = 0}, lemma = {.at = 0};
     for (int k = 0; k < c->b->dim; k++) {
         boxes_spot here[2];
-        boxes_axis_best(c->axis + k, k, c->lo[k], c->hi[k], c->b->faces, here, here + 1);
+        boxes_axis_best(c->axis + k, k, c->lo[k], c->hi[k], c->b->options.faces, here, here + 1);
         if (boxes_better(&here[0].cut, &least.cut, true)) least = here[0];
         if (boxes_better(&here[1].cut, &lemma.cut, false)) lemma = here[1];
     }
-    boxes_cut cut = boxes_decide(&least.cut, &lemma.cut);
+    uint32_t enough = boxes_narrow(c->b, &least.cut, &lemma.cut);
+    for (int k = 0; k < c->b->dim && enough; k++) {
+        boxes_spot here;
+        boxes_axis_narrow(c->axis + k, k, c->lo[k], c->hi[k], enough, &here);
+        if (boxes_better(&here.cut, &lemma.cut, true)) lemma = here;
+    }
+    boxes_cut cut = boxes_decide(c->b, &least.cut, &lemma.cut);
     bool by_lemma = lemma.cut.found && cut.axis == lemma.cut.axis && cut.c == lemma.cut.c;
     return (boxes_spot){cut, by_lemma ? lemma.at : least.at};
 }

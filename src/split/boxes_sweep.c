@@ -8,14 +8,15 @@
  * preference:
  *
  *     free      divides nothing, and has boxes on both sides            the best balanced over all axes
- *     lemma     divided <= trade * rooms, boxes on both sides           the best balanced
- *     peel      divides nothing, a face in the cut (faces mode)
- *     forced    through a face, dividing fewest boxes                   (boxes on both sides, but in faces mode)
+ *     lemma     divided <= trade * rooms, boxes on both sides           the best balanced; or with slack, of all that
+ * are nearly as balanced one that divides fewest peel      divides nothing, a face in the cut (faces mode) forced
+ * through a face, dividing fewest boxes                   (boxes on both sides, but in faces mode)
  *
  * Balance is min(below, above). Of equals on an axis the outermost is taken, on the side where it lies: it divides
  * fewest. (Tobola and Nechvile, section 5: lemma 3.3, weighted; the specification's order of stages.) Where no end of a
  * box lies before another's beginning, all boxes share a point: nothing separates them, and the cell is a leaf. */
 #include "split/boxes.h"
+#include <math.h>
 
 typedef struct sweep {
     int64_t rooms, weight; /* weight: of the boxes divided */
@@ -46,8 +47,19 @@ bool boxes_better(const boxes_cut *a, const boxes_cut *best, bool fewest) {
     return balance(a) != balance(best) ? balance(a) > balance(best) : a->divided < best->divided;
 }
 
-boxes_cut boxes_decide(const boxes_cut *least, const boxes_cut *lemma) {
-    bool free = least->found && !least->divided && balance(least);
+bool boxes_free_cut(const boxes *b, const boxes_cut *least, const boxes_cut *lemma) {
+    double enough = lemma->found ? b->options.balance * balance(lemma) : 0;
+    return least->found && !least->divided && balance(least) && balance(least) >= enough;
+}
+
+uint32_t boxes_narrow(const boxes *b, const boxes_cut *least, const boxes_cut *lemma) {
+    if (b->options.slack <= 0 || !lemma->found || !lemma->divided || boxes_free_cut(b, least, lemma)) return 0;
+    double most = (1 - b->options.slack) * balance(lemma);
+    return most > 1 ? (uint32_t)ceil(most) : 1;
+}
+
+boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *lemma) {
+    bool free = boxes_free_cut(b, least, lemma);
     boxes_cut cut = lemma->found && !free ? *lemma : *least;
     cut.forced = !free && !lemma->found;
     return cut;
@@ -99,9 +111,29 @@ static void leave(const boxes *b, sweep *s, const boxes_event *e, const boxes_ev
 static void consider(const boxes *b, const sweep *s, int axis, double x, bool face, sweep_found *best) {
     boxes_cut cut = {.found = true, .axis = axis, .c = x, .below = s->below, .above = s->above, .divided = s->divided};
     bool separates = s->below && s->above;
-    if (face && (separates || b->faces) && boxes_better_on_axis(&cut, &best->least, true)) best->least = cut;
-    bool paid = b->trade * s->rooms >= s->weight;
+    if (face && (separates || b->options.faces) && boxes_better_on_axis(&cut, &best->least, true)) best->least = cut;
+    bool paid = b->options.trade * s->rooms >= s->weight;
     if (separates && paid && boxes_better_on_axis(&cut, &best->lemma, false)) best->lemma = cut;
+}
+
+/* Through the same events once more, for the face that divides fewest and leaves `least` boxes on both sides. */
+static void narrow_axis(const boxes *b, const boxes_cell *cell, int axis, uint32_t least, boxes_cut *best) {
+    sweep s = start(b, cell, axis);
+    boxes_cut here = {.found = false};
+    bool paid = false;
+    const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
+    while (e < end && s.above >= least) {
+        bool face;
+        const boxes_event *next = arrive(b, &s, e, end, &face);
+        boxes_cut cut = {true, false, axis, e->x, s.below, s.above, s.divided};
+        if (face && s.below >= least && s.above >= least && boxes_better_on_axis(&cut, &here, true)) {
+            here = cut;
+            paid = b->options.trade * s.rooms >= s.weight;
+        }
+        leave(b, &s, e, next);
+        e = next;
+    }
+    if (paid && boxes_better(&here, best, true)) *best = here;
 }
 
 static void sweep_axis(const boxes *b, const boxes_cell *cell, int axis, sweep_found *best) {
@@ -123,5 +155,8 @@ boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
     sweep_found best = {0};
     for (int k = 0; k < b->dim; k++)
         if (cell->events[k]) sweep_axis(b, cell, k, &best);
-    return boxes_decide(&best.least, &best.lemma);
+    uint32_t least = boxes_narrow(b, &best.least, &best.lemma);
+    for (int k = 0; k < b->dim && least; k++)
+        if (cell->events[k]) narrow_axis(b, cell, k, least, &best.lemma);
+    return boxes_decide(b, &best.least, &best.lemma);
 }

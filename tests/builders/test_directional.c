@@ -52,7 +52,8 @@ static void assert_same(const froe_tree *a, const froe_tree *b, const char *what
 }
 
 static void sweeps_and_trees_make_the_same_tree(void **state) {
-    static const char *const options[] = {"boxes=solid", "boxes=faces", "delta=0.25 trade=1", "trade=9 boxes=faces"};
+    static const char *const options[] = {"boxes=solid",         "boxes=faces", "delta=0.25 trade=1",
+                                          "trade=9 boxes=faces", "slack=0",     "balance=0.7 slack=0.1"};
     (void)state;
     for (size_t k = 0; k < KINDS; k++) {
         froe_scene *scene = generate(kinds[k], strcmp(kinds[k], "shells") != 0 ? 400 : 60);
@@ -195,7 +196,7 @@ static bool paid_for(const boxes *b, const boxes_cell *cell, const boxes_cut *cu
         if (alive >> 2 * cut->axis & 2 && e[BOXES_HI] <= cut->c && cut->c <= e[BOXES_AFTER]) paid += weight;
     }
     assert_int_equal(count, cut->divided);
-    return b->trade * paid >= divided;
+    return b->options.trade * paid >= divided;
 }
 
 /* The sum that no cut but a forced one may raise: see boxes_weight(). */
@@ -212,11 +213,12 @@ static void rooms_pay_for_what_is_divided(void **state) {
         froe_scene *scene = generate(scenes[k], 500);
         froe_allocator alloc = base_allocator(NULL);
         uint32_t objects[500], n = scene->object_count, lemma = 0, forced = 0;
+        boxes_options options = {.delta = 0.5, .trade = 2, .slack = k % 2 ? 0.5 : 0, .balance = k == 2 ? 0.5 : 0};
         boxes b;
         boxes_cell root = {.cover = FROE_NONE};
         for (uint32_t i = 0; i < n; i++) objects[i] = i;
         for (int i = 0; i < scene->dim; i++) root.lo[i] = -INFINITY, root.hi[i] = INFINITY;
-        assert_int_equal(boxes_new(scene, &alloc, 0.5, 2, false, &b), FROE_OK);
+        assert_int_equal(boxes_new(scene, &alloc, &options, &b), FROE_OK);
         assert_int_equal(boxes_open(&b, root, objects, n), FROE_OK);
         while (b.cells.count) {
             boxes_cell cell = b.cells.data[--b.cells.count];
