@@ -1,7 +1,7 @@
 /* boxes.c: trees of boxes beside each other and beside Boost's packed R-tree.
  *
- *     bench_boxes SCENE...       a kind of froe_generate with a number (slabs:100000), or a file, of which the bounding
- *                                boxes of features, nodes or rows are taken
+ *     bench_boxes [-METHOD] SCENE...       a kind of froe_generate with a number (slabs:100000), or a file, of which
+ * the bounding boxes of features, nodes or rows are taken
  *
  * One thread, processor time, medians of 3 rounds in which programs take turns. Windows are cubes around corners of
  * boxes that find about 10 boxes; answers are compared with Boost's. Leaves hold one box, or boxes that no
@@ -210,7 +210,7 @@ static bool exists(const char *method) {
     return false;
 }
 
-static void bench(const char *what) {
+static void bench(const char *what, const char *only) {
     run r = {.n = 0};
     make_scene(&r, what);
     if (r.dim > 3) fprintf(stderr, "bench: %s: Boost's column takes boxes in the plane and in space\n", what), exit(1);
@@ -219,7 +219,8 @@ static void bench(const char *what) {
     printf("%-16s %8zu %-22s %8s %6s %8.3f %7s %9.0f\n", r.name, r.n, "Boost, packed R-tree", "1", "", r.build, "",
            r.rate);
     for (size_t i = 0; i < CONTENDERS; i++)
-        if (exists(contenders[i].method)) time_method(&r, contenders + i);
+        if (exists(contenders[i].method) && (!only || !strcmp(only, contenders[i].method)))
+            time_method(&r, contenders + i);
     peer_boxes_free(r.dim, r.index);
     froe_scene_free(r.scene);
     free(r.lo), free(r.hi), free(r.windows), free(r.out);
@@ -230,6 +231,7 @@ int main(int argc, char **argv) {
     printf("# x: times as long as Boost to build, times as many windows a second\n");
     printf("%-16s %8s %-22s %8s %6s %8s %7s %9s\n", "scene", "boxes", "", "pieces/n", "height", "build s", "",
            "windows/s");
-    for (int i = 1; i < argc; i++) bench(argv[i]);
+    const char *only = argc > 1 && *argv[1] == '-' ? argv[1] + 1 : NULL;
+    for (int i = only ? 2 : 1; i < argc; i++) bench(argv[i], only);
     return argc < 2;
 }

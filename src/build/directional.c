@@ -11,6 +11,7 @@
  * of split/boxes_sweep.c. A cell is swept in time linear in its events; where a cut leaves one side with less than 1/8,
  * the cell goes on in trees that pay for the smaller side alone (split/boxes_carve.c): O(N log^2 N) for N fragments
  * however unbalanced. Both choose the same cuts. */
+#include "base/curve.h"
 #include "base/status.h"
 #include "build/method.h"
 #include "split/boxes.h"
@@ -38,14 +39,28 @@ static const froe_option_info options[] = {
     {0},
 };
 
+/** All objects along a curve: fragments that meet in cells lie near each other in memory. */
+static void order(const froe_scene *scene, base_pair *pairs, uint32_t *objects) {
+    uint32_t n = scene->object_count;
+    for (uint32_t i = 0; i < n; i++) {
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        scene_object_bounds(scene, i, lo, hi);
+        pairs[i] = (base_pair){base_curve_place(scene->dim, lo, hi, scene->lo, scene->hi), i};
+    }
+    base_radix_sort(pairs, pairs + n, n);
+    for (uint32_t i = 0; i < n; i++) objects[i] = pairs[i].value;
+}
+
 static froe_status begin(build_job *job, boxes *b) {
     uint32_t n = job->scene->object_count;
     boxes_cell root = {.cover = FROE_NONE};
     for (int k = 0; k < b->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
     uint32_t *objects = base_calloc(&job->alloc, n, sizeof *objects);
-    if (!objects) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < n; i++) objects[i] = i;
-    froe_status status = boxes_open(b, root, objects, n);
+    base_pair *pairs = base_calloc(&job->alloc, 2 * (size_t)n, sizeof *pairs);
+    if (objects && pairs && n) order(job->scene, pairs, objects);
+    froe_status status = objects && pairs ? FROE_OK : FROE_E_MEMORY;
+    base_free(&job->alloc, pairs, n ? 2 * (size_t)n * sizeof *pairs : 1);
+    if (!status) status = boxes_open(b, root, objects, n);
     base_free(&job->alloc, objects, n ? n * sizeof *objects : 1);
     return status;
 }

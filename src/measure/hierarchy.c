@@ -1,24 +1,10 @@
 /* hierarchy.c: packing boxes along a curve, and searching. */
 #include "measure/hierarchy.h"
+#include "base/curve.h"
 #include "base/radix.h"
 #include <string.h>
 
 /* ------------------------------------------------------------------ packing -- */
-
-/* The place of a box along a Z-curve through the cells of a grid: the bits of its coordinates, interleaved. */
-static uint64_t place(const measure_hierarchy *h, const double *lo, const double *hi, const double *from,
-                      const double *to) {
-    int bits = 60 / h->dim < 16 ? 60 / h->dim : 16;
-    uint64_t cell[FROE_MAX_DIM], key = 0;
-    for (int k = 0; k < h->dim; k++) {
-        double half = 0.5 * to[k] - 0.5 * from[k], at = 0.25 * lo[k] + 0.25 * hi[k] - 0.5 * from[k];
-        double share = half > 0 ? at / half : 0;
-        cell[k] = share > 0 ? share < 1 ? (uint64_t)(share * (double)(1u << bits)) : (1u << bits) - 1u : 0;
-    }
-    for (int bit = bits - 1; bit >= 0; bit--)
-        for (int k = 0; k < h->dim; k++) key = key << 1 | (cell[k] >> bit & 1);
-    return key;
-}
 
 static void bounds(const measure_hierarchy *h, const double *lo, const double *hi, double *from, double *to) {
     for (int k = 0; k < h->dim; k++) from[k] = lo[k], to[k] = hi[k];
@@ -37,7 +23,7 @@ static froe_status order(measure_hierarchy *h, const double *lo, const double *h
     bounds(h, lo, hi, from, to);
     for (uint32_t i = 0; i < h->count; i++) {
         size_t at = (size_t)i * (size_t)h->dim;
-        pairs[i] = (base_pair){place(h, lo + at, hi + at, from, to), i};
+        pairs[i] = (base_pair){base_curve_place(h->dim, lo + at, hi + at, from, to), i};
     }
     base_radix_sort(pairs, pairs + h->count, h->count);
     for (uint32_t i = 0; i < h->count; i++) h->ids[i] = pairs[i].value;

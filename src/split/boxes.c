@@ -221,6 +221,7 @@ static bool deal_fragments(boxes *b, const boxes_cell *cell, const boxes_cut *cu
         unsigned mark = b->marks.data[i];
         for (int s = 0; s < 2; s++) {
             parts[i].name[s] = FROE_NONE;
+            parts[i].alive[s] = parts[i].was = whole.alive;
             if (!(mark & (s ? MARK_ABOVE : MARK_BELOW))) continue;
             boxes_fragment f = part(whole, mark, s, cut->axis);
             if (!f.inside) {
@@ -238,33 +239,35 @@ static bool deal_fragments(boxes *b, const boxes_cell *cell, const boxes_cut *cu
     return ok;
 }
 
-/** The event as a side sees it, if its fragment is there and, on the axis of the cut, its end. */
-static void hand_on(const boxes_event *e, const boxes_parts *parts, bool above, bool in, int axis, boxes_event **to) {
-    if (!in || parts->name[above] == FROE_NONE) return;
-    boxes_event *out = (*to)++;
-    *out = *e;
-    out->fragment = parts->name[above];
-    grade(out, parts->alive[above], axis);
+/** Writes the event as a side sees it; returns 1 if it is there: its fragment and, on the axis of the cut, its end. No
+ * branches on that, which nobody could predict: what is not there will be written over. */
+static size_t hand_on(const boxes_event *e, const boxes_parts *parts, bool above, bool in, int axis, boxes_event *to) {
+    *to = *e;
+    to->fragment = parts->name[above];
+    if (parts->alive[above] != parts->was) grade(to, parts->alive[above], axis);
+    return in & (parts->name[above] != FROE_NONE);
 }
 
 static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, int axis, boxes_cell side[2]) {
     uint32_t count = cell->events[axis];
+    size_t above = 0, below = 0;
     b->spare_events.count = 0;
-    if (!array_reserve(&b->alloc, &b->spare_events, count) || !array_reserve(&b->alloc, &b->events[axis], count))
+    if (!array_reserve(&b->alloc, &b->spare_events, (size_t)count + 1) ||
+        !array_reserve(&b->alloc, &b->events[axis], count))
         return false;
-    boxes_event *item = b->events[axis].data + cell->event[axis], *above = item, *below = b->spare_events.data;
+    boxes_event *item = b->events[axis].data + cell->event[axis], *spare = b->spare_events.data;
     bool other = axis != cut->axis;
     for (uint32_t i = 0; i < count; i++) {
         boxes_event e = item[i];
         const boxes_parts *parts = b->parts.data + e.fragment;
-        hand_on(&e, parts, true, other || e.x > cut->c, axis, &above);
-        hand_on(&e, parts, false, other || e.x < cut->c, axis, &below);
+        above += hand_on(&e, parts, true, other | (e.x > cut->c), axis, item + above); /* at most item[i] */
+        below += hand_on(&e, parts, false, other | (e.x < cut->c), axis, spare + below);
     }
-    side[1].events[axis] = (uint32_t)(above - item);
-    side[0].events[axis] = (uint32_t)(below - b->spare_events.data);
-    side[0].event[axis] = cell->event[axis] + side[1].events[axis];
-    if (side[0].events[axis]) memcpy(above, b->spare_events.data, side[0].events[axis] * sizeof *above);
-    b->events[axis].count = side[0].event[axis] + side[0].events[axis];
+    side[1].events[axis] = (uint32_t)above;
+    side[0].events[axis] = (uint32_t)below;
+    side[0].event[axis] = cell->event[axis] + above;
+    if (below) memcpy(item + above, spare, below * sizeof *item);
+    b->events[axis].count = side[0].event[axis] + below;
     return true;
 }
 

@@ -44,6 +44,7 @@ typedef struct boxes_fragment {
 typedef struct boxes_parts {
     uint32_t name[2];  /**< counted from the first of its side, or FROE_NONE: not there, or a cover */
     uint16_t alive[2]; /**< its rooms there */
+    uint16_t was;      /**< its rooms before */
 } boxes_parts;
 
 /** A box that covers a cell, and with it all cells below. */

@@ -25,6 +25,8 @@ typedef struct sweep {
 
 typedef struct sweep_found {
     boxes_cut least, lemma;
+    uint32_t most, enough; /* divided and on the smaller side, of what could be better */
+    bool paid;             /* do rooms pay for the least? */
 } sweep_found;
 
 /* -------------------------------------------------------------- comparisons -- */
@@ -108,55 +110,70 @@ static void leave(const boxes *b, sweep *s, const boxes_event *e, const boxes_ev
     }
 }
 
+/* Counted on both sides of a cut as far as balance goes. */
+static uint32_t smaller(const sweep *s) {
+    return s->below < s->above ? s->below : s->above;
+}
+
+static boxes_cut cut_at(const sweep *s, int axis, double x) {
+    return (boxes_cut){true, false, axis, x, s->below, s->above, s->divided};
+}
+
+/* First what can be told from two numbers: hardly any cut is better than all before. */
 static void consider(const boxes *b, const sweep *s, int axis, double x, bool face, sweep_found *best) {
-    boxes_cut cut = {.found = true, .axis = axis, .c = x, .below = s->below, .above = s->above, .divided = s->divided};
-    bool separates = s->below && s->above;
-    if (face && (separates || b->options.faces) && boxes_better_on_axis(&cut, &best->least, true)) best->least = cut;
-    bool paid = b->options.trade * s->rooms >= s->weight;
-    if (separates && paid && boxes_better_on_axis(&cut, &best->lemma, false)) best->lemma = cut;
-}
-
-/* Through the same events once more, for the face that divides fewest and leaves `least` boxes on both sides. */
-static void narrow_axis(const boxes *b, const boxes_cell *cell, int axis, uint32_t least, boxes_cut *best) {
-    sweep s = start(b, cell, axis);
-    boxes_cut here = {.found = false};
-    bool paid = false;
-    const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
-    while (e < end && s.above >= least) {
-        bool face;
-        const boxes_event *next = arrive(b, &s, e, end, &face);
-        boxes_cut cut = {true, false, axis, e->x, s.below, s.above, s.divided};
-        if (face && s.below >= least && s.above >= least && boxes_better_on_axis(&cut, &here, true)) {
-            here = cut;
-            paid = b->options.trade * s.rooms >= s.weight;
-        }
-        leave(b, &s, e, next);
-        e = next;
+    uint32_t less = smaller(s);
+    if (s->divided <= best->most && face && (less || b->options.faces)) {
+        boxes_cut cut = cut_at(s, axis, x);
+        if (boxes_better_on_axis(&cut, &best->least, true)) best->least = cut;
+        best->most = best->least.divided;
     }
-    if (paid && boxes_better(&here, best, true)) *best = here;
+    if (less >= best->enough && b->options.trade * s->rooms >= s->weight) {
+        boxes_cut cut = cut_at(s, axis, x);
+        if (boxes_better_on_axis(&cut, &best->lemma, false)) best->lemma = cut;
+        best->enough = balance(&best->lemma);
+    }
 }
 
-static void sweep_axis(const boxes *b, const boxes_cell *cell, int axis, sweep_found *best) {
+/* The second time: a face that divides fewest, and leaves enough boxes on both sides; is it paid for? */
+static void consider_narrow(const boxes *b, const sweep *s, int axis, double x, bool face, sweep_found *best) {
+    if (s->divided > best->most || !face || smaller(s) < best->enough) return;
+    boxes_cut cut = cut_at(s, axis, x);
+    if (!boxes_better_on_axis(&cut, &best->least, true)) return;
+    best->least = cut;
+    best->most = cut.divided;
+    best->paid = b->options.trade * s->rooms >= s->weight;
+}
+
+/* narrow: 0, or how many boxes are enough for what is looked for the second time. */
+static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, uint32_t narrow) {
     sweep s = start(b, cell, axis);
-    sweep_found here = {0};
+    sweep_found best = {.enough = narrow ? narrow : 1, .most = UINT32_MAX};
     const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
     while (e < end) {
         bool face;
         const boxes_event *next = arrive(b, &s, e, end, &face);
-        consider(b, &s, axis, e->x, face, &here);
+        if (narrow)
+            consider_narrow(b, &s, axis, e->x, face, &best);
+        else
+            consider(b, &s, axis, e->x, face, &best);
         leave(b, &s, e, next);
         e = next;
     }
-    if (boxes_better(&here.least, &best->least, true)) best->least = here.least;
-    if (boxes_better(&here.lemma, &best->lemma, false)) best->lemma = here.lemma;
+    return best;
 }
 
 boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
-    sweep_found best = {0};
-    for (int k = 0; k < b->dim; k++)
-        if (cell->events[k]) sweep_axis(b, cell, k, &best);
-    uint32_t least = boxes_narrow(b, &best.least, &best.lemma);
-    for (int k = 0; k < b->dim && least; k++)
-        if (cell->events[k]) narrow_axis(b, cell, k, least, &best.lemma);
-    return boxes_decide(b, &best.least, &best.lemma);
+    boxes_cut least = {.found = false}, lemma = {.found = false};
+    uint32_t narrow = 0;
+    for (int turn = 0; turn < (narrow ? 2 : 1); turn++) {
+        for (int k = 0; k < b->dim; k++) {
+            if (!cell->events[k]) continue;
+            sweep_found here = sweep_axis(b, cell, k, narrow);
+            if (!turn && boxes_better(&here.least, &least, true)) least = here.least;
+            if (!turn && boxes_better(&here.lemma, &lemma, false)) lemma = here.lemma;
+            if (turn && here.paid && boxes_better(&here.least, &lemma, true)) lemma = here.least;
+        }
+        if (!turn) narrow = boxes_narrow(b, &least, &lemma);
+    }
+    return boxes_decide(b, &least, &lemma);
 }
