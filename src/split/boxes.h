@@ -133,10 +133,10 @@ bool boxes_better_on_axis(const boxes_cut *a, const boxes_cut *best, bool fewest
 bool boxes_better(const boxes_cut *a, const boxes_cut *best, bool fewest);
 /** Of what two stages found (`least`: fewest divided; `lemma`: paid for by rooms), is the first one free? */
 bool boxes_free_cut(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
-/** How many boxes on both sides are enough for a lemma cut that divides less; 0: the one found will be taken as it is.
- * Such a cut is the face that divides fewest on its axis, if rooms pay for it: not the best of all cuts that rooms pay
- * for, which no tree finds in logarithmic time. */
-uint32_t boxes_narrow(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
+/** How many boxes on both sides of a cell of `count` are enough for a lemma cut that divides less; 0: the one found
+ * will be taken as it is. Such a cut is the face that divides fewest on its axis, if rooms pay for it: not the best of
+ * all cuts that rooms pay for, which no tree finds in logarithmic time. */
+uint32_t boxes_narrow(const boxes *b, uint32_t count, const boxes_cut *least, const boxes_cut *lemma);
 /** And what they found becomes the choice. */
 boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
 /** The cut of a cell by sweeping over its events; not found: it is a leaf. O(events). */

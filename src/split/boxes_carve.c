@@ -227,7 +227,7 @@ static boxes_spot choose(const carve *c) {
         if (boxes_better(&here[0].cut, &least.cut, true)) least = here[0];
         if (boxes_better(&here[1].cut, &lemma.cut, false)) lemma = here[1];
     }
-    uint32_t enough = boxes_narrow(c->b, &least.cut, &lemma.cut);
+    uint32_t enough = boxes_narrow(c->b, c->left, &least.cut, &lemma.cut);
     for (int k = 0; k < c->b->dim && enough; k++) {
         boxes_spot here;
         boxes_axis_narrow(c->axis + k, k, c->lo[k], c->hi[k], enough, &here);

@@ -18,6 +18,8 @@
 #include "split/boxes.h"
 #include <math.h>
 
+enum { NARROW_MOST = 4096 }; /* boxes: what larger cells divide is a small part of all, but reading them is not */
+
 typedef struct sweep {
     int64_t rooms, weight; /* weight: of the boxes divided */
     uint32_t divided, below, above;
@@ -54,8 +56,10 @@ bool boxes_free_cut(const boxes *b, const boxes_cut *least, const boxes_cut *lem
     return least->found && !least->divided && balance(least) && balance(least) >= enough;
 }
 
-uint32_t boxes_narrow(const boxes *b, const boxes_cut *least, const boxes_cut *lemma) {
-    if (b->options.slack <= 0 || !lemma->found || !lemma->divided || boxes_free_cut(b, least, lemma)) return 0;
+uint32_t boxes_narrow(const boxes *b, uint32_t count, const boxes_cut *least, const boxes_cut *lemma) {
+    if (b->options.slack <= 0 || count > NARROW_MOST || !lemma->found || !lemma->divided ||
+        boxes_free_cut(b, least, lemma))
+        return 0;
     double most = (1 - b->options.slack) * balance(lemma);
     return most > 1 ? (uint32_t)ceil(most) : 1;
 }
@@ -82,6 +86,11 @@ static sweep start(const boxes *b, const boxes_cell *cell, int axis) {
     return s;
 }
 
+/* w if so (an odd number), or else 0. */
+static int64_t only(unsigned so, int64_t w) {
+    return w & -(int64_t)(so & 1);
+}
+
 /* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. No branches:
  * ends come in no order that could be predicted. */
 static const boxes_event *arrive(const boxes *b, sweep *s, const boxes_event *e, const boxes_event *end, bool *face) {
@@ -92,8 +101,8 @@ static const boxes_event *arrive(const boxes *b, sweep *s, const boxes_event *e,
         *face |= !before & (e->end != BOXES_AFTER);
         s->below += hi | flat;
         s->divided -= hi;
-        s->weight -= hi ? w : 0;
-        s->rooms += before | (hi & e->rooms >> 1) ? w : 0;
+        s->weight -= only(hi, w);
+        s->rooms += only(before | (hi & e->rooms >> 1), w);
     }
     return e;
 }
@@ -105,8 +114,8 @@ static void leave(const boxes *b, sweep *s, const boxes_event *e, const boxes_ev
         bool after = e->end == BOXES_AFTER, lo = e->end == BOXES_LO, flat = e->end == BOXES_FLAT;
         s->above -= lo | flat;
         s->divided += lo;
-        s->weight += lo ? w : 0;
-        s->rooms -= after | (lo & e->rooms) ? w : 0;
+        s->weight += only(lo, w);
+        s->rooms -= only(after | (lo & e->rooms), w);
     }
 }
 
@@ -173,7 +182,7 @@ boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
             if (!turn && boxes_better(&here.lemma, &lemma, false)) lemma = here.lemma;
             if (turn && here.paid && boxes_better(&here.least, &lemma, true)) lemma = here.least;
         }
-        if (!turn) narrow = boxes_narrow(b, &least, &lemma);
+        if (!turn) narrow = boxes_narrow(b, cell->count, &least, &lemma);
     }
     return boxes_decide(b, &least, &lemma);
 }
