@@ -2,6 +2,7 @@
  * than the boxes. */
 #include "split/boxes.h"
 #include "tree/tree.h"
+#include <float.h>
 #include <froe/io.h>
 #include <math.h>
 #include <setjmp.h>
@@ -15,8 +16,9 @@
 #include "support/fuzz.h"
 #include "support/memory.h"
 
-static const char *const kinds[] = {"boxes",  "boxes-3d", "rows", "debris",    "sticks",    "slabs", "towers",
-                                    "panels", "shells",   "bars", "debris-3d", "debris-5d", "bricks"};
+static const char *const kinds[] = {"boxes",     "boxes-3d",  "rows",   "debris", "sticks",
+                                    "slabs",     "towers",    "panels", "shells", "bars",
+                                    "debris-3d", "debris-5d", "bricks", "plates", "moons"};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 static froe_scene *generate(const char *kind, size_t n) {
@@ -76,7 +78,8 @@ static double load_of(const froe_tree *tree) {
 }
 
 static void disjoint_boxes_end_alone(void **state) {
-    static const char *const disjoint[] = {"rows", "sticks", "slabs", "towers", "panels", "bars", "bricks"};
+    static const char *const disjoint[] = {"rows", "sticks", "slabs",  "towers", "panels",
+                                           "bars", "bricks", "plates", "moons"};
     (void)state;
     for (size_t k = 0; k < sizeof disjoint / sizeof *disjoint; k++) {
         froe_scene *scene = generate(disjoint[k], 3000);
@@ -85,6 +88,80 @@ static void disjoint_boxes_end_alone(void **state) {
         froe_tree_free(tree);
         froe_scene_free(scene);
     }
+}
+
+/* A lattice of cells of which each holds one box: flat ones, full ones that touch their neighbours, and smaller ones.
+ */
+static froe_scene *lattice(int dim, uint32_t side, uint32_t n) {
+    static double coords[512 * 2 * FROE_MAX_DIM];
+    fuzz_source random = {(uint64_t)dim};
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t place = i;
+        for (int k = 0; k < dim; k++, place /= side) {
+            int lo = fuzz_int(&random, 0, 2), hi = fuzz_int(&random, lo, 2);
+            coords[2 * i * (uint32_t)dim + (uint32_t)k] = 2 * (place % side) + (place % 2 ? 0 : lo);
+            coords[(2 * i + 1) * (uint32_t)dim + (uint32_t)k] = 2 * (place % side) + (place % 2 ? 2 : hi);
+        }
+    }
+    froe_objects objects = froe_objects_defaults();
+    froe_scene *scene = NULL;
+    objects.kind = FROE_BOX, objects.count = n, objects.coords = coords;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &objects, NULL), FROE_OK);
+    return scene;
+}
+
+static void disjoint_boxes_end_alone_in_any_dimension(void **state) {
+    static const uint32_t sides[] = {0, 0, 20, 7, 4, 3, 2, 2, 2};
+    (void)state;
+    for (int dim = 2; dim <= 8; dim++) {
+        uint32_t n = 1;
+        for (int k = 0; k < dim; k++) n *= sides[dim];
+        froe_scene *scene = lattice(dim, sides[dim], n);
+        froe_tree *sweep = build(scene, "structure=sweep", 1), *trees = build(scene, "structure=trees", 1);
+        assert_same(sweep, trees, "lattice");
+        audit(sweep, "lattice");
+        for (uint32_t i = 0; i < sweep->node_count; i++)
+            if (sweep->nodes[i].type == TREE_LEAF) assert_true(sweep->nodes[i].u.list.count <= 1);
+        froe_tree_free(sweep);
+        froe_tree_free(trees);
+        froe_scene_free(scene);
+    }
+}
+
+/* Boxes that leave nothing to be decided by: equal, in one point, in one plane, of all sizes that doubles have. */
+static void degenerate_scenes_come_to_an_end(void **state) {
+    static const double wide[] = {-DBL_MAX, -1, -DBL_TRUE_MIN, 0, DBL_TRUE_MIN, 1, DBL_MAX};
+    enum { WIDE = sizeof wide / sizeof *wide, EACH = 60 };
+    (void)state;
+    for (int dim = 2; dim <= 8; dim++)
+        for (int kind = 0; kind < 4; kind++) {
+            double coords[EACH * 2 * FROE_MAX_DIM];
+            fuzz_source random = {(uint64_t)(10 * dim + kind)};
+            for (int i = 0; i < EACH; i++)
+                for (int k = 0; k < dim; k++) {
+                    int lo = fuzz_int(&random, 0, WIDE - 1), hi = fuzz_int(&random, lo, WIDE - 1);
+                    if (kind == 0) lo = 2, hi = 5;        /* equal boxes */
+                    if (kind == 1) lo = hi = 3;           /* equal points */
+                    if (kind == 2 && k == 0) lo = hi = 3; /* in one plane */
+                    coords[2 * i * dim + k] = wide[lo];
+                    coords[(2 * i + 1) * dim + k] = wide[hi];
+                }
+            froe_objects objects = froe_objects_defaults();
+            froe_scene *scene = NULL;
+            objects.kind = FROE_BOX, objects.count = dim < 5 ? EACH : 12, objects.coords = coords;
+            assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+            assert_int_equal(froe_scene_add(scene, &objects, NULL), FROE_OK);
+            for (int faces = 0; faces < 2; faces++) {
+                froe_tree *sweep = build(scene, faces ? "boxes=faces structure=sweep" : "structure=sweep", 1);
+                froe_tree *trees = build(scene, faces ? "boxes=faces structure=trees" : "structure=trees", 1);
+                assert_same(sweep, trees, "degenerate");
+                audit(sweep, "degenerate");
+                froe_tree_free(sweep);
+                froe_tree_free(trees);
+            }
+            froe_scene_free(scene);
+        }
 }
 
 static void what_touches_is_not_divided(void **state) {
@@ -280,6 +357,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sweeps_and_trees_make_the_same_tree),
         cmocka_unit_test(disjoint_boxes_end_alone),
+        cmocka_unit_test(disjoint_boxes_end_alone_in_any_dimension),
+        cmocka_unit_test(degenerate_scenes_come_to_an_end),
         cmocka_unit_test(what_touches_is_not_divided),
         cmocka_unit_test(nested_boxes_are_peeled),
         cmocka_unit_test(order_and_scale_change_nothing),
