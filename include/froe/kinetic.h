@@ -217,6 +217,40 @@ FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex,
 /** Takes an object out, for good. FROE_E_ARG: there is no such object. */
 FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object, froe_diagnostic *diag);
 
+/* Questions about the present: everything is where it is at the tick at which the partition stands. Of
+ * segments that lie in one line where they overlap, the one that is told of is the first in the order of cuts. They
+ * use memory of the partition's, so they are for one thread at a time. FROE_E_ARG: a coordinate is NaN or infinite. */
+
+/** Where a point is among the segments. */
+typedef struct froe_kinetic_place {
+    uint32_t on;           /**< a segment that the point lies on, or FROE_NONE */
+    uint32_t above, below; /**< the next ones straight up and down, or FROE_NONE. What is only touched, at the left end
+                              or along its length, is passed: straight up is inclined to the right, by less than any
+                                number. On a segment: both that one */
+} froe_kinetic_place;
+/** Exact. Expected O(log n). */
+FROE_API froe_status froe_kinetic_locate(froe_kinetic *kinetic, const double at[2], froe_kinetic_place *out,
+                                         froe_diagnostic *diag);
+/** The first segment met on the way from one point to another, ends included; FROE_NONE: none. Of those met at
+ * one point, any. Exact. Expected O(log n + segments and walls passed). */
+FROE_API froe_status froe_kinetic_ray(froe_kinetic *kinetic, const double from[2], const double to[2], uint32_t *hit,
+                                      froe_diagnostic *diag);
+
+/** A fragment: what lies between two walls of the partition. `ends` are x, y, x, y, rounded. false stops. */
+typedef bool froe_kinetic_order_fn(void *user, uint32_t object, const double ends[4]);
+/** All fragments, those behind first: what comes later is never hidden, seen from the eye, by what came before.
+ * O(nodes). FROE_E_MEMORY. */
+FROE_API froe_status froe_kinetic_order(froe_kinetic *kinetic, const double eye[2], froe_kinetic_order_fn *visit,
+                                        void *user, froe_diagnostic *diag);
+
+/** The present as an ordinary tree, for all other questions: built by the method `cylindrical`, in the same order of
+ * cuts, over a scene of its own. Object i of the scene is the i-th of those that are there; tags are the motion's.
+ * What divides two instants need not be a power of 2, so that coordinates are no doubles in general: each is rounded to
+ * the nearest, and *rounded (may be NULL) tells how many vertices were. 0: the tree is that of the present, exactly.
+ * FROE_E_MEMORY, and what froe_build() says. */
+FROE_API froe_status froe_kinetic_snapshot(froe_kinetic *kinetic, froe_tree **tree, size_t *rounded,
+                                           froe_diagnostic *diag);
+
 /** Is everything as it should be? Certificates, and each node against a partition made from scratch. FROE_E_INPUT: no;
  * FROE_E_MEMORY. For tests: as expensive as a new one. */
 FROE_API froe_status froe_kinetic_audit(froe_kinetic *kinetic, froe_diagnostic *diag);

@@ -28,15 +28,34 @@ froe_status now_grow(now_state *now) {
     const froe_allocator *alloc = &now->context.alloc;
     const froe_motion *m = now->motion;
     for (size_t v = 0; v < now->courses.count; v++) now_forget(now, (uint32_t)v); /* their knots may have moved */
-    if (!array_reserve(alloc, &now->courses, m->plans.count - now->courses.count) ||
-        !array_reserve(alloc, &now->segments, m->objects.count - now->segments.count))
+    if (!array_reserve(alloc, &now->courses, m->plans.count + 2 - now->courses.count) ||
+        !array_reserve(alloc, &now->segments, m->objects.count + 1 - now->segments.count))
         return FROE_E_MEMORY;
-    while (now->courses.count < m->plans.count) now->courses.data[now->courses.count++] = (now_course){.last = -1};
-    while (now->segments.count < m->objects.count) {
-        const uint32_t *v = m->objects.data[now->segments.count].vertices;
-        now->segments.data[now->segments.count++] = (now_segment){{v[0], v[1]}, false};
+    for (size_t v = now->courses.count; v < m->plans.count + 2; v++)
+        now->courses.data[v] = (now_course){.tick = -1, .last = -1};
+    now->courses.count = m->plans.count + 2;
+    for (size_t s = now->segments.count ? now->segments.count - 1 : 0; s < m->objects.count; s++) {
+        const uint32_t *v = m->objects.data[s].vertices;
+        now->segments.data[s] = (now_segment){{v[0], v[1]}, false};
     }
+    now->segments.count = m->objects.count + 1;
     return FROE_OK;
+}
+
+/* They stand still for ever. */
+uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
+    uint32_t segment = (uint32_t)now->segments.count - 1, first = (uint32_t)now->courses.count - 2;
+    for (uint32_t i = 0; i < 2; i++) {
+        const double *at = i ? to : from;
+        motion_knot *knot = now->asked + i;
+        *knot = (motion_knot){.at = {at[0], at[1]}, .control = {(double)NAN, (double)NAN}};
+        now->courses.data[first + i] = (now_course){
+            .tick = -1, .last = INT64_MAX, .base = 0, .x = {at[0]}, .y = {at[1]}, .piece = {knot, knot, 0, MOTION_FAR}};
+    }
+    now_segment *s = now->segments.data + segment;
+    *s = (now_segment){{first, first + 1}, false};
+    s->turned = now_compare(now, (now_name){first, NAME_VERTEX}, (now_name){first + 1, NAME_VERTEX}) > 0;
+    return segment;
 }
 
 void now_forget(now_state *now, uint32_t vertex) {
@@ -154,6 +173,21 @@ static now_spot exact_spot(now_state *now, now_name p) {
     return spot;
 }
 
+bool now_round(now_state *now, uint32_t vertex, double out[2]) {
+    num_arena *arena = &now->context.arena;
+    arena->top = 0;
+    exact_point e;
+    bool exact = true;
+    exact_at(now, vertex, &e);
+    for (int i = 0; i < 2; i++) {
+        num_dyadic x = i ? e.y.c[0] : e.x.c[0];
+        out[i] = num_dyadic_quotient(arena, x, e.w.c[0]);
+        num_dyadic back = num_dyadic_mul(arena, num_dyadic_from(arena, out[i]), e.w.c[0]);
+        exact &= !num_dyadic_compare(x, back);
+    }
+    return exact;
+}
+
 static now_spot crossing_spot(now_state *now, now_name p) {
     const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
     ball2 a = vertex_ball(now, s[0]), d = minus(vertex_ball(now, s[1]), a);
@@ -172,6 +206,7 @@ now_spot now_spot_of(now_state *now, now_name p) {
         const now_course *c = course_of(now, p.a);
         return (now_spot){c->at[0], c->at[1], c->error};
     }
+    if (now_is_question(now, (uint32_t)p.b)) return crossing_spot(now, p);
     uint64_t hash = ((uint64_t)p.a << 32 | (uint32_t)p.b) * 0x9e3779b97f4a7c15u;
     now_memory *known = now->memories + (hash >> 52);
     if (known->tick != now->tick || !name_is(known->name, p))
@@ -203,6 +238,11 @@ static int compare_after(now_state *now, now_name p, now_name q) {
     return order ? order : order_of(now, &a, &b, 1);
 }
 
+/* Is it a point of a question? These are about the tick itself. */
+static bool asks(const now_state *now, now_name p) {
+    return p.b == NAME_VERTEX ? p.a + 2 >= now->courses.count : now_is_question(now, (uint32_t)p.b);
+}
+
 static int compare_exactly(now_state *now, now_name p, now_name q) {
     exact_point a, b;
     now->context.stats.exact++;
@@ -211,6 +251,7 @@ static int compare_exactly(now_state *now, now_name p, now_name q) {
     named_exact(now, q, exact_at, &b);
     if (!a.w.c[0].sign || !b.w.c[0].sign) return compare_after(now, p, q);
     int order = order_of(now, &a, &b, 0);
+    if (!order && (asks(now, p) || asks(now, q))) return order_of(now, &a, &b, 1);
     return order ? order : compare_after(now, p, q);
 }
 
@@ -272,7 +313,8 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
     if (sign == 1 || sign == -1) return sign;
     now->context.stats.exact++;
     sign = side_with(now, segment, vertex, exact_at);
-    return sign ? sign : side_with(now, segment, vertex, exact_along);
+    bool question = now_is_question(now, segment) || asks(now, (now_name){vertex, NAME_VERTEX});
+    return sign || question ? sign : side_with(now, segment, vertex, exact_along);
 }
 
 /* ------------------------------------------------------------------ claims -- */

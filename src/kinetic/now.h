@@ -55,8 +55,9 @@ typedef struct now_state {
     froe_motion *motion;
     int64_t tick;
     double line[2];
-    ARRAY(now_course) courses;   /**< [vertex] */
-    ARRAY(now_segment) segments; /**< [object] */
+    ARRAY(now_course) courses;   /**< [vertex]; the last two are ends of a question */
+    ARRAY(now_segment) segments; /**< [object]; the last joins these two */
+    motion_knot asked[2];        /**< where they are */
     now_memory *memories;        /**< of crossings, by a hash of their names */
     num_context context;
     bool lost; /**< somebody asked where parallel lines cross */
@@ -66,6 +67,12 @@ froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state 
 void now_free(now_state *now);
 /** After the motion got more objects or other plans. */
 froe_status now_grow(now_state *now);
+/** The segment of a question: from one point to another, which do not move. It takes no part in anything. The points
+ * are the vertices `end` of the segment that is returned. */
+uint32_t now_ask(now_state *now, const double from[2], const double to[2]);
+static inline bool now_is_question(const now_state *now, uint32_t segment) {
+    return segment + 1 == now->segments.count;
+}
 /** Forgets where a vertex flies. */
 void now_forget(now_state *now, uint32_t vertex);
 
@@ -96,11 +103,13 @@ static inline uint32_t now_vertex(const now_state *now, uint32_t segment, int si
 int64_t now_course_last(now_state *now, uint32_t vertex);
 /** No coordinate of the vertex changes by more in a tick, as long as its piece lasts. */
 double now_speed(now_state *now, uint32_t vertex);
+/** The doubles next to where a vertex is at the tick. True: that is where it is. */
+bool now_round(now_state *now, uint32_t vertex, double out[2]);
 /** REQUIRES: a vertex or a crossing. */
 now_spot now_spot_of(now_state *now, now_name p);
-/** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last. */
+/** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last; in questions: now. */
 int now_compare(now_state *now, now_name p, now_name q);
-/** 1, 0, -1: the vertex is above, on or below the line of a segment just after now. */
+/** 1, 0, -1: the vertex is above, on or below the line of a segment just after now; in questions: now. */
 int now_side(now_state *now, uint32_t segment, uint32_t vertex);
 
 /** What a certificate claims: p is before q; or the segment p.a (of b NAME_SEGMENT) has vertex q.a above or below it.

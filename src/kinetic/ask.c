@@ -1,0 +1,204 @@
+/* ask.c: questions about the present: where a point is, what a ray meets first, what is behind what.
+ *
+ *        :  UP   :           A ray meets what is in the near part of a cell first, then the segment that cuts it,
+ *   LEFT : __s___: RIGHT     then what is in the far part. The ray is a segment that takes no part, so that it is
+ *        :  DOWN :           clipped by the predicates of all others. */
+#include "base/status.h"
+#include "kinetic/live.h"
+#include <math.h>
+
+static froe_status check(const froe_kinetic *k, const double *at, const double *to, const void *out,
+                         froe_diagnostic *diag) {
+    if (!k || !at || !to || !out) return base_fail(diag, FROE_E_ARG, "a question to a kinetic partition: NULL");
+    for (int i = 0; i < 2; i++)
+        if (!isfinite(at[i]) || !isfinite(to[i])) return base_fail(diag, FROE_E_ARG, "a coordinate is NaN or infinite");
+    return FROE_OK;
+}
+
+static now_name end_name(const froe_kinetic *k, uint32_t segment, int end) {
+    return (now_name){k->now.segments.data[segment].end[end], NAME_VERTEX};
+}
+
+/* In which part of a node's cell a point of the cell is: LEFT .. DOWN; -1: on the segment. */
+static int part_of(froe_kinetic *k, const live_node *n, now_name point) {
+    for (int side = 0; side < 2; side++) {
+        if (n->wall[side] == END_NONE) continue;
+        int order = now_compare(&k->now, point, wall_name(k, n->segment, n->wall[side]));
+        if (!order) return -1;
+        if ((order < 0) == (side == LEFT)) return side;
+    }
+    int where = now_side(&k->now, n->segment, point.a);
+    return where ? (where > 0 ? UP : DOWN) : -1;
+}
+
+froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kinetic_place *out, froe_diagnostic *diag) {
+    froe_status status = check(k, at, at, out, diag);
+    if (status) return status;
+    now_name point = end_name(k, now_ask(&k->now, at, at), 0);
+    froe_kinetic_place place = {FROE_NONE, FROE_NONE, FROE_NONE};
+    for (uint32_t x = node_at(k, ROOT)->child[0]; x;) {
+        const live_node *n = node_at(k, x);
+        int part = part_of(k, n, point);
+        if (part < 0) {
+            place = (froe_kinetic_place){n->segment, n->segment, n->segment};
+            break;
+        }
+        if (part == UP) place.below = n->segment;
+        if (part == DOWN) place.above = n->segment;
+        x = n->child[part];
+    }
+    *out = place;
+    return FROE_OK;
+}
+
+/* --------------------------------------------------------------------- rays -- */
+
+/* What is left to be done, in a stack: a subtree, or the segment of a node. */
+static void push(froe_kinetic *k, uint32_t node, const live_cell *cell, bool segment) {
+    live_visit v = {*cell, node, segment};
+    if (node && !array_push(&k->alloc, &k->visits, v)) k->short_of_memory = true;
+}
+
+/* The way through the parts of a node's cell, from behind so that the first is on top. `order` holds children, and
+ * -1 for the segment itself. */
+static void push_parts(froe_kinetic *k, const live_visit *v, const int order[5]) {
+    for (int i = 4; i >= 0; i--) {
+        if (order[i] < 0) {
+            push(k, v->node, &v->cell, true);
+            continue;
+        }
+        if (order[i] < UP && node_at(k, v->node)->wall[order[i]] == END_NONE) continue;
+        live_cell inner = live_child_cell(k, &v->cell, v->node, order[i]);
+        push(k, node_at(k, v->node)->child[order[i]], &inner, false);
+    }
+}
+
+/* Is p between the borders of the part of a cell where its segment is, borders included? */
+static bool is_in_middle(froe_kinetic *k, const live_visit *v, now_name p) {
+    live_cell middle = live_child_cell(k, &v->cell, v->node, UP);
+    return (!name_exists(middle.wall[LEFT]) || now_compare(&k->now, p, middle.wall[LEFT]) >= 0) &&
+           (!name_exists(middle.wall[RIGHT]) || now_compare(&k->now, p, middle.wall[RIGHT]) <= 0);
+}
+
+/* Two segments in one line: do they overlap in the middle? */
+static bool overlaps(froe_kinetic *k, const live_visit *v, uint32_t ray, uint32_t segment) {
+    const uint32_t both[2] = {ray, segment};
+    for (int i = 0; i < 2; i++)
+        for (int side = 0; side < 2; side++) {
+            now_name p = {now_vertex(&k->now, both[i], side), NAME_VERTEX};
+            now_name left = {now_vertex(&k->now, both[1 - i], 0), NAME_VERTEX};
+            now_name right = {now_vertex(&k->now, both[1 - i], 1), NAME_VERTEX};
+            if (now_compare(&k->now, left, p) <= 0 && now_compare(&k->now, p, right) <= 0 && is_in_middle(k, v, p))
+                return true;
+        }
+    uint32_t end[2];
+    live_cell line = live_child_cell(k, &v->cell, v->node, UP);
+    line.top = line.bottom = FROE_NONE; /* it may pass from wall to wall */
+    return live_clip(k, ray, &line, end) && live_clip(k, segment, &line, end);
+}
+
+/* Does the ray meet the segment of a node in the middle part of its cell? */
+static bool meets(froe_kinetic *k, const live_visit *v, uint32_t ray) {
+    uint32_t segment = node_at(k, v->node)->segment;
+    int side[2], other[2];
+    for (int i = 0; i < 2; i++) {
+        side[i] = now_side(&k->now, segment, now_vertex(&k->now, ray, i));
+        other[i] = now_side(&k->now, ray, now_vertex(&k->now, segment, i));
+    }
+    if (side[0] * side[1] > 0 || other[0] * other[1] > 0) return false;
+    if (!side[0] && !side[1]) return overlaps(k, v, ray, segment);
+    return is_in_middle(k, v, name_crossing(ray, segment));
+}
+
+/* The parts in the order in which the ray comes to them. */
+static void follow(froe_kinetic *k, const live_visit *v, uint32_t ray) {
+    bool turned = k->now.segments.data[ray].turned;
+    uint32_t segment = node_at(k, v->node)->segment;
+    int from = now_side(&k->now, segment, k->now.segments.data[ray].end[0]);
+    if (!from) from = -now_side(&k->now, segment, k->now.segments.data[ray].end[1]);
+    int near = from > 0 ? UP : DOWN, far = UP + DOWN - near, in = turned ? RIGHT : LEFT, out = turned ? LEFT : RIGHT;
+    uint32_t end = now_vertex(&k->now, segment, in);
+    if (now_side(&k->now, ray, end)) /* else the ray comes to that end first of all */
+        push_parts(k, v, (int[]){in, near, -1, far, out});
+    else
+        push_parts(k, v, (int[]){in, -1, near, far, out});
+}
+
+/* A ray without length: is the point on something? */
+static bool is_point(froe_kinetic *k, uint32_t ray) {
+    return !now_compare(&k->now, end_name(k, ray, 0), end_name(k, ray, 1));
+}
+
+froe_status froe_kinetic_ray(froe_kinetic *k, const double from[2], const double to[2], uint32_t *hit,
+                             froe_diagnostic *diag) {
+    froe_kinetic_place place;
+    froe_status status = check(k, from, to, hit, diag);
+    if (!status) status = froe_kinetic_locate(k, from, &place, diag);
+    if (status) return status;
+    uint32_t ray = now_ask(&k->now, from, to), found = place.on, end[2];
+    live_cell plane = live_plane();
+    k->visits.count = 0;
+    if (found == FROE_NONE && !is_point(k, ray)) push(k, node_at(k, ROOT)->child[0], &plane, false);
+    while (k->visits.count && found == FROE_NONE && !k->short_of_memory) {
+        live_visit v = k->visits.data[--k->visits.count];
+        if (v.back) {
+            if (meets(k, &v, ray)) found = node_at(k, v.node)->segment;
+        } else if (live_clip(k, ray, &v.cell, end)) {
+            follow(k, &v, ray);
+        }
+    }
+    k->visits.count = 0;
+    if (k->short_of_memory) return k->short_of_memory = false, base_fail_memory(diag);
+    *hit = found;
+    return FROE_OK;
+}
+
+/* -------------------------------------------------------------------- order -- */
+
+/* y at which a segment passes a wall, roughly. */
+static double height_at(froe_kinetic *k, uint32_t segment, now_spot wall) {
+    now_spot a = now_spot_of(&k->now, end_name(k, segment, 0)), b = now_spot_of(&k->now, end_name(k, segment, 1));
+    double share = (wall.x - a.x) / (b.x - a.x), low = fmin(a.y, b.y), high = fmax(a.y, b.y);
+    double y = a.x == b.x ? wall.y : a.y + share * (b.y - a.y);
+    return fmin(fmax(y, low), high);
+}
+
+static bool tell(froe_kinetic *k, const live_visit *v, froe_kinetic_order_fn *visit, void *user) {
+    const live_node *n = node_at(k, v->node);
+    double at[4];
+    for (int side = 0; side < 2; side++) {
+        now_name p = wall_name(k, n->segment, n->wall[side]);
+        if (!name_exists(p)) p = v->cell.wall[side];
+        now_spot spot = now_spot_of(&k->now, p);
+        at[2 * side] = spot.x, at[2 * side + 1] = spot.y;
+        if (n->wall[side] == END_NONE) at[2 * side + 1] = height_at(k, n->segment, spot);
+    }
+    return visit(user, n->segment, at);
+}
+
+froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kinetic_order_fn *visit, void *user,
+                               froe_diagnostic *diag) {
+    froe_status status = check(k, eye, eye, (const void *)&visit, diag);
+    if (!status && !visit) status = base_fail(diag, FROE_E_ARG, "froe_kinetic_order: NULL");
+    if (status) return status;
+    now_name point = end_name(k, now_ask(&k->now, eye, eye), 0);
+    live_cell plane = live_plane();
+    k->visits.count = 0;
+    push(k, node_at(k, ROOT)->child[0], &plane, false);
+    while (k->visits.count && !k->short_of_memory) {
+        live_visit v = k->visits.data[--k->visits.count];
+        if (v.back) {
+            if (!tell(k, &v, visit, user)) break;
+            continue;
+        }
+        int part = part_of(k, node_at(k, v.node), point);
+        int near = now_side(&k->now, node_at(k, v.node)->segment, point.a) < 0 ? DOWN : UP, far = UP + DOWN - near;
+        if (part == LEFT || part == RIGHT)
+            push_parts(k, &v, (int[]){LEFT + RIGHT - part, far, -1, near, part});
+        else
+            push_parts(k, &v, (int[]){LEFT, RIGHT, far, -1, near});
+    }
+    k->visits.count = 0;
+    if (k->short_of_memory) return k->short_of_memory = false, base_fail_memory(diag);
+    return FROE_OK;
+}
