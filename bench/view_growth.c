@@ -5,7 +5,8 @@
  *
  * Each size, 1,000 to 1,000,000 triangles (-m: fewer), in a process of its own, whose greatest memory is given. Seconds
  * are processor time: tree; look: visible parts of faces; whole: picture of whole faces, which contains another look.
- * Tests: pairs compared for the order, at most 50 million; beyond them a picture is made of fragments, and says so. */
+ * Tests: pairs compared for the order, at most 1,000 a visible piece; beyond them a picture is made of fragments, and
+ * says so. */
 #include "apart.h"
 #include "bench.h"
 #include <froe/view.h>

@@ -16,7 +16,7 @@ typedef struct render_args {
     double halo, fov, unit, min_area, seconds, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
     uint64_t decimals;  /**< UINT64_MAX: not given */
     uint64_t turntable; /**< frames; 0: none */
-    cli_reals eye, target, up;
+    cli_reals eye, target, section;
     bool parallel, cull_back, animate;
 } render_args;
 
@@ -65,6 +65,8 @@ static const cli_option camera[] = {
              "(default: as fits)"},
     {"unit", 0, CLI_REAL, offsetof(render_args, unit), "METRES",
      .help = "for --scale 1:50: how long a unit of the scene is (default 1)"},
+    {"section", 0, CLI_REALS, offsetof(render_args, section), "A,B,C,D",
+     .help = "leave out what lies where a x + b y + c z > d, exactly; builds the tree anew for it"},
     {"turntable", 0, CLI_WHOLE, offsetof(render_args, turntable), "N",
      .help = "N pictures from all around; the name of the file says where their number goes, pic-%03d.svg", .min = 1,
      .max = 100000},
@@ -93,8 +95,9 @@ static const cli_option look[] = {
     {"lines", 0, CLI_CHOICE, offsetof(render_args, over), "WHERE",
      .help = "top (default): over all faces; interleaved: under what is nearer", .choices = over},
     {"line-kinds", 0, CLI_TEXT, offsetof(render_args, lines), "KINDS",
-     .help = "border, silhouette, object, material, crease, crossing, mesh, parted by commas; or none (default: all "
-             "but mesh)"},
+     .help =
+         "border, silhouette, object, material, crease, crossing, section, mesh, parted by commas; or none (default: "
+         "all but mesh)"},
     {"line-width", 0, CLI_REAL, offsetof(render_args, line_width), "W",
      .help = "of borders and silhouettes (default 1)"},
     {"crease", 0, CLI_REAL, offsetof(render_args, crease), "DEGREES",
@@ -203,6 +206,7 @@ static int set_camera(const render_args *args, const froe_scene *scene, froe_cam
         if (code) return code;
         c->fit = !args->eye.count;
     }
+    if (args->section.count) c->section = args->section.at;
     if (args->parallel || args->direction > 0) c->parallel = true;
     set_number(args->fov, &c->fov);
     c->margin = c->width / 50;
@@ -264,10 +268,10 @@ static int set_lines(const char *list, uint32_t *lines) {
         const size_t length = strcspn(list, ",");
         const uint32_t bit = line_bit(list, length);
         if (!bit)
-            return cli_fail(
-                CLI_USE, NULL,
-                "--line-kinds: '%.*s' is not one of border, silhouette, object, material, crease, crossing, mesh",
-                (int)length, list);
+            return cli_fail(CLI_USE, NULL,
+                            "--line-kinds: '%.*s' is not one of border, silhouette, object, material, crease, "
+                            "crossing, section, mesh",
+                            (int)length, list);
         *lines |= bit;
         list += length + (list[length] == ',');
     }
@@ -324,6 +328,7 @@ static int set_options(const render_args *args, const froe_scene *scene, froe_re
     if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
     if (args->hidden >= 0) o->hidden = args->hidden > 0;
     o->cull_back = args->cull_back;
+    o->section = args->section.count ? -1 : 0;
     o->interleaved = args->over > 0;
     o->own_colours = args->colours > 0;
     o->ids = (froe_ids)args->ids;
@@ -452,11 +457,37 @@ static int render_groups(const render_args *args, const froe_tree *tree) {
     return code;
 }
 
+/* The tree once more, cut by the section first. */
+static int cut_section(const render_args *args, froe_tree **tree) {
+    froe_build_options o = froe_build_defaults();
+    froe_diagnostic diag;
+    froe_tree *whole = *tree;
+    if (!args->section.count || froe_scene_dim(froe_tree_scene(whole)) != 3) return 0;
+    if (args->section.count != 4)
+        return cli_fail(CLI_USE, NULL, "--section: %zu numbers given, 4 needed", args->section.count);
+    cli_progress bar = cli_progress_begin(&args->common, "cutting");
+    o.threads = (unsigned)args->common.threads;
+    o.progress = cli_progress_step;
+    o.user = &bar;
+    const froe_status status = froe_tree_section(whole, args->section.at, &o, tree, &diag);
+    cli_progress_end(&bar);
+    if (status == FROE_E_ARG || status == FROE_E_UNSUPPORTED)
+        return cli_fail(CLI_USE, NULL, "--section: %s", diag.message);
+    if (status) return cli_fail_status(CLI_WORKING, args->tree, status, &diag);
+    froe_tree_free(whole);
+    return 0;
+}
+
 static int run(const void *given) {
     const render_args *args = given;
     froe_tree *tree;
     int code = cli_open_tree(args->tree, &tree);
     if (code) return code;
+    code = cut_section(args, &tree);
+    if (code) {
+        froe_tree_free(tree);
+        return code;
+    }
     if (froe_scene_dim(froe_tree_scene(tree)) != 3)
         code = cli_fail(CLI_USE, args->tree, "a scene in the plane has no hidden surfaces: use froe draw");
     else

@@ -10,7 +10,7 @@ froe_render_options froe_render_defaults(void) {
         .cel_levels = 4,
         .seam_width = 1,
         .lines = FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_OBJECT | FROE_LINE_MATERIAL | FROE_LINE_CREASE |
-                 FROE_LINE_CROSSING,
+                 FROE_LINE_CROSSING | FROE_LINE_SECTION,
         .crease = 30,
         .line_width = 1,
         .background = FROE_DRAW_CLEAR,
@@ -129,6 +129,7 @@ static froe_status look(draw_render *r, froe_diagnostic *diag) {
     p.cull_back = o->cull_back;
     p.lines = o->line_width > 0 ? o->lines : 0;
     p.crease = o->crease;
+    p.section = o->section;
     p.interleave = o->interleaved ? 0.5 * o->line_width : 0;
     p.hidden = o->hidden;
     p.halo = o->halo;

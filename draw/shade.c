@@ -138,5 +138,6 @@ froe_status draw_shade(draw_render *r) {
 
 double draw_line_width(const froe_render_options *options, froe_line kind) {
     const bool outline = kind == FROE_LINE_BORDER || kind == FROE_LINE_SILHOUETTE;
+    if (kind == FROE_LINE_SECTION) return 2 * options->line_width;
     return (outline ? 1 : kind == FROE_LINE_CROSSING ? 0.8 : 0.6) * options->line_width;
 }

@@ -162,14 +162,15 @@ typedef struct froe_render_options {
     froe_paint paint;     /**< default WHOLE */
     froe_seams seams;     /**< default UNDERLAP */
     double seam_width;    /**< in units of the page; default 1 */
+    int section;          /**< see froe_visibility_options */
     uint32_t lines;       /**< bits of froe_line; default all but mesh */
     double crease;        /**< degrees; default 30 */
-    double line_width;    /**< default 1; silhouettes and borders; crossings have 0.8, other kinds 0.6 of it */
-    bool interleaved; /**< lines go below what is nearer, and so never cover half their width of it; default: on top */
-    bool hidden;      /**< hidden lines, dashed */
-    double halo;      /**< gap in lines before nearer ones; default 0 */
-    bool own_colours; /**< not those of groups, nor their opacity, but froe's; default false. So it is, whatever is
-                                said here, in white and in lines alone */
+    double line_width; /**< default 1; silhouettes and borders; sections twice, crossings 0.8, other kinds 0.6 of it */
+    bool interleaved;  /**< lines go below what is nearer, and so never cover half their width of it; default: on top */
+    bool hidden;       /**< hidden lines, dashed */
+    double halo;       /**< gap in lines before nearer ones; default 0 */
+    bool own_colours;  /**< not those of groups, nor their opacity, but froe's; default false. So it is, whatever is
+                                 said here, in white and in lines alone */
     const double *opacity;     /**< per group, 0 .. 1; NaN, or all NULL: that of its colour, or 1 */
     const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
     bool cull_back;

@@ -279,6 +279,14 @@ FROE_API froe_status froe_build(froe_scene *scene, const froe_build_options *opt
                                 froe_diagnostic *diag);
 FROE_API void froe_tree_free(froe_tree *tree);
 
+/** The tree of the same scene by the same method, settings, leaf and seed, once more, but with the first cut given:
+ * where plane[0] x[0] + ... = plane[dim], for dim + 1 doubles taken exactly; see froe_visibility_options.section. Of
+ * the options those of a method are not looked at; NULL: defaults. There is no guard stage. FROE_E_ARG: a number is not
+ * finite, or the normal 0. FROE_E_UNSUPPORTED: above dimension 3, or by a method that takes no first cut (grain,
+ * density and autopartition do). Otherwise as froe_build(). */
+FROE_API froe_status froe_tree_section(const froe_tree *tree, const double *plane, const froe_build_options *options,
+                                       froe_tree **out, froe_diagnostic *diag);
+
 /** How the exact predicates got their answers (counts of calls). */
 typedef struct froe_predicate_stats {
     uint64_t calls;      /**< sides asked for */

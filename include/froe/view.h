@@ -106,6 +106,8 @@ typedef struct froe_visibility_options {
                                       of equal ones the later; NULL: all equal */
     const uint8_t *edges;        /**< per edge, not 0: its intervals are wanted; NULL: all */
     bool crossings;              /**< lines along which polygons pass through each other are wanted */
+    int section;                 /**< -1 or 1: only what lies on the negative or positive side of the root's cut, or in
+                                      it, is there: see froe_tree_section(); 0 (default): all */
     bool cull_back;              /**< polygons whose corners turn right, as the eye sees them, are not there */
     const froe_allocator *alloc; /**< NULL: malloc */
     froe_progress_fn *progress;  /**< may be NULL */
@@ -157,13 +159,14 @@ typedef struct froe_interval {
  * They were ordered and joined exactly; only these numbers are rounded. Live as long as the visibility. */
 FROE_API const froe_interval *froe_visibility_of_edge(const froe_visibility *visibility, uint32_t edge, size_t *count);
 
-/** A visible part of the line along which a patch passes through polygons of another plane. */
+/** A visible part of the line along which a patch passes through polygons of another plane, or through the section. */
 typedef struct froe_crossing {
     uint32_t patch;        /**< the one of the two that the tree has cut */
+    bool section;          /**< no crossing: where the section cuts the patch */
     double from[3], to[3]; /**< rounded as by froe_visibility_corners() */
 } froe_crossing;
-/** All of them, when they were wanted; found and joined exactly. Where a polygon is seen edge-on there is none. They
- * live as long as the visibility. */
+/** All of them, when they were wanted; found and joined exactly. Where a polygon is seen edge-on there is none, but for
+ * the section as seen from the side that is left out. They live as long as the visibility. */
 FROE_API const froe_crossing *froe_visibility_crossings(const froe_visibility *visibility, size_t *count);
 
 /** Receives the visible region of a patch: ring i has the corners starts[i] .. starts[i+1] - 1, 3 doubles each. Outer
@@ -199,6 +202,7 @@ typedef struct froe_camera {
     double up[3];             /**< what points up on the page; default (0, 0, 1) */
     double fov;   /**< perspective: angle between the lower and the upper margin, degrees, 1 .. 170; default 35 */
     double scale; /**< parallel: page units per unit of the scene; 0 (default): as fits */
+    const double *section;        /**< 4 doubles: fit what lies where section[0..2] . x <= section[3]; NULL: all */
     double width, height, margin; /**< of the page; default 1000, 1000, 20 */
 } froe_camera;
 FROE_API froe_camera froe_camera_defaults(void);
@@ -252,6 +256,7 @@ typedef struct froe_picture_options {
                                     NULL: all of one style */
     const uint8_t *clear;      /**< per patch, not 0: one sees through it; NULL: all are opaque */
     const int32_t *priorities; /**< see froe_visibility_options */
+    int section;               /**< the same */
     bool cull_back;            /**< the same */
     uint32_t lines;            /**< bits of froe_line; default 0: none */
     double crease;             /**< degrees from which on an edge is a crease, 0 .. 180; default 30 */
@@ -262,8 +267,9 @@ typedef struct froe_picture_options {
                                     are painted after all shapes */
     double min_area;           /**< patches of which less is visible, in square units of the page, are left out; the
                                     report says how many and how much; default 0 */
-    uint64_t max_graph;        /**< WHOLE: most pairs to compare; default 50 million. Beyond them the picture is made of
-                                    fragments and says so: see froe_picture_report */
+    uint64_t max_graph;        /**< WHOLE: most pairs to compare; 0 (default): 1,000 for each visible piece, 50 million
+                                    at least. Beyond them the picture is made of fragments and says so: see
+                                    froe_picture_report */
     const froe_allocator *alloc; /**< NULL: malloc */
     froe_progress_fn *progress;
     void *user;
@@ -300,9 +306,10 @@ typedef enum froe_line {
     FROE_LINE_CREASE = 16,    /**< between planes at an angle */
     FROE_LINE_MESH = 32,      /**< any other edge between patches */
     FROE_LINE_CROSSING = 64,  /**< no edge: where polygons pass through each other; only visible parts */
-    FROE_LINE_END = 128       /**< no kind */
+    FROE_LINE_SECTION = 128,  /**< no edge: where the section cuts polygons; only visible parts */
+    FROE_LINE_END = 256       /**< no kind */
 } froe_line;
-/** "border", "silhouette", "object", "material", "crease", "mesh", "crossing"; NULL for anything else. */
+/** "border", "silhouette", "object", "material", "crease", "mesh", "crossing", "section"; NULL for anything else. */
 FROE_API const char *froe_line_name(froe_line kind);
 
 typedef struct froe_stroke {

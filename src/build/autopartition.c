@@ -49,5 +49,6 @@ const build_method build_method_autopartition = {
              .dims = BUILD_DIMS_ALL,
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON | 1u << FROE_BOX,
              .options = options},
+    .rooted = true,
     .build = build,
 };

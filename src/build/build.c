@@ -2,6 +2,7 @@
 #include "base/status.h"
 #include "build/options.h"
 #include <locale.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,6 +31,7 @@ split_job build_split_job(const build_job *job) {
                        .alloc = job->alloc,
                        .task = job->task,
                        .max_fragments = job->max_fragments,
+                       .root = job->root,
                        .span = 0.9 * (1 - job->task->done),
                        .meta = &job->meta,
                        .first = job->first,
@@ -165,7 +167,8 @@ static froe_status prepare_in_any_locale(const froe_build_options *o, const buil
     return status;
 }
 
-froe_status froe_build(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
+static froe_status build(froe_scene *scene, const froe_build_options *options, const froe_cut *root, froe_tree **out,
+                         froe_diagnostic *diag) {
     const build_method *method;
     base_task task;
     if (!scene || !out) return base_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
@@ -177,12 +180,47 @@ froe_status froe_build(froe_scene *scene, const froe_build_options *options, fro
     if (!status && o.leaf == FROE_LEAF_OWN) o.leaf = method->info.leaf ? method->info.leaf : 1;
     if (!status) status = check_scene(method, scene, o.leaf, diag);
     if (!status) status = check_order(&o, method, scene, diag);
+    if (!status && root && !method->rooted)
+        status = base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' takes no first cut", method->info.name);
     if (status) return status;
-    build_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag};
+    build_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag, .root = root};
     base_task_init(&task, o.threads, o.progress, o.user);
     status = prepare_in_any_locale(&o, method, &job);
     if (!status && !base_progress(&task, 0)) status = base_fail(diag, FROE_E_CANCELLED, "cancelled");
     if (!status) status = method->build(&job, out);
     if (!status) base_progress(&task, 1);
     return status;
+}
+
+froe_status froe_build(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
+    return build(scene, options, NULL, out, diag);
+}
+
+/** A plane of doubles, as a cut. */
+static froe_status check_plane(int dim, const double *plane, froe_cut *out, froe_diagnostic *diag) {
+    double most = 0;
+    *out = (froe_cut){.kind = FROE_CUT_PLANE, .value = plane[dim], .normal = plane};
+    for (int k = 0; k <= dim; k++) {
+        if (!isfinite(plane[k]))
+            return base_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
+                                "number %d of the plane is not finite", k);
+        if (k < dim) most = fmax(most, fabs(plane[k]));
+    }
+    return most > 0 ? FROE_OK : base_fail(diag, FROE_E_ARG, "the normal of the plane has length 0");
+}
+
+froe_status froe_tree_section(const froe_tree *tree, const double *plane, const froe_build_options *options,
+                              froe_tree **out, froe_diagnostic *diag) {
+    if (!tree || !plane || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    const int dim = tree->scene->dim;
+    froe_build_options o = options ? *options : froe_build_defaults();
+    froe_cut root;
+    if (dim > 3) return base_fail(diag, FROE_E_UNSUPPORTED, "sections exist in 2 and 3 dimensions, not in %d", dim);
+    const froe_status status = check_plane(dim, plane, &root, diag);
+    if (status) return status;
+    o.method = tree->meta.method;
+    o.settings = tree->meta.settings;
+    o.leaf = tree->meta.leaf;
+    o.seed = tree->meta.seed;
+    return build(tree->scene, &o, &root, out, diag);
 }

@@ -270,5 +270,6 @@ const build_method build_method_density = {
              .kinds = BUILD_KINDS_ALL,
              .options = options},
     .resolve = resolve,
+    .rooted = true,
     .build = build,
 };

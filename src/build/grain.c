@@ -83,5 +83,6 @@ const build_method build_method_grain = {
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON,
              .options = options},
     .resolve = resolve,
+    .rooted = true,
     .build = build,
 };

@@ -16,6 +16,7 @@ typedef struct build_job {
     uint32_t leaf;
     uint64_t seed, max_fragments;
     const uint32_t *order;        /**< of all objects, or NULL */
+    const froe_cut *root;         /**< the first cut, or NULL */
     num_stage first;              /**< where predicates start: NUM_FILTER, later ones for tests */
     double option[BUILD_OPTIONS]; /**< values in the order of info.options */
     tree_meta meta;               /**< method, settings, seed, leaf are set; the builder adds promises and root */
@@ -26,6 +27,7 @@ typedef struct build_method {
     /** Replaces "by dimension" values of options by what they mean for this scene; may be NULL. */
     void (*resolve)(const froe_scene *scene, uint32_t leaf, double *option);
     bool ordered; /**< takes an order of the objects */
+    bool rooted;  /**< takes a first cut */
     /** Builds the tree. The dispatcher has checked kinds, dims, leaf and option ranges. */
     froe_status (*build)(build_job *job, froe_tree **out);
 } build_method;

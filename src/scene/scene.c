@@ -3,6 +3,7 @@
 #include "scene/store.h"
 #include <math.h>
 #include <string.h>
+#include <sys/mman.h>
 
 const char *froe_kind_name(froe_kind kind) {
     static const char *const names[FROE_KIND_COUNT] = {"point", "segment", "polygon", "box", "ball", "hull"};
@@ -50,6 +51,7 @@ froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **o
 void froe_scene_free(froe_scene *scene) {
     if (!scene || atomic_fetch_sub_explicit(&scene->holds, 1, memory_order_acq_rel) != 1) return;
     froe_allocator alloc = scene->alloc;
+    if (scene->map) munmap(scene->map, scene->map_size);
     if (scene->store) store_free(&alloc, scene->store);
     base_free(&alloc, scene, sizeof *scene);
 }

@@ -27,6 +27,8 @@ struct froe_scene {
     froe_allocator alloc;
     atomic_uint holds; /**< the caller's and each tree's; > 1: frozen */
     bool mapped;
+    void *map; /**< the file they lie in, which goes with the scene; trees that hold it may lie there, too */
+    size_t map_size;
     int dim;
     uint32_t vertex_count, object_count, group_count, radius_count, corner_count;
     size_t text_size;

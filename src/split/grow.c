@@ -167,7 +167,7 @@ static froe_status push_root(grow *g, split_work *work) {
     uint32_t n = g->job->scene->object_count;
     split_cell root = {.path = 1, .guard = FROE_NONE, .growth = 1};
     root.frame = (split_frame){{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
-    if (g->job->guard && n) {
+    if (g->job->guard && n && !g->job->root) {
         root.guard = 0;
         root.wholes = n;
     } else {
@@ -179,12 +179,20 @@ static froe_status push_root(grow *g, split_work *work) {
     return array_push(&g->job->alloc, &work->cells, root) ? FROE_OK : FROE_E_MEMORY;
 }
 
+/** Makes the cut that the job begins with. */
+static froe_status cut_root(grow *g, split_work *work) {
+    if (!g->job->root) return FROE_OK;
+    const split_cell root = work->cells.data[--work->cells.count];
+    return divide(g->method, work, &root, g->job->root, false, NULL);
+}
+
 static froe_status main_part(grow *g) {
     split_work *work = g->workers;
     uint32_t n = g->job->scene->object_count;
     work->set.draft = &g->main;
     g->task_size = n / TASK_SHARE > TASK_LEAST ? n / TASK_SHARE : TASK_LEAST;
     froe_status status = push_root(g, work);
+    if (!status) status = cut_root(g, work);
     if (!status) status = do_cells(g, work, n > g->task_size || g->method->height > 0);
     return status ? status : count_pieces(g, &g->main);
 }

@@ -101,6 +101,8 @@ typedef struct split_job {
     uint64_t max_fragments;        /**< 0: none */
     const uint32_t *order;         /**< of the objects, in the root cell and among those of any other; NULL: by id
                                         (no guard stage) */
+    const froe_cut *root;          /**< the cut of the root, whatever it separates, and then no guard stage; NULL: the
+                                        method's choice */
     const split_guard_tree *guard; /**< NULL: no guard stage */
     const split_homes *homes;      /**< with guard */
     double span;                   /**< share of the task's progress */

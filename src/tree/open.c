@@ -192,12 +192,15 @@ froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_
         return base_fail_memory(diag);
     }
     t->alloc = alloc;
-    t->map = (void *)(uintptr_t)o.bytes;
-    t->map_size = o.size;
+    t->mapped = true;
     status = read_all(&o, t);
-    if (status)
+    if (status) {
         froe_tree_free(t);
-    else
-        *out = t;
-    return status;
+        munmap((void *)(uintptr_t)o.bytes, o.size);
+        return status;
+    }
+    t->scene->map = (void *)(uintptr_t)o.bytes;
+    t->scene->map_size = o.size;
+    *out = t;
+    return FROE_OK;
 }

@@ -4,7 +4,6 @@
 #include "tree/walk.h"
 #include "tree/wide.h"
 #include <string.h>
-#include <sys/mman.h>
 
 static void *take_array(const froe_allocator *alloc, size_t count, size_t item_size) {
     return base_realloc(alloc, NULL, 0, count ? count * item_size : 1);
@@ -28,10 +27,8 @@ void froe_tree_free(froe_tree *tree) {
     tree_spare_free(&alloc, tree->spare);
     tree_table_free(&alloc, tree->packed.table);
     tree_wide_free(&alloc, tree->packed.wide);
-    froe_scene_free(tree->scene); /* before the map: its arrays may lie there */
-    if (tree->map) {
-        munmap(tree->map, tree->map_size);
-    } else {
+    froe_scene_free(tree->scene);
+    if (!tree->mapped) {
         give_array(&alloc, tree->nodes, tree->node_count, sizeof *tree->nodes);
         give_array(&alloc, tree->cuts, tree->cut_count, sizeof *tree->cuts);
         give_array(&alloc, tree->pieces, tree->piece_count, sizeof *tree->pieces);

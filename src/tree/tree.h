@@ -106,8 +106,7 @@ struct froe_tree {
     froe_report report;              /**< computed once, by tree_finish */
     froe_promise promises[TREE_PROMISES + 1];
     tree_spare *spare;
-    void *map; /**< mapped file, or NULL */
-    size_t map_size;
+    bool mapped; /**< arrays lie in the file that the scene has mapped */
 };
 
 static inline bool tree_is_leaf(const tree_node *node) {
@@ -132,6 +131,12 @@ static inline tree_objects tree_packed_list(const froe_tree *t, const tree_node 
                           .mask = 0x3fffffffu,
                           .first = n->u.list.first,
                           .count = n->u.list.count};
+}
+/** First piece of a subtree (not of a packed tree): a node's list comes before those of its children, the left one
+ * first. */
+static inline uint32_t tree_first_piece(const froe_tree *t, uint32_t node) {
+    while (t->nodes[node].type == TREE_PLAIN) node = t->nodes[node].child;
+    return tree_is_leaf(t->nodes + node) ? t->nodes[node].u.list.first : t->cuts[t->nodes[node].u.cut].first;
 }
 /** The in-cut or leaf list of a node, wherever its layout keeps it. */
 static inline tree_objects tree_list(const froe_tree *t, uint32_t node) {

@@ -21,12 +21,6 @@ static uint32_t edge_of(const view_sights *s, uint32_t object, uint32_t side) {
     return s->surface->edge_of[s->tree->scene->starts[object] + side];
 }
 
-/* First piece of a subtree: a node's list comes before those of its children, the left one first. */
-static uint32_t first_piece(const froe_tree *t, uint32_t node) {
-    while (t->nodes[node].type == TREE_PLAIN) node = t->nodes[node].child;
-    return t->nodes[node].type == TREE_LEAF ? t->nodes[node].u.list.first : t->cuts[t->nodes[node].u.cut].first;
-}
-
 /* The way along an entry, the piece on its positive side; `facing` is the side of the eye. For an own edge the ring
  * turns left as the eye sees it when the eye is in front. On the support s of a patch the covector of a cut line is
  * -s(E) a(x). */
@@ -40,7 +34,7 @@ static view_way way_of(view_sights *s, uint32_t piece, uint32_t object, uint32_t
     }
     const uint32_t node = side & ~TREE_EDGE_CUT, patch = s->surface->patch_of[object];
     const uint32_t line = view_line_of_cut(s, patch, node);
-    const bool positive = piece >= first_piece(s->tree, s->tree->nodes[node].child + 1);
+    const bool positive = piece >= tree_first_piece(s->tree, s->tree->nodes[node].child + 1);
     const bool in_front = view_facing(s, surface_first(s->surface, patch)) > 0;
     return line == FROE_NONE ? FROE_NONE : 2 * line + (positive == in_front);
 }

@@ -124,28 +124,69 @@ static froe_status set_axes(const froe_camera *c, froe_projection *out, froe_dia
     return FROE_OK;
 }
 
-/* Bounds of all vertices on the page; false when one is not before the eye, or there is none. */
-static bool page_bounds(const froe_projection *view, const froe_scene *scene, double lo[2], double hi[2]) {
-    for (uint32_t i = 0; i < scene->vertex_count; i++) {
+/* Points that the page shall hold: all vertices, or what a section leaves of them and where it cuts edges. */
+typedef struct fit_points {
+    const double *at; /* 3 a point */
+    size_t count;
+    ARRAY(double) own;
+} fit_points;
+
+static bool keep(const froe_allocator *alloc, fit_points *points, const double *x) {
+    if (!array_reserve(alloc, &points->own, 3)) return false;
+    memcpy(points->own.data + points->own.count, x, 3 * sizeof *x);
+    points->own.count += 3;
+    return true;
+}
+
+/* What the section leaves of an edge of a polygon. */
+static bool keep_edge(const froe_allocator *alloc, fit_points *points, const double *plane, const double *a,
+                      const double *b) {
+    const double at_a = dot(plane, a) - plane[3], at_b = dot(plane, b) - plane[3];
+    double x[3];
+    if (at_a <= 0 && !keep(alloc, points, a)) return false;
+    if ((at_a <= 0) == (at_b <= 0)) return true;
+    for (int k = 0; k < 3; k++) x[k] = a[k] + at_a / (at_a - at_b) * (b[k] - a[k]);
+    return keep(alloc, points, x);
+}
+
+static bool fit_points_new(const froe_camera *c, const froe_scene *scene, fit_points *out) {
+    *out = (fit_points){.at = scene->coords, .count = scene->vertex_count};
+    if (!c->section) return true;
+    for (uint32_t o = 0; o < scene->object_count; o++) {
+        const uint32_t n = scene_corners(scene, o);
+        if (scene_form(scene, o) > FROE_POLYGON) continue; /* has no place in such pictures */
+        for (uint32_t i = 0; i < n; i++)
+            if (!keep_edge(&scene->alloc, out, c->section, scene_point(scene, o, i),
+                           scene_point(scene, o, i + 1 < n ? i + 1 : 0)))
+                return false;
+    }
+    out->at = out->own.data;
+    out->count = out->own.count / 3;
+    return true;
+}
+
+/* Bounds of all points on the page; false when one is not before the eye, or there is none. */
+static bool page_bounds(const froe_projection *view, const fit_points *points, double lo[2], double hi[2]) {
+    for (size_t i = 0; i < points->count; i++) {
         double page[2];
-        if (!froe_project(view, scene_vertex(scene, i), page)) return false;
+        if (!froe_project(view, points->at + 3 * i, page)) return false;
         for (int k = 0; k < 2; k++) {
             lo[k] = i ? fmin(lo[k], page[k]) : page[k];
             hi[k] = i ? fmax(hi[k], page[k]) : page[k];
         }
     }
-    return scene->vertex_count > 0;
+    return points->count > 0;
 }
 
-/* The distance from which the angle of view takes in every vertex. */
-static double distance_for(const froe_projection *view, const froe_camera *c, const froe_scene *scene,
+/* The distance from which the angle of view takes in every point. */
+static double distance_for(const froe_projection *view, const froe_camera *c, const fit_points *points,
                            const double *aim) {
     const double most_y = view_tan(c->fov / 2),
                  most_x = most_y * (c->width - 2 * c->margin) / (c->height - 2 * c->margin);
     double distance = 0;
-    for (uint32_t i = 0; i < scene->vertex_count; i++) {
+    for (size_t i = 0; i < points->count; i++) {
         double w[3];
-        for (int k = 0; k < 3; k++) w[k] = scene_vertex(scene, i)[k] - aim[k];
+        for (int k = 0; k < 3; k++) w[k] = points->at[3 * i + (size_t)k] - aim[k];
         const double out = dot(w, view->back);
         distance = fmax(distance, out + fabs(dot(w, view->right)) / most_x);
         distance = fmax(distance, out + fabs(dot(w, view->up)) / most_y);
@@ -154,12 +195,12 @@ static double distance_for(const froe_projection *view, const froe_camera *c, co
 }
 
 /* Scale (unless it is given) and centre, so that the scene fills the page within its margin. */
-static froe_status fill_page(const froe_camera *c, const froe_scene *scene, froe_projection *out,
+static froe_status fill_page(const froe_camera *c, const fit_points *points, froe_projection *out,
                              froe_diagnostic *diag) {
     double lo[2], hi[2];
     out->scale = c->parallel && c->scale > 0 ? c->scale : 1;
     out->centre[0] = out->centre[1] = 0;
-    if (!page_bounds(out, scene, lo, hi))
+    if (!page_bounds(out, points, lo, hi))
         return base_fail(diag, FROE_E_INPUT, "there is nothing before the eye to fit");
     if (!(c->parallel && c->scale > 0)) {
         const double x = hi[0] - lo[0], y = hi[1] - lo[1], room_x = c->width - 2 * c->margin,
@@ -193,14 +234,10 @@ static void set_window(froe_projection *out, double distance) {
     }
 }
 
-froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene, froe_projection *out,
-                              froe_diagnostic *diag) {
-    if (!camera || !scene || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
-    if (scene->dim != 3)
-        return base_fail(diag, FROE_E_UNSUPPORTED, "cameras look at scenes in space, not in R^%d", scene->dim);
+static froe_status put_in_place(const froe_camera *camera, const froe_scene *scene, const fit_points *points,
+                                froe_projection *out, froe_diagnostic *diag) {
     froe_projection view = {.width = camera->width, .height = camera->height, .eye.parallel = camera->parallel};
-    froe_status status = check(camera, diag);
-    if (!status) status = set_axes(camera, &view, diag);
+    froe_status status = set_axes(camera, &view, diag);
     if (status) return status;
     const double extent = extent_of(scene);
     double distance = extent;
@@ -209,7 +246,7 @@ froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene
         view.origin[k] = camera->fit ? middle : camera->parallel ? camera->target[k] : camera->eye[k];
     }
     if (camera->fit && !camera->parallel) {
-        distance = distance_for(&view, camera, scene, view.origin);
+        distance = distance_for(&view, camera, points, view.origin);
         if (!(distance > 0)) distance = extent;
         for (int k = 0; k < 3; k++) view.origin[k] += distance * view.back[k];
     }
@@ -217,7 +254,7 @@ froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene
     view.near = 1e-6 * extent;
     view.centre[0] = 0.5 * camera->width, view.centre[1] = 0.5 * camera->height;
     if (camera->fit || (camera->parallel && !(camera->scale > 0)))
-        status = fill_page(camera, scene, &view, diag);
+        status = fill_page(camera, points, &view, diag);
     else
         view.scale =
             camera->parallel ? camera->scale : (0.5 * camera->height - camera->margin) / view_tan(camera->fov / 2);
@@ -225,4 +262,18 @@ froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene
     set_window(&view, distance);
     *out = view;
     return FROE_OK;
+}
+
+froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene, froe_projection *out,
+                              froe_diagnostic *diag) {
+    fit_points points;
+    if (!camera || !scene || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (scene->dim != 3)
+        return base_fail(diag, FROE_E_UNSUPPORTED, "cameras look at scenes in space, not in R^%d", scene->dim);
+    froe_status status = check(camera, diag);
+    if (status) return status;
+    const bool ok = fit_points_new(camera, scene, &points);
+    status = ok ? put_in_place(camera, scene, &points, out, diag) : base_fail_memory(diag);
+    array_free(&scene->alloc, &points.own);
+    return status;
 }

@@ -1,6 +1,7 @@
 /* crossings.c: cut sides within the polygons of their cuts. */
 #include "view/crossings.h"
 #include "base/sort.h"
+#include <string.h>
 
 /* ---------------------------------------------------------------------- finding -- */
 
@@ -64,19 +65,40 @@ froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_r
         const uint32_t node = node_of(s, ring->data[i].way);
         if (node == FROE_NONE) continue;
         const tree_objects list = tree_list(s->tree, node);
-        if (!list.count) continue;
+        const bool section = node == 0 && c->section;
+        if (!list.count && !section) continue;
         const view_stretch side = stretch_of(ring, i);
         c->open.count = 0; /* first what is open: most is hidden */
         const froe_status status =
             view_screen_classify(c->screen, &side, side.edge, ring->data, (uint32_t)ring->count, keep_open, c);
         if (status) return status;
-        for (uint32_t k = 0; c->open.count && k < list.count; k++) {
+        for (size_t k = 0; section && k < c->open.count; k++)
+            if (!array_push(&s->alloc, out, c->open.data[k])) return FROE_E_MEMORY;
+        for (uint32_t k = 0; !section && c->open.count && k < list.count; k++) {
             const uint32_t object = tree_object(&list, k), other = s->surface->patch_of[object];
             if (other == FROE_NONE || other == patch || !view_facing(s, object)) continue;
             if (!keep_inside(c, list.first + k, out)) return FROE_E_MEMORY;
         }
     }
     return FROE_OK;
+}
+
+froe_status view_look_along_section(froe_visibility *v, uint32_t piece, uint32_t patch) {
+    const uint32_t root = froe_tree_root(v->tree).id1, n = froe_tree_piece(v->tree, piece).corners;
+    double *x = base_calloc(&v->alloc, 3 * (size_t)n + 1, sizeof *x);
+    froe_node *made = base_calloc(&v->alloc, (size_t)n + 1, sizeof *made);
+    bool ok = x && made;
+    if (ok) froe_tree_piece_corners(v->tree, piece, x, made, n);
+    for (uint32_t i = 0; ok && i < n; i++) {
+        froe_crossing line = {.patch = patch, .section = true};
+        if (made[i].id1 != root) continue;
+        memcpy(line.from, x + 3 * (size_t)i, sizeof line.from);
+        memcpy(line.to, x + 3 * (size_t)(i + 1 < n ? i + 1 : 0), sizeof line.to);
+        ok = array_push(&v->alloc, &v->crossings, line);
+    }
+    base_free(&v->alloc, x, (3 * (size_t)n + 1) * sizeof *x);
+    base_free(&v->alloc, made, ((size_t)n + 1) * sizeof *made);
+    return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
 /* ---------------------------------------------------------------------- joining -- */
@@ -94,7 +116,8 @@ static int by_line(void *user, uint32_t a, uint32_t b) {
 }
 
 static bool put_crossing(froe_visibility *v, uint32_t line, const view_end *from, const view_end *to) {
-    froe_crossing x = {.patch = v->sights.lines.data[line].a};
+    const view_line *l = v->sights.lines.data + line;
+    froe_crossing x = {.patch = l->a, .section = v->section && l->b == 0};
     const geom_plane plane = view_plane_of(&v->sights, x.patch);
     view_point_on(&v->sights, &plane, from->ray.x, x.from);
     view_point_on(&v->sights, &plane, to->ray.x, x.to);

@@ -27,8 +27,8 @@ typedef struct view_graph {
 froe_status view_graph_new(const froe_allocator *alloc, uint32_t nodes, graph_arc *arcs, size_t arc_count,
                            view_graph *out);
 void view_graph_free(const froe_allocator *alloc, view_graph *graph);
-/** Makes nodes late until no circle is left; a `fixed` node (NULL: none is) only where all of its circle are.
- * FROE_E_MEMORY. Not recursive (Tarjan 1972 with a stack of its own). */
+/** Makes nodes late until no circle is left; a `fixed` node (NULL: none is) only where all of
+ * its circle are. FROE_E_MEMORY. Not recursive (Tarjan 1972 with a stack of its own). */
 froe_status view_graph_break(const froe_allocator *alloc, view_graph *graph, const uint8_t *fixed);
 /** All nodes so that arcs point forward, those from late nodes apart. Stays with one style as long as it can, then
  * takes up that with the most nodes ready; among equals the lowest number. REQUIRES: no circles. FROE_E_MEMORY. */

@@ -90,17 +90,22 @@ static int side_at(view_order *order, uint32_t node) {
     return view_side_of_eye(&order->context, order->tree, node, &order->eye);
 }
 
+static bool push_child(view_order *order, uint32_t node, uint32_t child) {
+    const bool away = node == 0 && order->section && child != order->tree->nodes->child + (order->section > 0);
+    return away || array_push(&order->tree->alloc, &order->visits, (view_visit){child, false});
+}
+
 /* Leaves the two children of a node, and its list between them, pending. */
 static bool push_node(view_order *order, uint32_t node) {
     const froe_allocator *alloc = &order->tree->alloc;
     const tree_node *n = order->tree->nodes + node;
     uint32_t near = n->child + (side_at(order, node) >= 0), far = 2 * n->child + 1 - near;
     uint32_t first = order->front_to_back ? near : far, last = order->front_to_back ? far : near;
-    if (!array_push(alloc, &order->visits, (view_visit){last, false})) return false;
+    if (!push_child(order, node, last)) return false;
     if (n->type == TREE_TABLED && order->tree->cuts[n->u.cut].count &&
         !array_push(alloc, &order->visits, (view_visit){node, true}))
         return false;
-    return array_push(alloc, &order->visits, (view_visit){first, false});
+    return push_child(order, node, first);
 }
 
 static bool visit(view_order *order) {

@@ -28,6 +28,7 @@ typedef struct view_order {
     num_context context;
     froe_status status;
     bool front_to_back;
+    int section;           /**< of the root's children only that one, see froe_visibility_options; set after begin */
     const uint32_t *ranks; /**< per object; NULL: the face */
     const uint64_t *sides; /**< per node, two bits per eye from `shift` on: side + 1. NULL: computed on the way */
     unsigned shift;

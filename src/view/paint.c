@@ -62,11 +62,16 @@ static bool put_strips(view_painter *p) {
     return !p->seams.parts || view_seams_flush(&p->seams, &p->picture->points, &p->picture->ring_ends);
 }
 
+static bool is_clear(const view_painter *p, uint32_t patch) {
+    return p->options->clear && p->options->clear[patch];
+}
+
 /* `node` paints it; FROE_NONE: by itself. */
 static bool put_region(view_painter *p, uint32_t patch, uint32_t node) {
     froe_picture *picture = p->picture;
     const view_region *r = &p->region;
     const view_sights *s = p->sights;
+    const bool strips = node != FROE_NONE && !is_clear(p, patch);
     if (view_region_make(&p->region, p->v, p->sights, patch) || !view_begin_shape(picture, patch, false)) return false;
     for (size_t i = 0; i + 1 < r->starts.count; i++) {
         const size_t first = picture->points.count;
@@ -77,15 +82,11 @@ static bool put_region(view_painter *p, uint32_t patch, uint32_t node) {
                             page);
             picture->points.data[picture->points.count++] = (print_point){page[0], page[1]};
         }
-        if (!end_ring(picture, first) || (node != FROE_NONE && !look_along(p, node, first))) return false;
+        if (!end_ring(picture, first) || (strips && !look_along(p, node, first))) return false;
     }
-    if (node != FROE_NONE && !put_strips(p)) return false;
+    if (strips && !put_strips(p)) return false;
     view_end_shape(picture);
     return true;
-}
-
-static bool is_clear(const view_painter *p, uint32_t patch) {
-    return p->options->clear && p->options->clear[patch];
 }
 
 /* The visible parts of one piece of the tree. */
@@ -109,6 +110,11 @@ static bool put_parts_of_piece(view_painter *p, uint32_t number) {
 
 /* ------------------------------------------------------------------------- whole -- */
 
+/* Is nothing painted of a patch but what is visible? */
+static bool is_clipped(const view_painter *p, uint32_t node) {
+    return p->graph.late[node] || p->parts.split[p->parts.nodes.data[node].patch] == PARTS_REGION;
+}
+
 /* Runs of patches of one style without lines between; patches painted whole and opaque get the number of theirs. */
 static void number_runs(view_painter *p) {
     uint32_t run = 0, last = FROE_NONE;
@@ -119,7 +125,7 @@ static void number_runs(view_painter *p) {
         const uint32_t style = p->options->styles ? p->options->styles[node->patch] : 0;
         run += style != last || (p->breaks && p->breaks[i]);
         last = style;
-        if (node->piece == FROE_NONE && !p->graph.late[v] && !is_clear(p, node->patch)) p->runs[node->patch] = run;
+        if (node->piece == FROE_NONE && !is_clipped(p, v) && !is_clear(p, node->patch)) p->runs[node->patch] = run;
     }
 }
 
@@ -155,7 +161,7 @@ froe_status view_paint_whole(view_painter *p) {
         p->painted[i] = (uint32_t)p->picture->shapes.count;
         const bool ok = is_left_out(p, node->patch) ? true
                         : node->piece != FROE_NONE  ? put_parts_of_piece(p, v)
-                        : p->graph.late[v]          ? put_region(p, node->patch, v)
+                        : is_clipped(p, v)          ? put_region(p, node->patch, v)
                                                     : put_whole(p, node->patch, v);
         if (!ok) return FROE_E_MEMORY;
         if (p->picture->points.count > INT32_MAX) return FROE_E_LIMIT;

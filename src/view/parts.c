@@ -89,10 +89,10 @@ static bool add_nodes(view_parts *p, uint32_t patch) {
     const froe_visibility *v = p->v;
     const froe_allocator *alloc = &v->alloc;
     p->node_of_patch[patch] = (uint32_t)p->nodes.count;
-    if (!p->split[patch] && !array_push(alloc, &p->nodes, (paint_node){patch, FROE_NONE})) return false;
+    const bool pieces = p->split[patch] == PARTS_PIECES;
+    if (!pieces && !array_push(alloc, &p->nodes, (paint_node){patch, FROE_NONE})) return false;
     for (uint32_t i = v->patch_starts[patch]; i < v->patch_starts[patch + 1]; i++) {
-        const bool next =
-            p->split[patch] && (i == v->patch_starts[patch] || v->pieces[i].piece != v->pieces[i - 1].piece);
+        const bool next = pieces && (i == v->patch_starts[patch] || v->pieces[i].piece != v->pieces[i - 1].piece);
         if (next && !array_push(alloc, &p->nodes, (paint_node){patch, v->pieces[i].piece})) return false;
         p->node_of[i] = (uint32_t)p->nodes.count - 1;
     }
@@ -104,7 +104,7 @@ static bool add_parts_of_patch(view_parts *p, view_sights *sights, uint32_t patc
     const froe_visibility *v = p->v;
     for (uint32_t i = v->patch_starts[patch]; p->split[patch] && i < v->patch_starts[patch + 1]; i++)
         if (!add_part(p, sights, p->node_of[i], PART_VISIBLE, i, v->pieces[i].place)) return false;
-    for (uint32_t m = s->patch_starts[patch]; !p->clear && m < s->patch_starts[patch + 1]; m++)
+    for (uint32_t m = s->patch_starts[patch]; !p->clear && !p->split[patch] && m < s->patch_starts[patch + 1]; m++)
         if (is_drawn(p, sights, s->members[m]) &&
             !add_part(p, sights, p->node_of_patch[patch], PART_OBJECT, s->members[m], 0))
             return false;

@@ -1,8 +1,8 @@
 /* parts.h: what will be painted, before it is known in which order: nodes of the order graph, and the convex parts
  * that each of them paints.
  *
- * A node is a whole patch, painted with all its polygons, or a single piece of the tree, of which only what is visible
- * is painted. Nodes are pieces only where one sees through something and whole patches would form circles. */
+ * A node is a whole patch, painted with all its polygons, or what is visible of one that a section cuts, or of a single
+ * piece of the tree: this only where one sees through something and whole patches would form circles. */
 #ifndef FROE_VIEW_PARTS_H
 #define FROE_VIEW_PARTS_H
 #include "view/graph.h"
@@ -21,6 +21,9 @@ typedef struct paint_part {
     uint32_t first, count; /**< its ring on the page, in `points` */
 } paint_part;
 
+/** How a patch is painted: `split` of view_parts. */
+enum { PARTS_WHOLE, PARTS_PIECES, PARTS_REGION };
+
 /** What `source` of a part is. */
 enum { PART_OBJECT, PART_PIECE, PART_VISIBLE };
 
@@ -30,7 +33,7 @@ typedef struct view_parts {
     bool clear; /**< one sees through some patches: parts are pieces of the tree, with places */
     bool cull_back;
     uint32_t *places;        /**< clear: per piece of the tree, its place front to back */
-    uint8_t *split;          /**< per patch: its nodes are pieces */
+    uint8_t *split;          /**< per patch: PARTS_... */
     uint32_t *node_of_patch; /**< per patch: its node (its first, when split); FROE_NONE: not visible */
     uint32_t *node_of;       /**< per visible piece */
     ARRAY(paint_node) nodes;

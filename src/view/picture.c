@@ -5,7 +5,7 @@
 #include <math.h>
 
 froe_picture_options froe_picture_defaults(void) {
-    return (froe_picture_options){.size = sizeof(froe_picture_options), .crease = 30, .max_graph = 50000000};
+    return (froe_picture_options){.size = sizeof(froe_picture_options), .crease = 30};
 }
 
 const char *froe_paint_name(froe_paint paint) {
@@ -29,6 +29,8 @@ const char *froe_line_name(froe_line kind) {
         return "mesh";
     case FROE_LINE_CROSSING:
         return "crossing";
+    case FROE_LINE_SECTION:
+        return "section";
     default:
         return NULL;
     }
@@ -60,7 +62,8 @@ static froe_status look(view_painter *p, const froe_tree *tree, const froe_surfa
     look.priorities = o->priorities;
     look.edges = kinds;
     look.cull_back = o->cull_back;
-    look.crossings = o->lines & FROE_LINE_CROSSING;
+    look.crossings = o->lines & (FROE_LINE_CROSSING | FROE_LINE_SECTION);
+    look.section = o->section;
     look.alloc = &p->picture->alloc;
     look.progress = o->progress;
     look.user = o->user;

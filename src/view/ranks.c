@@ -26,6 +26,7 @@ froe_status view_find_places(const froe_visibility *v, const int32_t *priorities
     froe_status status = view_rank_objects(&v->alloc, v->surface, priorities, &ranks);
     if (!status) {
         status = view_order_begin(&order, v->tree, &v->sights.eye, true, ranks);
+        order.section = v->section;
         while (!status && view_order_next(&order, &piece)) places[piece] = place++;
         status = view_order_end(&order) ? FROE_E_MEMORY : status;
     }

@@ -13,12 +13,30 @@ static void set_end(const view_painter *p, view_segment *s, int e, const double 
     s->near[e] = view->eye.parallel ? -at[2] : 1 / at[2];
 }
 
+/* What of a hidden stretch the section has left; visible ones end there anyway. */
+static bool clip_to_section(const view_painter *p, const double *a, const double *b, double share[2]) {
+    const froe_tree *t = p->v->tree;
+    double at[2] = {0, 0};
+    if (!p->v->section) return true;
+    const froe_cut cut = tree_cut_at(t, 0);
+    for (int k = 0; k < 3; k++) {
+        const double n = cut.kind == FROE_CUT_PLANE ? cut.normal[k] : k == cut.axis;
+        at[0] += n * a[k], at[1] += n * b[k];
+    }
+    for (int e = 0; e < 2; e++) at[e] = (at[e] - cut.value) * p->v->section;
+    if (at[0] < 0 && at[1] < 0) return false;
+    if (at[0] < 0) share[0] = fmax(share[0], at[0] / (at[0] - at[1]));
+    if (at[1] < 0) share[1] = fmin(share[1], at[0] / (at[0] - at[1]));
+    return share[0] < share[1];
+}
+
 /* The part of an edge between two shares, as far as it is on the page. */
 static bool add_segment(view_painter *p, uint32_t edge, uint8_t kind, double from, double to, bool hidden) {
     const uint32_t *v = p->sights->surface->vertices + 2 * (size_t)edge;
     const double *a = view_vertex(p->sights, v[0]), *b = view_vertex(p->sights, v[1]);
     double share[2] = {from, to};
-    if (!(from < to) || !print_clip_segment(p->options->view, a, b, hidden ? 0 : 1e-6, share)) return true;
+    if (!(from < to) || (hidden && !clip_to_section(p, a, b, share))) return true;
+    if (!print_clip_segment(p->options->view, a, b, hidden ? 0 : 1e-6, share)) return true;
     view_segment s = {.kind = kind, .hidden = hidden, .place = FROE_NONE};
     s.vertex[0] = share[0] == 0 ? v[0] : FROE_NONE;
     s.vertex[1] = share[1] == 1 ? v[1] : FROE_NONE;
@@ -65,8 +83,10 @@ static bool add_crossings(view_painter *p) {
     const froe_crossing *x = froe_visibility_crossings(p->v, &count);
     for (size_t i = 0; i < count; i++) {
         double share[2] = {0, 1};
-        if (!print_clip_segment(p->options->view, x[i].from, x[i].to, 1e-6, share)) continue;
-        view_segment s = {.kind = FROE_LINE_CROSSING, .place = FROE_NONE};
+        const uint32_t kind = x[i].section ? FROE_LINE_SECTION : FROE_LINE_CROSSING;
+        if (!(p->options->lines & kind) || !print_clip_segment(p->options->view, x[i].from, x[i].to, 1e-6, share))
+            continue;
+        view_segment s = {.kind = (uint8_t)kind, .place = FROE_NONE};
         for (int e = 0; e < 2; e++) set_end(p, &s, e, x[i].from, x[i].to, share[e]);
         if (!array_push(&p->picture->alloc, &p->segments, s)) return false;
     }

@@ -14,7 +14,7 @@ typedef struct chainer {
 } chainer;
 
 static uint32_t class_of(const view_segment *s) {
-    return (s->hidden ? 0u : 256u) + s->kind;
+    return (s->hidden ? 0u : (uint32_t)FROE_LINE_END) + s->kind;
 }
 
 static bool list_ends(chainer *c) {

@@ -20,6 +20,7 @@ typedef struct looker {
     ARRAY(view_piece) pieces;
     uint32_t *ranks; /* per object */
     view_piece now;
+    bool section_first; /* nothing can hide what lies in the section */
 } looker;
 
 /* --------------------------------------------------------------------- looking -- */
@@ -60,6 +61,7 @@ static froe_status look_at(looker *k, uint32_t piece, uint32_t place) {
     const uint32_t object = v->tree->pieces[piece].object, patch = v->surface->patch_of[object];
     if (patch == FROE_NONE) return FROE_OK;
     const int facing = view_facing(&v->sights, object);
+    if (!facing && k->section_first) return view_look_along_section(v, piece, patch);
     if (!facing || (k->options->cull_back && facing < 0)) return FROE_OK;
     if (!view_beam_of(&v->sights, piece, &k->ring)) return FROE_E_MEMORY;
     const froe_status status = look_at_edges(k, piece);
@@ -74,6 +76,9 @@ static froe_status look_at_all(looker *k) {
     view_order order;
     uint32_t piece, place = 0;
     froe_status status = view_order_begin(&order, v->tree, &v->sights.eye, true, k->ranks);
+    order.section = v->section;
+    if (v->section && k->options->crossings)
+        k->section_first = view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) == -v->section;
     while (!status && k->screen.open && view_order_next(&order, &piece)) {
         status = look_at(k, piece, place++);
         if (place % 1024 == 0 && !base_progress(&k->task, 0.9 * place / v->tree->piece_count))
@@ -122,7 +127,7 @@ static froe_status look(looker *k, const geom_eye *eye) {
     froe_status status = view_sights_new(&v->sights, v->tree, v->surface, eye, k->options->window,
                                          (uint32_t)k->options->window_corners, &v->alloc);
     if (!status) status = view_screen_new(&k->screen, &v->sights);
-    k->crosser = (view_crosser){.sights = &v->sights, .screen = &k->screen};
+    k->crosser = (view_crosser){.sights = &v->sights, .screen = &k->screen, .section = v->section != 0};
     if (!status) status = view_rank_objects(&v->alloc, v->surface, k->options->priorities, &k->ranks);
     if (!status) status = look_at_all(k);
     if (!status) status = sort_pieces(k);
@@ -148,6 +153,10 @@ static froe_status check(const froe_tree *tree, const froe_surface *surface, con
     if (!o || o->size != sizeof *o)
         return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_visibility_defaults()");
     if (surface->scene != tree->scene) return base_fail(diag, FROE_E_ARG, "the surface is not of the tree's scene");
+    if (o->section < -1 || o->section > 1)
+        return base_fail(diag, FROE_E_OPTIONS, "a section is -1, 0 or 1, not %d", o->section);
+    if (o->section && tree_is_leaf(tree->nodes))
+        return base_fail(diag, FROE_E_OPTIONS, "a tree of a single leaf has no cut to be its section");
     if (o->window && (o->window_corners < 3 || o->window_corners > FROE_WINDOW_MOST))
         return base_fail(diag, FROE_E_OPTIONS, "a window has 3 to %d corners, not %zu", FROE_WINDOW_MOST,
                          o->window_corners);
@@ -186,6 +195,7 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     v->alloc = alloc;
     v->tree = tree;
     v->surface = surface;
+    v->section = options->section;
     looker k = {.v = v, .options = options};
     base_task_init(&k.task, 1, options->progress, options->user);
     status = look(&k, &eye);

@@ -14,6 +14,7 @@ struct froe_visibility {
     const froe_tree *tree;
     const froe_surface *surface;
     view_sights sights;
+    int section;        /**< see froe_visibility_options */
     view_piece *pieces; /**< ordered by patch, then place */
     uint32_t piece_count;
     ARRAY(view_corner) corners;

@@ -1,0 +1,207 @@
+/* test_section.c: pictures of what a plane has left, against exact rays; and where such trees come from. */
+#include "pages.h"
+#include "support/memory.h"
+
+static froe_tree *section_of(const froe_tree *tree, const double *plane) {
+    froe_diagnostic why = {.message = ""};
+    froe_tree *out;
+    if (froe_tree_section(tree, plane, NULL, &out, &why)) fail_msg("%s", why.message);
+    if (froe_tree_audit(out, NULL, &why)) fail_msg("%s", why.message);
+    return out;
+}
+
+/* Random planes, and such as hold vertices or polygons: the first three corners of an object are small whole numbers on
+ * the lattice, and so is their plane. */
+static void plane_of(const froe_scene *s, uint32_t i, double plane[4]) {
+    const double *a = scene_point(s, i, 0), *b = scene_point(s, i, 1), *c = scene_point(s, i, 2);
+    plane[3] = 0;
+    for (int k = 0; k < 3; k++) {
+        const int m = (k + 1) % 3, n = (k + 2) % 3;
+        plane[k] = i % 3 == 0   ? (b[m] - a[m]) * (c[n] - a[n]) - (b[n] - a[n]) * (c[m] - a[m])
+                   : i % 3 == 1 ? k == (int)(i % 2)
+                                : trees_unit(7, 3 * i + (uint32_t)k) - 0.5;
+        plane[3] += plane[k] * (i % 3 == 2 ? 0.5 * (s->lo[k] + s->hi[k]) : a[k]);
+    }
+}
+
+static void check(froe_tree *tree, const char *method, froe_paint paint, bool through) {
+    uint64_t shown = 0, clipped = 0;
+    froe_tree *other = trees_build(tree->scene, method, 1);
+    froe_tree_free(tree);
+    for (uint32_t i = 0; i < 6; i++) {
+        double plane[4];
+        page p;
+        plane_of(other->scene, i, plane);
+        tree = section_of(other, plane);
+        open_page(&p, tree);
+        uint8_t *clear = calloc(p.surface->patch_count + 1, 1);
+        for (uint32_t k = 0; k < p.surface->patch_count; k++) clear[k] = through && trees_random(11, k, 2);
+        p.section = plane;
+        p.options.section = -1;
+        p.options.paint = paint;
+        p.options.underlap = 2;
+        p.options.lines = 255;
+        p.options.hidden = true;
+        if (through) p.options.clear = clear;
+        set_view(&p, 3 * i + 1);
+        check_view(&p, 60, i);
+        const froe_picture_report r = froe_picture_statistics(p.picture);
+        shown += p.shown, clipped += r.shapes - r.whole - r.late;
+        froe_picture_free(p.picture);
+        free(clear);
+        close_page(&p);
+        froe_tree_free(tree);
+    }
+    assert_true(shown > 20);
+    assert_true(clipped > 0);
+    froe_tree_free(other);
+}
+
+static void what_is_left_is_seen(void **state) {
+    (void)state;
+    check(trees_grow(3, FROE_POLYGON, 60, 0, 1, "density", 1), "grain", FROE_PAINT_WHOLE, false);
+    check(trees_grow(3, FROE_POLYGON, 60, 3, 2, "density", 1), "density", FROE_PAINT_WHOLE, false);
+    check(trees_grow(3, FROE_POLYGON, 60, 0, 3, "density", 1), "autopartition", FROE_PAINT_REGIONS, false);
+    check(trees_grow(3, FROE_POLYGON, 50, 3, 4, "density", 1), "grain", FROE_PAINT_FRAGMENTS, false);
+}
+
+static void one_sees_through_what_is_left(void **state) {
+    (void)state;
+    check(trees_grow(3, FROE_POLYGON, 40, 0, 5, "density", 1), "grain", FROE_PAINT_WHOLE, true);
+}
+
+/* A box of six squares. */
+static froe_tree *box(void) {
+    static const int face[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    double x[72];
+    const size_t starts[7] = {0, 4, 8, 12, 16, 20, 24};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (int i = 0; i < 72; i++) x[i] = (face[i / 12][i / 3 % 4] >> i % 3 & 1) * (i % 3 == 2 ? 30 : 10);
+    froe_objects o = froe_objects_defaults();
+    o.count = 6, o.coords = x, o.starts = starts;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "grain", 1);
+    froe_scene_free(scene);
+    return tree;
+}
+
+/* From above, one looks into it: its walls are lines, seen edge-on, and drawn for the section alone. From beside, the
+ * section is one line, and hidden lines end there. */
+static void sections_are_lines(void **state) {
+    (void)state;
+    const double plane[4] = {0, 0, 2, 24};
+    froe_tree *whole = box(), *tree = section_of(whole, plane);
+    froe_tree_free(whole);
+    for (int beside = 0; beside < 2; beside++) {
+        double length[2] = {0, 0}, hidden = 0;
+        page p;
+        open_page(&p, tree);
+        p.section = plane;
+        p.options.section = -1;
+        p.options.lines = FROE_LINE_SECTION | FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_CREASE;
+        p.options.hidden = true;
+        froe_camera c = froe_camera_defaults();
+        c.parallel = true;
+        c.scale = 10;
+        c.eye[0] = 0, c.eye[1] = beside ? -1 : 0, c.eye[2] = beside ? 0 : 1;
+        place(&p, &c);
+        check_view(&p, 20, 1);
+        for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
+            const froe_stroke s = froe_picture_stroke(p.picture, i);
+            if (s.hidden)
+                hidden += length_of(&s);
+            else
+                length[s.kind == FROE_LINE_SECTION] += length_of(&s);
+        }
+        assert_true(fabs(length[1] - (beside ? 100 : 400)) < 1e-6);
+        if (beside) assert_true(fabs(length[0] - (2 * 120 + 100)) < 1e-6 && hidden < 2 * 120 + 100 + 1e-6);
+        froe_picture_free(p.picture);
+        close_page(&p);
+    }
+    froe_tree_free(tree);
+}
+
+static void a_section_outlives_the_file_it_comes_from(void **state) {
+    (void)state;
+    const double plane[4] = {1, 1, 0, 7};
+    froe_tree *tree = box(), *opened, *section;
+    assert_int_equal(froe_tree_save(tree, "section.froe", NULL), FROE_OK);
+    froe_tree_free(tree);
+    assert_int_equal(froe_tree_open("section.froe", NULL, &opened, NULL), FROE_OK);
+    section = section_of(opened, plane);
+    froe_tree_free(opened);
+    assert_int_equal(froe_tree_audit(section, NULL, NULL), FROE_OK);
+    const froe_cut cut = froe_tree_node(section, froe_tree_root(section)).cut;
+    assert_int_equal(cut.kind, FROE_CUT_PLANE);
+    assert_true(cut.value == 7 && cut.normal[0] == 1 && cut.normal[1] == 1 && cut.normal[2] == 0);
+    assert_int_equal(froe_tree_save(section, "section.froe", NULL), FROE_OK);
+    froe_tree_free(section);
+    assert_int_equal(froe_tree_open("section.froe", NULL, &opened, NULL), FROE_OK);
+    froe_tree_free(opened);
+}
+
+static void refuse(const froe_tree *tree, const double *plane, froe_status expected, const char *sentence) {
+    froe_diagnostic why = {.message = ""};
+    froe_tree *out = NULL;
+    assert_int_equal(froe_tree_section(tree, plane, NULL, &out, &why), expected);
+    assert_null(out);
+    assert_non_null(strstr(why.message, sentence));
+}
+
+static void bad_sections_are_refused(void **state) {
+    (void)state;
+    const double bad[3][4] = {{0, 0, 0, 1}, {1, NAN, 0, 1}, {1, 0, 0, INFINITY}}, good[4] = {1, 0, 0, 5};
+    froe_tree *tree = box(), *other = trees_build(tree->scene, "index", 8);
+    refuse(tree, bad[0], FROE_E_ARG, "length 0");
+    refuse(tree, bad[1], FROE_E_ARG, "number 1");
+    refuse(tree, bad[2], FROE_E_ARG, "number 3");
+    refuse(tree, NULL, FROE_E_ARG, "NULL");
+    refuse(other, good, FROE_E_UNSUPPORTED, "'index' takes no first cut");
+    froe_visibility_options o = froe_visibility_defaults();
+    froe_visibility *v;
+    froe_surface *surface;
+    assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+    o.section = 2;
+    assert_int_equal(froe_visibility_new(tree, surface, &o, &v, NULL), FROE_E_OPTIONS);
+    froe_surface_free(surface);
+    froe_tree_free(tree);
+    froe_tree_free(other);
+}
+
+static froe_status section_with(void *user, const froe_allocator *alloc) {
+    page *p = user;
+    froe_picture *picture = NULL;
+    p->options.alloc = alloc;
+    froe_status status = froe_picture_new(p->tree, p->surface, &p->options, &picture, NULL);
+    froe_picture_free(picture);
+    return status;
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    const double plane[4] = {0, 0, 2, 24};
+    froe_tree *whole = box(), *tree = section_of(whole, plane);
+    page p;
+    open_page(&p, tree);
+    p.options.section = -1;
+    p.options.lines = 255;
+    p.options.hidden = true;
+    froe_camera c = froe_camera_defaults();
+    c.parallel = true;
+    c.eye[0] = c.eye[1] = 0, c.eye[2] = 1;
+    place(&p, &c);
+    assert_true(test_memory_each(section_with, &p) > 20);
+    close_page(&p);
+    froe_tree_free(tree);
+    froe_tree_free(whole);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_left_is_seen),     cmocka_unit_test(one_sees_through_what_is_left),
+        cmocka_unit_test(sections_are_lines),       cmocka_unit_test(a_section_outlives_the_file_it_comes_from),
+        cmocka_unit_test(bad_sections_are_refused), cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
