@@ -118,15 +118,15 @@ static double small_ranges(void) {
 }
 
 /* Exponent of the cost in 1 / eps. */
-static double by_eps(const char *kind, size_t n, const char *method) {
+static double by_eps(const char *kind, size_t n, const char *method, const char *settings) {
     claims_series s = {.count = 0};
-    claims_tree t = claims_build(kind, n, method, NULL, FROE_LEAF_OWN);
+    claims_tree t = claims_build(kind, n, method, settings, FROE_LEAF_OWN);
     for (int i = 2; i <= 6; i++) claims_add(&s, ldexp(1, i), cost(&t, window, ldexp(1, -i)));
     claims_free(&t);
     return claims_slope(&s);
 }
 static double bar_plane_by_eps(void) {
-    return by_eps("scatter", 60000, "bar");
+    return by_eps("scatter", 60000, "bar", NULL);
 }
 static double bar_by_n(void) {
     return growth("scatter", 8000, 4, "bar", window, 0.125);
@@ -139,6 +139,95 @@ static double bar_height(void) {
         claims_free(&t);
     }
     return claims_slope(&s);
+}
+
+/* ------------------------------------------------- segments by way of endpoints -- */
+
+/* A converted tree beside the kd-tree of the endpoints, its plan. */
+typedef struct conversion {
+    claims_tree tree, plan;
+    double n, height; /* height of the plan */
+} conversion;
+
+static froe_scene *endpoints_of(const froe_scene *scene) {
+    froe_scene *points;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_POINT;
+    batch.count = froe_scene_vertex_count(scene);
+    batch.coords = froe_scene_vertex(scene, 0);
+    if (froe_scene_new(2, NULL, &points) || froe_scene_add(points, &batch, NULL)) exit(1);
+    return points;
+}
+
+static conversion convert(const char *kind, size_t n) {
+    conversion c = {.tree = claims_build(kind, n, "converted", NULL, FROE_LEAF_OWN)};
+    c.plan.scene = endpoints_of(c.tree.scene);
+    c.plan.tree = bench_build(c.plan.scene, "kd", NULL, 1, 1, NULL);
+    c.plan.report = froe_tree_report(c.plan.tree);
+    c.n = (double)c.tree.report.objects;
+    c.height = (double)c.plan.report.height;
+    return c;
+}
+
+static void conversion_free(conversion *c) {
+    claims_free(&c->tree);
+    claims_free(&c->plan);
+}
+
+static const char *const disjoint_kinds[] = {"disjoint", "parallel", "spiral", "star", "nested", NULL};
+
+/* The worst over disjoint segments of a number of their conversion. */
+typedef double conversion_fn(const conversion *c);
+static double worst_conversion(conversion_fn *fn) {
+    double worst = 0;
+    for (const char *const *kind = disjoint_kinds; *kind; kind++) {
+        conversion c = convert(*kind, 8000);
+        worst = fmax(worst, fn(&c));
+        conversion_free(&c);
+    }
+    return worst;
+}
+
+static double height_over_plan(const conversion *c) {
+    return (double)c->tree.report.height / c->height;
+}
+static double converted_height(void) {
+    return worst_conversion(height_over_plan);
+}
+static double size_over_plan(const conversion *c) {
+    return (double)c->tree.report.size / (c->n * c->height);
+}
+static double converted_size(void) {
+    return worst_conversion(size_over_plan);
+}
+
+/* Windows of a third of the scene, exact: nodes over (v + k) height, where the plan has v cells that they meet. */
+static double visits_over_plan(const conversion *c) {
+    asker of_tree = begin(&c->tree), of_plan = begin(&c->plan);
+    double worst = 0;
+    for (int i = 0; i < QUERIES; i++) {
+        double points[4];
+        uint64_t k, endpoints;
+        froe_range box = froe_range_defaults();
+        const double side = of_tree.side * ldexp(0.5, -(i % 8)); /* of all sizes */
+        draw_place(&of_tree, 0.1, points);
+        for (int axis = 0; axis < 2; axis++) points[2 + axis] = points[axis] + side;
+        box.points = points;
+        if (froe_query_count(of_tree.query, &box, &k, NULL)) exit(1);
+        if (froe_query_count(of_plan.query, &box, &endpoints, NULL)) exit(1);
+        const double nodes = (double)froe_query_statistics(of_tree.query).nodes;
+        const double v = (double)froe_query_statistics(of_plan.query).leaves;
+        worst = fmax(worst, nodes / ((v + (double)k) * c->height));
+    }
+    froe_query_free(of_tree.query);
+    froe_query_free(of_plan.query);
+    return worst;
+}
+static double converted_visits(void) {
+    return worst_conversion(visits_over_plan);
+}
+static double converted_by_eps(void) {
+    return fmax(by_eps("disjoint", 60000, "converted", "from=bar"), by_eps("parallel", 8000, "converted", "from=bar"));
 }
 
 const claim claims_query[] = {
@@ -154,6 +243,15 @@ const claim claims_query[] = {
      "exponent of nodes + leaves + tests in 1 / eps, scatter", -INFINITY, 1.05, bar_plane_by_eps},
     {"de Berg and Streppel, corollary 2", "and whatever n", "bar",
      "exponent of nodes + leaves + tests in n, eps = 1/8, scatter", -INFINITY, 0.25, bar_by_n},
+    {"de Berg and Streppel, theorem 1 (i)", "height O(depth) of the BSP of points", "converted",
+     "height / height of the kd-tree of endpoints, worst of five scenes", 1, 3, converted_height},
+    {"de Berg and Streppel, theorem 1 (ii)", "size O(n depth)", "converted",
+     "size / (n height of the kd-tree of endpoints), worst of five scenes", 0.1, 1.2, converted_size},
+    {"de Berg and Streppel, theorem 1 (iii)", "O((v + k) depth) nodes visited", "converted",
+     "nodes / ((v + k) height of the kd-tree of endpoints), worst window of five scenes", 0, 3, converted_visits},
+    {"de Berg and Streppel, corollary 2", "O(log n / eps) for disjoint segments", "bar",
+     "exponent of nodes + leaves + tests in 1 / eps, converted from bar; worse of disjoint, parallel", -INFINITY, 1.05,
+     converted_by_eps},
     {"de Berg and Streppel, theorem 1", "height O(log n) where others are as high as n", "bar",
      "exponent of height in log n, nested", 0.5, 1.5, bar_height},
     {0}};

@@ -307,6 +307,24 @@ static double cylindrical_height(void) {
     return claims_slope(&s);
 }
 
+/* ------------------------------------------------------------- Paterson and Yao -- */
+
+static double pieces_per_n_log_n(const claims_tree *t) {
+    const double n = (double)t->report.objects;
+    return pieces(t) / (n * log(n));
+}
+static double slabs(void) {
+    return fmax(growth("parallel", 1000, 4, "paterson_yao", "rule=slabs", 1, pieces_per_n_log_n),
+                growth("disjoint", 1000, 4, "paterson_yao", "rule=slabs", 1, pieces_per_n_log_n));
+}
+static double orthogonal_in_the_plane(void) {
+    static const char *const kinds[] = {"cells", "walls", "rows", NULL};
+    return worst_growth(kinds, 1000, 4, "paterson_yao", pieces);
+}
+static double orthogonal_bars(void) {
+    return growth("bars", 200, 4, "paterson_yao", NULL, FROE_LEAF_OWN, pieces);
+}
+
 /* ------------------------------------------------------------- all, and froe's own -- */
 
 /* The greatest measured / promised of all promises of all methods. */
@@ -386,6 +404,12 @@ const claim claims_size[] = {
      "exponent of nodes / (n log n + k) in n, slats", -INFINITY, 0.1, cylindrical_crossings},
     {"Agarwal et al., theorem 2.3", "height O(log n)", "cylindrical", "exponent of height in log n, disjoint", 0.5, 1.4,
      cylindrical_height},
+    {"Paterson and Yao 1990", "O(n log n) pieces of disjoint segments", "paterson_yao",
+     "exponent of pieces / (n log n) in n; worse of parallel, disjoint", -INFINITY, 0.1, slabs},
+    {"Paterson and Yao 1992", "few pieces of axis-parallel objects in the plane", "paterson_yao",
+     "exponent of pieces in n; worst of cells, walls, rows", 0.9, 1.05, orthogonal_in_the_plane},
+    {"Paterson and Yao 1992", "n^1.5 in space, where it must be", "paterson_yao", "exponent of pieces in n, bars", 1.35,
+     1.65, orthogonal_bars},
     {"all", "what methods promise of each tree", NULL, "measured / promised, worst of all methods and twelve scenes", 0,
      1, promises},
     {0}};

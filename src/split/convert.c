@@ -106,7 +106,9 @@ static froe_status do_star(convert *c, split_cell *cell) {
     if (status) return status;
     c->crossings += pieces(c) - before;
     if (c->work.cells.count == cells) return FROE_OK;
-    return push_cell(c, FROE_NONE, &unknown) && push_cell(c, FROE_NONE, &unknown) ? FROE_OK : FROE_E_MEMORY;
+    bool room = true;
+    for (int i = 0; i < 2 && room; i++) room = push_cell(c, FROE_NONE, &unknown);
+    return room ? FROE_OK : FROE_E_MEMORY;
 }
 
 /* ------------------------------------------------------------------ pruning -- */
