@@ -24,18 +24,9 @@ static const column columns[] = {{"from kd", "converted", "from=kd"},
                                  {"from median", "converted", "from=median"},
                                  {"ham-sandwich", "converted", "from=hamsandwich"},
                                  {"kd", "kd", NULL},
+                                 {"bar", "bar", NULL},
                                  {"density", "density", NULL}};
 enum { COLUMNS = sizeof columns / sizeof *columns };
-
-static bool is_there(const char *method) {
-    for (size_t i = 0; froe_method_at(i); i++)
-        if (!strcmp(froe_method_at(i)->name, method)) return true;
-    return false;
-}
-
-static bool is_built(const column *c) {
-    return is_there(c->method) && (!strstr(c->name, "bar") || is_there("bar"));
-}
 
 static double unit(uint64_t *state) { /* splitmix64 */
     uint64_t x = *state += 0x9e3779b97f4a7c15u;
@@ -85,8 +76,7 @@ static double visits(const froe_tree *tree, bool thin, double eps, double *found
 
 static void head(const char *first, const char *last) {
     printf("%10s", first);
-    for (size_t i = 0; i < COLUMNS; i++)
-        if (is_built(columns + i)) printf("%14s", columns[i].name);
+    for (size_t i = 0; i < COLUMNS; i++) printf("%14s", columns[i].name);
     printf("%14s\n", last);
 }
 
@@ -97,8 +87,7 @@ static void table_of_eps(froe_tree *const *trees, bool thin) {
     for (int step = 0; step <= STEPS; step++) {
         const double eps = step < STEPS ? ldexp(1, -step) : 0;
         step < STEPS ? printf("%10.0f", 1 / eps) : printf("%10s", "exact");
-        for (size_t i = 0; i < COLUMNS; i++)
-            if (trees[i]) printf("%14.1f", visits(trees[i], thin, eps, &found));
+        for (size_t i = 0; i < COLUMNS; i++) printf("%14.1f", visits(trees[i], thin, eps, &found));
         printf("%14.1f\n", found);
     }
 }
@@ -106,7 +95,6 @@ static void table_of_eps(froe_tree *const *trees, bool thin) {
 static void table_of_trees(froe_tree *const *trees) {
     printf("\n%16s%10s%10s%10s%14s\n", "", "pieces/n", "nodes/n", "height", "size/(n log n)");
     for (size_t i = 0; i < COLUMNS; i++) {
-        if (!trees[i]) continue;
         const froe_report r = froe_tree_report(trees[i]);
         const double n = (double)r.objects;
         printf("%16s%10.2f%10.2f%10.0f%14.3f\n", columns[i].name, (double)r.fragments / n, (double)r.nodes / n,
@@ -123,7 +111,6 @@ static void table_of_n(const char *kind, size_t n) {
         froe_scene *scene = bench_generate(kind, objects, 1);
         printf("%10zu", objects);
         for (size_t i = 0; i < COLUMNS; i++) {
-            if (!is_built(columns + i)) continue;
             froe_tree *tree = bench_build(scene, columns[i].method, columns[i].settings, 1, 1, NULL);
             printf("%14.1f", visits(tree, false, 0.125, &found));
             froe_tree_free(tree);

@@ -6,9 +6,7 @@
  * de Berg and Streppel: Approximate range searching using binary space partitions (2004), theorem 1; see
  * split/convert.h. What is promised is the number of fragments: n (1 + 2 height of the BSP of points), and
  * those that segments make where they cross. */
-#include "base/status.h"
 #include "build/convert.h"
-#include <string.h>
 
 enum { FROM, PRUNE };
 
@@ -23,17 +21,9 @@ static const froe_option_info options[] = {
     {0},
 };
 
-static bool is_there(const char *method) {
-    for (size_t i = 0; froe_method_at(i); i++)
-        if (!strcmp(froe_method_at(i)->name, method)) return true;
-    return false;
-}
-
 static froe_status build(build_job *job, froe_tree **out) {
     convert_plan plan = plans[(int)job->option[FROM]];
     plan.prune = job->option[PRUNE] != 0;
-    if (plan.method && !is_there(plan.method))
-        return base_fail(job->diag, FROE_E_OPTIONS, "option 'from': there is no method '%s' yet", plan.method);
     return build_converted(job, &plan, out);
 }
 

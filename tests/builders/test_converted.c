@@ -18,7 +18,7 @@
 
 #include "support/memory.h"
 
-static const char *const plans[] = {"kd", "quad", "median", "hamsandwich"};
+static const char *const plans[] = {"kd", "quad", "median", "bar", "hamsandwich"};
 enum { PLANS = sizeof plans / sizeof *plans };
 
 static froe_scene *generate(const char *kind, size_t n) {
@@ -297,17 +297,19 @@ static double promised(const froe_tree *tree) {
 /** Theorem 1 on disjoint segments: nothing is split but by the plan; size and height follow from that of the plan. */
 static void size_and_height_follow_the_plan(void **state) {
     static const char *const kinds[] = {"disjoint", "parallel", "spiral", "star", "nested"};
-    static const char *const methods[][2] = {{"kd", NULL}, {"quad", NULL}, {"kd", "axes=first"}};
+    static const char *const methods[][2] = {
+        {"kd", NULL}, {"quad", NULL}, {"kd", "axes=first"}, {"bar", NULL}}; /* of plans[] */
     (void)state;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        for (size_t i = 0; i < 3; i++) {
+        for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
             froe_scene *scene = generate(kinds[k], 2000), *points = endpoints(scene);
             froe_tree *plan = build(points, methods[i][0], methods[i][1], 1), *tree = convert(scene, plans[i], "", 1);
             froe_report r = froe_tree_report(tree);
             double n = (double)r.objects, height = (double)froe_tree_report(plan).height;
             assert_true(promised(tree) == n * (1 + 2 * height)); /* no cut along a segment splits another */
             assert_true((double)r.size <= 1.2 * n * (1 + height));
-            assert_true((double)r.height <= 2.5 * height + 3);
+            double most = i < 3 ? 2.5 : 3; /* cells of bar have up to eight sides, and chords cut off as many corners */
+            assert_true((double)r.height <= most * height + 3);
             froe_tree_free(plan);
             froe_tree_free(tree);
             froe_scene_free(points);
@@ -410,29 +412,6 @@ static void slabs_of_paterson_and_yao_are_a_conversion(void **state) {
     froe_scene_free(scene);
 }
 
-static bool is_there(const char *method) {
-    size_t i = 0;
-    while (froe_method_at(i) && strcmp(froe_method_at(i)->name, method) != 0) i++;
-    return froe_method_at(i);
-}
-
-static void plans_of_methods_that_are_not_there_are_refused(void **state) {
-    froe_scene *scene = generate("disjoint", 300);
-    froe_tree *tree = NULL;
-    froe_diagnostic diag = {0};
-    froe_status status = try_build(scene, "converted", "from=bar", 1, &tree, &diag);
-    (void)state;
-    if (is_there("bar")) {
-        assert_int_equal(status, FROE_OK);
-        audit(tree, "bar");
-    } else {
-        assert_int_equal(status, FROE_E_OPTIONS);
-        assert_string_equal(diag.message, "option 'from': there is no method 'bar' yet");
-    }
-    froe_tree_free(tree);
-    froe_scene_free(scene);
-}
-
 static froe_status convert_in(void *user, const froe_allocator *alloc) {
     froe_scene *scene = NULL;
     froe_tree *tree = NULL;
@@ -444,7 +423,7 @@ static froe_status convert_in(void *user, const froe_allocator *alloc) {
 }
 
 static void a_conversion_survives_every_failing_allocation(void **state) {
-    char *const settings[] = {"from=kd", "from=quad prune=no", "from=hamsandwich"};
+    char *const settings[] = {"from=kd", "from=bar", "from=quad prune=no", "from=hamsandwich"};
     (void)state;
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) test_memory_each(convert_in, settings[i]);
 }
@@ -459,7 +438,6 @@ int main(void) {
         cmocka_unit_test(searches_follow_the_plan),
         cmocka_unit_test(every_plan_serves_every_scene),
         cmocka_unit_test(slabs_of_paterson_and_yao_are_a_conversion),
-        cmocka_unit_test(plans_of_methods_that_are_not_there_are_refused),
         cmocka_unit_test(a_conversion_survives_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
