@@ -1,6 +1,7 @@
 /* cmd_simulate.c: froe simulate, what moving objects do. */
 #include "command.h"
 #include "exit.h"
+#include "follow.h"
 #include "progress.h"
 #include "report.h"
 #include <froe/io.h>
@@ -12,6 +13,7 @@ typedef struct simulate_args {
     const char *path, *contacts, *animate, *player;
     double from, to, seconds; /* NaN: the library's default */
     bool first, apart;
+    cli_follow follow;
 } simulate_args;
 
 static const cli_option options[] = {
@@ -22,6 +24,11 @@ static const cli_option options[] = {
      .help = "write all contacts, with their times, as .csv or .json"},
     {"first", 0, CLI_FLAG, offsetof(simulate_args, first), .help = "only the first contact of all"},
     {"apart", 0, CLI_FLAG, offsetof(simulate_args, apart), .help = "leave out contacts within one feature"},
+    {"events", 0, CLI_TEXT, offsetof(simulate_args, follow.events), "FILE",
+     .help = "follow the partition of the segments, and write what changes it, with the times, as .csv"},
+    {"at", 0, CLI_REAL, offsetof(simulate_args, follow.at), "T", .help = "with --output: the time of the tree"},
+    {"output", 'o', CLI_TEXT, offsetof(simulate_args, follow.tree), "TREE",
+     .help = "save the partition as it is at the time of --at, as a tree for all other commands"},
     {"animate", 0, CLI_TEXT, offsetof(simulate_args, animate), "FILE", .help = "write an animated picture, .svg"},
     {"player", 0, CLI_TEXT, offsetof(simulate_args, player), "FILE",
      .help = "write a page that plays the motion, .html"},
@@ -41,6 +48,7 @@ typedef struct simulation {
     froe_contact_statistics statistics;
     double seconds;
     bool full;
+    json_t *events;
 } simulation;
 
 static bool keep(void *user, const froe_contact *contact) {
@@ -120,14 +128,16 @@ static int report(const simulation *s) {
                              (json_int_t)s->statistics.candidates, "exact", (json_int_t)s->statistics.exact);
     json_t *seconds = json_pack("{s:f, s:f}", "read", s->read.seconds, "contacts", s->seconds);
     return cli_report(&s->args->common, NULL,
-                      json_pack("{s:s, s:{s:f, s:f}, s:o, s:o, s:o, s:o}", "file", s->args->path, "window", "from",
-                                window.begin, "to", window.end, "motion", all, "contacts", found, "work", work,
-                                "seconds", seconds));
+                      json_pack("{s:s, s:{s:f, s:f}, s:o, s:o, s:O, s:o, s:o}", "file", s->args->path, "window", "from",
+                                window.begin, "to", window.end, "motion", all, "contacts", found, "events", s->events,
+                                "work", work, "seconds", seconds));
 }
 
 static int check(const simulate_args *args) {
     if (!isnan(args->from) && !isnan(args->to) && !(args->from < args->to))
         return cli_fail(CLI_USE, NULL, "--from must be before --to");
+    if (isnan(args->follow.at) != !args->follow.tree)
+        return cli_fail(CLI_USE, NULL, "--at and --output go together: a time, and a file for its tree");
     if (!isnan(args->seconds) && !(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds must be above 0");
     return 0;
 }
@@ -140,7 +150,9 @@ static int run(const void *given) {
     if (!code) code = write_contacts(&s);
     if (!code) code = animate(&s, s.args->animate);
     if (!code) code = animate(&s, s.args->player);
+    if (!code) code = cli_follow_motion(&s.args->common, &s.args->follow, s.motion, &s.events);
     if (!code) code = report(&s);
+    json_decref(s.events);
     froe_motion_free(s.motion);
     free(s.contacts);
     return code;
@@ -154,12 +166,20 @@ const cli_command cli_command_simulate = {
         "parabolas, from instant to instant. All contacts between its segments are found, the shortest included: "
         "when they begin and end is known to lie between two doubles that are neighbours or nearly so. Segments that "
         "share a vertex are not said to meet.\n\n"
+        "With --events or --at, a partition of the plane (that of the method cylindrical) is kept right while they "
+        "move: "
+        "vertices and crossings that pass over one another, contacts, turns, pieces of flight plans and the like are "
+        "its events. A tree is taken at the next odd tick; its coordinates are doubles, and --json tells how many had "
+        "to be "
+        "rounded.\n\n"
         "Times are those of the file: its numbers, or milliseconds since 1970 for ISO 8601 instants.",
     .examples = "froe simulate cars.mfjson --contacts contacts.csv\n"
                 "froe simulate cars.mfjson --from 301000 --to 305000 --first --json\n"
+                "froe simulate cars.mfjson --events events.csv --at 304014.4 -o now.froe\n"
                 "froe simulate cars.mfjson --animate cars.svg --player cars.html\n",
     .parts = parts,
-    .defaults = &(const simulate_args){.common = CLI_COMMON_DEFAULTS, .from = NAN, .to = NAN, .seconds = NAN},
+    .defaults =
+        &(const simulate_args){.common = CLI_COMMON_DEFAULTS, .from = NAN, .to = NAN, .seconds = NAN, .follow.at = NAN},
     .size = sizeof(simulate_args),
     .run = run,
 };

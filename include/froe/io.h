@@ -164,6 +164,12 @@ FROE_API froe_status froe_write_motion(const froe_motion *motion, const char *pa
 FROE_API froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *contacts, size_t count,
                                          const char *path, froe_diagnostic *diag);
 
+/** Writes events, in their order, as .csv with the header
+ *     tick,early,late,kind,objects,a,b,c,d
+ * with the number of segments that an event is about, and the first four of them. FROE_E_UNSUPPORTED: another
+ * extension. FROE_E_IO, FROE_E_MEMORY. */
+FROE_API froe_status froe_write_events(const froe_event *events, size_t count, const char *path, froe_diagnostic *diag);
+
 typedef struct froe_animation_options {
     size_t size;    /**< set by froe_animation_defaults() */
     double width;   /**< of the picture, in pixels; default 960 */

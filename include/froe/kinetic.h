@@ -190,7 +190,8 @@ typedef struct froe_event {
     uint32_t objects[4];   /**< the segments it is about; of several that share a vertex, one */
     unsigned object_count; /**< may be more than 4 for batches: the others are not told */
     int64_t tick;          /**< at which the partition has changed */
-    double early, late;    /**< it happened after `early`, and at or before `late`, the time of the tick */
+    double early, late;    /**< the times of the tick before and of this one, to the nearest double: it happened in
+                                between. froe_kinetic_instant() knows more */
 } froe_event;
 
 /** Told of each event, in the order in which they happen. false: froe_kinetic_advance returns when the tick is done. */
@@ -202,6 +203,11 @@ typedef bool froe_event_fn(void *user, const froe_event *event);
  * each event, if the motion does not depend on the order. */
 FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
                                           froe_diagnostic *diag);
+/** For visitors, while they are told of an event: when it happened, between two doubles that are next to one another or
+ * equal. Of a batch, when one of its certificates failed; of changes of plans, appearances and disappearances, no more
+ * than the ticks before and after. Certain: out[0] <= true time <= out[1]. FROE_E_ARG: there is no event. Some 30 us.
+ */
+FROE_API froe_status froe_kinetic_instant(froe_kinetic *kinetic, double out[2], froe_diagnostic *diag);
 /** The time of the tick at which it stands. */
 FROE_API double froe_kinetic_time(const froe_kinetic *kinetic);
 /** The time of the tick of the next event at the earliest; INFINITY: nothing happens in the rest of the window. */

@@ -244,9 +244,14 @@ static froe_event event_at(const froe_kinetic *k, froe_event_kind kind) {
         .kind = kind, .tick = k->now.tick, .early = time_of(k, k->now.tick - 2), .late = time_of(k, k->now.tick)};
 }
 
-static bool tell(froe_kinetic *k, const live_watcher *watcher, const froe_event *event) {
+static bool tell(froe_kinetic *k, const live_watcher *watcher, const froe_event *event, const now_claim *claim) {
     k->counts.events[event->kind]++;
-    return !watcher->visit || watcher->visit(watcher->user, event);
+    if (!watcher->visit) return true;
+    k->told = true;
+    k->told_claim = *claim;
+    bool go_on = watcher->visit(watcher->user, event);
+    k->told = false;
+    return go_on;
 }
 
 /* What the certificates of a group have in common. */
@@ -355,7 +360,7 @@ static bool handle_group(froe_kinetic *k, group *g, unsigned round, const live_w
     if (!is_sound(k)) live_restart(k);
     event = describe(k, g);
     k->counts.batches += event.kind == FROE_EVENT_BATCH;
-    return round > 0 || tell(k, watcher, &event);
+    return round > 0 || tell(k, watcher, &event, &item_of(k, g, 0)->claim);
 }
 
 /* Until nothing is due any more. */
@@ -440,6 +445,7 @@ static void turn_segments(froe_kinetic *k) {
 }
 
 static bool enter(froe_kinetic *k, const live_watcher *watcher) {
+    static const now_claim nothing = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
     bool go_on = true;
     for (size_t i = 0; i < k->leaving.count && !k->short_of_memory; i++) {
         uint32_t s = k->leaving.data[i] / 2;
@@ -452,7 +458,7 @@ static bool enter(froe_kinetic *k, const live_watcher *watcher) {
         if (there) live_insert(k, s);
         froe_event event = event_at(k, kind);
         add_object(&event, s);
-        if (k->leaving.data[i] % 2) go_on &= tell(k, watcher, &event);
+        if (k->leaving.data[i] % 2) go_on &= tell(k, watcher, &event, &nothing);
     }
     k->leaving.count = 0;
     return go_on;

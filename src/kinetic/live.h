@@ -170,6 +170,8 @@ struct froe_kinetic {
     ARRAY(uint32_t) roots;    /**< nodes where surgery is needed */
     ARRAY(uint32_t) leaving;  /**< 2 segment + 1: whose plan or life changes now; 2 segment: who may come to light */
     ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */
+    bool told;                /**< a visitor is being told of an event, */
+    now_claim told_claim;     /**< about this; no points: appearances and the like */
     live_recent *recent;
     froe_kinetic_stats counts;
 };

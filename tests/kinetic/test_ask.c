@@ -295,6 +295,60 @@ static void test_against_all(void **state) {
     assert_true(hits > rays / 4 && hits < rays);
 }
 
+/* ------------------------------------------------------------------- instants -- */
+
+typedef struct timing {
+    froe_kinetic *k;
+    unsigned exact, contacts;
+} timing;
+
+/* At the end of a bar that falls on a floor, the time of its contact is known. */
+static bool time_it(void *user, const froe_event *event) {
+    timing *t = user;
+    double at[2];
+    assert_int_equal(froe_kinetic_instant(t->k, at, NULL), FROE_OK);
+    assert_true(at[0] <= at[1] && at[0] >= event->early - 1e-9 && at[1] <= event->late + 1e-9);
+    if (event->kind != FROE_EVENT_CONTACT) return true;
+    const double truth[3] = {3, 64.0 / 3, 16 * sqrt(2)}; /* y = 3 - t; 64 - 3 t; 32 - t^2 / 16 */
+    for (int i = 0; i < 3; i++)
+        if (fabs(at[0] - truth[i]) < 1e-6) {
+            assert_true(at[0] <= nextafter(truth[i], 99) && at[1] >= nextafter(truth[i], 0));
+            assert_true(at[1] <= nextafter(at[0], 99));
+            t->exact += at[0] == at[1];
+            t->contacts++;
+        }
+    return true;
+}
+
+static void test_instants(void **state) {
+    (void)state;
+    const size_t starts[] = {0, 1, 2, 4, 6, 8, 10, 12, 14};
+    const double times[] = {0, 0, 0, 64, 0, 64, 0, 64, 0, 64, 0, 64, 0, 64};
+    const double coords[] = {-100, 0,    100, 0,  0,  3,  0,  -61, 1,  9,    1,  9,  10, 64,
+                             10,   -128, 11,  80, 11, 80, 20, 32,  20, -224, 21, 90, 21, 90};
+    double controls[28];
+    for (int i = 0; i < 28; i++) controls[i] = (double)NAN;
+    controls[20] = 20, controls[21] = 32; /* at rest at first */
+    froe_motion_options w = froe_motion_defaults();
+    froe_motion *m = NULL;
+    w.begin = 0, w.end = 64;
+    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 8, b.count = 4, b.starts = starts, b.times = times, b.coords = coords, b.controls = controls;
+    froe_diagnostic why = {0};
+    if (froe_motion_add(m, &b, &why)) fail_msg("%s", why.message);
+    froe_kinetic_options o = froe_kinetic_defaults();
+    timing t = {0};
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &t.k, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_advance(t.k, 64, time_it, &t, NULL), FROE_OK);
+    assert_int_equal(t.contacts, 3);
+    assert_int_equal(t.exact, 1);
+    double at[2];
+    assert_int_equal(froe_kinetic_instant(t.k, at, NULL), FROE_E_ARG);
+    froe_kinetic_free(t.k);
+    froe_motion_free(m);
+}
+
 static void test_refusals(void **state) {
     (void)state;
     froe_motion *m = moving_new(kinds, 1, NULL);
@@ -317,6 +371,7 @@ static void test_refusals(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_all), cmocka_unit_test(test_refusals)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_all), cmocka_unit_test(test_instants),
+                                       cmocka_unit_test(test_refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

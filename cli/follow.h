@@ -1,0 +1,16 @@
+/* follow.h: a motion followed event by event, for froe simulate. */
+#ifndef FROE_CLI_FOLLOW_H
+#define FROE_CLI_FOLLOW_H
+#include "command.h"
+#include <froe/io.h>
+#include <jansson.h>
+
+typedef struct cli_follow {
+    const char *events, *tree; /**< files to write, or NULL */
+    double at;                 /**< when the tree is taken; NaN: never */
+} cli_follow;
+
+/** Goes through the window, if anything is asked for; *report: what there was, or null. Returns an exit code, after
+ * saying why. */
+int cli_follow_motion(const cli_common *common, const cli_follow *asked, froe_motion *motion, json_t **report);
+#endif

@@ -1,0 +1,80 @@
+/* instant.c: when an event happens, between two doubles next to one another.
+ *
+ *     early        f > 0                The certificate holds just after one odd tick and does not after the next. It
+ *     ---|-------o---------|---- t      is a polynomial in between, so halving with its exact signs closes in on
+ *       u-2      : f <= 0  u            a root, until no double is left inside. */
+#include "base/status.h"
+#include "kinetic/live.h"
+#include <math.h>
+
+enum { HALVINGS = 200 };
+
+/* p(numerator / 2^bits) */
+static int sign_at(num_arena *arena, const poly_exact *p, num_dyadic s) {
+    num_dyadic y = p->c[p->degree];
+    for (int i = p->degree - 1; i >= 0; i--) y = num_dyadic_add(arena, num_dyadic_mul(arena, y, s), p->c[i]);
+    return y.sign;
+}
+
+/* The time `s` ticks after a tick, rounded down (-1) or up (1). */
+static double rounded(num_arena *arena, const froe_motion *m, int64_t tick, num_dyadic s, int way) {
+    num_dyadic ticks = num_dyadic_add(arena, num_dyadic_scaled(arena, 1, (uint64_t)tick, 0), s);
+    num_dyadic length = num_dyadic_scaled(arena, 1, 1, m->power);
+    num_dyadic time = num_dyadic_add(arena, num_dyadic_from(arena, m->begin), num_dyadic_mul(arena, ticks, length));
+    double t = num_dyadic_quotient(arena, time, num_dyadic_scaled(arena, 1, 1, 0));
+    int off = num_dyadic_compare(num_dyadic_from(arena, t), time);
+    return off * way < 0 ? nextafter(t, way * (double)INFINITY) : t;
+}
+
+static void bracket_of(const froe_kinetic *k, num_arena *arena, int64_t tick, const num_dyadic s[2], double out[2]) {
+    for (int i = 0; i < 2; i++) out[i] = rounded(arena, k->now.motion, tick, s[i], i ? 1 : -1);
+}
+
+/* The arena holds the polynomial up to `top`; what is above is for each step anew, but for the two ends. */
+static void narrow(froe_kinetic *k, const poly_exact *p, int64_t tick, double out[2]) {
+    num_arena *arena = &k->now.context.arena;
+    const size_t top = arena->top;
+    uint64_t low = 0;
+    int bits = 0; /* the root is in low / 2^bits .. (low + 2) / 2^bits */
+    for (int i = 0; i < HALVINGS && nextafter(out[0], (double)INFINITY) < out[1] && low < UINT64_MAX / 4; i++) {
+        arena->top = top;
+        num_dyadic middle = num_dyadic_scaled(arena, 1, low + 1, -bits);
+        int sign = sign_at(arena, p, middle);
+        low = 2 * low + (sign > 0 ? 2 : 0);
+        bits++;
+        num_dyadic s[2] = {num_dyadic_scaled(arena, 1, low, -bits), num_dyadic_scaled(arena, 1, low + 2, -bits)};
+        if (!sign) s[0] = s[1] = middle;
+        bracket_of(k, arena, tick, s, out);
+        if (!sign) break;
+    }
+}
+
+static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
+    num_arena *arena = &k->now.context.arena;
+    const int64_t tick = k->now.tick, before = tick - 2;
+    poly_exact p;
+    if (claim.p.b != NAME_SEGMENT && now_holds(&k->now, &claim) > 0) claim = (now_claim){claim.q, claim.p, 0};
+    k->now.tick = before;
+    if (before > 0 && now_holds(&k->now, &claim) > 0) {
+        int axis = now_claim_axis(&k->now, &claim);
+        now_claim_exact(&k->now, &claim, axis, &p);
+        int end = sign_at(arena, &p, num_dyadic_scaled(arena, 1, 2, 0));
+        if (exact_sign(&p) > 0 && end <= 0) narrow(k, &p, before, out);
+    }
+    k->now.tick = tick;
+}
+
+froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic *diag) {
+    if (!k || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_instant: NULL");
+    if (!k->told) return base_fail(diag, FROE_E_ARG, "nobody is being told of an event");
+    num_arena *arena = &k->now.context.arena;
+    arena->top = 0;
+    const int64_t before = k->now.tick > 2 ? k->now.tick - 2 : 0;
+    const num_dyadic s[2] = {num_dyadic_scaled(arena, 1, 0, 0),
+                             num_dyadic_scaled(arena, 1, (uint64_t)(k->now.tick - before), 0)};
+    double bracket[2];
+    bracket_of(k, arena, before, s, bracket);
+    if (k->told_claim.q.b != NAME_NONE) refine(k, k->told_claim, bracket);
+    out[0] = bracket[0], out[1] = bracket[1];
+    return FROE_OK;
+}
