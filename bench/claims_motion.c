@@ -81,14 +81,14 @@ static double height(void) {
     return claims_slope(&s);
 }
 
-const claim claims_motion[] = {{"Agarwal et al., theorem 3.5", "O(n^2) events of segments that move straight", NULL,
+const claim claims_motion[] = {{"Agarwal et al., theorem 3.7", "O(n^2) events of segments that move straight", NULL,
                                 "exponent of events in n, moving", 1, 2.2, event_count},
-                               {"Agarwal et al., theorem 3.5", "polylogarithmic work an event", NULL,
+                               {"Agarwal et al., lemmas 3.2, 3.3, 3.5", "O(log n) expected work an event", NULL,
                                 "exponent of nodes touched an event in n, moving", -INFINITY, 0.4, nodes_touched},
-                               {"Agarwal et al., lemma 3.2", "O(1) new certificates an event", NULL,
+                               {"Agarwal et al., lemma 3.1", "O(1) new certificates an event", NULL,
                                 "exponent of certificates made an event in n, moving", -INFINITY, 0.25, made},
-                               {"Agarwal et al., section 3", "certificates linear in the size", NULL,
+                               {"Agarwal et al., lemma 3.1", "O(n + k) certificates, linear in the size", NULL,
                                 "exponent of certificates / nodes in n, moving", -INFINITY, 0.1, live},
-                               {"Agarwal et al., theorem 3.5", "height O(log n) at all times", NULL,
+                               {"Agarwal et al., theorem 2.3", "height O(log n) at all times", NULL,
                                 "exponent of height in log n, moving", 0.5, 1.5, height},
                                {0}};

@@ -75,17 +75,17 @@ static double linear_size_in_the_plane(void) {
     return worst_growth(kinds, 4000, 4, "density", size);
 }
 
-/* Thin triangles along the lines of two saddles z = x y, one hair above the other: between each two lines of one kind
- * and each two of the other no plane has room (after Chazelle). The gap shrinks with n; a fixed one would let few
- * planes separate many. */
-static froe_scene *saddles(size_t n) {
-    const double lines = (double)n / 2, above = 0.25 / (lines * lines), width = 0.05 / (lines * lines);
+/* Groups of `each` thin triangles along the lines of two saddles z = x y, one a hair above the other: between each two
+ * lines of one kind and each two of the other no plane has room (after Chazelle). The gap shrinks with n; a fixed one
+ * would let few planes separate many. */
+static froe_scene *saddles(size_t n, size_t each) {
+    const double lines = (double)each / 2, above = 0.25 / (lines * lines), width = 0.05 / (lines * lines);
     double *coords = calloc(9 * n, sizeof *coords);
     for (size_t i = 0; i < n; i++) {
-        const double t = ((double)(i / 2) + 0.5) / lines;
+        const double t = ((double)(i % each / 2) + 0.5) / lines, shift = 2 * (double)(i / each);
         const double on_x[9] = {t, 0, 0, t, 1, t, t + width, 0.5, 0.5 * t};
         const double on_y[9] = {0, t, above, 1, t, t + above, 0.5, t + width, 0.5 * t + above};
-        memcpy(coords + 9 * i, i % 2 ? on_y : on_x, sizeof on_x);
+        for (int k = 0; k < 9; k++) coords[9 * i + k] = (i % 2 ? on_y : on_x)[k] + (k % 3 ? 0 : shift);
     }
     froe_scene *scene = NULL;
     froe_objects o = froe_objects_defaults();
@@ -98,7 +98,7 @@ static froe_scene *saddles(size_t n) {
 static double saddles_growth(const char *method) {
     claims_series s = {.count = 0};
     for (size_t n = 64; n <= 512; n *= 2) {
-        froe_scene *scene = saddles(n);
+        froe_scene *scene = saddles(n, n);
         froe_tree *tree = bench_build(scene, method, NULL, FROE_LEAF_OWN, 1, NULL);
         claims_add(&s, (double)n, (double)froe_tree_report(tree).fragments);
         froe_tree_free(tree);
@@ -257,6 +257,18 @@ static double size_against_lambda(void) {
     return claims_slope(&s);
 }
 
+static double size_against_lambda_in_space(void) {
+    claims_series s = {.count = 0};
+    for (size_t lambda = 16; lambda <= 256; lambda *= 2) {
+        froe_scene *scene = saddles(1024, lambda);
+        froe_tree *tree = bench_build(scene, "density", NULL, 1, 1, NULL);
+        claims_add(&s, (double)lambda, (double)froe_tree_report(tree).size);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+    return claims_slope(&s);
+}
+
 /* --------------------------------------------------------- Tobola and Nechvile -- */
 
 static double directional_is_linear(void) {
@@ -293,6 +305,13 @@ static double nodes_per_crossing(const claims_tree *t) {
 }
 static double cylindrical_size(void) {
     return growth("disjoint", 1000, 5, "cylindrical", NULL, 0, nodes_per_n_log_n);
+}
+static double nodes_per_n_log2_n(const claims_tree *t) {
+    const double n = (double)t->report.objects;
+    return (double)t->report.nodes / (n * log(n) * log(n));
+}
+static double cylindrical_in_space(void) {
+    return growth("terrain", 250, 4, "cylindrical", NULL, 0, nodes_per_n_log2_n);
 }
 static double cylindrical_crossings(void) {
     return growth("slats", 128, 3, "cylindrical", NULL, 0, nodes_per_crossing);
@@ -390,9 +409,11 @@ const claim claims_size[] = {
      "exponent of pieces in n; worse of disjoint-3d, saddles", 1, 2.1, autopartition_in_space},
     {"Sacks, theorem 12.8", "size O(n log lambda)", "density",
      "exponent of size in 1 + ln lambda, bundles of lambda = 4 .. 1024 segments", 0, 1.1, size_against_lambda},
-    {"Tobola and Nechvile, section 5", "linear size at low directional density", "directional",
+    {"Sacks, theorem 12.9", "size O(n lambda) in space", "density",
+     "exponent of size in lambda, groups of 16 .. 256 triangles along saddles", 0.7, 1.1, size_against_lambda_in_space},
+    {"Tobola and Nechvile, lemma 4.2", "linear size at low directional density", "directional",
      "exponent of pieces in n; worst of bricks, sticks, towers, slabs", 0.95, 1.1, directional_is_linear},
-    {"Tobola and Nechvile, section 3 (Paterson and Yao)", "n^1.5 where the density is high", "directional",
+    {"Tobola and Nechvile, introduction (Paterson and Yao)", "n^1.5 where the density is high", "directional",
      "exponent of pieces in n, bars", 1.35, 1.65, directional_bars},
     {"Tobola and Nechvile, section 5", "O(n log^2 n) time", "directional",
      "exponent of time / (n log^2 n) in n; worse of sticks, rows", -INFINITY, 0.15, directional_time},
@@ -400,8 +421,10 @@ const claim claims_size[] = {
      "pieces / bound, worst of seven scenes", 0, 1, directional_potential},
     {"Agarwal et al., theorem 2.3", "O(n log n) nodes of disjoint segments", "cylindrical",
      "exponent of nodes / (n log n) in n, disjoint", -INFINITY, 0.05, cylindrical_size},
-    {"Agarwal et al., theorem 2.5", "O(n log n + k) nodes with k crossings", "cylindrical",
+    {"Agarwal et al., theorem 2.3", "O(n log n + k) nodes with k crossings", "cylindrical",
      "exponent of nodes / (n log n + k) in n, slats", -INFINITY, 0.1, cylindrical_crossings},
+    {"Agarwal et al., theorem 2.5", "O(n log^2 n + k) nodes of triangles in space, k crossings of projected edges",
+     "cylindrical", "exponent of nodes / (n log^2 n) in n, terrain (k = 0)", -INFINITY, 0.05, cylindrical_in_space},
     {"Agarwal et al., theorem 2.3", "height O(log n)", "cylindrical", "exponent of height in log n, disjoint", 0.5, 1.4,
      cylindrical_height},
     {"Paterson and Yao 1990", "O(n log n) pieces of disjoint segments", "paterson_yao",
