@@ -1,6 +1,7 @@
 /* cmd_measure.c: froe measure, what a scene is like: clutter, density, fatness, directional density. */
 #include "command.h"
 #include "exit.h"
+#include "measure_picture.h"
 #include "progress.h"
 #include "report.h"
 #include "scene.h"
@@ -9,6 +10,7 @@
 typedef struct measure_args {
     cli_common common;
     cli_scene_args scene;
+    const char *cube, *ball; /* pictures of them */
     uint64_t samples;
     cli_reals deltas;
     int counting;
@@ -16,6 +18,10 @@ typedef struct measure_args {
 
 static const char *const countings[] = {[FROE_COUNT_SEARCH] = "search", [FROE_COUNT_TREES] = "trees", NULL};
 static const cli_option options[] = {
+    {"draw", 0, CLI_TEXT, offsetof(measure_args, cube), "FILE",
+     .help = "draw the worst cube among the objects around it (.svg, .pdf, .png)"},
+    {"draw-ball", 0, CLI_TEXT, offsetof(measure_args, ball), "FILE",
+     .help = "draw the densest ball, of radius density"},
     {"samples", 0, CLI_WHOLE, offsetof(measure_args, samples), "N",
      .help = "objects, or cubes, looked at by each measure; 0: all objects", .max = UINT32_MAX},
     {"delta", 0, CLI_REALS, offsetof(measure_args, deltas), "D,...",
@@ -37,7 +43,7 @@ static const cli_part parts[] = {
 /** What all measures of a run share. */
 typedef struct survey {
     const measure_args *args;
-    const froe_scene *scene;
+    froe_scene *scene;
     froe_measure_options options;
     cli_progress bar;
     double started;
@@ -73,7 +79,8 @@ static int measure_clutter(survey *s, json_t *report) {
                             "cube hi", cli_reals_json(c.hi, dim));
     json_object_set_new(json_object_get(report, "distributions"), "clutter of cubes", spread_json(&c.load));
     json_object_set_new(report, "clutter factor", out);
-    return end(s, status, out);
+    const int code = end(s, status, out);
+    return code || !s->args->cube ? code : measure_draw_cube(&s->args->common, s->args->cube, s->scene, &c);
 }
 
 static int measure_density(survey *s, froe_size size, json_t *report) {
@@ -88,7 +95,9 @@ static int measure_density(survey *s, froe_size size, json_t *report) {
                             "ball centre", cli_reals_json(d.centre, dim), "ball radius", d.radius);
     json_object_set_new(json_object_get(report, "distributions"), names[size][1], spread_json(&d.load));
     json_object_set_new(report, names[size][0], out);
-    return end(s, status, out);
+    const int code = end(s, status, out);
+    if (code || size != FROE_SIZE_RADIUS || !s->args->ball) return code;
+    return measure_draw_ball(&s->args->common, s->args->ball, s->scene, &d);
 }
 
 static int measure_fatness(survey *s, json_t *report) {
@@ -96,7 +105,7 @@ static int measure_fatness(survey *s, json_t *report) {
     froe_fatness f = {.thin = 0};
     begin(s, "comparing with balls");
     const froe_status status = froe_measure_fatness(s->scene, &s->options, &f, &s->diag);
-    json_t *out = json_pack("{s:I, s:I}", "without volume", (json_int_t)f.thin, "left out", (json_int_t)f.left_out);
+    json_t *out = json_pack("{s:I}", "without volume", (json_int_t)f.thin);
     if (f.full.count) json_object_set_new(spreads, "fatness", spread_json(&f.full));
     if (f.flat.count) json_object_set_new(spreads, "fatness in the plane", spread_json(&f.flat));
     if (f.sliver.count) json_object_set_new(spreads, "width / longest edge", spread_json(&f.sliver));

@@ -120,6 +120,9 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
     if (o->show > 15) return draw_fail(diag, FROE_E_OPTIONS, "Option 'show' of a picture has unknown bits.");
     if (!all_finite(o->lo, 3) || !all_finite(o->hi, 3) || !all_finite(o->view, 3))
         return draw_fail(diag, FROE_E_OPTIONS, "The window and the direction of view must be finite.");
+    for (size_t i = 0; i < o->mark_count; i++)
+        if (!o->marks || !all_finite(o->marks[i].lo, 3) || !all_finite(o->marks[i].hi, 3))
+            return draw_fail(diag, FROE_E_OPTIONS, "Mark %zu of a picture is not finite.", i);
     if (o->title && !is_utf8(o->title)) return draw_fail(diag, FROE_E_OPTIONS, "The title of a picture is not UTF-8.");
     return check_ranges(o, diag);
 }

@@ -101,6 +101,39 @@ static void paint_label(const draw_page *page, cairo_t *cr, const draw_panel *pa
     draw_text(cr, panel->label, p.x, p.y + 1.5 * page->text, page->text, 0);
 }
 
+/* What a section at `away` of half the height of a mark leaves of its half sides; 0: nothing. */
+static double share_of(const froe_draw_mark *mark, double away) {
+    if (away > 1) return 0;
+    return mark->ball ? sqrt(1 - away * away) : 1;
+}
+
+static void paint_mark(const draw_page *page, cairo_t *cr, const draw_view *view, const froe_draw_mark *mark) {
+    double centre[3] = {0}, half[3] = {0};
+    for (int k = 0; k < view->space.dim; k++) {
+        const int from = view->space.from[k];
+        const double a = draw_space_map(&view->space, k, mark->lo[from]);
+        const double b = draw_space_map(&view->space, k, mark->hi[from]);
+        centre[k] = 0.5 * (a + b), half[k] = 0.5 * fabs(b - a);
+    }
+    const double off = view->axis < 0 ? 0 : fabs(view->at - centre[view->axis]);
+    const double share = off > 0 ? share_of(mark, off / half[view->axis]) : 1;
+    if (!(share > 0)) return;
+    const draw_point p = draw_view_map(view, (draw_point){centre[view->across] - share * half[view->across],
+                                                          centre[view->up] - share * half[view->up]});
+    const draw_point q = draw_view_map(view, (draw_point){centre[view->across] + share * half[view->across],
+                                                          centre[view->up] + share * half[view->up]});
+    cairo_new_path(cr);
+    if (mark->ball)
+        draw_circle(cr, (draw_point){0.5 * (p.x + q.x), 0.5 * (p.y + q.y)}, 0.5 * (q.x - p.x));
+    else
+        cairo_rectangle(cr, p.x, q.y, q.x - p.x, p.y - q.y);
+    draw_set_color(cr, DRAW_ACCENT, 0.12);
+    cairo_fill_preserve(cr);
+    draw_set_color(cr, DRAW_ACCENT, 1);
+    cairo_set_line_width(cr, 2 * page->unit);
+    cairo_stroke(cr);
+}
+
 static froe_status paint_panels(const draw_picture *picture, cairo_t *cr, const draw_panel *panels, int count,
                                 draw_partition *part) {
     const draw_page *page = &picture->page;
@@ -114,6 +147,8 @@ static froe_status paint_panels(const draw_picture *picture, cairo_t *cr, const 
         frame_path(cr, &panels[i].view);
         cairo_clip(cr);
         status = draw_paint_objects(page, cr, &panels[i].view, picture->show);
+        for (size_t m = 0; m < page->options->mark_count; m++)
+            paint_mark(page, cr, &panels[i].view, page->options->marks + m);
         cairo_restore(cr);
         frame_path(cr, &panels[i].view);
         draw_set_color(cr, DRAW_LINE, 0.6);

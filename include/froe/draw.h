@@ -68,6 +68,12 @@ FROE_API bool froe_draw_format_of(const char *path, froe_draw_format *format);
 
 #define FROE_DRAW_CLEAR UINT32_MAX /**< background: none, transparent where the format can be */
 
+/** A place to point out: a box in the scene's coordinates, or the ball within it. */
+typedef struct froe_draw_mark {
+    double lo[3], hi[3];
+    bool ball; /**< its centre is that of the box, its radius half the first side */
+} froe_draw_mark;
+
 typedef struct froe_draw_options {
     size_t size;                 /**< set by froe_draw_defaults() */
     froe_draw_style style;       /**< default AUTO */
@@ -98,6 +104,8 @@ typedef struct froe_draw_options {
                                       distance from it, 0 .. 10; default 0.5; 0: nothing moves */
     uint32_t explode_depth;      /**< EXPLODED: the parts are the regions of the nodes at this depth (and
                                       shallower leaves), 0 .. 32; default 4 */
+    const froe_draw_mark *marks; /**< FLAT, SECTIONS: outlined on top, where the section meets them; NULL: none */
+    size_t mark_count;
     const froe_allocator *alloc; /**< of working memory (Cairo's own apart); NULL (default): malloc */
     froe_progress_fn *progress;  /**< may be NULL */
     void *user;                  /**< for progress */

@@ -45,13 +45,12 @@ typedef struct froe_spread {
 
 /** Fatness of convex objects: volume over that of the smallest enclosing ball (de Berg and Streppel; at most 1). */
 typedef struct froe_fatness {
-    froe_spread full;   /**< of objects of the dimension of the scene, but hulls */
+    froe_spread full;   /**< of boxes, balls and hulls */
     froe_spread flat;   /**< of polygons in space: area over that of the smallest enclosing disc */
     froe_spread sliver; /**< of polygons in space: width across their longest edge, over its length */
-    uint64_t thin;      /**< objects without volume: fatness 0 (points, segments; in space polygons, flat boxes) */
-    uint64_t left_out;  /**< hulls */
+    uint64_t thin;      /**< objects without volume: fatness 0 (points, segments; in space polygons, flat solids) */
 } froe_fatness;
-/** FROE_E_MEMORY, FROE_E_CANCELLED. O(n), but O(corners^2) for polygons of many corners. */
+/** FROE_E_MEMORY, FROE_E_CANCELLED. O(n), but O(corners^2) for polygons and hulls of many corners. */
 FROE_API froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_options *options,
                                           froe_fatness *out, froe_diagnostic *diag);
 

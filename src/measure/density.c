@@ -7,8 +7,8 @@
  *          ----
  *                           Every ball of radius r that meets o has its contents in N(o): lambda <= max N(o).
  *
- * For the lower bound balls of radius r are tried around points near objects with a large N(o). Distances are compared
- * exactly; sizes are what doubles make of them, so lambda is that of the scene with these sizes. */
+ * For the lower bound balls of radius r are tried around points near the objects with the largest N(o). Distances are
+ * compared exactly; sizes are what doubles make of them, so lambda is that of the scene with these sizes. */
 #include "base/random.h"
 #include "geom/distance.h"
 #include "measure/enclosing.h"
@@ -17,7 +17,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { TRIES = 48 }; /* balls tried at an object */
+enum { TRIES = 48, TRIED = 500 }; /* balls tried at an object; objects, at most */
+
+typedef struct candidate {
+    uint32_t load; /* N(o) */
+    uint32_t object;
+    uint64_t key;
+} candidate;
 
 typedef struct survey {
     measure_sample sample;
@@ -27,7 +33,9 @@ typedef struct survey {
     measure_bounds bounds;
     double *size;
     uint64_t *keys;
-    ARRAY(uint32_t) near; /* N(o) */
+    ARRAY(uint32_t) near;  /* N(o) */
+    candidate best[TRIED]; /* most loaded first; of equal ones that of the lower key */
+    uint32_t best_count;
     froe_density out;
 } survey;
 
@@ -66,7 +74,8 @@ static bool find_near(survey *s, const double *centre, double reach, double leas
 /* Counts what a ball of the size of the object meets; keeps the best ball. */
 static void try_ball(survey *s, const double *centre, double radius) {
     uint32_t count = 0;
-    for (size_t i = 0; i < s->near.count; i++) count += within(s, centre, radius, s->near.data[i]);
+    for (size_t i = 0; i < s->near.count && count + (s->near.count - i) > s->out.lower; i++)
+        count += within(s, centre, radius, s->near.data[i]);
     if (count <= s->out.lower) return;
     s->out.lower = count;
     s->out.radius = radius;
@@ -93,10 +102,9 @@ static uint32_t random_near(const survey *s, uint64_t key) {
     return chosen;
 }
 
-/* Balls around the centre, half-way to points of the objects near by, and around points of the object. */
+/* Balls half-way to points of the objects near by, and around points of the object. */
 static void try_balls(survey *s, uint32_t object, const double *centre, double radius) {
     double at[FROE_MAX_DIM];
-    try_ball(s, centre, radius);
     for (uint64_t try = 0; try < TRIES && s->near.count > s->out.lower; try++) {
         uint64_t key = base_hash(s->keys[object], 0, try);
         bool between = try % 3 != 0;
@@ -106,15 +114,42 @@ static void try_balls(survey *s, uint32_t object, const double *centre, double r
     }
 }
 
+/* Finds N(o), and the ball around it. */
+static bool look_around(survey *s, uint32_t object, measure_ball *ball, double *radius) {
+    *radius = s->kind == FROE_SIZE_RADIUS ? s->size[object] : 0.5 * s->size[object];
+    *ball = measure_enclosing(s->sample.scene, object);
+    double reach = (3 * *radius + fmax(0, ball->radius - *radius)) * (1 + 0x1p-40);
+    return find_near(s, ball->centre, reach, s->size[object]);
+}
+
+static void keep(survey *s, candidate c) {
+    uint32_t at = s->best_count < TRIED ? s->best_count++ : TRIED;
+    while (at && (s->best[at - 1].load < c.load || (s->best[at - 1].load == c.load && s->best[at - 1].key > c.key))) {
+        if (at < TRIED) s->best[at] = s->best[at - 1];
+        at--;
+    }
+    if (at < TRIED) s->best[at] = c;
+}
+
 static froe_status note_object(survey *s, uint32_t object) {
-    double radius = s->kind == FROE_SIZE_RADIUS ? s->size[object] : 0.5 * s->size[object];
-    measure_ball ball = measure_enclosing(s->sample.scene, object);
-    double reach = (3 * radius + fmax(0, ball.radius - radius)) * (1 + 0x1p-40);
-    if (!find_near(s, ball.centre, reach, s->size[object])) return FROE_E_MEMORY;
+    measure_ball ball;
+    double radius;
+    if (!look_around(s, object, &ball, &radius)) return FROE_E_MEMORY;
     uint32_t count = (uint32_t)s->near.count;
     if (count > s->out.upper) s->out.upper = count;
-    if (count > s->out.lower) try_balls(s, object, ball.centre, radius);
+    if (count > s->out.lower) try_ball(s, ball.centre, radius);
+    keep(s, (candidate){count, object, s->keys[object]});
     return array_push(&s->sample.alloc, &s->sample.values[0], count) ? FROE_OK : FROE_E_MEMORY;
+}
+
+static froe_status try_best(survey *s) {
+    for (uint32_t i = 0; i < s->best_count && s->best[i].load > s->out.lower; i++) {
+        measure_ball ball;
+        double radius;
+        if (!look_around(s, s->best[i].object, &ball, &radius)) return FROE_E_MEMORY;
+        try_balls(s, s->best[i].object, ball.centre, radius);
+    }
+    return FROE_OK;
 }
 
 static froe_status begin(survey *s) {
@@ -154,6 +189,7 @@ froe_status froe_measure_density(const froe_scene *scene, froe_size size, const 
     for (uint32_t i = 0; i < s.sample.count && !status; i++)
         status = measure_sample_go_on(&s.sample, i) ? note_object(&s, measure_sample_object(&s.sample, i))
                                                     : FROE_E_CANCELLED;
+    if (!status) status = try_best(&s);
     s.out.count = s.sample.count;
     if (!status) status = measure_sample_spread(&s.sample, 0, &s.out.load);
     if (!status) *out = s.out;

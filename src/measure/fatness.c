@@ -2,6 +2,7 @@
 #include "base/status.h"
 #include "measure/enclosing.h"
 #include "measure/sample.h"
+#include "measure/volume.h"
 #include <math.h>
 
 enum { FULL, FLAT, SLIVER }; /* lists of values */
@@ -63,42 +64,64 @@ static bool note(measure_sample *s, int list, double value) {
     return array_push(&s->alloc, &s->values[list], value);
 }
 
+/* A solid: its share of the ball around it. */
+static bool note_full(measure_sample *s, uint32_t object, double volume, froe_fatness *out) {
+    const measure_ball ball = measure_enclosing(s->scene, object);
+    out->thin += !(volume > 0);
+    return note(s, FULL, volume > 0 ? volume / ball_volume(s->scene->dim, ball.radius) : 0);
+}
+
+static froe_status note_hull(measure_sample *s, num_context *context, uint32_t object, froe_fatness *out) {
+    double volume;
+    froe_status status = measure_hull_volume(context, &s->alloc, s->scene, object, &volume);
+    return status ? status : note_full(s, object, volume, out) ? FROE_OK : FROE_E_MEMORY;
+}
+
 static bool note_object(measure_sample *s, uint32_t object, froe_fatness *out) {
     const froe_scene *scene = s->scene;
     measure_ball ball;
-    double volume;
     switch (scene_form(scene, object)) {
     case FROE_BALL:
         out->thin += scene_radius(scene, object) == 0;
         return note(s, FULL, scene_radius(scene, object) > 0);
     case FROE_BOX:
-        ball = measure_enclosing(scene, object);
-        volume = box_volume(scene, object);
-        out->thin += volume == 0;
-        return note(s, FULL, volume > 0 ? volume / ball_volume(scene->dim, ball.radius) : 0);
+        return note_full(s, object, box_volume(scene, object), out);
     case FROE_POLYGON:
         out->thin++;
         ball = measure_enclosing(scene, object);
         return note(s, FLAT, polygon_area(scene, object) / ball_volume(2, ball.radius)) &&
                note(s, SLIVER, sliver_ratio(scene, object));
-    case FROE_HULL:
-        out->left_out++;
-        return true;
     default:
         out->thin++;
         return true;
     }
 }
 
+static froe_status note_all(measure_sample *s, num_context *context, froe_fatness *out) {
+    froe_status status = FROE_OK;
+    for (uint32_t i = 0; i < s->count && !status; i++) {
+        uint32_t object = measure_sample_object(s, i);
+        if (!measure_sample_go_on(s, i))
+            status = FROE_E_CANCELLED;
+        else if (scene_form(s->scene, object) == FROE_HULL)
+            status = note_hull(s, context, object, out);
+        else if (!note_object(s, object, out))
+            status = FROE_E_MEMORY;
+    }
+    return status;
+}
+
 froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_options *options, froe_fatness *out,
                                  froe_diagnostic *diag) {
     measure_sample s;
+    num_context context;
     froe_status status = measure_sample_begin(scene, options, out, &s, diag);
     if (status) return status;
     froe_fatness found = {.thin = 0};
-    for (uint32_t i = 0; i < s.count && !status; i++) {
-        if (!measure_sample_go_on(&s, i)) status = FROE_E_CANCELLED;
-        if (!status && !note_object(&s, measure_sample_object(&s, i), &found)) status = FROE_E_MEMORY;
+    status = num_context_new(&s.alloc, &context);
+    if (!status) {
+        status = note_all(&s, &context, &found);
+        num_context_free(&context);
     }
     if (!status) status = measure_sample_spread(&s, FULL, &found.full);
     if (!status) status = measure_sample_spread(&s, FLAT, &found.flat);

@@ -58,6 +58,9 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(solid, view[1], 0.0 / 0.0, "direction");
     REFUSED(flat, hi[0], 1.0 / 0.0, "window");
     REFUSED(flat, title, "\xff\xfe", "UTF-8");
+    const froe_draw_mark far = {.hi = {1, 1.0 / 0.0, 1}};
+    o = good, o.marks = &far, o.mark_count = 1;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
 #undef REFUSED
     o = good;
     o.width = 30000;

@@ -2,6 +2,7 @@
  * nothing that depends on the order or the scale of the objects. */
 #include "geom/meet.h"
 #include "measure/enclosing.h"
+#include "measure/volume.h"
 #include "query/objects.h"
 #include <froe/measure.h>
 #include <math.h>
@@ -177,6 +178,42 @@ static void fatness_of_known_shapes(void **state) {
     froe_scene_free(scene);
 }
 
+/* Hulls of the corners of a box, of points on its sides and inside, in any order: the volume of the box, exactly, for
+ * coordinates are small whole numbers. And flat ones. */
+static void volumes_of_hulls(void **state) {
+    fuzz_source random = {5};
+    (void)state;
+    for (int round = 0; round < 300; round++) {
+        const int dim = 2 + round % 2, flat = round % 7 == 0;
+        double coords[40 * 3], side[3], volume = 1;
+        size_t starts[2] = {0, 40};
+        for (int k = 0; k < dim; k++) side[k] = 1 + floor(fabs(fuzz_unit(&random)) * 8);
+        if (flat) side[round % dim] = 0;
+        for (int k = 0; k < dim; k++) volume *= side[k];
+        for (int i = 0; i < 40; i++)
+            for (int k = 0; k < dim; k++) {
+                const int at = (i * 13 + round) % 40; /* the first 2^dim of them, somewhere in between: corners */
+                double share = fabs(fuzz_unit(&random)) < 0.5 ? 0 : floor(fabs(fuzz_unit(&random)) * (side[k] + 1));
+                coords[i * dim + k] = 3 + (at < 1 << dim ? (at >> k & 1) * side[k] : share);
+            }
+        froe_objects hull = froe_objects_defaults();
+        froe_scene *scene;
+        num_context context;
+        double found;
+        hull.kind = FROE_HULL, hull.count = 1, hull.coords = coords, hull.starts = starts;
+        assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+        assert_int_equal(froe_scene_add(scene, &hull, NULL), FROE_OK);
+        assert_int_equal(num_context_new(NULL, &context), FROE_OK);
+        assert_int_equal(measure_hull_volume(&context, &scene->alloc, scene, 0, &found), FROE_OK);
+        assert_true(fabs(found - volume) < 1e-9);
+        froe_fatness fatness;
+        assert_int_equal(froe_measure_fatness(scene, NULL, &fatness, NULL), FROE_OK);
+        assert_int_equal(fatness.thin, flat);
+        num_context_free(&context);
+        froe_scene_free(scene);
+    }
+}
+
 static void enclosing_balls_enclose_and_touch(void **state) {
     fuzz_source random = {12};
     (void)state;
@@ -265,7 +302,12 @@ static froe_status measure_in(void *user, const froe_allocator *alloc) {
     froe_objects boxes = froe_objects_defaults();
     boxes.kind = FROE_BOX, boxes.count = 3, boxes.coords = coords;
     froe_status status = froe_scene_new(3, alloc, &scene);
+    static const double tent[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0.5, 0.5, 1};
+    const size_t five[] = {0, 5};
+    froe_objects hull = froe_objects_defaults();
+    hull.kind = FROE_HULL, hull.count = 1, hull.coords = tent, hull.starts = five;
     if (!status) status = froe_scene_add(scene, &boxes, NULL);
+    if (!status) status = froe_scene_add(scene, &hull, NULL);
     if (!status) status = froe_measure_clutter(scene, NULL, &clutter, NULL);
     if (!status) status = froe_measure_density(scene, FROE_SIZE_RADIUS, NULL, &density, NULL);
     if (!status) status = froe_measure_fatness(scene, NULL, &fatness, NULL);
@@ -302,6 +344,7 @@ int main(void) {
         cmocka_unit_test(clutter_is_at_most_what_it_is),
         cmocka_unit_test(density_is_between_its_bounds),
         cmocka_unit_test(fatness_of_known_shapes),
+        cmocka_unit_test(volumes_of_hulls),
         cmocka_unit_test(enclosing_balls_enclose_and_touch),
         cmocka_unit_test(order_and_scale_change_nothing),
         cmocka_unit_test(nothing_is_measured_without_objects),

@@ -1,0 +1,11 @@
+/* measure_picture.h: the worst cube or ball of a scene, among the objects around it. */
+#ifndef FROE_CLI_MEASURE_PICTURE_H
+#define FROE_CLI_MEASURE_PICTURE_H
+#include "options.h"
+#include <froe/measure.h>
+
+/** Draws a scene of two or three dimensions around a cube to a file, as `froe draw` does. Returns 0 or an exit code. */
+int measure_draw_cube(const cli_common *common, const char *path, froe_scene *scene, const froe_clutter *clutter);
+/** The same around a ball. */
+int measure_draw_ball(const cli_common *common, const char *path, froe_scene *scene, const froe_density *density);
+#endif

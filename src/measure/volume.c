@@ -1,0 +1,163 @@
+/* volume.c: convex hulls, corner by corner: facets that see the next corner go, and new ones join it to their border.
+ *
+ *        x               Signs are exact, so that corners in the plane of a facet, of which real hulls are full, lead
+ * to / \              no contradictions: a facet whose plane holds the corner does not see it. a---b  gone (Incremental
+ * construction; in the plane by wrapping, Jarvis 1973.)
+ *     /     \            */
+#include "measure/volume.h"
+#include "base/array.h"
+#include "geom/predicates.h"
+#include <math.h>
+
+typedef struct facet {
+    const double *p[3]; /* turn left, seen from outside */
+    geom_plane plane;   /* positive outside */
+    bool seen;
+} facet;
+
+typedef struct edge {
+    const double *a, *b;
+} edge;
+
+typedef struct hull {
+    num_context *context;
+    const froe_allocator *alloc;
+    const froe_scene *scene;
+    uint32_t object;
+    ARRAY(facet) facets;
+    ARRAY(edge) border;
+} hull;
+
+static const double *corner(const hull *h, uint32_t i) {
+    return scene_point(h->scene, h->object, i);
+}
+
+/* ----------------------------------------------------------------- in the plane -- */
+
+static double square_distance(const double *a, const double *b) {
+    return (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
+}
+
+/* The corner after `at`, counterclockwise: no other lies right of the line to it, nor farther on it. */
+static const double *next_on_hull(const hull *h, const double *at) {
+    const double *best = NULL;
+    for (uint32_t i = 0; i < scene_corners(h->scene, h->object); i++) {
+        const double *p = corner(h, i);
+        if (p == at) continue;
+        int side = -1;
+        if (best) {
+            const double *const line[] = {at, best};
+            geom_plane plane = geom_plane_points(2, line);
+            side = geom_side_vertex(h->context, &plane, p);
+        }
+        if (side < 0 || (side == 0 && square_distance(at, p) > square_distance(at, best))) best = p;
+    }
+    return best;
+}
+
+static double area(const hull *h) {
+    const double *start = corner(h, 0);
+    for (uint32_t i = 1; i < scene_corners(h->scene, h->object); i++) {
+        const double *p = corner(h, i);
+        if (p[0] < start[0] || (p[0] == start[0] && p[1] < start[1])) start = p;
+    }
+    double sum = 0;
+    const double *a = next_on_hull(h, start);
+    for (const double *b; a && (b = next_on_hull(h, a)) != start; a = b)
+        sum += (a[0] - start[0]) * (b[1] - start[1]) - (a[1] - start[1]) * (b[0] - start[0]);
+    return fabs(sum) / 2;
+}
+
+/* --------------------------------------------------------------------- in space -- */
+
+static bool add_facet(hull *h, const double *a, const double *b, const double *c) {
+    const double *const p[] = {a, b, c};
+    const facet f = {{a, b, c}, geom_plane_points(3, p), false};
+    return array_push(h->alloc, &h->facets, f);
+}
+
+/* Does one of the facets that see the corner run along an edge in this direction? */
+static bool seen_along(const hull *h, const double *a, const double *b) {
+    bool found = false;
+    for (size_t i = 0; i < h->facets.count && !found; i++) {
+        const facet *f = h->facets.data + i;
+        for (int k = 0; k < 3 && f->seen; k++) found |= f->p[k] == a && f->p[(k + 1) % 3] == b;
+    }
+    return found;
+}
+
+/* The edges between facets that see the corner and facets that do not. */
+static bool find_border(hull *h) {
+    h->border.count = 0;
+    for (size_t i = 0; i < h->facets.count; i++) {
+        const facet *f = h->facets.data + i;
+        for (int k = 0; k < 3 && f->seen; k++) {
+            const edge e = {f->p[k], f->p[(k + 1) % 3]};
+            if (!seen_along(h, e.b, e.a) && !array_push(h->alloc, &h->border, e)) return false;
+        }
+    }
+    return true;
+}
+
+static bool add_corner(hull *h, const double *x) {
+    for (size_t i = 0; i < h->facets.count; i++)
+        h->facets.data[i].seen = geom_side_vertex(h->context, &h->facets.data[i].plane, x) > 0;
+    if (!find_border(h)) return false;
+    size_t kept = 0;
+    for (size_t i = 0; i < h->facets.count; i++)
+        if (!h->facets.data[i].seen) h->facets.data[kept++] = h->facets.data[i];
+    h->facets.count = kept;
+    for (size_t i = 0; i < h->border.count; i++)
+        if (!add_facet(h, h->border.data[i].a, h->border.data[i].b, x)) return false;
+    return true;
+}
+
+/* A tetrahedron of four corners that are not in one plane; no facets: there is none. */
+static bool begin(hull *h) {
+    const uint32_t n = scene_corners(h->scene, h->object);
+    const double *p[3] = {corner(h, 0), n > 1 ? corner(h, 1) : NULL, NULL};
+    geom_plane plane;
+    uint32_t i = 2;
+    bool spans = false;
+    for (; i < n && !spans; i++) {
+        p[2] = corner(h, i);
+        plane = geom_plane_points(3, p);
+        spans = geom_plane_valid(h->context, &plane);
+    }
+    for (; i < n; i++) {
+        const double *x = corner(h, i);
+        const int side = geom_side_vertex(h->context, &plane, x);
+        if (!side) continue;
+        const double *a = p[0], *b = side > 0 ? p[2] : p[1], *c = side > 0 ? p[1] : p[2]; /* x is behind a, b, c */
+        return add_facet(h, a, b, c) && add_facet(h, b, a, x) && add_facet(h, c, b, x) && add_facet(h, a, c, x);
+    }
+    return true;
+}
+
+static double sum_of_tetrahedra(const hull *h) {
+    const double *o = corner(h, 0);
+    double sum = 0, v[3][3];
+    for (size_t i = 0; i < h->facets.count; i++) {
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) v[j][k] = h->facets.data[i].p[j][k] - o[k];
+        sum += v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
+               v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+    }
+    return sum / 6;
+}
+
+froe_status measure_hull_volume(num_context *context, const froe_allocator *alloc, const froe_scene *scene,
+                                uint32_t object, double *out) {
+    hull h = {.context = context, .alloc = alloc, .scene = scene, .object = object};
+    if (scene->dim == 2) {
+        *out = area(&h);
+        return FROE_OK;
+    }
+    bool ok = begin(&h);
+    for (uint32_t i = 0; i < scene_corners(scene, object) && ok && h.facets.count; i++)
+        ok = add_corner(&h, corner(&h, i));
+    if (ok) *out = sum_of_tetrahedra(&h);
+    array_free(alloc, &h.facets);
+    array_free(alloc, &h.border);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
