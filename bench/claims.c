@@ -1,9 +1,10 @@
 /* claims.c: reproduces what the sources claim: each claim as a number in a range, measured now.
  *
- *     bench_claims [FILE]
+ *     bench_claims [FILE [WORD]]
  *
- * Prints claim, range, number and verdict; writes the same as a table for the documents into FILE. Exit status 1 if a
- * claim fails. Claims of methods that are not built are told as such. A couple of minutes on one core. */
+ * Prints claim, range, number and verdict; writes the same as a table for the documents into FILE ("-": none).
+ * With WORD only claims of sources and methods whose names hold it. Exit status 1 if a claim fails. Claims of methods
+ * that are not built are told as such. A couple of minutes on one core. */
 #include "claims.h"
 #include <math.h>
 #include <stdio.h>
@@ -52,7 +53,8 @@ bool claims_serves(const froe_method_info *method, const froe_scene *scene) {
 
 typedef struct account {
     int held, failed, absent;
-    FILE *file; /* NULL: none */
+    FILE *file;       /* NULL: none */
+    const char *word; /* NULL: all claims */
 } account;
 
 static void put_range(char *text, size_t size, const claim *c) {
@@ -80,6 +82,7 @@ static void tell(account *a, const claim *c, double value, double seconds) {
 
 static void run(account *a, const claim *claims) {
     for (const claim *c = claims; c->source; c++) {
+        if (a->word && !strstr(c->source, a->word) && !(c->method && strstr(c->method, a->word))) continue;
         const double start = bench_now();
         const bool there = !c->method || claims_has(c->method);
         const double value = there ? c->fn() : NAN;
@@ -106,8 +109,9 @@ static void put_head(FILE *file) {
 }
 
 int main(int argc, char **argv) {
-    account a = {.file = argc > 1 ? fopen(argv[1], "w") : NULL};
-    if (argc > 1 && !a.file) {
+    const bool written = argc > 1 && strcmp(argv[1], "-") != 0;
+    account a = {.file = written ? fopen(argv[1], "w") : NULL, .word = argc > 2 ? argv[2] : NULL};
+    if (written && !a.file) {
         perror(argv[1]);
         return 1;
     }

@@ -343,6 +343,18 @@ static double orthogonal_in_the_plane(void) {
 static double orthogonal_bars(void) {
     return growth("bars", 200, 4, "paterson_yao", NULL, FROE_LEAF_OWN, pieces);
 }
+/* Pieces over n (1 + 2 log2 n): each segment ends in two slabs of each level. */
+static double slab_constant(void) {
+    static const char *const kinds[] = {"disjoint", "rooms", "blocks", "spiral", NULL};
+    double worst = 0;
+    for (const char *const *kind = kinds; *kind; kind++) {
+        claims_tree t = claims_build(*kind, 8000, "paterson_yao", "rule=slabs", FROE_LEAF_OWN);
+        const double n = (double)t.report.objects;
+        worst = fmax(worst, pieces(&t) / (n * (1 + 2 * log2(n))));
+        claims_free(&t);
+    }
+    return worst;
+}
 
 /* ------------------------------------------------------------- all, and froe's own -- */
 
@@ -429,6 +441,8 @@ const claim claims_size[] = {
      cylindrical_height},
     {"Paterson and Yao 1990", "O(n log n) pieces of disjoint segments", "paterson_yao",
      "exponent of pieces / (n log n) in n; worse of parallel, disjoint", -INFINITY, 0.1, slabs},
+    {"the same", "two pieces a slab of each level", "paterson_yao",
+     "pieces / (n (1 + 2 log2 n)), worst of disjoint, rooms, blocks, spiral", 0, 1, slab_constant},
     {"Paterson and Yao 1992", "few pieces of axis-parallel objects in the plane", "paterson_yao",
      "exponent of pieces in n; worst of cells, walls, rows", 0.9, 1.05, orthogonal_in_the_plane},
     {"Paterson and Yao 1992", "n^1.5 in space, where it must be", "paterson_yao", "exponent of pieces in n, bars", 1.35,
