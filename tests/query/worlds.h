@@ -8,16 +8,14 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { WORLD_TREES = 24 };
-
 typedef struct world {
     const char *name;
     int dim;
     size_t count; /**< of objects */
     froe_scene *scene;
     oracle_set *objects; /**< up to three dimensions */
-    froe_tree *trees[WORLD_TREES];
-    froe_query *queries[WORLD_TREES];
+    froe_tree **trees; /**< by every method that serves the scene, with several loads of leaves */
+    froe_query **queries;
     size_t tree_count;
     double scale; /**< queries lie in about 0 .. scale on each axis, plus `origin` */
     double origin[FROE_MAX_DIM];
@@ -39,19 +37,21 @@ static inline void world_build(world *w, const char *method, uint32_t leaf) {
         assert_true(status == FROE_E_UNSUPPORTED || status == FROE_E_OPTIONS || status == FROE_E_BUDGET);
         return;
     }
-    assert_true(w->tree_count < WORLD_TREES);
     assert_int_equal(froe_query_new(tree, &w->queries[w->tree_count], NULL), FROE_OK);
     w->trees[w->tree_count++] = tree;
 }
 
-/** Takes over the scene; all builders. */
+/** Takes over the scene; all builders, each with leaves of one object and, by turns, with full or free ones. */
 static inline world world_begin(const char *name, froe_scene *scene) {
     world w = {.name = name, .dim = froe_scene_dim(scene), .count = froe_scene_object_count(scene), .scene = scene};
     double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
-    for (size_t m = 0; froe_method_at(m); m++) {
+    size_t methods = 0;
+    while (froe_method_at(methods)) methods++;
+    w.trees = calloc(2 * methods, sizeof *w.trees);
+    w.queries = calloc(2 * methods, sizeof *w.queries);
+    for (size_t m = 0; m < methods; m++) {
         world_build(&w, froe_method_at(m)->name, 1);
-        world_build(&w, froe_method_at(m)->name, 6);
-        if (w.dim == 2) world_build(&w, froe_method_at(m)->name, 0);
+        world_build(&w, froe_method_at(m)->name, w.dim == 2 && (w.count + m) % 2 ? 0 : 6);
     }
     assert_true(w.tree_count > 0);
     froe_scene_bounds(scene, lo, hi);
@@ -68,6 +68,8 @@ static inline void world_end(world *w) {
         froe_tree_free(w->trees[i]);
     }
     for (uint32_t i = 0; i < w->count && w->dim <= 3; i++) oracle_set_free(&w->objects[i]);
+    free(w->trees);
+    free(w->queries);
     free(w->objects);
     froe_scene_free(w->scene);
 }
