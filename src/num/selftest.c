@@ -7,11 +7,12 @@
 #include <float.h>
 #include <math.h>
 
-/* Upwards the first sum is larger, downwards and towards zero the second is not. */
+/* Upwards the first sum is larger, downwards and towards zero the second is not. No products of denormals: processors
+ * that need help with those are three times as fast so. */
 bool num_rounding_trusted(void) {
-    volatile double unknown = 1;
-    double one = unknown, denormal = 0x1p-1074 * one, tiny = 0x1p-1022 * one;
-    return one + 0x1p-53 * one == one && one + 0x1.8p-53 * one > one && denormal * 0x1p60 > 0 && tiny * 0.5 > 0;
+    volatile double unknown[] = {1, 0x1p-1074, 0x1p-1022};
+    double one = unknown[0], denormal = unknown[1], tiny = unknown[2];
+    return one + 0x1p-53 == one && one + 0x1.8p-53 > one && denormal > 0 && 0x1.8p-1022 - tiny > 0;
 }
 
 static bool rounds_to_nearest_even(void) {
