@@ -5,7 +5,7 @@
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CMOCKA REQUIRED IMPORTED_TARGET GLOBAL cmocka)
 pkg_check_modules(GMP REQUIRED IMPORTED_TARGET GLOBAL gmp)
-set(seconds 120)
+set(seconds 300)
 if(FROE_SANITIZE OR FROE_COVERAGE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(seconds 600)
 endif()

@@ -1,30 +1,18 @@
 /* Locating points against brute force in rationals, and batches against single queries. */
-#include "query/ranges.h"
+#include "query/standing.h"
 
 enum { DECISIONS = 1000000 };
 
-static world worlds[8];
-static size_t world_count;
-
-static void add_world(const char *name, froe_scene *scene, bool lattice) {
-    worlds[world_count] = world_begin(name, scene);
-    worlds[world_count++].lattice = lattice;
-}
-
 static int begin(void **state) {
     (void)state;
-    add_world("lattice", world_mixture(2, FLAT_KINDS, 80, 12, 0.4, 2), true);
-    add_world("solids in the plane", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 60, 0, 0.4, 3), false);
-    add_world("lattice of solids", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 40, 12, 0.5, 4), true);
-    add_world("lattice in space", world_mixture(3, FLAT_KINDS | 1 << FROE_POLYGON, 40, 6, 0.6, 6), true);
-    add_world("solids in space", world_mixture(3, SOLID_KINDS | 1 << FROE_HULL, 50, 0, 0.5, 7), false);
-    add_world("floor plan", world_read("freedoom-e1m1.geojson"), false);
-    return 0;
-}
-
-static int end(void **state) {
-    (void)state;
-    for (size_t i = 0; i < world_count; i++) world_end(&worlds[i]);
+    standing_add("lattice", world_mixture(2, FLAT_KINDS, 80, 12, 0.4, 2), true);
+    standing_add("solids in the plane", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 60, 0, 0.4, 3),
+                 false);
+    standing_add("lattice of solids", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 40, 12, 0.5, 4),
+                 true);
+    standing_add("lattice in space", world_mixture(3, FLAT_KINDS | 1 << FROE_POLYGON, 40, 6, 0.6, 6), true);
+    standing_add("solids in space", world_mixture(3, SOLID_KINDS | 1 << FROE_HULL, 50, 0, 0.5, 7), false);
+    standing_add("floor plan", world_read("freedoom-e1m1.geojson"), false);
     return 0;
 }
 
@@ -174,5 +162,5 @@ int main(void) {
         cmocka_unit_test(the_first_bad_query_of_a_batch_is_named),
         cmocka_unit_test(batches_survive_every_failing_allocation),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, begin, standing_end);
 }

@@ -1,7 +1,7 @@
 /* The nearest objects, against brute force in whole numbers: every builder; points anywhere, on vertices and cuts,
  * at equal distances from several objects, far outside. */
 #include "query/context.h"
-#include "query/exact_world.h"
+#include "query/tours.h"
 
 static uint64_t decisions, ties;
 
@@ -49,7 +49,7 @@ static size_t brute_force(const world *w, const ask *a, const exact_body *bodies
         const size_t mark = exact_mark();
         const exact_value distance = exact_distance(a->point, &bodies[i]);
         item x = {i, exact_keep(mark, &distance)};
-        decisions++;
+        decisions += w->tree_count;
         if (!isinf(a->bound) && exact_compare(&x.distance, &bound) > 0) continue;
         const size_t at = place_of(&x, out, count);
         ties += at && !exact_compare(&x.distance, &out[at - 1].distance);
@@ -94,43 +94,19 @@ static void check_world(world w, int points) {
 
 static void neighbours_in_generated_scenes(void **state) {
     (void)state;
-    for (size_t g = 0; froe_generator_at(g); g++) {
-        const char *name = froe_generator_at(g)->name;
-        const bool slow = strstr(name, "huge") || strstr(name, "denormal");
-        check_world(world_begin(name, world_generate(name, 60)), (slow ? 20 : 150) / EXACT_SHARE);
-    }
+    tour_generators(check_world, 60, 12);
 }
-
 static void neighbours_among_all_kinds_on_lattices_and_off(void **state) {
     (void)state;
-    const unsigned flat = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_BOX | 1u << FROE_BALL | 1u << FROE_HULL;
-    const unsigned many = 1u << FROE_POINT | 1u << FROE_BOX | 1u << FROE_BALL;
-    for (uint64_t seed = 1; seed <= 6; seed++) {
-        const uint32_t grid = seed % 2 ? 0 : (uint32_t)seed;
-        world w[] = {world_begin("plane", world_mixture(2, flat, 8, grid, 0.4, seed)),
-                     world_begin("space", world_mixture(3, flat | 1u << FROE_POLYGON, 8, grid, 0.5, seed)),
-                     world_begin("five dimensions", world_mixture(5, many, 20, grid, 0.8, seed))};
-        for (size_t i = 0; i < sizeof w / sizeof *w; i++) {
-            w[i].lattice = grid;
-            check_world(w[i], 300 / EXACT_SHARE);
-        }
-    }
+    tour_mixtures(check_world, 6, 120);
 }
-
 static void neighbours_in_real_scenes(void **state) {
     (void)state;
-    static const char *const files[] = {"freedoom-e1m1.geojson", "countries-110m.json", "utah-teapot.obj",
-                                        "fzk-haus-boxes.csv"};
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-        check_world(world_begin(files[i], world_read(files[i])), 16 / EXACT_SHARE);
+    tour_files(check_world, 16);
 }
-
 static void neighbours_in_scenes_of_one_object_or_none(void **state) {
     (void)state;
-    for (int dim = 2; dim <= 4; dim++) check_world(world_begin("none", world_mixture(dim, 0, 0, 0, 1, 1)), 20);
-    for (int kind = 0; kind < FROE_KIND_COUNT; kind++)
-        for (int dim = kind == FROE_POLYGON ? 3 : 2; dim <= 3; dim++)
-            check_world(world_begin("one", world_mixture(dim, 1u << kind, 1, 3, 1, 1)), 40);
+    tour_tiny(check_world);
 }
 
 static void bad_questions_are_refused_and_change_nothing(void **state) {

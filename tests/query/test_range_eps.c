@@ -1,36 +1,5 @@
 /* Approximate ranges: all that meet, and nothing further away than eps times the diameter. */
-#include "query/ranges.h"
-
-/* ------------------------------------------------------------------- worlds -- */
-
-static world worlds[16];
-static size_t world_count;
-
-static void add_world(const char *name, froe_scene *scene, bool lattice) {
-    worlds[world_count] = world_begin(name, scene);
-    worlds[world_count++].lattice = lattice;
-}
-
-static int begin(void **state) {
-    (void)state;
-    add_world("segments", world_mixture(2, 1 << FROE_SEGMENT, 300, 0, 0.15, 1), false);
-    add_world("lattice", world_mixture(2, FLAT_KINDS, 80, 12, 0.4, 2), true);
-    add_world("solids in the plane", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 50, 0, 0.15, 3),
-              false);
-    add_world("lattice of solids", world_mixture(2, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL, 30, 12, 0.4, 4), true);
-    add_world("polygons", world_mixture(3, 1 << FROE_POLYGON, 150, 0, 0.2, 5), false);
-    add_world("lattice in space", world_mixture(3, FLAT_KINDS | 1 << FROE_POLYGON, 40, 6, 0.6, 6), true);
-    add_world("solids in space",
-              world_mixture(3, FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL | 1 << FROE_POLYGON, 30, 0, 0.2, 7), false);
-    add_world("floor plan", world_read("freedoom-e1m1.geojson"), false);
-    return 0;
-}
-
-static int end(void **state) {
-    (void)state;
-    for (size_t i = 0; i < world_count; i++) world_end(&worlds[i]);
-    return 0;
-}
+#include "query/standing.h"
 
 /* -------------------------------------------------------------- approximately -- */
 
@@ -93,5 +62,5 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(approximate_answers_keep_their_contract),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, standing_begin, standing_end);
 }

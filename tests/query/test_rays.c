@@ -1,7 +1,7 @@
 /* What rays meet, against brute force in whole numbers: every builder; rays along axes, cuts and objects, through
  * corners, from anywhere, of any length. */
 #include "query/context.h"
-#include "query/exact_world.h"
+#include "query/tours.h"
 
 static uint64_t decisions, hits, ties, verticals;
 
@@ -60,7 +60,7 @@ static size_t brute_force(const world *w, const ask *a, const exact_body *bodies
         const size_t mark = exact_mark();
         met m = {.object = i};
         exact_value t;
-        decisions++;
+        decisions += w->tree_count;
         if (!exact_ray(a->origin, a->direction, &bodies[i], &t)) continue;
         m.t = exact_keep(mark, &t);
         if (!isinf(a->t_max) && exact_compare(&m.t, &end) > 0) continue;
@@ -125,43 +125,19 @@ static void check_world(world w, int rays) {
 
 static void rays_in_generated_scenes(void **state) {
     (void)state;
-    for (size_t g = 0; froe_generator_at(g); g++) {
-        const char *name = froe_generator_at(g)->name;
-        const bool slow = strstr(name, "huge") || strstr(name, "denormal");
-        check_world(world_begin(name, world_generate(name, 60)), (slow ? 30 : 150) / EXACT_SHARE);
-    }
+    tour_generators(check_world, 60, 12);
 }
-
 static void rays_among_all_kinds_on_lattices_and_off(void **state) {
     (void)state;
-    const unsigned flat = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_BOX | 1u << FROE_BALL | 1u << FROE_HULL;
-    const unsigned many = 1u << FROE_POINT | 1u << FROE_BOX | 1u << FROE_BALL;
-    for (uint64_t seed = 1; seed <= 6; seed++) {
-        const uint32_t grid = seed % 2 ? 0 : (uint32_t)seed;
-        world w[] = {world_begin("plane", world_mixture(2, flat, 8, grid, 0.4, seed)),
-                     world_begin("space", world_mixture(3, flat | 1u << FROE_POLYGON, 8, grid, 0.5, seed)),
-                     world_begin("five dimensions", world_mixture(5, many, 20, grid, 0.8, seed))};
-        for (size_t i = 0; i < sizeof w / sizeof *w; i++) {
-            w[i].lattice = grid;
-            check_world(w[i], 300 / EXACT_SHARE);
-        }
-    }
+    tour_mixtures(check_world, 6, 120);
 }
-
 static void rays_through_real_scenes(void **state) {
     (void)state;
-    static const char *const files[] = {"freedoom-e1m1.geojson", "countries-110m.json", "utah-teapot.obj",
-                                        "fzk-haus-boxes.csv"};
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-        check_world(world_begin(files[i], world_read(files[i])), 24 / EXACT_SHARE);
+    tour_files(check_world, 24);
 }
-
 static void rays_in_scenes_of_one_object_or_none(void **state) {
     (void)state;
-    for (int dim = 2; dim <= 4; dim++) check_world(world_begin("none", world_mixture(dim, 0, 0, 0, 1, 1)), 20);
-    for (int kind = 0; kind < FROE_KIND_COUNT; kind++)
-        for (int dim = kind == FROE_POLYGON ? 3 : 2; dim <= 3; dim++)
-            check_world(world_begin("one", world_mixture(dim, 1u << kind, 1, 3, 1, 1)), 40);
+    tour_tiny(check_world);
 }
 
 /* ----------------------------------------------------------------- refusals -- */

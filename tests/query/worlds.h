@@ -14,7 +14,7 @@ typedef struct world {
     size_t count; /**< of objects */
     froe_scene *scene;
     oracle_set *objects; /**< up to three dimensions */
-    froe_tree **trees; /**< by every method that serves the scene, with several loads of leaves */
+    froe_tree **trees;   /**< by every method that serves the scene, with several loads of leaves */
     froe_query **queries;
     size_t tree_count;
     double scale; /**< queries lie in about 0 .. scale on each axis, plus `origin` */

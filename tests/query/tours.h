@@ -1,0 +1,54 @@
+/* tours.h: the scenes on which a kind of question is held against brute force, one after the other. */
+#ifndef FROE_TESTS_QUERY_TOURS_H
+#define FROE_TESTS_QUERY_TOURS_H
+#include "query/exact_world.h"
+
+/** Asks as many questions as said of every tree of a world, and ends the world. */
+typedef void tour_check(world w, int questions);
+
+enum {
+    TOUR_FLAT = 1 << FROE_POINT | 1 << FROE_SEGMENT | 1 << FROE_BOX | 1 << FROE_BALL | 1 << FROE_HULL,
+    TOUR_MANY = 1 << FROE_POINT | 1 << FROE_BOX | 1 << FROE_BALL, /**< kinds of any dimension */
+};
+
+/** One scene by every generator; fewer questions where coordinates make rationals long. */
+static inline void tour_generators(tour_check *check, int questions, int slow_questions) {
+    for (size_t g = 0; froe_generator_at(g); g++) {
+        const char *name = froe_generator_at(g)->name;
+        const bool slow = strstr(name, "huge") || strstr(name, "denormal");
+        check(world_begin(name, world_generate(name, 60)), (slow ? slow_questions : questions) / EXACT_SHARE);
+    }
+}
+
+/** All kinds of objects at once in two, three and five dimensions, on lattices and off. */
+static inline void tour_mixtures(tour_check *check, uint64_t seeds, int questions) {
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        const uint32_t grid = seed % 2 ? 0 : (uint32_t)seed;
+        world w[] = {
+            world_begin("plane", world_mixture(2, TOUR_FLAT, 8, grid, 0.4, seed)),
+            world_begin("space", world_mixture(3, TOUR_FLAT | 1 << FROE_POLYGON, 8, grid, 0.5, seed)),
+            world_begin("five dimensions", world_mixture(5, TOUR_MANY, 20, grid, 0.8, seed)),
+        };
+        for (size_t i = 0; i < sizeof w / sizeof *w; i++) {
+            w[i].lattice = grid;
+            check(w[i], questions / EXACT_SHARE);
+        }
+    }
+}
+
+/** A floor plan, a map, a mesh and boxes. */
+static inline void tour_files(tour_check *check, int questions) {
+    static const char *const files[] = {"freedoom-e1m1.geojson", "countries-110m.json", "utah-teapot.obj",
+                                        "fzk-haus-boxes.csv"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        check(world_begin(files[i], world_read(files[i])), questions / EXACT_SHARE);
+}
+
+/** No object, and one of every kind. */
+static inline void tour_tiny(tour_check *check) {
+    for (int dim = 2; dim <= 4; dim++) check(world_begin("none", world_mixture(dim, 0, 0, 0, 1, 1)), 20);
+    for (int kind = 0; kind < FROE_KIND_COUNT; kind++)
+        for (int dim = kind == FROE_POLYGON ? 3 : 2; dim <= 3; dim++)
+            check(world_begin("one", world_mixture(dim, 1u << kind, 1, 3, 1, 1)), 40);
+}
+#endif
