@@ -26,7 +26,7 @@ static const contender contenders[] = {
     {"density", "density", NULL},
     {"kd, median", "kd", "cost=median"},
     {"kd, surface", "kd", "cost=surface"},
-    {"orthogonal", "orthogonal", NULL}, /* where it is there */
+    {"Paterson-Yao", "paterson_yao", NULL},
     {"best of 16 facets", "autopartition", "candidates=16"},
 };
 enum { CONTENDERS = sizeof contenders / sizeof *contenders };

@@ -129,9 +129,13 @@ static froe_status pour(const io_source *source, io_sink *sink, froe_scene **out
     if (!status) status = reader(source, sink);
     if (!status) status = io_sink_end_feature(sink);
     if (!status && !sink->total)
-        status = io_fail(sink->diag, FROE_E_INPUT,
-                         "%s: holds no objects (%llu features without geometry, %llu skipped)", io_short(source->path),
-                         (unsigned long long)sink->report.no_geometry, (unsigned long long)sink->report.skipped);
+        status =
+            io_fail(sink->diag, FROE_E_INPUT, "%s: holds no objects (%llu features without geometry, %llu skipped)%s",
+                    io_short(source->path), (unsigned long long)sink->report.no_geometry,
+                    (unsigned long long)sink->report.skipped,
+                    reader == io_read_ogr && has_extension(source, "csv")
+                        ? "; a CSV begins with a line like x,y or x,y,r or lo_x,lo_y,hi_x,hi_y"
+                        : "");
     if (!status) status = io_sink_progress(sink, 1);
     return status ? status : io_sink_take(sink, out);
 }

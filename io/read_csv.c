@@ -13,6 +13,13 @@ enum { MOST_COLUMNS = 512, NAME_ROOM = 32 };
 /* What a column holds. Corner c (0, or 1 for hi_) of axis a is c * FROE_MAX_DIM + a. */
 enum { RADIUS = 2 * FROE_MAX_DIM, TAG, GEOMETRY, LEFT_ALONE };
 
+typedef enum header {
+    OURS,
+    OTHER,  /* OGR may know */
+    BEYOND, /* more axes than there can be */
+    HALVES  /* ends of boxes, but not both on the same axes */
+} header;
+
 typedef struct table {
     char separator;
     froe_kind kind;
@@ -49,15 +56,18 @@ static char *trim(char *field) {
 
 /* ---------------------------------------------------------------- header -- */
 
-/* Axis of a name like x, z or x7; -1 when it is none, FROE_MAX_DIM when it is beyond. */
-static int axis_of(const char *name) {
-    if (name[0] && !name[1]) {
-        const char *letters = "xyzw", *at = strchr(letters, name[0] | 0x20);
-        return at ? (int)(at - letters) : -1;
-    }
+/* Axis of a name like x, z or x7, behind lo_ and hi_ also 7; -1 when it is none, FROE_MAX_DIM when it is beyond. */
+static int axis_of(const char *name, bool sided) {
+    static const char letters[] = "xyzw";
+    const char *at = name[0] && !name[1] ? strchr(letters, name[0] | 0x20) : NULL;
     char *end;
-    if ((name[0] | 0x20) != 'x' || name[1] < '1' || name[1] > '9') return -1;
-    long number = strtol(name + 1, &end, 10);
+    if (at) return (int)(at - letters);
+    if ((name[0] | 0x20) == 'x')
+        ++name;
+    else if (!sided)
+        return -1;
+    if (name[0] < '1' || name[0] > '9') return -1;
+    long number = strtol(name, &end, 10);
     if (*end) return -1;
     return number <= FROE_MAX_DIM ? (int)number - 1 : FROE_MAX_DIM;
 }
@@ -71,7 +81,7 @@ static int role_of(const char *name, bool *beyond) {
     bool sided = strlen(name) > 3 && name[2] == '_';
     char side[3] = {name[0], sided ? name[1] : '\0', '\0'};
     if (sided && !io_equal_nocase(side, "lo") && !io_equal_nocase(side, "hi")) return LEFT_ALONE;
-    int axis = axis_of(sided ? name + 3 : name);
+    int axis = axis_of(sided ? name + 3 : name, sided);
     if (axis < 0) return LEFT_ALONE;
     if (axis >= FROE_MAX_DIM) return *beyond = true, LEFT_ALONE;
     /* a plain axis is stored as corner 0; `sided` is told apart by the presence of corner 1 */
@@ -94,45 +104,54 @@ static bool settle(table *t, bool sided) {
 }
 
 /* Reads the header line, which it changes, and moves `at` behind it. */
-static bool read_header(char **at, table *t, bool *beyond) {
+static header read_header(char **at, table *t) {
     if (!strncmp(*at, "\xef\xbb\xbf", 3)) *at += 3;
     size_t length = strcspn(*at, "\r\n");
     char *line = *at;
     t->separator = memchr(line, ',', length) ? ',' : memchr(line, ';', length) ? ';' : '\t';
-    *beyond = false;
-    bool last = false, sided = false, plain = false;
+    bool last = false, beyond = false;
+    int sided = 0, plain = 0;
     for (t->columns = 0; !last; ++t->columns) {
-        if (t->columns == MOST_COLUMNS) return false;
+        if (t->columns == MOST_COLUMNS) return OTHER;
         char *name = trim(next_field(at, t->separator, &last));
-        int role = role_of(name, beyond);
-        if (role < RADIUS) *(strchr(name, '_') ? &sided : &plain) = true;
+        int role = role_of(name, &beyond);
+        if (role < RADIUS) ++*(strchr(name, '_') ? &sided : &plain);
         t->role[t->columns] = (unsigned char)role;
     }
-    return !*beyond && !(sided && plain) && settle(t, sided);
+    if (beyond) return BEYOND;
+    if (!(sided && plain) && settle(t, sided)) return OURS;
+    return sided > 1 && !memchr(t->role, GEOMETRY, (size_t)t->columns) ? HALVES : OTHER;
 }
 
 /* Reads the header from the file's first bytes. */
-static bool peek_header(const io_source *source, table *t, bool *beyond) {
+static header peek_header(const io_source *source, table *t) {
     char line[sizeof source->head], *at = line;
     size_t length = strcspn(source->head, "\n");
     t->columns = 0;
-    *beyond = false;
-    if (memchr(source->head, '\0', length)) return false;
+    if (memchr(source->head, '\0', length)) return OTHER;
     memcpy(line, source->head, length);
     line[length] = '\0';
-    return read_header(&at, t, beyond);
+    return read_header(&at, t);
 }
 
 bool io_csv_recognise(const io_source *source) {
     table t;
-    bool beyond;
-    return peek_header(source, &t, &beyond) || beyond;
+    return peek_header(source, &t) != OTHER;
+}
+
+static froe_status refuse_header(const io_source *source, const io_sink *sink, header what) {
+    const char *name = io_short(source->path);
+    if (what == BEYOND) return io_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: has more than %d axes", name, FROE_MAX_DIM);
+    if (what == HALVES)
+        return io_fail(sink->diag, FROE_E_FORMAT,
+                       "%s: columns of boxes are lo_ and hi_ of the same two or more axes, as in lo_x,lo_y,hi_x,hi_y",
+                       name);
+    return io_fail(sink->diag, FROE_E_IO, "%s: changed while it was read", name);
 }
 
 bool io_csv_has_geometry(const io_source *source) {
     table t;
-    bool beyond;
-    peek_header(source, &t, &beyond);
+    peek_header(source, &t);
     return memchr(t.role, GEOMETRY, (size_t)t.columns) != NULL;
 }
 
@@ -218,13 +237,10 @@ static froe_status read_rows(io_sink *sink, const table *t, char *at, const io_b
 froe_status io_read_csv(const io_source *source, io_sink *sink) {
     io_buffer text = {0};
     table t;
-    bool beyond = false;
     froe_status status = io_load(source, sink, false, &text);
     char *at = text.data;
-    if (!status && !read_header(&at, &t, &beyond))
-        status = beyond ? io_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: has more than %d axes", io_short(source->path),
-                                  FROE_MAX_DIM)
-                        : io_fail(sink->diag, FROE_E_IO, "%s: changed while it was read", io_short(source->path));
+    header what = status ? OURS : read_header(&at, &t);
+    if (what != OURS) status = refuse_header(source, sink, what);
     if (!status) status = io_sink_open(sink, t.dim);
     sink->unit = "row";
     sink->report.layers = 1;

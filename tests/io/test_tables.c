@@ -41,6 +41,7 @@ static void columns_come_in_any_order_with_others_between(void **state) {
     assert_true(froe_scene_object(s, 0).tag == UINT64_MAX);
     assert_int_equal(froe_scene_object(s, 1).tag, 7);
     froe_scene_free(s);
+    froe_scene_free(table("lo_1,lo_2,lo_3,hi_1,hi_2,hi_3\n0,1,2,3,4,5\n", "CSV boxes"));
     s = table("hi_y\thi_x\tlo_x\tlo_y\n4\t3\t1\t2\n", "CSV boxes");
     assert_true(corner(s, 0, 0)[0] == 1 && corner(s, 0, 0)[1] == 2 && corner(s, 0, 1)[0] == 3 &&
                 corner(s, 0, 1)[1] == 4);
@@ -103,6 +104,10 @@ static void bad_rows_are_named(void **state) {
     refuse_table("lo_x,lo_y,hi_x,hi_y\n0,0,-1,1\n", FROE_E_INPUT, "lo_x = 0 is above hi_x = -1");
     refuse_table("x,y,r\n0,0,-1\n", FROE_E_INPUT, "radius is -1");
     refuse_table("x,y,r\n0,0,inf\n", FROE_E_INPUT, "radius");
+    refuse_table("lo_x,lo_y,hi_x\n0,0,1\n", FROE_E_FORMAT, "lo_ and hi_ of the same");
+    refuse_table("lo_x,lo_y,lo_z,hi_x,hi_y,x\n0,0,1,1,1,1\n", FROE_E_FORMAT, "lo_ and hi_ of the same");
+    refuse_table("lo_1,hi_1,lo_9,hi_9\n0,1,0,1\n", FROE_E_UNSUPPORTED, "more than 8 axes");
+    refuse_table("0,0,1,1\n2,2,3,3\n", FROE_E_INPUT, "begins with a line like x,y");
     refuse_table("x,y\n", FROE_E_INPUT, "holds no objects");
     refuse_table("x1,x2,x3,x4,x5,x6,x7,x8,x9\n1,2,3,4,5,6,7,8,9\n", FROE_E_UNSUPPORTED, "more than 8");
     write_bytes("zero.csv", "x,y\n1,\0002\n", 9);
