@@ -45,7 +45,9 @@ static froe_status tell(const froe_kinetic *k, const froe_kinetic *fresh, const 
 
 static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
     for (size_t i = 0; i < k->queue.count; i++) {
-        const live_cert c = k->certs.data[k->queue.data[i]];
+        const live_cert c = k->certs.data[k->queue.data[i].cert];
+        if (c.place != i || c.tick != k->queue.data[i].tick || c.tick < k->queue.data[i ? (i - 1) / 4 : 0].tick)
+            return base_fail(diag, FROE_E_INPUT, "the queue is not in order at place %zu", i);
         if (c.tick <= k->now.tick) return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d is overdue", c.kind);
         if (c.kind <= CERT_TURN && now_holds(&k->now, &c.claim) < 0)
             return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d does not hold", c.kind);

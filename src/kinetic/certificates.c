@@ -133,8 +133,7 @@ static void visit(froe_kinetic *k, uint32_t node, const live_cell *cell) {
 }
 
 /* All touched nodes of a subtree, children before parents. */
-static void certify_touched(froe_kinetic *k, uint32_t root) {
-    live_cell cell = live_cell_of(k, root);
+static void certify_touched(froe_kinetic *k, uint32_t root, live_cell cell) {
     k->visits.count = 0;
     visit(k, root, &cell);
     while (k->visits.count) {
@@ -158,16 +157,22 @@ static void certify_touched(froe_kinetic *k, uint32_t root) {
     }
 }
 
-void live_certify(froe_kinetic *k, uint32_t parent, uint8_t slot) {
-    uint32_t root = node_at(k, parent)->child[slot];
+live_site live_site_of(const froe_kinetic *k, uint32_t node) {
+    const live_node *n = node_at(k, node);
+    return (live_site){n->parent, n->slot, n->cut, live_cell_of(k, node)};
+}
+
+void live_certify(froe_kinetic *k, const live_site *site) {
+    uint32_t root = node_at(k, site->parent)->child[site->slot];
     if (k->short_of_memory) return; /* parts may hang nowhere */
-    if (root && node_at(k, root)->stamp == k->stamp) certify_touched(k, root);
-    for (uint32_t node = parent; node != ROOT; node = node_at(k, node)->parent) {
-        bool cut = find_cut(k, node), changed = cut != node_at(k, node)->cut;
+    if (root && node_at(k, root)->stamp == k->stamp) certify_touched(k, root, site->cell);
+    bool changed = has_cut(k, root) != site->cut;
+    for (uint32_t node = site->parent; changed && node != ROOT; node = node_at(k, node)->parent) {
+        bool cut = find_cut(k, node);
+        changed = cut != node_at(k, node)->cut;
         node_at(k, node)->cut = cut;
         live_cell cell = live_cell_of(k, node);
         certify_regions(k, node, &cell);
-        if (!changed) break;
     }
     if (!k->short_of_memory) certify_ends(k);
 }

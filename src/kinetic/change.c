@@ -34,10 +34,10 @@ static void touch_walls(froe_kinetic *k, const live_cell *cell) {
 }
 
 static void insert_nodes(froe_kinetic *k, uint32_t segment) {
-    live_cell plane = live_plane();
+    const live_site all = {ROOT, 0, false, live_plane()};
     size_t waiting = k->tasks.count;
     k->stamp++;
-    push(k, &plane, ROOT, 0);
+    push(k, &all.cell, ROOT, 0);
     while (k->tasks.count > waiting) {
         live_task task = k->tasks.data[--k->tasks.count];
         insert_below(k, segment, &task);
@@ -46,7 +46,7 @@ static void insert_nodes(froe_kinetic *k, uint32_t segment) {
         live_cell cell = live_cell_of(k, n);
         touch_walls(k, &cell);
     }
-    live_certify(k, ROOT, 0);
+    live_certify(k, &all);
 }
 
 /* Enters it in the lists of its vertices. */
@@ -83,17 +83,16 @@ void live_insert(froe_kinetic *k, uint32_t segment) {
 
 static void remove_nodes(froe_kinetic *k, uint32_t segment) {
     while (segment_at(k, segment)->nodes && !k->short_of_memory) {
-        uint32_t node = segment_at(k, segment)->nodes, parent = node_at(k, node)->parent;
-        uint8_t slot = node_at(k, node)->slot;
-        live_cell cell = live_cell_of(k, node);
+        uint32_t node = segment_at(k, segment)->nodes;
+        const live_site site = live_site_of(k, node);
         k->stamp++;
         live_new_list(k);
         segment_at(k, segment)->stamp = k->list_stamp; /* it does not get on the list */
         live_collect(k, node);
         live_free_tree(k, node);
-        live_grow(k, &cell, 0, parent, slot);
-        touch_walls(k, &cell);
-        live_certify(k, parent, slot);
+        live_grow(k, &site.cell, 0, site.parent, site.slot);
+        touch_walls(k, &site.cell);
+        live_certify(k, &site);
     }
 }
 

@@ -28,8 +28,22 @@ typedef struct search {
     const poly_ball *p;
 } search;
 
+/* The sign of the polynomial, where doubles are sure of it: then it is what the predicates would say. */
+static int sign_near(const poly_ball *p, double s) {
+    double y = 0, size = 0, error = 0;
+    for (int i = p->degree; i >= 0; i--) {
+        y = y * s + p->c[i].x;
+        size = size * s + fabs(p->c[i].x);
+        error = error * s + p->c[i].e;
+    }
+    error += error * 0x1p-40 + size * 0x1p-47 + NUM_BALL_TINY;
+    return y > error ? 1 : y < -error ? -1 : 0;
+}
+
 static bool fails_at(const search *f, int64_t s) {
     now_state *now = f->now;
+    int sign = sign_near(f->p, (double)s);
+    if (sign) return sign < 0;
     now->tick = f->start + s;
     bool fails = now_holds(now, f->claim) < 0;
     now->tick = f->start;

@@ -84,6 +84,12 @@ typedef struct live_cert {
     now_claim claim;
 } live_cert;
 
+/** A certificate's place in the queue; its tick is here, too, so that sorting looks at nothing else. */
+typedef struct live_turn {
+    int64_t tick;
+    uint32_t cert;
+} live_turn;
+
 /** Two segments in one line: where they overlap, the later one in order is not in the tree. */
 typedef struct live_pair {
     uint32_t segment[2]; /**< the earlier first */
@@ -157,7 +163,7 @@ struct froe_kinetic {
     uint32_t free_cert;
     ARRAY(live_pair) pairs;
     uint32_t free_pair;
-    ARRAY(uint32_t) queue; /**< certificates, the first to fail on top */
+    ARRAY(live_turn) queue; /**< the first to fail on top */
     ARRAY(uint32_t) list;  /**< segments waiting to be built with */
     ARRAY(live_task) tasks;
     ARRAY(live_visit) visits;
@@ -291,8 +297,16 @@ int64_t live_recall(const froe_kinetic *k, const now_claim *claim);
 void live_due(froe_kinetic *k, int64_t tick);
 
 /* certificates.c */
-/** After surgery in the subtree at child `slot` of `parent`: certificates of all that was touched, and above. */
-void live_certify(froe_kinetic *k, uint32_t parent, uint8_t slot);
+/** A place in the tree: its cell, and what matters above of what was there. */
+typedef struct live_site {
+    uint32_t parent;
+    uint8_t slot;
+    bool cut; /**< there were walls */
+    live_cell cell;
+} live_site;
+live_site live_site_of(const froe_kinetic *k, uint32_t node);
+/** After surgery at the site: certificates of all that was touched, and above. */
+void live_certify(froe_kinetic *k, const live_site *site);
 /** Looks up which end is left, and watches it. */
 void live_certify_turn(froe_kinetic *k, uint32_t segment);
 void live_forget_turn(froe_kinetic *k, uint32_t segment);

@@ -13,12 +13,10 @@
  * in the far cell. Source: the shaves of the paper's section 2.3, made by cut, growth and join. */
 #include "kinetic/live.h"
 
-/* A place in the tree, its cell, and which of its walls is passed. */
+/* A place in the tree, and which of the walls of its cell is passed. */
 typedef struct half {
-    uint32_t parent;
-    uint8_t slot;
+    live_site site;
     int side;
-    live_cell cell;
 } half;
 
 /* The ancestor that gives a node's cell its wall on a side, and below which child of it the node is. */
@@ -46,19 +44,21 @@ static int way_past(const froe_kinetic *k, uint32_t near, uint32_t owner, uint32
 static bool descend(const froe_kinetic *k, uint32_t near, uint32_t owner, half *far) {
     uint32_t segment = node_at(k, near)->segment;
     for (;;) {
-        uint32_t x = node_at(k, far->parent)->child[far->slot];
+        uint32_t x = node_at(k, far->site.parent)->child[far->site.slot];
         if (!x || node_at(k, x)->segment == segment || comes_before(k, segment, node_at(k, x)->segment)) return true;
         int way = far->side;
         if (node_at(k, x)->wall[far->side] == END_NONE) way = way_past(k, near, owner, node_at(k, x)->segment);
         if (way < 0) return false;
-        far->parent = x;
-        far->slot = (uint8_t)way;
+        far->site.parent = x;
+        far->site.slot = (uint8_t)way;
     }
 }
 
-static live_cell cell_at(const froe_kinetic *k, const half *h) {
-    live_cell cell = live_cell_of(k, h->parent);
-    return live_child_cell(k, &cell, h->parent, h->slot);
+static void look_at(const froe_kinetic *k, live_site *site) {
+    const uint32_t node = node_at(k, site->parent)->child[site->slot];
+    const live_cell cell = live_cell_of(k, site->parent);
+    site->cell = live_child_cell(k, &cell, site->parent, site->slot);
+    site->cut = node && node_at(k, node)->cut;
 }
 
 /* 1, -1: p is above, below q; 0: there is no telling. */
@@ -72,26 +72,25 @@ static bool find_halves(froe_kinetic *k, const live_item *item, half *near, half
     uint32_t node = k->certs.data[item->cert].owner;
     const live_node *n = node_at(k, node);
     near->side = item->kind == CERT_LEFT || (item->kind == CERT_MIDDLE && n->wall[LEFT] == END_NONE) ? LEFT : RIGHT;
-    near->parent = n->parent, near->slot = n->slot;
-    near->cell = live_cell_of(k, node);
+    near->site = live_site_of(k, node);
     uint8_t slot;
     uint32_t owner = wall_owner(k, node, near->side, &slot);
-    now_name wall = near->cell.wall[near->side];
+    now_name wall = near->site.cell.wall[near->side];
     now_name point = near->side == LEFT ? item->claim.q : item->claim.p;
     if (!owner || !name_is(wall, near->side == LEFT ? item->claim.p : item->claim.q)) return false;
     int order = height_order(k, point, wall);
     if (!order) return false;
     far->side = 1 - near->side;
-    far->parent = owner;
-    far->slot = (uint8_t)(slot >= UP ? near->side : order > 0 ? UP : DOWN);
+    far->site.parent = owner;
+    far->site.slot = (uint8_t)(slot >= UP ? near->side : order > 0 ? UP : DOWN);
     if (!descend(k, node, owner, far)) return false;
-    far->cell = cell_at(k, far);
-    return name_is(far->cell.wall[far->side], wall);
+    look_at(k, &far->site);
+    return name_is(far->site.cell.wall[far->side], wall);
 }
 
 /* Is the other wall of the cell outside the slab? */
 static bool is_wide(froe_kinetic *k, const half *h) {
-    now_name wall = h->cell.wall[1 - h->side];
+    now_name wall = h->site.cell.wall[1 - h->side];
     if (!name_exists(wall)) return true;
     int order = now_compare(&k->now, wall, (now_name){(uint32_t)(1 - h->side), NAME_LINE});
     return h->side == RIGHT ? order < 0 : order > 0;
@@ -100,17 +99,17 @@ static bool is_wide(froe_kinetic *k, const half *h) {
 /* Cuts the thin part next to the wall off, to `place`; the rest to the next. */
 static void cut_off(froe_kinetic *k, const half *h, uint8_t place) {
     const uint8_t slot[2] = {(uint8_t)(place + (h->side == RIGHT)), (uint8_t)(place + (h->side == LEFT))};
-    live_split(k, node_at(k, h->parent)->child[h->slot], 1 - h->side, (uint32_t[]){PARTS, PARTS}, slot);
+    live_split(k, node_at(k, h->site.parent)->child[h->site.slot], 1 - h->side, (uint32_t[]){PARTS, PARTS}, slot);
 }
 
 static void put_back(froe_kinetic *k, const half *h, uint8_t place) {
     const uint32_t *part = node_at(k, PARTS)->child + place;
-    live_join(k, part[h->side == RIGHT], part[h->side == LEFT], h->parent, h->slot);
+    live_join(k, part[h->side == RIGHT], part[h->side == LEFT], h->site.parent, h->site.slot);
 }
 
 /* Makes the thin part anew from the `count` segments at the beginning of the list. */
 static void grow_thin(froe_kinetic *k, const half *h, uint8_t place, size_t count) {
-    live_cell thin = h->cell;
+    live_cell thin = h->site.cell;
     thin.wall[1 - h->side] = (now_name){(uint32_t)(1 - h->side), NAME_LINE};
     if (!array_reserve(&k->alloc, &k->list, count)) {
         k->short_of_memory = true;
@@ -122,7 +121,7 @@ static void grow_thin(froe_kinetic *k, const half *h, uint8_t place, size_t coun
 }
 
 static bool has_strangers(froe_kinetic *k, const half *near, const half *far) {
-    const uint32_t border[4] = {near->cell.top, near->cell.bottom, far->cell.top, far->cell.bottom};
+    const uint32_t border[4] = {near->site.cell.top, near->site.cell.bottom, far->site.cell.top, far->site.cell.bottom};
     bool found = live_find_strangers(k, border, 4);
     return live_find_strangers(k, k->list.data, k->list.count) || found;
 }
@@ -156,7 +155,7 @@ live_outcome live_pass(froe_kinetic *k, const live_item *item) {
     if (!outcome) grow_halves(k, h, point);
     for (uint8_t i = 0; i < 2; i++) put_back(k, h + i, (uint8_t)(2 * i));
     if (outcome || k->broken || k->now.lost) return outcome;
-    live_touch_wall(k, h->cell.wall[h->side]);
-    for (int i = 0; i < 2; i++) live_certify(k, h[i].parent, h[i].slot);
+    live_touch_wall(k, h->site.cell.wall[h->side]);
+    for (int i = 0; i < 2; i++) live_certify(k, &h[i].site);
     return LIVE_DONE;
 }

@@ -19,6 +19,7 @@ froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state 
 void now_free(now_state *now) {
     const froe_allocator *alloc = &now->context.alloc;
     array_free(alloc, &now->courses);
+    array_free(alloc, &now->bends);
     array_free(alloc, &now->segments);
     base_free(alloc, now->memories, NOW_MEMORIES * sizeof *now->memories);
     num_context_free(&now->context);
@@ -27,13 +28,12 @@ void now_free(now_state *now) {
 froe_status now_grow(now_state *now) {
     const froe_allocator *alloc = &now->context.alloc;
     const froe_motion *m = now->motion;
-    for (size_t v = 0; v < now->courses.count; v++) now_forget(now, (uint32_t)v); /* their knots may have moved */
     if (!array_reserve(alloc, &now->courses, m->plans.count + 2 - now->courses.count) ||
+        !array_reserve(alloc, &now->bends, m->plans.count + 2 - now->bends.count) ||
         !array_reserve(alloc, &now->segments, m->objects.count + 1 - now->segments.count))
         return FROE_E_MEMORY;
-    for (size_t v = now->courses.count; v < m->plans.count + 2; v++)
-        now->courses.data[v] = (now_course){.tick = -1, .last = -1};
-    now->courses.count = m->plans.count + 2;
+    now->courses.count = now->bends.count = m->plans.count + 2;
+    for (size_t v = 0; v < now->courses.count; v++) now_forget(now, (uint32_t)v); /* their knots may have moved */
     for (size_t s = now->segments.count ? now->segments.count - 1 : 0; s < m->objects.count; s++) {
         const uint32_t *v = m->objects.data[s].vertices;
         now->segments.data[s] = (now_segment){{v[0], v[1]}, false};
@@ -49,8 +49,8 @@ uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
         const double *at = i ? to : from;
         motion_knot *knot = now->asked + i;
         *knot = (motion_knot){.at = {at[0], at[1]}, .control = {(double)NAN, (double)NAN}};
-        now->courses.data[first + i] = (now_course){
-            .tick = -1, .last = INT64_MAX, .base = 0, .x = {at[0]}, .y = {at[1]}, .piece = {knot, knot, 0, MOTION_FAR}};
+        now->courses.data[first + i] = (now_course){.last = INT64_MAX, .x = {at[0]}, .y = {at[1]}};
+        now->bends.data[first + i] = (now_bend){.piece = {knot, knot, 0, MOTION_FAR}};
     }
     now_segment *s = now->segments.data + segment;
     *s = (now_segment){{first, first + 1}, false};
@@ -59,8 +59,8 @@ uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
 }
 
 void now_forget(now_state *now, uint32_t vertex) {
+    now->courses.data[vertex].base = 0;
     now->courses.data[vertex].last = -1;
-    now->courses.data[vertex].tick = -1;
 }
 
 /* ------------------------------------------------------------------ places -- */
@@ -72,64 +72,13 @@ static num_ball divide(num_ball a, num_ball b) {
     return (num_ball){q, ((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP + NUM_BALL_TINY};
 }
 
-/* The coefficients in doubles, and what is lost by that until s = span. */
-static double in_doubles(const poly_ball *p, num_ball w, double span, double out[3]) {
-    double error = 0, size = 0, power = 1;
-    for (int i = 0; i < 3; i++, power *= span) {
-        num_ball c = i <= p->degree ? divide(p->c[i], w) : num_ball_from(0);
-        out[i] = c.x;
-        error += c.e * power;
-        size += fabs(c.x) * power;
-    }
-    return (error + size * 0x1p-50) * NUM_BALL_UP + NUM_BALL_TINY;
-}
-
-static void set_course(now_state *now, uint32_t vertex, now_course *c) {
-    const froe_motion *m = now->motion;
-    c->piece = motion_piece_at(m, vertex, now->tick);
-    c->last = c->piece.last < m->last_tick ? c->piece.last : m->last_tick | 1;
-    c->base = now->tick;
-    c->tick = -1;
-    ball_point p;
-    ball_vertex(m, &c->piece, c->base, &p);
-    double span = (double)(c->last - c->base);
-    double ex = in_doubles(&p.x, p.w.c[0], span, c->x), ey = in_doubles(&p.y, p.w.c[0], span, c->y);
-    c->error = ex > ey ? ex : ey;
-    if (!(c->error < (double)INFINITY)) c->error = (double)INFINITY;
-    double vx = fabs(c->x[1]) + 2 * span * fabs(c->x[2]), vy = fabs(c->y[1]) + 2 * span * fabs(c->y[2]);
-    c->speed = (vx > vy ? vx : vy) * (1 + 0x1p-20);
-}
-
-/* Pieces are looked up once, when the first tick of theirs has come; trials of later ticks do not leave them. */
-static void place_course(now_state *now, uint32_t vertex, now_course *c) {
-    if (now->tick > c->last || now->tick < c->base) set_course(now, vertex, c);
-    double s = (double)(now->tick - c->base);
-    c->at[0] = c->x[0] + s * (c->x[1] + s * c->x[2]);
-    c->at[1] = c->y[0] + s * (c->y[1] + s * c->y[2]);
-    c->tick = now->tick;
-}
-
-static inline now_course *course_of(now_state *now, uint32_t vertex) {
-    now_course *c = now->courses.data + vertex;
-    if (c->tick != now->tick) place_course(now, vertex, c);
-    return c;
-}
-
-int64_t now_course_last(now_state *now, uint32_t vertex) {
-    return course_of(now, vertex)->last;
-}
-
-double now_speed(now_state *now, uint32_t vertex) {
-    return course_of(now, vertex)->speed;
-}
-
 typedef struct ball2 {
     num_ball x, y;
 } ball2;
 
 static ball2 vertex_ball(now_state *now, uint32_t vertex) {
-    const now_course *c = course_of(now, vertex);
-    return (ball2){{c->at[0], c->error}, {c->at[1], c->error}};
+    now_spot s = now_vertex_spot(now, vertex);
+    return (ball2){{s.x, s.error}, {s.y, s.error}};
 }
 
 static ball2 minus(ball2 a, ball2 b) {
@@ -138,14 +87,6 @@ static ball2 minus(ball2 a, ball2 b) {
 
 static num_ball cross(ball2 a, ball2 b) {
     return num_ball_sub(num_ball_mul(a.x, b.y), num_ball_mul(a.y, b.x));
-}
-
-static void exact_at(now_state *now, uint32_t vertex, exact_point *out) {
-    exact_vertex_at(&now->context.arena, now->motion, &course_of(now, vertex)->piece, now->tick, out);
-}
-
-static void exact_along(now_state *now, uint32_t vertex, exact_point *out) {
-    exact_vertex(&now->context.arena, now->motion, &course_of(now, vertex)->piece, now->tick, out);
 }
 
 typedef void get_exact(now_state *now, uint32_t vertex, exact_point *out);
@@ -166,26 +107,11 @@ static now_spot exact_spot(now_state *now, now_name p) {
     num_arena *arena = &now->context.arena;
     arena->top = 0;
     exact_point e;
-    named_exact(now, p, exact_at, &e);
+    named_exact(now, p, now_exact_at, &e);
     if (!e.w.c[0].sign) return (now_spot){0, 0, (double)INFINITY};
     now_spot spot = {num_dyadic_quotient(arena, e.x.c[0], e.w.c[0]), num_dyadic_quotient(arena, e.y.c[0], e.w.c[0]), 0};
     spot.error = (fabs(spot.x) + fabs(spot.y)) * 0x1p-52 + NUM_BALL_TINY;
     return spot;
-}
-
-bool now_round(now_state *now, uint32_t vertex, double out[2]) {
-    num_arena *arena = &now->context.arena;
-    arena->top = 0;
-    exact_point e;
-    bool exact = true;
-    exact_at(now, vertex, &e);
-    for (int i = 0; i < 2; i++) {
-        num_dyadic x = i ? e.y.c[0] : e.x.c[0];
-        out[i] = num_dyadic_quotient(arena, x, e.w.c[0]);
-        num_dyadic back = num_dyadic_mul(arena, num_dyadic_from(arena, out[i]), e.w.c[0]);
-        exact &= !num_dyadic_compare(x, back);
-    }
-    return exact;
 }
 
 static now_spot crossing_spot(now_state *now, now_name p) {
@@ -202,13 +128,10 @@ static now_spot crossing_spot(now_state *now, now_name p) {
 }
 
 now_spot now_spot_of(now_state *now, now_name p) {
-    if (p.b == NAME_VERTEX) {
-        const now_course *c = course_of(now, p.a);
-        return (now_spot){c->at[0], c->at[1], c->error};
-    }
+    if (p.b == NAME_VERTEX) return now_vertex_spot(now, p.a);
     if (now_is_question(now, (uint32_t)p.b)) return crossing_spot(now, p);
     uint64_t hash = ((uint64_t)p.a << 32 | (uint32_t)p.b) * 0x9e3779b97f4a7c15u;
-    now_memory *known = now->memories + (hash >> 52);
+    now_memory *known = now->memories + (hash >> (64 - NOW_MEMORY_BITS));
     if (known->tick != now->tick || !name_is(known->name, p))
         *known = (now_memory){p, now->tick, crossing_spot(now, p)};
     return known->spot;
@@ -231,8 +154,8 @@ static int order_of(now_state *now, const exact_point *p, const exact_point *q, 
 static int compare_after(now_state *now, now_name p, now_name q) {
     exact_point a, b;
     now->context.arena.top = 0;
-    named_exact(now, p, exact_along, &a);
-    named_exact(now, q, exact_along, &b);
+    named_exact(now, p, now_exact_along, &a);
+    named_exact(now, q, now_exact_along, &b);
     if (!negative(&a.w) || !negative(&b.w)) return now->lost = true, 1;
     int order = order_of(now, &a, &b, 0);
     return order ? order : order_of(now, &a, &b, 1);
@@ -247,8 +170,8 @@ static int compare_exactly(now_state *now, now_name p, now_name q) {
     exact_point a, b;
     now->context.stats.exact++;
     now->context.arena.top = 0;
-    named_exact(now, p, exact_at, &a);
-    named_exact(now, q, exact_at, &b);
+    named_exact(now, p, now_exact_at, &a);
+    named_exact(now, q, now_exact_at, &b);
     if (!a.w.c[0].sign || !b.w.c[0].sign) return compare_after(now, p, q);
     int order = order_of(now, &a, &b, 0);
     if (!order && (asks(now, p) || asks(now, q))) return order_of(now, &a, &b, 1);
@@ -263,7 +186,7 @@ static int compare_to_line(now_state *now, now_name p, double line) {
     num_arena *arena = &now->context.arena;
     exact_point e;
     arena->top = 0;
-    named_exact(now, p, exact_at, &e);
+    named_exact(now, p, now_exact_at, &e);
     if (!e.w.c[0].sign) return now->lost = true, 1;
     num_dyadic at = num_dyadic_mul(arena, num_dyadic_from(arena, line), e.w.c[0]);
     int sign = num_dyadic_compare(e.x.c[0], at) * e.w.c[0].sign;
@@ -294,9 +217,9 @@ static int side_with(now_state *now, uint32_t segment, uint32_t vertex, get_exac
 }
 
 /* The sign of ab x aq, from the coordinates as they are; NUM_UNSURE where rounding or their errors may matter. */
-static inline int quick_side(const now_course *a, const now_course *b, const now_course *q) {
-    double ux = b->at[0] - a->at[0], uy = b->at[1] - a->at[1], vx = q->at[0] - a->at[0], vy = q->at[1] - a->at[1];
-    double p = ux * vy, r = uy * vx, d = p - r, e = a->error + b->error, f = a->error + q->error;
+static inline int quick_side(now_spot a, now_spot b, now_spot q) {
+    double ux = b.x - a.x, uy = b.y - a.y, vx = q.x - a.x, vy = q.y - a.y;
+    double p = ux * vy, r = uy * vx, d = p - r, e = a.error + b.error, f = a.error + q.error;
     double sum_u = fabs(ux) + fabs(uy), sum_v = fabs(vx) + fabs(vy);
     double bound = (fabs(p) + fabs(r)) * 0x1p-50 + (sum_u * f + sum_v * e + 2 * e * f) * (1 + 0x1p-40) + NUM_BALL_TINY;
     return d > bound ? 1 : d < -bound ? -1 : NUM_UNSURE;
@@ -306,15 +229,15 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
     uint32_t u = now_vertex(now, segment, 0), v = now_vertex(now, segment, 1);
     now->context.stats.calls++;
     if (vertex == u || vertex == v) return 0;
-    int quick = quick_side(course_of(now, u), course_of(now, v), course_of(now, vertex));
+    int quick = quick_side(now_vertex_spot(now, u), now_vertex_spot(now, v), now_vertex_spot(now, vertex));
     if (quick != NUM_UNSURE) return quick;
     ball2 a = vertex_ball(now, u), d = minus(vertex_ball(now, v), a);
     int sign = num_ball_sign(cross(d, minus(vertex_ball(now, vertex), a)));
     if (sign == 1 || sign == -1) return sign;
     now->context.stats.exact++;
-    sign = side_with(now, segment, vertex, exact_at);
+    sign = side_with(now, segment, vertex, now_exact_at);
     bool question = now_is_question(now, segment) || asks(now, (now_name){vertex, NAME_VERTEX});
-    return sign || question ? sign : side_with(now, segment, vertex, exact_along);
+    return sign || question ? sign : side_with(now, segment, vertex, now_exact_along);
 }
 
 /* ------------------------------------------------------------------ claims -- */
@@ -324,18 +247,14 @@ int now_holds(now_state *now, const now_claim *claim) {
     return now_compare(now, claim->p, claim->q) < 0 ? 1 : -1;
 }
 
-static void ball_along(now_state *now, uint32_t vertex, ball_point *out) {
-    ball_vertex(now->motion, &course_of(now, vertex)->piece, now->tick, out);
-}
-
 static void named_ball(now_state *now, now_name p, ball_point *out) {
     if (p.b == NAME_VERTEX) {
-        ball_along(now, p.a, out);
+        now_course_ball(now, p.a, out);
         return;
     }
     const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
     ball_point v[4];
-    ball_along(now, s[0], v), ball_along(now, s[1], v + 1), ball_along(now, t[0], v + 2), ball_along(now, t[1], v + 3);
+    now_course_ball(now, s[0], v), now_course_ball(now, s[1], v + 1), now_course_ball(now, t[0], v + 2), now_course_ball(now, t[1], v + 3);
     ball_crossing(v, out);
 }
 
@@ -352,17 +271,17 @@ static void ball_negate(poly_ball *p) {
 static int exact_denominators(now_state *now, now_name p, now_name q) {
     exact_point a, b;
     now->context.arena.top = 0;
-    named_exact(now, p, exact_along, &a);
-    named_exact(now, q, exact_along, &b);
+    named_exact(now, p, now_exact_along, &a);
+    named_exact(now, q, now_exact_along, &b);
     return negative(&a.w) * negative(&b.w);
 }
 
 void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out) {
     if (claim->p.b == NAME_SEGMENT) {
         ball_point a, b, q;
-        ball_along(now, now_vertex(now, claim->p.a, 0), &a);
-        ball_along(now, now_vertex(now, claim->p.a, 1), &b);
-        ball_along(now, claim->q.a, &q);
+        now_course_ball(now, now_vertex(now, claim->p.a, 0), &a);
+        now_course_ball(now, now_vertex(now, claim->p.a, 1), &b);
+        now_course_ball(now, claim->q.a, &q);
         ball_turn(&a, &b, &q, out);
         if (claim->above < 0) ball_negate(out);
         return;
@@ -382,13 +301,13 @@ void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exac
     exact_point a, b, q;
     arena->top = 0;
     if (claim->p.b == NAME_SEGMENT) {
-        exact_along(now, now_vertex(now, claim->p.a, 0), &a);
-        exact_along(now, now_vertex(now, claim->p.a, 1), &b);
-        exact_along(now, claim->q.a, &q);
+        now_exact_along(now, now_vertex(now, claim->p.a, 0), &a);
+        now_exact_along(now, now_vertex(now, claim->p.a, 1), &b);
+        now_exact_along(now, claim->q.a, &q);
         exact_turn(arena, &a, &b, &q, out);
     } else {
-        named_exact(now, claim->p, exact_along, &a);
-        named_exact(now, claim->q, exact_along, &b);
+        named_exact(now, claim->p, now_exact_along, &a);
+        named_exact(now, claim->q, now_exact_along, &b);
         exact_order(arena, &a, &b, axis, out);
         sign = negative(&a.w) * negative(&b.w);
     }

@@ -24,15 +24,20 @@ typedef struct now_name {
     int32_t b;
 } now_name;
 
-/** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2, s = tick - base. */
+/** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2 with s = tick - base. Coefficients of s^2
+ * are kept elsewhere, so that this is a cache line. */
 typedef struct now_course {
-    int64_t tick;        /**< at which `at` is; -1: at none */
-    double at[2], error; /**< no coordinate is further off */
-    double speed;        /**< no coordinate changes by more in a tick; some slack included */
-    int64_t last, base;  /**< the last tick of the piece; -1: not looked at yet */
-    double x[3], y[3];
-    motion_piece piece;
+    int64_t base, last; /**< ticks of the piece for which it holds; base > last: not looked at yet */
+    double x[2], y[2];
+    double error;    /**< no coordinate is further off while it holds */
+    uint32_t degree; /**< 0, 1 or 2 */
 } now_course;
+
+/** What is asked for less: where the piece is, and the coefficients of s^2. */
+typedef struct now_bend {
+    double x, y;
+    motion_piece piece;
+} now_bend;
 
 /** Roughly where a point is: no coordinate is further off than `error`. */
 typedef struct now_spot {
@@ -44,7 +49,7 @@ typedef struct now_memory {
     int64_t tick;
     now_spot spot;
 } now_memory;
-enum { NOW_MEMORIES = 1 << 12 };
+enum { NOW_MEMORY_BITS = 10, NOW_MEMORIES = 1 << NOW_MEMORY_BITS };
 
 typedef struct now_segment {
     uint32_t end[2]; /**< vertices */
@@ -56,6 +61,7 @@ typedef struct now_state {
     int64_t tick;
     double line[2];
     ARRAY(now_course) courses;   /**< [vertex]; the last two are ends of a question */
+    ARRAY(now_bend) bends;       /**< [vertex] */
     ARRAY(now_segment) segments; /**< [object]; the last joins these two */
     motion_knot asked[2];        /**< where they are */
     now_memory *memories;        /**< of crossings, by a hash of their names */
@@ -99,12 +105,34 @@ static inline uint32_t now_vertex(const now_state *now, uint32_t segment, int si
     return now->segments.data[segment].end[now_end(now, segment, side)];
 }
 
+/* course.c */
+/** Looks up the piece that the present tick belongs to. */
+void now_look_up(now_state *now, uint32_t vertex);
+/** Pieces are looked up once, when the first tick of theirs has come; trials of later ticks do not leave them. */
+static inline const now_course *now_course_of(now_state *now, uint32_t vertex) {
+    const now_course *c = now->courses.data + vertex;
+    if (now->tick > c->last || now->tick < c->base) now_look_up(now, vertex);
+    return c;
+}
+static inline now_spot now_vertex_spot(now_state *now, uint32_t vertex) {
+    const now_course *c = now_course_of(now, vertex);
+    double s = (double)(now->tick - c->base), bend[2] = {0, 0};
+    if (c->degree == 2) bend[0] = now->bends.data[vertex].x, bend[1] = now->bends.data[vertex].y;
+    return (now_spot){c->x[0] + s * (c->x[1] + s * bend[0]), c->y[0] + s * (c->y[1] + s * bend[1]), c->error};
+}
+/** x and y as polynomials in ticks from now on, in doubles; w is 1. */
+void now_course_ball(now_state *now, uint32_t vertex, ball_point *out);
 /** Up to and including which tick the flight of a vertex is one polynomial. */
 int64_t now_course_last(now_state *now, uint32_t vertex);
 /** No coordinate of the vertex changes by more in a tick, as long as its piece lasts. */
 double now_speed(now_state *now, uint32_t vertex);
 /** The doubles next to where a vertex is at the tick. True: that is where it is. */
 bool now_round(now_state *now, uint32_t vertex, double out[2]);
+/** Where it is at the tick, and as polynomials from it on. */
+void now_exact_at(now_state *now, uint32_t vertex, exact_point *out);
+void now_exact_along(now_state *now, uint32_t vertex, exact_point *out);
+
+/* now.c */
 /** REQUIRES: a vertex or a crossing. */
 now_spot now_spot_of(now_state *now, now_name p);
 /** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last; in questions: now. */

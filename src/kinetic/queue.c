@@ -1,46 +1,42 @@
 /* queue.c: certificates, and which of them fails next: a heap of four children a node (Johnson 1975). */
 #include "kinetic/live.h"
 
-static bool is_sooner(const froe_kinetic *k, uint32_t a, uint32_t b) {
-    return k->certs.data[a].tick < k->certs.data[b].tick;
-}
-
-static void put(froe_kinetic *k, size_t place, uint32_t cert) {
-    k->queue.data[place] = cert;
-    k->certs.data[cert].place = (uint32_t)place;
+static void put(froe_kinetic *k, size_t place, live_turn turn) {
+    k->queue.data[place] = turn;
+    k->certs.data[turn.cert].place = (uint32_t)place;
 }
 
 static void rise(froe_kinetic *k, size_t place) {
-    const uint32_t cert = k->queue.data[place];
-    for (; place && is_sooner(k, cert, k->queue.data[(place - 1) / 4]); place = (place - 1) / 4)
+    const live_turn turn = k->queue.data[place];
+    for (; place && turn.tick < k->queue.data[(place - 1) / 4].tick; place = (place - 1) / 4)
         put(k, place, k->queue.data[(place - 1) / 4]);
-    put(k, place, cert);
+    put(k, place, turn);
 }
 
 static void sink(froe_kinetic *k, size_t place) {
-    const uint32_t cert = k->queue.data[place];
+    const live_turn turn = k->queue.data[place], *queue = k->queue.data;
     const size_t count = k->queue.count;
     for (size_t child = 4 * place + 1; child < count; child = 4 * place + 1) {
         const size_t end = child + 4 < count ? child + 4 : count;
         size_t best = child;
         while (++child < end)
-            if (is_sooner(k, k->queue.data[child], k->queue.data[best])) best = child;
-        if (!is_sooner(k, k->queue.data[best], cert)) break;
-        put(k, place, k->queue.data[best]);
+            if (queue[child].tick < queue[best].tick) best = child;
+        if (queue[best].tick >= turn.tick) break;
+        put(k, place, queue[best]);
         place = best;
     }
-    put(k, place, cert);
+    put(k, place, turn);
 }
 
 static void leave(froe_kinetic *k, uint32_t cert) {
     const uint32_t place = k->certs.data[cert].place;
     if (place == CERT_NONE) return;
-    const uint32_t last = k->queue.data[--k->queue.count];
+    const live_turn last = k->queue.data[--k->queue.count];
     k->certs.data[cert].place = CERT_NONE;
-    if (last == cert) return;
+    if (last.cert == cert) return;
     put(k, place, last);
     rise(k, place);
-    sink(k, k->certs.data[last].place);
+    sink(k, k->certs.data[last.cert].place);
 }
 
 void live_set_tick(froe_kinetic *k, uint32_t cert, int64_t tick) {
@@ -50,10 +46,8 @@ void live_set_tick(froe_kinetic *k, uint32_t cert, int64_t tick) {
         leave(k, cert);
         return;
     }
-    if (c->place == CERT_NONE) { /* there is room: live_new_cert */
-        k->queue.data[k->queue.count] = cert;
-        c->place = (uint32_t)k->queue.count++;
-    }
+    if (c->place == CERT_NONE) c->place = (uint32_t)k->queue.count++; /* there is room: live_new_cert */
+    k->queue.data[c->place] = (live_turn){tick, cert};
     rise(k, c->place);
     sink(k, c->place);
 }
@@ -105,16 +99,14 @@ void live_due(froe_kinetic *k, int64_t tick) {
         k->short_of_memory = true;
         return;
     }
-    if (k->queue.count && k->certs.data[k->queue.data[0]].tick <= tick)
-        k->order.data[k->order.count++] = k->queue.data[0];
+    if (k->queue.count && k->queue.data[0].tick <= tick) k->order.data[k->order.count++] = k->queue.data[0].cert;
     for (size_t i = 0; i < k->order.count; i++) { /* breadth first: all above a due certificate are due */
         size_t child = 4 * (size_t)k->certs.data[k->order.data[i]].place + 1, end = child + 4;
         for (; child < end && child < k->queue.count; child++)
-            if (k->certs.data[k->queue.data[child]].tick <= tick)
-                k->order.data[k->order.count++] = k->queue.data[child];
+            if (k->queue.data[child].tick <= tick) k->order.data[k->order.count++] = k->queue.data[child].cert;
     }
 }
 
 int64_t live_next_tick(const froe_kinetic *k) {
-    return k->queue.count ? k->certs.data[k->queue.data[0]].tick : NOW_NEVER;
+    return k->queue.count ? k->queue.data[0].tick : NOW_NEVER;
 }

@@ -137,16 +137,15 @@ static bool has_strangers(froe_kinetic *k, const live_cell *cell) {
 }
 
 bool live_slab(froe_kinetic *k, uint32_t node) {
-    live_cell cell = live_cell_of(k, node), slab = cell;
-    const uint32_t parent = node_at(k, node)->parent;
-    const uint8_t slot = node_at(k, node)->slot;
+    const live_site site = live_site_of(k, node);
+    live_cell slab = site.cell;
     k->stamp++;
     live_new_list(k);
     live_split(k, node, 0, (uint32_t[]){PARTS, PARTS}, (uint8_t[]){0, 1});
     live_split(k, node_at(k, PARTS)->child[1], 1, (uint32_t[]){PARTS, PARTS}, (uint8_t[]){1, 2});
     if (k->short_of_memory) return false;
     live_collect(k, node_at(k, PARTS)->child[1]);
-    bool strangers = has_strangers(k, &cell);
+    bool strangers = has_strangers(k, &site.cell);
     if (!strangers) {
         k->counts.surgeries++;
         live_free_tree(k, node_at(k, PARTS)->child[1]);
@@ -156,8 +155,8 @@ bool live_slab(froe_kinetic *k, uint32_t node) {
     const uint32_t *part = node_at(k, PARTS)->child;
     live_join(k, part[0], part[1], PARTS, 0);
     part = node_at(k, PARTS)->child;
-    live_join(k, part[0], part[2], parent, slot);
-    if (!strangers && !k->broken && !k->now.lost) live_certify(k, parent, slot);
+    live_join(k, part[0], part[2], site.parent, site.slot);
+    if (!strangers && !k->broken && !k->now.lost) live_certify(k, &site);
     return !strangers;
 }
 
@@ -174,9 +173,9 @@ void live_restart(froe_kinetic *k) {
     forget_nodes(k);
     k->stamp++;
     live_new_list(k);
-    live_cell cell = live_plane();
+    const live_site all = {ROOT, 0, false, live_plane()};
     for (uint32_t s = 0; s < k->segments.count; s++)
         if (segment_at(k, s)->here) live_list(k, s);
-    live_grow(k, &cell, 0, ROOT, 0);
-    live_certify(k, ROOT, 0);
+    live_grow(k, &all.cell, 0, ROOT, 0);
+    live_certify(k, &all);
 }

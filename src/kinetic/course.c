@@ -1,0 +1,104 @@
+/* course.c: pieces of flight plans in doubles, each looked up when its first tick has come.
+ *
+ * Positions are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. So is each coefficient
+ * from the true one, times its power of the span: error / span^i bounds what coefficient i is off by. */
+#include "kinetic/now.h"
+#include <math.h>
+
+/* a / b, b > 0. */
+static num_ball divide(num_ball a, num_ball b) {
+    double q = a.x / b.x, least = b.x - b.e;
+    if (!(least > 0)) return (num_ball){q, (double)INFINITY};
+    return (num_ball){q, ((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP + NUM_BALL_TINY};
+}
+
+/* The coefficients in doubles, and what is lost by that until s = span. */
+static double in_doubles(const poly_ball *p, num_ball w, double span, double out[3]) {
+    double error = 0, size = 0, power = 1;
+    for (int i = 0; i < 3; i++, power *= span) {
+        num_ball c = i <= p->degree ? divide(p->c[i], w) : num_ball_from(0);
+        out[i] = c.x;
+        error += c.e * power;
+        size += fabs(c.x) * power;
+    }
+    return (error + size * 0x1p-50) * NUM_BALL_UP + NUM_BALL_TINY;
+}
+
+static double span_of(const now_course *c) {
+    return (double)(c->last - c->base);
+}
+
+void now_look_up(now_state *now, uint32_t vertex) {
+    const froe_motion *m = now->motion;
+    now_course *c = now->courses.data + vertex;
+    now_bend *bend = now->bends.data + vertex;
+    bend->piece = motion_piece_at(m, vertex, now->tick);
+    c->last = bend->piece.last < m->last_tick ? bend->piece.last : m->last_tick | 1;
+    c->base = now->tick;
+    c->degree = (uint32_t)bend->piece.degree;
+    ball_point p;
+    double x[3], y[3];
+    ball_vertex(m, &bend->piece, c->base, &p);
+    double ex = in_doubles(&p.x, p.w.c[0], span_of(c), x), ey = in_doubles(&p.y, p.w.c[0], span_of(c), y);
+    for (int i = 0; i < 2; i++) c->x[i] = x[i], c->y[i] = y[i];
+    bend->x = x[2], bend->y = y[2];
+    c->error = ex > ey ? ex : ey;
+    if (!(c->error < (double)INFINITY)) c->error = (double)INFINITY;
+}
+
+int64_t now_course_last(now_state *now, uint32_t vertex) {
+    return now_course_of(now, vertex)->last;
+}
+
+double now_speed(now_state *now, uint32_t vertex) {
+    const now_course *c = now_course_of(now, vertex);
+    const now_bend *bend = now->bends.data + vertex;
+    double x = fabs(c->x[1]), y = fabs(c->y[1]);
+    if (c->degree == 2) x += 2 * span_of(c) * fabs(bend->x), y += 2 * span_of(c) * fabs(bend->y);
+    return (x > y ? x : y) * (1 + 0x1p-20);
+}
+
+/* The polynomial s ticks later. Of what rounding adds there is less than in `error`. */
+static void shift(const double c[3], double s, const double error[3], int degree, poly_ball *out) {
+    out->degree = degree;
+    out->c[0] = (num_ball){c[0] + s * (c[1] + s * c[2]), error[0]};
+    if (degree > 0) out->c[1] = (num_ball){c[1] + 2 * s * c[2], error[1]};
+    if (degree > 1) out->c[2] = (num_ball){c[2], error[2]};
+}
+
+void now_course_ball(now_state *now, uint32_t vertex, ball_point *out) {
+    const now_course *c = now_course_of(now, vertex);
+    const now_bend *bend = now->bends.data + vertex;
+    const int degree = (int)c->degree;
+    double s = (double)(now->tick - c->base), span = span_of(c), each = c->error / span;
+    const double error[3] = {c->error, 4 * each, each / span};
+    shift((double[]){c->x[0], c->x[1], degree > 1 ? bend->x : 0}, s, error, degree, &out->x);
+    shift((double[]){c->y[0], c->y[1], degree > 1 ? bend->y : 0}, s, error, degree, &out->y);
+    out->w.degree = 0;
+    out->w.c[0] = num_ball_from(1);
+}
+
+void now_exact_at(now_state *now, uint32_t vertex, exact_point *out) {
+    now_course_of(now, vertex);
+    exact_vertex_at(&now->context.arena, now->motion, &now->bends.data[vertex].piece, now->tick, out);
+}
+
+void now_exact_along(now_state *now, uint32_t vertex, exact_point *out) {
+    now_course_of(now, vertex);
+    exact_vertex(&now->context.arena, now->motion, &now->bends.data[vertex].piece, now->tick, out);
+}
+
+bool now_round(now_state *now, uint32_t vertex, double out[2]) {
+    num_arena *arena = &now->context.arena;
+    arena->top = 0;
+    exact_point e;
+    bool exact = true;
+    now_exact_at(now, vertex, &e);
+    for (int i = 0; i < 2; i++) {
+        num_dyadic x = i ? e.y.c[0] : e.x.c[0];
+        out[i] = num_dyadic_quotient(arena, x, e.w.c[0]);
+        num_dyadic back = num_dyadic_mul(arena, num_dyadic_from(arena, out[i]), e.w.c[0]);
+        exact &= !num_dyadic_compare(x, back);
+    }
+    return exact;
+}
