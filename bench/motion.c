@@ -111,10 +111,11 @@ int main(int argc, char **argv) {
     const char *kind = argc > 1 ? argv[1] : "moving";
     uint64_t events = argc > 2 ? strtoull(argv[2], NULL, 10) : 30000;
     bench_head("a partition that follows moving segments, one thread, processor time", 1);
-    printf("# %s, %llu events each. rebuild, frames, reinsert: how many times more work for the same time of the motion\n",
-           kind, (unsigned long long)events);
-    printf("%7s %8s %9s %6s %9s %8s %7s %7s %9s %8s %8s\n", "n", "start s", "nodes", "height", "events/s", "us", "touched",
-           "made", "rebuild", "60 Hz", "reinsert");
+    printf(
+        "# %s, %llu events each. rebuild, frames, reinsert: how many times more work for the same time of the motion\n",
+        kind, (unsigned long long)events);
+    printf("%7s %8s %9s %6s %9s %8s %7s %7s %9s %8s %8s\n", "n", "start s", "nodes", "height", "events/s", "us",
+           "touched", "made", "rebuild", "60 Hz", "reinsert");
     for (int i = 3; i < argc; i++) measure(kind, strtoull(argv[i], NULL, 10), events);
     for (size_t i = 0; argc < 4 && i < sizeof sizes / sizeof *sizes; i++) measure(kind, sizes[i], events);
     return 0;

@@ -1,7 +1,7 @@
 /* course.c: pieces of flight plans in doubles, each looked up when its first tick has come.
  *
- * Positions are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. So is each coefficient
- * from the true one, times its power of the span: error / span^i bounds what coefficient i is off by. */
+ * Positions are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. So is each
+ * coefficient from the true one, times its power of the span: error / span^i bounds what coefficient i is off by. */
 #include "kinetic/now.h"
 #include <math.h>
 

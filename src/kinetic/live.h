@@ -164,7 +164,7 @@ struct froe_kinetic {
     ARRAY(live_pair) pairs;
     uint32_t free_pair;
     ARRAY(live_turn) queue; /**< the first to fail on top */
-    ARRAY(uint32_t) list;  /**< segments waiting to be built with */
+    ARRAY(uint32_t) list;   /**< segments waiting to be built with */
     ARRAY(live_task) tasks;
     ARRAY(live_visit) visits;
     ARRAY(live_cutting) cuttings;

@@ -254,7 +254,8 @@ static void named_ball(now_state *now, now_name p, ball_point *out) {
     }
     const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
     ball_point v[4];
-    now_course_ball(now, s[0], v), now_course_ball(now, s[1], v + 1), now_course_ball(now, t[0], v + 2), now_course_ball(now, t[1], v + 3);
+    now_course_ball(now, s[0], v), now_course_ball(now, s[1], v + 1), now_course_ball(now, t[0], v + 2),
+        now_course_ball(now, t[1], v + 3);
     ball_crossing(v, out);
 }
 

@@ -24,8 +24,8 @@ typedef struct now_name {
     int32_t b;
 } now_name;
 
-/** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2 with s = tick - base. Coefficients of s^2
- * are kept elsewhere, so that this is a cache line. */
+/** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2 with s = tick - base. Coefficients of
+ * s^2 are kept elsewhere, so that this is a cache line. */
 typedef struct now_course {
     int64_t base, last; /**< ticks of the piece for which it holds; base > last: not looked at yet */
     double x[2], y[2];
