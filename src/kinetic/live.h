@@ -218,8 +218,6 @@ live_cell live_child_cell(const froe_kinetic *k, const live_cell *cell, uint32_t
 /** Adds the segments of a subtree to the list, each once. */
 void live_collect(froe_kinetic *k, uint32_t node);
 void live_free_tree(froe_kinetic *k, uint32_t node);
-/** Has a node of the subtree another wall than this? */
-bool live_has_wall(froe_kinetic *k, uint32_t node, now_name except);
 /** Adds one. */
 void live_list(froe_kinetic *k, uint32_t segment);
 /** An empty list. */

@@ -1,23 +1,35 @@
 /* narrow.c: a point passes a wall that belongs to somebody else, and nothing else happens.
  *
  *     _________________             Only two cells change, those on both sides of the wall at the height of the
- *        :   |     :                point: near, where the certificate was, and far. Each has a thin part cut off at
- *        :far|near :                the wall, which is made anew. The wall itself stays; nothing above or below the two
- *        :   | o---:-- s            cells is touched, and that is what makes this cheaper than a slab of the cell
- *        :   |     :                that has the wall: the paper's bound counts the thread of the point alone.
- *     ___:__(q)____:___
+ *        :   |     :                point: near, where the certificate was, and far. In one of them the segment s of
+ * the :far|near :                point comes to be, or ends, a little earlier, in the other a little later. What else
+ *        :   | o---:-- s            crosses the wall there, the threads, does so before and after: it is told from
+ * below :   |     :                to above by walking down along the wall, and has a new tree, thin as that part of
+ *     ___:__(q)____:___             the cell is, by its order and its height alone (a treap).
  *
  * If there is another wall in a thin part, as of a vertex that has the same x for ever, it passes, too, and this is
  * not for here. The far cell is found by going down on the other side of the wall, past what comes before s in order:
  * that is cut by segments that the way to the near cell knows, too, or ends before the wall. What comes later than s is
- * in the far cell. Source: the shaves of the paper's section 2.3, made by cut, growth and join. */
+ * in the far cell. Source: the shaves of the paper's section 2.3; that a thin part is a treap is ours. */
 #include "kinetic/live.h"
+#include <string.h>
 
-/* A place in the tree, and which of the walls of its cell is passed. */
+/* A place in the tree, which of the walls of its cell is passed, and the line that bounds the thin part there. */
 typedef struct half {
     live_site site;
     int side;
 } half;
+
+typedef struct passing {
+    half near, far;
+    uint32_t node, segment; /* of s, in the near cell */
+    uint32_t wall;          /* END_0, END_1, or the segment that it crosses at the point */
+    bool grows;             /* it gets longer: the point goes to the far cell, and s comes after it from the near one */
+    size_t thread;          /* how many on the list cross the wall in the far cell, from below */
+    size_t below;           /* how many of these are below the point */
+} passing;
+
+/* ----------------------------------------------------------------- two cells -- */
 
 /* The ancestor that gives a node's cell its wall on a side, and below which child of it the node is. */
 static uint32_t wall_owner(const froe_kinetic *k, uint32_t node, int side, uint8_t *slot) {
@@ -54,8 +66,12 @@ static bool descend(const froe_kinetic *k, uint32_t near, uint32_t owner, half *
     }
 }
 
+static uint32_t root_of(const froe_kinetic *k, const live_site *site) {
+    return node_at(k, site->parent)->child[site->slot];
+}
+
 static void look_at(const froe_kinetic *k, live_site *site) {
-    const uint32_t node = node_at(k, site->parent)->child[site->slot];
+    const uint32_t node = root_of(k, site);
     const live_cell cell = live_cell_of(k, site->parent);
     site->cell = live_child_cell(k, &cell, site->parent, site->slot);
     site->cut = node && node_at(k, node)->cut;
@@ -68,94 +84,274 @@ static int height_order(froe_kinetic *k, now_name p, now_name q) {
     return d > error ? 1 : d < -error ? -1 : 0;
 }
 
-static bool find_halves(froe_kinetic *k, const live_item *item, half *near, half *far) {
-    uint32_t node = k->certs.data[item->cert].owner;
-    const live_node *n = node_at(k, node);
-    near->side = item->kind == CERT_LEFT || (item->kind == CERT_MIDDLE && n->wall[LEFT] == END_NONE) ? LEFT : RIGHT;
-    near->site = live_site_of(k, node);
-    uint8_t slot;
-    uint32_t owner = wall_owner(k, node, near->side, &slot);
-    now_name wall = near->site.cell.wall[near->side];
-    now_name point = near->side == LEFT ? item->claim.q : item->claim.p;
-    if (!owner || !name_is(wall, near->side == LEFT ? item->claim.p : item->claim.q)) return false;
-    int order = height_order(k, point, wall);
-    if (!order) return false;
-    far->side = 1 - near->side;
-    far->site.parent = owner;
-    far->site.slot = (uint8_t)(slot >= UP ? near->side : order > 0 ? UP : DOWN);
-    if (!descend(k, node, owner, far)) return false;
-    look_at(k, &far->site);
-    return name_is(far->site.cell.wall[far->side], wall);
+/* The near cell, and which end of s passes which of its walls. False: not one end of s alone. */
+static bool find_near(froe_kinetic *k, const live_item *item, passing *p) {
+    p->node = k->certs.data[item->cert].owner;
+    const live_node *n = node_at(k, p->node);
+    const bool both = n->wall[LEFT] != END_NONE && n->wall[RIGHT] != END_NONE;
+    if (item->kind == CERT_MIDDLE && both) return false;
+    p->segment = n->segment;
+    p->grows = item->kind != CERT_MIDDLE;
+    int side = item->kind == CERT_LEFT || (!p->grows && n->wall[LEFT] == END_NONE) ? LEFT : RIGHT;
+    p->wall = n->wall[p->grows ? side : 1 - side];
+    p->near = (half){live_site_of(k, p->node), side};
+    return name_is(p->near.site.cell.wall[side], side == LEFT ? item->claim.p : item->claim.q);
 }
 
-/* Is the other wall of the cell outside the slab? */
-static bool is_wide(froe_kinetic *k, const half *h) {
-    now_name wall = h->site.cell.wall[1 - h->side];
+static bool find_far(froe_kinetic *k, now_name point, passing *p) {
+    uint8_t slot;
+    const int side = p->near.side;
+    const uint32_t owner = wall_owner(k, p->node, side, &slot);
+    const now_name wall = p->near.site.cell.wall[side];
+    int order = owner ? height_order(k, point, wall) : 0;
+    if (!order) return false;
+    p->far.side = 1 - side;
+    p->far.site.parent = owner;
+    p->far.site.slot = (uint8_t)(slot >= UP ? side : order > 0 ? UP : DOWN);
+    if (!descend(k, p->node, owner, &p->far)) return false;
+    look_at(k, &p->far.site);
+    if (!name_is(p->far.site.cell.wall[1 - side], wall)) return false;
+    const uint32_t root = root_of(k, &p->far.site);
+    const bool there = root && node_at(k, root)->segment == p->segment;
+    if (there == p->grows || (there && node_at(k, root)->wall[1 - side] != END_NONE)) return false;
+    const live_cell *near = &p->near.site.cell, *far = &p->far.site.cell;
+    return is_end(p->wall) || (p->wall == near->top && near->top == far->top) ||
+           (p->wall == near->bottom && near->bottom == far->bottom);
+}
+
+/* ------------------------------------------------------------------- threads -- */
+
+/* Is a wall, if there is one, beyond the line that bounds the thin part of a half? */
+static bool is_beyond(froe_kinetic *k, const half *h, now_name wall) {
     if (!name_exists(wall)) return true;
     int order = now_compare(&k->now, wall, (now_name){(uint32_t)(1 - h->side), NAME_LINE});
     return h->side == RIGHT ? order < 0 : order > 0;
 }
 
-/* Cuts the thin part next to the wall off, to `place`; the rest to the next. */
-static void cut_off(froe_kinetic *k, const half *h, uint8_t place) {
-    const uint8_t slot[2] = {(uint8_t)(place + (h->side == RIGHT)), (uint8_t)(place + (h->side == LEFT))};
-    live_split(k, node_at(k, h->site.parent)->child[h->site.slot], 1 - h->side, (uint32_t[]){PARTS, PARTS}, slot);
+static void push(froe_kinetic *k, uint32_t node, unsigned back) {
+    if (node && !array_push(&k->alloc, &k->order, 2 * node + back)) k->short_of_memory = true;
 }
 
-static void put_back(froe_kinetic *k, const half *h, uint8_t place) {
-    const uint32_t *part = node_at(k, PARTS)->child + place;
-    live_join(k, part[h->side == RIGHT], part[h->side == LEFT], h->site.parent, h->site.slot);
-}
-
-/* Makes the thin part anew from the `count` segments at the beginning of the list. */
-static void grow_thin(froe_kinetic *k, const half *h, uint8_t place, size_t count) {
-    live_cell thin = h->site.cell;
-    thin.wall[1 - h->side] = (now_name){(uint32_t)(1 - h->side), NAME_LINE};
-    if (!array_reserve(&k->alloc, &k->list, count)) {
-        k->short_of_memory = true;
-        return;
+/* Lists what crosses a subtree of a half along the wall that is passed, from the bottom up, and stamps what touches
+ * that wall. False: something has a wall in the thin part. */
+static bool walk(froe_kinetic *k, const half *h, uint32_t node) {
+    k->order.count = 0;
+    push(k, node, 0);
+    while (k->order.count && !k->short_of_memory) {
+        const uint32_t top = k->order.data[--k->order.count], x = top / 2;
+        live_node *n = node_at(k, x);
+        if (top % 2) {
+            live_list(k, n->segment);
+            continue;
+        }
+        n->stamp = k->stamp;
+        k->counts.nodes_touched++;
+        const bool ends = n->wall[h->side] != END_NONE;
+        if (!is_beyond(k, h, wall_name(k, n->segment, n->wall[ends ? h->side : 1 - h->side]))) return false;
+        if (ends) {
+            push(k, n->child[h->side], 0);
+            continue;
+        }
+        push(k, n->child[UP], 0);
+        push(k, x, 1);
+        push(k, n->child[DOWN], 0);
     }
-    k->list.count = 2 * count;
-    for (size_t i = 0; i < count; i++) k->list.data[count + i] = k->list.data[i];
-    live_grow(k, &thin, count, PARTS, place);
+    return true;
 }
 
-static bool has_strangers(froe_kinetic *k, const half *near, const half *far) {
-    const uint32_t border[4] = {near->site.cell.top, near->site.cell.bottom, far->site.cell.top, far->site.cell.bottom};
+/* Both children of a node that reaches the wall. */
+static bool walk_past(froe_kinetic *k, const half *h, uint32_t node) {
+    live_node *n = node_at(k, node);
+    n->stamp = k->stamp;
+    const uint32_t up = n->child[UP];
+    return walk(k, h, n->child[DOWN]) && walk(k, h, up);
+}
+
+/* What crosses the wall in the far cell, from below; then what else there is in the near one. */
+static bool list_threads(froe_kinetic *k, passing *p) {
+    const uint32_t root = root_of(k, &p->far.site);
+    const live_node *n = node_at(k, p->node), *r = node_at(k, root);
+    const int side = p->near.side;
+    live_new_list(k);
+    bool thin = p->grows
+                    ? walk(k, &p->far, root)
+                    : is_beyond(k, &p->far, wall_name(k, p->segment, r->wall[side])) && walk_past(k, &p->far, root);
+    p->thread = k->list.count;
+    if (!thin) return false;
+    if (!p->grows) return walk(k, &p->near, n->child[1 - side]);
+    return is_beyond(k, &p->near, wall_name(k, p->segment, n->wall[1 - side])) && walk_past(k, &p->near, p->node);
+}
+
+/* -------------------------------------------------------------------- height -- */
+
+/* Others that end where s does: they have no wall there, but go with it. Those that come from the wall cross the thin
+ * part in the far cell from now on, the others no more. */
+enum { MOST_FAN = 8 };
+
+/* Those that come from the wall, from below. -1: too many, or some in one line, or earlier than s. */
+static int fan_of(froe_kinetic *k, const passing *p, uint32_t vertex, uint32_t fan[MOST_FAN]) {
+    int count = 0;
+    for (uint32_t e = k->vertices.data[vertex]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next) {
+        const uint32_t s = e / 2, other = k->now.segments.data[s].end[1 - e % 2];
+        if (!segment_at(k, s)->here) continue;
+        if (count == MOST_FAN || comes_before(k, s, p->segment)) return -1;
+        if ((uint32_t)now_end(&k->now, s, p->near.side) != e % 2) continue;
+        int at = count++;
+        for (; at; at--) {
+            int side = now_side(&k->now, fan[at - 1], other);
+            if (!side) return -1;
+            if (side > 0) break;
+            fan[at] = fan[at - 1];
+        }
+        fan[at] = s;
+    }
+    return count;
+}
+
+static void forget_those_at(froe_kinetic *k, passing *p, uint32_t vertex) {
+    size_t kept = 0;
+    for (size_t i = 0; i < p->thread; i++)
+        if (!live_has_end(k, k->list.data[i], vertex)) k->list.data[kept++] = k->list.data[i];
+    p->thread = kept;
+}
+
+/* How many of the thread are below the vertex. False: one goes through it. */
+static bool find_height(froe_kinetic *k, passing *p, uint32_t vertex) {
+    size_t low = 0, high = p->thread;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        int side = now_side(&k->now, k->list.data[middle], vertex);
+        if (!side) return false;
+        if (side > 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    p->below = low;
+    return true;
+}
+
+static void insert_fan(froe_kinetic *k, passing *p, const uint32_t *fan, int count) {
+    size_t at = p->below;
+    for (int i = 0; i < count; i++) {
+        if (fan[i] == p->segment) {
+            p->below = at;
+            continue;
+        }
+        uint32_t *place = k->list.data + at;
+        memmove(place + 1, place, (p->thread++ - at++) * sizeof *place);
+        *place = fan[i];
+    }
+}
+
+/* Makes the thread what will cross the thin part of the far cell, but for s. False: this is not for here. */
+static bool thread_anew(froe_kinetic *k, passing *p, now_name point) {
+    if (!is_end(p->wall)) {
+        p->below = p->wall == p->near.site.cell.top ? p->thread : 0;
+        return true;
+    }
+    const uint32_t first = k->vertices.data[point.a];
+    if (segment_at(k, first / 2)->end[first % 2].next == FROE_NONE) return find_height(k, p, point.a);
+    uint32_t fan[MOST_FAN];
+    int count = fan_of(k, p, point.a, fan);
+    if (count < 0) return false;
+    forget_those_at(k, p, point.a);
+    if (!find_height(k, p, point.a)) return false;
+    k->list.count = p->thread;
+    if (array_reserve(&k->alloc, &k->list, MOST_FAN))
+        insert_fan(k, p, fan, count);
+    else
+        k->short_of_memory = true;
+    return !k->short_of_memory;
+}
+
+/* -------------------------------------------------------------------- change -- */
+
+/* The tree of some that cross a cell from wall to wall, given from below: the first in order on top (Vuillemin 1980).
+ */
+static void plant(froe_kinetic *k, size_t first, size_t count, uint32_t parent, uint8_t slot) {
+    static const uint32_t no_walls[2] = {END_NONE, END_NONE};
+    k->order.count = 0; /* from the root, always upwards */
+    for (const uint32_t *s = k->list.data + first; s < k->list.data + first + count; s++) {
+        const uint32_t node = live_new_node(k, *s, no_walls);
+        uint32_t below = LEAF;
+        if (!node || !array_reserve(&k->alloc, &k->order, 1)) {
+            k->short_of_memory = true;
+            return;
+        }
+        for (; k->order.count; k->order.count--) {
+            const uint32_t last = k->order.data[k->order.count - 1];
+            if (comes_before(k, node_at(k, last)->segment, *s)) break;
+            below = last;
+        }
+        live_attach(k, node, DOWN, below);
+        if (k->order.count) live_attach(k, k->order.data[k->order.count - 1], UP, node);
+        k->order.data[k->order.count++] = node;
+    }
+    k->counts.nodes_touched += count;
+    live_attach(k, parent, slot, count ? k->order.data[0] : LEAF);
+}
+
+static void leave_near(froe_kinetic *k, const passing *p) {
+    live_node *n = node_at(k, p->node);
+    const uint8_t slot = (uint8_t)(p->grows ? p->near.side : 1 - p->near.side);
+    const uint32_t behind = n->child[slot];
+    n->child[slot] = LEAF;
+    if (p->grows) {
+        n->wall[slot] = END_NONE;
+        live_free_tree(k, behind);
+    } else {
+        live_attach(k, p->near.site.parent, p->near.site.slot, behind);
+        live_free_tree(k, p->node);
+    }
+}
+
+static void enter_far(froe_kinetic *k, const passing *p) {
+    const uint32_t root = root_of(k, &p->far.site);
+    const uint8_t slot = (uint8_t)(p->grows ? p->near.side : p->far.side);
+    uint32_t node = root, wall[2] = {END_NONE, END_NONE};
+    wall[slot] = p->wall;
+    if (p->grows) {
+        node = live_new_node(k, p->segment, wall);
+        if (!node) return;
+        live_attach(k, p->far.site.parent, p->far.site.slot, node);
+        live_attach(k, node, slot, root);
+        plant(k, 0, p->below, node, DOWN);
+        plant(k, p->below, p->thread - p->below, node, UP);
+    } else {
+        node_at(k, node)->wall[slot] = p->wall;
+        live_own_end(k, node, slot);
+        plant(k, 0, p->thread, node, slot);
+    }
+    if (is_end(p->wall)) live_touch_end(k, 2 * p->segment + (END_0 - p->wall));
+}
+
+static bool has_strangers(froe_kinetic *k, const passing *p) {
+    const live_cell *near = &p->near.site.cell, *far = &p->far.site.cell;
+    const uint32_t border[4] = {near->top, near->bottom, far->top, far->bottom};
     bool found = live_find_strangers(k, border, 4);
     return live_find_strangers(k, k->list.data, k->list.count) || found;
 }
 
-/* Makes both thin parts anew. */
-static void grow_halves(froe_kinetic *k, const half h[2], now_name point) {
-    size_t count = k->list.count;
-    k->counts.surgeries++;
-    for (uint8_t i = 0; i < 2; i++) {
-        live_free_tree(k, node_at(k, PARTS)->child[2 * i]);
-        grow_thin(k, h + i, (uint8_t)(2 * i), count);
-        if (live_has_wall(k, node_at(k, PARTS)->child[2 * i], point)) k->broken = true; /* never seen */
-    }
-}
-
 live_outcome live_pass(froe_kinetic *k, const live_item *item) {
-    half h[2];
-    if (!find_halves(k, item, h, h + 1) || !is_wide(k, h) || !is_wide(k, h + 1)) return LIVE_NOT_NARROW;
-    const now_name point = h->side == LEFT ? item->claim.q : item->claim.p;
-    live_outcome outcome = LIVE_DONE;
+    passing p;
+    if (!find_near(k, item, &p)) return LIVE_NOT_NARROW;
+    const now_name point = wall_name(k, p.segment, p.wall);
+    if (!find_far(k, point, &p)) return LIVE_NOT_NARROW;
+    if (!is_beyond(k, &p.near, p.near.site.cell.wall[p.far.side]) ||
+        !is_beyond(k, &p.far, p.far.site.cell.wall[p.near.side]))
+        return LIVE_NOT_NARROW;
     k->stamp++;
-    live_new_list(k);
-    for (uint8_t i = 0; i < 2; i++) cut_off(k, h + i, (uint8_t)(2 * i));
+    if (!list_threads(k, &p)) return LIVE_NOT_NARROW;
     if (k->short_of_memory) return LIVE_DONE;
-    for (size_t i = 0; i < k->crew.count; i++) live_list(k, k->crew.data[i]);
-    for (int i = 0; i < 2; i++) {
-        live_collect(k, node_at(k, PARTS)->child[2 * i]);
-        if (live_has_wall(k, node_at(k, PARTS)->child[2 * i], point)) outcome = LIVE_NOT_NARROW;
-    }
-    if (has_strangers(k, h, h + 1)) outcome = LIVE_STRANGERS;
-    if (!outcome) grow_halves(k, h, point);
-    for (uint8_t i = 0; i < 2; i++) put_back(k, h + i, (uint8_t)(2 * i));
-    if (outcome || k->broken || k->now.lost) return outcome;
-    live_touch_wall(k, h->site.cell.wall[h->side]);
-    for (int i = 0; i < 2; i++) live_certify(k, &h[i].site);
+    if (has_strangers(k, &p)) return LIVE_STRANGERS;
+    if (!thread_anew(k, &p, point) || k->now.lost) return LIVE_NOT_NARROW;
+    k->counts.surgeries++;
+    leave_near(k, &p);
+    enter_far(k, &p);
+    if (k->short_of_memory) return LIVE_DONE;
+    live_touch_wall(k, p.near.site.cell.wall[p.near.side]);
+    live_certify(k, &p.near.site);
+    live_certify(k, &p.far.site);
     return LIVE_DONE;
 }

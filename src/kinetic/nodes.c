@@ -179,22 +179,3 @@ static void free_one(froe_kinetic *k, uint32_t node, void *context) {
 void live_free_tree(froe_kinetic *k, uint32_t node) {
     each_node(k, node, free_one, NULL);
 }
-
-typedef struct wall_search {
-    now_name except;
-    bool found;
-} wall_search;
-
-static void look_for_wall(froe_kinetic *k, uint32_t node, void *context) {
-    wall_search *search = context;
-    const live_node *n = node_at(k, node);
-    for (int side = 0; side < 2; side++)
-        if (n->wall[side] != END_NONE && !name_is(wall_name(k, n->segment, n->wall[side]), search->except))
-            search->found = true;
-}
-
-bool live_has_wall(froe_kinetic *k, uint32_t node, now_name except) {
-    wall_search search = {except, false};
-    each_node(k, node, look_for_wall, &search);
-    return search.found;
-}
