@@ -115,14 +115,22 @@ double print_area(const print_point *p, size_t count) {
     return area;
 }
 
-/* Does a side of `a` have all of `b` beyond it, up to `margin`? */
+/* How far a ring reaches to the left of u v, times its length: at least (sign -1) or at most (sign 1). */
+static double reach(const print_point *ring, size_t count, print_point u, print_point v, int sign) {
+    double most = -INFINITY;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, sign * ((v.y - u.y) * (ring[i].x - u.x) - (v.x - u.x) * (ring[i].y - u.y)));
+    return sign * most;
+}
+
+/* Is all of `b` beyond a side of `a`, up to `margin`? Where corners all but coincide the side between them may have any
+ * direction, so that `a` itself has to be seen on the other side of it. */
 static bool separated(const print_point *a, size_t a_count, const print_point *b, size_t b_count, double margin) {
     for (size_t i = 0; i < a_count; i++) {
         const print_point u = a[i], v = a[i + 1 < a_count ? i + 1 : 0];
-        const double dx = v.x - u.x, dy = v.y - u.y, length = sqrt(dx * dx + dy * dy);
-        double most = -INFINITY;
-        for (size_t j = 0; j < b_count; j++) most = fmax(most, dy * (b[j].x - u.x) - dx * (b[j].y - u.y));
-        if (length > 0 && most <= margin * length) return true;
+        const double length = sqrt((v.x - u.x) * (v.x - u.x) + (v.y - u.y) * (v.y - u.y)),
+                     most = reach(b, b_count, u, v, 1);
+        if (length > 0 && most <= margin * length && most - reach(a, a_count, u, v, -1) <= margin * length) return true;
     }
     return false;
 }
