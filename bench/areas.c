@@ -153,15 +153,15 @@ static void ask_peer(find_fn *find, void *index, const map *m, answers *out) {
     out->there = true;
 }
 
-/* Does every area of froe's have one answer of a peer's? Points on borders and outside may differ. */
-static bool agree(const map *m, const answers *froe, const answers *peer) {
+/* Does every area of froe's have one answer of the other's? Points on borders and outside may differ. */
+static bool agree(const map *m, const answers *froe, const answers *other) {
     int64_t *face = take(m->areas, sizeof *face);
     bool same = true;
     for (size_t i = 0; i < POINTS * ROUNDS; i++) {
         const int64_t area = froe->found[i];
         if (area < 0) continue;
-        if (!face[area]) face[area] = peer->found[i] + 1;
-        same = same && face[area] == peer->found[i] + 1;
+        if (!face[area]) face[area] = other->found[i] + 1;
+        same = same && face[area] == other->found[i] + 1;
     }
     free(face);
     return same;
@@ -177,7 +177,7 @@ static void bench(size_t segments) {
     map m = make_map(segments);
     froe_scene *scene = make_scene(&m);
     answers froe = {.found = take(POINTS * ROUNDS, sizeof *froe.found)}, batch = {0},
-            peer = {.found = take(POINTS * ROUNDS, sizeof *peer.found)};
+            other = {.found = take(POINTS * ROUNDS, sizeof *peer.found)};
     printf("\n%zu areas, %zu segments\n%-18s %8s %12s %10s\n", m.areas, froe_scene_object_count(scene), "", "build, s",
            "points/s", "froe is x");
     const char *const methods[] = {"index", "density"};
@@ -206,8 +206,8 @@ static void bench(size_t segments) {
     double start = bench_cpu();
     void *areas = peer_areas_new(m.rings, m.areas, RING);
     double built = bench_cpu() - start;
-    ask_peer(peer_areas_find, areas, &m, &peer);
-    print("GEOS", "STRtree, prepared", built, &peer, rate, agree(&m, &froe, &peer));
+    ask_peer(peer_areas_find, areas, &m, &other);
+    print("GEOS", "STRtree, prepared", built, &other, rate, agree(&m, &froe, &other));
     peer_areas_free(areas);
 #endif
 #ifdef HAVE_CGAL
@@ -215,12 +215,12 @@ static void bench(size_t segments) {
         start = bench_cpu();
         void *index = peer_trapezoids.build(m.borders, m.border_count);
         built = bench_cpu() - start;
-        ask_peer(peer_trapezoids.locate, index, &m, &peer);
-        print("CGAL trapezoids", "faces, borders once", built, &peer, rate, agree(&m, &froe, &peer));
+        ask_peer(peer_trapezoids.locate, index, &m, &other);
+        print("CGAL trapezoids", "faces, borders once", built, &other, rate, agree(&m, &froe, &other));
         peer_trapezoids.free(index);
     }
 #endif
-    free(froe.found), free(peer.found), free(m.rings), free(m.borders), free(m.points);
+    free(froe.found), free(other.found), free(m.rings), free(m.borders), free(m.points);
     froe_scene_free(scene);
     fflush(stdout);
 }

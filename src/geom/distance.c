@@ -1,9 +1,12 @@
 /* distance.c: see distance.h. */
 #include "geom/distance.h"
+#include "geom/feature.h"
 #include "geom/filter.h"
 #include "geom/formulas.h"
 #include "geom/gap.h"
+#include "num/pair.h"
 #include "num/root.h"
+#include <string.h>
 
 #include "num/ball_terms.inc"
 
@@ -19,6 +22,20 @@ static num_ratio exact_square(num_arena *arena, const double *point, const geom_
     return s;
 }
 
+/* Most triangles of space, without a search. */
+static bool find_feature(num_context *context, const double *point, const geom_body *body, geom_distance *d) {
+    if (body->dim != 3 || body->count != 3 || context->first != NUM_FILTER || !num_rounding_trusted()) return false;
+    const double *const corner[3] = {geom_body_point(body, 0), geom_body_point(body, 1), geom_body_point(body, 2)};
+    geom_feature f;
+    context->stats.calls++;
+    if (!geom_feature_nearest(point, corner, &f)) return false;
+    context->stats.filtered++;
+    d->count = f.count;
+    d->square = f.square;
+    memcpy(d->corner, f.corner, sizeof d->corner);
+    return true;
+}
+
 static void find_simplex(num_context *context, const double *point, const geom_body *body, geom_distance *d) {
     geom_body at = geom_body_at(body->dim, point);
     geom_gap gap = geom_gap_between(context, body, &at);
@@ -31,6 +48,8 @@ geom_distance geom_distance_from(num_context *context, const double *point, cons
     if (body->form == FROE_POINT || body->form == FROE_BOX || body->form == FROE_BALL) {
         d.lo = geom_body_point(body, 0);
         d.hi = body->form == FROE_BOX ? geom_body_point(body, 1) : d.lo;
+    } else if (find_feature(context, point, body, &d)) {
+        return d;
     } else {
         find_simplex(context, point, body, &d);
     }
@@ -123,9 +142,42 @@ static int against(void *user, num_arena *arena, num_dyadic x) {
     return beyond_both(arena, r->square, r->radius, x);
 }
 
+/* The distance from a simplex in space, if pairs of doubles can tell how it is to be rounded: sqrt(S) errs by 2^-94 of
+ * itself and by what the numerator of S errs. With sizes as sums of coordinates, |e|^2 at least a third of that: v x e
+ * by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f| |v|, as n by 2^-96 |e| |f|. */
+static bool round_simplex(const double *point, const geom_distance *a, double *out) {
+    num_pair v[3], e[3], f[3], n[3], s;
+    double sizes[3] = {num_pair_between(point, a->corner[0], v), 1, 1}, error = 0;
+    if (a->count > 1) sizes[1] = num_pair_between(a->corner[0], a->corner[1], e);
+    if (a->count > 2) sizes[2] = num_pair_between(a->corner[0], a->corner[2], f);
+    for (int i = 0; i < 3; i++)
+        if (!(sizes[i] > 0x1p-100 && sizes[i] < 0x1p100)) return false;
+    if (a->count == 1) {
+        s = num_pair_dot(v, v);
+    } else if (a->count == 2) {
+        num_pair_cross(v, e, n);
+        s = num_pair_div(num_pair_dot(n, n), num_pair_dot(e, e));
+        error = 0x1p-94 * sizes[0];
+    } else {
+        num_pair_cross(e, f, n);
+        const num_pair height = num_pair_dot(n, v), bottom = num_pair_dot(n, n);
+        s = num_pair_div(num_pair_mul(height, height), bottom);
+        if (!(bottom.hi > 0x1p-600)) return false;
+        error = 0x1p-93 * sizes[1] * sizes[2] * (sizes[0] + sqrt(s.hi)) / sqrt(bottom.hi);
+    }
+    if (!(s.hi > 0x1p-400)) return false;
+    const num_pair root = num_pair_sqrt(s);
+    error += 0x1p-94 * root.hi;
+    *out = root.hi + (root.lo - error);
+    return *out == root.hi + (root.lo + error);
+}
+
 double geom_distance_round(num_context *context, const double *point, const geom_distance *a) {
     num_arena *arena = &context->arena;
+    double rounded;
     arena->top = 0;
+    if (!a->lo && a->count && a->dim == 3 && context->first < NUM_EXACT && round_simplex(point, a, &rounded))
+        return rounded;
     rounding r = {exact_square(arena, point, a), a->radius};
     if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;
     return num_nearest(arena, against, &r, geom_distance_image(a).x);

@@ -124,32 +124,14 @@ static int sphere_against(void *user, num_arena *arena, num_dyadic x) {
     return -against_sphere(arena, bound, user);
 }
 
-static void pair_vector(const double *p, const double *q, num_pair out[3], double *size) {
-    for (int k = 0; k < 3; k++) {
-        out[k] = num_pair_sum(q[k], -p[k]);
-        *size += fabs(out[k].hi);
-    }
-}
-static num_pair pair_dot(const num_pair a[3], const num_pair b[3]) {
-    num_pair sum = num_pair_add(num_pair_mul(a[0], b[0]), num_pair_mul(a[1], b[1]));
-    return num_pair_add(sum, num_pair_mul(a[2], b[2]));
-}
-
 /* The parameter of a PLANE, if pairs of doubles can tell how it is to be rounded. With sizes as sums of coordinates, a
  * product of three vectors is off by less than 2^-96 |e| |f| |v|. */
 static bool round_plane(const geom_ray *ray, const geom_hit *h, double *out) {
     num_pair e[3], f[3], v[3], n[3], d[3];
-    double e_size = 0, f_size = 0, v_size = 0, d_size = 0;
-    pair_vector(h->p, h->q, e, &e_size);
-    pair_vector(h->p, h->r, f, &f_size);
-    pair_vector(ray->o, h->p, v, &v_size);
-    for (int k = 0; k < 3; k++) {
-        int i = k == 2 ? 0 : k + 1, j = k ? k - 1 : 2;
-        n[k] = num_pair_sub(num_pair_mul(e[i], f[j]), num_pair_mul(e[j], f[i]));
-        d[k] = (num_pair){ray->d[k], 0};
-        d_size += fabs(ray->d[k]);
-    }
-    const num_pair top = pair_dot(n, v), bottom = pair_dot(n, d), t = num_pair_div(top, bottom);
+    const double zero[3] = {0}, e_size = num_pair_between(h->p, h->q, e), f_size = num_pair_between(h->p, h->r, f),
+                 v_size = num_pair_between(ray->o, h->p, v), d_size = num_pair_between(zero, ray->d, d);
+    num_pair_cross(e, f, n);
+    const num_pair top = num_pair_dot(n, v), bottom = num_pair_dot(n, d), t = num_pair_div(top, bottom);
     const double sizes[4] = {e_size, f_size, v_size, d_size}, low = fabs(bottom.hi);
     for (int i = 0; i < 4; i++)
         if (!(sizes[i] > 0x1p-100 && sizes[i] < 0x1p200)) return false;

@@ -56,12 +56,17 @@ static bool take(froe_query *q, const query_neighbour *x, size_t k) {
     return true;
 }
 
-static bool look_at(froe_query *q, uint32_t object, size_t k, double bound) {
+static bool beyond_limit(froe_query *q, uint32_t object) {
     const froe_scene *s = q->tree->scene;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    q->stats.tests++;
     scene_object_bounds(s, object, lo, hi);
-    if (query_near_box(&q->near, s->dim, lo, hi) > q->near.limit) return true;
+    return query_near_box(&q->near, s->dim, lo, hi) > q->near.limit;
+}
+
+static bool look_at(froe_query *q, uint32_t object, size_t k, double bound) {
+    const froe_scene *s = q->tree->scene;
+    q->stats.tests++;
+    if (!q->near.packed && beyond_limit(q, object)) return true; /* packed trees have looked at more than boxes */
     const geom_body body = scene_body(s, object);
     const query_neighbour x = {geom_distance_from(&q->numbers, q->near.point, &body), object};
     if (geom_distance_compare_to(&q->numbers, q->near.point, &x.distance, bound) > 0) return true;
@@ -70,6 +75,7 @@ static bool look_at(froe_query *q, uint32_t object, size_t k, double bound) {
 
 static froe_status find(froe_query *q, size_t k, double bound, froe_diagnostic *diag) {
     tree_objects list;
+    q->near.one = k == 1;
     froe_status status = query_near_begin(q, diag);
     if (bound < INFINITY) q->near.limit = query_near_square(&q->near, bound);
     while (!status && k && !(status = query_near_next(q, &list)) && list.count) {

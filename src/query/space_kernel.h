@@ -39,6 +39,7 @@ typedef struct space_found {
     uint32_t *objects;
     float *keys;
     size_t count;
+    float least; /**< near: lowered to what one object's squared distance certainly does not exceed */
 } space_found;
 
 /** Objects that meet a window, and those that may. Room as above in both. */

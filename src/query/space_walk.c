@@ -32,6 +32,7 @@ static froe_status begin(froe_query *q, bool near, bool meets) {
     space_work *w = q->space;
     w->near = near;
     w->told = -1;
+    w->limit = (float)INFINITY;
     w->stack.count = 0;
     return !meets || array_push(&q->alloc, &w->stack, 0) ? FROE_OK : FROE_E_MEMORY;
 }
@@ -114,11 +115,15 @@ static float limit_of(const space_work *w, double limit) {
     return x < FLT_MAX ? (float)(x * (1 + 0x1p-22)) + FLT_MIN : (float)INFINITY;
 }
 
-static float current_limit(froe_query *q) {
+static void lower_limit(space_work *w, float limit) {
+    if (limit < w->limit) w->limit = limit;
+}
+
+/* The caller's limit may have fallen. */
+static void update_limit(froe_query *q) {
     space_work *w = q->space;
     double limit = w->near ? q->near.limit : q->ray.limit;
-    if (limit != w->told) w->told = limit, w->limit = limit_of(w, limit);
-    return w->limit;
+    if (limit != w->told) w->told = limit, lower_limit(w, limit_of(w, limit));
 }
 
 /* -------------------------------------------------------------------- stack -- */
@@ -139,6 +144,18 @@ static void sort_top(space_work *w, size_t from) {
         for (; j > from && e[j - 1] < x; j--) e[j] = e[j - 1];
         e[j] = x;
     }
+}
+
+/* The least of the last entries on top; of few that wait the others need no order, as the first leaf lowers the limit.
+ */
+static void lift_least(space_work *w, size_t from) {
+    uint64_t *e = w->stack.data;
+    size_t least = from;
+    if (w->stack.count <= from) return;
+    for (size_t i = from + 1; i < w->stack.count; i++) least = e[i] < e[least] ? i : least;
+    const uint64_t x = e[least];
+    e[least] = e[w->stack.count - 1];
+    e[w->stack.count - 1] = x;
 }
 
 /* All of a node, and of a leaf as much as one of 24 triangles has. */
@@ -163,7 +180,10 @@ static bool push_children(froe_query *q, uint32_t index) {
         ask_for(q->tree, n->child[i]);
         w->stack.data[w->stack.count++] = entry(keys[i], n->child[i]);
     }
-    sort_top(w, from);
+    if (w->near)
+        lift_least(w, from);
+    else
+        sort_top(w, from);
     return true;
 }
 
@@ -174,28 +194,30 @@ static bool push_objects(froe_query *q, uint32_t block, float key) {
     if (!array_reserve(&q->alloc, &w->objects, room) || !array_reserve(&q->alloc, &w->keys, room) ||
         !array_reserve(&q->alloc, &w->stack, room))
         return false;
-    space_found found = {w->objects.data, w->keys.data, 0};
+    space_found found = {w->objects.data, w->keys.data, 0, (float)INFINITY};
     if (w->near)
         w->kernels->near(h, &w->point, key, w->limit, &found);
     else
         w->kernels->ray(h, &w->ray, key, w->limit, &found);
     q->stats.leaves++;
+    if (w->near && q->near.one) lower_limit(w, found.least);
     for (size_t i = 0; i < found.count; i++)
-        w->stack.data[w->stack.count++] = entry(found.keys[i], OBJECT | found.objects[i]);
+        if (found.keys[i] <= w->limit)
+            w->stack.data[w->stack.count++] = entry(found.keys[i], OBJECT | found.objects[i]);
     sort_top(w, from);
     return true;
 }
 
 froe_status space_walk_next(froe_query *q, tree_objects *list) {
     space_work *w = q->space;
-    const float limit = current_limit(q);
+    update_limit(q);
     list->count = 0;
     while (w->stack.count) {
         const uint64_t top = w->stack.data[--w->stack.count];
         const uint32_t bits = (uint32_t)(top >> 32), what = (uint32_t)top;
         float key;
         memcpy(&key, &bits, sizeof key);
-        if (key > limit) continue;
+        if (key > w->limit) continue;
         if (what & OBJECT && !(what & WIDE_LEAF)) {
             w->object = what & WIDE_INDEX;
             *list = (tree_objects){.at = &w->object, .stride = 1, .mask = UINT32_MAX, .count = 1};

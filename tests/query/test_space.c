@@ -177,6 +177,7 @@ static void every_kernel_gives_the_answers_of_general_trees(void **state) {
 
 static void assert_same(const space_found *a, const space_found *b) {
     assert_int_equal(a->count, b->count);
+    assert_true(a->least == b->least);
     assert_memory_equal(a->objects, b->objects, a->count * sizeof *a->objects);
     assert_memory_equal(a->keys, b->keys, a->count * sizeof *a->keys);
 }
@@ -215,7 +216,7 @@ static void kernels_agree(void **state) {
             for (uint32_t n = 0; n < t->node_count; n++) {
                 if (!tree_is_leaf(t->nodes + n)) continue;
                 const space_header *h = space_block(t, t->nodes[n].child);
-                space_found a = {objects[0], keys[0], 0}, b = {objects[1], keys[1], 0};
+                space_found a = {objects[0], keys[0], 0, INFINITY}, b = {objects[1], keys[1], 0, INFINITY};
                 first->ray(h, &q->space->ray, 0, INFINITY, &a);
                 other->ray(h, &q->space->ray, 0, INFINITY, &b);
                 assert_same(&a, &b);
