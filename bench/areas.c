@@ -177,7 +177,7 @@ static void bench(size_t segments) {
     map m = make_map(segments);
     froe_scene *scene = make_scene(&m);
     answers froe = {.found = take(POINTS * ROUNDS, sizeof *froe.found)}, batch = {0},
-            other = {.found = take(POINTS * ROUNDS, sizeof *peer.found)};
+            other = {.found = take(POINTS * ROUNDS, sizeof *other.found)};
     printf("\n%zu areas, %zu segments\n%-18s %8s %12s %10s\n", m.areas, froe_scene_object_count(scene), "", "build, s",
            "points/s", "froe is x");
     const char *const methods[] = {"index", "density"};
