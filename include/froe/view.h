@@ -106,6 +106,7 @@ typedef struct froe_visibility_options {
                                       of equal ones the later; NULL: all equal */
     const uint8_t *edges;        /**< per edge, not 0: its intervals are wanted; NULL: all */
     bool crossings;              /**< lines along which polygons pass through each other are wanted */
+    bool hidden_crossings;       /**< and what is hidden of them, which costs a look at all that is hidden */
     int section;                 /**< -1 or 1: only what lies on the negative or positive side of the root's cut, or in
                                       it, is there: see froe_tree_section(); 0 (default): all */
     bool cull_back;              /**< polygons whose corners turn right, as the eye sees them, are not there */
@@ -159,14 +160,15 @@ typedef struct froe_interval {
  * They were ordered and joined exactly; only these numbers are rounded. Live as long as the visibility. */
 FROE_API const froe_interval *froe_visibility_of_edge(const froe_visibility *visibility, uint32_t edge, size_t *count);
 
-/** A visible part of the line along which a patch passes through polygons of another plane, or through the section. */
+/** A part of the line along which a patch passes through polygons of another plane, or through the section. */
 typedef struct froe_crossing {
     uint32_t patch;        /**< the one of the two that the tree has cut */
     bool section;          /**< no crossing: where the section cuts the patch */
+    bool hidden;           /**< by something else; otherwise all of it is visible */
     double from[3], to[3]; /**< rounded as by froe_visibility_corners() */
 } froe_crossing;
-/** All of them, when they were wanted; found and joined exactly. Where a polygon is seen edge-on there is none, but for
- * the section as seen from the side that is left out. They live as long as the visibility. */
+/** All of them, when they were wanted, visible ones first; found and joined exactly. Where a polygon is seen edge-on
+ * there is none, but for the section as seen from the side that is left out. They live as long as the visibility. */
 FROE_API const froe_crossing *froe_visibility_crossings(const froe_visibility *visibility, size_t *count);
 
 /** Receives the visible region of a patch: ring i has the corners starts[i] .. starts[i+1] - 1, 3 doubles each. Outer

@@ -58,29 +58,43 @@ static bool keep_inside(view_crosser *c, uint32_t piece, view_stretches *out) {
     return true;
 }
 
-froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_ring *ring, view_stretches *out) {
+/* What of the open stretches lies inside the list of a cut, or all where that is the section. */
+static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_stretches *out) {
+    view_sights *s = c->sights;
+    const tree_objects list = tree_list(s->tree, node);
+    const bool section = node == 0 && c->section;
+    bool ok = true;
+    for (size_t k = 0; ok && section && k < c->open.count; k++) ok = array_push(&s->alloc, out, c->open.data[k]);
+    for (uint32_t k = 0; ok && !section && c->open.count && k < list.count; k++) {
+        const uint32_t object = tree_object(&list, k), other = s->surface->patch_of[object];
+        if (other != FROE_NONE && other != patch && view_facing(s, object)) ok = keep_inside(c, list.first + k, out);
+    }
+    return ok;
+}
+
+froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_ring *ring) {
     view_sights *s = c->sights;
     const uint32_t patch = s->surface->patch_of[s->tree->pieces[piece].object];
     for (uint32_t i = 0; i < ring->count; i++) {
         const uint32_t node = node_of(s, ring->data[i].way);
-        if (node == FROE_NONE) continue;
-        const tree_objects list = tree_list(s->tree, node);
-        const bool section = node == 0 && c->section;
-        if (!list.count && !section) continue;
+        if (node == FROE_NONE || (!tree_list(s->tree, node).count && !(node == 0 && c->section))) continue;
         const view_stretch side = stretch_of(ring, i);
+        c->open.count = 0;
+        if (c->hidden && (!keep_open(c, &side) || !keep_crossed(c, node, patch, &c->all))) return FROE_E_MEMORY;
         c->open.count = 0; /* first what is open: most is hidden */
         const froe_status status =
             view_screen_classify(c->screen, &side, side.edge, ring->data, (uint32_t)ring->count, keep_open, c);
         if (status) return status;
-        for (size_t k = 0; section && k < c->open.count; k++)
-            if (!array_push(&s->alloc, out, c->open.data[k])) return FROE_E_MEMORY;
-        for (uint32_t k = 0; !section && c->open.count && k < list.count; k++) {
-            const uint32_t object = tree_object(&list, k), other = s->surface->patch_of[object];
-            if (other == FROE_NONE || other == patch || !view_facing(s, object)) continue;
-            if (!keep_inside(c, list.first + k, out)) return FROE_E_MEMORY;
-        }
+        if (!keep_crossed(c, node, patch, &c->seen)) return FROE_E_MEMORY;
     }
     return FROE_OK;
+}
+
+void view_crosser_free(view_crosser *c) {
+    array_free(&c->sights->alloc, &c->open);
+    array_free(&c->sights->alloc, &c->seen);
+    array_free(&c->sights->alloc, &c->all);
+    array_free(&c->sights->alloc, &c->list_ring);
 }
 
 froe_status view_look_along_section(froe_visibility *v, uint32_t piece, uint32_t patch) {
@@ -104,7 +118,7 @@ froe_status view_look_along_section(froe_visibility *v, uint32_t piece, uint32_t
 /* ---------------------------------------------------------------------- joining -- */
 
 typedef struct joiner {
-    froe_visibility *v;
+    view_sights *sights;
     const view_stretch *stretches;
 } joiner;
 
@@ -112,43 +126,78 @@ static int by_line(void *user, uint32_t a, uint32_t b) {
     const joiner *j = user;
     const view_stretch *x = j->stretches + a, *y = j->stretches + b;
     if (x->edge != y->edge) return x->edge < y->edge ? -1 : 1;
-    return view_compare_along(&j->v->sights, x->edge, &x->end[0], &y->end[0]);
+    return view_compare_along(j->sights, x->edge, &x->end[0], &y->end[0]);
 }
 
-static bool put_crossing(froe_visibility *v, uint32_t line, const view_end *from, const view_end *to) {
+/* Unites the stretches of each line; what is left is in order and disjoint. */
+static void unite(view_sights *s, const uint32_t *items, const view_stretch *stretches, view_stretches *out) {
+    for (size_t i = 0; i < out->count; i++) out->data[i] = stretches[items[i]];
+    size_t kept = 0;
+    for (size_t i = 0; i < out->count; i++) {
+        const view_stretch next = out->data[i];
+        view_stretch *last = kept ? out->data + kept - 1 : NULL;
+        if (!last || last->edge != next.edge || view_compare_along(s, next.edge, &next.end[0], &last->end[1]) > 0)
+            out->data[kept++] = next;
+        else if (view_compare_along(s, next.edge, &next.end[1], &last->end[1]) > 0)
+            last->end[1] = next.end[1];
+    }
+    out->count = kept;
+}
+
+static froe_status join(view_sights *s, view_stretches *stretches) {
+    const size_t n = stretches->count;
+    if (n > INT32_MAX) return FROE_E_LIMIT;
+    uint32_t *items = base_calloc(&s->alloc, 2 * n + 1, sizeof *items);
+    view_stretch *copy = base_calloc(&s->alloc, n + 1, sizeof *copy);
+    if (items && copy) {
+        joiner j = {s, copy};
+        if (n) memcpy(copy, stretches->data, n * sizeof *copy);
+        for (uint32_t i = 0; i < n; i++) items[i] = i;
+        base_merge_sort(items, items + n, n, by_line, &j);
+        unite(s, items, copy, stretches);
+    }
+    const bool ok = items && copy;
+    base_free(&s->alloc, items, (2 * n + 1) * sizeof *items);
+    base_free(&s->alloc, copy, (n + 1) * sizeof *copy);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+static bool put_crossing(froe_visibility *v, uint32_t line, const view_end *from, const view_end *to, bool hidden) {
     const view_line *l = v->sights.lines.data + line;
-    froe_crossing x = {.patch = l->a, .section = v->section && l->b == 0};
+    froe_crossing x = {.patch = l->a, .section = v->section && l->b == 0, .hidden = hidden};
     const geom_plane plane = view_plane_of(&v->sights, x.patch);
     view_point_on(&v->sights, &plane, from->ray.x, x.from);
     view_point_on(&v->sights, &plane, to->ray.x, x.to);
     return array_push(&v->alloc, &v->crossings, x);
 }
 
-static bool join(joiner *j, const uint32_t *items, size_t count) {
-    view_sights *s = &j->v->sights;
-    for (size_t i = 0; i < count;) {
-        const view_stretch *first = j->stretches + items[i];
-        const uint32_t line = first->edge;
-        const view_end *to = &first->end[1];
-        for (i++; i < count; i++) {
-            const view_stretch *next = j->stretches + items[i];
-            if (next->edge != line || view_compare_along(s, line, &next->end[0], to) > 0) break;
-            if (view_compare_along(s, line, &next->end[1], to) > 0) to = &next->end[1];
-        }
-        if (!put_crossing(j->v, line, &first->end[0], to)) return false;
+/* What lies between the visible stretches *seen and before `end` in their array; *seen moves on. */
+static bool put_hidden(froe_visibility *v, const view_stretch *part, const view_stretch **seen,
+                       const view_stretch *end) {
+    view_sights *s = &v->sights;
+    const uint32_t line = part->edge;
+    const view_end *from = &part->end[0], *to = &part->end[1];
+    while (*seen < end && (*seen)->edge < line) ++*seen;
+    for (const view_stretch *x = *seen; x < end && x->edge == line; x++) {
+        if (view_compare_along(s, line, &x->end[1], from) <= 0) continue;
+        if (view_compare_along(s, line, &x->end[0], to) >= 0) break;
+        if (view_compare_along(s, line, from, &x->end[0]) < 0 && !put_crossing(v, line, from, &x->end[0], true))
+            return false;
+        from = &x->end[1];
     }
-    return true;
+    return view_compare_along(s, line, from, to) >= 0 || put_crossing(v, line, from, to, true);
 }
 
-froe_status view_join_crossings(froe_visibility *v, const view_stretches *stretches) {
-    joiner j = {v, stretches->data};
-    const size_t n = stretches->count;
-    if (n > INT32_MAX) return FROE_E_LIMIT;
-    uint32_t *items = base_calloc(&v->alloc, 2 * n + 1, sizeof *items);
-    if (!items) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < n; i++) items[i] = i;
-    base_merge_sort(items, items + n, n, by_line, &j);
-    const bool ok = join(&j, items, n);
-    base_free(&v->alloc, items, (2 * n + 1) * sizeof *items);
-    return ok ? FROE_OK : FROE_E_MEMORY;
+froe_status view_join_crossings(froe_visibility *v, view_crosser *c) {
+    froe_status status = join(&v->sights, &c->seen);
+    if (!status) status = join(&v->sights, &c->all);
+    bool ok = !status;
+    for (size_t i = 0; ok && i < c->seen.count; i++) {
+        const view_stretch *x = c->seen.data + i;
+        ok = put_crossing(v, x->edge, &x->end[0], &x->end[1], false);
+    }
+    const view_stretch *seen = c->seen.data;
+    for (size_t i = 0; ok && i < c->all.count; i++)
+        ok = put_hidden(v, c->all.data + i, &seen, c->seen.data + c->seen.count);
+    return status ? status : ok ? FROE_OK : FROE_E_MEMORY;
 }

@@ -12,16 +12,19 @@ typedef struct view_crosser {
     view_sights *sights;
     view_screen *screen;
     bool section;        /**< sides in the root's cut count, too */
+    bool hidden;         /**< what is not seen is wanted as well */
+    view_stretches seen; /**< found so far, each with the number of its line for an edge */
+    view_stretches all;  /**< seen or not, where hidden ones are wanted */
     view_stretches open; /**< of one side */
     view_ring list_ring; /**< of a piece in the cut */
 } view_crosser;
 /** Finds the stretches along which polygons in cuts cross a piece whose beam is `ring`, as far as they are open, and
- * appends them, and with a section what of its sides lies in that, with the number of their line for an edge.
- * FROE_E_MEMORY. */
-froe_status view_look_at_crossings(view_crosser *crosser, uint32_t piece, const view_ring *ring, view_stretches *out);
+ * with a section what of its sides lies in that. FROE_E_MEMORY. */
+froe_status view_look_at_crossings(view_crosser *crosser, uint32_t piece, const view_ring *ring);
 /** Appends where the section cuts a piece that is seen edge-on, to the crossings of the visibility: all of it, since
  * REQUIRES: the eye is on the side of the section that is left out. FROE_E_MEMORY. */
 froe_status view_look_along_section(froe_visibility *visibility, uint32_t piece, uint32_t patch);
 /** Joins what was found to the crossings of the visibility. FROE_E_MEMORY. */
-froe_status view_join_crossings(froe_visibility *v, const view_stretches *stretches);
+froe_status view_join_crossings(froe_visibility *v, view_crosser *crosser);
+void view_crosser_free(view_crosser *crosser);
 #endif

@@ -63,6 +63,7 @@ static froe_status look(view_painter *p, const froe_tree *tree, const froe_surfa
     look.edges = kinds;
     look.cull_back = o->cull_back;
     look.crossings = o->lines & (FROE_LINE_CROSSING | FROE_LINE_SECTION);
+    look.hidden_crossings = look.crossings && o->hidden;
     look.section = o->section;
     look.alloc = &p->picture->alloc;
     look.progress = o->progress;

@@ -84,9 +84,10 @@ static bool add_crossings(view_painter *p) {
     for (size_t i = 0; i < count; i++) {
         double share[2] = {0, 1};
         const uint32_t kind = x[i].section ? FROE_LINE_SECTION : FROE_LINE_CROSSING;
-        if (!(p->options->lines & kind) || !print_clip_segment(p->options->view, x[i].from, x[i].to, 1e-6, share))
+        const double beyond = x[i].hidden ? 0 : 1e-6;
+        if (!(p->options->lines & kind) || !print_clip_segment(p->options->view, x[i].from, x[i].to, beyond, share))
             continue;
-        view_segment s = {.kind = (uint8_t)kind, .place = FROE_NONE};
+        view_segment s = {.kind = (uint8_t)kind, .hidden = x[i].hidden, .place = FROE_NONE};
         for (int e = 0; e < 2; e++) set_end(p, &s, e, x[i].from, x[i].to, share[e]);
         if (!array_push(&p->picture->alloc, &p->segments, s)) return false;
     }

@@ -15,7 +15,7 @@ typedef struct looker {
     base_task task;
     view_screen screen;
     view_ring ring;
-    view_stretches stretches, crossings;
+    view_stretches stretches;
     view_crosser crosser;
     ARRAY(view_piece) pieces;
     uint32_t *ranks; /* per object */
@@ -52,7 +52,7 @@ static froe_status look_at_edges(looker *k, uint32_t piece) {
         status = view_screen_classify(&k->screen, &stretch, view_line_of_edge(&k->v->sights, stretch.edge),
                                       k->ring.data, (uint32_t)k->ring.count, keep_stretch, k);
     }
-    if (!status && k->options->crossings) status = view_look_at_crossings(&k->crosser, piece, &k->ring, &k->crossings);
+    if (!status && k->options->crossings) status = view_look_at_crossings(&k->crosser, piece, &k->ring);
     return status;
 }
 
@@ -79,7 +79,8 @@ static froe_status look_at_all(looker *k) {
     order.section = v->section;
     if (v->section && k->options->crossings)
         k->section_first = view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) == -v->section;
-    while (!status && k->screen.open && view_order_next(&order, &piece)) {
+    const bool all = k->options->crossings && k->options->hidden_crossings;
+    while (!status && (k->screen.open || all) && view_order_next(&order, &piece)) {
         status = look_at(k, piece, place++);
         if (place % 1024 == 0 && !base_progress(&k->task, 0.9 * place / v->tree->piece_count))
             status = FROE_E_CANCELLED;
@@ -127,19 +128,18 @@ static froe_status look(looker *k, const geom_eye *eye) {
     froe_status status = view_sights_new(&v->sights, v->tree, v->surface, eye, k->options->window,
                                          (uint32_t)k->options->window_corners, &v->alloc);
     if (!status) status = view_screen_new(&k->screen, &v->sights);
-    k->crosser = (view_crosser){.sights = &v->sights, .screen = &k->screen, .section = v->section != 0};
+    k->crosser = (view_crosser){
+        .sights = &v->sights, .screen = &k->screen, .section = v->section != 0, .hidden = k->options->hidden_crossings};
     if (!status) status = view_rank_objects(&v->alloc, v->surface, k->options->priorities, &k->ranks);
     if (!status) status = look_at_all(k);
     if (!status) status = sort_pieces(k);
     if (!status) status = view_join_intervals(v, &k->stretches);
-    if (!status) status = view_join_crossings(v, &k->crossings);
+    if (!status) status = view_join_crossings(v, &k->crosser);
     if (!status) note_counts(v, &k->screen);
     view_screen_free(&k->screen);
     array_free(&v->alloc, &k->ring);
     array_free(&v->alloc, &k->stretches);
-    array_free(&v->alloc, &k->crossings);
-    array_free(&v->alloc, &k->crosser.list_ring);
-    array_free(&v->alloc, &k->crosser.open);
+    view_crosser_free(&k->crosser);
     array_free(&v->alloc, &k->pieces);
     base_free(&v->alloc, k->ranks, ((size_t)v->surface->scene->object_count + 1) * sizeof *k->ranks);
     return status;
