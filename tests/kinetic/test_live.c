@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "kinetic/moving.h"
+#include "kinetic/following.h"
 #include "support/memory.h"
 
 static froe_kinetic *start(froe_motion *m, uint64_t seed) {
@@ -23,76 +23,43 @@ static void audit(froe_kinetic *k, const char *what) {
     if (froe_kinetic_audit(k, &why)) fail_msg("%s at %.12g: %s", what, froe_kinetic_time(k), why.message);
 }
 
-/* From event to event, and to a tick between each two. */
-static void run(froe_kinetic *k, const char *what, uint64_t most) {
-    fuzz_source r = {1};
-    audit(k, what);
-    for (uint64_t steps = 0; steps < most; steps++) {
-        double next = froe_kinetic_next(k), now = froe_kinetic_time(k);
-        if (!(next <= MOVING_TIME)) break;
-        if (fuzz_int(&r, 0, 7) == 0) {
-            assert_int_equal(froe_kinetic_advance(k, now + 0.4 * (next - now), NULL, NULL, NULL), FROE_OK);
-            if (froe_kinetic_time(k) < next) audit(k, what);
-        }
-        assert_int_equal(froe_kinetic_advance(k, next, NULL, NULL, NULL), FROE_OK);
-        audit(k, what);
-    }
+static void run(froe_kinetic *k, const char *what, uint64_t most, pattern_counter *counter) {
+    froe_diagnostic why = {0};
+    if (following_run(k, most, counter, &why)) fail_msg("%s at %.12g: %s", what, froe_kinetic_time(k), why.message);
 }
 
-static const moving_kind kinds[] = {
-    {.name = "random", .count = 24, .grid = 8000, .length = 4000, .speed = 60, .spin = 40},
-    {.name = "many small", .count = 90, .grid = 8000, .length = 900, .speed = 90, .spin = 20},
-    {.name = "parabolas", .count = 16, .grid = 8000, .length = 3000, .speed = 40, .spin = 30, .curved = true},
-    {.name = "rotation", .count = 12, .grid = 3000, .length = 3000, .speed = 1, .spin = 90, .curved = true},
-    {.name = "lattice 8", .count = 20, .grid = 8, .length = 4, .speed = 1, .spin = 1},
-    {.name = "lattice 16", .count = 30, .grid = 16, .length = 6, .speed = 2, .spin = 1},
-    {.name = "lattice 40", .count = 30, .grid = 40, .length = 15, .speed = 2, .spin = 2},
-    {.name = "lattice 100", .count = 40, .grid = 100, .length = 60, .speed = 5, .spin = 3},
-    {.name = "rigid", .count = 40, .grid = 12, .length = 6, .speed = 5, .rigid = true},
-    {.name = "chains", .count = 40, .grid = 3000, .length = 900, .speed = 30, .spin = 20, .chains = true},
-    {.name = "lattice chains", .count = 25, .grid = 20, .length = 6, .speed = 1, .spin = 1, .chains = true},
-    {.name = "bouncing", .count = 20, .grid = 4000, .length = 1500, .speed = 60, .spin = 20, .legs = 6},
-    {.name = "lattice bouncing", .count = 16, .grid = 24, .length = 8, .speed = 2, .spin = 1, .legs = 6},
-    {.name = "twins", .count = 24, .grid = 1000, .length = 500, .speed = 12, .twice = true, .legs = 3},
-    {.name = "upright", .count = 24, .grid = 200, .length = 90, .speed = 5, .spin = 0, .upright = true},
-    {.name = "nearly upright", .count = 20, .grid = 200, .length = 90, .speed = 5, .spin = 1, .upright = true},
-    {.name = "lanes", .count = 24, .grid = 12, .length = 5, .speed = 2, .spin = 1, .lanes = true, .legs = 3},
-    {.name = "lanes that meet",
-     .count = 24,
-     .grid = 8,
-     .length = 4,
-     .speed = 1,
-     .lanes = true,
-     .twice = true,
-     .legs = 3},
-    {.name = "mortal", .count = 40, .grid = 2000, .length = 900, .speed = 30, .spin = 10, .mortal = true},
-    {.name = "mortal lattice", .count = 24, .grid = 16, .length = 6, .speed = 2, .spin = 1, .mortal = true},
-};
-enum { KINDS = sizeof kinds / sizeof *kinds };
+static void expect_all_patterns(const pattern_counter *counter) {
+    for (int i = 0; i < PATTERN_KINDS; i++)
+        for (int j = 0; j < pattern_counts[i]; j++)
+            if (!counter->seen[i][j]) fail_msg("no event of pattern %s %d", pattern_names[i], j);
+}
 
 static void test_every_event(void **state) {
     (void)state;
-    uint64_t events = 0, kind_events[FROE_EVENT_KINDS] = {0};
-    for (size_t i = 0; i < KINDS; i++)
+    uint64_t kind_events[FROE_EVENT_KINDS] = {0};
+    pattern_counter counter = {0};
+    for (size_t i = 0; i < MOVING_KINDS; i++)
         for (uint64_t seed = 1; seed <= 3; seed++) {
-            froe_motion *m = moving_new(kinds + i, seed, NULL);
+            froe_motion *m = moving_new(moving_kinds + i, seed, NULL);
             froe_kinetic *k = start(m, seed);
-            run(k, kinds[i].name, 240);
+            run(k, moving_kinds[i].name, 240, &counter);
             froe_kinetic_stats s = froe_kinetic_statistics(k);
             assert_int_equal(s.stuck, 0);
-            for (int j = 0; j < FROE_EVENT_KINDS; j++) kind_events[j] += s.events[j], events += s.events[j];
+            for (int j = 0; j < FROE_EVENT_KINDS; j++) kind_events[j] += s.events[j];
             froe_kinetic_free(k);
             froe_motion_free(m);
         }
     for (int j = 0; j < FROE_EVENT_KINDS; j++)
         if (!kind_events[j]) fail_msg("no event of kind %s", froe_event_name((froe_event_kind)j));
-    assert_true(events >= 10000);
+    assert_true(counter.events >= 10000);
+    expect_all_patterns(&counter);
 }
 
 /* Segments on an integer lattice that do not turn: whole edges lie in one line for an instant, ends ride on others.
  * What happens to those that have no certificates of their own was missed once, in these runs. */
 static void test_coincidences(void **state) {
     (void)state;
+    pattern_counter counter = {0};
     static const struct {
         int length, count;
         uint64_t seeds[8];
@@ -103,7 +70,7 @@ static void test_coincidences(void **state) {
                 .name = "no turns", .count = 30, .grid = 8, .length = missed[i].length, .speed = 1};
             froe_motion *m = moving_new(&kind, missed[i].seeds[j], NULL);
             froe_kinetic *k = start(m, missed[i].seeds[j]);
-            run(k, kind.name, 180);
+            run(k, kind.name, 180, &counter);
             froe_kinetic_stats s = froe_kinetic_statistics(k);
             assert_int_equal(s.restarts + s.stuck, 0);
             froe_kinetic_free(k);
@@ -165,7 +132,7 @@ static void test_reversal(void **state) {
 static void test_changes(void **state) {
     (void)state;
     fuzz_source r = {77};
-    froe_motion *m = moving_new(kinds + 9, 4, NULL);
+    froe_motion *m = moving_new(moving_kinds + 9, 4, NULL);
     froe_kinetic *k = start(m, 4);
     for (int i = 0; i < 60; i++) {
         double now = froe_kinetic_time(k);
@@ -183,7 +150,7 @@ static void test_changes(void **state) {
             froe_status status = froe_kinetic_replan(k, vertex, 2, times, xy, NULL, &why);
             assert_true(status == FROE_E_INPUT || status == FROE_OK);
         } else {
-            uint32_t gone = (uint32_t)fuzz_int(&r, 0, kinds[9].count - 1);
+            uint32_t gone = (uint32_t)fuzz_int(&r, 0, moving_kinds[9].count - 1);
             assert_int_equal(froe_kinetic_remove(k, gone, NULL), FROE_OK);
             froe_moving b = froe_moving_defaults();
             const size_t starts[3] = {0, 2, 4};
@@ -203,13 +170,13 @@ static void test_changes(void **state) {
 
 static void test_epochs(void **state) {
     (void)state;
-    froe_motion *m = moving_new(kinds, 2, NULL);
+    froe_motion *m = moving_new(moving_kinds, 2, NULL);
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k = NULL;
     o.epoch = 50;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
     uint64_t key = segment_at(k, 0)->key;
-    run(k, "epochs", 120);
+    run(k, "epochs", 120, &(pattern_counter){0});
     assert_true(segment_at(k, 0)->key != key);
     froe_kinetic_free(k);
     froe_motion_free(m);
@@ -218,7 +185,7 @@ static void test_epochs(void **state) {
 static void test_order(void **state) {
     (void)state;
     enum { N = 24 };
-    froe_motion *m = moving_new(kinds, 2, NULL);
+    froe_motion *m = moving_new(moving_kinds, 2, NULL);
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k = NULL;
     froe_diagnostic why = {0};
@@ -227,7 +194,7 @@ static void test_order(void **state) {
     o.order = order;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
     assert_int_equal(node_at(k, node_at(k, ROOT)->child[0])->segment, N - 1);
-    run(k, "order", 50);
+    run(k, "order", 50, &(pattern_counter){0});
     froe_kinetic_free(k);
     order[3] = 5;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, &why), FROE_E_OPTIONS);
@@ -246,7 +213,7 @@ static bool count_three(void *user, const froe_event *event) {
 
 static void test_calls(void **state) {
     (void)state;
-    froe_motion *m = moving_new(kinds, 1, NULL);
+    froe_motion *m = moving_new(moving_kinds, 1, NULL);
     froe_kinetic *k = start(m, 1);
     int seen = 0;
     froe_diagnostic why = {0};
