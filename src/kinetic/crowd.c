@@ -120,14 +120,14 @@ static bool line_meets(const line *s, const double low[2], const double high[2],
     return !(off > reach * (1 + 0x1p-40) + slack);
 }
 
-static bool is_near_place(froe_kinetic *k, uint32_t segment, const live_place *place) {
-    line s = line_of(k, segment);
-    return line_meets(&s, place->low, place->high, margin(place->speed, s.speed));
+static bool is_near_place(const line *s, const live_place *place) {
+    return line_meets(s, place->low, place->high, margin(place->speed, s->speed));
 }
 
 static bool is_near(froe_kinetic *k, uint32_t segment) {
+    const line s = line_of(k, segment);
     for (size_t i = 0; i < k->places.count; i++)
-        if (is_near_place(k, segment, k->places.data + i)) return true;
+        if (is_near_place(&s, k->places.data + i)) return true;
     return false;
 }
 
@@ -146,6 +146,11 @@ static bool is_at(froe_kinetic *k, uint32_t vertex, const live_place *place) {
     return places_meet(&at, place);
 }
 
+static bool comes_to(froe_kinetic *k, uint32_t segment, const live_place *place) {
+    const line s = line_of(k, segment);
+    return is_near_place(&s, place);
+}
+
 /* Do the points of a certificate lie in different places, and do the segments of one keep away from the other? */
 static bool are_apart(froe_kinetic *k, const now_name name[2], const live_place place[2]) {
     if (places_meet(place, place + 1)) return false;
@@ -153,9 +158,9 @@ static bool are_apart(froe_kinetic *k, const now_name name[2], const live_place 
         const uint32_t both[2] = {name[i].a, (uint32_t)name[i].b};
         uint32_t e = name_is_vertex(name[i]) ? k->vertices.data[name[i].a] : FROE_NONE;
         for (; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-            if (is_near_place(k, e / 2, place + (1 - i))) return false;
+            if (comes_to(k, e / 2, place + (1 - i))) return false;
         for (int j = 0; j < 2 && name_is_crossing(name[i]); j++)
-            if (is_near_place(k, both[j], place + (1 - i))) return false;
+            if (comes_to(k, both[j], place + (1 - i))) return false;
     }
     return true;
 }

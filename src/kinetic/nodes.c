@@ -82,24 +82,20 @@ live_cell live_plane(void) {
     return (live_cell){{{0, NAME_NONE}, {0, NAME_NONE}}, FROE_NONE, FROE_NONE};
 }
 
-static void take_wall(now_name *wall, now_name name) {
-    if (!name_exists(*wall)) *wall = name;
+/* Looks up what it is called only if that is still asked. */
+static void take_wall(const froe_kinetic *k, now_name *wall, const live_node *node, int side) {
+    if (node->wall[side] != END_NONE && !name_exists(*wall)) *wall = wall_name(k, node->segment, node->wall[side]);
 }
 
 /* What the parent adds to the borders found so far. */
 static void widen(const froe_kinetic *k, live_cell *cell, const live_node *parent, int slot) {
-    now_name left = wall_name(k, parent->segment, parent->wall[LEFT]),
-             right = wall_name(k, parent->segment, parent->wall[RIGHT]);
-    if (slot == LEFT) {
-        take_wall(cell->wall + RIGHT, left);
-    } else if (slot == RIGHT) {
-        take_wall(cell->wall + LEFT, right);
-    } else {
-        uint32_t *border = slot == UP ? &cell->bottom : &cell->top;
-        if (*border == FROE_NONE) *border = parent->segment;
-        take_wall(cell->wall + LEFT, left);
-        take_wall(cell->wall + RIGHT, right);
+    if (slot < UP) {
+        take_wall(k, cell->wall + (1 - slot), parent, slot);
+        return;
     }
+    uint32_t *border = slot == UP ? &cell->bottom : &cell->top;
+    if (*border == FROE_NONE) *border = parent->segment;
+    for (int side = 0; side < 2; side++) take_wall(k, cell->wall + side, parent, side);
 }
 
 static bool is_closed(const live_cell *cell) {
