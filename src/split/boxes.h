@@ -23,16 +23,28 @@
 #include "scene/scene.h"
 #include "tree/draft.h"
 
+#define BOXES_MOST (1u << 30) /**< fragments on the stack: far below what node and piece numbers allow */
+
 typedef enum boxes_end { BOXES_BEFORE, BOXES_LO, BOXES_HI, BOXES_AFTER, BOXES_FLAT } boxes_end;
 
-/** With all that a sweep asks for, so that it reads events and nothing else. */
 typedef struct boxes_event {
     double x;
-    uint32_t fragment;  /**< counted from the cell's first */
-    uint8_t end;        /**< boxes_end; FLAT: a box without extent on this axis, both of its ends */
-    uint8_t rooms;      /**< bits 0 and 1: are the rooms of the fragment on this axis alive? */
-    uint8_t some, both; /**< other axes on which a room is alive; on which both are: see boxes_weight() */
+    uint32_t fragment; /**< counted from the cell's first */
+    uint16_t change;   /**< what it changes in a sweep: see boxes_change */
+    uint8_t end;       /**< boxes_end; FLAT: a box without extent on this axis, both of its ends */
 } boxes_event;
+
+/** What a sweep along an axis comes to know at an event: [0] on arriving there, [1] on leaving it behind. The same for
+ * all events of one kind of end, with the same rooms alive on the axis, and as many axes besides on which a room is
+ * alive, and both are: these number the changes. So a sweep reads events and a small table. */
+typedef struct boxes_change {
+    int64_t slack[2];   /**< trade * rooms - boxes divided, weighted */
+    int32_t divided[2]; /**< boxes */
+    uint32_t below, above;
+} boxes_change;
+
+/** Steps of their numbers. */
+enum { BOXES_ROOMS = 5, BOXES_BOTH = 4 * BOXES_ROOMS, BOXES_SOME = FROE_MAX_DIM * BOXES_BOTH };
 
 typedef struct boxes_fragment {
     uint32_t object;
@@ -42,9 +54,8 @@ typedef struct boxes_fragment {
 
 /** What becomes of a fragment in a cut, below and above. */
 typedef struct boxes_parts {
-    uint32_t name[2];  /**< counted from the first of its side, or FROE_NONE: not there, or a cover */
-    uint16_t alive[2]; /**< its rooms there */
-    uint16_t was;      /**< its rooms before */
+    uint32_t name[2];    /**< counted from the first of its side, or FROE_NONE: not there, or a cover */
+    int16_t shift[2][2]; /**< [side]: from the numbers of its changes to those there, [1] on the axis of the cut */
 } boxes_parts;
 
 /** A box that covers a cell, and with it all cells below. */
@@ -86,11 +97,13 @@ typedef struct boxes {
     tree_draft draft;
     uint64_t paid;    /**< weight of what forced cuts divided: see boxes_bound() */
     uint64_t covered; /**< covers listed in leaves */
+    bool flat;        /**< is any box without extent on some axis? */
     ARRAY(boxes_fragment) fragments;
     ARRAY(boxes_event) events[FROE_MAX_DIM];
     ARRAY(boxes_cell) cells;
     ARRAY(boxes_cover) covers;
-    int64_t weight[FROE_MAX_DIM + 1][FROE_MAX_DIM + 1]; /**< [some][both] */
+    int64_t weight[FROE_MAX_DIM + 1][FROE_MAX_DIM + 1]; /**< [some][both]: axes with a room alive, with both */
+    boxes_change *changes;
     /* scratch of the cell at hand */
     ARRAY(uint16_t) marks;
     ARRAY(boxes_parts) parts;
@@ -124,6 +137,12 @@ froe_status boxes_split_node(boxes *b, uint32_t node, const boxes_cut *cut, uint
  * fragments of the product over all axes; at the start that is at most boxes_bound(), and each fragment counts 1 at
  * least: so there are never more fragments than that, and what forced cuts divided (paid). */
 int64_t boxes_weight(const boxes *b, uint16_t alive, int axis);
+/** On how many axes are rooms alive (*some), and both (*both)? */
+static inline void boxes_count_rooms(unsigned alive, uint32_t *some, uint32_t *both) {
+    unsigned one = (alive | alive >> 1) & 0x5555, two = alive & alive >> 1 & 0x5555;
+    one = (one & 0x3333) + (one >> 2 & 0x3333), two = (two & 0x3333) + (two >> 2 & 0x3333);
+    *some = (one * 0x1111u >> 12) & 15, *both = (two * 0x1111u >> 12) & 15;
+}
 /** n (2 + 2 trade)^dim, or 0 where weights would not fit. */
 double boxes_bound(const boxes *b, uint32_t n);
 

@@ -21,7 +21,7 @@
 enum { NARROW_MOST = 4096 }; /* boxes: what larger cells divide is a small part of all, but reading them is not */
 
 typedef struct sweep {
-    int64_t rooms, weight; /* weight: of the boxes divided */
+    int64_t slack; /* trade * rooms - boxes divided, weighted */
     uint32_t divided, below, above;
 } sweep;
 
@@ -73,49 +73,47 @@ boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *
 
 /* ------------------------------------------------------------------ sweeping -- */
 
-/* Before the first event: boxes that begin at the border of the cell or before. */
-static sweep start(const boxes *b, const boxes_cell *cell, int axis) {
-    sweep s = {0};
-    for (uint32_t i = 0; i < cell->count; i++) {
-        const boxes_fragment *f = b->fragments.data + cell->first + i;
-        bool begins = f->inside >> 2 * axis & 1;
-        s.above += begins;
-        s.divided += !begins;
-        s.weight += begins ? 0 : boxes_weight(b, f->alive, axis);
+/* Before the first event on each axis: boxes that begin at the border of the cell or before. */
+static void start(const boxes *b, const boxes_cell *cell, sweep s[FROE_MAX_DIM]) {
+    const boxes_fragment *f = b->fragments.data + cell->first, *end = f + cell->count;
+    for (int k = 0; k < b->dim; k++) s[k] = (sweep){0};
+    for (; f < end; f++) {
+        uint32_t some, both;
+        boxes_count_rooms(f->alive, &some, &both);
+        for (int k = 0; k < b->dim; k++) {
+            unsigned rooms = f->alive >> 2 * k & 3, begins = f->inside >> 2 * k & 1;
+            int64_t weight = b->weight[some - (rooms > 0)][both - (rooms == 3)];
+            s[k].above += begins;
+            s[k].divided += !begins;
+            s[k].slack -= weight & ((int64_t)begins - 1);
+        }
     }
-    return s;
-}
-
-/* w if so (an odd number), or else 0. */
-static int64_t only(unsigned so, int64_t w) {
-    return w & -(int64_t)(so & 1);
 }
 
 /* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. No branches:
  * ends come in no order that could be predicted. */
-static const boxes_event *arrive(const boxes *b, sweep *s, const boxes_event *e, const boxes_event *end, bool *face) {
-    *face = false;
-    for (double x = e->x; e < end && e->x == x; e++) {
-        int64_t w = b->weight[e->some][e->both];
-        bool before = e->end == BOXES_BEFORE, hi = e->end == BOXES_HI, flat = e->end == BOXES_FLAT;
-        *face |= !before & (e->end != BOXES_AFTER);
-        s->below += hi | flat;
-        s->divided -= hi;
-        s->weight -= only(hi, w);
-        s->rooms += only(before | (hi & e->rooms >> 1), w);
-    }
+static const boxes_event *arrive(const boxes_change *changes, sweep *s, const boxes_event *e, const boxes_event *end,
+                                 bool *face) {
+    unsigned kinds = 0;
+    double x = e->x;
+    do {
+        const boxes_change *change = changes + e->change;
+        s->slack += change->slack[0];
+        s->divided += (uint32_t)change->divided[0];
+        s->below += change->below;
+        kinds |= 1u << e->end;
+    } while (++e < end && e->x == x);
+    *face = kinds & (1u << BOXES_LO | 1u << BOXES_HI | 1u << BOXES_FLAT);
     return e;
 }
 
 /* Leaves them behind. */
-static void leave(const boxes *b, sweep *s, const boxes_event *e, const boxes_event *end) {
+static void leave(const boxes_change *changes, sweep *s, const boxes_event *e, const boxes_event *end) {
     for (; e < end; e++) {
-        int64_t w = b->weight[e->some][e->both];
-        bool after = e->end == BOXES_AFTER, lo = e->end == BOXES_LO, flat = e->end == BOXES_FLAT;
-        s->above -= lo | flat;
-        s->divided += lo;
-        s->weight += only(lo, w);
-        s->rooms -= only(after | (lo & e->rooms), w);
+        const boxes_change *change = changes + e->change;
+        s->slack += change->slack[1];
+        s->divided += (uint32_t)change->divided[1];
+        s->above -= change->above;
     }
 }
 
@@ -136,7 +134,7 @@ static void consider(const boxes *b, const sweep *s, int axis, double x, bool fa
         if (boxes_better_on_axis(&cut, &best->least, true)) best->least = cut;
         best->most = best->least.divided;
     }
-    if (less >= best->enough && b->options.trade * s->rooms >= s->weight) {
+    if (less >= best->enough && s->slack >= 0) {
         boxes_cut cut = cut_at(s, axis, x);
         if (boxes_better_on_axis(&cut, &best->lemma, false)) best->lemma = cut;
         best->enough = balance(&best->lemma);
@@ -144,40 +142,46 @@ static void consider(const boxes *b, const sweep *s, int axis, double x, bool fa
 }
 
 /* The second time: a face that divides fewest, and leaves enough boxes on both sides; is it paid for? */
-static void consider_narrow(const boxes *b, const sweep *s, int axis, double x, bool face, sweep_found *best) {
+static void consider_narrow(const sweep *s, int axis, double x, bool face, sweep_found *best) {
     if (s->divided > best->most || !face || smaller(s) < best->enough) return;
     boxes_cut cut = cut_at(s, axis, x);
     if (!boxes_better_on_axis(&cut, &best->least, true)) return;
     best->least = cut;
     best->most = cut.divided;
-    best->paid = b->options.trade * s->rooms >= s->weight;
+    best->paid = s->slack >= 0;
 }
 
 /* narrow: 0, or how many boxes are enough for what is looked for the second time. */
-static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, uint32_t narrow) {
-    sweep s = start(b, cell, axis);
+static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, sweep s, uint32_t narrow) {
     sweep_found best = {.enough = narrow ? narrow : 1, .most = UINT32_MAX};
     const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
     while (e < end) {
         bool face;
-        const boxes_event *next = arrive(b, &s, e, end, &face);
+        const boxes_event *next = arrive(b->changes, &s, e, end, &face);
         if (narrow)
-            consider_narrow(b, &s, axis, e->x, face, &best);
+            consider_narrow(&s, axis, e->x, face, &best);
         else
             consider(b, &s, axis, e->x, face, &best);
-        leave(b, &s, e, next);
+        leave(b->changes, &s, e, next);
         e = next;
     }
     return best;
 }
 
+/* No cut is better than one that divides nothing and halves the boxes (those without extent may be on both sides). */
+static bool perfect(const boxes *b, const boxes_cell *cell, const boxes_cut *least) {
+    return least->found && !least->divided && !b->flat && cell->count > 1 && balance(least) == cell->count / 2;
+}
+
 boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
     boxes_cut least = {.found = false}, lemma = {.found = false};
     uint32_t narrow = 0;
+    sweep from[FROE_MAX_DIM];
+    start(b, cell, from);
     for (int turn = 0; turn < (narrow ? 2 : 1); turn++) {
-        for (int k = 0; k < b->dim; k++) {
+        for (int k = 0; k < b->dim && !perfect(b, cell, &least); k++) {
             if (!cell->events[k]) continue;
-            sweep_found here = sweep_axis(b, cell, k, narrow);
+            sweep_found here = sweep_axis(b, cell, k, from[k], narrow);
             if (!turn && boxes_better(&here.least, &least, true)) least = here.least;
             if (!turn && boxes_better(&here.lemma, &lemma, false)) lemma = here.lemma;
             if (turn && here.paid && boxes_better(&here.least, &lemma, true)) lemma = here.least;
