@@ -67,16 +67,26 @@ static froe_status refuse_method(const char *name, froe_diagnostic *diag) {
     return base_fail(diag, FROE_E_OPTIONS, "unknown method '%s'; there are: %s", name, list);
 }
 
-/** What "auto" stands for: it serves every dimension and kind. Index answers queries on segments several times faster.
- * Grain has the fewest pieces of polygons, but takes ten times as long, which queries do not thank it for. Directional
- * has the fewest pieces of boxes, and is no slower. */
+/* Grain takes about 40 us a segment, eight to fifteen times as long as density, for a tenth fewer pieces. */
+enum { SEGMENTS_FOR_GRAIN = 1 << 16 };
+
+/** Grain has the fewest pieces of polygons, and of segments where it has time; queries do not thank it for that. */
+static bool suits_grain(const froe_scene *scene, uint32_t kinds) {
+    const uint32_t point = 1u << FROE_POINT, segment = 1u << FROE_SEGMENT, polygon = 1u << FROE_POLYGON;
+    if (scene->dim == 2)
+        return kinds & segment && !(kinds & ~(point | segment)) && scene->object_count <= SEGMENTS_FOR_GRAIN;
+    return scene->dim == 3 && kinds & polygon && !(kinds & ~(point | segment | polygon));
+}
+
+/** What "auto" stands for: it serves every dimension and kind. Index answers queries several times faster, where it
+ * serves. Directional has the fewest pieces of boxes, and is no slower. (docs/compare.md measures this choice.) */
 static const char *automatic(const froe_scene *scene, const char *purpose) {
-    uint32_t kinds = kinds_of(scene), flat = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON;
-    bool plane = scene->dim == 2 && !(kinds & ~(1u << FROE_POINT | 1u << FROE_SEGMENT));
-    if ((plane || scene->dim == 3) && !strcmp(purpose, "query")) return "index";
+    const uint32_t kinds = kinds_of(scene);
+    const bool plane = scene->dim == 2 && !(kinds & ~(1u << FROE_POINT | 1u << FROE_SEGMENT));
+    const bool query = !strcmp(purpose, "query");
+    if ((plane || scene->dim == 3) && query) return "index";
     if (kinds == 1u << FROE_BOX) return "directional";
-    bool polygons = scene->dim == 3 && kinds >> FROE_POLYGON & 1 && !(kinds & ~flat);
-    return polygons && strcmp(purpose, "query") != 0 ? "grain" : "density";
+    return !query && suits_grain(scene, kinds) ? "grain" : "density";
 }
 
 const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
