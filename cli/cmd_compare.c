@@ -49,7 +49,7 @@ static const cli_option options[] = {
     {"pieces", 0, CLI_REAL, offsetof(compare_args, pieces), "P",
      .help = "give up a build beyond so many pieces per object (default 100)"},
     {"no-times", 0, CLI_FLAG, offsetof(compare_args, no_times),
-     .help = "leave out what a clock says: the same scenes and options then give the same bytes"},
+     .help = "leave out times and memory: the same scenes and options then give the same bytes"},
     {0},
 };
 
@@ -131,8 +131,9 @@ static json_t *rows_json(const compare_args *args, const compare_plan *plan, con
     return rows;
 }
 
-static json_t *scene_json(const compare_args *args, const compare_plan *plan, const char *path, froe_scene *scene) {
-    const compare_scene both = {scene, part_order(scene)};
+static json_t *scene_json(const compare_args *args, const compare_plan *plan, const char *path, froe_scene *scene,
+                          meter *memory) {
+    const compare_scene both = {scene, part_order(scene), memory};
     json_t *rows = both.order ? rows_json(args, plan, &both) : NULL;
     free(both.order);
     if (!rows) return NULL;
@@ -141,7 +142,7 @@ static json_t *scene_json(const compare_args *args, const compare_plan *plan, co
                      plan->pictures ? picture_scene_json(scene) : NULL);
 }
 
-static json_t *compare(const compare_args *args, froe_scene *const *scenes) {
+static json_t *compare(const compare_args *args, froe_scene *const *scenes, meter *meters) {
     const compare_plan plan = {.common = &args->common,
                                .leaf = (uint32_t)args->leaf,
                                .seconds = args->seconds,
@@ -152,7 +153,7 @@ static json_t *compare(const compare_args *args, froe_scene *const *scenes) {
                                .pictures = args->page != NULL};
     json_t *list = json_array();
     for (size_t i = 0; i < args->scenes.count; i++)
-        if (json_array_append_new(list, scene_json(args, &plan, args->scenes.at[i], scenes[i])) != 0) {
+        if (json_array_append_new(list, scene_json(args, &plan, args->scenes.at[i], scenes[i], &meters[i])) != 0) {
             json_decref(list);
             return NULL;
         }
@@ -181,8 +182,8 @@ static int write(const compare_args *args, json_t *comparison) {
     return code ? code : cli_report(&args->common, NULL, report);
 }
 
-static int compare_and_write(const compare_args *args, froe_scene *const *scenes) {
-    json_t *comparison = compare(args, scenes);
+static int compare_and_write(const compare_args *args, froe_scene *const *scenes, meter *meters) {
+    json_t *comparison = compare(args, scenes, meters);
     if (comparison) return write(args, comparison);
     if (cli_interrupted()) return cli_fail(CLI_CANCELLED, NULL, "cancelled");
     return cli_fail(CLI_RESOURCES, NULL, "out of memory");
@@ -191,15 +192,18 @@ static int compare_and_write(const compare_args *args, froe_scene *const *scenes
 static int run(const void *given) {
     const compare_args *args = given;
     froe_scene *scenes[sizeof args->scenes.at / sizeof *args->scenes.at] = {NULL};
+    meter meters[sizeof args->scenes.at / sizeof *args->scenes.at] = {{0}};
     int code = check(args);
     for (size_t i = 0; i < args->scenes.count && !code; i++) { /* all, before hours of work */
         cli_scene_args scene = args->scene;
+        const froe_allocator alloc = meter_allocator(&meters[i]);
         froe_read_report reader;
+        scene.alloc = &alloc;
         scene.path = args->scenes.at[i];
         code = cli_read_scene(&args->common, &scene, &scenes[i], &reader);
         if (code) scenes[i] = NULL;
     }
-    if (!code) code = compare_and_write(args, scenes);
+    if (!code) code = compare_and_write(args, scenes, meters);
     for (size_t i = 0; i < args->scenes.count; i++) froe_scene_free(scenes[i]);
     return code;
 }

@@ -182,9 +182,10 @@ static void cell_text(const json_t *value, char *out, size_t size) {
         items_text(value, out, size);
 }
 
-/* "in_cut" reads "in cut". */
+/* "in_cut" reads "in cut"; names of files stay. */
 static void label_text(const char *key, char *out, size_t size) {
     snprintf(out, size, "%s", key);
+    if (strpbrk(key, "./")) return;
     for (char *c = out; *c; c++)
         if (*c == '_') *c = ' ';
 }

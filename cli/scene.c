@@ -25,6 +25,7 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
     options.where = args->where;
     options.faces = (froe_faces)args->faces;
     options.boxes = args->boxes;
+    options.alloc = args->alloc;
     options.progress = cli_progress_step;
     options.user = &bar;
     froe_diagnostic diag;

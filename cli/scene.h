@@ -9,6 +9,7 @@ typedef struct cli_scene_args {
     const char *path, *layer, *where;
     int faces;
     bool boxes;
+    const froe_allocator *alloc; /**< of the scene; NULL: malloc */
 } cli_scene_args;
 extern const cli_option cli_scene_options[]; /**< the first is SCENE itself */
 /** What SCENE may be, for the `about` of a command. */

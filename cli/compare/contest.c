@@ -64,24 +64,39 @@ json_t *contest_json(const froe_scene *scene, const json_t *rows) {
     return out;
 }
 
+/* Was the method that auto takes tried in vain, though another served? */
+static bool has_failed(const json_t *scene, const json_t *choice) {
+    size_t i;
+    json_t *row;
+    json_array_foreach(json_object_get(scene, "methods"), i,
+                       row) if (strcmp(json_string_value(json_object_get(row, "method")),
+                                       json_string_value(json_object_get(choice, "auto"))) ==
+                                0) return json_is_string(json_object_get(choice, "best")) &&
+        strcmp(json_string_value(json_object_get(row, "status")), "ok") != 0;
+    return false;
+}
+
+static json_t *sum_json(const json_t *scenes, const char *purpose) {
+    int count = 0, best = 0, near = 0, failed = 0;
+    double worst = 1;
+    size_t i;
+    json_t *scene;
+    json_array_foreach((json_t *)scenes, i, scene) {
+        const json_t *choice = json_object_get(json_object_get(scene, "auto"), purpose);
+        const double ratio = number(choice, "ratio");
+        const bool fails = has_failed(scene, choice);
+        count += fails || !isnan(ratio);
+        failed += fails;
+        best += ratio <= 1; /* not for NaN */
+        near += ratio <= 1.1;
+        worst = fmax(worst, ratio);
+    }
+    return json_pack("{s:i, s:i, s:i, s:i, s:o}", "scenes", count, "best", best, "within_10_percent", near, "failed",
+                     failed, "worst_ratio", count > failed ? json_real(worst) : json_null());
+}
+
 json_t *contest_sum_json(const json_t *scenes) {
     json_t *out = json_object();
-    for (int p = 0; p < PURPOSES; p++) {
-        int count = 0, best = 0, near = 0;
-        double worst = 1;
-        size_t i;
-        json_t *scene;
-        json_array_foreach((json_t *)scenes, i, scene) {
-            const double ratio = number(json_object_get(json_object_get(scene, "auto"), purposes[p]), "ratio");
-            if (isnan(ratio)) continue;
-            count++;
-            best += ratio <= 1;
-            near += ratio <= 1.1;
-            worst = fmax(worst, ratio);
-        }
-        json_object_set_new(out, purposes[p],
-                            json_pack("{s:i, s:i, s:i, s:f}", "scenes", count, "best", best, "within_10_percent", near,
-                                      "worst_ratio", worst));
-    }
+    for (int p = 0; p < PURPOSES; p++) json_object_set_new(out, purposes[p], sum_json(scenes, purposes[p]));
     return out;
 }

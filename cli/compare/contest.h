@@ -10,6 +10,7 @@
  * separates); that of query the mean over kinds of queries of microseconds relative to the quickest; best and ratio are
  * null without times. */
 json_t *contest_json(const froe_scene *scene, const json_t *rows);
-/** Over all scenes, for each purpose {"scenes", "best", "within_10_percent", "worst_ratio"}. */
+/** Over all scenes, for each purpose {"scenes", "best", "within_10_percent", "failed", "worst_ratio"}: "failed" where
+ * the method of auto gave no tree but another did; "scenes" has these and those with a ratio. */
 json_t *contest_sum_json(const json_t *scenes);
 #endif

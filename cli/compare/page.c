@@ -112,7 +112,7 @@ static void put_scene(FILE *out, const json_t *scene) {
 }
 
 static void put_sum(FILE *out, const json_t *sums) {
-    static const char *const keys[] = {"scenes", "best", "within_10_percent", "worst_ratio", NULL};
+    static const char *const keys[] = {"scenes", "best", "within_10_percent", "failed", "worst_ratio", NULL};
     const char *purpose;
     json_t *sum;
     fputs("<section>\n<h2>How well auto chose</h2>\n<div class=\"cards\">\n", out);

@@ -25,6 +25,7 @@ static bool step(void *user, double done) {
 typedef struct outcome {
     froe_tree *tree; /* NULL: the note says why */
     double seconds;
+    size_t peak; /* most memory of the build, in bytes, the tree included */
     char note[300];
 } outcome;
 
@@ -38,7 +39,7 @@ static void explain(const compare_plan *plan, froe_status status, const froe_dia
         snprintf(out->note, sizeof out->note, "%s", diag->message);
 }
 
-static outcome build(const compare_plan *plan, froe_scene *scene, const char *method) {
+static outcome build(const compare_plan *plan, froe_scene *scene, meter *memory, const char *method) {
     attempt a = {.bar = cli_progress_begin(plan->common, method), .until = cli_seconds() + plan->seconds};
     const double most = plan->pieces * (double)froe_scene_object_count(scene), start = cli_seconds();
     froe_build_options o = froe_build_defaults();
@@ -51,8 +52,10 @@ static outcome build(const compare_plan *plan, froe_scene *scene, const char *me
     o.max_fragments = most < 1 ? 1 : most < 1e15 ? (uint64_t)most : 0;
     o.progress = step;
     o.user = &a;
+    const size_t before = memory ? meter_restart(memory) : 0;
     const froe_status status = froe_build(scene, &o, &out.tree, &diag);
     out.seconds = cli_seconds() - start;
+    out.peak = memory ? atomic_load(&memory->most) - before : 0;
     cli_progress_end(&a.bar);
     if (status) {
         out.tree = NULL;
@@ -98,7 +101,7 @@ static json_t *growth_json(const compare_plan *plan, const compare_scene *scene,
         froe_scene *part;
         if (count < 16) continue;
         if (part_new(scene->scene, scene->order, count, &part, NULL)) break;
-        outcome out = build(plan, part, method);
+        outcome out = build(plan, part, NULL, method);
         if (out.tree) json_array_append_new(list, size_json(plan, out.tree, out.seconds));
         const bool built = out.tree != NULL;
         froe_tree_free(out.tree);
@@ -129,13 +132,16 @@ static json_t *built_json(const compare_plan *plan, const outcome *out) {
     }
     json_decref(tree);
     if (!row) return NULL;
-    if (plan->times) json_object_set_new(row, "seconds", json_pack("{s:f}", "build", out->seconds));
+    if (plan->times) {
+        json_object_set_new(row, "seconds", json_pack("{s:f}", "build", out->seconds));
+        json_object_set_new(row, "peak_bytes", json_integer((json_int_t)out->peak));
+    }
     look(plan, out, row);
     return row;
 }
 
 json_t *compare_row(const compare_plan *plan, const compare_scene *scene, const char *method) {
-    outcome out = build(plan, scene->scene, method);
+    outcome out = build(plan, scene->scene, scene->memory, method);
     json_t *row = out.tree ? built_json(plan, &out)
                            : json_pack("{s:s, s:s, s:s}", "method", method, "status", "failed", "note", out.note);
     json_t *growth = growth_json(plan, scene, method);

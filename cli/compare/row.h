@@ -1,6 +1,7 @@
 /* row.h: one method on one scene: its tree, what it costs to ask, how it grows; or why there is none. */
 #ifndef FROE_CLI_COMPARE_ROW_H
 #define FROE_CLI_COMPARE_ROW_H
+#include "compare/meter.h"
 #include "compare/workload.h"
 #include "options.h"
 
@@ -12,7 +13,7 @@ typedef struct compare_plan {
     double pieces;     /**< per object; beyond: given up */
     uint64_t queries;  /**< of each kind */
     uint64_t halvings; /**< parts of the scene built besides: n / 2, n / 4, ... */
-    bool times;        /**< tell what a clock says */
+    bool times;        /**< tell what a clock and a meter say */
     bool pictures;     /**< draw cells */
 } compare_plan;
 
@@ -20,10 +21,11 @@ typedef struct compare_plan {
 typedef struct compare_scene {
     froe_scene *scene;
     uint32_t *order;
+    meter *memory; /**< of the scene and of what is built on it */
 } compare_scene;
 
-/** {"method", "status": "ok"} and the tree's report with "seconds", "queries" (workload.h), "leaf_loads", "growth" and,
- * for pages, "picture" (PNG, base64); or "status": "failed" and a "note" that says why. NULL: interrupted, or
- * no memory. */
+/** {"method", "status": "ok"} and the tree's report with "seconds", "queries" (workload.h), "peak_bytes", "leaf_loads",
+ * "growth" and, for pages, "picture" (PNG, base64); or "status": "failed" and a "note" that says why. NULL:
+ * interrupted, or no memory. */
 json_t *compare_row(const compare_plan *plan, const compare_scene *scene, const char *method);
 #endif

@@ -4,23 +4,24 @@
 #include <math.h>
 #include <string.h>
 
-const table_column table_columns[] = {{"pieces/n", "/fragments", 3},
-                                      {"size/n", "/size", 3},
-                                      {"height", "height", 0},
-                                      {"depth", "mean_depth", 3},
-                                      {"fullest", "max_leaf", 0},
-                                      {"bytes/n", "/bytes", 3},
-                                      {"build s", "seconds.build", 3},
-                                      {"kept", "?kept", 0},
-                                      {"point", "queries.point.nodes", 3},
-                                      {"window", "queries.window.nodes", 3},
-                                      {"ray", "queries.ray.nodes", 3},
-                                      {"approx", "queries.approximate.nodes", 3},
-                                      {"point us", "queries.point.microseconds", 3},
-                                      {"window us", "queries.window.microseconds", 3},
-                                      {"ray us", "queries.ray.microseconds", 3},
-                                      {"approx us", "queries.approximate.microseconds", 3},
-                                      {"note", "note", 0},
+const table_column table_columns[] = {{"pieces/n", "/fragments", 3, TABLE_TREE},
+                                      {"size/n", "/size", 3, TABLE_TREE},
+                                      {"height", "height", 0, TABLE_TREE},
+                                      {"depth", "mean_depth", 3, TABLE_TREE},
+                                      {"fullest", "max_leaf", 0, TABLE_TREE},
+                                      {"bytes/n", "/bytes", 3, TABLE_TREE},
+                                      {"peak/n", "/peak_bytes", 3, TABLE_TREE},
+                                      {"build s", "seconds.build", 3, TABLE_TREE},
+                                      {"kept", "?kept", 0, TABLE_TREE},
+                                      {"point", "queries.point.nodes", 3, TABLE_QUERY},
+                                      {"window", "queries.window.nodes", 3, TABLE_QUERY},
+                                      {"ray", "queries.ray.nodes", 3, TABLE_QUERY},
+                                      {"approx", "queries.approximate.nodes", 3, TABLE_QUERY},
+                                      {"point us", "queries.point.microseconds", 3, TABLE_QUERY},
+                                      {"window us", "queries.window.microseconds", 3, TABLE_QUERY},
+                                      {"ray us", "queries.ray.microseconds", 3, TABLE_QUERY},
+                                      {"approx us", "queries.approximate.microseconds", 3, TABLE_QUERY},
+                                      {"note", "note", 0, TABLE_TREE},
                                       {0}};
 
 /* "a.b.c" from the row. */
@@ -80,21 +81,55 @@ static bool used(const json_t *rows, const table_column *column) {
     return found;
 }
 
-/* Rows that failed come last, so that the first one tells which columns hold numbers. */
-static json_t *rows_report(const json_t *rows) {
-    json_t *table = json_object();
-    for (int failed = 0; failed < 2; failed++) {
+static bool is_built(const json_t *row) {
+    return strcmp(json_string_value(json_object_get(row, "status")), "ok") == 0;
+}
+
+/* Rows that failed come last, so that the first one tells which columns hold numbers; they are rows of trees only. */
+static json_t *rows_report(const json_t *rows, table_part part) {
+    json_t *table = json_array();
+    for (int built = 1; built >= (part == TABLE_TREE ? 0 : 1); built--) {
         size_t i;
         json_t *row;
         json_array_foreach((json_t *)rows, i, row) {
-            if ((strcmp(json_string_value(json_object_get(row, "status")), "ok") != 0) != failed) continue;
-            json_t *cells = json_object();
+            if (is_built(row) != built) continue;
+            json_t *cells = json_pack("{s:O}", "method", json_object_get(row, "method"));
             for (const table_column *c = table_columns; c->name; c++)
-                if (used(rows, c)) json_object_set_new(cells, c->name, table_value(row, c));
-            json_object_set_new(table, json_string_value(json_object_get(row, "method")), cells);
+                if (c->part == part && used(rows, c)) json_object_set_new(cells, c->name, table_value(row, c));
+            json_array_append_new(table, cells);
         }
     }
     return table;
+}
+
+/* Each promise beside what came out. */
+static json_t *promises_report(const json_t *rows) {
+    json_t *table = json_array();
+    size_t i;
+    json_t *row, *bound;
+    json_array_foreach((json_t *)rows, i, row) {
+        const char *name;
+        json_object_foreach(json_object_get(row, "bounds"), name, bound) {
+            json_t *line = json_pack("{s:O, s:s}", "method", json_object_get(row, "method"), "promises", name);
+            json_object_set_new(line, "at most", table_value(bound, &(table_column){"", "promised", 4, TABLE_TREE}));
+            json_object_set_new(line, "is", table_value(bound, &(table_column){"", "measured", 4, TABLE_TREE}));
+            json_array_append_new(table, line);
+        }
+    }
+    return table;
+}
+
+/* What the scene is like, and the tables of its methods. */
+static json_t *scene_report(const json_t *scene) {
+    json_t *out = json_copy(json_object_get(scene, "measures"));
+    const json_t *rows = json_object_get(scene, "methods");
+    json_t *const tables[] = {rows_report(rows, TABLE_TREE), rows_report(rows, TABLE_QUERY), promises_report(rows)};
+    static const char *const names[] = {"trees", "queries", "promises"};
+    for (int i = 0; i < 3; i++) {
+        if (json_array_size(tables[i])) json_object_set(out, names[i], tables[i]);
+        json_decref(tables[i]);
+    }
+    return out;
 }
 
 static json_t *choices_report(const json_t *scenes) {
@@ -106,7 +141,7 @@ static json_t *choices_report(const json_t *scenes) {
         json_object_foreach(json_object_get(scene, "auto"), purpose, choice) {
             json_t *row = json_pack("{s:O, s:s}", "scene", json_object_get(scene, "scene"), "for", purpose);
             json_object_update(row, choice);
-            json_object_set_new(row, "ratio", table_value(choice, &(table_column){"", "ratio", 3}));
+            json_object_set_new(row, "ratio", table_value(choice, &(table_column){"", "ratio", 3, TABLE_TREE}));
             json_array_append_new(table, row);
         }
     }
@@ -119,9 +154,7 @@ json_t *table_report(const json_t *comparison) {
     size_t i;
     json_t *scene;
     json_array_foreach((json_t *)scenes, i, scene) {
-        const json_t *rows = json_object_get(scene, "methods");
-        json_t *name = json_object_get(scene, "scene");
-        if (json_array_size(rows)) json_object_set_new(out, json_string_value(name), rows_report(rows));
+        json_object_set_new(out, json_string_value(json_object_get(scene, "scene")), scene_report(scene));
     }
     json_object_set_new(out, "what auto chose", choices_report(scenes));
     json_object_set(out, "auto in all", json_object_get(comparison, "auto"));
@@ -131,9 +164,9 @@ json_t *table_report(const json_t *comparison) {
 /* ---------------------------------------------------------------------- CSV -- */
 
 static const char *const csv_paths[] = {
-    "method",   "status",      "objects",           "dim",   "leaf",          "nodes",
-    "leaves",   "fragments",   "pieces_per_object", "size",  "height",        "mean_depth",
-    "max_leaf", "inseparable", "crowded",           "bytes", "seconds.build", NULL};
+    "method", "status", "objects",    "dim",      "leaf",        "nodes",   "leaves", "fragments",  "pieces_per_object",
+    "size",   "height", "mean_depth", "max_leaf", "inseparable", "crowded", "bytes",  "peak_bytes", "seconds.build",
+    NULL};
 static const char *const csv_kinds[] = {"point", "window", "ray", "approximate", NULL};
 static const char *const csv_costs[] = {"nodes", "nodes_p99", "leaves", "tests", "found", "microseconds", NULL};
 
@@ -155,15 +188,40 @@ static void put_cell(FILE *out, const json_t *value) {
     fputc(',', out);
 }
 
-static void put_heading(FILE *out) {
+/* Names of all promises of all methods, as the keys of an object. */
+static json_t *promise_names(const json_t *comparison) {
+    json_t *names = json_object(), *scene, *row, *bound;
+    size_t i, j;
+    json_array_foreach(json_object_get(comparison, "scenes"), i, scene)
+        json_array_foreach(json_object_get(scene, "methods"), j, row) {
+        const char *name;
+        json_object_foreach(json_object_get(row, "bounds"), name, bound) json_object_set(names, name, json_true());
+    }
+    return names;
+}
+
+static void put_heading(FILE *out, json_t *promises) {
+    const char *name;
+    json_t *ignored;
     fputs("scene,", out);
     for (int i = 0; csv_paths[i]; i++) fprintf(out, "%s,", csv_paths[i]);
     for (int k = 0; csv_kinds[k]; k++)
         for (int c = 0; csv_costs[c]; c++) fprintf(out, "%s.%s,", csv_kinds[k], csv_costs[c]);
+    json_object_foreach(promises, name, ignored) fprintf(out, "%s.promised,%s.measured,", name, name);
     fputs("promises_kept,note\n", out);
 }
 
-static void put_row(FILE *out, const json_t *scene, const json_t *row) {
+static void put_bounds(FILE *out, const json_t *row, json_t *promises) {
+    const char *name;
+    json_t *ignored;
+    json_object_foreach(promises, name, ignored) {
+        const json_t *bound = json_object_get(json_object_get(row, "bounds"), name);
+        put_cell(out, json_object_get(bound, "promised"));
+        put_cell(out, json_object_get(bound, "measured"));
+    }
+}
+
+static void put_row(FILE *out, const json_t *scene, const json_t *row, json_t *promises) {
     char path[64];
     put_cell(out, scene);
     for (int i = 0; csv_paths[i]; i++) put_cell(out, find(row, csv_paths[i]));
@@ -172,6 +230,7 @@ static void put_row(FILE *out, const json_t *scene, const json_t *row) {
             snprintf(path, sizeof path, "queries.%s.%s", csv_kinds[k], csv_costs[c]);
             put_cell(out, find(row, path));
         }
+    put_bounds(out, row, promises);
     json_t *kept = kept_json(row);
     put_cell(out, kept);
     json_decref(kept);
@@ -182,9 +241,10 @@ static void put_row(FILE *out, const json_t *scene, const json_t *row) {
 
 void table_put_csv(FILE *out, const void *user) {
     size_t i, j;
-    json_t *scene, *row;
-    put_heading(out);
+    json_t *scene, *row, *promises = promise_names(user);
+    put_heading(out, promises);
     json_array_foreach(json_object_get((const json_t *)user, "scenes"), i, scene)
         json_array_foreach(json_object_get(scene, "methods"), j, row)
-            put_row(out, json_object_get(scene, "scene"), row);
+            put_row(out, json_object_get(scene, "scene"), row, promises);
+    json_decref(promises);
 }

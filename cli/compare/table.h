@@ -4,18 +4,20 @@
 #include <jansson.h>
 #include <stdio.h>
 
+typedef enum table_part { TABLE_TREE, TABLE_QUERY } table_part;
 /** One column: where its number is found in a row (row.h), as "object.key", "?kept" for promises, or "/bytes" for a
  * number per object. */
 typedef struct table_column {
     const char *name, *path;
-    int digits; /**< that are worth reading; 0: all */
+    int digits;      /**< that are worth reading; 0: all */
+    table_part part; /**< of which table on the terminal */
 } table_column;
 /** Of the terminal; ended by a NULL name. */
 extern const table_column table_columns[];
 
 /** What stands in a cell; null if there is nothing. */
 json_t *table_value(const json_t *row, const table_column *column);
-/** All scenes as tables of a report for the terminal, and how well auto chose. */
+/** For the terminal: of each scene what it is like, its trees, queries and promises, and how well auto chose. */
 json_t *table_report(const json_t *comparison);
 /** A cli_write_fn: every row in full as CSV; `user` is the comparison. */
 void table_put_csv(FILE *out, const void *user);
