@@ -103,11 +103,6 @@ static int by_value(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-/* Does a kind of query end here: for want of time, or because nobody waits any more? */
-static bool over(const run *r, double started) {
-    return cli_interrupted() || cli_seconds() - started > r->load->seconds;
-}
-
 static json_t *costs_json(run *r, uint64_t asked, const froe_query_stats *sum, uint64_t found) {
     const double each = asked ? 1 / (double)asked : 0;
     qsort(r->nodes, asked, sizeof *r->nodes, by_value);
@@ -123,11 +118,16 @@ static double processor_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Does a kind of query end here: for want of time, or because nobody waits any more? */
+static bool over(const run *r, double started) {
+    return cli_interrupted() || processor_seconds() - started > r->load->seconds;
+}
+
 /* Counts first, then times. */
 static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe_status *status) {
     froe_query_stats sum = {.queries = 0};
     uint64_t found = 0, asked = 0;
-    const double started = cli_seconds();
+    const double started = processor_seconds();
     froe_query_statistics(r->query);
     while (asked < count && !*status && !over(r, started)) {
         *status = ask(r, kind, eps, asked, &found);
