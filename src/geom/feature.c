@@ -15,13 +15,6 @@ typedef struct triangle {
     filter_vector e[3], v[3], n;
 } triangle;
 
-static filter_vector between(const double *p, const double *q) {
-    filter_vector d = {{q[0] - p[0], q[1] - p[1], q[2] - p[2]}, 0, 0};
-    d.most = filter_greater(filter_greater(fabs(d.x[0]), fabs(d.x[1])), fabs(d.x[2]));
-    d.e = 2 * FILTER_U * d.most;
-    return d;
-}
-
 static int sign_of_dot(const filter_vector *a, const filter_vector *b) {
     return filter_sign(filter_dot(a, b));
 }
@@ -58,7 +51,8 @@ static bool take_interior(const triangle *t, geom_feature *out) {
 bool geom_feature_nearest(const double *point, const double *const corner[3], geom_feature *out) {
     triangle t = {.corner = corner};
     int ahead[3], past[3], side[3]; /* of e_i . v_i, e_i . v_i+1 and the edge */
-    for (int i = 0; i < 3; i++) t.e[i] = between(corner[i], corner[next(i)]), t.v[i] = between(point, corner[i]);
+    for (int i = 0; i < 3; i++)
+        t.e[i] = filter_between(corner[i], corner[next(i)]), t.v[i] = filter_between(point, corner[i]);
     for (int i = 0; i < 3; i++) {
         ahead[i] = sign_of_dot(&t.e[i], &t.v[i]);
         past[i] = sign_of_dot(&t.e[i], &t.v[next(i)]);

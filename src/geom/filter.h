@@ -150,6 +150,18 @@ static inline filter_vector filter_normal(const geom_plane *h) {
     return (filter_vector){{h->n[0], h->n[1], h->n[2]}, h->n_max, h->n_err};
 }
 
+/* Three doubles; and q - p, of which each component is rounded once. */
+static inline filter_vector filter_exact(const double x[3]) {
+    const double most = filter_greater(filter_greater(fabs(x[0]), fabs(x[1])), fabs(x[2]));
+    return (filter_vector){{x[0], x[1], x[2]}, most, 0};
+}
+
+static inline filter_vector filter_between(const double p[3], const double q[3]) {
+    filter_vector d = filter_exact((const double[3]){q[0] - p[0], q[1] - p[1], q[2] - p[2]});
+    d.e = 2 * FILTER_U * d.most;
+    return d;
+}
+
 /* Each component has two products, of size at most M = a.most b.most and with error at most
  * a.most b.e + (b.most + b.e) a.e + uM, and a difference, at most 2M, that is rounded once. */
 static inline filter_vector filter_cross(const filter_vector *a, const filter_vector *b) {

@@ -7,6 +7,12 @@
 #include <float.h>
 #include <math.h>
 
+#if defined(__x86_64__) && defined(__GNUC__)
+/* Rounding (bits 13 and 14), flush to zero (15) and denormals are zero (6) in the control register. */
+bool num_rounding_trusted(void) {
+    return (__builtin_ia32_stmxcsr() & 0xe040) == 0;
+}
+#else
 /* Upwards the first sum is larger, downwards and towards zero the second is not. No products of denormals: processors
  * that need help with those are three times as fast so. */
 bool num_rounding_trusted(void) {
@@ -14,6 +20,7 @@ bool num_rounding_trusted(void) {
     double one = unknown[0], denormal = unknown[1], tiny = unknown[2];
     return one + 0x1p-53 == one && one + 0x1.8p-53 > one && denormal > 0 && 0x1.8p-1022 - tiny > 0;
 }
+#endif
 
 static bool rounds_to_nearest_even(void) {
     volatile double one = 1, half_ulp = 0x1p-53, ulp = 0x1p-52;

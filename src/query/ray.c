@@ -53,6 +53,10 @@ static double latest(const geom_hit *hit) {
 /* How to look at what is met: return false to stop. */
 typedef bool met_fn(froe_query *q, const query_met *met);
 
+static bool is_of(const froe_scene *s, uint32_t object, uint32_t kinds) {
+    return kinds == UINT32_MAX || kinds >> s->kinds[object] & 1;
+}
+
 /* Hands all objects met, each once, to a function. */
 static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *fn, froe_diagnostic *diag) {
     const uint64_t exact = q->numbers.stats.exact;
@@ -66,7 +70,7 @@ static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *
         if (!query_expect(q, list.count)) status = FROE_E_MEMORY;
         for (uint32_t i = 0; i < list.count && more && !status; i++) {
             const uint32_t object = tree_object(&list, i);
-            if (!(kinds >> q->tree->scene->kinds[object] & 1) || query_seen(q, &list, i, object)) continue;
+            if (!is_of(q->tree->scene, object, kinds) || query_seen(q, &list, i, object)) continue;
             if (!meets(q, object, t_max, &met)) continue;
             if (!array_reserve(&q->alloc, &q->ray.met, 1)) status = FROE_E_MEMORY;
             if (!status) more = fn(q, &met);

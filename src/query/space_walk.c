@@ -61,12 +61,23 @@ static bool find_start(space_ray *r, const tree_meta *m) {
         double a = (m->root_lo[k] - r->wide->middle[k]) * r->wide->scale;
         double b = (m->root_hi[k] - r->wide->middle[k]) * r->wide->scale;
         double s = (a - r->o[k]) * r->inverse[k], t = (b - r->o[k]) * r->inverse[k];
-        enter = fmax(enter, fmin(s, t) - r->slack[k]);
-        leave = fmin(leave, fmax(s, t) + r->slack[k]);
+        double first = (s < t ? s : t) - r->slack[k], last = (s < t ? t : s) + r->slack[k];
+        enter = first > enter ? first : enter;
+        leave = last < leave ? last : leave;
     }
     r->start = enter;
     for (int k = 0; k < 3; k++) r->slack[k] += 0x1p-50 * enter;
     return enter <= leave;
+}
+
+/* The least one above x > 0, if neither is denormal. */
+static double power_of_2(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    bits = (bits >> 52) + 1;
+    bits <<= 52;
+    memcpy(&x, &bits, sizeof x);
+    return x;
 }
 
 froe_status space_walk_ray(froe_query *q, bool *begun) {
@@ -74,19 +85,18 @@ froe_status space_walk_ray(froe_query *q, bool *begun) {
     const geom_ray *ray = &q->ray.ray;
     space_ray *r = &q->space->ray;
     double most = 0;
-    int exponent;
-    for (int k = 0; k < 3; k++) most = fmax(most, fabs(ray->d[k]));
-    frexp(most, &exponent);
-    *begun = wide && exponent > -300 && exponent < 300;
+    for (int k = 0; k < 3; k++) most = fabs(ray->d[k]) > most ? fabs(ray->d[k]) : most;
+    const double size = power_of_2(most);
+    *begun = wide && size > 0x1p-300 && size < 0x1p300;
     r->wide = wide;
     for (int k = 0; *begun && k < 3; k++) {
-        r->d[k] = ldexp(ray->d[k], -exponent);
+        r->d[k] = ray->d[k] / size;
         r->o[k] = (ray->o[k] - wide->middle[k]) * wide->scale;
         *begun = frame_axis(r, k);
     }
     if (!*begun) return FROE_OK;
     order_axes(r);
-    q->space->per = ldexp(wide->scale, exponent);
+    q->space->per = wide->scale * size;
     return begin(q, false, find_start(r, &q->tree->meta));
 }
 
@@ -202,8 +212,10 @@ static bool push_objects(froe_query *q, uint32_t block, float key) {
     q->stats.leaves++;
     if (w->near && q->near.one) lower_limit(w, found.least);
     for (size_t i = 0; i < found.count; i++)
-        if (found.keys[i] <= w->limit)
+        if (found.keys[i] <= w->limit) {
+            scene_ask(q->tree->scene, found.objects[i]);
             w->stack.data[w->stack.count++] = entry(found.keys[i], OBJECT | found.objects[i]);
+        }
     sort_top(w, from);
     return true;
 }

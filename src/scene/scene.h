@@ -76,6 +76,12 @@ static inline geom_body scene_body(const froe_scene *s, uint32_t object) {
     return b;
 }
 
+/** Asks for what scene_body() and the first corner of an object are made of, before they are needed. */
+static inline void scene_ask(const froe_scene *s, uint32_t object) {
+    __builtin_prefetch(s->forms + object);
+    __builtin_prefetch(scene_point(s, object, 0));
+}
+
 /** The object whose corner number `corner` of all corners is. O(log objects), O(1) on triangles. */
 uint32_t scene_object_of(const froe_scene *s, uint32_t corner);
 

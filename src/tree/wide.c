@@ -7,10 +7,17 @@ typedef struct bounds {
     double lo[3], hi[3]; /* lo > hi: nothing */
 } bounds;
 
+/* What a subtree costs as a forest of at most j + 1 trees: leaves and wide nodes. */
+typedef struct forest {
+    float cost[WIDE_CHILDREN];
+    uint8_t share[WIDE_CHILDREN]; /* trees on the negative side; 0: it is as good with one tree less, or one */
+} forest;
+
 typedef struct widening {
     const froe_tree *tree;
     tree_wide *wide;
     bounds *boxes;        /* [node] */
+    forest *forests;      /* [node] */
     ARRAY(uint32_t) todo; /* node of each wide node */
     ARRAY(wide_node) nodes;
 } widening;
@@ -39,51 +46,95 @@ static bounds both(const bounds *a, const bounds *b) {
     return c;
 }
 
-/* Children come after their parents. */
-static void find_boxes(widening *w) {
-    for (uint32_t i = w->tree->node_count; i-- > 0;) {
-        const tree_node *n = w->tree->nodes + i;
-        w->boxes[i] = tree_is_leaf(n) ? leaf_box(w->wide, space_block(w->tree, n->child))
-                                      : both(w->boxes + n->child, w->boxes + n->child + 1);
-    }
+static void find_box(widening *w, uint32_t node) {
+    const tree_node *n = w->tree->nodes + node;
+    w->boxes[node] = tree_is_leaf(n) ? leaf_box(w->wide, space_block(w->tree, n->child))
+                                     : both(w->boxes + n->child, w->boxes + n->child + 1);
 }
 
 static bool is_empty(const widening *w, uint32_t node) {
     return w->boxes[node].lo[0] > w->boxes[node].hi[0];
 }
 
-static double surface(const bounds *b) {
+static float surface(const bounds *b) {
     double x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
-    return x * y + y * z + z * x;
+    return (float)(x * y + y * z + z * x);
+}
+
+/* ------------------------------------------------------------------ forests -- */
+
+/* The binary nodes to become wide ones are those of least total surface, which is how many a search visits (Ylitie,
+ * Karras and Laine). Bottom up: a subtree stands as a forest of j trees for the sum of its sides at their best shares.
+ */
+
+static void share_out(const forest *a, const forest *b, forest *out) {
+    for (int j = 1; j < WIDE_CHILDREN; j++) {
+        out->cost[j] = INFINITY;
+        for (int i = 0; i < j; i++) {
+            const float cost = a->cost[i] + b->cost[j - 1 - i];
+            if (cost < out->cost[j]) out->cost[j] = cost, out->share[j] = (uint8_t)(i + 1);
+        }
+    }
+}
+
+static void find_forest(widening *w, uint32_t node) {
+    const tree_node *n = w->tree->nodes + node;
+    forest *f = w->forests + node;
+    const bool leaf = tree_is_leaf(n), left = !leaf && is_empty(w, n->child),
+               right = !leaf && is_empty(w, n->child + 1);
+    if (leaf || (left && right)) {
+        *f = (forest){{0}, {0}};
+    } else if (left || right) {
+        *f = w->forests[n->child + left];
+    } else {
+        share_out(w->forests + n->child, w->forests + n->child + 1, f);
+        f->cost[0] = surface(w->boxes + node) + f->cost[WIDE_CHILDREN - 1];
+    }
+    for (int j = 1; j < WIDE_CHILDREN; j++)
+        if (!(f->cost[j] < f->cost[j - 1])) f->cost[j] = f->cost[j - 1], f->share[j] = 0;
+}
+
+/* Children come after their parents. */
+static void find_boxes(widening *w) {
+    for (uint32_t i = w->tree->node_count; i-- > 0;) {
+        find_box(w, i);
+        find_forest(w, i);
+    }
 }
 
 /* ------------------------------------------------------------------- nodes -- */
 
-/* Appends a node, or what is below it, if one of its children is empty. */
-static uint32_t add_child(const widening *w, uint32_t node, uint32_t child[], uint32_t count) {
+/* What a node is but for sides without objects. */
+static uint32_t essence(const widening *w, uint32_t node) {
     const tree_node *n = w->tree->nodes + node;
     while (!tree_is_leaf(n) && (is_empty(w, n->child) || is_empty(w, n->child + 1))) {
         node = n->child + is_empty(w, n->child);
         n = w->tree->nodes + node;
     }
-    if (!is_empty(w, node)) child[count++] = node;
-    return count;
+    return node;
 }
 
-/* Up to sixteen nodes that stand for this one; in the order of the tree. */
+/* Up to sixteen nodes that stand for this one; in the order of the tree. The stack has at most one entry for each. */
 static uint32_t open_up(const widening *w, uint32_t node, uint32_t child[]) {
-    uint32_t count = add_child(w, node, child, 0), best = 0;
-    while (count && count < WIDE_CHILDREN) {
-        double most = -1;
-        for (uint32_t i = 0; i < count; i++)
-            if (!tree_is_leaf(w->tree->nodes + child[i]) && surface(w->boxes + child[i]) > most)
-                most = surface(w->boxes + child[i]), best = i;
-        if (most < 0) return count;
-        uint32_t opened = w->tree->nodes[child[best]].child;
-        memmove(child + best + 2, child + best + 1, (count - best - 1) * sizeof *child);
-        add_child(w, opened, child, best);
-        add_child(w, opened + 1, child, best + 1);
-        count++;
+    struct {
+        uint32_t node, room;
+    } stack[WIDE_CHILDREN] = {{node, WIDE_CHILDREN}};
+    uint32_t count = 0, top = 1;
+    bool first = true;
+    while (top) {
+        const uint32_t at = essence(w, stack[--top].node);
+        uint32_t room = stack[top].room, share = 0;
+        if (is_empty(w, at)) continue;
+        for (; room > 1 && !share; room -= !share) share = w->forests[at].share[room - 1];
+        if (first && !share && !tree_is_leaf(w->tree->nodes + at)) room = WIDE_CHILDREN, share = 1; /* it has to be */
+        first = false;
+        if (!share) {
+            child[count++] = at;
+            continue;
+        }
+        const uint32_t below = w->tree->nodes[at].child;
+        stack[top].node = below + 1, stack[top++].room = room - share;
+        stack[top].node = below, stack[top++].room = share;
     }
     return count;
 }
@@ -117,7 +168,7 @@ static void fill(const widening *w, wide_node *n, const bounds *all, const uint3
 /* Breadth first: siblings lie together. */
 static bool make_nodes(widening *w) {
     const froe_allocator *alloc = &w->tree->alloc;
-    uint32_t child[WIDE_CHILDREN + 1];
+    uint32_t child[WIDE_CHILDREN];
     if (!array_push(alloc, &w->todo, 0)) return false;
     for (size_t i = 0; i < w->todo.count; i++) {
         uint32_t node = w->todo.data[i], count = open_up(w, node, child);
@@ -172,10 +223,12 @@ froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
     widening w = {.tree = t, .wide = wide};
     set_frame(wide, &t->meta);
     w.boxes = base_calloc(&t->alloc, t->node_count, sizeof *w.boxes);
-    bool made = w.boxes;
+    w.forests = base_calloc(&t->alloc, t->node_count, sizeof *w.forests);
+    bool made = w.boxes && w.forests;
     if (made) find_boxes(&w);
     made = made && make_nodes(&w) && place_nodes(&w);
     base_free(&t->alloc, w.boxes, t->node_count * sizeof *w.boxes);
+    base_free(&t->alloc, w.forests, t->node_count * sizeof *w.forests);
     array_free(&t->alloc, &w.todo);
     array_free(&t->alloc, &w.nodes);
     if (made)
