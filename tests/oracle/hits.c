@@ -33,7 +33,7 @@ static void before_camera(const froe_projection *view, const double *vertex, dou
     out[2] = view->eye.parallel ? 1 : *depth;
 }
 
-/* Where on the page; what reaches behind the eye may be anywhere. */
+/* Where on the page; what reaches behind the eye may be anywhere, what lies there is nowhere. */
 static void find_box(oracle_triangle *t, const froe_projection *view, double corner[3][3]) {
     for (int k = 0; k < 2; k++) t->lo[k] = INFINITY, t->hi[k] = -INFINITY;
     for (int c = 0; c < 3; c++) {
@@ -44,8 +44,9 @@ static void find_box(oracle_triangle *t, const froe_projection *view, double cor
             t->hi[k] = before ? fmax(t->hi[k], at) : INFINITY;
         }
     }
-    const bool behind = corner[0][2] <= 0 || corner[1][2] <= 0 || corner[2][2] <= 0;
-    for (int k = 0; k < 2 && behind; k++) t->lo[k] = -INFINITY, t->hi[k] = INFINITY;
+    const int behind = (corner[0][2] <= 0) + (corner[1][2] <= 0) + (corner[2][2] <= 0);
+    for (int k = 0; k < 2 && behind; k++)
+        t->lo[k] = behind < 3 ? -INFINITY : INFINITY, t->hi[k] = behind < 3 ? INFINITY : -INFINITY;
 }
 
 static oracle_triangle triangle_of(const froe_projection *view, const double *const vertex[3]) {

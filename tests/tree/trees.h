@@ -81,6 +81,19 @@ static inline froe_tree *trees_build(froe_scene *scene, const char *method, uint
     return tree;
 }
 
+/** Of polygons in space, with the corners starts[i] .. starts[i+1] - 1; the tree alone holds its scene. */
+static inline froe_tree *trees_of_polygons(const double *coords, const size_t *starts, size_t count,
+                                           const char *method) {
+    froe_scene *scene;
+    froe_objects o = froe_objects_defaults();
+    o.count = count, o.coords = coords, o.starts = starts;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, method, 1);
+    froe_scene_free(scene);
+    return tree;
+}
+
 /** The tree alone holds its scene. */
 static inline froe_tree *trees_grow(int dim, froe_kind kind, size_t count, uint32_t grid, double size,
                                     const char *method, uint32_t leaf) {

@@ -145,6 +145,15 @@ static inline void place(page *p, const froe_camera *c) {
     if (p->view.eye.parallel) mpq_set_ui(p->from.w, 0, 1);
 }
 
+/* A parallel eye in a direction; scale 0: all fits. */
+static inline void look_from(page *p, double x, double y, double z, double scale) {
+    froe_camera c = froe_camera_defaults();
+    c.parallel = true;
+    c.scale = scale;
+    c.eye[0] = x, c.eye[1] = y, c.eye[2] = z;
+    place(p, &c);
+}
+
 /* The camera of an eye that lies anywhere, looking at the middle. */
 static inline void set_view(page *p, uint32_t e) {
     froe_camera c = froe_camera_defaults();

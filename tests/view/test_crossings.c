@@ -143,16 +143,10 @@ static void touching_is_no_crossing(void **state) {
     const double x[] = {0, 0, 0, 4, 0, 0, 4, 4, 0,  0, 4, 0,  1, 1, 0, 3, 1, 0,
                         3, 1, 2, 1, 1, 2, 5, 1, -1, 7, 1, -1, 7, 1, 1, 5, 1, 1};
     const size_t starts[] = {0, 4, 8, 12};
-    froe_scene *scene;
     froe_surface *surface;
     froe_visibility *v;
     size_t count;
-    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
-    froe_objects o = froe_objects_defaults();
-    o.count = 3, o.coords = x, o.starts = starts;
-    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
-    froe_tree *tree = trees_build(scene, "density", 1);
-    froe_scene_free(scene);
+    froe_tree *tree = trees_of_polygons(x, starts, 3, "density");
     assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
     froe_visibility_options look = froe_visibility_defaults();
     look.eye = (froe_eye){.at = {1, -3, 2}, .parallel = true};

@@ -137,13 +137,7 @@ static froe_tree *junction(void) {
     const double x[] = {0, 0, 0, 2, 0, 0, 2, 0, 2, 0, 0, 2, 2, 0, 0, 3, 0, 0,
                         3, 0, 1, 2, 0, 1, 2, 0, 1, 3, 0, 1, 3, 0, 2, 2, 0, 2};
     const size_t starts[] = {0, 4, 8, 12};
-    froe_scene *scene;
-    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
-    froe_objects o = froe_objects_defaults();
-    o.count = 3, o.coords = x, o.starts = starts;
-    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
-    froe_tree *tree = trees_build(scene, "density", 1);
-    froe_scene_free(scene);
+    froe_tree *tree = trees_of_polygons(x, starts, 3, "density");
     return tree;
 }
 
@@ -164,10 +158,7 @@ static void shapes_go_under_later_ones_where_corners_are_not_shared(void **state
     page p;
     open_page(&p, tree);
     p.options.styles = styles;
-    froe_camera c = froe_camera_defaults();
-    c.parallel = true;
-    c.eye[0] = c.eye[2] = 0;
-    place(&p, &c);
+    look_from(&p, 0, -5, 0, 0);
     for (int with = 0; with < 2; with++) {
         p.options.underlap = with;
         check_view(&p, 50, 1);
@@ -190,20 +181,11 @@ static void what_is_hidden_ends_before_what_hides_it(void **state) {
     const double x[] = {0, 0, 4, 9, 0, 4, 9, -6, -2, 0, -6, -2, 0, 0, 4, 9, 0, 4, 9, -4.5, 1.5, 0, -4.5, 1.5};
     const size_t starts[] = {0, 4, 8};
     const uint32_t styles[] = {0, 1};
-    froe_scene *scene;
     page p;
-    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
-    froe_objects o = froe_objects_defaults();
-    o.count = 2, o.coords = x, o.starts = starts;
-    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
-    froe_tree *tree = trees_build(scene, "density", 1);
-    froe_scene_free(scene);
+    froe_tree *tree = trees_of_polygons(x, starts, 2, "density");
     open_page(&p, tree);
     p.options.styles = styles;
-    froe_camera c = froe_camera_defaults();
-    c.parallel = true;
-    c.eye[0] = 0, c.eye[1] = -1, c.eye[2] = 0.2;
-    place(&p, &c);
+    look_from(&p, 0, -1, 0.2, 0);
     for (int with = 0; with < 2; with++) {
         double at[3] = {4.5, 0, 4}, spot[2];
         p.options.underlap = with;
@@ -318,22 +300,12 @@ static void halos_part_lines_and_hidden_ones_are_drawn_once(void **state) {
     const double x[] = {0, 0,  4,  10, 0,  4,  10, 0, 6, 0,  0, 6, 4,  -9, 0, 6, -9, 0,
                         6, -9, 10, 4,  -9, 10, 0,  2, 4, 10, 2, 4, 10, 2,  6, 0, 2,  6};
     const size_t starts[] = {0, 4, 8, 12};
-    froe_scene *scene;
     page p;
-    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
-    froe_objects o = froe_objects_defaults();
-    o.count = 3, o.coords = x, o.starts = starts;
-    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
-    froe_tree *tree = trees_build(scene, "density", 1);
-    froe_scene_free(scene);
+    froe_tree *tree = trees_of_polygons(x, starts, 3, "density");
     open_page(&p, tree);
     p.options.lines = FROE_LINE_BORDER;
     p.options.hidden = true;
-    froe_camera c = froe_camera_defaults();
-    c.parallel = true;
-    c.scale = 10;
-    c.eye[0] = c.eye[2] = 0;
-    place(&p, &c);
+    look_from(&p, 0, -5, 0, 10);
     for (int halo = 0; halo <= 3; halo += 3) {
         double length[2] = {0, 0};
         p.options.halo = halo;
@@ -356,21 +328,11 @@ static void lines_may_go_under_what_is_nearer(void **state) {
     (void)state;
     const double x[] = {0, 0, 0, 10, 0, 0, 10, 0, 10, 0, 0, 10, 10.1, 9, 0, 20, 9, 0, 20, 9, 10, 10.1, 9, 10};
     const size_t starts[] = {0, 4, 8};
-    froe_scene *scene;
     page p;
-    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
-    froe_objects o = froe_objects_defaults();
-    o.count = 2, o.coords = x, o.starts = starts;
-    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
-    froe_tree *tree = trees_build(scene, "density", 1);
-    froe_scene_free(scene);
+    froe_tree *tree = trees_of_polygons(x, starts, 2, "density");
     open_page(&p, tree);
     p.options.lines = FROE_LINE_BORDER;
-    froe_camera c = froe_camera_defaults();
-    c.parallel = true;
-    c.scale = 10;
-    c.eye[0] = c.eye[2] = 0;
-    place(&p, &c);
+    look_from(&p, 0, -5, 0, 10);
     for (int reach = 0; reach <= 2; reach += 2) {
         double under = 0;
         p.options.interleave = reach;

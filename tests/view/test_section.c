@@ -101,11 +101,7 @@ static void sections_are_lines(void **state) {
         p.options.section = -1;
         p.options.lines = FROE_LINE_SECTION | FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_CREASE;
         p.options.hidden = true;
-        froe_camera c = froe_camera_defaults();
-        c.parallel = true;
-        c.scale = 10;
-        c.eye[0] = 0, c.eye[1] = beside ? -1 : 0, c.eye[2] = beside ? 0 : 1;
-        place(&p, &c);
+        look_from(&p, 0, beside ? -1 : 0, beside ? 0 : 1, 10);
         check_view(&p, 20, 1);
         for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
             const froe_stroke s = froe_picture_stroke(p.picture, i);
@@ -187,10 +183,7 @@ static void every_allocation_may_fail(void **state) {
     p.options.section = -1;
     p.options.lines = 255;
     p.options.hidden = true;
-    froe_camera c = froe_camera_defaults();
-    c.parallel = true;
-    c.eye[0] = c.eye[1] = 0, c.eye[2] = 1;
-    place(&p, &c);
+    look_from(&p, 0, 0, 1, 0);
     assert_true(test_memory_each(section_with, &p) > 20);
     close_page(&p);
     froe_tree_free(tree);
