@@ -5,8 +5,8 @@
  * Tobola and Nechvile, theorem 5.4: linear size at low directional density, O(n log^2 n) time, and a trade-off between
  * balance and size. Leaf 1, one thread, processor time. */
 #include "bench.h"
+#include "figure.h"
 #include <froe/measure.h>
-#include <froe/plot.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -64,23 +64,15 @@ static void grow(line *l, const char *kind, size_t largest) {
 
 /* --------------------------------------------------------------------- figures -- */
 
-static bool to_file(void *user, const void *data, size_t size) {
-    return fwrite(data, 1, size, user) == size;
-}
-
 static void figure(const char *folder, const char *name, const char *title, const char *y_label, const line *lines,
                    size_t count, bool heights) {
-    char path[512];
     froe_plot_series series[MOST];
     froe_plot_options o = froe_plot_defaults();
-    snprintf(path, sizeof path, "%s/%s", folder, name);
     for (size_t i = 0; i < count; i++)
         series[i] =
             (froe_plot_series){lines[i].name, lines[i].n, heights ? lines[i].height : lines[i].pieces, lines[i].count};
     o.title = title, o.x_label = "boxes", o.y_label = y_label, o.log_x = true;
-    FILE *file = fopen(path, "w");
-    if (!file || froe_plot_write(series, count, to_file, file, &o, NULL) || fclose(file))
-        fprintf(stderr, "bench: %s cannot be written\n", path), exit(1);
+    bench_figure(folder, name, series, count, &o);
 }
 
 /* ---------------------------------------------------------------------- tables -- */

@@ -6,8 +6,8 @@
  * One thread, processor time. CGAL's map has faces and is made of exact numbers, froe's tree has them, too, where they
  * are needed. A face is asked for by its segment above; froe_bench_index shows that the answers are right. */
 #include "bench.h"
+#include "figure.h"
 #include "plane.h"
-#include <froe/plot.h>
 #include <froe/query.h>
 #include <malloc.h>
 #include <stdio.h>
@@ -158,22 +158,14 @@ static void grow(line *l, size_t n, double ratio) {
     froe_scene_free(scene);
 }
 
-static bool to_file(void *user, const void *data, size_t size) {
-    return fwrite(data, 1, size, user) == size;
-}
-
 static void figure(const char *folder, const char *name, const char *title, const char *y_label, const line *lines,
                    bool heights) {
-    char path[512];
     froe_plot_series series[RATIOS];
     froe_plot_options o = froe_plot_defaults();
-    snprintf(path, sizeof path, "%s/%s", folder, name);
     for (size_t i = 0; i < RATIOS; i++)
         series[i] = (froe_plot_series){names[i], lines[i].n, heights ? lines[i].height : lines[i].size, lines[i].count};
     o.title = title, o.x_label = "segments n", o.y_label = y_label, o.log_x = true;
-    FILE *file = fopen(path, "w");
-    if (!file || froe_plot_write(series, RATIOS, to_file, file, &o, NULL) || fclose(file))
-        fprintf(stderr, "bench: %s cannot be written\n", path), exit(1);
+    bench_figure(folder, name, series, RATIOS, &o);
 }
 
 static void growth(const char *folder, size_t largest) {

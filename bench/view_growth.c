@@ -1,14 +1,15 @@
 /* view_growth.c: how pictures without hidden surfaces grow with the scene: time, memory, the graph that orders whole
  * faces.
  *
- *     bench_view_growth [-m LARGEST] KIND... | MESH.off...      a kind of froe_generate, or files of growing size
+ *     bench_view_growth [-m LARGEST] [-f FOLDER] KIND... | MESH.off...   a kind of froe_generate, or files
  *
  * Each size, 1,000 to 1,000,000 triangles (-m: fewer), in a process of its own, whose greatest memory is given. Seconds
  * are processor time: tree; look: visible parts of faces; whole: picture of whole faces, which contains another look.
  * Tests: pairs compared for the order, at most 1,000 a visible piece; beyond them a picture is made of fragments, and
- * says so. */
+ * says so. -f: figures of each kind, view-KIND.svg. */
 #include "apart.h"
 #include "bench.h"
+#include "figure.h"
 #include <froe/view.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -85,7 +86,24 @@ static bool row(const char *name, const subject *s, double *out) {
     return true;
 }
 
-static void grow(const char *kind, double largest) {
+/* Microseconds a triangle. */
+static void draw(const char *folder, const char *kind, const double *x, double y[4][SIZES], size_t count) {
+    static const char *const names[2] = {"tree", "picture of whole faces"};
+    double per[2][SIZES];
+    char name[64], title[64];
+    froe_plot_series series[2];
+    froe_plot_options o = froe_plot_defaults();
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < count; i++) per[k][i] = 1e6 * y[k][i] / x[i];
+        series[k] = (froe_plot_series){names[k], x, per[k], count};
+    }
+    snprintf(name, sizeof name, "view-%s.svg", kind);
+    snprintf(title, sizeof title, "Hidden surfaces of %s", kind);
+    o.title = title, o.x_label = "triangles", o.y_label = "microseconds a triangle", o.log_x = true;
+    bench_figure(folder, name, series, 2, &o);
+}
+
+static void grow(const char *kind, double largest, const char *folder) {
     double x[SIZES], y[4][SIZES], out[COLUMNS];
     static const int fitted[4] = {TREE, WHOLE, BYTES, TESTS};
     size_t count = 0;
@@ -96,6 +114,7 @@ static void grow(const char *kind, double largest) {
         for (int k = 0; k < 4; k++) y[k][count] = out[fitted[k]] > 0 ? out[fitted[k]] : 1e-6;
         count++;
     }
+    if (folder && count) draw(folder, kind, x, y, count);
     if (count < 3) return;
     printf("%-12s grows as n^ tree %.2f, whole %.2f, memory %.2f, tests %.2f\n", kind, bench_exponent(x, y[0], count),
            bench_exponent(x, y[1], count), bench_exponent(x, y[2], count), bench_exponent(x, y[3], count));
@@ -103,8 +122,13 @@ static void grow(const char *kind, double largest) {
 
 int main(int argc, char **argv) {
     double largest = 1e6;
+    const char *folder = NULL;
     int at = 1;
-    if (argc > 2 && !strcmp(argv[1], "-m")) largest = strtod(argv[2], NULL), at = 3;
+    for (; at + 2 < argc && argv[at][0] == '-'; at += 2)
+        if (argv[at][1] == 'm')
+            largest = strtod(argv[at + 1], NULL);
+        else
+            folder = argv[at + 1];
     bench_head("growth of pictures without hidden surfaces, one thread", 1);
     printf("%-12s %9s %8s %8s %8s %9s %9s %9s %8s %8s %6s %9s\n", "", "", "tree us", "look us", "whole us", "bytes",
            "visible", "screen", "arcs", "tests", "", "");
@@ -117,7 +141,7 @@ int main(int argc, char **argv) {
         if (strchr(argv[at], '.'))
             bench_name(argv[at], name), row(name, &file, out);
         else
-            grow(argv[at], largest);
+            grow(argv[at], largest, folder);
     }
     return 0;
 }
