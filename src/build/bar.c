@@ -47,8 +47,8 @@ static const froe_option_info options[] = {
     [K] = {"k", "guards left in a cell of the guard stage; -1: by kinds and dimension", -1, -1, 1e9, NULL, true},
     [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by kinds", -1, -1, 1e9, NULL,
               true},
-    [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never", 4, 0, 1e9, NULL,
-                false},
+    [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never; -1: by dimension",
+                -1, -1, 1e9, NULL, false},
     {0},
 };
 
@@ -106,6 +106,7 @@ static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
     if (option[ASPECT] < 0) option[ASPECT] = option[DIRECTIONS] == 4 ? 4 : 6;
     if (option[K] < 0) option[K] = points ? 1 : scene->dim == 2 ? 12 : 32;
     if (option[STOP] < 0) option[STOP] = points ? 0 : 8;
+    if (option[GROWTH] < 0) option[GROWTH] = scene->dim == 2 ? 4 : 16;
 }
 
 /* ------------------------------------------------------------ guards of a cell -- */
