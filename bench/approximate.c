@@ -1,0 +1,258 @@
+/* approximate.c: what is gained by asking within eps, and how fast that is beside CGAL.
+ *
+ *     bench_approximate [FILE...]
+ *
+ * Points, in the plane and in space: those that lie in balls of about 10 and 1000 points, in trees of bar and by CGAL's
+ * Fuzzy_sphere, which take turns. Then objects of the files, by way of windows with about 1000 of them, and the
+ * vertices of the files as points.
+ *
+ * One thread, processor time, medians of ROUNDS rounds. Surplus: reported beyond the exact answer, of which it is the
+ * share. Both answers are checked: what they must have and what they may have, and the same when eps is 0. */
+#include "bench.h"
+#include "peers/fuzzy.h"
+#include <froe/query.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROUNDS = 5, BALLS = 400, HALVINGS = 40, EPSILONS = 4 };
+static const double epsilons[EPSILONS] = {0, 0.01, 0.1, 1};
+
+static void must(froe_status status, const froe_diagnostic *why) {
+    if (!status) return;
+    fprintf(stderr, "bench_approximate: %s\n", why->message);
+    exit(1);
+}
+
+static double unit(uint64_t *state) { /* splitmix64 */
+    uint64_t x = *state += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
+
+static void *room(size_t count, size_t size) {
+    void *p = calloc(count ? count : 1, size);
+    if (!p) exit(1);
+    return p;
+}
+
+/* ------------------------------------------------------------------- ranges -- */
+
+/** Ranges around points of the scene, each with about as many objects as asked for. */
+typedef struct ranges {
+    froe_range range[BALLS];
+    double points[BALLS][2 * FROE_MAX_DIM];
+    uint64_t exact[BALLS];
+    double found; /* on average */
+} ranges;
+
+static uint64_t count(froe_query *q, const froe_range *range) {
+    froe_diagnostic why;
+    uint64_t found;
+    must(froe_query_count(q, range, &found, &why), &why);
+    return found;
+}
+
+static void resize(froe_range *r, double *points, int dim, const double *centre, double size) {
+    r->radius = size;
+    for (int k = 0; k < dim; k++) {
+        points[k] = r->shape == FROE_SHAPE_BALL ? centre[k] : centre[k] - size;
+        points[dim + k] = centre[k] + size;
+    }
+}
+
+/** Halves between nothing and everything, by size. */
+static void fit(froe_query *q, froe_range *r, double *points, int dim, const double *centre, double most,
+                uint64_t target) {
+    double low = 0, high = most;
+    r->points = points;
+    for (int i = 0; i < HALVINGS; i++) {
+        const double size = i < HALVINGS / 2 && low == 0 ? high / 4 : (low + high) / 2;
+        resize(r, points, dim, centre, size);
+        const uint64_t found = count(q, r);
+        if (found == target) return;
+        *(found < target ? &low : &high) = size;
+    }
+    resize(r, points, dim, centre, high);
+}
+
+static void make_ranges(const froe_tree *tree, froe_range_shape shape, uint64_t target, ranges *out) {
+    const froe_scene *scene = froe_tree_scene(tree);
+    const int dim = froe_scene_dim(scene);
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], most = 0;
+    uint64_t state = 5;
+    froe_query *q;
+    froe_diagnostic why;
+    must(froe_query_new(tree, &q, &why), &why);
+    froe_scene_bounds(scene, lo, hi);
+    for (int k = 0; k < dim; k++) most += hi[k] - lo[k];
+    out->found = 0;
+    for (int i = 0; i < BALLS; i++) {
+        const uint32_t object = (uint32_t)(unit(&state) * (double)froe_scene_object_count(scene));
+        const double *centre = froe_scene_vertex(scene, froe_scene_corner(scene, object, 0));
+        out->range[i] = froe_range_defaults();
+        out->range[i].shape = shape;
+        fit(q, out->range + i, out->points[i], dim, centre, most, target);
+        out->exact[i] = count(q, out->range + i);
+        out->found += (double)out->exact[i] / BALLS;
+    }
+    froe_query_free(q);
+}
+
+/* ------------------------------------------------------------------- asking -- */
+
+/** One of those that take turns: a tree, or a library's index of the points. */
+typedef struct column {
+    const char *name;
+    froe_query *query;
+    froe_tree *tree;
+    const fuzzy_peer *peer;
+    void *index;
+    double seconds[EPSILONS][ROUNDS], reported[EPSILONS];
+} column;
+
+static column column_of_tree(const char *name, froe_scene *scene, const char *method, uint32_t leaf) {
+    column c = {.name = name};
+    froe_diagnostic why;
+    c.tree = bench_build(scene, method, NULL, leaf, 1, NULL);
+    must(froe_query_new(c.tree, &c.query, &why), &why);
+    return c;
+}
+
+static void column_free(column *c) {
+    froe_query_free(c->query);
+    froe_tree_free(c->tree);
+    if (c->index) c->peer->free(c->index);
+}
+
+/** Everything in the range and nothing further than eps diameters from it, into out; how many. */
+static size_t answer(const column *c, const froe_range *exact, double eps, uint32_t *out) {
+    froe_range range = *exact;
+    froe_list found;
+    froe_diagnostic why;
+    const double margin = eps * 2 * range.radius;
+    range.eps = eps;
+    if (c->peer) return c->peer->ball(c->index, range.points, range.radius + margin / 2, margin / 2, out);
+    must(froe_query_range(c->query, &range, &found, &why), &why);
+    memcpy(out, found.ids, found.count * sizeof *out);
+    return found.count;
+}
+
+static void ask_all(column *c, const ranges *r, int e, int round, uint32_t *out) {
+    uint64_t sum = 0;
+    const double start = bench_cpu();
+    for (int i = 0; i < BALLS; i++) sum += answer(c, r->range + i, epsilons[e], out);
+    c->seconds[e][round] = (bench_cpu() - start) / BALLS;
+    c->reported[e] = (double)sum / BALLS;
+}
+
+/** Must every answer have what it has, and may it? Marks: 1 in the exact answer, 2 in that of the grown range. */
+static void check(const column *c, froe_query *q, const ranges *r, double eps, uint32_t *out, uint8_t *marks, size_t n) {
+    for (int i = 0; i < BALLS; i += 20) {
+        froe_range grown = r->range[i];
+        froe_list found;
+        froe_diagnostic why;
+        size_t missing;
+        must(froe_query_range(q, &grown, &found, &why), &why);
+        memset(marks, 0, n);
+        missing = found.count;
+        for (size_t j = 0; j < found.count; j++) marks[found.ids[j]] = 1;
+        grown.shape = r->range[i].shape;
+        if (grown.shape == FROE_SHAPE_BALL) {
+            grown.radius *= (1 + 2 * eps) * (1 + 1e-12);
+            must(froe_query_range(q, &grown, &found, &why), &why);
+            for (size_t j = 0; j < found.count; j++) marks[found.ids[j]] |= 2;
+        }
+        const size_t answers = answer(c, r->range + i, eps, out);
+        for (size_t j = 0; j < answers; j++) {
+            missing -= marks[out[j]] & 1;
+            if (grown.shape == FROE_SHAPE_BALL && !marks[out[j]]) printf("%s: WRONG: too far\n", c->name);
+        }
+        if (missing) printf("%s: WRONG: %zu missing\n", c->name, missing);
+    }
+}
+
+static void compare(const char *what, column *columns, int count, froe_scene *scene, froe_range_shape shape,
+                    uint64_t target) {
+    const size_t n = froe_scene_object_count(scene);
+    uint32_t *out = room(n, sizeof *out);
+    uint8_t *marks = room(n, 1);
+    ranges *r = room(1, sizeof *r);
+    make_ranges(columns[0].tree, shape, target, r);
+    for (int e = 0; e < EPSILONS; e++)
+        for (int round = 0; round < ROUNDS; round++)
+            for (int i = 0; i < count; i++) ask_all(columns + i, r, e, round, out);
+    printf("\n%s, n = %zu, %s with %.1f: microseconds (surplus)\n\n| |", what, n, froe_range_shape_name(shape), r->found);
+    for (int e = 0; e < EPSILONS; e++) printf(" eps = %g |", epsilons[e]);
+    printf("\n|---|");
+    for (int e = 0; e < EPSILONS; e++) printf("---|");
+    for (int i = 0; i < count; i++) {
+        column *c = columns + i;
+        printf("\n| %s |", c->name);
+        for (int e = 0; e < EPSILONS; e++) {
+            check(c, columns[0].query, r, epsilons[e], out, marks, n);
+            printf(" %.2f (%.1f%%) |", 1e6 * bench_median(c->seconds[e], ROUNDS), 100 * (c->reported[e] / r->found - 1));
+        }
+    }
+    printf("\n");
+    fflush(stdout);
+    free(r), free(marks), free(out);
+}
+
+/* ------------------------------------------------------------------- scenes -- */
+
+static void bench_points(const char *what, int dim, double *points, size_t n) {
+    froe_scene *scene;
+    froe_diagnostic why;
+    froe_objects o = froe_objects_defaults();
+    o.kind = FROE_POINT, o.count = n, o.coords = points;
+    must(froe_scene_new(dim, NULL, &scene), &why);
+    must(froe_scene_add(scene, &o, &why), &why);
+    const fuzzy_peer *peer = dim == 2 ? &peer_fuzzy_2 : &peer_fuzzy_3;
+    column columns[] = {column_of_tree("bar", scene, "bar", FROE_LEAF_OWN), column_of_tree("bar, leaf 8", scene, "bar", 8),
+                        column_of_tree("kd, leaf 8", scene, "kd", 8),
+                        {.name = peer->name, .peer = peer, .index = peer->build(points, n)}};
+    const int count = sizeof columns / sizeof *columns;
+    compare(what, columns, count, scene, FROE_SHAPE_BALL, 10);
+    compare(what, columns, count, scene, FROE_SHAPE_BALL, 1000);
+    for (int i = 0; i < count; i++) column_free(columns + i);
+    froe_scene_free(scene);
+    free(points);
+}
+
+static void bench_uniform(int dim, size_t n) {
+    double *x = room(n * (size_t)dim, sizeof *x);
+    uint64_t state = 7;
+    for (size_t i = 0; i < n * (size_t)dim; i++) x[i] = unit(&state);
+    bench_points(dim == 2 ? "Points in the plane" : "Points in space", dim, x, n);
+}
+
+/** Only for files of objects that are no points. */
+static void bench_file(const char *path) {
+    char name[32], what[64];
+    froe_scene *scene = bench_read(path);
+    const int dim = froe_scene_dim(scene);
+    const size_t n = froe_scene_vertex_count(scene);
+    bench_name(path, name);
+    column columns[] = {column_of_tree("bar", scene, "bar", FROE_LEAF_OWN), column_of_tree("bar, leaf 8", scene, "bar", 8),
+                        column_of_tree("density, leaf 8", scene, "density", 8)};
+    compare(name, columns, 3, scene, FROE_SHAPE_BOX, 1000);
+    compare(name, columns, 3, scene, FROE_SHAPE_BALL, 1000);
+    for (int i = 0; i < 3; i++) column_free(columns + i);
+    double *points = room(n * (size_t)dim, sizeof *points);
+    for (uint32_t i = 0; i < n; i++)
+        memcpy(points + i * (size_t)dim, froe_scene_vertex(scene, i), (size_t)dim * sizeof *points);
+    froe_scene_free(scene);
+    snprintf(what, sizeof what, "Vertices of %s", name);
+    bench_points(what, dim, points, n);
+}
+
+int main(int argc, char **argv) {
+    bench_head("approximate", 1);
+    bench_uniform(2, 100000);
+    bench_uniform(3, 100000);
+    for (int i = 1; i < argc; i++) bench_file(argv[i]);
+    return 0;
+}
