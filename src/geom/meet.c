@@ -126,11 +126,55 @@ bool geom_meet_surely(num_context *context, const geom_convex *a, const geom_con
     return context->first != NUM_EXACT && ball_meet(&context->arena, a, b, MOST_STEPS) == 1;
 }
 
-/* Twice: squared radius minus squared gaps. */
+/* ------------------------------------------------------------------- boxes -- */
+
+/* Squared gaps beside the squared reach, in doubles: terms are positive, so that their sum has a relative error, of
+ * less than 30 times 2^-53. NUM_UNSURE; boxes of no reach are decided. */
+static int filter_meet_boxes(int dim, const double *lo_a, const double *hi_a, const double *lo_b, const double *hi_b,
+                             double reach) {
+    const double sure = 1 - 0x1p-46, square = reach * reach;
+    bool apart = false;
+    double sum = 0;
+    for (int k = 0; k < dim; k++) {
+        const double above = lo_b[k] - hi_a[k], below = lo_a[k] - hi_b[k], gap = above > below ? above : below;
+        apart |= gap > 0;
+        sum += gap > 0 ? gap * gap : 0;
+    }
+    if (!apart || reach == 0) return !apart;
+    if (sum * sure > square + NUM_BALL_TINY) return 0;
+    return sum < square * sure - NUM_BALL_TINY ? 1 : NUM_UNSURE;
+}
+
+/* The squared reach minus the squared gaps, among corners from[i], to[i]. */
+static int sign_of_rest(num_context *context, int gaps, const double *from, const double *to, double radius_a,
+                        double radius_b) {
+    if (context->first != NUM_EXACT) {
+        num_ball r = num_ball_add(num_ball_from(radius_a), num_ball_from(radius_b)), rest = num_ball_mul(r, r);
+        for (int i = 0; i < gaps; i++) {
+            num_ball gap = num_ball_sub(num_ball_from(to[i]), num_ball_from(from[i]));
+            rest = num_ball_sub(rest, num_ball_mul(gap, gap));
+        }
+        const int sign = num_ball_sign(rest);
+        if (sign != NUM_UNSURE) return num_refined(context, sign);
+    }
+    num_arena *arena = num_fresh(context);
+    num_dyadic r = num_dyadic_add(arena, num_dyadic_from(arena, radius_a), num_dyadic_from(arena, radius_b));
+    num_dyadic rest = num_dyadic_mul(arena, r, r);
+    for (int i = 0; i < gaps; i++) {
+        num_dyadic gap = num_dyadic_sub(arena, num_dyadic_from(arena, to[i]), num_dyadic_from(arena, from[i]));
+        rest = num_dyadic_sub(arena, rest, num_dyadic_mul(arena, gap, gap));
+    }
+    return num_exact(context, rest.sign);
+}
+
 bool geom_meet_boxes(num_context *context, int dim, const double *lo_a, const double *hi_a, double radius_a,
                      const double *lo_b, const double *hi_b, double radius_b) {
     double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
     int gaps = 0;
+    if (context->first == NUM_FILTER) {
+        const int meets = filter_meet_boxes(dim, lo_a, hi_a, lo_b, hi_b, radius_a + radius_b);
+        if (meets != NUM_UNSURE) return meets;
+    }
     for (int k = 0; k < dim; k++) {
         if (hi_a[k] < lo_b[k])
             from[gaps] = hi_a[k], to[gaps++] = lo_b[k];
@@ -139,24 +183,5 @@ bool geom_meet_boxes(num_context *context, int dim, const double *lo_a, const do
     }
     if (!gaps || (radius_a == 0 && radius_b == 0)) return !gaps;
     context->stats.calls++;
-    if (context->first != NUM_EXACT) {
-        num_ball r = num_ball_add(num_ball_from(radius_a), num_ball_from(radius_b)), rest = num_ball_mul(r, r);
-        for (int i = 0; i < gaps; i++) {
-            num_ball gap = num_ball_sub(num_ball_from(to[i]), num_ball_from(from[i]));
-            rest = num_ball_sub(rest, num_ball_mul(gap, gap));
-        }
-        int sign = num_ball_sign(rest);
-        context->stats.refined += sign != NUM_UNSURE;
-        if (sign != NUM_UNSURE) return sign >= 0;
-    }
-    num_arena *arena = &context->arena;
-    arena->top = 0;
-    context->stats.exact++;
-    num_dyadic r = num_dyadic_add(arena, num_dyadic_from(arena, radius_a), num_dyadic_from(arena, radius_b));
-    num_dyadic rest = num_dyadic_mul(arena, r, r);
-    for (int i = 0; i < gaps; i++) {
-        num_dyadic gap = num_dyadic_sub(arena, num_dyadic_from(arena, to[i]), num_dyadic_from(arena, from[i]));
-        rest = num_dyadic_sub(arena, rest, num_dyadic_mul(arena, gap, gap));
-    }
-    return rest.sign >= 0;
+    return sign_of_rest(context, gaps, from, to, radius_a, radius_b) >= 0;
 }

@@ -64,8 +64,9 @@ bool geom_shrink_box(const double *n, double c, int dim, double *lo, double *hi)
     for (int k = 0; k < dim; k++) {
         if (!(fabs(n[k]) > 0x1p-400)) continue;
         const double step = room / fabs(n[k]) * (1 + 0x1p-48);
-        if (n[k] > 0 && lo[k] + step < hi[k]) hi[k] = nextafter(lo[k] + step, INFINITY);
-        if (n[k] < 0 && hi[k] - step > lo[k]) lo[k] = nextafter(hi[k] - step, -INFINITY);
+        const double end = n[k] > 0 ? lo[k] + step : hi[k] - step, error = 2 * FILTER_U * fabs(end) + NUM_BALL_TINY;
+        if (n[k] > 0 && end + error < hi[k]) hi[k] = end + error;
+        if (n[k] < 0 && end - error > lo[k]) lo[k] = end - error;
     }
     return true;
 }

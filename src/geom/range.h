@@ -14,6 +14,7 @@
 #define FROE_GEOM_RANGE_H
 #include "base/array.h"
 #include "geom/convex.h"
+#include "num/ball.h"
 
 /** n . x <= c for all points of the range; norm >= |n|. */
 typedef struct geom_facet {
@@ -49,6 +50,28 @@ bool geom_range_shrink(const geom_range *range, double *lo, double *hi);
 bool geom_shrink_box(const double *n, double c, int dim, double *lo, double *hi);
 /** Is the closed ball certainly apart from the box? */
 bool geom_range_misses(const geom_range *range, const double *lo, const double *hi);
+/** Is the point in the range? Of boxes and balls, by doubles; NUM_UNSURE. */
+static inline int geom_range_has(const geom_range *range, const double *x) {
+    const double sure = 1 - 0x1p-46; /* as geom_meet_boxes */
+    double sum = 0;
+    bool in = true;
+    switch (range->kind) {
+    case GEOM_RANGE_BOX:
+        for (int k = 0; k < range->dim; k++) in &= (x[k] >= range->lo[k]) & (x[k] <= range->hi[k]);
+        return in;
+    case GEOM_RANGE_BALL: {
+        const double square = range->set.radius * range->set.radius;
+        for (int k = 0; k < range->dim; k++) {
+            const double gap = x[k] - range->set.coords[k];
+            sum += gap * gap;
+        }
+        in = sum < square * sure - NUM_BALL_TINY;
+        return in | (sum * sure > square + NUM_BALL_TINY) ? in : NUM_UNSURE;
+    }
+    default:
+        return NUM_UNSURE;
+    }
+}
 /** Is every point of the box certainly within `margin` of the range? Not for THIN ranges. */
 bool geom_range_holds(num_context *context, const geom_range *range, double margin, const double *lo, const double *hi);
 #endif

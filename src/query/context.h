@@ -23,7 +23,14 @@ typedef struct query_part {
     void (*free)(const froe_allocator *alloc, struct query_part *part);
 } query_part;
 /** A new part is one more number here. */
-typedef enum query_part_id { QUERY_PLANES, QUERY_CENTROIDS, QUERY_AREAS, QUERY_CONTENTS, QUERY_PARTS } query_part_id;
+typedef enum query_part_id {
+    QUERY_PLANES,
+    QUERY_CENTROIDS,
+    QUERY_AREAS,
+    QUERY_CONTENTS,
+    QUERY_PIECES,
+    QUERY_PARTS
+} query_part_id;
 
 typedef struct query_shared {
     atomic_uint holds;

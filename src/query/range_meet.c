@@ -159,12 +159,33 @@ static bool set_meets(froe_query *q, uint32_t object) {
     return geom_meet(&q->numbers, &object_set, &set);
 }
 
+/* Is a corner of the object within the margin of the range for certain? Of boxes and balls. Where an object of many
+ * corners is told so, it need not be known whether it meets the range itself. */
+static bool holds_corner(froe_query *q, uint32_t object) {
+    const froe_scene *s = q->tree->scene;
+    const query_range *r = &q->range;
+    if (r->range.kind != GEOM_RANGE_BALL && (r->range.kind != GEOM_RANGE_BOX || r->margin == 0)) return false;
+    for (uint32_t i = 0, n = scene_corners(s, object); i < n; i++) {
+        const double *x = scene_point(s, object, i);
+        if (geom_range_holds(&q->numbers, &r->range, r->margin, x, x)) return true;
+    }
+    return false;
+}
+
+/* A ball and an object of corners. */
+static bool ball_meets(froe_query *q, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    scene_object_bounds(q->tree->scene, object, lo, hi);
+    return !geom_range_misses(&q->range.range, lo, hi) && set_meets(q, object);
+}
+
 static bool decide(froe_query *q, uint32_t object, bool *memory) {
     const froe_scene *s = q->tree->scene;
     const froe_range *from = q->range.from;
     const double *lo, *hi;
     double radius;
     const bool boxlike = as_box(s, object, &lo, &hi, &radius);
+    if (!boxlike && holds_corner(q, object)) return true;
     switch (from->shape) {
     case FROE_SHAPE_BOX:
         if (boxlike)
@@ -173,7 +194,7 @@ static bool decide(froe_query *q, uint32_t object, bool *memory) {
     case FROE_SHAPE_BALL:
         if (boxlike)
             return geom_meet_boxes(&q->numbers, s->dim, lo, hi, radius, from->points, from->points, from->radius);
-        return set_meets(q, object);
+        return ball_meets(q, object);
     case FROE_SHAPE_SEGMENT:
         if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return set_meets(q, object);
         return query_segments_meet(&q->numbers, from->points, from->points + 2, scene_point(s, object, 0),

@@ -11,6 +11,7 @@
  * (segments, rays) have an interval of their parameter instead: origin + t direction. */
 #include "query/centroids.h"
 #include "query/cuts.h"
+#include "query/pieces.h"
 #include "tree/space.h"
 #include <string.h>
 
@@ -19,8 +20,10 @@ typedef struct walk {
     const froe_tree *tree;
     const query_planes *planes;
     const query_centroids *centroids;
+    const query_pieces *pieces;
     query_range *r;
     int dim;
+    bool points;  /* are leaves tested by coordinates? */
     size_t width; /* doubles of a waiting node */
     bool memory;  /* ran out */
 } walk;
@@ -40,6 +43,42 @@ static void test_list(walk *w, const tree_objects *list) {
         if (query_seen(q, list, i, object)) continue;
         if (query_range_meets(q, object, &w->memory)) query_found(q, object);
         if (w->r->any && q->found.count) return;
+    }
+}
+
+/* The same for a list of points, each of which is in no other. It is anyone's guess which are in the range, so that
+ * nothing waits for it. */
+static void test_points(walk *w, const tree_objects *list) {
+    froe_query *q = w->q;
+    const double *x = w->pieces->points + (size_t)list->first * (size_t)w->dim;
+    if (!array_reserve(&q->alloc, &q->found, list->count)) {
+        w->memory = true;
+        return;
+    }
+    for (uint32_t i = 0; i < list->count; i++, x += w->dim) {
+        const uint32_t object = tree_object(list, i);
+        int has = geom_range_has(&w->r->range, x);
+        if (has == NUM_UNSURE)
+            has = query_range_meets(q, object, &w->memory);
+        else
+            q->stats.tests++;
+        q->found.data[q->found.count] = object;
+        q->found.count += (size_t)has;
+    }
+}
+
+/* Takes all of a list whose objects are where they are listed. */
+static void take_flat(walk *w, const tree_objects *list) {
+    froe_query *q = w->q;
+    const bool whole = w->pieces->whole;
+    if (!(whole ? array_reserve(&q->alloc, &q->found, list->count) : query_expect(q, list->count))) {
+        w->memory = true;
+        return;
+    }
+    for (uint32_t i = 0; i < list->count; i++) {
+        const uint32_t object = tree_object(list, i);
+        q->found.data[q->found.count] = object;
+        q->found.count += whole || query_mark(&q->marks, object);
     }
 }
 
@@ -96,13 +135,13 @@ static void take_slice(walk *w, uint32_t node) {
     list.first = first;
     list.count = end - first;
     if (list.count) list.at = &w->tree->pieces[first].object;
-    take_list(w, &list);
+    w->pieces->flat ? take_flat(w, &list) : take_list(w, &list);
 }
 
 /* The list of a leaf, or of a cut that the range may touch. */
 static void visit_list(walk *w, uint32_t node) {
     const tree_objects list = tree_list(w->tree, node);
-    test_list(w, &list);
+    w->points ? test_points(w, &list) : test_list(w, &list);
 }
 
 /* ------------------------------------------------------------------- stack -- */
@@ -399,7 +438,9 @@ froe_status query_range_walk(froe_query *q) {
     double state[2 * BOX];
     froe_status status = query_planes_of(q, &w.planes, NULL);
     if (!status) status = query_centroids_of(q, &w.centroids, NULL);
+    if (!status) status = query_pieces_of(q, &w.pieces, NULL);
     if (status) return status;
+    w.points = w.pieces->points && q->numbers.first == NUM_FILTER;
     q->range.nodes.count = q->range.boxes.count = 0;
     if (!q->tree->scene->object_count || !begin(&w, state)) return FROE_OK;
     push(&w, 0, state);

@@ -1,0 +1,45 @@
+/* pieces.c: see pieces.h. */
+#include "query/pieces.h"
+#include "base/status.h"
+#include <string.h>
+
+static void free_pieces(const froe_allocator *alloc, query_part *part) {
+    query_pieces *p = (query_pieces *)part;
+    base_free(alloc, p->points, p->size);
+    base_free(alloc, p, sizeof *p);
+}
+
+static froe_status lay_points(query_pieces *p, const froe_tree *t, const froe_allocator *alloc) {
+    const size_t bytes = (size_t)t->scene->dim * sizeof *p->points;
+    p->points = base_calloc(alloc, t->piece_count, bytes);
+    if (!p->points) return FROE_E_MEMORY;
+    p->size = t->piece_count * bytes;
+    for (uint32_t i = 0; i < t->piece_count; i++)
+        memcpy(p->points + (size_t)i * (size_t)t->scene->dim, scene_point(t->scene, t->pieces[i].object, 0), bytes);
+    return FROE_OK;
+}
+
+static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    const froe_tree *t = q->tree;
+    const froe_scene *s = t->scene;
+    query_pieces *p = base_calloc(&q->alloc, 1, sizeof *p);
+    if (!p) return base_fail_memory(diag);
+    p->part.free = free_pieces;
+    *out = &p->part;
+    if (tree_is_packed(t)) return FROE_OK;
+    bool points = t->piece_count > 0;
+    p->flat = true;
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        points &= s->forms[i] == FROE_POINT;
+        p->flat &= s->forms[i] < FROE_BOX;
+    }
+    p->whole = p->flat && t->bound_count <= 1; /* the first is unused */
+    return points && lay_points(p, t, &q->alloc) ? base_fail_memory(diag) : FROE_OK;
+}
+
+froe_status query_pieces_of(froe_query *query, const query_pieces **out, froe_diagnostic *diag) {
+    const query_part *part;
+    const froe_status status = query_prepare(query, QUERY_PIECES, make, &part, diag);
+    if (status == FROE_OK) *out = (const query_pieces *)part;
+    return status;
+}
