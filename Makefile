@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install bench bench-boxes bench-peers claims oracle coverage docs format lint clean
+.PHONY: help build demo test install bench bench-bar bench-boxes bench-peers claims oracle coverage docs format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -34,6 +34,11 @@ bench: deps-bench ## froe beside its peers, those that Debian has
 	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
 	@cmake --build $(BUILD)/bench --parallel $(JOBS)
 	@bench/run $(BUILD)/bench
+
+bench-bar: deps-bench ## approximate ranges in fat cells, beside CGAL: tables and figures
+	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
+	@cmake --build $(BUILD)/bench --parallel $(JOBS)
+	@bench/run-bar $(BUILD)/bench
 
 bench-boxes: deps-bench ## trees of boxes beside each other and Boost: tables and figures
 	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON

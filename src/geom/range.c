@@ -87,8 +87,9 @@ bool geom_range_misses(const geom_range *r, const double *lo, const double *hi) 
     const double *centre = r->set.coords;
     double sum = 0;
     for (int k = 0; k < r->dim; k++) {
-        double below = lo[k] - centre[k], above = centre[k] - hi[k], gap = below > above ? below : above;
-        sum += gap > 0 ? gap * gap : 0;
+        const double below = lo[k] - centre[k], above = centre[k] - hi[k], most = below > above ? below : above;
+        const double gap = most > 0 ? most : 0;
+        sum += gap * gap;
     }
     return sum * SURE > r->set.radius * r->set.radius + NUM_BALL_TINY;
 }
@@ -100,8 +101,9 @@ static double furthest(const geom_range *r, const double *lo, const double *hi) 
     for (int k = 0; k < r->dim; k++) {
         const double low = r->kind == GEOM_RANGE_BALL ? r->set.coords[k] : r->lo[k];
         const double high = r->kind == GEOM_RANGE_BALL ? r->set.coords[k] : r->hi[k];
-        double below = low - lo[k], above = hi[k] - high, gap = below > above ? below : above;
-        sum += gap > 0 ? gap * gap : 0;
+        const double below = low - lo[k], above = hi[k] - high, most = below > above ? below : above;
+        const double gap = most > 0 ? most : 0;
+        sum += gap * gap;
     }
     return sum;
 }
@@ -109,9 +111,9 @@ static double furthest(const geom_range *r, const double *lo, const double *hi) 
 /* ----------------------------------------------------------------- holding -- */
 
 static bool bounds_hold(const geom_range *r, double margin, const double *lo, const double *hi) {
-    for (int k = 0; k < r->dim; k++)
-        if (lo[k] < r->lo[k] - margin || hi[k] > r->hi[k] + margin) return false;
-    return true;
+    bool held = true;
+    for (int k = 0; k < r->dim; k++) held &= (lo[k] >= r->lo[k] - margin) & (hi[k] <= r->hi[k] + margin);
+    return held;
 }
 
 static bool facets_hold(const geom_range *r, double margin, const double *lo, const double *hi) {
@@ -151,7 +153,7 @@ static bool corners_held(num_context *context, const geom_range *r, double margi
 }
 
 bool geom_range_holds(num_context *context, const geom_range *r, double margin, const double *lo, const double *hi) {
-    if (!bounds_hold(r, margin, lo, hi)) return false;
+    if (r->kind != GEOM_RANGE_BALL && !bounds_hold(r, margin, lo, hi)) return false;
     if (r->kind == GEOM_RANGE_BOX && margin == 0) return true;
     if (context->first == NUM_EXACT) return false;
     const double reach = (margin + r->set.radius) * SURE;

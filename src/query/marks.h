@@ -50,4 +50,25 @@ static inline bool query_mark(query_marks *marks, uint32_t object) {
     marks->count++;
     return true;
 }
+
+/** Marks the objects of an array, every stride-th number of it, and copies those that were not marked; how many. There
+ * is room for all in `out`. REQUIRES: room. */
+static inline size_t query_mark_all(query_marks *marks, const uint32_t *objects, size_t stride, size_t count,
+                                    uint32_t *out) {
+    size_t fresh = 0;
+    if (!marks->many) {
+        for (size_t i = 0; i < count; i++)
+            if (query_mark(marks, objects[i * stride])) out[fresh++] = objects[i * stride];
+        return fresh;
+    }
+    uint32_t *numbers = marks->numbers;
+    const uint32_t query = marks->query;
+    for (size_t i = 0; i < count; i++) { /* without branches: which are marked is anyone's guess */
+        const uint32_t object = objects[i * stride];
+        out[fresh] = object;
+        fresh += numbers[object] != query;
+        numbers[object] = query;
+    }
+    return fresh;
+}
 #endif

@@ -75,11 +75,13 @@ static void take_flat(walk *w, const tree_objects *list) {
         w->memory = true;
         return;
     }
-    for (uint32_t i = 0; i < list->count; i++) {
-        const uint32_t object = tree_object(list, i);
-        q->found.data[q->found.count] = object;
-        q->found.count += whole || query_mark(&q->marks, object);
+    uint32_t *found = q->found.data + q->found.count;
+    if (!whole) {
+        q->found.count += query_mark_all(&q->marks, list->at, list->stride, list->count, found);
+        return;
     }
+    for (uint32_t i = 0; i < list->count; i++) found[i] = list->at[(size_t)i * list->stride];
+    q->found.count += list->count;
 }
 
 /* Of a list whose region is in the range: only solids, and whatever packed trees of space hold, may be listed where
@@ -211,12 +213,24 @@ static double plane_bound(const query_plane *h, int side, int dim, const double 
     return (side ? -(h->c + shift) : h->c + shift) + error;
 }
 
+/* Is the ball certainly on the other side of the plane? */
+static bool ball_is_beyond(const walk *w, const query_plane *h, int side) {
+    const geom_range *range = &w->r->range;
+    double x[3] = {0}, error;
+    for (int k = 0; k < w->dim; k++) x[k] = range->set.coords[k];
+    const double value = query_plane_value(h, x, &error);
+    const double norm = sqrt(h->n[0] * h->n[0] + h->n[1] * h->n[1] + h->n[2] * h->n[2]);
+    const double reach = range->set.radius * (norm + 2 * h->n_err) * (1 + 0x1p-45) + error + NUM_BALL_TINY;
+    return (side ? -value : value) > reach;
+}
+
 static bool go_beside_plane(const walk *w, const query_cut *cut, int side, double *state) {
     const geom_range *range = &w->r->range;
     const query_plane *h = cut->plane;
     const place p = place_of(w, state);
     double n[3];
     for (int k = 0; k < 3; k++) n[k] = side ? -h->n[k] : h->n[k];
+    if (range->kind == GEOM_RANGE_BALL && ball_is_beyond(w, h, side)) return false;
     if (!geom_shrink_box(n, plane_bound(h, side, w->dim, p.lo, p.hi), w->dim, p.lo, p.hi)) return false;
     switch (range->kind) {
     case GEOM_RANGE_BOX: {
@@ -227,14 +241,8 @@ static bool go_beside_plane(const walk *w, const query_cut *cut, int side, doubl
         }
         return geom_shrink_box(n, plane_bound(h, side, w->dim, lo, hi), w->dim, lo, hi);
     }
-    case GEOM_RANGE_BALL: {
-        double x[3] = {0}, error;
-        memcpy(x, range->set.coords, (size_t)w->dim * sizeof *x);
-        double value = query_plane_value(h, x, &error),
-               norm = sqrt(h->n[0] * h->n[0] + h->n[1] * h->n[1] + h->n[2] * h->n[2]);
-        double reach = range->set.radius * (norm + 2 * h->n_err) * (1 + 0x1p-45) + error + NUM_BALL_TINY;
-        return !((side ? -value : value) > reach) && !geom_range_misses(range, p.lo, p.hi);
-    }
+    case GEOM_RANGE_BALL:
+        return !geom_range_misses(range, p.lo, p.hi);
     default:
         return geom_shrink_box(n, plane_bound(h, side, w->dim, p.part_lo, p.part_hi), w->dim, p.part_lo, p.part_hi) &&
                geom_range_shrink(range, p.part_lo, p.part_hi);
