@@ -131,6 +131,9 @@ static double bar_plane_by_eps(void) {
 static double bar_by_n(void) {
     return growth("scatter", 8000, 4, "bar", window, 0.125);
 }
+static double bar_space_by_eps(void) {
+    return by_eps("triangles", 30000, "bar", NULL);
+}
 /* Points that crowd around the origin, closer and closer: 2^-1 .. 2^-400 from it. */
 static froe_scene *nested_points(size_t n) {
     double *xy = calloc(2 * n, sizeof *xy);
@@ -262,13 +265,15 @@ const claim claims_query[] = {
      "exponent of nodes + leaves + tests in 1 / eps, scatter", -INFINITY, 1.15, bar_plane_by_eps},
     {"de Berg and Streppel, corollary 2", "and whatever n", "bar",
      "exponent of nodes + leaves + tests in n, eps = 1/8, scatter", -INFINITY, 0.25, bar_by_n},
+    {"de Berg and Streppel, theorem 3", "O(log n + lambda / eps^2) in space", "bar",
+     "exponent of nodes + leaves + tests in 1 / eps, triangles", -INFINITY, 2.1, bar_space_by_eps},
     {"de Berg and Streppel, theorem 1 (i)", "height O(depth) of the BSP of points", "converted",
      "height / height of the kd-tree of endpoints, worst of five scenes", 1, 3, converted_height},
     {"de Berg and Streppel, theorem 1 (ii)", "size O(n depth)", "converted",
      "size / (n height of the kd-tree of endpoints), worst of five scenes", 0.1, 1.2, converted_size},
     {"de Berg and Streppel, theorem 1 (iii)", "O((v + k) depth) nodes visited", "converted",
      "nodes / ((v + k) height of the kd-tree of endpoints), worst window of five scenes", 0, 3, converted_visits},
-    {"de Berg and Streppel, corollary 2", "O(log n / eps) for disjoint segments", "bar",
+    {"de Berg and Streppel, corollary 2", "O(log n / eps) for disjoint segments", "converted",
      "exponent of nodes + leaves + tests in 1 / eps, converted from bar; worse of disjoint, parallel", -INFINITY, 1.05,
      converted_by_eps},
     {"de Berg and Streppel, section 2 (Duncan et al.)", "height O(log n) for points, however they lie", "bar",

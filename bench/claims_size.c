@@ -47,6 +47,17 @@ static double worst_growth(const char *const *kinds, size_t from, int doublings,
     return worst;
 }
 
+/* Exponent of the height in log n, from 1,000 objects on. */
+static double height_in_log_n(const char *kind, int doublings, const char *method, uint32_t leaf) {
+    claims_series s = {.count = 0};
+    for (int i = 0; i <= doublings; i++) {
+        claims_tree t = claims_build(kind, (size_t)1000 << i, method, NULL, leaf);
+        claims_add(&s, log((double)t.report.objects), height(&t));
+        claims_free(&t);
+    }
+    return claims_slope(&s);
+}
+
 /* Time is noisy: the least of three. */
 static double time_growth(const char *kind, size_t from, int doublings, const char *method, value_fn *fn) {
     claims_series s = {.count = 0};
@@ -317,13 +328,18 @@ static double cylindrical_crossings(void) {
     return growth("slats", 128, 3, "cylindrical", NULL, 0, nodes_per_crossing);
 }
 static double cylindrical_height(void) {
-    claims_series s = {.count = 0};
-    for (size_t n = 1000; n <= 32000; n *= 2) {
-        claims_tree t = claims_build("disjoint", n, "cylindrical", NULL, 0);
-        claims_add(&s, log((double)t.report.objects), height(&t));
-        claims_free(&t);
-    }
-    return claims_slope(&s);
+    return height_in_log_n("disjoint", 5, "cylindrical", 0);
+}
+
+/* ---------------------------------------------------------- de Berg and Streppel -- */
+
+static double bar_size(void) {
+    static const char *const kinds[] = {"scatter", "rooms", "cuboids", NULL};
+    return worst_growth(kinds, 1000, 4, "bar", size);
+}
+static double bar_object_height(void) {
+    return fmax(height_in_log_n("scatter", 4, "bar", FROE_LEAF_OWN),
+                height_in_log_n("cuboids", 4, "bar", FROE_LEAF_OWN));
 }
 
 /* ------------------------------------------------------------- Paterson and Yao -- */
@@ -439,6 +455,10 @@ const claim claims_size[] = {
      "cylindrical", "exponent of nodes / (n log^2 n) in n, terrain (k = 0)", -INFINITY, 0.05, cylindrical_in_space},
     {"Agarwal et al., theorem 2.3", "height O(log n)", "cylindrical", "exponent of height in log n, disjoint", 0.5, 1.4,
      cylindrical_height},
+    {"de Berg and Streppel, theorem 3", "size O(lambda n)", "bar",
+     "exponent of nodes + pieces in n; worst of scatter, rooms, cuboids", 0.9, 1.1, bar_size},
+    {"de Berg and Streppel, theorem 3", "height O(log n)", "bar",
+     "exponent of height in log n; worse of scatter, cuboids", 0.5, 1.5, bar_object_height},
     {"Paterson and Yao 1990", "O(n log n) pieces of disjoint segments", "paterson_yao",
      "exponent of pieces / (n log n) in n; worse of parallel, disjoint", -INFINITY, 0.1, slabs},
     {"the same", "two pieces a slab of each level", "paterson_yao",

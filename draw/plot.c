@@ -193,6 +193,11 @@ static void put_lines(plot *p, size_t series) {
         joined = shown;
     }
     put_style(p, series, true);
+}
+
+static void put_markers(plot *p, size_t series) {
+    const froe_plot_series *s = p->series + series;
+    double x, y;
     put_text(p, "<path d=\"");
     for (size_t i = 0; i < s->count; i++)
         if (place(p, s, i, &x, &y)) put_marker(p, series, x, y);
@@ -265,7 +270,8 @@ static void put_figure(plot *p) {
     size_t points = 0;
     for (size_t s = 0; s < p->count; s++) {
         points += p->series[s].count;
-        p->o->kind == FROE_PLOT_COLUMNS ? put_columns(p, s) : put_lines(p, s);
+        if (p->o->kind == FROE_PLOT_LINES) put_lines(p, s);
+        p->o->kind == FROE_PLOT_COLUMNS ? put_columns(p, s) : put_markers(p, s);
     }
     if (!points) put_label(p, (p->x.from + p->x.to) / 2, (p->y.from + p->y.to) / 2, "middle", "", "nothing to show");
     key(p, true);
@@ -280,7 +286,7 @@ froe_plot_options froe_plot_defaults(void) {
 
 static froe_status check(const froe_plot_options *o, froe_diagnostic *diag) {
     if (o->size != sizeof *o) return draw_fail(diag, FROE_E_OPTIONS, "options do not come from froe_plot_defaults()");
-    if (o->kind != FROE_PLOT_LINES && o->kind != FROE_PLOT_COLUMNS)
+    if ((unsigned)o->kind > FROE_PLOT_POINTS)
         return draw_fail(diag, FROE_E_OPTIONS, "there is no kind of figure %d", (int)o->kind);
     if (!(o->width >= 60 && o->width <= 4000))
         return draw_fail(diag, FROE_E_OPTIONS, "width %g is not in 60 .. 4000", o->width);

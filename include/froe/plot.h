@@ -1,4 +1,4 @@
-/* plot.h: figures of numbers as SVG: lines with markers, or columns. Companion of draw.h (link froe-draw).
+/* plot.h: figures of numbers as SVG: lines with markers, columns, or markers alone. Companion of draw.h (link froe-draw).
  *
  *     froe_plot_series s = {.name = "density", .x = n, .y = size, .count = 5};
  *     froe_plot_options o = froe_plot_defaults();
@@ -25,7 +25,8 @@ typedef struct froe_plot_series {
 
 typedef enum froe_plot_kind {
     FROE_PLOT_LINES = 0,  /**< markers joined by lines */
-    FROE_PLOT_COLUMNS = 1 /**< columns from the axis, `column` wide, around x */
+    FROE_PLOT_COLUMNS = 1, /**< columns from the axis, `column` wide, around x */
+    FROE_PLOT_POINTS = 2   /**< markers alone */
 } froe_plot_kind;
 
 typedef struct froe_plot_options {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """measure.py [FOLDER]: measures the scenes of data/ and those that `get` fetched into FOLDER (build/real-scenes), and writes
-the tables of docs/real-scenes.md between its marks. FROE names the program (build/bin/froe).
+the tables of docs/real-scenes.md between its marks, and docs/real-scenes.csv, which bench_plot draws. FROE names the
+program (build/bin/froe).
 """
 import json
 import math
@@ -33,9 +34,9 @@ def froe(*words):
     return json.loads(done.stdout)
 
 
-def measure(path):
+def measure(path, kind):
     report = froe("measure", str(path))
-    tree = froe("build", str(path))
+    tree = froe("build", str(path), "--method", "density" if kind in ("floor plans", "maps") else "auto")
     spread = report["distributions"]
     fat = spread.get("fatness") or spread.get("fatness in the plane") or {}
     paired = [row for row in report["directional density"] if row["delta"] == 0.5][0]
@@ -66,6 +67,13 @@ def row(kind, m):
              f"{low} to {high}" if whole else f"{low} or more", number(int(m["load"]["median"])), number(m["fatness"]),
              f"{m['paired'][0]:.0f}, {m['paired'][1]:.0f}", f"{m['pieces']:.2f}"]
     return "| " + " | ".join(str(c) for c in cells) + " |"
+
+
+def csv_line(kind, m):
+    low, high, whole = m["density"]
+    if kind == "architecture":
+        kind = ("boxes" if m["scene"].endswith("-boxes") else "triangles") + " of architecture"
+    return f"{kind},{m['scene']},{m['n']},{m['clutter']},{low},{high if whole else ''}"
 
 
 def slope(points):
@@ -110,11 +118,13 @@ def put(page, mark, text):
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build/real-scenes"
     rows, everything = [], {}
+    lines = ["kind,scene,objects,clutter_at_least,density_at_least,density_at_most"]
     for kind, patterns in KINDS:
         for pattern in patterns:
             base = ROOT if pattern.startswith("data/") else folder
             for path in sorted(base.glob(pattern)):
-                m = measure(path)
+                m = measure(path, kind)
+                lines.append(csv_line(kind, m))
                 everything[m["scene"]] = m
                 print(m["scene"], m["n"], m["clutter"], m["density"], f"{m['seconds']:.1f} s", file=sys.stderr)
                 if not m["scene"].startswith("plan-"):
@@ -132,6 +142,7 @@ def main():
                  not (without and without in key) and (not within or within in key)]
         if len(found) > 2:
             growth.append(series_row(name, found))
+    (ROOT / "docs/real-scenes.csv").write_text("\n".join(lines) + "\n")
     document = ROOT / "docs/real-scenes.md"
     page = put(document.read_text(), "scenes", "\n".join(table))
     document.write_text(put(page, "growth", "\n".join(growth)))

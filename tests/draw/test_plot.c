@@ -96,6 +96,12 @@ static void what_cannot_be_shown_is_left_out(void **state) {
     o.log_y = false; /* now 0 can be shown, and NaN still cannot */
     assert_int_equal(froe_plot_write(two, 2, take, s, &o, NULL), FROE_OK);
     assert_int_equal(count_of(s->text, "Z"), 4 + 3 + 2);
+    assert_int_equal(count_of(s->text, "fill=\"none\""), 2); /* lines */
+    s->used = 0;
+    o.kind = FROE_PLOT_POINTS;
+    assert_int_equal(froe_plot_write(two, 2, take, s, &o, NULL), FROE_OK);
+    assert_int_equal(count_of(s->text, "Z"), 4 + 3 + 2);
+    assert_int_equal(count_of(s->text, "fill=\"none\""), 0);
     s->used = 0;
     o.kind = FROE_PLOT_COLUMNS, o.log_x = false;
     assert_int_equal(froe_plot_write(two, 1, take, s, &o, NULL), FROE_OK);
