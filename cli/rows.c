@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { NAME = 32 };
 
@@ -36,25 +37,31 @@ static bool is_blank(const char *text) {
 
 /* ------------------------------------------------------------------ header -- */
 
-static void axis_name(const char *prefix, int axis, bool numbered, char *out) {
-    if (numbered || axis >= 4)
+static void axis_name(const char *prefix, int axis, char *out) {
+    if (axis >= 4)
         snprintf(out, NAME, "%sx%d", prefix, axis + 1);
     else
         snprintf(out, NAME, "%s%c", prefix, "xyzw"[axis]);
 }
 
+/* As in scenes: x or x1, behind a prefix like lo_ also 1; in small letters or capitals. */
+static bool names_axis(const char *name, const char *prefix, int axis) {
+    char number[NAME];
+    size_t length = strlen(prefix);
+    if (strncasecmp(name, prefix, length) != 0) return false;
+    name += length;
+    if (axis < 4 && (name[0] | 0x20) == "xyzw"[axis] && !name[1]) return true;
+    if ((name[0] | 0x20) != 'x' && !length) return false;
+    snprintf(number, NAME, "%d", axis + 1);
+    return !strcmp(name + ((name[0] | 0x20) == 'x'), number);
+}
+
 /* Which number has this name? -1: none. */
 static int number_of(const cli_column *columns, int dim, const char *name) {
-    char wanted[NAME], numbered[NAME];
     int number = 0;
     for (; columns->name; columns++)
-        for (int axis = 0; axis < (columns->axes ? dim : 1); axis++, number++) {
-            snprintf(wanted, NAME, "%s", columns->name);
-            snprintf(numbered, NAME, "%s", columns->name);
-            if (columns->axes)
-                axis_name(columns->name, axis, false, wanted), axis_name(columns->name, axis, true, numbered);
-            if (!strcmp(name, wanted) || !strcmp(name, numbered)) return number;
-        }
+        for (int axis = 0; axis < (columns->axes ? dim : 1); axis++, number++)
+            if (columns->axes ? names_axis(name, columns->name, axis) : !strcasecmp(name, columns->name)) return number;
     return -1;
 }
 
@@ -65,7 +72,7 @@ static void header_text(const cli_column *columns, int dim, char *out, size_t si
     for (; columns->name; columns++)
         for (int axis = 0; axis < (columns->axes ? dim : 1) && length < size; axis++) {
             snprintf(name, NAME, "%s", columns->name);
-            if (columns->axes) axis_name(columns->name, axis, false, name);
+            if (columns->axes) axis_name(columns->name, axis, name);
             length += (size_t)snprintf(out + length, size - length, "%s%s", length ? "," : "", name);
         }
 }
