@@ -20,7 +20,7 @@
 #include "build/method.h"
 
 enum { EFFORT, HEIGHT, PEEL };
-enum { EFFORT_MIN = 3 };
+enum { EFFORT_LOG = 2, EFFORT_MIN = 3, LOW = 2 };
 
 static const char *const efforts[] = {"fast", "default", "log", "min", NULL};
 static const froe_option_info options[] = {
@@ -42,7 +42,7 @@ static const split_effort presets[] = {
 static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
     (void)scene;
     (void)leaf;
-    if (option[HEIGHT] < 0) option[HEIGHT] = option[EFFORT] == EFFORT_MIN ? 5 : 2;
+    if (option[HEIGHT] < 0) option[HEIGHT] = option[EFFORT] == EFFORT_MIN ? 5 : LOW;
 }
 
 /** See the head of this file. Every cut leaves fewer fragments on either side, so n is a bound, too. */
@@ -54,24 +54,53 @@ static double promised_height(const build_job *job, const split_grain *grain) {
     return grain->height > 0 && bound < n ? bound : n;
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+/** A tree of at most C log2 n + 2 levels, if cuts can be found. */
+static froe_status grow(build_job *job, const split_job *split, int effort, double c, froe_tree **out) {
     split_grain_notes notes = {0, false};
     split_grain grain = {.leaf = job->leaf,
                          .seed = job->seed,
-                         .effort = presets[(int)job->option[EFFORT]],
+                         .effort = presets[effort],
                          .peel = (uint32_t)job->option[PEEL],
                          .notes = &notes};
-    if (job->option[HEIGHT] > 0) grain.height = job->option[HEIGHT] * base_log2(job->scene->object_count + 1.0) + 2;
+    if (c > 0) grain.height = c * base_log2(job->scene->object_count + 1.0) + 2;
     split_method method = {.config = &grain,
                            .choose = split_grain_choose,
                            .scratch_new = split_grain_scratch_new,
                            .scratch_free = split_grain_scratch_free,
                            .height = grain.height > 0 ? grain.height + grain.peel : 0};
-    split_job split = build_split_job(job);
-    build_promise(job, "height", promised_height(job, &grain), 0);
-    froe_status status = split_grow(&split, &method, out);
+    froe_status status = split_grow(split, &method, out);
     if (!status) tree_promise_anew(*out, "height", promised_height(job, &grain));
     return status;
+}
+
+/** More levels mean fewer pieces, except where every cut has to split: the low tree of effort=log, or a taller one if
+ * that has fewer. */
+static froe_status grow_two(build_job *job, froe_tree **out) {
+    split_job split = build_split_job(job);
+    froe_tree *low = NULL;
+    split.diag = NULL;
+    split.span *= 0.5;
+    froe_status status = grow(job, &split, EFFORT_LOG, LOW, &low);
+    const size_t pieces = status ? 0 : froe_tree_piece_count(low);
+    const bool fewest = !status && pieces <= job->scene->object_count;
+    if (!fewest && (!status || status == FROE_E_BUDGET)) {
+        if (pieces) split.max_fragments = pieces - 1;
+        status = grow(job, &split, EFFORT_MIN, job->option[HEIGHT], out);
+    }
+    if (fewest || (pieces && status == FROE_E_BUDGET)) {
+        *out = low;
+        return FROE_OK;
+    }
+    froe_tree_free(low);
+    return split_explain(job->diag, job->max_fragments, status);
+}
+
+static froe_status build(build_job *job, froe_tree **out) {
+    const double c = job->option[HEIGHT];
+    const split_job split = build_split_job(job);
+    build_promise(job, "height", job->scene->object_count, 0); /* renewed once it is known */
+    if (job->option[EFFORT] == EFFORT_MIN && (c == 0 || c > LOW)) return grow_two(job, out);
+    return grow(job, &split, (int)job->option[EFFORT], c, out);
 }
 
 const build_method build_method_grain = {
