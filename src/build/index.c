@@ -411,7 +411,7 @@ static froe_status build_in_plane(build_job *job, froe_tree **out) {
     froe_status status = num_context_new(&job->alloc, &w.context);
     if (status) return status;
     if (job->first > w.context.first) w.context.first = job->first;
-    status = packer_new(&job->alloc, job->scene->object_count, job->leaf, &w.packer);
+    status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
     if (!status) {
         status = grow(&w, out);
         packer_free(&w.packer);

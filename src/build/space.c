@@ -117,7 +117,7 @@ static froe_status begin(space_work *w) {
 
 froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
     space_work w = {.job = job, .growth = growth};
-    froe_status status = packer_new(&job->alloc, job->scene->object_count, job->leaf, &w.packer);
+    froe_status status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
     if (status) return status;
     status = begin(&w);
     if (!status) status = do_cells(&w);

@@ -6,7 +6,7 @@
 #include "split/surface.h"
 #include <math.h>
 
-enum { BINS = 32, FEW_BINS = 16, FEW = 64, SAMPLES = 4096, TRIES = 8 };
+enum { BINS = 32, FEW_BINS = 16, FEW = 64, SAMPLES = 4096, TRIES = 8, AHEAD = 12 };
 
 /* -------------------------------------------------------------------- choose -- */
 
@@ -161,6 +161,7 @@ void surface_deal(const froe_scene *s, const space_item *items, uint32_t count, 
     uint32_t below = 0, above = 0;
     for (uint32_t i = 0; i < count; i++) {
         const space_item item = items[i]; /* positive may be items */
+        if (i + AHEAD < count && classes[i + AHEAD] == 3) scene_ask(s, items[i + AHEAD].object);
         if (classes[i] == 3) {
             below += clip(s, &item, cut, 0, thorough, negative + below);
             above += clip(s, &item, cut, 1, thorough, positive + above);

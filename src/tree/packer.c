@@ -34,9 +34,10 @@ static uint8_t *block_at(const tree_packer *p, uint32_t block) {
     return p->memory + gap(p->memory) + (size_t)block * PACKED_BLOCK;
 }
 
-froe_status packer_new(const froe_allocator *alloc, uint32_t objects, uint32_t leaf, tree_packer *out) {
+froe_status packer_new(const froe_allocator *alloc, int dim, uint32_t objects, uint32_t leaf, tree_packer *out) {
     tree_packer p = {.alloc = *alloc};
-    uint64_t leaves = objects / (leaf / 2 + 1) + 1, blocks = leaves + objects / 4;
+    /* Room for the rest of a tree of space is taken, not touched, and given back: large arrays are slow to move. */
+    uint64_t leaves = objects / (leaf / 2 + 1) + 1, blocks = leaves + (dim == 3 ? objects : objects / 4);
     bool taken = !resize(&p, blocks < UINT32_MAX / 2 ? (uint32_t)blocks : UINT32_MAX / 2) &&
                  array_reserve(alloc, &p.owners, objects + 1) && array_reserve(alloc, &p.nodes, 2 * leaves + 1);
     if (taken) p.nodes.data[p.nodes.count++] = (tree_node){0};

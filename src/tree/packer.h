@@ -1,7 +1,7 @@
 /* packer.h: a packed tree while it grows, in the order in which it will lie: depth first, negative child first.
  *
  *     tree_packer p;
- *     packer_new(scene, &p);                                   // node 0 is open
+ *     packer_new(..., &p);                                     // node 0 is open
  *     packer_split(&p, 0, axis, value, &child);                // child and child + 1 are open
  *     packer_leaf(&p, child, &box, fragments, count, flags);
  *     ...
@@ -24,7 +24,7 @@ typedef struct tree_packer {
 } tree_packer;
 
 /** With room for a scene of so many objects at leaves of so many fragments. */
-froe_status packer_new(const froe_allocator *alloc, uint32_t objects, uint32_t leaf, tree_packer *out);
+froe_status packer_new(const froe_allocator *alloc, int dim, uint32_t objects, uint32_t leaf, tree_packer *out);
 void packer_free(tree_packer *packer);
 /** FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status packer_split(tree_packer *packer, uint32_t node, int axis, double value, uint32_t *child);

@@ -6,6 +6,8 @@
 #include "tree/space.h"
 #include <math.h>
 
+enum { AHEAD = 8 };
+
 bool space_is_tame(const double *lo, const double *hi) {
     double most = 0, size = 0;
     for (int k = 0; k < 3; k++) {
@@ -82,6 +84,7 @@ void space_write(space_header *h, const froe_scene *s, const space_item *items, 
     uint32_t *ids = (uint32_t *)(void *)(h + 1);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t object = items[i].object;
+        if (i + AHEAD < count) scene_ask(s, items[i + AHEAD].object);
         grow(&parts, items[i].lo, items[i].hi);
         for (uint32_t c = 0; i < triangles && c < 3; c++) {
             const double *x = scene_point(s, object, c);
