@@ -66,7 +66,7 @@ static inline int geom_range_has(const geom_range *range, const double *x) {
             sum += gap * gap;
         }
         in = sum < square * sure - NUM_BALL_TINY;
-        return in | (sum * sure > square + NUM_BALL_TINY) ? in : NUM_UNSURE;
+        return (in | (sum * sure > square + NUM_BALL_TINY)) ? in : NUM_UNSURE;
     }
     default:
         return NUM_UNSURE;
