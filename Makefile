@@ -74,6 +74,9 @@ docs: build ## tables, outputs and the picture in the documents, as they come ou
 	@$(BUILD)/bin/froe generate mixed -n 14 --seed 4 -o $(BUILD)/trapezoids.geojson --quiet
 	@$(BUILD)/bin/froe build $(BUILD)/trapezoids.geojson --method cylindrical --leaf 0 -o $(BUILD)/trapezoids.froe --quiet
 	@$(BUILD)/bin/froe draw $(BUILD)/trapezoids.froe -o docs/pictures/trapezoids.png --width 500 --no-legend --quiet
+	@$(BUILD)/bin/froe generate points -n 150 --seed 5 -o $(BUILD)/fat.csv --quiet
+	@$(BUILD)/bin/froe build $(BUILD)/fat.csv --method bar -o $(BUILD)/fat.froe --quiet
+	@$(BUILD)/bin/froe draw $(BUILD)/fat.froe -o docs/pictures/bar.png --width 500 --no-legend --quiet
 
 format: deps-lint ## all sources as .clang-format says
 	@git ls-files '*.c' '*.h' | xargs clang-format -i

@@ -224,6 +224,56 @@ static void against_found(const char *what, froe_scene *scene) {
     froe_scene_free(scene);
 }
 
+/** The square that the points of make_ring() lie around. */
+static froe_range middle(uint64_t *state, const froe_scene *scene, double size, double *points) {
+    froe_range r = froe_range_defaults();
+    (void)state, (void)scene, (void)size;
+    for (int k = 0; k < 2; k++) points[k] = 1.0 / 3, points[2 + k] = 2.0 / 3;
+    r.points = points;
+    return r;
+}
+
+enum { EVERYWHERE = 10000, RING = 64 }; /* 1 / eps of the ring */
+
+/** Points everywhere, and k more within eps diameters of the border of the middle square, beyond it. */
+static froe_scene *make_ring(size_t k) {
+    const size_t n = EVERYWHERE + k;
+    const double width = sqrt(2) / 3 / RING;
+    double *x = room(2 * n);
+    uint64_t state = 13;
+    for (size_t i = 0; i < n; i++) {
+        const double along = 1.0 / 3 + draw(&state) / 3, out = width * draw(&state);
+        const int axis = i % 2, far = i / 2 % 2;
+        x[2 * i + (size_t)axis] = i < k ? along : draw(&state);
+        x[2 * i + 1 - (size_t)axis] = i >= k ? draw(&state) : far ? 2.0 / 3 + out : 1.0 / 3 - out;
+    }
+    return scene_of(2, FROE_POINT, n, x);
+}
+
+/** What lies near the border is all that an exact search pays for, beside log n + 1/eps. */
+static void against_near(const char *folder) {
+    figure f = {.count = 0};
+    printf("\nPoints within 1/%d diameter of the border, %d others: nodes of the exact search\n\n| k_eps |", RING,
+           EVERYWHERE);
+    for (size_t k = 64; k <= 65536; k *= 4) printf(" %zu |", k);
+    printf("\n|---|---|---|---|---|---|---|\n");
+    for (int i = 0; i < SPECS; i++) {
+        if (!strcmp(specs[i].method, "converted")) continue;
+        add(&f, specs[i].name);
+        printf("| %s |", specs[i].name);
+        for (size_t k = 64; k <= 65536; k *= 4) {
+            froe_scene *scene = make_ring(k);
+            froe_tree *tree = build(scene, specs + i);
+            point(&f, (double)k, ask(tree, middle, 0, 0).nodes);
+            printf(" %.0f |", f.y[f.count - 1][f.series[f.count - 1].count - 1]);
+            froe_tree_free(tree);
+            froe_scene_free(scene);
+        }
+        printf("\n");
+    }
+    save(&f, folder, "near", "Nodes against what lies near the border, exact search", "k_eps");
+}
+
 static void against_n(const char *what, froe_scene *make(size_t n), const char *folder, const char *name) {
     figure f = {.count = 0};
     printf("\n%s, eps = 1/8, a third of the side: nodes (height)\n\n| n | 1000 | 4000 | 16000 | 64000 |\n", what);
@@ -391,6 +441,7 @@ int main(int argc, char **argv) {
     against_eps("Triangles of boxes in space, the same", cuboids(50000), cube, 1.0 / 3, NULL, "");
     against_eps("Points along two lines, thin ranges between", make_lines(100000), needle, 0.001, folder, "thin");
     against_found("Points in the plane", make_points(2, 100000));
+    against_near(folder);
     against_n("Points in the plane", plane_points, NULL, "");
     against_n("Segments in the plane", scatter, folder, "n");
     against_n("Triangles of boxes in space", cuboids, NULL, "");
