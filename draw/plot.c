@@ -233,7 +233,8 @@ static double entry_width(const char *name) {
 
 static bool has_key(const plot *p) {
     bool named = p->count > 1;
-    for (size_t s = 0; s < p->count && named; s++) named = p->series[s].name && *p->series[s].name;
+    for (size_t s = 0; s < p->count && named; s++)
+        named = !p->series[s].count || (p->series[s].name && *p->series[s].name);
     return named;
 }
 
@@ -242,6 +243,7 @@ static double key(plot *p, bool draw) {
     if (!has_key(p)) return 0;
     double x = p->x.from, y = p->o->height + 12;
     for (size_t s = 0; s < p->count; s++) {
+        if (!p->series[s].count) continue; /* it only keeps its place among the colours */
         const double width = entry_width(p->series[s].name);
         if (x + width > p->o->width && x > p->x.from) x = p->x.from, y += ROW;
         if (draw) {

@@ -1,11 +1,13 @@
 /* figures.c: from rows to series of numbers, drawn by the draw library. */
 #include "compare/figures.h"
+#include <froe/froe.h>
 #include <froe/plot.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The series of one figure: one for each method that has points. */
+/* The series of one figure: one for each method there is, so that a method has the same colour in all figures of a
+ * page; most have points. */
 typedef struct figure {
     froe_plot_series *series;
     double *numbers; /* all coordinates */
@@ -33,7 +35,9 @@ static size_t points_of(const json_t *rows, const char *list) {
 
 static bool begin(figure *f, const json_t *rows, const char *list) {
     *f = (figure){.count = 0};
-    f->series = calloc(json_array_size(rows) + 1, sizeof *f->series);
+    size_t methods = 0;
+    while (froe_method_at(methods)) methods++;
+    f->series = calloc(methods + 1, sizeof *f->series);
     f->numbers = calloc(2 * points_of(rows, list) + 1, sizeof *f->numbers);
     return f->series && f->numbers;
 }
@@ -52,21 +56,34 @@ static void add_series(figure *f, const json_t *row, const json_t *items, point_
     json_t *item;
     json_array_foreach((json_t *)items, i, item) count += fn(item, key, x + count, y + count);
     f->used += 2 * json_array_size(items);
-    if (count)
-        f->series[f->count++] = (froe_plot_series){json_string_value(json_object_get(row, "method")), x, y, count};
+    f->series[f->count++] = (froe_plot_series){json_string_value(json_object_get(row, "method")), x, y, count};
+}
+
+static const json_t *row_of(const json_t *rows, const char *method) {
+    size_t i;
+    json_t *row;
+    json_array_foreach((json_t *)rows, i,
+                       row) if (strcmp(json_string_value(json_object_get(row, "method")), method) == 0) return row;
+    return NULL;
+}
+
+static bool has_points(const figure *f) {
+    size_t points = 0;
+    for (size_t i = 0; i < f->count; i++) points += f->series[i].count;
+    return points > 0;
 }
 
 static bool put_figure(FILE *out, const json_t *rows, const char *list, point_fn *fn, const char *key,
                        const froe_plot_options *options) {
     figure f;
     bool ok = begin(&f, rows, list);
-    size_t i;
-    json_t *row;
-    if (ok) json_array_foreach((json_t *)rows, i, row) {
-            const json_t *items = json_object_get(row, list);
+    const froe_method_info *method;
+    for (size_t i = 0; ok && (method = froe_method_at(i)) != NULL; i++) {
+        const json_t *row = row_of(rows, method->name), *items = json_object_get(row, list);
+        if (row || options->kind != FROE_PLOT_COLUMNS) /* columns stand side by side */
             add_series(&f, row, items ? items : json_object_get(json_object_get(row, "queries"), list), fn, key);
-        }
-    if (ok && f.count) {
+    }
+    if (ok && has_points(&f)) {
         fputs("<figure>", out);
         ok = froe_plot_write(f.series, f.count, put_bytes, out, options, NULL) != FROE_E_MEMORY;
         fputs("</figure>\n", out);

@@ -1,4 +1,5 @@
-/* plot.h: figures of numbers as SVG: lines with markers, columns, or markers alone. Companion of draw.h (link froe-draw).
+/* plot.h: figures of numbers as SVG: lines with markers, columns, or markers alone. Companion of draw.h (link
+ * froe-draw).
  *
  *     froe_plot_series s = {.name = "density", .x = n, .y = size, .count = 5};
  *     froe_plot_options o = froe_plot_defaults();
@@ -18,13 +19,14 @@ extern "C" {
 
 /** Points of one colour, in the order in which lines join them. */
 typedef struct froe_plot_series {
-    const char *name; /**< in the key; UTF-8. A figure of one series, or of series without names, has no key */
+    const char *name; /**< in the key; UTF-8. A figure of one series, or of series without names, has no key; a series
+                         without points is not in it, but has its colour all the same */
     const double *x, *y;
     size_t count;
 } froe_plot_series;
 
 typedef enum froe_plot_kind {
-    FROE_PLOT_LINES = 0,  /**< markers joined by lines */
+    FROE_PLOT_LINES = 0,   /**< markers joined by lines */
     FROE_PLOT_COLUMNS = 1, /**< columns from the axis, `column` wide, around x */
     FROE_PLOT_POINTS = 2   /**< markers alone */
 } froe_plot_kind;

@@ -109,6 +109,10 @@ static void what_cannot_be_shown_is_left_out(void **state) {
     s->used = 0;
     assert_int_equal(froe_plot_write(NULL, 0, take, s, NULL, NULL), FROE_OK);
     assert_non_null(strstr(s->text, "nothing to show"));
+    s->used = 0;
+    const froe_plot_series gap[] = {two[0], {"without points", NULL, NULL, 0}, two[1]};
+    assert_int_equal(froe_plot_write(gap, 3, take, s, NULL, NULL), FROE_OK);
+    assert_null(strstr(s->text, "without points"));
     free(s);
 }
 
