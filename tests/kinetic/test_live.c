@@ -57,24 +57,35 @@ static void test_every_event(void **state) {
 
 /* Segments on an integer lattice that do not turn: whole edges lie in one line for an instant, ends ride on others.
  * What happens to those that have no certificates of their own was missed once, in these runs. */
+static void follow_lattice(const moving_kind *kind, uint64_t seed) {
+    pattern_counter counter = {0};
+    froe_motion *m = moving_new(kind, seed, NULL);
+    froe_kinetic *k = start(m, seed);
+    run(k, kind->name, 180, &counter);
+    froe_kinetic_stats s = froe_kinetic_statistics(k);
+    assert_int_equal(s.restarts + s.stuck, 0);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
 static void test_coincidences(void **state) {
     (void)state;
-    pattern_counter counter = {0};
     static const struct {
-        int length, count;
+        int length, spin, count;
         uint64_t seeds[8];
-    } missed[] = {{3, 8, {1, 15, 18, 31, 49, 69, 95, 125}}, {5, 5, {15, 59, 81, 85, 128}}};
-    for (size_t i = 0; i < 2; i++)
+    } missed[] = {{3, 0, 8, {1, 15, 18, 31, 49, 69, 95, 125}},
+                  {4, 0, 1, {21}},
+                  {4, 1, 1, {21}},
+                  {5, 0, 5, {15, 59, 81, 85, 128}}};
+    for (size_t i = 0; i < sizeof missed / sizeof *missed; i++)
         for (int j = 0; j < missed[i].count; j++) {
-            const moving_kind kind = {
-                .name = "no turns", .count = 30, .grid = 8, .length = missed[i].length, .speed = 1};
-            froe_motion *m = moving_new(&kind, missed[i].seeds[j], NULL);
-            froe_kinetic *k = start(m, missed[i].seeds[j]);
-            run(k, kind.name, 180, &counter);
-            froe_kinetic_stats s = froe_kinetic_statistics(k);
-            assert_int_equal(s.restarts + s.stuck, 0);
-            froe_kinetic_free(k);
-            froe_motion_free(m);
+            const moving_kind kind = {.name = "lattice",
+                                      .count = 30,
+                                      .grid = 8,
+                                      .length = missed[i].length,
+                                      .speed = 1,
+                                      .spin = missed[i].spin};
+            follow_lattice(&kind, missed[i].seeds[j]);
         }
 }
 
