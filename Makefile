@@ -77,6 +77,9 @@ docs: build ## tables, outputs and the picture in the documents, as they come ou
 	@$(BUILD)/bin/froe generate points -n 150 --seed 5 -o $(BUILD)/fat.csv --quiet
 	@$(BUILD)/bin/froe build $(BUILD)/fat.csv --method bar -o $(BUILD)/fat.froe --quiet
 	@$(BUILD)/bin/froe draw $(BUILD)/fat.froe -o docs/pictures/bar.png --width 500 --no-legend --quiet
+	@$(BUILD)/bin/froe generate moving-polygons -n 36 --seed 6 -o $(BUILD)/polygons.mfjson --quiet
+	@$(BUILD)/bin/froe simulate $(BUILD)/polygons.mfjson --at 20 -o $(BUILD)/polygons.froe --quiet
+	@$(BUILD)/bin/froe draw $(BUILD)/polygons.froe -o docs/pictures/partition.png --width 500 --no-legend --quiet
 
 format: deps-lint ## all sources as .clang-format says
 	@git ls-files '*.c' '*.h' | xargs clang-format -i

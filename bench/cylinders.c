@@ -41,10 +41,10 @@ static result of_froe(const plane_scene *p) {
     r.bytes = (double)froe_tree_report(tree).bytes / (double)p->n;
     froe_query *query = NULL;
     must(froe_query_new(tree, &query, NULL));
-    uint32_t object;
+    froe_list found;
     for (size_t i = 0; i < POINTS + WARM; i++) {
         if (i == WARM) start = bench_cpu();
-        must(froe_query_vertical(query, p->points + 2 * i, 1, &object, NULL));
+        must(froe_query_locate(query, p->points + 2 * i, &found, NULL));
     }
     r.rate = POINTS / (bench_cpu() - start);
     froe_query_free(query);
