@@ -2,7 +2,9 @@
 #include "base/random.h"
 #include "geom/meet.h"
 #include "geom/polytope.h"
+#include "geom/range.h"
 #include "oracle/convex.h"
+#include <gmp.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -175,8 +177,56 @@ static void intersections_of_halfspaces_meet_as_in_rationals(void **state) {
         }
 }
 
+/* Is a point within the radius of the centre? */
+static bool is_within(int dim, const double *centre, double radius, const double *x) {
+    mpq_t a, b, sum;
+    mpq_inits(a, b, sum, NULL);
+    for (int k = 0; k < dim; k++) {
+        mpq_set_d(a, centre[k]), mpq_set_d(b, x[k]);
+        mpq_sub(a, a, b);
+        mpq_mul(a, a, a);
+        mpq_add(sum, sum, a);
+    }
+    mpq_set_d(b, radius);
+    mpq_mul(b, b, b);
+    const bool within = mpq_cmp(sum, b) <= 0;
+    mpq_clears(a, b, sum, NULL);
+    return within;
+}
+
+/* Radii within a few roundings of the distance, or of a 2^-44th part of it: on either side of what filters are sure of.
+ */
+static void points_on_the_border_of_balls_are_told_as_in_rationals(void **state) {
+    enum { ROUNDS = 3000 };
+    num_context context;
+    (void)state;
+    assert_int_equal(num_context_new(NULL, &context), 0);
+    for (int i = 0, sure = 0; i < ROUNDS; i++) {
+        dice d = {.seed = (uint64_t)i, .style = i % STYLES};
+        const int dim = 1 + i % 8;
+        double centre[8], x[8], sum = 0;
+        for (int k = 0; k < dim; k++) centre[k] = coordinate(&d), x[k] = coordinate(&d);
+        for (int k = 0; k < dim; k++) sum = hypot(sum, centre[k] - x[k]);
+        const double step = below(&d, 2) ? 0x1p-52 : 0x1p-45, r = sum * (1 + step * ((double)below(&d, 9) - 4));
+        if (!isfinite(r)) continue;
+        const bool within = is_within(dim, centre, r, x);
+        for (num_stage first = NUM_FILTER; first <= NUM_EXACT; first++) {
+            context.first = first;
+            assert_int_equal(geom_meet_boxes(&context, dim, x, x, 0, centre, centre, r), within);
+            assert_int_equal(geom_meet_boxes(&context, dim, x, x, r, centre, centre, 0), within);
+        }
+        const geom_range range = {.kind = GEOM_RANGE_BALL, .dim = dim, .set = {.coords = centre, .radius = r}};
+        const int has = geom_range_has(&range, x);
+        assert_true(has == NUM_UNSURE || has == within);
+        sure += has != NUM_UNSURE;
+        assert_true(i < ROUNDS - 1 || (sure > ROUNDS / 20 && sure < ROUNDS - ROUNDS / 20));
+    }
+    num_context_free(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_on_the_border_of_balls_are_told_as_in_rationals),
         cmocka_unit_test(sets_in_the_plane_meet_as_in_rationals),
         cmocka_unit_test(sets_in_space_meet_as_in_rationals),
         cmocka_unit_test(intersections_of_halfspaces_meet_as_in_rationals),
