@@ -3,8 +3,8 @@
  *     bench_cylinders peer [N]                 default 100,000 disjoint segments: short ones, and some that are long
  *     bench_cylinders growth FOLDER [LARGEST]  into FOLDER: cylinders-size.svg, cylinders-height.svg; default 10^6
  *
- * One thread, processor time. CGAL's map has faces and is made of exact numbers, froe's tree has them, too, where they
- * are needed. A face is asked for by its segment above; froe_bench_index shows that the answers are right. */
+ * One thread, processor time. CGAL's map keeps faces, and exact numbers; froe's tree has cells, and exact numbers where
+ * they are needed. Both are asked where points are that lie on no segment: in which cell, in which face. */
 #include "bench.h"
 #include "figure.h"
 #include "plane.h"
