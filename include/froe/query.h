@@ -15,7 +15,8 @@
  *
  * A query context holds what one thread needs to ask: stacks, marks, numbers. It grows with the
  * first queries and then allocates nothing. What is prepared once for all threads (the structure
- * that locates points in deep trees, the borders of groups) is shared by its forks.
+ * that locates points in deep trees, the borders of groups, the coordinates of points in the order of
+ * the tree) is shared by its forks.
  *
  * Bad queries (NaN, infinity where no bound may be infinite, lo > hi, a negative radius, a
  * direction of length zero) are FROE_E_INPUT and leave the context as it was. */
