@@ -223,8 +223,8 @@ static void bench_points(const char *what, int dim, double *points, size_t n) {
     must(froe_scene_add(scene, &o, &why), &why);
     const fuzzy_peer *peer = dim == 2 ? &peer_fuzzy_2 : &peer_fuzzy_3;
     column columns[] = {column_of_tree("bar", scene, "bar", FROE_LEAF_OWN),
-                        column_of_tree("bar, leaf 8", scene, "bar", 8),
-                        column_of_tree("kd, leaf 8", scene, "kd", 8),
+                        column_of_tree("bar, leaf 32", scene, "bar", 32),
+                        column_of_tree("kd, leaf 32", scene, "kd", 32),
                         {.name = peer->name, .peer = peer, .index = peer->build(points, n)}};
     const int count = sizeof columns / sizeof *columns;
     compare(what, columns, count, scene, FROE_SHAPE_BALL, 10);
