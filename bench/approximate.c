@@ -204,7 +204,7 @@ static void compare(const char *what, column *columns, int count, froe_scene *sc
         for (int e = 0; e < EPSILONS; e++) {
             check(c, columns, r, epsilons[e], out, marks);
             printf(" %.2f (%.1f%%) |", 1e6 * bench_median(c->seconds[e], ROUNDS),
-                   100 * (c->reported[e] / r->found - 1));
+                   100 * fmax(0, c->reported[e] / r->found - 1)); /* check() has seen that nothing lacks */
         }
     }
     printf("\n");
