@@ -6,7 +6,7 @@
  * forgotten or not, and guards of three kinds (de Berg and Streppel, theorems 1 and 3). Counts, which are the same on
  * every machine. With FOLDER, writes figures there: bar-*.svg. A minute. */
 #include "bench.h"
-#include <froe/plot.h>
+#include "figure.h"
 #include <froe/query.h>
 #include <math.h>
 #include <stdio.h>
@@ -137,21 +137,14 @@ static void point(figure *f, double x, double y) {
     f->y[f->count - 1][s->count++] = y;
 }
 
-static bool write_to(void *user, const void *bytes, size_t count) {
-    return fwrite(bytes, 1, count, user) == count;
-}
-
 static void save(const figure *f, const char *folder, const char *name, const char *title, const char *x) {
-    char path[1000];
+    char file[64];
     froe_plot_options o = froe_plot_defaults();
     if (!folder) return;
-    snprintf(path, sizeof path, "%s/bar-%s.svg", folder, name);
-    FILE *file = fopen(path, "w");
-    if (!file) perror(path), exit(1);
+    snprintf(file, sizeof file, "bar-%s.svg", name);
     o.title = title, o.x_label = x, o.y_label = "nodes visited";
     o.log_x = o.log_y = true;
-    must(froe_plot_write(f->series, f->count, write_to, file, &o, NULL));
-    if (fclose(file)) perror(path), exit(1);
+    bench_figure(folder, file, f->series, f->count, &o);
 }
 
 /* ------------------------------------------------------------------- tables -- */
