@@ -53,6 +53,13 @@ static bool put(void *user, const void *bytes, size_t count) {
     return fwrite(bytes, 1, count, user) == count;
 }
 
+/* As people read it. */
+static const char *label_of(char *column) {
+    for (char *c = column; *c; c++)
+        if (*c == '_') *c = ' ';
+    return column;
+}
+
 static froe_status write_figure(const table *t, const char *title, const char *x, const char *y) {
     froe_plot_series series[SERIES];
     froe_plot_options o = froe_plot_defaults();
@@ -75,5 +82,7 @@ int main(int argc, char **argv) {
             if (!field(line, columns[i], cells[i])) return fail("a row is too short");
         if (!add_row(&t, cells[0], cells[1], cells[2])) return fail("too many rows");
     }
-    return write_figure(&t, argc > 4 ? argv[4] : NULL, argv[2], argv[3]) ? fail("the figure was not written") : 0;
+    return write_figure(&t, argc > 4 ? argv[4] : NULL, label_of(argv[2]), label_of(argv[3]))
+               ? fail("the figure was not written")
+               : 0;
 }
