@@ -25,15 +25,18 @@ typedef struct counts {
     uint32_t of[4]; /**< fragments per class */
 } counts;
 
-/** Classifies all fragments of the cell; classes and sides are left in the set. */
-static froe_status classify_all(split_set *set, const split_cell *cell, const split_plane *plane, counts *out) {
+typedef int classify_fn(split_set *set, const split_plane *plane, const split_fragment *fragment);
+
+/** Classifies all fragments of the cell; classes, and sides where they are found, are left in the set. */
+static froe_status classify_all(split_set *set, const split_cell *cell, const split_plane *plane, classify_fn *classify,
+                                counts *out) {
     memset(out, 0, sizeof *out);
     set->classes.count = set->sides.count = 0;
     if (!array_reserve(&set->alloc, &set->classes, cell->count)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < cell->count; i++) {
         const split_fragment *f = set->items.data + cell->first + i;
         if (!array_reserve(&set->alloc, &set->sides, split_corner_count(set, f))) return FROE_E_MEMORY;
-        int class = split_classify(set, plane, f);
+        int class = classify(set, plane, f);
         set->classes.data[set->classes.count++] = (uint8_t) class;
         out->of[class]++;
     }
@@ -55,16 +58,16 @@ static bool prefer_lowest(const split_set *set, const split_cell *cell, froe_cut
 static froe_status classify(split_set *set, const split_cell *cell, const froe_cut *cut, split_plane *plane,
                             counts *out) {
     *plane = split_plane_of(set->scene, cut);
-    froe_status status = classify_all(set, cell, plane, out);
+    froe_status status = classify_all(set, cell, plane, split_classify, out);
     if (status || !prefer_lowest(set, cell, &plane->cut)) return status;
     *plane = split_plane_of(set->scene, &plane->cut);
-    return classify_all(set, cell, plane, out);
+    return classify_all(set, cell, plane, split_classify, out);
 }
 
 froe_status cell_tally(split_work *work, const split_cell *cell, const froe_cut *cut, split_tally *out) {
     split_plane plane = split_plane_of(work->set.scene, cut);
     counts n;
-    froe_status status = classify_all(&work->set, cell, &plane, &n);
+    froe_status status = classify_all(&work->set, cell, &plane, split_class, &n);
     *out = (split_tally){n.of[SPLIT_NEG], n.of[SPLIT_POS], n.of[SPLIT_ON], n.of[SPLIT_BOTH]};
     return status;
 }

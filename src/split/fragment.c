@@ -101,31 +101,41 @@ static int object_side(split_set *set, const split_plane *plane, uint32_t object
     return side;
 }
 
-/** Beyond the filter: by the sides of what the corner lies between, then by its predicate. */
-static int derived_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
-    geom_plane own, first, second;
+/** Beyond the filter, by the predicate of the corner; a crossing lies between two vertices first of all. */
+static int corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
+    geom_plane own, first = split_plane_at(set, k->type == SPLIT_CROSSING ? k->c : k->a), second;
     if (k->type == SPLIT_CROSSING) {
         const double *from = scene_vertex(set->scene, k->a), *to = scene_vertex(set->scene, k->b);
         int u = vertex_side(set, plane, from), v = vertex_side(set, plane, to);
-        if (u == v) return u; /* the crossing lies between two points of one side, or of the plane */
-        first = split_plane_at(set, k->c);
-        return geom_side_crossing(&set->context, &plane->plane, from, to, &first);
+        return u == v ? u : geom_side_crossing(&set->context, &plane->plane, from, to, &first);
     }
-    int side = object_side(set, plane, object);
-    if (side != NUM_UNSURE) return side;
     scene_support(set->scene, object, &own);
-    first = split_plane_at(set, k->a);
     second = split_plane_at(set, k->b);
     return geom_side_corner(&set->context, &plane->plane, &own, &first, &second);
 }
 
+/** The same, but by the sides of the corners of the object where these tell. */
+static int derived_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
+    int side = k->type == SPLIT_CORNER ? object_side(set, plane, object) : NUM_UNSURE;
+    return side == NUM_UNSURE ? corner_side(set, plane, object, k) : side;
+}
+
+/** By the image of a corner that is no vertex; NUM_UNSURE: it is too near. */
+static int image_sign(const split_set *set, const split_plane *plane, const split_corner *k) {
+    return set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, k->x, k->error) : NUM_UNSURE;
+}
+
+static int image_side(split_set *set, const split_plane *plane, const split_corner *k) {
+    int side = image_sign(set, plane, k);
+    set->context.stats.calls += side != NUM_UNSURE;
+    set->context.stats.filtered += side != NUM_UNSURE;
+    return side;
+}
+
 int split_corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
     if (k->type == SPLIT_VERTEX) return vertex_side(set, plane, k->x);
-    int side = set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, k->x, k->error) : NUM_UNSURE;
-    if (side == NUM_UNSURE) return derived_side(set, plane, object, k);
-    set->context.stats.calls++;
-    set->context.stats.filtered++;
-    return side;
+    int side = image_side(set, plane, k);
+    return side == NUM_UNSURE ? derived_side(set, plane, object, k) : side;
 }
 
 static int class_of(bool negative, bool positive) {
@@ -163,6 +173,29 @@ static int corner_sides(split_set *set, const split_plane *plane, const split_fr
         negative |= side < 0;
         positive |= side > 0;
         set->sides.data[set->sides.count++] = (int8_t)side;
+    }
+    return class_of(negative, positive);
+}
+
+/** The class of a ring alone. Whether a plane splits it is mostly seen from corners that are far from the plane; only
+ * where they do not tell are the others worth exact numbers, and only until both sides are met. */
+static int ring_class(split_set *set, const split_plane *plane, const split_fragment *f) {
+    const split_corner *ring = set->corners.data + f->first;
+    bool negative = false, positive = false, unsure = false;
+    for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
+        int side = ring[i].type == SPLIT_VERTEX ? vertex_side(set, plane, ring[i].x) : image_side(set, plane, ring + i);
+        unsure |= side == NUM_UNSURE;
+        negative |= side == -1;
+        positive |= side == 1;
+    }
+    if (!unsure || (negative && positive)) return class_of(negative, positive);
+    const int whole = object_side(set, plane, f->object);
+    if (whole != NUM_UNSURE) return class_of(whole<0, whole> 0);
+    for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
+        if (ring[i].type == SPLIT_VERTEX || image_sign(set, plane, ring + i) != NUM_UNSURE) continue;
+        int side = corner_side(set, plane, f->object, ring + i);
+        negative |= side < 0;
+        positive |= side > 0;
     }
     return class_of(negative, positive);
 }
@@ -222,6 +255,15 @@ int split_classify(split_set *set, const split_plane *plane, const split_fragmen
     if (form == FROE_BALL) return classify_ball(set, plane, f->object);
     if (form == FROE_BOX && plane->plane.form != GEOM_AXIS) return classify_box(set, plane, f->object);
     return classify_corners(set, plane, f, split_is_cut(form));
+}
+
+int split_class(split_set *set, const split_plane *plane, const split_fragment *f) {
+    bool known = plane->cut.kind == FROE_CUT_OBJECT && plane->cut.id[0] == f->object;
+    if (f->count && !known) return ring_class(set, plane, f);
+    const size_t start = set->sides.count;
+    const int class = split_classify(set, plane, f);
+    set->sides.count = start;
+    return class;
 }
 
 /* ---------------------------------------------------------------- cutting -- */

@@ -76,6 +76,8 @@ static inline bool split_is_cut(froe_kind form) {
 /** Exact class of a fragment; when that is SPLIT_BOTH and the kind is cut, appends the
  * sides of its corners to set->sides, where the caller has made room. */
 int split_classify(split_set *set, const split_plane *plane, const split_fragment *fragment);
+/** The class alone, for less; the caller has made the same room. */
+int split_class(split_set *set, const split_plane *plane, const split_fragment *fragment);
 /** The i-th corner, made on the fly for whole objects. */
 split_corner split_corner_of(const split_set *set, const split_fragment *fragment, uint32_t i);
 /** Exact side of a corner of a fragment of `object`. */
