@@ -247,8 +247,8 @@ static spot any_spot(const present *p, fuzz_source *r, int grid) {
     case 2:
         return (spot){end[0].x, end[fuzz_int(r, 0, 1)].y + fuzz_int(r, -1, 1) * ((int64_t)1 << SCALE)};
     default:
-        return (spot){(int64_t)fuzz_int(r, -grid, 2 * grid) << (SCALE - 1), (int64_t)fuzz_int(r, -grid, 2 * grid)
-                                                                                << (SCALE - 1)};
+        return (spot){fuzz_int(r, -grid, 2 * grid) * ((int64_t)1 << (SCALE - 1)),
+                      fuzz_int(r, -grid, 2 * grid) * ((int64_t)1 << (SCALE - 1))};
     }
 }
 
