@@ -1,6 +1,7 @@
 /* cmd_build.c: froe build, from a scene to a tree and its report. */
 #include "command.h"
 #include "exit.h"
+#include "files.h"
 #include "methods.h"
 #include "order.h"
 #include "progress.h"
@@ -9,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct build_args {
     cli_common common;
@@ -53,14 +53,6 @@ static const cli_part parts[] = {
     {"Options", cli_common_options, 0},
     {0},
 };
-
-/* A slip of the hand must not cost the scene. */
-static int check_output(const char *scene, const char *output) {
-    struct stat a, b;
-    if (!output || stat(scene, &a) != 0 || stat(output, &b) != 0) return 0;
-    if (a.st_dev != b.st_dev || a.st_ino != b.st_ino) return 0;
-    return cli_fail(CLI_USE, output, "is the scene itself; the tree needs a file of its own");
-}
 
 /* The settings with what other options stand for; to be freed. */
 static char *settings_of(const build_args *args) {
@@ -124,7 +116,7 @@ static int build_and_report(const build_args *args, froe_scene *scene, double se
 static int run(const void *given) {
     const build_args *args = given;
     int code = cli_check_method(args->method, true);
-    if (!code) code = check_output(args->scene.path, args->output);
+    if (!code) code = cli_check_outputs(&args->scene.path, 1, &args->output, 1);
     if (code) return code;
     froe_scene *scene;
     froe_read_report reader;

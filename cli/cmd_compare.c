@@ -194,6 +194,8 @@ static int run(const void *given) {
     froe_scene *scenes[sizeof args->scenes.at / sizeof *args->scenes.at] = {NULL};
     meter meters[sizeof args->scenes.at / sizeof *args->scenes.at] = {{0}};
     int code = check(args);
+    if (!code)
+        code = cli_check_outputs(args->scenes.at, args->scenes.count, (const char *[]){args->page, args->csv}, 2);
     for (size_t i = 0; i < args->scenes.count && !code; i++) { /* all, before hours of work */
         cli_scene_args scene = args->scene;
         const froe_allocator alloc = meter_allocator(&meters[i]);

@@ -1,6 +1,7 @@
 /* cmd_draw.c: froe draw, a partition as a picture. */
 #include "command.h"
 #include "exit.h"
+#include "files.h"
 #include "progress.h"
 #include "tree_report.h"
 #include <froe/draw.h>
@@ -176,7 +177,8 @@ static int run(const void *given) {
     if (!froe_draw_format_of(args->output, &format))
         return cli_fail(CLI_USE, args->output, "the extension must be .svg, .pdf or .png");
     froe_tree *tree;
-    int code = cli_open_tree(args->tree, &tree);
+    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
+    if (!code) code = cli_open_tree(args->tree, &tree);
     if (code) return code;
     code = draw(args, tree);
     if (!code)

@@ -1,6 +1,7 @@
 /* cmd_export.c: froe export, parts of a tree for other programs. */
 #include "command.h"
 #include "exit.h"
+#include "files.h"
 #include "progress.h"
 #include "tree_report.h"
 #include <froe/io.h>
@@ -52,7 +53,8 @@ static int export_tree(const export_args *args, const froe_tree *tree) {
 static int run(const void *given) {
     const export_args *args = given;
     froe_tree *tree;
-    int code = cli_open_tree(args->tree, &tree);
+    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
+    if (!code) code = cli_open_tree(args->tree, &tree);
     if (code) return code;
     code = check_window(args, tree);
     if (!code) code = export_tree(args, tree);

@@ -1,6 +1,7 @@
 /* cmd_measure.c: froe measure, what a scene is like: clutter, density, fatness, directional density. */
 #include "command.h"
 #include "exit.h"
+#include "files.h"
 #include "measure_picture.h"
 #include "progress.h"
 #include "report.h"
@@ -148,7 +149,8 @@ static int run(const void *given) {
     const measure_args *args = given;
     froe_scene *scene;
     froe_read_report reader;
-    int code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
+    int code = cli_check_outputs(&args->scene.path, 1, (const char *[]){args->cube, args->ball}, 2);
+    if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
     survey s = {.args = args, .scene = scene, .options = froe_measure_defaults()};
     s.options.samples = (uint32_t)args->samples;

@@ -159,6 +159,7 @@ static int ask(const range_args *args, const froe_tree *tree) {
 static int run(const void *given) {
     const range_args *args = given;
     froe_tree *tree;
+    if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps must not be negative");
     int code = cli_open_tree(args->query.tree, &tree);
     if (code) return code;
     code = ask(args, tree);
@@ -172,7 +173,7 @@ const cli_command cli_command_range = {
     .about =
         "Prints one line query,object for each object that meets a range, in the order of the ranges, then of the "
         "objects. Ranges and objects are closed, and answers are exact. A query's number is that of its row, from 0, "
-        "or what its column query says.\n\n"
+        "or, where several rows make a range, what its column query says.\n\n"
         "Columns of the CSV, where x,y is x,y,z in space: box lo_x,lo_y,hi_x,hi_y (inf and -inf are bounds, too); "
         "ball x,y,r; capsule ax,ay,bx,by,r; segment ax,ay,bx,by; ray ox,oy,dx,dy. Of simplex and hull, query,x,y, "
         "each row is a corner; of halfspaces, query,nx,ny,c, each row is a halfspace n . x <= c; rows of one query "

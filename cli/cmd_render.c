@@ -1,6 +1,7 @@
 /* cmd_render.c: froe render, hidden surfaces removed, exactly. */
 #include "command.h"
 #include "exit.h"
+#include "files.h"
 #include "progress.h"
 #include "render_options.h"
 #include "tree_report.h"
@@ -268,7 +269,8 @@ static int cut_section(const render_args *args, froe_tree **tree) {
 static int run(const void *given) {
     const render_args *args = given;
     froe_tree *tree;
-    int code = cli_open_tree(args->tree, &tree);
+    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
+    if (!code) code = cli_open_tree(args->tree, &tree);
     if (code) return code;
     code = cut_section(args, &tree);
     if (code) {

@@ -1,6 +1,7 @@
 /* cmd_simulate.c: froe simulate, what moving objects do. */
 #include "command.h"
 #include "exit.h"
+#include "files.h"
 #include "follow.h"
 #include "progress.h"
 #include "report.h"
@@ -22,7 +23,8 @@ static const cli_option options[] = {
     {"to", 0, CLI_REAL, offsetof(simulate_args, to), "T", .help = "end here (default: the file's last instant)"},
     {"contacts", 0, CLI_TEXT, offsetof(simulate_args, contacts), "FILE",
      .help = "write all contacts, with their times, as .csv or .json"},
-    {"first", 0, CLI_FLAG, offsetof(simulate_args, first), .help = "only the first contact of all"},
+    {"first", 0, CLI_FLAG, offsetof(simulate_args, first),
+     .help = "only the first contact of all, and those that begin with it"},
     {"apart", 0, CLI_FLAG, offsetof(simulate_args, apart), .help = "leave out contacts within one feature"},
     {"events", 0, CLI_TEXT, offsetof(simulate_args, follow.events), "FILE",
      .help = "follow the partition of the segments, and write what changes it, with the times, as .csv"},
@@ -139,7 +141,8 @@ static int check(const simulate_args *args) {
     if (isnan(args->follow.at) != !args->follow.tree)
         return cli_fail(CLI_USE, NULL, "--at and --output go together: a time, and a file for its tree");
     if (!isnan(args->seconds) && !(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds must be above 0");
-    return 0;
+    const char *const outputs[] = {args->contacts, args->animate, args->player, args->follow.events, args->follow.tree};
+    return cli_check_outputs(&args->path, 1, outputs, sizeof outputs / sizeof *outputs);
 }
 
 static int run(const void *given) {

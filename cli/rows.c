@@ -15,7 +15,8 @@ static bool next_line(cli_rows *rows) {
     ssize_t length = getline(&rows->text, &rows->capacity, rows->file);
     if (length < 0) return false;
     rows->line++;
-    while (length && strchr("\r\n", rows->text[length - 1])) length--;
+    while (length && (rows->text[length - 1] == '\n' || rows->text[length - 1] == '\r')) length--;
+    for (char *zero; (zero = memchr(rows->text, '\0', (size_t)length));) *zero = '?'; /* no text: it spoils its field */
     rows->text[length] = '\0';
     return true;
 }

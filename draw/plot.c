@@ -10,6 +10,7 @@
 #include <froe/plot.h>
 
 #include "axis.h"
+#include "escape.h"
 #include "memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -43,18 +44,8 @@ static void put_text(plot *p, const char *text) {
 }
 
 static void put_escaped(plot *p, const char *text) {
-    for (; *text; text++) {
-        if (*text == '<')
-            put_text(p, "&lt;");
-        else if (*text == '>')
-            put_text(p, "&gt;");
-        else if (*text == '&')
-            put_text(p, "&amp;");
-        else if (*text == '"')
-            put_text(p, "&quot;");
-        else
-            put(p, text, 1);
-    }
+    char out[8];
+    for (size_t n; (n = draw_escape(&text, out));) put(p, out, n);
 }
 
 /* "12.3" in every locale. */

@@ -3,6 +3,7 @@
  * Coordinates are whole numbers of steps of the grid, scaled to the page by a group around everything: no decimal
  * points. Differences are taken between rounded points, so that errors do not add up. All rings turn the same way and
  * fill by the nonzero rule: faces seen from behind and from the front may share a path. */
+#include "escape.h"
 #include "render.h"
 #include <math.h>
 #include <stdio.h>
@@ -41,17 +42,8 @@ static void put_text(svg_writer *w, const char *text) {
 }
 
 static void put_escaped(svg_writer *w, const char *text) {
-    for (; *text; text++) {
-        const char *as = *text == '<'   ? "&lt;"
-                         : *text == '>' ? "&gt;"
-                         : *text == '&' ? "&amp;"
-                         : *text == '"' ? "&quot;"
-                                        : NULL;
-        if (as)
-            put_text(w, as);
-        else
-            put(w, text, 1);
-    }
+    char out[8];
+    for (size_t n; (n = draw_escape(&text, out));) put(w, out, n);
 }
 
 static void put_number(svg_writer *w, int64_t steps) {
