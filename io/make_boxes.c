@@ -165,9 +165,9 @@ void io_make_moons(io_maker *m) {
         add(m, at, hi);
         for (size_t moon = 0; moon < 2 * crowd; moon++) {
             int across = moon < crowd ? 1 : 2;
-            size_t place = moon % crowd;
-            lo[0] = at[0] + large + (double)(2 * (place / side)) + 1 + io_between(m, 0, 0.5);
-            lo[3 - across] = at[3 - across] + (double)(2 * (place % side));
+            size_t place = moon % crowd, layer = place / side;
+            lo[0] = at[0] + large + 2 * (double)layer + 1 + io_between(m, 0, 0.5);
+            lo[3 - across] = at[3 - across] + 2 * (double)(place % side);
             lo[across] = at[across] + large - 0.5;
             for (int k = 0; k < 3; k++) hi[k] = lo[k] + 1;
             add(m, lo, hi);
