@@ -19,25 +19,6 @@
 enum { ROUNDS = 5, BALLS = 400, HALVINGS = 40, EPSILONS = 4 };
 static const double epsilons[EPSILONS] = {0, 0.01, 0.1, 1};
 
-static void must(froe_status status, const froe_diagnostic *why) {
-    if (!status) return;
-    fprintf(stderr, "bench_approximate: %s\n", why->message);
-    exit(1);
-}
-
-static double unit(uint64_t *state) { /* splitmix64 */
-    uint64_t x = *state += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
-static void *room(size_t count, size_t size) {
-    void *p = calloc(count ? count : 1, size);
-    if (!p) exit(1);
-    return p;
-}
-
 /* ------------------------------------------------------------------- ranges -- */
 
 /** Ranges around points of the scene, each with about as many objects as asked for. */
@@ -51,7 +32,7 @@ typedef struct ranges {
 static uint64_t count(froe_query *q, const froe_range *range) {
     froe_diagnostic why;
     uint64_t found;
-    must(froe_query_count(q, range, &found, &why), &why);
+    bench_must(froe_query_count(q, range, &found, &why), &why);
     return found;
 }
 
@@ -85,12 +66,12 @@ static void make_ranges(const froe_tree *tree, froe_range_shape shape, uint64_t 
     uint64_t state = 5;
     froe_query *q;
     froe_diagnostic why;
-    must(froe_query_new(tree, &q, &why), &why);
+    bench_must(froe_query_new(tree, &q, &why), &why);
     froe_scene_bounds(scene, lo, hi);
     for (int k = 0; k < dim; k++) most += hi[k] - lo[k];
     out->found = 0;
     for (int i = 0; i < BALLS; i++) {
-        const uint32_t object = (uint32_t)(unit(&state) * (double)froe_scene_object_count(scene));
+        const uint32_t object = (uint32_t)(bench_unit(&state) * (double)froe_scene_object_count(scene));
         const double *centre = froe_scene_vertex(scene, froe_scene_corner(scene, object, 0));
         out->range[i] = froe_range_defaults();
         out->range[i].shape = shape;
@@ -117,7 +98,7 @@ static column column_of_tree(const char *name, froe_scene *scene, const char *me
     column c = {.name = name};
     froe_diagnostic why;
     c.tree = bench_build(scene, method, NULL, leaf, 1, NULL);
-    must(froe_query_new(c.tree, &c.query, &why), &why);
+    bench_must(froe_query_new(c.tree, &c.query, &why), &why);
     return c;
 }
 
@@ -137,7 +118,7 @@ static froe_list answer(const column *c, const froe_range *exact, double eps, ui
     range.eps = eps;
     if (c->peer)
         return (froe_list){out, c->peer->ball(c->index, range.points, range.radius + margin / 2, margin / 2, out)};
-    must(froe_query_range(c->query, &range, &found, &why), &why);
+    bench_must(froe_query_range(c->query, &range, &found, &why), &why);
     return found;
 }
 
@@ -164,7 +145,7 @@ static size_t mark(froe_query *q, const froe_range *exact, int dim, double eps, 
     }
     range.points = points;
     range.radius += margin;
-    must(froe_query_range(q, &range, &found, &why), &why);
+    bench_must(froe_query_range(q, &range, &found, &why), &why);
     for (size_t j = 0; j < found.count; j++) marks[found.ids[j]] |= bit;
     return found.count;
 }
@@ -186,9 +167,9 @@ static void check(const column *c, const column *judge, const ranges *r, double 
 static void compare(const char *what, column *columns, int count, froe_scene *scene, froe_range_shape shape,
                     uint64_t target) {
     const size_t n = froe_scene_object_count(scene);
-    uint32_t *out = room(n, sizeof *out);
-    uint8_t *marks = room(n, 1);
-    ranges *r = room(1, sizeof *r);
+    uint32_t *out = bench_take(n, sizeof *out);
+    uint8_t *marks = bench_take(n, 1);
+    ranges *r = bench_take(1, sizeof *r);
     make_ranges(columns[0].tree, shape, target, r);
     for (int e = 0; e < EPSILONS; e++)
         for (int round = 0; round < ROUNDS; round++)
@@ -219,8 +200,8 @@ static void bench_points(const char *what, int dim, double *points, size_t n) {
     froe_diagnostic why;
     froe_objects o = froe_objects_defaults();
     o.kind = FROE_POINT, o.count = n, o.coords = points;
-    must(froe_scene_new(dim, NULL, &scene), &why);
-    must(froe_scene_add(scene, &o, &why), &why);
+    bench_must(froe_scene_new(dim, NULL, &scene), &why);
+    bench_must(froe_scene_add(scene, &o, &why), &why);
     const fuzzy_peer *peer = dim == 2 ? &peer_fuzzy_2 : &peer_fuzzy_3;
     column columns[] = {column_of_tree("bar", scene, "bar", FROE_LEAF_OWN),
                         column_of_tree("bar, leaf 32", scene, "bar", 32),
@@ -235,9 +216,9 @@ static void bench_points(const char *what, int dim, double *points, size_t n) {
 }
 
 static void bench_uniform(int dim, size_t n) {
-    double *x = room(n * (size_t)dim, sizeof *x);
+    double *x = bench_take(n * (size_t)dim, sizeof *x);
     uint64_t state = 7;
-    for (size_t i = 0; i < n * (size_t)dim; i++) x[i] = unit(&state);
+    for (size_t i = 0; i < n * (size_t)dim; i++) x[i] = bench_unit(&state);
     bench_points(dim == 2 ? "Points in the plane" : "Points in space", dim, x, n);
 }
 
@@ -254,7 +235,7 @@ static void bench_file(const char *path) {
     compare(name, columns, 3, scene, FROE_SHAPE_BOX, 1000);
     compare(name, columns, 3, scene, FROE_SHAPE_BALL, 1000);
     for (int i = 0; i < 3; i++) column_free(columns + i);
-    double *points = room(n * (size_t)dim, sizeof *points);
+    double *points = bench_take(n * (size_t)dim, sizeof *points);
     for (uint32_t i = 0; i < n; i++)
         memcpy(points + i * (size_t)dim, froe_scene_vertex(scene, i), (size_t)dim * sizeof *points);
     froe_scene_free(scene);

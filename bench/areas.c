@@ -29,16 +29,6 @@ typedef struct answers {
     bool there;
 } answers;
 
-static void must(froe_status status) {
-    if (status) fprintf(stderr, "bench: %s\n", froe_status_text(status)), exit(1);
-}
-
-static void *take(size_t count, size_t size) {
-    void *memory = calloc(count ? count : 1, size);
-    if (!memory) exit(1);
-    return memory;
-}
-
 /* ------------------------------------------------------------------- scene -- */
 
 static uint64_t state = 1;
@@ -85,9 +75,9 @@ static void add_borders(map *m, size_t x, size_t y, int axis) {
 static map make_map(size_t segments) {
     map m = {.side = (size_t)sqrt((double)segments / RING)};
     m.areas = m.side * m.side;
-    m.rings = take(m.areas * 2 * RING, sizeof *m.rings);
-    m.borders = take(2 * (m.side + 1) * (m.side + 1) * EDGE, sizeof *m.borders);
-    m.points = take(2 * POINTS * ROUNDS, sizeof *m.points);
+    m.rings = bench_take(m.areas * 2 * RING, sizeof *m.rings);
+    m.borders = bench_take(2 * (m.side + 1) * (m.side + 1) * EDGE, sizeof *m.borders);
+    m.points = bench_take(2 * POINTS * ROUNDS, sizeof *m.points);
     for (size_t y = 0; y <= m.side; y++)
         for (size_t x = 0; x <= m.side; x++) {
             if (x < m.side && y < m.side) add_ring(&m, x, y);
@@ -100,7 +90,7 @@ static map make_map(size_t segments) {
 
 static froe_scene *make_scene(const map *m) {
     froe_scene *scene;
-    must(froe_scene_new(2, NULL, &scene));
+    bench_must(froe_scene_new(2, NULL, &scene), NULL);
     for (size_t a = 0; a < m->areas; a++) {
         double ends[4 * RING];
         const double *ring = m->rings + a * 2 * RING;
@@ -110,8 +100,8 @@ static froe_scene *make_scene(const map *m) {
         }
         froe_objects o = froe_objects_defaults();
         o.kind = FROE_SEGMENT, o.count = RING, o.coords = ends;
-        must(froe_scene_add_group(scene, &(froe_group){.name = "area"}, &o.group));
-        must(froe_scene_add(scene, &o, NULL));
+        bench_must(froe_scene_add_group(scene, &(froe_group){.name = "area"}, &o.group), NULL);
+        bench_must(froe_scene_add(scene, &o, NULL), NULL);
     }
     return scene;
 }
@@ -127,12 +117,12 @@ static void ask_froe(froe_query *q, const map *m, bool batch, answers *out) {
         const double start = bench_cpu();
         if (batch) {
             froe_answers all;
-            must(froe_batch_groups(q, points, POINTS, &o, &all, NULL));
+            bench_must(froe_batch_groups(q, points, POINTS, &o, &all, NULL), NULL);
             froe_answers_free(&all);
         } else {
             for (size_t i = 0; i < POINTS; i++) {
                 froe_list one;
-                must(froe_query_groups(q, points + 2 * i, &one, NULL));
+                bench_must(froe_query_groups(q, points + 2 * i, &one, NULL), NULL);
                 out->found[round * POINTS + i] = one.count == 1 ? one.ids[0] : -1 - (int64_t)one.count;
             }
         }
@@ -155,7 +145,7 @@ static void ask_peer(find_fn *find, void *index, const map *m, answers *out) {
 
 /* Does every area of froe's have one answer of the other's? Points on borders and outside may differ. */
 static bool agree(const map *m, const answers *froe, const answers *other) {
-    int64_t *face = take(m->areas, sizeof *face);
+    int64_t *face = bench_take(m->areas, sizeof *face);
     bool same = true;
     for (size_t i = 0; i < POINTS * ROUNDS; i++) {
         const int64_t area = froe->found[i];
@@ -176,8 +166,8 @@ static void print(const char *who, const char *what, double build, answers *a, d
 static void bench(size_t segments) {
     map m = make_map(segments);
     froe_scene *scene = make_scene(&m);
-    answers froe = {.found = take(POINTS * ROUNDS, sizeof *froe.found)}, batch = {0},
-            other = {.found = take(POINTS * ROUNDS, sizeof *other.found)};
+    answers froe = {.found = bench_take(POINTS * ROUNDS, sizeof *froe.found)}, batch = {0},
+            other = {.found = bench_take(POINTS * ROUNDS, sizeof *other.found)};
     printf("\n%zu areas, %zu segments\n%-18s %8s %12s %10s\n", m.areas, froe_scene_object_count(scene), "", "build, s",
            "points/s", "froe is x");
     const char *const methods[] = {"index", "density"};
@@ -188,9 +178,9 @@ static void bench(size_t segments) {
         const double built = bench_cpu() - start;
         froe_query *q;
         froe_list none;
-        must(froe_query_new(tree, &q, NULL));
+        bench_must(froe_query_new(tree, &q, NULL), NULL);
         start = bench_cpu();
-        must(froe_query_groups(q, m.points, &none, NULL));
+        bench_must(froe_query_groups(q, m.points, &none, NULL), NULL);
         const double prepared = bench_cpu() - start;
         char what[64];
         snprintf(what, sizeof what, "and %.2f s to prepare", prepared);

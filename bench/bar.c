@@ -44,26 +44,14 @@ static double draw(uint64_t *state) {
     return (double)(*state >> 11) * 0x1p-53;
 }
 
-static void must(froe_status status) {
-    if (!status) return;
-    fprintf(stderr, "bench_bar: %s\n", froe_status_text(status));
-    exit(1);
-}
-
 static froe_scene *scene_of(int dim, froe_kind kind, size_t n, double *coords) {
     froe_scene *scene;
     froe_objects o = froe_objects_defaults();
     o.kind = kind, o.count = n, o.coords = coords;
-    must(froe_scene_new(dim, NULL, &scene));
-    must(froe_scene_add(scene, &o, NULL));
+    bench_must(froe_scene_new(dim, NULL, &scene), NULL);
+    bench_must(froe_scene_add(scene, &o, NULL), NULL);
     free(coords);
     return scene;
-}
-
-static double *room(size_t count) {
-    double *x = malloc(count * sizeof *x);
-    if (!x) exit(1);
-    return x;
 }
 
 /* ------------------------------------------------------------------- asking -- */
@@ -107,11 +95,11 @@ static cost ask(const froe_tree *tree, range_fn *fn, double size, double eps) {
     froe_query *q;
     uint64_t state = 1, found = 0, count;
     double points[2 * FROE_MAX_DIM];
-    must(froe_query_new(tree, &q, NULL));
+    bench_must(froe_query_new(tree, &q, NULL), NULL);
     for (int i = 0; i < QUERIES; i++) {
         froe_range r = fn(&state, froe_tree_scene(tree), size, points);
         r.eps = eps;
-        must(froe_query_count(q, &r, &count, NULL));
+        bench_must(froe_query_count(q, &r, &count, NULL), NULL);
         found += count;
     }
     const froe_query_stats s = froe_query_statistics(q);
@@ -150,7 +138,7 @@ static void save(const figure *f, const char *folder, const char *name, const ch
 /* ------------------------------------------------------------------- tables -- */
 
 static froe_scene *make_points(int dim, size_t n) {
-    double *x = room(n * (size_t)dim);
+    double *x = bench_take(n * (size_t)dim, sizeof(double));
     uint64_t state = 7;
     for (size_t i = 0; i < n * (size_t)dim; i++) x[i] = draw(&state);
     return scene_of(dim, FROE_POINT, n, x);
@@ -158,7 +146,7 @@ static froe_scene *make_points(int dim, size_t n) {
 
 /** Points within 10^-4 of the two lines x = 0 and x = 1: medians cut the room between them into strips. */
 static froe_scene *make_lines(size_t n) {
-    double *x = room(2 * n);
+    double *x = bench_take(2 * n, sizeof(double));
     uint64_t state = 9;
     for (size_t i = 0; i < n; i++) {
         x[2 * i] = (double)(i % 2) + 1e-4 * draw(&state);
@@ -232,7 +220,7 @@ enum { EVERYWHERE = 10000, RING = 64 }; /* 1 / eps of the ring */
 static froe_scene *make_ring(size_t k) {
     const size_t n = EVERYWHERE + k;
     const double width = sqrt(2) / 3 / RING;
-    double *x = room(2 * n);
+    double *x = bench_take(2 * n, sizeof(double));
     uint64_t state = 13;
     for (size_t i = 0; i < n; i++) {
         const double along = 1.0 / 3 + draw(&state) / 3, out = width * draw(&state);
@@ -307,7 +295,7 @@ static froe_scene *cuboids(size_t n) {
 /** Segments on parallel lines x + y = c, 2 < c < 3, and four far away, so that the corner below belongs to the scene.
  */
 static double *make_diagonals(size_t n) {
-    double *x = room(4 * n), *s = x;
+    double *x = bench_take(4 * n, sizeof(double)), *s = x;
     uint64_t state = 11;
     for (size_t i = 0; i < n; i++, s += 4) {
         const double c = 2 + (double)i / (double)n, u = draw(&state), v = draw(&state);
@@ -321,7 +309,7 @@ static double *make_diagonals(size_t n) {
  * tree of `bar`, from their definition. */
 static froe_scene *guards_of(const double *segments, size_t n) {
     static const double normals[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-    double *x = room(16 * n);
+    double *x = bench_take(16 * n, sizeof(double));
     for (size_t i = 0; i < n; i++)
         for (int k = 0; k < 8; k++) {
             const double *s = segments + 4 * i, *a = normals[k], *b = normals[(k + 3) % 8];

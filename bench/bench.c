@@ -49,16 +49,39 @@ double bench_median(double *values, size_t count) {
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
-static void must(froe_status status, const char *what, const froe_diagnostic *diag) {
+#define STEP 0x9e3779b97f4a7c15u
+
+uint64_t bench_state(uint64_t numbers) {
+    return numbers * STEP;
+}
+
+uint64_t bench_draw(uint64_t *state) {
+    uint64_t x = *state += STEP;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+double bench_unit(uint64_t *state) {
+    return (double)(bench_draw(state) >> 11) * 0x1p-53;
+}
+
+void bench_must(froe_status status, const froe_diagnostic *diag) {
     if (!status) return;
-    fprintf(stderr, "bench: %s: %s\n", what, diag->message);
+    fprintf(stderr, "bench: %s\n", diag ? diag->message : froe_status_text(status));
     exit(1);
+}
+
+void *bench_take(size_t count, size_t size) {
+    void *memory = calloc(count ? count : 1, size);
+    bench_must(memory ? FROE_OK : FROE_E_MEMORY, NULL);
+    return memory;
 }
 
 froe_scene *bench_read(const char *path) {
     froe_diagnostic diag = {0};
     froe_scene *scene = NULL;
-    must(froe_read(path, NULL, &scene, NULL, &diag), path, &diag);
+    bench_must(froe_read(path, NULL, &scene, NULL, &diag), &diag);
     return scene;
 }
 
@@ -68,7 +91,7 @@ froe_scene *bench_segments(const double *xyxy, size_t n) {
     froe_objects o = froe_objects_defaults();
     o.kind = FROE_SEGMENT, o.count = n, o.coords = xyxy;
     froe_status status = froe_scene_new(2, NULL, &scene);
-    must(status ? status : froe_scene_add(scene, &o, &diag), "segments", &diag);
+    bench_must(status ? status : froe_scene_add(scene, &o, &diag), &diag);
     return scene;
 }
 
@@ -83,7 +106,7 @@ froe_scene *bench_generate(const char *kind, size_t n, unsigned long long seed) 
     froe_diagnostic diag = {0};
     froe_scene *scene = NULL;
     if (!strcmp(kind, "scatter")) return scattered(n, seed);
-    must(froe_generate(kind, n, seed, NULL, &scene, &diag), kind, &diag);
+    bench_must(froe_generate(kind, n, seed, NULL, &scene, &diag), &diag);
     return scene;
 }
 
@@ -97,7 +120,7 @@ froe_tree *bench_build(froe_scene *scene, const char *method, const char *settin
     o.leaf = leaf;
     o.threads = threads;
     double start = bench_now();
-    must(froe_build(scene, &o, &tree, &diag), method, &diag);
+    bench_must(froe_build(scene, &o, &tree, &diag), &diag);
     if (seconds) *seconds = bench_now() - start;
     return tree;
 }

@@ -8,7 +8,13 @@ double bench_cpu(void); /**< seconds that processors worked for this process */
 /** Prints machine, compiler, commit and seed. */
 void bench_head(const char *title, unsigned long long seed);
 double bench_median(double *values, size_t count); /**< reorders them */
-/** These end the program with a message when froe refuses. */
+/** Splitmix64 (Steele, Lea and Flood 2014): the next number of a state, as a whole number or in [0, 1). */
+uint64_t bench_draw(uint64_t *state);
+uint64_t bench_state(uint64_t numbers); /**< after so many of them, from 0 */
+double bench_unit(uint64_t *state);
+/** These end the program with a message when froe refuses, or memory ends. */
+void bench_must(froe_status status, const froe_diagnostic *diag); /**< diag may be NULL */
+void *bench_take(size_t count, size_t size);                      /**< zeros, to be freed */
 froe_scene *bench_read(const char *path);
 froe_scene *bench_segments(const double *xyxy, size_t n);
 /** A kind of froe_generate, or "scatter". */

@@ -44,16 +44,6 @@ typedef struct run {
     uint32_t *out;
 } run;
 
-static void must(froe_status status) {
-    if (status) fprintf(stderr, "bench: %s\n", froe_status_text(status)), exit(1);
-}
-
-static void *take(size_t count, size_t size) {
-    void *memory = calloc(count ? count : 1, size);
-    if (!memory) fprintf(stderr, "bench: out of memory\n"), exit(1);
-    return memory;
-}
-
 /* ----------------------------------------------------------------------- scene -- */
 
 static froe_scene *read_boxes(const char *path) {
@@ -79,7 +69,7 @@ static void make_scene(run *r, const char *what) {
     r->dim = froe_scene_dim(r->scene);
     r->n = froe_scene_object_count(r->scene);
     size_t dim = (size_t)r->dim;
-    r->lo = take(r->n * dim, sizeof *r->lo), r->hi = take(r->n * dim, sizeof *r->hi);
+    r->lo = bench_take(r->n * dim, sizeof *r->lo), r->hi = bench_take(r->n * dim, sizeof *r->hi);
     for (uint32_t i = 0; i < r->n; i++)
         for (uint32_t k = 0; k < dim; k++) {
             r->lo[i * dim + k] = froe_scene_vertex(r->scene, froe_scene_corner(r->scene, i, 0))[k];
@@ -92,14 +82,7 @@ static void make_scene(run *r, const char *what) {
 
 /* --------------------------------------------------------------------- windows -- */
 
-static uint64_t counter;
-
-static double unit(void) { /* splitmix64 (Steele, Lea, Flood 2014) of a counter */
-    uint64_t x = ++counter * 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
+static uint64_t numbers; /* state of the random ones */
 
 static void place_windows(run *r, const double *centres, double half) {
     size_t dim = (size_t)r->dim;
@@ -111,10 +94,10 @@ static void place_windows(run *r, const double *centres, double half) {
 
 static void make_windows(run *r) {
     size_t dim = (size_t)r->dim;
-    double low = 0, high = r->size, *centres = take(QUERIES, dim * sizeof *centres);
-    r->windows = take(QUERIES, 2 * dim * sizeof *r->windows);
+    double low = 0, high = r->size, *centres = bench_take(QUERIES, dim * sizeof *centres);
+    r->windows = bench_take(QUERIES, 2 * dim * sizeof *r->windows);
     for (size_t q = 0; q < QUERIES; q++)
-        memcpy(centres + q * dim, (q % 2 ? r->lo : r->hi) + dim * (size_t)(unit() * (double)r->n),
+        memcpy(centres + q * dim, (q % 2 ? r->lo : r->hi) + dim * (size_t)(bench_unit(&numbers) * (double)r->n),
                dim * sizeof(double));
     for (int step = 0; step < 40; step++) {
         double half = 0.5 * (low + high), found = 0;
@@ -159,14 +142,14 @@ static double time_windows(run *r, const froe_tree *tree, bool *equal) {
     double rates[ROUNDS];
     froe_query *query = NULL;
     froe_range range = froe_range_defaults();
-    must(froe_query_new(tree, &query, NULL));
+    bench_must(froe_query_new(tree, &query, NULL), NULL);
     for (int i = 0; i < ROUNDS; i++) {
         double start = bench_cpu();
         uint64_t checksum = 0;
         for (size_t q = 0; q < QUERIES; q++) {
             froe_list found;
             range.points = r->windows + 2 * (size_t)r->dim * q;
-            must(froe_query_range(query, &range, &found, NULL));
+            bench_must(froe_query_range(query, &range, &found, NULL), NULL);
             for (size_t k = 0; k < found.count; k++) checksum += (found.ids[k] + 1) * 0x9e3779b97f4a7c15u * (q + 1);
         }
         rates[i] = QUERIES / (bench_cpu() - start);
@@ -213,7 +196,7 @@ static void bench(const char *what, const char *only) {
     run r = {.n = 0};
     make_scene(&r, what);
     if (r.dim > 3) fprintf(stderr, "bench: %s: Boost's column takes boxes in the plane and in space\n", what), exit(1);
-    r.out = take(r.n, sizeof *r.out);
+    r.out = bench_take(r.n, sizeof *r.out);
     time_peer(&r);
     printf("%-16s %8zu %-22s %8s %6s %8.3f %7s %9.0f\n", r.name, r.n, "Boost, packed R-tree", "1", "", r.build, "",
            r.rate);

@@ -14,10 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void must(froe_status status) {
-    if (status) fprintf(stderr, "bench: %s\n", froe_status_text(status)), exit(1);
-}
-
 /* --------------------------------------------------------------------- peer -- */
 
 #ifdef HAVE_CGAL
@@ -40,11 +36,11 @@ static result of_froe(const plane_scene *p) {
     r.build = bench_cpu() - start;
     r.bytes = (double)froe_tree_report(tree).bytes / (double)p->n;
     froe_query *query = NULL;
-    must(froe_query_new(tree, &query, NULL));
+    bench_must(froe_query_new(tree, &query, NULL), NULL);
     froe_list found;
     for (size_t i = 0; i < POINTS + WARM; i++) {
         if (i == WARM) start = bench_cpu();
-        must(froe_query_locate(query, p->points + 2 * i, &found, NULL));
+        bench_must(froe_query_locate(query, p->points + 2 * i, &found, NULL), NULL);
     }
     r.rate = POINTS / (bench_cpu() - start);
     froe_query_free(query);
@@ -113,8 +109,8 @@ static double crossings(froe_scene *scene) {
     double count = 0;
     froe_query *query = NULL;
     froe_tree *tree = bench_build(scene, "index", NULL, FROE_LEAF_OWN, 1, NULL);
-    must(froe_query_new(tree, &query, NULL));
-    must(froe_query_pairs(query, true, count_pair, &count, NULL));
+    bench_must(froe_query_new(tree, &query, NULL), NULL);
+    bench_must(froe_query_pairs(query, true, count_pair, &count, NULL), NULL);
     froe_query_free(query);
     froe_tree_free(tree);
     return count;

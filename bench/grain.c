@@ -27,10 +27,7 @@ static uint32_t *order_of(size_t n, bool shuffled) {
     uint64_t state = 1;
     for (uint32_t i = 0; order && i < n; i++) order[i] = i;
     for (size_t i = n; order && shuffled && i > 1; i--) {
-        uint64_t z = state += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        const size_t j = (size_t)((z ^ (z >> 31)) % i);
+        const size_t j = (size_t)(bench_draw(&state) % i);
         const uint32_t swap = order[j];
         order[j] = order[i - 1];
         order[i - 1] = swap;

@@ -32,18 +32,6 @@ typedef struct subject {
     double build_seconds;
 } subject;
 
-static void *need(size_t size) {
-    void *p = calloc(size ? size : 1, 1);
-    if (!p) exit(1);
-    return p;
-}
-
-static void must(froe_status status, const froe_diagnostic *why) {
-    if (!status) return;
-    fprintf(stderr, "hidden: %s\n", why->message);
-    exit(1);
-}
-
 /* ------------------------------------------------------------------------ making -- */
 
 static void note_colour(void *user, uint32_t object, uint32_t colour) {
@@ -57,8 +45,8 @@ static void find_colours(subject *s) {
     froe_render_options o = s->options;
     oracle_canvas canvas = oracle_canvas_new((oracle_grid){1, 1, {0, 0}}, &s->view);
     o.ids = FROE_IDS_FACE;
-    must(froe_render(s->tree, "colours.svg", &o, NULL, &why), &why);
-    s->colours = need((froe_surface_patch_count(s->surface) + 1) * sizeof *s->colours);
+    bench_must(froe_render(s->tree, "colours.svg", &o, NULL, &why), &why);
+    s->colours = bench_take(1, (froe_surface_patch_count(s->surface) + 1) * sizeof *s->colours);
     svg_paint("colours.svg", &canvas, note_colour, s);
     oracle_canvas_free(&canvas);
 }
@@ -75,7 +63,7 @@ static void open_subject(subject *s, const char *arg) {
     const double start = bench_cpu();
     s->tree = bench_build(s->scene, "auto", NULL, 1, 1, NULL);
     s->build_seconds = bench_cpu() - start;
-    must(froe_surface_new(s->scene, NULL, &s->surface, &why), &why);
+    bench_must(froe_surface_new(s->scene, NULL, &s->surface, &why), &why);
     s->options = froe_render_defaults();
     s->options.lines = 0;
     s->options.own_colours = true; /* all opaque */
@@ -84,7 +72,7 @@ static void open_subject(subject *s, const char *arg) {
         memcpy(s->options.camera.eye, eye, sizeof eye);
         memcpy(s->options.camera.up, up, sizeof up);
     }
-    must(froe_render(s->tree, "froe.svg", &s->options, &report, &why), &why);
+    bench_must(froe_render(s->tree, "froe.svg", &s->options, &report, &why), &why);
     s->view = report.view;
     s->triangles = oracle_triangles_new(s->scene, s->surface, &s->view, false);
     find_colours(s);
@@ -103,7 +91,7 @@ static double ours(subject *s) {
     double seconds[RUNS];
     for (int i = 0; i < RUNS; i++) {
         const double start = bench_cpu();
-        must(froe_render(s->tree, "froe.svg", &s->options, NULL, &why), &why);
+        bench_must(froe_render(s->tree, "froe.svg", &s->options, NULL, &why), &why);
         seconds[i] = bench_cpu() - start;
     }
     return bench_median(seconds, RUNS);
@@ -138,8 +126,8 @@ static size_t window_coordinates(const subject *s, double *out, unsigned *colour
 
 static double theirs(subject *s) {
     const size_t most = froe_scene_object_count(s->scene);
-    double *triangles = need(9 * most * sizeof *triangles), seconds[RUNS];
-    unsigned *colours = need(most * sizeof *colours);
+    double *triangles = bench_take(1, 9 * most * sizeof *triangles), seconds[RUNS];
+    unsigned *colours = bench_take(1, most * sizeof *colours);
     const size_t n = window_coordinates(s, triangles, colours);
     for (int i = 0; i < RUNS; i++) {
         const double start = bench_cpu();
@@ -166,7 +154,7 @@ static bool is_wrong(const oracle_canvas *c, const oracle_nearest *n, const uint
 static void count_wrong(const subject *s, const char *path, const oracle_nearest *n, verdict *v) {
     const uint32_t side = n->grid.wide;
     oracle_canvas canvas = oracle_canvas_new(n->grid, &s->view);
-    uint8_t *wrong = need((size_t)side * side);
+    uint8_t *wrong = bench_take(1, (size_t)side * side);
     v->file = svg_paint(path, &canvas, NULL, NULL);
     for (size_t i = 0; i < (size_t)side * side; i++) {
         wrong[i] = is_wrong(&canvas, n, s->colours, i);

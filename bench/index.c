@@ -39,10 +39,6 @@ typedef struct run {
     double sum[PEERS + 1];          /* checksums of the answers, -1: did not take part */
 } run;
 
-static void must(froe_status status) {
-    if (status) fprintf(stderr, "bench: %s\n", froe_status_text(status)), exit(1);
-}
-
 /* ------------------------------------------------------------------- output -- */
 
 /* Rates or, `less` being better, seconds; and froe's ratio to the best peer. */
@@ -105,7 +101,7 @@ static void time_builds(run *r) {
     for (int p = 0; p <= PEERS; p++)
         for (int i = 0; i < ROUNDS; i++) r->rate[p][i] = bytes[p] / (double)r->plane.n;
     print(r, "bytes each", true);
-    must(froe_query_new(r->tree, &r->query, NULL));
+    bench_must(froe_query_new(r->tree, &r->query, NULL), NULL);
 }
 
 /* ------------------------------------------------------------------ windows -- */
@@ -120,7 +116,7 @@ static size_t froe_window(run *r, const double *w) {
     froe_range range = froe_range_defaults();
     froe_list found;
     range.points = w;
-    must(froe_query_range(r->query, &range, &found, NULL));
+    bench_must(froe_query_range(r->query, &range, &found, NULL), NULL);
     memcpy(r->out, found.ids, found.count * sizeof *r->out);
     return found.count;
 }
@@ -159,7 +155,7 @@ static void time_windows(run *r, int k) {
 
 static int64_t froe_above(run *r, const double *point) {
     uint32_t object;
-    must(froe_query_vertical(r->query, point, 1, &object, NULL));
+    bench_must(froe_query_vertical(r->query, point, 1, &object, NULL), NULL);
     return object == FROE_NONE ? -1 : (int64_t)object;
 }
 
@@ -196,7 +192,7 @@ static void time_above_batch(run *r) {
     for (int round = 0; round < ROUNDS; round++) {
         size_t from = (size_t)round * share;
         double start = bench_cpu();
-        must(froe_batch_vertical(r->query, r->plane.points + 2 * from, share, 1, &o, objects + from, NULL));
+        bench_must(froe_batch_vertical(r->query, r->plane.points + 2 * from, share, 1, &o, objects + from, NULL), NULL);
         r->rate[0][round] = (double)share / (bench_cpu() - start);
         for (size_t i = from; i < from + share; i++)
             sum += (objects[i] == FROE_NONE ? -1.0 : (double)objects[i]) * (double)(i % 1009 + 1);
@@ -242,8 +238,8 @@ static size_t froe_pairs(const run *r) {
     size_t count = 0;
     froe_query *query = NULL;
     froe_tree *tree = bench_build(r->scene, "index", NULL, FROE_LEAF_OWN, 1, NULL);
-    must(froe_query_new(tree, &query, NULL));
-    must(froe_query_pairs(query, true, count_pair, &count, NULL));
+    bench_must(froe_query_new(tree, &query, NULL), NULL);
+    bench_must(froe_query_pairs(query, true, count_pair, &count, NULL), NULL);
     froe_query_free(query);
     froe_tree_free(tree);
     return count;

@@ -19,12 +19,6 @@ typedef struct ride {
     uint64_t most, events;
 } ride;
 
-static void must(froe_status status, const froe_diagnostic *diag) {
-    if (!status) return;
-    fprintf(stderr, "bench: %s\n", diag->message);
-    exit(1);
-}
-
 static bool count(void *user, const froe_event *event) {
     (void)event;
     ride *r = user;
@@ -37,7 +31,7 @@ static double follow(ride *r, uint64_t events) {
     r->events = 0, r->most = events;
     double start = bench_cpu();
     froe_status status = froe_kinetic_advance(r->kinetic, froe_motion_window(r->motion).end, count, r, &diag);
-    if (status != FROE_E_CANCELLED) must(status, &diag);
+    if (status != FROE_E_CANCELLED) bench_must(status, &diag);
     return bench_cpu() - start;
 }
 
@@ -77,7 +71,7 @@ static double reinsert(ride *r) {
             times[j] = k.time;
             for (int c = 0; c < 2; c++) xy[2 * j + (size_t)c] = k.at[c], controls[2 * j + (size_t)c] = k.control[c];
         }
-        must(froe_kinetic_replan(r->kinetic, vertex, count, times, xy, controls, &diag), &diag);
+        bench_must(froe_kinetic_replan(r->kinetic, vertex, count, times, xy, controls, &diag), &diag);
     }
     return (bench_cpu() - start) / (double)done;
 }
@@ -86,9 +80,9 @@ static void measure(const char *kind, size_t n, uint64_t events) {
     ride r = {NULL, NULL, 0, 0};
     froe_diagnostic diag = {0};
     const froe_kinetic_options o = froe_kinetic_defaults();
-    must(froe_generate_motion(kind, n, 1, NULL, &r.motion, &diag), &diag);
+    bench_must(froe_generate_motion(kind, n, 1, NULL, &r.motion, &diag), &diag);
     double start = bench_cpu();
-    must(froe_kinetic_new(r.motion, &o, NULL, &r.kinetic, &diag), &diag);
+    bench_must(froe_kinetic_new(r.motion, &o, NULL, &r.kinetic, &diag), &diag);
     double made = bench_cpu() - start;
     follow(&r, events / 10 + 1); /* memory that was never touched */
     froe_kinetic_stats before = froe_kinetic_statistics(r.kinetic);

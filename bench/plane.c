@@ -8,6 +8,7 @@
  *
  * All in random order. Window sizes are found by bisection over 200 centres. */
 #include "plane.h"
+#include "bench.h"
 #include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,8 +20,8 @@
 typedef struct maker {
     plane_scene *scene;
     size_t room, n;
-    uint64_t counter;
-    struct near { /* a grid of those that are there already */
+    uint64_t state; /* of random numbers */
+    struct near {   /* a grid of those that are there already */
         uint32_t cells;
         double per_cell, lo[2];
         uint32_t *first, *next, *of, used, room;
@@ -29,15 +30,8 @@ typedef struct maker {
 
 /* ----------------------------------------------------------------- numbers -- */
 
-static uint64_t draw(maker *m) { /* splitmix64 (Steele, Lea, Flood 2014) of a counter */
-    uint64_t x = ++m->counter * 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-}
-
 static double uniform(maker *m, double a, double b) {
-    return a + (b - a) * ((double)(draw(m) >> 11) * 0x1p-53);
+    return a + (b - a) * bench_unit(&m->state);
 }
 
 static void must(bool good, const char *what) {
@@ -73,7 +67,7 @@ static void add(maker *m, peer_segment s) {
 
 static void shuffle(maker *m) {
     for (size_t i = m->scene->n; i > 1; i--) {
-        size_t j = draw(m) % i;
+        size_t j = bench_draw(&m->state) % i;
         peer_segment swap = m->scene->s[i - 1];
         m->scene->s[i - 1] = m->scene->s[j];
         m->scene->s[j] = swap;
@@ -232,7 +226,7 @@ static void find_bounds(plane_scene *p) {
 static void centre(maker *m, bool near, double c[2]) {
     const plane_scene *p = m->scene;
     double jitter = fmax(p->hi[0] - p->lo[0], p->hi[1] - p->lo[1]) / 400;
-    const peer_segment *s = p->s + draw(m) % p->n;
+    const peer_segment *s = p->s + bench_draw(&m->state) % p->n;
     c[0] = near ? s->ax + uniform(m, -jitter, jitter) : uniform(m, p->lo[0], p->hi[0]);
     c[1] = near ? s->ay + uniform(m, -jitter, jitter) : uniform(m, p->lo[1], p->hi[1]);
 }
@@ -297,7 +291,7 @@ plane_scene plane_make(const char *kind, size_t n, uint64_t seed) {
                  {"tin", make_tin, true},
                  {"cross", make_cross, false}};
     plane_scene p = {.n = 0};
-    maker m = {.scene = &p, .n = n, .counter = seed << 40};
+    maker m = {.scene = &p, .n = n, .state = bench_state(seed << 40)};
     const char *base = strrchr(kind, '/');
     size_t k = 0;
     snprintf(p.name, sizeof p.name, "%s", base ? base + 1 : kind);

@@ -27,20 +27,13 @@ static const column columns[] = {{"from kd", "converted", "from=kd"},
                                  {"density", "density", NULL}};
 enum { COLUMNS = sizeof columns / sizeof *columns };
 
-static double unit(uint64_t *state) { /* splitmix64 */
-    uint64_t x = *state += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
 /* A window of a third of the scene, or a capsule as long as that and a thousandth as wide, at 30 degrees. */
 static froe_range range_at(const double *lo, const double *hi, bool thin, double eps, uint64_t *state,
                            double points[4]) {
     froe_range r = froe_range_defaults();
     const double side = fmax(hi[0] - lo[0], hi[1] - lo[1]), turn[2] = {0.8660254037844386, 0.5};
     for (int k = 0; k < 2; k++) {
-        points[k] = lo[k] + 0.6 * unit(state) * (hi[k] - lo[k]);
+        points[k] = lo[k] + 0.6 * bench_unit(state) * (hi[k] - lo[k]);
         points[2 + k] = points[k] + side / 3 * (thin ? turn[k] : 1);
     }
     r.shape = thin ? FROE_SHAPE_CAPSULE : FROE_SHAPE_BOX;

@@ -12,13 +12,6 @@
 
 enum { PLACES = 64, STEPS = 12, RISING = 6, WINDOWS = 20000, MOST = 16 };
 
-static double unit(uint64_t *state) { /* splitmix64 */
-    uint64_t x = *state += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
 static void fail(const froe_diagnostic *why) {
     fprintf(stderr, "bench_ranges: %s\n", why->message);
     exit(1);
@@ -50,7 +43,7 @@ static froe_query *ask(const froe_tree *tree) {
 /* A shape of diameter about half the scene, at a random place. */
 static froe_range place(const frame *f, froe_range_shape shape, uint64_t *state, double points[6]) {
     froe_range r = froe_range_defaults();
-    const double x = 0.25 + 0.1 * unit(state), y = 0.25 + 0.1 * unit(state);
+    const double x = 0.25 + 0.1 * bench_unit(state), y = 0.25 + 0.1 * bench_unit(state);
     r.shape = shape;
     r.points = points;
     r.radius = 0.2 * (f->hi[0] - f->lo[0]);
@@ -109,7 +102,7 @@ static double microseconds(froe_query *q, const frame *f, double side, double *f
     uint64_t state = 7, sum = 0;
     const double start = bench_cpu();
     for (int i = 0; i < WINDOWS; i++) {
-        const double x = unit(&state), y = unit(&state);
+        const double x = bench_unit(&state), y = bench_unit(&state);
         double points[4];
         put(f, x, y, points);
         put(f, x + side, y + side, points + 2);

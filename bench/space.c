@@ -50,37 +50,20 @@ typedef struct run {
     double *answers; /* froe's */
 } run;
 
-static void must(froe_status status) {
-    if (status) fprintf(stderr, "bench: %s\n", froe_status_text(status)), exit(1);
-}
-
-static void *take(size_t count, size_t size) {
-    void *memory = calloc(count ? count : 1, size);
-    if (!memory) fprintf(stderr, "bench: out of memory\n"), exit(1);
-    return memory;
-}
-
 /* -------------------------------------------------------------------- scenes -- */
 
-static uint64_t counter;
-
-static double unit(void) { /* splitmix64 (Steele, Lea, Flood 2014) of a counter */
-    uint64_t x = ++counter * 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
+static uint64_t numbers; /* state of the random ones */
 
 static void direction(double d[3]) {
-    double z = 2 * unit() - 1, a = TAU * unit(), r = sqrt(1 - z * z);
+    double z = 2 * bench_unit(&numbers) - 1, a = TAU * bench_unit(&numbers), r = sqrt(1 - z * z);
     d[0] = r * cos(a), d[1] = r * sin(a), d[2] = z;
 }
 
 static void make_fat(run *r, size_t n) {
     double size = 0.7 * cbrt(1.0 / (double)n);
-    r->t = take(n, sizeof *r->t);
+    r->t = bench_take(n, sizeof *r->t);
     for (r->n = 0; r->n < n; r->n++) {
-        double c[3] = {unit(), unit(), unit()}, d[3];
+        double c[3] = {bench_unit(&numbers), bench_unit(&numbers), bench_unit(&numbers)}, d[3];
         for (int i = 0; i < 3; i++) {
             direction(d);
             for (int k = 0; k < 3; k++) r->t[r->n].p[i][k] = c[k] + size * d[k] * 0.6;
@@ -102,12 +85,14 @@ static void add_box(run *r, const double lo[3], const double hi[3]) {
 static void make_city(run *r, size_t n) {
     size_t side = (size_t)ceil(sqrt((double)n / 12));
     double lot = 1.0 / (double)side;
-    r->t = take(12 * side * side, sizeof *r->t);
+    r->t = bench_take(12 * side * side, sizeof *r->t);
     for (size_t i = 0; i < side; i++)
         for (size_t j = 0; j < side; j++) {
-            double lo[3] = {lot * ((double)i + 0.3 * unit()), lot * ((double)j + 0.3 * unit()), 0};
-            double hi[3] = {lo[0] + lot * (0.3 + 0.4 * unit()), lo[1] + lot * (0.3 + 0.4 * unit()),
-                            lot * fmin(0.5 / sqrt(unit() + 1e-9), 20)};
+            double lo[3] = {lot * ((double)i + 0.3 * bench_unit(&numbers)),
+                            lot * ((double)j + 0.3 * bench_unit(&numbers)), 0};
+            double hi[3] = {lo[0] + lot * (0.3 + 0.4 * bench_unit(&numbers)),
+                            lo[1] + lot * (0.3 + 0.4 * bench_unit(&numbers)),
+                            lot * fmin(0.5 / sqrt(bench_unit(&numbers) + 1e-9), 20)};
             add_box(r, lo, hi);
         }
 }
@@ -125,7 +110,7 @@ static void sphere_point(size_t i, size_t j, size_t side, double x[3]) {
 
 static void make_mesh(run *r, size_t n) {
     size_t side = (size_t)floor(sqrt((double)n / 4));
-    r->t = take(4 * side * side, sizeof *r->t);
+    r->t = bench_take(4 * side * side, sizeof *r->t);
     for (size_t i = 0; i < side; i++)
         for (size_t j = 0; j < 2 * side; j++) {
             double p[4][3];
@@ -143,7 +128,7 @@ static void make_mesh(run *r, size_t n) {
 static void read_model(run *r, const char *path) {
     froe_scene *scene = bench_read(path);
     size_t count = froe_scene_object_count(scene);
-    r->t = take(count, sizeof *r->t);
+    r->t = bench_take(count, sizeof *r->t);
     for (uint32_t i = 0; i < count; i++) {
         froe_object o = froe_scene_object(scene, i);
         if (o.kind != FROE_POLYGON || o.corners != 3) continue;
@@ -157,14 +142,14 @@ static void read_model(run *r, const char *path) {
 /* In random order. */
 static void shuffle(run *r) {
     for (size_t i = r->n; i-- > 1;) {
-        size_t j = (size_t)(unit() * (double)(i + 1));
+        size_t j = (size_t)(bench_unit(&numbers) * (double)(i + 1));
         peer_triangle t = r->t[i];
         r->t[i] = r->t[j], r->t[j] = t;
     }
 }
 
 static void make_scene(run *r, const char *kind, size_t n) {
-    counter = 1;
+    numbers = bench_state(1);
     bench_name(kind, r->name);
     if (!strcmp(kind, "fat"))
         make_fat(r, n);
@@ -184,21 +169,21 @@ static void make_scene(run *r, const char *kind, size_t n) {
     for (int k = 0; k < 3; k++) r->size = fmax(r->size, r->hi[k] - r->lo[k]);
     froe_objects o = froe_objects_defaults();
     o.count = r->n, o.coords = &r->t[0].p[0][0];
-    must(froe_scene_new(3, NULL, &r->scene));
-    must(froe_scene_add(r->scene, &o, NULL));
+    bench_must(froe_scene_new(3, NULL, &r->scene), NULL);
+    bench_must(froe_scene_add(r->scene, &o, NULL), NULL);
 }
 
 /* ------------------------------------------------------------------- queries -- */
 
 static void anywhere(const run *r, double x[3]) {
-    for (int k = 0; k < 3; k++) x[k] = r->lo[k] + (r->hi[k] - r->lo[k]) * unit();
+    for (int k = 0; k < 3; k++) x[k] = r->lo[k] + (r->hi[k] - r->lo[k]) * bench_unit(&numbers);
 }
 
 static size_t froe_window(run *r, const double *w) {
     froe_range range = froe_range_defaults();
     froe_list found;
     range.points = w;
-    must(froe_query_range(r->query, &range, &found, NULL));
+    bench_must(froe_query_range(r->query, &range, &found, NULL), NULL);
     memcpy(r->out, found.ids, found.count * sizeof *r->out);
     return found.count;
 }
@@ -206,11 +191,11 @@ static size_t froe_window(run *r, const double *w) {
 /* Cubes about corners of triangles, of the size that finds so many on average, by bisection. */
 static void make_windows(run *r, int i, double wanted) {
     double low = 0, high = r->size;
-    double *w = r->windows[i] = take(QUERIES, 6 * sizeof *w), *centres = take(QUERIES, 3 * sizeof *centres);
+    double *w = r->windows[i] = bench_take(QUERIES, 6 * sizeof *w), *centres = bench_take(QUERIES, 3 * sizeof *centres);
     for (size_t q = 0; q < QUERIES; q++) {
-        memcpy(centres + 3 * q, r->t[(size_t)(unit() * (double)r->n)].p[0], 24);
+        memcpy(centres + 3 * q, r->t[(size_t)(bench_unit(&numbers) * (double)r->n)].p[0], 24);
         for (int k = 0; k < 3; k++)
-            centres[3 * q + (size_t)k] += 0.2 * r->size * cbrt(1 / (double)r->n) * (unit() - 0.5);
+            centres[3 * q + (size_t)k] += 0.2 * r->size * cbrt(1 / (double)r->n) * (bench_unit(&numbers) - 0.5);
     }
     for (int step = 0; step < 40; step++) {
         double half = 0.5 * (low + high), found = 0;
@@ -222,7 +207,7 @@ static void make_windows(run *r, int i, double wanted) {
 }
 
 static void make_queries(run *r) {
-    r->origins = take(QUERIES, 24), r->directions = take(QUERIES, 24), r->points = take(QUERIES, 24);
+    r->origins = bench_take(QUERIES, 24), r->directions = bench_take(QUERIES, 24), r->points = bench_take(QUERIES, 24);
     for (size_t q = 0; q < QUERIES; q++) {
         anywhere(r, r->origins + 3 * q);
         anywhere(r, r->points + 3 * q);
@@ -289,7 +274,7 @@ static void time_builds(run *r) {
     for (int p = 0; p <= PEERS; p++)
         for (int i = 0; i < ROUNDS; i++) r->rate[p][i] = bytes[p] / (double)r->n;
     print(r, "bytes each", true);
-    must(froe_query_new(r->tree, &r->query, NULL));
+    bench_must(froe_query_new(r->tree, &r->query, NULL), NULL);
 }
 
 /* -------------------------------------------------------------------- numbers -- */
@@ -304,7 +289,7 @@ typedef struct question {
 
 static double froe_ray(run *r, size_t q) {
     froe_hit hit;
-    must(froe_query_ray(r->query, r->origins + 3 * q, r->directions + 3 * q, INFINITY, &hit, NULL));
+    bench_must(froe_query_ray(r->query, r->origins + 3 * q, r->directions + 3 * q, INFINITY, &hit, NULL), NULL);
     return hit.object == FROE_NONE ? (double)INFINITY : hit.t;
 }
 static bool takes_ray(const space_peer *p) {
@@ -316,7 +301,7 @@ static double ask_ray(const run *r, const space_peer *p, void *index, size_t q) 
 
 static double froe_any(run *r, size_t q) {
     uint32_t object;
-    must(froe_query_ray_any(r->query, r->origins + 3 * q, r->directions + 3 * q, INFINITY, &object, NULL));
+    bench_must(froe_query_ray_any(r->query, r->origins + 3 * q, r->directions + 3 * q, INFINITY, &object, NULL), NULL);
     return object != FROE_NONE;
 }
 static bool takes_any(const space_peer *p) {
@@ -328,7 +313,7 @@ static double ask_any(const run *r, const space_peer *p, void *index, size_t q) 
 
 static double froe_near(run *r, size_t q) {
     froe_neighbours near;
-    must(froe_query_near(r->query, r->points + 3 * q, 1, INFINITY, &near, NULL));
+    bench_must(froe_query_near(r->query, r->points + 3 * q, 1, INFINITY, &near, NULL), NULL);
     return near.items[0].distance;
 }
 static bool takes_near(const space_peer *p) {
@@ -375,13 +360,14 @@ static void time_numbers(run *r, const question *a) {
 static void time_batches(run *r) {
     const size_t share = QUERIES / ROUNDS;
     froe_batch_options o = froe_batch_defaults();
-    froe_hit *hits = take(QUERIES, sizeof *hits);
+    froe_hit *hits = bench_take(QUERIES, sizeof *hits);
     o.threads = 1;
     begin(r);
     for (int round = 0; round < ROUNDS; round++) {
         double start = bench_cpu();
         size_t from = 3 * share * (size_t)round;
-        must(froe_batch_ray(r->query, r->origins + from, r->directions + from, share, INFINITY, &o, hits, NULL));
+        bench_must(froe_batch_ray(r->query, r->origins + from, r->directions + from, share, INFINITY, &o, hits, NULL),
+                   NULL);
         r->rate[0][round] = (double)share / (bench_cpu() - start);
     }
     free(hits);
@@ -423,8 +409,8 @@ static void time_windows(run *r, int i) {
 static void bench(const char *kind, size_t n) {
     run r = {.n = 0};
     make_scene(&r, kind, n);
-    r.out = take(r.n + MOST, sizeof *r.out);
-    r.answers = take(QUERIES, sizeof *r.answers);
+    r.out = bench_take(r.n + MOST, sizeof *r.out);
+    r.answers = bench_take(QUERIES, sizeof *r.answers);
     printf("\n%s: %zu triangles\n%-8s %-12s %10s", r.name, r.n, "", "", "froe");
     for (int p = 0; p < PEERS; p++) printf(" %10s froe :", peers[p]->name);
     printf("\n");
