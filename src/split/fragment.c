@@ -103,14 +103,16 @@ static int object_side(split_set *set, const split_plane *plane, uint32_t object
 
 /** Beyond the filter, by the predicate of the corner; a crossing lies between two vertices first of all. */
 static int corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
-    geom_plane own, first = split_plane_at(set, k->type == SPLIT_CROSSING ? k->c : k->a), second;
     if (k->type == SPLIT_CROSSING) {
         const double *from = scene_vertex(set->scene, k->a), *to = scene_vertex(set->scene, k->b);
         int u = vertex_side(set, plane, from), v = vertex_side(set, plane, to);
-        return u == v ? u : geom_side_crossing(&set->context, &plane->plane, from, to, &first);
+        if (u == v) return u;
+        const geom_plane cut = split_plane_at(set, k->c);
+        return geom_side_crossing(&set->context, &plane->plane, from, to, &cut);
     }
+    const geom_plane first = split_plane_at(set, k->a), second = split_plane_at(set, k->b);
+    geom_plane own;
     scene_support(set->scene, object, &own);
-    second = split_plane_at(set, k->b);
     return geom_side_corner(&set->context, &plane->plane, &own, &first, &second);
 }
 
@@ -142,6 +144,11 @@ static int class_of(bool negative, bool positive) {
     return negative ? (positive ? SPLIT_BOTH : SPLIT_NEG) : positive ? SPLIT_POS : SPLIT_ON;
 }
 
+/** Of what lies on one side. */
+static int class_beside(int side) {
+    return side < 0 ? SPLIT_NEG : side > 0 ? SPLIT_POS : SPLIT_ON;
+}
+
 static int classify_box(split_set *set, const split_plane *plane, uint32_t object) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     bool negative = false, positive = false;
@@ -159,7 +166,7 @@ static int classify_box(split_set *set, const split_plane *plane, uint32_t objec
 static int classify_ball(split_set *set, const split_plane *plane, uint32_t object) {
     int side = geom_side_ball(&set->context, &plane->plane, scene_point(set->scene, object, 0),
                               scene_radius(set->scene, object));
-    return side == 2 ? SPLIT_BOTH : side < 0 ? SPLIT_NEG : side > 0 ? SPLIT_POS : SPLIT_ON;
+    return side == 2 ? SPLIT_BOTH : class_beside(side);
 }
 
 /** Appends the sides of all corners, of the ring or of the whole object, and returns the class. */
@@ -190,7 +197,7 @@ static int ring_class(split_set *set, const split_plane *plane, const split_frag
     }
     if (!unsure || (negative && positive)) return class_of(negative, positive);
     const int whole = object_side(set, plane, f->object);
-    if (whole != NUM_UNSURE) return class_of(whole<0, whole> 0);
+    if (whole != NUM_UNSURE) return class_beside(whole);
     for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
         if (ring[i].type == SPLIT_VERTEX || image_sign(set, plane, ring + i) != NUM_UNSURE) continue;
         int side = corner_side(set, plane, f->object, ring + i);
