@@ -1,4 +1,5 @@
 /* draw.c: the public calls: options checked, page planned, painted, handed over. */
+#include "escape.h"
 #include "output.h"
 #include "palette.h"
 #include "picture.h"
@@ -95,15 +96,10 @@ static bool all_finite(const double *x, int count) {
 
 /* Cairo would refuse it too, but only after looking for fonts. */
 static bool is_utf8(const char *text) {
-    for (const unsigned char *s = (const unsigned char *)text; *s;) {
-        int more = *s < 0x80                 ? 0
-                   : *s >= 0xC2 && *s < 0xE0 ? 1
-                   : *s >= 0xE0 && *s < 0xF0 ? 2
-                   : *s >= 0xF0 && *s < 0xF5 ? 3
-                                             : -1;
-        if (more < 0) return false;
-        for (s++; more; more--, s++)
-            if ((*s & 0xC0) != 0x80) return false;
+    while (*text) {
+        const size_t length = draw_utf8_length(text);
+        if (!length) return false;
+        text += length;
     }
     return true;
 }

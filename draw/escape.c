@@ -3,8 +3,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Bytes of the UTF-8 character that begins here, shortest form, no surrogates (RFC 3629); 0: there is none. */
-static size_t length_of(const unsigned char *c) {
+size_t draw_utf8_length(const char *text) {
+    const unsigned char *c = (const unsigned char *)text;
     if (c[0] < 0x80) return 1;
     const size_t n = c[0] >= 0xC2 && c[0] <= 0xDF   ? 2
                      : (c[0] & 0xF0) == 0xE0        ? 3
@@ -13,9 +13,13 @@ static size_t length_of(const unsigned char *c) {
     for (size_t i = 1; i < n; i++)
         if ((c[i] & 0xC0) != 0x80) return 0;
     const bool wrong = (c[0] == 0xE0 && c[1] < 0xA0) || (c[0] == 0xED && c[1] > 0x9F) ||
-                       (c[0] == 0xF0 && c[1] < 0x90) || (c[0] == 0xF4 && c[1] > 0x8F) ||
-                       (c[0] == 0xEF && c[1] == 0xBF && c[2] >= 0xBE);
+                       (c[0] == 0xF0 && c[1] < 0x90) || (c[0] == 0xF4 && c[1] > 0x8F);
     return wrong ? 0 : n;
+}
+
+/* U+FFFE and U+FFFF are characters that XML has not. */
+static bool is_foreign(const char *at, size_t length) {
+    return length == 3 && !memcmp(at, "\xEF\xBF", 2) && (unsigned char)at[2] >= 0xBE;
 }
 
 static const char *name_of(char c) {
@@ -36,9 +40,9 @@ static const char *name_of(char c) {
 size_t draw_escape(const char **text, char out[8]) {
     const char *at = *text;
     if (!*at) return 0;
-    size_t n = length_of((const unsigned char *)at);
+    size_t n = draw_utf8_length(at);
     *text += n ? n : 1;
-    const char *as = n ? name_of(*at) : "\xEF\xBF\xBD";
+    const char *as = n && !is_foreign(at, n) ? name_of(*at) : "\xEF\xBF\xBD";
     if (as) n = strlen(as);
     memcpy(out, as ? as : at, n);
     return n;
