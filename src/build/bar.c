@@ -13,15 +13,14 @@
  *
  * Where there are no such directions (option directions=0, always beyond space) cells are cubes, and the cuts those
  * of a guard tree (split/cube_cut.h): fat, but not always low. */
-#include "base/log2.h"
 #include "base/status.h"
 #include "build/method.h"
+#include "split/axial.h"
 #include "split/bar_cut.h"
 #include "split/bar_guards.h"
 #include "split/cube_cut.h"
 #include "split/finish.h"
 #include "split/guard_grid.h"
-#include "split/refine.h"
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -346,26 +345,12 @@ static froe_status begin(bar *b) {
     return FROE_OK;
 }
 
-/** As density refines what its own guard stage leaves. */
-static split_refine refine_of(const build_job *job) {
-    const froe_scene *scene = job->scene;
-    const bool plane = scene->dim == 2;
-    return (split_refine){.leaf = job->leaf,
-                          .seed = job->seed,
-                          .supports = plane ? 8 : 20,
-                          .quantiles = plane ? 3 : 10,
-                          .edges = 20,
-                          .sample = 512,
-                          .weight = 0.1,
-                          .copy = 0.5,
-                          .height = 2 * base_log2((double)scene->object_count + 2),
-                          .small = FINISH_MOST,
-                          .free_cuts = true};
-}
-
 static froe_status build(build_job *job, froe_tree **out) {
     bar_notes notes = {0};
-    bar b = {.job = job, .notes = &notes, .refine = refine_of(job)};
+    bar b = {.job = job,
+             .notes = &notes,
+             .refine = split_axial_of(job->scene, job->leaf, job->seed, 1).refine}; /* as density's last stage */
+    b.refine.small = FINISH_MOST;
     const size_t bytes = ((size_t)job->scene->object_count + 1) * sizeof *b.originals;
     froe_status status = begin(&b);
     if (status) return status;
