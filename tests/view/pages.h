@@ -176,6 +176,16 @@ static inline void check_view(page *p, uint32_t samples, uint32_t seed) {
         check_sample(p, p->view.width * trees_unit(seed, 2 * i), p->view.height * trees_unit(seed, 2 * i + 1));
 }
 
+/* For test_memory_each. */
+static inline froe_status make_picture(void *user, const froe_allocator *alloc) {
+    page *p = user;
+    froe_picture *picture = NULL;
+    p->options.alloc = alloc;
+    froe_status status = froe_picture_new(p->tree, p->surface, &p->options, &picture, NULL);
+    froe_picture_free(picture);
+    return status;
+}
+
 /* Of a stroke, on the page. */
 static inline double length_of(const froe_stroke *s) {
     double sum = 0;

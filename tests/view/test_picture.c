@@ -486,15 +486,6 @@ static void small_faces_may_be_left_out(void **state) {
     froe_tree_free(tree);
 }
 
-static froe_status picture_with(void *user, const froe_allocator *alloc) {
-    page *p = user;
-    froe_picture *picture = NULL;
-    p->options.alloc = alloc;
-    froe_status status = froe_picture_new(p->tree, p->surface, &p->options, &picture, NULL);
-    froe_picture_free(picture);
-    return status;
-}
-
 static void every_allocation_may_fail(void **state) {
     (void)state;
     froe_tree *tree = trees_grow(3, FROE_POLYGON, 25, 0, 1, "density", 1);
@@ -510,12 +501,12 @@ static void every_allocation_may_fail(void **state) {
     p.options.interleave = 1;
     for (int paint = 0; paint < FROE_PAINT_COUNT; paint++) {
         p.options.paint = (froe_paint)paint;
-        assert_true(test_memory_each(picture_with, &p) > 20);
+        assert_true(test_memory_each(make_picture, &p) > 20);
     }
     clear[0] = clear[5] = 1;
     p.options.paint = FROE_PAINT_WHOLE;
     p.options.clear = clear;
-    assert_true(test_memory_each(picture_with, &p) > 20);
+    assert_true(test_memory_each(make_picture, &p) > 20);
     free(clear);
     close_page(&p);
     froe_tree_free(tree);

@@ -165,15 +165,6 @@ static void bad_sections_are_refused(void **state) {
     froe_tree_free(other);
 }
 
-static froe_status section_with(void *user, const froe_allocator *alloc) {
-    page *p = user;
-    froe_picture *picture = NULL;
-    p->options.alloc = alloc;
-    froe_status status = froe_picture_new(p->tree, p->surface, &p->options, &picture, NULL);
-    froe_picture_free(picture);
-    return status;
-}
-
 static void every_allocation_may_fail(void **state) {
     (void)state;
     const double plane[4] = {0, 0, 2, 24};
@@ -184,7 +175,7 @@ static void every_allocation_may_fail(void **state) {
     p.options.lines = 255;
     p.options.hidden = true;
     look_from(&p, 0, 0, 1, 0);
-    assert_true(test_memory_each(section_with, &p) > 20);
+    assert_true(test_memory_each(make_picture, &p) > 20);
     close_page(&p);
     froe_tree_free(tree);
     froe_tree_free(whole);
