@@ -33,10 +33,22 @@ json_t *cli_reals_json(const double *values, size_t count) {
     return array;
 }
 
-double cli_seconds(void) {
+static double seconds_of(clockid_t clock) {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(clock, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double cli_seconds(void) {
+    return seconds_of(CLOCK_MONOTONIC);
+}
+
+double cli_processor_seconds(void) {
+    return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+double cli_thread_seconds(void) {
+    return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
 int cli_flush(void) {

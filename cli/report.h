@@ -34,6 +34,8 @@ void cli_wrap(FILE *out, const char *text, size_t length, int column, int indent
 /** A JSON array of `count` doubles, NULL without memory. */
 json_t *cli_reals_json(const double *values, size_t count);
 
-/** Seconds of a clock that only moves forward. */
+/** Seconds of a clock that only moves forward, of all processors that worked for this program, and of this thread. */
 double cli_seconds(void);
+double cli_processor_seconds(void);
+double cli_thread_seconds(void);
 #endif

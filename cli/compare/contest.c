@@ -1,5 +1,6 @@
 /* contest.c: how well "auto" chooses. */
 #include "compare/contest.h"
+#include "compare/field.h"
 #include <math.h>
 #include <string.h>
 
@@ -8,14 +9,9 @@ enum { PURPOSES = sizeof purposes / sizeof *purposes };
 static const char *const kinds[] = {"point", "window", "ray", "approximate"};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static double number(const json_t *object, const char *key) {
-    const json_t *value = json_object_get(object, key);
-    return json_is_number(value) ? json_number_value(value) : NAN;
-}
-
 /* Leaves of one object, or none, unless nothing can separate them: what makes pieces comparable. */
 static double pieces(const json_t *row) {
-    return number(row, "leaf") <= 1 && number(row, "crowded") == 0 ? number(row, "fragments") : NAN;
+    return field_number(row, "leaf") <= 1 && field_number(row, "crowded") == 0 ? field_number(row, "fragments") : NAN;
 }
 
 static double least_time(const json_t *rows, const char *kind) {
@@ -23,7 +19,7 @@ static double least_time(const json_t *rows, const char *kind) {
     size_t i;
     json_t *row;
     json_array_foreach((json_t *)rows, i, row) {
-        const double e = number(json_object_get(json_object_get(row, "queries"), kind), "microseconds");
+        const double e = field_number(json_object_get(json_object_get(row, "queries"), kind), "microseconds");
         if (e < least) least = e; /* not for NaN */
     }
     return least;
@@ -36,7 +32,7 @@ static double query_cost(const json_t *rows, const json_t *row) {
     for (int k = 0; k < KINDS; k++) {
         const double least = least_time(rows, kinds[k]);
         if (!isfinite(least) || !(least > 0)) continue;
-        sum += number(json_object_get(json_object_get(row, "queries"), kinds[k]), "microseconds") / least;
+        sum += field_number(json_object_get(json_object_get(row, "queries"), kinds[k]), "microseconds") / least;
         count++;
     }
     return count ? sum / count : NAN;
@@ -66,14 +62,9 @@ json_t *contest_json(const froe_scene *scene, const json_t *rows) {
 
 /* Was the method that auto takes tried in vain, though another served? */
 static bool has_failed(const json_t *scene, const json_t *choice) {
-    size_t i;
-    json_t *row;
-    json_array_foreach(json_object_get(scene, "methods"), i,
-                       row) if (strcmp(json_string_value(json_object_get(row, "method")),
-                                       json_string_value(json_object_get(choice, "auto"))) ==
-                                0) return json_is_string(json_object_get(choice, "best")) &&
-        strcmp(json_string_value(json_object_get(row, "status")), "ok") != 0;
-    return false;
+    const json_t *row =
+        field_row(json_object_get(scene, "methods"), json_string_value(json_object_get(choice, "auto")));
+    return row && json_is_string(json_object_get(choice, "best")) && !field_is_built(row);
 }
 
 static json_t *sum_json(const json_t *scenes, const char *purpose) {
@@ -83,7 +74,7 @@ static json_t *sum_json(const json_t *scenes, const char *purpose) {
     json_t *scene;
     json_array_foreach((json_t *)scenes, i, scene) {
         const json_t *choice = json_object_get(json_object_get(scene, "auto"), purpose);
-        const double ratio = number(choice, "ratio");
+        const double ratio = field_number(choice, "ratio");
         const bool fails = has_failed(scene, choice);
         count += fails || !isnan(ratio);
         failed += fails;

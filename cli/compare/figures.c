@@ -1,5 +1,6 @@
 /* figures.c: from rows to series of numbers, drawn by the draw library. */
 #include "compare/figures.h"
+#include "compare/field.h"
 #include <froe/froe.h>
 #include <froe/plot.h>
 #include <math.h>
@@ -16,11 +17,6 @@ typedef struct figure {
 
 static bool put_bytes(void *user, const void *bytes, size_t count) {
     return fwrite(bytes, 1, count, user) == count;
-}
-
-static double number(const json_t *object, const char *key) {
-    const json_t *value = json_object_get(object, key);
-    return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
 static size_t points_of(const json_t *rows, const char *list) {
@@ -59,14 +55,6 @@ static void add_series(figure *f, const json_t *row, const json_t *items, point_
     f->series[f->count++] = (froe_plot_series){json_string_value(json_object_get(row, "method")), x, y, count};
 }
 
-static const json_t *row_of(const json_t *rows, const char *method) {
-    size_t i;
-    json_t *row;
-    json_array_foreach((json_t *)rows, i,
-                       row) if (strcmp(json_string_value(json_object_get(row, "method")), method) == 0) return row;
-    return NULL;
-}
-
 static bool has_points(const figure *f) {
     size_t points = 0;
     for (size_t i = 0; i < f->count; i++) points += f->series[i].count;
@@ -79,7 +67,7 @@ static bool put_figure(FILE *out, const json_t *rows, const char *list, point_fn
     bool ok = begin(&f, rows, list);
     const froe_method_info *method;
     for (size_t i = 0; ok && (method = froe_method_at(i)) != NULL; i++) {
-        const json_t *row = row_of(rows, method->name), *items = json_object_get(row, list);
+        const json_t *row = field_row(rows, method->name), *items = json_object_get(row, list);
         if (row || options->kind != FROE_PLOT_COLUMNS) /* columns stand side by side */
             add_series(&f, row, items ? items : json_object_get(json_object_get(row, "queries"), list), fn, key);
     }
@@ -95,14 +83,14 @@ static bool put_figure(FILE *out, const json_t *rows, const char *list, point_fn
 /* ------------------------------------------------------------------- growth -- */
 
 static bool per_object(const json_t *item, const char *key, double *x, double *y) {
-    *x = number(item, "objects");
-    *y = number(item, key) / *x;
+    *x = field_number(item, "objects");
+    *y = field_number(item, key) / *x;
     return *y > 0;
 }
 
 static bool plain(const json_t *item, const char *key, double *x, double *y) {
-    *x = number(item, "objects");
-    *y = number(item, key);
+    *x = field_number(item, "objects");
+    *y = field_number(item, key);
     return *y > 0;
 }
 
@@ -122,9 +110,9 @@ static bool put_growth(FILE *out, const json_t *rows) {
 /* ---------------------------------------------------------------------- eps -- */
 
 static bool by_eps(const json_t *item, const char *key, double *x, double *y) {
-    const double eps = number(item, "eps");
+    const double eps = field_number(item, "eps");
     *x = 1 / eps;
-    *y = number(item, key);
+    *y = field_number(item, key);
     return eps > 0 && *y > 0;
 }
 
@@ -140,8 +128,8 @@ static bool put_eps(FILE *out, const json_t *rows) {
 /* -------------------------------------------------------------------- loads -- */
 
 static bool load(const json_t *item, const char *key, double *x, double *y) {
-    *x = number(item, "load");
-    *y = number(item, key);
+    *x = field_number(item, "load");
+    *y = field_number(item, key);
     return true;
 }
 
@@ -158,7 +146,8 @@ static bool put_loads(FILE *out, const json_t *rows) {
         o.kind = FROE_PLOT_COLUMNS, o.width = 260, o.height = 170;
         o.title = json_string_value(json_object_get(row, "method"));
         o.x_label = "pieces in a leaf", o.y_label = "leaves";
-        const double step = number(json_array_get(bins, 1), "load") - number(json_array_get(bins, 0), "load");
+        const double step =
+            field_number(json_array_get(bins, 1), "load") - field_number(json_array_get(bins, 0), "load");
         o.column = step > 0 ? 0.8 * step : 0.8;
         json_t *one = json_pack("[O]", row);
         ok = one && put_figure(out, one, "leaf_loads", load, "leaves", &o);

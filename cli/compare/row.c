@@ -6,7 +6,6 @@
 #include "tree_report.h"
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* ------------------------------------------------------------------ building -- */
 
@@ -18,17 +17,10 @@ typedef struct attempt {
     bool late;
 } attempt;
 
-/* Time of all processors that worked for this program. */
-static double processor_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* The lesser of both counts: a machine that is busy with other things makes no build late, nor do many threads. */
 static bool step(void *user, double done) {
     attempt *a = user;
-    if (cli_seconds() - a->wall > a->seconds && processor_seconds() - a->processors > a->seconds) a->late = true;
+    if (cli_seconds() - a->wall > a->seconds && cli_processor_seconds() - a->processors > a->seconds) a->late = true;
     return cli_progress_step(&a->bar, done) && !a->late;
 }
 
@@ -62,7 +54,7 @@ static outcome build(const compare_plan *plan, froe_scene *scene, meter *memory,
     o.max_fragments = most < 1 ? 1 : most < 1e15 ? (uint64_t)most : 0;
     o.progress = step;
     o.user = &a;
-    a.wall = start, a.processors = processor_seconds();
+    a.wall = start, a.processors = cli_processor_seconds();
     const size_t before = memory ? meter_restart(memory) : 0;
     const froe_status status = froe_build(scene, &o, &out.tree, &diag);
     out.seconds = cli_seconds() - start;

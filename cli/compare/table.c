@@ -1,5 +1,6 @@
 /* table.c: the comparison as a table. */
 #include "compare/table.h"
+#include "compare/field.h"
 #include "report.h"
 #include <math.h>
 #include <string.h>
@@ -81,10 +82,6 @@ static bool used(const json_t *rows, const table_column *column) {
     return found;
 }
 
-static bool is_built(const json_t *row) {
-    return strcmp(json_string_value(json_object_get(row, "status")), "ok") == 0;
-}
-
 /* Rows that failed come last, so that the first one tells which columns hold numbers; they are rows of trees only. */
 static json_t *rows_report(const json_t *rows, table_part part) {
     json_t *table = json_array();
@@ -92,7 +89,7 @@ static json_t *rows_report(const json_t *rows, table_part part) {
         size_t i;
         json_t *row;
         json_array_foreach((json_t *)rows, i, row) {
-            if (is_built(row) != built) continue;
+            if (field_is_built(row) != built) continue;
             json_t *cells = json_pack("{s:O}", "method", json_object_get(row, "method"));
             for (const table_column *c = table_columns; c->name; c++)
                 if (c->part == part && used(rows, c)) json_object_set_new(cells, c->name, table_value(row, c));

@@ -8,7 +8,6 @@
 #include "report.h"
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 typedef enum query_kind { POINT, WINDOW, RAY, APPROXIMATE } query_kind;
 
@@ -111,23 +110,17 @@ static json_t *costs_json(run *r, uint64_t asked, const froe_query_stats *sum, u
                      each * (double)sum->leaves, "tests", each * (double)sum->tests, "found", each * (double)found);
 }
 
-/* Processor time of this thread, which does all the asking: what else the machine does at the time counts less. */
-static double processor_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Does a kind of query end here: for want of time, or because nobody waits any more? */
 static bool over(const run *r, double started) {
-    return cli_interrupted() || processor_seconds() - started > r->load->seconds;
+    return cli_interrupted() || cli_thread_seconds() - started > r->load->seconds;
 }
 
-/* Counts first, then times. */
+/* Counts first, then times: those of this thread, which does all the asking, so that what else the machine does counts
+ * less. */
 static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe_status *status) {
     froe_query_stats sum = {.queries = 0};
     uint64_t found = 0, asked = 0;
-    const double started = processor_seconds();
+    const double started = cli_thread_seconds();
     froe_query_statistics(r->query);
     while (asked < count && !*status && !over(r, started)) {
         *status = ask(r, kind, eps, asked, &found);
@@ -138,9 +131,9 @@ static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe
     if (*status) return NULL;
     json_t *out = costs_json(r, asked, &sum, found);
     if (!r->load->times || !asked) return out;
-    const double start = processor_seconds();
+    const double start = cli_thread_seconds();
     for (uint64_t i = 0; i < asked && !*status; i++) *status = ask(r, kind, eps, i, &found);
-    json_object_set_new(out, "microseconds", json_real(1e6 * (processor_seconds() - start) / (double)asked));
+    json_object_set_new(out, "microseconds", json_real(1e6 * (cli_thread_seconds() - start) / (double)asked));
     return out;
 }
 
