@@ -116,7 +116,7 @@ static int build_and_report(const build_args *args, froe_scene *scene, double se
 static int run(const void *given) {
     const build_args *args = given;
     int code = cli_check_method(args->method, true);
-    if (!code) code = cli_check_outputs(&args->scene.path, 1, &args->output, 1);
+    if (!code) code = cli_check_outputs((const char *[]){args->scene.path, args->order}, 2, &args->output, 1);
     if (code) return code;
     froe_scene *scene;
     froe_read_report reader;

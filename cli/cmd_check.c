@@ -39,10 +39,11 @@ static json_t *id_json(uint32_t id) {
 static int report_violation(const check_args *args, const froe_diagnostic *diag) {
     const int code = cli_fail_status(CLI_WORKING, args->tree, FROE_E_AUDIT, diag);
     if (!args->common.json) return code;
-    const int written = cli_report(&args->common, NULL,
-                                   json_pack("{s:s, s:b, s:{s:s, s:o, s:o, s:o}}", "tree", args->tree, "ok", 0,
-                                             "violation", "message", diag->message, "object", id_json(diag->object),
-                                             "corner", id_json(diag->corner), "axis", id_json(diag->axis)));
+    const int written =
+        cli_report(&args->common, NULL,
+                   json_pack("{s:o, s:b, s:{s:s, s:o, s:o, s:o}}", "tree", cli_name_json(args->tree), "ok", 0,
+                             "violation", "message", diag->message, "object", id_json(diag->object), "corner",
+                             id_json(diag->corner), "axis", id_json(diag->axis)));
     return written ? written : code;
 }
 
@@ -51,10 +52,10 @@ static int report_success(const check_args *args, const froe_tree *tree, double 
     char headline[400];
     snprintf(headline, sizeof headline, "%.200s: every invariant holds", args->tree);
     return cli_report(&args->common, headline,
-                      json_pack("{s:s, s:b, s:s, s:i, s:I, s:I, s:I, s:I, s:f}", "tree", args->tree, "ok", 1, "method",
-                                r.method, "dim", r.dim, "objects", (json_int_t)r.objects, "nodes", (json_int_t)r.nodes,
-                                "fragments", (json_int_t)r.fragments, "height", (json_int_t)r.height, "seconds",
-                                seconds));
+                      json_pack("{s:o, s:b, s:s, s:i, s:I, s:I, s:I, s:I, s:f}", "tree", cli_name_json(args->tree),
+                                "ok", 1, "method", r.method, "dim", r.dim, "objects", (json_int_t)r.objects, "nodes",
+                                (json_int_t)r.nodes, "fragments", (json_int_t)r.fragments, "height",
+                                (json_int_t)r.height, "seconds", seconds));
 }
 
 static int run(const void *given) {

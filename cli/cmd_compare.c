@@ -137,9 +137,9 @@ static json_t *scene_json(const compare_args *args, const compare_plan *plan, co
     json_t *rows = both.order ? rows_json(args, plan, &both) : NULL;
     free(both.order);
     if (!rows) return NULL;
-    return json_pack("{s:s, s:i, s:o, s:o, s:o, s:o*}", "scene", path, "dim", froe_scene_dim(scene), "measures",
-                     measures_json(args, scene), "methods", rows, "auto", contest_json(scene, rows), "picture",
-                     plan->pictures ? picture_scene_json(scene) : NULL);
+    return json_pack("{s:o, s:i, s:o, s:o, s:o, s:o*}", "scene", cli_name_json(path), "dim", froe_scene_dim(scene),
+                     "measures", measures_json(args, scene), "methods", rows, "auto", contest_json(scene, rows),
+                     "picture", plan->pictures ? picture_scene_json(scene) : NULL);
 }
 
 static json_t *compare(const compare_args *args, froe_scene *const *scenes, meter *meters) {

@@ -152,7 +152,8 @@ static int run(const void *given) {
     if (code) return code;
     char index[400];
     snprintf(index, sizeof index, "%.300s/index.html", args->output);
-    return cli_report(&args->common, NULL, json_pack("{s:f, s:s}", "seconds", cli_seconds() - start, "index", index));
+    return cli_report(&args->common, NULL,
+                      json_pack("{s:f, s:o}", "seconds", cli_seconds() - start, "index", cli_name_json(index)));
 }
 
 const cli_command cli_command_demo = {

@@ -182,7 +182,9 @@ static int run(const void *given) {
     if (code) return code;
     code = draw(args, tree);
     if (!code)
-        code = cli_report(&args->common, NULL, json_pack("{s:s, s:s}", "tree", args->tree, "output", args->output));
+        code = cli_report(
+            &args->common, NULL,
+            json_pack("{s:o, s:o}", "tree", cli_name_json(args->tree), "output", cli_name_json(args->output)));
     froe_tree_free(tree);
     return code;
 }

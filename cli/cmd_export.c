@@ -59,9 +59,9 @@ static int run(const void *given) {
     code = check_window(args, tree);
     if (!code) code = export_tree(args, tree);
     if (!code)
-        code = cli_report(
-            &args->common, NULL,
-            json_pack("{s:s, s:s, s:s}", "tree", args->tree, "what", whats[args->what], "output", args->output));
+        code = cli_report(&args->common, NULL,
+                          json_pack("{s:o, s:s, s:o}", "tree", cli_name_json(args->tree), "what", whats[args->what],
+                                    "output", cli_name_json(args->output)));
     froe_tree_free(tree);
     return code;
 }

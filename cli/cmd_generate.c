@@ -66,8 +66,9 @@ static bool is_moving(const char *kind) {
 
 static int report(const generate_args *args, int dim, size_t objects) {
     return cli_report(&args->common, NULL,
-                      json_pack("{s:s, s:i, s:I, s:I, s:s}", "kind", args->kind, "dim", dim, "objects",
-                                (json_int_t)objects, "seed", (json_int_t)args->common.seed, "output", args->output));
+                      json_pack("{s:s, s:i, s:I, s:I, s:o}", "kind", args->kind, "dim", dim, "objects",
+                                (json_int_t)objects, "seed", (json_int_t)args->common.seed, "output",
+                                cli_name_json(args->output)));
 }
 
 static int generate_motion(const generate_args *args) {

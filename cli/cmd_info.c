@@ -56,10 +56,11 @@ static json_t *reader_json(const froe_read_report *r) {
 
 static json_t *info_json(const char *path, const froe_scene *scene, const froe_read_report *reader,
                          const froe_defects *defects) {
-    return json_pack("{s:s, s:i, s:I, s:o, s:I, s:I, s:o, s:o, s:o}", "file", path, "dim", froe_scene_dim(scene),
-                     "objects", (json_int_t)froe_scene_object_count(scene), "kinds", kinds_json(scene), "vertices",
-                     (json_int_t)froe_scene_vertex_count(scene), "groups", (json_int_t)froe_scene_group_count(scene),
-                     "bounds", bounds_json(scene), "defects", defects_json(defects), "reader", reader_json(reader));
+    return json_pack("{s:o, s:i, s:I, s:o, s:I, s:I, s:o, s:o, s:o}", "file", cli_name_json(path), "dim",
+                     froe_scene_dim(scene), "objects", (json_int_t)froe_scene_object_count(scene), "kinds",
+                     kinds_json(scene), "vertices", (json_int_t)froe_scene_vertex_count(scene), "groups",
+                     (json_int_t)froe_scene_group_count(scene), "bounds", bounds_json(scene), "defects",
+                     defects_json(defects), "reader", reader_json(reader));
 }
 
 static int find_defects(const info_args *args, const froe_scene *scene, froe_defects *defects) {

@@ -156,7 +156,7 @@ static int run(const void *given) {
     s.options.samples = (uint32_t)args->samples;
     s.options.seed = args->common.seed;
     s.options.counting = (froe_counting)args->counting;
-    json_t *report = json_pack("{s:s, s:I, s:I, s:I, s:{}}", "file", args->scene.path, "objects",
+    json_t *report = json_pack("{s:o, s:I, s:I, s:I, s:{}}", "file", cli_name_json(args->scene.path), "objects",
                                (json_int_t)froe_scene_object_count(scene), "samples", (json_int_t)args->samples, "seed",
                                (json_int_t)args->common.seed, "distributions");
     code = measure(&s, report);

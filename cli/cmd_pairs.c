@@ -51,8 +51,9 @@ static bool put_pair(void *user, const froe_pair *pair) {
 static int finish(const pairs_args *args, writing *w) {
     if (args->common.json)
         return cli_report(&args->common, NULL,
-                          json_pack("{s:s, s:I, s:I, s:I}", "tree", args->tree, kinds[0], (json_int_t)w->counts[0],
-                                    kinds[1], (json_int_t)w->counts[1], kinds[2], (json_int_t)w->counts[2]));
+                          json_pack("{s:o, s:I, s:I, s:I}", "tree", cli_name_json(args->tree), kinds[0],
+                                    (json_int_t)w->counts[0], kinds[1], (json_int_t)w->counts[1], kinds[2],
+                                    (json_int_t)w->counts[2]));
     if (args->count)
         for (int i = 0; i < 3; i++) printf("%s,%" PRIu64 "\n", kinds[i], w->counts[i]);
     cli_answers_flush(&w->out);

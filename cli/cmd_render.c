@@ -130,14 +130,14 @@ static const cli_part parts[] = {{"Picture", what, 0},
 
 static json_t *report_json(const render_args *args, const froe_render_report *r) {
     const froe_picture_report *p = &r->picture;
-    return json_pack("{s:s, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "tree", args->tree,
-                     "output", args->output, "paint", froe_paint_name(p->paint), "fragments",
-                     (json_int_t)p->visibility.pieces, "visible_fragments", (json_int_t)p->visibility.visible_pieces,
-                     "visible_faces", (json_int_t)p->visibility.visible_patches, "arcs", (json_int_t)p->arcs,
-                     "late_faces", (json_int_t)p->late, "shapes", (json_int_t)p->shapes, "lines",
-                     (json_int_t)p->strokes, "paths", (json_int_t)r->paths, "bytes", (json_int_t)r->bytes,
-                     "exact_calls", (json_int_t)p->visibility.predicates.exact, "left_out_faces",
-                     (json_int_t)p->left_out, "left_out_area", p->left_out_area);
+    return json_pack(
+        "{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "tree",
+        cli_name_json(args->tree), "output", cli_name_json(args->output), "paint", froe_paint_name(p->paint),
+        "fragments", (json_int_t)p->visibility.pieces, "visible_fragments", (json_int_t)p->visibility.visible_pieces,
+        "visible_faces", (json_int_t)p->visibility.visible_patches, "arcs", (json_int_t)p->arcs, "late_faces",
+        (json_int_t)p->late, "shapes", (json_int_t)p->shapes, "lines", (json_int_t)p->strokes, "paths",
+        (json_int_t)r->paths, "bytes", (json_int_t)r->bytes, "exact_calls", (json_int_t)p->visibility.predicates.exact,
+        "left_out_faces", (json_int_t)p->left_out, "left_out_area", p->left_out_area);
 }
 
 static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {

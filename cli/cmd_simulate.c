@@ -130,9 +130,9 @@ static int report(const simulation *s) {
                              (json_int_t)s->statistics.candidates, "exact", (json_int_t)s->statistics.exact);
     json_t *seconds = json_pack("{s:f, s:f}", "read", s->read.seconds, "contacts", s->seconds);
     return cli_report(&s->args->common, NULL,
-                      json_pack("{s:s, s:{s:f, s:f}, s:o, s:o, s:O, s:o, s:o}", "file", s->args->path, "window", "from",
-                                window.begin, "to", window.end, "motion", all, "contacts", found, "events", s->events,
-                                "work", work, "seconds", seconds));
+                      json_pack("{s:o, s:{s:f, s:f}, s:o, s:o, s:O, s:o, s:o}", "file", cli_name_json(s->args->path),
+                                "window", "from", window.begin, "to", window.end, "motion", all, "contacts", found,
+                                "events", s->events, "work", work, "seconds", seconds));
 }
 
 static int check(const simulate_args *args) {

@@ -188,9 +188,9 @@ static json_t *statistics_json(froe_query *query) {
 
 static int summarise(run *r, double seconds) {
     return cli_report(r->q->common, NULL,
-                      json_pack("{s:s, s:s, s:I, s:I, s:f, s:o}", "tree", r->q->args->tree, "queries", r->rows.path,
-                                "answered", (json_int_t)r->answered, "rows", (json_int_t)r->out.rows, "seconds",
-                                seconds, "visited", statistics_json(r->q->query)));
+                      json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(r->q->args->tree), "queries",
+                                cli_name_json(r->rows.path), "answered", (json_int_t)r->answered, "rows",
+                                (json_int_t)r->out.rows, "seconds", seconds, "visited", statistics_json(r->q->query)));
 }
 
 int cli_queries_run(const cli_queries *queries) {

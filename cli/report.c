@@ -33,6 +33,18 @@ json_t *cli_reals_json(const double *values, size_t count) {
     return array;
 }
 
+json_t *cli_name_json(const char *name) {
+    json_t *plain = name ? json_string(name) : NULL;
+    if (plain || !name) return plain;
+    char *text = malloc(4 * strlen(name) + 1), *end = text;
+    if (!text) return NULL;
+    for (const char *c = name; *c; c++)
+        end += sprintf(end, (unsigned char)*c < 0x80 ? "%c" : "\\x%02X", (unsigned char)*c);
+    plain = json_string(text);
+    free(text);
+    return plain;
+}
+
 static double seconds_of(clockid_t clock) {
     struct timespec now;
     clock_gettime(clock, &now);

@@ -31,6 +31,10 @@ void cli_number(char *text, double value);
  * indented; the line already holds `column` characters. Ends with a newline. */
 void cli_wrap(FILE *out, const char *text, size_t length, int column, int indent);
 
+/** The name of a file, which may have any bytes: those of one that is no UTF-8, and so no JSON, stand as \xFF. NULL
+ * without a name, or memory. */
+json_t *cli_name_json(const char *name);
+
 /** A JSON array of `count` doubles, NULL without memory. */
 json_t *cli_reals_json(const double *values, size_t count);
 

@@ -66,8 +66,8 @@ int cli_report_build(const cli_common *common, const char *scene, const char *ou
     snprintf(headline, sizeof headline, "%.200s: %llu objects in %llu pieces, height %llu, by %s in %.3g s", scene,
              (unsigned long long)r.objects, (unsigned long long)r.fragments, (unsigned long long)r.height, r.method,
              seconds.build);
-    json_t *report = json_pack("{s:s, s:s*, s:o}", "scene", scene, "tree", output, "seconds",
-                               json_pack("{s:f, s:f}", "read", seconds.read, "build", seconds.build));
+    json_t *report = json_pack("{s:o, s:o*, s:o}", "scene", cli_name_json(scene), "tree", cli_name_json(output),
+                               "seconds", json_pack("{s:f, s:f}", "read", seconds.read, "build", seconds.build));
     json_t *tree_report = cli_tree_json(tree);
     if (!report || !tree_report || json_object_update_missing(report, tree_report) != 0) {
         json_decref(report);
