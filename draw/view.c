@@ -56,10 +56,13 @@ size_t draw_view_clip_ring(const draw_view *view, draw_point *ring, draw_point *
     return draw_clip_half(spare, count, (draw_point){0, 1}, view->hi.y, -1, ring);
 }
 
+/* A page of more dots than that shows what other pages would not. */
+#define MOST_DOTS 0x1p30
+
 bool draw_dots_new(const froe_allocator *alloc, double left, double top, double width, double height, double detail,
                    draw_dots *out) {
     draw_dots dots = {.alloc = *alloc, .left = left, .top = top, .detail = detail};
-    if (detail > 0) {
+    if (detail > 0 && width / detail * (height / detail) < MOST_DOTS) {
         dots.across = (size_t)(width / detail) + 1;
         dots.down = (size_t)(height / detail) + 1;
         dots.bits = draw_calloc(alloc, dots.across * dots.down / 8 + 1, 1);
