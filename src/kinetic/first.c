@@ -40,13 +40,17 @@ static int sign_near(const poly_ball *p, double s) {
     return y > error ? 1 : y < -error ? -1 : 0;
 }
 
+/* REQUIRES: within the span. Before lines become parallel their crossing leaves the segments, and this claim is gone:
+ * nobody is lost. */
 static bool fails_at(const search *f, int64_t s) {
     now_state *now = f->now;
     int sign = sign_near(f->p, (double)s);
     if (sign) return sign < 0;
+    const bool lost = now->lost;
     now->tick = f->start + s;
     bool fails = now_holds(now, f->claim) < 0;
     now->tick = f->start;
+    now->lost = lost;
     return fails;
 }
 
@@ -163,6 +167,18 @@ static verdict judge(int d, const num_ball *b) {
     return changes == 1 && last < 0 ? ONE_ROOT : HALVE;
 }
 
+/* The claim changes but once from low to high: where? -1: behind the span, where other pieces hold. */
+static int64_t try_one_root(const search *f, int64_t low, int64_t high) {
+    const int64_t good = low & ~(int64_t)1, last = f->span & ~(int64_t)1;
+    int64_t bad = next_even(high);
+    double root = rough_root(f->p, (double)low, (double)high);
+    if (bad > last) {
+        if (!fails_at(f, last)) return -1;
+        bad = last;
+    }
+    return bracket(f, good, bad, (int64_t)root);
+}
+
 /* Both ends of even ticks in the interval, one by one. -1: the claim holds at all of them. */
 static int64_t try_all(const search *f, int64_t low, int64_t high) {
     for (int64_t s = next_even(low > 2 ? low : 2); s <= high && s <= f->span; s += 2)
@@ -217,12 +233,8 @@ static int64_t look(const search *f, stretch *s, bool *halve_it) {
         return -1;
     case FAILS:
         return try_all(f, s->low, s->low + 4);
-    case ONE_ROOT: {
-        if (s->power <= 2) return try_all(f, s->low, high);
-        double root = rough_root(f->p, (double)s->low, (double)high);
-        int64_t low = s->low & ~(int64_t)1, end = next_even(high);
-        return bracket(f, low, end, (int64_t)root);
-    }
+    case ONE_ROOT:
+        return s->power <= 2 ? try_all(f, s->low, high) : try_one_root(f, s->low, high);
     case HOPELESS:
         return search_exactly(f, s->low, s->power);
     default:

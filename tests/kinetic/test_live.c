@@ -222,6 +222,31 @@ static bool count_three(void *user, const froe_event *event) {
     return ++*(int *)user < 3;
 }
 
+/* A wall at the crossing of two segments, which become parallel and stay so from the next piece on; a vertex that would
+ * come to it a tick later if they did not. Whoever looks there asks where parallel lines cross. */
+static void test_trials_within_pieces(void **state) {
+    (void)state;
+    const size_t starts[] = {0, 1, 2, 3, 6, 8, 9};
+    const double times[] = {0, 0, 0, 0, 22, 64, 0, 69, 0};
+    const double coords[] = {0, 0, 10, 10, 0, 10, 10, 0, 10, 20, 10, 20, 0, -20, -330, -20, 0, -30};
+    const uint32_t vertices[] = {0, 1, 2, 3, 4, 5};
+    froe_motion_options window = froe_motion_defaults();
+    window.begin = 0, window.end = 64, window.tick = 1;
+    froe_moving batch = froe_moving_defaults();
+    batch.vertex_count = 6, batch.count = 3;
+    batch.starts = starts, batch.times = times, batch.coords = coords, batch.vertices = vertices;
+    froe_motion *m = NULL;
+    assert_int_equal(froe_motion_new(&window, NULL, &m, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add(m, &batch, NULL), FROE_OK);
+    froe_kinetic *k = start(m, 1);
+    const now_claim claim = {{4, NAME_VERTEX}, name_crossing(0, 1), 0};
+    assert_int_equal(now_holds(&k->now, &claim), 1);
+    assert_true(now_first_failure(&k->now, &claim) == NOW_NEVER);
+    assert_false(k->now.lost);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
 static void test_calls(void **state) {
     (void)state;
     froe_motion *m = moving_new(moving_kinds, 1, NULL);
@@ -277,6 +302,7 @@ int main(void) {
         cmocka_unit_test(test_changes),
         cmocka_unit_test(test_epochs),
         cmocka_unit_test(test_order),
+        cmocka_unit_test(test_trials_within_pieces),
         cmocka_unit_test(test_calls),
         cmocka_unit_test(test_memory_runs_out),
     };
