@@ -2,12 +2,14 @@
  *
  *     bench_index [N [KIND...]]        default: 10^6, of short, mixed, tin, cross; FILE: see plane.c
  *
- * One thread, processor time. In every round each program answers the same queries, one program after the other; a
- * rate is the median of 5 rounds, a ratio that of the medians. Answers are compared, all of them. */
+ * One thread, processor time, but for a line that says what two do for pairs. In every round each program answers the
+ * same queries, one program after the other; a rate is the median of 5 rounds, a ratio that of the medians. Answers are
+ * compared, all of them. */
 #include "bench.h"
 #include "plane.h"
 #include <froe/query.h>
 #include <malloc.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -257,6 +259,23 @@ static void time_pairs(run *r) {
     print(r, "pairs, s", true);
 }
 
+/* From the tree on, by the clock: least times, since a second processor may be busy with something else. */
+static void time_pairs_threads(run *r) {
+    double least[2] = {INFINITY, INFINITY};
+    size_t count[2];
+    froe_batch_options o = froe_batch_defaults();
+    for (int round = 0; round < 2 * ROUNDS; round++) {
+        const int which = round % 2;
+        o.threads = (unsigned)which + 1;
+        count[which] = 0;
+        const double start = bench_now();
+        bench_must(froe_batch_pairs(r->query, true, &o, count_pair, &count[which], NULL), NULL);
+        least[which] = fmin(least[which], bench_now() - start);
+    }
+    printf("%-10s pairs on two threads: %.4f s for %.4f s on one, %.2f x faster, %s\n", r->plane.name, least[1],
+           least[0], least[0] / least[1], count[0] == count[1] ? "equal" : "ANSWERS DIFFER");
+}
+
 /* -------------------------------------------------------------------- whole -- */
 
 static void bench(const char *kind, size_t n) {
@@ -273,6 +292,7 @@ static void bench(const char *kind, size_t n) {
     time_above_batch(&r);
     time_locate(&r);
     time_pairs(&r);
+    time_pairs_threads(&r);
     for (int p = 0; p < PEERS; p++)
         if (r.index[p]) peers[p]->free(r.index[p]);
     froe_query_free(r.query);

@@ -43,6 +43,7 @@ froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diag
     if (!query || !out) return base_fail(diag, FROE_E_ARG, "froe_query_fork: NULL argument.");
     if (take(query->tree, query->shared, out)) return base_fail_memory(diag);
     (*out)->numbers.first = query->numbers.first;
+    if (query->packed) (*out)->packed->kernels = query->packed->kernels;
     atomic_fetch_add(&query->shared->holds, 1);
     return FROE_OK;
 }

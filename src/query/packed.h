@@ -8,6 +8,7 @@
 #define FROE_QUERY_PACKED_H
 #include "query/context.h"
 #include "query/packed_kernel.h"
+#include "query/workers.h"
 
 typedef struct packed_waiting {
     uint32_t node;
@@ -49,7 +50,7 @@ froe_status packed_any(froe_query *query, const double *lo, const double *hi);
 froe_status packed_vertical(froe_query *query, const double *points, size_t count, int direction, uint32_t *objects);
 /** All that can be wrong with a point to look up or down from. */
 froe_status query_vertical_check(const froe_query *query, const double *point, int direction, froe_diagnostic *diag);
-/** As froe_query_pairs(). FROE_E_LIMIT, before anything has been told: more pairs than are worth gathering;
- * FROE_E_MEMORY. */
-froe_status packed_pairs(froe_query *query, bool shared, froe_pair_fn *fn, void *user);
+/** As froe_batch_pairs(). FROE_E_LIMIT, before anything has been told: more pairs than are worth gathering;
+ * FROE_E_MEMORY, FROE_E_CANCELLED. */
+froe_status packed_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user);
 #endif

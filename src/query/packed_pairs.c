@@ -6,29 +6,30 @@
  *     |   / \ |__/   |     inside of a cell are seen by the kernel, the rest is decided exactly.
  *     +-------+------+
  *
- * Leaves come in their own order, callers want pairs by ids: so they are gathered, counted by the first id,
- * and told then. Where there are too many for that, nothing is told, and the caller asks object by object. */
+ * Leaves come in their own order, and runs of them to several threads; callers want pairs by ids: so they are gathered
+ * and sorted (pair_lists.h), and told then. Where there are too many for that, nothing is told, and the caller asks
+ * object by object. */
 #include "geom/contact.h"
-#include "query/heap.h"
 #include "query/packed.h"
+#include "query/pair_lists.h"
 #include "query/segment.h"
 
 enum { PAIRS_EACH = 16, PAIRS_MORE = 1 << 20 }; /* gathered for each object at most, and some more */
-#define PAIR_KIND 30                            /* shift of the kind beside the higher id */
+enum { RUN = 512 };                             /* nodes a job */
 
-typedef struct gathered {
-    uint32_t a, b; /* b with the kind above PACKED_OBJECT */
-} gathered;
-
-typedef struct pairing {
-    froe_query *q;
+typedef struct search {
+    query_workers *workers;
     bool shared;
+    pair_lists lists;
+} search;
+
+/* What is looked at, by one thread. */
+typedef struct pairing {
+    search *search;
+    unsigned worker;
+    froe_query *q;
     packed_box cell;
-    uint64_t most;
-    froe_status status; /* FROE_E_LIMIT: more than `most` */
-    ARRAY(gathered) pairs;
-    uint32_t *starts; /* of the pairs of each first id, once sorted */
-    gathered *sorted;
+    froe_status status;
 } pairing;
 
 /* ------------------------------------------------------------------ places -- */
@@ -71,12 +72,7 @@ static bool end_here(pairing *p, const double *const a[2], const double *const b
 /* ------------------------------------------------------------------- pairs -- */
 
 static void gather(pairing *p, uint32_t a, uint32_t b, froe_meeting kind) {
-    const gathered pair = {a < b ? a : b, (a < b ? b : a) | (uint32_t)kind << PAIR_KIND};
-    if (p->status) return;
-    if (p->pairs.count == p->most)
-        p->status = FROE_E_LIMIT;
-    else if (!array_push(&p->q->alloc, &p->pairs, pair))
-        p->status = FROE_E_MEMORY;
+    if (!p->status) p->status = pair_lists_add(&p->search->lists, p->worker, a, b, kind);
 }
 
 static void decide(pairing *p, uint32_t a, uint32_t b) {
@@ -89,7 +85,7 @@ static void decide(pairing *p, uint32_t a, uint32_t b) {
     const geom_contact c = geom_contact_of(&p->q->numbers, &one, &other, sides);
     p->q->packed->decided++;
     if (c.kind == GEOM_APART) return;
-    if (!p->shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) return;
+    if (!p->search->shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) return;
     packed_ends(s, a, u);
     packed_ends(s, b, v);
     if (c.kind == GEOM_CROSS ? crossing_here(p, u, v) : end_here(p, u, v)) gather(p, a, b, kinds[c.kind]);
@@ -107,12 +103,13 @@ static void pair_row(pairing *p, const uint32_t *ids, uint32_t count, uint32_t i
         }
 }
 
-static froe_status pair_leaf(pairing *p, const tree_node *leaf) {
+static void pair_leaf(pairing *p, const tree_node *leaf) {
     froe_query *q = p->q;
     const packed_header *block = packed_block(q->tree, leaf);
     uint32_t count = leaf->u.list.count, words = (count + PACKED_LANES - 1) / PACKED_LANES;
     const uint32_t *ids = packed_ids(block, count);
-    if (!array_reserve(&q->alloc, &q->packed->bits, 2 * (size_t)words)) return FROE_E_MEMORY;
+    q->packed->bits.count = 0;
+    if (!array_reserve(&q->alloc, &q->packed->bits, 2 * (size_t)words)) p->status = FROE_E_MEMORY;
     packed_row row = {q->packed->bits.data, q->packed->bits.data + words};
     packed_cell(q->tree, block, &p->cell);
     q->stats.leaves++;
@@ -121,69 +118,36 @@ static froe_status pair_leaf(pairing *p, const tree_node *leaf) {
         q->stats.tests += count - i - 1;
         pair_row(p, ids, count, i, &row);
     }
-    return FROE_OK;
 }
 
-static void gather_all(pairing *p) {
-    const froe_tree *t = p->q->tree;
-    p->q->packed->bits.count = 0;
-    for (uint32_t i = 0; i < t->node_count && !p->status; i++)
-        if (tree_is_leaf(t->nodes + i) && t->nodes[i].u.list.count > 1 && pair_leaf(p, t->nodes + i))
-            p->status = FROE_E_MEMORY;
+static froe_status pair_run(void *user, unsigned worker, size_t job) {
+    search *s = user;
+    pairing p = {.search = s, .worker = worker, .q = s->workers->queries[worker]};
+    const froe_tree *t = p.q->tree;
+    const uint32_t from = (uint32_t)job * RUN, to = t->node_count - from < RUN ? t->node_count : from + RUN;
+    for (uint32_t i = from; i < to && !p.status; i++)
+        if (tree_is_leaf(t->nodes + i) && t->nodes[i].u.list.count > 1) pair_leaf(&p, t->nodes + i);
+    return p.status;
 }
 
-/* ----------------------------------------------------------------- telling -- */
+/* -------------------------------------------------------------------- whole -- */
 
-/* By the first id: counted, then put, from the last to the first. */
-static froe_status sort_pairs(pairing *p) {
-    size_t objects = p->q->tree->scene->object_count, n = p->pairs.count;
-    p->starts = base_calloc(&p->q->alloc, objects + 1, sizeof *p->starts);
-    p->sorted = base_calloc(&p->q->alloc, n, sizeof *p->sorted);
-    if (!p->starts || !p->sorted) return FROE_E_MEMORY;
-    for (size_t i = 0; i < n; i++) p->starts[p->pairs.data[i].a]++;
-    for (size_t i = 1; i <= objects; i++) p->starts[i] += p->starts[i - 1];
-    for (size_t i = n; i--;) p->sorted[--p->starts[p->pairs.data[i].a]] = p->pairs.data[i];
-    return FROE_OK;
-}
-
-static bool later(void *user, uint32_t i, uint32_t j) {
-    (void)user;
-    return (i & PACKED_OBJECT) > (j & PACKED_OBJECT);
-}
-
-/* The pairs of one first id by the second; false: the visitor wants no more. */
-static bool tell_one(pairing *p, uint32_t object, froe_pair_fn *fn, void *user) {
-    uint32_t from = p->starts[object], to = p->starts[object + 1];
-    p->q->packed->candidates.count = 0;
-    for (uint32_t i = from; i < to; i++) p->q->packed->candidates.data[i - from] = p->sorted[i].b;
-    query_heap_sort(p->q->packed->candidates.data, to - from, later, NULL);
-    for (uint32_t i = 0; i < to - from; i++) {
-        uint32_t b = p->q->packed->candidates.data[i];
-        if (!fn(user, &(froe_pair){object, b & PACKED_OBJECT, (froe_meeting)(b >> PAIR_KIND)})) return false;
-    }
-    return true;
-}
-
-static froe_status tell_all(pairing *p, froe_pair_fn *fn, void *user) {
-    uint32_t objects = p->q->tree->scene->object_count, most = 0;
-    froe_status status = sort_pairs(p);
-    for (uint32_t i = 0; i < objects && !status; i++)
-        most = p->starts[i + 1] - p->starts[i] > most ? p->starts[i + 1] - p->starts[i] : most;
-    p->q->packed->candidates.count = 0;
-    if (!status && !array_reserve(&p->q->alloc, &p->q->packed->candidates, most)) status = FROE_E_MEMORY;
-    for (uint32_t i = 0; i < objects && !status; i++)
-        if (!tell_one(p, i, fn, user)) break;
+static froe_status search_all(search *s, const froe_tree *t, froe_pair_fn *fn, void *user) {
+    base_task *task = &s->workers->task;
+    froe_status status = base_run(task, 0.8, ((size_t)t->node_count + RUN - 1) / RUN, pair_run, s);
+    if (!status) status = pair_lists_sort(&s->lists, task, 0.2);
+    if (!status) pair_lists_tell(&s->lists, fn, user);
     return status;
 }
 
-froe_status packed_pairs(froe_query *q, bool shared, froe_pair_fn *fn, void *user) {
-    size_t objects = q->tree->scene->object_count;
-    uint64_t most = (uint64_t)objects * PAIRS_EACH + PAIRS_MORE;
-    pairing p = {.q = q, .shared = shared, .most = most < UINT32_MAX ? most : UINT32_MAX};
-    gather_all(&p);
-    if (!p.status) p.status = tell_all(&p, fn, user);
-    base_free(&q->alloc, p.starts, (objects + 1) * sizeof *p.starts);
-    base_free(&q->alloc, p.sorted, (p.pairs.count ? p.pairs.count * sizeof *p.sorted : 1));
-    array_free(&q->alloc, &p.pairs);
-    return p.status;
+froe_status packed_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
+    const froe_query *q = workers->queries[0];
+    const uint32_t objects = q->tree->scene->object_count;
+    const uint64_t most = (uint64_t)objects * PAIRS_EACH + PAIRS_MORE;
+    search s = {.workers = workers, .shared = shared};
+    froe_status status =
+        pair_lists_take(&s.lists, &q->alloc, objects, workers->count, most < UINT32_MAX ? (uint32_t)most : UINT32_MAX);
+    if (!status) status = search_all(&s, q->tree, fn, user);
+    pair_lists_give(&s.lists);
+    return status;
 }

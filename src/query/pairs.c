@@ -26,7 +26,7 @@ typedef struct chunk {
 } chunk;
 
 typedef struct search {
-    query_workers workers;
+    query_workers *workers;
     bool shared;
     desk *desks;        /* [thread] */
     chunk *chunks;      /* of a wave */
@@ -108,7 +108,7 @@ static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, voi
     for (uint64_t done = 0; done < jobs; done += s->chunk_count) {
         const size_t count = jobs - done < s->chunk_count ? (size_t)(jobs - done) : s->chunk_count;
         s->first = (uint32_t)done * CHUNK;
-        const froe_status status = base_run(&s->workers.task, (double)count / (double)jobs, count, find, s);
+        const froe_status status = base_run(&s->workers->task, (double)count / (double)jobs, count, find, s);
         if (status) return status;
         for (size_t i = 0; i < count; i++)
             for (size_t n = 0; n < s->chunks[i].pairs.count; n++)
@@ -118,46 +118,47 @@ static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, voi
 }
 
 static bool take_desks(search *s, const froe_allocator *alloc) {
-    const unsigned threads = s->workers.count;
+    const unsigned threads = s->workers->count;
     s->chunk_count = threads > 1 ? (size_t)threads * WAVE : 1;
     s->desks = base_calloc(alloc, threads, sizeof *s->desks);
     s->chunks = base_calloc(alloc, s->chunk_count, sizeof *s->chunks);
-    for (unsigned i = 0; s->desks && i < threads; i++) s->desks[i].q = s->workers.queries[i];
+    for (unsigned i = 0; s->desks && i < threads; i++) s->desks[i].q = s->workers->queries[i];
     return s->desks && s->chunks;
 }
 
 static void give_desks(search *s, const froe_allocator *alloc) {
-    for (unsigned i = 0; s->desks && i < s->workers.count; i++) {
+    for (unsigned i = 0; s->desks && i < s->workers->count; i++) {
         array_free(alloc, &s->desks[i].points);
         array_free(alloc, &s->desks[i].sides);
     }
     for (size_t i = 0; s->chunks && i < s->chunk_count; i++) array_free(alloc, &s->chunks[i].pairs);
-    base_free(alloc, s->desks, s->workers.count * sizeof *s->desks);
+    base_free(alloc, s->desks, s->workers->count * sizeof *s->desks);
     base_free(alloc, s->chunks, s->chunk_count * sizeof *s->chunks);
 }
 
-static froe_status find_pairs(froe_query *query, bool shared, const froe_batch_options *options, froe_pair_fn *fn,
-                              void *user, froe_diagnostic *diag) {
-    const uint32_t objects = query->tree->scene->object_count;
-    search s = {.shared = shared};
-    froe_status status = query_workers_take(query, options, (objects + CHUNK - 1) / CHUNK, &s.workers, diag);
-    if (!status) {
-        status = take_desks(&s, &query->alloc) ? search_all(&s, objects, fn, user) : FROE_E_MEMORY;
-        give_desks(&s, &query->alloc);
-        if (status == FROE_E_CANCELLED) base_fail(diag, status, "cancelled");
-        if (status == FROE_E_MEMORY) base_fail_memory(diag);
-    }
-    query_workers_give(&s.workers);
+static froe_status find_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
+    const froe_query *query = workers->queries[0];
+    search s = {.workers = workers, .shared = shared};
+    const froe_status status =
+        take_desks(&s, &query->alloc) ? search_all(&s, query->tree->scene->object_count, fn, user) : FROE_E_MEMORY;
+    give_desks(&s, &query->alloc);
     return status;
 }
 
 froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options, froe_pair_fn *fn,
                              void *fn_user, froe_diagnostic *diag) {
     if (!query || !fn) return base_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
-    if (options && options->size != sizeof *options) return query_workers_refuse(diag);
-    const froe_status status = query->packed ? packed_pairs(query, shared, fn, fn_user) : FROE_E_LIMIT;
-    if (status != FROE_E_LIMIT) return status ? base_fail_memory(diag) : FROE_OK;
-    return find_pairs(query, shared, options, fn, fn_user, diag);
+    const size_t jobs = ((size_t)query->tree->scene->object_count + CHUNK - 1) / CHUNK;
+    query_workers workers;
+    froe_status status = query_workers_take(query, options, jobs, &workers, diag);
+    if (!status) {
+        status = query->packed ? packed_pairs(&workers, shared, fn, fn_user) : FROE_E_LIMIT;
+        if (status == FROE_E_LIMIT) status = find_pairs(&workers, shared, fn, fn_user);
+        if (status == FROE_E_CANCELLED) base_fail(diag, status, "cancelled");
+        if (status == FROE_E_MEMORY) base_fail_memory(diag);
+    }
+    query_workers_give(&workers);
+    return status;
 }
 
 froe_status froe_query_pairs(froe_query *query, bool shared, froe_pair_fn *fn, void *user, froe_diagnostic *diag) {

@@ -297,25 +297,32 @@ static void pairs_by_force(const froe_scene *s, bool shared, told *out) {
         }
 }
 
+/* Asks on several threads, and expects these pairs in this order. */
+static void expect_pairs(froe_query *query, unsigned threads, bool shared, const told *expected, const char *name) {
+    const froe_allocator alloc = base_allocator(NULL);
+    told found = {.most = SIZE_MAX};
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = threads;
+    assert_int_equal(froe_batch_pairs(query, shared, &o, note_pair, &found, NULL), FROE_OK);
+    if (found.pairs.count != expected->pairs.count)
+        fail_msg("%s, %s, %u threads: %zu pairs for %zu", name, query->packed->kernels->name, threads,
+                 found.pairs.count, expected->pairs.count);
+    for (size_t i = 0; i < found.pairs.count; i++) {
+        const froe_pair *p = found.pairs.data + i, *q = expected->pairs.data + i;
+        if (by_ids(p, q) || p->kind != q->kind)
+            fail_msg("%s, %u threads: %u %u kind %d for %u %u kind %d", name, threads, p->a, p->b, (int)p->kind, q->a,
+                     q->b, (int)q->kind);
+    }
+    array_free(&alloc, &found.pairs);
+}
+
 /* By all kernels: those of brute force, each once, by ids. */
 static uint64_t check_pairs(asking *a, const froe_tree *t, const char *name, bool shared) {
     const froe_allocator alloc = base_allocator(NULL);
     told expected = {.most = SIZE_MAX};
     pairs_by_force(t->scene, shared, &expected);
-    for (size_t k = 0; k < a->kernels; k++) {
-        told found = {.most = SIZE_MAX};
-        assert_int_equal(froe_query_pairs(a->q[k], shared, note_pair, &found, NULL), FROE_OK);
-        if (found.pairs.count != expected.pairs.count)
-            fail_msg("%s, %s: %zu pairs for %zu", name, a->q[k]->packed->kernels->name, found.pairs.count,
-                     expected.pairs.count);
-        for (size_t i = 0; i < found.pairs.count; i++) {
-            const froe_pair *p = found.pairs.data + i, *q = expected.pairs.data + i;
-            if (by_ids(p, q) || p->kind != q->kind)
-                fail_msg("%s: %u %u kind %d for %u %u kind %d", name, p->a, p->b, (int)p->kind, q->a, q->b,
-                         (int)q->kind);
-        }
-        array_free(&alloc, &found.pairs);
-    }
+    for (size_t k = 0; k < a->kernels; k++)
+        for (unsigned threads = 1; threads <= 3; threads += 2) expect_pairs(a->q[k], threads, shared, &expected, name);
     uint64_t count = expected.pairs.count;
     array_free(&alloc, &expected.pairs);
     return count;
@@ -343,6 +350,58 @@ static void a_visitor_stops_the_pairs(void **state) {
     told found = {.most = 5};
     assert_int_equal(froe_query_pairs(a.q[0], true, note_pair, &found, NULL), FROE_OK);
     assert_int_equal(found.pairs.count, 5);
+    array_free(&alloc, &found.pairs);
+    asking_end(&a);
+    froe_tree_free(t);
+}
+
+/* Scenes of so many nodes that each thread gets several runs of them, against a tree that is not packed. */
+static void pairs_do_not_depend_on_threads(void **state) {
+    (void)state;
+    const froe_allocator alloc = base_allocator(NULL);
+    const struct {
+        uint32_t count;
+        double size;
+    } scenes[] = {{20000, 0.03}, {3600, 3}}; /* the second has more pairs than are gathered */
+    for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+        froe_scene *scene = trees_scene(2, FROE_SEGMENT, scenes[k].count, 0, scenes[k].size, 7);
+        froe_tree *general = trees_build(scene, "density", 8), *packed = trees_build(scene, "index", 4);
+        froe_query *q, *reference;
+        told expected = {.most = SIZE_MAX};
+        assert_int_equal(froe_query_new(general, &reference, NULL), FROE_OK);
+        assert_int_equal(froe_query_new(packed, &q, NULL), FROE_OK);
+        assert_int_equal(froe_query_pairs(reference, true, note_pair, &expected, NULL), FROE_OK);
+        assert_true(expected.pairs.count > 10000);
+        if (k) assert_true(expected.pairs.count > 16 * (uint64_t)scenes[k].count + (1 << 20));
+        for (unsigned threads = 1; threads <= 5; threads += 2) expect_pairs(q, threads, true, &expected, "threads");
+        array_free(&alloc, &expected.pairs);
+        froe_query_free(q), froe_query_free(reference);
+        froe_tree_free(packed), froe_tree_free(general);
+        froe_scene_free(scene);
+    }
+}
+
+/* Says no at the end, when all pairs are found. */
+static bool almost(void *user, double done) {
+    double *most = user;
+    assert_true(done >= *most && done <= 1);
+    *most = done;
+    return done < 0.8;
+}
+
+static void pairs_are_cancelled_before_they_are_told(void **state) {
+    (void)state;
+    const froe_allocator alloc = base_allocator(NULL);
+    froe_tree *t = tree_of(kinds + 1, false);
+    asking a = asking_of(t);
+    told found = {.most = SIZE_MAX};
+    double most = 0;
+    froe_diagnostic why;
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = 2, o.progress = almost, o.user = &most;
+    assert_int_equal(froe_batch_pairs(a.q[0], true, &o, note_pair, &found, &why), FROE_E_CANCELLED);
+    assert_int_equal(why.status, FROE_E_CANCELLED);
+    assert_int_equal(found.pairs.count, 0);
     array_free(&alloc, &found.pairs);
     asking_end(&a);
     froe_tree_free(t);
@@ -458,6 +517,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_told_exactly_once),
         cmocka_unit_test(a_visitor_stops_the_pairs),
+        cmocka_unit_test(pairs_do_not_depend_on_threads),
+        cmocka_unit_test(pairs_are_cancelled_before_they_are_told),
         cmocka_unit_test(batches_answer_as_single_questions_do),
         cmocka_unit_test(queries_survive_every_failing_allocation),
         cmocka_unit_test(a_block_is_not_taken_for_a_node_of_the_same_number),
