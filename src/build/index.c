@@ -100,7 +100,7 @@ static froe_status gather(index_work *w, index_cell *cell) {
         uint32_t object = g->ids[i] & PACKED_OBJECT;
         if (i + AHEAD < g->id_room) __builtin_prefetch(w->axis.ends + (g->ids[i + AHEAD] & PACKED_OBJECT));
         if (many && g->ids[i] & GRID_SHARED && taken(w, cell->first, object)) continue;
-        w->items.data[w->items.count++] = axis_clip(&w->axis, object, &cell->box);
+        axis_clip(&w->axis, object, &cell->box, w->items.data + w->items.count++);
     }
     cell->count = (uint32_t)w->items.count - cell->first;
     cell->heap = 0;
@@ -364,7 +364,7 @@ static froe_status find_ends(index_work *w) {
 /* All objects as fragments, where no grid can be laid over them. */
 static froe_status take_all(index_work *w, index_cell *root) {
     if (!array_reserve(&w->job->alloc, &w->items, root->count)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < root->count; i++) w->items.data[w->items.count++] = axis_clip(&w->axis, i, &root->box);
+    for (uint32_t i = 0; i < root->count; i++) axis_clip(&w->axis, i, &root->box, w->items.data + w->items.count++);
     return array_push(&w->job->alloc, &w->cells, *root) ? FROE_OK : FROE_E_MEMORY;
 }
 

@@ -83,19 +83,23 @@ static void confine(double x[2], const packed_box *box) {
 
 /* Corners lie in no cut, but they may lie in the border of the root box. */
 static bool inside(const double *x, const packed_box *box) {
-    return x[0] >= box->lo[0] && x[0] <= box->hi[0] && x[1] >= box->lo[1] && x[1] <= box->hi[1];
+    return (x[0] >= box->lo[0]) & (x[0] <= box->hi[0]) & (x[1] >= box->lo[1]) & (x[1] <= box->hi[1]);
 }
 
-packed_fragment axis_clip(axis_work *work, uint32_t object, const packed_box *box) {
+void axis_clip(axis_work *work, uint32_t object, const packed_box *box, packed_fragment *out) {
     const axis_ends *ends = work->ends + object;
-    packed_fragment f = axis_whole(ends, object);
+    out->id = object;
+    out->error = 0;
     for (int last = 0; last < 2; last++) {
-        double *x = last ? f.q : f.p;
-        if (inside(x, box)) continue;
-        uint32_t error = packed_half(clip_end(work, ends, last, box, x));
+        const double *u = last ? ends->q : ends->p;
+        double *x = last ? out->q : out->p;
+        if (inside(u, box)) {
+            x[0] = u[0], x[1] = u[1];
+            out->id |= last ? PACKED_END : PACKED_START;
+            continue;
+        }
+        const uint32_t error = packed_half(clip_end(work, ends, last, box, x));
         confine(x, box);
-        f.id &= ~(last ? PACKED_END : PACKED_START);
-        f.error = error > f.error ? error : f.error;
+        out->error = error > out->error ? error : out->error;
     }
-    return f;
 }

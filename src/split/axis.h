@@ -50,8 +50,8 @@ static inline int axis_sure_side(const packed_fragment *f, bool last, int axis, 
 /** Divides a fragment (ends: those of all objects) with ends on different sides of x[axis] = value. */
 void axis_divide(const axis_ends *ends, const packed_fragment *f, int axis, double value, packed_fragment *negative,
                  packed_fragment *positive);
-/** The fragment of a segment or point that has a point inside the box. */
-packed_fragment axis_clip(axis_work *work, uint32_t object, const packed_box *box);
+/** Writes the fragment of a segment or point that has a point inside the box. */
+void axis_clip(axis_work *work, uint32_t object, const packed_box *box, packed_fragment *out);
 /** Side of x[axis] = value on which the crossing of a segment with x[1 - axis] = at lies: -1, 0, 1. Exact. */
 int axis_crossing_side(num_context *context, const double *u, const double *v, int axis, double at, double value);
 #endif
