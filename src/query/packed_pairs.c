@@ -16,6 +16,7 @@
 
 enum { PAIRS_EACH = 16, PAIRS_MORE = 1 << 20 }; /* gathered for each object at most, and some more */
 enum { RUN = 512 };                             /* nodes a job */
+enum { ASKED = 256 };                           /* objects whose coordinates are asked for in advance */
 
 typedef struct search {
     query_workers *workers;
@@ -38,6 +39,10 @@ typedef struct pairing {
 static bool in_span(const pairing *p, int axis, double x) {
     double hi = p->cell.hi[axis];
     return x >= p->cell.lo[axis] && (x < hi || (x == hi && hi == p->q->tree->meta.root_hi[axis]));
+}
+
+static bool is_here(const pairing *p, const double *x) {
+    return in_span(p, 0, x[0]) && in_span(p, 1, x[1]);
 }
 
 /* The crossing of two segments that cross in their inner points: those never lie in the root box's upper sides. */
@@ -66,7 +71,7 @@ static bool end_here(pairing *p, const double *const a[2], const double *const b
         if ((!first || precedes(a[i], first)) && holds(p, b, a[i])) first = a[i];
         if ((!first || precedes(b[i], first)) && holds(p, a, b[i])) first = b[i];
     }
-    return first && in_span(p, 0, first[0]) && in_span(p, 1, first[1]);
+    return first && is_here(p, first);
 }
 
 /* ------------------------------------------------------------------- pairs -- */
@@ -75,20 +80,64 @@ static void gather(pairing *p, uint32_t a, uint32_t b, froe_meeting kind) {
     if (!p->status) p->status = pair_lists_add(&p->search->lists, p->worker, a, b, kind);
 }
 
+/* What two segments have in common that are known to share a corner, and are not on one line: that corner. NULL where
+ * they may have more, or something else. On maps nearly all pairs are such. */
+static const double *only_corner(pairing *p, const double *const a[2], const double *const b[2]) {
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            if (geom_same_point(a[i], b[j], 2)) return query_turn(&p->q->numbers, a[0], a[1], b[1 - j]) ? a[i] : NULL;
+    return NULL;
+}
+
 static void decide(pairing *p, uint32_t a, uint32_t b) {
     static const froe_meeting kinds[GEOM_CONTACTS] = {
         [GEOM_CROSS] = FROE_MEET_CROSS, [GEOM_TOUCH] = FROE_MEET_TOUCH, [GEOM_OVERLAP] = FROE_MEET_OVERLAP};
     const froe_scene *s = p->q->tree->scene;
-    const geom_body one = scene_body(s, a), other = scene_body(s, b);
     signed char sides[4];
     const double *u[2], *v[2];
-    const geom_contact c = geom_contact_of(&p->q->numbers, &one, &other, sides);
     p->q->packed->decided++;
-    if (c.kind == GEOM_APART) return;
-    if (!p->search->shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) return;
     packed_ends(s, a, u);
     packed_ends(s, b, v);
+    const double *corner = only_corner(p, u, v);
+    if (corner) {
+        if (p->search->shared && is_here(p, corner)) gather(p, a, b, FROE_MEET_TOUCH);
+        return;
+    }
+    const geom_body one = scene_body(s, a), other = scene_body(s, b);
+    const geom_contact c = geom_contact_of(&p->q->numbers, &one, &other, sides);
+    if (c.kind == GEOM_APART) return;
+    if (!p->search->shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) return;
     if (c.kind == GEOM_CROSS ? crossing_here(p, u, v) : end_here(p, u, v)) gather(p, a, b, kinds[c.kind]);
+}
+
+/* Asks for coordinates: each of the three loads that lead to them waits for the one before, but not for those of
+ * other objects. */
+static void ask_for(const froe_scene *s, const uint32_t *objects, size_t count) {
+    for (size_t i = 0; i < count; i++) __builtin_prefetch(s->starts + objects[i]);
+    for (size_t i = 0; i < count; i++) __builtin_prefetch(s->corners + s->starts[objects[i]]);
+    for (size_t i = 0; i < count; i++) {
+        __builtin_prefetch(scene_point(s, objects[i], 0));
+        __builtin_prefetch(scene_point(s, objects[i], scene_corners(s, objects[i]) - 1));
+    }
+}
+
+/* What kernels left open in a leaf. */
+static void decide_open(pairing *p) {
+    const uint32_t *open = p->q->packed->candidates.data;
+    const size_t count = p->q->packed->candidates.count;
+    for (size_t i = 0; i < count && !p->status; i += 2) {
+        if (i % ASKED == 0) ask_for(p->q->tree->scene, open + i, count - i < ASKED ? count - i : ASKED);
+        decide(p, open[i], open[i + 1]);
+    }
+    p->q->packed->candidates.count = 0;
+}
+
+static void leave_open(pairing *p, uint32_t a, uint32_t b) {
+    froe_query *q = p->q;
+    if (!array_reserve(&q->alloc, &q->packed->candidates, 2)) p->status = FROE_E_MEMORY;
+    if (p->status) return;
+    q->packed->candidates.data[q->packed->candidates.count++] = a;
+    q->packed->candidates.data[q->packed->candidates.count++] = b;
 }
 
 /* Fragment i with all after it. */
@@ -99,7 +148,7 @@ static void pair_row(pairing *p, const uint32_t *ids, uint32_t count, uint32_t i
             if (row->crossing[word] >> bit & 1)
                 gather(p, ids[i] & PACKED_OBJECT, ids[j] & PACKED_OBJECT, FROE_MEET_CROSS);
             else
-                decide(p, ids[i] & PACKED_OBJECT, ids[j] & PACKED_OBJECT);
+                leave_open(p, ids[i] & PACKED_OBJECT, ids[j] & PACKED_OBJECT);
         }
 }
 
@@ -108,7 +157,7 @@ static void pair_leaf(pairing *p, const tree_node *leaf) {
     const packed_header *block = packed_block(q->tree, leaf);
     uint32_t count = leaf->u.list.count, words = (count + PACKED_LANES - 1) / PACKED_LANES;
     const uint32_t *ids = packed_ids(block, count);
-    q->packed->bits.count = 0;
+    q->packed->bits.count = q->packed->candidates.count = 0;
     if (!array_reserve(&q->alloc, &q->packed->bits, 2 * (size_t)words)) p->status = FROE_E_MEMORY;
     packed_row row = {q->packed->bits.data, q->packed->bits.data + words};
     packed_cell(q->tree, block, &p->cell);
@@ -118,6 +167,7 @@ static void pair_leaf(pairing *p, const tree_node *leaf) {
         q->stats.tests += count - i - 1;
         pair_row(p, ids, count, i, &row);
     }
+    decide_open(p);
 }
 
 static froe_status pair_run(void *user, unsigned worker, size_t job) {
