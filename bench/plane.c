@@ -4,7 +4,7 @@
  *     mixed    lengths by a power law up to the width of the scene, shrunk until disjoint: a few long, skinny obstacles
  *     tin      an irregular network of triangles: corners shared by six
  *     cross    equal lengths anywhere, such that about n pairs cross
- *     FILE     coastlines (coastline.c): windows and points lie near them
+ *     FILE     the segments of a scene that froe reads, in whole numbers: windows and points lie near them
  *
  * All in random order. Window sizes are found by bisection over 200 centres. */
 #include "plane.h"
@@ -195,20 +195,50 @@ static int by_coordinates(const void *a, const void *b) {
     return (s->by > t->by) - (s->by < t->by);
 }
 
-/* Those of a file, each once, any n of them. */
-static void read_file(maker *m, const char *path) {
-    FILE *f = fopen(path, "rb");
-    int32_t c[4];
-    must(f, "cannot read the file of segments");
-    while (fread(c, sizeof c, 1, f) == 1)
-        if (c[0] != c[2] || c[1] != c[3]) add(m, oriented(c[0], c[1], c[2], c[3]));
-    fclose(f);
-    plane_scene *p = m->scene;
-    qsort(p->s, p->n, sizeof *p->s, by_coordinates);
+static bool is_whole(double x) {
+    return x == floor(x) && x >= 0 && x <= WIDTH;
+}
+
+/* Coordinates that are not whole numbers from 0 to WIDTH are brought there and rounded. */
+static void make_whole(plane_scene *p, const double lo[2], double size) {
+    bool whole = true;
+    for (size_t i = 0; i < p->n; i++) {
+        const peer_segment *s = p->s + i;
+        whole = whole && is_whole(s->ax) && is_whole(s->ay) && is_whole(s->bx) && is_whole(s->by);
+    }
+    const double scale = WIDTH / size;
+    for (size_t i = 0; i < p->n && !whole; i++) {
+        const peer_segment *s = p->s + i;
+        p->s[i] = oriented(floor((s->ax - lo[0]) * scale), floor((s->ay - lo[1]) * scale),
+                           floor((s->bx - lo[0]) * scale), floor((s->by - lo[1]) * scale));
+    }
+}
+
+static void keep_each_once(plane_scene *p) {
     size_t kept = 0;
-    for (size_t i = 0; i < p->n; i++)
-        if (!i || by_coordinates(p->s + i, p->s + i - 1)) p->s[kept++] = p->s[i];
+    qsort(p->s, p->n, sizeof *p->s, by_coordinates);
+    for (size_t i = 0; i < p->n; i++) {
+        const peer_segment *s = p->s + i;
+        if ((s->ax != s->bx || s->ay != s->by) && (!kept || by_coordinates(s, p->s + kept - 1))) p->s[kept++] = *s;
+    }
     p->n = kept;
+}
+
+/* The first n segments of a scene that froe reads. */
+static void read_file(maker *m, const char *path) {
+    froe_scene *scene = bench_read(path);
+    double lo[2] = {0}, hi[2] = {0};
+    must(froe_scene_dim(scene) == 2, "the scene is not in the plane");
+    for (uint32_t i = 0; i < froe_scene_object_count(scene) && m->scene->n < m->n; i++) {
+        if (froe_scene_object(scene, i).kind != FROE_SEGMENT) continue;
+        const double *a = froe_scene_vertex(scene, froe_scene_corner(scene, i, 0));
+        const double *b = froe_scene_vertex(scene, froe_scene_corner(scene, i, 1));
+        add(m, oriented(a[0], a[1], b[0], b[1]));
+    }
+    froe_scene_bounds(scene, lo, hi);
+    make_whole(m->scene, lo, fmax(hi[0] - lo[0], hi[1] - lo[1]));
+    keep_each_once(m->scene);
+    froe_scene_free(scene);
 }
 
 /* ------------------------------------------------------------------ queries -- */
@@ -292,9 +322,8 @@ plane_scene plane_make(const char *kind, size_t n, uint64_t seed) {
                  {"cross", make_cross, false}};
     plane_scene p = {.n = 0};
     maker m = {.scene = &p, .n = n, .state = bench_state(seed << 40)};
-    const char *base = strrchr(kind, '/');
     size_t k = 0;
-    snprintf(p.name, sizeof p.name, "%s", base ? base + 1 : kind);
+    bench_name(kind, p.name);
     while (k < 4 && strcmp(kinds[k].name, kind) != 0) k++;
     if (k < 4)
         kinds[k].make(&m), p.disjoint = kinds[k].disjoint;

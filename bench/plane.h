@@ -15,8 +15,8 @@ typedef struct plane_scene {
     bool disjoint; /**< no two segments cross: faces are well defined */
 } plane_scene;
 
-/** short, mixed, tin, cross, of about n segments; or a file of segments as four i32 each (see coastline.c). Exits on
- * failure. */
+/** short, mixed, tin, cross, of about n segments; or the first n segments of a file that froe reads. Exits on failure.
+ */
 plane_scene plane_make(const char *kind, size_t n, uint64_t seed);
 void plane_free(plane_scene *scene);
 #endif

@@ -108,7 +108,9 @@ static int64_t above(void *index, double x, double y) {
 /* A point that two segments which meet have in common, to less than the margin of cover(). */
 static void common_point(const peer_segment *a, const peer_segment *b, double *x, double *y) {
     double dx = a->bx - a->ax, dy = a->by - a->ay, ex = b->bx - b->ax, ey = b->by - b->ay, d = dx * ey - dy * ex;
-    double t = d != 0 ? ((b->ax - a->ax) * ey - (b->ay - a->ay) * ex) / d : dx > 0 ? (b->ax - a->ax) / dx : 0;
+    const bool later = b->ax > a->ax || (b->ax == a->ax && b->ay > a->ay); /* on one line: where the later begins */
+    double t = d != 0 ? ((b->ax - a->ax) * ey - (b->ay - a->ay) * ex) / d : 0;
+    if (d == 0 && later) a = b;
     t = fmin(fmax(t, 0), 1);
     *x = a->ax + t * dx;
     *y = a->ay + t * dy;
