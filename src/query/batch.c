@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "query/areas.h"
 #include "query/packed.h"
+#include "query/space.h"
 #include "query/workers.h"
 #include <string.h>
 
@@ -127,14 +128,29 @@ static bool append(const batch *b, const froe_query *q, chunk *c) {
     return true;
 }
 
-/* Rays of a chunk all at once, on a packed tree: one computes while others wait for memory. */
+/* What can be wrong with ray i. */
+static froe_status check_ray(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    const double *point = point_of(b, b->points, i);
+    if (b->ask == ask_vertical) return query_vertical_check(q, point, b->direction, diag);
+    return query_ray_take(q, point, point_of(b, b->directions, i), b->limit, diag);
+}
+
+/* Can the rays of a chunk be answered all at once, on a packed tree? One computes while others wait for memory. */
+static bool flies(const batch *b, const froe_query *q) {
+    if (b->ask == ask_vertical) return q->packed;
+    return (b->ask == ask_ray || b->ask == ask_ray_any) && q->space && q->tree->packed.wide;
+}
+
 static froe_status answer_flock(const batch *b, froe_query *q, size_t first, size_t end, froe_diagnostic *diag) {
     for (size_t i = first; i < end; i++) {
-        const froe_status status = query_vertical_check(q, point_of(b, b->points, i), b->direction, diag);
+        const froe_status status = check_ray(b, q, i, diag);
         if (status) diag->object = (uint32_t)i;
         if (status) return status;
     }
     const double *points = point_of(b, b->points, first);
+    if (b->ask != ask_vertical)
+        return space_rays(q, points, point_of(b, b->directions, first), end - first, b->limit,
+                          b->hits ? b->hits + first : NULL, b->objects ? b->objects + first : NULL, diag);
     return packed_vertical(q, points, end - first, b->direction, b->objects + first) ? base_fail_memory(diag) : FROE_OK;
 }
 
@@ -143,7 +159,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     froe_query *q = b->workers.queries[worker];
     chunk *c = b->chunks + job;
     const size_t first = job * CHUNK, end = first + CHUNK < b->count ? first + CHUNK : b->count;
-    if (b->ask == ask_vertical && q->packed) return answer_flock(b, q, first, end, &c->diag);
+    if (flies(b, q)) return answer_flock(b, q, first, end, &c->diag);
     for (size_t i = first; i < end; i++) {
         froe_status status = b->ask(b, q, i, &c->diag);
         if (!status && !append(b, q, c)) status = base_fail_memory(&c->diag);

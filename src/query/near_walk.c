@@ -60,7 +60,7 @@ froe_status query_near_begin(froe_query *q, froe_diagnostic *diag) {
     n->places.count = n->free.count = n->heap.count = 0;
     n->scale = scale_for(q->tree->scene, n->point);
     n->packed = false;
-    if (q->space && space_walk_near(q, &n->packed)) return FROE_E_MEMORY;
+    if (q->space && space_walk_near(q, &q->space->walk, &n->packed)) return FROE_E_MEMORY;
     if (n->packed) return FROE_OK;
     const froe_status status = query_contents_of(q, &contents, diag);
     if (!status) n->at = (query_place){bound_of(n, contents, 0), 0};
@@ -123,7 +123,7 @@ static bool go_on(froe_query *q, const query_contents *c, uint32_t child) {
 froe_status query_near_next(froe_query *q, tree_objects *list) {
     const froe_tree *t = q->tree;
     query_near *n = &q->near;
-    if (n->packed) return space_walk_next(q, list);
+    if (n->packed) return space_walk_next(q, &q->space->walk, n->limit, list);
     const query_contents *contents;
     froe_status status = query_contents_of(q, &contents, NULL); /* they are there */
     list->count = 0;

@@ -35,17 +35,20 @@ froe_status query_ray_take(froe_query *q, const double *origin, const double *di
     return FROE_OK;
 }
 
-/* Does the ray meet an object up to t_max? */
-static bool meets(froe_query *q, uint32_t object, double t_max, query_met *out) {
+bool query_ray_meets(froe_query *q, const geom_ray *ray, uint32_t object, double t_max, query_met *out) {
     const geom_body body = scene_body(q->tree->scene, object);
     q->stats.tests++;
     out->object = object;
-    return geom_ray_meets(&q->numbers, &q->ray.ray, &body, &out->hit) &&
-           geom_hit_compare_to(&q->numbers, &q->ray.ray, &out->hit, t_max) <= 0;
+    return geom_ray_meets(&q->numbers, ray, &body, &out->hit) &&
+           geom_hit_compare_to(&q->numbers, ray, &out->hit, t_max) <= 0;
 }
 
-/* An upper bound of the parameter. */
-static double latest(const geom_hit *hit) {
+bool query_ray_nearer(froe_query *q, const geom_ray *ray, const query_met *met, const query_met *best) {
+    const int order = geom_hit_compare(&q->numbers, ray, &met->hit, &best->hit);
+    return order < 0 || (order == 0 && met->object < best->object);
+}
+
+double query_ray_latest(const geom_hit *hit) {
     const double t = (hit->t.x + hit->t.e) * (1 + 0x1p-50);
     return t >= 0 ? t : (double)INFINITY;
 }
@@ -71,7 +74,7 @@ static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *
         for (uint32_t i = 0; i < list.count && more && !status; i++) {
             const uint32_t object = tree_object(&list, i);
             if (!is_of(q->tree->scene, object, kinds) || query_seen(q, &list, i, object)) continue;
-            if (!meets(q, object, t_max, &met)) continue;
+            if (!query_ray_meets(q, &q->ray.ray, object, t_max, &met)) continue;
             if (!array_reserve(&q->alloc, &q->ray.met, 1)) status = FROE_E_MEMORY;
             if (!status) more = fn(q, &met);
         }
@@ -84,13 +87,10 @@ static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *
 
 static bool keep_first(froe_query *q, const query_met *met) {
     query_met *best = q->ray.met.data;
-    if (q->ray.met.count) {
-        const int order = geom_hit_compare(&q->numbers, &q->ray.ray, &met->hit, &best->hit);
-        if (order > 0 || (order == 0 && met->object > best->object)) return true;
-    }
+    if (q->ray.met.count && !query_ray_nearer(q, &q->ray.ray, met, best)) return true;
     *best = *met;
     q->ray.met.count = 1;
-    const double limit = latest(&best->hit);
+    const double limit = query_ray_latest(&best->hit);
     if (limit < q->ray.limit) q->ray.limit = limit;
     return true;
 }

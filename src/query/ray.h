@@ -39,6 +39,12 @@ froe_status query_ray_take(struct froe_query *query, const double *origin, const
                            froe_diagnostic *diag);
 /** The object of certain kinds (bits, as added) that the ray taken meets first: query->ray.met has it, or nothing. */
 froe_status query_ray_first(struct froe_query *query, double t_max, uint32_t kinds, froe_diagnostic *diag);
+/** Does a ray meet an object up to t_max? */
+bool query_ray_meets(struct froe_query *query, const geom_ray *ray, uint32_t object, double t_max, query_met *out);
+/** Does it meet one before another? Where it meets both at once, that of lower id. */
+bool query_ray_nearer(struct froe_query *query, const geom_ray *ray, const query_met *met, const query_met *best);
+/** An upper bound of a parameter. */
+double query_ray_latest(const geom_hit *hit);
 
 /** Begins to walk along query->ray.ray from t = 0 on. Components of the direction may be rounded: it may differ by half
  * a unit in the last place. FROE_E_MEMORY. */

@@ -71,7 +71,7 @@ static bool divide(froe_query *q, const query_planes *planes, const query_step *
 froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
     const query_planes *planes;
     q->ray.packed = false;
-    if (q->space && space_walk_ray(q, &q->ray.packed)) return base_fail_memory(diag);
+    if (q->space && space_walk_ray(q, &q->space->walk, &q->ray.ray, &q->ray.packed)) return base_fail_memory(diag);
     if (q->ray.packed) return FROE_OK;
     froe_status status = query_planes_of(q, &planes, diag);
     q->ray.steps.count = 0;
@@ -81,7 +81,7 @@ froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
 
 froe_status query_walk_next(froe_query *q, tree_objects *list) {
     const query_planes *planes;
-    if (q->ray.packed) return space_walk_next(q, list);
+    if (q->ray.packed) return space_walk_next(q, &q->space->walk, q->ray.limit, list);
     froe_status status = query_planes_of(q, &planes, NULL); /* they are there */
     list->count = 0;
     while (!status && q->ray.steps.count) {

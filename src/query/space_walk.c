@@ -19,7 +19,8 @@ froe_status space_work_new(const froe_tree *t, space_work **out) {
 
 void space_work_free(space_work *work, const froe_allocator *alloc) {
     if (!work) return;
-    array_free(alloc, &work->stack);
+    space_flock_free(work->flock, alloc);
+    array_free(alloc, &work->walk.stack);
     array_free(alloc, &work->objects);
     array_free(alloc, &work->others);
     array_free(alloc, &work->keys);
@@ -28,8 +29,7 @@ void space_work_free(space_work *work, const froe_allocator *alloc) {
 
 /* ------------------------------------------------------------------- begin -- */
 
-static froe_status begin(froe_query *q, bool near, bool meets) {
-    space_work *w = q->space;
+static froe_status begin(froe_query *q, space_walk *w, bool near, bool meets) {
     w->near = near;
     w->told = -1;
     w->limit = (float)INFINITY;
@@ -80,10 +80,9 @@ static double power_of_2(double x) {
     return x;
 }
 
-froe_status space_walk_ray(froe_query *q, bool *begun) {
+froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, bool *begun) {
     const tree_wide *wide = q->tree->packed.wide;
-    const geom_ray *ray = &q->ray.ray;
-    space_ray *r = &q->space->ray;
+    space_ray *r = &w->ray;
     double most = 0;
     for (int k = 0; k < 3; k++) most = fabs(ray->d[k]) > most ? fabs(ray->d[k]) : most;
     const double size = power_of_2(most);
@@ -96,13 +95,13 @@ froe_status space_walk_ray(froe_query *q, bool *begun) {
     }
     if (!*begun) return FROE_OK;
     order_axes(r);
-    q->space->per = wide->scale * size;
-    return begin(q, false, find_start(r, &q->tree->meta));
+    w->per = wide->scale * size;
+    return begin(q, w, false, find_start(r, &q->tree->meta));
 }
 
-froe_status space_walk_near(froe_query *q, bool *begun) {
+froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {
     const tree_wide *wide = q->tree->packed.wide;
-    space_point *p = &q->space->point;
+    space_point *p = &w->point;
     *begun = wide;
     p->wide = wide;
     for (int k = 0; *begun && k < 3; k++) {
@@ -111,28 +110,26 @@ froe_status space_walk_near(froe_query *q, bool *begun) {
         *begun = fabs(p->at[k]) <= 0x1p10;
     }
     if (!*begun) return FROE_OK;
-    q->space->per = (wide->scale / q->near.scale) * (wide->scale / q->near.scale);
-    return begin(q, true, true);
+    w->per = (wide->scale / q->near.scale) * (wide->scale / q->near.scale);
+    return begin(q, w, true, true);
 }
 
 /* -------------------------------------------------------------------- limit -- */
 
 /* Rounded up. */
-static float limit_of(const space_work *w, double limit) {
+static float limit_of(const space_walk *w, double limit) {
     double x = limit * w->per, start = w->near ? 0 : w->ray.start;
     x = x + 0x1p-20 * fabs(x - start) + 0x1p-50 * start - start;
     if (x < 0) return -1;
     return x < FLT_MAX ? (float)(x * (1 + 0x1p-22)) + FLT_MIN : (float)INFINITY;
 }
 
-static void lower_limit(space_work *w, float limit) {
+static void lower_limit(space_walk *w, float limit) {
     if (limit < w->limit) w->limit = limit;
 }
 
 /* The caller's limit may have fallen. */
-static void update_limit(froe_query *q) {
-    space_work *w = q->space;
-    double limit = w->near ? q->near.limit : q->ray.limit;
+static void update_limit(space_walk *w, double limit) {
     if (limit != w->told) w->told = limit, lower_limit(w, limit_of(w, limit));
 }
 
@@ -144,8 +141,15 @@ static uint64_t entry(float key, uint32_t what) {
     return (uint64_t)bits << 32 | what;
 }
 
+static float key_of(uint64_t entry) {
+    const uint32_t bits = (uint32_t)(entry >> 32);
+    float key;
+    memcpy(&key, &bits, sizeof key);
+    return key;
+}
+
 /* The last entries, so that the least is on top. */
-static void sort_top(space_work *w, size_t from) {
+static void sort_top(space_walk *w, size_t from) {
     uint64_t *e = w->stack.data;
     if (w->stack.count - from > MOST_SORTED) return;
     for (size_t i = from + 1; i < w->stack.count; i++) {
@@ -158,7 +162,7 @@ static void sort_top(space_work *w, size_t from) {
 
 /* The least of the last entries on top; of few that wait the others need no order, as the first leaf lowers the limit.
  */
-static void lift_least(space_work *w, size_t from) {
+static void lift_least(space_walk *w, size_t from) {
     uint64_t *e = w->stack.data;
     size_t least = from;
     if (w->stack.count <= from) return;
@@ -168,26 +172,29 @@ static void lift_least(space_work *w, size_t from) {
     e[w->stack.count - 1] = x;
 }
 
-/* All of a node, and of a leaf as much as one of 24 triangles has. */
-static void ask_for(const froe_tree *t, uint32_t child) {
-    const bool leaf = child & WIDE_LEAF;
-    const uint8_t *at = leaf ? t->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK
-                             : (const uint8_t *)(t->packed.wide->nodes + child);
+/* All of a node, and of a leaf as much as one of 24 triangles has; objects have been asked for. (A call
+ * of a function that only asks is none to gcc.) */
+__attribute__((always_inline)) static inline void ask_for(const froe_tree *t, uint32_t what) {
+    const bool leaf = what & WIDE_LEAF;
+    const uint8_t *at = leaf ? t->packed.blocks + (size_t)(what & WIDE_INDEX) * PACKED_BLOCK
+                             : (const uint8_t *)(t->packed.wide->nodes + what);
+    if (!leaf && what & OBJECT) return;
     for (int i = 0; i < (leaf ? 640 : 192); i += 64) __builtin_prefetch(at + i);
 }
 
-static bool push_children(froe_query *q, uint32_t index) {
-    space_work *w = q->space;
+/* What is met of a node. */
+static bool push_children(froe_query *q, space_walk *w, uint32_t index, bool ask) {
     const wide_node *n = q->tree->packed.wide->nodes + index;
+    const space_kernels *kernels = q->space->kernels;
     float keys[PACKED_LANES];
     size_t from = w->stack.count;
-    uint32_t bits = w->near ? w->kernels->near_node(n, &w->point, w->limit, keys)
-                            : w->kernels->ray_node(n, &w->ray, w->limit, keys);
+    uint32_t bits =
+        w->near ? kernels->near_node(n, &w->point, w->limit, keys) : kernels->ray_node(n, &w->ray, w->limit, keys);
     q->stats.nodes++;
     if (!array_reserve(&q->alloc, &w->stack, PACKED_LANES)) return false;
     for (; bits; bits &= bits - 1) {
         uint32_t i = (uint32_t)__builtin_ctz(bits);
-        ask_for(q->tree, n->child[i]);
+        if (ask) ask_for(q->tree, n->child[i]);
         w->stack.data[w->stack.count++] = entry(keys[i], n->child[i]);
     }
     if (w->near)
@@ -197,18 +204,18 @@ static bool push_children(froe_query *q, uint32_t index) {
     return true;
 }
 
-static bool push_objects(froe_query *q, uint32_t block, float key) {
-    space_work *w = q->space;
+static bool push_objects(froe_query *q, space_walk *w, uint32_t block, float key) {
+    space_work *work = q->space;
     const space_header *h = space_block(q->tree, block);
     const size_t room = h->count + PACKED_LANES, from = w->stack.count;
-    if (!array_reserve(&q->alloc, &w->objects, room) || !array_reserve(&q->alloc, &w->keys, room) ||
+    if (!array_reserve(&q->alloc, &work->objects, room) || !array_reserve(&q->alloc, &work->keys, room) ||
         !array_reserve(&q->alloc, &w->stack, room))
         return false;
-    space_found found = {w->objects.data, w->keys.data, 0, (float)INFINITY};
+    space_found found = {work->objects.data, work->keys.data, 0, (float)INFINITY};
     if (w->near)
-        w->kernels->near(h, &w->point, key, w->limit, &found);
+        work->kernels->near(h, &w->point, key, w->limit, &found);
     else
-        w->kernels->ray(h, &w->ray, key, w->limit, &found);
+        work->kernels->ray(h, &w->ray, key, w->limit, &found);
     q->stats.leaves++;
     if (w->near && q->near.one) lower_limit(w, found.least);
     for (size_t i = 0; i < found.count; i++)
@@ -220,23 +227,37 @@ static bool push_objects(froe_query *q, uint32_t block, float key) {
     return true;
 }
 
-froe_status space_walk_next(froe_query *q, tree_objects *list) {
-    space_work *w = q->space;
-    update_limit(q);
-    list->count = 0;
-    while (w->stack.count) {
-        const uint64_t top = w->stack.data[--w->stack.count];
-        const uint32_t bits = (uint32_t)(top >> 32), what = (uint32_t)top;
-        float key;
-        memcpy(&key, &bits, sizeof key);
-        if (key > w->limit) continue;
-        if (what & OBJECT && !(what & WIDE_LEAF)) {
-            w->object = what & WIDE_INDEX;
-            *list = (tree_objects){.at = &w->object, .stride = 1, .mask = UINT32_MAX, .count = 1};
-            return FROE_OK;
-        }
-        if (!(what & WIDE_LEAF ? push_objects(q, what & WIDE_INDEX, key) : push_children(q, what)))
-            return FROE_E_MEMORY;
+/* Takes what is on top: an object is handed out, of all else what is met takes its place. */
+static space_step take(froe_query *q, space_walk *w, bool ask) {
+    const uint64_t top = w->stack.data[--w->stack.count];
+    const uint32_t what = (uint32_t)top;
+    if (what & OBJECT && !(what & WIDE_LEAF)) {
+        w->object = what & WIDE_INDEX;
+        return SPACE_OBJECT;
     }
-    return FROE_OK;
+    const bool done =
+        what & WIDE_LEAF ? push_objects(q, w, what & WIDE_INDEX, key_of(top)) : push_children(q, w, what, ask);
+    return done ? SPACE_ON : SPACE_NO_MEMORY;
+}
+
+/* Takes off what is beyond the limit. */
+static bool settle(space_walk *w) {
+    while (w->stack.count && key_of(w->stack.data[w->stack.count - 1]) > w->limit) w->stack.count--;
+    return w->stack.count;
+}
+
+froe_status space_walk_next(froe_query *q, space_walk *w, double limit, tree_objects *list) {
+    space_step step = SPACE_ON;
+    update_limit(w, limit);
+    while (step == SPACE_ON) step = settle(w) ? take(q, w, true) : SPACE_END;
+    *list = (tree_objects){.at = &w->object, .stride = 1, .mask = UINT32_MAX, .count = step == SPACE_OBJECT};
+    return step == SPACE_NO_MEMORY ? FROE_E_MEMORY : FROE_OK;
+}
+
+space_step space_walk_step(froe_query *q, space_walk *w, double limit) {
+    update_limit(w, limit);
+    if (!settle(w)) return SPACE_END;
+    const space_step step = take(q, w, false);
+    if (step == SPACE_ON && settle(w)) ask_for(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]);
+    return step;
 }

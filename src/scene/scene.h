@@ -76,10 +76,21 @@ static inline geom_body scene_body(const froe_scene *s, uint32_t object) {
     return b;
 }
 
-/** Asks for what scene_body() and the first corner of an object are made of, before they are needed. */
+/** Asks for what scene_body() is made of, before it is needed; for the corners of triangles where all are triangles. */
 static inline void scene_ask(const froe_scene *s, uint32_t object) {
+    const size_t guess = 3 * (size_t)object < s->corner_count ? 3 * (size_t)object : 0;
     __builtin_prefetch(s->forms + object);
-    __builtin_prefetch(scene_point(s, object, 0));
+    __builtin_prefetch(s->starts + object);
+    __builtin_prefetch(s->corners + guess);
+}
+/** Asks for its points, up to three, once that is there. */
+static inline void scene_ask_points(const froe_scene *s, uint32_t object) {
+    const uint32_t corners = scene_corners(s, object);
+    for (uint32_t i = 0; i < corners && i < 3; i++) {
+        const double *x = scene_point(s, object, i);
+        __builtin_prefetch(x);
+        __builtin_prefetch(x + s->dim - 1); /* the next line, perhaps */
+    }
 }
 
 /** The object whose corner number `corner` of all corners is. O(log objects), O(1) on triangles. */

@@ -115,19 +115,25 @@ static void check_window(froe_query *q, froe_query *reference, uint64_t draw, co
     assert_int_equal(count, wanted_count);
 }
 
-static void check_ray(froe_query *q, froe_query *reference, uint64_t draw, const char *name) {
-    double o[3], to[3], d[3];
-    froe_hit hit, wanted;
-    uint32_t any;
-    odd_point(q->tree, 1000 + 2 * draw, o);
-    odd_point(q->tree, 1001 + 2 * draw, to);
+/* Through corners, along axes and nearly so, from far away, in the planes of triangles. */
+static void odd_ray(const froe_tree *t, uint64_t draw, double o[3], double d[3]) {
+    double to[3];
+    odd_point(t, 1000 + 2 * draw, o);
+    odd_point(t, 1001 + 2 * draw, to);
     for (int k = 0; k < 3; k++) d[k] = to[k] - o[k];
     if (draw % 5 == 1) d[draw % 3] = 0;
     if (draw % 7 == 1) d[draw % 3] *= 0x1p-70;
-    if (d[0] == 0 && d[1] == 0 && d[2] == 0) d[2] = q->tree->meta.root_hi[2] - q->tree->meta.root_lo[2];
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0) d[2] = t->meta.root_hi[2] - t->meta.root_lo[2];
     if (d[2] == 0 && d[0] == 0 && d[1] == 0) d[2] = 1;
     if (draw % 9 == 2)
-        for (int k = 0; k < 3; k++) o[k] -= 100 * d[k];
+        for (int k = 0; k < 3; k++) o[k] -= (draw % 2 ? 100 : 0x1p30) * d[k];
+}
+
+static void check_ray(froe_query *q, froe_query *reference, uint64_t draw, const char *name) {
+    double o[3], d[3];
+    froe_hit hit, wanted;
+    uint32_t any;
+    odd_ray(q->tree, draw, o, d);
     assert_int_equal(froe_query_ray(reference, o, d, INFINITY, &wanted, NULL), FROE_OK);
     assert_int_equal(froe_query_ray(q, o, d, INFINITY, &hit, NULL), FROE_OK);
     if (hit.object != wanted.object || hit.t != wanted.t)
@@ -173,6 +179,83 @@ static void every_kernel_gives_the_answers_of_general_trees(void **state) {
     }
 }
 
+/* -------------------------------------------------------------------- flocks -- */
+
+enum { RAYS = 700 };
+
+typedef struct rays {
+    double o[3 * RAYS], d[3 * RAYS];
+    froe_hit hits[RAYS];
+    uint32_t any[RAYS];
+} rays;
+
+static void answer_one_by_one(froe_query *q, rays *r, double t_max) {
+    for (size_t i = 0; i < RAYS; i++) {
+        assert_int_equal(froe_query_ray(q, r->o + 3 * i, r->d + 3 * i, t_max, r->hits + i, NULL), FROE_OK);
+        assert_int_equal(froe_query_ray_any(q, r->o + 3 * i, r->d + 3 * i, t_max, r->any + i, NULL), FROE_OK);
+    }
+}
+
+static void check_flock(froe_query *q, const rays *r, double t_max, size_t count, const char *name) {
+    static froe_hit hits[RAYS];
+    static uint32_t any[RAYS];
+    for (unsigned threads = 1; threads <= 3; threads += 2) {
+        froe_batch_options o = froe_batch_defaults();
+        o.threads = threads;
+        assert_int_equal(froe_batch_ray(q, r->o, r->d, count, t_max, &o, hits, NULL), FROE_OK);
+        assert_int_equal(froe_batch_ray_any(q, r->o, r->d, count, t_max, &o, any, NULL), FROE_OK);
+        for (size_t i = 0; i < count; i++)
+            if (hits[i].object != r->hits[i].object || hits[i].t != r->hits[i].t || any[i] != r->any[i])
+                fail_msg("%s, ray %d of %d: object %u at %a, any %u; alone %u at %a, any %u", name, (int)i, (int)count,
+                         hits[i].object, hits[i].t, any[i], r->hits[i].object, r->hits[i].t, r->any[i]);
+    }
+}
+
+static void flocks_answer_as_rays_alone(void **state) {
+    rays *r = malloc(sizeof *r);
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        froe_tree *tree = tree_of(kinds + i);
+        for (uint64_t draw = 0; draw < RAYS; draw++) odd_ray(tree, draw, r->o + 3 * draw, r->d + 3 * draw);
+        for (size_t kernel = 0; space_kernels_at(kernel); kernel++) {
+            froe_query *q;
+            assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+            q->space->kernels = space_kernels_at(kernel);
+            for (int far = 0; far < 2; far++) {
+                const double t_max = far ? (double)INFINITY : 0.25;
+                answer_one_by_one(q, r, t_max);
+                check_flock(q, r, t_max, RAYS, kinds[i].name);
+                check_flock(q, r, t_max, 1 + (size_t)i, kinds[i].name);
+            }
+            froe_query_free(q);
+        }
+        froe_tree_free(tree);
+    }
+    free(r);
+}
+
+/* The first bad one ends the call, wherever it is. */
+static void flocks_refuse_bad_rays(void **state) {
+    froe_tree *tree = tree_of(kinds);
+    froe_query *q;
+    rays *r = malloc(sizeof *r);
+    froe_diagnostic why;
+    (void)state;
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    for (uint64_t draw = 0; draw < RAYS; draw++) odd_ray(tree, draw, r->o + 3 * draw, r->d + 3 * draw);
+    r->o[3 * 300 + 1] = NAN;
+    for (int k = 0; k < 3; k++) r->d[3 * 310 + k] = 0;
+    assert_int_equal(froe_batch_ray(q, r->o, r->d, RAYS, INFINITY, NULL, r->hits, &why), FROE_E_INPUT);
+    assert_int_equal(why.object, 300);
+    assert_int_equal(froe_batch_ray_any(q, r->o, r->d, 5, -1, NULL, r->any, &why), FROE_E_INPUT);
+    assert_int_equal(why.object, 0);
+    assert_int_equal(froe_batch_ray(q, r->o, r->d, 300, INFINITY, NULL, r->hits, &why), FROE_OK);
+    assert_int_equal(froe_batch_ray(q, r->o, r->d, 0, INFINITY, NULL, r->hits, &why), FROE_OK);
+    froe_query_free(q);
+    froe_tree_free(tree);
+    free(r);
+}
+
 /* ------------------------------------------------------------------- kernels -- */
 
 static void assert_same(const space_found *a, const space_found *b) {
@@ -200,29 +283,29 @@ static void kernels_agree(void **state) {
             odd_point(t, 2 * draw + 1, q->ray.ray.d);
             memcpy(q->near.point, q->ray.ray.o, sizeof(double[3]));
             q->near.scale = 1;
-            assert_int_equal(space_walk_ray(q, &begun), FROE_OK);
+            assert_int_equal(space_walk_ray(q, &q->space->walk, &q->ray.ray, &begun), FROE_OK);
             assert_true(begun);
-            assert_int_equal(space_walk_near(q, &begun), FROE_OK);
+            assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
             assert_true(begun);
             for (size_t n = 0; n < wide->count; n++) {
                 const wide_node *node = wide->nodes + n;
-                uint32_t a = first->ray_node(node, &q->space->ray, INFINITY, near[0]);
-                assert_int_equal(a, other->ray_node(node, &q->space->ray, INFINITY, near[1]));
+                uint32_t a = first->ray_node(node, &q->space->walk.ray, INFINITY, near[0]);
+                assert_int_equal(a, other->ray_node(node, &q->space->walk.ray, INFINITY, near[1]));
                 assert_memory_equal(near[0], near[1], node->count * sizeof(float));
-                a = first->near_node(node, &q->space->point, 1, near[0]);
-                assert_int_equal(a, other->near_node(node, &q->space->point, 1, near[1]));
+                a = first->near_node(node, &q->space->walk.point, 1, near[0]);
+                assert_int_equal(a, other->near_node(node, &q->space->walk.point, 1, near[1]));
                 assert_memory_equal(near[0], near[1], node->count * sizeof(float));
             }
             for (uint32_t n = 0; n < t->node_count; n++) {
                 if (!tree_is_leaf(t->nodes + n)) continue;
                 const space_header *h = space_block(t, t->nodes[n].child);
                 space_found a = {objects[0], keys[0], 0, INFINITY}, b = {objects[1], keys[1], 0, INFINITY};
-                first->ray(h, &q->space->ray, 0, INFINITY, &a);
-                other->ray(h, &q->space->ray, 0, INFINITY, &b);
+                first->ray(h, &q->space->walk.ray, 0, INFINITY, &a);
+                other->ray(h, &q->space->walk.ray, 0, INFINITY, &b);
                 assert_same(&a, &b);
                 a.count = b.count = 0;
-                first->near(h, &q->space->point, 0, 0.5f, &a);
-                other->near(h, &q->space->point, 0, 0.5f, &b);
+                first->near(h, &q->space->walk.point, 0, 0.5f, &a);
+                other->near(h, &q->space->walk.point, 0, 0.5f, &b);
                 assert_same(&a, &b);
             }
         }
@@ -252,6 +335,8 @@ static void damaged_blocks_are_noticed(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kernel_gives_the_answers_of_general_trees),
+        cmocka_unit_test(flocks_answer_as_rays_alone),
+        cmocka_unit_test(flocks_refuse_bad_rays),
         cmocka_unit_test(kernels_agree),
         cmocka_unit_test(damaged_blocks_are_noticed),
     };
