@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 5, EDGE = 4, RING = 4 * EDGE, MOST_TRAPEZOIDS = 100000, POINTS = 100000 };
+enum { ROUNDS = 5, EDGE = 4, RING = 4 * EDGE, MOST_TRAPEZOIDS = 1000000, POINTS = 100000 };
 
 typedef struct map {
     size_t side, areas;

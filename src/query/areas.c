@@ -2,97 +2,7 @@
 #include "query/areas.h"
 #include "base/status.h"
 #include "query/segment.h"
-#include "tree/packed.h"
 #include <string.h>
-
-/* ---------------------------------------------------------------- crossing -- */
-
-static bool in_bounds(const double *u, const double *v, const double *x) {
-    for (int k = 0; k < 2; k++)
-        if ((x[k] < u[k] && x[k] < v[k]) || (x[k] > u[k] && x[k] > v[k])) return false;
-    return true;
-}
-
-static bool bounds_apart(const double *a, const double *b, const double *u, const double *v) {
-    for (int k = 0; k < 2; k++) {
-        const double lo = u[k] < v[k] ? u[k] : v[k], hi = u[k] < v[k] ? v[k] : u[k];
-        if ((a[k] < lo && b[k] < lo) || (a[k] > hi && b[k] > hi)) return true;
-    }
-    return false;
-}
-
-/* What an object between two points does to its group. */
-static bool pass(froe_query *q, const query_areas *areas, uint32_t object, const double *from, const double *to) {
-    const froe_scene *s = q->tree->scene;
-    const uint8_t role = areas->roles[object];
-    if (role != AREA_MEMBER && role != AREA_BORDER) return true;
-    const double *u = scene_point(s, object, 0), *v = scene_point(s, object, scene_corners(s, object) - 1);
-    if (bounds_apart(from, to, u, v)) return true;
-    num_context *numbers = &q->numbers;
-    const int side = query_turn(numbers, u, v, to);
-    if (side == 0 && in_bounds(u, v, to)) return query_members_add(&q->groups.touched, &q->alloc, s->groups[object]);
-    if (role == AREA_MEMBER || side * query_turn(numbers, u, v, from) >= 0) return true;
-    if ((query_turn(numbers, from, to, u) >= 0) == (query_turn(numbers, from, to, v) >= 0)) return true;
-    return query_members_flip(&q->groups.inside, &q->alloc, s->groups[object]);
-}
-
-/* A segment in the units of a block, and by how much values of its line may be wrong there. */
-typedef struct unit_segment {
-    double from[2], step[2], error;
-} unit_segment;
-
-/* Of coordinates with an error of a unit or so; a rounding of points of the cell is far less than another. */
-static unit_segment segment_in(const packed_header *block, const double *from, const double *to) {
-    unit_segment s;
-    for (int k = 0; k < 2; k++) {
-        s.from[k] = (from[k] - block->lo[k]) * block->scale;
-        s.step[k] = (to[k] - block->lo[k]) * block->scale - s.from[k];
-    }
-    s.error = (fabs(s.step[0]) + fabs(s.step[1]) + 1) * (block->error + 1.0);
-    return s;
-}
-
-static double beside(const unit_segment *s, uint16_t x, uint16_t y) {
-    return s->step[0] * (y - s->from[1]) - s->step[1] * (x - s->from[0]);
-}
-
-/* Fragments that are surely on one side of the line are passed over without a look at their objects. */
-static bool pass_block(froe_query *q, const query_areas *areas, const query_leaf *leaf, const double *from,
-                       const double *to) {
-    const uint32_t count = leaf->list.count;
-    const packed_header *block =
-        (const packed_header *)(const void *)(q->tree->packed.blocks + (size_t)leaf->place * PACKED_BLOCK);
-    const uint16_t *px = packed_units(block), *py = px + count, *qx = py + count, *qy = qx + count;
-    const unit_segment s = segment_in(block, from, to);
-    for (uint32_t i = 0; i < count; i++) {
-        const double a = beside(&s, px[i], py[i]), b = beside(&s, qx[i], qy[i]);
-        if ((a > s.error && b > s.error) || (a < -s.error && b < -s.error)) continue;
-        if (!pass(q, areas, tree_object(&leaf->list, i), from, to)) return false;
-    }
-    return true;
-}
-
-bool query_areas_pass(froe_query *q, const query_areas *areas, const query_leaf *leaf, const double *from,
-                      const double *to) {
-    q->stats.tests += leaf->list.count;
-    if (tree_is_packed(q->tree) && q->numbers.first == NUM_FILTER) return pass_block(q, areas, leaf, from, to);
-    for (uint32_t i = 0; i < leaf->list.count; i++)
-        if (!pass(q, areas, tree_object(&leaf->list, i), from, to)) return false;
-    return true;
-}
-
-froe_status query_areas_travel(froe_query *q, const query_areas *areas, const double *from, const double *to,
-                               froe_diagnostic *diag) {
-    const double ends[4] = {from[0], from[1], to[0], to[1]};
-    froe_range way = froe_range_defaults();
-    way.shape = FROE_SHAPE_SEGMENT;
-    way.points = ends;
-    const froe_status status = query_range_ask(q, &way, false, diag);
-    if (status) return status;
-    for (size_t i = 0; i < q->found.count; i++)
-        if (!pass(q, areas, q->found.data[i], from, to)) return base_fail_memory(diag);
-    return FROE_OK;
-}
 
 /* -------------------------------------------------------------- references -- */
 
@@ -118,18 +28,19 @@ static void mean(const froe_cell *cell, uint32_t try, double x[2]) {
         for (int k = 0; k < 2; k++) x[k] += cell->coords[2 * i + (size_t)k] * ((1 + (double)(try * (i + 1) % 7)) / sum);
 }
 
-/* Is the point within the cell, and on no border? */
-static bool serves(survey *v, uint32_t place, const double *x) {
+/* Is the point within the cell of a node, and on no border? */
+static bool serves(survey *v, uint32_t node, const double *x) {
     const froe_scene *s = v->q->tree->scene;
+    const tree_objects list = tree_list(v->q->tree, node);
     query_leaf leaf;
     if (!isfinite(x[0]) || !isfinite(x[1])) return false;
     v->status = query_leaf_find(v->q, x, &leaf);
-    if (v->status || leaf.place != place || leaf.on_cut) return false;
-    for (uint32_t i = 0; i < leaf.list.count; i++) {
-        const uint32_t object = tree_object(&leaf.list, i);
+    if (v->status || leaf.place != query_leaf_place(v->q->tree, node) || leaf.on_cut) return false;
+    for (uint32_t i = 0; i < list.count; i++) {
+        const uint32_t object = tree_object(&list, i);
         if (v->areas->roles[object] != AREA_BORDER) continue;
         const double *a = scene_point(s, object, 0), *b = scene_point(s, object, 1);
-        if (in_bounds(a, b, x) && query_turn(&v->q->numbers, a, b, x) == 0) return false;
+        if (query_segment_meets_box(&v->q->numbers, a, b, x, x)) return false;
     }
     return true;
 }
@@ -143,12 +54,12 @@ static bool look_at_cell(void *user, const froe_cell *cell) {
     survey *v = user;
     query_areas *areas = v->areas;
     if (!cell->leaf) return true;
-    const uint32_t place = query_leaf_place(v->q->tree, cell->node.id1 - 1);
+    const uint32_t node = cell->node.id1 - 1, place = query_leaf_place(v->q->tree, node);
     double x[2];
     bool found = false;
     for (uint32_t try = 0; try < TRIES && !found && !v->status; try++) {
         mean(cell, try, x);
-        found = serves(v, place, x);
+        found = serves(v, node, x);
     }
     areas->slots[place] = last_of(v) | AREA_FAR;
     if (v->status || !found) return !v->status;
@@ -215,7 +126,7 @@ static froe_status find_references(froe_query *q, query_areas *areas, froe_diagn
     if (status || v.status) return status ? status : base_fail_memory(diag);
     fill_slots(&v);
     scene_table_free(&q->alloc, &areas->sets.table);
-    return FROE_OK;
+    return query_areas_settle(q, areas) ? FROE_OK : base_fail_memory(diag);
 }
 
 /* ------------------------------------------------------------------ making -- */
@@ -225,6 +136,7 @@ static void free_areas(const froe_allocator *alloc, query_part *part) {
     base_free(alloc, a->roles, a->object_count * sizeof *a->roles);
     base_free(alloc, a->slots, a->place_count * sizeof *a->slots);
     array_free(alloc, &a->references);
+    array_free(alloc, &a->leaves);
     query_sets_free(&a->sets, alloc);
     base_free(alloc, a, sizeof *a);
 }

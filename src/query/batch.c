@@ -5,6 +5,7 @@
  */
 #include "base/status.h"
 #include "query/areas.h"
+#include "query/check.h"
 #include "query/packed.h"
 #include "query/space.h"
 #include "query/workers.h"
@@ -23,6 +24,9 @@ typedef struct batch batch;
 /** Asks question i. Objects found are left in q->found, unless they go to the caller's array. */
 typedef froe_status ask_fn(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag);
 
+/** ... about a point whose leaf is known. */
+typedef froe_status ask_in_fn(const batch *b, froe_query *q, size_t i, const query_leaf *leaf, froe_diagnostic *diag);
+
 /** The number beside answer i of the last question. */
 typedef double value_fn(const froe_query *q, size_t i);
 
@@ -30,6 +34,8 @@ struct batch {
     froe_query *query;
     query_workers workers;
     ask_fn *ask;
+    ask_in_fn *ask_in; /* instead: leaves of many points are found at once */
+    const query_areas *areas;
     const froe_range *ranges; /* or ... */
     const double *points, *directions;
     double limit; /* t_max; bound */
@@ -65,6 +71,11 @@ static froe_status ask_locate(const batch *b, froe_query *q, size_t i, froe_diag
     return query_locate(q, point_of(b, b->points, i), diag);
 }
 
+static froe_status ask_locate_in(const batch *b, froe_query *q, size_t i, const query_leaf *leaf,
+                                 froe_diagnostic *diag) {
+    return query_locate_in(q, point_of(b, b->points, i), leaf, diag);
+}
+
 static froe_status ask_vertical(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
     return froe_query_vertical(q, point_of(b, b->points, i), b->direction, b->objects + i, diag);
 }
@@ -84,11 +95,12 @@ static froe_status clear_found(froe_query *q, size_t count, froe_diagnostic *dia
     return array_reserve(&q->alloc, &q->found, count) ? FROE_OK : base_fail_memory(diag);
 }
 
-static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
-    froe_list groups = {0};
-    froe_status status = froe_query_groups(q, point_of(b, b->points, i), &groups, diag);
-    if (!status) status = clear_found(q, groups.count, diag);
-    for (size_t n = 0; !status && n < groups.count; n++) query_found(q, groups.ids[n]);
+static froe_status ask_groups_in(const batch *b, froe_query *q, size_t i, const query_leaf *leaf,
+                                 froe_diagnostic *diag) {
+    froe_status status = query_groups_in(q, b->areas, point_of(b, b->points, i), leaf, diag);
+    const query_members *groups = &q->groups.inside;
+    if (!status) status = clear_found(q, groups->count, diag);
+    for (size_t n = 0; !status && n < groups->count; n++) query_found(q, groups->data[n]);
     return status;
 }
 
@@ -154,22 +166,35 @@ static froe_status answer_flock(const batch *b, froe_query *q, size_t first, siz
     return packed_vertical(q, points, end - first, b->direction, b->objects + first) ? base_fail_memory(diag) : FROE_OK;
 }
 
+/* Leaves of the points of a chunk, which wait for memory together. */
+static froe_status find_leaves(const batch *b, froe_query *q, size_t first, size_t end, query_leaf *leaves,
+                               froe_diagnostic *diag) {
+    const double *points = point_of(b, b->points, first);
+    for (size_t i = first; i < end; i++) {
+        const froe_status status = query_check_point(point_of(b, b->points, i), q->tree->scene->dim, "A point", diag);
+        if (status) diag->object = (uint32_t)i;
+        if (status) return status;
+    }
+    if (query_leaf_find_all(q, points, end - first, leaves)) return base_fail_memory(diag);
+    if (b->areas) query_areas_ask(b->areas, leaves, end - first);
+    return FROE_OK;
+}
+
 static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     const batch *b = user;
     froe_query *q = b->workers.queries[worker];
     chunk *c = b->chunks + job;
     const size_t first = job * CHUNK, end = first + CHUNK < b->count ? first + CHUNK : b->count;
+    query_leaf leaves[CHUNK];
     if (flies(b, q)) return answer_flock(b, q, first, end, &c->diag);
-    for (size_t i = first; i < end; i++) {
-        froe_status status = b->ask(b, q, i, &c->diag);
+    froe_status status = b->ask_in ? find_leaves(b, q, first, end, leaves, &c->diag) : FROE_OK;
+    for (size_t i = first; i < end && !status; i++) {
+        status = b->ask_in ? b->ask_in(b, q, i, leaves + (i - first), &c->diag) : b->ask(b, q, i, &c->diag);
         if (!status && !append(b, q, c)) status = base_fail_memory(&c->diag);
-        if (status) {
-            c->diag.object = (uint32_t)i;
-            return status;
-        }
+        if (status) c->diag.object = (uint32_t)i;
         c->counts[i - first] = (uint32_t)q->found.count;
     }
-    return FROE_OK;
+    return status;
 }
 
 /* --------------------------------------------------------------- gathering -- */
@@ -248,15 +273,15 @@ froe_status froe_batch_locate(froe_query *query, const double *points, size_t co
                               froe_answers *out, froe_diagnostic *diag) {
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_locate: NULL argument.");
     batch b = {.query = query, .ask = ask_locate, .points = points, .count = count};
+    if (!tree_is_packed(query->tree)) b.ask_in = ask_locate_in;
     return run(&b, options, out, diag);
 }
 
 froe_status froe_batch_groups(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
                               froe_answers *out, froe_diagnostic *diag) {
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_groups: NULL argument.");
-    batch b = {.query = query, .ask = ask_groups, .points = points, .count = count};
-    const query_areas *areas;
-    const froe_status status = query_groups_prepare(query, &areas, diag); /* once for all threads */
+    batch b = {.query = query, .ask_in = ask_groups_in, .points = points, .count = count};
+    const froe_status status = query_groups_prepare(query, &b.areas, diag); /* once for all threads */
     if (status) return status;
     return run(&b, options, out, diag);
 }

@@ -26,6 +26,7 @@ typedef struct query_part {
 typedef enum query_part_id {
     QUERY_PLANES,
     QUERY_CENTROIDS,
+    QUERY_DESCENT,
     QUERY_AREAS,
     QUERY_CONTENTS,
     QUERY_PIECES,

@@ -1,27 +1,10 @@
-/* groups.c: the groups that a point of the plane lies in: those of its leaf's reference, but for the borders between.
- */
+/* groups.c: the groups that a point of the plane lies in: those of its leaf, and those on whose borders it is. */
 #include "base/status.h"
 #include "query/areas.h"
 #include "query/check.h"
 
 static bool in_scene(const froe_scene *s, const double *x) {
     return s->object_count && x[0] >= s->lo[0] && x[0] <= s->hi[0] && x[1] >= s->lo[1] && x[1] <= s->hi[1];
-}
-
-/* From the reference to the point. */
-static froe_status come_from_reference(froe_query *q, const query_areas *areas, const double *point,
-                                       froe_diagnostic *diag) {
-    const uint64_t exact = q->numbers.stats.exact;
-    query_leaf leaf;
-    froe_status status = query_leaf_find(q, point, &leaf);
-    if (status) return base_fail_memory(diag);
-    const uint32_t slot = areas->slots[leaf.place];
-    const query_reference *r = areas->references.data + (slot & ~AREA_FAR);
-    if (!query_sets_copy(&areas->sets, &q->alloc, r->set, &q->groups.inside)) return base_fail_memory(diag);
-    if (slot & AREA_FAR || leaf.on_cut) return query_areas_travel(q, areas, r->at, point, diag);
-    if (!query_areas_pass(q, areas, &leaf, r->at, point)) return base_fail_memory(diag);
-    q->stats.exact += q->numbers.stats.exact - exact;
-    return FROE_OK;
 }
 
 /* Groups of the objects that contain the point. */
@@ -36,14 +19,26 @@ static froe_status add_holders(froe_query *q, const double *point, froe_diagnost
     return status;
 }
 
-static froe_status ask(froe_query *q, const query_areas *areas, const double *point, froe_diagnostic *diag) {
+/* The groups on whose borders the point is join those that it is inside of. */
+static froe_status gather(froe_query *q, const query_areas *areas, const double *point, froe_diagnostic *diag) {
     froe_status status = FROE_OK;
-    q->groups.inside.count = q->groups.touched.count = 0;
-    if (!in_scene(q->tree->scene, point)) return FROE_OK;
-    if (areas->borders) status = come_from_reference(q, areas, point, diag);
-    if (!status && (areas->solids || !areas->borders)) status = add_holders(q, point, diag);
+    if (areas->solids || !areas->borders) status = add_holders(q, point, diag);
     for (size_t i = 0; !status && i < q->groups.touched.count; i++)
         if (!query_members_add(&q->groups.inside, &q->alloc, q->groups.touched.data[i])) return base_fail_memory(diag);
+    return status;
+}
+
+froe_status query_groups_in(froe_query *q, const query_areas *areas, const double *point, const query_leaf *leaf,
+                            froe_diagnostic *diag) {
+    const uint64_t queries = q->stats.queries + 1, exact = q->numbers.stats.exact;
+    froe_status status = FROE_OK;
+    q->groups.inside.count = q->groups.touched.count = 0;
+    if (in_scene(q->tree->scene, point)) {
+        if (areas->borders && query_areas_enter(q, areas, leaf, point)) return base_fail_memory(diag);
+        status = gather(q, areas, point, diag);
+    }
+    q->stats.queries = queries;
+    q->stats.exact += q->numbers.stats.exact - exact;
     return status;
 }
 
@@ -55,13 +50,13 @@ froe_status query_groups_prepare(froe_query *query, const query_areas **out, fro
 
 froe_status froe_query_groups(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag) {
     const query_areas *areas;
+    query_leaf leaf = {0};
     if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_groups: NULL argument.");
     froe_status status = query_groups_prepare(query, &areas, diag);
     if (!status) status = query_check_point(point, 2, "A point", diag);
     if (status) return status;
-    const uint64_t queries = query->stats.queries + 1;
-    status = ask(query, areas, point, diag);
-    query->stats.queries = queries;
+    if (areas->borders && query_leaf_find(query, point, &leaf)) return base_fail_memory(diag);
+    status = query_groups_in(query, areas, point, &leaf, diag);
     if (!status) *out = (froe_list){query->groups.inside.data, query->groups.inside.count};
     return status;
 }

@@ -2,7 +2,8 @@
  *
  *     jump table of a packed tree --.
  *     centroids of a deep tree ------+--> node --> cut after cut --> leaf
- *     the root of any other --------'
+ *     the root in space ------------'
+ *     any other in the plane            query/descent.h
  *
  * A point on a cut goes either way: it lies in the closed cell of the leaf all the same. */
 #ifndef FROE_QUERY_LEAF_H
@@ -11,8 +12,8 @@
 
 typedef struct query_leaf {
     uint32_t place; /**< its node; of a packed tree its block */
-    tree_objects list;
-    bool on_cut; /**< is the point on the border of its cell? */
+    bool on_cut;    /**< is the point on the border of its cell? */
+    bool empty;     /**< nothing is listed, as far as is known without looking */
 } query_leaf;
 
 /** The place of a node that is a leaf. */
@@ -22,4 +23,6 @@ static inline uint32_t query_leaf_place(const froe_tree *t, uint32_t node) {
 /** Finds it, exactly. dim finite doubles. FROE_E_MEMORY. O(log n) for axis-parallel cuts, O(height) below oblique ones
  * and for points on cuts. */
 froe_status query_leaf_find(froe_query *query, const double *point, query_leaf *out);
+/** The same for many points, which in the plane wait for memory together. */
+froe_status query_leaf_find_all(froe_query *query, const double *points, size_t count, query_leaf *leaves);
 #endif

@@ -26,12 +26,18 @@ struct froe_query;
 void query_range_free(query_range *range, const froe_allocator *alloc);
 /** Checks a range and prepares query->range for it. */
 froe_status query_range_take(struct froe_query *query, const froe_range *range, froe_diagnostic *diag);
+/** Prepares query->range, for query_range_meets() only, for a box that is a point. */
+void query_range_of_point(struct froe_query *query, const froe_range *point);
 /** Only checks it. */
 froe_status query_range_check(const froe_range *range, int dim, froe_diagnostic *diag);
 /** Checks, prepares, walks: what meets the range is in query->found; at least one object of it with `any`. */
 froe_status query_range_ask(struct froe_query *query, const froe_range *range, bool any, froe_diagnostic *diag);
 /** The objects that contain a point, in query->found. */
 froe_status query_locate(struct froe_query *query, const double *point, froe_diagnostic *diag);
+struct query_leaf;
+/** ... whose leaf is known; not of packed trees. */
+froe_status query_locate_in(struct froe_query *query, const double *point, const struct query_leaf *leaf,
+                            froe_diagnostic *diag);
 /** Reports the objects that meet query->range. FROE_E_MEMORY. */
 froe_status query_range_walk(struct froe_query *query);
 /** Does the object meet query->range? *memory: was there none to find out? */

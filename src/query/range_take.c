@@ -305,3 +305,10 @@ froe_status query_range_take(froe_query *q, const froe_range *from, froe_diagnos
     if (q->numbers.first != NUM_EXACT && !add_facets(&r->range, &q->alloc, from)) return base_fail_memory(diag);
     return FROE_OK;
 }
+
+void query_range_of_point(froe_query *q, const froe_range *point) {
+    q->range.from = point;
+    q->range.shape = point->shape;
+    q->range.range.kind = GEOM_RANGE_BOX;
+    q->range.margin = 0;
+}

@@ -248,8 +248,12 @@ static void scenes_without_groups_or_objects_have_none(void **state) {
                  world_begin("no groups", world_mixture(2, 1u << FROE_SEGMENT, 20, 4, 1, 1))};
     for (int i = 0; i < 2; i++) {
         for (size_t t = 0; t < w[i].tree_count; t++) {
+            froe_answers all;
             assert_int_equal(froe_query_groups(w[i].queries[t], x, &got, NULL), FROE_OK);
             assert_int_equal(got.count, 0);
+            assert_int_equal(froe_batch_groups(w[i].queries[t], x, 1, NULL, &all, NULL), FROE_OK);
+            assert_int_equal(all.starts[1], 0);
+            froe_answers_free(&all);
         }
         world_end(&w[i]);
     }
