@@ -5,9 +5,9 @@
  *      enter  lo hi   leave      the first child, the list of the cut and the second child are visited in this order,
  *              |                 each for its own interval, cut down to that of the node.
  *
- * Intervals are rounded outwards, and a ray that may be parallel to a cut is on both sides throughout: with objects
- * listed where they meet open cells, and regions closed, no object is missed. The stack is as deep as the tree at most.
- */
+ * Intervals are rounded outwards, and a ray that may be parallel to a cut is on both sides throughout, unless it is
+ * further from the cut than it can come within its interval, which ends with the scene: with objects listed where they
+ * meet open cells, and regions closed, no object is missed. The stack is as deep as the tree at most. */
 #include "base/status.h"
 #include "query/cuts.h"
 #include "query/ray.h"
@@ -27,22 +27,28 @@ static crossing crossing_of(double value, double value_error, double slope, doub
     return (crossing){t.x - t.e * (1 + 0x1p-50), t.x + t.e * (1 + 0x1p-50), slope < 0, false};
 }
 
+/* On the side where the origin is throughout. */
+static crossing beside(double value) {
+    const double side = value < 0 ? INFINITY : -(double)INFINITY;
+    return (crossing){side, side, 0, false};
+}
+
 static crossing cross_axis(const geom_ray *ray, int axis, double value) {
     const double ahead = value - ray->o[axis], d = ray->d[axis];
-    if (d == 0) { /* 0 == 0 means within the cut */
-        const double side = ahead > 0 ? INFINITY : -(double)INFINITY;
-        return (crossing){side, side, 0, ahead == 0};
-    }
+    if (d == 0) return ahead == 0 ? (crossing){.both = true} : beside(-ahead);
     const double t = ahead / d, e = 0x1p-51 * fabs(t) + 0x1p-1070;
     if (!isfinite(t)) return (crossing){.both = true};
     return (crossing){t - e, t + e, d < 0, false};
 }
 
-static crossing cross_plane(const geom_ray *ray, const query_plane *plane) {
+/* Up to the parameter `leave`. */
+static crossing cross_plane(const geom_ray *ray, const query_plane *plane, double leave) {
     double value_error, slope_error;
     const double value = query_plane_value(plane, ray->o, &value_error);
     const double slope = query_plane_slope(plane, ray->d, &slope_error);
-    return crossing_of(value, value_error, slope, slope_error);
+    const crossing c = crossing_of(value, value_error, slope, slope_error);
+    const double reach = value_error + (fabs(slope) + slope_error) * leave;
+    return c.both && fabs(value) > reach * (1 + 0x1p-50) ? beside(value) : c;
 }
 
 static bool push(froe_query *q, query_step step) {
@@ -56,7 +62,7 @@ static bool divide(froe_query *q, const query_planes *planes, const query_step *
     const tree_node *node = t->nodes + s->node;
     const query_cut cut = query_cut_at(t, planes, node);
     const crossing c =
-        cut.axis >= 0 ? cross_axis(&q->ray.ray, cut.axis, cut.value) : cross_plane(&q->ray.ray, cut.plane);
+        cut.axis >= 0 ? cross_axis(&q->ray.ray, cut.axis, cut.value) : cross_plane(&q->ray.ray, cut.plane, s->leave);
     query_step first = {node->child + (uint32_t)c.first, false, s->enter, s->leave}, list = *s, second = first;
     second.node = node->child + 1 - (uint32_t)c.first;
     list.list = true;
@@ -68,6 +74,25 @@ static bool divide(froe_query *q, const query_planes *planes, const query_step *
     return push(q, second) && (!listed || push(q, list)) && push(q, first);
 }
 
+/* The part of the ray that may be within the bounds of the scene. */
+static query_step within_scene(const froe_query *q) {
+    const froe_scene *s = q->tree->scene;
+    const geom_ray *ray = &q->ray.ray;
+    query_step root = {0, false, 0, INFINITY};
+    for (int k = 0; k < s->dim; k++) {
+        if (ray->d[k] == 0) {
+            if (ray->o[k] < s->lo[k] || ray->o[k] > s->hi[k]) root.leave = -1;
+            continue;
+        }
+        const bool falls = ray->d[k] < 0;
+        const crossing in = cross_axis(ray, k, falls ? s->hi[k] : s->lo[k]),
+                       out = cross_axis(ray, k, falls ? s->lo[k] : s->hi[k]);
+        if (!in.both && in.lo > root.enter) root.enter = in.lo;
+        if (!out.both && out.hi < root.leave) root.leave = out.hi;
+    }
+    return root;
+}
+
 froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
     const query_planes *planes;
     q->ray.packed = false;
@@ -75,7 +100,7 @@ froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
     if (q->ray.packed) return FROE_OK;
     froe_status status = query_planes_of(q, &planes, diag);
     q->ray.steps.count = 0;
-    if (!status && !push(q, (query_step){0, false, 0, INFINITY})) status = base_fail_memory(diag);
+    if (!status && !push(q, within_scene(q))) status = base_fail_memory(diag);
     return status;
 }
 

@@ -264,6 +264,28 @@ static void trees_may_be_deep(void **state) {
     froe_scene_free(scene);
 }
 
+/** Trapezoids lie between upright walls: a ray up passes cuts, and none of the walls of its column. */
+static void rays_up_meet_their_ceiling_and_no_more(void **state) {
+    (void)state;
+    enum { MANY = 2000 };
+    froe_scene *scene = world_generate("disjoint", MANY);
+    froe_tree *tree = trees_build(scene, "cylindrical", 0);
+    const size_t height = froe_tree_report(tree).height;
+    double lo[2], hi[2], x[2];
+    froe_query *q;
+    uint32_t object;
+    assert_true(froe_scene_bounds(scene, lo, hi));
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    for (uint64_t i = 0; i < MANY; i++) {
+        for (size_t k = 0; k < 2; k++) x[k] = lo[k] + (hi[k] - lo[k]) * trees_unit(k, i);
+        assert_int_equal(froe_query_vertical(q, x, i % 2 ? 1 : -1, &object, NULL), FROE_OK);
+    }
+    assert_true(froe_query_statistics(q).nodes < MANY * height);
+    froe_query_free(q);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_in_generated_scenes),
@@ -274,6 +296,7 @@ int main(void) {
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(after_some_queries_none_takes_memory),
         cmocka_unit_test(trees_may_be_deep),
+        cmocka_unit_test(rays_up_meet_their_ceiling_and_no_more),
     };
     int failed = cmocka_run_group_tests_name("query/rays", tests, NULL, NULL);
     print_message("%llu decisions, %llu hits, %llu ties, %llu vertical\n", (unsigned long long)decisions,
