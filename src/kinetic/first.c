@@ -188,6 +188,14 @@ static int64_t try_all(const search *f, int64_t low, int64_t high) {
 
 /* ----------------------------------------------------------------- exactly -- */
 
+/* The polynomial is in `p`, or if it is too wide for that made anew each time. */
+static int count_roots(const search *f, const poly_wide *p, int64_t low, int power, int *sign) {
+    if (p) return wide_variations(p, low, power, sign);
+    poly_exact exact;
+    now_claim_exact(f->now, f->claim, f->axis, &exact);
+    return exact_variations(&f->now->context.arena, &exact, low, power, sign);
+}
+
 /* The same by Descartes' rule alone. */
 static int64_t search_exactly(const search *f, int64_t low, int power) {
     struct {
@@ -196,7 +204,8 @@ static int64_t search_exactly(const search *f, int64_t low, int power) {
     } stack[2 * LEVELS];
     int top = 0;
     stack[top].low = low, stack[top++].power = power;
-    num_arena *arena = &f->now->context.arena;
+    poly_wide wide;
+    const poly_wide *p = now_claim_wide(f->now, f->claim, f->axis, low + ((int64_t)1 << power), &wide) ? &wide : NULL;
     while (top) {
         low = stack[--top].low, power = stack[top].power;
         if (low > f->span) continue;
@@ -204,10 +213,7 @@ static int64_t search_exactly(const search *f, int64_t low, int power) {
         if (power <= 2) {
             at = try_all(f, low, high);
         } else {
-            poly_exact p;
-            int sign;
-            now_claim_exact(f->now, f->claim, f->axis, &p);
-            int changes = exact_variations(arena, &p, low, power, &sign);
+            int sign, changes = count_roots(f, p, low, power, &sign);
             if (!changes && sign >= 0) {
                 at = try_all(f, high - 1, high); /* ends may be roots */
             } else if (!changes) {

@@ -14,9 +14,8 @@
 #include "base/array.h"
 #include "num/ball.h"
 #include "num/dyadic.h"
+#include "num/wide.h"
 #include <froe/kinetic.h>
-
-__extension__ typedef __int128 motion_int;
 
 typedef struct motion_knot {
     double time, at[2], control[2]; /**< control[0] NaN: the piece that begins here is linear */
@@ -78,7 +77,7 @@ motion_piece motion_piece_at_time(const froe_motion *m, uint32_t vertex, double 
 motion_piece motion_piece_after(const froe_motion *m, uint32_t vertex, uint32_t knot);
 
 /** X, Y, W in units of 2^unit (of the motion) as stack integers of less than 2^126. False: too wide. */
-bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_int out[3]);
+bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, num_short out[3]);
 /** X, Y, W: always there. Takes less than 4000 limbs of the arena, for any finite doubles. */
 void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic out[3]);
 /** X, Y, W with error bounds. */
@@ -98,6 +97,12 @@ typedef struct motion_dyadic_curve {
 typedef struct motion_ball_curve {
     num_ball x[3], y[3], w;
 } motion_ball_curve;
+/** The same in the units of motion_whole(). */
+typedef struct motion_whole_curve {
+    num_short x[3], y[3], w;
+} motion_whole_curve;
+/** Each less than 2^126. False: too wide. */
+bool motion_curve_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_whole_curve *out);
 void motion_curve_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
                          motion_dyadic_curve *out);
 void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_ball_curve *out);

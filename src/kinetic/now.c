@@ -89,25 +89,22 @@ static num_ball cross(ball2 a, ball2 b) {
     return num_ball_sub(num_ball_mul(a.x, b.y), num_ball_mul(a.y, b.x));
 }
 
-typedef void get_exact(now_state *now, uint32_t vertex, exact_point *out);
-
-static void named_exact(now_state *now, now_name p, get_exact *get, exact_point *out) {
+static void named_exact(now_state *now, now_name p, exact_point *out) {
+    now->context.arena.top = 0;
     if (p.b == NAME_VERTEX) {
-        get(now, p.a, out);
+        now_exact_at(now, p.a, out);
         return;
     }
-    const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
     exact_point v[4];
-    get(now, s[0], v), get(now, s[1], v + 1), get(now, t[0], v + 2), get(now, t[1], v + 3);
+    for (int i = 0; i < 4; i++) now_exact_at(now, now->segments.data[i < 2 ? p.a : (uint32_t)p.b].end[i % 2], v + i);
     exact_crossing(&now->context.arena, v, out);
 }
 
 /* Rounded from exact numbers, where the filter says little. */
 static now_spot exact_spot(now_state *now, now_name p) {
     num_arena *arena = &now->context.arena;
-    arena->top = 0;
     exact_point e;
-    named_exact(now, p, now_exact_at, &e);
+    named_exact(now, p, &e);
     if (!e.w.c[0].sign) return (now_spot){0, 0, (double)INFINITY};
     now_spot spot = {num_dyadic_quotient(arena, e.x.c[0], e.w.c[0]), num_dyadic_quotient(arena, e.y.c[0], e.w.c[0]), 0};
     spot.error = (fabs(spot.x) + fabs(spot.y)) * 0x1p-52 + NUM_BALL_TINY;
@@ -139,43 +136,29 @@ now_spot now_spot_of(now_state *now, now_name p) {
 
 /* ------------------------------------------------------------------- order -- */
 
-static int negative(const poly_exact *w) {
-    return exact_sign(w);
-}
-
-/* -1, 0, 1 in one coordinate. */
-static int order_of(now_state *now, const exact_point *p, const exact_point *q, int axis) {
-    poly_exact order;
-    exact_order(&now->context.arena, p, q, axis, &order);
-    return -exact_sign(&order) * negative(&p->w) * negative(&q->w);
-}
-
-/* Along the pieces, for points that are equal in x at the tick. */
-static int compare_after(now_state *now, now_name p, now_name q) {
-    exact_point a, b;
-    now->context.arena.top = 0;
-    named_exact(now, p, now_exact_along, &a);
-    named_exact(now, q, now_exact_along, &b);
-    if (!negative(&a.w) || !negative(&b.w)) return now->lost = true, 1;
-    int order = order_of(now, &a, &b, 0);
-    return order ? order : order_of(now, &a, &b, 1);
-}
-
 /* Is it a point of a question? These are about the tick itself. */
 static bool asks(const now_state *now, now_name p) {
     return p.b == NAME_VERTEX ? p.a + 2 >= now->courses.count : now_is_question(now, (uint32_t)p.b);
 }
 
+/* Do two vertices have the same x for as long as their pieces last? */
+static bool is_above_for_good(now_state *now, uint32_t p, uint32_t q) {
+    const motion_piece *a = &now->bends.data[p].piece, *b = &now->bends.data[q].piece;
+    if (a->degree != b->degree || a->from->at[0] != b->from->at[0] || a->to->at[0] != b->to->at[0]) return false;
+    if (!a->degree) return true;
+    if (a->from->time != b->from->time || a->to->time != b->to->time) return false;
+    return a->degree == 1 || a->from->control[0] == b->from->control[0];
+}
+
+/* Just after the tick; questions are about the tick itself. */
 static int compare_exactly(now_state *now, now_name p, now_name q) {
-    exact_point a, b;
+    const bool asked = asks(now, p) || asks(now, q);
     now->context.stats.exact++;
-    now->context.arena.top = 0;
-    named_exact(now, p, now_exact_at, &a);
-    named_exact(now, q, now_exact_at, &b);
-    if (!a.w.c[0].sign || !b.w.c[0].sign) return compare_after(now, p, q);
-    int order = order_of(now, &a, &b, 0);
-    if (!order && (asks(now, p) || asks(now, q))) return order_of(now, &a, &b, 1);
-    return order ? order : compare_after(now, p, q);
+    int order = now_judge_order(now, p, q, false, asked);
+    if (order != POLY_PARALLEL && (order || asked)) return order;
+    order = now_judge_order(now, p, q, true, true);
+    if (order == POLY_PARALLEL) now->lost = true, order = 1;
+    return order;
 }
 
 /* A point on the line is behind it. */
@@ -185,8 +168,7 @@ static int compare_to_line(now_state *now, now_name p, double line) {
     if (fabs(d) > error) return d < 0 ? -1 : 1;
     num_arena *arena = &now->context.arena;
     exact_point e;
-    arena->top = 0;
-    named_exact(now, p, now_exact_at, &e);
+    named_exact(now, p, &e);
     if (!e.w.c[0].sign) return now->lost = true, 1;
     num_dyadic at = num_dyadic_mul(arena, num_dyadic_from(arena, line), e.w.c[0]);
     int sign = num_dyadic_compare(e.x.c[0], at) * e.w.c[0].sign;
@@ -202,18 +184,11 @@ int now_compare(now_state *now, now_name p, now_name q) {
     now_spot a = now_spot_of(now, p), b = now_spot_of(now, q);
     double d = a.x - b.x, error = (a.error + b.error + fabs(d) * 0x1p-52) * NUM_BALL_UP;
     if (fabs(d) > error) return d < 0 ? -1 : 1;
+    if (name_is_vertex(p) && name_is_vertex(q) && is_above_for_good(now, p.a, q.a)) {
+        d = a.y - b.y, error = (a.error + b.error + fabs(d) * 0x1p-52) * NUM_BALL_UP;
+        if (fabs(d) > error) return d < 0 ? -1 : 1;
+    }
     return compare_exactly(now, p, q);
-}
-
-static int side_with(now_state *now, uint32_t segment, uint32_t vertex, get_exact *get) {
-    exact_point a, b, q;
-    poly_exact turn;
-    now->context.arena.top = 0;
-    get(now, now_vertex(now, segment, 0), &a);
-    get(now, now_vertex(now, segment, 1), &b);
-    get(now, vertex, &q);
-    exact_turn(&now->context.arena, &a, &b, &q, &turn);
-    return exact_sign(&turn);
 }
 
 /* The sign of ab x aq, from the coordinates as they are; NUM_UNSURE where rounding or their errors may matter. */
@@ -235,9 +210,9 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
     int sign = num_ball_sign(cross(d, minus(vertex_ball(now, vertex), a)));
     if (sign == 1 || sign == -1) return sign;
     now->context.stats.exact++;
-    sign = side_with(now, segment, vertex, now_exact_at);
+    sign = now_judge_side(now, segment, vertex, false);
     bool question = now_is_question(now, segment) || asks(now, (now_name){vertex, NAME_VERTEX});
-    return sign || question ? sign : side_with(now, segment, vertex, now_exact_along);
+    return sign || question ? sign : now_judge_side(now, segment, vertex, true);
 }
 
 /* ------------------------------------------------------------------ claims -- */
@@ -269,14 +244,6 @@ static void ball_negate(poly_ball *p) {
     for (int i = 0; i <= p->degree; i++) p->c[i].x = -p->c[i].x;
 }
 
-static int exact_denominators(now_state *now, now_name p, now_name q) {
-    exact_point a, b;
-    now->context.arena.top = 0;
-    named_exact(now, p, now_exact_along, &a);
-    named_exact(now, q, now_exact_along, &b);
-    return negative(&a.w) * negative(&b.w);
-}
-
 void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out) {
     if (claim->p.b == NAME_SEGMENT) {
         ball_point a, b, q;
@@ -292,32 +259,14 @@ void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball 
     named_ball(now, claim->q, &b);
     ball_order(&a, &b, axis, out);
     int sign = ball_denominator(&a.w) * ball_denominator(&b.w);
-    if (!sign) sign = exact_denominators(now, claim->p, claim->q);
+    if (!sign) sign = now_judge_denominators(now, claim);
     if (sign < 0) ball_negate(out);
-}
-
-void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exact *out) {
-    int sign = claim->above;
-    num_arena *arena = &now->context.arena;
-    exact_point a, b, q;
-    arena->top = 0;
-    if (claim->p.b == NAME_SEGMENT) {
-        now_exact_along(now, now_vertex(now, claim->p.a, 0), &a);
-        now_exact_along(now, now_vertex(now, claim->p.a, 1), &b);
-        now_exact_along(now, claim->q.a, &q);
-        exact_turn(arena, &a, &b, &q, out);
-    } else {
-        named_exact(now, claim->p, now_exact_along, &a);
-        named_exact(now, claim->q, now_exact_along, &b);
-        exact_order(arena, &a, &b, axis, out);
-        sign = negative(&a.w) * negative(&b.w);
-    }
-    if (sign < 0)
-        for (int i = 0; i <= out->degree; i++) out->c[i].sign = -out->c[i].sign;
 }
 
 int now_claim_axis(now_state *now, const now_claim *claim) {
     if (claim->p.b == NAME_SEGMENT) return 0;
+    poly_wide wide;
+    if (now_claim_wide(now, claim, 0, 0, &wide)) return !wide_sign(&wide);
     poly_exact p;
     now_claim_exact(now, claim, 0, &p);
     return !exact_sign(&p);

@@ -56,6 +56,9 @@ typedef struct now_segment {
     bool turned;     /**< end[1] is on the left */
 } now_segment;
 
+/** What decides where doubles do not: integers of 128 bits, of 320, or dyadic numbers (judge.c). */
+typedef enum now_stage { NOW_SHORT, NOW_WIDE, NOW_DYADIC, NOW_STAGES } now_stage;
+
 typedef struct now_state {
     froe_motion *motion;
     int64_t tick;
@@ -66,7 +69,9 @@ typedef struct now_state {
     motion_knot asked[2];        /**< where they are */
     now_memory *memories;        /**< of crossings, by a hash of their names */
     num_context context;
-    bool lost; /**< somebody asked where parallel lines cross */
+    now_stage least;             /**< where judging begins; tests begin with each */
+    uint64_t judged[NOW_STAGES]; /**< questions that doubles left open, by who decided them */
+    bool lost;                   /**< somebody asked where parallel lines cross */
 } now_state;
 
 froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out);
@@ -132,6 +137,12 @@ bool now_round(now_state *now, uint32_t vertex, double out[2]);
 void now_exact_at(now_state *now, uint32_t vertex, exact_point *out);
 void now_exact_along(now_state *now, uint32_t vertex, exact_point *out);
 
+/* judge.c */
+/** -1, 0, 1 as p is before, at or behind q, or POLY_PARALLEL; at the tick, or just after it. By y where x are equal, if
+ * `both`. */
+int now_judge_order(now_state *now, now_name p, now_name q, bool along, bool both);
+int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along);
+
 /* now.c */
 /** REQUIRES: a vertex or a crossing. */
 now_spot now_spot_of(now_state *now, now_name p);
@@ -160,7 +171,11 @@ int64_t now_first_failure(now_state *now, const now_claim *claim);
 
 /** The polynomials behind a claim about time from now on: > 0 while it holds. In coordinate `axis` for points. */
 void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out);
+/** The sign of both denominators just after now. REQUIRES: a claim about points. */
+int now_judge_denominators(now_state *now, const now_claim *claim);
 void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exact *out);
+/** The same in integers that are wide enough for wide_variations() in so many ticks from now. False: there are none. */
+bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t span, poly_wide *out);
 /** Does it depend on the order of y, because x are the same for ever? Resets the arena. */
 int now_claim_axis(now_state *now, const now_claim *claim);
 #endif

@@ -29,13 +29,13 @@
 #include "kinetic/place_body.inc"
 
 /* x / 2^unit, which is whole. */
-static motion_int whole_of(double x, int unit) {
+static num_short whole_of(double x, int unit) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
     int power = (int)(bits >> 52 & 0x7ff);
-    motion_int mantissa = (motion_int)(bits & 0xfffffffffffffu);
+    num_short mantissa = (num_short)(bits & 0xfffffffffffffu);
     if (power)
-        mantissa |= (motion_int)1 << 52;
+        mantissa |= (num_short)1 << 52;
     else
         power = 1;
     if (!mantissa) return 0;
@@ -44,7 +44,8 @@ static motion_int whole_of(double x, int unit) {
     return bits >> 63 ? -mantissa : mantissa;
 }
 
-#define T motion_int
+#define T num_short
+#define CURVE motion_whole_curve
 #define NAME(f) whole_##f
 #define POINT(x) whole_of(x, m->unit)
 #define TIME(x) whole_of(x, piece->from->unit)
@@ -54,11 +55,23 @@ static motion_int whole_of(double x, int unit) {
 #define MUL(a, b) ((a) * (b))
 #include "kinetic/place_body.inc"
 
-bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_int out[3]) {
+static num_short whole_ticks(const froe_motion *m, const motion_piece *piece, int64_t ticks) {
+    return piece->degree ? (num_short)ticks << (m->power - piece->from->unit) : 0;
+}
+
+bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, num_short out[3]) {
     enum { MOST = 125 }; /* a sum of three products with weights whose sum is W */
     if (m->top - m->unit + piece->degree * piece->from->bits > MOST) return false;
-    motion_int passed = piece->degree ? (motion_int)tick << (m->power - piece->from->unit) : 0;
-    whole_place(NULL, m, piece, passed, out);
+    whole_place(NULL, m, piece, whole_ticks(m, piece, tick), out);
+    return true;
+}
+
+bool motion_curve_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_whole_curve *out) {
+    enum { MOST = 122 }; /* a tick is no longer than the piece; twice a sum of four products */
+    const motion_knot *from = piece->from;
+    if (piece->degree && m->power - from->unit > from->bits) return false;
+    if (m->top - m->unit + piece->degree * from->bits > MOST) return false;
+    whole_curve(NULL, m, piece, whole_ticks(m, piece, tick), whole_ticks(m, piece, 1), out);
     return true;
 }
 

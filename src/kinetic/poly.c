@@ -19,6 +19,36 @@ static num_dyadic exact_minus(num_dyadic a) {
 #define MUL(a, b) num_ball_mul(a, b)
 #include "kinetic/poly_body.inc"
 
+static num_short short_minus(num_short a) {
+    return -a;
+}
+
+#define T num_short
+#define POLY poly_short
+#define POINT short_point
+#define NAME(f) short_##f
+#define ADD(a, b) ((a) + (b))
+#define SUB(a, b) ((a) - (b))
+#define MUL(a, b) ((a) * (b))
+#define SIGN(a) (((a) > 0) - ((a) < 0))
+#include "kinetic/poly_body.inc"
+
+static num_wide wide_minus(num_wide a) {
+    return num_wide_sub((num_wide){{0}}, a);
+}
+
+#define T num_wide
+#define POLY poly_wide
+#define POINT wide_point
+#define NAME(f) wide_##f
+#define ADD(a, b) num_wide_add(a, b)
+#define SUB(a, b) num_wide_sub(a, b)
+#define MUL(a, b) num_wide_mul(a, b)
+#define SIGN(a) num_wide_sign(a)
+#define FROM(x) num_wide_from(x)
+#define POWER(k) num_wide_power(k)
+#include "kinetic/poly_body.inc"
+
 #define T num_dyadic
 #define POLY poly_exact
 #define POINT exact_point
@@ -26,6 +56,9 @@ static num_dyadic exact_minus(num_dyadic a) {
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
 #define MUL(a, b) num_dyadic_mul(arena, a, b)
+#define SIGN(a) (a).sign
+#define FROM(x) num_dyadic_scaled(arena, 1, (uint64_t)(x), 0)
+#define POWER(k) num_dyadic_scaled(arena, 1, 1, k)
 #include "kinetic/poly_body.inc"
 
 void ball_vertex(const froe_motion *m, const motion_piece *piece, int64_t tick, ball_point *out) {
@@ -66,44 +99,62 @@ void ball_order(const ball_point *p, const ball_point *q, int axis, poly_ball *o
     ball_order_points(NULL, p, q, axis, out);
 }
 
-void exact_order(num_arena *arena, const exact_point *p, const exact_point *q, int axis, poly_exact *out) {
-    exact_order_points(arena, p, q, axis, out);
-}
-
 void ball_turn(const ball_point *a, const ball_point *b, const ball_point *q, poly_ball *out) {
     ball_turn_points(NULL, a, b, q, out);
 }
 
-void exact_turn(num_arena *arena, const exact_point *a, const exact_point *b, const exact_point *q, poly_exact *out) {
-    exact_turn_points(arena, a, b, q, out);
+void exact_turn(num_arena *arena, const exact_point v[3], poly_exact *out) {
+    exact_turn_points(arena, v, v + 1, v + 2, out);
 }
 
 int exact_sign(const poly_exact *p) {
-    for (int i = 0; i <= p->degree; i++)
-        if (p->c[i].sign) return p->c[i].sign;
-    return 0;
+    return exact_first_sign(p);
 }
 
-/* p(s) becomes p(s + by). */
-static void shift(num_arena *arena, poly_exact *p, num_dyadic by) {
-    for (int i = 0; i < p->degree; i++)
-        for (int j = p->degree - 1; j >= i; j--)
-            p->c[j] = num_dyadic_add(arena, p->c[j], num_dyadic_mul(arena, p->c[j + 1], by));
+int wide_sign(const poly_wide *p) {
+    return wide_first_sign(p);
 }
 
-/* p(low + 2^power / (1 + x)) (1 + x)^degree has its positive roots where p has those in question. */
 int exact_variations(num_arena *arena, const poly_exact *p, int64_t low, int power, int *sign) {
-    poly_exact r = *p, q = {.degree = p->degree};
-    if (low) shift(arena, &r, num_dyadic_scaled(arena, 1, (uint64_t)low, 0));
-    for (int i = 0; i <= r.degree; i++)
-        q.c[r.degree - i] = num_dyadic_mul(arena, r.c[i], num_dyadic_scaled(arena, 1, 1, power * i));
-    shift(arena, &q, num_dyadic_scaled(arena, 1, 1, 0));
-    int changes = 0, last = 0;
-    for (int i = 0; i <= q.degree; i++) {
-        if (!q.c[i].sign) continue;
-        changes += last == -q.c[i].sign;
-        last = q.c[i].sign;
-    }
-    *sign = last;
-    return changes;
+    return exact_count_changes(arena, p, low, power, sign);
+}
+
+int wide_variations(const poly_wide *p, int64_t low, int power, int *sign) {
+    return wide_count_changes(NULL, p, low, power, sign);
+}
+
+int short_order_sign(const short_point *v, const int count[2], bool both) {
+    return short_compare_points(NULL, v, count, both);
+}
+
+int wide_order_sign(const wide_point *v, const int count[2], bool both) {
+    return wide_compare_points(NULL, v, count, both);
+}
+
+int exact_order_sign(num_arena *arena, const exact_point *v, const int count[2], bool both) {
+    return exact_compare_points(arena, v, count, both);
+}
+
+int short_turn_sign(const short_point v[3]) {
+    return short_side_of(NULL, v);
+}
+
+int wide_turn_sign(const wide_point v[3]) {
+    return wide_side_of(NULL, v);
+}
+
+int exact_turn_sign(num_arena *arena, const exact_point v[3]) {
+    return exact_side_of(arena, v);
+}
+
+void wide_order(const wide_point *v, const int count[2], int axis, poly_wide *out) {
+    wide_claim_order(NULL, v, count, axis, out);
+}
+
+void exact_order(num_arena *arena, const exact_point *v, const int count[2], int axis, poly_exact *out) {
+    exact_claim_order(arena, v, count, axis, out);
+}
+
+void wide_turn(const wide_point v[3], poly_wide *out) {
+    wide_turn_points(NULL, v, v + 1, v + 2, out);
 }

@@ -1,5 +1,6 @@
-/* poly.h: polynomials in time, as numbers with error bounds (ball_*) and exactly (exact_*): moving points, where
- * the lines of moving segments cross, and what the order of such points is and on which side of a line they are. */
+/* poly.h: polynomials in time, as numbers with error bounds (ball_*) and exactly, in stack integers of 128 and 320 bits
+ * where these are wide enough (short_*, wide_*) and in dyadic numbers (exact_*): moving points, where the lines of
+ * moving segments cross, and what the order of such points is and on which side of a line they are. */
 #ifndef FROE_KINETIC_POLY_H
 #define FROE_KINETIC_POLY_H
 #include "kinetic/motion.h"
@@ -18,6 +19,15 @@ typedef struct poly_exact {
     num_dyadic c[POLY_TERMS];
 } poly_exact;
 
+typedef struct poly_short {
+    int degree;
+    num_short c[POLY_TERMS];
+} poly_short;
+typedef struct poly_wide {
+    int degree;
+    num_wide c[POLY_TERMS];
+} poly_wide;
+
 /** A point (x/w, y/w); w is not 0, and greater than 0 for vertices. */
 typedef struct ball_point {
     poly_ball x, y, w;
@@ -25,6 +35,12 @@ typedef struct ball_point {
 typedef struct exact_point {
     poly_exact x, y, w;
 } exact_point;
+typedef struct short_point {
+    poly_short x, y, w;
+} short_point;
+typedef struct wide_point {
+    poly_wide x, y, w;
+} wide_point;
 
 /** A vertex, time being counted in ticks from `tick`. */
 void ball_vertex(const froe_motion *m, const motion_piece *piece, int64_t tick, ball_point *out);
@@ -38,16 +54,33 @@ void exact_crossing(num_arena *arena, const exact_point p[4], exact_point *out);
 
 /** Of the sign of q - p in coordinate `axis` times that of both denominators. */
 void ball_order(const ball_point *p, const ball_point *q, int axis, poly_ball *out);
-void exact_order(num_arena *arena, const exact_point *p, const exact_point *q, int axis, poly_exact *out);
+/** Of the sign of q - p. The points p and q are each a vertex (count 1) or where the lines v[0] v[1] and v[2] v[3]
+ * cross (count 4); those of q come after those of p. */
+void wide_order(const wide_point *v, const int count[2], int axis, poly_wide *out);
+void exact_order(num_arena *arena, const exact_point *v, const int count[2], int axis, poly_exact *out);
+
+#define POLY_PARALLEL 2 /**< no order: lines do not cross */
+/** -1, 0, 1 as p is before, at or behind q just after time 0, in x, then, if `both`, in y. */
+int short_order_sign(const short_point *v, const int count[2], bool both);
+int wide_order_sign(const wide_point *v, const int count[2], bool both);
+int exact_order_sign(num_arena *arena, const exact_point *v, const int count[2], bool both);
 
 /** > 0: the vertex q is on the left of ab, vertices too. */
 void ball_turn(const ball_point *a, const ball_point *b, const ball_point *q, poly_ball *out);
-void exact_turn(num_arena *arena, const exact_point *a, const exact_point *b, const exact_point *q, poly_exact *out);
+/** Of v[0] v[1] and v[2]. */
+void wide_turn(const wide_point v[3], poly_wide *out);
+void exact_turn(num_arena *arena, const exact_point v[3], poly_exact *out);
+/** The sign of the turn just after time 0. */
+int short_turn_sign(const short_point v[3]);
+int wide_turn_sign(const wide_point v[3]);
+int exact_turn_sign(num_arena *arena, const exact_point v[3]);
 
 /** The sign of the polynomial just after its time 0; 0: it is 0 for ever. */
 int exact_sign(const poly_exact *p);
+int wide_sign(const poly_wide *p);
 
 /** How often the polynomial changes its sign within low < s < low + 2^power, at most (and by an even number less);
  * *sign: what it has there if it does not, which may be 0. Exact: Descartes' rule. */
 int exact_variations(num_arena *arena, const poly_exact *p, int64_t low, int power, int *sign);
+int wide_variations(const poly_wide *p, int64_t low, int power, int *sign);
 #endif

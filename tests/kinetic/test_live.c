@@ -268,6 +268,34 @@ static void test_calls(void **state) {
     froe_motion_free(m);
 }
 
+/* The way back needs what the way there did: nothing is allocated, but that a list that was just full may double. */
+static void test_no_memory_per_event(void **state) {
+    (void)state;
+    static const moving_kind random = {
+        .name = "random", .count = 40, .grid = 4096, .length = 2000, .speed = 64, .spin = 32, .legs = 2, .back = true};
+    moving_kind ways[3] = {random, random, random};
+    ways[1].curved = true;
+    ways[2].grid = 32, ways[2].length = 8, ways[2].speed = 2, ways[2].spin = 1;
+    for (size_t i = 0; i < 3; i++) {
+        test_memory memory;
+        const froe_allocator alloc = test_memory_begin(&memory);
+        const froe_kinetic_options o = froe_kinetic_defaults();
+        froe_motion *m = moving_new(ways + i, 3, NULL);
+        froe_kinetic *k = NULL;
+        assert_int_equal(froe_kinetic_new(m, &o, &alloc, &k, NULL), FROE_OK);
+        pattern_counter counter = {.kinetic = k};
+        assert_int_equal(froe_kinetic_advance(k, 0.5 * MOVING_TIME, pattern_count, &counter, NULL), FROE_OK);
+        const size_t calls = memory.calls;
+        const uint64_t events = counter.events;
+        assert_int_equal(froe_kinetic_advance(k, MOVING_TIME, pattern_count, &counter, NULL), FROE_OK);
+        assert_true(counter.events > events + 100);
+        assert_true(memory.calls <= calls + 2);
+        froe_kinetic_free(k);
+        test_memory_end(&memory);
+        froe_motion_free(m);
+    }
+}
+
 static froe_status with_memory(void *user, const froe_allocator *alloc) {
     froe_motion *m = user;
     froe_kinetic *k = NULL;
@@ -304,6 +332,7 @@ int main(void) {
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_trials_within_pieces),
         cmocka_unit_test(test_calls),
+        cmocka_unit_test(test_no_memory_per_event),
         cmocka_unit_test(test_memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -24,7 +24,7 @@ static froe_motion *motion_over(double begin, double end, double tick) {
 
 /* ----------------------------------------------------------------- rationals -- */
 
-static void set_whole(mpq_t out, motion_int x) {
+static void set_whole(mpq_t out, num_short x) {
     unsigned __int128 size = (unsigned __int128)(x < 0 ? -x : x);
     uint64_t limbs[2] = {(uint64_t)size, (uint64_t)(size >> 64)};
     mpz_import(mpq_numref(out), 2, -1, 8, 0, 0, limbs);
@@ -153,7 +153,7 @@ typedef struct seen {
 } tally;
 
 static void check_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, mpq_t truth[2], tally *seen) {
-    motion_int xyw[3];
+    num_short xyw[3];
     if (!motion_whole(m, piece, tick, xyw)) {
         seen->wide++;
         return;

@@ -1,0 +1,300 @@
+/* judge.c: order and sides where doubles do not tell: in stack integers of 128 bits if these are wide enough, of 320,
+ * or in dyadic numbers, of any width.
+ *
+ * Vertices whose pieces last from the same instant to the same instant share their denominator, as most do: then it is
+ * left out, for no order and no side depends on a common scale. How wide results can be follows from how wide the
+ * vertices are at this tick; the formulas are those of poly_body.inc. */
+#include "kinetic/now.h"
+
+enum { SHORT_BITS = 126, WIDE_BITS = NUM_WIDE_BITS - 1, VERTICES = 8 };
+
+/* The vertices of a question, at the tick or as polynomials in ticks from it on, as integers: |x|, |y| <= 2^place and
+ * |w| <= 2^weight, all coefficients alike. */
+typedef struct cast {
+    now_state *now;
+    bool along;
+    uint32_t vertex[VERTICES];
+    motion_whole_curve curve[VERTICES];
+    int count, degree, place, weight;
+} cast;
+
+static const motion_piece *piece_of(const cast *c, int i) {
+    return &c->now->bends.data[c->vertex[i]].piece;
+}
+
+static void cast_vertex(cast *c, uint32_t vertex) {
+    now_course_of(c->now, vertex);
+    c->vertex[c->count] = vertex;
+    int degree = piece_of(c, c->count++)->degree;
+    c->degree = degree > c->degree ? degree : c->degree;
+}
+
+/* How many vertices are behind it: 1 or 4. */
+static int cast_name(cast *c, now_name p) {
+    if (p.b == NAME_VERTEX) {
+        cast_vertex(c, p.a);
+        return 1;
+    }
+    const now_segment *segments = c->now->segments.data;
+    for (int i = 0; i < 4; i++) cast_vertex(c, segments[i < 2 ? p.a : (uint32_t)p.b].end[i % 2]);
+    return 4;
+}
+
+static void cast_side(cast *c, uint32_t segment, uint32_t vertex) {
+    for (int i = 0; i < 2; i++) cast_vertex(c, now_vertex(c->now, segment, i));
+    cast_vertex(c, vertex);
+}
+
+/* ------------------------------------------------------------------ widths -- */
+
+static num_limbs2 size_of(num_short x) {
+    return x < 0 ? -(num_limbs2)x : (num_limbs2)x;
+}
+
+/* |x| <= 2^bits */
+static int bits_of(num_limbs2 x) {
+    uint64_t high = (uint64_t)(x >> 64), low = (uint64_t)x;
+    if (x <= 1) return 0;
+    return high ? 128 - __builtin_clzll(high) : 64 - __builtin_clzll(low);
+}
+
+static int terms_of(const cast *c, int i) {
+    return c->along ? piece_of(c, i)->degree + 1 : 1;
+}
+
+static int curve_bits(const cast *c, int i) {
+    num_limbs2 all = 0;
+    for (int k = 0; k < terms_of(c, i); k++) all |= size_of(c->curve[i].x[k]) | size_of(c->curve[i].y[k]);
+    return bits_of(all);
+}
+
+/* A piece of the highest degree that begins and ends when all others do, but for those that stand still; -1: none. */
+static int common_clock(const cast *c) {
+    int clock = -1;
+    for (int i = 0; i < c->count; i++) {
+        const motion_piece *p = piece_of(c, i), *q = clock < 0 ? p : piece_of(c, clock);
+        if (!p->degree) continue;
+        if (p->from->time != q->from->time || p->to->time != q->to->time) return -1;
+        if (p == q || p->degree > q->degree) clock = i;
+    }
+    return clock;
+}
+
+/* Gives all vertices one denominator, and forgets it. That of a parabola is a linear piece's own, squared. */
+static void drop_weights(cast *c) {
+    const int clock = common_clock(c);
+    if (clock < 0) return;
+    const num_short whole = c->curve[clock].w;
+    for (int i = 0; i < c->count; i++) {
+        motion_whole_curve *v = c->curve + i;
+        const int degree = piece_of(c, i)->degree;
+        if (degree == c->degree) continue;
+        const num_short by = degree ? v->w : whole;
+        if (curve_bits(c, i) + bits_of(size_of(by)) > SHORT_BITS) return;
+        for (int k = 0; k < terms_of(c, i); k++) v->x[k] *= by, v->y[k] *= by;
+        v->w = whole;
+    }
+    for (int i = 0; i < c->count; i++) c->curve[i].w = 1;
+}
+
+/* Questions have coordinates of their own, perhaps finer than the motion's unit. */
+static bool is_asked(const cast *c, int i) {
+    return c->vertex[i] + 2 >= c->now->courses.count;
+}
+
+/* False: the vertices themselves are too wide. */
+static bool cast_integers(cast *c) {
+    const froe_motion *m = c->now->motion;
+    const int64_t tick = c->now->tick;
+    for (int i = 0; i < c->count; i++) {
+        motion_whole_curve *v = c->curve + i;
+        num_short at[3];
+        if (is_asked(c, i)) return false;
+        if (c->along ? !motion_curve_whole(m, piece_of(c, i), tick, v) : !motion_whole(m, piece_of(c, i), tick, at))
+            return false;
+        if (!c->along) v->x[0] = at[0], v->y[0] = at[1], v->w = at[2];
+    }
+    drop_weights(c);
+    for (int i = 0; i < c->count; i++) {
+        int place = curve_bits(c, i), weight = bits_of(size_of(c->curve[i].w));
+        c->place = place > c->place ? place : c->place;
+        c->weight = weight > c->weight ? weight : c->weight;
+    }
+    if (!c->along) c->degree = 0;
+    return true;
+}
+
+static int most(int a, int b) {
+    return a > b ? a : b;
+}
+
+/* A product of polynomials, one of them of this degree, has sums of degree + 1 terms. */
+static int growth(int degree) {
+    return degree > 3 ? 3 : degree > 1 ? 2 : degree;
+}
+
+/* Of d x e for steps between vertices. */
+static int turn_bits(const cast *c) {
+    return 2 * (c->place + c->weight + 1) + growth(c->degree) + 1;
+}
+
+/* Of the order of two points, from 1 or 4 vertices each. */
+static int order_bits(const cast *c, const int count[2]) {
+    const int more = growth(c->degree), scaled = turn_bits(c) + c->weight;
+    int place[2], weight[2];
+    for (int i = 0; i < 2; i++) {
+        const int moved = c->place + scaled + more, along = c->place + c->weight + 1 + turn_bits(c) + more;
+        place[i] = count[i] == 1 ? c->place : most(moved, along) + 1;
+        weight[i] = count[i] == 1 ? c->weight : scaled + c->weight;
+    }
+    return most(place[0] + weight[1], place[1] + weight[0]) + growth(2 * c->degree) + 1;
+}
+
+/* The first stage whose numbers have so many bits; not before the one asked for. */
+static now_stage stage_for(const cast *c, int bits) {
+    now_stage stage = bits <= SHORT_BITS ? NOW_SHORT : bits <= WIDE_BITS ? NOW_WIDE : NOW_DYADIC;
+    return stage > c->now->least ? stage : c->now->least;
+}
+
+/* ------------------------------------------------------------------ points -- */
+
+static void short_points(const cast *c, short_point *out) {
+    for (int i = 0; i < c->count; i++) {
+        const motion_whole_curve *v = c->curve + i;
+        const int terms = terms_of(c, i);
+        out[i].x.degree = out[i].y.degree = terms - 1;
+        out[i].w.degree = 0;
+        for (int k = 0; k < terms; k++) out[i].x.c[k] = v->x[k], out[i].y.c[k] = v->y[k];
+        out[i].w.c[0] = v->w;
+    }
+}
+
+static void wide_points(const cast *c, wide_point *out) {
+    for (int i = 0; i < c->count; i++) {
+        const motion_whole_curve *v = c->curve + i;
+        const int terms = terms_of(c, i);
+        out[i].x.degree = out[i].y.degree = terms - 1;
+        out[i].w.degree = 0;
+        for (int k = 0; k < terms; k++) {
+            out[i].x.c[k] = num_wide_from(v->x[k]);
+            out[i].y.c[k] = num_wide_from(v->y[k]);
+        }
+        out[i].w.c[0] = num_wide_from(v->w);
+    }
+}
+
+/* Resets the arena. */
+static void dyadic_points(const cast *c, exact_point *out) {
+    c->now->context.arena.top = 0;
+    for (int i = 0; i < c->count; i++)
+        if (c->along)
+            now_exact_along(c->now, c->vertex[i], out + i);
+        else
+            now_exact_at(c->now, c->vertex[i], out + i);
+}
+
+/* --------------------------------------------------------------- questions -- */
+
+int now_judge_order(now_state *now, now_name p, now_name q, bool along, bool both) {
+    cast c = {.now = now, .along = along};
+    int count[2];
+    count[0] = cast_name(&c, p);
+    count[1] = cast_name(&c, q);
+    const now_stage stage = cast_integers(&c) ? stage_for(&c, order_bits(&c, count)) : NOW_DYADIC;
+    now->judged[stage]++;
+    if (stage == NOW_SHORT) {
+        short_point v[VERTICES];
+        short_points(&c, v);
+        return short_order_sign(v, count, both);
+    }
+    if (stage == NOW_WIDE) {
+        wide_point v[VERTICES];
+        wide_points(&c, v);
+        return wide_order_sign(v, count, both);
+    }
+    exact_point v[VERTICES];
+    dyadic_points(&c, v);
+    return exact_order_sign(&now->context.arena, v, count, both);
+}
+
+int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along) {
+    cast c = {.now = now, .along = along};
+    cast_side(&c, segment, vertex);
+    const now_stage stage = cast_integers(&c) ? stage_for(&c, turn_bits(&c)) : NOW_DYADIC;
+    now->judged[stage]++;
+    if (stage == NOW_SHORT) {
+        short_point v[3];
+        short_points(&c, v);
+        return short_turn_sign(v);
+    }
+    if (stage == NOW_WIDE) {
+        wide_point v[3];
+        wide_points(&c, v);
+        return wide_turn_sign(v);
+    }
+    exact_point v[3];
+    dyadic_points(&c, v);
+    return exact_turn_sign(&now->context.arena, v);
+}
+
+/* ------------------------------------------------------------------ claims -- */
+
+/* The vertices of a claim; how many are behind each of its points. */
+static void cast_claim(cast *c, const now_claim *claim, int count[2]) {
+    count[0] = 2, count[1] = 1;
+    if (claim->p.b == NAME_SEGMENT) {
+        cast_side(c, claim->p.a, claim->q.a);
+    } else {
+        count[0] = cast_name(c, claim->p);
+        count[1] = cast_name(c, claim->q);
+    }
+}
+
+void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exact *out) {
+    cast c = {.now = now, .along = true};
+    int count[2];
+    exact_point v[VERTICES];
+    cast_claim(&c, claim, count);
+    dyadic_points(&c, v);
+    if (claim->p.b != NAME_SEGMENT)
+        exact_order(&now->context.arena, v, count, axis, out);
+    else
+        exact_turn(&now->context.arena, v, out);
+    if (claim->p.b == NAME_SEGMENT && claim->above < 0)
+        for (int i = 0; i <= out->degree; i++) out->c[i].sign = -out->c[i].sign;
+}
+
+int now_judge_denominators(now_state *now, const now_claim *claim) {
+    cast c = {.now = now, .along = true};
+    int count[2], sign = 1;
+    exact_point v[VERTICES], crossing;
+    cast_claim(&c, claim, count);
+    dyadic_points(&c, v);
+    for (int i = 0; i < 2; i++) {
+        if (count[i] == 1) continue;
+        exact_crossing(&now->context.arena, i ? v + count[0] : v, &crossing);
+        sign *= exact_sign(&crossing.w);
+    }
+    return sign;
+}
+
+bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t span, poly_wide *out) {
+    cast c = {.now = now, .along = true};
+    int count[2], length = 64 - __builtin_clzll((uint64_t)span | 1) + 1;
+    const bool side = claim->p.b == NAME_SEGMENT;
+    wide_point v[VERTICES];
+    cast_claim(&c, claim, count);
+    if (!cast_integers(&c)) return false;
+    int bits = side ? turn_bits(&c) : order_bits(&c, count);
+    int degree = c.degree * (side ? 2 : count[0] == 1 && count[1] == 1 ? 1 : count[0] == count[1] ? 5 : 3);
+    if (stage_for(&c, bits + degree * (length + 2) + 2) == NOW_DYADIC) return false;
+    wide_points(&c, v);
+    if (!side)
+        wide_order(v, count, axis, out);
+    else if (claim->above > 0)
+        wide_turn(v, out);
+    else
+        wide_turn((wide_point[3]){v[1], v[0], v[2]}, out);
+    now->judged[NOW_WIDE]++;
+    return true;
+}

@@ -1,0 +1,233 @@
+/* test_judge.c: what decides where doubles do not, each stage by itself: integers of 128 bits, of 320, dyadic numbers;
+ * beside one another, and against whole numbers (GMP) of the plans as they are written. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <gmp.h>
+
+#include "kinetic/motions.h"
+#include "kinetic/moving.h"
+
+enum { TICKS = 6, QUESTIONS = 60, NEAR = 6000 /* halvings of a tick: nothing happens before */ };
+
+/* -------------------------------------------------------------------- truth -- */
+
+typedef struct truth {
+    mpq_t time, x[4][2], cross[2][2], t[6];
+} truth;
+
+static void truth_init(truth *g) {
+    mpq_t *all = (mpq_t *)g;
+    for (size_t i = 0; i < sizeof *g / sizeof *all; i++) mpq_init(all[i]);
+}
+
+static void truth_clear(truth *g) {
+    mpq_t *all = (mpq_t *)g;
+    for (size_t i = 0; i < sizeof *g / sizeof *all; i++) mpq_clear(all[i]);
+}
+
+/* At the tick, or just after it. */
+static void set_time(truth *g, const froe_motion *m, int64_t tick, bool after) {
+    mpq_set_si(g->time, tick, 1);
+    if (after) {
+        mpq_set_si(g->t[0], 1, 1);
+        mpq_div_2exp(g->t[0], g->t[0], NEAR);
+        mpq_add(g->time, g->time, g->t[0]);
+    }
+    if (m->power >= 0)
+        mpq_mul_2exp(g->time, g->time, (mp_bitcnt_t)m->power);
+    else
+        mpq_div_2exp(g->time, g->time, (mp_bitcnt_t)-m->power);
+    mpq_set_d(g->t[0], m->begin);
+    mpq_add(g->time, g->time, g->t[0]);
+}
+
+/* to = from + s (to - from) */
+static void between(mpq_t from, mpq_t to, const mpq_t s) {
+    mpq_sub(to, to, from);
+    mpq_mul(to, to, s);
+    mpq_add(to, to, from);
+}
+
+static void place(truth *g, const froe_motion *m, uint32_t vertex, int64_t tick, mpq_t out[2]) {
+    const motion_piece p = motion_piece_at(m, vertex, tick);
+    mpq_t *t = g->t;
+    mpq_set_d(t[0], p.from->time), mpq_set_d(t[1], p.to->time);
+    mpq_sub(t[1], t[1], t[0]);
+    mpq_sub(t[0], g->time, t[0]);
+    if (p.degree) mpq_div(t[0], t[0], t[1]); /* the share that has passed */
+    for (int k = 0; k < 2; k++) {
+        mpq_set_d(t[1], p.from->at[k]), mpq_set_d(out[k], p.to->at[k]);
+        if (p.degree == 2) {
+            mpq_set_d(t[2], p.from->control[k]);
+            mpq_set(t[3], t[2]);
+            between(t[1], t[2], t[0]);
+            between(t[3], out[k], t[0]);
+            mpq_set(t[1], t[2]);
+        }
+        if (p.degree) between(t[1], out[k], t[0]);
+    }
+}
+
+/* (b - a) x (d - c) */
+static void turn(truth *g, mpq_t a[2], mpq_t b[2], mpq_t c[2], mpq_t d[2], mpq_t out) {
+    mpq_t *t = g->t;
+    for (int k = 0; k < 2; k++) mpq_sub(t[k], b[k], a[k]), mpq_sub(t[2 + k], d[k], c[k]);
+    mpq_mul(t[4], t[0], t[3]);
+    mpq_mul(t[5], t[1], t[2]);
+    mpq_sub(out, t[4], t[5]);
+}
+
+/* False: parallel. */
+static bool locate(truth *g, const now_state *now, now_name p, mpq_t out[2]) {
+    if (name_is_vertex(p)) {
+        place(g, now->motion, p.a, now->tick, out);
+        return true;
+    }
+    for (int i = 0; i < 4; i++)
+        place(g, now->motion, now->segments.data[i < 2 ? p.a : (uint32_t)p.b].end[i % 2], now->tick, g->x[i]);
+    turn(g, g->x[0], g->x[1], g->x[2], g->x[3], out[1]);
+    if (!mpq_sgn(out[1])) return false;
+    turn(g, g->x[0], g->x[2], g->x[2], g->x[3], out[0]);
+    mpq_div(out[0], out[0], out[1]);
+    for (int k = 0; k < 2; k++) between(g->x[0][k], g->x[1][k], out[0]);
+    for (int k = 0; k < 2; k++) mpq_set(out[k], g->x[1][k]);
+    return true;
+}
+
+static int true_order(truth *g, const now_state *now, now_name p, now_name q, bool both) {
+    if (!locate(g, now, p, g->cross[0]) || !locate(g, now, q, g->cross[1])) return POLY_PARALLEL;
+    int order = mpq_cmp(g->cross[0][0], g->cross[1][0]);
+    if (!order && both) order = mpq_cmp(g->cross[0][1], g->cross[1][1]);
+    return (order > 0) - (order < 0);
+}
+
+static int true_side(truth *g, const now_state *now, uint32_t segment, uint32_t vertex) {
+    for (int i = 0; i < 2; i++) place(g, now->motion, now_vertex(now, segment, i), now->tick, g->x[i]);
+    place(g, now->motion, vertex, now->tick, g->x[2]);
+    turn(g, g->x[0], g->x[1], g->x[0], g->x[2], g->cross[0][0]);
+    return mpq_sgn(g->cross[0][0]);
+}
+
+/* ------------------------------------------------------------------- stages -- */
+
+static now_name any_name(const now_state *now, fuzz_source *r) {
+    uint32_t n = (uint32_t)now->motion->objects.count, s = (uint32_t)fuzz_int(r, 0, (int)n - 1);
+    uint32_t t = (uint32_t)fuzz_int(r, 0, (int)n - 2);
+    t += t >= s;
+    if (fuzz_int(r, 0, 1)) return name_crossing(s, t);
+    return (now_name){now->segments.data[s].end[fuzz_int(r, 0, 1)], NAME_VERTEX};
+}
+
+static void check_order(now_state *now, truth *g, now_name p, now_name q) {
+    for (int after = 0; after < 2; after++)
+        for (int both = 0; both < 2; both++) {
+            set_time(g, now->motion, now->tick, after);
+            const int expected = true_order(g, now, p, q, both);
+            for (int stage = 0; stage < NOW_STAGES; stage++) {
+                now->least = (now_stage)stage;
+                assert_int_equal(now_judge_order(now, p, q, after, both), expected);
+            }
+        }
+}
+
+static void check_side(now_state *now, truth *g, uint32_t segment, uint32_t vertex) {
+    for (int after = 0; after < 2; after++) {
+        set_time(g, now->motion, now->tick, after);
+        const int expected = true_side(g, now, segment, vertex);
+        for (int stage = 0; stage < NOW_STAGES; stage++) {
+            now->least = (now_stage)stage;
+            assert_int_equal(now_judge_side(now, segment, vertex, after), expected);
+        }
+    }
+}
+
+/* The polynomials behind claims count the same roots; and failures are first where each stage says so. */
+static void check_claim(now_state *now, fuzz_source *r, const now_claim *claim, uint64_t *wide_claims) {
+    enum { POWER = 20 };
+    poly_wide wide;
+    poly_exact exact;
+    now->least = NOW_SHORT;
+    if (now_claim_wide(now, claim, 0, (int64_t)1 << POWER, &wide)) {
+        ++*wide_claims;
+        now_claim_exact(now, claim, 0, &exact);
+        assert_int_equal(wide_sign(&wide), exact_sign(&exact));
+        for (int i = 0; i < 4; i++) {
+            const int power = fuzz_int(r, 1, POWER - 1);
+            const int64_t low = fuzz_int(r, 0, (1 << POWER) - (1 << power));
+            int sign[2], changes = wide_variations(&wide, low, power, sign);
+            now_claim_exact(now, claim, 0, &exact);
+            assert_int_equal(changes, exact_variations(&now->context.arena, &exact, low, power, sign + 1));
+            if (!changes) assert_int_equal(sign[0], sign[1]);
+        }
+    }
+    int64_t first[NOW_STAGES];
+    for (int stage = 0; stage < NOW_STAGES; stage++) {
+        now->least = (now_stage)stage;
+        first[stage] = now_first_failure(now, claim);
+        assert_true(first[stage] == first[0]);
+    }
+}
+
+static void check_tick(now_state *now, truth *g, fuzz_source *r, uint64_t *wide_claims) {
+    for (int i = 0; i < QUESTIONS; i++) {
+        const now_name p = any_name(now, r), q = any_name(now, r);
+        const uint32_t segment = (uint32_t)fuzz_int(r, 0, (int)now->motion->objects.count - 1);
+        check_order(now, g, p, q);
+        if (name_is_vertex(q)) check_side(now, g, segment, q.a);
+        now->lost = false;
+        if (now_holds(now, &(now_claim){p, q, 0}) > 0 && !now->lost)
+            check_claim(now, r, &(now_claim){p, q, 0}, wide_claims);
+        const now_claim side = {{segment, NAME_SEGMENT}, q, 1};
+        if (name_is_vertex(q) && now_holds(now, &side) > 0) check_claim(now, r, &side, wide_claims);
+    }
+}
+
+static void check_motion(froe_motion *m, uint64_t seed, uint64_t judged[NOW_STAGES], uint64_t *wide_claims) {
+    fuzz_source r = {seed};
+    now_state now;
+    truth g;
+    truth_init(&g);
+    assert_int_equal(now_new(m, NULL, &now), FROE_OK);
+    for (int i = 0; i < TICKS; i++) {
+        now.tick = i ? (int64_t)(fuzz_bits(&r) % (uint64_t)m->last_tick) | 1 : 1;
+        check_tick(&now, &g, &r, wide_claims);
+    }
+    for (int stage = 0; stage < NOW_STAGES; stage++) judged[stage] += now.judged[stage];
+    now_free(&now);
+    truth_clear(&g);
+    froe_motion_free(m);
+}
+
+static void all_stages_agree_with_whole_numbers(void **state) {
+    (void)state;
+    uint64_t judged[NOW_STAGES] = {0}, wide_claims = 0;
+    for (size_t i = 0; i < MOVING_KINDS; i++) {
+        uint64_t here[NOW_STAGES] = {0};
+        check_motion(moving_new(moving_kinds + i, 5, NULL), i + 1, here, &wide_claims);
+        for (int stage = 0; stage < NOW_STAGES; stage++) judged[stage] += here[stage];
+        assert_true(here[NOW_WIDE] > 0);
+    }
+    for (int kind = 0; kind < MOTION_KINDS; kind++) {
+        static motion_arrays a;
+        fuzz_source r = {(uint64_t)kind + 1};
+        froe_motion_options o = froe_motion_defaults();
+        froe_motion *m = NULL;
+        o.begin = 0, o.end = 8;
+        const froe_moving batch = motion_make(&r, (motion_kind)kind, MOTION_MOST, &a);
+        assert_int_equal(froe_motion_new(&o, NULL, &m, NULL), FROE_OK);
+        assert_int_equal(froe_motion_add(m, &batch, NULL), FROE_OK);
+        check_motion(m, (uint64_t)kind + 99, judged, &wide_claims);
+    }
+    /* a third of the questions begins at each stage; that so many more ended later says how often one was too narrow */
+    assert_true(judged[NOW_SHORT] > 10000 && judged[NOW_WIDE] > 10000 && judged[NOW_DYADIC] > 10000);
+    assert_true(wide_claims > 1000);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_stages_agree_with_whole_numbers)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
