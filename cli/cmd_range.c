@@ -9,7 +9,7 @@
 typedef struct range_args {
     cli_common common;
     cli_query_args query;
-    int shape;
+    int shape, walk;
     double eps;
 } range_args;
 
@@ -22,6 +22,9 @@ static const char *const shapes[] = {[FROE_SHAPE_BOX] = "box",
                                      [FROE_SHAPE_SEGMENT] = "segment",
                                      [FROE_SHAPE_RAY] = "ray",
                                      NULL};
+
+static const char *const walks[] = {
+    [FROE_WALK_AUTO] = "auto", [FROE_WALK_PLAIN] = "plain", [FROE_WALK_BOX] = "box", [FROE_WALK_LCA] = "lca", NULL};
 
 /* The columns of each shape, in the order of froe_range's points. */
 static const cli_column columns[FROE_SHAPE_COUNT][4] = {
@@ -44,6 +47,8 @@ static const cli_option options[] = {
      .help = "box (default), ball, simplex, capsule, halfspaces, hull, segment or ray", .choices = shapes},
     {"eps", 0, CLI_REAL, offsetof(range_args, eps), "E",
      .help = "also allow objects within E times the diameter of the range; faster (default 0: exactly)"},
+    {"walk", 0, CLI_CHOICE, offsetof(range_args, walk), "HOW",
+     .help = "how to search: plain, box, lca or auto (default); answers are the same", .choices = walks},
     {0},
 };
 
@@ -80,6 +85,7 @@ static bool lay_range(const ranges *r, const cli_block *block, size_t i, froe_ra
     out->points = row;
     out->count = rows;
     out->eps = r->args->eps;
+    out->walk = (froe_walk)r->args->walk;
     if (out->shape == FROE_SHAPE_BALL || out->shape == FROE_SHAPE_CAPSULE) out->radius = row[block->width - 1];
     if (out->shape == FROE_SHAPE_HALFSPACES) {
         out->points = r->normals + first * r->dim;

@@ -182,8 +182,9 @@ static void work(run *r) {
 
 static json_t *statistics_json(froe_query *query) {
     const froe_query_stats s = query ? froe_query_statistics(query) : (froe_query_stats){0};
-    return json_pack("{s:I, s:I, s:I, s:I, s:I}", "nodes", (json_int_t)s.nodes, "leaves", (json_int_t)s.leaves, "tests",
-                     (json_int_t)s.tests, "exact", (json_int_t)s.exact, "slices", (json_int_t)s.slices);
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I}", "nodes", (json_int_t)s.nodes, "leaves", (json_int_t)s.leaves,
+                     "tests", (json_int_t)s.tests, "exact", (json_int_t)s.exact, "slices", (json_int_t)s.slices,
+                     "steps", (json_int_t)s.steps);
 }
 
 static int summarise(run *r, double seconds) {

@@ -46,6 +46,7 @@ typedef struct froe_query_stats {
     uint64_t tests;                  /**< objects tested against a query */
     uint64_t exact;                  /**< ... of these, decided by exact numbers */
     uint64_t slices;                 /**< lists reported without a test */
+    uint64_t steps;                  /**< of searches that lead past the cuts of deep trees, each like a node */
 } froe_query_stats;
 /** Returns the counts and starts again at 0. */
 FROE_API froe_query_stats froe_query_statistics(froe_query *query);
@@ -73,6 +74,20 @@ typedef enum froe_range_shape {
 /** "box", "ball", ...; NULL for other numbers. */
 FROE_API const char *froe_range_shape_name(froe_range_shape shape);
 
+/** How a range is searched for; answers are the same, but for their order. Box and lca go down below oblique cuts as
+ * plain does. What they prepare at the first call, O(nodes log nodes), is shared by all forks. */
+typedef enum froe_walk {
+    FROE_WALK_AUTO = 0, /**< a packed tree's own way for boxes; otherwise box where the tree is deep, plain where not */
+    FROE_WALK_PLAIN = 1, /**< from cut to cut: O(height) for each cell met */
+    FROE_WALK_BOX = 2, /**< many cuts at a time, by where the bounds of what is left of the range lie: O(log nodes) for
+                            each cell met. 16 bytes for each node and dimension, and 12 */
+    FROE_WALK_LCA = 3, /**< the same by its extreme points and their lowest common ancestors (de Berg 2000, Lemma 3.4),
+                            for comparison: several times slower than box. 16 bytes more for each node */
+    FROE_WALK_COUNT = 4
+} froe_walk;
+/** "auto", "plain", ...; NULL for other numbers. */
+FROE_API const char *froe_walk_name(froe_walk walk);
+
 /** A closed convex set, by arrays the caller keeps. */
 typedef struct froe_range {
     size_t size; /**< set by froe_range_defaults() */
@@ -84,6 +99,7 @@ typedef struct froe_range {
     double eps;            /**< >= 0. 0: exact. Otherwise everything that meets Q is reported, and nothing that
                                 does not meet Q_eps, the points within eps * diam(Q) of Q (de Berg & Streppel).
                                 FROE_E_INPUT for unbounded ranges */
+    froe_walk walk;        /**< how to search */
 } froe_range;
 FROE_API froe_range froe_range_defaults(void); /**< a box without points, exact */
 

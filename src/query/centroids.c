@@ -14,7 +14,7 @@ static void free_centroids(const froe_allocator *alloc, query_part *part) {
     base_free(alloc, c, sizeof *c);
 }
 
-static bool is_deep(const froe_tree *t) {
+bool query_is_deep(const froe_tree *t) {
     uint64_t log = 1;
     while (t->node_count >> log) log++;
     return t->report.height > DEEP * log;
@@ -144,8 +144,7 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
     *out = &c->part;
     c->dim = q->tree->scene->dim;
     c->node_count = q->tree->node_count;
-    c->deep = is_deep(q->tree);
-    return c->deep && fill(c, q->tree) ? base_fail_memory(diag) : FROE_OK;
+    return fill(c, q->tree) ? base_fail_memory(diag) : FROE_OK;
 }
 
 froe_status query_centroids_of(froe_query *query, const query_centroids **out, froe_diagnostic *diag) {

@@ -24,21 +24,23 @@ typedef struct query_centroid {
 
 typedef struct query_centroids {
     query_part part;
-    bool deep; /**< false: the tree is shallow, nothing else is here, and plain descent is faster */
     int dim;
     uint32_t node_count, count, root;
     query_centroid *steps;
     double *boxes; /**< [node]: lo, hi of its region by the axis-parallel cuts above, infinite where none is */
 } query_centroids;
 
-/** Prepares them. FROE_E_MEMORY. O(nodes log nodes) for deep trees, O(1) for others. */
+/** Is the tree so deep that they are worth asking? In others plain descent is faster. O(1). */
+bool query_is_deep(const froe_tree *tree);
+/** Prepares them. FROE_E_MEMORY. O(nodes log nodes), once for all forks. */
 froe_status query_centroids_of(froe_query *query, const query_centroids **out, froe_diagnostic *diag);
 
 static inline const double *query_centroid_box(const query_centroids *c, uint32_t node) {
     return c->boxes + (size_t)node * 2 * (size_t)c->dim;
 }
-/** The deepest node whose open region holds the closed box. */
-static inline uint32_t query_centroid_find(const query_centroids *c, const double *lo, const double *hi) {
+/** The deepest node whose open region holds the closed box; adds to *steps how many steps that took. */
+static inline uint32_t query_centroid_find(const query_centroids *c, const double *lo, const double *hi,
+                                           uint64_t *steps) {
     uint32_t at = c->root;
     while (!(at & CENTROID_END)) {
         const query_centroid *step = c->steps + at;
@@ -46,6 +48,7 @@ static inline uint32_t query_centroid_find(const query_centroids *c, const doubl
         bool in = true;
         for (int k = 0; k < c->dim; k++) in &= lo[k] > box[k] && hi[k] < box[c->dim + k];
         at = step->next[in];
+        ++*steps;
     }
     return at & ~CENTROID_END;
 }

@@ -27,6 +27,7 @@ typedef enum query_part_id {
     QUERY_PLANES,
     QUERY_CENTROIDS,
     QUERY_DESCENT,
+    QUERY_ANCESTORS,
     QUERY_AREAS,
     QUERY_CONTENTS,
     QUERY_PIECES,

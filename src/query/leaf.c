@@ -127,15 +127,22 @@ static void find_flock(froe_query *q, const query_descent *d, const double *poin
 /* ------------------------------------------------------------------- whole -- */
 
 static bool descends(const froe_query *q, const query_centroids *centroids, const query_descent *descent) {
-    return descent->there && !centroids->deep && q->numbers.first == NUM_FILTER;
+    return descent->there && !centroids && q->numbers.first == NUM_FILTER;
+}
+
+/* Centroids for deep trees only: NULL for others. */
+static froe_status prepare(froe_query *q, const query_centroids **centroids, const query_descent **descent) {
+    *centroids = NULL;
+    const froe_status status = query_is_deep(q->tree) ? query_centroids_of(q, centroids, NULL) : FROE_OK;
+    return status ? status : query_descent_of(q, descent, NULL);
 }
 
 static froe_status find_slowly(froe_query *q, const query_centroids *centroids, const double *x, query_leaf *out) {
     const query_planes *planes;
     const froe_status status = query_planes_of(q, &planes, NULL);
     if (status) return status;
-    if (centroids->deep)
-        *out = go_down(q, planes, query_centroid_find(centroids, x, x), x);
+    if (centroids)
+        *out = go_down(q, planes, query_centroid_find(centroids, x, x, &q->stats.steps), x);
     else
         *out = tree_is_packed(q->tree) ? find_packed(q, planes, x) : go_down(q, planes, 0, x);
     return FROE_OK;
@@ -144,8 +151,7 @@ static froe_status find_slowly(froe_query *q, const query_centroids *centroids, 
 froe_status query_leaf_find(froe_query *q, const double *point, query_leaf *out) {
     const query_centroids *centroids;
     const query_descent *descent;
-    froe_status status = query_centroids_of(q, &centroids, NULL);
-    if (!status) status = query_descent_of(q, &descent, NULL);
+    froe_status status = prepare(q, &centroids, &descent);
     if (status) return status;
     q->stats.leaves++;
     if (!descends(q, centroids, descent)) return find_slowly(q, centroids, point, out);
@@ -157,8 +163,7 @@ froe_status query_leaf_find_all(froe_query *q, const double *points, size_t coun
     const query_centroids *centroids;
     const query_descent *descent;
     const size_t dim = (size_t)q->tree->scene->dim;
-    froe_status status = query_centroids_of(q, &centroids, NULL);
-    if (!status) status = query_descent_of(q, &descent, NULL);
+    froe_status status = prepare(q, &centroids, &descent);
     if (status) return status;
     q->stats.leaves += count;
     if (descends(q, centroids, descent)) {

@@ -3,9 +3,10 @@
 #include "query/packed.h"
 #include "query/space.h"
 
-/* A window on a packed tree goes its own, faster way. */
+/* A window on a packed tree goes its own, faster way, unless another is asked for. */
 static bool is_window(const froe_range *range) {
-    return range->size == sizeof *range && range->shape == FROE_SHAPE_BOX && range->eps == 0;
+    return range->size == sizeof *range && range->shape == FROE_SHAPE_BOX && range->eps == 0 &&
+           range->walk == FROE_WALK_AUTO;
 }
 static bool is_packed_window(const froe_query *q, const froe_range *range) {
     return q->packed && is_window(range);

@@ -12,6 +12,7 @@
 
 typedef struct query_range {
     froe_range_shape shape;
+    froe_walk walk;
     geom_range range;
     double margin;          /**< what lies within it of the range may be reported: eps x diameter, rounded down */
     bool any;               /**< is one object enough? */

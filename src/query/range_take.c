@@ -11,6 +11,11 @@ const char *froe_range_shape_name(froe_range_shape shape) {
     return (unsigned)shape < FROE_SHAPE_COUNT ? names[shape] : NULL;
 }
 
+const char *froe_walk_name(froe_walk walk) {
+    static const char *const walks[FROE_WALK_COUNT] = {"auto", "plain", "box", "lca"};
+    return (unsigned)walk < FROE_WALK_COUNT ? walks[walk] : NULL;
+}
+
 froe_range froe_range_defaults(void) {
     return (froe_range){.size = sizeof(froe_range)};
 }
@@ -71,8 +76,9 @@ static froe_status check_numbers(const froe_range *r, size_t dim, froe_diagnosti
 }
 
 froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *diag) {
-    if (r->size != sizeof *r || (unsigned)r->shape >= FROE_SHAPE_COUNT)
-        return base_fail(diag, FROE_E_OPTIONS, "A range must come from froe_range_defaults() and have a shape.");
+    if (r->size != sizeof *r || (unsigned)r->shape >= FROE_SHAPE_COUNT || (unsigned)r->walk >= FROE_WALK_COUNT)
+        return base_fail(diag, FROE_E_OPTIONS,
+                         "A range must come from froe_range_defaults() and have a shape and a walk.");
     if (dim > 3 && r->shape != FROE_SHAPE_BOX && r->shape != FROE_SHAPE_BALL)
         return base_fail(diag, FROE_E_UNSUPPORTED, "There is no %s in %d dimensions.", names[r->shape], dim);
     const size_t count = point_count(r, (size_t)dim);
@@ -294,6 +300,7 @@ froe_status query_range_take(froe_query *q, const froe_range *from, froe_diagnos
     if (status) return status;
     r->from = from;
     r->shape = from->shape;
+    r->walk = from->walk;
     r->polytope_made = false;
     r->range.kind = kind_of(from->shape);
     r->range.dim = dim;

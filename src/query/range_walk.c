@@ -5,12 +5,12 @@
  * the range share a point, some list visited has the object). Where a region lies in the range, all lists below it
  * are one slice, reported without a test.
  *
- * In deep trees, whoever has gone past many cuts without meeting one is led to the next by the centroids (centroids.h).
+ * In deep trees, whoever has gone past many cuts without meeting one is led to the next (jump.h).
  *
  * A waiting node has its region's bounds and, for solid ranges, those of the range within the region. Thin ranges
  * (segments, rays) have an interval of their parameter instead: origin + t direction. */
-#include "query/centroids.h"
 #include "query/cuts.h"
+#include "query/jump.h"
 #include "query/pieces.h"
 #include "tree/space.h"
 #include <string.h>
@@ -19,7 +19,7 @@ typedef struct walk {
     froe_query *q;
     const froe_tree *tree;
     const query_planes *planes;
-    const query_centroids *centroids;
+    query_jump jump;
     const query_pieces *pieces;
     query_range *r;
     int dim;
@@ -253,25 +253,6 @@ static bool go_beside(const walk *w, const query_cut *cut, int side, double *sta
     return cut->axis >= 0 ? go_beside_axis(w, cut, side, state) : go_beside_plane(w, cut, side, state);
 }
 
-/* Cuts passed in a row before the centroids are asked: about what asking them costs. */
-enum { PATIENCE = 16 };
-
-/* The deepest node below this one whose region holds what of a box is in this one's: it, or one further down. Where the
- * box reaches the border of the region, cuts beyond do not matter: what is looked for ends just inside. */
-static uint32_t deepest_below(const walk *w, uint32_t node, double *lo, double *hi) {
-    const double *region = query_centroid_box(w->centroids, node); /* empty below oblique cuts */
-    for (int k = 0; k < w->dim; k++) {
-        const double inside[2] = {nextafter(region[k], INFINITY), nextafter(region[w->dim + k], -INFINITY)};
-        if (inside[0] > inside[1]) return node;
-        if (lo[k] < inside[0]) lo[k] = inside[0];
-        if (hi[k] > inside[1]) hi[k] = inside[1];
-        if (lo[k] > inside[1]) lo[k] = inside[1];
-        if (hi[k] < inside[0]) hi[k] = inside[0];
-    }
-    const uint32_t found = query_centroid_find(w->centroids, lo, hi);
-    return found > node ? found : node;
-}
-
 /* The node where the range meets the next cut, below this one, which becomes the region of the state. */
 static uint32_t jump(const walk *w, uint32_t node, double *state) {
     const geom_range *range = &w->r->range;
@@ -281,9 +262,9 @@ static uint32_t jump(const walk *w, uint32_t node, double *state) {
         lo[k] = filter_greater(p.part_lo[k], range->lo[k]);
         hi[k] = p.part_hi[k] < range->hi[k] ? p.part_hi[k] : range->hi[k];
     }
-    const uint32_t found = deepest_below(w, node, lo, hi);
+    const uint32_t found = query_jump_below(&w->jump, node, lo, hi);
     if (found == node) return node;
-    const double *box = query_centroid_box(w->centroids, found);
+    const double *box = query_centroid_box(w->jump.centroids, found);
     for (int k = 0; k < w->dim; k++) {
         p.lo[k] = filter_greater(p.lo[k], box[k]);
         p.hi[k] = p.hi[k] < box[w->dim + k] ? p.hi[k] : box[w->dim + k];
@@ -294,8 +275,8 @@ static uint32_t jump(const walk *w, uint32_t node, double *state) {
 /* Goes down from a node to the first leaf, or to nothing; leaves what is beside for later. */
 static void follow_solid(walk *w, uint32_t node, double *state) {
     double other[2 * BOX];
-    for (int steps = 0; !done(w); steps++) {
-        if (steps == PATIENCE && w->centroids->deep) node = jump(w, node, state);
+    for (int passed = 0; !done(w); passed++) {
+        if (query_jump_is_due(&w->jump, passed)) node = jump(w, node, state);
         const tree_node *n = w->tree->nodes + node;
         const place p = place_of(w, state);
         w->q->stats.nodes++;
@@ -315,7 +296,7 @@ static void follow_solid(walk *w, uint32_t node, double *state) {
         if (left && right) {
             push(w, n->child + 1, other);
             if (n->type == TREE_TABLED) visit_list(w, node);
-            steps = 0;
+            passed = -1;
         }
         if (!left) memcpy(state, other, w->width * sizeof *state);
         node = n->child + !left;
@@ -405,12 +386,12 @@ static uint32_t jump_thin(const walk *w, uint32_t node, const double *t) {
         lo[k] = (x < y ? x : y) - error;
         hi[k] = (x < y ? y : x) + error;
     }
-    return deepest_below(w, node, lo, hi);
+    return query_jump_below(&w->jump, node, lo, hi);
 }
 
 static void follow_thin(walk *w, uint32_t node, double *t) {
-    for (int steps = 0; !done(w); steps++) {
-        if (steps == PATIENCE && w->centroids->deep) node = jump_thin(w, node, t);
+    for (int passed = 0; !done(w); passed++) {
+        if (query_jump_is_due(&w->jump, passed)) node = jump_thin(w, node, t);
         const tree_node *n = w->tree->nodes + node;
         double below[2], above[2];
         w->q->stats.nodes++;
@@ -424,7 +405,7 @@ static void follow_thin(walk *w, uint32_t node, double *t) {
         if (sides == 3) {
             push(w, n->child + 1, above);
             if (n->type == TREE_TABLED) visit_list(w, node);
-            steps = 0;
+            passed = -1;
         }
         memcpy(t, sides == 2 ? above : below, 2 * sizeof *t);
         node = n->child + (sides == 2);
@@ -445,7 +426,7 @@ froe_status query_range_walk(froe_query *q) {
     walk w = {.q = q, .tree = q->tree, .r = &q->range, .dim = q->tree->scene->dim};
     double state[2 * BOX];
     froe_status status = query_planes_of(q, &w.planes, NULL);
-    if (!status) status = query_centroids_of(q, &w.centroids, NULL);
+    if (!status) status = query_jump_prepare(q, q->range.walk, &w.jump);
     if (!status) status = query_pieces_of(q, &w.pieces, NULL);
     if (status) return status;
     w.points = w.pieces->points && q->numbers.first == NUM_FILTER;

@@ -30,6 +30,7 @@ static void add_statistics(froe_query_stats *sum, const froe_query_stats *more) 
     sum->queries += more->queries;
     sum->nodes += more->nodes;
     sum->leaves += more->leaves;
+    sum->steps += more->steps;
     sum->tests += more->tests;
     sum->exact += more->exact;
     sum->slices += more->slices;

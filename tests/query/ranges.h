@@ -155,9 +155,9 @@ static inline void explain(const world *w, const question *q, size_t tree, uint3
     size_t length = 0;
     for (size_t i = 0; i < 4 * (size_t)w->dim && length < sizeof text - 40; i++)
         length += (size_t)snprintf(text + length, sizeof text - length, " %a", q->points[i]);
-    fail_msg("%s, %s, tree %zu: object %u %s, but should%s be; radius %a, points%s", w->name,
-             froe_range_shape_name(q->range.shape), tree, object, found ? "found" : "not found", found ? " not" : "",
-             q->range.radius, text);
+    fail_msg("%s, %s, walk %s, tree %zu: object %u %s, but should%s be; radius %a, points%s", w->name,
+             froe_range_shape_name(q->range.shape), froe_walk_name(q->range.walk), tree, object,
+             found ? "found" : "not found", found ? " not" : "", q->range.radius, text);
 }
 
 /* Asks all trees; true[] says which objects meet the range. */
@@ -184,18 +184,22 @@ static inline void compare(const world *w, question *q, const bool *meets, size_
     free(found);
 }
 
-/* Returns the number of decisions. */
-static inline size_t ask(const world *w, froe_range_shape shape, uint64_t seed) {
+/* By walks first .. last. Returns the number of decisions. */
+static inline size_t ask_by(const world *w, froe_range_shape shape, uint64_t seed, froe_walk first, froe_walk last) {
     world_dice d = {seed, 0};
     question q;
     bool *meets = calloc(w->count + 1, sizeof *meets);
     size_t expected = 0;
     make(w, &d, shape, &q);
     for (uint32_t i = 0; i < w->count; i++) expected += meets[i] = truth(w, &q, i);
-    compare(w, &q, meets, expected);
+    for (q.range.walk = first; q.range.walk <= last; q.range.walk++) compare(w, &q, meets, expected);
     if (w->dim <= 3) oracle_set_free(&q.set);
     free(meets);
-    return w->count * w->tree_count;
+    return w->count * w->tree_count * (size_t)(last - first + 1);
+}
+
+static inline size_t ask(const world *w, froe_range_shape shape, uint64_t seed) {
+    return ask_by(w, shape, seed, FROE_WALK_AUTO, FROE_WALK_AUTO);
 }
 
 /** Kinds that lie flat, and kinds that do not. */

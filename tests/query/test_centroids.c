@@ -35,18 +35,14 @@ static froe_tree *chain(void) {
 }
 
 /* Whether the bounds are points, between points, or beyond. */
-static void deep_chains_are_searched_in_few_steps(void **state) {
-    enum { MOST_NODES = 200 };
-    froe_tree *tree = chain();
-    froe_query *q;
-    (void)state;
-    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
-    for (uint32_t i = 0; i < 5000; i++) {
+static void search_chain(froe_query *q, froe_walk walk, uint32_t each, uint64_t most) {
+    for (uint32_t i = 0; i < 5000; i += each) {
         const double lo = 0.5 * trees_random(1, i, 4 * DEPTH) - 3, hi = lo + 0.5 * trees_random(2, i, 9);
         double points[4] = {lo, i % 2 ? -1 : 0, hi, 0};
         const double first = fmax(ceil(lo), 0), last = fmin(floor(hi), 2.0 * DEPTH);
         froe_range range = froe_range_defaults();
         froe_list list;
+        range.walk = walk;
         range.points = points;
         if (i % 4 == 1) { /* the same as a ball, as a hull and as a segment */
             points[0] = 0.5 * (lo + hi);
@@ -59,9 +55,22 @@ static void deep_chains_are_searched_in_few_steps(void **state) {
         assert_int_equal(froe_query_range(q, &range, &list, NULL), FROE_OK);
         assert_int_equal(list.count, first <= last ? (size_t)(last - first) + 1 : 0);
         for (size_t j = 0; j < list.count; j++) assert_true(list.ids[j] >= first && list.ids[j] <= last);
-        const uint64_t nodes = froe_query_statistics(q).nodes;
-        if (nodes >= MOST_NODES) fail_msg("%g .. %g, shape %d: %u nodes", lo, hi, (int)range.shape, (unsigned)nodes);
+        const froe_query_stats stats = froe_query_statistics(q);
+        if (stats.nodes + stats.steps >= most)
+            fail_msg("%g .. %g, shape %d, walk %s: %u nodes, %u steps", lo, hi, (int)range.shape, froe_walk_name(walk),
+                     (unsigned)stats.nodes, (unsigned)stats.steps);
     }
+}
+
+static void deep_chains_are_searched_in_few_steps(void **state) {
+    froe_tree *tree = chain();
+    froe_query *q;
+    (void)state;
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    search_chain(q, FROE_WALK_AUTO, 1, 400);
+    search_chain(q, FROE_WALK_BOX, 1, 400);
+    search_chain(q, FROE_WALK_LCA, 1, 1200);
+    search_chain(q, FROE_WALK_PLAIN, 9, UINT64_MAX);
     froe_query_free(q);
     froe_tree_free(tree);
 }
@@ -96,15 +105,16 @@ static void centroids_find_the_node_that_descent_finds(void **state) {
         world w = world_begin(kinds[i], world_generate(kinds[i], 1500));
         for (size_t t = 0; t < w.tree_count; t++) {
             const query_centroids *c;
+            uint64_t steps = 0;
             assert_int_equal(query_centroids_of(w.queries[t], &c, NULL), FROE_OK);
-            deep += c->deep;
-            for (uint64_t seed = 0; seed < 3000 && c->deep; seed++) {
+            deep += query_is_deep(w.trees[t]);
+            for (uint64_t seed = 0; seed < 3000; seed++) {
                 world_dice d = {seed, 0};
                 double a[2], b[2], lo[2], hi[2];
                 world_point(&w, &d, a);
                 world_near(&w, &d, seed % 2 ? ldexp(1, -(int)world_below(&d, 60)) : 0, a, b);
                 for (int k = 0; k < 2; k++) lo[k] = fmin(a[k], b[k]), hi[k] = fmax(a[k], b[k]);
-                assert_int_equal(query_centroid_find(c, lo, hi), deepest(w.trees[t], c, lo, hi));
+                assert_int_equal(query_centroid_find(c, lo, hi, &steps), deepest(w.trees[t], c, lo, hi));
             }
         }
         world_end(&w);
@@ -149,7 +159,7 @@ static froe_status search(void *user, const froe_allocator *alloc) {
     if (drafted) draft_free(&draft);
     if (!status) status = froe_query_new(tree, &q, NULL);
     if (!status) status = query_centroids_of(q, &c, NULL);
-    if (!status) assert_true(c->deep);
+    if (!status) assert_true(query_is_deep(tree));
     froe_query_free(q);
     froe_tree_free(tree);
     froe_scene_free(scene);
