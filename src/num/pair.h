@@ -25,9 +25,8 @@ static inline num_pair num_pair_tidy(double hi, double lo) { /* |hi| >= |lo| */
     return (num_pair){s, lo - (s - hi)};
 }
 static inline num_pair num_pair_add(num_pair a, num_pair b) {
-    num_pair s = num_pair_sum(a.hi, b.hi), t = num_pair_sum(a.lo, b.lo);
-    s = num_pair_tidy(s.hi, s.lo + t.hi);
-    return num_pair_tidy(s.hi, s.lo + t.lo);
+    num_pair s = num_pair_sum(a.hi, b.hi);
+    return num_pair_tidy(s.hi, s.lo + (a.lo + b.lo)); /* three roundings of numbers below 2^-51 of the sizes */
 }
 static inline num_pair num_pair_sub(num_pair a, num_pair b) {
     return num_pair_add(a, (num_pair){-b.hi, -b.lo});

@@ -9,14 +9,21 @@
 #include "query/packed_kernel.h"
 #include "tree/wide.h"
 
-/** A ray o + u d in the coordinates of a wide tree, in whose box it is for u >= start only. Keys are u - start. */
+/** A ray o + u d in the coordinates of a wide tree, in whose box it is for u >= start only. Keys are u - start. Fourth
+ * components are 0, for those who load four. */
 typedef struct space_ray {
     const tree_wide *wide;
-    double o[3], d[3]; /**< the largest component of d is between 1/2 and 1 */
-    double inverse[3]; /**< 1 / d, at most 2^60 */
-    double slack[3];   /**< what rounding may cost along an axis */
+    double o[4], d[4]; /**< the largest component of d is between 1/2 and 1 */
+    double entry[4];   /**< o + start d */
+    double inverse[4]; /**< 1 / d, at most 2^60 */
+    double slack[4];   /**< what rounding may cost along an axis */
     double start;
-    int axis[3]; /**< that of the largest component last */
+    double largest; /**< component of d */
+    float step[4];  /**< 1 / d */
+    float rest[4];  /**< slack, and what floats may cost */
+    float shear[2]; /**< other components / largest */
+    int axis[3];    /**< that of the largest component last */
+    int up[3];      /**< 1 where it goes up, otherwise 0 */
 } space_ray;
 
 /** A point; keys are squared distances in the coordinates of the wide tree. */

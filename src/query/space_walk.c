@@ -43,15 +43,18 @@ static bool frame_axis(space_ray *r, int k) {
     bool slow = fabs(r->d[k]) < 0x1p-60;
     r->inverse[k] = slow ? copysign(0x1p60, r->d[k]) : 1 / r->d[k];
     r->slack[k] = fabs(r->inverse[k]) * (0x1p-48 * (fabs(r->o[k]) + 1) + (slow ? 0x1p-37 : 0));
+    r->up[k] = r->inverse[k] > 0;
     return fabs(r->o[k]) <= 0x1p20;
 }
 
 static void order_axes(space_ray *r) {
     int last = fabs(r->d[1]) > fabs(r->d[0]) ? 1 : 0;
     if (fabs(r->d[2]) > fabs(r->d[last])) last = 2;
-    for (int k = 0, i = 0; k < 3; k++)
-        if (k != last) r->axis[i++] = k;
+    r->axis[0] = last == 0;
+    r->axis[1] = 2 - (last == 2);
     r->axis[2] = last;
+    r->largest = r->d[last];
+    for (int i = 0; i < 2; i++) r->shear[i] = (float)(r->d[r->axis[i]] / r->largest);
 }
 
 /* False: it misses the scene. */
@@ -66,8 +69,17 @@ static bool find_start(space_ray *r, const tree_meta *m) {
         leave = last < leave ? last : leave;
     }
     r->start = enter;
-    for (int k = 0; k < 3; k++) r->slack[k] += 0x1p-50 * enter;
     return enter <= leave;
+}
+
+/* From there on planes are at most |entry| + 1/2 away. */
+static void enter_scene(space_ray *r) {
+    for (int k = 0; k < 3; k++) {
+        r->slack[k] += 0x1p-50 * r->start;
+        r->entry[k] = r->o[k] + r->start * r->d[k];
+        r->step[k] = (float)r->inverse[k];
+        r->rest[k] = (float)(r->slack[k] + 0x1p-21 * fabs(r->inverse[k]) * (fabs(r->entry[k]) + 0.5)) * (1 + 0x1p-20f);
+    }
 }
 
 /* The least one above x > 0, if neither is denormal. */
@@ -96,7 +108,9 @@ froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, bo
     if (!*begun) return FROE_OK;
     order_axes(r);
     w->per = wide->scale * size;
-    return begin(q, w, false, find_start(r, &q->tree->meta));
+    const bool meets = find_start(r, &q->tree->meta);
+    enter_scene(r);
+    return begin(q, w, false, meets);
 }
 
 froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {

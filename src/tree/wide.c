@@ -153,7 +153,7 @@ static uint8_t byte_of(double u) {
 }
 
 static void fill(const widening *w, wide_node *n, const bounds *all, const uint32_t child[], uint32_t count) {
-    *n = (wide_node){.count = (uint8_t)count};
+    *n = (wide_node){.count = (uint8_t)count, .unused = WIDE_NORMAL};
     for (int k = 0; k < 3; k++) {
         n->lo[k] = all->lo[k] + 0.0;
         n->shift[k] = shift_for(all->hi[k] - all->lo[k]);
@@ -213,6 +213,7 @@ static void set_frame(tree_wide *wide, const tree_meta *m) {
     }
     frexp(size, &exponent);
     wide->scale = ldexp(1, -exponent);
+    wide->inverse = ldexp(1, exponent);
 }
 
 froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {

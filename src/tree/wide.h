@@ -16,6 +16,7 @@
 #include "tree/space.h"
 
 enum { WIDE_CHILDREN = 16 };
+#define WIDE_NORMAL 0x3ff00000u
 #define WIDE_LEAF 0x80000000u  /**< with the number of a block */
 #define WIDE_INDEX 0x3fffffffu /**< the rest */
 
@@ -23,15 +24,15 @@ typedef struct wide_node {
     double lo[3];
     uint8_t shift[3]; /**< units of 2^-shift */
     uint8_t count;
-    uint32_t unused;
+    uint32_t unused; /**< WIDE_NORMAL: together with the bytes before no denormal double, for those who load four */
     uint8_t box[2][3][WIDE_CHILDREN];
     uint32_t child[WIDE_CHILDREN];
 } wide_node;
 _Static_assert(sizeof(wide_node) == 192, "three cache lines");
 
 struct tree_wide {
-    double middle[3], scale; /**< scale: a power of 2 */
-    wide_node *nodes;        /**< [0] is the root */
+    double middle[3], scale, inverse; /**< scale: a power of 2; inverse: 1 / scale */
+    wide_node *nodes;                 /**< [0] is the root */
     size_t count;
     void *memory; /**< that nodes lie in */
     size_t memory_size;
