@@ -180,7 +180,7 @@ static void work(run *r) {
 
 /* ---------------------------------------------------------------- summary -- */
 
-static json_t *statistics_json(froe_query *query) {
+json_t *cli_statistics_json(froe_query *query) {
     const froe_query_stats s = query ? froe_query_statistics(query) : (froe_query_stats){0};
     return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I}", "nodes", (json_int_t)s.nodes, "leaves", (json_int_t)s.leaves,
                      "tests", (json_int_t)s.tests, "exact", (json_int_t)s.exact, "slices", (json_int_t)s.slices,
@@ -191,7 +191,8 @@ static int summarise(run *r, double seconds) {
     return cli_report(r->q->common, NULL,
                       json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(r->q->args->tree), "queries",
                                 cli_name_json(r->rows.path), "answered", (json_int_t)r->answered, "rows",
-                                (json_int_t)r->out.rows, "seconds", seconds, "visited", statistics_json(r->q->query)));
+                                (json_int_t)r->out.rows, "seconds", seconds, "visited",
+                                cli_statistics_json(r->q->query)));
 }
 
 int cli_queries_run(const cli_queries *queries) {

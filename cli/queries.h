@@ -11,6 +11,7 @@
 #include "options.h"
 #include "rows.h"
 #include <froe/query.h>
+#include <jansson.h>
 
 /** Shared by all query commands; their own tables name the operand and the input. */
 typedef struct cli_query_args {
@@ -45,6 +46,8 @@ typedef struct cli_queries {
     froe_query *query; /**< whose statistics --json prints; may be NULL */
 } cli_queries;
 
+/** What a context has visited, for --json; begins again at 0. query NULL: nothing. */
+json_t *cli_statistics_json(froe_query *query);
 /** Reads, asks, writes. Returns an exit code. */
 int cli_queries_run(const cli_queries *queries);
 #endif

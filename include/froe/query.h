@@ -42,8 +42,8 @@ FROE_API void froe_query_free(froe_query *query);
 
 /** What the queries of a context have cost since it was made or last asked. */
 typedef struct froe_query_stats {
-    uint64_t queries, nodes, leaves; /**< visited */
-    uint64_t tests;                  /**< objects tested against a query */
+    uint64_t queries, nodes, leaves; /**< asked; visited. A search for all pairs is one query */
+    uint64_t tests;                  /**< objects tested against a query; by index in space, one by one */
     uint64_t exact;                  /**< ... of these, decided by exact numbers */
     uint64_t slices;                 /**< lists reported without a test */
     uint64_t steps;                  /**< of searches that lead past the cuts of deep trees, each like a node */

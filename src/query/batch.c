@@ -104,6 +104,12 @@ static froe_status ask_groups_in(const batch *b, froe_query *q, size_t i, const 
     return status;
 }
 
+/* Where there are no borders, no leaf is asked for. */
+static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    const froe_status status = query_check_point(point_of(b, b->points, i), q->tree->scene->dim, "A point", diag);
+    return status ? status : ask_groups_in(b, q, i, NULL, diag);
+}
+
 static froe_status ask_ray_all(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
     froe_hits met = {0};
     froe_status status =
@@ -280,9 +286,13 @@ froe_status froe_batch_locate(froe_query *query, const double *points, size_t co
 froe_status froe_batch_groups(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
                               froe_answers *out, froe_diagnostic *diag) {
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_groups: NULL argument.");
-    batch b = {.query = query, .ask_in = ask_groups_in, .points = points, .count = count};
+    batch b = {.query = query, .points = points, .count = count};
     const froe_status status = query_groups_prepare(query, &b.areas, diag); /* once for all threads */
     if (status) return status;
+    if (b.areas->borders)
+        b.ask_in = ask_groups_in;
+    else
+        b.ask = ask_groups;
     return run(&b, options, out, diag);
 }
 

@@ -175,6 +175,7 @@ static froe_status pair_run(void *user, unsigned worker, size_t job) {
     pairing p = {.search = s, .worker = worker, .q = s->workers->queries[worker]};
     const froe_tree *t = p.q->tree;
     const uint32_t from = (uint32_t)job * RUN, to = t->node_count - from < RUN ? t->node_count : from + RUN;
+    p.q->stats.nodes += to - from;
     for (uint32_t i = from; i < to && !p.status; i++)
         if (tree_is_leaf(t->nodes + i) && t->nodes[i].u.list.count > 1) pair_leaf(&p, t->nodes + i);
     return p.status;

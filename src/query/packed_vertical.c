@@ -20,6 +20,7 @@ typedef struct climb {
     uint32_t block, count; /* of the leaf to be tested next */
     uint32_t column, row;  /* of the table; column NO_TABLE: none */
     tree_entry last;       /* the entry that it went to last */
+    uint64_t nodes;        /* passed */
 } climb;
 #define NO_TABLE UINT32_MAX
 
@@ -34,7 +35,7 @@ static void arrive(const froe_tree *t, climb *c, uint32_t block, uint32_t count)
 /* Goes down to the leaf where the ray begins or enters; what comes after it on its way waits. */
 static void descend(const froe_tree *t, climb *c, int direction, uint32_t node) {
     const tree_node *n = t->nodes + node;
-    while (!tree_is_leaf(n)) {
+    for (; !tree_is_leaf(n); c->nodes++) {
         uint32_t upper = c->point[n->axis] >= n->u.value, ahead = n->axis == 1 && (direction > 0) == !upper;
         c->stack[c->waiting] = n->child + !upper;
         c->waiting += ahead;
@@ -169,6 +170,7 @@ static size_t launch(froe_query *q, const double *points, size_t count, size_t n
         if (!aims_at_scene(q->tree, points + 2 * next, direction)) continue;
         c->point = points + 2 * next;
         c->object = objects + next;
+        c->nodes = 0;
         if (next + PACKED_FLIGHT < count && q->tree->packed.table)
             ask_for_entry(q->tree->packed.table, c->point + 2 * PACKED_FLIGHT);
         begin(q->tree, c, direction);
@@ -183,7 +185,9 @@ static uint32_t climb_alone(froe_query *q, climb *c, int direction) {
         uint32_t block = c->block, count = c->count;
         bool more = go_on(q->tree, c, direction);
         uint32_t object = test(q, block, count, c->point, direction);
-        if (object != FROE_NONE || !more) return object;
+        if (object == FROE_NONE && more) continue;
+        q->stats.nodes += c->nodes;
+        return object;
     }
 }
 
@@ -196,6 +200,7 @@ static void fly(froe_query *q, climb *flock, size_t flying, const double *points
         bool flies;
         if (object == FROE_NONE && go_on(q->tree, c, direction)) continue;
         *c->object = object;
+        q->stats.nodes += c->nodes;
         next = launch(q, points, count, next, direction, objects, c, &flies);
         if (flies) continue;
         *c = flock[--flying];

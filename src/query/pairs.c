@@ -149,6 +149,7 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
                              void *fn_user, froe_diagnostic *diag) {
     if (!query || !fn) return base_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
     const size_t jobs = ((size_t)query->tree->scene->object_count + CHUNK - 1) / CHUNK;
+    const uint64_t queries = query->stats.queries;
     query_workers workers;
     froe_status status = query_workers_take(query, options, jobs, &workers, diag);
     if (!status) {
@@ -158,6 +159,7 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
         if (status == FROE_E_MEMORY) base_fail_memory(diag);
     }
     query_workers_give(&workers);
+    query->stats.queries = queries + 1; /* and not one for each object that asked */
     return status;
 }
 
