@@ -25,7 +25,7 @@ typedef struct peer {
     size_t (*bytes)(void *index);
     /** Writes the segments that meet the closed window, each once; how many. There is room for all. */
     size_t (*window)(void *index, const double lo[2], const double hi[2], uint32_t *out);
-    /** The first segment met by the ray upwards from a point that is on none; -1: none. */
+    /** The first segment met by the ray upwards from a point, which may be on it; -1: none. */
     int64_t (*above)(void *index, double x, double y);
     /** Finds the face of the map of segments that do not cross; what it returns depends on the face alone. */
     int64_t (*locate)(void *index, double x, double y);
@@ -69,10 +69,10 @@ static inline bool peer_meet(const peer_segment *a, const peer_segment *b) {
                0;
 }
 
-/** Is the segment above the point? Then *y is where. Points have x at half-integers: never on a corner. */
+/** Is the segment above the point, or through it? Then *at is where. Points have x at half-integers: never on a corner. */
 static inline bool peer_above(const peer_segment *s, double x, double y, double *at) {
-    if (!(s->ax < x && x < s->bx) || (s->ay <= y && s->by <= y)) return false;
-    if (peer_turn(s->ax, s->ay, s->bx, s->by, x, y) >= 0) return false;
+    if (!(s->ax < x && x < s->bx) || (s->ay < y && s->by < y)) return false;
+    if (peer_turn(s->ax, s->ay, s->bx, s->by, x, y) > 0) return false;
     *at = s->ay + (s->by - s->ay) * ((x - s->ax) / (s->bx - s->ax));
     return true;
 }
