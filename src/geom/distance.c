@@ -142,14 +142,42 @@ static int against(void *user, num_arena *arena, num_dyadic x) {
     return beyond_both(arena, r->square, r->radius, x);
 }
 
-/* The distance from a simplex in space, if pairs of doubles can tell how it is to be rounded: sqrt(S) errs by 2^-94 of
+/* Rounds sqrt(S) if that is sure: it errs by 2^-94 of itself and by `error`. */
+static bool round_root(num_pair s, double error, double *out) {
+    if (!(s.hi > 0x1p-400)) return false;
+    const num_pair root = num_pair_sqrt(s);
+    error += 0x1p-94 * root.hi;
+    *out = root.hi + (root.lo - error);
+    return *out == root.hi + (root.lo + error);
+}
+
+/* The distance from a point or a box, if pairs of doubles can tell how it is to be rounded. Its sum of squares errs by
+ * less than 2^-96 of itself, and by underflows, which are nothing beside 2^-400. */
+static bool round_box(const double *point, const geom_distance *a, double *out) {
+    num_pair s = {0, 0};
+    for (int k = 0; k < a->dim; k++) {
+        const double x = point[k], nearest = x < a->lo[k] ? a->lo[k] : x > a->hi[k] ? a->hi[k] : x;
+        const num_pair gap = num_pair_sum(nearest, -x);
+        if (!(fabs(gap.hi) < 0x1p100)) return false;
+        s = num_pair_add(s, num_pair_mul(gap, gap));
+    }
+    return round_root(s, 0, out);
+}
+
+/* q - p, in the plane with a third coordinate 0. */
+static double between(int dim, const double *p, const double *q, num_pair out[3]) {
+    const double a[3] = {p[0], p[1], dim == 3 ? p[2] : 0}, b[3] = {q[0], q[1], dim == 3 ? q[2] : 0};
+    return num_pair_between(a, b, out);
+}
+
+/* The distance from a simplex, if pairs of doubles can tell how it is to be rounded: sqrt(S) errs by 2^-94 of
  * itself and by what the numerator of S errs. With sizes as sums of coordinates, |e|^2 at least a third of that: v x e
  * by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f| |v|, as n by 2^-96 |e| |f|. */
 static bool round_simplex(const double *point, const geom_distance *a, double *out) {
     num_pair v[3], e[3], f[3], n[3], s;
-    double sizes[3] = {num_pair_between(point, a->corner[0], v), 1, 1}, error = 0;
-    if (a->count > 1) sizes[1] = num_pair_between(a->corner[0], a->corner[1], e);
-    if (a->count > 2) sizes[2] = num_pair_between(a->corner[0], a->corner[2], f);
+    double sizes[3] = {between(a->dim, point, a->corner[0], v), 1, 1}, error = 0;
+    if (a->count > 1) sizes[1] = between(a->dim, a->corner[0], a->corner[1], e);
+    if (a->count > 2) sizes[2] = between(a->dim, a->corner[0], a->corner[2], f);
     for (int i = 0; i < 3; i++)
         if (!(sizes[i] > 0x1p-100 && sizes[i] < 0x1p100)) return false;
     if (a->count == 1) {
@@ -165,19 +193,21 @@ static bool round_simplex(const double *point, const geom_distance *a, double *o
         if (!(bottom.hi > 0x1p-600)) return false;
         error = 0x1p-93 * sizes[1] * sizes[2] * (sizes[0] + sqrt(s.hi)) / sqrt(bottom.hi);
     }
-    if (!(s.hi > 0x1p-400)) return false;
-    const num_pair root = num_pair_sqrt(s);
-    error += 0x1p-94 * root.hi;
-    *out = root.hi + (root.lo - error);
-    return *out == root.hi + (root.lo + error);
+    return round_root(s, error, out);
+}
+
+/* Where pairs do not tell, exact numbers do. */
+static bool round_by_pairs(const num_context *context, const double *point, const geom_distance *a, double *out) {
+    if (context->first == NUM_EXACT || a->radius > 0) return false;
+    if (a->lo) return round_box(point, a, out);
+    return a->count && a->dim <= 3 && round_simplex(point, a, out);
 }
 
 double geom_distance_round(num_context *context, const double *point, const geom_distance *a) {
     num_arena *arena = &context->arena;
     double rounded;
     arena->top = 0;
-    if (!a->lo && a->count && a->dim == 3 && context->first < NUM_EXACT && round_simplex(point, a, &rounded))
-        return rounded;
+    if (round_by_pairs(context, point, a, &rounded)) return rounded;
     rounding r = {exact_square(arena, point, a), a->radius};
     if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;
     return num_nearest(arena, against, &r, geom_distance_image(a).x);

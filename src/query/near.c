@@ -2,7 +2,8 @@
  *
  * The k best so far form a heap with the worst on top, compared exactly. When there are k of them, what is further
  * away than the worst is passed over: places by their bounds, objects by those of their bounding boxes, and the
- * rest by comparing distances, whose images decide but for ties. */
+ * rest by comparing distances, whose images decide but for ties. Of points there are candidates, few more than k
+ * (near_points.c), which are sorted. */
 #include "query/near.h"
 #include "query/check.h"
 #include "query/context.h"
@@ -13,6 +14,8 @@ void query_near_free(query_near *n, const froe_allocator *alloc) {
     array_free(alloc, &n->places);
     array_free(alloc, &n->free);
     array_free(alloc, &n->heap);
+    array_free(alloc, &n->best);
+    array_free(alloc, &n->candidates);
     array_free(alloc, &n->found);
     array_free(alloc, &n->order);
     array_free(alloc, &n->out);
@@ -22,6 +25,8 @@ void query_near_free(query_near *n, const froe_allocator *alloc) {
 static bool further(void *user, uint32_t a, uint32_t b) {
     froe_query *q = user;
     const query_neighbour *x = q->near.found.data + a, *y = q->near.found.data + b;
+    if (x->square > query_near_reach(y->square)) return true;
+    if (y->square > query_near_reach(x->square)) return false;
     const int order = geom_distance_compare(&q->numbers, q->near.point, &x->distance, &y->distance);
     return order ? order > 0 : x->object > y->object;
 }
@@ -63,14 +68,21 @@ static bool beyond_limit(froe_query *q, uint32_t object) {
     return query_near_box(&q->near, s->dim, lo, hi) > q->near.limit;
 }
 
-static bool look_at(froe_query *q, uint32_t object, size_t k, double bound) {
-    const froe_scene *s = q->tree->scene;
+/* False: it is beyond the bound. */
+static bool measure(froe_query *q, const geom_body *body, double bound, query_neighbour *out) {
+    out->distance = geom_distance_from(&q->numbers, q->near.point, body);
+    return geom_distance_compare_to(&q->numbers, q->near.point, &out->distance, bound) <= 0;
+}
+
+/* An object of a list. */
+static bool look_up(froe_query *q, const tree_objects *list, uint32_t i, size_t k, double bound) {
+    const uint32_t object = tree_object(list, i);
+    if (query_seen(q, list, i, object)) return true;
     q->stats.tests++;
     if (!q->near.packed && beyond_limit(q, object)) return true; /* packed trees have looked at more than boxes */
-    const geom_body body = scene_body(s, object);
-    const query_neighbour x = {geom_distance_from(&q->numbers, q->near.point, &body), object};
-    if (geom_distance_compare_to(&q->numbers, q->near.point, &x.distance, bound) > 0) return true;
-    return take(q, &x, k);
+    const geom_body body = scene_body(q->tree->scene, object);
+    query_neighbour x = {.square = NAN, .object = object};
+    return !measure(q, &body, bound, &x) || take(q, &x, k);
 }
 
 static froe_status find(froe_query *q, size_t k, double bound, froe_diagnostic *diag) {
@@ -80,18 +92,38 @@ static froe_status find(froe_query *q, size_t k, double bound, froe_diagnostic *
     if (bound < INFINITY) q->near.limit = query_near_square(&q->near, bound);
     while (!status && k && !(status = query_near_next(q, &list)) && list.count) {
         if (!query_expect(q, list.count)) return FROE_E_MEMORY;
-        for (uint32_t i = 0; i < list.count; i++) {
-            const uint32_t object = tree_object(&list, i);
-            if (!query_seen(q, &list, i, object) && !look_at(q, object, k, bound)) return FROE_E_MEMORY;
-        }
+        for (uint32_t i = 0; i < list.count; i++)
+            if (!look_up(q, &list, i, k, bound)) return FROE_E_MEMORY;
     }
+    query_heap_unwind(q->near.order.data, q->near.order.count, further, q);
     return status;
 }
 
-/* Nearest first, as doubles. */
+/* The nearest of the candidates, sorted. */
+static froe_status find_points(froe_query *q, size_t k, double bound, bool *done, froe_diagnostic *diag) {
+    query_near *n = &q->near;
+    const froe_status status = query_near_points(q, k, bound, done, diag);
+    if (status || !*done) return status;
+    if (!array_reserve(&q->alloc, &n->found, n->candidates.count) ||
+        !array_reserve(&q->alloc, &n->order, n->candidates.count))
+        return FROE_E_MEMORY;
+    for (size_t i = 0; i < n->candidates.count; i++) {
+        const query_candidate *c = n->candidates.data + i;
+        const geom_body body = geom_body_at(q->tree->scene->dim, c->at);
+        query_neighbour *x = n->found.data + n->found.count;
+        x->square = c->square;
+        x->object = c->object;
+        if (!measure(q, &body, bound, x)) continue;
+        n->order.data[n->order.count++] = (uint32_t)n->found.count++;
+    }
+    query_heap_sort(n->order.data, n->order.count, further, q);
+    if (n->order.count > k) n->order.count = k;
+    return FROE_OK;
+}
+
+/* Distances as doubles. */
 static bool deliver(froe_query *q) {
     query_near *n = &q->near;
-    query_heap_unwind(n->order.data, n->order.count, further, q);
     n->out.count = 0;
     if (!array_reserve(&q->alloc, &n->out, n->order.count)) return false;
     for (size_t i = 0; i < n->order.count; i++) {
@@ -116,7 +148,9 @@ froe_status froe_query_near(froe_query *query, const double *point, size_t k, do
     memset(n->point, 0, sizeof n->point);
     memcpy(n->point, point, (size_t)dim * sizeof *point);
     n->limit = INFINITY;
-    status = find(query, k, bound, diag);
+    bool done = false;
+    if (k) status = find_points(query, k, bound, &done, diag);
+    if (!status && !done) status = find(query, k, bound, diag);
     query->stats.exact += query->numbers.stats.exact - exact;
     if (status == FROE_E_MEMORY || (!status && !deliver(query))) return base_fail_memory(diag);
     if (!status) *out = (froe_neighbours){n->out.data, n->out.count};

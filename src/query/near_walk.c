@@ -36,8 +36,7 @@ double query_near_square(const query_near *n, double distance) {
     return x * x * (1 + 0x1p-50) + 0x1p-1070;
 }
 
-/* Brings the greatest coordinate near 1: then squares neither overflow nor, where it matters, underflow. */
-static double scale_for(const froe_scene *s, const double *point) {
+double query_near_scale(const froe_scene *s, const double *point) {
     double most = 0;
     int exponent;
     for (int k = 0; k < s->dim; k++) {
@@ -58,7 +57,7 @@ froe_status query_near_begin(froe_query *q, froe_diagnostic *diag) {
     const query_contents *contents;
     query_near *n = &q->near;
     n->places.count = n->free.count = n->heap.count = 0;
-    n->scale = scale_for(q->tree->scene, n->point);
+    n->scale = query_near_scale(q->tree->scene, n->point);
     n->packed = false;
     if (q->space && space_walk_near(q, &q->space->walk, &n->packed)) return FROE_E_MEMORY;
     if (n->packed) return FROE_OK;

@@ -14,8 +14,12 @@ static froe_status lay_points(query_pieces *p, const froe_tree *t, const froe_al
     p->points = base_calloc(alloc, t->piece_count, bytes);
     if (!p->points) return FROE_E_MEMORY;
     p->size = t->piece_count * bytes;
-    for (uint32_t i = 0; i < t->piece_count; i++)
-        memcpy(p->points + (size_t)i * (size_t)t->scene->dim, scene_point(t->scene, t->pieces[i].object, 0), bytes);
+    for (uint32_t v = 0; v < t->node_count; v++) {
+        const tree_objects list = tree_list(t, v);
+        for (uint32_t i = 0; i < list.count; i++)
+            memcpy(p->points + (size_t)(list.first + i) * (size_t)t->scene->dim,
+                   scene_point(t->scene, tree_object(&list, i), 0), bytes);
+    }
     return FROE_OK;
 }
 
@@ -26,12 +30,11 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
     if (!p) return base_fail_memory(diag);
     p->part.free = free_pieces;
     *out = &p->part;
-    if (tree_is_packed(t)) return FROE_OK;
-    bool points = t->piece_count > 0;
-    p->flat = true;
+    bool points = t->piece_count > 0 && t->piece_count == s->object_count; /* each in one list */
+    p->flat = !tree_is_packed(t);
     for (uint32_t i = 0; i < s->object_count; i++) {
         points &= s->forms[i] == FROE_POINT;
-        p->flat &= s->forms[i] < FROE_BOX;
+        p->flat = p->flat && s->forms[i] < FROE_BOX;
     }
     p->whole = p->flat && t->bound_count <= 1; /* the first is unused */
     return points && lay_points(p, t, &q->alloc) ? base_fail_memory(diag) : FROE_OK;

@@ -14,7 +14,7 @@ typedef struct query_pieces {
     query_part part;
     bool flat;      /**< lists lie in pieces, and no object is solid: each has a point in every cell that lists it */
     bool whole;     /**< ... and no object is divided: each is in one list only */
-    double *points; /**< [place in the lists * dim]; NULL: some object is no point, or lists do not lie in pieces */
+    double *points; /**< [number of the piece * dim]; NULL: some object is no point, or is in several lists */
     size_t size;    /**< of points */
 } query_pieces;
 

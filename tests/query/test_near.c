@@ -109,6 +109,37 @@ static void neighbours_in_scenes_of_one_object_or_none(void **state) {
     tour_tiny(check_world);
 }
 
+/* Points alone, whose coordinates are scanned: 0 .. grid - 1, or anywhere in 0 .. 1, times a scale, plus a shift. */
+static froe_scene *cloud(int dim, uint32_t count, uint32_t grid, double scale, double shift, uint64_t seed) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < count; i++) {
+        double x[FROE_MAX_DIM];
+        for (int k = 0; k < dim; k++) {
+            const uint64_t number = (uint64_t)i * FROE_MAX_DIM + (uint64_t)k;
+            const double at = grid ? trees_random(seed, number, grid) : trees_unit(seed, number);
+            x[k] = at * scale + shift;
+        }
+        assert_int_equal(trees_add(scene, FROE_POINT, 1, x, NULL, NULL), FROE_OK);
+    }
+    return scene;
+}
+
+static void neighbours_among_points(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 5; dim++) {
+        const uint64_t seed = (uint64_t)dim;
+        const int questions = 150 / EXACT_SHARE;
+        check_world(world_begin("anywhere", cloud(dim, 200, 0, 1, 0, seed)), questions);
+        check_world(world_begin("lattice, many at one place", cloud(dim, 200, 4, 1, 0, seed)), questions);
+        check_world(world_begin("far away", cloud(dim, 150, 0, 0x1p-8, 0x1p40, seed)), questions);
+        check_world(world_begin("huge", cloud(dim, 100, 5, 0x1p1000, 0, seed)), 20 / EXACT_SHARE);
+        check_world(world_begin("at 1e300", cloud(dim, 100, 0, 1e300, 0, seed)), 20 / EXACT_SHARE);
+        check_world(world_begin("tiny", cloud(dim, 100, 0, 0x1p-600, 0, seed)), 20 / EXACT_SHARE);
+        check_world(world_begin("denormal", cloud(dim, 100, 6, 0x1p-1074, 0, seed)), 20 / EXACT_SHARE);
+    }
+}
+
 static void bad_questions_are_refused_and_change_nothing(void **state) {
     (void)state;
     froe_tree *tree = trees_grow(2, FROE_SEGMENT, 20, 0, 0.3, "density", 1);
@@ -158,6 +189,7 @@ int main(void) {
         cmocka_unit_test(neighbours_in_generated_scenes),
         cmocka_unit_test(neighbours_among_all_kinds_on_lattices_and_off),
         cmocka_unit_test(neighbours_in_real_scenes),
+        cmocka_unit_test(neighbours_among_points),
         cmocka_unit_test(neighbours_in_scenes_of_one_object_or_none),
         cmocka_unit_test(bad_questions_are_refused_and_change_nothing),
         cmocka_unit_test(every_allocation_may_fail),
