@@ -31,6 +31,10 @@ static const cli_option options[] = {
     {"at", 0, CLI_REAL, offsetof(simulate_args, follow.at), "T", .help = "with --output: the time of the tree"},
     {"output", 'o', CLI_TEXT, offsetof(simulate_args, follow.tree), "TREE",
      .help = "save the partition as it is at the time of --at, as a tree for all other commands"},
+    {"places", 0, CLI_TEXT, offsetof(simulate_args, follow.places), "FILE",
+     .help = "with --output: write where the tree's vertices are exactly, as quotients of whole numbers, as .csv"},
+    {"unrounded", 0, CLI_FLAG, offsetof(simulate_args, follow.unrounded),
+     .help = "with --output: fail if a coordinate is no double and would have to be rounded"},
     {"animate", 0, CLI_TEXT, offsetof(simulate_args, animate), "FILE", .help = "write an animated picture, .svg"},
     {"player", 0, CLI_TEXT, offsetof(simulate_args, player), "FILE",
      .help = "write a page that plays the motion, .html"},
@@ -140,8 +144,11 @@ static int check(const simulate_args *args) {
         return cli_fail(CLI_USE, NULL, "--from must be before --to");
     if (isnan(args->follow.at) != !args->follow.tree)
         return cli_fail(CLI_USE, NULL, "--at and --output go together: a time, and a file for its tree");
+    if ((args->follow.places || args->follow.unrounded) && !args->follow.tree)
+        return cli_fail(CLI_USE, NULL, "--places and --unrounded are about the tree of --output");
     if (!isnan(args->seconds) && !(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds must be above 0");
-    const char *const outputs[] = {args->contacts, args->animate, args->player, args->follow.events, args->follow.tree};
+    const char *const outputs[] = {args->contacts,      args->animate,     args->player,
+                                   args->follow.events, args->follow.tree, args->follow.places};
     return cli_check_outputs(&args->path, 1, outputs, sizeof outputs / sizeof *outputs);
 }
 
@@ -172,9 +179,9 @@ const cli_command cli_command_simulate = {
         "With --events or --at, a partition of the plane (that of the method cylindrical) is kept right while they "
         "move: "
         "vertices and crossings that pass over one another, contacts, turns, pieces of flight plans and the like are "
-        "its events. A tree is taken at the next odd tick; its coordinates are doubles, and --json tells how many had "
-        "to be "
-        "rounded.\n\n"
+        "its events. A tree is taken at the next odd tick; its coordinates are doubles, and --json tells how many "
+        "vertices had to be rounded, and whether the cuts are those of the exact places all the same. --places writes "
+        "these.\n\n"
         "Times are those of the file: its numbers, or milliseconds since 1970 for ISO 8601 instants.",
     .examples = "froe simulate cars.mfjson --contacts contacts.csv\n"
                 "froe simulate cars.mfjson --from 301000 --to 305000 --first --json\n"

@@ -39,15 +39,20 @@ static int advance(events *e, double time) {
 
 static int snapshot(const cli_follow *asked, const events *e, json_t *report) {
     froe_diagnostic diag;
-    froe_tree *tree;
-    size_t rounded;
-    froe_status status = froe_kinetic_snapshot(e->kinetic, &tree, &rounded, &diag);
+    froe_snapshot s;
+    froe_snapshot_options o = froe_snapshot_defaults();
+    o.refuse = asked->unrounded, o.places = asked->places != NULL;
+    froe_status status = froe_kinetic_snapshot(e->kinetic, &o, &s, &diag);
     if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
-    status = froe_tree_save(tree, asked->tree, &diag);
-    froe_tree_free(tree);
-    if (status) return cli_fail_status(CLI_WRITING, asked->tree, status, &diag);
+    const char *path = asked->tree;
+    status = froe_tree_save(s.tree, path, &diag);
+    if (!status && asked->places) status = froe_write_places(s.places, path = asked->places, &diag);
+    froe_tree_free(s.tree);
+    froe_places_free(s.places);
+    if (status) return cli_fail_status(CLI_WRITING, path, status, &diag);
     json_object_set_new(report, "at", json_real(froe_kinetic_time(e->kinetic)));
-    json_object_set_new(report, "rounded", json_integer((json_int_t)rounded));
+    json_object_set_new(report, "rounded", json_integer((json_int_t)s.rounded));
+    json_object_set_new(report, "alike", json_boolean(s.alike));
     return 0;
 }
 

@@ -6,8 +6,9 @@
 #include <jansson.h>
 
 typedef struct cli_follow {
-    const char *events, *tree; /**< files to write, or NULL */
-    double at;                 /**< when the tree is taken; NaN: never */
+    const char *events, *tree, *places; /**< files to write, or NULL */
+    double at;                          /**< when the tree is taken; NaN: never */
+    bool unrounded;                     /**< rather no tree than one with rounded coordinates */
 } cli_follow;
 
 /** Goes through the window, if anything is asked for; *report: what there was, or null. Returns an exit code, after

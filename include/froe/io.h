@@ -170,6 +170,12 @@ FROE_API froe_status froe_write_contacts(const froe_motion *motion, const froe_c
  * extension. FROE_E_IO, FROE_E_MEMORY. */
 FROE_API froe_status froe_write_events(const froe_event *events, size_t count, const char *path, froe_diagnostic *diag);
 
+/** Writes where the ends of a snapshot's objects are, exactly, as .csv with the header
+ *     object,end,x,y,w,rounded
+ * in whole numbers of as many digits as it takes: the place is (x / w, y / w). FROE_E_UNSUPPORTED: another
+ * extension. FROE_E_IO, FROE_E_MEMORY. */
+FROE_API froe_status froe_write_places(const froe_places *places, const char *path, froe_diagnostic *diag);
+
 typedef struct froe_animation_options {
     size_t size;    /**< set by froe_animation_defaults() */
     double width;   /**< of the picture, in pixels; default 960 */

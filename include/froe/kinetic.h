@@ -249,13 +249,53 @@ typedef bool froe_kinetic_order_fn(void *user, uint32_t object, const double end
 FROE_API froe_status froe_kinetic_order(froe_kinetic *kinetic, const double eye[2], froe_kinetic_order_fn *visit,
                                         void *user, froe_diagnostic *diag);
 
-/** The present as an ordinary tree, for all other questions: built by the method `cylindrical`, in the same order of
- * cuts, over a scene of its own. Object i of the scene is the i-th of those that are there; tags are the motion's.
- * What divides two instants need not be a power of 2, so that coordinates are no doubles in general: each is rounded to
- * the nearest, and *rounded (may be NULL) tells how many vertices were. 0: the tree is that of the present, exactly.
- * FROE_E_MEMORY, and what froe_build() says. */
-FROE_API froe_status froe_kinetic_snapshot(froe_kinetic *kinetic, froe_tree **tree, size_t *rounded,
-                                           froe_diagnostic *diag);
+/* Snapshots. Where a vertex is at a tick is a quotient of whole numbers, and a double only where it happens to be one.
+ */
+
+/** A whole number: sign * sum limbs[i] 2^(64 i). */
+typedef struct froe_whole {
+    int sign;              /**< -1, 0, 1 */
+    size_t count;          /**< 0 iff sign is 0; the last limb is not 0 */
+    const uint64_t *limbs; /**< of the table that it is from */
+} froe_whole;
+/** In decimal digits, '\0' at the end; no more than `size` bytes. Returns how many digits and signs there are. */
+FROE_API size_t froe_whole_text(const froe_whole *number, char *out, size_t size);
+
+/** The point (x / w, y / w), w > 0; x, y and w have no power of 2 in common. */
+typedef struct froe_exact_place {
+    froe_whole x, y, w;
+    bool rounded; /**< x / w or y / w is no double, and in the tree it is the nearest to it */
+} froe_exact_place;
+
+/** Where the ends of all objects of a snapshot are, exactly. */
+typedef struct froe_places froe_places;
+FROE_API void froe_places_free(froe_places *places);          /**< may be NULL */
+FROE_API size_t froe_places_count(const froe_places *places); /**< objects */
+/** End 0 or 1 of an object of the snapshot's scene. Valid as long as the table. false: there is no such end. */
+FROE_API bool froe_places_end(const froe_places *places, uint32_t object, int end, froe_exact_place *out);
+
+typedef struct froe_snapshot_options {
+    size_t size; /**< set by froe_snapshot_defaults() */
+    bool refuse; /**< rather none than one with rounded places (default: false) */
+    bool places; /**< with the table of exact places (default: true) */
+} froe_snapshot_options;
+FROE_API froe_snapshot_options froe_snapshot_defaults(void);
+
+typedef struct froe_snapshot {
+    froe_tree *tree; /**< built by the method `cylindrical`, in the same order of cuts, over a scene of its own. Object
+                        i of the scene is the i-th of those that are there; tags are the motion's. The caller's */
+    froe_places *places; /**< NULL if not asked for. The caller's */
+    size_t rounded;      /**< vertices that are not where the tree has them, but less than a double's last place off */
+    bool alike; /**< the tree has, node for node, the cuts of the present, as if nothing had been rounded. Not if
+                   there are segments without length: they are in the tree, and not in the partition */
+} froe_snapshot;
+
+/** The present as an ordinary tree, for all other questions. Its coordinates are doubles, each the nearest to the
+ * truth; where that is no double, `rounded` counts it, `alike` tells whether it made a difference to the partition, and
+ * `places` keeps the truth. FROE_E_UNSUPPORTED: something would have to be rounded, and that is to be refused; the
+ * first object is named. FROE_E_MEMORY, and what froe_build() says. */
+FROE_API froe_status froe_kinetic_snapshot(froe_kinetic *kinetic, const froe_snapshot_options *options,
+                                           froe_snapshot *out, froe_diagnostic *diag);
 
 /** Is everything as it should be? Certificates, and each node against a partition made from scratch. FROE_E_INPUT: no;
  * FROE_E_MEMORY. For tests: as expensive as a new one. */

@@ -1,25 +1,33 @@
-/* snapshot.c: the present of a kinetic partition as an ordinary tree. */
+/* snapshot.c: the present of a kinetic partition as an ordinary tree, and where its vertices are exactly. */
 #include "base/sort.h"
 #include "base/status.h"
 #include "kinetic/live.h"
+#include "kinetic/places.h"
+
+froe_snapshot_options froe_snapshot_defaults(void) {
+    return (froe_snapshot_options){.size = sizeof(froe_snapshot_options), .places = true};
+}
 
 typedef struct picture {
     froe_kinetic *k;
     uint32_t *objects, *order; /* ids in the motion, by id; positions in it, the first to cut first */
     size_t count, rounded;
+    uint32_t first_rounded; /* id in the motion */
     double *coords;
     uint64_t *tags;
+    froe_places *places; /* NULL: nobody wants them */
 } picture;
 
-static bool picture_new(froe_kinetic *k, picture *p) {
+static bool picture_new(froe_kinetic *k, bool places, picture *p) {
     size_t n = 0;
     for (uint32_t s = 0; s < k->segments.count; s++) n += segment_at(k, s)->alive;
-    *p = (picture){.k = k, .count = n};
+    *p = (picture){.k = k, .count = n, .first_rounded = FROE_NONE};
+    if (places) p->places = places_new(&k->alloc);
     p->objects = base_calloc(&k->alloc, n + 1, sizeof *p->objects);
     p->order = base_calloc(&k->alloc, 2 * n + 1, sizeof *p->order);
     p->coords = base_calloc(&k->alloc, 4 * n + 1, sizeof *p->coords);
     p->tags = base_calloc(&k->alloc, n + 1, sizeof *p->tags);
-    return p->objects && p->order && p->coords && p->tags;
+    return p->objects && p->order && p->coords && p->tags && (p->places || !places);
 }
 
 static void picture_free(picture *p) {
@@ -28,6 +36,7 @@ static void picture_free(picture *p) {
     base_free(alloc, p->order, (2 * p->count + 1) * sizeof *p->order);
     base_free(alloc, p->coords, (4 * p->count + 1) * sizeof *p->coords);
     base_free(alloc, p->tags, (p->count + 1) * sizeof *p->tags);
+    froe_places_free(p->places);
 }
 
 static int by_key(void *user, uint32_t a, uint32_t b) {
@@ -48,15 +57,27 @@ static void take_objects(picture *p) {
     if (n > 1) base_merge_sort(p->order, p->order + n, n, by_key, p);
 }
 
-/* A vertex that several segments share is rounded alike, and counted for each of its segments but the first no more. */
-static void take_places(picture *p) {
+static bool keep_place(const picture *p, uint32_t vertex, bool rounded) {
+    now_state *now = &p->k->now;
+    exact_point at;
+    now->context.arena.top = 0;
+    now_exact_at(now, vertex, &at);
+    return places_add(p->places, &at, rounded);
+}
+
+/* A vertex that several segments share is rounded alike, and counted for each of its segments but the first no more.
+ * False: no memory. */
+static bool take_places(picture *p) {
     froe_kinetic *k = p->k;
     for (size_t i = 0; i < p->count; i++)
         for (uint32_t e = 0; e < 2; e++) {
-            uint32_t vertex = k->now.segments.data[p->objects[i]].end[e];
-            bool exact = now_round(&k->now, vertex, p->coords + 4 * i + 2 * e);
+            const uint32_t vertex = k->now.segments.data[p->objects[i]].end[e];
+            const bool exact = now_round(&k->now, vertex, p->coords + 4 * i + 2 * e);
             p->rounded += !exact && k->vertices.data[vertex] == 2 * p->objects[i] + e;
+            if (!exact && p->first_rounded == FROE_NONE) p->first_rounded = p->objects[i];
+            if (p->places && !keep_place(p, vertex, !exact)) return false;
         }
+    return true;
 }
 
 static froe_status build(const picture *p, froe_tree **tree, froe_diagnostic *diag) {
@@ -76,18 +97,99 @@ static froe_status build(const picture *p, froe_tree **tree, froe_diagnostic *di
     return status;
 }
 
-froe_status froe_kinetic_snapshot(froe_kinetic *k, froe_tree **tree, size_t *rounded, froe_diagnostic *diag) {
-    if (!k || !tree) return base_fail(diag, FROE_E_ARG, "froe_kinetic_snapshot: NULL");
-    picture p;
-    froe_status status = FROE_E_MEMORY;
-    if (picture_new(k, &p)) {
-        take_objects(&p);
-        take_places(&p);
-        status = build(&p, tree, diag);
-    } else {
-        base_fail_memory(diag);
+/* ------------------------------------------------------------------- alike -- */
+
+/* Nodes that should be the same; the tree has one for each cut of a live node. */
+typedef struct twins {
+    uint32_t live;
+    froe_node tree;
+} twins;
+
+typedef struct comparison {
+    const froe_kinetic *k;
+    const froe_tree *tree;
+    uint32_t *index; /* of the motion's objects in the scene */
+    ARRAY(twins) stack;
+    bool short_of_memory;
+} comparison;
+
+static void push(comparison *c, uint32_t live, froe_node tree) {
+    if (!array_push(&c->k->alloc, &c->stack, ((twins){live, tree}))) c->short_of_memory = true;
+}
+
+/* Is a cut of the tree the wall that a segment has at one of its ends? */
+static bool is_wall(const comparison *c, uint32_t segment, uint32_t wall, const froe_cut *cut) {
+    const uint32_t object = c->index[segment];
+    if (is_end(wall))
+        return cut->kind == FROE_CUT_VERTEX &&
+               cut->id[0] == froe_scene_corner(froe_tree_scene(c->tree), object, END_0 - wall);
+    const uint32_t other = c->index[wall];
+    return cut->kind == FROE_CUT_CROSSING &&
+           ((cut->id[0] == object && cut->id[1] == other) || (cut->id[0] == other && cut->id[1] == object));
+}
+
+/* The cuts of a live node: walls on its left and right, then the segment, which is directed as its ends are given. */
+static bool is_same(comparison *c, twins at) {
+    froe_node_info info = froe_tree_node(c->tree, at.tree);
+    if (!at.live) return info.cut.kind == FROE_CUT_NONE;
+    const live_node *n = node_at(c->k, at.live);
+    for (int side = 0; side < 2; side++) {
+        if (n->wall[side] == END_NONE) continue;
+        if (!is_wall(c, n->segment, n->wall[side], &info.cut)) return false;
+        push(c, n->child[side], info.child[side]);
+        info = froe_tree_node(c->tree, info.child[1 - side]);
     }
-    if (!status && rounded) *rounded = p.rounded;
+    if (info.cut.kind != FROE_CUT_OBJECT || info.cut.id[0] != c->index[n->segment]) return false;
+    const bool turned = c->k->now.segments.data[n->segment].turned;
+    push(c, n->child[turned ? DOWN : UP], info.child[1]);
+    push(c, n->child[turned ? UP : DOWN], info.child[0]);
+    return true;
+}
+
+static froe_status compare(const picture *p, const froe_tree *tree, bool *alike) {
+    const size_t all = p->k->segments.count;
+    comparison c = {.k = p->k, .tree = tree, .index = base_calloc(&p->k->alloc, all + 1, sizeof *c.index)};
+    c.short_of_memory = !c.index;
+    for (uint32_t i = 0; i < p->count && c.index; i++) c.index[p->objects[i]] = i;
+    if (c.index) push(&c, node_at(p->k, ROOT)->child[0], froe_tree_root(tree));
+    *alike = true;
+    while (c.stack.count && *alike && !c.short_of_memory) *alike = is_same(&c, c.stack.data[--c.stack.count]);
+    array_free(&p->k->alloc, &c.stack);
+    base_free(&p->k->alloc, c.index, (all + 1) * sizeof *c.index);
+    return c.short_of_memory ? FROE_E_MEMORY : FROE_OK;
+}
+
+/* ---------------------------------------------------------------- snapshots -- */
+
+static froe_status make(picture *p, bool refuse, froe_snapshot *out, froe_diagnostic *diag) {
+    take_objects(p);
+    if (!take_places(p)) return base_fail_memory(diag);
+    if (refuse && p->rounded)
+        return base_fail_at(
+            diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
+            "segment %u ends where no double is at this tick; vertices that would have to be rounded: %zu",
+            p->first_rounded, p->rounded);
+    froe_status status = build(p, &out->tree, diag);
+    if (status) return status;
+    if (compare(p, out->tree, &out->alike)) {
+        froe_tree_free(out->tree);
+        return base_fail_memory(diag);
+    }
+    out->rounded = p->rounded;
+    out->places = p->places;
+    p->places = NULL;
+    return FROE_OK;
+}
+
+froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *options, froe_snapshot *out,
+                                  froe_diagnostic *diag) {
+    const froe_snapshot_options standard = froe_snapshot_defaults(), *o = options ? options : &standard;
+    if (!k || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_snapshot: NULL");
+    if (o->size != sizeof *o) return base_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");
+    picture p;
+    froe_snapshot made = {0};
+    froe_status status = picture_new(k, o->places, &p) ? make(&p, o->refuse, &made, diag) : base_fail_memory(diag);
+    if (!status) *out = made;
     picture_free(&p);
     return status;
 }

@@ -203,35 +203,13 @@ static void check_order(froe_kinetic *k, painting *o, fuzz_source *r) {
 
 /* ------------------------------------------------------------------ snapshots -- */
 
-static void match(const froe_kinetic *k, const uint32_t *index, uint32_t node, const froe_tree *tree, froe_node at) {
-    froe_node_info info = froe_tree_node(tree, at);
-    if (!node) {
-        assert_int_equal(info.cut.kind, FROE_CUT_NONE);
-        return;
-    }
-    const live_node *n = node_at(k, node);
-    for (int side = 0; side < 2; side++) {
-        if (n->wall[side] == END_NONE) continue;
-        assert_true(info.cut.kind == FROE_CUT_VERTEX || info.cut.kind == FROE_CUT_CROSSING);
-        match(k, index, n->child[side], tree, info.child[side]);
-        info = froe_tree_node(tree, info.child[1 - side]);
-    }
-    assert_int_equal(info.cut.kind, FROE_CUT_OBJECT);
-    assert_int_equal(info.cut.id[0], index[n->segment]);
-    bool turned = k->now.segments.data[n->segment].turned;
-    match(k, index, n->child[turned ? DOWN : UP], tree, info.child[1]);
-    match(k, index, n->child[turned ? UP : DOWN], tree, info.child[0]);
-}
-
 static void check_snapshot(froe_kinetic *k) {
-    froe_tree *tree = NULL;
-    size_t rounded = 1;
-    uint32_t index[MOST], n = 0;
-    assert_int_equal(froe_kinetic_snapshot(k, &tree, &rounded, NULL), FROE_OK);
-    assert_int_equal(rounded, 0);
-    for (uint32_t s = 0; s < k->segments.count; s++) index[s] = segment_at(k, s)->alive ? n++ : FROE_NONE;
-    match(k, index, node_at(k, ROOT)->child[0], tree, froe_tree_root(tree));
-    froe_tree_free(tree);
+    froe_snapshot s = {0};
+    assert_int_equal(froe_kinetic_snapshot(k, NULL, &s, NULL), FROE_OK);
+    assert_int_equal(s.rounded, 0);
+    assert_true(s.alike);
+    froe_tree_free(s.tree);
+    froe_places_free(s.places);
 }
 
 /* ------------------------------------------------------------------------ runs -- */
@@ -355,7 +333,6 @@ static void test_refusals(void **state) {
     froe_kinetic_options options = froe_kinetic_defaults();
     froe_kinetic *k = NULL;
     froe_kinetic_place place;
-    froe_tree *tree;
     uint32_t hit;
     const double good[2] = {1, 2}, bad[2] = {1, (double)NAN}, far[2] = {(double)INFINITY, 0};
     assert_int_equal(froe_kinetic_new(m, &options, NULL, &k, NULL), FROE_OK);
@@ -364,8 +341,10 @@ static void test_refusals(void **state) {
     assert_int_equal(froe_kinetic_locate(k, good, NULL, NULL), FROE_E_ARG);
     assert_int_equal(froe_kinetic_ray(k, good, far, &hit, NULL), FROE_E_ARG);
     assert_int_equal(froe_kinetic_order(k, good, NULL, NULL, NULL), FROE_E_ARG);
+    froe_snapshot snapshot;
     assert_int_equal(froe_kinetic_snapshot(k, NULL, NULL, NULL), FROE_E_ARG);
-    assert_int_equal(froe_kinetic_snapshot(NULL, &tree, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_snapshot(NULL, NULL, &snapshot, NULL), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_snapshot(k, &(froe_snapshot_options){.size = 1}, &snapshot, NULL), FROE_E_OPTIONS);
     froe_kinetic_free(k);
     froe_motion_free(m);
 }

@@ -6,71 +6,14 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <gmp.h>
 
 #include "kinetic/motions.h"
 #include "kinetic/moving.h"
+#include "kinetic/truth.h"
 
-enum { TICKS = 6, QUESTIONS = 60, NEAR = 6000 /* halvings of a tick: nothing happens before */ };
+enum { TICKS = 6, QUESTIONS = 60 };
 
 /* -------------------------------------------------------------------- truth -- */
-
-typedef struct truth {
-    mpq_t time, x[4][2], cross[2][2], t[6];
-} truth;
-
-static void truth_init(truth *g) {
-    mpq_t *all = (mpq_t *)g;
-    for (size_t i = 0; i < sizeof *g / sizeof *all; i++) mpq_init(all[i]);
-}
-
-static void truth_clear(truth *g) {
-    mpq_t *all = (mpq_t *)g;
-    for (size_t i = 0; i < sizeof *g / sizeof *all; i++) mpq_clear(all[i]);
-}
-
-/* At the tick, or just after it. */
-static void set_time(truth *g, const froe_motion *m, int64_t tick, bool after) {
-    mpq_set_si(g->time, tick, 1);
-    if (after) {
-        mpq_set_si(g->t[0], 1, 1);
-        mpq_div_2exp(g->t[0], g->t[0], NEAR);
-        mpq_add(g->time, g->time, g->t[0]);
-    }
-    if (m->power >= 0)
-        mpq_mul_2exp(g->time, g->time, (mp_bitcnt_t)m->power);
-    else
-        mpq_div_2exp(g->time, g->time, (mp_bitcnt_t)-m->power);
-    mpq_set_d(g->t[0], m->begin);
-    mpq_add(g->time, g->time, g->t[0]);
-}
-
-/* to = from + s (to - from) */
-static void between(mpq_t from, mpq_t to, const mpq_t s) {
-    mpq_sub(to, to, from);
-    mpq_mul(to, to, s);
-    mpq_add(to, to, from);
-}
-
-static void place(truth *g, const froe_motion *m, uint32_t vertex, int64_t tick, mpq_t out[2]) {
-    const motion_piece p = motion_piece_at(m, vertex, tick);
-    mpq_t *t = g->t;
-    mpq_set_d(t[0], p.from->time), mpq_set_d(t[1], p.to->time);
-    mpq_sub(t[1], t[1], t[0]);
-    mpq_sub(t[0], g->time, t[0]);
-    if (p.degree) mpq_div(t[0], t[0], t[1]); /* the share that has passed */
-    for (int k = 0; k < 2; k++) {
-        mpq_set_d(t[1], p.from->at[k]), mpq_set_d(out[k], p.to->at[k]);
-        if (p.degree == 2) {
-            mpq_set_d(t[2], p.from->control[k]);
-            mpq_set(t[3], t[2]);
-            between(t[1], t[2], t[0]);
-            between(t[3], out[k], t[0]);
-            mpq_set(t[1], t[2]);
-        }
-        if (p.degree) between(t[1], out[k], t[0]);
-    }
-}
 
 /* (b - a) x (d - c) */
 static void turn(truth *g, mpq_t a[2], mpq_t b[2], mpq_t c[2], mpq_t d[2], mpq_t out) {
@@ -84,16 +27,16 @@ static void turn(truth *g, mpq_t a[2], mpq_t b[2], mpq_t c[2], mpq_t d[2], mpq_t
 /* False: parallel. */
 static bool locate(truth *g, const now_state *now, now_name p, mpq_t out[2]) {
     if (name_is_vertex(p)) {
-        place(g, now->motion, p.a, now->tick, out);
+        truth_place(g, now->motion, p.a, now->tick, out);
         return true;
     }
     for (int i = 0; i < 4; i++)
-        place(g, now->motion, now->segments.data[i < 2 ? p.a : (uint32_t)p.b].end[i % 2], now->tick, g->x[i]);
+        truth_place(g, now->motion, now->segments.data[i < 2 ? p.a : (uint32_t)p.b].end[i % 2], now->tick, g->x[i]);
     turn(g, g->x[0], g->x[1], g->x[2], g->x[3], out[1]);
     if (!mpq_sgn(out[1])) return false;
     turn(g, g->x[0], g->x[2], g->x[2], g->x[3], out[0]);
     mpq_div(out[0], out[0], out[1]);
-    for (int k = 0; k < 2; k++) between(g->x[0][k], g->x[1][k], out[0]);
+    for (int k = 0; k < 2; k++) truth_between(g->x[0][k], g->x[1][k], out[0]);
     for (int k = 0; k < 2; k++) mpq_set(out[k], g->x[1][k]);
     return true;
 }
@@ -106,8 +49,8 @@ static int true_order(truth *g, const now_state *now, now_name p, now_name q, bo
 }
 
 static int true_side(truth *g, const now_state *now, uint32_t segment, uint32_t vertex) {
-    for (int i = 0; i < 2; i++) place(g, now->motion, now_vertex(now, segment, i), now->tick, g->x[i]);
-    place(g, now->motion, vertex, now->tick, g->x[2]);
+    for (int i = 0; i < 2; i++) truth_place(g, now->motion, now_vertex(now, segment, i), now->tick, g->x[i]);
+    truth_place(g, now->motion, vertex, now->tick, g->x[2]);
     turn(g, g->x[0], g->x[1], g->x[0], g->x[2], g->cross[0][0]);
     return mpq_sgn(g->cross[0][0]);
 }
@@ -125,7 +68,7 @@ static now_name any_name(const now_state *now, fuzz_source *r) {
 static void check_order(now_state *now, truth *g, now_name p, now_name q) {
     for (int after = 0; after < 2; after++)
         for (int both = 0; both < 2; both++) {
-            set_time(g, now->motion, now->tick, after);
+            truth_set_time(g, now->motion, now->tick, after);
             const int expected = true_order(g, now, p, q, both);
             for (int stage = 0; stage < NOW_STAGES; stage++) {
                 now->least = (now_stage)stage;
@@ -136,7 +79,7 @@ static void check_order(now_state *now, truth *g, now_name p, now_name q) {
 
 static void check_side(now_state *now, truth *g, uint32_t segment, uint32_t vertex) {
     for (int after = 0; after < 2; after++) {
-        set_time(g, now->motion, now->tick, after);
+        truth_set_time(g, now->motion, now->tick, after);
         const int expected = true_side(g, now, segment, vertex);
         for (int stage = 0; stage < NOW_STAGES; stage++) {
             now->least = (now_stage)stage;
