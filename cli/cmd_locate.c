@@ -2,8 +2,6 @@
 #include "command.h"
 #include "exit.h"
 #include "queries.h"
-#include "tree_report.h"
-#include <stdlib.h>
 
 typedef struct locate_args {
     cli_common common;
@@ -30,13 +28,6 @@ static const cli_part parts[] = {{"Locate", options, 0},
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
-typedef struct locating {
-    const locate_args *args;
-    froe_query *query;
-    const froe_scene *scene;
-    uint32_t objects[CLI_BLOCK];
-} locating;
-
 static void put_group(cli_answers *out, uint32_t group) {
     if (group == FROE_NONE)
         cli_answers_none(out);
@@ -45,26 +36,26 @@ static void put_group(cli_answers *out, uint32_t group) {
 }
 
 /* Does one of the objects belong to the group? */
-static bool is_told(const locating *l, const uint32_t *objects, size_t count, uint32_t group) {
+static bool is_told(const froe_scene *scene, const uint32_t *objects, size_t count, uint32_t group) {
     for (size_t i = 0; i < count; i++)
-        if (froe_scene_object(l->scene, objects[i]).group == group) return true;
+        if (froe_scene_object(scene, objects[i]).group == group) return true;
     return false;
 }
 
 /* "query,object,group": objects with the groups they belong to, then the other groups that the point lies in. */
-static void put_all(const locating *l, const cli_block *block, const froe_answers *objects, const froe_answers *groups,
-                    cli_answers *out) {
+static void put_all(const froe_scene *scene, const cli_block *block, const froe_answers *objects,
+                    const froe_answers *groups, cli_answers *out) {
     for (size_t i = 0; i < block->count; i++) {
         const uint32_t *found = objects->ids + objects->starts[i];
         const size_t count = objects->starts[i + 1] - objects->starts[i];
         for (size_t j = 0; j < count; j++) {
             cli_answers_whole(out, block->ids[i]);
             cli_answers_whole(out, found[j]);
-            put_group(out, froe_scene_object(l->scene, found[j]).group);
+            put_group(out, froe_scene_object(scene, found[j]).group);
             cli_answers_end(out);
         }
         for (size_t j = groups->queries ? groups->starts[i] : 0; groups->queries && j < groups->starts[i + 1]; j++) {
-            if (is_told(l, found, count, groups->ids[j])) continue;
+            if (is_told(scene, found, count, groups->ids[j])) continue;
             cli_answers_whole(out, block->ids[i]);
             cli_answers_none(out);
             put_group(out, groups->ids[j]);
@@ -74,66 +65,63 @@ static void put_all(const locating *l, const cli_block *block, const froe_answer
 }
 
 /* "query,group,name" */
-static void put_groups(const locating *l, const cli_block *block, const froe_answers *groups, cli_answers *out) {
+static void put_groups(const froe_scene *scene, const cli_block *block, const froe_answers *groups, cli_answers *out) {
     for (size_t i = 0; i < block->count; i++)
         for (size_t j = groups->starts[i]; j < groups->starts[i + 1]; j++) {
             cli_answers_whole(out, block->ids[i]);
             cli_answers_whole(out, groups->ids[j]);
-            cli_answers_name(out, froe_scene_group(l->scene, groups->ids[j]).name);
+            cli_answers_name(out, froe_scene_group(scene, groups->ids[j]).name);
             cli_answers_end(out);
         }
 }
 
-static froe_status answer(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    const locating *l = user;
-    const double *points = block->numbers + block->starts[0] * block->width;
-    const bool areas = froe_scene_dim(l->scene) == 2 && froe_scene_group_count(l->scene) > 0;
+static froe_status answer(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                          froe_diagnostic *diag) {
+    const locate_args *args = given;
+    const bool areas = asked->dim == 2 && froe_scene_group_count(asked->scene) > 0;
     froe_answers objects = {0}, groups = {0};
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = (unsigned)l->args->common.threads;
-    froe_status status = froe_batch_locate(l->query, points, block->count, &o, &objects, diag);
-    if (!status && areas && !l->args->query.count)
-        status = froe_batch_groups(l->query, points, block->count, &o, &groups, diag);
-    if (!status && l->args->query.count) {
+    froe_status status =
+        froe_batch_locate(asked->query, cli_block_numbers(block), block->count, &asked->batch, &objects, diag);
+    if (!status && areas && !args->query.count)
+        status = froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
+    if (!status && args->query.count) {
         cli_answers_lists(out, block->ids, &objects, true);
     } else if (!status) {
         cli_answers_sort(&objects);
-        put_all(l, block, &objects, &groups, out);
+        put_all(asked->scene, block, &objects, &groups, out);
     }
     froe_answers_free(&objects);
     froe_answers_free(&groups);
     return status;
 }
 
-static froe_status answer_groups(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    const locating *l = user;
-    const double *points = block->numbers + block->starts[0] * block->width;
+static froe_status answer_groups(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                 froe_diagnostic *diag) {
+    const locate_args *args = given;
     froe_answers groups = {0};
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = (unsigned)l->args->common.threads;
-    const froe_status status = froe_batch_groups(l->query, points, block->count, &o, &groups, diag);
+    const froe_status status =
+        froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
     if (status) return status;
-    if (l->args->query.count)
+    if (args->query.count)
         cli_answers_lists(out, block->ids, &groups, true);
     else
-        put_groups(l, block, &groups, out);
+        put_groups(asked->scene, block, &groups, out);
     froe_answers_free(&groups);
     return FROE_OK;
 }
 
 /* Above or below. */
-static froe_status answer_vertical(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    locating *l = user;
-    const double *points = block->numbers + block->starts[0] * block->width;
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = (unsigned)l->args->common.threads;
-    const froe_status status =
-        froe_batch_vertical(l->query, points, block->count, l->args->above ? 1 : -1, &o, l->objects, diag);
+static froe_status answer_vertical(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                   froe_diagnostic *diag) {
+    const locate_args *args = given;
+    uint32_t objects[CLI_BLOCK];
+    const froe_status status = froe_batch_vertical(asked->query, cli_block_numbers(block), block->count,
+                                                   args->above ? 1 : -1, &asked->batch, objects, diag);
     for (size_t i = 0; !status && i < block->count; i++) {
-        if (l->args->query.count)
-            cli_answers_pair(out, block->ids[i], l->objects[i] != FROE_NONE);
-        else if (l->objects[i] != FROE_NONE)
-            cli_answers_pair(out, block->ids[i], l->objects[i]);
+        if (args->query.count)
+            cli_answers_pair(out, block->ids[i], objects[i] != FROE_NONE);
+        else if (objects[i] != FROE_NONE)
+            cli_answers_pair(out, block->ids[i], objects[i]);
     }
     return status;
 }
@@ -144,44 +132,20 @@ static const char *header(const locate_args *args) {
     return args->above || args->below ? "query,object" : "query,object,group";
 }
 
-static int ask(const locate_args *args, const froe_tree *tree) {
-    locating *l = calloc(1, sizeof *l);
-    if (!l) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
-    l->args = args;
-    l->scene = froe_tree_scene(tree);
-    froe_diagnostic diag;
-    const froe_status status = froe_query_new(tree, &l->query, &diag);
-    if (status) {
-        free(l);
-        return cli_fail_status(CLI_WORKING, args->query.tree, status, &diag);
-    }
+static int run(const void *given) {
+    const locate_args *args = given;
+    if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above and --below exclude each other");
+    if (args->groups && (args->above || args->below))
+        return cli_fail(CLI_USE, NULL, "--groups excludes --above and --below");
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns,
-                                 .dim = froe_scene_dim(l->scene),
                                  .header = header(args),
                                  .answer = args->above || args->below ? answer_vertical
                                            : args->groups             ? answer_groups
                                                                       : answer,
-                                 .user = l,
-                                 .query = l->query};
-    const int code = cli_queries_run(&queries);
-    froe_query_free(l->query);
-    free(l);
-    return code;
-}
-
-static int run(const void *given) {
-    const locate_args *args = given;
-    froe_tree *tree;
-    if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above and --below exclude each other");
-    if (args->groups && (args->above || args->below))
-        return cli_fail(CLI_USE, NULL, "--groups excludes --above and --below");
-    int code = cli_open_tree(args->query.tree, &tree);
-    if (code) return code;
-    code = ask(args, tree);
-    froe_tree_free(tree);
-    return code;
+                                 .given = args};
+    return cli_queries_run(&queries);
 }
 
 const cli_command cli_command_locate = {

@@ -2,7 +2,6 @@
 #include "command.h"
 #include "exit.h"
 #include "queries.h"
-#include "tree_report.h"
 #include <math.h>
 
 typedef struct near_args {
@@ -30,24 +29,17 @@ static const cli_part parts[] = {{"Near", options, 0},
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
-typedef struct searching {
-    const near_args *args;
-    froe_query *query;
-} searching;
-
-static froe_status answer(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    const searching *s = user;
-    const double *points = block->numbers + block->starts[0] * block->width;
+static froe_status answer(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                          froe_diagnostic *diag) {
+    const near_args *args = given;
     froe_answers answers;
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = (unsigned)s->args->common.threads;
-    const froe_status status =
-        froe_batch_near(s->query, points, block->count, s->args->k, s->args->bound, &o, &answers, diag);
+    const froe_status status = froe_batch_near(asked->query, cli_block_numbers(block), block->count, args->k,
+                                               args->bound, &asked->batch, &answers, diag);
     if (status) return status;
     for (size_t i = 0; i < block->count; i++) {
         const size_t first = answers.starts[i], end = answers.starts[i + 1];
-        if (s->args->query.count) cli_answers_pair(out, block->ids[i], end - first);
-        for (size_t j = first; j < end && !s->args->query.count; j++) {
+        if (args->query.count) cli_answers_pair(out, block->ids[i], end - first);
+        for (size_t j = first; j < end && !args->query.count; j++) {
             cli_answers_whole(out, block->ids[i]);
             cli_answers_whole(out, answers.ids[j]);
             cli_answers_real(out, answers.values[j]);
@@ -58,33 +50,16 @@ static froe_status answer(void *user, const cli_block *block, cli_answers *out, 
     return FROE_OK;
 }
 
-static int ask(const near_args *args, const froe_tree *tree) {
-    searching s = {.args = args};
-    froe_diagnostic diag;
-    const froe_status status = froe_query_new(tree, &s.query, &diag);
-    if (status) return cli_fail_status(CLI_WORKING, args->query.tree, status, &diag);
+static int run(const void *given) {
+    const near_args *args = given;
+    if (args->bound < 0) return cli_fail(CLI_USE, NULL, "--within must not be negative");
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns,
-                                 .dim = froe_scene_dim(froe_tree_scene(tree)),
                                  .header = args->query.count ? "query,count" : "query,object,distance",
                                  .answer = answer,
-                                 .user = &s,
-                                 .query = s.query};
-    const int code = cli_queries_run(&queries);
-    froe_query_free(s.query);
-    return code;
-}
-
-static int run(const void *given) {
-    const near_args *args = given;
-    froe_tree *tree;
-    if (args->bound < 0) return cli_fail(CLI_USE, NULL, "--within must not be negative");
-    int code = cli_open_tree(args->query.tree, &tree);
-    if (code) return code;
-    code = ask(args, tree);
-    froe_tree_free(tree);
-    return code;
+                                 .given = args};
+    return cli_queries_run(&queries);
 }
 
 const cli_command cli_command_near = {

@@ -2,7 +2,6 @@
 #include "command.h"
 #include "exit.h"
 #include "queries.h"
-#include "tree_report.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,7 +59,6 @@ static const cli_part parts[] = {{"Range", options, 0},
 /* What a block needs beside the rows. */
 typedef struct ranges {
     const range_args *args;
-    froe_query *query;
     size_t dim;
     froe_range *ranges;
     double *normals, *offsets; /* halfspaces */
@@ -94,12 +92,6 @@ static bool lay_range(const ranges *r, const cli_block *block, size_t i, froe_ra
     return out->shape != FROE_SHAPE_SIMPLEX || rows == r->dim + 1;
 }
 
-static froe_status fail(froe_diagnostic *diag, froe_status status, size_t object, const char *message) {
-    *diag = (froe_diagnostic){.status = status, .object = (uint32_t)object, .corner = FROE_NONE, .axis = FROE_NONE};
-    snprintf(diag->message, sizeof diag->message, "%s", message);
-    return status;
-}
-
 static bool take_memory(ranges *r, const cli_block *block) {
     const size_t rows = block->starts[block->count];
     r->ranges = calloc(block->count, sizeof *r->ranges);
@@ -122,55 +114,36 @@ static size_t lay_ranges(ranges *r, const cli_block *block) {
     return block->count;
 }
 
-static froe_status answer(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    ranges *r = user;
+static froe_status answer(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                          froe_diagnostic *diag) {
+    const range_args *args = given;
+    ranges r = {.args = args, .dim = asked->dim};
     froe_answers answers = {0};
-    froe_batch_options o = froe_batch_defaults();
     froe_status status;
-    o.threads = (unsigned)r->args->common.threads;
-    if (take_memory(r, block)) {
-        const size_t count = lay_ranges(r, block);
-        status = froe_batch_range(r->query, r->ranges, count, &o, &answers, diag);
+    if (take_memory(&r, block)) {
+        const size_t count = lay_ranges(&r, block);
+        status = froe_batch_range(asked->query, r.ranges, count, &asked->batch, &answers, diag);
         if (!status && count < block->count)
-            status = fail(diag, FROE_E_INPUT, count, "a simplex has one corner more than there are dimensions");
+            status = cli_diagnose(diag, FROE_E_INPUT, count, "a simplex has one corner more than there are dimensions");
     } else {
-        status = fail(diag, FROE_E_MEMORY, FROE_NONE, "out of memory");
+        status = cli_diagnose(diag, FROE_E_MEMORY, FROE_NONE, "out of memory");
     }
-    if (!status) cli_answers_lists(out, block->ids, &answers, r->args->query.count);
+    if (!status) cli_answers_lists(out, block->ids, &answers, args->query.count);
     froe_answers_free(&answers);
-    give_memory(r);
+    give_memory(&r);
     return status;
-}
-
-/* ---------------------------------------------------------------------- run -- */
-
-static int ask(const range_args *args, const froe_tree *tree) {
-    ranges r = {.args = args, .dim = (size_t)froe_scene_dim(froe_tree_scene(tree))};
-    froe_diagnostic diag;
-    const froe_status status = froe_query_new(tree, &r.query, &diag);
-    if (status) return cli_fail_status(CLI_WORKING, args->query.tree, status, &diag);
-    const cli_queries queries = {.common = &args->common,
-                                 .args = &args->query,
-                                 .columns = columns[args->shape],
-                                 .dim = (int)r.dim,
-                                 .header = args->query.count ? "query,count" : "query,object",
-                                 .answer = answer,
-                                 .user = &r,
-                                 .query = r.query};
-    const int code = cli_queries_run(&queries);
-    froe_query_free(r.query);
-    return code;
 }
 
 static int run(const void *given) {
     const range_args *args = given;
-    froe_tree *tree;
     if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps must not be negative");
-    int code = cli_open_tree(args->query.tree, &tree);
-    if (code) return code;
-    code = ask(args, tree);
-    froe_tree_free(tree);
-    return code;
+    const cli_queries queries = {.common = &args->common,
+                                 .args = &args->query,
+                                 .columns = columns[args->shape],
+                                 .header = args->query.count ? "query,count" : "query,object",
+                                 .answer = answer,
+                                 .given = args};
+    return cli_queries_run(&queries);
 }
 
 const cli_command cli_command_range = {

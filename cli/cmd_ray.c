@@ -2,9 +2,9 @@
 #include "command.h"
 #include "exit.h"
 #include "queries.h"
-#include "tree_report.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct ray_args {
     cli_common common;
@@ -31,14 +31,11 @@ static const cli_part parts[] = {{"Ray", options, 0},
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
-typedef struct shooting {
-    const ray_args *args;
-    froe_query *query;
-    size_t dim;
-    double *origins, *directions; /* of a block */
+/* The rays of a block, and what they meet first. */
+typedef struct flight {
+    double *origins, *directions;
     froe_hit *hits;
-    size_t room;
-} shooting;
+} flight;
 
 static void put_hit(cli_answers *out, uint64_t id, const froe_hit *hit) {
     cli_answers_whole(out, id);
@@ -47,48 +44,46 @@ static void put_hit(cli_answers *out, uint64_t id, const froe_hit *hit) {
     cli_answers_end(out);
 }
 
-/* The numbers of a block, origins and directions apart. */
-static bool part_numbers(shooting *s, const cli_block *block) {
-    if (block->count > s->room) {
-        free(s->origins), free(s->directions), free(s->hits);
-        s->origins = malloc(block->count * s->dim * sizeof *s->origins);
-        s->directions = malloc(block->count * s->dim * sizeof *s->directions);
-        s->hits = malloc(block->count * sizeof *s->hits);
-        s->room = s->origins && s->directions && s->hits ? block->count : 0;
-        if (!s->room) return false;
+static bool take_rays(flight *f, const cli_block *block, size_t dim) {
+    const double *row = cli_block_numbers(block);
+    f->origins = malloc(block->count * dim * sizeof *f->origins);
+    f->directions = malloc(block->count * dim * sizeof *f->directions);
+    f->hits = malloc(block->count * sizeof *f->hits);
+    if (!f->origins || !f->directions || !f->hits) return false;
+    for (size_t i = 0; i < block->count; i++, row += block->width) {
+        memcpy(f->origins + i * dim, row, dim * sizeof *row);
+        memcpy(f->directions + i * dim, row + dim, dim * sizeof *row);
     }
-    for (size_t i = 0; i < block->count; i++)
-        for (size_t k = 0; k < s->dim; k++) {
-            const double *row = block->numbers + block->starts[i] * block->width;
-            s->origins[i * s->dim + k] = row[k];
-            s->directions[i * s->dim + k] = row[s->dim + k];
-        }
     return true;
 }
 
-static froe_status answer_first(shooting *s, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = (unsigned)s->args->common.threads;
-    const froe_status status =
-        froe_batch_ray(s->query, s->origins, s->directions, block->count, s->args->t_max, &o, s->hits, diag);
+static void give_rays(flight *f) {
+    free(f->origins);
+    free(f->directions);
+    free(f->hits);
+}
+
+static froe_status answer_first(const ray_args *args, const cli_asked *asked, const cli_block *block, const flight *f,
+                                cli_answers *out, froe_diagnostic *diag) {
+    const froe_status status = froe_batch_ray(asked->query, f->origins, f->directions, block->count, args->t_max,
+                                              &asked->batch, f->hits, diag);
     if (status) return status;
     for (size_t i = 0; i < block->count; i++) {
-        if (s->args->query.count)
-            cli_answers_pair(out, block->ids[i], s->hits[i].object != FROE_NONE);
-        else if (s->hits[i].object != FROE_NONE)
-            put_hit(out, block->ids[i], &s->hits[i]);
+        if (args->query.count)
+            cli_answers_pair(out, block->ids[i], f->hits[i].object != FROE_NONE);
+        else if (f->hits[i].object != FROE_NONE)
+            put_hit(out, block->ids[i], &f->hits[i]);
     }
     return FROE_OK;
 }
 
-static froe_status answer_all(shooting *s, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
+static froe_status answer_all(const ray_args *args, const cli_asked *asked, const cli_block *block, const flight *f,
+                              cli_answers *out, froe_diagnostic *diag) {
     froe_answers met = {0};
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = (unsigned)s->args->common.threads;
-    const froe_status status =
-        froe_batch_ray_all(s->query, s->origins, s->directions, block->count, s->args->t_max, &o, &met, diag);
+    const froe_status status = froe_batch_ray_all(asked->query, f->origins, f->directions, block->count, args->t_max,
+                                                  &asked->batch, &met, diag);
     if (status) return status;
-    if (s->args->query.count) {
+    if (args->query.count) {
         cli_answers_lists(out, block->ids, &met, true);
     } else {
         for (size_t i = 0; i < block->count; i++)
@@ -99,45 +94,28 @@ static froe_status answer_all(shooting *s, const cli_block *block, cli_answers *
     return FROE_OK;
 }
 
-static froe_status answer(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag) {
-    shooting *s = user;
-    if (!part_numbers(s, block)) {
-        *diag = (froe_diagnostic){FROE_E_MEMORY, FROE_NONE, FROE_NONE, FROE_NONE, "out of memory"};
-        return FROE_E_MEMORY;
-    }
-    return s->args->all ? answer_all(s, block, out, diag) : answer_first(s, block, out, diag);
-}
-
-static int ask(const ray_args *args, const froe_tree *tree) {
-    shooting s = {.args = args, .dim = (size_t)froe_scene_dim(froe_tree_scene(tree))};
-    froe_diagnostic diag;
-    const froe_status status = froe_query_new(tree, &s.query, &diag);
-    if (status) return cli_fail_status(CLI_WORKING, args->query.tree, status, &diag);
-    const cli_queries queries = {.common = &args->common,
-                                 .args = &args->query,
-                                 .columns = columns,
-                                 .dim = (int)s.dim,
-                                 .header = args->query.count ? "query,count" : "query,object,t",
-                                 .answer = answer,
-                                 .user = &s,
-                                 .query = s.query};
-    const int code = cli_queries_run(&queries);
-    froe_query_free(s.query);
-    free(s.origins);
-    free(s.directions);
-    free(s.hits);
-    return code;
+static froe_status answer(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                          froe_diagnostic *diag) {
+    const ray_args *args = given;
+    flight f;
+    const froe_status status = !take_rays(&f, block, asked->dim)
+                                   ? cli_diagnose(diag, FROE_E_MEMORY, FROE_NONE, "out of memory")
+                               : args->all ? answer_all(args, asked, block, &f, out, diag)
+                                           : answer_first(args, asked, block, &f, out, diag);
+    give_rays(&f);
+    return status;
 }
 
 static int run(const void *given) {
     const ray_args *args = given;
-    froe_tree *tree;
     if (args->t_max < 0) return cli_fail(CLI_USE, NULL, "--t-max must not be negative");
-    int code = cli_open_tree(args->query.tree, &tree);
-    if (code) return code;
-    code = ask(args, tree);
-    froe_tree_free(tree);
-    return code;
+    const cli_queries queries = {.common = &args->common,
+                                 .args = &args->query,
+                                 .columns = columns,
+                                 .header = args->query.count ? "query,count" : "query,object,t",
+                                 .answer = answer,
+                                 .given = args};
+    return cli_queries_run(&queries);
 }
 
 const cli_command cli_command_ray = {

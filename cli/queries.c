@@ -3,6 +3,7 @@
 #include "exit.h"
 #include "progress.h"
 #include "report.h"
+#include "tree_report.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,7 @@ const cli_option cli_query_options[] = {
 /* A run in progress. Rows of the query being gathered lie behind those of the `count` whole ones. */
 typedef struct run {
     const cli_queries *q;
+    const cli_asked *asked;
     cli_rows rows;
     bool grouped, ended;
     bool open, spoilt; /* is a query being gathered? was a row of it bad? */
@@ -134,7 +136,7 @@ static froe_status answer(run *r, size_t first, size_t count, froe_diagnostic *d
     const cli_block block = {
         .count = count, .width = r->width, .starts = r->starts + first, .numbers = r->numbers, .ids = r->ids + first};
     if (!count) return FROE_OK;
-    const froe_status status = r->q->answer(r->q->user, &block, &r->out, diag);
+    const froe_status status = r->q->answer(r->q->given, r->asked, &block, &r->out, diag);
     if (!status) r->answered += count;
     return status;
 }
@@ -192,16 +194,23 @@ static int summarise(run *r, double seconds) {
                       json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(r->q->args->tree), "queries",
                                 cli_name_json(r->rows.path), "answered", (json_int_t)r->answered, "rows",
                                 (json_int_t)r->out.rows, "seconds", seconds, "visited",
-                                cli_statistics_json(r->q->query)));
+                                cli_statistics_json(r->asked->query)));
 }
 
-int cli_queries_run(const cli_queries *queries) {
+froe_status cli_diagnose(froe_diagnostic *diag, froe_status status, size_t object, const char *message) {
+    *diag = (froe_diagnostic){.status = status, .object = (uint32_t)object, .corner = FROE_NONE, .axis = FROE_NONE};
+    snprintf(diag->message, sizeof diag->message, "%s", message);
+    return status;
+}
+
+static int ask(const cli_queries *queries, const cli_asked *asked) {
     run *r = calloc(1, sizeof *r);
     if (!r) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
     r->q = queries;
+    r->asked = asked;
     r->grouped = !strcmp(queries->columns[0].name, "query");
     const double start = cli_seconds();
-    int code = cli_rows_open(queries->args->input, queries->columns, queries->dim, &r->rows);
+    int code = cli_rows_open(queries->args->input, queries->columns, (int)asked->dim, &r->rows);
     if (!code) {
         r->width = r->rows.numbers - r->grouped;
         r->out.mute = queries->common->json;
@@ -219,5 +228,20 @@ int cli_queries_run(const cli_queries *queries) {
     }
     free(r->numbers);
     free(r);
+    return code;
+}
+
+int cli_queries_run(const cli_queries *queries) {
+    froe_tree *tree;
+    froe_diagnostic diag;
+    int code = cli_open_tree(queries->args->tree, &tree);
+    if (code) return code;
+    cli_asked asked = {.scene = froe_tree_scene(tree), .batch = froe_batch_defaults()};
+    asked.dim = (size_t)froe_scene_dim(asked.scene);
+    asked.batch.threads = (unsigned)queries->common->threads;
+    const froe_status status = froe_query_new(tree, &asked.query, &diag);
+    code = status ? cli_fail_status(CLI_WORKING, queries->args->tree, status, &diag) : ask(queries, &asked);
+    froe_query_free(asked.query);
+    froe_tree_free(tree);
     return code;
 }

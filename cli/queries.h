@@ -31,23 +31,38 @@ typedef struct cli_block {
     const uint64_t *ids; /**< what the column `query` of the answers says */
 } cli_block;
 
+/** The first number of a block whose queries have a row each. */
+static inline const double *cli_block_numbers(const cli_block *block) {
+    return block->numbers + block->starts[0] * block->width;
+}
+
+/** The tree that is asked, while a command runs. */
+typedef struct cli_asked {
+    const froe_scene *scene;
+    froe_query *query;
+    size_t dim;
+    froe_batch_options batch; /**< with the threads that were wished for */
+} cli_asked;
+
 /** Answers a block. Either all of it, or FROE_E_INPUT with diag->object telling the position of the
  * first bad query and nothing written; other failures end the run. */
-typedef froe_status cli_answer_fn(void *user, const cli_block *block, cli_answers *out, froe_diagnostic *diag);
+typedef froe_status cli_answer_fn(const void *args, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                  froe_diagnostic *diag);
 
 typedef struct cli_queries {
     const cli_common *common;
     const cli_query_args *args;
     const cli_column *columns; /**< if the first is "query", consecutive rows with the same number are one query */
-    int dim;
-    const char *header; /**< of the answers */
+    const char *header;        /**< of the answers */
     cli_answer_fn *answer;
-    void *user;
-    froe_query *query; /**< whose statistics --json prints; may be NULL */
+    const void *given; /**< the arguments of the command */
 } cli_queries;
 
 /** What a context has visited, for --json; begins again at 0. query NULL: nothing. */
 json_t *cli_statistics_json(froe_query *query);
-/** Reads, asks, writes. Returns an exit code. */
+/** Describes a failure that is the command's own finding; returns the status. */
+froe_status cli_diagnose(froe_diagnostic *diag, froe_status status, size_t object, const char *message);
+
+/** Opens the tree, reads, asks, writes. Returns an exit code. */
 int cli_queries_run(const cli_queries *queries);
 #endif
