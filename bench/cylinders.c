@@ -17,7 +17,7 @@
 /* --------------------------------------------------------------------- peer -- */
 
 #ifdef HAVE_CGAL
-enum { POINTS = 20000, WARM = 2000 };
+enum { POINTS = 100000, WARM = 2000 };
 
 static size_t heap(void) {
     struct mallinfo2 m = mallinfo2();
@@ -25,8 +25,19 @@ static size_t heap(void) {
 }
 
 typedef struct result {
-    double build, bytes, rate;
+    double build, prepare, bytes, rate, batch;
 } result;
+
+static double in_a_batch(froe_query *query, const double *points) {
+    froe_batch_options o = froe_batch_defaults();
+    froe_answers found;
+    o.threads = 1;
+    const double start = bench_cpu();
+    bench_must(froe_batch_locate(query, points, POINTS, &o, &found, NULL), NULL);
+    const double rate = POINTS / (bench_cpu() - start);
+    froe_answers_free(&found);
+    return rate;
+}
 
 static result of_froe(const plane_scene *p) {
     result r;
@@ -38,11 +49,15 @@ static result of_froe(const plane_scene *p) {
     froe_query *query = NULL;
     bench_must(froe_query_new(tree, &query, NULL), NULL);
     froe_list found;
+    start = bench_cpu();
+    bench_must(froe_query_locate(query, p->points, &found, NULL), NULL);
+    r.prepare = bench_cpu() - start;
     for (size_t i = 0; i < POINTS + WARM; i++) {
         if (i == WARM) start = bench_cpu();
         bench_must(froe_query_locate(query, p->points + 2 * i, &found, NULL), NULL);
     }
     r.rate = POINTS / (bench_cpu() - start);
+    r.batch = in_a_batch(query, p->points + 2 * (size_t)WARM);
     froe_query_free(query);
     froe_tree_free(tree);
     froe_scene_free(scene);
@@ -68,16 +83,16 @@ static result of_cgal(const plane_scene *p) {
 static void beside(const char *kind, size_t n) {
     plane_scene p = plane_make(kind, n, 1);
     result froe = of_froe(&p), cgal = of_cgal(&p);
-    printf("%-8s %8zu %9.3f %9.3f %8.1f %9.0f %9.0f %8.1f %9.0f %9.0f %8.1f\n", kind, p.n, froe.build, cgal.build,
-           cgal.build / froe.build, froe.bytes, cgal.bytes, cgal.bytes / froe.bytes, froe.rate, cgal.rate,
-           froe.rate / cgal.rate);
+    printf("%-8s %8zu %9.3f %9.3f %9.3f %7.1f %7.0f %7.0f %7.1f %9.0f %9.0f %9.0f %7.1f\n", kind, p.n, froe.build,
+           froe.prepare, cgal.build, cgal.build / froe.build, froe.bytes, cgal.bytes, cgal.bytes / froe.bytes,
+           froe.rate, froe.batch, cgal.rate, froe.rate / cgal.rate);
     plane_free(&p);
     fflush(stdout);
 }
 
 static void peer_table(size_t n) {
-    printf("%-8s %8s %9s %9s %8s %9s %9s %8s %9s %9s %8s\n", "", "n", "build, s", "CGAL", "ratio", "bytes", "CGAL",
-           "ratio", "faces/s", "CGAL", "ratio");
+    printf("%-8s %8s %9s %9s %9s %7s %7s %7s %7s %9s %9s %9s %7s\n", "", "n", "build, s", "prepare", "CGAL", "ratio",
+           "bytes", "CGAL", "ratio", "cells/s", "in batch", "CGAL", "ratio");
     beside("short", n);
     beside("mixed", n);
 }
