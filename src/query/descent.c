@@ -3,7 +3,7 @@
 #include "base/status.h"
 #include <math.h>
 
-enum { GROUP = 8, LEAVES_PER_CELL = 4 };
+enum { GROUP = 8, LEAVES_PER_CELL = 16 };
 
 static void free_descent(const froe_allocator *alloc, query_part *part) {
     query_descent *d = (query_descent *)part;

@@ -1,12 +1,13 @@
 /* The laid-out tree leads every point to the leaf that its exact sides lead it to, one at a time and many together. */
 #include "geom/predicates.h"
+#include "query/centroids.h"
 #include "query/descent.h"
 #include "query/leaf.h"
 #include "query/worlds.h"
 
 enum { POINTS = 3000 };
 
-static size_t on_cuts, in_doubt, laid_out;
+static size_t on_cuts, in_doubt, laid_out, deep;
 
 /* ---------------------------------------------------------------- reference -- */
 
@@ -56,6 +57,7 @@ static void compare(const world *w, size_t t, const double *points, num_context 
     assert_int_equal(query_leaf_find_all(w->queries[t], points, POINTS, all), FROE_OK);
     assert_int_equal(query_descent_of(w->queries[t], &d, NULL), FROE_OK);
     laid_out += d->there;
+    deep += d->there && query_is_deep(w->trees[t]);
     for (size_t i = 0; i < POINTS; i++) {
         const double *x = points + 2 * i;
         query_leaf one;
@@ -115,7 +117,7 @@ static void points_come_to_their_leaves(void **state) {
     check("nested", world_generate("nested", 300), false);
     check("mixture", world_mixture(2, 1 << FROE_POINT | 1 << FROE_SEGMENT | 1 << FROE_BOX, 60, 0, 0.3, 4), false);
     check("floor plan", world_read("freedoom-e1m1.geojson"), false);
-    assert_true(laid_out > 50 && on_cuts > 1000 && in_doubt > on_cuts);
+    assert_true(laid_out > 50 && on_cuts > 1000 && in_doubt > on_cuts && deep > 0);
 }
 
 /* A row has an extent of 0 on one axis, a point on both. */
