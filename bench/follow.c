@@ -1,6 +1,6 @@
 /* follow.c: partitions in motion, each compared, node for node, with one made from scratch after every event.
  *
- *     bench_follow [EVENTS [SEED]]       default: 1,000,000 events, seeds from 1 on
+ *     bench_follow [EVENTS [SEED [augmented]]]       default: 1,000,000 events, seeds from 1 on
  *
  * Over all kinds of motion that the tests know, with other seeds. Ends with 1 at the first difference. */
 #include "kinetic/following.h"
@@ -12,6 +12,7 @@ enum { INSTANTS = 1000 };
 
 static froe_kinetic_stats totals[MOVING_KINDS];
 static uint64_t events[MOVING_KINDS];
+static bool augmented;
 
 static void follow(int kind, uint64_t seed, pattern_counter *counter) {
     froe_motion *m = moving_new(moving_kinds + kind, seed, NULL);
@@ -20,6 +21,7 @@ static void follow(int kind, uint64_t seed, pattern_counter *counter) {
     froe_diagnostic why = {0};
     const uint64_t before = counter->events;
     o.seed = seed;
+    o.augmented = augmented;
     if (!m || froe_kinetic_new(m, &o, NULL, &k, &why) || following_run(k, INSTANTS, counter, &why)) {
         printf("%s, seed %" PRIu64 ", at %.17g: %s\n", moving_kinds[kind].name, seed, k ? froe_kinetic_time(k) : 0,
                why.message);
@@ -28,6 +30,7 @@ static void follow(int kind, uint64_t seed, pattern_counter *counter) {
     froe_kinetic_stats s = froe_kinetic_statistics(k);
     events[kind] += counter->events - before;
     totals[kind].crowds += s.crowds;
+    totals[kind].free_turns += s.free_turns;
     totals[kind].restarts += s.restarts;
     totals[kind].stuck += s.stuck;
     froe_kinetic_free(k);
@@ -50,13 +53,14 @@ static void print_patterns(const pattern_counter *counter) {
 int main(int argc, char **argv) {
     const uint64_t most = argc > 1 ? strtoull(argv[1], NULL, 10) : 1000000;
     const clock_t start = clock();
+    augmented = argc > 3 && !strcmp(argv[3], "augmented");
     pattern_counter counter = {0};
     for (uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1; counter.events < most; seed++)
         for (int i = 0; i < MOVING_KINDS && counter.events < most; i++) follow(i, seed, &counter);
-    printf("%-20s %10s %8s %8s %8s\n", "motion", "events", "crowds", "restarts", "stuck");
+    printf("%-20s %10s %10s %8s %8s %8s\n", "motion", "events", "free turns", "crowds", "restarts", "stuck");
     for (int i = 0; i < MOVING_KINDS; i++)
-        printf("%-20s %10" PRIu64 " %8" PRIu64 " %8" PRIu64 " %8" PRIu64 "\n", moving_kinds[i].name, events[i],
-               totals[i].crowds, totals[i].restarts, totals[i].stuck);
+        printf("%-20s %10" PRIu64 " %10" PRIu64 " %8" PRIu64 " %8" PRIu64 " %8" PRIu64 "\n", moving_kinds[i].name,
+               events[i], totals[i].free_turns, totals[i].crowds, totals[i].restarts, totals[i].stuck);
     print_patterns(&counter);
     printf("%" PRIu64 " events, all equal to what is made from scratch, in %.0f s\n", counter.events,
            (double)(clock() - start) / CLOCKS_PER_SEC);

@@ -159,6 +159,8 @@ typedef struct froe_kinetic_options {
     const uint32_t *order; /**< all objects, the first to cut first; NULL: random. Motion must not depend on it */
     uint64_t epoch; /**< a fresh random order after so many events, against motion that adapts itself to the order;
                          0 (default): never. Not with `order` */
+    bool augmented; /**< a segment that turns upright costs nothing, however many it crosses: walls are named in its
+                         direction, not left and right. false (default) */
 } froe_kinetic_options;
 FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 
@@ -306,6 +308,7 @@ typedef struct froe_kinetic_stats {
     uint64_t surgeries;     /**< of slabs */
     uint64_t batches;       /**< groups of certificates that failed together */
     uint64_t crowds;        /**< groups with more at one place than the certificates name, or points that coincide */
+    uint64_t free_turns;    /**< without any surgery */
     uint64_t restarts;      /**< of the whole tree */
     uint64_t stuck;         /**< ticks that could not be settled: always 0 */
     uint64_t nodes_touched; /**< split, joined or made */

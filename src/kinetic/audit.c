@@ -11,7 +11,30 @@ static bool same_node(const froe_kinetic *k, uint32_t a, const froe_kinetic *l, 
     return true;
 }
 
-froe_status live_compare(const froe_kinetic *k, const froe_kinetic *fresh, uint32_t found[2]) {
+/* Does a certificate say what the same one from scratch does? There may be more than from scratch: they follow. */
+static bool same_cert(const froe_kinetic *k, uint32_t a, const froe_kinetic *fresh, uint32_t b) {
+    if (a == CERT_NONE || b == CERT_NONE) return b == CERT_NONE;
+    const now_claim c = live_claim_of(k, a), d = live_claim_of(fresh, b);
+    return claim_is(&c, &d);
+}
+
+/* The certificates of two nodes that are the same. */
+static bool same_certs(const froe_kinetic *k, uint32_t a, const froe_kinetic *fresh, uint32_t b) {
+    const live_node *m = node_at(k, a), *n = node_at(fresh, b);
+    for (int i = 0; i < 3; i++)
+        if (!same_cert(k, m->cert[i], fresh, n->cert[i])) return false;
+    for (int side = 0; side < 2; side++) {
+        if (!is_end(m->wall[side])) continue;
+        const uint32_t end = END_0 - m->wall[side];
+        for (int i = 0; i < 2; i++)
+            if (!same_cert(k, segment_at(k, m->segment)->end[end].cert[i], fresh,
+                           segment_at(fresh, n->segment)->end[end].cert[i]))
+                return false;
+    }
+    return true;
+}
+
+froe_status live_compare(const froe_kinetic *k, const froe_kinetic *fresh, bool certificates, uint32_t found[2]) {
     ARRAY(uint32_t) stack = {0};
     const uint32_t top[2] = {node_at(k, ROOT)->child[0], node_at(fresh, ROOT)->child[0]};
     found[0] = found[1] = !top[0] != !top[1] ? top[0] + top[1] : LEAF;
@@ -19,7 +42,7 @@ froe_status live_compare(const froe_kinetic *k, const froe_kinetic *fresh, uint3
     if (room && top[0] && top[1]) stack.data[0] = top[0], stack.data[1] = top[1], stack.count = 2;
     while (room && stack.count && !found[0]) {
         uint32_t b = stack.data[--stack.count], a = stack.data[--stack.count];
-        if (!same_node(k, a, fresh, b)) found[0] = a, found[1] = b;
+        if (!same_node(k, a, fresh, b) || (certificates && !same_certs(k, a, fresh, b))) found[0] = a, found[1] = b;
         room = array_reserve(&k->alloc, &stack, 8);
         for (int i = 0; i < 4 && room && !found[0]; i++) {
             if (!node_at(k, a)->child[i]) continue;
@@ -34,6 +57,9 @@ froe_status live_compare(const froe_kinetic *k, const froe_kinetic *fresh, uint3
 static froe_status tell(const froe_kinetic *k, const froe_kinetic *fresh, const uint32_t node[2],
                         froe_diagnostic *diag) {
     const live_node *m = node_at(k, node[0]), *n = node_at(fresh, node[1]);
+    if (same_node(k, node[0], fresh, node[1]))
+        return base_fail_at(diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
+                            "a node of segment %u has not the certificates that it has from scratch", m->segment);
     unsigned has[2] = {0, 0};
     for (unsigned i = 0; i < 4; i++) has[0] |= (m->child[i] != LEAF) << i, has[1] |= (n->child[i] != LEAF) << i;
     return base_fail_at(
@@ -61,7 +87,7 @@ froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
     froe_status status = live_copy(k, &fresh);
     if (status) return base_fail_memory(diag);
     uint32_t node[2];
-    status = live_compare(k, fresh, node);
+    status = live_compare(k, fresh, true, node);
     if (status)
         base_fail_memory(diag);
     else if (node[0])

@@ -10,7 +10,7 @@
  * too, is ours. */
 #include "kinetic/live.h"
 
-static int64_t fail_tick(froe_kinetic *k, const now_claim *claim) {
+int64_t live_fail_tick(froe_kinetic *k, const now_claim *claim) {
     int64_t tick = live_recall(k, claim);
     if (tick >= 0) return tick;
     k->counts.certificates_made++;
@@ -18,17 +18,39 @@ static int64_t fail_tick(froe_kinetic *k, const now_claim *claim) {
 }
 
 /* Makes the certificate at *cert say this, or nothing. */
-static void set_cert(froe_kinetic *k, uint32_t cert, cert_kind kind, uint32_t owner, const now_claim *claim,
-                     uint32_t *out) {
-    *out = cert;
-    if (k->still) return;
-    if (cert != CERT_NONE) {
-        const live_cert *c = k->certs.data + cert;
+static void set_cert(froe_kinetic *k, uint32_t *cert, cert_kind kind, uint32_t owner, const now_claim *claim) {
+    if (*cert != CERT_NONE) {
+        const live_cert *c = k->certs.data + *cert;
         if (claim && claim_is(&c->claim, claim) && c->tick > k->now.tick) return;
-        live_drop_cert(k, cert);
-        *out = CERT_NONE;
+        live_drop_cert(k, *cert);
+        *cert = CERT_NONE;
     }
-    if (claim) *out = live_new_cert(k, kind, owner, fail_tick(k, claim), claim);
+    if (claim) *cert = live_new_cert(k, kind, owner, live_fail_tick(k, claim), claim);
+}
+
+now_claim live_claim_of(const froe_kinetic *k, uint32_t cert) {
+    live_cert *c = k->certs.data + cert;
+    now_claim claim = c->claim;
+    if (c->kind <= CERT_RIGHT) (void)node_at(k, c->owner); /* which region is it? */
+    if (live_covers_turns(c)) {
+        const live_cell cell = live_cell_of(k, c->owner);
+        now_name border[2];
+        live_borders(k, c->owner, &cell, c->kind, border);
+        claim = c->claim = (now_claim){border[LEFT], border[RIGHT], 0};
+        live_name_along(k, &c->claim);
+    } else if (claim.above == NOW_ALONG) {
+        claim.above = 0;
+        if (k->now.segments.data[now_shared(&k->now, claim.p, claim.q)].turned)
+            claim = (now_claim){claim.q, claim.p, 0};
+    }
+    return claim;
+}
+
+void live_rearm(froe_kinetic *k, uint32_t cert) {
+    const live_cert *c = k->certs.data + cert;
+    k->certs.data[cert].covered[LEFT] = k->certs.data[cert].covered[RIGHT] = END_NONE;
+    live_set_tick(k, cert, now_first_failure(&k->now, &c->claim));
+    if (c->kind <= CERT_RIGHT && k->options.augmented) live_cover_turns(k, cert);
 }
 
 /* ----------------------------------------------------------------- regions -- */
@@ -37,25 +59,39 @@ static bool has_cut(const froe_kinetic *k, uint32_t node) {
     return node && node_at(k, node)->cut;
 }
 
-static void set_region(froe_kinetic *k, uint32_t node, int kind, bool wanted, now_name p, now_name q) {
-    now_claim claim = {p, q, 0};
-    uint32_t cert;
-    set_cert(k, node_at(k, node)->cert[kind], (cert_kind)kind, node, wanted ? &claim : NULL, &cert);
-    node_at(k, node)->cert[kind] = cert;
+static void set_region(froe_kinetic *k, uint32_t node, cert_kind region, bool wanted, const live_cell *cell) {
+    now_name border[2];
+    live_borders(k, node, cell, region, border);
+    now_claim claim = {border[LEFT], border[RIGHT], 0};
+    uint32_t *cert = node_at(k, node)->cert + region;
+    wanted = wanted && name_exists(claim.p) && name_exists(claim.q);
+    if (wanted) live_name_along(k, &claim);
+    set_cert(k, cert, region, node, wanted ? &claim : NULL);
+    if (k->options.augmented && *cert != CERT_NONE) live_cover_turns(k, *cert);
+}
+
+void live_borders(const froe_kinetic *k, uint32_t node, const live_cell *cell, cert_kind region, now_name out[2]) {
+    const live_node *n = node_at(k, node);
+    const now_name own[2] = {wall_name(k, n->segment, n->wall[LEFT]), wall_name(k, n->segment, n->wall[RIGHT])};
+    out[LEFT] = region == CERT_RIGHT ? own[RIGHT] : cell->wall[LEFT];
+    out[RIGHT] = region == CERT_LEFT ? own[LEFT] : cell->wall[RIGHT];
+    for (int side = 0; side < 2 && region == CERT_MIDDLE; side++)
+        if (name_exists(own[side])) out[side] = own[side];
+}
+
+/* The middle between two ends of a segment is there as long as the segment is, however it turns. */
+static bool is_whole(const froe_kinetic *k, const live_node *n) {
+    return k->options.augmented && is_end(n->wall[LEFT]) && is_end(n->wall[RIGHT]);
 }
 
 static void certify_regions(froe_kinetic *k, uint32_t node, const live_cell *cell) {
     const live_node *n = node_at(k, node);
-    now_name left = wall_name(k, n->segment, n->wall[LEFT]), right = wall_name(k, n->segment, n->wall[RIGHT]);
-    const now_name *wall = cell->wall;
-    bool has[2] = {name_exists(left), name_exists(right)};
+    const bool has[2] = {n->wall[LEFT] != END_NONE, n->wall[RIGHT] != END_NONE};
     bool clear[4];
     for (int i = 0; i < 4; i++) clear[i] = !has_cut(k, n->child[i]);
-    set_region(k, node, CERT_LEFT, has[0] && name_exists(wall[LEFT]) && clear[LEFT], wall[LEFT], left);
-    set_region(k, node, CERT_RIGHT, has[1] && name_exists(wall[RIGHT]) && clear[RIGHT], right, wall[RIGHT]);
-    now_name from = has[0] ? left : wall[LEFT], to = has[1] ? right : wall[RIGHT];
-    bool middle = (has[0] || has[1]) && name_exists(from) && name_exists(to) && clear[UP] && clear[DOWN];
-    set_region(k, node, CERT_MIDDLE, middle, from, to);
+    set_region(k, node, CERT_LEFT, has[LEFT] && clear[LEFT], cell);
+    set_region(k, node, CERT_RIGHT, has[RIGHT] && clear[RIGHT], cell);
+    set_region(k, node, CERT_MIDDLE, (has[LEFT] || has[RIGHT]) && clear[UP] && clear[DOWN] && !is_whole(k, n), cell);
 }
 
 /* -------------------------------------------------------------------- ends -- */
@@ -88,11 +124,10 @@ static void certify_end(froe_kinetic *k, uint32_t node, const live_cell *cell, i
     uint32_t vertex = k->now.segments.data[segment].end[which];
     segment_at(k, segment)->end[which].stamp = 0;
     for (int i = 0; i < 2; i++) {
-        uint32_t next = next_segment(k, node, cell, side, i == 0), cert;
+        uint32_t next = next_segment(k, node, cell, side, i == 0);
         now_claim claim = {{next, NAME_SEGMENT}, {vertex, NAME_VERTEX}, i == 0 ? -1 : 1};
-        set_cert(k, segment_at(k, segment)->end[which].cert[i], i == 0 ? CERT_ABOVE : CERT_BELOW, 2 * segment + which,
-                 next == FROE_NONE ? NULL : &claim, &cert);
-        segment_at(k, segment)->end[which].cert[i] = cert;
+        set_cert(k, segment_at(k, segment)->end[which].cert + i, i == 0 ? CERT_ABOVE : CERT_BELOW, 2 * segment + which,
+                 next == FROE_NONE ? NULL : &claim);
     }
 }
 
@@ -159,7 +194,7 @@ static void certify_touched(froe_kinetic *k, uint32_t root, live_cell cell) {
 
 live_site live_site_of(const froe_kinetic *k, uint32_t node) {
     const live_node *n = node_at(k, node);
-    return (live_site){n->parent, n->slot, n->cut, live_cell_of(k, node)};
+    return (live_site){n->parent, live_slot_of(k, node), n->cut, live_cell_of(k, node)};
 }
 
 void live_certify(froe_kinetic *k, const live_site *site) {
@@ -190,7 +225,6 @@ void live_certify_turn(froe_kinetic *k, uint32_t segment) {
     now_claim claim = {{s->end[0], NAME_VERTEX}, {s->end[1], NAME_VERTEX}, 0};
     s->turned = now_compare(&k->now, claim.p, claim.q) > 0;
     if (s->turned) claim = (now_claim){claim.q, claim.p, 0};
-    if (k->still) return;
     live_forget_turn(k, segment);
     segment_at(k, segment)->turn = live_new_cert(k, CERT_TURN, segment, now_first_failure(&k->now, &claim), &claim);
 }

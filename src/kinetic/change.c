@@ -69,7 +69,7 @@ static void unlink_ends(froe_kinetic *k, uint32_t segment) {
 void live_enroll(froe_kinetic *k, uint32_t segment) {
     live_segment *s = segment_at(k, segment);
     const uint32_t *v = k->now.segments.data[segment].end;
-    if (!s->alive) link_ends(k, segment);
+    if (!s->alive) link_ends(k, segment), s->bound = false;
     s->alive = true;
     if (s->here || !now_compare(&k->now, (now_name){v[0], NAME_VERTEX}, (now_name){v[1], NAME_VERTEX})) return;
     s->here = true;

@@ -70,13 +70,15 @@ static const live_item *item_of(const froe_kinetic *k, const group *g, size_t i)
 static bool is_current(const froe_kinetic *k, const live_item *item) {
     if (item->kind == CERT_TURN) return segment_at(k, item->cert)->here;
     const live_cert *c = k->certs.data + item->cert;
-    return c->kind == item->kind && claim_is(&c->claim, &item->claim) && c->tick <= k->now.tick;
+    if (c->kind != item->kind || c->tick > k->now.tick) return false;
+    const now_claim claim = live_claim_of(k, item->cert);
+    return claim_is(&claim, &item->claim);
 }
 
 /* As its place, 4 parent + slot, which outlives the node. */
 static void add_root(froe_kinetic *k, uint32_t node) {
     if (!node) return;
-    uint32_t place = 4 * node_at(k, node)->parent + node_at(k, node)->slot;
+    uint32_t place = 4 * node_at(k, node)->parent + live_slot_of(k, node);
     for (size_t i = 0; i < k->roots.count; i++)
         if (k->roots.data[i] == place) return;
     if (!array_push(&k->alloc, &k->roots, place)) k->short_of_memory = true;
@@ -270,11 +272,11 @@ static froe_event describe(const froe_kinetic *k, const group *g) {
 /* ------------------------------------------------------------------ rounds -- */
 
 static bool add_item(froe_kinetic *k, uint32_t cert) {
-    const live_cert *c = k->certs.data + cert;
-    live_item item = {cert, c->kind, c->claim, {0, 0}};
-    if (c->kind >= CERT_TURN) return true;
-    if (now_holds(&k->now, &c->claim) >= 0) { /* between the last tick and this one it failed, and held again */
-        live_set_tick(k, cert, now_first_failure(&k->now, &item.claim));
+    if (k->certs.data[cert].kind >= CERT_TURN) return true;
+    const now_claim claim = live_claim_of(k, cert);
+    live_item item = {cert, k->certs.data[cert].kind, claim, {0, 0}};
+    if (now_holds(&k->now, &claim) >= 0) { /* between the last tick and this one it failed, and held again */
+        live_rearm(k, cert);
         return true;
     }
     live_find_slab(k, &item);
@@ -336,7 +338,7 @@ static bool is_one_event(const froe_kinetic *k, const group *g, const froe_event
     case FROE_EVENT_TRIPLE:
         return event->object_count == 3;
     case FROE_EVENT_TURN:
-        return event->object_count == 1;
+        return event->object_count == 1 && !segment_at(k, event->objects[0])->bound;
     case FROE_EVENT_BATCH:
         return false;
     default:
@@ -346,8 +348,15 @@ static bool is_one_event(const froe_kinetic *k, const group *g, const froe_event
     }
 }
 
-static bool handle_group(froe_kinetic *k, group *g, unsigned round, const live_watcher *watcher) {
-    froe_event event = describe(k, g);
+/* Is it a turn and nothing else, that leaves the tree as it is? */
+static bool is_free_turn(const froe_kinetic *k, const group *g) {
+    const live_item *item = item_of(k, g, 0);
+    return g->count == 1 && item->kind == CERT_TURN && live_turns_freely(k, item->cert);
+}
+
+/* Puts right what a group is about. */
+static void repair(froe_kinetic *k, group *g, unsigned round) {
+    const froe_event event = describe(k, g);
     bool simple = call_crew(k, g) && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
                   !live_has_loose_ends(k, item_of(k, g, 0));
     k->now.lost = !(g->slab[0] <= g->slab[1]);
@@ -356,9 +365,16 @@ static bool handle_group(froe_kinetic *k, group *g, unsigned round, const live_w
         k->counts.crowds++;
         operate_carefully(k, g);
     }
+    if (!k->short_of_memory && !is_sound(k)) live_restart(k);
+}
+
+static bool handle_group(froe_kinetic *k, group *g, unsigned round, const live_watcher *watcher) {
+    if (is_free_turn(k, g))
+        k->counts.free_turns++;
+    else
+        repair(k, g, round);
     if (k->short_of_memory) return true;
-    if (!is_sound(k)) live_restart(k);
-    event = describe(k, g);
+    const froe_event event = describe(k, g);
     k->counts.batches += event.kind == FROE_EVENT_BATCH;
     return round > 0 || tell(k, watcher, &event, &item_of(k, g, 0)->claim);
 }

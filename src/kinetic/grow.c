@@ -7,18 +7,30 @@
 #include "base/sort.h"
 #include "kinetic/live.h"
 
+/* The order of two points; if they coincide, their segments are bound to each other. */
+static int order_of(froe_kinetic *k, now_name p, now_name q) {
+    const int order = now_compare(&k->now, p, q);
+    if (!order) live_bind(k, p, q);
+    return order;
+}
+
 /* On which side of a border the ends are, > 0 being inside. */
 static bool clip_border(froe_kinetic *k, uint32_t segment, uint32_t border, int inside, now_name at[2],
                         uint32_t end[2]) {
     int side[2];
     if (segment == border) return false;
-    for (int i = 0; i < 2; i++) side[i] = now_side(&k->now, border, now_vertex(&k->now, segment, i)) * inside;
+    for (int i = 0; i < 2; i++) {
+        const uint32_t vertex = now_vertex(&k->now, segment, i);
+        side[i] = now_side(&k->now, border, vertex) * inside;
+        const now_name crossing = name_crossing(segment, border);
+        if (!side[i]) live_bind(k, crossing, crossing);
+    }
     if (!side[0] && !side[1]) live_watch_pair(k, border, segment);
     if (side[0] <= 0 && side[1] <= 0) return false;
     if (side[0] >= 0 && side[1] >= 0) return true;
     int out = side[0] < 0 ? LEFT : RIGHT;
     now_name cut = name_crossing(segment, border);
-    if (is_end(end[out]) || (now_compare(&k->now, cut, at[out]) > 0) == (out == LEFT)) {
+    if (is_end(end[out]) || (order_of(k, cut, at[out]) > 0) == (out == LEFT)) {
         at[out] = cut;
         end[out] = border;
     }
@@ -33,17 +45,17 @@ bool live_clip(froe_kinetic *k, uint32_t segment, const live_cell *cell, uint32_
         end[i] = END_0 - (uint32_t)now_end(now, segment, i);
     }
     const now_name *wall = cell->wall;
-    if (name_exists(wall[LEFT]) && now_compare(now, at[RIGHT], wall[LEFT]) <= 0) return false;
-    if (name_exists(wall[RIGHT]) && now_compare(now, at[LEFT], wall[RIGHT]) >= 0) return false;
+    if (name_exists(wall[LEFT]) && order_of(k, at[RIGHT], wall[LEFT]) <= 0) return false;
+    if (name_exists(wall[RIGHT]) && order_of(k, at[LEFT], wall[RIGHT]) >= 0) return false;
     if (cell->top != FROE_NONE && !clip_border(k, segment, cell->top, -1, at, end)) return false;
     if (cell->bottom != FROE_NONE && !clip_border(k, segment, cell->bottom, 1, at, end)) return false;
-    if ((!is_end(end[LEFT]) || !is_end(end[RIGHT])) && now_compare(now, at[LEFT], at[RIGHT]) >= 0) return false;
+    if ((!is_end(end[LEFT]) || !is_end(end[RIGHT])) && order_of(k, at[LEFT], at[RIGHT]) >= 0) return false;
     bool on_wall = false;
-    if (name_exists(wall[LEFT]) && now_compare(now, at[LEFT], wall[LEFT]) <= 0)
+    if (name_exists(wall[LEFT]) && order_of(k, at[LEFT], wall[LEFT]) <= 0)
         at[LEFT] = wall[LEFT], end[LEFT] = END_NONE, on_wall = true;
-    if (name_exists(wall[RIGHT]) && now_compare(now, at[RIGHT], wall[RIGHT]) >= 0)
+    if (name_exists(wall[RIGHT]) && order_of(k, at[RIGHT], wall[RIGHT]) >= 0)
         at[RIGHT] = wall[RIGHT], end[RIGHT] = END_NONE, on_wall = true;
-    return !on_wall || now_compare(now, at[LEFT], at[RIGHT]) < 0;
+    return !on_wall || order_of(k, at[LEFT], at[RIGHT]) < 0;
 }
 
 /* ------------------------------------------------------------------- order -- */

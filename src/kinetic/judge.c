@@ -251,6 +251,10 @@ static void cast_claim(cast *c, const now_claim *claim, int count[2]) {
 }
 
 void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exact *out) {
+    if (claim->above == NOW_ALONG) {
+        now_along_exact(now, claim, out);
+        return;
+    }
     cast c = {.now = now, .along = true};
     int count[2];
     exact_point v[VERTICES];
@@ -283,6 +287,7 @@ bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t sp
     int count[2], length = 64 - __builtin_clzll((uint64_t)span | 1) + 1;
     const bool side = claim->p.b == NAME_SEGMENT;
     wide_point v[VERTICES];
+    if (claim->above == NOW_ALONG) return false;
     cast_claim(&c, claim, count);
     if (!cast_integers(&c)) return false;
     int bits = side ? turn_bits(&c) : order_bits(&c, count);

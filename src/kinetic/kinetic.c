@@ -54,7 +54,7 @@ static bool is_there(const froe_kinetic *k, uint32_t segment) {
 }
 
 static froe_status make_tables(froe_kinetic *k) {
-    static const live_node none = {0};
+    static const live_node none = {.turner = FROE_NONE};
     k->recent = base_calloc(&k->alloc, RECENT, sizeof *k->recent);
     if (!k->recent || grow_tables(k)) return FROE_E_MEMORY;
     while (k->nodes.count < FIRST_NODE)
@@ -84,7 +84,7 @@ static froe_status new_at(froe_motion *motion, const froe_allocator *memory, int
 froe_status live_copy(const froe_kinetic *k, froe_kinetic **out) {
     froe_kinetic *copy;
     if (new_at(k->now.motion, &k->alloc, k->now.tick, &copy)) return FROE_E_MEMORY;
-    copy->still = true;
+    copy->options.augmented = k->options.augmented;
     for (uint32_t s = 0; s < k->segments.count; s++) {
         segment_at(copy, s)->key = segment_at(k, s)->key;
         if (segment_at(k, s)->alive) live_enroll(copy, s);
@@ -152,6 +152,7 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->roots);
     array_free(&alloc, &k->leaving);
     array_free(&alloc, &k->turning);
+    array_free(&alloc, &k->halves);
     if (k->recent) base_free(&alloc, k->recent, RECENT * sizeof *k->recent);
     now_free(&k->now);
     base_free(&alloc, k, sizeof *k);

@@ -33,8 +33,11 @@ typedef struct live_node {
     uint32_t next, previous; /**< nodes of the same segment; next also links free nodes */
     uint32_t cert[3];        /**< order of the walls of the regions to the left, in the middle, to the right */
     uint32_t stamp;          /**< of the last surgery that touched it */
-    uint8_t slot;            /**< which child of its parent it is */
+    uint32_t turner;         /**< the segment in whose direction its walls are named (turns.c), or FROE_NONE */
+    uint8_t slot;            /**< which child of its parent it is: live_slot_of() */
     bool cut;                /**< the subtree has a wall of its own */
+    bool half;               /**< the right part of a node that was cut; to be joined again */
+    bool turned;             /**< what that segment was when left and right were last told apart */
 } live_node;
 
 typedef struct live_cell {
@@ -59,6 +62,7 @@ typedef struct live_segment {
     uint32_t crew; /**< stamp of the last event that it takes part in */
     bool alive;    /**< it has been born and has not died */
     bool here;     /**< it is among those of which the tree is made: alive, and not just a point */
+    bool bound;    /**< something of it was found to coincide, for as long as plans last, with something of another's */
     live_end end[2];
 } live_segment;
 
@@ -82,6 +86,8 @@ typedef struct live_cert {
     uint32_t next; /**< free certificates */
     cert_kind kind;
     now_claim claim;
+    uint32_t covered[2]; /**< walls that will be borders when their segments have turned, or END_NONE: it is about them,
+                            too, and `claim` may be about what the borders were when it was made */
 } live_cert;
 
 /** A certificate's place in the queue; its tick is here, too, so that sorting looks at nothing else. */
@@ -117,6 +123,12 @@ typedef struct live_cutting {
     uint8_t slot[2];
 } live_cutting;
 
+/** What a node that is cut keeps behind one of its walls, and what the other wall was. */
+typedef struct live_half {
+    uint32_t child, other;
+    uint8_t side;
+} live_half;
+
 /** Fail ticks of certificates that were dropped since the last surgery began: many come back elsewhere. */
 typedef struct live_recent {
     now_claim claim;
@@ -151,7 +163,6 @@ struct froe_kinetic {
     uint64_t epoch, epoch_events; /**< orders drawn so far, events until the last */
     uint32_t stamp, list_stamp, crew_stamp;
     bool short_of_memory; /**< the tree may be incomplete */
-    bool still;           /**< it will never move: no certificates */
     bool broken;          /**< parts do not fit: the tree is not what it should be */
     ARRAY(live_node) nodes;
     uint32_t free_node;
@@ -176,14 +187,27 @@ struct froe_kinetic {
     ARRAY(uint32_t) roots;    /**< nodes where surgery is needed */
     ARRAY(uint32_t) leaving;  /**< 2 segment + 1: whose plan or life changes now; 2 segment: who may come to light */
     ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */
+    ARRAY(live_half) halves;  /**< of nodes that were cut */
     bool told;                /**< a visitor is being told of an event, */
     now_claim told_claim;     /**< about this; no points: appearances and the like */
     live_recent *recent;
     froe_kinetic_stats counts;
 };
 
+/* turns.c */
+/** Its segment has turned: puts left and right of a node in their places. */
+void live_turn_node(const froe_kinetic *k, uint32_t node);
+
+/** Left and right as they are now. */
 static inline live_node *node_at(const froe_kinetic *k, uint32_t node) {
-    return k->nodes.data + node;
+    live_node *n = k->nodes.data + node;
+    if (n->turner != FROE_NONE && n->turned != k->now.segments.data[n->turner].turned) live_turn_node(k, node);
+    return n;
+}
+static inline uint8_t live_slot_of(const froe_kinetic *k, uint32_t node) {
+    const live_node *n = node_at(k, node);
+    (void)node_at(k, n->parent); /* where the children of that one are */
+    return n->slot;
 }
 static inline live_segment *segment_at(const froe_kinetic *k, uint32_t segment) {
     return k->segments.data + segment;
@@ -200,6 +224,9 @@ static inline now_name wall_name(const froe_kinetic *k, uint32_t segment, uint32
                                : (now_name){k->now.segments.data[segment].end[END_0 - end], NAME_VERTEX};
     return name_crossing(segment, end);
 }
+static inline bool live_covers_turns(const live_cert *cert) {
+    return cert->covered[LEFT] != END_NONE || cert->covered[RIGHT] != END_NONE;
+}
 static inline bool is_end(uint32_t wall) {
     return wall == END_0 || wall == END_1;
 }
@@ -209,10 +236,14 @@ static inline bool is_end(uint32_t wall) {
 uint32_t live_new_node(froe_kinetic *k, uint32_t segment, const uint32_t wall[2]);
 void live_free_node(froe_kinetic *k, uint32_t node);
 void live_attach(froe_kinetic *k, uint32_t parent, uint8_t slot, uint32_t node);
+/** Gives a node a wall, or END_NONE. */
+void live_set_wall(froe_kinetic *k, uint32_t node, int side, uint32_t wall);
 /** Which end's wall this node has; the node of an END wall is known by its end. */
 void live_own_end(froe_kinetic *k, uint32_t node, int side);
 live_cell live_plane(void);
 live_cell live_cell_of(const froe_kinetic *k, uint32_t node);
+/** The ancestor that gives a node's cell its wall on a side, and below which child of it the node is. LEAF: none. */
+uint32_t live_wall_owner(const froe_kinetic *k, uint32_t node, int side, uint8_t *slot);
 /** The cell of a child. REQUIRES: there is a wall on that side. */
 live_cell live_child_cell(const froe_kinetic *k, const live_cell *cell, uint32_t node, int slot);
 /** Adds the segments of a subtree to the list, each once. */
@@ -305,9 +336,36 @@ typedef struct live_site {
 live_site live_site_of(const froe_kinetic *k, uint32_t node);
 /** After surgery at the site: certificates of all that was touched, and above. */
 void live_certify(froe_kinetic *k, const live_site *site);
+/** What a certificate says now. */
+now_claim live_claim_of(const froe_kinetic *k, uint32_t cert);
+/** It was due, but holds: when else does it fail? */
+void live_rearm(froe_kinetic *k, uint32_t cert);
+/** When a claim fails. */
+int64_t live_fail_tick(froe_kinetic *k, const now_claim *claim);
+/** The names of the walls of a region: CERT_LEFT, CERT_MIDDLE, CERT_RIGHT. */
+void live_borders(const froe_kinetic *k, uint32_t node, const live_cell *cell, cert_kind region, now_name out[2]);
 /** Looks up which end is left, and watches it. */
 void live_certify_turn(froe_kinetic *k, uint32_t segment);
 void live_forget_turn(froe_kinetic *k, uint32_t segment);
+
+/* turns.c */
+/** Whose direction the walls of a node are named in is a function of these walls. */
+void live_name_walls(const froe_kinetic *k, uint32_t node);
+/** Two points coincide: the segments that they are about cannot turn without surgery. */
+void live_bind(froe_kinetic *k, now_name p, now_name q);
+/** May the segment have turned, and nothing else has to be done about it? */
+bool live_turns_freely(const froe_kinetic *k, uint32_t segment);
+/** A region's claim in words that do not change when the segment turns that both borders lie on. */
+void live_name_along(const froe_kinetic *k, now_claim *claim);
+/** Makes a region's certificate hold beyond the turns of the segments at its borders, if it does not yet. */
+void live_cover_turns(froe_kinetic *k, uint32_t cert);
+/** When the first of the segments turns that a claim is about points of. */
+int64_t live_first_turn(const froe_kinetic *k, const now_claim *claim);
+/** A node is cut, or one of its walls comes, and what it keeps on `side` stays: when both walls of the node are there
+ * again, what hugs the kept one has to be looked at, if the other one is not what it was. */
+void live_note_half(froe_kinetic *k, uint32_t node, int side);
+/** Looks at all that was noted. */
+void live_certify_halves(froe_kinetic *k);
 
 /* pairs.c */
 /** Watches segments in one line. */
@@ -328,12 +386,13 @@ void live_remove(froe_kinetic *k, uint32_t segment);
 void live_schedule(froe_kinetic *k, uint32_t segment);
 
 /* kinetic.c */
-/** The same segments in the same order at the same time, made from scratch, and still. */
+/** The same segments in the same order at the same time, made from scratch. */
 froe_status live_copy(const froe_kinetic *k, froe_kinetic **out);
 
 /* audit.c */
-/** The first node of each that differs from that of the other; LEAF: none. FROE_E_MEMORY. */
-froe_status live_compare(const froe_kinetic *k, const froe_kinetic *other, uint32_t found[2]);
+/** The first node of each that differs from that of the other, in its certificates, too, if that is asked; LEAF: none.
+ * FROE_E_MEMORY. */
+froe_status live_compare(const froe_kinetic *k, const froe_kinetic *other, bool certificates, uint32_t found[2]);
 
 /* events.c */
 /** The next tick at which something happens; NOW_NEVER: nothing does. */

@@ -31,22 +31,12 @@ typedef struct passing {
 
 /* ----------------------------------------------------------------- two cells -- */
 
-/* The ancestor that gives a node's cell its wall on a side, and below which child of it the node is. */
-static uint32_t wall_owner(const froe_kinetic *k, uint32_t node, int side, uint8_t *slot) {
-    for (uint32_t n = node;; n = node_at(k, n)->parent) {
-        uint32_t above = node_at(k, n)->parent;
-        *slot = node_at(k, n)->slot;
-        if (above == ROOT) return LEAF;
-        if (*slot == 1 - side || (*slot >= UP && node_at(k, above)->wall[side] != END_NONE)) return above;
-    }
-}
-
 /* On which side of a segment that comes to the wall is the way from the near cell up to the wall's owner? If that does
  * not know it, then it lies beyond the owner's segment, which ends at the wall, and is passed on the same side. */
 static int way_past(const froe_kinetic *k, uint32_t near, uint32_t owner, uint32_t segment) {
     uint8_t slot = 0;
     for (uint32_t n = near; n != owner; n = node_at(k, n)->parent) {
-        slot = node_at(k, n)->slot;
+        slot = live_slot_of(k, n);
         if (node_at(k, node_at(k, n)->parent)->segment == segment && slot >= UP) return slot;
     }
     return slot >= UP ? slot : -1;
@@ -101,7 +91,7 @@ static bool find_near(froe_kinetic *k, const live_item *item, passing *p) {
 static bool find_far(froe_kinetic *k, now_name point, passing *p) {
     uint8_t slot;
     const int side = p->near.side;
-    const uint32_t owner = wall_owner(k, p->node, side, &slot);
+    const uint32_t owner = live_wall_owner(k, p->node, side, &slot);
     const now_name wall = p->near.site.cell.wall[side];
     int order = owner ? height_order(k, point, wall) : 0;
     if (!order) return false;
@@ -298,7 +288,7 @@ static void leave_near(froe_kinetic *k, const passing *p) {
     const uint32_t behind = n->child[slot];
     n->child[slot] = LEAF;
     if (p->grows) {
-        n->wall[slot] = END_NONE;
+        live_set_wall(k, p->node, slot, END_NONE);
         live_free_tree(k, behind);
     } else {
         live_attach(k, p->near.site.parent, p->near.site.slot, behind);
@@ -319,8 +309,8 @@ static void enter_far(froe_kinetic *k, const passing *p) {
         plant(k, 0, p->below, node, DOWN);
         plant(k, p->below, p->thread - p->below, node, UP);
     } else {
-        node_at(k, node)->wall[slot] = p->wall;
-        live_own_end(k, node, slot);
+        live_note_half(k, node, 1 - slot);
+        live_set_wall(k, node, slot, p->wall);
         plant(k, 0, p->thread, node, slot);
     }
     if (is_end(p->wall)) live_touch_end(k, 2 * p->segment + (END_0 - p->wall));
@@ -353,5 +343,6 @@ live_outcome live_pass(froe_kinetic *k, const live_item *item) {
     live_touch_wall(k, p.near.site.cell.wall[p.near.side]);
     live_certify(k, &p.near.site);
     live_certify(k, &p.far.site);
+    live_certify_halves(k);
     return LIVE_DONE;
 }

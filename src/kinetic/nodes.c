@@ -34,12 +34,20 @@ uint32_t live_new_node(froe_kinetic *k, uint32_t segment, const uint32_t wall[2]
                                     .wall = {wall[0], wall[1]},
                                     .next = s->nodes,
                                     .cert = {CERT_NONE, CERT_NONE, CERT_NONE},
-                                    .stamp = k->stamp};
+                                    .stamp = k->stamp,
+                                    .turner = FROE_NONE};
+    live_name_walls(k, node);
     if (s->nodes) node_at(k, s->nodes)->previous = node;
     s->nodes = node;
     k->node_count++;
     for (int side = 0; side < 2; side++) live_own_end(k, node, side);
     return node;
+}
+
+void live_set_wall(froe_kinetic *k, uint32_t node, int side, uint32_t wall) {
+    node_at(k, node)->wall[side] = wall;
+    live_name_walls(k, node);
+    live_own_end(k, node, side);
 }
 
 void live_own_end(froe_kinetic *k, uint32_t node, int side) {
@@ -63,7 +71,7 @@ void live_free_node(froe_kinetic *k, uint32_t node) {
     else
         segment_at(k, n->segment)->nodes = n->next;
     if (n->next) node_at(k, n->next)->previous = n->previous;
-    n->segment = FROE_NONE;
+    n->segment = n->turner = FROE_NONE;
     n->next = k->free_node;
     k->free_node = node;
     k->node_count--;
@@ -105,9 +113,20 @@ static bool is_closed(const live_cell *cell) {
 
 live_cell live_cell_of(const froe_kinetic *k, uint32_t node) {
     live_cell cell = live_plane();
-    for (const live_node *n = node_at(k, node); n->parent != ROOT && !is_closed(&cell); n = node_at(k, n->parent))
-        widen(k, &cell, node_at(k, n->parent), n->slot);
+    for (const live_node *n = node_at(k, node); n->parent != ROOT && !is_closed(&cell); n = node_at(k, n->parent)) {
+        const live_node *parent = node_at(k, n->parent);
+        widen(k, &cell, parent, n->slot);
+    }
     return cell;
+}
+
+uint32_t live_wall_owner(const froe_kinetic *k, uint32_t node, int side, uint8_t *slot) {
+    for (uint32_t n = node;; n = node_at(k, n)->parent) {
+        uint32_t above = node_at(k, n)->parent;
+        *slot = live_slot_of(k, n);
+        if (above == ROOT) return LEAF;
+        if (*slot == 1 - side || (*slot >= UP && node_at(k, above)->wall[side] != END_NONE)) return above;
+    }
 }
 
 live_cell live_child_cell(const froe_kinetic *k, const live_cell *cell, uint32_t node, int slot) {

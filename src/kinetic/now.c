@@ -219,6 +219,7 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
 
 int now_holds(now_state *now, const now_claim *claim) {
     if (claim->p.b == NAME_SEGMENT) return now_side(now, claim->p.a, claim->q.a) * claim->above;
+    if (claim->above == NOW_ALONG) return now_along_holds(now, claim);
     return now_compare(now, claim->p, claim->q) < 0 ? 1 : -1;
 }
 
@@ -245,6 +246,10 @@ static void ball_negate(poly_ball *p) {
 }
 
 void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out) {
+    if (claim->above == NOW_ALONG) {
+        now_along_ball(now, claim, out);
+        return;
+    }
     if (claim->p.b == NAME_SEGMENT) {
         ball_point a, b, q;
         now_course_ball(now, now_vertex(now, claim->p.a, 0), &a);
@@ -264,7 +269,7 @@ void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball 
 }
 
 int now_claim_axis(now_state *now, const now_claim *claim) {
-    if (claim->p.b == NAME_SEGMENT) return 0;
+    if (claim->p.b == NAME_SEGMENT || claim->above == NOW_ALONG) return 0;
     poly_wide wide;
     if (now_claim_wide(now, claim, 0, 0, &wide)) return !wide_sign(&wide);
     poly_exact p;

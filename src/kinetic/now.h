@@ -151,12 +151,13 @@ int now_compare(now_state *now, now_name p, now_name q);
 /** 1, 0, -1: the vertex is above, on or below the line of a segment just after now; in questions: now. */
 int now_side(now_state *now, uint32_t segment, uint32_t vertex);
 
-/** What a certificate claims: p is before q; or the segment p.a (of b NAME_SEGMENT) has vertex q.a above or below it.
- */
+/** What a certificate claims: p is before q; or the segment p.a (of b NAME_SEGMENT) has vertex q.a above or below it;
+ * or p and q lie on one segment, and p is nearer to its end 0. */
 typedef struct now_claim {
     now_name p, q;
-    int above; /**< 1 or -1 for segments */
+    int above; /**< 1 or -1 for segments, NOW_ALONG for points of one segment */
 } now_claim;
+enum { NOW_ALONG = 2 };
 
 static inline bool claim_is(const now_claim *c, const now_claim *d) {
     return name_is(c->p, d->p) && name_is(c->q, d->q) && c->above == d->above;
@@ -178,4 +179,13 @@ void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exac
 bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t span, poly_wide *out);
 /** Does it depend on the order of y, because x are the same for ever? Resets the arena. */
 int now_claim_axis(now_state *now, const now_claim *claim);
+
+/* along.c */
+/** The segment that two points lie on by their names: crossings with it, and ends of it; FROE_NONE: there is none. Two
+ * ends do not tell. */
+uint32_t now_shared(const now_state *now, now_name p, now_name q);
+/** As now_holds(), now_claim_ball() and now_claim_exact(), of claims NOW_ALONG that hold. */
+int now_along_holds(now_state *now, const now_claim *claim);
+void now_along_ball(now_state *now, const now_claim *claim, poly_ball *out);
+void now_along_exact(now_state *now, const now_claim *claim, poly_exact *out);
 #endif

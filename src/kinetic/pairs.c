@@ -35,7 +35,7 @@ static uint32_t new_pair(froe_kinetic *k) {
 }
 
 void live_watch_pair(froe_kinetic *k, uint32_t s, uint32_t t) {
-    if (k->still || now_is_question(&k->now, t) || is_watched(k, s, t)) return;
+    if (now_is_question(&k->now, t) || is_watched(k, s, t)) return;
     uint32_t pair = new_pair(k), both[2] = {s, t};
     if (pair == FROE_NONE) return;
     int64_t first = NOW_NEVER;

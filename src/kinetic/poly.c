@@ -107,6 +107,14 @@ void exact_turn(num_arena *arena, const exact_point v[3], poly_exact *out) {
     exact_turn_points(arena, v, v + 1, v + 2, out);
 }
 
+void ball_determinant(const poly_ball p[2], const poly_ball q[2], poly_ball *out) {
+    ball_det(NULL, p, q + 1, q, p + 1, out);
+}
+
+void exact_determinant(num_arena *arena, const poly_exact p[2], const poly_exact q[2], poly_exact *out) {
+    exact_det(arena, p, q + 1, q, p + 1, out);
+}
+
 int exact_sign(const poly_exact *p) {
     return exact_first_sign(p);
 }

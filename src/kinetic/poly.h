@@ -75,6 +75,10 @@ int short_turn_sign(const short_point v[3]);
 int wide_turn_sign(const wide_point v[3]);
 int exact_turn_sign(num_arena *arena, const exact_point v[3]);
 
+/** p[0] q[1] - q[0] p[1]. REQUIRES: degrees that add up to less than POLY_TERMS. */
+void ball_determinant(const poly_ball p[2], const poly_ball q[2], poly_ball *out);
+void exact_determinant(num_arena *arena, const poly_exact p[2], const poly_exact q[2], poly_exact *out);
+
 /** The sign of the polynomial just after its time 0; 0: it is 0 for ever. */
 int exact_sign(const poly_exact *p);
 int wide_sign(const poly_wide *p);

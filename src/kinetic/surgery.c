@@ -21,12 +21,14 @@ static void push(froe_kinetic *k, uint32_t a, uint32_t b, const uint32_t parent[
 /* The right half of a node that the line crosses. */
 static uint32_t right_half(froe_kinetic *k, uint32_t node) {
     const uint32_t wall[2] = {END_NONE, node_at(k, node)->wall[RIGHT]};
+    for (int side = 0; side < 2; side++) live_note_half(k, node, side);
     uint32_t half = live_new_node(k, node_at(k, node)->segment, wall);
     live_node *n = node_at(k, node);
     if (!half) return LEAF;
+    node_at(k, half)->half = true;
     live_attach(k, half, RIGHT, n->child[RIGHT]);
     n->child[RIGHT] = LEAF;
-    n->wall[RIGHT] = END_NONE;
+    live_set_wall(k, node, RIGHT, END_NONE);
     uint32_t cert = n->cert[CERT_RIGHT];
     n->cert[CERT_RIGHT] = CERT_NONE;
     node_at(k, half)->cert[CERT_RIGHT] = cert;
@@ -82,14 +84,14 @@ static void merge(froe_kinetic *k, uint32_t a, uint32_t b) {
         const uint8_t side = (uint8_t)i;
         push(k, m->child[i], n->child[i], (uint32_t[]){a, a}, (uint8_t[]){side, side});
     }
-    m->wall[RIGHT] = n->wall[RIGHT];
-    n->wall[RIGHT] = END_NONE;
+    const uint32_t wall = n->wall[RIGHT];
+    live_set_wall(k, b, RIGHT, END_NONE);
     live_attach(k, a, RIGHT, n->child[RIGHT]);
     if (m->cert[CERT_RIGHT] != CERT_NONE) live_drop_cert(k, m->cert[CERT_RIGHT]);
     m->cert[CERT_RIGHT] = n->cert[CERT_RIGHT];
     n->cert[CERT_RIGHT] = CERT_NONE;
     if (m->cert[CERT_RIGHT] != CERT_NONE) k->certs.data[m->cert[CERT_RIGHT]].owner = a;
-    live_own_end(k, a, RIGHT);
+    live_set_wall(k, a, RIGHT, wall);
     live_free_node(k, b);
 }
 
@@ -157,6 +159,7 @@ bool live_slab(froe_kinetic *k, uint32_t node) {
     part = node_at(k, PARTS)->child;
     live_join(k, part[0], part[2], site.parent, site.slot);
     if (!strangers && !k->broken && !k->now.lost) live_certify(k, &site);
+    live_certify_halves(k);
     return !strangers;
 }
 

@@ -134,6 +134,8 @@ static const moving_kind moving_kinds[] = {
      .twice = true,
      .legs = 3},
     {.name = "mortal", .count = 40, .grid = 2000, .length = 900, .speed = 30, .spin = 10, .mortal = true},
+    {.name = "spinning", .count = 20, .grid = 2000, .length = 2500, .speed = 2, .spin = 80, .curved = true, .legs = 2},
+    {.name = "lattice spinning", .count = 20, .grid = 12, .length = 8, .speed = 0, .spin = 2, .legs = 4},
     {.name = "mortal lattice", .count = 24, .grid = 16, .length = 6, .speed = 2, .spin = 1, .mortal = true},
 };
 enum { MOVING_KINDS = sizeof moving_kinds / sizeof *moving_kinds };

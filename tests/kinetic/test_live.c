@@ -9,11 +9,14 @@
 #include "kinetic/following.h"
 #include "support/memory.h"
 
+static bool augmented; /* all tests run in both variants */
+
 static froe_kinetic *start(froe_motion *m, uint64_t seed) {
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k = NULL;
     froe_diagnostic why = {0};
     o.seed = seed;
+    o.augmented = augmented;
     if (froe_kinetic_new(m, &o, NULL, &k, &why)) fail_msg("%s", why.message);
     return k;
 }
@@ -129,7 +132,7 @@ static void test_reversal(void **state) {
         assert_int_equal(k->now.tick, m->last_tick - 1);
         audit(k, ways[i].name);
         uint32_t node[2];
-        assert_int_equal(live_compare(k, first, node), FROE_OK);
+        assert_int_equal(live_compare(k, first, false, node), FROE_OK);
         assert_int_equal(node[0], LEAF);
         assert_int_equal(k->node_count, first->node_count);
         froe_kinetic_free(first);
@@ -185,6 +188,7 @@ static void test_epochs(void **state) {
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k = NULL;
     o.epoch = 50;
+    o.augmented = augmented;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
     uint64_t key = segment_at(k, 0)->key;
     run(k, "epochs", 120, &(pattern_counter){0});
@@ -201,6 +205,7 @@ static void test_order(void **state) {
     froe_kinetic *k = NULL;
     froe_diagnostic why = {0};
     uint32_t order[N];
+    o.augmented = augmented;
     for (uint32_t i = 0; i < N; i++) order[i] = N - 1 - i;
     o.order = order;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
@@ -300,6 +305,7 @@ static froe_status with_memory(void *user, const froe_allocator *alloc) {
     froe_motion *m = user;
     froe_kinetic *k = NULL;
     froe_kinetic_options o = froe_kinetic_defaults();
+    o.augmented = augmented;
     froe_status status = froe_kinetic_new(m, &o, alloc, &k, NULL);
     if (status) return status;
     status = froe_kinetic_advance(k, MOVING_TIME / 4.0 + 0.5, NULL, NULL, NULL);
@@ -321,6 +327,107 @@ static void test_memory_runs_out(void **state) {
     }
 }
 
+/* ---------------------------------------------------------------------- turns -- */
+
+/* A hand that turns upright over bars, at the end of it first in order or last. */
+static froe_motion *spinner(size_t bars) {
+    enum { MOST = 300 };
+    static size_t starts[2 * MOST + 3];
+    static double times[2 * MOST + 4], xy[4 * MOST + 8];
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    froe_motion *m = NULL;
+    const double hand[] = {-7, -1, 9, -2, 3, (double)bars + 1, -6, (double)bars + 2};
+    w.begin = 0, w.end = 8;
+    memcpy(xy, hand, sizeof hand);
+    starts[1] = 2, starts[2] = 4, times[1] = times[3] = 8;
+    for (size_t i = 0; i < bars; i++)
+        for (size_t e = 0; e < 2; e++) {
+            xy[8 + 4 * i + 2 * e] = (e ? 20 : -20) + (double)(i * 7919 % 97) / 97;
+            xy[9 + 4 * i + 2 * e] = (double)i;
+            starts[3 + 2 * i + e] = starts[2 + 2 * i + e] + 1;
+        }
+    b.vertex_count = 2 + 2 * bars, b.count = 1 + bars, b.starts = starts, b.times = times, b.coords = xy;
+    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+    return m;
+}
+
+static bool stop_at_turn(void *user, const froe_event *event) {
+    *(froe_event *)user = *event;
+    return false;
+}
+
+/* What crosses it makes a turn no more expensive: no node is touched, no certificate is made. */
+static void test_free_turns(void **state) {
+    (void)state;
+    for (size_t bars = 3; bars <= 300; bars *= 10)
+        for (uint32_t last = 0; last < 2; last++) {
+            uint32_t order[301];
+            for (uint32_t i = 0; i <= bars; i++) order[i] = last ? ((uint32_t)bars - i) : i;
+            froe_motion *m = spinner(bars);
+            froe_kinetic_options o = froe_kinetic_defaults();
+            froe_kinetic *k = NULL;
+            froe_event event;
+            o.augmented = augmented, o.order = order;
+            assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+            froe_kinetic_stats before = froe_kinetic_statistics(k), after;
+            assert_int_equal(froe_kinetic_advance(k, 8, stop_at_turn, &event, NULL), FROE_E_CANCELLED);
+            after = froe_kinetic_statistics(k);
+            audit(k, "spinner");
+            assert_int_equal(event.objects[0], 0);
+            assert_int_equal(after.free_turns, augmented);
+            if (augmented) {
+                assert_int_equal(event.kind, FROE_EVENT_TURN);
+                assert_int_equal(after.nodes_touched - before.nodes_touched, 0);
+                assert_int_equal(after.certificates_made - before.certificates_made, 0);
+            } else {
+                assert_true(after.nodes_touched - before.nodes_touched > bars);
+            }
+            froe_kinetic_free(k);
+            froe_motion_free(m);
+        }
+}
+
+/* Segments that share a vertex, or whose ends coincide for good, turn by surgery. */
+static void test_bound_turns(void **state) {
+    (void)state;
+    for (int shared = 0; shared < 2; shared++) {
+        const size_t starts[] = {0, 2, 4, 5, 7};
+        const double times[] = {0, 8, 0, 8, 0, 0, 8};
+        const double xy[] = {-1, 0, 1, 0, 1, 4, -1, 4, 6, 5, 1, 4, -1, 4};
+        const uint32_t vertices[] = {0, 1, shared ? 1 : 3, 2};
+        froe_motion_options w = froe_motion_defaults();
+        froe_moving b = froe_moving_defaults();
+        froe_motion *m = NULL;
+        w.begin = 0, w.end = 8;
+        b.vertex_count = 4, b.count = 2, b.starts = starts, b.times = times, b.coords = xy, b.vertices = vertices;
+        assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+        assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+        for (uint64_t seed = 1; seed < 5; seed++) {
+            froe_kinetic *k = start(m, seed);
+            run(k, "bound", 9, &(pattern_counter){0});
+            froe_kinetic_stats s = froe_kinetic_statistics(k);
+            assert_true(s.events[FROE_EVENT_TURN] + s.events[FROE_EVENT_BATCH] > 0);
+            assert_int_equal(s.free_turns, 0);
+            froe_kinetic_free(k);
+        }
+        froe_motion_free(m);
+    }
+}
+
+static int ordinary(void **state) {
+    (void)state;
+    augmented = false;
+    return 0;
+}
+
+static int in_augmented(void **state) {
+    (void)state;
+    augmented = true;
+    return 0;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_event),
@@ -330,10 +437,13 @@ int main(void) {
         cmocka_unit_test(test_changes),
         cmocka_unit_test(test_epochs),
         cmocka_unit_test(test_order),
-        cmocka_unit_test(test_trials_within_pieces),
         cmocka_unit_test(test_calls),
         cmocka_unit_test(test_no_memory_per_event),
         cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(test_trials_within_pieces),
+        cmocka_unit_test(test_free_turns),
+        cmocka_unit_test(test_bound_turns),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failed = cmocka_run_group_tests_name("ordinary", tests, ordinary, NULL);
+    return failed + cmocka_run_group_tests_name("augmented", tests, in_augmented, NULL);
 }

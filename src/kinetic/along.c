@@ -1,0 +1,100 @@
+/* along.c: which of two points of one segment is nearer to its end 0? This does not change when the segment turns.
+ *
+ *            end 1       With u and v the turns of a line against end 0 and end 1, the line crosses the segment the share
+ *       b -----o-- -     u / (u - v) of the way from end 0: 0 and 1 for the ends themselves. So of two lines
+ *            /               share b - share a = (u_a v_b - u_b v_a) / ((u_a - v_a) (u_b - v_b))
+ *     a ----/------      and what is below does not change its sign as long as they cross. For the order of x the
+ *       end 0            above would be multiplied by how far the segment goes in x, which is 0 when it turns. */
+#include "kinetic/now.h"
+
+static bool has_end(const now_state *now, uint32_t segment, uint32_t vertex) {
+    const uint32_t *end = now->segments.data[segment].end;
+    return end[0] == vertex || end[1] == vertex;
+}
+
+uint32_t now_shared(const now_state *now, now_name p, now_name q) {
+    if (!name_is_crossing(p)) {
+        now_name other = p;
+        p = q, q = other;
+    }
+    if (!name_is_crossing(p)) return FROE_NONE;
+    const uint32_t both[2] = {p.a, (uint32_t)p.b};
+    for (int i = 0; i < 2; i++) {
+        if (name_is_crossing(q) && (q.a == both[i] || (uint32_t)q.b == both[i])) return both[i];
+        if (name_is_vertex(q) && has_end(now, both[i], q.a)) return both[i];
+    }
+    return FROE_NONE;
+}
+
+static now_name end_name(const now_state *now, uint32_t segment, int end) {
+    return (now_name){now->segments.data[segment].end[end], NAME_VERTEX};
+}
+
+int now_along_holds(now_state *now, const now_claim *claim) {
+    const uint32_t s = now_shared(now, claim->p, claim->q);
+    const int way = now_compare(now, end_name(now, s, 0), end_name(now, s, 1));
+    return now_compare(now, claim->p, claim->q) * way > 0 ? 1 : -1;
+}
+
+/* The turns of the other line through a point of a segment, as numbers with error bounds. */
+static void ball_turns(now_state *now, uint32_t segment, now_name p, poly_ball out[2]) {
+    const uint32_t *end = now->segments.data[segment].end;
+    out[0].degree = out[1].degree = 0;
+    out[0].c[0] = num_ball_from(end[0] != p.a), out[1].c[0] = num_ball_from(end[0] == p.a);
+    if (name_is_vertex(p)) return;
+    const uint32_t *other = now->segments.data[p.a == segment ? (uint32_t)p.b : p.a].end;
+    ball_point a, b, q;
+    now_course_ball(now, other[0], &a), now_course_ball(now, other[1], &b);
+    for (int i = 0; i < 2; i++) {
+        now_course_ball(now, end[i], &q);
+        ball_turn(&a, &b, &q, out + i);
+    }
+}
+
+static void exact_turns(now_state *now, uint32_t segment, now_name p, poly_exact out[2]) {
+    const uint32_t *end = now->segments.data[segment].end;
+    num_arena *arena = &now->context.arena;
+    out[0].degree = out[1].degree = 0;
+    out[0].c[0] = num_dyadic_from(arena, end[0] != p.a), out[1].c[0] = num_dyadic_from(arena, end[0] == p.a);
+    if (name_is_vertex(p)) return;
+    const uint32_t *other = now->segments.data[p.a == segment ? (uint32_t)p.b : p.a].end;
+    exact_point v[3];
+    now_exact_along(now, other[0], v), now_exact_along(now, other[1], v + 1);
+    for (int i = 0; i < 2; i++) {
+        now_exact_along(now, end[i], v + 2);
+        exact_turn(arena, v, out + i);
+    }
+}
+
+/* u_p v_q - u_q v_p, whatever the sign of what is below. */
+static void exact_difference(now_state *now, const now_claim *claim, poly_exact *out) {
+    const uint32_t s = now_shared(now, claim->p, claim->q);
+    poly_exact p[2], q[2];
+    now->context.arena.top = 0;
+    exact_turns(now, s, claim->p, p);
+    exact_turns(now, s, claim->q, q);
+    exact_determinant(&now->context.arena, p, q, out);
+}
+
+/* The claim holds now: that tells the sign. */
+void now_along_exact(now_state *now, const now_claim *claim, poly_exact *out) {
+    exact_difference(now, claim, out);
+    if (exact_sign(out) > 0) return;
+    for (int i = 0; i <= out->degree; i++) out->c[i].sign = -out->c[i].sign;
+}
+
+void now_along_ball(now_state *now, const now_claim *claim, poly_ball *out) {
+    const uint32_t s = now_shared(now, claim->p, claim->q);
+    poly_ball p[2], q[2];
+    ball_turns(now, s, claim->p, p);
+    ball_turns(now, s, claim->q, q);
+    ball_determinant(p, q, out);
+    int sign = num_ball_sign(out->c[0]);
+    if (sign == 0 || sign == NUM_UNSURE) {
+        poly_exact difference;
+        exact_difference(now, claim, &difference);
+        sign = exact_sign(&difference);
+    }
+    if (sign < 0)
+        for (int i = 0; i <= out->degree; i++) out->c[i].x = -out->c[i].x;
+}
