@@ -35,6 +35,8 @@ static const cli_option options[] = {
      .help = "with --output: write where the tree's vertices are exactly, as quotients of whole numbers, as .csv"},
     {"unrounded", 0, CLI_FLAG, offsetof(simulate_args, follow.unrounded),
      .help = "with --output: fail if a coordinate is no double and would have to be rounded"},
+    {"augmented", 0, CLI_FLAG, offsetof(simulate_args, follow.augmented),
+     .help = "with --events: segments that turn upright cost nothing, however many they cross"},
     {"animate", 0, CLI_TEXT, offsetof(simulate_args, animate), "FILE", .help = "write an animated picture, .svg"},
     {"player", 0, CLI_TEXT, offsetof(simulate_args, player), "FILE",
      .help = "write a page that plays the motion, .html"},

@@ -91,6 +91,7 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, froe_mo
     if (!asked->events && !asked->tree) return 0;
     froe_kinetic_options o = froe_kinetic_defaults();
     o.seed = common->seed;
+    o.augmented = asked->augmented;
     const froe_status status = froe_kinetic_new(motion, &o, NULL, &e.kinetic, &diag);
     if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
     *report = json_object();

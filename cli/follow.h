@@ -9,6 +9,7 @@ typedef struct cli_follow {
     const char *events, *tree, *places; /**< files to write, or NULL */
     double at;                          /**< when the tree is taken; NaN: never */
     bool unrounded;                     /**< rather no tree than one with rounded coordinates */
+    bool augmented;                     /**< segments turn upright for nothing */
 } cli_follow;
 
 /** Goes through the window, if anything is asked for; *report: what there was, or null. Returns an exit code, after

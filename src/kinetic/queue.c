@@ -65,8 +65,12 @@ uint32_t live_new_cert(froe_kinetic *k, cert_kind kind, uint32_t owner, int64_t 
         }
         cert = (uint32_t)(k->certs.count - 1);
     }
-    k->certs.data[cert] = (live_cert){
-        .place = CERT_NONE, .owner = owner, .next = CERT_NONE, .kind = kind, .claim = claim ? *claim : nothing, .covered = {END_NONE, END_NONE}};
+    k->certs.data[cert] = (live_cert){.place = CERT_NONE,
+                                      .owner = owner,
+                                      .next = CERT_NONE,
+                                      .kind = kind,
+                                      .claim = claim ? *claim : nothing,
+                                      .covered = {END_NONE, END_NONE}};
     live_set_tick(k, cert, tick);
     return cert;
 }

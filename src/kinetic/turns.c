@@ -120,8 +120,8 @@ static bool is_due(int64_t turn, int64_t tick) {
     return turn != NOW_NEVER && turn <= tick;
 }
 
-/* The node whose other wall takes the place of a region's border, seen from outside, when its segment turns; LEAF: there
- * is none, or that is after the tick. */
+/* The node whose other wall takes the place of a region's border, seen from outside, when its segment turns; LEAF:
+ * there is none, or that is after the tick. */
 static uint32_t turning_owner(const froe_kinetic *k, uint32_t node, cert_kind region, int side, int64_t tick) {
     uint8_t slot = (uint8_t)(1 - side);
     uint32_t owner = node;

@@ -252,6 +252,7 @@ static void test_against_all(void **state) {
             fuzz_source r = {seed + 100 * i};
             present p;
             options.seed = seed;
+            options.augmented = seed % 2;
             assert_int_equal(froe_kinetic_new(m, &options, NULL, &k, NULL), FROE_OK);
             for (double time = 0; time < 12; time += 0.7) {
                 assert_int_equal(froe_kinetic_advance(k, time, NULL, NULL, NULL), FROE_OK);
