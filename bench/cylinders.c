@@ -25,7 +25,7 @@ static size_t heap(void) {
 }
 
 typedef struct result {
-    double build, prepare, bytes, rate, batch;
+    double build, prepare, bytes, more, rate, batch; /* more: what is prepared for points */
 } result;
 
 static double in_a_batch(froe_query *query, const double *points) {
@@ -49,9 +49,11 @@ static result of_froe(const plane_scene *p) {
     froe_query *query = NULL;
     bench_must(froe_query_new(tree, &query, NULL), NULL);
     froe_list found;
+    const size_t before = heap();
     start = bench_cpu();
     bench_must(froe_query_locate(query, p->points, &found, NULL), NULL);
     r.prepare = bench_cpu() - start;
+    r.more = (double)(heap() - before) / (double)p->n;
     for (size_t i = 0; i < POINTS + WARM; i++) {
         if (i == WARM) start = bench_cpu();
         bench_must(froe_query_locate(query, p->points + 2 * i, &found, NULL), NULL);
@@ -83,16 +85,16 @@ static result of_cgal(const plane_scene *p) {
 static void beside(const char *kind, size_t n) {
     plane_scene p = plane_make(kind, n, 1);
     result froe = of_froe(&p), cgal = of_cgal(&p);
-    printf("%-8s %8zu %9.3f %9.3f %9.3f %7.1f %7.0f %7.0f %7.1f %9.0f %9.0f %9.0f %7.1f\n", kind, p.n, froe.build,
-           froe.prepare, cgal.build, cgal.build / froe.build, froe.bytes, cgal.bytes, cgal.bytes / froe.bytes,
-           froe.rate, froe.batch, cgal.rate, froe.rate / cgal.rate);
+    printf("%-8s %8zu %9.3f %9.3f %9.3f %7.1f %7.0f %7.0f %7.0f %7.1f %9.0f %9.0f %9.0f %7.1f\n", kind, p.n, froe.build,
+           froe.prepare, cgal.build, cgal.build / froe.build, froe.bytes, froe.more, cgal.bytes,
+           cgal.bytes / froe.bytes, froe.rate, froe.batch, cgal.rate, froe.rate / cgal.rate);
     plane_free(&p);
     fflush(stdout);
 }
 
 static void peer_table(size_t n) {
-    printf("%-8s %8s %9s %9s %9s %7s %7s %7s %7s %9s %9s %9s %7s\n", "", "n", "build, s", "prepare", "CGAL", "ratio",
-           "bytes", "CGAL", "ratio", "cells/s", "in batch", "CGAL", "ratio");
+    printf("%-8s %8s %9s %9s %9s %7s %7s %7s %7s %7s %9s %9s %9s %7s\n", "", "n", "build, s", "prepare", "CGAL",
+           "ratio", "bytes", "+", "CGAL", "ratio", "cells/s", "in batch", "CGAL", "ratio");
     beside("short", n);
     beside("mixed", n);
 }

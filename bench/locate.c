@@ -2,7 +2,8 @@
  *
  *     bench_locate
  *
- * Points a second of processor time, one thread. `tree`: from the root, cut by cut. `laid out`: query/descent.h without
+ * Points a second of processor time, one thread; `doubt`: the share of them that are too near to a cut of their way for
+ * floats. `tree`: from the root, cut by cut. `laid out`: query/descent.h without
  * a look at cuts in doubt. `centroids`: query/centroids.h, in trees that are deep. `chosen`: what queries do, exactly,
  * one at a time, and many together. */
 #include "bench.h"
@@ -11,6 +12,7 @@
 #include "query/descent.h"
 #include "query/leaf.h"
 #include "tree/draft.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -88,12 +90,25 @@ static uint32_t as_chosen(const asker *a, const double *x) {
     return leaf.place;
 }
 
+static bool in_doubt(const asker *a, const double *x) {
+    descent_point p;
+    if (!query_descent_begin(a->descent, x, &p)) return true;
+    while (!(p.next & DESCENT_LEAF)) {
+        const descent_cut *cut = a->descent->cuts + p.next;
+        const float value = query_descent_value(cut, p.at);
+        if (!(fabsf(value) > DESCENT_DOUBT)) return true;
+        p.next = query_descent_next(cut, value > 0);
+    }
+    return false;
+}
+
 typedef uint32_t way_fn(const asker *a, const double *x);
 
 static double rate(const asker *a, way_fn *way, const double *points, size_t count) {
     volatile uint32_t sum = 0;
     const double start = bench_cpu();
     for (size_t i = 0; i < count; i++) sum += way(a, points + 2 * i);
+    (void)sum;
     return (double)count / (bench_cpu() - start);
 }
 
@@ -130,8 +145,10 @@ static void print_row(const char *name, froe_scene *scene, froe_tree *tree) {
     bench_must(froe_query_new(tree, &a.q, NULL), NULL);
     if (query_is_deep(tree)) bench_must(query_centroids_of(a.q, &a.centroids, NULL), NULL);
     bench_must(query_descent_of(a.q, &a.descent, NULL), NULL);
-    printf("%-24s %9llu %7llu %10.4g", name, (unsigned long long)r.nodes, (unsigned long long)r.height,
-           rate(&a, by_tree, points, r.height > 1000 ? FEW : POINTS));
+    size_t doubts = 0;
+    for (size_t i = 0; a.descent->there && i < POINTS; i++) doubts += in_doubt(&a, points + 2 * i);
+    printf("%-24s %9llu %7llu %7.3f %10.4g", name, (unsigned long long)r.nodes, (unsigned long long)r.height,
+           (double)doubts / POINTS, rate(&a, by_tree, points, r.height > 1000 ? FEW : POINTS));
     a.descent->there ? printf(" %10.4g", rate(&a, by_descent, points, POINTS)) : printf(" %10s", "");
     a.centroids ? printf(" %10.4g", rate(&a, by_centroids, points, POINTS)) : printf(" %10s", "");
     printf(" %10.4g %10.4g\n", rate(&a, as_chosen, points, POINTS), rate_together(&a, points));
@@ -148,8 +165,8 @@ static void print_built(const char *name, froe_scene *scene, const char *method,
 
 int main(void) {
     bench_head("the leaf of a point, points a second, one thread, processor time", 1);
-    printf("%-24s %9s %7s %10s %10s %10s %10s %10s\n", "", "nodes", "height", "tree", "laid out", "centroids", "chosen",
-           "together");
+    printf("%-24s %9s %7s %7s %10s %10s %10s %10s %10s\n", "", "nodes", "height", "doubt", "tree", "laid out",
+           "centroids", "chosen", "together");
     froe_scene *points = row();
     print_row("chain of 20,000 cuts", points, chain(points));
     print_built("nested 10^4, guards", bench_generate("nested", 10000, 1), "density", "k=1 stop=0 growth=0 height=0",

@@ -77,6 +77,23 @@ static void compare(const world *w, size_t t, const double *points, num_context 
     }
 }
 
+/* Batches of any number of threads say what single questions say. */
+static void compare_batches(froe_query *q, const double *points) {
+    for (unsigned threads = 1; threads <= 3; threads += 2) {
+        froe_batch_options o = froe_batch_defaults();
+        froe_answers all;
+        froe_list one;
+        o.threads = threads;
+        assert_int_equal(froe_batch_locate(q, points, POINTS, &o, &all, NULL), FROE_OK);
+        for (size_t i = 0; i < POINTS; i++) {
+            assert_int_equal(froe_query_locate(q, points + 2 * i, &one, NULL), FROE_OK);
+            assert_int_equal(all.starts[i + 1] - all.starts[i], one.count);
+            if (one.count) assert_memory_equal(all.ids + all.starts[i], one.ids, one.count * sizeof *one.ids);
+        }
+        froe_answers_free(&all);
+    }
+}
+
 static void check(const char *name, froe_scene *scene, bool lattice) {
     static double points[2 * POINTS];
     world w = world_begin(name, scene);
@@ -87,7 +104,10 @@ static void check(const char *name, froe_scene *scene, bool lattice) {
         world_dice d = {i, 0};
         draw_point(&w, &d, points + 2 * i);
     }
-    for (size_t t = 0; t < w.tree_count; t++) compare(&w, t, points, &exact);
+    for (size_t t = 0; t < w.tree_count; t++) {
+        compare(&w, t, points, &exact);
+        compare_batches(w.queries[t], points);
+    }
     num_context_free(&exact);
     world_end(&w);
 }
