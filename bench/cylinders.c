@@ -1,7 +1,8 @@
 /* cylinders.c: trees of the builder `cylindrical` beside CGAL's trapezoids, and how they grow.
  *
  *     bench_cylinders peer [N]                 default 100,000 disjoint segments: short ones, and some that are long
- *     bench_cylinders growth FOLDER [LARGEST]  into FOLDER: cylinders-size.svg, cylinders-height.svg; default 10^6
+ *     bench_cylinders growth FOLDER [LARGEST]  into FOLDER: cylinders-size.svg, cylinders-height.svg; default 10^6, of
+ *                                              segments that cross much a third of it: more take 12 GB and minutes
  *
  * One thread, processor time. CGAL's map keeps faces, and exact numbers; froe's tree has cells, and exact numbers where
  * they are needed. Both are asked where points are that lie on no segment: in which cell, in which face. */
@@ -181,12 +182,12 @@ static void figure(const char *folder, const char *name, const char *title, cons
     bench_figure(folder, name, series, RATIOS, &o);
 }
 
-static void growth(const char *folder, size_t largest) {
+static void growth(const char *folder, size_t largest, double most_crossings) {
     static line lines[RATIOS];
     printf("%9s %9s %10s %9s %7s %8s %9s %9s\n", "n", "k", "nodes", "/(nlogn+k)", "height", "/log2 n", "build, s",
            "bytes/node");
     for (int i = 0; i < RATIOS; i++)
-        for (size_t n = 1000; n <= largest && (ratios[i] + 10) * (double)n <= 1.2e7; n *= 10) {
+        for (size_t n = 1000; n <= largest && ratios[i] * (double)n <= most_crossings; n *= 10) {
             grow(lines + i, n, ratios[i]);
             if (3.16 * (double)n <= (double)largest) grow(lines + i, n * 316 / 100, ratios[i]);
         }
@@ -197,7 +198,7 @@ static void growth(const char *folder, size_t largest) {
 int main(int argc, char **argv) {
     bench_head("cylindrical trees, one thread, processor time", 1);
     if (argc > 2 && !strcmp(argv[1], "growth"))
-        growth(argv[2], argc > 3 ? strtoull(argv[3], NULL, 10) : 1000000);
+        growth(argv[2], argc > 3 ? strtoull(argv[3], NULL, 10) : 1000000, argc > 3 ? (double)INFINITY : 2e6);
     else
         peer_table(argc > 2 ? strtoull(argv[2], NULL, 10) : 100000);
     return 0;
