@@ -29,20 +29,22 @@ num_dyadic num_isolated_high(num_arena *arena, const num_isolated *root) {
     return root->exact ? low : num_dyadic_add(arena, low, power_of_half(arena, root->depth));
 }
 
+static num_ball low_ball(const num_isolated *root) {
+    const uint64_t top = root->lo[NUM_FRACTION_LIMBS - 1];
+    bool cut = (top & 0x7ff) || root->depth > 64;
+    return (num_ball){(double)(top >> 11) * 0x1p-53, cut ? 0x1p-53 : 0}; /* what is cut off is less */
+}
+
 num_ball num_isolated_ball(const num_isolated *root) {
-    const uint64_t *top = root->lo + NUM_FRACTION_LIMBS - 1;
-    double low = (double)(top[0] >> 11) * 0x1p-53; /* what is cut off is below 2^-53 */
-    bool cut = (top[0] & 0x7ff) || root->depth > 64;
-    if (root->exact) return (num_ball){low, cut ? 0x1p-53 : 0};
+    const num_ball low = low_ball(root);
+    if (root->exact) return low;
     double half = ldexp(0.5, -root->depth); /* low + half may round: one more unit */
-    return (num_ball){low + half, half * NUM_BALL_UP + 0x1p-53 + (cut ? 0x1p-53 : 0)};
+    return (num_ball){low.x + half, half * NUM_BALL_UP + 0x1p-53 + low.e};
 }
 
 /* Sign of the polynomial at lo. */
 static int sign_at_low(num_arena *arena, const num_isolated *at) {
-    num_isolated point = *at;
-    point.exact = true; /* for its ball */
-    int sign = num_ball_sign(num_ball_poly_at(&at->of->near, num_isolated_ball(&point)));
+    int sign = num_ball_sign(num_ball_poly_at(&at->of->near, low_ball(at)));
     return sign == NUM_UNSURE ? num_poly_sign(arena, &at->of->chain.p[0], fraction(at->lo)) : sign;
 }
 
@@ -76,7 +78,51 @@ bool num_isolated_refine(num_arena *arena, num_isolated *root) {
     return true;
 }
 
+static double value(const num_ball_poly *p, double s) {
+    double y = 0;
+    for (int i = p->degree; i >= 0; i--) y = y * s + p->c[i].x;
+    return y;
+}
+
+/* Roughly where a polynomial changes its sign between low and high: Illinois' method. */
+static double rough_root(const num_ball_poly *p, double low, double high, double near) {
+    double a = value(p, low), b = value(p, high), s = low;
+    for (int i = 0; i < 40 && high - low > near; i++) {
+        s = high - b * ((high - low) / (b - a));
+        if (!(s > low && s < high)) return 0.5 * (low + high);
+        double y = value(p, s);
+        if (fabs(y) <= 0x1p-60 * (fabs(a) + fabs(b))) return s;
+        if ((y > 0) == (a > 0)) {
+            low = s, a = y;
+            b *= 0.5;
+        } else {
+            high = s, b = y;
+            a *= 0.5;
+        }
+    }
+    return s;
+}
+
+/* Guesses the interval of a depth that a simple root is in, and makes sure. False: the guess was wrong. */
+static bool jump(num_arena *arena, num_isolated *root, int depth) {
+    const num_ball around = num_isolated_ball(root);
+    const double unit = ldexp(1, -depth), half = ldexp(0.5, -root->depth);
+    const double at = floor(rough_root(&root->of->near, around.x - half, around.x + half, unit) / unit);
+    const double first = floor((around.x - half) / unit), last = first + ldexp(1, depth - root->depth) - 1;
+    num_isolated low = {.of = root->of, .depth = depth, .low_sign = root->low_sign}, high = low;
+    if (!(at >= first && at <= last && at + 1 < ldexp(1, depth))) return false;
+    low.lo[NUM_FRACTION_LIMBS - 1] = (uint64_t)at << (64 - depth);
+    high.lo[NUM_FRACTION_LIMBS - 1] = (uint64_t)(at + 1) << (64 - depth);
+    if (sign_at_low(arena, &low) != root->low_sign || (at < last && sign_at_low(arena, &high) != -root->low_sign))
+        return false;
+    *root = low;
+    return true;
+}
+
 bool num_isolated_narrow(num_arena *arena, num_isolated *root, int depth) {
+    enum { LEAST = 12, SURE = 46 }; /* bits that are worth a guess, and that doubles tell of a root */
+    const int guess = depth < SURE ? depth : SURE;
+    if (!root->exact && !root->even && guess - root->depth >= LEAST) jump(arena, root, guess);
     while (!root->exact && root->depth < depth)
         if (!num_isolated_refine(arena, root)) return false;
     return true;
