@@ -108,7 +108,7 @@ static query_leaf find_by_tree(froe_query *q, const ways *w, const double *x) {
 enum {
     FLIGHT = 16,  /* points that go down in turns */
     AHEAD = 8,    /* points whose beginnings are asked for before it is their turn */
-    PATIENCE = 16 /* cuts in deep trees until the centroids are asked: about what that costs */
+    PATIENCE = 32 /* cuts in deep trees until the centroids are asked: about what that costs */
 };
 
 /** A point on its way, and which of them it is. */
