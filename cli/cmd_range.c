@@ -22,8 +22,8 @@ static const char *const shapes[] = {[FROE_SHAPE_BOX] = "box",
                                      [FROE_SHAPE_RAY] = "ray",
                                      NULL};
 
-static const char *const walks[] = {
-    [FROE_WALK_AUTO] = "auto", [FROE_WALK_PLAIN] = "plain", [FROE_WALK_BOX] = "box", [FROE_WALK_LCA] = "lca", NULL};
+static const char *const walks[] = {[FROE_WALK_AUTO] = "auto", [FROE_WALK_PLAIN] = "plain",     [FROE_WALK_BOX] = "box",
+                                    [FROE_WALK_LCA] = "lca",   [FROE_WALK_CLASSES] = "classes", NULL};
 
 /* The columns of each shape, in the order of froe_range's points. */
 static const cli_column columns[FROE_SHAPE_COUNT][4] = {
@@ -47,7 +47,7 @@ static const cli_option options[] = {
     {"eps", 0, CLI_REAL, offsetof(range_args, eps), "E",
      .help = "also allow objects within E times the diameter of the range; faster (default 0: exactly)"},
     {"walk", 0, CLI_CHOICE, offsetof(range_args, walk), "HOW",
-     .help = "how to search: plain, box, lca or auto (default); answers are the same", .choices = walks},
+     .help = "how to search: plain, box, lca, classes or auto (default); answers are the same", .choices = walks},
     {0},
 };
 

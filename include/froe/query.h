@@ -83,7 +83,12 @@ typedef enum froe_walk {
                             each cell met. 16 bytes for each node and dimension, and 12 */
     FROE_WALK_LCA = 3, /**< the same by its extreme points and their lowest common ancestors (de Berg 2000, Lemma 3.4),
                             for comparison: several times slower than box. 16 bytes more for each node */
-    FROE_WALK_COUNT = 4
+    FROE_WALK_CLASSES =
+        4, /**< not in the tree: objects in classes by size, each with a tree of its enlarged boxes. Where
+              the range is no larger than the class's objects, one point location; where it is larger,
+              a search of that tree; where it is larger than all classes, the tree itself (de Berg 2000,
+              Corollary 3.2). Building these trees takes as long as a `kd` tree of the boxes */
+    FROE_WALK_COUNT = 5
 } froe_walk;
 /** "auto", "plain", ...; NULL for other numbers. */
 FROE_API const char *froe_walk_name(froe_walk walk);

@@ -57,7 +57,8 @@ static void release(query_shared *shared, const froe_allocator *alloc) {
     base_free(alloc, shared, sizeof *shared);
 }
 
-void froe_query_free(froe_query *query) {
+/* Without its forks. */
+static void free_alone(froe_query *query) {
     if (!query) return;
     froe_allocator alloc = query->alloc;
     release(query->shared, &alloc);
@@ -72,6 +73,17 @@ void froe_query_free(froe_query *query) {
     space_work_free(query->space, &alloc);
     array_free(&alloc, &query->found);
     base_free(&alloc, query, sizeof *query);
+}
+
+void query_classes_give(froe_query *q) {
+    for (uint32_t i = 0; q->classes.forks && i < q->classes.count; i++) free_alone(q->classes.forks[i]);
+    base_free(&q->alloc, q->classes.forks, q->classes.count * sizeof *q->classes.forks);
+    q->classes.forks = NULL;
+}
+
+void froe_query_free(froe_query *query) {
+    if (query) query_classes_give(query);
+    free_alone(query);
 }
 
 froe_query_stats froe_query_statistics(froe_query *query) {

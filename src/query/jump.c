@@ -6,7 +6,8 @@
 froe_status query_jump_prepare(froe_query *query, froe_walk walk, query_jump *out) {
     froe_status status = FROE_OK;
     *out = (query_jump){.stats = &query->stats};
-    if (walk == FROE_WALK_PLAIN || (walk == FROE_WALK_AUTO && !query_is_deep(query->tree))) return FROE_OK;
+    const bool asked = walk == FROE_WALK_BOX || walk == FROE_WALK_LCA;
+    if (walk == FROE_WALK_PLAIN || (!asked && !query_is_deep(query->tree))) return FROE_OK;
     status = query_centroids_of(query, &out->centroids, NULL);
     if (!status && walk == FROE_WALK_LCA) status = query_ancestors_of(query, &out->ancestors, NULL);
     return status;

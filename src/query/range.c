@@ -1,5 +1,6 @@
 /* range.c: the public calls: all objects that meet a range, how many, or one of them. */
 #include "base/status.h"
+#include "query/classes.h"
 #include "query/packed.h"
 #include "query/space.h"
 
@@ -39,6 +40,7 @@ froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, fr
     if (status) return status;
     query_begin(q);
     q->range.any = any;
+    if (q->range.walk == FROE_WALK_CLASSES) return query_classes_search(q, diag);
     status = query_range_walk(q);
     return status ? base_fail_memory(diag) : FROE_OK;
 }

@@ -12,7 +12,7 @@ const char *froe_range_shape_name(froe_range_shape shape) {
 }
 
 const char *froe_walk_name(froe_walk walk) {
-    static const char *const walks[FROE_WALK_COUNT] = {"auto", "plain", "box", "lca"};
+    static const char *const walks[FROE_WALK_COUNT] = {"auto", "plain", "box", "lca", "classes"};
     return (unsigned)walk < FROE_WALK_COUNT ? walks[walk] : NULL;
 }
 
@@ -76,9 +76,10 @@ static froe_status check_numbers(const froe_range *r, size_t dim, froe_diagnosti
 }
 
 froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *diag) {
-    if (r->size != sizeof *r || (unsigned)r->shape >= FROE_SHAPE_COUNT || (unsigned)r->walk >= FROE_WALK_COUNT)
-        return base_fail(diag, FROE_E_OPTIONS,
-                         "A range must come from froe_range_defaults() and have a shape and a walk.");
+    if (r->size != sizeof *r || (unsigned)r->shape >= FROE_SHAPE_COUNT)
+        return base_fail(diag, FROE_E_OPTIONS, "A range must come from froe_range_defaults() and have a shape.");
+    if ((unsigned)r->walk >= FROE_WALK_COUNT)
+        return base_fail(diag, FROE_E_OPTIONS, "There is no walk of number %u.", (unsigned)r->walk);
     if (dim > 3 && r->shape != FROE_SHAPE_BOX && r->shape != FROE_SHAPE_BALL)
         return base_fail(diag, FROE_E_UNSUPPORTED, "There is no %s in %d dimensions.", names[r->shape], dim);
     const size_t count = point_count(r, (size_t)dim);
