@@ -3,9 +3,9 @@
  *     bench_index [N [KIND...]]        default: 10^6, of short, mixed, tin, cross; FILE: see plane.c
  *
  * One thread, processor time, but for a line that says what two do for pairs. In every round each program answers the
- * same queries, one program after the other; a rate is the median of 5 rounds, a ratio that of the medians. Answers are
- * compared, all of them. froe takes part once with each set of kernels that the machine can run; ratios are those of
- * the first, which it takes by itself. */
+ * same number of queries, one program after the other; a rate is the median of 5 rounds, a ratio that of the medians.
+ * Answers are compared, all of them. froe takes part once with each set of kernels that the machine can run; ratios are
+ * those of the first, which it takes by itself. */
 #include "bench.h"
 #include "plane.h"
 #include "query/packed.h"
@@ -186,15 +186,23 @@ static size_t window(const run *r, const contestant *c, const double *w) {
     return found.count;
 }
 
-/* All programs on queries [from, to); the sums tell in the end whether they said the same. */
-static void windows_round(run *r, int k, int round, size_t from, size_t to) {
+/* Shares of the queries in turn: none answers what another has just brought into the caches; in the end all have
+ * answered all. */
+static size_t share_of(int round, size_t place) {
+    return ((size_t)round + place) % ROUNDS;
+}
+
+/* All programs on a share each; the sums tell in the end whether they said the same. */
+static void windows_round(run *r, int k, int round) {
+    const size_t count = r->plane.window_count[k] / ROUNDS;
     contestant c;
     for (size_t i = 0; contestant_at(r, i, &c); i++) {
         if (c.peer && (!c.peer->window || !c.index)) continue;
+        const size_t from = share_of(round, i) * count, to = from + count;
         double start = bench_cpu();
         for (size_t w = from; w < to; w++) window(r, &c, r->plane.windows[k] + 4 * w);
-        c.column->rate[round] = (double)(to - from) / (bench_cpu() - start);
-        if (round) continue;
+        c.column->rate[round] = (double)count / (bench_cpu() - start);
+        if (from) continue;
         c.column->sum = 0;
         for (size_t w = from; w < to && w < from + 2000; w++)
             c.column->sum += checksum(r->out, window(r, &c, r->plane.windows[k] + 4 * w));
@@ -202,10 +210,8 @@ static void windows_round(run *r, int k, int round, size_t from, size_t to) {
 }
 
 static void time_windows(run *r, int k) {
-    size_t share = r->plane.window_count[k] / ROUNDS;
     begin(r);
-    for (int round = 0; round < ROUNDS; round++)
-        windows_round(r, k, round, (size_t)round * share, ((size_t)round + 1) * share);
+    for (int round = 0; round < ROUNDS; round++) windows_round(r, k, round);
     print(r, k ? "window 1000" : "window 10", false);
 }
 
@@ -218,22 +224,22 @@ static int64_t above(const contestant *c, const double *x) {
     return object == FROE_NONE ? -1 : (int64_t)object;
 }
 
-static void above_round(run *r, int round, size_t from, size_t to) {
+static void above_round(run *r, int round) {
+    const size_t count = r->plane.point_count / ROUNDS;
     contestant c;
     for (size_t k = 0; contestant_at(r, k, &c); k++) {
         if (c.peer && (!c.peer->above || !c.index)) continue;
+        const size_t from = share_of(round, k) * count, to = from + count;
         double start = bench_cpu(), sum = 0;
         for (size_t i = from; i < to; i++) sum += (double)above(&c, r->plane.points + 2 * i) * (double)(i % 1009 + 1);
-        c.column->rate[round] = (double)(to - from) / (bench_cpu() - start);
+        c.column->rate[round] = (double)count / (bench_cpu() - start);
         c.column->sum = round ? c.column->sum + sum : sum;
     }
 }
 
 static void time_above(run *r) {
-    size_t share = r->plane.point_count / ROUNDS;
     begin(r);
-    for (int round = 0; round < ROUNDS; round++)
-        above_round(r, round, (size_t)round * share, ((size_t)round + 1) * share);
+    for (int round = 0; round < ROUNDS; round++) above_round(r, round);
     print(r, "above", false);
 }
 
@@ -246,7 +252,7 @@ static void time_above_batch(run *r) {
     for (size_t k = 0; k < r->paths; k++) r->froe[k].sum = 0;
     for (int round = 0; round < ROUNDS; round++)
         for (size_t k = 0; k < r->paths; k++) {
-            size_t from = (size_t)round * share;
+            const size_t from = share_of(round, k) * share;
             double start = bench_cpu();
             bench_must(froe_batch_vertical(r->query[k], r->plane.points + 2 * from, share, 1, &o, objects + from, NULL),
                        NULL);

@@ -46,7 +46,40 @@ static void points_are_found_in_what_contains_them(void **state) {
     (void)state;
     for (uint64_t seed = 0; decisions < DECISIONS; seed++)
         for (size_t i = 0; i < world_count; i++) decisions += locate(&worlds[i], 100 * seed + i, &held);
+    print_message("%zu decisions\n", decisions);
     assert_true(held > 1000);
+}
+
+static size_t held_at_limits;
+
+static size_t locate_in(const char *name, froe_scene *scene, uint64_t points) {
+    world w = world_begin(name, scene);
+    size_t decisions = 0;
+    for (uint64_t seed = 0; seed < points; seed++) decisions += locate(&w, seed, &held_at_limits);
+    world_end(&w);
+    return decisions;
+}
+
+static void points_are_found_at_the_limits(void **state) {
+    size_t decisions = 0;
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        const unsigned kinds = FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL | (dim == 3 ? 1u << FROE_POLYGON : 0);
+        froe_scene *unit = world_mixture(dim, kinds, 8, 0, 0.5, 9), *lattice = world_mixture(dim, kinds, 8, 6, 0.6, 9);
+        locate_in("nothing", world_mixture(dim, 0, 0, 0, 0, 1), 10);
+        for (int kind = 0; kind < FROE_KIND_COUNT; kind++)
+            if (kinds >> kind & 1) decisions += locate_in("one", world_mixture(dim, 1u << kind, 1, 3, 1, 1), 60);
+        decisions += locate_in("around 1e300", world_scaled(unit, 1000), 40);
+        decisions += locate_in("around 1e-307", world_scaled(unit, -1020), 40);
+        decisions += locate_in("denormals", world_scaled(lattice, -1074), 40);
+        decisions += locate_in("a lattice around 1e307", world_scaled(lattice, 1019), 40);
+        froe_scene_free(unit);
+        froe_scene_free(lattice);
+    }
+    decisions += locate_in("a map", world_read("states-albers-10m.json"), 1);
+    decisions += locate_in("boxes of a house", world_read("fzk-haus-boxes.csv"), 60);
+    print_message("%zu decisions at the limits, %zu held\n", decisions, held_at_limits);
+    assert_true(decisions > 200000 && held_at_limits > 1000);
 }
 
 static void points_outside_and_bad_points(void **state) {
@@ -157,6 +190,7 @@ static void batches_survive_every_failing_allocation(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_are_found_in_what_contains_them),
+        cmocka_unit_test(points_are_found_at_the_limits),
         cmocka_unit_test(points_outside_and_bad_points),
         cmocka_unit_test(batches_answer_as_single_queries_with_any_number_of_threads),
         cmocka_unit_test(the_first_bad_query_of_a_batch_is_named),

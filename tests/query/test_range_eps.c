@@ -1,7 +1,7 @@
 /* Approximate ranges: all that meet, and nothing further away than eps times the diameter. */
 #include "query/standing.h"
 
-/* -------------------------------------------------------------- approximately -- */
+static size_t decisions, limits; /* of them, in scenes at the limits */
 
 /** All that meet, and nothing further away than eps times the diameter. */
 static void check_eps(const world *w, froe_range_shape shape, uint64_t seed, double eps, size_t *more) {
@@ -27,6 +27,7 @@ static void check_eps(const world *w, froe_range_shape shape, uint64_t seed, dou
         froe_list list;
         froe_status status = froe_query_range(w->queries[t], &q.range, &list, NULL);
         if (status) break; /* unbounded */
+        decisions += w->count;
         bool *found = calloc(w->count + 1, sizeof *found);
         oracle_set grown = q.set;
         grown.radius += eps * (diameter + 2 * grown.radius) * (1 + 1e-12);
@@ -51,16 +52,46 @@ static void approximate_answers_keep_their_contract(void **state) {
     (void)state;
     for (int shape = 0; shape <= FROE_SHAPE_HULL; shape++) {
         size_t more = 0;
-        for (uint64_t seed = 0; seed < 24; seed++)
+        for (uint64_t seed = 0; seed < 12; seed++)
             for (size_t i = 0; i < world_count; i++)
                 check_eps(&worlds[i], (froe_range_shape)shape, 7000 * seed + i, seed % 2 ? 0.5 : 0.05, &more);
         assert_true(more > 0); /* otherwise nothing was tested */
     }
 }
 
+static void check_world(const char *name, froe_scene *scene, uint64_t seeds) {
+    world w = world_begin(name, scene);
+    size_t more = 0;
+    for (uint64_t seed = 0; seed < seeds; seed++)
+        for (int shape = 0; shape <= FROE_SHAPE_HULL; shape++)
+            if (shape != FROE_SHAPE_HALFSPACES)
+                check_eps(&w, (froe_range_shape)shape, seed, seed % 2 ? 0.5 : 0.05, &more);
+    world_end(&w);
+}
+
+static void at_the_limits_they_keep_it_too(void **state) {
+    const size_t before = decisions;
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        const unsigned kinds = FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL;
+        froe_scene *unit = world_mixture(dim, kinds, 8, 0, 0.5, 9);
+        check_world("nothing", world_mixture(dim, 0, 0, 0, 0, 1), 2);
+        check_world("one object", world_mixture(dim, 1 << FROE_SEGMENT, 1, 0, 0.5, 1), 8);
+        check_world("around 1e-60", world_scaled(unit, -200), 2);
+        check_world("around 1e60", world_scaled(unit, 200), 2);
+        froe_scene_free(unit);
+    }
+    check_world("boxes of a house", world_read("fzk-haus-boxes.csv"), 2);
+    limits = decisions - before;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(approximate_answers_keep_their_contract),
+        cmocka_unit_test(at_the_limits_they_keep_it_too),
     };
-    return cmocka_run_group_tests(tests, standing_begin, standing_end);
+    const int failed = cmocka_run_group_tests(tests, standing_begin, standing_end);
+    print_message("%zu decisions, %zu at the limits\n", decisions, limits);
+    assert_true(failed || (decisions > 1000000 && limits > 10000));
+    return failed;
 }

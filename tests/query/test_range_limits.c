@@ -25,36 +25,15 @@ static void empty_scenes_and_single_objects(void **state) {
     }
 }
 
-/* Coordinates times a power of two, so that everything is as exact as it was. */
-static froe_scene *scaled(const froe_scene *from, int power) {
-    froe_scene *to;
-    int dim = froe_scene_dim(from);
-    assert_int_equal(froe_scene_new(dim, NULL, &to), FROE_OK);
-    for (uint32_t i = 0; i < froe_scene_object_count(from); i++) {
-        froe_object o = froe_scene_object(from, i);
-        double coords[16 * 3];
-        const size_t starts[2] = {0, o.corners};
-        double radius = ldexp(o.radius, power);
-        for (uint32_t c = 0; c < o.corners; c++)
-            for (int k = 0; k < dim; k++)
-                coords[c * (uint32_t)dim + (uint32_t)k] =
-                    ldexp(froe_scene_vertex(from, froe_scene_corner(from, i, c))[k], power);
-        bool runs = o.form == FROE_HULL || o.form == FROE_POLYGON;
-        assert_int_equal(trees_add(to, o.form, 1, coords, o.form == FROE_BALL ? &radius : NULL, runs ? starts : NULL),
-                         FROE_OK);
-    }
-    return to;
-}
-
 static void the_ends_of_the_range_of_doubles(void **state) {
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         unsigned kinds = FLAT_KINDS | SOLID_KINDS | 1 << FROE_HULL | (dim == 3 ? 1 << FROE_POLYGON : 0);
         froe_scene *unit = world_mixture(dim, kinds, 8, 0, 0.5, 9), *lattice = world_mixture(dim, kinds, 8, 6, 0.6, 9);
-        check_world(scaled(unit, 1000), "around 1e300", false, 8);
-        check_world(scaled(unit, -1020), "around 1e-307", false, 8);
-        check_world(scaled(lattice, -1074), "denormals", false, 8);
-        check_world(scaled(lattice, 1019), "a lattice around 1e307", false, 8);
+        check_world(world_scaled(unit, 1000), "around 1e300", false, 8);
+        check_world(world_scaled(unit, -1020), "around 1e-307", false, 8);
+        check_world(world_scaled(lattice, -1074), "denormals", false, 8);
+        check_world(world_scaled(lattice, 1019), "a lattice around 1e307", false, 8);
         froe_scene_free(unit);
         froe_scene_free(lattice);
     }
@@ -224,7 +203,7 @@ static void bad_ranges_are_refused_with_a_reason(void **state) {
          .message = "Halfspaces without a bound have no eps."},
         {FROE_SHAPE_HULL, .count = 0, .status = FROE_E_INPUT, .message = "A hull of no points."},
         {FROE_SHAPE_COUNT, .status = FROE_E_OPTIONS,
-         .message = "A range must come from froe_range_defaults() and have a shape."},
+         .message = "A range must come from froe_range_defaults() and have a shape and a walk."},
     };
     (void)state;
     world w = world_begin("two", world_mixture(2, 1 << FROE_SEGMENT, 2, 0, 0.5, 1));

@@ -7,6 +7,7 @@ static void check_shape(froe_range_shape shape) {
     size_t decisions = 0;
     for (uint64_t seed = 0; decisions < DECISIONS; seed++)
         for (size_t i = 0; i < world_count; i++) decisions += ask(&worlds[i], shape, 1000 * seed + i);
+    print_message("%s: %zu decisions\n", froe_range_shape_name(shape), decisions);
 }
 
 static void boxes(void **state) {

@@ -85,6 +85,27 @@ static inline froe_scene *world_mixture(int dim, unsigned kinds, size_t count, u
     return scene;
 }
 
+/** Coordinates times a power of two, so that everything is as exact as it was. */
+static inline froe_scene *world_scaled(const froe_scene *from, int power) {
+    froe_scene *to;
+    int dim = froe_scene_dim(from);
+    assert_int_equal(froe_scene_new(dim, NULL, &to), FROE_OK);
+    for (uint32_t i = 0; i < froe_scene_object_count(from); i++) {
+        froe_object o = froe_scene_object(from, i);
+        double coords[16 * 3];
+        const size_t starts[2] = {0, o.corners};
+        double radius = ldexp(o.radius, power);
+        for (uint32_t c = 0; c < o.corners; c++)
+            for (int k = 0; k < dim; k++)
+                coords[c * (uint32_t)dim + (uint32_t)k] =
+                    ldexp(froe_scene_vertex(from, froe_scene_corner(from, i, c))[k], power);
+        bool runs = o.form == FROE_HULL || o.form == FROE_POLYGON;
+        assert_int_equal(trees_add(to, o.form, 1, coords, o.form == FROE_BALL ? &radius : NULL, runs ? starts : NULL),
+                         FROE_OK);
+    }
+    return to;
+}
+
 static inline froe_scene *world_read(const char *file) {
     char path[500];
     froe_scene *scene;
@@ -110,9 +131,18 @@ static inline double world_unit(world_dice *d) {
     return trees_unit(d->seed, d->counter++);
 }
 
-/** A point to ask about: anywhere, on a vertex, or with coordinates of vertices, which cuts have, too. */
+/** Puts a point into axis-parallel cuts of some tree: one, or as many as there are axes. */
+static inline void world_into_cuts(const world *w, world_dice *d, double *x) {
+    if (!w->tree_count) return;
+    const froe_tree *t = w->trees[world_below(d, (uint32_t)w->tree_count)];
+    for (uint32_t cuts = 1 + world_below(d, (uint32_t)w->dim); cuts > 0 && t->node_count; cuts--) {
+        const froe_cut cut = tree_cut_at(t, world_below(d, t->node_count));
+        if (cut.kind == FROE_CUT_AXIS) x[cut.axis] = cut.value;
+    }
+}
+/** A point to ask about: anywhere, on a vertex, with coordinates of vertices, which cuts have, too, or in cuts. */
 static inline void world_point(const world *w, world_dice *d, double *x) {
-    uint32_t vertices = (uint32_t)froe_scene_vertex_count(w->scene), style = world_below(d, 4);
+    uint32_t vertices = (uint32_t)froe_scene_vertex_count(w->scene), style = world_below(d, 5);
     for (int k = 0; k < w->dim; k++) {
         x[k] = w->origin[k] + w->scale * (1.2 * world_unit(d) - 0.1);
         if (w->lattice) x[k] = floor(x[k]);
@@ -120,6 +150,7 @@ static inline void world_point(const world *w, world_dice *d, double *x) {
     }
     if (style == 2 && vertices)
         memcpy(x, froe_scene_vertex(w->scene, world_below(d, vertices)), (size_t)w->dim * sizeof *x);
+    if (style == 3) world_into_cuts(w, d, x);
 }
 /** One near another, by about `size` of the scene. */
 static inline void world_near(const world *w, world_dice *d, double size, const double *from, double *x) {
