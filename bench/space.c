@@ -7,11 +7,12 @@
  *     mesh    a bumpy sphere
  *
  * One thread, processor time. In every round each program answers the same queries, one program after the other; a
- * rate is the median of 5 rounds, a ratio that of the medians. Answers are compared, all of them: windows by their
- * objects, parameters and distances by how many differ by more than 10^-9 of the scene (Embree: 10^-4; it rounds). */
+ * rate is the median of 5 rounds, a ratio that of the medians. First with the best code that the processor can run,
+ * then with the others. Answers are compared, all of them: windows by their objects, parameters and distances by how
+ * many differ by more than 10^-9 of the scene (Embree: 10^-4; it rounds). */
 #include "peers/space.h"
 #include "bench.h"
-#include <froe/query.h>
+#include "query/space.h"
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -335,6 +336,7 @@ static bool same(const run *r, const space_peer *p, double a, double b) {
 static void time_numbers(run *r, const question *a) {
     const size_t share = QUERIES / ROUNDS;
     begin(r);
+    froe_query_statistics(r->query);
     for (int round = 0; round < ROUNDS; round++)
         for (int p = -1; p < PEERS; p++) {
             if (p >= 0 && !a->takes(peers[p])) continue;
@@ -356,20 +358,28 @@ static void time_numbers(run *r, const question *a) {
            (double)s.tests / (double)s.queries, (double)s.exact / (double)s.queries);
 }
 
-/* The same questions in batches, on one thread; no peers. */
+/* The rays of a round in one call, on one thread; peers take theirs one by one. */
 static void time_batches(run *r) {
     const size_t share = QUERIES / ROUNDS;
     froe_batch_options o = froe_batch_defaults();
     froe_hit *hits = bench_take(QUERIES, sizeof *hits);
     o.threads = 1;
     begin(r);
-    for (int round = 0; round < ROUNDS; round++) {
-        double start = bench_cpu();
-        size_t from = 3 * share * (size_t)round;
-        bench_must(froe_batch_ray(r->query, r->origins + from, r->directions + from, share, INFINITY, &o, hits, NULL),
-                   NULL);
-        r->rate[0][round] = (double)share / (bench_cpu() - start);
-    }
+    for (size_t round = 0; round < ROUNDS; round++)
+        for (int p = -1; p < PEERS; p++) {
+            if (p >= 0 && !peers[p]->ray) continue;
+            const size_t from = share * round;
+            const double *origins = r->origins + 3 * from, *directions = r->directions + 3 * from;
+            double start = bench_cpu(), wrong = 0;
+            if (p < 0)
+                bench_must(froe_batch_ray(r->query, origins, directions, share, INFINITY, &o, hits + from, NULL), NULL);
+            for (size_t q = from; p >= 0 && q < from + share; q++) {
+                const double t = hits[q].object == FROE_NONE ? (double)INFINITY : hits[q].t;
+                wrong += !same(r, peers[p], ask_ray(r, peers[p], r->index[p], q), t);
+            }
+            r->rate[p + 1][round] = (double)share / (bench_cpu() - start);
+            r->wrong[p + 1] = wrong + (round ? r->wrong[p + 1] : 0);
+        }
     free(hits);
     print(r, "rays, batch", false);
 }
@@ -404,6 +414,21 @@ static void time_windows(run *r, int i) {
     print(r, i ? "box 1000" : "box 10", false);
 }
 
+/* ---------------------------------------------------------------------- paths -- */
+
+/* Once more with code for processors that can do less. */
+static void time_paths(run *r) {
+    for (size_t i = 1; space_kernels_at(i); i++) {
+        r->query->space->kernels = space_kernels_at(i);
+        printf("#        %s\n", packed_kernels_at(i)->name);
+        for (size_t a = 0; a < sizeof questions / sizeof *questions; a++) time_numbers(r, questions + a);
+        time_batches(r);
+        time_windows(r, 0);
+        time_windows(r, 1);
+    }
+    r->query->space->kernels = space_kernels_at(0);
+}
+
 /* ---------------------------------------------------------------------- whole -- */
 
 static void bench(const char *kind, size_t n) {
@@ -416,13 +441,11 @@ static void bench(const char *kind, size_t n) {
     printf("\n");
     time_builds(&r);
     make_queries(&r);
-    for (size_t i = 0; i < sizeof questions / sizeof *questions; i++) {
-        froe_query_statistics(r.query);
-        time_numbers(&r, questions + i);
-    }
+    for (size_t i = 0; i < sizeof questions / sizeof *questions; i++) time_numbers(&r, questions + i);
     time_batches(&r);
     time_windows(&r, 0);
     time_windows(&r, 1);
+    time_paths(&r);
     for (int p = 0; p < PEERS; p++) peers[p]->free(r.index[p]);
     froe_query_free(r.query);
     froe_tree_free(r.tree);

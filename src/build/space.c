@@ -107,6 +107,7 @@ static froe_status begin(space_work *w) {
         space_item *item = w->items.data + w->items.count++;
         scene_bounds_in(s, 3, i, item->lo, item->hi);
         item->object = i;
+        item->corner = space_is_triangle(s, i) ? s->starts[i] : FROE_NONE;
     }
     for (int k = 0; s->object_count && k < 3; k++) {
         w->job->meta.root_lo[k] = s->lo[k] + 0.0;

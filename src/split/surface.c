@@ -5,8 +5,9 @@
  * 2^-50 of that. */
 #include "split/surface.h"
 #include <math.h>
+#include <string.h>
 
-enum { BINS = 32, FEW_BINS = 16, FEW = 64, SAMPLES = 4096, TRIES = 8, AHEAD = 12 };
+enum { BINS = 32, FEW_BINS = 16, FEW = 64, SAMPLES = 1024, TRIES = 8, AHEAD = 8 };
 
 /* -------------------------------------------------------------------- choose -- */
 
@@ -27,15 +28,21 @@ static int bin_of(const binning *b, int axis, double x) {
     return place > 0 ? place < b->bins ? (int)place : b->bins - 1 : 0;
 }
 
-static void fill_bins(binning *b, const space_item *items, uint32_t count) {
-    uint32_t step = count > 2 * SAMPLES ? count / SAMPLES : 1;
-    *b = (binning){.lo = {INFINITY, INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY, -INFINITY}};
-    b->bins = count < FEW ? FEW_BINS : BINS;
+static void find_bounds(binning *b, const space_item *items, uint32_t count) {
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++) {
-            b->lo[k] = items[i].lo[k] < b->lo[k] ? items[i].lo[k] : b->lo[k];
-            b->hi[k] = items[i].hi[k] > b->hi[k] ? items[i].hi[k] : b->hi[k];
+            lo[k] = items[i].lo[k] < lo[k] ? items[i].lo[k] : lo[k];
+            hi[k] = items[i].hi[k] > hi[k] ? items[i].hi[k] : hi[k];
         }
+    memcpy(b->lo, lo, sizeof lo);
+    memcpy(b->hi, hi, sizeof hi);
+}
+
+static void fill_bins(binning *b, const space_item *items, uint32_t count) {
+    uint32_t step = count > 2 * SAMPLES ? count / SAMPLES : 1;
+    *b = (binning){.bins = count < FEW ? FEW_BINS : BINS};
+    find_bounds(b, items, count);
     for (int k = 0; k < 3; k++) {
         b->size[k] = b->hi[k] - b->lo[k];
         b->per_bin[k] = b->size[k] > 0 ? b->bins / b->size[k] : 0;
@@ -98,78 +105,109 @@ bool surface_count(const space_item *items, uint32_t count, surface_cut *cut, ui
 
 /* ---------------------------------------------------------------------- deal -- */
 
-static void reach(space_item *b, int k, double x, double slack) {
-    bool tame = fabs(x) <= 0x1p1000; /* false for NaN: then nothing is clipped */
-    double lo = tame ? x - slack : -(double)INFINITY, hi = tame ? x + slack : (double)INFINITY;
-    if (lo < b->lo[k]) b->lo[k] = lo;
-    if (hi > b->hi[k]) b->hi[k] = hi;
+static void reach(space_item *b, int k, double lo, double hi) {
+    b->lo[k] = lo < b->lo[k] ? lo : b->lo[k];
+    b->hi[k] = hi > b->hi[k] ? hi : b->hi[k];
 }
 
-/* Bounds of a triangle's part on one side. */
-static space_item part_of(const double *const p[3], int axis, double c, int side) {
-    space_item b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+/* Bounds of a triangle's parts on both sides; corners in the cut belong to both. */
+static void divide(const double *const p[3], int axis, double c, space_item part[2]) {
+    part[0] = part[1] = (space_item){.lo = {INFINITY, INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY, -INFINITY}};
     for (int i = 0; i < 3; i++) {
         const double *u = p[i], *v = p[i == 2 ? 0 : i + 1];
-        bool u_in = side ? u[axis] >= c : u[axis] <= c, v_in = side ? v[axis] >= c : v[axis] <= c;
-        for (int k = 0; u_in && k < 3; k++) reach(&b, k, u[k], 0);
-        if (u_in == v_in) continue;
-        double s = (c - u[axis]) / (v[axis] - u[axis]);
-        for (int k = 0; k < 3; k++) reach(&b, k, u[k] + s * (v[k] - u[k]), 0x1p-50 * (fabs(u[k]) + fabs(v[k])));
+        for (int k = 0; u[axis] <= c && k < 3; k++) reach(part, k, u[k], u[k]);
+        for (int k = 0; u[axis] >= c && k < 3; k++) reach(part + 1, k, u[k], u[k]);
+        if (!(u[axis] < c && v[axis] > c) && !(u[axis] > c && v[axis] < c)) continue;
+        const double s = (c - u[axis]) / (v[axis] - u[axis]);
+        for (int k = 0; k < 3; k++) {
+            const double x = u[k] + s * (v[k] - u[k]), slack = 0x1p-50 * (fabs(u[k]) + fabs(v[k]));
+            reach(part, k, x - slack, x + slack);
+            reach(part + 1, k, x - slack, x + slack);
+        }
     }
-    return b;
 }
 
-/* Is the plane of a triangle certainly beside the box? With w from a corner to the middle of the box and h its half
- * extents, n . w errs by less than 2^-47 |e| |f| (|w| + |h|), in sums of coordinates. */
-static bool plane_misses(const double *const p[3], const space_item *b) {
-    double e[3], f[3], w[3], h[3], value = 0, reach = 0, e_size = 0, f_size = 0, w_size = 0;
+typedef struct plane {
+    double p[3], n[3], doubt; /* doubt: 2^-47 |e| |f|, in sums of coordinates */
+} plane;
+
+static plane plane_of(const double *const p[3]) {
+    plane a = {.doubt = 0};
+    double e[3], f[3], e_size = 0, f_size = 0;
     for (int k = 0; k < 3; k++) {
+        a.p[k] = p[0][k];
         e[k] = p[1][k] - p[0][k], f[k] = p[2][k] - p[0][k];
-        w[k] = (0.5 * b->lo[k] + 0.5 * b->hi[k]) - p[0][k];
-        h[k] = (0.5 * b->hi[k] - 0.5 * b->lo[k]) * (1 + 0x1p-50) + 0x1p-50 * (fabs(b->lo[k]) + fabs(b->hi[k]));
-        e_size += fabs(e[k]), f_size += fabs(f[k]), w_size += fabs(w[k]) + h[k];
+        e_size += fabs(e[k]), f_size += fabs(f[k]);
     }
     for (int k = 0; k < 3; k++) {
         int i = k == 2 ? 0 : k + 1, j = k ? k - 1 : 2;
-        double n = e[i] * f[j] - e[j] * f[i];
-        value += n * w[k];
-        reach += fabs(n) * h[k];
+        a.n[k] = e[i] * f[j] - e[j] * f[i];
     }
-    return fabs(value) - reach > 0x1p-47 * e_size * f_size * w_size + 0x1p-900;
+    a.doubt = 0x1p-47 * e_size * f_size;
+    return a;
 }
 
-/* What is left of an item on one side; false: nothing. */
-static bool clip(const froe_scene *s, const space_item *item, const surface_cut *cut, int side, bool thorough,
-                 space_item *out) {
-    *out = *item;
-    (side ? out->lo : out->hi)[cut->axis] = cut->value;
-    if (!space_is_triangle(s, item->object)) return true;
-    const double *const p[3] = {scene_point(s, item->object, 0), scene_point(s, item->object, 1),
-                                scene_point(s, item->object, 2)};
-    space_item part = part_of(p, cut->axis, cut->value, side);
+/* Is a plane certainly beside the box? With w from a corner to the middle of the box and h its half extents, n . w errs
+ * by less than 2^-47 |e| |f| (|w| + |h|), in sums of coordinates. */
+static bool misses(const plane *a, const space_item *b) {
+    double value = 0, reach = 0, size = 0;
     for (int k = 0; k < 3; k++) {
-        if (k == cut->axis) continue;
-        if (part.lo[k] > out->lo[k]) out->lo[k] = part.lo[k];
-        if (part.hi[k] < out->hi[k]) out->hi[k] = part.hi[k];
-        if (out->lo[k] > out->hi[k]) return false;
+        const double w = (0.5 * b->lo[k] + 0.5 * b->hi[k]) - a->p[k];
+        const double h =
+            (0.5 * b->hi[k] - 0.5 * b->lo[k]) * (1 + 0x1p-50) + 0x1p-50 * (fabs(b->lo[k]) + fabs(b->hi[k]));
+        value += a->n[k] * w;
+        reach += fabs(a->n[k]) * h;
+        size += fabs(w) + h;
     }
-    return !thorough || !plane_misses(p, out);
+    return fabs(value) - reach > a->doubt * size + 0x1p-900;
+}
+
+/* Cuts an item down to its part; false: nothing is left. */
+static bool shrink(space_item *item, const space_item *part, int axis) {
+    bool left = true;
+    for (int k = 0; k < 3; k++) {
+        if (k == axis) continue;
+        item->lo[k] = part->lo[k] > item->lo[k] ? part->lo[k] : item->lo[k];
+        item->hi[k] = part->hi[k] < item->hi[k] ? part->hi[k] : item->hi[k];
+        left = left && item->lo[k] <= item->hi[k];
+    }
+    return left;
+}
+
+/* Clips both copies of a triangle, one for each side; is anything left there? */
+static void clip(const froe_scene *s, const surface_cut *cut, bool thorough, space_item *const out[2], bool left[2]) {
+    const double *const p[3] = {space_corner(s, out[0], 0), space_corner(s, out[0], 1), space_corner(s, out[0], 2)};
+    space_item part[2];
+    divide(p, cut->axis, cut->value, part);
+    for (int i = 0; i < 2; i++) left[i] = shrink(out[i], part + i, cut->axis);
+    if (!thorough) return;
+    const plane a = plane_of(p);
+    for (int i = 0; i < 2; i++) left[i] = left[i] && !misses(&a, out[i]);
+}
+
+/* Differences of coordinates do not overflow: only then parts can be told. */
+static bool is_tame(const froe_scene *s) {
+    double most = 0;
+    for (int k = 0; k < 3; k++) most = fmax(most, fmax(fabs(s->lo[k]), fabs(s->hi[k])));
+    return most <= 0x1p1000;
 }
 
 void surface_deal(const froe_scene *s, const space_item *items, uint32_t count, surface_cut *cut,
                   const uint8_t *classes, bool thorough, space_item *negative, space_item *positive) {
     uint32_t below = 0, above = 0;
+    const bool tame = is_tame(s);
     for (uint32_t i = 0; i < count; i++) {
         const space_item item = items[i]; /* positive may be items */
-        if (i + AHEAD < count && classes[i + AHEAD] == 3) scene_ask(s, items[i + AHEAD].object);
-        if (classes[i] == 3) {
-            below += clip(s, &item, cut, 0, thorough, negative + below);
-            above += clip(s, &item, cut, 1, thorough, positive + above);
-        } else if (classes[i] == 1) {
-            negative[below++] = item;
-        } else {
-            positive[above++] = item;
-        }
+        space_item *const out[2] = {negative + below, positive + above};
+        bool left[2] = {classes[i] & 1, classes[i] & 2};
+        if (i + 2 * AHEAD < count && classes[i + 2 * AHEAD] == 3) space_ask(s, items + i + 2 * AHEAD);
+        if (i + AHEAD < count && classes[i + AHEAD] == 3) space_ask_corners(s, items + i + AHEAD);
+        if (left[0]) *out[0] = item;
+        if (left[1]) *out[1] = item;
+        if (classes[i] == 3) out[0]->hi[cut->axis] = out[1]->lo[cut->axis] = cut->value;
+        if (classes[i] == 3 && item.corner != FROE_NONE && tame) clip(s, cut, thorough, out, left);
+        below += left[0];
+        above += left[1];
     }
     cut->sides[0] = below;
     cut->sides[1] = above;

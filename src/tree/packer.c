@@ -97,7 +97,7 @@ froe_status packer_leaf(tree_packer *p, uint32_t node, const packed_box *box, co
 
 froe_status packer_space_leaf(tree_packer *p, uint32_t node, const froe_scene *scene, space_item *items, uint32_t count,
                               uint8_t flags) {
-    uint32_t triangles = space_sort(scene, items, count), size = space_size(count, triangles);
+    uint32_t triangles = space_sort(items, count), size = space_size(count, triangles);
     void *block;
     froe_status status = take_leaf(p, node, count, size, flags, &block);
     if (status) return status;

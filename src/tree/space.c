@@ -6,8 +6,6 @@
 #include "tree/space.h"
 #include <math.h>
 
-enum { AHEAD = 8 };
-
 bool space_is_tame(const double *lo, const double *hi) {
     double most = 0, size = 0;
     for (int k = 0; k < 3; k++) {
@@ -17,13 +15,14 @@ bool space_is_tame(const double *lo, const double *hi) {
     return most <= 0x1p400 && size >= 0x1p-400;
 }
 
-uint32_t space_sort(const froe_scene *s, space_item *items, uint32_t count) {
+uint32_t space_sort(space_item *items, uint32_t count) {
     uint32_t triangles = 0;
     for (uint32_t i = 0; i < count; i++) {
-        if (!space_is_triangle(s, items[i].object)) continue;
+        if (items[i].corner == FROE_NONE) continue;
+        if (i == triangles++) continue;
         space_item item = items[i];
-        items[i] = items[triangles];
-        items[triangles++] = item;
+        items[i] = items[triangles - 1];
+        items[triangles - 1] = item;
     }
     return triangles;
 }
@@ -54,21 +53,23 @@ static double scale_for(const bounds *b) {
     return size * scale <= PACKED_UNITS ? scale : scale / 2;
 }
 
+/* Rounded down. */
 static uint16_t unit_of(double x, double lo, double scale, double up) {
-    double u = floor((x - lo) * scale + up);
-    return (uint16_t)(u > 0 ? u < PACKED_UNITS ? u : PACKED_UNITS : 0);
+    const double u = (x - lo) * scale + up;
+    return (uint16_t)(u > 0 ? u < PACKED_UNITS ? (int32_t)u : PACKED_UNITS : 0);
 }
 
 static uint16_t unit_above(double x, double lo, double scale) {
-    double u = ceil((x - lo) * scale);
-    return (uint16_t)(u > 0 ? u < PACKED_UNITS ? u : PACKED_UNITS : 0);
+    const double u = (x - lo) * scale;
+    const uint16_t below = unit_of(x, lo, scale, 0);
+    return (uint16_t)(below + (u > below && below < PACKED_UNITS));
 }
 
 static void write_rows(const space_header *h, uint16_t *rows, const froe_scene *s, const space_item *items) {
     const size_t n = h->count, m = h->triangles;
     for (size_t i = 0; i < m; i++)
         for (uint32_t c = 0; c < 3; c++) {
-            const double *x = scene_point(s, items[i].object, c);
+            const double *x = space_corner(s, items + i, c);
             for (size_t k = 0; k < 3; k++)
                 rows[c < 2 ? (3 * c + k) * n + i : 6 * n + k * m + i] = unit_of(x[k], h->lo[k], h->scale, 0.5);
         }
@@ -82,15 +83,17 @@ static void write_rows(const space_header *h, uint16_t *rows, const froe_scene *
 void space_write(space_header *h, const froe_scene *s, const space_item *items, uint32_t count, uint32_t triangles) {
     bounds frame = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}, parts = frame;
     uint32_t *ids = (uint32_t *)(void *)(h + 1);
+    for (uint32_t i = 0; i < count; i++) space_ask(s, items + i);
+    for (uint32_t i = 0; i < count; i++) space_ask_corners(s, items + i);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t object = items[i].object;
-        if (i + AHEAD < count) scene_ask(s, items[i + AHEAD].object);
         grow(&parts, items[i].lo, items[i].hi);
         for (uint32_t c = 0; i < triangles && c < 3; c++) {
-            const double *x = scene_point(s, object, c);
+            const double *x = space_corner(s, items + i, c);
             grow(&frame, x, x);
         }
-        ids[i] = object | (scene_form(s, object) == FROE_BOX || scene_form(s, object) == FROE_POINT ? SPACE_EXACT : 0);
+        const bool exact = i >= triangles && (scene_form(s, object) == FROE_BOX || scene_form(s, object) == FROE_POINT);
+        ids[i] = object | (exact ? SPACE_EXACT : 0);
     }
     if (count) grow(&frame, parts.lo, parts.hi);
     h->count = count;

@@ -35,7 +35,24 @@ _Static_assert(sizeof(space_header) == PACKED_BLOCK, "a cache line");
 typedef struct space_item {
     double lo[3], hi[3];
     uint32_t object;
+    uint32_t corner; /**< the first one of a triangle; FROE_NONE: it is none */
 } space_item;
+
+/** Corner c of a triangle. */
+static inline const double *space_corner(const froe_scene *s, const space_item *item, uint32_t c) {
+    return s->coords + 3 * (size_t)s->corners[item->corner + c];
+}
+/** Asks for the numbers of a triangle's corners, and for these, before they are needed. */
+static inline void space_ask(const froe_scene *s, const space_item *item) {
+    if (item->corner != FROE_NONE) __builtin_prefetch(s->corners + item->corner);
+}
+static inline void space_ask_corners(const froe_scene *s, const space_item *item) {
+    for (uint32_t c = 0; item->corner != FROE_NONE && c < 3; c++) {
+        const double *x = space_corner(s, item, c);
+        __builtin_prefetch(x);
+        __builtin_prefetch(x + 2); /* the next line, perhaps */
+    }
+}
 
 static inline const space_header *space_block(const froe_tree *t, uint32_t block) {
     return (const space_header *)(const void *)(t->packed.blocks + (size_t)block * PACKED_BLOCK);
@@ -64,7 +81,7 @@ static inline bool space_is_triangle(const froe_scene *s, uint32_t object) {
 /** May coordinates of scenes within these bounds be told in units? */
 bool space_is_tame(const double *lo, const double *hi);
 /** Triangles among items, which are brought to the front. */
-uint32_t space_sort(const froe_scene *s, space_item *items, uint32_t count);
+uint32_t space_sort(space_item *items, uint32_t count);
 /** Writes header, ids and rows of items that have been sorted to a zeroed block. */
 void space_write(space_header *block, const froe_scene *s, const space_item *items, uint32_t count, uint32_t triangles);
 /** Checks what is special of a packed tree of space whose nodes have been checked (tree/validate.h). */

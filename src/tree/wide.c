@@ -148,8 +148,13 @@ static uint8_t shift_for(double size) {
     return (uint8_t)(ldexp(size, shift) <= 254 ? shift : shift - 1);
 }
 
-static uint8_t byte_of(double u) {
+static uint8_t byte_below(double u) {
     return (uint8_t)(u > 0 ? u < 255 ? u : 255 : 0);
+}
+
+static uint8_t byte_above(double u) {
+    const uint8_t below = byte_below(u);
+    return (uint8_t)(below + (u > below && below < 255));
 }
 
 static void fill(const widening *w, wide_node *n, const bounds *all, const uint32_t child[], uint32_t count) {
@@ -157,10 +162,11 @@ static void fill(const widening *w, wide_node *n, const bounds *all, const uint3
     for (int k = 0; k < 3; k++) {
         n->lo[k] = all->lo[k] + 0.0;
         n->shift[k] = shift_for(all->hi[k] - all->lo[k]);
+        const double per = ldexp(1, n->shift[k]);
         for (uint32_t i = 0; i < count; i++) {
             const bounds *b = w->boxes + child[i];
-            n->box[0][k][i] = byte_of(floor(ldexp(b->lo[k] - n->lo[k], n->shift[k])));
-            n->box[1][k][i] = byte_of(ceil(ldexp(b->hi[k] - n->lo[k], n->shift[k])));
+            n->box[0][k][i] = byte_below((b->lo[k] - n->lo[k]) * per);
+            n->box[1][k][i] = byte_above((b->hi[k] - n->lo[k]) * per);
         }
     }
 }
