@@ -16,9 +16,11 @@ typedef struct moving_kind {
     bool rigid;  /**< all with the speed of the first */
     bool twice;  /**< each two segments are the same */
     bool upright;
-    bool lanes;  /**< on lines y = const, along them */
-    bool mortal; /**< they come and go */
-    bool back;   /**< the second half is the first in reverse: 2 legs */
+    bool lanes;   /**< on lines y = const, along them */
+    bool mortal;  /**< they come and go */
+    bool back;    /**< the second half is the first in reverse: 2 legs */
+    bool against; /**< with rigid: each second one the other way */
+    bool turns;   /**< quarters of turns about one of nine centres, on parabolas */
 } moving_kind;
 
 enum { MOVING_TIME = 64, MOVING_MOST = 256, MOVING_LEGS = 8 };
@@ -51,6 +53,22 @@ static void moving_plan(const moving_kind *kind, fuzz_source *r, moving_data *d,
     d->starts[v + 1] = first + (size_t)legs + 1;
 }
 
+/* From d beside the centre to d turned by 90 degrees, and so on; the control point is the corner of the square. */
+static void moving_turn(const moving_kind *kind, moving_data *d, size_t v, const int at[2], const int centre[2]) {
+    int arm[2] = {at[0] - centre[0], at[1] - centre[1]};
+    const size_t first = d->starts[v], legs = (size_t)kind->legs;
+    for (size_t i = first; i <= first + legs; i++) {
+        const int next[2] = {-arm[1], arm[0]};
+        d->times[i] = MOVING_TIME * (double)(i - first) / (double)legs;
+        for (size_t c = 0; c < 2; c++) {
+            d->xy[2 * i + c] = centre[c] + arm[c];
+            d->controls[2 * i + c] = centre[c] + arm[c] + next[c];
+        }
+        arm[0] = next[0], arm[1] = next[1];
+    }
+    d->starts[v + 1] = first + legs + 1;
+}
+
 /** A motion of this kind; the caller frees it. */
 static froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const froe_allocator *alloc) {
     moving_data *d = calloc(1, sizeof *d);
@@ -61,6 +79,8 @@ static froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const fro
         bool again = kind->twice && i % 2, chained = kind->chains && i % 5;
         for (int c = 0; c < 2 && !again; c++) {
             if (!kind->rigid || !i) speed[c] = kind->lanes && c ? 0 : fuzz_int(&r, -kind->speed, kind->speed);
+            if (kind->against && i) speed[c] = -speed[c];
+            if (kind->turns) speed[c] = fuzz_int(&r, 0, 2) * kind->grid / 2; /* the centre */
             at[0][c] = chained ? at[1][c] : fuzz_int(&r, 0, kind->grid);
             int step = fuzz_int(&r, -kind->length, kind->length);
             at[1][c] = at[0][c] + (kind->upright && !c ? 0 : kind->lanes && c ? 0 : step);
@@ -79,6 +99,8 @@ static froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const fro
                     memcpy(d->controls + 2 * to, d->controls + 2 * from, 2 * sizeof *d->xy);
                 }
                 d->starts[2 * i + e + 1] = d->starts[2 * i + e] + legs;
+            } else if (kind->turns) {
+                moving_turn(kind, d, 2 * i + e, at[e], speed);
             } else {
                 moving_plan(kind, &r, d, 2 * i + e, at[e], w);
             }
@@ -117,6 +139,9 @@ static const moving_kind moving_kinds[] = {
     {.name = "lattice 40", .count = 30, .grid = 40, .length = 15, .speed = 2, .spin = 2},
     {.name = "lattice 100", .count = 40, .grid = 100, .length = 60, .speed = 5, .spin = 3},
     {.name = "rigid", .count = 40, .grid = 12, .length = 6, .speed = 5, .rigid = true},
+    {.name = "rigid against rigid", .count = 40, .grid = 16, .length = 6, .speed = 3, .rigid = true, .against = true},
+    {.name = "quarter turns", .count = 16, .grid = 2000, .length = 900, .turns = true, .legs = 3},
+    {.name = "lattice turns", .count = 20, .grid = 12, .length = 5, .turns = true, .legs = 2},
     {.name = "chains", .count = 40, .grid = 3000, .length = 900, .speed = 30, .spin = 20, .chains = true},
     {.name = "lattice chains", .count = 25, .grid = 20, .length = 6, .speed = 1, .spin = 1, .chains = true},
     {.name = "bouncing", .count = 20, .grid = 4000, .length = 1500, .speed = 60, .spin = 20, .legs = 6},

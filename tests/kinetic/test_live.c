@@ -41,7 +41,8 @@ static void test_every_event(void **state) {
     (void)state;
     uint64_t kind_events[FROE_EVENT_KINDS] = {0};
     pattern_counter counter = {0};
-    for (size_t i = 0; i < MOVING_KINDS; i++)
+    for (size_t i = 0; i < MOVING_KINDS; i++) {
+        const uint64_t before = counter.events;
         for (uint64_t seed = 1; seed <= 3; seed++) {
             froe_motion *m = moving_new(moving_kinds + i, seed, NULL);
             froe_kinetic *k = start(m, seed);
@@ -52,6 +53,9 @@ static void test_every_event(void **state) {
             froe_kinetic_free(k);
             froe_motion_free(m);
         }
+        const bool still = moving_kinds[i].rigid && !moving_kinds[i].against; /* nothing moves past anything */
+        if (still != (counter.events == before)) fail_msg("%s: no events, or some", moving_kinds[i].name);
+    }
     for (int j = 0; j < FROE_EVENT_KINDS; j++)
         if (!kind_events[j]) fail_msg("no event of kind %s", froe_event_name((froe_event_kind)j));
     assert_true(counter.events >= 10000);
