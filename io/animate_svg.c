@@ -1,5 +1,6 @@
 /* animate_svg.c: a motion as an animated picture (SVG 1.1 with SMIL). Each object is a path whose ends move from key to
- * key: at the knots of both vertices, and within parabolas at a few instants more. */
+ * key: at the knots of both vertices, and within parabolas at a few instants more. Where nothing moves, as in print, it
+ * is the picture of the beginning. */
 #include "animate.h"
 #include <math.h>
 #include <stdio.h>
@@ -79,6 +80,13 @@ static void put_loop(io_writer *w, const io_animation *a) {
     put_format(w, "\" dur=\"%gs\" repeatCount=\"indefinite\"/>", a->options.seconds, 0);
 }
 
+static void put_beginning(io_writer *w, const io_animation *a, froe_moving_object object) {
+    const keys k = {w, a, object, false, 0};
+    io_put(w, share_of(a, object.birth) > 0 ? "<path visibility=\"hidden\" d=\"" : "<path d=\"");
+    put_place(&k, object.birth);
+    io_put(w, "\">");
+}
+
 static void put_motion(io_writer *w, const io_animation *a, froe_moving_object object) {
     keys k = {w, a, object, false, 0};
     io_put(w, "<animate attributeName=\"d\" values=\"");
@@ -132,7 +140,7 @@ void io_animate_svg(io_writer *w, const io_animation *a) {
     for (uint32_t o = 0; o < froe_motion_object_count(a->motion); o++) {
         froe_moving_object object = froe_motion_object(a->motion, o);
         if (object.birth > object.death) continue;
-        io_put(w, "<path>");
+        put_beginning(w, a, object);
         put_motion(w, a, object);
         put_life(w, a, &object);
         put_contacts(w, a, o);
