@@ -84,7 +84,14 @@ static size_t count_numbers(const cli_column *columns, int dim) {
     return count;
 }
 
-/* Finds the columns in the header line; false: some number has none, or two. */
+/* Does a column hold the axis behind the last? Then rows are of another dimension than the tree. */
+static bool names_one_more(const cli_column *columns, int dim, const char *name) {
+    for (; columns->name; columns++)
+        if (columns->axes && names_axis(name, columns->name, dim)) return true;
+    return false;
+}
+
+/* Finds the columns in the header line; false: some number has none, or two, or rows->reason says what it is. */
 static bool read_header(cli_rows *rows, const cli_column *columns, int dim) {
     unsigned found = 0;
     char *at = rows->text;
@@ -92,7 +99,13 @@ static bool read_header(cli_rows *rows, const cli_column *columns, int dim) {
     rows->separator = strchr(at, ',') ? ',' : strchr(at, ';') ? ';' : '\t';
     for (rows->columns = 0; at; rows->columns++) {
         if (rows->columns == CLI_ROW_COLUMNS) return false;
-        int number = number_of(columns, dim, next_field(&at, rows->separator));
+        const char *name = next_field(&at, rows->separator);
+        int number = number_of(columns, dim, name);
+        if (number < 0 && names_one_more(columns, dim, name)) {
+            snprintf(rows->reason, sizeof rows->reason, "the header names %.40s, the tree has %d dimensions", name,
+                     dim);
+            return false;
+        }
         if (number >= 0 && found >> number & 1) return false;
         if (number >= 0) found |= 1u << number;
         rows->place[rows->columns] = (signed char)number;
@@ -111,7 +124,9 @@ int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows
     if (!next_line(out))
         code = cli_fail(CLI_INPUT, out->path, "no header line; %s was expected", expected);
     else if (!read_header(out, columns, dim))
-        code = cli_fail(CLI_INPUT, out->path, "line 1: the header must name the columns %s, each once", expected);
+        code = out->reason[0]
+                   ? cli_fail(CLI_INPUT, out->path, "line 1: %s", out->reason)
+                   : cli_fail(CLI_INPUT, out->path, "line 1: the header must name the columns %s, each once", expected);
     if (code) cli_rows_close(out);
     return code;
 }

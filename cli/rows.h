@@ -6,8 +6,9 @@
  *     while (cli_rows_next(&rows, values) == CLI_ROW_READ) ...
  *     cli_rows_close(&rows);
  *
- * The header line names the columns, in any order; columns of other names are passed over. Axes are
- * x, y, z, w or x1, x2, ...; separators commas, semicolons or tabs. Empty lines do not count as rows. */
+ * The header line names the columns, in any order; columns of other names are passed over, but for an axis more than
+ * the tree has, which is refused. Axes are x, y, z, w or x1, x2, ...; separators commas, semicolons or tabs. Empty
+ * lines do not count as rows. */
 #ifndef FROE_CLI_ROWS_H
 #define FROE_CLI_ROWS_H
 #include <froe/froe.h>
