@@ -203,7 +203,7 @@ static void bad_ranges_are_refused_with_a_reason(void **state) {
          .message = "Halfspaces without a bound have no eps."},
         {FROE_SHAPE_HULL, .count = 0, .status = FROE_E_INPUT, .message = "A hull of no points."},
         {FROE_SHAPE_COUNT, .status = FROE_E_OPTIONS,
-         .message = "A range must come from froe_range_defaults() and have a shape and a walk."},
+         .message = "A range must come from froe_range_defaults() and have a shape."},
     };
     (void)state;
     world w = world_begin("two", world_mixture(2, 1 << FROE_SEGMENT, 2, 0, 0.5, 1));
