@@ -69,7 +69,8 @@ static inline bool peer_meet(const peer_segment *a, const peer_segment *b) {
                0;
 }
 
-/** Is the segment above the point, or through it? Then *at is where. Points have x at half-integers: never on a corner. */
+/** Is the segment above the point, or through it? Then *at is where. Points have x at half-integers: never on a corner.
+ */
 static inline bool peer_above(const peer_segment *s, double x, double y, double *at) {
     if (!(s->ax < x && x < s->bx) || (s->ay < y && s->by < y)) return false;
     if (peer_turn(s->ax, s->ay, s->bx, s->by, x, y) > 0) return false;
