@@ -341,6 +341,8 @@ static froe_status open_window(reading *r) {
     froe_diagnostic why;
     froe_motion_options w = froe_motion_defaults();
     if (!(r->first <= r->last)) return io_fail(r->diag, FROE_E_INPUT, "%s: nothing moves in it", io_short(r->path));
+    if (r->first == r->last)
+        return io_fail(r->diag, FROE_E_INPUT, "%s: all of it is at one instant, %.17g", io_short(r->path), r->first);
     w.begin = isnan(r->options.from) ? r->first : r->options.from;
     w.end = isnan(r->options.to) ? r->last : r->options.to;
     if (w.begin > r->last || w.end < r->first)

@@ -140,6 +140,8 @@ static void what_is_wrong_is_said_with_the_feature(void **state) {
                    "bad.mfjson: feature 0: at instant 0 a coordinate is no number");
     assert_refused(LINE("[0,2,2]", "[[[0,0],[1,1]],[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_INPUT,
                    "bad.mfjson: feature 0: vertex 0: time 2, 2, is not after time 1, 2");
+    assert_refused(LINE("[2,2]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_INPUT,
+                   "bad.mfjson: all of it is at one instant, 2");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Step\""), FROE_E_UNSUPPORTED,
                    "bad.mfjson: feature 0: interpolation 'Step': froe knows Linear and Quadratic motion");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Quadratic\""), FROE_E_INPUT,
