@@ -6,6 +6,7 @@
 static bool append(froe_places *p, num_dyadic a, int low, places_part *out) {
     const size_t zeros = a.sign ? (size_t)(a.exponent - low) : 0;
     *out = (places_part){p->limbs.count, (uint32_t)(zeros + a.count), a.sign};
+    if (!a.sign) return true; /* no limbs, and perhaps nowhere to put them */
     if (!array_reserve(&p->alloc, &p->limbs, out->count)) return false;
     uint64_t *to = p->limbs.data + p->limbs.count;
     memset(to, 0, zeros * sizeof *to);
