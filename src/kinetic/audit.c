@@ -1,4 +1,4 @@
-/* audit.c: is a live partition what would be made from scratch? */
+/* audit.c: is a live partition what would be made from scratch, and will it be until its certificates fail? */
 #include "base/status.h"
 #include "kinetic/live.h"
 
@@ -69,6 +69,29 @@ static froe_status tell(const froe_kinetic *k, const froe_kinetic *fresh, const 
         m->segment, m->wall[0], m->wall[1], has[0], n->segment, n->wall[0], n->wall[1], has[1]);
 }
 
+/* From the present on. */
+static int64_t tick_from_scratch(froe_kinetic *k, uint32_t cert) {
+    const live_cert *c = k->certs.data + cert;
+    if (c->kind == CERT_PAIR) return live_pair_tick(k, k->pairs.data[c->owner].segment);
+    (void)live_claim_of(k, cert); /* names the borders that it is about now */
+    return now_first_failure(&k->now, &c->claim);
+}
+
+/* Does each certificate fail when the same one from scratch does? A late one would miss what happens until then. One
+ * of an augmented partition may be early, as it may be about more than it says; it is asked again then. */
+static froe_status audit_ticks(froe_kinetic *k, froe_diagnostic *diag) {
+    for (uint32_t i = 0; i < k->certs.count; i++) {
+        const live_cert *c = k->certs.data + i;
+        if (c->kind > CERT_PAIR) continue;
+        const int64_t tick = tick_from_scratch(k, i);
+        const bool may_be_early = k->options.augmented && c->kind <= CERT_RIGHT;
+        if (c->tick > tick || (c->tick < tick && !may_be_early))
+            return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d fails at tick %lld, from scratch at %lld",
+                             c->kind, (long long)c->tick, (long long)tick);
+    }
+    return FROE_OK;
+}
+
 static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
     for (size_t i = 0; i < k->queue.count; i++) {
         const live_cert c = k->certs.data[k->queue.data[i].cert];
@@ -78,7 +101,7 @@ static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
         if (c.kind <= CERT_TURN && now_holds(&k->now, &c.claim) < 0)
             return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d does not hold", c.kind);
     }
-    return FROE_OK;
+    return audit_ticks(k, diag);
 }
 
 froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {

@@ -138,6 +138,10 @@ static void forget_end(froe_kinetic *k, live_end *end) {
     }
 }
 
+void live_forget_ends(froe_kinetic *k, uint32_t segment) {
+    for (int i = 0; i < 2; i++) forget_end(k, segment_at(k, segment)->end + i);
+}
+
 /* Of touched ends that are nowhere near what was operated on, and of those whose walls went away. */
 static void certify_ends(froe_kinetic *k) {
     for (size_t i = 0; i < k->ends.count; i++) {

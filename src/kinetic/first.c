@@ -293,10 +293,8 @@ static bool is_nothing(const poly_ball *p) {
     return true;
 }
 
-int64_t now_first_failure(now_state *now, const now_claim *claim) {
-    int holds = now_holds(now, claim);
-    if (holds <= 0) return holds ? now->tick : NOW_NEVER;
-    int64_t last = named_last(now, claim->q, named_last(now, claim->p, now->motion->last_tick | 1));
+/* The same of any claim that holds, `last` being the last tick to look at. */
+static int64_t first_change(now_state *now, const now_claim *claim, int64_t last) {
     search f = {now, claim, 0, now->tick, last - now->tick, NULL};
     if (f.span < 2) return NOW_NEVER;
     poly_ball p;
@@ -308,4 +306,32 @@ int64_t now_first_failure(now_state *now, const now_claim *claim) {
     while (p.degree && p.c[p.degree].x == 0 && p.c[p.degree].e == 0) p.degree--;
     f.p = &p;
     return find(&f);
+}
+
+/* When the denominators behind a claim first change their signs, until `last`. */
+static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last) {
+    const now_name name[2] = {claim->p, claim->q};
+    int64_t first = NOW_NEVER;
+    for (int i = 0; i < 2; i++) {
+        now_claim turn = {name[i], {0, NAME_NONE}, 1};
+        if (!name_is_crossing(name[i])) continue;
+        if (now_holds(now, &turn) < 0) turn.above = -1;
+        const int64_t tick = first_change(now, &turn, first < last ? first : last);
+        first = tick < first ? tick : first;
+    }
+    return first;
+}
+
+/* The polynomial has the sign that the predicates tell only as long as no denominator changes its own. A crossing gets
+ * to where its lines are parallel from outside of its segments, and the claim is gone by then, if ticks are short. If
+ * they are not, it may leave its segments, pass infinity and be back within one; so then the claim is looked at, too.
+ */
+int64_t now_first_failure(now_state *now, const now_claim *claim) {
+    int holds = now_holds(now, claim);
+    if (holds <= 0) return holds ? now->tick : NOW_NEVER;
+    const int64_t last = named_last(now, claim->q, named_last(now, claim->p, now->motion->last_tick | 1));
+    const int64_t first = first_change(now, claim, last), pole = first_pole(now, claim, first < last ? first : last);
+    if (pole == NOW_NEVER) return first;
+    const int64_t before = first_change(now, claim, pole - 2);
+    return before < pole ? before : pole;
 }

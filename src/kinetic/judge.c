@@ -237,12 +237,34 @@ int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along
     return exact_turn_sign(&now->context.arena, v);
 }
 
+int now_judge_lines(now_state *now, now_name crossing, bool along) {
+    cast c = {.now = now, .along = along};
+    cast_name(&c, crossing);
+    const now_stage stage = cast_integers(&c) ? stage_for(&c, turn_bits(&c)) : NOW_DYADIC;
+    now->judged[stage]++;
+    if (stage == NOW_SHORT) {
+        short_point v[4];
+        short_points(&c, v);
+        return short_lines_sign(v);
+    }
+    if (stage == NOW_WIDE) {
+        wide_point v[4];
+        wide_points(&c, v);
+        return wide_lines_sign(v);
+    }
+    exact_point v[4];
+    dyadic_points(&c, v);
+    return exact_lines_sign(&now->context.arena, v);
+}
+
 /* ------------------------------------------------------------------ claims -- */
 
 /* The vertices of a claim; how many are behind each of its points. */
 static void cast_claim(cast *c, const now_claim *claim, int count[2]) {
     count[0] = 2, count[1] = 1;
-    if (claim->p.b == NAME_SEGMENT) {
+    if (claim->q.b == NAME_NONE) {
+        count[0] = cast_name(c, claim->p);
+    } else if (claim->p.b == NAME_SEGMENT) {
         cast_side(c, claim->p.a, claim->q.a);
     } else {
         count[0] = cast_name(c, claim->p);
@@ -260,32 +282,27 @@ void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exac
     exact_point v[VERTICES];
     cast_claim(&c, claim, count);
     dyadic_points(&c, v);
-    if (claim->p.b != NAME_SEGMENT)
+    if (claim->q.b == NAME_NONE)
+        exact_lines(&now->context.arena, v, out);
+    else if (claim->p.b != NAME_SEGMENT)
         exact_order(&now->context.arena, v, count, axis, out);
     else
         exact_turn(&now->context.arena, v, out);
-    if (claim->p.b == NAME_SEGMENT && claim->above < 0)
+    if (claim->above < 0)
         for (int i = 0; i <= out->degree; i++) out->c[i].sign = -out->c[i].sign;
 }
 
 int now_judge_denominators(now_state *now, const now_claim *claim) {
-    cast c = {.now = now, .along = true};
-    int count[2], sign = 1;
-    exact_point v[VERTICES], crossing;
-    cast_claim(&c, claim, count);
-    dyadic_points(&c, v);
-    for (int i = 0; i < 2; i++) {
-        if (count[i] == 1) continue;
-        exact_crossing(&now->context.arena, i ? v + count[0] : v, &crossing);
-        sign *= exact_sign(&crossing.w);
-    }
+    int sign = 1;
+    if (name_is_crossing(claim->p)) sign *= now_judge_lines(now, claim->p, true);
+    if (name_is_crossing(claim->q)) sign *= now_judge_lines(now, claim->q, true);
     return sign;
 }
 
 bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t span, poly_wide *out) {
     cast c = {.now = now, .along = true};
     int count[2], length = 64 - __builtin_clzll((uint64_t)span | 1) + 1;
-    const bool side = claim->p.b == NAME_SEGMENT;
+    const bool lines = claim->q.b == NAME_NONE, side = lines || claim->p.b == NAME_SEGMENT;
     wide_point v[VERTICES];
     if (claim->above == NOW_ALONG) return false;
     cast_claim(&c, claim, count);
@@ -296,6 +313,8 @@ bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t sp
     wide_points(&c, v);
     if (!side)
         wide_order(v, count, axis, out);
+    else if (lines)
+        wide_lines(claim->above > 0 ? v : (wide_point[4]){v[1], v[0], v[2], v[3]}, out);
     else if (claim->above > 0)
         wide_turn(v, out);
     else

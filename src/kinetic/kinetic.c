@@ -173,12 +173,14 @@ double froe_kinetic_next(const froe_kinetic *k) {
     return tick > live_last_tick(k) ? (double)INFINITY : time_of(k, tick);
 }
 
-/* After memory ran out in the middle of something: everything is made anew. */
+/* After memory ran out in the middle of something: everything is made anew. Certificates of ends would last, though
+ * they may have been made for pieces of plans that have ended since. */
 static froe_status settle_memory(froe_kinetic *k, froe_diagnostic *diag) {
     if (!k->short_of_memory) return FROE_OK;
     k->short_of_memory = false;
     for (uint32_t s = 0; s < k->segments.count; s++) {
         live_forget_pairs(k, s);
+        live_forget_ends(k, s);
         live_unroll(k, s);
         live_schedule(k, s);
         if (is_there(k, s)) live_enroll(k, s);

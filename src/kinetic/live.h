@@ -347,6 +347,7 @@ void live_borders(const froe_kinetic *k, uint32_t node, const live_cell *cell, c
 /** Looks up which end is left, and watches it. */
 void live_certify_turn(froe_kinetic *k, uint32_t segment);
 void live_forget_turn(froe_kinetic *k, uint32_t segment);
+void live_forget_ends(froe_kinetic *k, uint32_t segment);
 
 /* turns.c */
 /** Whose direction the walls of a node are named in is a function of these walls. */
@@ -370,6 +371,8 @@ void live_certify_halves(froe_kinetic *k);
 /* pairs.c */
 /** Watches segments in one line. */
 void live_watch_pair(froe_kinetic *k, uint32_t s, uint32_t t);
+/** When the ends of two such change their order. */
+int64_t live_pair_tick(froe_kinetic *k, const uint32_t segment[2]);
 /** The other segments in the line of s, as k->order. */
 void live_partners(froe_kinetic *k, uint32_t s);
 void live_forget_pairs(froe_kinetic *k, uint32_t s);

@@ -217,7 +217,19 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
 
 /* ------------------------------------------------------------------ claims -- */
 
+/* Of a crossing's lines, just after the tick: see now_claim. 0: parallel for as long as the pieces last. */
+static int lines_turn(now_state *now, now_name crossing) {
+    const uint32_t *s = now->segments.data[crossing.a].end, *t = now->segments.data[crossing.b].end;
+    ball2 d = minus(vertex_ball(now, s[1]), vertex_ball(now, s[0]));
+    ball2 e = minus(vertex_ball(now, t[1]), vertex_ball(now, t[0]));
+    int sign = num_ball_sign(cross(d, e));
+    if (sign == 1 || sign == -1) return sign;
+    sign = now_judge_lines(now, crossing, false);
+    return sign ? sign : now_judge_lines(now, crossing, true);
+}
+
 int now_holds(now_state *now, const now_claim *claim) {
+    if (claim->q.b == NAME_NONE) return lines_turn(now, claim->p) * claim->above;
     if (claim->p.b == NAME_SEGMENT) return now_side(now, claim->p.a, claim->q.a) * claim->above;
     if (claim->above == NOW_ALONG) return now_along_holds(now, claim);
     return now_compare(now, claim->p, claim->q) < 0 ? 1 : -1;
@@ -250,6 +262,14 @@ void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball 
         now_along_ball(now, claim, out);
         return;
     }
+    if (claim->q.b == NAME_NONE) {
+        const uint32_t *s = now->segments.data[claim->p.a].end, *t = now->segments.data[claim->p.b].end;
+        ball_point v[4];
+        for (int i = 0; i < 4; i++) now_course_ball(now, i < 2 ? s[i] : t[i - 2], v + i);
+        ball_lines(v, out);
+        if (claim->above < 0) ball_negate(out);
+        return;
+    }
     if (claim->p.b == NAME_SEGMENT) {
         ball_point a, b, q;
         now_course_ball(now, now_vertex(now, claim->p.a, 0), &a);
@@ -269,7 +289,7 @@ void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball 
 }
 
 int now_claim_axis(now_state *now, const now_claim *claim) {
-    if (claim->p.b == NAME_SEGMENT || claim->above == NOW_ALONG) return 0;
+    if (claim->p.b == NAME_SEGMENT || claim->q.b == NAME_NONE || claim->above == NOW_ALONG) return 0;
     poly_wide wide;
     if (now_claim_wide(now, claim, 0, 0, &wide)) return !wide_sign(&wide);
     poly_exact p;

@@ -142,6 +142,8 @@ void now_exact_along(now_state *now, uint32_t vertex, exact_point *out);
  * `both`. */
 int now_judge_order(now_state *now, now_name p, now_name q, bool along, bool both);
 int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along);
+/** Whether the second line of a crossing goes on to the left (1) or right (-1) of where the first goes; 0: parallel. */
+int now_judge_lines(now_state *now, now_name crossing, bool along);
 
 /* now.c */
 /** REQUIRES: a vertex or a crossing. */
@@ -152,7 +154,8 @@ int now_compare(now_state *now, now_name p, now_name q);
 int now_side(now_state *now, uint32_t segment, uint32_t vertex);
 
 /** What a certificate claims: p is before q; or the segment p.a (of b NAME_SEGMENT) has vertex q.a above or below it;
- * or p and q lie on one segment, and p is nearer to its end 0. */
+ * or p and q lie on one segment, and p is nearer to its end 0; or (q of b NAME_NONE) the second line of the crossing p
+ * goes on to the left (above = 1) or right (-1) of where the first goes. */
 typedef struct now_claim {
     now_name p, q;
     int above; /**< 1 or -1 for segments, NOW_ALONG for points of one segment */
@@ -164,10 +167,13 @@ static inline bool claim_is(const now_claim *c, const now_claim *d) {
 }
 
 #define NOW_NEVER INT64_MAX
-/** 1: the claim holds just after now; -1: it does not; 0 (segments): the vertex rides on the line. */
+/** 1: the claim holds just after now; -1: it does not; 0 (segments): the vertex rides on the line, or lines are
+ * parallel. */
 int now_holds(now_state *now, const now_claim *claim);
-/** The first odd tick after which the claim does not hold, or the present one; NOW_NEVER if none comes before the
- * flight of one of its vertices takes another piece. */
+/** The first odd tick after which the claim does not hold, or the present one, or after which the lines of a crossing
+ * that it is about do not turn as they do now, as they were parallel in between; NOW_NEVER if none comes before the
+ * flight of one of its vertices takes another piece. A function of the claim and of what flies: asked again before it
+ * comes, it is the same. */
 int64_t now_first_failure(now_state *now, const now_claim *claim);
 
 /** The polynomials behind a claim about time from now on: > 0 while it holds. In coordinate `axis` for points. */

@@ -34,16 +34,21 @@ static uint32_t new_pair(froe_kinetic *k) {
     return (uint32_t)(k->pairs.count - 1);
 }
 
+int64_t live_pair_tick(froe_kinetic *k, const uint32_t segment[2]) {
+    const now_segment *s = k->now.segments.data + segment[0], *t = k->now.segments.data + segment[1];
+    int64_t first = NOW_NEVER;
+    for (int i = 0; i < 4; i++) {
+        int64_t tick = order_changes(k, s->end[i / 2], t->end[i % 2]);
+        first = tick < first ? tick : first;
+    }
+    return first;
+}
+
 void live_watch_pair(froe_kinetic *k, uint32_t s, uint32_t t) {
     if (now_is_question(&k->now, t) || is_watched(k, s, t)) return;
     uint32_t pair = new_pair(k), both[2] = {s, t};
     if (pair == FROE_NONE) return;
-    int64_t first = NOW_NEVER;
-    for (int i = 0; i < 4; i++) {
-        int64_t tick = order_changes(k, k->now.segments.data[s].end[i / 2], k->now.segments.data[t].end[i % 2]);
-        first = tick < first ? tick : first;
-    }
-    uint32_t cert = live_new_cert(k, CERT_PAIR, pair, first, NULL);
+    uint32_t cert = live_new_cert(k, CERT_PAIR, pair, live_pair_tick(k, both), NULL);
     live_pair *p = k->pairs.data + pair;
     p->cert = cert;
     for (uint32_t i = 0; i < 2; i++) {

@@ -166,3 +166,27 @@ void exact_order(num_arena *arena, const exact_point *v, const int count[2], int
 void wide_turn(const wide_point v[3], poly_wide *out) {
     wide_turn_points(NULL, v, v + 1, v + 2, out);
 }
+
+void ball_lines(const ball_point p[4], poly_ball *out) {
+    ball_turn_lines(NULL, p, out);
+}
+
+void wide_lines(const wide_point v[4], poly_wide *out) {
+    wide_turn_lines(NULL, v, out);
+}
+
+void exact_lines(num_arena *arena, const exact_point v[4], poly_exact *out) {
+    exact_turn_lines(arena, v, out);
+}
+
+int short_lines_sign(const short_point v[4]) {
+    return short_turn_of_lines(NULL, v);
+}
+
+int wide_lines_sign(const wide_point v[4]) {
+    return wide_turn_of_lines(NULL, v);
+}
+
+int exact_lines_sign(num_arena *arena, const exact_point v[4]) {
+    return exact_turn_of_lines(arena, v);
+}

@@ -75,6 +75,16 @@ int short_turn_sign(const short_point v[3]);
 int wide_turn_sign(const wide_point v[3]);
 int exact_turn_sign(num_arena *arena, const exact_point v[3]);
 
+/** > 0: the line v[2] v[3] goes on to the left of where v[0] v[1] goes; 0: they are parallel. This is the denominator
+ * of where they cross. */
+void ball_lines(const ball_point v[4], poly_ball *out);
+void wide_lines(const wide_point v[4], poly_wide *out);
+void exact_lines(num_arena *arena, const exact_point v[4], poly_exact *out);
+/** The sign of that just after time 0. */
+int short_lines_sign(const short_point v[4]);
+int wide_lines_sign(const wide_point v[4]);
+int exact_lines_sign(num_arena *arena, const exact_point v[4]);
+
 /** p[0] q[1] - q[0] p[1]. REQUIRES: degrees that add up to less than POLY_TERMS. */
 void ball_determinant(const poly_ball p[2], const poly_ball q[2], poly_ball *out);
 void exact_determinant(num_arena *arena, const poly_exact p[2], const poly_exact q[2], poly_exact *out);

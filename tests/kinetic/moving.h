@@ -20,6 +20,7 @@ typedef struct moving_kind {
     bool mortal;  /**< they come and go */
     bool back;    /**< the second half is the first in reverse: 2 legs */
     bool against; /**< with rigid: each second one the other way */
+    double tick;  /**< 0: as is usual */
     bool turns;   /**< quarters of turns about one of nine centres, on parabolas */
 } moving_kind;
 
@@ -114,6 +115,7 @@ static froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const fro
     froe_motion_options w = froe_motion_defaults();
     w.end = MOVING_TIME;
     w.begin = 0;
+    w.tick = kind->tick;
     froe_moving b = froe_moving_defaults();
     b.vertex_count = 2 * (size_t)kind->count;
     b.count = (size_t)kind->count;

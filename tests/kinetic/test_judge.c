@@ -170,7 +170,66 @@ static void all_stages_agree_with_whole_numbers(void **state) {
     assert_true(wide_claims > 1000);
 }
 
+/* ------------------------------------------------------------ tick by tick -- */
+
+static int64_t last_of(now_state *now, now_name p) {
+    if (name_is_vertex(p)) return now_course_last(now, p.a);
+    int64_t last = INT64_MAX;
+    for (int i = 0; i < 4; i++) {
+        const uint32_t segment = i < 2 || p.b < 0 ? p.a : (uint32_t)p.b;
+        const int64_t piece = now_course_last(now, now->segments.data[segment].end[i % 2]);
+        last = piece < last ? piece : last;
+    }
+    return last;
+}
+
+static int turn_of(now_state *now, now_name p) {
+    return name_is_crossing(p) ? now_judge_lines(now, p, true) : 0;
+}
+
+/* Counts, too, how often the lines of a crossing turned the other way before the claim failed. */
+static void look_at_each_tick(now_state *now, const now_claim *claim, uint64_t found[2]) {
+    const int64_t start = now->tick, p = last_of(now, claim->p), q = last_of(now, claim->q), last = p < q ? p : q;
+    const int turn[2] = {turn_of(now, claim->p), turn_of(now, claim->q)};
+    const int64_t first = now_first_failure(now, claim);
+    int64_t tick = NOW_NEVER;
+    for (now->tick = start + 2; now->tick <= last && tick == NOW_NEVER; now->tick += 2) {
+        const bool turned = turn_of(now, claim->p) != turn[0] || turn_of(now, claim->q) != turn[1];
+        const bool fails = now_holds(now, claim) < 0;
+        if (turned || fails) tick = now->tick, found[turned]++;
+    }
+    now->tick = start;
+    assert_true(first == tick);
+}
+
+static void failures_are_first(void **state) {
+    (void)state;
+    uint64_t found[2] = {0};
+    for (size_t i = 0; i < MOVING_KINDS; i++) {
+        moving_kind kind = moving_kinds[i];
+        kind.tick = 0.25;
+        froe_motion *m = moving_new(&kind, 7, NULL);
+        fuzz_source r = {i + 1};
+        now_state now;
+        assert_int_equal(now_new(m, NULL, &now), FROE_OK);
+        for (int j = 0; j < 400; j++) {
+            now.tick = fuzz_int(&r, 0, (int)m->last_tick / 2) | 1;
+            const now_name p = any_name(&now, &r), q = any_name(&now, &r);
+            const now_claim side = {{(uint32_t)fuzz_int(&r, 0, (int)m->objects.count - 1), NAME_SEGMENT}, q, 1};
+            now.least = (now_stage)(j % NOW_STAGES);
+            now.lost = false;
+            if (now_holds(&now, &(now_claim){p, q, 0}) > 0 && !now.lost)
+                look_at_each_tick(&now, &(now_claim){p, q, 0}, found);
+            if (name_is_vertex(q) && now_holds(&now, &side) > 0) look_at_each_tick(&now, &side, found);
+        }
+        now_free(&now);
+        froe_motion_free(m);
+    }
+    assert_true(found[0] > 1000 && found[1] > 300);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_stages_agree_with_whole_numbers)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_stages_agree_with_whole_numbers),
+                                       cmocka_unit_test(failures_are_first)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
