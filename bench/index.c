@@ -109,11 +109,13 @@ typedef struct contestant {
     column *column;
 } contestant;
 
+/* Paths of froe and peers in turn, so that no path finds warm what another has asked of the same tree. */
 static bool contestant_at(run *r, size_t i, contestant *out) {
     if (i >= r->paths + PEERS) return false;
-    const size_t p = i - r->paths;
-    *out = i < r->paths ? (contestant){r->query[i], NULL, NULL, r->froe + i}
-                        : (contestant){NULL, peers[p], r->index[p], r->peer + p};
+    const bool mixed = i < 2 * r->paths;
+    const size_t p = mixed ? i / 2 : i - r->paths;
+    *out = mixed && i % 2 == 0 ? (contestant){r->query[p], NULL, NULL, r->froe + p}
+                               : (contestant){NULL, peers[p], r->index[p], r->peer + p};
     return true;
 }
 
