@@ -195,66 +195,62 @@ static void dyadic_points(const cast *c, exact_point *out) {
 
 /* --------------------------------------------------------------- questions -- */
 
+/* What is asked about vertices: the order of two points, from count[] of them each; the side of the third of the line
+ * through two; or how the line through two turns to that through two more. */
+typedef struct question {
+    enum { ORDER, TURN, LINES } what;
+    int count[2];
+    bool both; /* ORDER: by x, then y */
+} question;
+
+static int judge_short(const cast *c, const question *ask) {
+    short_point v[VERTICES];
+    short_points(c, v);
+    if (ask->what == ORDER) return short_order_sign(v, ask->count, ask->both);
+    return ask->what == TURN ? short_turn_sign(v) : short_lines_sign(v);
+}
+
+static int judge_wide(const cast *c, const question *ask) {
+    wide_point v[VERTICES];
+    wide_points(c, v);
+    if (ask->what == ORDER) return wide_order_sign(v, ask->count, ask->both);
+    return ask->what == TURN ? wide_turn_sign(v) : wide_lines_sign(v);
+}
+
+static int judge_dyadic(const cast *c, const question *ask) {
+    num_arena *arena = &c->now->context.arena;
+    exact_point v[VERTICES];
+    dyadic_points(c, v);
+    if (ask->what == ORDER) return exact_order_sign(arena, v, ask->count, ask->both);
+    return ask->what == TURN ? exact_turn_sign(arena, v) : exact_lines_sign(arena, v);
+}
+
+static int judge(cast *c, const question *ask) {
+    now_stage stage = NOW_DYADIC;
+    if (cast_integers(c)) stage = stage_for(c, ask->what == ORDER ? order_bits(c, ask->count) : turn_bits(c));
+    c->now->judged[stage]++;
+    if (stage == NOW_SHORT) return judge_short(c, ask);
+    return stage == NOW_WIDE ? judge_wide(c, ask) : judge_dyadic(c, ask);
+}
+
 int now_judge_order(now_state *now, now_name p, now_name q, bool along, bool both) {
     cast c = {.now = now, .along = along};
-    int count[2];
-    count[0] = cast_name(&c, p);
-    count[1] = cast_name(&c, q);
-    const now_stage stage = cast_integers(&c) ? stage_for(&c, order_bits(&c, count)) : NOW_DYADIC;
-    now->judged[stage]++;
-    if (stage == NOW_SHORT) {
-        short_point v[VERTICES];
-        short_points(&c, v);
-        return short_order_sign(v, count, both);
-    }
-    if (stage == NOW_WIDE) {
-        wide_point v[VERTICES];
-        wide_points(&c, v);
-        return wide_order_sign(v, count, both);
-    }
-    exact_point v[VERTICES];
-    dyadic_points(&c, v);
-    return exact_order_sign(&now->context.arena, v, count, both);
+    question ask = {.what = ORDER, .both = both};
+    ask.count[0] = cast_name(&c, p);
+    ask.count[1] = cast_name(&c, q);
+    return judge(&c, &ask);
 }
 
 int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along) {
     cast c = {.now = now, .along = along};
     cast_side(&c, segment, vertex);
-    const now_stage stage = cast_integers(&c) ? stage_for(&c, turn_bits(&c)) : NOW_DYADIC;
-    now->judged[stage]++;
-    if (stage == NOW_SHORT) {
-        short_point v[3];
-        short_points(&c, v);
-        return short_turn_sign(v);
-    }
-    if (stage == NOW_WIDE) {
-        wide_point v[3];
-        wide_points(&c, v);
-        return wide_turn_sign(v);
-    }
-    exact_point v[3];
-    dyadic_points(&c, v);
-    return exact_turn_sign(&now->context.arena, v);
+    return judge(&c, &(question){.what = TURN});
 }
 
 int now_judge_lines(now_state *now, now_name crossing, bool along) {
     cast c = {.now = now, .along = along};
     cast_name(&c, crossing);
-    const now_stage stage = cast_integers(&c) ? stage_for(&c, turn_bits(&c)) : NOW_DYADIC;
-    now->judged[stage]++;
-    if (stage == NOW_SHORT) {
-        short_point v[4];
-        short_points(&c, v);
-        return short_lines_sign(v);
-    }
-    if (stage == NOW_WIDE) {
-        wide_point v[4];
-        wide_points(&c, v);
-        return wide_lines_sign(v);
-    }
-    exact_point v[4];
-    dyadic_points(&c, v);
-    return exact_lines_sign(&now->context.arena, v);
+    return judge(&c, &(question){.what = LINES});
 }
 
 /* ------------------------------------------------------------------ claims -- */

@@ -95,6 +95,11 @@ static froe_status clear_found(froe_query *q, size_t count, froe_diagnostic *dia
     return array_reserve(&q->alloc, &q->found, count) ? FROE_OK : base_fail_memory(diag);
 }
 
+/* What can be wrong with point i. */
+static froe_status check_point(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    return query_check_point(point_of(b, b->points, i), q->tree->scene->dim, "A point", diag);
+}
+
 static froe_status ask_groups_in(const batch *b, froe_query *q, size_t i, const query_leaf *leaf,
                                  froe_diagnostic *diag) {
     froe_status status = query_groups_in(q, b->areas, point_of(b, b->points, i), leaf, diag);
@@ -106,7 +111,7 @@ static froe_status ask_groups_in(const batch *b, froe_query *q, size_t i, const 
 
 /* Where there are no borders, no leaf is asked for. */
 static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
-    const froe_status status = query_check_point(point_of(b, b->points, i), q->tree->scene->dim, "A point", diag);
+    const froe_status status = check_point(b, q, i, diag);
     return status ? status : ask_groups_in(b, q, i, NULL, diag);
 }
 
@@ -153,6 +158,17 @@ static froe_status check_ray(const batch *b, froe_query *q, size_t i, froe_diagn
     return query_ray_take(q, point, point_of(b, b->directions, i), b->limit, diag);
 }
 
+/* Names the first bad question of a chunk, before any is answered. */
+static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t end, ask_fn *check,
+                             froe_diagnostic *diag) {
+    for (size_t i = first; i < end; i++) {
+        const froe_status status = check(b, q, i, diag);
+        if (status) diag->object = (uint32_t)i;
+        if (status) return status;
+    }
+    return FROE_OK;
+}
+
 /* Can the rays of a chunk be answered all at once, on a packed tree? One computes while others wait for memory. */
 static bool flies(const batch *b, const froe_query *q) {
     if (b->ask == ask_vertical) return q->packed;
@@ -160,11 +176,8 @@ static bool flies(const batch *b, const froe_query *q) {
 }
 
 static froe_status answer_flock(const batch *b, froe_query *q, size_t first, size_t end, froe_diagnostic *diag) {
-    for (size_t i = first; i < end; i++) {
-        const froe_status status = check_ray(b, q, i, diag);
-        if (status) diag->object = (uint32_t)i;
-        if (status) return status;
-    }
+    const froe_status status = check_all(b, q, first, end, check_ray, diag);
+    if (status) return status;
     const double *points = point_of(b, b->points, first);
     if (b->ask != ask_vertical)
         return space_rays(q, points, point_of(b, b->directions, first), end - first, b->limit,
@@ -175,13 +188,9 @@ static froe_status answer_flock(const batch *b, froe_query *q, size_t first, siz
 /* Leaves of the points of a chunk, which wait for memory together. */
 static froe_status find_leaves(const batch *b, froe_query *q, size_t first, size_t end, query_leaf *leaves,
                                froe_diagnostic *diag) {
-    const double *points = point_of(b, b->points, first);
-    for (size_t i = first; i < end; i++) {
-        const froe_status status = query_check_point(point_of(b, b->points, i), q->tree->scene->dim, "A point", diag);
-        if (status) diag->object = (uint32_t)i;
-        if (status) return status;
-    }
-    if (query_leaf_find_all(q, points, end - first, leaves)) return base_fail_memory(diag);
+    const froe_status status = check_all(b, q, first, end, check_point, diag);
+    if (status) return status;
+    if (query_leaf_find_all(q, point_of(b, b->points, first), end - first, leaves)) return base_fail_memory(diag);
     if (b->areas) query_areas_ask(b->areas, leaves, end - first);
     return FROE_OK;
 }

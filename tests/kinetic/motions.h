@@ -94,4 +94,22 @@ static inline froe_moving motion_make(fuzz_source *r, motion_kind kind, size_t n
     b.deaths = a->deaths;
     return b;
 }
+/** The batch, moving in the window. */
+static inline froe_motion *motion_of(const froe_moving *batch, const froe_allocator *alloc) {
+    froe_motion_options o = froe_motion_defaults();
+    o.begin = 0;
+    o.end = 8;
+    froe_motion *m = NULL;
+    assert_int_equal(froe_motion_new(&o, alloc, &m, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add(m, batch, NULL), FROE_OK);
+    return m;
+}
+
+/** A motion of MOTION_MOST segments, always the same of a kind. */
+static inline froe_motion *motion_new(motion_kind kind) {
+    static motion_arrays a;
+    fuzz_source r = {(uint64_t)kind + 1};
+    const froe_moving batch = motion_make(&r, kind, MOTION_MOST, &a);
+    return motion_of(&batch, NULL);
+}
 #endif

@@ -25,16 +25,6 @@ static bool note(void *user, const froe_contact *c) {
     return true;
 }
 
-static froe_motion *motion_of(const froe_moving *batch, const froe_allocator *alloc) {
-    froe_motion_options o = froe_motion_defaults();
-    o.begin = 0;
-    o.end = 8;
-    froe_motion *m = NULL;
-    assert_int_equal(froe_motion_new(&o, alloc, &m, NULL), FROE_OK);
-    assert_int_equal(froe_motion_add(m, batch, NULL), FROE_OK);
-    return m;
-}
-
 static void find(const froe_motion *m, const froe_contact_options *o, found *out) {
     out->count = 0;
     assert_int_equal(froe_motion_contacts(m, o, note, out, NULL), FROE_OK);

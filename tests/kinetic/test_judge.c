@@ -154,17 +154,8 @@ static void all_stages_agree_with_whole_numbers(void **state) {
         for (int stage = 0; stage < NOW_STAGES; stage++) judged[stage] += here[stage];
         assert_true(here[NOW_WIDE] > 0);
     }
-    for (int kind = 0; kind < MOTION_KINDS; kind++) {
-        static motion_arrays a;
-        fuzz_source r = {(uint64_t)kind + 1};
-        froe_motion_options o = froe_motion_defaults();
-        froe_motion *m = NULL;
-        o.begin = 0, o.end = 8;
-        const froe_moving batch = motion_make(&r, (motion_kind)kind, MOTION_MOST, &a);
-        assert_int_equal(froe_motion_new(&o, NULL, &m, NULL), FROE_OK);
-        assert_int_equal(froe_motion_add(m, &batch, NULL), FROE_OK);
-        check_motion(m, (uint64_t)kind + 99, judged, &wide_claims);
-    }
+    for (int kind = 0; kind < MOTION_KINDS; kind++)
+        check_motion(motion_new((motion_kind)kind), (uint64_t)kind + 99, judged, &wide_claims);
     /* a third of the questions begins at each stage; that so many more ended later says how often one was too narrow */
     assert_true(judged[NOW_SHORT] > 10000 && judged[NOW_WIDE] > 10000 && judged[NOW_DYADIC] > 10000);
     assert_true(wide_claims > 1000);

@@ -86,23 +86,22 @@ static froe_status ask_near(froe_query *q, const questions *ask, size_t dim, siz
     return froe_query_near(q, ask->points + i * dim, 3, INFINITY, &near, NULL);
 }
 
+/* What was found is of no interest. */
+static froe_status drop(froe_status status, froe_answers *answers) {
+    if (!status) froe_answers_free(answers);
+    return status;
+}
 static froe_status batch_range(froe_query *q, const questions *ask, const froe_batch_options *o) {
     froe_answers answers;
-    const froe_status status = froe_batch_range(q, ask->ranges, MANY, o, &answers, NULL);
-    if (!status) froe_answers_free(&answers);
-    return status;
+    return drop(froe_batch_range(q, ask->ranges, MANY, o, &answers, NULL), &answers);
 }
 static froe_status batch_locate(froe_query *q, const questions *ask, const froe_batch_options *o) {
     froe_answers answers;
-    const froe_status status = froe_batch_locate(q, ask->points, MANY, o, &answers, NULL);
-    if (!status) froe_answers_free(&answers);
-    return status;
+    return drop(froe_batch_locate(q, ask->points, MANY, o, &answers, NULL), &answers);
 }
 static froe_status batch_groups(froe_query *q, const questions *ask, const froe_batch_options *o) {
     froe_answers answers;
-    const froe_status status = froe_batch_groups(q, ask->points, MANY, o, &answers, NULL);
-    if (!status) froe_answers_free(&answers);
-    return status;
+    return drop(froe_batch_groups(q, ask->points, MANY, o, &answers, NULL), &answers);
 }
 static froe_status batch_ray(froe_query *q, const questions *ask, const froe_batch_options *o) {
     static froe_hit hits[MANY];
@@ -110,9 +109,7 @@ static froe_status batch_ray(froe_query *q, const questions *ask, const froe_bat
 }
 static froe_status batch_ray_all(froe_query *q, const questions *ask, const froe_batch_options *o) {
     froe_answers answers;
-    const froe_status status = froe_batch_ray_all(q, ask->points, ask->directions, MANY, INFINITY, o, &answers, NULL);
-    if (!status) froe_answers_free(&answers);
-    return status;
+    return drop(froe_batch_ray_all(q, ask->points, ask->directions, MANY, INFINITY, o, &answers, NULL), &answers);
 }
 static froe_status batch_ray_any(froe_query *q, const questions *ask, const froe_batch_options *o) {
     static uint32_t objects[MANY];
@@ -124,9 +121,7 @@ static froe_status batch_vertical(froe_query *q, const questions *ask, const fro
 }
 static froe_status batch_near(froe_query *q, const questions *ask, const froe_batch_options *o) {
     froe_answers answers;
-    const froe_status status = froe_batch_near(q, ask->points, MANY, 3, INFINITY, o, &answers, NULL);
-    if (!status) froe_answers_free(&answers);
-    return status;
+    return drop(froe_batch_near(q, ask->points, MANY, 3, INFINITY, o, &answers, NULL), &answers);
 }
 static froe_status batch_pairs(froe_query *q, const questions *ask, const froe_batch_options *o) {
     (void)ask;
