@@ -79,8 +79,7 @@ static void exact_difference(now_state *now, const now_claim *claim, poly_exact 
 /* The claim holds now: that tells the sign. */
 void now_along_exact(now_state *now, const now_claim *claim, poly_exact *out) {
     exact_difference(now, claim, out);
-    if (exact_sign(out) > 0) return;
-    for (int i = 0; i <= out->degree; i++) out->c[i].sign = -out->c[i].sign;
+    if (exact_sign(out) <= 0) exact_negate(out);
 }
 
 void now_along_ball(now_state *now, const now_claim *claim, poly_ball *out) {
@@ -95,6 +94,5 @@ void now_along_ball(now_state *now, const now_claim *claim, poly_ball *out) {
         exact_difference(now, claim, &difference);
         sign = exact_sign(&difference);
     }
-    if (sign < 0)
-        for (int i = 0; i <= out->degree; i++) out->c[i].x = -out->c[i].x;
+    if (sign < 0) ball_negate(out);
 }

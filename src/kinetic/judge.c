@@ -284,8 +284,7 @@ void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exac
         exact_order(&now->context.arena, v, count, axis, out);
     else
         exact_turn(&now->context.arena, v, out);
-    if (claim->above < 0)
-        for (int i = 0; i <= out->degree; i++) out->c[i].sign = -out->c[i].sign;
+    if (claim->above < 0) exact_negate(out);
 }
 
 int now_judge_denominators(now_state *now, const now_claim *claim) {

@@ -253,10 +253,6 @@ static int ball_denominator(const poly_ball *w) {
     return sign == NUM_UNSURE ? 0 : sign;
 }
 
-static void ball_negate(poly_ball *p) {
-    for (int i = 0; i <= p->degree; i++) p->c[i].x = -p->c[i].x;
-}
-
 void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out) {
     if (claim->above == NOW_ALONG) {
         now_along_ball(now, claim, out);

@@ -190,3 +190,11 @@ int wide_lines_sign(const wide_point v[4]) {
 int exact_lines_sign(num_arena *arena, const exact_point v[4]) {
     return exact_turn_of_lines(arena, v);
 }
+
+void ball_negate(poly_ball *p) {
+    for (int i = 0; i <= p->degree; i++) p->c[i].x = -p->c[i].x;
+}
+
+void exact_negate(poly_exact *p) {
+    for (int i = 0; i <= p->degree; i++) p->c[i].sign = -p->c[i].sign;
+}

@@ -97,4 +97,7 @@ int wide_sign(const poly_wide *p);
  * *sign: what it has there if it does not, which may be 0. Exact: Descartes' rule. */
 int exact_variations(num_arena *arena, const poly_exact *p, int64_t low, int power, int *sign);
 int wide_variations(const poly_wide *p, int64_t low, int power, int *sign);
+
+void ball_negate(poly_ball *p);
+void exact_negate(poly_exact *p);
 #endif

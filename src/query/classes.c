@@ -81,9 +81,8 @@ static froe_status build_class(const froe_tree *t, query_class *c, froe_diagnost
 /* ------------------------------------------------------------------ making -- */
 
 /* A class of the objects first .. first + count. */
-static froe_status add_class(query_classes *p, const froe_tree *t, const base_pair *sorted, uint32_t count, double step,
-                             froe_diagnostic *diag) {
-    query_class *c = p->classes + p->count++;
+static froe_status fill_class(query_class *c, const froe_tree *t, const base_pair *sorted, uint32_t count, double step,
+                              froe_diagnostic *diag) {
     *c = (query_class){.step = step, .count = count};
     c->ids = base_calloc(&t->alloc, count, sizeof *c->ids);
     if (!c->ids) return base_fail_memory(diag);
@@ -93,17 +92,17 @@ static froe_status add_class(query_classes *p, const froe_tree *t, const base_pa
 
 static froe_status add_classes(query_classes *p, const froe_tree *t, const base_pair *sorted, froe_diagnostic *diag) {
     const uint32_t objects = t->scene->object_count;
-    uint32_t count = 0, next = 0;
+    uint32_t count = 0, next = 0, made = 0;
     for (uint32_t i = 0; i < objects; i++) count += !i || sorted[i].key != sorted[i - 1].key;
     p->classes = base_calloc(&t->alloc, count, sizeof *p->classes);
     if (!p->classes) return base_fail_memory(diag);
+    p->count = count;
     froe_status status = FROE_OK;
     for (uint32_t first = 0; first < objects && !status; first = next) {
         const double step = step_of(size_of(t->scene, sorted[first].value));
         for (next = first; next < objects && sorted[next].key == sorted[first].key;) next++;
-        status = add_class(p, t, sorted + first, next - first, step, diag);
+        status = fill_class(p->classes + made++, t, sorted + first, next - first, step, diag);
     }
-    for (uint32_t i = p->count; i < count && status; i++) p->count++; /* the rest is empty, and can be freed */
     return status;
 }
 

@@ -3,10 +3,6 @@
 #include "query/areas.h"
 #include "query/check.h"
 
-static bool in_scene(const froe_scene *s, const double *x) {
-    return s->object_count && x[0] >= s->lo[0] && x[0] <= s->hi[0] && x[1] >= s->lo[1] && x[1] <= s->hi[1];
-}
-
 /* Groups of the objects that contain the point. */
 static froe_status add_holders(froe_query *q, const double *point, froe_diagnostic *diag) {
     const uint32_t *groups = q->tree->scene->groups;
@@ -33,7 +29,7 @@ froe_status query_groups_in(froe_query *q, const query_areas *areas, const doubl
     const uint64_t queries = q->stats.queries + 1, exact = q->numbers.stats.exact;
     froe_status status = FROE_OK;
     q->groups.inside.count = q->groups.touched.count = 0;
-    if (in_scene(q->tree->scene, point)) {
+    if (query_in_scene(q->tree->scene, point)) {
         if (areas->borders && query_areas_enter(q, areas, leaf, point)) return base_fail_memory(diag);
         status = gather(q, areas, point, diag);
     }

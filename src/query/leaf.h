@@ -25,4 +25,11 @@ static inline uint32_t query_leaf_place(const froe_tree *t, uint32_t node) {
 froe_status query_leaf_find(froe_query *query, const double *point, query_leaf *out);
 /** The same for many points, which in the plane wait for memory together. */
 froe_status query_leaf_find_all(froe_query *query, const double *points, size_t count, query_leaf *leaves);
+
+/** Is a point within the bounds of all objects? */
+static inline bool query_in_scene(const froe_scene *s, const double *x) {
+    bool in = s->object_count;
+    for (int k = 0; k < s->dim && in; k++) in = x[k] >= s->lo[k] && x[k] <= s->hi[k];
+    return in;
+}
 #endif

@@ -7,12 +7,6 @@
 #include "query/segment.h"
 #include <string.h>
 
-static bool in_scene(const froe_scene *s, const double *x) {
-    bool in = s->object_count;
-    for (int k = 0; k < s->dim && in; k++) in = x[k] >= s->lo[k] && x[k] <= s->hi[k];
-    return in;
-}
-
 static bool holds(froe_query *q, uint32_t object, const double *x, bool *memory) {
     const froe_scene *s = q->tree->scene;
     if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return query_range_meets(q, object, memory);
@@ -62,7 +56,7 @@ froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *di
     const froe_status status = take(q, point, &s, diag);
     if (status) return status;
     if (tree_is_packed(q->tree)) return query_range_ask(q, &s.range, false, diag);
-    if (!in_scene(q->tree->scene, point)) return test_list(q, &(tree_objects){0}, &s.range, diag);
+    if (!query_in_scene(q->tree->scene, point)) return test_list(q, &(tree_objects){0}, &s.range, diag);
     if (query_leaf_find(q, point, &leaf)) return base_fail_memory(diag);
     return query_locate_in(q, point, &leaf, diag);
 }
