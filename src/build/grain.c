@@ -5,15 +5,14 @@
  *     \/__\/__\/__\      (split/grain.h)
  *
  * Height. A cell of m fragments needs N(m) levels when every cut leaves at most 7/10 on a side: N(m) = m for m <= 4,
- * and 4
- * + log_{10/7} (m / 4) beyond, less than 1.95 log2 m. A cut is balanced when both children need no more levels than are
- * left of H = C log2 n + 2, or have at most 7/10 of the cell. So depth + N(m) never exceeds H (or N(n), if that is
- * more), except where no balanced cut is found:
+ * and 4 + log_{10/7} (m / 4) beyond, less than 1.95 log2 m. A cut is balanced when both children need no more levels
+ * than are left of H = C log2 n + 2, or have at most 7/10 of the cell. So depth + N(m) never exceeds H (or N(n), if
+ * that is more), except where no balanced cut is found:
  *   - axis-parallel cuts at a median of vertices: at most log2 v + 1 for each axis, for each of them halves the number
- * of vertices that lie between others on that axis, which no other cut increases;
+ *     of vertices that lie between others on that axis, which no other cut increases;
  *   - other cuts, which take at least one fragment off each side: at most U on a path, where U is the number of
- * fragments in the largest cell to which that happened. Each adds one level at most. Hence the promise: H, + 3 (log2 v
- * + 1) if there were such medians, + U. */
+ *     fragments in the largest cell to which that happened. Each adds one level at most.
+ * Hence the promise: H, + 3 (log2 v + 1) if there were such medians, + U. */
 #include "split/grain.h"
 #include "base/log2.h"
 #include "base/status.h"

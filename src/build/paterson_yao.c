@@ -4,9 +4,9 @@
  *                    O(n log n) for n disjoint ones (Efficient binary space partitions for hidden-surface removal and
  *                    solid modeling, 1990). It is the conversion of a plan of vertical lines (split/convert.h).
  *     orthogonal     axis-parallel objects: a cut that divides nothing, if there is one, the best balanced; else,
- * across the axis with most ends to choose from, through the middle of them (Optimal binary space partitions for
- * orthogonal objects, 1992; Murali, Agarwal and Vitter: Constructing binary space partitions for orthogonal rectangles
- * in practice, 1998).
+ *                    across the axis with most ends to choose from, through the middle of them (Optimal binary space
+ *                    partitions for orthogonal objects, 1992; Murali, Agarwal and Vitter: Constructing binary space
+ *                    partitions for orthogonal rectangles in practice, 1998).
  *
  * Free cuts of the papers run through a facet that crosses its cell. In a cell of disjoint objects such a cut divides
  * nothing; that is what is asked here, so that gaps count, too. */

@@ -4,9 +4,11 @@
  *     |       |   |   |     cell the coarsest one comes first, the one with the largest j, of equals the one across the
  *     |       +---+---+     lowest axis. That is the quadtree with binary cuts over a root square that begins at 0, but
  *     |       |   |   |     for the cuts that would leave all objects on one side, or on both: these are left out, so
- *     +-------+-+-+---+     that no chain of empty squares is ever built, whatever the spread of the scene. Any
- * interval |       +-+-+   |     of doubles holds a dyadic number.
- *     +-------+-+-+---+
+ *     +-------+-+-+---+     that no chain of empty squares is ever built, whatever the spread of the scene.
+ *     |       +-+-+   |
+ *     |       +-+-+---+     Any interval of doubles holds a dyadic number.
+ *     |       |   |   |
+ *     +-------+---+---+
  *
  * Of planes that separate something, those on an axis are an interval (split/axes.h). */
 #include "base/status.h"

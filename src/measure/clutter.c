@@ -1,10 +1,10 @@
 /* clutter.c: how many objects does an empty cube meet? A lower bound on the clutter factor, with the cube.
  *
- *      +-------x--+         Guards are the corners of bounding boxes. A cube without one inside grows around its centre
- *      |          |         until a guard is in one of its sides; then away from that side, and so on, until guards
- *      |  cube    x         are in opposite sides: only such cubes cannot grow any more, since otherwise each axis has
- * a x          |         free side, and the cube grows by moving the corner where they meet.
- *      +----------+
+ *     +-------x--+          Guards are the corners of bounding boxes. A cube without one inside grows around its centre
+ *     |          |          until a guard is in one of its sides; then away from that side, and so on, until guards
+ *     |   cube   x          are in opposite sides: only such cubes cannot grow any more, since otherwise each axis has
+ *     x          |          a free side, and the cube grows by moving the corner where they meet.
+ *     +----------+
  *
  * Cubes start at random places near guards and are counted when they are locked; from the best ones others start near
  * by. What a cube meets is decided exactly, for a cube a hair smaller, closed, in place of the open one. */

@@ -1,9 +1,10 @@
 /* volume.c: convex hulls, corner by corner: facets that see the next corner go, and new ones join it to their border.
  *
  *        x               Signs are exact, so that corners in the plane of a facet, of which real hulls are full, lead
- * to / \              no contradictions: a facet whose plane holds the corner does not see it. a---b  gone (Incremental
- * construction; in the plane by wrapping, Jarvis 1973.)
- *     /     \            */
+ *       / \              to no contradictions: a facet whose plane holds the corner does not see it.
+ *      a---b  gone       (Incremental construction; in the plane by wrapping, Jarvis 1973.)
+ *     /     \
+ */
 #include "measure/volume.h"
 #include "base/array.h"
 #include "geom/predicates.h"

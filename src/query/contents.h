@@ -1,10 +1,11 @@
 /* contents.h: what lies below every node, in a box each.
  *
- *     +-----------+----------------+     The box of a leaf has what is in its cell: the bounds of its objects, cut
- *     | +--+      |                |     down to the region that the axis-parallel cuts above leave; that of an inner
- * node | |/\| +----|--------+       |     has its children's, and the objects in its cut. The point of an object
- * nearest | +--+ |    |   /____|       |     to a query lies in some box whose node lists the object.
- *     +------+----+----------------+
+ *     +-----+---------------+     The box of a leaf has what is in its cell: the bounds of its objects, cut down to the
+ *     | +---+-------+       |     region that the axis-parallel cuts above leave; that of an inner node has its
+ *     | | __|__---- |       |     children's, and the objects in its cut. The point of an object nearest to a query
+ *     | |'  |       |       |     lies in some box whose node lists the object.
+ *     | +---+-------+       |
+ *     +-----+---------------+
  *
  * So boxes bound distances from below whatever the cuts are like, oblique ones too, as in a hierarchy of bounding
  * volumes (Rubin and Whitted: A 3-dimensional representation for fast rendering of complex scenes, 1980). */

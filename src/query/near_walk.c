@@ -1,4 +1,5 @@
-/* near_walk.c: best first (Hjaltason and Samet: Distance browsing in spatial databases, 1999).
+/* near_walk.c: the lists of a tree, those of the nearest regions first (Hjaltason and Samet: Distance browsing in
+ * spatial databases, 1999).
  *
  *     +------+  +--------+     A node is as far away as the box of what is below it (contents.h). From the nearest that
  *     |      |  |    q   |     waits the walk goes on to the nearer child as long as nothing waits that is nearer;

@@ -9,8 +9,9 @@
  *
  *     free      divides nothing, and has boxes on both sides            the best balanced over all axes
  *     lemma     divided <= trade * rooms, boxes on both sides           the best balanced; or with slack, of all that
- * are nearly as balanced one that divides fewest peel      divides nothing, a face in the cut (faces mode) forced
- * through a face, dividing fewest boxes                   (boxes on both sides, but in faces mode)
+ *                                                                       are nearly as balanced one that divides fewest
+ *     peel      divides nothing, a face in the cut (faces mode)
+ *     forced    through a face, dividing fewest boxes                   (boxes on both sides, but in faces mode)
  *
  * Balance is min(below, above). Of equals on an axis the outermost is taken, on the side where it lies: it divides
  * fewest. (Tobola and Nechvile, section 5: lemma 3.3, weighted; the specification's order of stages.) Where no end of a

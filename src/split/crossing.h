@@ -1,9 +1,10 @@
 /* crossing.h: which splits are due anyway?
  *
- *      \  |            f is to be the cut, and splits both g and h. Wherever two objects cross, one of them has to be
- *       g |            split, f or g, so that a split of g costs nothing that could be saved. h crosses only the
- *     ---f\+----- . . .h . .   line of f: another cut may spare it.
- *          |\         /                                                                                          */
+ *      \                    f is to be the cut, and splits both g and h. Wherever two objects cross, one of them has to
+ *       g         h         be split, f or g, so that a split of g costs nothing that could be saved. h crosses only
+ *     ---\--f-- . / . .     the line of f: another cut may spare it.
+ *         \     /
+ */
 #ifndef FROE_SPLIT_CROSSING_H
 #define FROE_SPLIT_CROSSING_H
 #include "split/facets.h"

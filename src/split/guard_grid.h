@@ -2,8 +2,10 @@
  *
  *     slice   0   1   2   3   4   5   6   7       The code of a cell has dim bits a level, the first level highest,
  *           |   |   |   |   |   |   |   |   |     axis 0 first in each: cells of one octree cube have one prefix.
- *     level     3   2   3   1   3   2   3         Comparisons with a table of planes decide where a point is; the
- * product that finds the place in it is only a guess. */
+ *     level     3   2   3   1   3   2   3
+ *
+ * Comparisons with a table of planes decide where a point is; the product that finds the place in it is only a
+ * guess. */
 #ifndef FROE_SPLIT_GUARD_GRID_H
 #define FROE_SPLIT_GUARD_GRID_H
 #include <froe/froe.h>

@@ -3,8 +3,7 @@
  *
  *        o   /  o           A line halves the points. One and the same line then halves both halves, and so on: of the
  *     o     /      o        four cells around a crossing a line meets three at most, so a search along a line comes
- * into
- *     -----/----------      O(n^0.695) of n cells.
+ *     -----/----------      into O(n^0.695) of n cells.
  *      o  /  o  o
  *
  * The line through the medians of two sets on both sides of another is found by bisection: turned from one direction
