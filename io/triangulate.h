@@ -4,6 +4,8 @@
 
 #include "common.h"
 
+#define IO_ORIENT_BOUND 4e-16 /**< Shewchuk's bound on what his ccw filter errs by, rounded up */
+
 /** The side of c seen along the line from a to b: 1 left, -1 right, 0 on it. Exact unless a product
  * overflows or underflows. */
 int io_orient(const double *a, const double *b, const double *c);
@@ -15,7 +17,8 @@ int io_ring_side(const double *xy, size_t count);
 /** Splits a polygon in space, given by its corners (3 doubles each, count >= 3), into count - 2
  * triangles with the corners of the polygon, and appends 3 indices for each to `triangles` (uint32_t).
  * A polygon whose shadow on its main coordinate plane is simple is covered without overlap. Any other
- * is split all the same: nothing is dropped. Up to O(count^2). False: no memory. */
+ * is split all the same: nothing is dropped. About O(count^1.5), O(count log count) on outlines of maps.
+ * False: no memory. */
 bool io_triangulate(const froe_allocator *alloc, const double *corners, size_t count, io_buffer *triangles);
 
 #endif
