@@ -53,7 +53,7 @@ void *base_calloc(const froe_allocator *alloc, size_t count, size_t item_size) {
 }
 
 void base_free(const froe_allocator *alloc, void *ptr, size_t size) {
-    if (ptr) alloc->fn(alloc->user, ptr, size, 0);
+    if (ptr) alloc->fn(alloc->user, ptr, size ? size : 1, 0); /* an empty array was one byte: base_calloc() */
 }
 
 bool array_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra,
