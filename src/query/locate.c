@@ -18,7 +18,7 @@ static bool holds(froe_query *q, uint32_t object, const double *x, bool *memory)
 static froe_status test_list(froe_query *q, const tree_objects *list, const froe_range *point, froe_diagnostic *diag) {
     bool memory = false;
     query_begin(q);
-    query_range_of_point(q, point);
+    query_range_of_box(q, point);
     if (!query_expect(q, list->count)) return base_fail_memory(diag);
     for (uint32_t i = 0; i < list->count; i++) {
         const uint32_t object = tree_object(list, i);

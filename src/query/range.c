@@ -20,7 +20,7 @@ static froe_status ask_space(froe_query *q, const froe_range *range, bool any, f
     froe_status status = query_range_check(range, 3, diag);
     if (status) return status;
     query_begin(q);
-    q->range.from = range;
+    query_range_of_box(q, range);
     status = space_range(q, range->points, range->points + 3, any);
     return status ? base_fail_memory(diag) : FROE_OK;
 }

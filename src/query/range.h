@@ -27,8 +27,8 @@ struct froe_query;
 void query_range_free(query_range *range, const froe_allocator *alloc);
 /** Checks a range and prepares query->range for it. */
 froe_status query_range_take(struct froe_query *query, const froe_range *range, froe_diagnostic *diag);
-/** Prepares query->range, for query_range_meets() only, for a box that is a point. */
-void query_range_of_point(struct froe_query *query, const froe_range *point);
+/** Prepares query->range, for query_range_meets() only, for a box that has been checked and is taken exactly. */
+void query_range_of_box(struct froe_query *query, const froe_range *box);
 /** Only checks it. */
 froe_status query_range_check(const froe_range *range, int dim, froe_diagnostic *diag);
 /** Checks, prepares, walks: what meets the range is in query->found; at least one object of it with `any`. */

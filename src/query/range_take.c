@@ -314,9 +314,9 @@ froe_status query_range_take(froe_query *q, const froe_range *from, froe_diagnos
     return FROE_OK;
 }
 
-void query_range_of_point(froe_query *q, const froe_range *point) {
-    q->range.from = point;
-    q->range.shape = point->shape;
+void query_range_of_box(froe_query *q, const froe_range *box) {
+    q->range.from = box;
+    q->range.shape = box->shape;
     q->range.range.kind = GEOM_RANGE_BOX;
     q->range.margin = 0;
 }

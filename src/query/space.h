@@ -57,6 +57,6 @@ froe_status space_rays(froe_query *query, const double *origins, const double *d
 void space_flock_free(space_runner *flock, const froe_allocator *alloc);
 
 /** Objects that meet a closed box, or, with `any`, some of them if there are any: they are query->found. The caller
- * has begun the query and set query->range.from. FROE_E_MEMORY. */
+ * has begun the query and called query_range_of_box(). FROE_E_MEMORY. */
 froe_status space_range(froe_query *query, const double *lo, const double *hi, bool any);
 #endif

@@ -332,6 +332,107 @@ static void damaged_blocks_are_noticed(void **state) {
     froe_tree_free(t);
 }
 
+/* Of boxes and points searches believe the box told, so one larger than the object is a wrong one. */
+static void boxes_larger_than_their_objects_are_found(void **state) {
+    const kind_of_scene k = {"small", 30, 0, 6, 0.5, 1, 0};
+    froe_tree *t = tree_of(&k);
+    size_t changed = 0;
+    froe_diagnostic why;
+    (void)state;
+    for (uint32_t n = 0; n < t->node_count; n++) {
+        if (!tree_is_leaf(t->nodes + n)) continue;
+        const space_header *h = space_block(t, t->nodes[n].child);
+        for (uint32_t i = h->triangles; i < h->count; i++)
+            for (int row = 0; row < 6 && space_ids(h)[i] & SPACE_EXACT; row++) {
+                uint16_t *told = (uint16_t *)(uintptr_t)(space_row(h, row) + i), was = *told;
+                const int by = row < 3 ? -2 : 2, end = h->box[row / 3][row % 3];
+                if (row < 3 ? was + by < end : was + by > end) continue;
+                *told = (uint16_t)(was + by);
+                if (froe_tree_audit(t, NULL, &why) != FROE_E_AUDIT) fail_msg("node %u, row %d, not found", n, row);
+                assert_non_null(strstr(why.message, "a box larger than the object"));
+                *told = was;
+                changed++;
+            }
+    }
+    assert_true(changed > 10);
+    froe_tree_free(t);
+}
+
+static bool finds(froe_query *q, uint32_t object, const double *x) {
+    const double box[6] = {x[0], x[1], x[2], x[0], x[1], x[2]};
+    froe_range range = froe_range_defaults();
+    froe_list list;
+    bool found = false;
+    range.points = box;
+    assert_int_equal(froe_query_range(q, &range, &list, NULL), FROE_OK);
+    for (size_t i = 0; i < list.count; i++) found |= list.ids[i] == object;
+    return found;
+}
+
+/* Triangles on three floors, so that boxes of leaves have no height. */
+static froe_tree *tree_of_floors(void) {
+    static const double height[] = {0, 0.25, 1};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < 60; i++) {
+        double c[9];
+        for (uint32_t j = 0; j < 9; j++) c[j] = j % 3 < 2 ? trees_unit(3, 9 * i + j) : height[i % 3];
+        assert_int_equal(trees_add(scene, FROE_POLYGON, 1, c, NULL, NULL), FROE_OK);
+    }
+    froe_tree *t = trees_build(scene, "index", 4);
+    froe_scene_free(scene);
+    return t;
+}
+
+/* A corner may lie beyond the box of its leaf by 2^-20 units, and is found there. */
+static void corners_just_outside_of_boxes_are_found(void **state) {
+    froe_tree *t = tree_of_floors();
+    froe_scene *s = t->scene;
+    froe_query *q;
+    size_t moved = 0;
+    (void)state;
+    assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
+    for (uint32_t i = 0; i < s->object_count; i++)
+        for (uint32_t c = 0; c < 18; c++) {
+            double *x = s->coords + 3 * (size_t)scene_corner(s, i, c / 6) + c / 2 % 3;
+            const double was = *x;
+            *x += (c % 2 ? 1 : -1) * 0x1p-38;
+            if (froe_tree_audit(t, NULL, NULL) == FROE_OK) {
+                moved++;
+                if (!finds(q, i, scene_point(s, i, c / 6))) fail_msg("object %u, corner %u", i, c / 6);
+            }
+            *x = was;
+        }
+    assert_true(moved > 300);
+    froe_query_free(q);
+    froe_tree_free(t);
+}
+
+/* What a context has been asked before does not matter: here, by a ball around the end of a segment, for a box that the
+ * segment passes. */
+static void boxes_are_boxes_after_balls(void **state) {
+    const double segment[6] = {0, 1, 4, 2, 3, 2}, more[6] = {5, 5, 5, 6, 6, 6}, box[6] = {1, 0, 2, 1, 1, 3};
+    froe_scene *scene;
+    froe_query *q;
+    froe_list list;
+    froe_range range = froe_range_defaults(), ball = froe_range_defaults();
+    (void)state;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_SEGMENT, 1, segment, NULL, NULL), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_SEGMENT, 1, more, NULL, NULL), FROE_OK);
+    froe_tree *t = trees_build(scene, "index", 8);
+    assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
+    ball.shape = FROE_SHAPE_BALL, ball.points = segment, ball.radius = 0.5;
+    range.points = box;
+    assert_int_equal(froe_query_range(q, &ball, &list, NULL), FROE_OK);
+    assert_int_equal(list.count, 1);
+    assert_int_equal(froe_query_range(q, &range, &list, NULL), FROE_OK);
+    assert_int_equal(list.count, 0);
+    froe_query_free(q);
+    froe_tree_free(t);
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kernel_gives_the_answers_of_general_trees),
@@ -339,6 +440,9 @@ int main(void) {
         cmocka_unit_test(flocks_refuse_bad_rays),
         cmocka_unit_test(kernels_agree),
         cmocka_unit_test(damaged_blocks_are_noticed),
+        cmocka_unit_test(boxes_larger_than_their_objects_are_found),
+        cmocka_unit_test(corners_just_outside_of_boxes_are_found),
+        cmocka_unit_test(boxes_are_boxes_after_balls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
