@@ -13,8 +13,9 @@
  *      solids crowd (crowd.h), or, in packed trees, where the builder says that more cuts would not pay.
  *   6  Promises: each holds, by the measured value and, where its name is known, measured again.
  *
- *   7  Blocks of packed trees: flags, units, and that no corner lies in a cut (packed_audit.h); in space, where
- *      objects may be listed beside the cells they are in, units and boxes (space_audit.c).
+ *   7  Packed trees: the root box is that of the scene and every cut divides its cell; flags, units, and that no corner
+ *      lies in a cut (packed_audit.h); in space, where objects may be listed beside the cells they are in, units and
+ *      boxes, which must hold the object and, where they say all of it, be no larger (space_audit.c).
  *
  * The lists are checked object by object on threads; the violation reported is that of the lowest
  * object, whatever the number of threads. O(pieces x height). */
@@ -120,6 +121,14 @@ static froe_status check_guard_stage(const audit *a) {
         }
     }
     return FROE_OK;
+}
+
+/* Of packed trees. */
+static froe_status check_frame(const audit *a) {
+    uint32_t node;
+    const char *why;
+    if (packed_frame_refuted(a->tree, &node, &why)) return base_fail_memory(a->diag);
+    return why ? bad_node(a, node, why) : FROE_OK;
 }
 
 /* -------------------------------------------------------------------- lists -- */
@@ -370,6 +379,7 @@ static froe_status check_all(audit *a) {
     froe_status status = check_structure(a);
     if (!status) status = check_report(a);
     if (!status) status = check_guard_stage(a);
+    if (!status && tree_is_packed(a->tree)) status = check_frame(a);
     if (!status && !base_progress(a->task, 0.1)) return base_fail(a->diag, FROE_E_CANCELLED, "cancelled");
     if (!status) status = check_lists(a);
     if (!status) status = check_leaves(a);

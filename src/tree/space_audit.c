@@ -1,8 +1,13 @@
 /* space_audit.c: is what a block of space says of an object true?
  *
- * Boxes. What an object has in the cell must lie in the box told: so it must not meet the rest of the cell, which is up
- * to six boxes. That is decided exactly; the sides of the box are moved out by the 2^-10 of a unit that searches allow
- * for, and by what doubles cannot tell apart. */
+ *     |   |<--- told --->|   |      No point of the object in the cell may lie outside of the box told, by more than
+ *     |   | .----------. |   |      2^-20 units: it must not meet the rest of the cell, which is up to six boxes.
+ *     |   | |  object  | |   |      Searches believe this of every box, and of boxes and points that the box told is
+ *     |   | '----------' |   |      the object's own, less than a unit and 2^-20 larger on each side.
+ *    cell                  cell
+ *
+ * The sides of boxes are exact numbers; where one is no double the next double further out stands for it. Between the
+ * two lies no coordinate of a vertex, a cut or a window. */
 #include "geom/meet.h"
 #include "tree/space.h"
 #include <math.h>
@@ -25,12 +30,31 @@ static bool meets(num_context *context, const froe_scene *s, uint32_t object, co
     return geom_meet(context, &set, &box);
 }
 
+/* The sign of (x - lo) scale - unit. */
+static int beside(num_context *context, const space_header *h, int k, double x, double unit) {
+    num_arena *arena = &context->arena;
+    arena->top = 0;
+    const num_dyadic off = num_dyadic_sub(arena, num_dyadic_from(arena, x), num_dyadic_from(arena, h->lo[k]));
+    return num_dyadic_compare(num_dyadic_mul(arena, off, num_dyadic_from(arena, h->scale)),
+                              num_dyadic_from(arena, unit));
+}
+
+/* The double next to lo + unit / scale: the last one that is less, or the first that is greater. The scale is a power
+ * of 2, so the sum is rounded once, and one step away at most. */
+static double outside(num_context *context, const space_header *h, int k, double unit, int direction) {
+    double x = h->lo[k] + unit / h->scale;
+    const double end = direction < 0 ? -(double)INFINITY : (double)INFINITY;
+    while (isfinite(x) && beside(context, h, k, x, unit) * direction <= 0) x = nextafter(x, end);
+    while (isfinite(x) && beside(context, h, k, nextafter(x, -end), unit) * direction > 0) x = nextafter(x, -end);
+    return x;
+}
+
+/* Is nothing of the object in the cell outside of the box? */
 static bool within(num_context *context, const froe_tree *t, const space_header *h, const space_cell *cell,
-                   uint32_t object, const uint16_t lo[3], const uint16_t hi[3]) {
+                   uint32_t object, const uint16_t box[2][3]) {
     for (int k = 0; k < 3; k++) {
-        double slack = 0x1p-50 * (fabs(cell->lo[k]) + fabs(cell->hi[k]));
-        double low = h->lo[k] + (lo[k] - 0x1p-10) / h->scale - slack;
-        double high = h->lo[k] + (hi[k] + 0x1p-10) / h->scale + slack;
+        const double low = outside(context, h, k, box[0][k] - 0x1p-20, -1);
+        const double high = outside(context, h, k, box[1][k] + 0x1p-20, 1);
         for (int upper = 0; upper < 2; upper++) {
             double c[6] = {cell->lo[0], cell->lo[1], cell->lo[2], cell->hi[0], cell->hi[1], cell->hi[2]};
             c[upper ? k : 3 + k] = upper ? high : low;
@@ -38,6 +62,17 @@ static bool within(num_context *context, const froe_tree *t, const space_header 
         }
     }
     return true;
+}
+
+/* Does the box reach beyond the object's part in the cell, which is a box, by a unit and more? */
+static bool loose(num_context *context, const space_header *h, const space_cell *cell, const double *lo,
+                  const double *hi, const uint16_t box[2][3]) {
+    for (int k = 0; k < 3; k++) {
+        const double from = lo[k] > cell->lo[k] ? lo[k] : cell->lo[k], to = hi[k] < cell->hi[k] ? hi[k] : cell->hi[k];
+        if (beside(context, h, k, from, box[0][k] + 1 + 0x1p-20) > 0) return true;
+        if (beside(context, h, k, to, box[1][k] - 1 - 0x1p-20) < 0) return true;
+    }
+    return false;
 }
 
 /* Corner c of triangle i. */
@@ -66,5 +101,7 @@ const char *space_refuted(num_context *context, const froe_tree *t, uint32_t pie
         box[1][k] = triangle ? h->box[1][k] : space_row(h, 3 + k)[i];
         if (box[0][k] < h->box[0][k] || box[1][k] > h->box[1][k]) return "a box outside the box of its leaf";
     }
-    return within(context, t, h, &cell, object, box[0], box[1]) ? NULL : "a box that the object leaves";
+    if (id & SPACE_EXACT && loose(context, h, &cell, lo, hi, (const uint16_t(*)[3])box))
+        return "a box larger than the object";
+    return within(context, t, h, &cell, object, (const uint16_t(*)[3])box) ? NULL : "a box that the object leaves";
 }

@@ -22,9 +22,15 @@ static bool is_power_of_2(double x) {
     return isfinite(x) && frexp(x, &exponent) == 0.5;
 }
 
-static bool header_fits(const space_header *h) {
+/* Units say nothing only where there are none, or where the scene is too large or too small for them. */
+static bool scale_fits(const froe_tree *t, const space_header *h) {
+    if (h->scale == 0) return !h->count || !space_is_tame(t->meta.root_lo, t->meta.root_hi);
+    return h->count && is_power_of_2(h->scale) && h->scale >= 0x1p-400 && h->scale <= 0x1p620;
+}
+
+static bool header_fits(const froe_tree *t, const space_header *h) {
     static const uint8_t zeros[sizeof h->unused];
-    bool numbers = h->scale == 0 || (is_power_of_2(h->scale) && h->count);
+    bool numbers = scale_fits(t, h);
     for (int k = 0; k < 3; k++) {
         numbers = numbers && isfinite(h->lo[k]) && h->box[0][k] <= h->box[1][k];
         if (h->scale == 0) numbers = numbers && h->lo[k] == 0 && h->box[1][k] == 0;
@@ -51,7 +57,7 @@ static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t 
     if (h->count != count || h->triangles > count) return "a block whose header does not fit";
     if ((uint64_t)count * 16 > (uint64_t)room * PACKED_BLOCK || space_size(count, h->triangles) > room)
         return "a block out of place";
-    if (!header_fits(h)) return "a block whose header does not fit";
+    if (!header_fits(t, h)) return "a block whose header does not fit";
     const char *why = check_ids(t, h);
     if (why) return why;
     *blocks += space_size(count, h->triangles);

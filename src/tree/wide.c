@@ -24,13 +24,15 @@ typedef struct widening {
 
 /* ------------------------------------------------------------------- boxes -- */
 
+/* Objects may reach 2^-20 units beyond the box (space.h). Coordinates of the tree and of queries, below 1 where they
+ * matter, are rounded by less than 2^-52. */
 static bounds leaf_box(const tree_wide *w, const space_header *h) {
     bounds b = {{1, 1, 1}, {-1, -1, -1}};
     if (!h->count) return b;
     for (int k = 0; k < 3; k++) {
         double lo = (h->lo[k] - w->middle[k]) * w->scale, unit = w->scale / h->scale;
-        b.lo[k] = lo + h->box[0][k] * unit;
-        b.hi[k] = lo + h->box[1][k] * unit;
+        b.lo[k] = lo + (h->box[0][k] - 0x1p-19) * unit - 0x1p-50;
+        b.hi[k] = lo + (h->box[1][k] + 0x1p-19) * unit + 0x1p-50;
     }
     return b;
 }
@@ -142,7 +144,6 @@ static uint32_t open_up(const widening *w, uint32_t node, uint32_t child[]) {
 /* The largest shift for which the size is at most 254 units. */
 static uint8_t shift_for(double size) {
     int exponent;
-    if (size < 0x1p-110) return 100;
     frexp(size, &exponent); /* size < 2^exponent */
     int shift = 8 - exponent;
     return (uint8_t)(ldexp(size, shift) <= 254 ? shift : shift - 1);

@@ -10,7 +10,8 @@
  *
  * Made from the nodes and the boxes of blocks when a tree is built or opened; files do not hold it. The box with
  * largest surface is opened until there are sixteen, so a search that meets a node may compare all of them at once and
- * go on with those it meets. Leaves without objects are left out. Bounds hold what they say up to 2^-40 units. */
+ * go on with those it meets. Leaves without objects are left out. Bounds are so much wider than the boxes of
+ * leaves that rounding leaves no object out. */
 #ifndef FROE_TREE_WIDE_H
 #define FROE_TREE_WIDE_H
 #include "tree/space.h"

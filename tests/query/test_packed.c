@@ -513,6 +513,32 @@ static void a_block_is_not_taken_for_a_node_of_the_same_number(void **state) {
     assert_true(coincidences > 3);
 }
 
+/* Wherever the scene lies and however small its cells are: searches believe units to within the error that a block
+ * tells. */
+static void units_are_audited_exactly(void **state) {
+    size_t changed = 0;
+    (void)state;
+    for (size_t i = 0; i < KINDS; i++) {
+        kind_of_scene k = kinds[i];
+        k.count = k.count < 40 ? k.count : 40;
+        froe_tree *t = tree_of(&k, false);
+        for (uint32_t n = 0; n < t->node_count; n++) {
+            const tree_node *leaf = t->nodes + n;
+            const packed_header *h = tree_is_leaf(leaf) ? packed_block(t, leaf) : NULL;
+            for (size_t u = 0; h && h->error < 1 && u < 4 * (size_t)leaf->u.list.count; u++) {
+                uint16_t *unit = (uint16_t *)(uintptr_t)packed_units(h) + u;
+                const uint16_t was = *unit;
+                *unit = (uint16_t)(was < 2 ? was + 2 : was - 2);
+                if (froe_tree_audit(t, NULL, NULL) != FROE_E_AUDIT) fail_msg("%s, node %u", k.name, n);
+                *unit = was;
+                changed++;
+            }
+        }
+        froe_tree_free(t);
+    }
+    assert_true(changed > 1000);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_told_exactly_once),
@@ -522,6 +548,7 @@ int main(void) {
         cmocka_unit_test(batches_answer_as_single_questions_do),
         cmocka_unit_test(queries_survive_every_failing_allocation),
         cmocka_unit_test(a_block_is_not_taken_for_a_node_of_the_same_number),
+        cmocka_unit_test(units_are_audited_exactly),
         cmocka_unit_test(verticals_are_answered_exactly),
         cmocka_unit_test(windows_are_answered_exactly),
     };
