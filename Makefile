@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install bench bench-bar bench-boxes bench-peers claims oracle coverage docs format lint clean
+.PHONY: help build demo test install bench bench-bar bench-boxes bench-peers claims oracle mutations coverage docs format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -57,6 +57,11 @@ oracle: deps-bench ## pictures of large scenes against rays, half an hour
 	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
 	@cmake --build $(BUILD)/bench --parallel $(JOBS) --target bench_oracle
 	@bench/run-oracle $(BUILD)/bench
+
+mutations: deps-test ## every bit of small tree files turned over, an hour: refused, found, or another right tree
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target test_conformance_mutations
+	@cd $(BUILD)/scratch/conformance-mutations && $(abspath $(BUILD))/tests/test_conformance_mutations all
 
 coverage: deps-coverage ## which lines do the tests run? build/coverage/report/index.html
 	@cmake --preset coverage

@@ -1,5 +1,5 @@
 /* test_file.c: saving and opening: what goes out comes back, and nothing else comes in. */
-#include "tree/file.h"
+#include "support/forge.h"
 #include "trees.h"
 #include <dirent.h>
 #include <fcntl.h>
@@ -335,22 +335,6 @@ static void every_truncation_is_noticed(void **state) {
     unlink(NAME);
 }
 
-/* Makes the checksums right again, as somebody who means harm would. */
-static void forge(uint8_t *bytes, size_t size) {
-    file_header h;
-    file_section s;
-    const size_t table = FILE_SECTIONS * sizeof s;
-    for (uint32_t i = 0; i < FILE_SECTIONS; i++) {
-        memcpy(&s, bytes + sizeof h + i * sizeof s, sizeof s);
-        if (s.offset > size || s.size > size - s.offset) continue;
-        s.checksum = file_checksum(bytes + s.offset, s.size, 0);
-        memcpy(bytes + sizeof h + i * sizeof s, &s, sizeof s);
-    }
-    memcpy(&h, bytes, sizeof h);
-    h.checksum = file_checksum(bytes + sizeof h, table, file_checksum(bytes, offsetof(file_header, checksum), 0));
-    memcpy(bytes, &h, sizeof h);
-}
-
 /* Bytes of the structure must be refused even with right checksums; numbers may be others', but nothing may crash. */
 static void forged_files_are_refused_or_harmless(void **state) {
     (void)state;
@@ -364,7 +348,7 @@ static void forged_files_are_refused_or_harmless(void **state) {
             for (size_t f = 0; f < (layout != SPACE ? 3 : 1); f++) {
                 memcpy(copy, bytes, size);
                 copy[i] ^= layout != SPACE ? flips[f] : flips[i % 3];
-                forge(copy, size);
+                forge_checksums(copy, size);
                 opened_count += try_bytes(copy, size, &why) == FROE_OK;
             }
         }
@@ -388,7 +372,7 @@ static void forge_words(const uint8_t *bytes, size_t size, file_id id) {
         for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
             memcpy(copy, bytes, size);
             memcpy(copy + s.offset + at, values + v, 4);
-            forge(copy, size);
+            forge_checksums(copy, size);
             (void)try_bytes(copy, size, &why);
         }
     free(copy);
