@@ -127,7 +127,8 @@ static double opacity_of(const struct aiMaterial *material, double alpha) {
     float opacity = 1;
     if (!aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &blending))
         return strcmp(blending.data, "BLEND") ? 1 : alpha;
-    aiGetMaterialFloat(material, AI_MATKEY_OPACITY, &opacity);
+    /* aiGetMaterialFloat() is inline in the header and nowhere in the library: without optimisation it does not link. */
+    aiGetMaterialFloatArray(material, AI_MATKEY_OPACITY, &opacity, NULL);
     return opacity;
 }
 
