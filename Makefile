@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install bench bench-bar bench-boxes bench-peers claims oracle mutations coverage docs format lint clean
+.PHONY: help build demo test install uninstall bench bench-bar bench-boxes bench-peers claims oracle mutations coverage bare docs format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -28,7 +28,10 @@ test: deps-test ## everything the tests can find out, without benches
 	@ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
 
 install: build ## into PREFIX (/usr/local); DESTDIR is honoured
-	@cmake --install $(BUILD) --prefix $(PREFIX)
+	@scripts/install $(BUILD) $(PREFIX)
+
+uninstall: ## removes what `make install` with the same PREFIX and DESTDIR added
+	@scripts/install --remove $(BUILD) $(PREFIX)
 
 bench: deps-bench ## froe beside its peers, those that Debian has
 	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
@@ -69,6 +72,9 @@ coverage: deps-coverage ## which lines do the tests run? build/coverage/report/i
 	@ctest --preset coverage --parallel $(JOBS)
 	@cmake -E make_directory build/coverage/report
 	@gcovr --root . --filter 'src/|io/|draw/|cli/' --html-details build/coverage/report/index.html --print-summary build/coverage
+
+bare: deps-bare ## README.md word for word on a bare Debian 12, made for it and removed again; as root
+	@scripts/bare
 
 docs: build ## tables, outputs and the picture in the documents, as they come out now
 	@scripts/file-table --write
