@@ -1,10 +1,10 @@
 /* along.c: which of two points of one segment is nearer to its end 0? This does not change when the segment turns.
  *
- *            end 1       With u and v the turns of a line against end 0 and end 1, the line crosses the segment the
- * share b -----o-- -     u / (u - v) of the way from end 0: 0 and 1 for the ends themselves. So of two lines / share b
- * - share a = (u_a v_b - u_b v_a) / ((u_a - v_a) (u_b - v_b)) a ----/------      and what is below does not change its
- * sign as long as they cross. For the order of x the end 0            above would be multiplied by how far the segment
- * goes in x, which is 0 when it turns. */
+ *            end 1       With u and v the turns of a line against end 0 and end 1, the line crosses the segment the share
+ *       b -----o-- -     u / (u - v) of the way from end 0: 0 and 1 for the ends themselves. So of two lines
+ *            /               share b - share a = (u_a v_b - u_b v_a) / ((u_a - v_a) (u_b - v_b))
+ *     a ----/------      and what is below does not change its sign as long as they cross. For the order of x the
+ *       end 0            above would be multiplied by how far the segment goes in x, which is 0 when it turns. */
 #include "kinetic/now.h"
 
 static bool has_end(const now_state *now, uint32_t segment, uint32_t vertex) {

@@ -2,10 +2,10 @@
  *
  *     _________________             Only two cells change, those on both sides of the wall at the height of the
  *        :   |     :                point: near, where the certificate was, and far. In one of them the segment s of
- * the :far|near :                point comes to be, or ends, a little earlier, in the other a little later. What else
- *        :   | o---:-- s            crosses the wall there, the threads, does so before and after: it is told from
- * below :   |     :                to above by walking down along the wall, and has a new tree, thin as that part of
- *     ___:__(q)____:___             the cell is, by its order and its height alone (a treap).
+ *        :far|near :                the point comes to be, or ends, a little earlier, in the other a little later.
+ *        :   | o---:-- s            What else crosses the wall there, the threads, does so before and after: it is
+ *        :   |     :                told from below to above by walking down along the wall, and has a new tree, thin
+ *     ___:__(q)____:___             as that part of the cell is, by its order and its height alone (a treap).
  *
  * If there is another wall in a thin part, as of a vertex that has the same x for ever, it passes, too, and this is
  * not for here. The far cell is found by going down on the other side of the wall, past what comes before s in order:
