@@ -225,29 +225,34 @@ FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex,
 /** Takes an object out, for good. FROE_E_ARG: there is no such object. */
 FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object, froe_diagnostic *diag);
 
-/* Questions about the present: everything is where it is at the tick at which the partition stands. Of
- * segments that lie in one line where they overlap, the one that is told of is the first in the order of cuts. They
- * use memory of the partition's, so they are for one thread at a time. FROE_E_ARG: a coordinate is NaN or infinite. */
+/* Questions about the present. The partition stands just after its tick, and so do the segments that are asked about:
+ * where they are at the tick, and an infinitesimal while later. So what touches at the tick alone, because it is about
+ * to part or to cross, is told apart as it is afterwards. The points of a question stand still. Only `on` is about the
+ * tick itself. Of segments that lie in one line where they overlap, the one that is told of is the first in the order
+ * of cuts. Segments without length are not met. Questions use memory of the partition's, so they are for one thread at
+ * a time. FROE_E_ARG: a coordinate is NaN or infinite. FROE_E_MEMORY. */
 
 /** Where a point is among the segments. */
 typedef struct froe_kinetic_place {
-    uint32_t on;           /**< a segment that the point lies on, or FROE_NONE */
-    uint32_t above, below; /**< the next ones straight up and down, or FROE_NONE. What is only touched, at the left end
-                              or along its length, is passed: straight up is inclined to the right, by less than any
-                                number. On a segment: both that one */
+    uint32_t on;           /**< a segment that the point lies on at the tick, ends included, or FROE_NONE */
+    uint32_t above, below; /**< the next ones straight up and down, just after the tick, or FROE_NONE. The way up is
+                                inclined to the left, by less than any number: of what it only touches, it passes an
+                                upright segment and a left end, and meets a right end; the way down is inclined to the
+                                right, and meets a left end. With a segment in `on`: both that one */
 } froe_kinetic_place;
-/** Exact. Expected O(log n). */
+/** Exact. Expected O(log n), and where something coincides at the tick the number of walls through the point's x. */
 FROE_API froe_status froe_kinetic_locate(froe_kinetic *kinetic, const double at[2], froe_kinetic_place *out,
                                          froe_diagnostic *diag);
-/** The first segment met on the way from one point to another, ends included; FROE_NONE: none. Of those met at
- * one point, any. Exact. Expected O(log n + segments and walls passed). */
+/** The first segment met, just after the tick, on the way from one point to another, ends included; FROE_NONE: none. Of
+ * those met at one point, any. Exact. Expected O(log n + segments and walls passed). */
 FROE_API froe_status froe_kinetic_ray(froe_kinetic *kinetic, const double from[2], const double to[2], uint32_t *hit,
                                       froe_diagnostic *diag);
 
-/** A fragment: what lies between two walls of the partition. `ends` are x, y, x, y, rounded. false stops. */
+/** A fragment: what lies between two walls of the partition. `ends` are x, y, x, y, at the tick, roughly: within a few
+ * units in the last place where the walls are not nearly parallel to it. false stops. */
 typedef bool froe_kinetic_order_fn(void *user, uint32_t object, const double ends[4]);
-/** All fragments, those behind first: what comes later is never hidden, seen from the eye, by what came before.
- * O(nodes). FROE_E_MEMORY. */
+/** All fragments, those behind first: what comes later is never hidden, seen from the eye just after the tick, by what
+ * came before. A segment that the eye is on comes after all that is on its two sides. O(nodes). FROE_E_MEMORY. */
 FROE_API froe_status froe_kinetic_order(froe_kinetic *kinetic, const double eye[2], froe_kinetic_order_fn *visit,
                                         void *user, froe_diagnostic *diag);
 
@@ -288,12 +293,14 @@ typedef struct froe_snapshot {
                         i of the scene is the i-th of those that are there; tags are the motion's. The caller's */
     froe_places *places; /**< NULL if not asked for. The caller's */
     size_t rounded;      /**< vertices that are not where the tree has them, but less than a double's last place off */
-    bool alike; /**< the tree has, node for node, the cuts of the present, as if nothing had been rounded. Not if
-                   there are segments without length: they are in the tree, and not in the partition */
+    bool
+        alike; /**< the tree has, node for node, the cuts of the partition, as if nothing had been rounded, and as if the
+                   partition stood at the tick. Not where something coincides at the tick and not just after it, and not if there
+                   are segments without length: they are in the tree, and not in the partition */
 } froe_snapshot;
 
-/** The present as an ordinary tree, for all other questions. Its coordinates are doubles, each the nearest to the
- * truth; where that is no double, `rounded` counts it, `alike` tells whether it made a difference to the partition, and
+/** The present as an ordinary tree, for all other questions: the segments where they are at the tick itself, not just
+ * after it. Its coordinates are doubles, each the nearest to the truth; where that is no double, `rounded` counts it, `alike` tells whether it made a difference to the partition, and
  * `places` keeps the truth. FROE_E_UNSUPPORTED: something would have to be rounded, and that is to be refused; the
  * first object is named. FROE_E_MEMORY, and what froe_build() says. */
 FROE_API froe_status froe_kinetic_snapshot(froe_kinetic *kinetic, const froe_snapshot_options *options,

@@ -1,4 +1,5 @@
-/* ask.c: questions about the present: where a point is, what a ray meets first, what is behind what.
+/* ask.c: questions about the present: where a point is, what a ray meets first, what is behind what. As all else they
+ * are about where segments are just after the tick; but a point is also on those that it lies on at the tick itself.
  *
  *        :  UP   :           A ray meets what is in the near part of a cell first, then the segment that cuts it,
  *   LEFT : __s___: RIGHT     then what is in the far part. The ray is a segment that takes no part, so that it is
@@ -7,11 +8,11 @@
 #include "kinetic/live.h"
 #include <math.h>
 
-static froe_status check(const froe_kinetic *k, const double *at, const double *to, const void *out,
-                         froe_diagnostic *diag) {
+static froe_status check(froe_kinetic *k, const double *at, const double *to, const void *out, froe_diagnostic *diag) {
     if (!k || !at || !to || !out) return base_fail(diag, FROE_E_ARG, "a question to a kinetic partition: NULL");
     for (int i = 0; i < 2; i++)
         if (!isfinite(at[i]) || !isfinite(to[i])) return base_fail(diag, FROE_E_ARG, "a coordinate is NaN or infinite");
+    now_catch_up(&k->now);
     return FROE_OK;
 }
 
@@ -31,24 +32,89 @@ static int part_of(froe_kinetic *k, const live_node *n, now_name point) {
     return where ? (where > 0 ? UP : DOWN) : -1;
 }
 
-froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kinetic_place *out, froe_diagnostic *diag) {
-    froe_status status = check(k, at, at, out, diag);
-    if (status) return status;
-    now_name point = end_name(k, now_ask(&k->now, at, at), 0);
+static froe_kinetic_place place_on(uint32_t segment) {
+    return (froe_kinetic_place){segment, segment, segment};
+}
+
+/* Just after the tick. */
+static froe_kinetic_place place_of(froe_kinetic *k, now_name point) {
     froe_kinetic_place place = {FROE_NONE, FROE_NONE, FROE_NONE};
     for (uint32_t x = node_at(k, ROOT)->child[0]; x;) {
         const live_node *n = node_at(k, x);
         int part = part_of(k, n, point);
-        if (part < 0) {
-            place = (froe_kinetic_place){n->segment, n->segment, n->segment};
-            break;
-        }
+        if (part < 0) return place_on(n->segment);
         if (part == UP) place.below = n->segment;
         if (part == DOWN) place.above = n->segment;
         x = n->child[part];
     }
-    *out = place;
-    return FROE_OK;
+    return place;
+}
+
+/* ------------------------------------------------------------------- at the tick -- */
+
+/* Of a point on the line of a segment. */
+static bool reaches(froe_kinetic *k, uint32_t segment, now_name point) {
+    return now_judge_order(&k->now, point, end_name(k, segment, 0), false, true) *
+               now_judge_order(&k->now, point, end_name(k, segment, 1), false, true) <=
+           0;
+}
+
+static void visit_node(froe_kinetic *k, uint32_t node) {
+    if (node && !array_push(&k->alloc, &k->order, node)) k->short_of_memory = true;
+}
+
+/* The parts of a node's cell that the point is in at the tick, borders included, are to be visited. Lines that are
+ * parallel at the tick cross anywhere. True: the point is on the segment of the node. */
+static bool visit_parts(froe_kinetic *k, uint32_t node, now_name point) {
+    const live_node *n = node_at(k, node);
+    bool middle = true;
+    for (int side = 0; side < 2; side++) {
+        if (n->wall[side] == END_NONE) continue;
+        int order = now_judge_order(&k->now, point, wall_name(k, n->segment, n->wall[side]), false, false);
+        if (order == POLY_PARALLEL) order = 0;
+        if (side == LEFT) order = -order; /* > 0: outside */
+        if (order >= 0) visit_node(k, n->child[side]);
+        middle = middle && order <= 0;
+    }
+    if (!middle) return false;
+    const int where = now_judge_side(&k->now, n->segment, point.a, false);
+    if (!where && reaches(k, n->segment, point)) return true;
+    if (where >= 0) visit_node(k, n->child[UP]);
+    if (where <= 0) visit_node(k, n->child[DOWN]);
+    return false;
+}
+
+/* A segment that the point lies on at the tick. There may be other segments between the two just after it. */
+static uint32_t touched(froe_kinetic *k, now_name point) {
+    k->order.count = 0;
+    visit_node(k, node_at(k, ROOT)->child[0]);
+    while (k->order.count && !k->short_of_memory) {
+        const uint32_t node = k->order.data[--k->order.count];
+        if (visit_parts(k, node, point)) return node_at(k, node)->segment;
+    }
+    return FROE_NONE;
+}
+
+/* An answer that did not come about for lack of memory. */
+static froe_status answer(froe_kinetic *k, froe_diagnostic *diag) {
+    if (!k->short_of_memory) return FROE_OK;
+    k->short_of_memory = false;
+    return base_fail_memory(diag);
+}
+
+froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kinetic_place *out, froe_diagnostic *diag) {
+    froe_status status = check(k, at, at, out, diag);
+    if (status) return status;
+    now_name point = end_name(k, now_ask(&k->now, at, at), 0);
+    k->now.tied = false;
+    froe_kinetic_place place = place_of(k, point);
+    if (place.on == FROE_NONE && k->now.tied) {
+        const uint32_t on = touched(k, point);
+        if (on != FROE_NONE) place = place_on(on);
+    }
+    status = answer(k, diag);
+    if (!status) *out = place;
+    return status;
 }
 
 /* --------------------------------------------------------------------- rays -- */
@@ -131,11 +197,9 @@ static bool is_point(froe_kinetic *k, uint32_t ray) {
 
 froe_status froe_kinetic_ray(froe_kinetic *k, const double from[2], const double to[2], uint32_t *hit,
                              froe_diagnostic *diag) {
-    froe_kinetic_place place;
     froe_status status = check(k, from, to, hit, diag);
-    if (!status) status = froe_kinetic_locate(k, from, &place, diag);
     if (status) return status;
-    uint32_t ray = now_ask(&k->now, from, to), found = place.on, end[2];
+    uint32_t ray = now_ask(&k->now, from, to), found = place_of(k, end_name(k, ray, 0)).on, end[2];
     live_cell plane = live_plane();
     k->visits.count = 0;
     if (found == FROE_NONE && !is_point(k, ray)) push(k, node_at(k, ROOT)->child[0], &plane, false);
@@ -148,30 +212,21 @@ froe_status froe_kinetic_ray(froe_kinetic *k, const double from[2], const double
         }
     }
     k->visits.count = 0;
-    if (k->short_of_memory) return k->short_of_memory = false, base_fail_memory(diag);
-    *hit = found;
-    return FROE_OK;
+    status = answer(k, diag);
+    if (!status) *hit = found;
+    return status;
 }
 
 /* -------------------------------------------------------------------- order -- */
-
-/* y at which a segment passes a wall, roughly. */
-static double height_at(froe_kinetic *k, uint32_t segment, now_spot wall) {
-    now_spot a = now_spot_of(&k->now, end_name(k, segment, 0)), b = now_spot_of(&k->now, end_name(k, segment, 1));
-    double share = (wall.x - a.x) / (b.x - a.x), low = fmin(a.y, b.y), high = fmax(a.y, b.y);
-    double y = a.x == b.x ? wall.y : a.y + share * (b.y - a.y);
-    return fmin(fmax(y, low), high);
-}
 
 static bool tell(froe_kinetic *k, const live_visit *v, froe_kinetic_order_fn *visit, void *user) {
     const live_node *n = node_at(k, v->node);
     double at[4];
     for (int side = 0; side < 2; side++) {
-        now_name p = wall_name(k, n->segment, n->wall[side]);
-        if (!name_exists(p)) p = v->cell.wall[side];
-        now_spot spot = now_spot_of(&k->now, p);
-        at[2 * side] = spot.x, at[2 * side + 1] = spot.y;
-        if (n->wall[side] == END_NONE) at[2 * side + 1] = height_at(k, n->segment, spot);
+        const bool own = n->wall[side] != END_NONE;
+        const now_name p = own ? wall_name(k, n->segment, n->wall[side]) : v->cell.wall[side];
+        now_place_near(&k->now, p, at + 2 * side);
+        if (!own) at[2 * side + 1] = now_height_near(&k->now, n->segment, p);
     }
     return visit(user, n->segment, at);
 }
@@ -192,13 +247,14 @@ froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kineti
             continue;
         }
         int part = part_of(k, node_at(k, v.node), point);
-        int near = now_side(&k->now, node_at(k, v.node)->segment, point.a) < 0 ? DOWN : UP, far = UP + DOWN - near;
+        int side = now_side(&k->now, node_at(k, v.node)->segment, point.a);
+        int near = side < 0 ? DOWN : UP, far = UP + DOWN - near, order[3] = {far, -1, near};
+        if (!side) order[1] = near, order[2] = -1; /* the eye is in its line: it may hide what is on both sides of it */
         if (part == LEFT || part == RIGHT)
-            push_parts(k, &v, (int[]){LEFT + RIGHT - part, far, -1, near, part});
+            push_parts(k, &v, (int[]){LEFT + RIGHT - part, order[0], order[1], order[2], part});
         else
-            push_parts(k, &v, (int[]){LEFT, RIGHT, far, -1, near});
+            push_parts(k, &v, (int[]){LEFT, RIGHT, order[0], order[1], order[2]});
     }
     k->visits.count = 0;
-    if (k->short_of_memory) return k->short_of_memory = false, base_fail_memory(diag);
-    return FROE_OK;
+    return answer(k, diag);
 }

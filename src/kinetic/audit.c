@@ -107,6 +107,7 @@ static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
 froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
     if (!k) return base_fail(diag, FROE_E_ARG, "froe_kinetic_audit: NULL");
     froe_kinetic *fresh = NULL;
+    now_catch_up(&k->now);
     froe_status status = live_copy(k, &fresh);
     if (status) return base_fail_memory(diag);
     uint32_t node[2];

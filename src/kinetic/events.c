@@ -253,6 +253,7 @@ static bool tell(froe_kinetic *k, const live_watcher *watcher, const froe_event 
     k->told_claim = *claim;
     bool go_on = watcher->visit(watcher->user, event);
     k->told = false;
+    now_catch_up(&k->now);
     return go_on;
 }
 

@@ -67,6 +67,7 @@ static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
 froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic *diag) {
     if (!k || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_instant: NULL");
     if (!k->told) return base_fail(diag, FROE_E_ARG, "nobody is being told of an event");
+    now_catch_up(&k->now);
     num_arena *arena = &k->now.context.arena;
     arena->top = 0;
     const int64_t before = k->now.tick > 2 ? k->now.tick - 2 : 0;

@@ -212,6 +212,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
     if (tick > last) tick = last;
     if (tick < k->now.tick) return base_fail(diag, FROE_E_ARG, "time %g has passed", time);
     const live_watcher watcher = {visit, user};
+    now_catch_up(&k->now);
     froe_status status = settle_memory(k, diag);
     while (!status && k->now.tick < tick) {
         bool go_on = live_step(k, tick, &watcher);
@@ -240,6 +241,7 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
     if (!k || object >= k->segments.count) return base_fail(diag, FROE_E_ARG, "there is no object %u", object);
+    now_catch_up(&k->now);
     motion_object *o = k->now.motion->objects.data + object;
     if (o->last >= k->now.tick) o->last = k->now.tick - 1;
     if (k->segments.data[object].life != CERT_NONE) live_set_tick(k, k->segments.data[object].life, NOW_NEVER);
@@ -253,8 +255,8 @@ static void life_of(const froe_kinetic *k, uint32_t vertex, double life[2]) {
     life[0] = life[1] = time_of(k, k->now.tick);
     for (size_t s = 0; s < k->segments.count; s++) {
         const motion_object *o = m->objects.data + s;
-        if ((o->vertices[0] == vertex || o->vertices[1] == vertex) && o->first <= o->last && o->death > life[1])
-            life[1] = o->death;
+        const bool lives = o->first <= o->last && o->last >= k->now.tick;
+        if ((o->vertices[0] == vertex || o->vertices[1] == vertex) && lives && o->death > life[1]) life[1] = o->death;
     }
 }
 
@@ -262,13 +264,14 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
                                 const double *coords, const double *controls, froe_diagnostic *diag) {
     if (!k || vertex >= k->vertices.count) return base_fail(diag, FROE_E_ARG, "there is no vertex %u", vertex);
     double life[2];
+    now_catch_up(&k->now);
     life_of(k, vertex, life);
     k->leaving.count = 0;
     for (uint32_t e = k->vertices.data[vertex]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
         if (!array_push(&k->alloc, &k->leaving, e / 2)) return base_fail_memory(diag);
     for (size_t i = 0; i < k->leaving.count; i++) live_remove(k, k->leaving.data[i]);
     froe_status status = motion_replan(k->now.motion, vertex, count, times, coords, controls, life, diag);
-    if (now_grow(&k->now)) return base_fail_memory(diag); /* there are no more: it only forgets */
+    now_catch_up(&k->now);
     for (size_t i = 0; i < k->leaving.count; i++) {
         live_schedule(k, k->leaving.data[i]);
         live_insert(k, k->leaving.data[i]);

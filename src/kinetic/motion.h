@@ -46,6 +46,7 @@ struct froe_motion {
     int64_t last_tick;       /**< the last in the window */
     int unit, top;           /**< all coordinates are multiples of 2^unit, below 2^top in size */
     int time_unit, time_top; /**< all times, alike */
+    uint64_t edition;        /**< another one when plans have changed, or knots may have moved in memory */
     ARRAY(motion_knot) knots;
     ARRAY(motion_plan) plans; /**< [vertex] */
     ARRAY(motion_object) objects;

@@ -160,6 +160,7 @@ static froe_status reserve(const adding *a) {
     froe_motion *m = a->motion;
     const froe_moving *b = a->batch;
     size_t knots = b->vertex_count ? b->starts[b->vertex_count] - b->starts[0] : 0;
+    m->edition++;
     bool room = array_reserve(&m->alloc, &m->knots, knots) && array_reserve(&m->alloc, &m->plans, b->vertex_count) &&
                 array_reserve(&m->alloc, &m->objects, b->count);
     return room ? FROE_OK : base_fail_memory(a->diag);
@@ -246,6 +247,7 @@ froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const d
     adding a = begin(m, NULL, diag);
     plan_input input = {count, times, coords, controls, vertex};
     motion_plan plan;
+    m->edition++;
     if (!array_reserve(&m->alloc, &m->knots, count)) return base_fail_memory(diag);
     froe_status status = take_plan(&a, &input, &plan);
     if (!status) status = check_cover(&a, &plan, vertex, FROE_NONE, life[0], life[1]);

@@ -11,7 +11,6 @@ froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state 
         now_free(&now);
         return FROE_E_MEMORY;
     }
-    for (size_t i = 0; i < NOW_MEMORIES; i++) now.memories[i].tick = -1;
     *out = now;
     return FROE_OK;
 }
@@ -25,6 +24,16 @@ void now_free(now_state *now) {
     num_context_free(&now->context);
 }
 
+static void forget(now_state *now) {
+    for (size_t v = 0; v < now->courses.count; v++) now->courses.data[v].base = 0, now->courses.data[v].last = -1;
+    for (size_t i = 0; i < NOW_MEMORIES; i++) now->memories[i].tick = -1;
+    now->edition = now->motion->edition;
+}
+
+void now_catch_up(now_state *now) {
+    if (now->edition != now->motion->edition) forget(now);
+}
+
 froe_status now_grow(now_state *now) {
     const froe_allocator *alloc = &now->context.alloc;
     const froe_motion *m = now->motion;
@@ -33,7 +42,7 @@ froe_status now_grow(now_state *now) {
         !array_reserve(alloc, &now->segments, m->objects.count + 1 - now->segments.count))
         return FROE_E_MEMORY;
     now->courses.count = now->bends.count = m->plans.count + 2;
-    for (size_t v = 0; v < now->courses.count; v++) now_forget(now, (uint32_t)v); /* their knots may have moved */
+    forget(now);
     for (size_t s = now->segments.count ? now->segments.count - 1 : 0; s < m->objects.count; s++) {
         const uint32_t *v = m->objects.data[s].vertices;
         now->segments.data[s] = (now_segment){{v[0], v[1]}, false};
@@ -56,11 +65,6 @@ uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
     *s = (now_segment){{first, first + 1}, false};
     s->turned = now_compare(now, (now_name){first, NAME_VERTEX}, (now_name){first + 1, NAME_VERTEX}) > 0;
     return segment;
-}
-
-void now_forget(now_state *now, uint32_t vertex) {
-    now->courses.data[vertex].base = 0;
-    now->courses.data[vertex].last = -1;
 }
 
 /* ------------------------------------------------------------------ places -- */
@@ -89,22 +93,28 @@ static num_ball cross(ball2 a, ball2 b) {
     return num_ball_sub(num_ball_mul(a.x, b.y), num_ball_mul(a.y, b.x));
 }
 
-static void named_exact(now_state *now, now_name p, exact_point *out) {
-    now->context.arena.top = 0;
-    if (p.b == NAME_VERTEX) {
-        now_exact_at(now, p.a, out);
-        return;
-    }
+void now_exact_named(now_state *now, now_name p, bool along, exact_point *out) {
     exact_point v[4];
-    for (int i = 0; i < 4; i++) now_exact_at(now, now->segments.data[i < 2 ? p.a : (uint32_t)p.b].end[i % 2], v + i);
-    exact_crossing(&now->context.arena, v, out);
+    const bool vertex = p.b == NAME_VERTEX;
+    now->context.arena.top = 0;
+    for (int i = 0; i < (vertex ? 1 : 4); i++) {
+        const uint32_t end = vertex ? p.a : now->segments.data[i < 2 ? p.a : (uint32_t)p.b].end[i % 2];
+        if (along)
+            now_exact_along(now, end, v + i);
+        else
+            now_exact_at(now, end, v + i);
+    }
+    if (vertex)
+        *out = v[0];
+    else
+        exact_crossing(&now->context.arena, v, out);
 }
 
 /* Rounded from exact numbers, where the filter says little. */
 static now_spot exact_spot(now_state *now, now_name p) {
     num_arena *arena = &now->context.arena;
     exact_point e;
-    named_exact(now, p, &e);
+    now_exact_named(now, p, false, &e);
     if (!e.w.c[0].sign) return (now_spot){0, 0, (double)INFINITY};
     now_spot spot = {num_dyadic_quotient(arena, e.x.c[0], e.w.c[0]), num_dyadic_quotient(arena, e.y.c[0], e.w.c[0]), 0};
     spot.error = (fabs(spot.x) + fabs(spot.y)) * 0x1p-52 + NUM_BALL_TINY;
@@ -136,11 +146,6 @@ now_spot now_spot_of(now_state *now, now_name p) {
 
 /* ------------------------------------------------------------------- order -- */
 
-/* Is it a point of a question? These are about the tick itself. */
-static bool asks(const now_state *now, now_name p) {
-    return p.b == NAME_VERTEX ? p.a + 2 >= now->courses.count : now_is_question(now, (uint32_t)p.b);
-}
-
 /* Do two vertices have the same x for as long as their pieces last? */
 static bool is_above_for_good(now_state *now, uint32_t p, uint32_t q) {
     const motion_piece *a = &now->bends.data[p].piece, *b = &now->bends.data[q].piece;
@@ -150,12 +155,12 @@ static bool is_above_for_good(now_state *now, uint32_t p, uint32_t q) {
     return a->degree == 1 || a->from->control[0] == b->from->control[0];
 }
 
-/* Just after the tick; questions are about the tick itself. */
+/* At the tick, or else just after it. */
 static int compare_exactly(now_state *now, now_name p, now_name q) {
-    const bool asked = asks(now, p) || asks(now, q);
     now->context.stats.exact++;
-    int order = now_judge_order(now, p, q, false, asked);
-    if (order != POLY_PARALLEL && (order || asked)) return order;
+    int order = now_judge_order(now, p, q, false, false);
+    if (order != POLY_PARALLEL && order) return order;
+    now->tied = true;
     order = now_judge_order(now, p, q, true, true);
     if (order == POLY_PARALLEL) now->lost = true, order = 1;
     return order;
@@ -168,7 +173,7 @@ static int compare_to_line(now_state *now, now_name p, double line) {
     if (fabs(d) > error) return d < 0 ? -1 : 1;
     num_arena *arena = &now->context.arena;
     exact_point e;
-    named_exact(now, p, &e);
+    now_exact_named(now, p, false, &e);
     if (!e.w.c[0].sign) return now->lost = true, 1;
     num_dyadic at = num_dyadic_mul(arena, num_dyadic_from(arena, line), e.w.c[0]);
     int sign = num_dyadic_compare(e.x.c[0], at) * e.w.c[0].sign;
@@ -186,6 +191,7 @@ int now_compare(now_state *now, now_name p, now_name q) {
     if (fabs(d) > error) return d < 0 ? -1 : 1;
     if (name_is_vertex(p) && name_is_vertex(q) && is_above_for_good(now, p.a, q.a)) {
         d = a.y - b.y, error = (a.error + b.error + fabs(d) * 0x1p-52) * NUM_BALL_UP;
+        now->tied = true;
         if (fabs(d) > error) return d < 0 ? -1 : 1;
     }
     return compare_exactly(now, p, q);
@@ -211,8 +217,8 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
     if (sign == 1 || sign == -1) return sign;
     now->context.stats.exact++;
     sign = now_judge_side(now, segment, vertex, false);
-    bool question = now_is_question(now, segment) || asks(now, (now_name){vertex, NAME_VERTEX});
-    return sign || question ? sign : now_judge_side(now, segment, vertex, true);
+    now->tied |= !sign;
+    return sign ? sign : now_judge_side(now, segment, vertex, true);
 }
 
 /* ------------------------------------------------------------------ claims -- */

@@ -61,6 +61,7 @@ typedef enum now_stage { NOW_SHORT, NOW_WIDE, NOW_DYADIC, NOW_STAGES } now_stage
 
 typedef struct now_state {
     froe_motion *motion;
+    uint64_t edition; /**< of the motion: courses, bends and memories are of its plans as they were then */
     int64_t tick;
     double line[2];
     ARRAY(now_course) courses;   /**< [vertex]; the last two are ends of a question */
@@ -72,20 +73,22 @@ typedef struct now_state {
     now_stage least;             /**< where judging begins; tests begin with each */
     uint64_t judged[NOW_STAGES]; /**< questions that doubles left open, by who decided them */
     bool lost;                   /**< somebody asked where parallel lines cross */
+    bool tied; /**< something was asked that is equal at the tick, though not just after it, perhaps */
 } now_state;
 
 froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out);
 void now_free(now_state *now);
-/** After the motion got more objects or other plans. */
+/** Room for all that the motion has by now. */
 froe_status now_grow(now_state *now);
+/** Forgets what it knows of plans, and of where they lead, if the motion has got others since. Whoever is called from
+ * outside calls this first. */
+void now_catch_up(now_state *now);
 /** The segment of a question: from one point to another, which do not move. It takes no part in anything. The points
  * are the vertices `end` of the segment that is returned. */
 uint32_t now_ask(now_state *now, const double from[2], const double to[2]);
 static inline bool now_is_question(const now_state *now, uint32_t segment) {
     return segment + 1 == now->segments.count;
 }
-/** Forgets where a vertex flies. */
-void now_forget(now_state *now, uint32_t vertex);
 
 static inline bool name_is(now_name p, now_name q) {
     return p.a == q.a && p.b == q.b;
@@ -137,6 +140,9 @@ bool now_round(now_state *now, uint32_t vertex, double out[2]);
 void now_exact_at(now_state *now, uint32_t vertex, exact_point *out);
 void now_exact_along(now_state *now, uint32_t vertex, exact_point *out);
 
+/** The same of a vertex or a crossing. Resets the arena. */
+void now_exact_named(now_state *now, now_name p, bool along, exact_point *out);
+
 /* judge.c */
 /** -1, 0, 1 as p is before, at or behind q, or POLY_PARALLEL; at the tick, or just after it. By y where x are equal, if
  * `both`. */
@@ -148,9 +154,9 @@ int now_judge_lines(now_state *now, now_name crossing, bool along);
 /* now.c */
 /** REQUIRES: a vertex or a crossing. */
 now_spot now_spot_of(now_state *now, now_name p);
-/** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last; in questions: now. */
+/** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last. */
 int now_compare(now_state *now, now_name p, now_name q);
-/** 1, 0, -1: the vertex is above, on or below the line of a segment just after now; in questions: now. */
+/** 1, 0, -1: the vertex is above, on or below the line of a segment just after now. */
 int now_side(now_state *now, uint32_t segment, uint32_t vertex);
 
 /** What a certificate claims: p is before q; or the segment p.a (of b NAME_SEGMENT) has vertex q.a above or below it;
@@ -185,6 +191,12 @@ void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exac
 bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t span, poly_wide *out);
 /** Does it depend on the order of y, because x are the same for ever? Resets the arena. */
 int now_claim_axis(now_state *now, const now_claim *claim);
+
+/* limit.c */
+/** Roughly where a point is; what is nowhere at the tick is where it is just after it. */
+void now_place_near(now_state *now, now_name p, double out[2]);
+/** Roughly y of a segment where it has the x of a point, which is between its ends. */
+double now_height_near(now_state *now, uint32_t segment, now_name p);
 
 /* along.c */
 /** The segment that two points lie on by their names: crossings with it, and ends of it; FROE_NONE: there is none. Two

@@ -3,6 +3,7 @@
 #include "base/status.h"
 #include "kinetic/live.h"
 #include "kinetic/places.h"
+#include "scene/scene.h"
 
 froe_snapshot_options froe_snapshot_defaults(void) {
     return (froe_snapshot_options){.size = sizeof(froe_snapshot_options), .places = true};
@@ -99,7 +100,8 @@ static froe_status build(const picture *p, froe_tree **tree, froe_diagnostic *di
 
 /* ------------------------------------------------------------------- alike -- */
 
-/* Nodes that should be the same; the tree has one for each cut of a live node. */
+/* Nodes that should be the same; the tree has one for each cut of a live node. Of objects that are equal the tree names
+ * the first one. */
 typedef struct twins {
     uint32_t live;
     froe_node tree;
@@ -108,7 +110,9 @@ typedef struct twins {
 typedef struct comparison {
     const froe_kinetic *k;
     const froe_tree *tree;
-    uint32_t *index; /* of the motion's objects in the scene */
+    const froe_scene *scene;
+    uint32_t *index;     /* of the motion's objects in the scene */
+    uint32_t *originals; /* of the scene's objects: the first that is equal */
     ARRAY(twins) stack;
     bool short_of_memory;
 } comparison;
@@ -117,15 +121,18 @@ static void push(comparison *c, uint32_t live, froe_node tree) {
     if (!array_push(&c->k->alloc, &c->stack, ((twins){live, tree}))) c->short_of_memory = true;
 }
 
+static uint32_t corner_of(const comparison *c, uint32_t object, uint32_t end) {
+    return froe_scene_corner(c->scene, object, end);
+}
+
 /* Is a cut of the tree the wall that a segment has at one of its ends? */
 static bool is_wall(const comparison *c, uint32_t segment, uint32_t wall, const froe_cut *cut) {
     const uint32_t object = c->index[segment];
-    if (is_end(wall))
-        return cut->kind == FROE_CUT_VERTEX &&
-               cut->id[0] == froe_scene_corner(froe_tree_scene(c->tree), object, END_0 - wall);
-    const uint32_t other = c->index[wall];
-    return cut->kind == FROE_CUT_CROSSING &&
-           ((cut->id[0] == object && cut->id[1] == other) || (cut->id[0] == other && cut->id[1] == object));
+    if (is_end(wall)) return cut->kind == FROE_CUT_VERTEX && cut->id[0] == corner_of(c, object, END_0 - wall);
+    if (cut->kind != FROE_CUT_CROSSING) return false;
+    const uint32_t a = c->originals[cut->id[0]], b = c->originals[cut->id[1]];
+    const uint32_t s = c->originals[object], t = c->originals[c->index[wall]];
+    return (a == s && b == t) || (a == t && b == s);
 }
 
 /* The cuts of a live node: walls on its left and right, then the segment, which is directed as its ends are given. */
@@ -139,23 +146,29 @@ static bool is_same(comparison *c, twins at) {
         push(c, n->child[side], info.child[side]);
         info = froe_tree_node(c->tree, info.child[1 - side]);
     }
-    if (info.cut.kind != FROE_CUT_OBJECT || info.cut.id[0] != c->index[n->segment]) return false;
-    const bool turned = c->k->now.segments.data[n->segment].turned;
+    const uint32_t object = c->index[n->segment], cut = info.cut.id[0];
+    if (info.cut.kind != FROE_CUT_OBJECT || c->originals[cut] != c->originals[object]) return false;
+    const bool reversed = corner_of(c, cut, 0) != corner_of(c, object, 0);
+    const bool turned = c->k->now.segments.data[n->segment].turned != reversed;
     push(c, n->child[turned ? DOWN : UP], info.child[1]);
     push(c, n->child[turned ? UP : DOWN], info.child[0]);
     return true;
 }
 
 static froe_status compare(const picture *p, const froe_tree *tree, bool *alike) {
+    const froe_allocator *alloc = &p->k->alloc;
     const size_t all = p->k->segments.count;
-    comparison c = {.k = p->k, .tree = tree, .index = base_calloc(&p->k->alloc, all + 1, sizeof *c.index)};
-    c.short_of_memory = !c.index;
-    for (uint32_t i = 0; i < p->count && c.index; i++) c.index[p->objects[i]] = i;
-    if (c.index) push(&c, node_at(p->k, ROOT)->child[0], froe_tree_root(tree));
+    comparison c = {.k = p->k, .tree = tree, .scene = froe_tree_scene(tree)};
+    c.index = base_calloc(alloc, all + 1, sizeof *c.index);
+    c.originals = base_calloc(alloc, p->count + 1, sizeof *c.originals);
+    c.short_of_memory = !c.index || !c.originals || scene_originals(c.scene, alloc, c.originals);
+    for (uint32_t i = 0; i < p->count && !c.short_of_memory; i++) c.index[p->objects[i]] = i;
+    if (!c.short_of_memory) push(&c, node_at(p->k, ROOT)->child[0], froe_tree_root(tree));
     *alike = true;
     while (c.stack.count && *alike && !c.short_of_memory) *alike = is_same(&c, c.stack.data[--c.stack.count]);
-    array_free(&p->k->alloc, &c.stack);
-    base_free(&p->k->alloc, c.index, (all + 1) * sizeof *c.index);
+    array_free(alloc, &c.stack);
+    base_free(alloc, c.index, (all + 1) * sizeof *c.index);
+    base_free(alloc, c.originals, (p->count + 1) * sizeof *c.originals);
     return c.short_of_memory ? FROE_E_MEMORY : FROE_OK;
 }
 
@@ -188,6 +201,7 @@ froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *
     if (o->size != sizeof *o) return base_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");
     picture p;
     froe_snapshot made = {0};
+    now_catch_up(&k->now);
     froe_status status = picture_new(k, o->places, &p) ? make(&p, o->refuse, &made, diag) : base_fail_memory(diag);
     if (!status) *out = made;
     picture_free(&p);
