@@ -174,8 +174,8 @@ static void drop_pictures(json_t *comparison) {
 }
 
 static int write(const compare_args *args, json_t *comparison) {
-    int code = args->page ? cli_write_file(args->page, page_put, comparison) : 0;
-    if (!code && args->csv) code = cli_write_file(args->csv, table_put_csv, comparison);
+    int code = args->page ? cli_write_text(args->page, page_put, comparison) : 0;
+    if (!code && args->csv) code = cli_write_text(args->csv, table_put_csv, comparison);
     drop_pictures(comparison);
     json_t *report = code ? NULL : args->common.json ? json_incref(comparison) : table_report(comparison);
     json_decref(comparison);

@@ -46,15 +46,10 @@ static int make_folder(const char *path) {
     return made ? 0 : cli_fail(CLI_RESOURCES, path, "%s", strerror(errno));
 }
 
-static void put_bytes(FILE *out, const void *file) {
-    const cli_embedded *f = file;
-    fwrite(f->bytes, 1, f->size, out);
-}
-
 static int unpack(const char *name) {
     const cli_embedded *file = cli_embedded_named(name);
     if (!file) return cli_fail(CLI_INPUT, name, "this program was built without it");
-    return cli_write_file(name, put_bytes, file);
+    return cli_write_file(name, file->bytes, file->size);
 }
 
 /* --------------------------------------------------------------- commands -- */

@@ -4,11 +4,11 @@
 #include "embedded.h"
 #include <stdio.h>
 
-/** Writes what belongs into the file. */
+/** A file that appears whole or not at all (support/writer.h). Returns 0 or an exit code after saying why. */
+int cli_write_file(const char *path, const void *bytes, size_t count);
+/** The same, of what a function writes. */
 typedef void cli_write_fn(FILE *out, const void *user);
-/** A file that appears whole or not at all: written beside its place, then moved there. What is no regular file (a
- * device, a pipe) is written in place. Returns 0 or an exit code after saying why. */
-int cli_write_file(const char *path, cli_write_fn *fn, const void *user);
+int cli_write_text(const char *path, cli_write_fn *fn, const void *user);
 /** A slip of the hand must not cost a file: fails where one of the outputs is one of the inputs, by whatever name, or
  * is named twice. Names may be NULL. Returns 0 or an exit code after saying why. */
 int cli_check_outputs(const char *const *inputs, size_t input_count, const char *const *outputs, size_t output_count);

@@ -40,5 +40,7 @@ int main(int argc, char **argv) {
     const cli_command *command = cli_command_named(word);
     if (!command) return cli_refuse_command(word);
     cli_catch_signals();
-    return cli_run(command, argc - 2, argv + 2, NULL);
+    const int code = cli_run(command, argc - 2, argv + 2, NULL);
+    if (code || !cli_interrupted()) return code;
+    return cli_fail(CLI_CANCELLED, NULL, "cancelled when all was done: what was written is whole");
 }

@@ -20,16 +20,17 @@ if(CMAKE_OBJCOPY AND NOT APPLE AND NOT FROE_SANITIZE AND NOT FROE_COVERAGE AND N
 endif()
 
 function(froe_archive_objects out core)
+  set(objects $<TARGET_OBJECTS:${core}> $<TARGET_OBJECTS:froe_support>)
   if(NOT FROE_LOCALIZE)
-    set(${out} $<TARGET_OBJECTS:${core}> PARENT_SCOPE)
+    set(${out} ${objects} PARENT_SCOPE)
     return()
   endif()
   set(object ${PROJECT_BINARY_DIR}/${core}.o)
   add_custom_command(
     OUTPUT ${object}
-    COMMAND ${CMAKE_LINKER} -r -o ${object} $<TARGET_OBJECTS:${core}>
+    COMMAND ${CMAKE_LINKER} -r -o ${object} ${objects}
     COMMAND ${CMAKE_OBJCOPY} --localize-hidden ${object}
-    DEPENDS ${core} $<TARGET_OBJECTS:${core}>
+    DEPENDS ${core} froe_support ${objects}
     COMMAND_EXPAND_LISTS VERBATIM
     COMMENT "Hiding the internal symbols of ${core}")
   set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
@@ -39,7 +40,7 @@ endfunction()
 # froe_libraries(NAME FILE [NEEDS...]): from the objects NAME_core the targets NAME (shared) and
 # NAME_static, called libFILE, that link to the shared or static NEEDS.
 function(froe_libraries name file)
-  add_library(${name} SHARED $<TARGET_OBJECTS:${name}_core>)
+  add_library(${name} SHARED $<TARGET_OBJECTS:${name}_core> $<TARGET_OBJECTS:froe_support>)
   froe_archive_objects(objects ${name}_core)
   add_library(${name}_static STATIC ${objects})
   set_target_properties(${name} ${name}_static PROPERTIES OUTPUT_NAME ${file} LINKER_LANGUAGE C)

@@ -3,6 +3,7 @@
 #include "output.h"
 #include "palette.h"
 #include "picture.h"
+#include "support/writer.h"
 #include <math.h>
 #include <string.h>
 
@@ -222,7 +223,7 @@ froe_status froe_draw(const froe_tree *tree, const char *path, const froe_draw_o
         return draw_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf or .png.", path);
     draw_output output;
     froe_status status = make(tree, format, options, &output, diag);
-    if (status == FROE_OK) status = draw_save(path, output.bytes.data, output.bytes.count, &output.alloc, diag);
+    if (status == FROE_OK) status = support_write(path, output.bytes.data, output.bytes.count, &output.alloc, diag);
     draw_output_free(&output);
     return status;
 }

@@ -19,9 +19,4 @@ froe_status draw_output_begin(draw_output *output, const froe_allocator *alloc, 
 /** Finishes the page: all bytes are in `bytes`. */
 froe_status draw_output_finish(draw_output *output, froe_diagnostic *diag);
 void draw_output_free(draw_output *output);
-
-/** Writes `path` as a whole or leaves it as it is. What is no regular file (a device, a pipe) is
- * written in place. FROE_E_IO. */
-froe_status draw_save(const char *path, const void *bytes, size_t count, const froe_allocator *alloc,
-                      froe_diagnostic *diag);
 #endif

@@ -1,5 +1,6 @@
 /* render.c: the public calls for pictures with hidden surfaces removed: checked, looked at, painted, handed over. */
 #include "render.h"
+#include "support/writer.h"
 #include <math.h>
 #include <string.h>
 
@@ -192,7 +193,7 @@ froe_status froe_render(const froe_tree *tree, const char *path, const froe_rend
     draw_output output = {.alloc = r.alloc};
     status = prepare(&r, &options->camera, diag);
     if (!status) status = paint(&r, format, &output, diag);
-    if (!status) status = draw_save(path, output.bytes.data, output.bytes.count, &r.alloc, diag);
+    if (!status) status = support_write(path, output.bytes.data, output.bytes.count, &r.alloc, diag);
     if (!status && report)
         *report = (froe_render_report){froe_picture_statistics(r.picture), r.view, r.paths, output.bytes.count};
     draw_output_free(&output);
@@ -235,7 +236,7 @@ froe_status froe_render_animation(const froe_tree *tree, const char *path, const
             *report = (froe_render_report){froe_picture_statistics(r.picture), r.view, paths, output.bytes.count};
         free_render(&r);
     }
-    if (!status) status = draw_save(path, output.bytes.data, output.bytes.count, &output.alloc, diag);
+    if (!status) status = support_write(path, output.bytes.data, output.bytes.count, &output.alloc, diag);
     draw_output_free(&output);
     return status;
 }

@@ -1,21 +1,13 @@
-/* writer.h: a text file that appears whole or not at all.
- *
- * The text goes to a temporary file beside the target, which replaces the target
- * when all of it is on the disk. A target that is no plain file (a terminal, a pipe)
- * is written as it is. Errors are kept until io_writer_close(). */
+/* writer.h: text, numbers and quotes into a file that appears whole or not at all. Errors are kept until
+ * io_writer_close(). */
 #ifndef FROE_IO_WRITER_H
 #define FROE_IO_WRITER_H
 
 #include "common.h"
-#include <stdio.h>
+#include "support/writer.h"
 
 typedef struct io_writer {
-    FILE *file;
-    const char *path;
-    char *real;          /**< what a link points to: that is replaced, the link stays; NULL: path is no old file */
-    io_buffer temporary; /**< its name; empty: the target itself is written */
-    froe_allocator alloc;
-    froe_diagnostic *diag;
+    support_writer out;
     io_locale locale; /**< numbers have decimal points */
 } io_writer;
 

@@ -135,5 +135,5 @@ static void put_page(FILE *out, const void *given) {
 }
 
 int demo_write_page(const char *path, const demo_result *results) {
-    return cli_write_file(path, put_page, results);
+    return cli_write_text(path, put_page, results);
 }

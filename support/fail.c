@@ -1,0 +1,49 @@
+/* fail.c: sentences and details of failures. */
+#include "support/fail.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static void fill(froe_diagnostic *diag, froe_status status, uint32_t object, uint32_t corner, uint32_t axis,
+                 const char *format, va_list args) {
+    if (!diag) return;
+    diag->status = status;
+    diag->object = object;
+    diag->corner = corner;
+    diag->axis = axis;
+    vsnprintf(diag->message, sizeof diag->message, format, args);
+}
+
+froe_status support_fail(froe_diagnostic *diag, froe_status status, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    fill(diag, status, FROE_NONE, FROE_NONE, FROE_NONE, format, args);
+    va_end(args);
+    return status;
+}
+
+froe_status support_fail_at(froe_diagnostic *diag, froe_status status, uint32_t object, uint32_t corner, uint32_t axis,
+                            const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    fill(diag, status, object, corner, axis, format, args);
+    va_end(args);
+    return status;
+}
+
+froe_status support_fail_memory(froe_diagnostic *diag) {
+    return support_fail(diag, FROE_E_MEMORY, "out of memory");
+}
+
+const char *support_short(const char *path) {
+    enum { KEPT = 96 };
+    size_t length = strlen(path);
+    return length <= KEPT ? path : path + length - KEPT;
+}
+
+support_reason support_errno(int error) {
+    support_reason reason;
+    if (strerror_r(error, reason.text, sizeof reason.text))
+        snprintf(reason.text, sizeof reason.text, "error %d", error);
+    return reason;
+}

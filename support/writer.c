@@ -1,0 +1,224 @@
+/* writer.c: links, names, bytes and the order of the system calls, which is what makes a file appear as a whole. */
+#define _DEFAULT_SOURCE 1 /* getentropy */
+#include "support/writer.h"
+#include "support/alloc.h"
+#include "support/fail.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { BUFFER = 1 << 16, LINKS = 40, TRIES = 100, SUFFIX = 32 };
+
+struct support_writer_room {
+    char target[PATH_MAX];             /* what lies behind all links; its folder, once it is in its place */
+    char temporary[PATH_MAX + SUFFIX]; /* "": the target itself is written */
+    unsigned char buffer[BUFFER];
+};
+
+static froe_status refuse(const support_writer *w, int error) {
+    if (error == ENOMEM) return support_fail_memory(w->diag);
+    return support_fail(w->diag, FROE_E_IO, "cannot write '%s': %s", support_short(w->path), support_errno(error).text);
+}
+
+/* ------------------------------------------------------------------- bytes -- */
+
+/* Waits until a descriptor that does not block takes bytes again. */
+static bool is_ready(int file) {
+    struct pollfd one = {.fd = file, .events = POLLOUT};
+    return poll(&one, 1, -1) >= 0 || errno == EINTR;
+}
+
+/* Writes everything or returns an errno. */
+static int write_all(int file, const unsigned char *at, size_t count) {
+    while (count) {
+        ssize_t wrote = write(file, at, count < SSIZE_MAX ? count : SSIZE_MAX);
+        if (wrote < 0 && errno == EINTR) continue;
+        if (wrote < 0 && (errno == EAGAIN || errno == EWOULDBLOCK) && is_ready(file)) continue;
+        if (wrote <= 0) return wrote ? errno : ENOSPC;
+        at += wrote;
+        count -= (size_t)wrote;
+    }
+    return 0;
+}
+
+static bool flush(support_writer *w) {
+    w->error = write_all(w->file, w->room->buffer, w->filled);
+    w->filled = 0;
+    return !w->error;
+}
+
+bool support_writer_put(support_writer *w, const void *bytes, size_t count) {
+    if (w->error) return false;
+    if (count > BUFFER - w->filled && !flush(w)) return false;
+    if (count > BUFFER) return !(w->error = write_all(w->file, bytes, count));
+    if (count) memcpy(w->room->buffer + w->filled, bytes, count);
+    w->filled += count;
+    return true;
+}
+
+/* Brings the bytes to the disk. Pipes and terminals have none, which is no failure. */
+static int sync_file(int file) {
+    int result;
+    do result = fsync(file);
+    while (result && errno == EINTR);
+    return result && errno != EINVAL && errno != EROFS && errno != ENOTSUP ? errno : 0;
+}
+
+/* The rename lasts through a power cut once its folder is on the disk. Either file is whole without, so failing is no
+ * failure. */
+static void sync_folder(char *path) {
+    char *slash = strrchr(path, '/');
+    if (slash) slash[slash == path] = '\0';
+    int folder = open(slash ? path : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    (void)sync_file(folder);
+    close(folder);
+}
+
+/* ------------------------------------------------------------------- names -- */
+
+/* How many bytes of a path come before the name of the file itself. */
+static size_t folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash + 1 - path) : 0;
+}
+
+/* The number of the descriptor of this process that a path stands for, -1 if it stands for none. */
+static int descriptor_named(const char *path) {
+    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        size_t length = strlen(folders[i]);
+        if (strncmp(path, folders[i], length) != 0) continue;
+        const char *number = path + length;
+        size_t digits = strspn(number, "0123456789");
+        if (digits && digits < 10 && !number[digits]) return (int)strtol(number, NULL, 10);
+    }
+    return -1;
+}
+
+/* Replaces the name of a link by what it points to, until it is the name of no link, whether or not a file of that name
+ * is there, or the name of a descriptor. Returns an errno. */
+static int follow_links(char path[PATH_MAX]) {
+    char link[PATH_MAX];
+    for (int i = 0; i <= LINKS; i++) {
+        if (descriptor_named(path) >= 0) return 0;
+        ssize_t length = readlink(path, link, sizeof link);
+        if (length < 0) return errno == EINVAL || errno == ENOENT ? 0 : errno;
+        size_t kept = link[0] == '/' ? 0 : folder_length(path);
+        if (kept + (size_t)length >= PATH_MAX) return ENAMETOOLONG;
+        memcpy(path + kept, link, (size_t)length);
+        path[kept + (size_t)length] = '\0';
+    }
+    return ELOOP;
+}
+
+/* A name nothing else has. Where the system gives no random number, the clock does: a name that is taken already is
+ * never written, it is only tried in vain. */
+static uint64_t draw_number(void) {
+    uint64_t number;
+    struct timespec now;
+    if (!getentropy(&number, sizeof number)) return number;
+    clock_gettime(CLOCK_REALTIME, &now);
+    return ((uint64_t)now.tv_nsec << 32) ^ (uint64_t)now.tv_sec ^ ((uint64_t)getpid() << 16);
+}
+
+/* A new file beside the target. Returns its descriptor, or -1 and errno. */
+static int create_beside(struct support_writer_room *room, mode_t mode) {
+    size_t length = folder_length(room->target);
+    memcpy(room->temporary, room->target, length);
+    int file = -1;
+    for (int i = 0; i < TRIES && file < 0; i++) {
+        snprintf(room->temporary + length, SUFFIX, ".froe-%016llx.tmp", (unsigned long long)draw_number());
+        file = open(room->temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+        if (file < 0 && errno != EEXIST && errno != EINTR) break;
+    }
+    if (file < 0) room->temporary[0] = '\0';
+    return file;
+}
+
+/* ------------------------------------------------------------------- files -- */
+
+/* Gives a new file the mode of the old one, and its owner and group where that is allowed. Members of a group that the
+ * old file had not may do what everybody may. Returns an errno. */
+static int keep_access(int file, const struct stat *old) {
+    struct stat new;
+    mode_t mode = old->st_mode & 0777;
+    if (fstat(file, &new)) return errno;
+    bool same = new.st_uid == old->st_uid &&new.st_gid == old->st_gid;
+    if (!same && fchown(file, old->st_uid, old->st_gid) &&
+        new.st_gid != old->st_gid &&fchown(file, (uid_t)-1, old->st_gid))
+        mode = (mode & 0707) | (mode & 07) << 3;
+    if ((new.st_mode & 0777) == mode) return 0;
+    int result;
+    do result = fchmod(file, mode);
+    while (result && errno == EINTR);
+    return result ? errno : 0;
+}
+
+/* The new file is never open to more readers than the old one was. Returns an errno. */
+static int replace(support_writer *w, const struct stat *old) {
+    w->file = create_beside(w->room, old ? old->st_mode & 0777 : 0666);
+    if (w->file < 0) return errno;
+    int error = old ? keep_access(w->file, old) : 0;
+    if (error) {
+        close(w->file);
+        unlink(w->room->temporary);
+    }
+    return error;
+}
+
+static int open_file(support_writer *w) {
+    struct stat old;
+    size_t length = strlen(w->path);
+    if (!length || length >= PATH_MAX) return length ? ENAMETOOLONG : ENOENT;
+    memcpy(w->room->target, w->path, length + 1);
+    w->room->temporary[0] = '\0';
+    int error = follow_links(w->room->target), named = descriptor_named(w->room->target);
+    if (error) return error;
+    bool exists = named < 0 && stat(w->path, &old) == 0;
+    if (named < 0 && !exists && errno != ENOENT) return errno;
+    if (exists && S_ISDIR(old.st_mode)) return EISDIR;
+    if (named < 0 && (!exists || S_ISREG(old.st_mode))) return replace(w, exists ? &old : NULL);
+    w->file = exists ? open(w->path, O_WRONLY | O_NOCTTY | O_CLOEXEC) : fcntl(named, F_DUPFD_CLOEXEC, 0);
+    return w->file < 0 ? errno : 0;
+}
+
+froe_status support_writer_open(support_writer *w, const char *path, const froe_allocator *alloc,
+                                froe_diagnostic *diag) {
+    *w = (support_writer){.path = path, .alloc = support_allocator(alloc), .diag = diag, .file = -1};
+    w->room = w->alloc.fn(w->alloc.user, NULL, 0, sizeof *w->room);
+    if (!w->room) return support_fail_memory(diag);
+    int error = open_file(w);
+    if (!error) return FROE_OK;
+    w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0);
+    return refuse(w, error);
+}
+
+froe_status support_writer_close(support_writer *w, froe_status status) {
+    char *temporary = w->room->temporary, *target = w->room->target;
+    if (!status && !w->error && flush(w)) w->error = sync_file(w->file);
+    /* An interrupted close() has closed the file, whose bytes are on the disk. */
+    if (close(w->file) && errno != EINTR && !w->error) w->error = errno;
+    if (!status && !w->error && *temporary && rename(temporary, target)) w->error = errno;
+    if (!status && w->error) status = refuse(w, w->error);
+    if (*temporary && status) unlink(temporary);
+    if (*temporary && !status) sync_folder(target);
+    w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0);
+    return status;
+}
+
+froe_status support_write(const char *path, const void *bytes, size_t count, const froe_allocator *alloc,
+                          froe_diagnostic *diag) {
+    support_writer w;
+    froe_status status = support_writer_open(&w, path, alloc, diag);
+    if (status) return status;
+    support_writer_put(&w, bytes, count);
+    return support_writer_close(&w, FROE_OK);
+}

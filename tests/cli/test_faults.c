@@ -1,0 +1,169 @@
+/* test_faults.c: every command that writes, while the system calls that write fail, or the program is interrupted or
+ * killed: the old file is as it was or the new one whole, and a failure names the file and the reason. (The writer
+ * itself meets more kinds of faults in files/writer.) */
+#include "faults/faults.h"
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h> /* needs setjmp.h and stdarg.h before it */
+
+typedef struct writing {
+    const char *arguments, *file;
+    bool thorough; /* every kind of fault at every call; otherwise each at one */
+} writing;
+
+static const writing writings[] = {
+    {"build s.geojson -o out.froe", "out.froe", true},
+    {"draw s.froe -o out.svg", "out.svg", false},
+    {"draw s.froe -o out.png", "out.png", false},
+    {"render h.froe -o out.eps", "out.eps", false},
+    {"export s.froe -o out.geojson", "out.geojson", false},
+    {"generate points -n 9 -o out.csv", "out.csv", false},
+    {"compare s.geojson --methods kd --queries 1 --halvings 0 --no-times -o out.html", "out.html", false},
+    {"compare s.geojson --methods kd --queries 1 --halvings 0 --no-times --csv out.csv", "out.csv", false},
+    {"simulate m.mfjson --events out.csv", "out.csv", false},
+    {"simulate m.mfjson --contacts out.csv", "out.csv", false},
+    {"simulate m.mfjson --at 1 -o out.froe", "out.froe", false},
+    {"simulate m.mfjson --animate out.svg", "out.svg", false},
+    {"simulate m.mfjson --player out.html", "out.html", false},
+    {"measure s.geojson --draw out.svg", "out.svg", false},
+    {"demo -o .", "freedoom-e1m1.geojson", false},
+};
+enum { WRITINGS = sizeof writings / sizeof *writings, MOST_CALLS = 32 };
+static const char old_text[] = "old";
+
+/* Runs `froe ARGUMENTS` with a fault at a call; its wait status. What it says on stderr is in `said`, the calls it
+ * made are in `calls`. */
+static int run_froe(const char *arguments, unsigned at, fault_kind kind) {
+    char command[600];
+    const char *program = getenv("FROE_FAULTY");
+    assert_non_null(program);
+    snprintf(command, sizeof command, "FROE_FAULT='%u %d' FROE_FAULT_LOG=3 exec '%s' %s --quiet 2>said 3>calls", at,
+             kind, program, arguments);
+    return system(command);
+}
+
+static char *slurp(const char *path, size_t *size) {
+    FILE *file = fopen(path, "rb");
+    char *bytes = calloc(1, 1 << 21);
+    assert_non_null(bytes);
+    *size = file ? fread(bytes, 1, (1 << 21) - 1, file) : 0;
+    if (file) fclose(file);
+    return bytes;
+}
+
+/* Files whose names begin like those of temporary ones, which are removed. */
+static int sweep(void) {
+    int found = 0;
+    DIR *folder = opendir(".");
+    for (struct dirent *entry; (entry = readdir(folder));) {
+        if (strncmp(entry->d_name, ".froe-", 6) != 0) continue;
+        found++;
+        unlink(entry->d_name);
+    }
+    closedir(folder);
+    return found;
+}
+
+static void begin(const writing *w) {
+    FILE *file = fopen(w->file, "w");
+    assert_non_null(file);
+    fputs(old_text, file);
+    fclose(file);
+}
+
+static bool is(const char *path, const char *bytes, size_t size) {
+    size_t count;
+    char *found = slurp(path, &count);
+    bool same = count == size && !memcmp(found, bytes, size);
+    free(found);
+    return same;
+}
+
+static void check(const writing *w, unsigned at, const char *call, fault_kind kind, int ended, bool as_before,
+                  bool whole) {
+    size_t size;
+    char what[400], *said = slurp("said", &size);
+    int left = sweep(), code = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+    bool folder = strstr(call, "folder") != NULL;
+    snprintf(what, sizeof what, "froe %.200s: fault %d at call %u, %.40s: exit code %d", w->arguments, kind, at, call,
+             code);
+    if (!as_before && !whole) fail_msg("%s: the file is neither the old one nor the new one", what);
+    if (kind == FAULT_KILL) {
+        if (code != -1 || left > 1) fail_msg("%s: %d temporary files", what, left);
+    } else if (left)
+        fail_msg("%s: a temporary file is left", what);
+    else if (kind == FAULT_EIO && (folder ? code != 0 || !whole : code != 4 || !as_before))
+        fail_msg("%s", what);
+    else if (kind == FAULT_EIO && !folder && (!strstr(said, w->file) || !strstr(said, "Input/output error")))
+        fail_msg("%s: it says %s", what, said);
+    else if (kind == FAULT_INTERRUPT && code != 130)
+        fail_msg("%s", what);
+    free(said);
+}
+
+/* The names of the calls that an undisturbed run makes for its first file. */
+static unsigned read_calls(char names[MOST_CALLS][32]) {
+    FILE *file = fopen("calls", "r");
+    unsigned count = 0;
+    assert_non_null(file);
+    while (count < MOST_CALLS && fgets(names[count], 32, file)) {
+        names[count][strcspn(names[count], "\n")] = '\0';
+        if (!strcmp(names[count++], "close folder")) break;
+    }
+    fclose(file);
+    return count;
+}
+
+static void try_faults(const writing *w) {
+    static const fault_kind kinds[] = {FAULT_EIO, FAULT_KILL, FAULT_INTERRUPT};
+    char names[MOST_CALLS][32];
+    size_t size;
+    begin(w);
+    assert_int_equal(run_froe(w->arguments, strncmp(w->arguments, "demo", 4) ? 0 : 11, FAULT_KILL) & 0x7f00, 0);
+    char *new = slurp(w->file, &size);
+    unsigned calls = read_calls(names);
+    sweep();
+    if (calls < 8 || !size || is(w->file, old_text, strlen(old_text)))
+        fail_msg("froe %s: %u calls", w->arguments, calls);
+    for (unsigned at = 1; at <= calls; at++)
+        for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+            if (!w->thorough && at != 1 + (3 * i + (unsigned)(w - writings)) % calls) continue;
+            begin(w);
+            int ended = run_froe(w->arguments, at, kinds[i]);
+            check(w, at, names[at - 1], kinds[i], ended, is(w->file, old_text, strlen(old_text)),
+                  is(w->file, new, size));
+        }
+    free(new);
+    unlink(w->file);
+}
+
+static void every_command_that_writes_loses_nothing(void **state) {
+    (void)state;
+    static const char *const scenes[] = {
+        "generate segments -n 60 --seed 1 -o s.geojson",
+        "build s.geojson -o s.froe",
+        "generate cuboids -n 60 -o h.off",
+        "build h.off -o h.froe",
+        "generate moving-polygons -n 12 -o m.mfjson",
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) assert_int_equal(run_froe(scenes[i], 0, FAULT_NONE), 0);
+    for (size_t i = 0; i < WRITINGS; i++) try_faults(writings + i);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_command_that_writes_loses_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
