@@ -22,12 +22,12 @@ void *draw_calloc(const froe_allocator *alloc, size_t count, size_t item) {
     if (item && count > SIZE_MAX / item) return NULL;
     size_t size = count * item;
     if (!size) size = 1;
-    void *ptr = alloc->fn(alloc->user, NULL, 0, size);
+    void *ptr = draw_callback(alloc->fn(alloc->user, NULL, 0, size));
     return ptr ? memset(ptr, 0, size) : NULL;
 }
 
 void draw_free(const froe_allocator *alloc, void *ptr, size_t size) {
-    if (ptr) alloc->fn(alloc->user, ptr, size, 0);
+    if (ptr) draw_callback(alloc->fn(alloc->user, ptr, size, 0));
 }
 
 bool draw_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra, size_t item) {
@@ -35,7 +35,7 @@ bool draw_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_
     size_t room = *capacity + *capacity / 2 + 16;
     if (room < count + extra) room = count + extra;
     if (room > SIZE_MAX / item) return false;
-    void *grown = alloc->fn(alloc->user, *data, *capacity * item, room * item);
+    void *grown = draw_callback(alloc->fn(alloc->user, *data, *capacity * item, room * item));
     if (!grown) return false;
     *data = grown;
     *capacity = room;

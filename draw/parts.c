@@ -63,6 +63,7 @@ static bool keep_wall(draw_solid *solid, const froe_cell *cell) {
 }
 
 static bool visit(void *user, const froe_cell *cell) {
+    DRAW_FLOATS_OWN;
     collector *c = user;
     draw_solid *solid = c->solid;
     uint32_t depth = solid->picture->page.options->explode_depth;

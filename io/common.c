@@ -24,7 +24,7 @@ void *io_buffer_add(const froe_allocator *alloc, io_buffer *buffer, size_t bytes
         size_t need, room = buffer->capacity + buffer->capacity / 2 + 256;
         if (__builtin_add_overflow(buffer->size, bytes, &need)) return NULL;
         if (room < need) room = need;
-        void *grown = alloc->fn(alloc->user, buffer->data, buffer->capacity, room);
+        void *grown = io_callback(alloc->fn(alloc->user, buffer->data, buffer->capacity, room));
         if (!grown) return NULL;
         buffer->data = grown;
         buffer->capacity = room;
@@ -41,7 +41,7 @@ bool io_buffer_put(const froe_allocator *alloc, io_buffer *buffer, const void *i
 }
 
 void io_buffer_free(const froe_allocator *alloc, io_buffer *buffer) {
-    if (buffer->data) alloc->fn(alloc->user, buffer->data, buffer->capacity, 0);
+    if (buffer->data) io_callback(alloc->fn(alloc->user, buffer->data, buffer->capacity, 0));
     *buffer = (io_buffer){0};
 }
 

@@ -27,8 +27,8 @@ static bool write_shape(job *j, const io_shape *shape) {
     enum { SHAPES_PER_REPORT = 1024 };
     j->format->shape(&j->writer, shape, j->written == 0);
     if (++j->written % SHAPES_PER_REPORT || !j->options->progress) return true;
-    double done = j->expected ? (double)j->written / (double)j->expected : 1;
-    j->cancelled = !j->options->progress(j->options->user, done < 1 ? done : 1);
+    const double share = j->expected ? (double)j->written / (double)j->expected : 1, done = share < 1 ? share : 1;
+    j->cancelled = !io_callback(j->options->progress(j->options->user, done));
     return !j->cancelled;
 }
 
@@ -126,6 +126,7 @@ static void describe_cell(const job *j, io_shape *s, const froe_cell *cell) {
 }
 
 static bool write_cell(void *user, const froe_cell *cell) {
+    IO_FLOATS_OWN;
     job *j = user;
     bool wanted = j->what == FROE_EXPORT_CELLS ? cell->leaf && cell->corners : !cell->leaf && cell->cut_corners;
     if (!wanted) return true;
@@ -205,6 +206,7 @@ static froe_status run(job *j, const char *path) {
 
 froe_status froe_export(const froe_tree *tree, const char *path, froe_export_what what,
                         const froe_export_options *options, froe_diagnostic *diag) {
+    IO_FLOATS_OWN;
     froe_export_options defaults = froe_export_defaults();
     if (!tree || !path) return io_fail(diag, FROE_E_ARG, "froe_export: tree and path must not be NULL");
     if (what != FROE_EXPORT_FRAGMENTS && what != FROE_EXPORT_CELLS && what != FROE_EXPORT_CUTS)

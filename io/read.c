@@ -142,6 +142,7 @@ static froe_status pour(const io_source *source, io_sink *sink, froe_scene **out
 
 froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out, froe_read_report *report,
                       froe_diagnostic *diag) {
+    IO_FLOATS_OWN;
     double start = io_seconds();
     froe_read_options defaults = froe_read_defaults();
     froe_status status = check(path, options, out, diag);

@@ -38,7 +38,8 @@ froe_status io_sink_fail(io_sink *sink, froe_status status, const char *format, 
 }
 
 froe_status io_sink_progress(io_sink *sink, double done) {
-    if (!sink->progress || sink->progress(sink->user, done < 1 ? done : 1)) return FROE_OK;
+    if (done > 1) done = 1;
+    if (!sink->progress || io_callback(sink->progress(sink->user, done))) return FROE_OK;
     return io_fail(sink->diag, FROE_E_CANCELLED, "%s: reading was cancelled", io_short(sink->path));
 }
 

@@ -260,6 +260,7 @@ static froe_status check(const pen *p, const kind_of_file *file) {
 }
 
 froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_diagnostic *diag) {
+    IO_FLOATS_OWN;
     if (!scene || !path) return io_fail(diag, FROE_E_ARG, "froe_write_scene: scene and path must not be NULL");
     pen p = {.scene = scene,
              .path = path,

@@ -20,6 +20,7 @@
  *   - Callbacks take their `user` pointer first and return false to stop.
  *   - There is no global state. A tree is immutable: any number of threads may
  *     read one. A scene may be filled by one thread at a time.
+ *   - How the calling thread computes makes no difference: see froe_floats_begin().
  *   - Free functions accept NULL.
  */
 #ifndef FROE_FROE_H
@@ -101,6 +102,21 @@ typedef struct froe_allocator {
 /** Called now and then with the share done so far, 0 <= done <= 1, from one
  * thread at a time; false cancels: the call returns FROE_E_CANCELLED. */
 typedef bool froe_progress_fn(void *user, double done);
+
+/* ---------------------------------------------------------- floating point -- */
+
+/** froe rounds to nearest, keeps denormal numbers, and traps no exception. A call that computes sets the processor so
+ * where the calling thread has it otherwise (any rounding mode, flushed denormals, traps), and gives the settings back
+ * when it returns, and for as long as one of the caller's functions runs: visitors, progress, allocators, on threads
+ * that froe starts as well. Settings that such a function changes are undone when it returns. Exception flags: a call
+ * clears none, and may raise some, as functions of the C library may.
+ *
+ * Between these two the calling thread computes as froe does (own) or as it did before (not own): for libraries on
+ * top of froe that compute themselves and call functions of their callers, and for programs with settings of their own
+ * that make many small calls: setting the processor takes some 0.1 microseconds a call. Returns what
+ * froe_floats_end() wants, on the same thread; such pairs may be nested. */
+FROE_API unsigned froe_floats_begin(bool own);
+FROE_API void froe_floats_end(unsigned began);
 
 /* ------------------------------------------------------------------- scene -- */
 

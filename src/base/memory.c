@@ -1,10 +1,11 @@
 /* memory.c: sizes that do not overflow, and arrays that grow. */
 #include "base/array.h"
+#include "base/floats.h"
 #include <string.h>
 
 void *base_realloc(const froe_allocator *alloc, void *ptr, size_t old_size, size_t new_size) {
     if (!ptr && !new_size) return NULL;
-    return alloc->fn(alloc->user, ptr, old_size, new_size);
+    return base_callback(alloc->fn(alloc->user, ptr, old_size, new_size));
 }
 
 void *base_calloc(const froe_allocator *alloc, size_t count, size_t item_size) {
@@ -16,7 +17,8 @@ void *base_calloc(const froe_allocator *alloc, size_t count, size_t item_size) {
 }
 
 void base_free(const froe_allocator *alloc, void *ptr, size_t size) {
-    if (ptr) alloc->fn(alloc->user, ptr, size ? size : 1, 0); /* an empty array was one byte: base_calloc() */
+    if (ptr)
+        base_callback(alloc->fn(alloc->user, ptr, size ? size : 1, 0)); /* an empty array was one byte: base_calloc() */
 }
 
 bool array_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra,

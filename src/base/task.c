@@ -5,6 +5,7 @@
  * does not depend on the number of threads. The calling thread works too, and is the
  * only one that talks to the progress callback. */
 #include "base/task.h"
+#include "base/floats.h"
 #include <pthread.h>
 #include <time.h>
 #include <unistd.h>
@@ -24,6 +25,7 @@ typedef struct crew {
     pthread_cond_t quiet;                 /* working reached 0 */
     froe_status status;                   /* of job `failed` */
     unsigned working;                     /* threads other than the calling one */
+    base_floats_held caller;
 } crew;
 
 typedef struct hand {
@@ -44,7 +46,7 @@ void base_task_init(base_task *task, unsigned threads, froe_progress_fn *progres
 bool base_progress(base_task *task, double done) {
     if (base_cancelled(task)) return false;
     if (done > task->done) task->done = done < 1 ? done : 1;
-    if (!task->progress || task->progress(task->user, task->done)) return true;
+    if (!task->progress || base_callback(task->progress(task->user, task->done))) return true;
     atomic_store_explicit(&task->cancelled, true, memory_order_relaxed);
     return false;
 }
@@ -78,6 +80,7 @@ static void report(crew *c, bool always) {
 static void *labour(void *argument) {
     hand *h = argument;
     crew *c = h->crew;
+    base_floats_begin_thread(c->caller);
     while (work(c, h->worker)) {
     }
     pthread_mutex_lock(&c->lock);
@@ -132,7 +135,13 @@ static void run_crew(crew *c, unsigned others) {
 froe_status base_run(base_task *task, double span, size_t count, base_job_fn *fn, void *user) {
     if (base_cancelled(task)) return FROE_E_CANCELLED;
     if (!count) return base_progress(task, task->done + span * task->scale) ? FROE_OK : FROE_E_CANCELLED;
-    crew c = {.task = task, .fn = fn, .user = user, .count = count, .start = task->done, .span = span * task->scale};
+    crew c = {.task = task,
+              .fn = fn,
+              .user = user,
+              .count = count,
+              .start = task->done,
+              .span = span * task->scale,
+              .caller = base_floats_of_caller()};
     atomic_init(&c.next, 0);
     atomic_init(&c.finished, 0);
     atomic_init(&c.failed, SIZE_MAX);

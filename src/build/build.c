@@ -1,4 +1,5 @@
 /* build.c: froe_build: check what is asked for, find the method, let it work. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "build/options.h"
 #include <locale.h>
@@ -204,6 +205,7 @@ static froe_status build(froe_scene *scene, const froe_build_options *options, c
 }
 
 froe_status froe_build(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     return build(scene, options, NULL, out, diag);
 }
 
@@ -222,6 +224,7 @@ static froe_status check_plane(int dim, const double *plane, froe_cut *out, froe
 
 froe_status froe_tree_section(const froe_tree *tree, const double *plane, const froe_build_options *options,
                               froe_tree **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!tree || !plane || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     const int dim = tree->scene->dim;
     froe_build_options o = options ? *options : froe_build_defaults();

@@ -1,6 +1,7 @@
 /* convert.c: the endpoints become a scene of points, a method of the registry partitions them, and its cuts are the
  * plan. */
 #include "build/convert.h"
+#include "base/floats.h"
 #include "base/status.h"
 #include "split/convert.h"
 #include "split/ham_sandwich.h"
@@ -17,6 +18,7 @@ typedef struct converter {
 /* ------------------------------------------------------------------ a method -- */
 
 static bool tell(void *user, double done) {
+    BASE_FLOATS_OWN;
     base_task *task = user;
     return base_progress(task, task->done + 0.2 * done * (1 - task->done));
 }

@@ -4,6 +4,7 @@
  *        :  UP   :           A ray meets what is in the near part of a cell first, then the segment that cuts it,
  *   LEFT : __s___: RIGHT     then what is in the far part. The ray is a segment that takes no part, so that it is
  *        :  DOWN :           clipped by the predicates of all others. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "kinetic/live.h"
 #include <math.h>
@@ -103,6 +104,7 @@ static froe_status answer(froe_kinetic *k, froe_diagnostic *diag) {
 }
 
 froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kinetic_place *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     froe_status status = check(k, at, at, out, diag);
     if (status) return status;
     now_name point = end_name(k, now_ask(&k->now, at, at), 0);
@@ -197,6 +199,7 @@ static bool is_point(froe_kinetic *k, uint32_t ray) {
 
 froe_status froe_kinetic_ray(froe_kinetic *k, const double from[2], const double to[2], uint32_t *hit,
                              froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     froe_status status = check(k, from, to, hit, diag);
     if (status) return status;
     uint32_t ray = now_ask(&k->now, from, to), found = place_of(k, end_name(k, ray, 0)).on, end[2];
@@ -228,11 +231,12 @@ static bool tell(froe_kinetic *k, const live_visit *v, froe_kinetic_order_fn *vi
         now_place_near(&k->now, p, at + 2 * side);
         if (!own) at[2 * side + 1] = now_height_near(&k->now, n->segment, p);
     }
-    return visit(user, n->segment, at);
+    return base_callback(visit(user, n->segment, at));
 }
 
 froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kinetic_order_fn *visit, void *user,
                                froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     froe_status status = check(k, eye, eye, (const void *)&visit, diag);
     if (!status && !visit) status = base_fail(diag, FROE_E_ARG, "froe_kinetic_order: NULL");
     if (status) return status;

@@ -1,4 +1,5 @@
 /* audit.c: is a live partition what would be made from scratch, and will it be until its certificates fail? */
+#include "base/floats.h"
 #include "base/status.h"
 #include "kinetic/live.h"
 
@@ -105,6 +106,7 @@ static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
 }
 
 froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!k) return base_fail(diag, FROE_E_ARG, "froe_kinetic_audit: NULL");
     froe_kinetic *fresh = NULL;
     now_catch_up(&k->now);

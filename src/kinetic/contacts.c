@@ -4,6 +4,7 @@
  *
  * Slices of two objects that touch have a time in common, and all these times together are the time in which both live;
  * so spans that end and begin at the instant where two such times meet are one contact. */
+#include "base/floats.h"
 #include "base/sort.h"
 #include "base/status.h"
 #include "geom/box_pairs.h"
@@ -216,7 +217,7 @@ static froe_status tell(search *s, froe_contact_fn *fn, void *user) {
     for (size_t i = 0; i < s->contact_count && s->o->first; i++) first = earlier(first, s->contacts[i].begin[1]);
     for (size_t i = 0; i < s->contact_count; i++) {
         const froe_contact *c = s->contacts + order[i];
-        if (c->begin[0] > first || !fn(user, c)) break;
+        if (c->begin[0] > first || !base_callback(fn(user, c))) break;
     }
     free_order(s, order, s->contact_count);
     return FROE_OK;
@@ -263,6 +264,7 @@ static froe_status explain(froe_status status, froe_diagnostic *diag) {
 
 froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options, froe_contact_fn *fn,
                                  void *user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     const froe_contact_options standard = froe_contact_defaults();
     if (!motion || !fn) return base_fail(diag, FROE_E_ARG, "no motion, or nobody to tell the contacts to");
     search s = {.m = motion, .o = options ? options : &standard};

@@ -5,6 +5,7 @@
  * paper's events, the cells are small; anything else, and whatever involves points that coincide, gets a cell whose
  * borders certainly have no part in it. Whether that was enough, the certificates tell afterwards: what still fails is
  * due at once, and is met with a larger cell each time, at last with the whole tree. */
+#include "base/floats.h"
 #include "base/sort.h"
 #include "kinetic/live.h"
 #include <math.h>
@@ -251,7 +252,7 @@ static bool tell(froe_kinetic *k, const live_watcher *watcher, const froe_event 
     if (!watcher->visit) return true;
     k->told = true;
     k->told_claim = *claim;
-    bool go_on = watcher->visit(watcher->user, event);
+    bool go_on = base_callback(watcher->visit(watcher->user, event));
     k->told = false;
     now_catch_up(&k->now);
     return go_on;

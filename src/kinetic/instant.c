@@ -3,6 +3,7 @@
  *     early        f > 0                The certificate holds just after one odd tick and does not after the next. It
  *     ---|-------o---------|---- t      is a polynomial in between, so halving with its exact signs closes in on
  *       u-2      : f <= 0  u            a root, until no double is left inside. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "kinetic/live.h"
 #include <math.h>
@@ -65,6 +66,7 @@ static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
 }
 
 froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!k || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_instant: NULL");
     if (!k->told) return base_fail(diag, FROE_E_ARG, "nobody is being told of an event");
     now_catch_up(&k->now);

@@ -1,4 +1,5 @@
 /* kinetic.c: the public calls: a partition is made, time goes on, segments and plans come and go. */
+#include "base/floats.h"
 #include "base/random.h"
 #include "base/status.h"
 #include "kinetic/live.h"
@@ -114,6 +115,7 @@ static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options, const froe_allocator *alloc,
                              froe_kinetic **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!motion || !options || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_new: NULL");
     if (options->size != sizeof *options)
         return base_fail(diag, FROE_E_OPTIONS, "options that do not come from froe_kinetic_defaults()");
@@ -165,12 +167,17 @@ static double time_of(const froe_kinetic *k, int64_t tick) {
 }
 
 double froe_kinetic_time(const froe_kinetic *k) {
-    return time_of(k, k->now.tick);
+    BASE_FLOATS_OWN;
+    volatile const double time =
+        time_of(k, k->now.tick); /* base/floats.h: computed before the caller's settings are back */
+    return time;
 }
 
 double froe_kinetic_next(const froe_kinetic *k) {
+    BASE_FLOATS_OWN;
     int64_t tick = live_next_tick(k);
-    return tick > live_last_tick(k) ? (double)INFINITY : time_of(k, tick);
+    volatile const double time = tick > live_last_tick(k) ? (double)INFINITY : time_of(k, tick);
+    return time;
 }
 
 /* After memory ran out in the middle of something: everything is made anew. Certificates of ends would last, though
@@ -207,6 +214,7 @@ static void end_epoch(froe_kinetic *k) {
 
 froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *visit, void *user,
                                  froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!k || !(time <= k->now.motion->end)) return base_fail(diag, FROE_E_ARG, "that time is not in the window");
     int64_t tick = motion_tick_after(k->now.motion, time) | 1, last = live_last_tick(k);
     if (tick > last) tick = last;
@@ -226,6 +234,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
 /* ------------------------------------------------------------------ changes -- */
 
 froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!k) return base_fail(diag, FROE_E_ARG, "froe_kinetic_update: NULL");
     uint32_t first = (uint32_t)k->segments.count;
     if (grow_tables(k)) return base_fail_memory(diag);
@@ -240,6 +249,7 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 }
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!k || object >= k->segments.count) return base_fail(diag, FROE_E_ARG, "there is no object %u", object);
     now_catch_up(&k->now);
     motion_object *o = k->now.motion->objects.data + object;
@@ -262,6 +272,7 @@ static void life_of(const froe_kinetic *k, uint32_t vertex, double life[2]) {
 
 froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, const double *times,
                                 const double *coords, const double *controls, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!k || vertex >= k->vertices.count) return base_fail(diag, FROE_E_ARG, "there is no vertex %u", vertex);
     double life[2];
     now_catch_up(&k->now);

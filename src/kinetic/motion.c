@@ -1,5 +1,6 @@
 /* motion.c: a motion from its window to its end, and what can be read from it. See motion.h. */
 #include "kinetic/motion.h"
+#include "base/floats.h"
 #include "base/status.h"
 
 enum {
@@ -73,6 +74,7 @@ static froe_status set_window(froe_motion *m, const froe_motion_options *o, froe
 
 froe_status froe_motion_new(const froe_motion_options *options, const froe_allocator *alloc, froe_motion **out,
                             froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!options || !out) return base_fail(diag, FROE_E_ARG, "no options, or no place for the motion");
     if (options->size != sizeof *options)
         return base_fail(diag, FROE_E_OPTIONS, "options not from froe_motion_defaults()");
@@ -128,6 +130,7 @@ size_t froe_motion_vertex_count(const froe_motion *motion) {
 }
 
 froe_motion_options froe_motion_window(const froe_motion *motion) {
+    BASE_FLOATS_OWN;
     froe_motion_options window = froe_motion_defaults();
     window.begin = motion->begin;
     window.end = motion->end;

@@ -1,6 +1,7 @@
 /* motion_add.c: flight plans enter a motion, all of a batch or nothing; and what may be wrong with them.
  *
  * Knots are written behind the published counts; a batch that fails is forgotten. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "kinetic/motion.h"
 #include "scene/scene.h"
@@ -228,6 +229,7 @@ static void commit(const adding *a) {
 }
 
 froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!motion || !batch) return base_fail(diag, FROE_E_ARG, "no motion or no batch");
     adding a = begin(motion, batch, diag);
     froe_status status = check(&a);

@@ -2,6 +2,7 @@
  *
  * Stack integers count coordinates in units of 2^unit of the whole motion, and times in a unit of the piece, in which
  * its ends, the window's and all ticks are whole. */
+#include "base/floats.h"
 #include "kinetic/motion.h"
 #include <float.h>
 #include <string.h>
@@ -214,6 +215,7 @@ motion_piece motion_piece_at_time(const froe_motion *m, uint32_t vertex, double 
 }
 
 bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, double at[2]) {
+    BASE_FLOATS_OWN;
     if (!m || vertex >= m->plans.count || !isfinite(time)) return false;
     motion_piece piece = motion_piece_at_time(m, vertex, time);
     if (piece.degree && (time < piece.from->time || time > piece.to->time)) return false;

@@ -1,4 +1,5 @@
 /* snapshot.c: the present of a kinetic partition as an ordinary tree, and where its vertices are exactly. */
+#include "base/floats.h"
 #include "base/sort.h"
 #include "base/status.h"
 #include "kinetic/live.h"
@@ -196,6 +197,7 @@ static froe_status make(picture *p, bool refuse, froe_snapshot *out, froe_diagno
 
 froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *options, froe_snapshot *out,
                                   froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     const froe_snapshot_options standard = froe_snapshot_defaults(), *o = options ? options : &standard;
     if (!k || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_snapshot: NULL");
     if (o->size != sizeof *o) return base_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");

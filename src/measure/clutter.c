@@ -8,6 +8,7 @@
  *
  * Cubes start at random places near guards and are counted when they are locked; from the best ones others start near
  * by. What a cube meets is decided exactly, for a cube a hair smaller, closed, in place of the open one. */
+#include "base/floats.h"
 #include "base/random.h"
 #include "base/status.h"
 #include "geom/meet.h"
@@ -270,6 +271,7 @@ static void end(survey *s) {
 
 froe_status froe_measure_clutter(const froe_scene *scene, const froe_measure_options *options, froe_clutter *out,
                                  froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     survey s = {.dim = 0};
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;

@@ -3,6 +3,7 @@
  * Objects -> distinct, full-dimensional ones -> pairs of touching boxes -> how each pair
  * touches. Each worker counts for itself; counts add up, the least example pair stays,
  * so threads do not show. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "geom/box_pairs.h"
 #include "geom/contact.h"
@@ -153,6 +154,7 @@ static froe_status run(survey *v, froe_defects *out) {
 
 froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_progress_fn *progress, void *user,
                                froe_defects *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!scene || !out) return base_fail(diag, FROE_E_ARG, "scene or out is null");
     if (out->size != sizeof *out) return base_fail(diag, FROE_E_OPTIONS, "out->size must be sizeof(froe_defects)");
     survey v = {.scene = scene, .alloc = &scene->alloc};

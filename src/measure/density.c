@@ -9,6 +9,7 @@
  *
  * For the lower bound balls of radius r are tried around points near the objects with the largest N(o). Distances are
  * compared exactly; sizes are what doubles make of them, so lambda is that of the scene with these sizes. */
+#include "base/floats.h"
 #include "base/random.h"
 #include "geom/distance.h"
 #include "measure/enclosing.h"
@@ -182,6 +183,7 @@ static void end(survey *s) {
 
 froe_status froe_measure_density(const froe_scene *scene, froe_size size, const froe_measure_options *options,
                                  froe_density *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     survey s = {.kind = size};
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;

@@ -7,6 +7,7 @@
  *
  * (Tobola and Nechvile, definitions 2.2, 3.2 and 4.1, and section 5.1 for one rectangle in place of the union of two:
  * that is what a cell can be at most when no lemma cut is left.) */
+#include "base/floats.h"
 #include "base/status.h"
 #include "measure/crossings.h"
 #include <math.h>
@@ -126,6 +127,7 @@ static froe_status look(survey *s, froe_counting counting) {
 
 froe_status froe_measure_directional(const froe_scene *scene, double delta, const froe_measure_options *options,
                                      froe_directional *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     survey s = {.delta = delta};
     froe_counting counting = options ? options->counting : FROE_COUNT_SEARCH;
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);

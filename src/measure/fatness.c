@@ -1,4 +1,5 @@
 /* fatness.c: volume over that of the smallest enclosing ball; of polygons in space, area over that of the disc. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "measure/enclosing.h"
 #include "measure/sample.h"
@@ -113,6 +114,7 @@ static froe_status note_all(measure_sample *s, num_context *context, froe_fatnes
 
 froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_options *options, froe_fatness *out,
                                  froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     measure_sample s;
     num_context context;
     froe_status status = measure_sample_begin(scene, options, out, &s, diag);

@@ -1,5 +1,6 @@
 /* areas.c: references: a point in every cell, and the groups that it lies in. */
 #include "query/areas.h"
+#include "base/floats.h"
 #include "base/status.h"
 #include "query/segment.h"
 #include <string.h>
@@ -50,6 +51,7 @@ static uint32_t last_of(const survey *v) {
 }
 
 static bool look_at_cell(void *user, const froe_cell *cell) {
+    BASE_FLOATS_OWN;
     enum { TRIES = 4 };
     survey *v = user;
     query_areas *areas = v->areas;

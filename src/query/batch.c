@@ -3,6 +3,7 @@
  *     queries   0 .. 255 | 256 .. 511 | ...     chunks, in any order, each with the context of its thread
  *     answers   one after the other, in the order of the queries
  */
+#include "base/floats.h"
 #include "base/status.h"
 #include "query/areas.h"
 #include "query/check.h"
@@ -279,6 +280,7 @@ static froe_status run(batch *b, const froe_batch_options *options, froe_answers
 
 froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t count,
                              const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !out || (count && !ranges)) return base_fail(diag, FROE_E_ARG, "froe_batch_range: NULL argument.");
     batch b = {.query = query, .ask = ask_range, .ranges = ranges, .count = count};
     return run(&b, options, out, diag);
@@ -286,6 +288,7 @@ froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t
 
 froe_status froe_batch_locate(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
                               froe_answers *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_locate: NULL argument.");
     batch b = {.query = query, .ask = ask_locate, .points = points, .count = count};
     if (!tree_is_packed(query->tree)) b.ask_in = ask_locate_in;
@@ -294,6 +297,7 @@ froe_status froe_batch_locate(froe_query *query, const double *points, size_t co
 
 froe_status froe_batch_groups(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
                               froe_answers *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_groups: NULL argument.");
     batch b = {.query = query, .points = points, .count = count};
     const froe_status status = query_groups_prepare(query, &b.areas, diag); /* once for all threads */
@@ -307,6 +311,7 @@ froe_status froe_batch_groups(froe_query *query, const double *points, size_t co
 
 froe_status froe_batch_vertical(froe_query *query, const double *points, size_t count, int direction,
                                 const froe_batch_options *options, uint32_t *objects, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || (count && (!points || !objects)))
         return base_fail(diag, FROE_E_ARG, "froe_batch_vertical: NULL argument.");
     batch b = {.query = query, .ask = ask_vertical, .points = points, .count = count};
@@ -331,6 +336,7 @@ static froe_status run_rays(froe_query *query, const double *origins, const doub
 
 froe_status froe_batch_ray(froe_query *query, const double *origins, const double *directions, size_t count,
                            double t_max, const froe_batch_options *options, froe_hit *hits, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     batch b = {.ask = ask_ray, .hits = hits};
     return run_rays(query, origins, directions, count, t_max, &b, options, NULL, diag);
 }
@@ -338,6 +344,7 @@ froe_status froe_batch_ray(froe_query *query, const double *origins, const doubl
 froe_status froe_batch_ray_any(froe_query *query, const double *origins, const double *directions, size_t count,
                                double t_max, const froe_batch_options *options, uint32_t *objects,
                                froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     batch b = {.ask = ask_ray_any, .objects = objects};
     return run_rays(query, origins, directions, count, t_max, &b, options, NULL, diag);
 }
@@ -345,6 +352,7 @@ froe_status froe_batch_ray_any(froe_query *query, const double *origins, const d
 froe_status froe_batch_ray_all(froe_query *query, const double *origins, const double *directions, size_t count,
                                double t_max, const froe_batch_options *options, froe_answers *out,
                                froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     batch b = {.ask = ask_ray_all, .value = parameter_of};
     if (!out) return base_fail(diag, FROE_E_ARG, "froe_batch_ray_all: NULL argument.");
     return run_rays(query, origins, directions, count, t_max, &b, options, out, diag);
@@ -352,6 +360,7 @@ froe_status froe_batch_ray_all(froe_query *query, const double *origins, const d
 
 froe_status froe_batch_near(froe_query *query, const double *points, size_t count, size_t k, double bound,
                             const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_near: NULL argument.");
     batch b = {.query = query, .ask = ask_near, .points = points, .count = count, .k = k, .limit = bound};
     b.value = distance_of;

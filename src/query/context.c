@@ -1,5 +1,6 @@
 /* context.c: making, sharing and freeing query contexts and their parts. */
 #include "query/context.h"
+#include "base/floats.h"
 #include "base/status.h"
 #include "query/packed.h"
 #include "query/space.h"
@@ -28,6 +29,7 @@ static froe_status take(const froe_tree *tree, query_shared *shared, froe_query 
 }
 
 froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!tree || !out) return base_fail(diag, FROE_E_ARG, "froe_query_new: NULL argument.");
     query_shared *shared = base_calloc(&tree->alloc, 1, sizeof *shared);
     if (!shared) return base_fail_memory(diag);
@@ -40,6 +42,7 @@ froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnos
 }
 
 froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !out) return base_fail(diag, FROE_E_ARG, "froe_query_fork: NULL argument.");
     if (take(query->tree, query->shared, out)) return base_fail_memory(diag);
     (*out)->numbers.first = query->numbers.first;
@@ -82,6 +85,7 @@ void query_classes_give(froe_query *q) {
 }
 
 void froe_query_free(froe_query *query) {
+    BASE_FLOATS_OWN;
     if (query) query_classes_give(query);
     free_alone(query);
 }

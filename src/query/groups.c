@@ -1,4 +1,5 @@
 /* groups.c: the groups that a point of the plane lies in: those of its leaf, and those on whose borders it is. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "query/areas.h"
 #include "query/check.h"
@@ -45,6 +46,7 @@ froe_status query_groups_prepare(froe_query *query, const query_areas **out, fro
 }
 
 froe_status froe_query_groups(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     const query_areas *areas;
     query_leaf leaf = {0};
     if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_groups: NULL argument.");

@@ -1,5 +1,6 @@
 /* locate.c: the objects that contain a point. Where it is on no cut they are in the list of its leaf: what contains it
  * meets the leaf's open cell. On a cut it is a range of one point, which visits the list there and both sides. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "query/check.h"
 #include "query/context.h"
@@ -62,6 +63,7 @@ froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *di
 }
 
 froe_status froe_query_locate(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_locate: NULL argument.");
     const froe_status status = query_locate(query, point, diag);
     if (!status) *out = query_list(query);

@@ -5,6 +5,7 @@
  * rest by comparing distances, whose images decide but for ties. Of points there are candidates, few more than k
  * (near_points.c), which are sorted. */
 #include "query/near.h"
+#include "base/floats.h"
 #include "query/check.h"
 #include "query/context.h"
 #include "query/heap.h"
@@ -136,6 +137,7 @@ static bool deliver(froe_query *q) {
 
 froe_status froe_query_near(froe_query *query, const double *point, size_t k, double bound, froe_neighbours *out,
                             froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_near: NULL argument.");
     query_near *n = &query->near;
     const int dim = query->tree->scene->dim;

@@ -1,5 +1,6 @@
 /* pair_lists.c: see pair_lists.h. */
 #include "query/pair_lists.h"
+#include "base/floats.h"
 #include "query/heap.h"
 
 enum { ROOM = 1024 }; /* pairs that a thread may add without asking others */
@@ -97,6 +98,7 @@ void pair_lists_tell(const pair_lists *l, froe_pair_fn *fn, void *user) {
     for (uint32_t a = 0; a < l->objects; a++)
         for (uint32_t i = l->starts[a]; i < l->starts[a + 1]; i++) {
             const uint32_t b = l->sorted[i];
-            if (!fn(user, &(froe_pair){a, b & PAIR_OBJECT, (froe_meeting)(b >> PAIR_KIND)})) return;
+            const froe_pair pair = {a, b & PAIR_OBJECT, (froe_meeting)(b >> PAIR_KIND)};
+            if (!base_callback(fn(user, &pair))) return;
         }
 }

@@ -5,6 +5,7 @@
  * then decided exactly (geom/contact.h).
  *
  *     objects    0 .. 63 | 64 .. 127 | ...    jobs, a wave of them at a time, told in order when it is whole */
+#include "base/floats.h"
 #include "base/status.h"
 #include "geom/contact.h"
 #include "query/heap.h"
@@ -112,7 +113,7 @@ static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, voi
         if (status) return status;
         for (size_t i = 0; i < count; i++)
             for (size_t n = 0; n < s->chunks[i].pairs.count; n++)
-                if (!fn(user, s->chunks[i].pairs.data + n)) return FROE_OK;
+                if (!base_callback(fn(user, s->chunks[i].pairs.data + n))) return FROE_OK;
     }
     return FROE_OK;
 }
@@ -147,6 +148,7 @@ static froe_status find_pairs(query_workers *workers, bool shared, froe_pair_fn 
 
 froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options, froe_pair_fn *fn,
                              void *fn_user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !fn) return base_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
     const size_t jobs = ((size_t)query->tree->scene->object_count + CHUNK - 1) / CHUNK;
     const uint64_t queries = query->stats.queries;

@@ -1,4 +1,5 @@
 /* range.c: the public calls: all objects that meet a range, how many, or one of them. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "query/classes.h"
 #include "query/packed.h"
@@ -46,6 +47,7 @@ froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, fr
 }
 
 froe_status froe_query_range(froe_query *query, const froe_range *range, froe_list *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !range || !out) return base_fail(diag, FROE_E_ARG, "froe_query_range: NULL argument.");
     const froe_status status = query_range_ask(query, range, false, diag);
     if (!status) *out = query_list(query);
@@ -61,6 +63,7 @@ static froe_status count_packed(froe_query *q, const froe_range *range, uint64_t
 }
 
 froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_t *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !range || !out) return base_fail(diag, FROE_E_ARG, "froe_query_count: NULL argument.");
     if (is_packed_window(query, range)) return count_packed(query, range, out, diag);
     const froe_status status = query_range_ask(query, range, false, diag);
@@ -69,6 +72,7 @@ froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_
 }
 
 froe_status froe_query_any(froe_query *query, const froe_range *range, uint32_t *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !range || !out) return base_fail(diag, FROE_E_ARG, "froe_query_any: NULL argument.");
     const froe_status status = query_range_ask(query, range, true, diag);
     if (!status) *out = query->found.count ? query->found.data[0] : FROE_NONE;

@@ -5,6 +5,7 @@
  * so far is not visited. Since rounding keeps the order, all of them are sorted by their rounded parameters, and
  * only where these are equal by the exact ones. */
 #include "query/ray.h"
+#include "base/floats.h"
 #include "base/status.h"
 #include "query/check.h"
 #include "query/context.h"
@@ -101,6 +102,7 @@ froe_status query_ray_first(froe_query *q, double t_max, uint32_t kinds, froe_di
 
 froe_status froe_query_ray(froe_query *query, const double *origin, const double *direction, double t_max,
                            froe_hit *hit, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !origin || !direction || !hit) return base_fail(diag, FROE_E_ARG, "froe_query_ray: NULL argument.");
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
     if (!status) status = query_ray_first(query, t_max, UINT32_MAX, diag);
@@ -121,6 +123,7 @@ static bool keep_any(froe_query *q, const query_met *met) {
 
 froe_status froe_query_ray_any(froe_query *query, const double *origin, const double *direction, double t_max,
                                uint32_t *object, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !origin || !direction || !object)
         return base_fail(diag, FROE_E_ARG, "froe_query_ray_any: NULL argument.");
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
@@ -163,6 +166,7 @@ static froe_status sort_hits(froe_query *q) {
 
 froe_status froe_query_ray_all(froe_query *query, const double *origin, const double *direction, double t_max,
                                froe_hits *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !origin || !direction || !out)
         return base_fail(diag, FROE_E_ARG, "froe_query_ray_all: NULL argument.");
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);

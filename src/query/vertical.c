@@ -1,4 +1,5 @@
 /* vertical.c: the segment above or below a point of the plane: a vertical ray. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "query/packed.h"
 
@@ -20,6 +21,7 @@ froe_status query_vertical_check(const froe_query *query, const double *point, i
 
 froe_status froe_query_vertical(froe_query *query, const double *point, int direction, uint32_t *object,
                                 froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !point || !object) return base_fail(diag, FROE_E_ARG, "froe_query_vertical: NULL argument.");
     froe_status status = query_vertical_check(query, point, direction, diag);
     if (status) return status;

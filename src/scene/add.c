@@ -5,6 +5,7 @@
  *     vertices     corners become vertex ids, a chunk at a time
  *     forms        ids become the corners of each object's form (forms.c)
  *     commit       counts move on: the only step others can see; or the new vertices are forgotten */
+#include "base/floats.h"
 #include "base/status.h"
 #include "scene/forms.h"
 #include <math.h>
@@ -119,7 +120,8 @@ static froe_status reserve(scene_adding *a) {
 
 static froe_status progress(const scene_adding *a, size_t done, size_t work) {
     const froe_objects *b = a->batch;
-    if (!b->progress || b->progress(b->user, (double)done / (double)work)) return FROE_OK;
+    const double share = (double)done / (double)work;
+    if (!b->progress || base_callback(b->progress(b->user, share))) return FROE_OK;
     return base_fail(a->diag, FROE_E_CANCELLED, "cancelled by the progress function");
 }
 
@@ -231,6 +233,7 @@ static void commit(const scene_adding *a) {
 }
 
 froe_status froe_scene_add(froe_scene *scene, const froe_objects *batch, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     scene_adding a = {.scene = scene, .batch = batch, .diag = diag};
     froe_status status = check(&a);
     if (status || !batch->count) return status;

@@ -1,4 +1,5 @@
 /* groups.c: groups and their strings, which lie one after the other in one text; offset 0 is "". */
+#include "base/floats.h"
 #include "scene/store.h"
 #include <string.h>
 
@@ -16,6 +17,7 @@ static size_t text_need(const char *string) {
 }
 
 froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uint32_t *id) {
+    BASE_FLOATS_OWN;
     if (!scene || !group) return FROE_E_ARG;
     froe_status status = scene_growable(scene, NULL);
     if (status) return status;

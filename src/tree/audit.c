@@ -19,6 +19,7 @@
  *
  * The lists are checked object by object on threads; the violation reported is that of the lowest
  * object, whatever the number of threads. O(pieces x height). */
+#include "base/floats.h"
 #include "base/status.h"
 #include "base/task.h"
 #include "tree/inseparable.h"
@@ -389,6 +390,7 @@ static froe_status check_all(audit *a) {
 }
 
 froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_options *options, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     froe_audit_options o = options ? *options : froe_audit_defaults();
     base_task task;
     if (!tree) return base_fail(diag, FROE_E_ARG, "tree must not be NULL");

@@ -3,6 +3,7 @@
  * Depth first; the shapes of right children wait on a stack of packed arrays, so the walk needs
  * heap for one shape a level and no recursion. Shapes live in units of a power of two that brings
  * the box to size 1, so that no coordinate a double can hold overflows. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "tree/shape.h"
 #include "tree/tree.h"
@@ -98,7 +99,7 @@ static bool show(cell_walk *w, const cell_pending *at) {
     cell.face_count = w->now.starts.count - 1;
     cell.cut_coords = w->cut_coords.data;
     cell.cut_corners = w->cut.points.count / (size_t)w->dim;
-    w->stopped = !w->fn(w->user, &cell);
+    w->stopped = !base_callback(w->fn(w->user, &cell));
     return true;
 }
 
@@ -131,6 +132,7 @@ static bool walk_cells(cell_walk *w, const double *lo, const double *hi) {
 
 froe_status froe_tree_cells(const froe_tree *tree, const double *lo, const double *hi, froe_cell_fn *fn, void *user,
                             froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!tree || !lo || !hi || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     cell_walk w = {.tree = tree, .alloc = tree->alloc, .dim = tree->scene->dim, .fn = fn, .user = user};
     double most = 0;

@@ -3,6 +3,7 @@
  * Rounding needs a number context. Each tree keeps one to spare, so that the usual caller, one
  * thread, pays nothing for it; a thread that finds it taken makes its own, and without memory
  * for that waits: this call has no way to fail. */
+#include "base/floats.h"
 #include "geom/predicates.h"
 #include "tree/packed.h"
 #include "tree/ring.h"
@@ -97,6 +98,7 @@ static void fragment_corners(const froe_tree *t, uint32_t piece, size_t count, d
 }
 
 size_t froe_tree_piece_corners(const froe_tree *tree, size_t piece, double *coords, froe_node *made, size_t capacity) {
+    BASE_FLOATS_OWN;
     if (piece >= tree->piece_count) return 0;
     froe_piece p = froe_tree_piece(tree, piece);
     size_t count = p.corners < capacity ? p.corners : capacity;

@@ -6,6 +6,7 @@
  *
  * The mapping is private and read-only. A file that another program shortens while it is mapped
  * takes the pages away (SIGBUS); froe itself only ever replaces files. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "tree/file.h"
 #include "tree/validate.h"
@@ -179,6 +180,7 @@ static froe_status read_all(opening *o, froe_tree *t) {
 }
 
 froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_tree **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     opening o = {.path = path, .diag = diag};
     if (!path || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (!file_machine_fits())

@@ -1,4 +1,5 @@
 /* save.c: a tree as the bytes of its file: header, section table, sections. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "support/writer.h"
 #include "tree/file.h"
@@ -46,6 +47,7 @@ static void put_tree(support_writer *out, const froe_tree *tree) {
 }
 
 froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!tree || !path) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (!file_machine_fits())
         return base_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");

@@ -1,4 +1,5 @@
 /* tree.c: what a finished tree tells about itself: nodes, cuts, pieces, counts. */
+#include "base/floats.h"
 #include "tree/file.h"
 #include "tree/table.h"
 #include "tree/walk.h"
@@ -147,6 +148,7 @@ froe_node froe_tree_root(const froe_tree *tree) {
 }
 
 froe_node_info froe_tree_node(const froe_tree *tree, froe_node node) {
+    BASE_FLOATS_OWN;
     froe_node_info info = {0};
     uint32_t id = node.id1 - 1;
     if (id >= tree->node_count) return info;

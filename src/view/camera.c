@@ -1,5 +1,6 @@
 /* camera.c: from eye, target and page to a projection. */
 #include "view/camera.h"
+#include "base/floats.h"
 #include "base/status.h"
 #include "scene/scene.h"
 #include <math.h>
@@ -64,6 +65,7 @@ void view_camera_page(const froe_projection *view, const double at[3], double pa
 }
 
 bool froe_project(const froe_projection *view, const double *point, double page[2]) {
+    BASE_FLOATS_OWN;
     double at[3];
     view_camera_point(view, point, at);
     if (!view->eye.parallel && !(at[2] > 0)) return false;
@@ -266,6 +268,7 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
 
 froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene, froe_projection *out,
                               froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     fit_points points;
     if (!camera || !scene || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (scene->dim != 3)

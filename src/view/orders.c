@@ -1,5 +1,6 @@
 /* orders.c: the public calls for depth orders. Many eyes at once share the work on each cut:
  * first all sides of up to 32 eyes, two bits each in a word per node, then one walk per eye. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "base/task.h"
 #include "view/order.h"
@@ -21,6 +22,7 @@ static froe_status check(const froe_tree *tree, const froe_order_options **optio
 
 froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const froe_order_options *options,
                             froe_order_fn *fn, void *user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     const froe_order_options standard = froe_order_defaults();
     geom_eye from;
     view_order order;
@@ -30,7 +32,7 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
     if (!status) status = view_eye_of(tree, eye, &from, diag);
     if (status) return status;
     status = view_order_begin(&order, tree, &from, options->front_to_back, options->ranks);
-    while (!status && view_order_next(&order, &piece) && fn(user, piece)) {
+    while (!status && view_order_next(&order, &piece) && base_callback(fn(user, piece))) {
     }
     status = view_order_end(&order) ? FROE_E_MEMORY : status;
     return status ? base_fail_memory(diag) : FROE_OK;
@@ -92,6 +94,7 @@ static froe_status run_batches(batch *b, base_task *task, const froe_eye *eyes, 
 
 froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t count,
                              const froe_order_options *options, uint32_t *pieces, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     const froe_order_options standard = froe_order_defaults();
     if (count && (!eyes || !pieces)) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check(tree, &options, &standard, diag);

@@ -1,5 +1,6 @@
 /* picture.c: the public calls for pictures: look, plan, paint. */
 #include "view/picture.h"
+#include "base/floats.h"
 #include "base/status.h"
 #include "view/order.h"
 #include <math.h>
@@ -185,6 +186,7 @@ static froe_status check(const froe_picture_options *o, froe_diagnostic *diag) {
 
 froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface, const froe_picture_options *options,
                              froe_picture **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!tree || !surface || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check(options, diag);
     if (status) return status;

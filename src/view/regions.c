@@ -1,4 +1,5 @@
 /* regions.c: the public call for visible regions. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "view/region.h"
 
@@ -24,6 +25,7 @@ static bool give(giver *g, const froe_visibility *v, uint32_t patch, froe_region
 
 froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, uint32_t count, froe_region_fn *fn,
                                     void *user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     giver g = {.coords = {0}};
     bool go_on = true;
     if (!v || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");

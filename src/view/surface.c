@@ -1,5 +1,6 @@
 /* surface.c: the public calls for patches and edges. */
 #include "view/surface.h"
+#include "base/floats.h"
 #include "base/status.h"
 
 static void free_words(const froe_surface *s, uint32_t *words, size_t count) {
@@ -34,6 +35,7 @@ static froe_status fill(froe_surface *s) {
 
 froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *alloc, froe_surface **out,
                              froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!scene || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (scene->dim != 3)
         return base_fail(diag, FROE_E_UNSUPPORTED, "surfaces are in 3 dimensions, this scene has %d", scene->dim);

@@ -1,6 +1,7 @@
 /* turntable.c: cameras around a scene, from one distance and at one scale, so that nothing but the scene turns.
  *
  * Angles come from tan(angle / 4) and doubled angles: the same on every machine. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "scene/scene.h"
 #include "view/camera.h"
@@ -45,6 +46,7 @@ static froe_status fit(const froe_camera *c, const froe_scene *scene, const doub
 
 froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene, size_t count, froe_camera *cameras,
                              froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!camera || !scene || !cameras || !count) return base_fail(diag, FROE_E_ARG, "a required argument is NULL or 0");
     double middle[3] = {0, 0, 0}, axis[3], way[3], distance = 0, scale = INFINITY;
     const double up = length_of(camera->up);

@@ -1,4 +1,5 @@
 /* visibility.c: pieces front to back, each sent down the beam tree. */
+#include "base/floats.h"
 #include "base/status.h"
 #include "view/crossings.h"
 #include "view/order.h"
@@ -184,6 +185,7 @@ static froe_status failure(froe_status status, froe_diagnostic *diag) {
 
 froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surface,
                                 const froe_visibility_options *options, froe_visibility **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     geom_eye eye;
     if (!out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check(tree, surface, options, diag);
@@ -239,6 +241,7 @@ size_t froe_visibility_of_patch(const froe_visibility *v, uint32_t patch, size_t
 }
 
 size_t froe_visibility_corners(const froe_visibility *v, size_t i, double *coords, size_t capacity) {
+    BASE_FLOATS_OWN;
     if (i >= v->piece_count) return 0;
     const view_piece *p = v->pieces + i;
     const geom_plane plane = view_plane_of(&v->sights, p->patch);
