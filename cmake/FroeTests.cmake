@@ -123,6 +123,11 @@ if(FROE_LOCALIZE)
     list(APPEND products $<TARGET_FILE:froe_program>)
   endif()
   froe_test(project objects ${scripts}/check-objects ${products})
+  if(FROE_HAS_IO AND FROE_HAS_DRAW)
+    file(GLOB tests CONFIGURE_DEPENDS tests/*/test_floats.c)
+    froe_test(project floats ${scripts}/check-floats $<TARGET_FILE:froe> $<TARGET_FILE:froe_io> $<TARGET_FILE:froe_draw>
+      ${tests})
+  endif()
 
   set(stage ${PROJECT_BINARY_DIR}/stage)
   froe_test(project stage ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${stage})

@@ -197,7 +197,7 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     frame_scene(&picture, &o);
     status = paint(&picture, format, output, diag);
     draw_picture_free(&picture);
-    if (status == FROE_OK && o.progress && !o.progress(o.user, 1))
+    if (status == FROE_OK && o.progress && !draw_callback(o.progress(o.user, 1)))
         return draw_fail(diag, FROE_E_CANCELLED, "Drawing was cancelled.");
     return status;
 }

@@ -48,7 +48,8 @@ typedef struct draw_task {
 /** One step done; false once the caller said stop. */
 static inline bool draw_tick(draw_task *task) {
     if (++task->ticks % 16384 || !task->progress || task->cancelled) return !task->cancelled;
-    const double share = (double)task->ticks / task->total, done = share < 1 ? share : 1;
+    const double share = (double)task->ticks / task->total;
+    volatile const double done = share < 1 ? share : 1;
     task->cancelled = !draw_callback(task->progress(task->user, done));
     return !task->cancelled;
 }

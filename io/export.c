@@ -27,7 +27,8 @@ static bool write_shape(job *j, const io_shape *shape) {
     enum { SHAPES_PER_REPORT = 1024 };
     j->format->shape(&j->writer, shape, j->written == 0);
     if (++j->written % SHAPES_PER_REPORT || !j->options->progress) return true;
-    const double share = j->expected ? (double)j->written / (double)j->expected : 1, done = share < 1 ? share : 1;
+    const double share = j->expected ? (double)j->written / (double)j->expected : 1;
+    volatile const double done = share < 1 ? share : 1;
     j->cancelled = !io_callback(j->options->progress(j->options->user, done));
     return !j->cancelled;
 }

@@ -38,8 +38,8 @@ froe_status io_sink_fail(io_sink *sink, froe_status status, const char *format, 
 }
 
 froe_status io_sink_progress(io_sink *sink, double done) {
-    if (done > 1) done = 1;
-    if (!sink->progress || io_callback(sink->progress(sink->user, done))) return FROE_OK;
+    volatile const double share = done < 1 ? done : 1;
+    if (!sink->progress || io_callback(sink->progress(sink->user, share))) return FROE_OK;
     return io_fail(sink->diag, FROE_E_CANCELLED, "%s: reading was cancelled", io_short(sink->path));
 }
 

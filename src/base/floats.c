@@ -16,10 +16,10 @@ unsigned base_floats_change_to_own(void) {
 
 unsigned base_floats_begin_caller(void) {
     base_floats_held *caller = &caller_floats;
-    if (!caller->held) return BASE_FLOATS_BEGAN_CALLER;
+    if (!caller->held) return base_floats_are_own(base_floats_now()) ? BASE_FLOATS_LENT : 0;
     caller->held = false;
     base_floats_set(caller->floats);
-    return BASE_FLOATS_BEGAN_CALLER | BASE_FLOATS_CHANGED;
+    return BASE_FLOATS_LENT | BASE_FLOATS_CHANGED;
 }
 
 /* After a callback: flags that it raised stay the caller's; settings that it changed are as before. */
@@ -31,7 +31,7 @@ static void take_again(bool changed) {
 }
 
 void base_floats_undo(unsigned began) {
-    if (began & BASE_FLOATS_BEGAN_CALLER)
+    if (began & BASE_FLOATS_LENT)
         take_again(began & BASE_FLOATS_CHANGED);
     else if (began)
         base_floats_begin_caller();

@@ -7,8 +7,9 @@
  * that compute without.
  *
  * Reading the register takes a nanosecond, writing it tens of them: it is written where it differs only.
- * Compilers know nothing of the register, and keep the order of accesses to memory only. So a function with
- * BASE_FLOATS_OWN returns no double that it computed itself. */
+ * Compilers know nothing of the register, and move arithmetic across whatever changes it; they keep the order of
+ * accesses to memory. So doubles that a function with BASE_FLOATS_OWN returns, or hands to base_callback(), and that it
+ * computed itself, go through volatile variables. */
 #ifndef FROE_BASE_FLOATS_H
 #define FROE_BASE_FLOATS_H
 #include <froe/froe.h>
@@ -54,6 +55,22 @@ static inline bool base_floats_are_own(base_floats now) {
 static inline base_floats base_floats_flagged(base_floats floats, base_floats flags) {
     return floats | (flags & UINT32_MAX);
 }
+#elif defined(__wasm__) /* nothing can be set */
+typedef uint32_t base_floats;
+static inline base_floats base_floats_now(void) {
+    return 0;
+}
+static inline void base_floats_set(base_floats floats) {
+    (void)floats;
+}
+static inline void base_floats_set_own(void) {
+}
+static inline bool base_floats_are_own(base_floats now) {
+    return !now;
+}
+static inline base_floats base_floats_flagged(base_floats floats, base_floats flags) {
+    return floats | flags;
+}
 #else /* as C has it: the default is what a program starts with; how another one differs from it, C does not tell */
 #include <fenv.h>
 typedef fenv_t base_floats;
@@ -78,8 +95,8 @@ static inline base_floats base_floats_flagged(base_floats floats, base_floats fl
 }
 #endif
 
-/** What to undo: the bits say what began, and whether that changed anything. */
-enum { BASE_FLOATS_BEGAN_CALLER = 1, BASE_FLOATS_CHANGED = 2 };
+/** What to undo, as bits: settings were changed; they were froe's own, and are the caller's meanwhile. */
+enum { BASE_FLOATS_CHANGED = 1, BASE_FLOATS_LENT = 2 };
 
 unsigned base_floats_change_to_own(void);
 /** froe's own floating point from now on. */
@@ -106,7 +123,7 @@ void base_floats_begin_thread(base_floats_held caller);
     __attribute__((cleanup(base_floats_end), unused)) const unsigned floats_own = base_floats_begin_own()
 #define BASE_FLOATS_CALLER                                                                                             \
     __attribute__((cleanup(base_floats_end), unused)) const unsigned floats_caller = base_floats_begin_caller()
-/** A call of the caller's function, as an expression; what computes its arguments belongs before it. A function of
+/** A call of the caller's function, as an expression; its arguments compute nothing. A function of
  * froe's own that is handed on as a callback begins with BASE_FLOATS_OWN. */
 #define base_callback(call)                                                                                            \
     __extension__({                                                                                                    \

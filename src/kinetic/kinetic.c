@@ -168,8 +168,7 @@ static double time_of(const froe_kinetic *k, int64_t tick) {
 
 double froe_kinetic_time(const froe_kinetic *k) {
     BASE_FLOATS_OWN;
-    volatile const double time =
-        time_of(k, k->now.tick); /* base/floats.h: computed before the caller's settings are back */
+    volatile const double time = time_of(k, k->now.tick); /* see base/floats.h */
     return time;
 }
 

@@ -2,6 +2,7 @@
 #include "kinetic/motion.h"
 #include "base/floats.h"
 #include "base/status.h"
+#include "num/context.h"
 
 enum {
     TICK_BITS = 31, /* by default 2^31 to 2^32 ticks in the window */
@@ -78,6 +79,7 @@ froe_status froe_motion_new(const froe_motion_options *options, const froe_alloc
     if (!options || !out) return base_fail(diag, FROE_E_ARG, "no options, or no place for the motion");
     if (options->size != sizeof *options)
         return base_fail(diag, FROE_E_OPTIONS, "options not from froe_motion_defaults()");
+    if (num_rounding_check(diag)) return FROE_E_UNSUPPORTED;
     froe_motion window = {.alloc = base_allocator(alloc), .unit = INT16_MAX, .top = INT16_MIN}; /* nothing yet */
     window.time_unit = INT16_MAX;
     window.time_top = INT16_MIN;

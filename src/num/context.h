@@ -50,4 +50,7 @@ bool num_machine_trusted(void);
 /** Of these only what a program can change while it runs: the rounding mode, and whether
  * denormals are flushed. ~40 ns where making a denormal number takes help, ~3 ns elsewhere. */
 bool num_rounding_trusted(void);
+/** For calls with which all use of froe begins: FROE_E_UNSUPPORTED, with a sentence, where the rounding is not to be
+ * trusted although froe has set its floating point (base/floats.h). */
+froe_status num_rounding_check(froe_diagnostic *diag);
 #endif

@@ -2,6 +2,7 @@
  *
  * Every operand is volatile, so that the answers come from the processor at run
  * time and not from the compiler's own arithmetic. */
+#include "base/status.h"
 #include "num/context.h"
 #include <fenv.h>
 #include <float.h>
@@ -60,6 +61,14 @@ static bool keeps_residues(void) {
     volatile double big = 0x1p60, small = 1.5;
     double a = big, b = small, s = a + b, t = s - a, residue = (a - (s - t)) + (b - t);
     return s == 0x1p60 && residue == 1.5;
+}
+
+froe_status num_rounding_check(froe_diagnostic *diag) {
+    if (num_rounding_trusted()) return FROE_OK;
+    return base_fail(
+        diag, FROE_E_UNSUPPORTED,
+        "the processor rounds doubles otherwise than to nearest, or flushes denormal numbers, and cannot be "
+        "set to do as froe needs it");
 }
 
 bool num_machine_trusted(void) {

@@ -120,7 +120,7 @@ static froe_status reserve(scene_adding *a) {
 
 static froe_status progress(const scene_adding *a, size_t done, size_t work) {
     const froe_objects *b = a->batch;
-    const double share = (double)done / (double)work;
+    volatile const double share = (double)done / (double)work;
     if (!b->progress || base_callback(b->progress(b->user, share))) return FROE_OK;
     return base_fail(a->diag, FROE_E_CANCELLED, "cancelled by the progress function");
 }

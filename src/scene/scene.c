@@ -1,6 +1,7 @@
 /* scene.c: life of a scene, and what the public may read of it. */
 #include "base/floats.h"
 #include "base/status.h"
+#include "num/context.h"
 #include "scene/store.h"
 #include <math.h>
 #include <string.h>
@@ -33,6 +34,7 @@ static void store_free(const froe_allocator *alloc, struct scene_store *store) {
 froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **out) {
     BASE_FLOATS_OWN;
     if (!out || dim < 2 || dim > FROE_MAX_DIM) return FROE_E_ARG;
+    if (num_rounding_check(NULL)) return FROE_E_UNSUPPORTED;
     froe_allocator alloc = base_allocator(caller);
     froe_scene *s = base_calloc(&alloc, 1, sizeof *s);
     if (!s) return FROE_E_MEMORY;

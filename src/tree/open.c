@@ -8,6 +8,7 @@
  * takes the pages away (SIGBUS); froe itself only ever replaces files. */
 #include "base/floats.h"
 #include "base/status.h"
+#include "num/context.h"
 #include "tree/file.h"
 #include "tree/validate.h"
 #include <errno.h>
@@ -185,7 +186,8 @@ froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_
     if (!path || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (!file_machine_fits())
         return base_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
-    froe_status status = map_file(&o);
+    froe_status status = num_rounding_check(diag);
+    if (!status) status = map_file(&o);
     if (status) return status;
     froe_allocator alloc = base_allocator(caller);
     froe_tree *t = base_calloc(&alloc, 1, sizeof *t);

@@ -19,7 +19,8 @@ static bool give(giver *g, const froe_visibility *v, uint32_t patch, froe_region
     for (size_t i = 0; i < r->starts.count; i++) g->starts.data[i] = r->starts.data[i];
     for (size_t i = 0; i < r->corners.count; i++)
         view_point_on(&v->sights, &plane, v->corners.data[r->corners.data[i]].ray.x, g->coords.data + 3 * i);
-    *go_on = fn(user, patch, g->coords.data, g->starts.data, r->starts.count - 1);
+    const size_t rings = r->starts.count - 1;
+    *go_on = base_callback(fn(user, patch, g->coords.data, g->starts.data, rings));
     return true;
 }
 

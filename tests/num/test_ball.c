@@ -115,7 +115,11 @@ static void this_machine_is_trusted_as_long_as_it_rounds_to_nearest(void **state
     for (int i = 0; i < 3; i++) {
         fesetround(modes[i]);
         bool machine = num_machine_trusted(), rounding = num_rounding_trusted();
+        froe_diagnostic diag;
+        froe_status status = num_rounding_check(&diag);
         fesetround(FE_TONEAREST);
+        assert_int_equal(status, FROE_E_UNSUPPORTED);
+        assert_non_null(strstr(diag.message, "cannot be set to do as froe needs it"));
         assert_false(machine);
         assert_false(rounding);
     }
