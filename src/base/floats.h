@@ -35,8 +35,7 @@ static inline bool base_floats_are_own(base_floats now) {
 static inline base_floats base_floats_flagged(base_floats floats, base_floats flags) {
     return floats | (flags & 0x3f);
 }
-#elif defined(__aarch64__) && !defined(BASE_FLOATS_BY_C) /* FPCR in the upper half, FPSR with the flags in the lower   \
-                                                          */
+#elif defined(__aarch64__) && !defined(BASE_FLOATS_BY_C) /* FPCR in the upper half, FPSR in the lower */
 typedef uint64_t base_floats;
 static inline base_floats base_floats_now(void) {
     uint64_t control, status;
@@ -55,7 +54,7 @@ static inline bool base_floats_are_own(base_floats now) {
 static inline base_floats base_floats_flagged(base_floats floats, base_floats flags) {
     return floats | (flags & UINT32_MAX);
 }
-#elif defined(__wasm__) /* nothing can be set */
+#elif defined(__wasm__)                                  /* nothing can be set */
 typedef uint32_t base_floats;
 static inline base_floats base_floats_now(void) {
     return 0;
