@@ -3,6 +3,7 @@
 #include "output.h"
 #include "palette.h"
 #include "picture.h"
+#include "support/floats.h"
 #include "support/writer.h"
 #include <math.h>
 #include <string.h>
@@ -197,20 +198,20 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     frame_scene(&picture, &o);
     status = paint(&picture, format, output, diag);
     draw_picture_free(&picture);
-    if (status == FROE_OK && o.progress && !draw_callback(o.progress(o.user, 1)))
+    if (status == FROE_OK && o.progress && !support_callback(o.progress(o.user, 1)))
         return draw_fail(diag, FROE_E_CANCELLED, "Drawing was cancelled.");
     return status;
 }
 
 froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_draw_write_fn *fn, void *user,
                             const froe_draw_options *options, froe_diagnostic *diag) {
-    DRAW_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!tree || !fn) return draw_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
     if (format < 0 || format >= FROE_DRAW_FORMAT_COUNT)
         return draw_fail(diag, FROE_E_OPTIONS, "There is no picture format number %d.", (int)format);
     draw_output output;
     froe_status status = make(tree, format, options, &output, diag);
-    if (status == FROE_OK && !draw_callback(fn(user, output.bytes.data, output.bytes.count)))
+    if (status == FROE_OK && !support_callback(fn(user, output.bytes.data, output.bytes.count)))
         status = draw_fail(diag, FROE_E_IO, "The receiver of the picture refused it.");
     draw_output_free(&output);
     return status;
@@ -218,7 +219,7 @@ froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe
 
 froe_status froe_draw(const froe_tree *tree, const char *path, const froe_draw_options *options,
                       froe_diagnostic *diag) {
-    DRAW_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     froe_draw_format format;
     if (!tree || !path) return draw_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
     if (!froe_draw_format_of(path, &format))

@@ -1,6 +1,7 @@
 /* memory.c: the few lines of memory and messages that the pictures need; the
  * core's own are not public. */
 #include "memory.h"
+#include "support/floats.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,12 +23,12 @@ void *draw_calloc(const froe_allocator *alloc, size_t count, size_t item) {
     if (item && count > SIZE_MAX / item) return NULL;
     size_t size = count * item;
     if (!size) size = 1;
-    void *ptr = draw_callback(alloc->fn(alloc->user, NULL, 0, size));
+    void *ptr = support_callback(alloc->fn(alloc->user, NULL, 0, size));
     return ptr ? memset(ptr, 0, size) : NULL;
 }
 
 void draw_free(const froe_allocator *alloc, void *ptr, size_t size) {
-    if (ptr) draw_callback(alloc->fn(alloc->user, ptr, size, 0));
+    if (ptr) support_callback(alloc->fn(alloc->user, ptr, size, 0));
 }
 
 bool draw_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra, size_t item) {
@@ -35,7 +36,7 @@ bool draw_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_
     size_t room = *capacity + *capacity / 2 + 16;
     if (room < count + extra) room = count + extra;
     if (room > SIZE_MAX / item) return false;
-    void *grown = draw_callback(alloc->fn(alloc->user, *data, *capacity * item, room * item));
+    void *grown = support_callback(alloc->fn(alloc->user, *data, *capacity * item, room * item));
     if (!grown) return false;
     *data = grown;
     *capacity = room;

@@ -1,6 +1,7 @@
 /* memory.h: growable arrays from the caller's allocator, and how a failure gets its sentence. */
 #ifndef FROE_DRAW_MEMORY_H
 #define FROE_DRAW_MEMORY_H
+#include "support/floats.h"
 #include <froe/draw.h>
 
 #define DRAW_ARRAY(T)                                                                                                  \
@@ -24,19 +25,6 @@ void *draw_calloc(const froe_allocator *alloc, size_t count, size_t item);
 void draw_free(const froe_allocator *alloc, void *ptr, size_t size);
 bool draw_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra, size_t item);
 
-/** froe's own floating point as long as the block lasts, or the caller's while a function of the caller is called; as
- * in src/base/floats.h, which says more. */
-static inline void draw_floats_end(const unsigned *began) {
-    froe_floats_end(*began);
-}
-#define DRAW_FLOATS_OWN                                                                                                \
-    __attribute__((cleanup(draw_floats_end), unused)) const unsigned floats_own = froe_floats_begin(true)
-#define draw_callback(call)                                                                                            \
-    __extension__({                                                                                                    \
-        __attribute__((cleanup(draw_floats_end), unused)) const unsigned floats_caller = froe_floats_begin(false);     \
-        (call);                                                                                                        \
-    })
-
 /** A call in progress: now and then the caller hears of it and may stop it. */
 typedef struct draw_task {
     froe_progress_fn *progress; /**< may be NULL */
@@ -50,7 +38,7 @@ static inline bool draw_tick(draw_task *task) {
     if (++task->ticks % 16384 || !task->progress || task->cancelled) return !task->cancelled;
     const double share = (double)task->ticks / task->total;
     volatile const double done = share < 1 ? share : 1;
-    task->cancelled = !draw_callback(task->progress(task->user, done));
+    task->cancelled = !support_callback(task->progress(task->user, done));
     return !task->cancelled;
 }
 

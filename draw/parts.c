@@ -1,5 +1,6 @@
 /* parts.c: the regions that an exploded view pulls apart, from the cells of the tree. */
 #include "solid.h"
+#include "support/floats.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -63,7 +64,7 @@ static bool keep_wall(draw_solid *solid, const froe_cell *cell) {
 }
 
 static bool visit(void *user, const froe_cell *cell) {
-    DRAW_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     collector *c = user;
     draw_solid *solid = c->solid;
     uint32_t depth = solid->picture->page.options->explode_depth;

@@ -12,6 +12,7 @@
 #include "axis.h"
 #include "escape.h"
 #include "memory.h"
+#include "support/floats.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -292,7 +293,7 @@ static froe_status check(const froe_plot_options *o, froe_diagnostic *diag) {
 
 froe_status froe_plot_write(const froe_plot_series *series, size_t count, froe_draw_write_fn *fn, void *user,
                             const froe_plot_options *options, froe_diagnostic *diag) {
-    DRAW_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     const froe_plot_options o = options ? *options : froe_plot_defaults();
     froe_status status = check(&o, diag);
     if (status) return status;
@@ -301,7 +302,7 @@ froe_status froe_plot_write(const froe_plot_series *series, size_t count, froe_d
     put_figure(&p);
     if (!p.ok)
         status = draw_fail_memory(diag);
-    else if (!draw_callback(fn(user, p.text.data, p.text.count)))
+    else if (!support_callback(fn(user, p.text.data, p.text.count)))
         status = draw_fail(diag, FROE_E_IO, "the receiver of the figure refused it");
     draw_release(&p.alloc, &p.text);
     return status;

@@ -1,5 +1,6 @@
 /* render.c: the public calls for pictures with hidden surfaces removed: checked, looked at, painted, handed over. */
 #include "render.h"
+#include "support/floats.h"
 #include "support/writer.h"
 #include <math.h>
 #include <string.h>
@@ -179,7 +180,7 @@ static void free_render(draw_render *r) {
 
 froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
                         froe_render_report *report, froe_diagnostic *diag) {
-    DRAW_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     const froe_render_options standard = froe_render_defaults();
     int format = 0;
     if (!tree || !path) return draw_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
@@ -216,7 +217,7 @@ static froe_status add_frame(draw_render *r, const froe_camera *camera, const dr
 froe_status froe_render_animation(const froe_tree *tree, const char *path, const froe_render_options *options,
                                   const froe_camera *cameras, size_t count, double seconds, froe_render_report *report,
                                   froe_diagnostic *diag) {
-    DRAW_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     const froe_render_options standard = froe_render_defaults();
     int format = 0;
     uint64_t paths = 0;

@@ -1,5 +1,6 @@
 /* animate.c: froe_animate: from a motion to a page; see animate.h. */
 #include "animate.h"
+#include "support/floats.h"
 #include <math.h>
 #include <string.h>
 
@@ -69,7 +70,7 @@ static froe_status write_file(io_animation *a, io_animation_writer *put, const c
 
 froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
                          const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!motion || !path || (count && !contacts))
         return io_fail(diag, FROE_E_ARG, "froe_animate: motion, contacts and path must not be NULL");
     io_animation a = {.motion = motion, .contacts = contacts, .count = count};

@@ -1,5 +1,6 @@
 /* common.c: memory, failures, locale and names of files for the io library. */
 #include "common.h"
+#include "support/floats.h"
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -24,7 +25,7 @@ void *io_buffer_add(const froe_allocator *alloc, io_buffer *buffer, size_t bytes
         size_t need, room = buffer->capacity + buffer->capacity / 2 + 256;
         if (__builtin_add_overflow(buffer->size, bytes, &need)) return NULL;
         if (room < need) room = need;
-        void *grown = io_callback(alloc->fn(alloc->user, buffer->data, buffer->capacity, room));
+        void *grown = support_callback(alloc->fn(alloc->user, buffer->data, buffer->capacity, room));
         if (!grown) return NULL;
         buffer->data = grown;
         buffer->capacity = room;
@@ -41,7 +42,7 @@ bool io_buffer_put(const froe_allocator *alloc, io_buffer *buffer, const void *i
 }
 
 void io_buffer_free(const froe_allocator *alloc, io_buffer *buffer) {
-    if (buffer->data) io_callback(alloc->fn(alloc->user, buffer->data, buffer->capacity, 0));
+    if (buffer->data) support_callback(alloc->fn(alloc->user, buffer->data, buffer->capacity, 0));
     *buffer = (io_buffer){0};
 }
 

@@ -9,19 +9,6 @@
 /** The caller's allocator, or malloc. */
 froe_allocator io_allocator(const froe_allocator *alloc);
 
-/** froe's own floating point as long as the block lasts, or the caller's while a function of the caller is called; as
- * in src/base/floats.h, which says more. */
-static inline void io_floats_end(const unsigned *began) {
-    froe_floats_end(*began);
-}
-#define IO_FLOATS_OWN                                                                                                  \
-    __attribute__((cleanup(io_floats_end), unused)) const unsigned floats_own = froe_floats_begin(true)
-#define io_callback(call)                                                                                              \
-    __extension__({                                                                                                    \
-        __attribute__((cleanup(io_floats_end), unused)) const unsigned floats_caller = froe_floats_begin(false);       \
-        (call);                                                                                                        \
-    })
-
 /** A growable run of bytes, used as an array of any plain type. Zero is empty. */
 typedef struct io_buffer {
     void *data;

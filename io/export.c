@@ -1,5 +1,6 @@
 /* export.c: froe_export: the pieces, cells or cuts of a tree, one after the other. */
 #include "format.h"
+#include "support/floats.h"
 #include <math.h>
 #include <string.h>
 
@@ -29,7 +30,7 @@ static bool write_shape(job *j, const io_shape *shape) {
     if (++j->written % SHAPES_PER_REPORT || !j->options->progress) return true;
     const double share = j->expected ? (double)j->written / (double)j->expected : 1;
     volatile const double done = share < 1 ? share : 1;
-    j->cancelled = !io_callback(j->options->progress(j->options->user, done));
+    j->cancelled = !support_callback(j->options->progress(j->options->user, done));
     return !j->cancelled;
 }
 
@@ -127,7 +128,7 @@ static void describe_cell(const job *j, io_shape *s, const froe_cell *cell) {
 }
 
 static bool write_cell(void *user, const froe_cell *cell) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     job *j = user;
     bool wanted = j->what == FROE_EXPORT_CELLS ? cell->leaf && cell->corners : !cell->leaf && cell->cut_corners;
     if (!wanted) return true;
@@ -207,7 +208,7 @@ static froe_status run(job *j, const char *path) {
 
 froe_status froe_export(const froe_tree *tree, const char *path, froe_export_what what,
                         const froe_export_options *options, froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     froe_export_options defaults = froe_export_defaults();
     if (!tree || !path) return io_fail(diag, FROE_E_ARG, "froe_export: tree and path must not be NULL");
     if (what != FROE_EXPORT_FRAGMENTS && what != FROE_EXPORT_CELLS && what != FROE_EXPORT_CUTS)

@@ -1,5 +1,6 @@
 /* generate.c: froe_generate: the list of kinds, one line each. */
 #include "maker.h"
+#include "support/floats.h"
 #include <string.h>
 
 typedef struct generator {
@@ -99,7 +100,7 @@ static const generator *find(const char *name) {
 
 froe_status froe_generate(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc, froe_scene **out,
                           froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!kind || !out) return io_fail(diag, FROE_E_ARG, "froe_generate: kind and out must not be NULL");
     const generator *g = find(kind);
     if (!g) return io_fail(diag, FROE_E_OPTIONS, "'%.60s' is no kind of scene that can be generated", kind);

@@ -1,5 +1,6 @@
 /* make_motion.c: made-up motions: segments and polygons that move during a minute. */
 #include "maker.h"
+#include "support/floats.h"
 #include <math.h>
 #include <string.h>
 
@@ -184,7 +185,7 @@ const froe_motion_generator_info *froe_motion_generator_at(size_t i) {
 
 froe_status froe_generate_motion(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc,
                                  froe_motion **out, froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!kind || !out) return io_fail(diag, FROE_E_ARG, "froe_generate_motion: kind and out must not be NULL");
     size_t i = 0;
     while (i < GENERATORS && strcmp(generators[i].info.name, kind) != 0) i++;

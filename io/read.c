@@ -1,5 +1,6 @@
 /* read.c: froe_read: looks at a file and hands it to the reader that knows it. */
 #include "read.h"
+#include "support/floats.h"
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -142,7 +143,7 @@ static froe_status pour(const io_source *source, io_sink *sink, froe_scene **out
 
 froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out, froe_read_report *report,
                       froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     double start = io_seconds();
     froe_read_options defaults = froe_read_defaults();
     froe_status status = check(path, options, out, diag);

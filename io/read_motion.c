@@ -5,6 +5,7 @@
  * The file is walked twice: for its first and last instant, and for what moves. */
 #include "datetime.h"
 #include "read.h"
+#include "support/floats.h"
 #include <jansson.h>
 #include <math.h>
 #include <stdarg.h>
@@ -387,7 +388,7 @@ froe_motion_read_options froe_motion_read_defaults(void) {
 
 froe_status froe_read_motion(const char *path, const froe_motion_read_options *options, froe_motion **out,
                              froe_motion_report *report, froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     double start = io_seconds();
     if (!path || !out) return io_fail(diag, FROE_E_ARG, "froe_read_motion: path and out must not be NULL");
     if (options && options->size != sizeof *options)

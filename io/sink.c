@@ -1,5 +1,6 @@
 /* sink.c: batches on their way into a scene. */
 #include "sink.h"
+#include "support/floats.h"
 #include "triangulate.h"
 #include <math.h>
 #include <stdarg.h>
@@ -39,7 +40,7 @@ froe_status io_sink_fail(io_sink *sink, froe_status status, const char *format, 
 
 froe_status io_sink_progress(io_sink *sink, double done) {
     volatile const double share = done < 1 ? done : 1;
-    if (!sink->progress || io_callback(sink->progress(sink->user, share))) return FROE_OK;
+    if (!sink->progress || support_callback(sink->progress(sink->user, share))) return FROE_OK;
     return io_fail(sink->diag, FROE_E_CANCELLED, "%s: reading was cancelled", io_short(sink->path));
 }
 

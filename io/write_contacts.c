@@ -1,4 +1,5 @@
 /* write_contacts.c: contacts as a table, CSV or JSON: one list of columns for both. */
+#include "support/floats.h"
 #include "writer.h"
 #include <string.h>
 
@@ -65,7 +66,7 @@ static void put_json(io_writer *w, const froe_motion *m, const froe_contact *con
 
 froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *contacts, size_t count, const char *path,
                                 froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!motion || !path || (count && !contacts))
         return io_fail(diag, FROE_E_ARG, "froe_write_contacts: motion, contacts and path must not be NULL");
     io_extension extension = io_path_extension(path);

@@ -1,4 +1,5 @@
 /* write_events.c: what happened in a kinetic partition, as a table. */
+#include "support/floats.h"
 #include "writer.h"
 #include <string.h>
 
@@ -20,7 +21,7 @@ static void put_event(io_writer *w, const froe_event *e) {
 }
 
 froe_status froe_write_events(const froe_event *events, size_t count, const char *path, froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!path || (count && !events))
         return io_fail(diag, FROE_E_ARG, "froe_write_events: events and path must not be NULL");
     io_extension extension = io_path_extension(path);

@@ -1,4 +1,5 @@
 /* write_motion.c: a motion as OGC Moving Features JSON, one feature a chain of segments. */
+#include "support/floats.h"
 #include "writer.h"
 #include <math.h>
 
@@ -124,7 +125,7 @@ static void put_feature(io_writer *w, const chain *c) {
 }
 
 froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!motion || !path) return io_fail(diag, FROE_E_ARG, "froe_write_motion: motion and path must not be NULL");
     uint32_t count = (uint32_t)froe_motion_object_count(motion);
     for (uint32_t i = 0; i < count;) {

@@ -1,4 +1,5 @@
 /* write_places.c: where the ends of a snapshot's objects are exactly, as a table: x / w and y / w. */
+#include "support/floats.h"
 #include "writer.h"
 #include <string.h>
 
@@ -26,7 +27,7 @@ static void put_ends(io_writer *w, const froe_places *places, uint32_t object) {
 }
 
 froe_status froe_write_places(const froe_places *places, const char *path, froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!places || !path) return io_fail(diag, FROE_E_ARG, "froe_write_places: places and path must not be NULL");
     if (strcmp(io_path_extension(path).text, "csv") != 0)
         return io_fail(diag, FROE_E_UNSUPPORTED, "%s: exact places are written as .csv", io_short(path));

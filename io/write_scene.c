@@ -1,5 +1,6 @@
 /* write_scene.c: froe_write_scene: a scene as GeoJSON, CSV, OFF or OBJ, so that
  * froe_read gives it back. */
+#include "support/floats.h"
 #include "writer.h"
 #include <string.h>
 
@@ -260,7 +261,7 @@ static froe_status check(const pen *p, const kind_of_file *file) {
 }
 
 froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_diagnostic *diag) {
-    IO_FLOATS_OWN;
+    SUPPORT_FLOATS_OWN;
     if (!scene || !path) return io_fail(diag, FROE_E_ARG, "froe_write_scene: scene and path must not be NULL");
     pen p = {.scene = scene,
              .path = path,

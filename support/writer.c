@@ -3,6 +3,7 @@
 #include "support/writer.h"
 #include "support/alloc.h"
 #include "support/fail.h"
+#include "support/floats.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -193,11 +194,11 @@ static int open_file(support_writer *w) {
 froe_status support_writer_open(support_writer *w, const char *path, const froe_allocator *alloc,
                                 froe_diagnostic *diag) {
     *w = (support_writer){.path = path, .alloc = support_allocator(alloc), .diag = diag, .file = -1};
-    w->room = w->alloc.fn(w->alloc.user, NULL, 0, sizeof *w->room);
+    w->room = support_callback(w->alloc.fn(w->alloc.user, NULL, 0, sizeof *w->room));
     if (!w->room) return support_fail_memory(diag);
     int error = open_file(w);
     if (!error) return FROE_OK;
-    w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0);
+    support_callback(w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0));
     return refuse(w, error);
 }
 
@@ -210,7 +211,7 @@ froe_status support_writer_close(support_writer *w, froe_status status) {
     if (!status && w->error) status = refuse(w, w->error);
     if (*temporary && status) unlink(temporary);
     if (*temporary && !status) sync_folder(target);
-    w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0);
+    support_callback(w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0));
     return status;
 }
 

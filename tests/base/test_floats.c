@@ -4,7 +4,7 @@
 #include "base/task.h"
 
 #pragma GCC diagnostic ignored "-Wshadow" /* what begins within blocks, begins within blocks here */
-#include "support/floats.h"
+#include "support/settings.h"
 
 /* ------------------------------------------------------------------- nesting -- */
 

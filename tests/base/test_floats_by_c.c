@@ -1,5 +1,5 @@
 /* test_floats_by_c.c: what floats.h does on processors it does not know, by fenv.h alone, does the same on this one. */
-#include "support/floats.h"
+#include "support/settings.h"
 
 /* The same file once more, under other names than those of the library that the test is linked with. */
 #define BASE_FLOATS_BY_C

@@ -1,6 +1,6 @@
 /* test_floats.c: however the calling thread computes, every call gives the same bits, the thread computes so
  * afterwards, and so do the callbacks. (draw/test_floats.c has the pictures.) */
-#include "support/floats.h"
+#include "support/settings.h"
 #include <froe/io.h>
 #include <froe/kinetic.h>
 #include <froe/measure.h>

@@ -1,6 +1,6 @@
 /* test_floats.c: however the calling thread computes, pictures have the same bytes, the thread computes so
  * afterwards, and so do the callbacks. (conformance/test_floats.c has everything else.) */
-#include "support/floats.h"
+#include "support/settings.h"
 #include <froe/plot.h>
 
 /** Segments of the plane or triangles in space, strewn by a multiplication, in a cube of that size. */

@@ -1,12 +1,12 @@
-/* floats.h: calls in every floating point that a program may have set, with what came out of them.
+/* settings.h: calls in every floating point that a program may have set, with what came out of them.
  *
  *     static void session(floats_run *r, ...) { ... ASK(r, froe_build(...)); floats_note_file(r, path); ... }
  *     floats_compare(session, user);      // in each of the settings: the same as usual, call by call
  *
  * ASK sets the floating point, makes the call, looks whether it is still set so, and sets the usual one again. The
  * callbacks below look whether theirs is the caller's. */
-#ifndef FROE_TESTS_SUPPORT_FLOATS_H
-#define FROE_TESTS_SUPPORT_FLOATS_H
+#ifndef FROE_TESTS_SUPPORT_SETTINGS_H
+#define FROE_TESTS_SUPPORT_SETTINGS_H
 #include <fenv.h>
 #include <setjmp.h>
 #include <stdarg.h>
