@@ -34,6 +34,5 @@ if(FROE_COVERAGE)
 endif()
 if(FROE_FUZZ)
   # clang, unlike gcc, objects to NULL + 0, which is where an empty array begins.
-  add_compile_options(-fsanitize=fuzzer-no-link -fno-sanitize=pointer-overflow
-                      -DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
+  add_compile_options(-fsanitize=fuzzer-no-link -fno-sanitize=pointer-overflow)
 endif()

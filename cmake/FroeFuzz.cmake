@@ -1,28 +1,72 @@
-# fuzz/fuzz_NAME.c: with libFuzzer it searches (FROE_FUZZ, preset fuzz); otherwise it replays
-# fuzz/corpus/NAME as a test. The names after it are the parts it needs.
-function(froe_fuzzer name)
+# Fuzzers: fuzz/fuzz_NAME.c. With libFuzzer (FROE_FUZZ, preset fuzz) they search. Otherwise each is a test that replays
+# fuzz/corpus/NAME and the seeds that fuzz/seeds.c makes during the build, and that fails if these reach fewer places of
+# the library than its floor: a corpus that has died says so.
+
+# The library with its internal functions. For replays it is compiled once more, so that it tells where it has been, and
+# with the same optimization in every kind of build, so that there is about the same number of places.
+function(froe_fuzzed name)
+  if(FROE_FUZZ)
+    add_library(froe_fuzzed_${name} STATIC $<TARGET_OBJECTS:froe_${name}>)
+  else()
+    get_target_property(sources froe_${name} SOURCES)
+    add_library(froe_fuzzed_${name} STATIC ${sources})
+    target_compile_options(froe_fuzzed_${name} PRIVATE -O1 -fsanitize-coverage=trace-pc)
+    foreach(property INCLUDE_DIRECTORIES COMPILE_DEFINITIONS)
+      get_target_property(value froe_${name} ${property})
+      if(value)
+        set_target_properties(froe_fuzzed_${name} PROPERTIES ${property} "${value}")
+      endif()
+    endforeach()
+  endif()
+  target_include_directories(froe_fuzzed_${name} PUBLIC include)
+  target_link_libraries(froe_fuzzed_${name} PUBLIC $<TARGET_PROPERTY:froe_${name},LINK_LIBRARIES>)
+endfunction()
+
+froe_fuzzed(core)
+target_sources(froe_fuzzed_core PRIVATE $<TARGET_OBJECTS:froe_support>)
+set(fuzzed froe_fuzzed_core)
+if(FROE_HAS_IO)
+  froe_fuzzed(io_core)
+  target_link_libraries(froe_fuzzed_io_core PUBLIC froe_fuzzed_core)
+  set(fuzzed froe_fuzzed_io_core)
+endif()
+
+add_executable(fuzz_seeds fuzz/seeds.c tests/support/samples.c)
+target_include_directories(fuzz_seeds PRIVATE src tests ${PROJECT_SOURCE_DIR})
+if(FROE_HAS_IO)
+  target_compile_definitions(fuzz_seeds PRIVATE FUZZ_IO)
+  target_link_libraries(fuzz_seeds PRIVATE froe_io_static)
+endif()
+target_link_libraries(fuzz_seeds PRIVATE froe_static)
+set(seeds ${PROJECT_BINARY_DIR}/fuzz/seeds)
+add_custom_command(OUTPUT ${seeds}.made
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${seeds}
+  COMMAND fuzz_seeds ${seeds}
+  COMMAND ${CMAKE_COMMAND} -E touch ${seeds}.made
+  DEPENDS fuzz_seeds VERBATIM COMMENT "Seeds for the fuzzers")
+add_custom_target(seeds ALL DEPENDS ${seeds}.made)
+
+# froe_fuzzer(NAME FLOOR PARTS...): the parts are those that it needs.
+function(froe_fuzzer name floor)
   foreach(part ${ARGN})
     if(NOT FROE_HAS_${part})
       return()
     endif()
   endforeach()
   set(target fuzz_${name})
-  add_executable(${target} fuzz/${target}.c fuzz/support.c)
+  add_executable(${target} fuzz/fuzz_${name}.c fuzz/support.c fuzz/ask.c fuzz/look.c)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
-  foreach(part ${ARGN})
-    string(TOLOWER ${part} part)
-    target_link_libraries(${target} PRIVATE froe_${part}_static)
-  endforeach()
-  target_link_libraries(${target} PRIVATE froe_static)
+  target_include_directories(${target} PRIVATE src tests ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} PRIVATE ${fuzzed})
   if(FROE_FUZZ)
     target_link_options(${target} PRIVATE -fsanitize=fuzzer)
   else()
     target_sources(${target} PRIVATE fuzz/replay.c)
-    froe_test(fuzz ${name} ${target} ${PROJECT_SOURCE_DIR}/fuzz/corpus/${name})
+    froe_test(fuzz ${name} ${target} ${floor} ${PROJECT_SOURCE_DIR}/fuzz/corpus/${name} ${seeds}/${name})
   endif()
 endfunction()
 
-froe_fuzzer(open)
-froe_fuzzer(scene)
-froe_fuzzer(read IO)
-froe_fuzzer(motion IO)
+froe_fuzzer(open 9000)
+froe_fuzzer(scene 9000)
+froe_fuzzer(read 900 IO)
+froe_fuzzer(motion 1100 IO)

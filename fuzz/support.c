@@ -18,6 +18,11 @@ double fuzz_double(fuzz_bytes *bytes) {
     return x;
 }
 
+void fuzz_complain(const char *what, const froe_diagnostic *why) {
+    fprintf(stderr, "%s: %s: %s\n", what, froe_status_name(why->status), why->message);
+    abort();
+}
+
 static void give_up(const char *what) {
     perror(what);
     exit(2);

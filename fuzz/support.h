@@ -1,6 +1,7 @@
 /* support.h: what fuzzers share: bytes as a stream of decisions, and bytes as a file. */
 #ifndef FROE_FUZZ_SUPPORT_H
 #define FROE_FUZZ_SUPPORT_H
+#include <froe/froe.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -19,6 +20,9 @@ static inline uint8_t fuzz_byte(fuzz_bytes *bytes) {
 }
 /** Mostly small whole numbers, so that things meet; now and then any double at all. */
 double fuzz_double(fuzz_bytes *bytes);
+
+/** Says what is wrong, and ends the program so that fuzzers notice. */
+_Noreturn void fuzz_complain(const char *what, const froe_diagnostic *why);
 
 /** Writes a prefix and then the data into a new file under the folder TMPDIR, whose name
  * goes into path; ends the program when that is not possible. Remove it after use. */

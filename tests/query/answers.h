@@ -335,10 +335,18 @@ static inline void answers_groups(answers *a, const double *x) {
 
 /* ------------------------------------------------------------------- whole -- */
 
+/* Shapes of ranges for a dimension, by turns. In space the oracle takes minutes for some boxes and halfspaces or hulls. */
+static inline froe_range_shape answers_shape(int dim, int round) {
+    static const froe_range_shape space[] = {FROE_SHAPE_BOX,     FROE_SHAPE_BALL,    FROE_SHAPE_SEGMENT,
+                                             FROE_SHAPE_CAPSULE, FROE_SHAPE_SIMPLEX, FROE_SHAPE_RAY};
+    if (dim == 2) return (froe_range_shape)(round % FROE_SHAPE_COUNT);
+    return space[round % (dim == 3 ? 6 : 2)];
+}
+
 static inline void answers_round(answers *a, world_dice *d, int round) {
     double x[FROE_MAX_DIM], to[FROE_MAX_DIM], direction[FROE_MAX_DIM];
     const int dim = a->w.dim;
-    const froe_range_shape shape = (froe_range_shape)(round % (dim > 3 ? 2 : FROE_SHAPE_COUNT));
+    const froe_range_shape shape = answers_shape(dim, round);
     if (!a->huge) {
         answers_range(a, d, shape, FROE_WALK_AUTO);
         answers_range(a, d, shape, (froe_walk)(round % FROE_WALK_COUNT));

@@ -1,0 +1,151 @@
+/* seeds.c: inputs for the fuzzers, made by the library as it is, so that they are of its formats.
+ *
+ *     seeds FOLDER     writes FOLDER/open, FOLDER/scene and, with io, FOLDER/read and FOLDER/motion */
+#include "base/random.h"
+#include "support/samples.h"
+#include <froe/kinetic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#ifdef FUZZ_IO
+#include <froe/io.h>
+#endif
+
+enum { QUESTIONS = 400, PROGRAMS = 48 };
+
+typedef struct output {
+    const char *folder;
+    char path[4096];
+} output;
+
+static void give_up(const char *path) {
+    perror(path);
+    exit(2);
+}
+
+static const char *path_of(output *out, const char *fuzzer, const char *name) {
+    snprintf(out->path, sizeof out->path, "%s/%s", out->folder, fuzzer);
+    (void)mkdir(out->path, 0777);
+    snprintf(out->path, sizeof out->path, "%s/%s/%s", out->folder, fuzzer, name);
+    return out->path;
+}
+
+static void put(const char *path, const char *mode, const void *bytes, size_t size) {
+    FILE *file = fopen(path, mode);
+    if (!file || fwrite(bytes, 1, size, file) != size || fclose(file)) give_up(path);
+}
+
+/* Bytes that decide something, the same ones for the same seed. */
+static void random_bytes(uint64_t seed, uint8_t *bytes, size_t size) {
+    for (size_t i = 0; i < size; i++) bytes[i] = (uint8_t)(base_hash(seed, 1, i) >> 56);
+}
+
+/* ------------------------------------------------------------------- trees -- */
+
+static bool save_tree(void *user, const char *method, const char *scene, const froe_tree *tree) {
+    output *out = user;
+    char name[100];
+    uint8_t questions[QUESTIONS];
+    snprintf(name, sizeof name, "%s-of-%s", method, scene);
+    random_bytes(strlen(name), questions, sizeof questions);
+    path_of(out, "open", name);
+    if (froe_tree_save(tree, out->path, NULL)) give_up(out->path);
+    put(out->path, "ab", questions, sizeof questions);
+    return true;
+}
+
+/* Half a tree. */
+static void truncate_tree(output *out) {
+    uint8_t half[1500];
+    FILE *file = fopen(path_of(out, "open", "kd-of-segments"), "rb");
+    if (!file || fread(half, 1, sizeof half, file) != sizeof half) give_up(out->path);
+    fclose(file);
+    put(path_of(out, "open", "truncated"), "wb", half, sizeof half);
+}
+
+/* ---------------------------------------------------------------- programs -- */
+
+static void save_programs(output *out) {
+    for (uint64_t i = 0; i < PROGRAMS; i++) {
+        uint8_t bytes[600];
+        char name[30];
+        random_bytes(i, bytes, sizeof bytes);
+        snprintf(name, sizeof name, "program-%02d", (int)i);
+        put(path_of(out, "scene", name), "wb", bytes, sizeof bytes);
+    }
+}
+
+/* ------------------------------------------------------------------- files -- */
+
+#ifdef FUZZ_IO
+/* A file without the header that fuzz_read puts before it, after the number of that header. */
+static void save_read(output *out, const char *name, uint8_t form, const char *rest, size_t size) {
+    put(path_of(out, "read", name), "wb", &form, 1);
+    put(out->path, "ab", rest, size);
+}
+
+static void save_scene(output *out, const char *kind, const char *name, uint8_t form, const char *suffix,
+                       size_t header) {
+    char path[4100], text[20000];
+    froe_scene *scene;
+    if (froe_generate(kind, 8, 1, NULL, &scene, NULL)) give_up(kind);
+    snprintf(path, sizeof path, "%s%s", path_of(out, "read", "whole"), suffix);
+    if (froe_write_scene(scene, path, NULL)) give_up(path);
+    FILE *file = fopen(path, "rb");
+    if (!file) give_up(path);
+    const size_t size = fread(text, 1, sizeof text, file);
+    fclose(file);
+    remove(path);
+    froe_scene_free(scene);
+    save_read(out, name, form, text + header, size - header);
+}
+
+static void save_files(output *out) {
+    static const char text[] = "format ascii 1.0\nelement vertex 4\nproperty double x\nproperty float y\n"
+                               "property double z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                               "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+                               "0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n4 0 1 2 2\n3 0 2 3\n0 3\n";
+    static const char binary[] =
+        "format binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
+        "property uchar z\nelement face 1\nproperty list uchar uchar vertex_index\nend_header\n"
+        "\0\0\0\1\0\0\0\1\0\3\0\1\2";
+    static const char obj[] = "v 1 0 0\nv 0 1 0\nv 1 1 0.5\no one\nusemtl red\nf 1 2 3\nf -1/1 -2/2/2 -3//1\n"
+                              "g two\nl 1 2 3\np 4\nmtllib none.mtl\nvn 0 0 1\nvt 0 0\n# end\n";
+    save_scene(out, "triangles", "triangles-off", 5, ".off", 4);
+    save_scene(out, "triangles", "triangles-obj", 8, ".obj", 0);
+    save_read(out, "text-ply", 7, text, sizeof text - 1);
+    save_read(out, "binary-ply", 7, binary, sizeof binary - 1);
+    save_read(out, "all-of-obj", 8, obj, sizeof obj - 1);
+}
+
+static void save_motions(output *out) {
+    for (size_t i = 0; froe_motion_generator_at(i); i++) {
+        const char *name = froe_motion_generator_at(i)->name;
+        char path[4110];
+        froe_motion *motion;
+        if (froe_generate_motion(name, 4, 1, NULL, &motion, NULL)) give_up(name);
+        snprintf(path, sizeof path, "%s.mfjson", path_of(out, "motion", name));
+        if (froe_write_motion(motion, path, NULL)) give_up(path);
+        if (rename(path, out->path)) give_up(path);
+        froe_motion_free(motion);
+    }
+}
+#endif
+
+int main(int argc, char **argv) {
+    if (argc != 2) {
+        fprintf(stderr, "usage: %s FOLDER\n", argv[0]);
+        return 2;
+    }
+    output out = {.folder = argv[1]};
+    (void)mkdir(argv[1], 0777);
+    samples_each(save_tree, &out);
+    truncate_tree(&out);
+    save_programs(&out);
+#ifdef FUZZ_IO
+    save_files(&out);
+    save_motions(&out);
+#endif
+    return 0;
+}
