@@ -128,16 +128,41 @@ static const cli_part parts[] = {{"Picture", what, 0},
 
 /* --------------------------------------------------------------------- rendering -- */
 
+/* What the picture does not show, and why: faces, then objects that are none, then what is too small for the file. */
+static json_t *not_drawn_json(const froe_render_report *r) {
+    const froe_visibility_report *v = &r->picture.visibility;
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "hidden_faces", (json_int_t)v->hidden,
+                     "edge_on_faces", (json_int_t)v->edge_on, "culled_faces", (json_int_t)v->culled, "cut_away_faces",
+                     (json_int_t)v->cut_away, "flat_polygons", (json_int_t)v->flat, "segments", (json_int_t)v->segments,
+                     "points", (json_int_t)v->points, "thin_shapes", (json_int_t)r->thin_shapes, "short_lines",
+                     (json_int_t)r->short_strokes);
+}
+
 static json_t *report_json(const render_args *args, const froe_render_report *r) {
     const froe_picture_report *p = &r->picture;
     return json_pack(
-        "{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "tree",
+        "{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "tree",
         cli_name_json(args->tree), "output", cli_name_json(args->output), "paint", froe_paint_name(p->paint),
         "fragments", (json_int_t)p->visibility.pieces, "visible_fragments", (json_int_t)p->visibility.visible_pieces,
         "visible_faces", (json_int_t)p->visibility.visible_patches, "arcs", (json_int_t)p->arcs, "late_faces",
-        (json_int_t)p->late, "shapes", (json_int_t)p->shapes, "lines", (json_int_t)p->strokes, "paths",
+        (json_int_t)p->late, "shapes", (json_int_t)r->shapes, "lines", (json_int_t)r->strokes, "paths",
         (json_int_t)r->paths, "bytes", (json_int_t)r->bytes, "exact_calls", (json_int_t)p->visibility.predicates.exact,
-        "left_out_faces", (json_int_t)p->left_out, "left_out_area", p->left_out_area);
+        "left_out_faces", (json_int_t)p->left_out, "left_out_area", p->left_out_area, "not_drawn", not_drawn_json(r));
+}
+
+static void put_count(char *text, size_t room, uint64_t count, const char *one, const char *more) {
+    const size_t at = strlen(text);
+    if (count)
+        snprintf(text + at, room - at, "%s%llu %s", at ? ", " : "", (unsigned long long)count, count > 1 ? more : one);
+}
+
+/* Objects of which no picture shows anything. */
+static void warn_of_objects(const render_args *args, const froe_visibility_report *v) {
+    char text[160] = "";
+    put_count(text, sizeof text, v->points, "point", "points");
+    put_count(text, sizeof text, v->segments, "segment", "segments");
+    if (*text)
+        (void)cli_fail(0, args->output, "note: only faces are drawn; these objects of the scene are not: %s", text);
 }
 
 static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {
@@ -147,8 +172,8 @@ static void warn(const render_args *args, const froe_render_options *o, const fr
     if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
         (void)cli_fail(0, args->output,
                        "note: too many faces overlap for an order of whole ones; fragments were painted");
-    if (!r->picture.shapes && !r->picture.strokes)
-        (void)cli_fail(0, args->output, "note: nothing is visible from here");
+    warn_of_objects(args, &r->picture.visibility);
+    if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output, "note: nothing is visible from here");
 }
 
 /* The name of frame i: "pic-%03d.svg" has one %d, perhaps with a width; false: it has not. */

@@ -100,6 +100,18 @@ static froe_status check(const froe_scene *scene, const froe_render_options *o, 
 
 /* ----------------------------------------------------------------------- making -- */
 
+/* How long a unit of the page is in what Cairo counts. */
+static double unit_of(const froe_render_options *o, int format) {
+    return format != FROE_DRAW_PNG && o->millimetres ? 72 / 25.4 : 1;
+}
+
+static double grid_of(const froe_render_options *o, int format) {
+    double grid = 1;
+    if (format != FROE_DRAW_SVG) return 256 * unit_of(o, format) * (format == FROE_DRAW_PNG ? o->pixels : 1);
+    for (int i = 0; i < o->decimals; i++) grid *= 10;
+    return grid;
+}
+
 /* What is given per group, per patch. */
 static froe_status spread_groups(draw_render *r) {
     const froe_render_options *o = r->options;
@@ -148,7 +160,12 @@ static froe_status prepare(draw_render *r, const froe_camera *camera, froe_diagn
     r->patches = froe_surface_patch_count(r->surface);
     status = draw_shade(r);
     if (!status) status = spread_groups(r);
-    return status ? draw_fail_memory(diag) : look(r, diag);
+    status = status ? draw_fail_memory(diag) : look(r, diag);
+    if (status) return status;
+    r->report.picture = froe_picture_statistics(r->picture);
+    r->report.view = r->view;
+    draw_count_shown(r);
+    return FROE_OK;
 }
 
 static froe_status paint(draw_render *r, int format, draw_output *output, froe_diagnostic *diag) {
@@ -158,7 +175,7 @@ static froe_status paint(draw_render *r, int format, draw_output *output, froe_d
         const bool ok = draw_svg_begin(r, output) && draw_svg_picture(r, output, &always) && draw_svg_end(r, output);
         return ok ? FROE_OK : draw_fail_memory(diag);
     }
-    const double unit = format == FROE_DRAW_PNG ? 1 : o->millimetres ? 72 / 25.4 : 1;
+    const double unit = unit_of(o, format);
     froe_status status = draw_output_begin(output, &r->alloc, (froe_draw_format)format, o->camera.width * unit,
                                            o->camera.height * unit, o->pixels, o->title, diag);
     if (status) return status;
@@ -192,12 +209,13 @@ froe_status froe_render(const froe_tree *tree, const char *path, const froe_rend
     froe_status status = check(r.scene, options, format, diag);
     if (status) return status;
     r.alloc = draw_allocator(options->alloc);
+    r.grid = grid_of(options, format);
     draw_output output = {.alloc = r.alloc};
     status = prepare(&r, &options->camera, diag);
     if (!status) status = paint(&r, format, &output, diag);
     if (!status) status = support_write(path, output.bytes.data, output.bytes.count, &r.alloc, diag);
-    if (!status && report)
-        *report = (froe_render_report){froe_picture_statistics(r.picture), r.view, r.paths, output.bytes.count};
+    r.report.bytes = output.bytes.count;
+    if (!status && report) *report = r.report;
     draw_output_free(&output);
     free_render(&r);
     return status;
@@ -232,11 +250,12 @@ froe_status froe_render_animation(const froe_tree *tree, const char *path, const
     draw_output output = {.alloc = draw_allocator(options->alloc)};
     for (size_t i = 0; !status && i < count; i++) {
         draw_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options, .alloc = output.alloc};
+        r.grid = grid_of(options, format);
         const draw_frame frame = {i, count, seconds};
         status = add_frame(&r, cameras + i, &frame, &output, diag);
-        paths += r.paths;
-        if (!status && report)
-            *report = (froe_render_report){froe_picture_statistics(r.picture), r.view, paths, output.bytes.count};
+        r.report.paths = paths += r.report.paths;
+        r.report.bytes = output.bytes.count;
+        if (!status && report) *report = r.report;
         free_render(&r);
     }
     if (!status) status = support_write(path, output.bytes.data, output.bytes.count, &output.alloc, diag);

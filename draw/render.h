@@ -2,6 +2,7 @@
 #ifndef FROE_DRAW_RENDER_H
 #define FROE_DRAW_RENDER_H
 #include "output.h"
+#include <math.h>
 
 enum { DRAW_EPS = FROE_DRAW_FORMAT_COUNT }; /* a format of draw_output that partitions are not drawn in */
 
@@ -23,7 +24,8 @@ typedef struct draw_render {
     uint32_t *keys;                /**< per patch: what the order of painting keeps together; NULL: styles */
     uint8_t *clear;                /**< per patch; NULL: all are opaque */
     int32_t *priorities;           /**< per patch; NULL */
-    uint64_t paths;
+    double grid;                   /**< steps of the output in a unit of the page: SVG's digits, Cairo's fixed point */
+    froe_render_report report;
 } draw_render;
 
 /** Opacity of a group, 0 .. 1; of FROE_NONE 1. */
@@ -46,7 +48,17 @@ typedef struct draw_run {
     bool last; /**< no shape comes after it */
     size_t first, end;
 } draw_run;
-/** The next of them; false: there is no more. */
+/** Where a coordinate falls on the grid of the output. */
+static inline int64_t draw_step(const draw_render *render, double x) {
+    return (int64_t)floor(x * render->grid + 0.5);
+}
+/** Is anything left of a shape, one of its rings, or a stroke on that grid? */
+bool draw_ring_shows(const draw_render *render, const double *points, size_t count);
+bool draw_shape_shows(const draw_render *render, const froe_shape *shape);
+bool draw_stroke_shows(const draw_render *render, const froe_stroke *stroke);
+/** Notes in the report how many shapes and strokes that is, and how many not. */
+void draw_count_shown(draw_render *render);
+/** The next of them of which something shows; false: there is no more. */
 bool draw_next_run(const draw_render *render, draw_cursor *at, draw_run *run);
 /** Layer of a shape; FROE_NONE. */
 uint32_t draw_layer_of(const draw_render *render, const froe_shape *shape);

@@ -45,7 +45,7 @@ static void paint_strokes(draw_render *r, cairo_t *cr, const draw_run *run) {
     cairo_set_dash(cr, dashes, first.hidden ? 2 : 0, 0);
     for (size_t i = run->first; i < run->end; i++) {
         const froe_stroke s = froe_picture_stroke(r->picture, i);
-        add_path(cr, s.points, s.count, s.closed);
+        if (draw_stroke_shows(r, &s)) add_path(cr, s.points, s.count, s.closed);
     }
     cairo_stroke(cr);
     cairo_set_dash(cr, dashes, 0, 0);
@@ -60,7 +60,7 @@ static void paint_runs(draw_render *r, cairo_t *cr, bool lines) {
             paint_strokes(r, cr, &run);
         else
             paint_shapes(r, cr, &run);
-        r->paths++;
+        r->report.paths++;
     }
 }
 

@@ -42,10 +42,62 @@ static draw_run shape_run(const draw_render *r, const draw_cursor *at) {
     return run;
 }
 
+static bool run_shows(const draw_render *r, const draw_run *run) {
+    for (size_t i = run->first; i < run->end; i++) {
+        const froe_stroke stroke = froe_picture_stroke(r->picture, i);
+        const froe_shape shape = froe_picture_shape(r->picture, i);
+        if (run->lines ? draw_stroke_shows(r, &stroke) : draw_shape_shows(r, &shape)) return true;
+    }
+    return false;
+}
+
 bool draw_next_run(const draw_render *r, draw_cursor *at, draw_run *run) {
-    const bool lines = place_of(r, at->stroke) <= at->shape;
-    if (!lines && at->shape >= froe_picture_shape_count(r->picture)) return false;
-    *run = lines ? stroke_run(r, at) : shape_run(r, at);
-    *(lines ? &at->stroke : &at->shape) = run->end;
+    do {
+        const bool lines = place_of(r, at->stroke) <= at->shape;
+        if (!lines && at->shape >= froe_picture_shape_count(r->picture)) return false;
+        *run = lines ? stroke_run(r, at) : shape_run(r, at);
+        *(lines ? &at->stroke : &at->shape) = run->end;
+    } while (!run_shows(r, run));
     return true;
+}
+
+/* ---------------------------------------------------------------------- showing -- */
+
+bool draw_ring_shows(const draw_render *r, const double *points, size_t count) {
+    int64_t area = 0;
+    for (size_t i = 1; i + 1 < count; i++) {
+        const int64_t x = draw_step(r, points[0]), y = draw_step(r, points[1]);
+        const int64_t a = draw_step(r, points[2 * i]) - x, b = draw_step(r, points[2 * i + 1]) - y,
+                      c = draw_step(r, points[2 * i + 2]) - x, d = draw_step(r, points[2 * i + 3]) - y;
+        area += a * d - b * c;
+    }
+    return area != 0;
+}
+
+bool draw_shape_shows(const draw_render *r, const froe_shape *shape) {
+    for (size_t i = 0; i < shape->ring_count; i++) {
+        size_t count;
+        const double *ring = froe_picture_ring(r->picture, shape->first_ring + i, &count);
+        if (draw_ring_shows(r, ring, count)) return true;
+    }
+    return false;
+}
+
+bool draw_stroke_shows(const draw_render *r, const froe_stroke *s) {
+    for (size_t i = 1; i < s->count; i++)
+        for (int k = 0; k < 2; k++)
+            if (draw_step(r, s->points[2 * i + k]) != draw_step(r, s->points[k])) return true;
+    return false;
+}
+
+void draw_count_shown(draw_render *r) {
+    const size_t shapes = froe_picture_shape_count(r->picture), strokes = froe_picture_stroke_count(r->picture);
+    for (size_t i = 0; i < shapes; i++) {
+        const froe_shape shape = froe_picture_shape(r->picture, i);
+        ++*(draw_shape_shows(r, &shape) ? &r->report.shapes : &r->report.thin_shapes);
+    }
+    for (size_t i = 0; i < strokes; i++) {
+        const froe_stroke stroke = froe_picture_stroke(r->picture, i);
+        ++*(draw_stroke_shows(r, &stroke) ? &r->report.strokes : &r->report.short_strokes);
+    }
 }

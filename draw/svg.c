@@ -5,7 +5,6 @@
  * fill by the nonzero rule: faces seen from behind and from the front may share a path. */
 #include "escape.h"
 #include "render.h"
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +19,6 @@ typedef struct svg_ring {
 typedef struct svg_writer {
     draw_render *render;
     draw_output *output;
-    double grid; /* steps of the grid in a unit of the page */
     DRAW_ARRAY(svg_ring) rings;
     int64_t at[2]; /* where the last path command ended, on the grid */
     char command;  /* the last one written; numbers may follow without repeating it */
@@ -62,7 +60,7 @@ static void put_command(svg_writer *w, char command) {
 }
 
 static int64_t step_of(const svg_writer *w, double x) {
-    return (int64_t)floor(x * w->grid + 0.5);
+    return draw_step(w->render, x);
 }
 
 static void line_to(svg_writer *w, int64_t x, int64_t y) {
@@ -96,24 +94,12 @@ static void put_points(svg_writer *w, const double *points, size_t count, size_t
     w->at[0] = x, w->at[1] = y; /* closing leads back */
 }
 
-/* Does anything of a ring remain on the grid? */
-static bool has_extent(const svg_writer *w, const double *points, size_t count) {
-    int64_t area = 0;
-    for (size_t i = 1; i + 1 < count; i++) {
-        const int64_t x = step_of(w, points[0]), y = step_of(w, points[1]);
-        const int64_t a = step_of(w, points[2 * i]) - x, b = step_of(w, points[2 * i + 1]) - y,
-                      c = step_of(w, points[2 * i + 2]) - x, d = step_of(w, points[2 * i + 3]) - y;
-        area += a * d - b * c;
-    }
-    return area != 0;
-}
-
 /* ------------------------------------------------------------------------ parts -- */
 
 static void begin_path(svg_writer *w) {
     w->command = 0;
     w->number = false;
-    w->render->paths++;
+    w->render->report.paths++;
 }
 
 static void put_colour(svg_writer *w, uint32_t colour) {
@@ -190,7 +176,8 @@ static void put_rings(svg_writer *w) {
     sort_rings(w);
     for (size_t i = 0; i < w->rings.count; i++) {
         const svg_ring *r = w->rings.data + i;
-        if (has_extent(w, r->points, r->count)) put_points(w, r->points, r->count, nearest_corner(w, r), true);
+        if (draw_ring_shows(w->render, r->points, r->count))
+            put_points(w, r->points, r->count, nearest_corner(w, r), true);
     }
     w->rings.count = 0;
 }
@@ -201,7 +188,7 @@ static void put_own_stroke(svg_writer *w, draw_style style) {
     if (w->render->options->seams != FROE_SEAMS_STROKE) return;
     put_text(w, "\" stroke=\"");
     put_colour(w, style);
-    snprintf(text, sizeof text, "\" stroke-width=\"%.3g", w->grid * w->render->options->seam_width);
+    snprintf(text, sizeof text, "\" stroke-width=\"%.3g", w->render->grid * w->render->options->seam_width);
     put_text(w, text);
 }
 
@@ -238,7 +225,7 @@ static void put_shapes(svg_writer *w, const draw_run *run) {
 static void put_strokes(svg_writer *w, const draw_run *run) {
     const draw_render *r = w->render;
     const froe_stroke first = froe_picture_stroke(r->picture, run->first);
-    const double width = w->grid * draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
+    const double width = w->render->grid * draw_line_width(r->options, first.kind) * (first.hidden ? 0.6 : 1);
     char text[160];
     snprintf(text, sizeof text, "<path class=\"%s%s\" stroke-width=\"%.3g\"", froe_line_name(first.kind),
              first.hidden ? " hidden" : "", width);
@@ -251,7 +238,7 @@ static void put_strokes(svg_writer *w, const draw_run *run) {
     begin_path(w);
     for (size_t i = run->first; i < run->end; i++) {
         const froe_stroke s = froe_picture_stroke(r->picture, i);
-        put_points(w, s.points, s.count, 0, s.closed);
+        if (draw_stroke_shows(r, &s)) put_points(w, s.points, s.count, 0, s.closed);
     }
     put_text(w, "\"/>\n");
 }
@@ -316,8 +303,8 @@ static void put_head(svg_writer *w) {
 /* Everything else is in steps of the grid. */
 static void put_scale(svg_writer *w) {
     char text[64];
-    if (w->grid == 1) return;
-    snprintf(text, sizeof text, "<g transform=\"scale(%.*f)\">\n", w->render->options->decimals, 1 / w->grid);
+    if (w->render->grid == 1) return;
+    snprintf(text, sizeof text, "<g transform=\"scale(%.*f)\">\n", w->render->options->decimals, 1 / w->render->grid);
     put_text(w, text);
 }
 
@@ -340,9 +327,7 @@ static void put_times(svg_writer *w, const draw_frame *f) {
 }
 
 static svg_writer writer_of(draw_render *render, draw_output *output) {
-    svg_writer w = {.render = render, .output = output, .grid = 1, .ok = true};
-    for (int i = 0; i < render->options->decimals; i++) w.grid *= 10;
-    return w;
+    return (svg_writer){.render = render, .output = output, .ok = true};
 }
 
 bool draw_svg_begin(draw_render *render, draw_output *output) {
@@ -364,6 +349,6 @@ bool draw_svg_picture(draw_render *render, draw_output *output, const draw_frame
 
 bool draw_svg_end(draw_render *render, draw_output *output) {
     svg_writer w = writer_of(render, output);
-    put_text(&w, w.grid == 1 ? "</svg>\n" : "</g>\n</svg>\n");
+    put_text(&w, render->grid == 1 ? "</svg>\n" : "</g>\n</svg>\n");
     return w.ok;
 }

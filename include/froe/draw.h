@@ -199,6 +199,9 @@ FROE_API froe_render_options froe_render_defaults(void);
 typedef struct froe_render_report {
     froe_picture_report picture;
     froe_projection view;
+    uint64_t shapes, strokes; /**< in the file */
+    uint64_t thin_shapes;     /**< left out, since nothing is left of them in the file's coordinates: */
+    uint64_t short_strokes;   /**< in SVG `decimals` digits, otherwise 1/256 of a point or pixel */
     uint64_t paths, bytes;
 } froe_render_report;
 

@@ -183,7 +183,14 @@ FROE_API froe_status froe_visibility_regions(const froe_visibility *visibility, 
 typedef struct froe_visibility_report {
     uint64_t pieces;         /**< of the tree that were looked at before the picture was closed */
     uint64_t visible_pieces; /**< convex parts that are visible */
+    /** Patches: each is counted once, by the first of these that applies. */
     uint64_t visible_patches;
+    uint64_t cut_away;         /**< wholly on the side of the section that is not there */
+    uint64_t edge_on;          /**< the eye is in their plane */
+    uint64_t culled;           /**< seen from behind, with cull_back */
+    uint64_t hidden;           /**< by others, or away from the window */
+    uint64_t points, segments; /**< objects of the scene that are in no patch: nothing is seen of them */
+    uint64_t flat;             /**< the same: polygons without area */
     uint64_t intervals;
     uint64_t screen_nodes; /**< of the beam tree */
     uint64_t lines;
@@ -262,7 +269,7 @@ typedef struct froe_picture_options {
     bool cull_back;            /**< the same */
     uint32_t lines;            /**< bits of froe_line; default 0: none */
     double crease;             /**< degrees from which on an edge is a crease, 0 .. 180; default 30 */
-    bool hidden;               /**< hidden lines as well, each place of the page once */
+    bool hidden;               /**< hidden lines as well */
     double halo;               /**< gap in lines before a nearer line, on the page; default 0: none */
     double interleave;         /**< WHOLE: half the width of a line. Each visible line is then painted before what is
                                     nearer and visible within that reach, and after what is not; default 0: lines
@@ -299,7 +306,9 @@ FROE_API froe_shape froe_picture_shape(const froe_picture *picture, size_t i);
 /** Points of a ring on the page: 2 doubles each, not rounded to anything. */
 FROE_API const double *froe_picture_ring(const froe_picture *picture, size_t ring, size_t *points);
 
-/** Kinds of lines, as bits. An edge gets the first that applies. */
+/** Kinds of lines, as bits. An edge gets the first that applies. Where lines of different kinds lie on each other on the
+ * page, exactly or as far as it can tell, one is drawn: a visible one before a hidden one, then the first of section,
+ * border, silhouette, crossing, object, material, crease and mesh. */
 typedef enum froe_line {
     FROE_LINE_BORDER = 1,     /**< used by one polygon, or by more than two */
     FROE_LINE_SILHOUETTE = 2, /**< between a polygon seen from the front and one seen from behind */

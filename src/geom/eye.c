@@ -145,24 +145,47 @@ int geom_line_side_meeting(num_context *context, const geom_eye *eye, const geom
     return num_exact(context, dyadic_line_at_meeting(num_fresh(context), eye, h, a, b).sign);
 }
 
+int geom_line_order(num_context *context, const geom_eye *eye, const geom_line *h, const double *x, const double *y) {
+    context->stats.calls++;
+    if (context->first <= NUM_BALL) {
+        int sure = num_ball_sign(ball_line_order(NULL, eye, h, x, y));
+        if (sure != NUM_UNSURE) return num_refined(context, sure);
+    }
+    return num_exact(context, dyadic_line_order(num_fresh(context), eye, h, x, y).sign);
+}
+
+/* a_i / a_k against b_i / b_k, for i before and after k. */
+int geom_line_compare(num_context *context, const geom_eye *eye, const geom_line *a, const geom_line *b, int k) {
+    num_arena *arena = num_fresh(context);
+    num_dyadic n_a[3], n_b[3];
+    int sign = 0;
+    dyadic_line(arena, eye, a, n_a);
+    dyadic_line(arena, eye, b, n_b);
+    for (int i = 0; i < 3 && !sign; i++)
+        sign = num_dyadic_sub(arena, num_dyadic_mul(arena, n_a[i], n_b[k]), num_dyadic_mul(arena, n_b[i], n_a[k])).sign;
+    context->stats.calls++;
+    return num_exact(context, sign * n_a[k].sign * n_b[k].sign);
+}
+
 /* ------------------------------------------------------------------- output -- */
 
-/* x / max |x|, rounded. */
-static void round_vector(num_arena *arena, const num_dyadic x[3], double out[3]) {
+/* x / max |x|, rounded; false: x is zero. */
+static bool round_vector(num_arena *arena, const num_dyadic x[3], double out[3]) {
     num_dyadic most = {0};
     for (int k = 0; k < 3; k++) {
         num_dyadic size = x[k];
         size.sign *= size.sign;
         if (num_dyadic_compare(size, most) > 0) most = size;
     }
-    for (int k = 0; k < 3; k++) out[k] = num_dyadic_quotient(arena, x[k], most);
+    for (int k = 0; k < 3; k++) out[k] = most.sign ? num_dyadic_quotient(arena, x[k], most) : 0;
+    return most.sign != 0;
 }
 
-void geom_line_round(num_context *context, const geom_eye *eye, const geom_line *line, double out[3]) {
+bool geom_line_round(num_context *context, const geom_eye *eye, const geom_line *line, double out[3]) {
     num_dyadic n[3];
     num_arena *arena = num_fresh(context);
     dyadic_line(arena, eye, line, n);
-    round_vector(arena, n, out);
+    return round_vector(arena, n, out);
 }
 
 void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_line *a, const geom_line *b,
@@ -172,7 +195,7 @@ void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_li
     dyadic_line(arena, eye, a, n_a);
     dyadic_line(arena, eye, b, n_b);
     dyadic_cross(arena, n_a, n_b, ray);
-    round_vector(arena, ray, out);
+    (void)round_vector(arena, ray, out);
 }
 
 double geom_share_round(num_context *context, const geom_eye *eye, const geom_line *line, const double *u,

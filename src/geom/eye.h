@@ -13,8 +13,10 @@
  * In both, det(r(p), r(q), r(r)) > 0 where p, q, r turn left as the eye sees them. A picture of all
  * directions around an eye at a point is a sphere: rays behind the eye are as good as any others.
  *
- * Two kinds of lines occur. EDGE runs through two points: degree 2. CUT is where plane a cuts an object
- * with support s: h(x) = a(E) s(x) - s(E) a(x), the plane of the pencil of s and a through the eye; degree 5. */
+ * Three kinds of lines occur. EDGE runs through two points: degree 2. CUT is where plane a cuts an object
+ * with support s: h(x) = a(E) s(x) - s(E) a(x), the plane of the pencil of s and a through the eye; degree 5. STOP runs
+ * through the point where plane a cuts an edge uv, which is seen along a(v) r(u) - a(u) r(v), and through the ray e_axis
+ * of an axis: it marks that point on any line but those through e_axis. */
 #ifndef FROE_GEOM_EYE_H
 #define FROE_GEOM_EYE_H
 #include "geom/filter.h"
@@ -33,11 +35,12 @@ int geom_side_of_eye(num_context *context, const geom_plane *plane, const geom_e
 /** The same for the plane through p, q and r, without making it: -1, 1 or NUM_UNSURE. ~5 ns. */
 int geom_side_of_eye_filter(const double *p, const double *q, const double *r, const geom_eye *eye);
 
-typedef enum geom_sight { GEOM_SIGHT_EDGE, GEOM_SIGHT_CUT } geom_sight;
+typedef enum geom_sight { GEOM_SIGHT_EDGE, GEOM_SIGHT_CUT, GEOM_SIGHT_STOP } geom_sight;
 typedef struct geom_line {
     geom_sight kind;
-    const double *u, *v;     /**< EDGE */
-    const geom_plane *s, *a; /**< CUT: not parallel, and the eye not on s */
+    const double *u, *v;     /**< EDGE, STOP */
+    const geom_plane *s, *a; /**< CUT: not parallel, and the eye not on s. STOP: only a */
+    int axis;                /**< STOP */
 } geom_line;
 
 /** Images for filters: every component within .e of the true one. */
@@ -53,9 +56,16 @@ int geom_line_side_point(num_context *context, const geom_eye *eye, const geom_l
 /** Sign of det(a, b, h): side of h on which the ray a x b is. */
 int geom_line_side_meeting(num_context *context, const geom_eye *eye, const geom_line *h, const geom_line *a,
                            const geom_line *b);
-/** A line's covector, and the ray a x b, divided by their largest components and then rounded. REQUIRES: they are
- * not zero. For output, and for images that filters can use where the quick ones are too coarse. */
-void geom_line_round(num_context *context, const geom_eye *eye, const geom_line *line, double out[3]);
+/** Of two points on line h: 1 where its direction, in which u -> v of an EDGE leads, leads from x to y, -1 where it
+ * leads back, 0 where they are seen as one. REQUIRES: less than half a turn parts them. */
+int geom_line_order(num_context *context, const geom_eye *eye, const geom_line *h, const double *x, const double *y);
+/** Compares two lines, whatever their directions, by the shares of their other components in component k, which neither
+ * has as 0. 0: they are one line. */
+int geom_line_compare(num_context *context, const geom_eye *eye, const geom_line *a, const geom_line *b, int k);
+/** A line's covector, and the ray a x b, divided by their largest components and then rounded: lines that are equal
+ * have the same up to a sign. For that, for output, and for images that filters can use where the quick ones are too
+ * coarse. False, and zeros: the line is none, since an eye sees u and v as one point. REQUIRES: the ray is not zero. */
+bool geom_line_round(num_context *context, const geom_eye *eye, const geom_line *line, double out[3]);
 void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_line *a, const geom_line *b,
                         double out[3]);
 /** The t, rounded, for which u + t (v - u) is seen on the line. REQUIRES: u and v are on different sides. */

@@ -1,6 +1,7 @@
 /* crossings.c: cut sides within the polygons of their cuts. */
 #include "view/crossings.h"
 #include "base/sort.h"
+#include "geom/predicates.h"
 #include <string.h>
 
 /* ---------------------------------------------------------------------- finding -- */
@@ -17,24 +18,11 @@ static view_stretch stretch_of(const view_ring *ring, uint32_t i) {
     return s;
 }
 
-static int side_of_end(view_sights *s, uint32_t line, const view_end *end, uint32_t own) {
-    return view_side(s, line, &end->ray, end->vertex, 2 * own, end->way);
-}
-
 /* Cuts a stretch to the inside of a beam; false when nothing is left, or it runs along the border. */
 static bool cut_to_beam(view_sights *s, const view_ring *beam, view_stretch *part) {
-    const uint32_t own = part->edge;
-    for (size_t i = 0; i < beam->count; i++) {
-        const uint32_t line = beam->data[i].way >> 1;
-        const int turn = beam->data[i].way & 1 ? -1 : 1, from = side_of_end(s, line, &part->end[0], own),
-                  to = side_of_end(s, line, &part->end[1], own);
-        if (turn * from <= 0 && turn * to <= 0) return false;
-        if (from * to >= 0) continue;
-        view_end middle = {.vertex = FROE_NONE, .way = 2 * line + (from < 0)};
-        middle.ray = view_meeting(s, 2 * own, middle.way);
-        part->end[turn * from > 0] = middle; /* the end outside moves in */
-    }
-    return true;
+    bool left = true;
+    for (size_t i = 0; left && i < beam->count; i++) left = view_cut_stretch(s, part->edge, beam->data[i].way, part);
+    return left;
 }
 
 /* The node whose cut makes side `way` of a piece; FROE_NONE: no cut does. */
@@ -79,8 +67,11 @@ froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_r
         const uint32_t node = node_of(s, ring->data[i].way);
         if (node == FROE_NONE || (!tree_list(s->tree, node).count && !(node == 0 && c->section))) continue;
         const view_stretch side = stretch_of(ring, i);
+        view_stretch inside = side;
         c->open.count = 0;
-        if (c->hidden && (!keep_open(c, &side) || !keep_crossed(c, node, patch, &c->all))) return FROE_E_MEMORY;
+        if (c->hidden && view_cut_to_window(s, side.edge, &inside) &&
+            (!keep_open(c, &inside) || !keep_crossed(c, node, patch, &c->all)))
+            return FROE_E_MEMORY;
         c->open.count = 0; /* first what is open: most is hidden */
         const froe_status status =
             view_screen_classify(c->screen, &side, side.edge, ring->data, (uint32_t)ring->count, keep_open, c);
@@ -97,22 +88,76 @@ void view_crosser_free(view_crosser *c) {
     array_free(&c->sights->alloc, &c->list_ring);
 }
 
-froe_status view_look_along_section(froe_visibility *v, uint32_t piece, uint32_t patch) {
-    const uint32_t root = froe_tree_root(v->tree).id1, n = froe_tree_piece(v->tree, piece).corners;
-    double *x = base_calloc(&v->alloc, 3 * (size_t)n + 1, sizeof *x);
-    froe_node *made = base_calloc(&v->alloc, (size_t)n + 1, sizeof *made);
-    bool ok = x && made;
-    if (ok) froe_tree_piece_corners(v->tree, piece, x, made, n);
-    for (uint32_t i = 0; ok && i < n; i++) {
-        froe_crossing line = {.patch = patch, .section = true};
-        if (made[i].id1 != root) continue;
-        memcpy(line.from, x + 3 * (size_t)i, sizeof line.from);
-        memcpy(line.to, x + 3 * (size_t)(i + 1 < n ? i + 1 : 0), sizeof line.to);
-        ok = array_push(&v->alloc, &v->crossings, line);
+/* ----------------------------------------------------------------------- keeping -- */
+
+typedef struct crossing_line {
+    uint32_t line, patch;
+    bool section, hidden;
+} crossing_line;
+
+/* A stretch in its final form. A patch that is seen edge-on is met in the section. */
+static bool put_crossing(froe_visibility *v, const view_end *from, const view_end *to, crossing_line on) {
+    froe_crossing x = {.patch = on.patch, .section = on.section, .hidden = on.hidden};
+    const view_run run = {on.line, {view_mark_of(from), view_mark_of(to)}};
+    geom_plane plane = view_plane_of(&v->sights, x.patch);
+    if (!view_facing(&v->sights, surface_first(v->surface, x.patch))) plane = tree_plane_at(v->tree, 0);
+    view_point_on(&v->sights, &plane, from->ray.x, x.from);
+    view_point_on(&v->sights, &plane, to->ray.x, x.to);
+    return array_push(&v->alloc, &v->crossings, x) && array_push(&v->alloc, &v->crossing_runs, run);
+}
+
+/* The line of a stretch that was found on a cut side. */
+static crossing_line line_of(const froe_visibility *v, uint32_t line, bool hidden) {
+    const view_line *l = v->sights.lines.data + line;
+    return (crossing_line){line, l->a, v->section && l->b == 0, hidden};
+}
+
+/* -------------------------------------------------------------- along the section -- */
+
+/* An edge of a polygon seen edge-on that is seen as a line: all of them lie on one. */
+static uint32_t edge_in_sight(view_sights *s, uint32_t object) {
+    const uint32_t *edges = s->surface->edge_of + s->tree->scene->starts[object];
+    uint32_t i = 0;
+    while (view_is_point(s, edges[i])) i++;
+    return edges[i];
+}
+
+/* The two points of its border in which the section parts a polygon, on a line; *count: how many were found. */
+static froe_status find_stops(view_sights *s, uint32_t object, uint32_t line, view_mark out[2], int *count) {
+    const froe_scene *scene = s->tree->scene;
+    const geom_plane plane = tree_plane_at(s->tree, 0);
+    const uint32_t n = scene_corners(scene, object);
+    froe_status status = FROE_OK;
+    int reached = 0, last = geom_side_vertex(&s->context, &plane, scene_point(scene, object, n - 1));
+    *count = 0;
+    for (uint32_t i = 0; i < n && !status; i++) {
+        const int side = geom_side_vertex(&s->context, &plane, scene_point(scene, object, i));
+        const uint32_t before = s->surface->edge_of[scene->starts[object] + (i ? i - 1 : n - 1)];
+        reached |= side > 0 ? 2 : side < 0 ? 1 : 0;
+        if (!side && *count < 2) out[(*count)++] = (view_mark){.vertex = scene_corner(scene, object, i)};
+        if (side * last < 0 && *count < 2) status = view_stop_edge(s, before, line, &out[(*count)++]);
+        last = side;
     }
-    base_free(&v->alloc, x, (3 * (size_t)n + 1) * sizeof *x);
-    base_free(&v->alloc, made, ((size_t)n + 1) * sizeof *made);
-    return ok ? FROE_OK : FROE_E_MEMORY;
+    if (reached != 3) *count = 0; /* it is only touched */
+    return status;
+}
+
+froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
+    view_sights *s = &v->sights;
+    const uint32_t line = view_line_of_edge(s, edge_in_sight(s, object));
+    view_mark mark[2];
+    int count;
+    if (line == FROE_NONE) return FROE_E_MEMORY;
+    const froe_status status = find_stops(s, object, line, mark, &count);
+    if (status || count < 2) return status;
+    view_stretch part = {line, {view_end_at(s, line, mark[0]), view_end_at(s, line, mark[1])}};
+    const int order = view_compare_ends(s, line, &part.end[0], &part.end[1]);
+    if (!order) return FROE_OK;
+    if (order > 0) part = (view_stretch){line, {part.end[1], part.end[0]}};
+    if (!view_cut_to_window(s, line, &part)) return FROE_OK;
+    return put_crossing(v, &part.end[0], &part.end[1], (crossing_line){line, s->surface->patch_of[object], true, false})
+               ? FROE_OK
+               : FROE_E_MEMORY;
 }
 
 /* ---------------------------------------------------------------------- joining -- */
@@ -162,15 +207,6 @@ static froe_status join(view_sights *s, view_stretches *stretches) {
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
-static bool put_crossing(froe_visibility *v, uint32_t line, const view_end *from, const view_end *to, bool hidden) {
-    const view_line *l = v->sights.lines.data + line;
-    froe_crossing x = {.patch = l->a, .section = v->section && l->b == 0, .hidden = hidden};
-    const geom_plane plane = view_plane_of(&v->sights, x.patch);
-    view_point_on(&v->sights, &plane, from->ray.x, x.from);
-    view_point_on(&v->sights, &plane, to->ray.x, x.to);
-    return array_push(&v->alloc, &v->crossings, x);
-}
-
 /* What lies between the visible stretches *seen and before `end` in their array; *seen moves on. */
 static bool put_hidden(froe_visibility *v, const view_stretch *part, const view_stretch **seen,
                        const view_stretch *end) {
@@ -181,11 +217,12 @@ static bool put_hidden(froe_visibility *v, const view_stretch *part, const view_
     for (const view_stretch *x = *seen; x < end && x->edge == line; x++) {
         if (view_compare_along(s, line, &x->end[1], from) <= 0) continue;
         if (view_compare_along(s, line, &x->end[0], to) >= 0) break;
-        if (view_compare_along(s, line, from, &x->end[0]) < 0 && !put_crossing(v, line, from, &x->end[0], true))
+        if (view_compare_along(s, line, from, &x->end[0]) < 0 &&
+            !put_crossing(v, from, &x->end[0], line_of(v, line, true)))
             return false;
         from = &x->end[1];
     }
-    return view_compare_along(s, line, from, to) >= 0 || put_crossing(v, line, from, to, true);
+    return view_compare_along(s, line, from, to) >= 0 || put_crossing(v, from, to, line_of(v, line, true));
 }
 
 froe_status view_join_crossings(froe_visibility *v, view_crosser *c) {
@@ -194,7 +231,7 @@ froe_status view_join_crossings(froe_visibility *v, view_crosser *c) {
     bool ok = !status;
     for (size_t i = 0; ok && i < c->seen.count; i++) {
         const view_stretch *x = c->seen.data + i;
-        ok = put_crossing(v, x->edge, &x->end[0], &x->end[1], false);
+        ok = put_crossing(v, &x->end[0], &x->end[1], line_of(v, x->edge, false));
     }
     const view_stretch *seen = c->seen.data;
     for (size_t i = 0; ok && i < c->all.count; i++)

@@ -21,9 +21,9 @@ typedef struct view_crosser {
 /** Finds the stretches along which polygons in cuts cross a piece whose beam is `ring`, as far as they are open, and
  * with a section what of its sides lies in that. FROE_E_MEMORY. */
 froe_status view_look_at_crossings(view_crosser *crosser, uint32_t piece, const view_ring *ring);
-/** Appends where the section cuts a piece that is seen edge-on, to the crossings of the visibility: all of it, since
+/** Appends where the section cuts a polygon that is seen edge-on, to the crossings of the visibility: all of it, since
  * REQUIRES: the eye is on the side of the section that is left out. FROE_E_MEMORY. */
-froe_status view_look_along_section(froe_visibility *visibility, uint32_t piece, uint32_t patch);
+froe_status view_look_along_section(froe_visibility *visibility, uint32_t object);
 /** Joins what was found to the crossings of the visibility. FROE_E_MEMORY. */
 froe_status view_join_crossings(froe_visibility *v, view_crosser *crosser);
 void view_crosser_free(view_crosser *crosser);

@@ -16,7 +16,8 @@ typedef struct gap {
 typedef struct gapper {
     const froe_allocator *alloc;
     const froe_projection *view;
-    double halo, same; /* width of gaps; how near lines count as one */
+    double halo;    /* width of gaps */
+    double same[2]; /* how near lines count as one: visible ones, hidden ones */
     const view_segments *in;
     view_grid grid;
     uint32_t *stamps; /* per segment: the one + 1 that it was compared with last */
@@ -80,19 +81,18 @@ static bool meet(const view_segment *s, const view_segment *t) {
 static bool compare(gapper *g, uint32_t i, uint32_t j) {
     const view_segment *s = g->in->data + i, *t = g->in->data + j;
     gap x;
-    if (s->hidden) {
-        if ((t->hidden && j >= i) || !stretch_near(s, t, g->same, &x)) return true;
-        if ((x.to - x.from) * length_of(s) < 8 * g->same) return true; /* they only cross */
-    } else {
-        if (t->hidden || !(g->halo > 0) || meet(s, t) || !stretch_near(s, t, g->halo, &x)) return true;
-        if (depth_between(g, s, t, x) < g->halo) return true;
-    }
-    return array_push(g->alloc, &g->gaps, x);
+    const int weaker = view_strength(t->kind, t->hidden) - view_strength(s->kind, s->hidden);
+    for (int wide = 0; wide <= s->hidden && (weaker > 0 || (!weaker && j < i)); wide++)
+        if (stretch_near(s, t, g->same[wide], &x) && (x.to - x.from) * length_of(s) >= 8 * g->same[wide] &&
+            !array_push(g->alloc, &g->gaps, x)) /* shorter ones only cross */
+            return false;
+    if (s->hidden || t->hidden || !(g->halo > 0) || meet(s, t) || !stretch_near(s, t, g->halo, &x)) return true;
+    return depth_between(g, s, t, x) < g->halo || array_push(g->alloc, &g->gaps, x);
 }
 
 static bool compare_all(gapper *g, uint32_t i) {
     const view_segment *s = g->in->data + i;
-    const view_cells c = view_grid_cells(&g->grid, s->at, 2, s->hidden ? g->same : g->halo);
+    const view_cells c = view_grid_cells(&g->grid, s->at, 2, fmax(g->same[s->hidden], s->hidden ? 0 : g->halo));
     g->gaps.count = 0;
     for (uint32_t y = c.y0; y <= c.y1; y++)
         for (uint32_t x = c.x0; x <= c.x1; x++) {
@@ -114,7 +114,7 @@ static int by_start(void *user, uint32_t a, uint32_t b) {
 
 static bool put_part(gapper *g, const view_segment *s, double from, double to) {
     view_segment part = *s;
-    if (!(to - from > 1e-9)) return true;
+    if (to - from < 1 && (to - from) * length_of(s) < g->same[0]) return true;
     const double share[2] = {from, to};
     for (int e = 0; e < 2; e++) {
         const double t = share[e];
@@ -147,7 +147,8 @@ froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection
                               view_segments *segments) {
     gapper g = {.alloc = alloc, .view = view, .halo = halo, .in = segments};
     const size_t n = segments->count;
-    g.same = 5e-5 * (view->width + view->height);
+    g.same[0] = 2.5e-6 * (view->width + view->height);
+    g.same[1] = 20 * g.same[0];
     g.stamps = base_calloc(alloc, n + 1, sizeof *g.stamps);
     froe_status status = g.stamps ? FROE_OK : FROE_E_MEMORY;
     if (!status) status = view_grid_new(alloc, view, n, points_of, segments, &g.grid);

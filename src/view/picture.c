@@ -135,6 +135,7 @@ static void free_painter(view_painter *p) {
     view_region_free(alloc, &p->region);
     base_free(alloc, p->order, (p->parts.nodes.count + 1) * sizeof *p->order);
     base_free(alloc, p->breaks, p->parts.nodes.count + 1);
+    array_free(alloc, &p->items);
     array_free(alloc, &p->segments);
     base_free(alloc, p->painted, (p->parts.nodes.count + 1) * sizeof *p->painted);
     if (p->v) {

@@ -2,9 +2,9 @@
 #ifndef FROE_VIEW_PICTURE_H
 #define FROE_VIEW_PICTURE_H
 #include "view/outline.h"
+#include "view/overlay.h"
 #include "view/parts.h"
 #include "view/region.h"
-#include "view/strokes.h"
 
 typedef struct picture_shape {
     uint32_t patch, first_ring, ring_count;
@@ -43,7 +43,8 @@ typedef struct view_painter {
     uint32_t *order;        /**< of the nodes */
     uint32_t *painted;      /**< per place in `order`: shapes there are before it is painted; NULL: not painted whole */
     uint8_t *breaks;        /**< per place in `order`: lines come before it; NULL: all lines are on top */
-    view_segments segments; /**< of lines */
+    view_items items;       /**< stretches of lines, which may lie on each other */
+    view_segments segments; /**< what is drawn of them */
     uint32_t *places;       /**< per piece of the tree, when something is clear */
     uint8_t *left_out;      /**< per patch; NULL: none is */
     uint32_t *runs;         /**< per patch, see view_outliner */

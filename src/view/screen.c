@@ -48,7 +48,8 @@ static froe_status close_window(view_screen *s) {
     const int turn = window_turn(s, lines);
     if (!turn) return FROE_E_INPUT;
     for (uint32_t i = 0; i < sights->window_count; i++) {
-        slot = put_node(s, slot, 2 * lines[i] + (turn < 0), VIEW_OPEN, VIEW_COVERED);
+        sights->window_ways[i] = 2 * lines[i] + (turn < 0);
+        slot = put_node(s, slot, sights->window_ways[i], VIEW_OPEN, VIEW_COVERED);
         if (slot == FROE_NONE) return FROE_E_MEMORY;
     }
     return FROE_OK;
@@ -183,8 +184,26 @@ froe_status view_screen_insert(view_screen *s, const view_corner *ring, uint32_t
 
 /* ------------------------------------------------------------------ stretches -- */
 
-static int side_of_end(view_screen *s, uint32_t line, const view_end *end, uint32_t own) {
-    return view_side(s->sights, line, &end->ray, end->vertex, 2 * own, end->way);
+static int side_of_end(view_sights *s, uint32_t line, const view_end *end, uint32_t own) {
+    return view_side(s, line, &end->ray, end->vertex, 2 * own, end->way);
+}
+
+bool view_cut_stretch(view_sights *s, uint32_t own, view_way way, view_stretch *part) {
+    const uint32_t line = way >> 1;
+    const int turn = way & 1 ? -1 : 1, from = side_of_end(s, line, &part->end[0], own),
+              to = side_of_end(s, line, &part->end[1], own);
+    if (turn * from <= 0 && turn * to <= 0) return false;
+    if (from * to >= 0) return true;
+    view_end middle = {.vertex = FROE_NONE, .way = 2 * line + (from < 0)}; /* leaving: edge x line */
+    middle.ray = view_meeting(s, 2 * own, middle.way);
+    part->end[turn * from > 0] = middle; /* the end outside moves in */
+    return true;
+}
+
+bool view_cut_to_window(view_sights *s, uint32_t own, view_stretch *part) {
+    bool left = true;
+    for (uint32_t i = 0; left && i < s->window_count; i++) left = view_cut_stretch(s, own, s->window_ways[i], part);
+    return left;
 }
 
 static bool push_stretch(view_screen *s, uint32_t node, const view_stretch *part) {
@@ -203,7 +222,8 @@ static int side_of_beam(view_screen *s, uint32_t line, const view_corner *ring, 
 
 static bool pass_stretch(view_screen *s, const view_screen_node *n, uint32_t own, const view_stretch *part,
                          const view_corner *ring, uint32_t count) {
-    const int from = side_of_end(s, n->line, &part->end[0], own), to = side_of_end(s, n->line, &part->end[1], own);
+    const int from = side_of_end(s->sights, n->line, &part->end[0], own),
+              to = side_of_end(s->sights, n->line, &part->end[1], own);
     if (from * to >= 0) {
         const int side = from ? from : to ? to : side_of_beam(s, n->line, ring, count);
         return push_stretch(s, n->child[side > 0], part);

@@ -33,6 +33,10 @@ typedef struct view_end {
     view_way way;
 } view_end;
 
+static inline view_mark view_mark_of(const view_end *end) {
+    return (view_mark){end->vertex, end->way};
+}
+
 typedef struct view_stretch {
     uint32_t edge; /**< or a line where it is no edge: see crossings.h */
     view_end end[2];
@@ -70,6 +74,10 @@ typedef bool view_beam_fn(void *user, const view_corner *ring, uint32_t count);
 /** Sends a beam down the tree; `cover`: it then covers what it reached. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_screen_insert(view_screen *screen, const view_corner *ring, uint32_t count, bool cover,
                                view_beam_fn *fn, void *user);
+/** Cuts a stretch of a line to the positive side of a way, or to the window; false: nothing is left, or it runs along
+ * the way. */
+bool view_cut_stretch(view_sights *sights, uint32_t line, view_way way, view_stretch *part);
+bool view_cut_to_window(view_sights *sights, uint32_t line, view_stretch *part);
 /** Receives an open stretch. */
 typedef bool view_stretch_fn(void *user, const view_stretch *part);
 /** Sends a stretch of a line `own` beside a face, such as one of its edges, down the tree; `ring` is the face's beam.

@@ -57,6 +57,15 @@ static geom_line resolve(view_sights *s, uint32_t line, geom_plane planes[2]) {
     const view_line *l = s->lines.data + line;
     if (l->kind == VIEW_EDGE)
         return (geom_line){.kind = GEOM_SIGHT_EDGE, .u = view_vertex(s, l->a), .v = view_vertex(s, l->b)};
+    if (l->kind == VIEW_STOP) {
+        const uint32_t *v = s->surface->vertices + 2 * (size_t)l->a;
+        planes[1] = tree_plane_at(s->tree, 0);
+        return (geom_line){.kind = GEOM_SIGHT_STOP,
+                           .u = view_vertex(s, v[0]),
+                           .v = view_vertex(s, v[1]),
+                           .a = &planes[1],
+                           .axis = (int)l->b};
+    }
     scene_support(s->tree->scene, surface_first(s->surface, l->a), &planes[0]);
     planes[1] = tree_plane_at(s->tree, l->b);
     return (geom_line){.kind = GEOM_SIGHT_CUT, .s = &planes[0], .a = &planes[1]};
@@ -112,6 +121,50 @@ uint32_t view_line_of_cut(view_sights *s, uint32_t patch, uint32_t node) {
     return line;
 }
 
+bool view_is_point(view_sights *s, uint32_t edge) {
+    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
+    const filter_vector image = filter_cross(&s->rays[v[0]], &s->rays[v[1]]);
+    double out[3];
+    if (image.most > image.e) return false;
+    const geom_line exact = {.kind = GEOM_SIGHT_EDGE, .u = view_vertex(s, v[0]), .v = view_vertex(s, v[1])};
+    return !geom_line_round(&s->context, &s->eye, &exact, out);
+}
+
+/* The largest component of a key. */
+static int axis_of(const double key[3]) {
+    return fabs(key[0]) == 1 ? 0 : fabs(key[1]) == 1 ? 1 : 2;
+}
+
+bool view_line_key(view_sights *s, uint32_t line, double key[3], bool *turned) {
+    geom_plane planes[2];
+    const geom_line exact = resolve(s, line, planes);
+    if (!geom_line_round(&s->context, &s->eye, &exact, key)) return false;
+    *turned = key[axis_of(key)] < 0;
+    for (int k = 0; k < 3 && *turned; k++) key[k] = -key[k];
+    return true;
+}
+
+int view_compare_lines(view_sights *s, uint32_t a, uint32_t b, const double key[3]) {
+    geom_plane planes[4];
+    if (a == b) return 0;
+    const geom_line x = resolve(s, a, planes), y = resolve(s, b, planes + 2);
+    return geom_line_compare(&s->context, &s->eye, &x, &y, axis_of(key));
+}
+
+/* The point X = a(v) r(u) - a(u) r(v) (or its opposite, with a(v) < 0) and the axis e make the line X x e, and
+ * l x (X x e) = X (l . e). */
+froe_status view_stop_edge(view_sights *s, uint32_t edge, uint32_t line, view_mark *out) {
+    const uint32_t v = s->surface->vertices[2 * (size_t)edge + 1];
+    const geom_plane plane = tree_plane_at(s->tree, 0);
+    double key[3];
+    bool turned;
+    (void)view_line_key(s, line, key, &turned);
+    const uint32_t stop = add_line(s, VIEW_STOP, edge, (uint32_t)axis_of(key));
+    const bool behind = geom_side_vertex(&s->context, &plane, view_vertex(s, v)) < 0;
+    *out = (view_mark){FROE_NONE, 2 * stop + (turned != behind)};
+    return stop == FROE_NONE ? FROE_E_MEMORY : FROE_OK;
+}
+
 /* ----------------------------------------------------------------------- sides -- */
 
 static int known(view_sights *s) {
@@ -130,6 +183,17 @@ int view_side_exactly(view_sights *s, uint32_t line, uint32_t vertex, view_way a
     const geom_line first = resolve(s, a >> 1, planes + 2), second = resolve(s, b >> 1, planes + 4);
     const int side = geom_line_side_meeting(&s->context, &s->eye, &h, &first, &second);
     return (a ^ b) & 1 ? -side : side;
+}
+
+int view_compare_vertices(view_sights *s, uint32_t line, uint32_t u, uint32_t v) {
+    if (u == v) return 0;
+    const filter_vector through = filter_cross(&s->rays[u], &s->rays[v]);
+    const int sure = geom_line_image_side(&s->lines.data[line].image, &through);
+    s->context.stats.filtered += sure != NUM_UNSURE;
+    if (sure != NUM_UNSURE) return -sure;
+    geom_plane planes[2];
+    const geom_line h = resolve(s, line, planes);
+    return -geom_line_order(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
 }
 
 /* ---------------------------------------------------------------------- output -- */

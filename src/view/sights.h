@@ -2,6 +2,7 @@
  *
  *     EDGE    through an edge of the surface, or a side of the window
  *     CUT     where the cut of a node divides a patch
+ *     STOP    through the point of an edge that lies in the section, across another line
  *
  * A way is a line with a direction: 2 * line, + 1 for its other side. Corners of the picture are vertices, or the
  * meeting a x b of two ways (geom/eye.h); images of them decide most questions, and exact signs the rest. */
@@ -14,13 +15,19 @@
 
 typedef uint32_t view_way;
 
-enum { VIEW_EDGE, VIEW_CUT };
+enum { VIEW_EDGE, VIEW_CUT, VIEW_STOP };
 
 typedef struct view_line {
     filter_vector image;
     uint32_t kind;
-    uint32_t a, b; /**< EDGE: vertices | CUT: patch, node */
+    uint32_t a, b; /**< EDGE: vertices | CUT: patch, node | STOP: edge, axis */
 } view_line;
+
+/** An end of a stretch of a line: a vertex, or its meeting with a way. */
+typedef struct view_mark {
+    uint32_t vertex; /**< FROE_NONE: the meeting  line x way */
+    view_way way;
+} view_mark;
 
 typedef struct view_sights {
     froe_allocator alloc;
@@ -30,9 +37,10 @@ typedef struct view_sights {
     num_context context;
     const double *window; /**< the vertices after those of the scene */
     uint32_t window_count;
-    filter_vector *rays; /**< per vertex */
-    int8_t *eye_sides;   /**< per object: side of its plane the eye is on; 2: not known yet */
-    uint32_t *of_edge;   /**< per edge: its line + 1; 0: not made yet */
+    view_way window_ways[FROE_WINDOW_MOST]; /**< along its sides, the inside on their positive sides */
+    filter_vector *rays;                    /**< per vertex */
+    int8_t *eye_sides;                      /**< per object: side of its plane the eye is on; 2: not known yet */
+    uint32_t *of_edge;                      /**< per edge: its line + 1; 0: not made yet */
     ARRAY(view_line) lines;
     scene_table made; /**< CUT lines */
 } view_sights;
@@ -53,6 +61,16 @@ int view_facing(view_sights *sights, uint32_t object);
 uint32_t view_line_of_edge(view_sights *sights, uint32_t edge);
 uint32_t view_line_of_window(view_sights *sights, uint32_t side);
 uint32_t view_line_of_cut(view_sights *sights, uint32_t patch, uint32_t node);
+/** Where the root's cut, which parts its vertices, stops an edge: the mark of that point on a line through it.
+ * FROE_E_MEMORY. */
+froe_status view_stop_edge(view_sights *sights, uint32_t edge, uint32_t line, view_mark *out);
+/** What is the same for equal lines, whatever their directions, and hardly ever for others; *turned: a line of the
+ * opposite direction has the same. False: an edge that the eye sees as a point makes no line. */
+bool view_line_key(view_sights *sights, uint32_t line, double key[3], bool *turned);
+/** Orders lines of equal keys: 0: they are equal. Exact. */
+int view_compare_lines(view_sights *sights, uint32_t a, uint32_t b, const double key[3]);
+/** Does the eye see an edge as a point? Exact. */
+bool view_is_point(view_sights *sights, uint32_t edge);
 
 static inline filter_vector view_way_image(const view_sights *s, view_way way) {
     filter_vector n = s->lines.data[way >> 1].image;
@@ -77,6 +95,8 @@ static inline int view_side(view_sights *s, uint32_t line, const filter_vector *
     return sure != NUM_UNSURE ? sure : view_side_exactly(s, line, vertex, a, b);
 }
 
+/** Compares two vertices on a line: -1 the first comes first. Exact. */
+int view_compare_vertices(view_sights *sights, uint32_t line, uint32_t u, uint32_t v);
 /** Where a line meets the segment from vertex u (0) to vertex v (1), rounded. */
 double view_share_round(view_sights *sights, uint32_t line, uint32_t u, uint32_t v);
 /** The plane of a patch, and the point of it that is seen along a ray, in doubles. */

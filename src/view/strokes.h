@@ -12,9 +12,10 @@ typedef struct view_segment {
 } view_segment;
 typedef ARRAY(view_segment) view_segments;
 
-/** Takes away what shall not be drawn: of hidden segments what lies on visible or earlier hidden ones, and, with a
- * halo > 0, of visible ones what comes nearer than that to a visible one that is in front of it by as much or more.
- * FROE_E_MEMORY. */
+/** Where lines lie on each other, that of the highest strength is drawn: a visible one, then the widest. */
+int view_strength(uint8_t kind, bool hidden);
+/** Takes away what shall not be drawn: what all but lies on a stronger or earlier segment, and, with a halo > 0, of
+ * visible ones what comes nearer than that to a visible one that is in front of it by as much or more. FROE_E_MEMORY. */
 froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection *view, double halo,
                               view_segments *segments);
 #endif

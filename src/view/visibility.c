@@ -21,7 +21,6 @@ typedef struct looker {
     ARRAY(view_piece) pieces;
     uint32_t *ranks; /* per object */
     view_piece now;
-    bool section_first; /* nothing can hide what lies in the section */
 } looker;
 
 /* --------------------------------------------------------------------- looking -- */
@@ -62,7 +61,6 @@ static froe_status look_at(looker *k, uint32_t piece, uint32_t place) {
     const uint32_t object = v->tree->pieces[piece].object, patch = v->surface->patch_of[object];
     if (patch == FROE_NONE) return FROE_OK;
     const int facing = view_facing(&v->sights, object);
-    if (!facing && k->section_first) return view_look_along_section(v, piece, patch);
     if (!facing || (k->options->cull_back && facing < 0)) return FROE_OK;
     if (!view_beam_of(&v->sights, piece, &k->ring)) return FROE_E_MEMORY;
     const froe_status status = look_at_edges(k, piece);
@@ -72,14 +70,24 @@ static froe_status look_at(looker *k, uint32_t piece, uint32_t place) {
     return view_screen_insert(&k->screen, k->ring.data, (uint32_t)k->ring.count, opaque, keep_beam, k);
 }
 
+/* Polygons seen edge-on show where the section cuts them, if nothing can be in front of that. */
+static froe_status look_along_section(looker *k) {
+    froe_visibility *v = k->v;
+    froe_status status = FROE_OK;
+    if (!v->section || !k->options->crossings ||
+        view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) != -v->section)
+        return FROE_OK;
+    for (uint32_t o = 0; o < v->surface->scene->object_count && !status; o++)
+        if (v->surface->patch_of[o] != FROE_NONE && !view_facing(&v->sights, o)) status = view_look_along_section(v, o);
+    return status;
+}
+
 static froe_status look_at_all(looker *k) {
     froe_visibility *v = k->v;
     view_order order;
     uint32_t piece, place = 0;
     froe_status status = view_order_begin(&order, v->tree, &v->sights.eye, true, k->ranks);
     order.section = v->section;
-    if (v->section && k->options->crossings)
-        k->section_first = view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) == -v->section;
     const bool all = k->options->crossings && k->options->hidden_crossings;
     while (!status && (k->screen.open || all) && view_order_next(&order, &piece)) {
         status = look_at(k, piece, place++);
@@ -104,10 +112,7 @@ static froe_status sort_pieces(looker *k) {
     v->pieces = base_calloc(&v->alloc, (size_t)n + 1, sizeof *v->pieces);
     if (!starts || !v->pieces) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) starts[k->pieces.data[i].patch + 1]++;
-    for (uint32_t p = 0; p < patches; p++) {
-        v->report.visible_patches += starts[p + 1] > 0;
-        starts[p + 1] += starts[p];
-    }
+    for (uint32_t p = 0; p < patches; p++) starts[p + 1] += starts[p];
     for (uint32_t i = n; i-- > 0;) v->pieces[--starts[k->pieces.data[i].patch + 1]] = k->pieces.data[i];
     for (uint32_t p = 0; p < patches; p++) starts[p] = starts[p + 1]; /* ends were lowered to the starts */
     starts[patches] = n;
@@ -133,9 +138,11 @@ static froe_status look(looker *k, const geom_eye *eye) {
         .sights = &v->sights, .screen = &k->screen, .section = v->section != 0, .hidden = k->options->hidden_crossings};
     if (!status) status = view_rank_objects(&v->alloc, v->surface, k->options->priorities, &k->ranks);
     if (!status) status = look_at_all(k);
+    if (!status) status = look_along_section(k);
     if (!status) status = sort_pieces(k);
     if (!status) status = view_join_intervals(v, &k->stretches);
     if (!status) status = view_join_crossings(v, &k->crosser);
+    if (!status) view_tally(v, k->options->cull_back);
     if (!status) note_counts(v, &k->screen);
     view_screen_free(&k->screen);
     array_free(&v->alloc, &k->ring);
@@ -217,7 +224,9 @@ void froe_visibility_free(froe_visibility *v) {
     array_free(&alloc, &v->corners);
     base_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);
     base_free(&alloc, v->intervals, v->interval_room * sizeof *v->intervals);
+    base_free(&alloc, v->interval_marks, 2 * v->interval_room * sizeof *v->interval_marks);
     array_free(&alloc, &v->crossings);
+    array_free(&alloc, &v->crossing_runs);
     base_free(&alloc, v->edge_starts, ((size_t)v->surface->edge_count + 1) * sizeof *v->edge_starts);
     base_free(&alloc, v, sizeof *v);
 }

@@ -276,6 +276,95 @@ static void try_meeting(fixture *f, int kind, int mix) {
     free_lines(&l);
 }
 
+/* Where a plane stops an edge uv: the meeting of the edge's line with the STOP is that point, on the side of any other
+ * line where the point is. */
+static void try_stop(fixture *f, int kind) {
+    const double *const q[3] = {point(f, 5), point(f, 7), point(f, 9)}, *u = point(f, 4), *v = point(f, 6);
+    const geom_plane plane = kind % 2 ? geom_plane_axis(3, kind % 3, f->points[20]) : geom_plane_points(3, q);
+    const geom_line edge = {.u = u, .v = v}, other = {.u = point(f, 8), .v = point(f, 10)};
+    rational_plane a, h, own;
+    rational_point x[2], stop;
+    double key[3];
+    rational_plane_init(&a), rational_plane_init(&h), rational_plane_init(&own);
+    rational_point_init(&x[0]), rational_point_init(&x[1]), rational_point_init(&stop);
+    rational_plane_set(&a, &plane);
+    rational_point_set(&x[0], 3, other.u), rational_point_set(&x[1], 3, other.v);
+    line_of_points(&f->eye, &h, &x[0], &x[1]);
+    rational_point_set(&x[0], 3, u), rational_point_set(&x[1], 3, v);
+    line_of_points(&f->eye, &own, &x[0], &x[1]);
+    const int at_v = rational_side(&a, &x[1]), parted = at_v * rational_side(&a, &x[0]) < 0;
+    expect(f, distinct(f, &own), geom_line_round(&f->context, &f->eye, &edge, key), "an edge makes a line", kind);
+    if (parted && distinct(f, &own) && distinct(f, &h) && rational_meet(&stop, &a, &x[0], &x[1])) {
+        const int k = fabs(key[0]) == 1 ? 0 : fabs(key[1]) == 1 ? 1 : 2;
+        const geom_line line = {.kind = GEOM_SIGHT_STOP, .u = u, .v = v, .a = &plane, .axis = k};
+        const int expected = rational_side(&h, &stop) * at_v * (key[k] < 0 ? -1 : 1);
+        for (int stage = NUM_FILTER; stage <= NUM_EXACT; stage++) {
+            f->context.first = (num_stage)stage;
+            expect(f, expected, geom_line_side_meeting(&f->context, &f->eye, &other, &edge, &line), "a stop", kind);
+        }
+        filter_vector l = geom_line_image(&f->eye, &edge), s = geom_line_image(&f->eye, &line),
+                      n = geom_line_image(&f->eye, &other), ray = filter_cross(&l, &s);
+        const int sure = geom_line_image_side(&n, &ray);
+        if (sure != NUM_UNSURE) expect(f, expected, sure, "image of a stop", kind);
+    }
+    rational_plane_clear(&a), rational_plane_clear(&h), rational_plane_clear(&own);
+    rational_point_clear(&x[0]), rational_point_clear(&x[1]), rational_point_clear(&stop);
+}
+
+/* The middle of two points, if it is a double. */
+static bool middle(const double *u, const double *v, double out[3]) {
+    for (int k = 0; k < 3; k++) {
+        out[k] = u[k] + (v[k] - u[k]) / 2;
+        if (out[k] - u[k] != v[k] - out[k] || fabs(u[k]) > 0x1p50 || fabs(v[k]) > 0x1p50 || out[k] != floor(out[k]))
+            return false;
+    }
+    return true;
+}
+
+/* Two edges of one line are equal, whichever way they run, and have one key; the order along it is that of the points;
+ * other lines are not equal, and before or after. */
+static void try_lines(fixture *f, int kind) {
+    const double *u = point(f, 4), *v = point(f, 6);
+    double m[3], key[3], turned[3], half[3];
+    const geom_line line = {.u = u, .v = v}, back = {.u = v, .v = u}, short_one = {.u = u, .v = m};
+    lines l;
+    make_lines(f, &l, 0);
+    if (geom_line_round(&f->context, &f->eye, &line, key)) {
+        const bool between = middle(u, v, m);
+        const int k = fabs(key[0]) == 1 ? 0 : fabs(key[1]) == 1 ? 1 : 2;
+        assert_true(geom_line_round(&f->context, &f->eye, &back, turned));
+        for (int c = 0; c < 3; c++) assert_true(key[c] == -turned[c]);
+        expect(f, 0, geom_line_compare(&f->context, &f->eye, &line, &back, k), "the same line back", kind);
+        if (between) {
+            assert_true(geom_line_round(&f->context, &f->eye, &short_one, half));
+            assert_memory_equal(key, half, sizeof half);
+            expect(f, 0, geom_line_compare(&f->context, &f->eye, &back, &short_one, k), "half a line", kind);
+        }
+        for (int stage = NUM_FILTER; stage <= NUM_EXACT; stage++) {
+            f->context.first = (num_stage)stage;
+            expect(f, 1, geom_line_order(&f->context, &f->eye, &line, u, v), "from u to v", kind);
+            expect(f, 1, geom_line_order(&f->context, &f->eye, &back, v, u), "from v to u", kind);
+            expect(f, 0, geom_line_order(&f->context, &f->eye, &line, u, u), "from u to u", kind);
+            if (between) expect(f, -1, geom_line_order(&f->context, &f->eye, &line, v, m), "back to the middle", kind);
+        }
+    }
+    if (l.valid && geom_line_round(&f->context, &f->eye, &l.line[0], key) &&
+        geom_line_round(&f->context, &f->eye, &l.line[1], turned)) {
+        mpq_t across[3];
+        for (int c = 0; c < 3; c++) mpq_init(across[c]);
+        rational_cross(across, l.h[0].n, l.h[1].n);
+        const bool equal = !mpq_sgn(across[0]) && !mpq_sgn(across[1]) && !mpq_sgn(across[2]);
+        for (int k = 0; k < 3; k++) {
+            if (key[k] == 0 || turned[k] == 0) continue;
+            const int order = geom_line_compare(&f->context, &f->eye, &l.line[0], &l.line[1], k);
+            if (!equal) expect(f, 1, order * order, "lines that differ", kind);
+            expect(f, -order, geom_line_compare(&f->context, &f->eye, &l.line[1], &l.line[0], k), "swapped", kind);
+        }
+        for (int c = 0; c < 3; c++) mpq_clear(across[c]);
+    }
+    free_lines(&l);
+}
+
 static void run(fixture *f, bool parallel) {
     for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
         fuzz_source r = {(uint64_t)(2 * kind + parallel)};
@@ -284,6 +373,8 @@ static void run(fixture *f, bool parallel) {
             try_side_of_eye(f, kind);
             try_point(f, kind, i % 2);
             try_meeting(f, kind, i % 16);
+            try_stop(f, kind);
+            try_lines(f, kind);
         }
     }
 }
