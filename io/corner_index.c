@@ -144,11 +144,14 @@ static bool right_of(const double *box, const double *a, const double *b) {
     return right - left > IO_ORIENT_BOUND * (fabs(left) + fabs(right));
 }
 
+static double least(double a, double b, double c) {
+    a = b < a ? b : a;
+    return c < a ? c : a;
+}
+
 static bool beside(const double *box, const double *a, const double *b, const double *c) {
-    for (int k = 0; k < 2; ++k) {
-        double low = fmin(a[k], fmin(b[k], c[k])), high = fmax(a[k], fmax(b[k], c[k]));
-        if (box[k] > high || box[k + 2] < low) return true;
-    }
+    for (int k = 0; k < 2; ++k)
+        if (box[k] > -least(-a[k], -b[k], -c[k]) || box[k + 2] < least(a[k], b[k], c[k])) return true;
     return right_of(box, a, b) || right_of(box, b, c) || right_of(box, c, a);
 }
 

@@ -232,7 +232,8 @@ typedef struct froe_defects {
 } froe_defects;
 /** Exact. Pairs are pairs of segments in 2D or of polygons in 3D, without those
  * that are duplicates or have no length or area; other kinds count as duplicates only.
- * O(n log^(dim-1) n + pairs of touching bounding boxes). FROE_E_OPTIONS: out->size not set. */
+ * O(n log^(dim-1) n + pairs of touching bounding boxes), without pairs that certainly lie side by side (segments of the
+ * plane, polygons of one source polygon) where such pairs are many. FROE_E_OPTIONS: out->size not set. */
 FROE_API froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_progress_fn *progress,
                                         void *user, froe_defects *out, froe_diagnostic *diag);
 

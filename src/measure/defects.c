@@ -1,12 +1,12 @@
 /* defects.c: the defect report: what is odd about a scene, counted exactly.
  *
- * Objects -> distinct, full-dimensional ones -> pairs of touching boxes -> how each pair
+ * Objects -> distinct, full-dimensional ones -> pairs that may meet oddly -> how each pair
  * touches. Each worker counts for itself; counts add up, the least example pair stays,
  * so threads do not show. */
 #include "base/floats.h"
 #include "base/status.h"
-#include "geom/box_pairs.h"
 #include "geom/contact.h"
+#include "measure/odd_pairs.h"
 #include "scene/scene.h"
 
 typedef enum oddity { APART, CROSSING, T_JUNCTION, OVERLAP, ODDITIES } oddity;
@@ -105,13 +105,12 @@ static froe_status make_tallies(survey *v) {
 }
 
 static froe_status look_at_pairs(survey *v) {
-    int dim = v->scene->dim;
     if (v->count < 2) return base_progress(&v->task, 1) ? FROE_OK : FROE_E_CANCELLED;
     froe_status status = make_tallies(v);
     if (!status) status = find_boxes(v);
     if (status) return status;
-    const double *hi = v->boxes + (size_t)v->count * (size_t)dim;
-    return geom_box_pairs(v->alloc, &v->task, 1, dim, v->count, v->boxes, hi, look_at_pair, v);
+    measure_candidates of = {v->scene, v->objects, v->count, v->boxes, v->boxes + v->count * (size_t)v->scene->dim};
+    return measure_odd_pairs(&v->task, &v->tallies[0].context, &of, look_at_pair, v);
 }
 
 /* ------------------------------------------------------------------ report -- */

@@ -3,6 +3,7 @@
 #include "support/memory.h"
 
 #include "base/random.h"
+#include "measure/sheet.h"
 #include "scene/scene.h"
 #include "support/rational.h"
 
@@ -472,6 +473,190 @@ static void every_failing_allocation_is_survived(void **state) {
     assert_true(test_memory_each(examine, NULL) > 15);
 }
 
+/* ------------------------------------------------------------------ sheets -- */
+
+enum { SLIVERS = 240, FACE = 80 };
+
+/** Long thin triangles side by side, askew, whose boxes all meet; three source polygons, the second beside the first and
+ * the third on top of both. `odd` of 16 are something else: half as long, so that others have T-junctions with them,
+ * moved, or anywhere. */
+static froe_scene *slivers(uint64_t seed, uint32_t odd, double scale) {
+    double xyz[9 * SLIVERS], *out = xyz;
+    uint32_t faces[SLIVERS];
+    for (uint32_t i = 0; i < SLIVERS; i++) {
+        const uint32_t face = i / FACE, at = (i % FACE) / 2 + (face == 1 ? FACE / 2 : 0);
+        const double lift = face == 2 ? 3 : 0, low = 4 * at, far = 1600;
+        double ends[4][2] = {{low, -low}, {low + 4, -low - 4}, {low + far, far - low}, {low + 4 + far, far - low - 4}};
+        const uint64_t hash = base_hash(seed, i, 0);
+        const bool is_odd = base_below(hash, 16) < odd;
+        const int sort = (int)(hash % 4), which[3] = {i % 2 ? 1 : 0, i % 2 ? 3 : 2, i % 2 ? 2 : 1};
+        for (int c = 0; c < 3; c++) {
+            double *x = ends[which[c]];
+            if (is_odd && sort == 0 && which[c] >= 2) x[0] -= far / 2, x[1] -= far / 2;
+            if (is_odd && sort == 1) x[0] += 2;
+            for (uint64_t k = 0; k < 2 && is_odd && sort >= 2; k++)
+                x[k] += base_below(base_hash(seed, i, (uint64_t)c * 2 + k + 1), 9) - 4.0;
+            *out++ = x[0] * scale, *out++ = x[1] * scale,
+            *out++ = (x[0] - 2 * x[1] + lift + (is_odd && sort == 3 ? 9 * c - 9 : 0)) * scale;
+        }
+        faces[i] = face;
+    }
+    froe_scene *s;
+    froe_objects b = froe_objects_defaults();
+    b.count = SLIVERS, b.coords = xyz, b.faces = faces;
+    assert_int_equal(froe_scene_new(3, NULL, &s), FROE_OK);
+    assert_int_equal(froe_scene_add(s, &b, NULL), FROE_OK);
+    return s;
+}
+
+static void long_thin_triangles_are_counted_without_looking_at_all_pairs(void **state) {
+    (void)state;
+    const double scales[] = {1, 0x1p900, 0x1p-1060};
+    memset(totals, 0, sizeof totals);
+    for (uint32_t round = 0; round < 4; round++) check(slivers(round, 2 * round, scales[round % 3]), 1 + round % 2);
+    for (int i = 0; i < 3; i++) assert_true(totals[i] > 5);
+}
+
+static void long_segments_are_counted_without_looking_at_all_pairs(void **state) {
+    (void)state;
+    memset(totals, 0, sizeof totals);
+    for (uint32_t round = 0; round < 4; round++) {
+        double xy[4 * SLIVERS];
+        for (uint32_t i = 0; i < SLIVERS; i++) { /* zigzag; some end on others, some cross */
+            const double low = 2 * i, far = 1600;
+            double ends[2][2] = {{low, -low}, {low + far + 2 * (i % 2), far - low - 2 * (i % 2)}};
+            const uint64_t hash = base_hash(round, i, 0);
+            if (base_below(hash, 16) < round) ends[hash % 2][0] -= (double)(hash / 2 % 8);
+            if (base_below(hash, 16) < round && hash / 32 % 2) ends[1][0] -= far / 2, ends[1][1] -= far / 2;
+            memcpy(xy + 4 * i, ends, sizeof ends);
+            if (i && base_below(hash, 64) < round) /* along part of the one before */
+                for (int k = 0; k < 2; k++)
+                    xy[4 * i + k] = (xy[4 * i - 4 + k] + xy[4 * i - 2 + k]) / 2, xy[4 * i + 2 + k] = xy[4 * i - 2 + k];
+        }
+        check(scene_with(2, FROE_SEGMENT, SLIVERS, xy, NULL), 1 + round % 2);
+    }
+    for (int i = 0; i < 3; i++) assert_true(totals[i] > 5);
+}
+
+/** How many objects are straight; checks that pairs of them touch as the sheet says, or not at all. */
+static uint32_t check_sheet(const froe_scene *s, int axis) {
+    uint32_t objects[64], count = 0, straight = 0;
+    bool crooked[64], touches[64][64] = {{false}};
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        bool candidate = full(s, i);
+        for (uint32_t j = 0; j < i && candidate; j++) candidate = !scene_equal(s, i, j);
+        if (candidate) objects[count++] = i;
+    }
+    num_context context;
+    base_task task;
+    base_task_init(&task, 1, NULL, NULL);
+    assert_int_equal(num_context_new(&s->alloc, &context), FROE_OK);
+    measure_sheet sheet = {.crooked = crooked};
+    assert_int_equal(measure_sheet_sweep(&context, &task, s, axis, objects, count, &sheet), FROE_OK);
+    for (size_t i = 0; i < sheet.touches.count; i++) {
+        const measure_touch t = sheet.touches.data[i];
+        touches[t.a][t.b] = touches[t.b][t.a] = true;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        straight += !crooked[i];
+        for (uint32_t j = 0; j < i; j++) {
+            if (crooked[i] || crooked[j]) continue;
+            taken = 0;
+            const int contact = s->dim == 2 ? segments_by_definition(s, objects[j], objects[i])
+                                            : polygons_by_definition(s, objects[j], objects[i]);
+            assert_true(contact == APART || (contact == T_JUNCTION && touches[i][j]));
+        }
+    }
+    array_free(&s->alloc, &sheet.touches);
+    num_context_free(&context);
+    return straight;
+}
+
+static void what_is_straight_in_a_sheet_touches_where_it_says(void **state) {
+    (void)state;
+    uint32_t straight = 0;
+    for (uint32_t round = 0; round < 200; round++) {
+        froe_scene *s = lattice_polygons(round, 40, 3 + round % 9, round % 2 ? 1 : 0x1p-1074);
+        straight += check_sheet(s, (int)(round % 3));
+        froe_scene_free(s);
+        double xy[4 * 60];
+        for (uint32_t i = 0; i < 240; i++) xy[i] = base_below(base_hash(3, round, i), 4 + round % 60);
+        s = scene_with(2, FROE_SEGMENT, 60, xy, NULL);
+        straight += check_sheet(s, -1);
+        froe_scene_free(s);
+    }
+    assert_true(straight > 400);
+}
+
+/** Quads of a lattice, askew, each in two triangles: all of them straight, and T-junctions where one is in four. */
+static void triangles_side_by_side_are_straight(void **state) {
+    (void)state;
+    double xyz[9 * 64], *out = xyz;
+    for (int q = 0; q < 25; q++)
+        for (int half = 0; half < 2; half++)
+            for (int c = 0; c < 3; c++) {
+                const int shape[6][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 0}, {2, 2}, {0, 2}};
+                const double x = 2 * (q % 5) + shape[3 * half + c][0], y = 2 * (q / 5) + shape[3 * half + c][1];
+                *out++ = 3 * x - y, *out++ = x + 2 * y, *out++ = x * x;
+            }
+    froe_scene *s = scene_with(3, FROE_POLYGON, 50, xyz, NULL);
+    assert_int_equal(check_sheet(s, 2), 50);
+    froe_scene_free(s);
+    out -= 9; /* the last in three: one side of it has a corner within */
+    const double middle[3][3] = {{0, 0, 0}, {2, 2, 0}, {1, 1, 0}}, far[3] = {0, 2, 0};
+    for (int t = 0; t < 2; t++) {
+        const double *ring[3] = {middle[t ? 2 : 0], middle[t ? 1 : 2], far};
+        for (int c = 0; c < 3; c++) {
+            const double x = 8 + ring[c][0], y = 8 + ring[c][1];
+            *out++ = 3 * x - y, *out++ = x + 2 * y, *out++ = ring[c] == middle[2] ? 82 : x * x;
+        }
+    }
+    s = scene_with(3, FROE_POLYGON, 51, xyz, NULL);
+    assert_int_equal(check_sheet(s, 2), 49); /* the halves of a side lie along it: they are looked at one by one */
+    froe_scene_free(s);
+}
+
+static froe_status examine_slivers(void *user, const froe_allocator *alloc) {
+    (void)user;
+    froe_scene *from = slivers(3, 2, 1), *s;
+    double xyz[9 * SLIVERS];
+    uint32_t faces[SLIVERS];
+    froe_defects d = {.size = sizeof d};
+    froe_objects b = froe_objects_defaults();
+    b.count = SLIVERS, b.coords = xyz, b.faces = faces;
+    for (uint32_t i = 0; i < 3 * SLIVERS; i++) memcpy(xyz + 3 * i, scene_point(from, i / 3, i % 3), 3 * sizeof *xyz);
+    memcpy(faces, from->faces, sizeof faces);
+    froe_scene_free(from);
+    froe_status status = froe_scene_new(3, alloc, &s);
+    if (status) return status;
+    status = froe_scene_add(s, &b, NULL);
+    if (!status) status = froe_scene_defects(s, 1, NULL, NULL, &d, NULL);
+    froe_scene_free(s);
+    return status;
+}
+
+static void every_failing_allocation_of_a_sheet_is_survived(void **state) {
+    (void)state;
+    assert_true(test_memory_each(examine_slivers, NULL) > 40);
+}
+
+/** Teeth of a comb, askew; every box meets hundreds of others. It would take minutes to look at all of these. */
+static void combs_end(void **state) {
+    (void)state;
+    enum { N = 200000 };
+    double *xy = malloc(4 * N * sizeof *xy);
+    for (uint32_t i = 0; i < N; i++) {
+        const double low = 3 * i, far = i % 2 ? 400000 : 400001;
+        xy[4 * i] = low, xy[4 * i + 1] = -low;
+        xy[4 * i + 2] = low + far, xy[4 * i + 3] = far - low + (i == 7);
+    }
+    froe_scene *s = scene_with(2, FROE_SEGMENT, N, xy, NULL);
+    const froe_defects d = report(s, 2);
+    assert_int_equal(d.crossings + d.overlaps + d.t_junctions, 0);
+    froe_scene_free(s);
+    free(xy);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(segments_of_lattices_at_every_scale),
@@ -484,6 +669,12 @@ int main(void) {
         cmocka_unit_test(many_segments_are_quick),
         cmocka_unit_test(far_too_many_pairs_can_be_cancelled),
         cmocka_unit_test(every_failing_allocation_is_survived),
+        cmocka_unit_test(long_thin_triangles_are_counted_without_looking_at_all_pairs),
+        cmocka_unit_test(long_segments_are_counted_without_looking_at_all_pairs),
+        cmocka_unit_test(what_is_straight_in_a_sheet_touches_where_it_says),
+        cmocka_unit_test(triangles_side_by_side_are_straight),
+        cmocka_unit_test(combs_end),
+        cmocka_unit_test(every_failing_allocation_of_a_sheet_is_survived),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     for (size_t i = 0; i < made; i++)

@@ -1,0 +1,261 @@
+/* odd_pairs.c: boxes first; then sheets, what is left of them, and what meets across their borders. */
+#include "measure/odd_pairs.h"
+#include "base/radix.h"
+#include "measure/hierarchy.h"
+#include "measure/sheet.h"
+#include <math.h>
+#include <string.h>
+
+enum {
+    ENOUGH = 32,       /* pairs of boxes for each object: more are worth a sweep */
+    COUNTED = 1 << 10, /* pairs that a worker finds between two looks at what others found */
+    LEAST = 64,        /* objects of a sheet */
+    VISITORS = 64      /* objects of a job */
+};
+
+/* Pairs that a worker has found, in a line of the cache of their own. */
+typedef struct counter {
+    uint32_t pairs;
+    char apart[60];
+} counter;
+
+/* What lies side by side: a run of `order`, and a search tree of its boxes. */
+typedef struct sheet {
+    uint32_t first, end;
+    measure_hierarchy boxes;
+} sheet;
+
+typedef struct search {
+    const measure_candidates *of;
+    const froe_allocator *alloc;
+    base_task *task;
+    num_context *context;
+    geom_pair_fn *fn;
+    void *user;
+    /* before there are sheets */
+    atomic_size_t found;
+    counter *counters; /* of each worker */
+    /* then */
+    base_pair *pairs; /* places in the list, by source polygon; and as many more */
+    uint32_t *order;  /* places in the list: the sheets, one after the other, and what is loose */
+    double *lo, *hi;  /* the bounds of these */
+    ARRAY(sheet) sheets;
+    double *sheet_lo, *sheet_hi;
+    measure_hierarchy bounds; /* of the sheets */
+    uint32_t straight;        /* what is loose begins here in `order` */
+    ARRAY(measure_touch) touches;
+    bool *crooked;
+} search;
+
+/* -------------------------------------------------------------------- boxes -- */
+
+static bool count_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
+    search *s = user;
+    (void)a, (void)b;
+    if (++s->counters[worker].pairs < COUNTED) return true;
+    s->counters[worker].pairs = 0;
+    return atomic_fetch_add(&s->found, COUNTED) < ENOUGH * (size_t)s->of->count;
+}
+
+/* Are there more pairs of boxes than a sweep costs? Counting them takes a small part of looking at them. */
+static froe_status count_boxes(search *s, bool *many) {
+    const measure_candidates *of = s->of;
+    s->counters = base_calloc(s->alloc, s->task->threads, sizeof *s->counters);
+    if (!s->counters) return FROE_E_MEMORY;
+    froe_status status =
+        geom_box_pairs(s->alloc, s->task, 0.1, of->scene->dim, of->count, of->lo, of->hi, count_pair, s);
+    base_free(s->alloc, s->counters, s->task->threads * sizeof *s->counters);
+    *many = status == FROE_E_CANCELLED && !base_cancelled(s->task);
+    return *many ? FROE_OK : status;
+}
+
+/* ------------------------------------------------------------------- sheets -- */
+
+/* The axis along which polygons look largest, by the sum of their areas in doubles: any axis is right. */
+static int widest(const froe_scene *scene, const uint32_t *objects, uint32_t count) {
+    double areas[3] = {0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        const double *a = scene_point(scene, objects[i], 0), *b = scene_point(scene, objects[i], 1);
+        const double *c = scene_point(scene, objects[i], 2);
+        for (int k = 0; k < 3; k++) {
+            int u = (k + 1) % 3, v = (k + 2) % 3;
+            areas[k] += fabs((b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]));
+        }
+    }
+    int best = areas[1] > areas[0] ? 1 : 0;
+    return areas[2] > areas[best] ? 2 : best;
+}
+
+/* Sweeps over a run of s->pairs; straight objects come into the order, s->crooked tells of all. `objects` has room. */
+static froe_status sweep_run(search *s, size_t first, uint32_t count, uint32_t *objects) {
+    const froe_scene *scene = s->of->scene;
+    for (uint32_t i = 0; i < count; i++) objects[i] = s->of->objects[s->pairs[first + i].value];
+    measure_sheet made = {.crooked = s->crooked + first};
+    froe_status status = measure_sheet_sweep(
+        s->context, s->task, scene, scene->dim == 2 ? -1 : widest(scene, objects, count), objects, count, &made);
+    for (size_t i = 0; i < made.touches.count && !status; i++) {
+        measure_touch t = made.touches.data[i];
+        if (made.crooked[t.a] || made.crooked[t.b]) continue;
+        uint32_t a = s->pairs[first + t.a].value, b = s->pairs[first + t.b].value;
+        if (!array_push(s->alloc, &s->touches, (measure_touch){a < b ? a : b, a < b ? b : a})) status = FROE_E_MEMORY;
+    }
+    array_free(s->alloc, &made.touches);
+    sheet new = {.first = s->straight};
+    for (uint32_t i = 0; i < count && !status; i++)
+        if (!made.crooked[i]) s->order[s->straight++] = s->pairs[first + i].value;
+    new.end = s->straight;
+    if (!status && new.end > new.first && !array_push(s->alloc, &s->sheets, new)) status = FROE_E_MEMORY;
+    return status;
+}
+
+/* The source polygon of a candidate; all segments of the plane have one. */
+static uint64_t source(const search *s, uint32_t place) {
+    const froe_scene *scene = s->of->scene;
+    uint32_t object = s->of->objects[place];
+    return scene->dim == 2 ? 0 : scene->faces ? scene->faces[object] : object;
+}
+
+static froe_status sweep_all(search *s) {
+    uint32_t count = s->of->count, *objects = base_calloc(s->alloc, count, sizeof *objects);
+    froe_status status = objects ? FROE_OK : FROE_E_MEMORY;
+    for (uint32_t i = 0; i < count; i++) s->pairs[i] = (base_pair){source(s, i), i};
+    base_radix_sort(s->pairs, s->pairs + count, count);
+    memset(s->crooked, true, count);
+    for (uint32_t first = 0, end; first < count && !status; first = end) {
+        for (end = first + 1; end < count && s->pairs[end].key == s->pairs[first].key;) end++;
+        if (end - first >= LEAST) status = sweep_run(s, first, end - first, objects);
+    }
+    for (uint32_t i = 0, at = s->straight; i < count && !status; i++)
+        if (s->crooked[i]) s->order[at++] = s->pairs[i].value;
+    base_free(s->alloc, objects, count * sizeof *objects);
+    return status;
+}
+
+/* ---------------------------------------------------------------- searching -- */
+
+static void copy_bounds(search *s) {
+    size_t dim = (size_t)s->of->scene->dim;
+    for (size_t i = 0; i < s->of->count; i++) {
+        memcpy(s->lo + i * dim, s->of->lo + s->order[i] * dim, dim * sizeof *s->lo);
+        memcpy(s->hi + i * dim, s->of->hi + s->order[i] * dim, dim * sizeof *s->hi);
+    }
+}
+
+static froe_status make_trees(search *s) {
+    int dim = s->of->scene->dim;
+    size_t width = (size_t)dim, count = s->sheets.count;
+    copy_bounds(s);
+    s->sheet_lo = base_calloc(s->alloc, count * width, sizeof *s->sheet_lo);
+    s->sheet_hi = base_calloc(s->alloc, count * width, sizeof *s->sheet_hi);
+    if (!s->sheet_lo || !s->sheet_hi) return FROE_E_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        sheet *t = s->sheets.data + i;
+        froe_status status = measure_hierarchy_new(s->alloc, dim, t->end - t->first, s->lo + t->first * width,
+                                                   s->hi + t->first * width, NULL, &t->boxes);
+        if (status) return status;
+        size_t all = (size_t)(t->boxes.entries - 1) * width;
+        memcpy(s->sheet_lo + i * width, t->boxes.lo + all, width * sizeof *s->lo);
+        memcpy(s->sheet_hi + i * width, t->boxes.hi + all, width * sizeof *s->hi);
+    }
+    return measure_hierarchy_new(s->alloc, dim, (uint32_t)count, s->sheet_lo, s->sheet_hi, NULL, &s->bounds);
+}
+
+static bool visit_sheet(search *s, unsigned worker, uint32_t visitor, const sheet *t) {
+    size_t at = (size_t)visitor * (size_t)s->of->scene->dim;
+    measure_search in = measure_search_begin(&t->boxes, s->lo + at, s->hi + at, 0);
+    for (uint32_t i; (i = measure_search_next(&in)) != FROE_NONE;) {
+        if (base_cancelled(s->task)) return false;
+        if (!s->fn(s->user, worker, s->order[visitor], s->order[t->first + i])) return false;
+    }
+    return true;
+}
+
+/* What is loose visits all sheets, what is in a sheet visits those before it. */
+static bool visit(search *s, unsigned worker, uint32_t visitor) {
+    size_t at = (size_t)visitor * (size_t)s->of->scene->dim;
+    measure_search sheets = measure_search_begin(&s->bounds, s->lo + at, s->hi + at, 0);
+    for (uint32_t i; (i = measure_search_next(&sheets)) != FROE_NONE;) {
+        const sheet *t = s->sheets.data + i;
+        if (visitor >= t->end && !visit_sheet(s, worker, visitor, t)) return false;
+    }
+    return true;
+}
+
+static froe_status visit_job(void *user, unsigned worker, size_t job) {
+    search *s = user;
+    size_t end = (job + 1) * VISITORS;
+    for (size_t i = job * VISITORS; i < end && i < s->of->count; i++)
+        if (!visit(s, worker, (uint32_t)i)) return FROE_E_CANCELLED;
+    return FROE_OK;
+}
+
+static bool loose_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
+    const search *s = user;
+    return s->fn(s->user, worker, s->order[s->straight + a], s->order[s->straight + b]);
+}
+
+/* -------------------------------------------------------------------- pairs -- */
+
+static froe_status tell_touches(search *s) {
+    size_t count = s->touches.count;
+    base_pair *pairs = base_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
+    if (!pairs) return FROE_E_MEMORY;
+    for (size_t i = 0; i < count; i++) pairs[i].key = (uint64_t)s->touches.data[i].a << 32 | s->touches.data[i].b;
+    base_radix_sort(pairs, pairs + count, count);
+    bool go_on = true;
+    for (size_t i = 0; i < count && go_on; i++)
+        if (!i || pairs[i].key != pairs[i - 1].key)
+            go_on = s->fn(s->user, 0, (uint32_t)(pairs[i].key >> 32), (uint32_t)pairs[i].key);
+    base_free(s->alloc, pairs, (2 * count + 1) * sizeof *pairs);
+    return go_on ? FROE_OK : FROE_E_CANCELLED;
+}
+
+static froe_status search_sheets(search *s) {
+    uint32_t count = s->of->count;
+    size_t numbers = (size_t)count * (size_t)s->of->scene->dim;
+    s->pairs = base_calloc(s->alloc, 2 * (size_t)count, sizeof *s->pairs);
+    s->order = base_calloc(s->alloc, count, sizeof *s->order);
+    s->lo = base_calloc(s->alloc, numbers, sizeof *s->lo);
+    s->hi = base_calloc(s->alloc, numbers, sizeof *s->hi);
+    s->crooked = base_calloc(s->alloc, count, sizeof *s->crooked);
+    froe_status status = s->pairs && s->order && s->lo && s->hi && s->crooked ? sweep_all(s) : FROE_E_MEMORY;
+    if (!status) status = tell_touches(s);
+    if (!status) status = make_trees(s);
+    size_t first = (size_t)s->straight * (size_t)s->of->scene->dim;
+    if (!status)
+        status = geom_box_pairs(s->alloc, s->task, 0.25, s->of->scene->dim, count - s->straight, s->lo + first,
+                                s->hi + first, loose_pair, s);
+    if (!status) status = base_run(s->task, 0.25, (count + (size_t)VISITORS - 1) / VISITORS, visit_job, s);
+    base_free(s->alloc, s->pairs, 2 * (size_t)count * sizeof *s->pairs);
+    base_free(s->alloc, s->order, count * sizeof *s->order);
+    base_free(s->alloc, s->lo, numbers * sizeof *s->lo);
+    base_free(s->alloc, s->hi, numbers * sizeof *s->hi);
+    base_free(s->alloc, s->crooked, count * sizeof *s->crooked);
+    return status;
+}
+
+static void free_sheets(search *s) {
+    size_t numbers = s->sheets.count * (size_t)s->of->scene->dim;
+    for (size_t i = 0; i < s->sheets.count; i++)
+        if (s->sheets.data[i].boxes.count) measure_hierarchy_free(&s->sheets.data[i].boxes);
+    if (s->bounds.count) measure_hierarchy_free(&s->bounds);
+    base_free(s->alloc, s->sheet_lo, (numbers ? numbers : 1) * sizeof *s->sheet_lo);
+    base_free(s->alloc, s->sheet_hi, (numbers ? numbers : 1) * sizeof *s->sheet_hi);
+    array_free(s->alloc, &s->sheets);
+    array_free(s->alloc, &s->touches);
+}
+
+froe_status measure_odd_pairs(base_task *task, num_context *context, const measure_candidates *of, geom_pair_fn *fn,
+                              void *user) {
+    search s = {.of = of, .alloc = &of->scene->alloc, .task = task, .context = context, .fn = fn, .user = user};
+    bool many = false;
+    froe_status status = count_boxes(&s, &many);
+    if (!status && many) {
+        status = search_sheets(&s);
+        free_sheets(&s);
+    } else if (!status) {
+        status = geom_box_pairs(s.alloc, task, 0.9, of->scene->dim, of->count, of->lo, of->hi, fn, user);
+    }
+    if (!status && !base_progress(task, 1)) status = FROE_E_CANCELLED;
+    return status;
+}

@@ -1,0 +1,334 @@
+/* sheet.c: edges, and what lies on their two sides; the events; the sweep, over a splay tree (Sleator and Tarjan:
+ * Self-adjusting binary search trees, 1985) of the edges on the line. */
+#include "measure/sheet.h"
+#include "base/radix.h"
+#include "geom/turn.h"
+
+enum { POLL = 1 << 12 };
+
+/* Number 0 is no edge: the end of the list of neighbours, and of the tree. */
+typedef struct edge {
+    double p[2], q[2];     /* p before q: by the first coordinate, then by the second */
+    uint32_t beside[2];    /* what lies below and above, or FROE_NONE; of a segment itself, twice */
+    uint32_t neighbour[2]; /* on the line, below and above */
+    uint32_t child[2];
+    bool on; /* on the line */
+} edge;
+
+/* The edge of an object: vertices p and q, and what lies on one side, or on both. */
+typedef struct side {
+    uint32_t p, q, object;
+    bool below, above;
+} side;
+
+typedef struct sweep {
+    num_context *context;
+    const froe_allocator *alloc;
+    const froe_scene *scene;
+    int axis;
+    measure_sheet *sheet;
+    ARRAY(side) sides;
+    ARRAY(edge) edges;
+    base_pair *events; /* where edges begin and end, in order: an edge, and its lowest bit tells which end */
+    size_t event_room, event_count;
+    uint32_t root;
+} sweep;
+
+/* ------------------------------------------------------------------- places -- */
+
+static void shadow(const sweep *s, uint32_t vertex, double *out) {
+    const double *x = scene_vertex(s->scene, vertex);
+    out[0] = s->axis < 0 ? x[0] : x[(s->axis + 1) % 3];
+    out[1] = s->axis < 0 ? x[1] : x[(s->axis + 2) % 3];
+}
+
+static bool before(const double *p, const double *q) {
+    return p[0] < q[0] || (p[0] == q[0] && p[1] < q[1]);
+}
+
+static bool same(const double *p, const double *q) {
+    return p[0] == q[0] && p[1] == q[1];
+}
+
+/* Where is f, of e? 1 above, -1 below, 0: on one line. Both meet the line of the sweep, and do not cross before it. f
+ * may be a point. */
+static int place(const sweep *s, const edge *e, const edge *f) {
+    if (e == f) return 0;
+    bool later = before(f->p, e->p);
+    const edge *first = later ? f : e, *second = later ? e : f;
+    int sign = same(first->p, second->p) ? 0 : geom_turn(s->context, first->p, first->q, second->p);
+    if (!sign && !same(second->p, second->q)) sign = geom_turn(s->context, first->p, first->q, second->q);
+    return later ? -sign : sign;
+}
+
+/* --------------------------------------------------------------------- edges -- */
+
+static void condemn(sweep *s, uint32_t object) {
+    if (object != FROE_NONE) s->sheet->crooked[object] = true;
+}
+
+static void condemn_edge(sweep *s, const edge *e) {
+    condemn(s, e->beside[0]);
+    condemn(s, e->beside[1]);
+}
+
+/* The edge between two corners of an object, which turns left if way is 1. */
+static bool add_side(sweep *s, uint32_t number, uint32_t from, uint32_t to, int way) {
+    double p[2], q[2];
+    shadow(s, from, p);
+    shadow(s, to, q);
+    bool ascends = before(p, q), both = s->axis < 0;
+    side new = {ascends ? from : to, ascends ? to : from, number, both || ascends != (way > 0),
+                both || ascends == (way > 0)};
+    return array_push(s->alloc, &s->sides, new);
+}
+
+static froe_status add_object(sweep *s, uint32_t number, uint32_t object) {
+    const froe_scene *scene = s->scene;
+    uint32_t corners = scene_corners(scene, object), edges = s->axis < 0 ? 1 : corners;
+    int way = s->axis < 0 ? 1
+                          : geom_projected_turn(s->context, s->axis, scene_point(scene, object, 0),
+                                                scene_point(scene, object, 1), scene_point(scene, object, 2));
+    s->sheet->crooked[number] = !way; /* seen edge-on */
+    for (uint32_t i = 0; way && i < edges; i++) {
+        uint32_t next = i + 1 < corners ? i + 1 : 0;
+        if (!add_side(s, number, scene_corner(scene, object, i), scene_corner(scene, object, next), way))
+            return FROE_E_MEMORY;
+    }
+    return FROE_OK;
+}
+
+static void claim(sweep *s, edge *e, int which, uint32_t object) {
+    if (e->beside[which] == FROE_NONE) {
+        e->beside[which] = object;
+    } else {
+        condemn(s, e->beside[which]);
+        condemn(s, object);
+    }
+}
+
+/* One edge for all sides between the same vertices. */
+static froe_status join_sides(sweep *s) {
+    size_t count = s->sides.count;
+    base_pair *pairs = base_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
+    bool room = pairs && array_reserve(s->alloc, &s->edges, count + 1);
+    if (room) s->edges.data[s->edges.count++] = (edge){.beside = {FROE_NONE, FROE_NONE}};
+    for (size_t i = 0; room && i < count; i++)
+        pairs[i] = (base_pair){(uint64_t)s->sides.data[i].p << 32 | s->sides.data[i].q, (uint32_t)i};
+    if (room) base_radix_sort(pairs, pairs + count, count);
+    for (size_t i = 0; room && i < count; i++) {
+        const side *from = s->sides.data + pairs[i].value;
+        if (!i || pairs[i].key != pairs[i - 1].key) {
+            edge *new = s->edges.data + s->edges.count++;
+            *new = (edge){.beside = {FROE_NONE, FROE_NONE}};
+            shadow(s, from->p, new->p);
+            shadow(s, from->q, new->q);
+        }
+        edge *e = s->edges.data + s->edges.count - 1;
+        if (from->below) claim(s, e, 0, from->object);
+        if (from->above) claim(s, e, 1, from->object);
+    }
+    base_free(s->alloc, pairs, (2 * count + 1) * sizeof *pairs);
+    return room ? FROE_OK : FROE_E_MEMORY;
+}
+
+static const double *place_of(const sweep *s, const base_pair *event) {
+    const edge *e = s->edges.data + event->value / 2;
+    return event->value % 2 ? e->p : e->q;
+}
+
+static froe_status sort_events(sweep *s) {
+    s->event_count = 2 * (s->edges.count - 1);
+    s->event_room = 2 * s->event_count + 1;
+    s->events = base_calloc(s->alloc, s->event_room, sizeof *s->events);
+    if (!s->events) return FROE_E_MEMORY;
+    for (size_t i = 0; i < s->event_count; i++) s->events[i].value = (uint32_t)i + 2;
+    for (int k = 2; k--;) {
+        for (size_t i = 0; i < s->event_count; i++) s->events[i].key = base_double_key(place_of(s, s->events + i)[k]);
+        base_radix_sort(s->events, s->events + s->event_count, s->event_count);
+    }
+    return FROE_OK;
+}
+
+/* ---------------------------------------------------------------------- tree -- */
+
+/* Brings an edge beside `key` to the top, top down. */
+static uint32_t splay(const sweep *s, uint32_t top, const edge *key) {
+    edge *e = s->edges.data;
+    uint32_t parts[2] = {0, 0}, *tails[2] = {parts, parts + 1}; /* what lies below and above of all that was passed */
+    for (int sign; (sign = place(s, e + top, key)) != 0;) {
+        int towards = sign > 0;
+        uint32_t child = e[top].child[towards];
+        if (child && place(s, e + child, key) == sign) { /* rotate */
+            e[top].child[towards] = e[child].child[!towards];
+            e[child].child[!towards] = top;
+            top = child;
+            child = e[top].child[towards];
+        }
+        if (!child) break;
+        *tails[!towards] = top;
+        tails[!towards] = &e[top].child[towards];
+        top = child;
+    }
+    for (int k = 0; k < 2; k++) {
+        *tails[k] = e[top].child[k];
+        e[top].child[k] = parts[k];
+    }
+    return top;
+}
+
+static void link_neighbours(sweep *s, uint32_t low, uint32_t high) {
+    s->edges.data[low].neighbour[1] = high;
+    s->edges.data[high].neighbour[0] = low;
+}
+
+/* An edge that lies along another one, from here on, does not come in. */
+static void insert(sweep *s, uint32_t number) {
+    edge *e = s->edges.data, *new = e + number;
+    new->child[0] = new->child[1] = 0;
+    if (s->root) {
+        s->root = splay(s, s->root, new);
+        int sign = place(s, e + s->root, new), towards = sign > 0;
+        if (!sign) {
+            condemn_edge(s, new);
+            return;
+        }
+        new->child[towards] = e[s->root].child[towards];
+        new->child[!towards] = s->root;
+        e[s->root].child[towards] = 0;
+        uint32_t other = e[s->root].neighbour[towards];
+        link_neighbours(s, towards ? s->root : other, number);
+        link_neighbours(s, number, towards ? other : s->root);
+    } else {
+        link_neighbours(s, 0, number);
+        link_neighbours(s, number, 0);
+    }
+    new->on = true;
+    s->root = number;
+}
+
+static void take_out(sweep *s, uint32_t number) {
+    edge *e = s->edges.data, *old = e + number;
+    splay(s, s->root, old);
+    s->root = old->child[1];
+    if (old->child[0]) {
+        s->root = splay(s, old->child[0], old);
+        e[s->root].child[1] = old->child[1];
+    }
+    link_neighbours(s, old->neighbour[0], old->neighbour[1]);
+    old->on = false;
+}
+
+/* --------------------------------------------------------------------- sweep -- */
+
+/* Do neighbours cross further on? The one that ends first does so on the wrong side of the other. */
+static bool cross(const sweep *s, uint32_t low, uint32_t high) {
+    const edge *a = s->edges.data + low, *b = s->edges.data + high;
+    if (!low || !high) return false;
+    return before(a->q, b->q) ? geom_turn(s->context, b->p, b->q, a->q) > 0
+                              : geom_turn(s->context, a->p, a->q, b->q) < 0;
+}
+
+static bool condemned(const sweep *s, const edge *e) {
+    for (int k = 0; k < 2; k++)
+        if (e->beside[k] != FROE_NONE && !s->sheet->crooked[e->beside[k]]) return false;
+    return true;
+}
+
+/* Which of two that cross is to go? One that nothing is lost with, or else the longer one, which may cross more. */
+static uint32_t choose(const sweep *s, uint32_t low, uint32_t high) {
+    const edge *a = s->edges.data + low, *b = s->edges.data + high;
+    if (condemned(s, a) != condemned(s, b)) return condemned(s, a) ? low : high;
+    return a->q[0] - a->p[0] > b->q[0] - b->p[0] ? low : high;
+}
+
+/* What lies between neighbours: is it the same for both? */
+static void compare_sides(sweep *s, uint32_t low, uint32_t high) {
+    uint32_t above = s->edges.data[low].beside[1], below = s->edges.data[high].beside[0];
+    if (s->axis < 0 || above == below) return;
+    condemn(s, above);
+    condemn(s, below);
+}
+
+/* Looks at all that have become neighbours at a point, for now (while edges that begin there are missing) or for good. */
+static void settle(sweep *s, const edge *point, bool for_good) {
+    edge *e = s->edges.data;
+    uint32_t low = s->root ? s->root = splay(s, s->root, point) : 0;
+    while (low && place(s, e + low, point) <= 0) low = e[low].neighbour[0];
+    for (bool here = true; here;) {
+        uint32_t high = e[low].neighbour[1];
+        if (cross(s, low, high)) {
+            uint32_t gone = choose(s, low, high);
+            condemn_edge(s, e + gone);
+            if (gone == low) low = e[low].neighbour[0];
+            take_out(s, gone);
+            continue;
+        }
+        if (for_good) compare_sides(s, low, high);
+        here = high && !place(s, e + high, point);
+        low = high;
+    }
+}
+
+/* What has a corner at events first .. end touches what lies beside an edge there. */
+static froe_status touch(sweep *s, const edge *on, size_t first, size_t end) {
+    for (size_t i = first; i < end; i++) {
+        const edge *e = s->edges.data + s->events[i].value / 2;
+        for (int k = 0; k < 4; k++) {
+            measure_touch t = {on->beside[k / 2], e->beside[k % 2]};
+            if (t.a == FROE_NONE || t.b == FROE_NONE || t.a == t.b || s->sheet->crooked[t.a] || s->sheet->crooked[t.b])
+                continue;
+            if (!array_push(s->alloc, &s->sheet->touches, t)) return FROE_E_MEMORY;
+        }
+    }
+    return FROE_OK;
+}
+
+/* All that ends or begins at one point. Of edges that only pass, one at most is left before others begin: two would
+ * cross there. */
+static froe_status pass(sweep *s, size_t first, size_t end) {
+    edge *e = s->edges.data, point = {.on = true};
+    for (int k = 0; k < 2; k++) point.p[k] = point.q[k] = place_of(s, s->events + first)[k];
+    for (size_t i = first; i < end; i++) {
+        uint32_t number = s->events[i].value / 2;
+        if (s->events[i].value % 2 == 0 && e[number].on) take_out(s, number);
+    }
+    settle(s, &point, false);
+    if (s->root) s->root = splay(s, s->root, &point);
+    if (s->root && !place(s, e + s->root, &point)) {
+        froe_status status = touch(s, e + s->root, first, end);
+        if (status) return status;
+    }
+    for (size_t i = first; i < end; i++)
+        if (s->events[i].value % 2) insert(s, s->events[i].value / 2);
+    settle(s, &point, true);
+    return FROE_OK;
+}
+
+static froe_status run(sweep *s, base_task *task) {
+    froe_status status = FROE_OK;
+    size_t looked = 0;
+    for (size_t first = 0, end; first < s->event_count && !status; first = end) {
+        const double *at = place_of(s, s->events + first);
+        for (end = first + 1; end < s->event_count && same(at, place_of(s, s->events + end));) end++;
+        status = pass(s, first, end);
+        if (first < looked) continue;
+        looked = first + POLL;
+        if (!base_progress(task, task->done)) return FROE_E_CANCELLED;
+    }
+    return status;
+}
+
+froe_status measure_sheet_sweep(num_context *context, base_task *task, const froe_scene *scene, int axis,
+                                const uint32_t *objects, uint32_t count, measure_sheet *sheet) {
+    sweep s = {.context = context, .alloc = &scene->alloc, .scene = scene, .axis = axis, .sheet = sheet};
+    froe_status status = FROE_OK;
+    for (uint32_t i = 0; i < count && !status; i++) status = add_object(&s, i, objects[i]);
+    if (!status) status = join_sides(&s);
+    if (!status) status = sort_events(&s);
+    if (!status) status = run(&s, task);
+    array_free(s.alloc, &s.sides);
+    array_free(s.alloc, &s.edges);
+    base_free(s.alloc, s.events, s.event_room * sizeof *s.events);
+    return status;
+}
