@@ -457,7 +457,8 @@ static int in_augmented(void **state) {
     return 0;
 }
 
-int main(void) {
+/* With "ordinary" or "augmented" as argument: partitions of that kind alone. */
+int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_event),     cmocka_unit_test(test_coincidences),
         cmocka_unit_test(test_long_ticks),      cmocka_unit_test(test_general_position),
@@ -467,6 +468,10 @@ int main(void) {
         cmocka_unit_test(test_memory_runs_out), cmocka_unit_test(test_trials_within_pieces),
         cmocka_unit_test(test_free_turns),      cmocka_unit_test(test_bound_turns),
     };
-    int failed = cmocka_run_group_tests_name("ordinary", tests, ordinary, NULL);
-    return failed + cmocka_run_group_tests_name("augmented", tests, in_augmented, NULL);
+    int failed = 0;
+    if (argc < 2 || !strcmp(argv[1], "ordinary"))
+        failed += cmocka_run_group_tests_name("ordinary", tests, ordinary, NULL);
+    if (argc < 2 || !strcmp(argv[1], "augmented"))
+        failed += cmocka_run_group_tests_name("augmented", tests, in_augmented, NULL);
+    return failed;
 }
