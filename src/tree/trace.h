@@ -4,7 +4,7 @@
  * objects closed and convex: what has a point strictly on a side goes there, what lies in the
  * cut ends there, and touching a cut from one side is being on that side only.
  *
- * Points, segments and polygons are traced exactly, and so are boxes among axis-parallel cuts. For the
+ * Points, segments and polygons are traced exactly, and so are solids among axis-parallel cuts. For the
  * rest, whether a solid reaches into a cell that cuts bound from several sides is only enclosed:
  * it MAY be listed wherever no single cut excludes it, and MUST be where a point of it is known to lie.
  *
@@ -38,10 +38,10 @@ typedef struct trace_part {
 /** A solid waiting: its part within the axis-parallel cuts above, and what is certain of it. */
 typedef struct trace_solid {
     uint32_t node, first, count;               /* hulls: corners certainly inside */
-    bool oblique;                              /* is there an oblique cut above? (boxes) */
+    bool oblique;                              /* is there an oblique cut above? (boxes; hulls: one that divided it) */
     bool exact;                                /* no oblique cut has divided it */
     bool inside;                               /* a witness is inside: a point of boxes, the centre of balls */
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /* boxes: the part; balls: the cell */
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /* boxes: the part; balls, hulls: the cell */
     double witness[FROE_MAX_DIM];
 } trace_solid;
 

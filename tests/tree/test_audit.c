@@ -432,6 +432,40 @@ static void boxes_among_axis_parallel_cuts_are_exact(void **state) {
     froe_tree_free(without);
 }
 
+/* A triangle below the line x + y = sum, as a hull, has no corner in the cell beyond (1, 1). */
+static froe_tree *hull_beside_corner(double sum, bool listed) {
+    const double corners[6] = {-4, -4, sum + 4, -4, -4, sum + 4};
+    const size_t starts[2] = {0, 3};
+    const froe_cut cuts[2] = {{.kind = FROE_CUT_AXIS, .axis = 0, .value = 1},
+                              {.kind = FROE_CUT_AXIS, .axis = 1, .value = 1}};
+    const uint32_t splits[2] = {0, 2};
+    const entry entries[3] = {{1, 0, 0, {0}}, {3, 0, 0, {0}}, {4, 0, 0, {0}}};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_HULL, 1, corners, NULL, starts), FROE_OK);
+    froe_tree *tree = hand_made(scene, cuts, splits, 2, entries, listed ? 3 : 2, &by_hand);
+    froe_scene_free(scene);
+    return tree;
+}
+
+static void hulls_must_be_listed_in_cells_without_a_corner_of_theirs(void **state) {
+    (void)state;
+    const struct {
+        double sum;
+        bool must;
+    } cases[] = {{1.5, false}, {2, false}, {2 + 0x1p-40, true}, {3, true}};
+    for (size_t i = 0; i < 4; i++) {
+        froe_tree *with = hull_beside_corner(cases[i].sum, true), *without = hull_beside_corner(cases[i].sum, false);
+        assert_right(with);
+        if (cases[i].must)
+            assert_wrong(without, "a piece is missing");
+        else
+            assert_right(without);
+        froe_tree_free(with);
+        froe_tree_free(without);
+    }
+}
+
 /* A solid divided by the diagonal y = x, given by a segment: it has a corner on either side, and x = 9 excludes it. */
 static void solids_beside_oblique_cuts_are_enclosed(void **state) {
     (void)state;
@@ -656,6 +690,7 @@ int main(void) {
         cmocka_unit_test(rings_may_begin_anywhere),
         cmocka_unit_test(balls_must_be_listed_exactly_where_their_distance_says),
         cmocka_unit_test(boxes_among_axis_parallel_cuts_are_exact),
+        cmocka_unit_test(hulls_must_be_listed_in_cells_without_a_corner_of_theirs),
         cmocka_unit_test(solids_beside_oblique_cuts_are_enclosed),
         cmocka_unit_test(overfull_leaves_are_found),
         cmocka_unit_test(crowds_that_are_none_are_found),
