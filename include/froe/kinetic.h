@@ -110,7 +110,7 @@ FROE_API bool froe_motion_position(const froe_motion *motion, uint32_t vertex, d
  * otherwise. */
 typedef struct froe_contact {
     uint32_t a, b;             /**< objects, a < b */
-    double begin[2], end[2];   /**< low <= true time <= high */
+    double begin[2], end[2];   /**< low <= true time <= high; neither of begin above that of end */
     bool instant;              /**< they meet at one instant alone: they pass or graze one another */
     bool since_start, to_stop; /**< they meet already when the time asked for, or the later of both, begins; they
                                     still meet when it, or the earlier, ends */

@@ -181,6 +181,13 @@ static bool goes_on(const record *last, const record *next) {
            last->span.end.high == next->span.begin.low;
 }
 
+/* A contact ends no earlier than it begins, so each bound holds for both; where it lasts for an instant, or next to
+ * none, the two were found apart. */
+static void tighten(froe_contact *c) {
+    if (c->end[0] < c->begin[0]) c->end[0] = c->begin[0];
+    if (c->begin[1] > c->end[1]) c->begin[1] = c->end[1];
+}
+
 static void join(search *s, const uint32_t *order) {
     const record *last = NULL;
     for (size_t i = 0; i < s->records.count; i++) {
@@ -196,6 +203,7 @@ static void join(search *s, const uint32_t *order) {
         }
         last = r;
     }
+    for (size_t i = 0; i < s->contact_count; i++) tighten(s->contacts + i);
 }
 
 static froe_status make_contacts(search *s) {
