@@ -18,11 +18,12 @@
 
 #define NAME "mutant.froe"
 enum {
-    SAMPLE = 2,            /* bits of a section, and ... */
-    SAMPLE_OF_TREE = 10,   /* ... of one that the audit is about */
-    PATIENCE = 60,         /* seconds for a mutant before it counts as one that hangs */
-    ROUNDS = 6,            /* of questions to a tree that passes the audit */
-    MOST_BYTES = 64 << 20, /* that a tree may take */
+    SAMPLE = 2,             /* bits of a section, and ... */
+    SAMPLE_OF_TREE = 10,    /* ... of one that the audit is about */
+    SAMPLE_OF_BLOCKS = 200, /* which say the most */
+    PATIENCE = 60,          /* seconds for a mutant before it counts as one that hangs */
+    ROUNDS = 6,             /* of questions to a tree that passes the audit */
+    MOST_BYTES = 64 << 20,  /* that a tree may take */
     MOST_COMPLAINTS = 20,
     MOST_METHODS = 20,
 };
@@ -136,6 +137,7 @@ static void flip_part(mutation *m, uint64_t from, uint64_t to, uint64_t sample) 
 }
 
 static uint64_t sample_of(uint32_t id) {
+    if (id == FILE_BLOCKS) return SAMPLE_OF_BLOCKS;
     const bool tree = (id != FILE_META && file_is_of_tree((file_id)id)) || id == FILE_COORDS || id == FILE_CORNERS;
     return tree ? SAMPLE_OF_TREE : SAMPLE;
 }
@@ -150,6 +152,8 @@ static void flip_sections(mutation *m) {
         if (m->all || i % 4 == m->size / 64 % 4) flip_part(m, at, at + offsetof(file_section, checksum), 1);
         if (m->all) flip_part(m, end, s.offset, 0);
         flip_part(m, s.offset, s.offset + s.size, sample_of(i + 1));
+        if (!m->all && i + 1 == FILE_META)
+            flip_part(m, s.offset + offsetof(tree_meta, root_lo), s.offset + s.size, SAMPLE_OF_TREE);
         end = s.offset + s.size;
     }
     if (m->all) flip_part(m, end, m->size, 0);
