@@ -1,7 +1,7 @@
 /* crossings.h: lines along which polygons pass through each other, and what is visible of them.
  *
- *        __B__                A tree has cut A along the plane of B, and keeps B in the list of that cut. So the line
- * is /  :  /               the part of A's cut side that lies inside pieces of the list; from the eye these are
+ *        __B__                A tree has cut A along the plane of B, and keeps B in the list of that cut. So the line is
+ *       /  :  /               the part of A's cut side that lies inside pieces of the list; from the eye these are
  *   A--/---*-/--A             beams, and the side a stretch of a line of sight like any other.
  *     /____:/ */
 #ifndef FROE_VIEW_CROSSINGS_H

@@ -1,9 +1,9 @@
 /* outline.h: whole patches as rings on the page, and the underlap that hides seams.
  *
  *        c  later patch B          Two antialiased shapes that share an edge let the background shine through. So the
- *       / \                        patch painted first, A, is drawn a little further: over ab into B's polygon abc.
- * What / .-.\                      is added lies within B, which is painted over it, or under what is painted over B
- *     a-------b                    anyway: where X is seen in front of B, X comes after B, hence after A.
+ *       / \                        patch painted first, A, is drawn a little further: over ab into B's polygon abc. What
+ *      /.-.\                       is added lies within B, which is painted over it, or under what is painted over B
+ *     a-----b                      anyway: where X is seen in front of B, X comes after B, hence after A.
  *      earlier patch A
  */
 #ifndef FROE_VIEW_OUTLINE_H

@@ -1,9 +1,9 @@
 /* region.h: the visible region of a patch as rings, from its visible pieces.
  *
  *      +----+--------+          Sides of pieces lie on lines of the picture. On each line, a stretch with a piece of
- * the |    |        |          patch on both sides is inside the region and goes away; a stretch with a piece on one |
- * +----+---+          side is border, directed so that the region is on its left. Ends are compared |    |    |   |
- * exactly, so what is left fits together: every ring closes.
+ *      |    |        |          the patch on both sides is inside the region and goes away; a stretch with a piece on
+ *      |    +----+---+          one side is border, directed so that the region is on its left. Ends are compared
+ *      |    |    |   |          exactly, so what is left fits together: every ring closes.
  *      +----+----+---+
  */
 #ifndef FROE_VIEW_REGION_H
