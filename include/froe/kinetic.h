@@ -159,17 +159,26 @@ typedef struct froe_kinetic_options {
     const uint32_t *order; /**< all objects, the first to cut first; NULL: random. Motion must not depend on it */
     uint64_t epoch; /**< a fresh random order after so many events, against motion that adapts itself to the order;
                          0 (default): never. Not with `order` */
+    froe_progress_fn *progress; /**< may be NULL: see froe_kinetic_watch() */
+    void *user;                 /**< for progress */
     bool augmented; /**< a segment that turns upright costs nothing, however many it crosses: walls are named in its
                          direction, not left and right. false (default) */
 } froe_kinetic_options;
 FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 
 /** The partition at the first odd tick of the window. The motion must outlive it; while it lives, plans are changed and
- * objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one, FROE_E_MEMORY.
+ * objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one, FROE_E_MEMORY,
+ * FROE_E_CANCELLED.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
                                       const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
 FROE_API void froe_kinetic_free(froe_kinetic *kinetic);
+/** Who is asked, from now on, whether to go on; NULL: nobody is. At first it is who was named in the options. All calls that
+ * take this partition ask now and then, but for those that take no more than a moment, with the share of the time that
+ * has been gone through (advance) or done (snapshot); others say 0. If the answer is no, they return FROE_E_CANCELLED.
+ * Whatever was cancelled while it changed the partition, or ran out of memory, has been done as far as the motion is
+ * concerned; the partition is made anew by the next call, which therefore may take longer and fail alike. */
+FROE_API void froe_kinetic_watch(froe_kinetic *kinetic, froe_progress_fn *progress, void *user);
 
 /** What happens at an instant. */
 typedef enum froe_event_kind {
@@ -201,8 +210,9 @@ typedef bool froe_event_fn(void *user, const froe_event *event);
 
 /** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; what happens is told to `visit`
  * (may be NULL). FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free it.
- * FROE_E_CANCELLED: `visit` said so; the partition stands right after the event. Expected polylogarithmic in n for
- * each event, if the motion does not depend on the order. */
+ * FROE_E_CANCELLED: `visit` said so, and the partition stands right after the event; or the progress function did, and
+ * it stands somewhere in between. Expected polylogarithmic in n for each event, if the motion does not depend on the
+ * order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
 FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
                                           froe_diagnostic *diag);
 /** For visitors, while they are told of an event: when it happened, between two doubles that are next to one another or

@@ -13,8 +13,7 @@ static froe_status check(froe_kinetic *k, const double *at, const double *to, co
     if (!k || !at || !to || !out) return base_fail(diag, FROE_E_ARG, "a question to a kinetic partition: NULL");
     for (int i = 0; i < 2; i++)
         if (!isfinite(at[i]) || !isfinite(to[i])) return base_fail(diag, FROE_E_ARG, "a coordinate is NaN or infinite");
-    now_catch_up(&k->now);
-    return FROE_OK;
+    return live_begin(k, diag);
 }
 
 static now_name end_name(const froe_kinetic *k, uint32_t segment, int end) {
@@ -96,7 +95,7 @@ static uint32_t touched(froe_kinetic *k, now_name point) {
     return FROE_NONE;
 }
 
-/* An answer that did not come about for lack of memory. */
+/* An answer that did not come about for lack of memory: the tree is as it was. */
 static froe_status answer(froe_kinetic *k, froe_diagnostic *diag) {
     if (!k->short_of_memory) return FROE_OK;
     k->short_of_memory = false;

@@ -84,6 +84,7 @@ static froe_status audit_ticks(froe_kinetic *k, froe_diagnostic *diag) {
     for (uint32_t i = 0; i < k->certs.count; i++) {
         const live_cert *c = k->certs.data + i;
         if (c->kind > CERT_PAIR) continue;
+        if (!live_goes_on(k)) return live_fail(k, diag);
         const int64_t tick = tick_from_scratch(k, i);
         const bool may_be_early = k->options.augmented && c->kind <= CERT_RIGHT;
         if (c->tick > tick || (c->tick < tick && !may_be_early))
@@ -109,9 +110,9 @@ froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k) return base_fail(diag, FROE_E_ARG, "froe_kinetic_audit: NULL");
     froe_kinetic *fresh = NULL;
-    now_catch_up(&k->now);
-    froe_status status = live_copy(k, &fresh);
-    if (status) return base_fail_memory(diag);
+    froe_status status = live_begin(k, diag);
+    if (!status) status = live_copy(k, &fresh, diag);
+    if (status) return status;
     uint32_t node[2];
     status = live_compare(k, fresh, true, node);
     if (status)

@@ -181,6 +181,7 @@ static void certify_touched(froe_kinetic *k, uint32_t root, live_cell cell) {
         cell = top->cell;
         if (top->back) {
             k->visits.count--;
+            live_poll(k);
             node_at(k, node)->cut = find_cut(k, node);
             certify_regions(k, node, &cell);
             for (int side = 0; side < 2; side++) certify_end(k, node, &cell, side);

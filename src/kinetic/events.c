@@ -319,7 +319,7 @@ static void gather(froe_kinetic *k) {
     live_due(k, k->now.tick);
     size_t count = k->order.count;
     for (size_t i = 0; i < count && !k->short_of_memory; i++) /* add_item moves certificates in the queue, not here */
-        if (!add_item(k, k->order.data[i])) k->short_of_memory = true;
+        if (!add_item(k, k->order.data[i]) || !live_goes_on(k)) k->short_of_memory = true;
     sort_items(k);
 }
 
@@ -361,7 +361,7 @@ static void repair(froe_kinetic *k, group *g, unsigned round) {
     const froe_event event = describe(k, g);
     bool simple = call_crew(k, g) && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
                   !live_has_loose_ends(k, item_of(k, g, 0));
-    k->now.lost = !(g->slab[0] <= g->slab[1]);
+    k->now.lost = !(g->slab[0] <= g->slab[1] && g->slab[1] - g->slab[0] < (double)INFINITY);
     live_outcome outcome = simple ? pass(k, g) : LIVE_NOT_NARROW;
     if (outcome && !operate(k, g, simple && outcome == LIVE_NOT_NARROW)) {
         k->counts.crowds++;

@@ -152,6 +152,7 @@ static verdict judge(int d, const num_ball *b) {
     double size = 0, error = 0;
     for (int i = 0; i <= d; i++) {
         int sign = num_ball_sign(b[i]);
+        if (!isfinite(b[i].x) || !isfinite(b[i].e)) return HOPELESS; /* too large for doubles */
         size = fabs(b[i].x) > size ? fabs(b[i].x) : size;
         error = b[i].e > error ? b[i].e : error;
         if (sign == 0 || sign == NUM_UNSURE) {

@@ -131,7 +131,8 @@ void live_grow(froe_kinetic *k, const live_cell *cell, size_t first, uint32_t pa
     push(k, &task);
     while (k->tasks.count > waiting) {
         task = k->tasks.data[--k->tasks.count];
-        grow_node(k, &task);
+        if (!k->short_of_memory) grow_node(k, &task);
+        live_poll(k);
     }
     k->list.count = first;
 }

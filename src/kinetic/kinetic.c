@@ -49,7 +49,7 @@ static froe_status grow_tables(froe_kinetic *k) {
     return FROE_OK;
 }
 
-static bool is_there(const froe_kinetic *k, uint32_t segment) {
+bool live_is_there(const froe_kinetic *k, uint32_t segment) {
     const motion_object *o = k->now.motion->objects.data + segment;
     return o->first <= k->now.tick && k->now.tick <= o->last;
 }
@@ -82,21 +82,24 @@ static froe_status new_at(froe_motion *motion, const froe_allocator *memory, int
     return FROE_OK;
 }
 
-froe_status live_copy(const froe_kinetic *k, froe_kinetic **out) {
+froe_status live_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *diag) {
     froe_kinetic *copy;
-    if (new_at(k->now.motion, &k->alloc, k->now.tick, &copy)) return FROE_E_MEMORY;
-    copy->options.augmented = k->options.augmented;
+    if (new_at(k->now.motion, &k->alloc, k->now.tick, &copy)) return base_fail_memory(diag);
+    copy->options = k->options;
+    base_task_init(&copy->task, 1, k->options.progress, k->options.user);
     for (uint32_t s = 0; s < k->segments.count; s++) {
         segment_at(copy, s)->key = segment_at(k, s)->key;
         if (segment_at(k, s)->alive) live_enroll(copy, s);
+        live_poll(copy);
     }
-    live_restart(copy);
-    if (copy->short_of_memory) {
-        froe_kinetic_free(copy);
-        return FROE_E_MEMORY;
+    if (!copy->short_of_memory) live_restart(copy);
+    if (!copy->short_of_memory) {
+        *out = copy;
+        return FROE_OK;
     }
-    *out = copy;
-    return FROE_OK;
+    const froe_status status = live_fail(copy, diag);
+    froe_kinetic_free(copy);
+    return status;
 }
 
 static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
@@ -106,11 +109,12 @@ static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
     for (uint32_t s = 0; s < n; s++) {
         if (!k->options.order) segment_at(k, s)->key = random_key(k, s);
         live_schedule(k, s);
-        if (is_there(k, s)) live_enroll(k, s);
+        if (live_is_there(k, s)) live_enroll(k, s);
+        live_poll(k);
     }
-    live_restart(k);
+    if (!k->short_of_memory) live_restart(k);
     k->counts = (froe_kinetic_stats){0};
-    return k->short_of_memory ? base_fail_memory(diag) : FROE_OK;
+    return k->short_of_memory ? live_fail(k, diag) : FROE_OK;
 }
 
 froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options, const froe_allocator *alloc,
@@ -123,6 +127,7 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
     froe_kinetic *k;
     if (new_at(motion, &memory, 1, &k)) return base_fail_memory(diag);
     k->options = *options;
+    base_task_init(&k->task, 1, options->progress, options->user);
     froe_status status = start(k, diag);
     k->options.order = NULL; /* the caller's */
     if (status)
@@ -179,22 +184,6 @@ double froe_kinetic_next(const froe_kinetic *k) {
     return time;
 }
 
-/* After memory ran out in the middle of something: everything is made anew. Certificates of ends would last, though
- * they may have been made for pieces of plans that have ended since. */
-static froe_status settle_memory(froe_kinetic *k, froe_diagnostic *diag) {
-    if (!k->short_of_memory) return FROE_OK;
-    k->short_of_memory = false;
-    for (uint32_t s = 0; s < k->segments.count; s++) {
-        live_forget_pairs(k, s);
-        live_forget_ends(k, s);
-        live_unroll(k, s);
-        live_schedule(k, s);
-        if (is_there(k, s)) live_enroll(k, s);
-    }
-    if (!k->short_of_memory) live_restart(k);
-    return k->short_of_memory ? base_fail_memory(diag) : FROE_OK;
-}
-
 /* A new random order for everything. */
 static void new_epoch(froe_kinetic *k) {
     k->epoch++;
@@ -219,12 +208,13 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
     if (tick > last) tick = last;
     if (tick < k->now.tick) return base_fail(diag, FROE_E_ARG, "time %g has passed", time);
     const live_watcher watcher = {visit, user};
-    now_catch_up(&k->now);
-    froe_status status = settle_memory(k, diag);
+    const int64_t from = k->now.tick;
+    froe_status status = live_begin(k, diag);
     while (!status && k->now.tick < tick) {
+        if (!base_progress(&k->task, (double)(k->now.tick - from) / (double)(tick - from))) return live_fail(k, diag);
         bool go_on = live_step(k, tick, &watcher);
-        status = settle_memory(k, diag);
-        end_epoch(k);
+        status = live_settle(k, diag);
+        if (!status) end_epoch(k), status = live_settle(k, diag);
         if (!go_on && !status) return base_fail(diag, FROE_E_CANCELLED, "stopped by the visitor");
     }
     return status;
@@ -237,12 +227,12 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     if (!k) return base_fail(diag, FROE_E_ARG, "froe_kinetic_update: NULL");
     uint32_t first = (uint32_t)k->segments.count;
     if (grow_tables(k)) return base_fail_memory(diag);
-    froe_status status = settle_memory(k, diag);
+    froe_status status = live_begin(k, diag);
     for (uint32_t s = first; s < k->segments.count && !status; s++) {
         segment_at(k, s)->key = random_key(k, s);
         live_schedule(k, s);
-        if (is_there(k, s)) live_insert(k, s);
-        status = settle_memory(k, diag);
+        if (live_is_there(k, s)) live_insert(k, s);
+        status = live_settle(k, diag);
     }
     return status;
 }
@@ -250,12 +240,13 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k || object >= k->segments.count) return base_fail(diag, FROE_E_ARG, "there is no object %u", object);
-    now_catch_up(&k->now);
+    froe_status status = live_begin(k, diag);
+    if (status) return status;
     motion_object *o = k->now.motion->objects.data + object;
     if (o->last >= k->now.tick) o->last = k->now.tick - 1;
     if (k->segments.data[object].life != CERT_NONE) live_set_tick(k, k->segments.data[object].life, NOW_NEVER);
     live_remove(k, object);
-    return settle_memory(k, diag);
+    return live_settle(k, diag);
 }
 
 /* From now to when the last of the segments of a vertex dies. */
@@ -274,21 +265,22 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
     BASE_FLOATS_OWN;
     if (!k || vertex >= k->vertices.count) return base_fail(diag, FROE_E_ARG, "there is no vertex %u", vertex);
     double life[2];
-    now_catch_up(&k->now);
+    froe_status status = live_begin(k, diag), settled;
+    if (status) return status;
     life_of(k, vertex, life);
     k->leaving.count = 0;
     for (uint32_t e = k->vertices.data[vertex]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
         if (!array_push(&k->alloc, &k->leaving, e / 2)) return base_fail_memory(diag);
     for (size_t i = 0; i < k->leaving.count; i++) live_remove(k, k->leaving.data[i]);
-    froe_status status = motion_replan(k->now.motion, vertex, count, times, coords, controls, life, diag);
+    status = motion_replan(k->now.motion, vertex, count, times, coords, controls, life, diag);
     now_catch_up(&k->now);
     for (size_t i = 0; i < k->leaving.count; i++) {
         live_schedule(k, k->leaving.data[i]);
         live_insert(k, k->leaving.data[i]);
     }
     k->leaving.count = 0;
-    froe_status memory = settle_memory(k, diag);
-    return status ? status : memory;
+    settled = live_settle(k, status ? NULL : diag);
+    return status ? status : settled;
 }
 
 /* --------------------------------------------------------------- statistics -- */

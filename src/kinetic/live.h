@@ -12,6 +12,7 @@
  * changes is in surgery.h, and how to know that it does in certificates.h. */
 #ifndef FROE_KINETIC_LIVE_H
 #define FROE_KINETIC_LIVE_H
+#include "base/task.h"
 #include "kinetic/now.h"
 
 enum { LEFT, RIGHT, UP, DOWN };
@@ -162,8 +163,10 @@ struct froe_kinetic {
     froe_kinetic_options options;
     uint64_t epoch, epoch_events; /**< orders drawn so far, events until the last */
     uint32_t stamp, list_stamp, crew_stamp;
-    bool short_of_memory; /**< the tree may be incomplete */
-    bool broken;          /**< parts do not fit: the tree is not what it should be */
+    bool short_of_memory; /**< the tree may be incomplete; so it is after a call that was cancelled */
+    base_task task;       /**< the call that is under way */
+    uint32_t polls;
+    bool broken; /**< parts do not fit: the tree is not what it should be */
     ARRAY(live_node) nodes;
     uint32_t free_node;
     size_t node_count;
@@ -389,8 +392,25 @@ void live_remove(froe_kinetic *k, uint32_t segment);
 void live_schedule(froe_kinetic *k, uint32_t segment);
 
 /* kinetic.c */
-/** The same segments in the same order at the same time, made from scratch. */
-froe_status live_copy(const froe_kinetic *k, froe_kinetic **out);
+/** The same segments in the same order at the same time, made from scratch, as a part of the call under way. */
+froe_status live_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *diag);
+
+/** Has its time come, and not gone? */
+bool live_is_there(const froe_kinetic *k, uint32_t segment);
+
+/* call.c */
+/** A call from outside begins: what it is about is up to date, and the tree complete. FROE_E_MEMORY, FROE_E_CANCELLED. */
+froe_status live_begin(froe_kinetic *k, froe_diagnostic *diag);
+/** A call ends, or a part of it: memory that ran out meanwhile may be there now, and then everything is made anew. */
+froe_status live_settle(froe_kinetic *k, froe_diagnostic *diag);
+/** Something that takes long goes on: is it to? Asks the caller now and then. */
+bool live_goes_on(froe_kinetic *k);
+/** The same while the tree is made: if it is not to go on, the tree is left incomplete. */
+static inline void live_poll(froe_kinetic *k) {
+    if (!live_goes_on(k)) k->short_of_memory = true;
+}
+/** The failure of a call that could not go on. */
+froe_status live_fail(froe_kinetic *k, froe_diagnostic *diag);
 
 /* audit.c */
 /** The first node of each that differs from that of the other, in its certificates, too, if that is asked; LEAF: none.

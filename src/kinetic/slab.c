@@ -2,6 +2,9 @@
 #include "kinetic/live.h"
 #include <math.h>
 
+/* Coordinates up to 2^SAFE_TOP: what crowds and slabs are found by, products of two differences, is no infinity. */
+enum { SAFE_TOP = 480 };
+
 bool live_has_end(const froe_kinetic *k, uint32_t segment, uint32_t vertex) {
     const uint32_t *end = k->now.segments.data[segment].end;
     return end[0] == vertex || end[1] == vertex;
@@ -47,6 +50,10 @@ bool live_is_one_segment(const froe_kinetic *k, now_name p, now_name q) {
 
 void live_find_slab(froe_kinetic *k, live_item *item) {
     now_name p = item->claim.p, q = item->claim.q, third;
+    if (k->now.motion->top > SAFE_TOP) { /* all together, and the whole tree anew */
+        item->slab[0] = -(double)INFINITY, item->slab[1] = (double)INFINITY;
+        return;
+    }
     item->slab[0] = (double)INFINITY, item->slab[1] = -(double)INFINITY;
     live_reach(k, item->slab, q);
     if (p.b == NAME_SEGMENT) {

@@ -63,7 +63,7 @@ static bool cut_piece(slicing *s, uint32_t object, const motion_piece piece[2], 
     const froe_motion *m = s->m;
     double length = m->end - m->begin, cuts = travel(s, piece, from, to), step = length, next = from;
     if (!(cuts < MOST_CUTS)) cuts = MOST_CUTS;
-    for (int level = 0; level < MOST_LEVEL && step * cuts > to - from; level++) step *= 0.5;
+    for (int level = 0; level < MOST_LEVEL && step * cuts > to - from && 0.5 * step > 0; level++) step *= 0.5;
     for (double k = floor((from - m->begin) / step) + 1; next < to && cuts > 1; k++) {
         double end = m->begin + k * step;
         if (!(end > next)) continue;

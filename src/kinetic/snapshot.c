@@ -68,7 +68,7 @@ static bool keep_place(const picture *p, uint32_t vertex, bool rounded) {
 }
 
 /* A vertex that several segments share is rounded alike, and counted for each of its segments but the first no more.
- * False: no memory. */
+ * False: no memory, or cancelled. */
 static bool take_places(picture *p) {
     froe_kinetic *k = p->k;
     for (size_t i = 0; i < p->count; i++)
@@ -77,7 +77,7 @@ static bool take_places(picture *p) {
             const bool exact = now_round(&k->now, vertex, p->coords + 4 * i + 2 * e);
             p->rounded += !exact && k->vertices.data[vertex] == 2 * p->objects[i] + e;
             if (!exact && p->first_rounded == FROE_NONE) p->first_rounded = p->objects[i];
-            if (p->places && !keep_place(p, vertex, !exact)) return false;
+            if ((p->places && !keep_place(p, vertex, !exact)) || !live_goes_on(k)) return false;
         }
     return true;
 }
@@ -93,6 +93,7 @@ static froe_status build(const picture *p, froe_tree **tree, froe_diagnostic *di
     o.method = "cylindrical";
     o.leaf = 0;
     o.order = p->order, o.order_count = p->count;
+    o.progress = p->k->options.progress, o.user = p->k->options.user;
     status = froe_scene_add(scene, &batch, diag);
     if (!status) status = froe_build(scene, &o, tree, diag);
     froe_scene_free(scene); /* the tree holds it */
@@ -177,7 +178,7 @@ static froe_status compare(const picture *p, const froe_tree *tree, bool *alike)
 
 static froe_status make(picture *p, bool refuse, froe_snapshot *out, froe_diagnostic *diag) {
     take_objects(p);
-    if (!take_places(p)) return base_fail_memory(diag);
+    if (!take_places(p)) return live_fail(p->k, diag);
     if (refuse && p->rounded)
         return base_fail_at(
             diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
@@ -203,8 +204,9 @@ froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *
     if (o->size != sizeof *o) return base_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");
     picture p;
     froe_snapshot made = {0};
-    now_catch_up(&k->now);
-    froe_status status = picture_new(k, o->places, &p) ? make(&p, o->refuse, &made, diag) : base_fail_memory(diag);
+    froe_status status = live_begin(k, diag);
+    if (status) return status;
+    status = picture_new(k, o->places, &p) ? make(&p, o->refuse, &made, diag) : base_fail_memory(diag);
     if (!status) *out = made;
     picture_free(&p);
     return status;

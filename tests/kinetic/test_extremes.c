@@ -1,0 +1,204 @@
+/* test_extremes.c: motions at the ends of what doubles are: coordinates next to the largest and the smallest, windows of
+ * one tick, of 2^52 and of any length. All is answered, or refused with a sentence. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <float.h>
+
+#include "support/fuzz.h"
+#include <froe/kinetic.h>
+
+enum { SEGMENTS = 4, KNOTS = 3 };
+
+typedef struct tally {
+    unsigned windows, plans, partitions, contacts, snapshots, limits;
+} tally;
+
+static double extreme(fuzz_source *r) {
+    const double some[] = {0, 1, 3, DBL_MAX, 0x1p1023, 0x1.8p1020, 0x1p1018, 0x1p-1074, 0x1p-1022, 0x1p511, 0x1p-540};
+    const int what = fuzz_int(r, 0, 14);
+    double x = what < 11 ? some[what] : what < 13 ? fuzz_int(r, 0, 8) : fuzz_finite(r);
+    return fuzz_int(r, 0, 1) ? -x : x;
+}
+
+/* A window, from which all times of plans are taken. */
+static froe_motion_options window_of(fuzz_source *r) {
+    froe_motion_options w = froe_motion_defaults();
+    const double lengths[] = {16, 0x1p63, 0x1p1023, 0x1p-1060, 0x1p-1074, 0x1p-1022, 3, 0x1p52};
+    const double length = lengths[fuzz_int(r, 0, 7)];
+    w.begin = fuzz_int(r, 0, 1) ? 0 : fuzz_int(r, 0, 1) ? -0.5 * length : extreme(r);
+    w.end = w.begin + length;
+    const double ticks[] = {0, 1, length * 0x1p-52, length * 0.5, length, length * 0x1p-20};
+    w.tick = ticks[fuzz_int(r, 0, 5)];
+    return w;
+}
+
+static bool told(const froe_diagnostic *why) {
+    return why->message[0] != 0;
+}
+
+/* False: the batch is refused. */
+static bool add(fuzz_source *r, froe_motion *m, const froe_motion_options *w) {
+    size_t starts[2 * SEGMENTS + 1] = {0};
+    double times[2 * SEGMENTS * KNOTS], coords[4 * SEGMENTS * KNOTS], controls[4 * SEGMENTS * KNOTS];
+    uint32_t vertices[2 * SEGMENTS];
+    for (size_t v = 0; v < 2 * SEGMENTS; v++) {
+        const int pieces = fuzz_int(r, 0, KNOTS - 1);
+        const size_t at = starts[v];
+        for (size_t i = 0; i <= (size_t)pieces; i++) {
+            times[at + i] = i == 0 ? w->begin : i == (size_t)pieces ? w->end : 0.5 * w->begin + 0.5 * w->end;
+            if (!fuzz_int(r, 0, 7)) times[at + i] = i ? DBL_MAX : -DBL_MAX;
+            const bool straight = fuzz_int(r, 0, 2);
+            for (size_t k = 0; k < 2; k++) {
+                coords[2 * (at + i) + k] = extreme(r);
+                controls[2 * (at + i) + k] = straight ? (double)NAN : extreme(r);
+            }
+        }
+        starts[v + 1] = at + (size_t)pieces + 1;
+        vertices[v] = (uint32_t)(v && fuzz_int(r, 0, 3) == 0 ? v - 1 : v);
+    }
+    froe_moving b = froe_moving_defaults();
+    froe_diagnostic why = {0};
+    b.vertex_count = 2 * SEGMENTS, b.count = SEGMENTS, b.starts = starts, b.times = times;
+    b.coords = coords, b.controls = controls, b.vertices = vertices;
+    const froe_status status = froe_motion_add(m, &b, &why);
+    if (status) assert_true(status == FROE_E_INPUT && told(&why));
+    return status == FROE_OK;
+}
+
+static bool count_fragment(void *user, uint32_t object, const double ends[4]) {
+    (void)object;
+    (void)ends;
+    ++*(unsigned *)user;
+    return true;
+}
+
+static void ask(froe_kinetic *k, fuzz_source *r, tally *t) {
+    froe_diagnostic why = {0};
+    for (int i = 0; i < 4; i++) {
+        const double from[2] = {extreme(r), extreme(r)}, to[2] = {extreme(r), extreme(r)};
+        froe_kinetic_place place;
+        uint32_t hit;
+        unsigned count = 0;
+        assert_int_equal(froe_kinetic_locate(k, from, &place, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_ray(k, from, to, &hit, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_order(k, from, count_fragment, &count, NULL), FROE_OK);
+    }
+    froe_snapshot s = {.tree = NULL};
+    const froe_status status = froe_kinetic_snapshot(k, NULL, &s, &why);
+    if (status) fail_msg("%d %s", status, why.message);
+    t->snapshots++;
+    froe_tree_free(s.tree), froe_places_free(s.places);
+}
+
+static void follow(fuzz_source *r, froe_motion *m, tally *t) {
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_diagnostic why = {0};
+    froe_kinetic *k = NULL;
+    o.augmented = fuzz_int(r, 0, 1);
+    if (froe_kinetic_new(m, &o, NULL, &k, &why)) fail_msg("%s", why.message);
+    t->partitions++;
+    const froe_motion_options w = froe_motion_window(m);
+    for (int i = 0; i < 6; i++) {
+        const double share = i / 5.0, next = froe_kinetic_next(k);
+        double time = (1 - share) * w.begin + share * w.end;
+        if (i % 2 && next <= w.end) time = next;
+        if (time < froe_kinetic_time(k)) time = froe_kinetic_time(k);
+        if (froe_kinetic_advance(k, time, NULL, NULL, &why)) fail_msg("%s", why.message);
+        if (froe_kinetic_audit(k, &why)) fail_msg("%s", why.message);
+        ask(k, r, t);
+    }
+    assert_int_equal(froe_kinetic_statistics(k).stuck, 0);
+    froe_kinetic_free(k);
+}
+
+static bool count_contact(void *user, const froe_contact *contact) {
+    (void)contact;
+    ++*(unsigned *)user;
+    return true;
+}
+
+static void find_contacts(froe_motion *m, tally *t) {
+    froe_contact_options o = froe_contact_defaults();
+    froe_diagnostic why = {0};
+    o.threads = 1;
+    const froe_status status = froe_motion_contacts(m, &o, count_contact, &t->contacts, &why);
+    if (status && (status != FROE_E_LIMIT || !told(&why))) fail_msg("%d %s", status, why.message);
+    t->limits += status == FROE_E_LIMIT;
+}
+
+static void run(uint64_t seed, tally *t) {
+    fuzz_source r = {seed};
+    const froe_motion_options w = window_of(&r);
+    froe_motion *m = NULL;
+    froe_diagnostic why = {0};
+    const froe_status status = froe_motion_new(&w, NULL, &m, &why);
+    if (status) {
+        assert_true((status == FROE_E_OPTIONS || status == FROE_E_INPUT) && told(&why));
+        return;
+    }
+    t->windows++;
+    if (add(&r, m, &w)) {
+        t->plans++;
+        follow(&r, m, t);
+        find_contacts(m, t);
+    }
+    froe_motion_free(m);
+}
+
+static void test_all_is_answered_or_refused(void **state) {
+    (void)state;
+    tally t = {0};
+    for (uint64_t seed = 1; seed <= 60; seed++) run(seed, &t);
+    assert_true(t.windows > 30 && t.plans > 20 && t.partitions == t.plans && t.snapshots > 100);
+}
+
+/* Polynomials whose coefficients are infinite as doubles were halved for ever, in the hope that they become sure. */
+static void test_a_segment_near_the_largest_double(void **state) {
+    (void)state;
+    tally t = {0};
+    for (int turn = 0; turn < 2; turn++) {
+        const size_t starts[] = {0, 3, 6};
+        const double times[] = {0, 8, 16, 0, 8, 16};
+        const double coords[] = {turn ? -DBL_MAX : 1e308, 3, 0.1, -8, -8, -8, -8, -8, -8, -8, -8, turn ? DBL_MAX : -8};
+        froe_motion_options w = froe_motion_defaults();
+        froe_motion *m = NULL;
+        w.begin = 0, w.end = 16;
+        assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+        froe_moving b = froe_moving_defaults();
+        b.vertex_count = 2, b.count = 1, b.starts = starts, b.times = times, b.coords = coords;
+        assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+        fuzz_source r = {1};
+        follow(&r, m, &t);
+        froe_motion_free(m);
+    }
+    assert_int_equal(t.partitions, 2);
+}
+
+/* Slices of a window whose halves are 0 had no length, and there was no end of them. */
+static void test_contacts_in_the_shortest_window(void **state) {
+    (void)state;
+    const size_t starts[] = {0, 2, 4, 5, 6};
+    const double times[] = {0, 0x1p-1074, 0, 0x1p-1074, 0, 0}, coords[] = {0, 0, 8, 0, 0, 8, 8, 8, 4, 4, 5, 4};
+    froe_motion_options w = froe_motion_defaults();
+    froe_motion *m = NULL;
+    tally t = {0};
+    w.begin = 0, w.end = 0x1p-1074, w.tick = 0x1p-1074;
+    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 4, b.count = 2, b.starts = starts, b.times = times, b.coords = coords;
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+    find_contacts(m, &t);
+    assert_int_equal(t.contacts, 1);
+    froe_motion_free(m);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_is_answered_or_refused),
+                                       cmocka_unit_test(test_a_segment_near_the_largest_double),
+                                       cmocka_unit_test(test_contacts_in_the_shortest_window)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
