@@ -70,3 +70,12 @@ froe_fuzzer(open 9000)
 froe_fuzzer(scene 9000)
 froe_fuzzer(read 900 IO)
 froe_fuzzer(motion 1100 IO)
+
+# Beside an oracle, which needs GMP.
+find_package(PkgConfig)
+pkg_check_modules(GMP IMPORTED_TARGET GLOBAL gmp)
+if(GMP_FOUND)
+  froe_fuzzer(kinetic 4500)
+  target_sources(fuzz_kinetic PRIVATE tests/oracle/present.c)
+  target_link_libraries(fuzz_kinetic PRIVATE PkgConfig::GMP)
+endif()

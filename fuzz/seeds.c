@@ -73,6 +73,7 @@ static void save_programs(output *out) {
         random_bytes(i, bytes, sizeof bytes);
         snprintf(name, sizeof name, "program-%02d", (int)i);
         put(path_of(out, "scene", name), "wb", bytes, sizeof bytes);
+        put(path_of(out, "kinetic", name), "wb", bytes, sizeof bytes);
     }
 }
 
