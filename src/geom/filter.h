@@ -15,6 +15,7 @@
 
 #define FILTER_U 0x1p-53
 #define FILTER_UP (1 + 0x1p-49)
+#define FILTER_LOST 0x1p-1073 /* more than three products lose by underflow */
 
 /* A power of two that brings a tiny size to about 1; 1 for all others. Products of tiny numbers drown in NUM_BALL_TINY;
  * signs know no scale, so the normal of a plane through tiny differences is lifted first: an exact multiplication. */
@@ -129,16 +130,29 @@ static inline num_ball filter_sub(num_ball a, num_ball b) {
     return filter_add(a, (num_ball){-b.x, b.e});
 }
 
-/* With q = fl(x / y), |x'/y' - q| <= (|x - q y| + e_x + |q| e_y) / (|y| - e_y), |x - q y| <= u |x|. */
+/* With q = fl(x / y), |x'/y' - q| <= (|x - q y| + e_x + |q| e_y) / (|y| - e_y), |x - q y| <= u |x|. Products that
+ * underflow lose at most 2^-1075 each, which a small divisor makes large: they are paid for before it divides. */
 static inline num_ball filter_div(num_ball a, num_ball b) {
     double q = a.x / b.x, gap = (fabs(b.x) - b.e) * (1 - 0x1p-50);
-    double e = (2 * FILTER_U * fabs(a.x) + a.e + fabs(q) * b.e) / gap;
+    double e = (2 * FILTER_U * fabs(a.x) + a.e + fabs(q) * b.e + FILTER_LOST) / gap;
     return (num_ball){q, gap > 0 ? e * FILTER_UP + NUM_BALL_TINY : (double)INFINITY};
 }
 
 /* One instruction, where fmax() is a call. Beside a NaN, errors are not finite, so either will do. */
 static inline double filter_greater(double a, double b) {
     return a > b ? a : b;
+}
+
+/* What a square or a sum of squares stands for that may have overflowed: it is at least this. */
+static inline double filter_capped(double square) {
+    return square < 0x1p1023 ? square : 0x1p1023;
+}
+
+/* At least the length of a vector of 3 components, of which the squares may underflow or overflow. */
+static inline double filter_length(const double n[3]) {
+    const double most = filter_greater(filter_greater(fabs(n[0]), fabs(n[1])), fabs(n[2]));
+    const double x = n[0] / most, y = n[1] / most, z = n[2] / most;
+    return most > 0 ? most * (sqrt(x * x + y * y + z * z) * (1 + 0x1p-48)) + 0x1p-1074 : most;
 }
 
 /* A vector with one error bound for all components. */

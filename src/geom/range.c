@@ -35,7 +35,7 @@ void geom_range_bound(geom_range *r) {
 
 bool geom_range_add_facet(geom_range *r, const froe_allocator *alloc, const double n[3]) {
     const double sum = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
-    geom_facet f = {{n[0], n[1], n[2]}, -INFINITY, sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) * (1 + 0x1p-48)};
+    geom_facet f = {{n[0], n[1], n[2]}, -INFINITY, filter_length(n)};
     for (uint32_t i = 0; i < r->set.count; i++) {
         double x[FROE_MAX_DIM], size = 0, value = 0;
         corner_image(&r->set, i, x);
@@ -91,7 +91,7 @@ bool geom_range_misses(const geom_range *r, const double *lo, const double *hi) 
         const double gap = most > 0 ? most : 0;
         sum += gap * gap;
     }
-    return sum * SURE > r->set.radius * r->set.radius + NUM_BALL_TINY;
+    return filter_capped(sum) * SURE > r->set.radius * r->set.radius + NUM_BALL_TINY;
 }
 
 /* Squared distance from the centre of a ball to the furthest point of a box, or from a box to the furthest corner
@@ -160,7 +160,7 @@ bool geom_range_holds(num_context *context, const geom_range *r, double margin, 
     switch (r->kind) {
     case GEOM_RANGE_BOX:
     case GEOM_RANGE_BALL:
-        return furthest(r, lo, hi) < reach * reach * SURE - NUM_BALL_TINY;
+        return furthest(r, lo, hi) < filter_capped(reach * reach) * SURE - NUM_BALL_TINY;
     case GEOM_RANGE_SOLID:
         if (!r->set.count) return margin == 0 && in_facets(r, lo, hi);
         return facets_hold(r, margin, lo, hi) && corners_held(context, r, margin, lo, hi);

@@ -14,7 +14,7 @@
 #define FROE_GEOM_RANGE_H
 #include "base/array.h"
 #include "geom/convex.h"
-#include "num/ball.h"
+#include "geom/filter.h"
 
 /** n . x <= c for all points of the range; norm >= |n|. */
 typedef struct geom_facet {
@@ -60,11 +60,12 @@ static inline int geom_range_has(const geom_range *range, const double *x) {
         for (int k = 0; k < range->dim; k++) in &= (x[k] >= range->lo[k]) & (x[k] <= range->hi[k]);
         return in;
     case GEOM_RANGE_BALL: {
-        const double square = range->set.radius * range->set.radius;
+        const double square = filter_capped(range->set.radius * range->set.radius);
         for (int k = 0; k < range->dim; k++) {
             const double gap = x[k] - range->set.coords[k];
             sum += gap * gap;
         }
+        sum = filter_capped(sum);
         in = sum < square * sure - NUM_BALL_TINY;
         return (in | (sum * sure > square + NUM_BALL_TINY)) ? in : NUM_UNSURE;
     }

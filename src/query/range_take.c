@@ -210,7 +210,7 @@ static double spread(size_t dim, const double *points, size_t count) {
             }
             most = filter_greater(most, square);
         }
-    return sqrt(most);
+    return most > 0x1p-900 ? sqrt(most) : 0; /* squares that are not denormal; what is shorter has no margin */
 }
 
 /* A lower bound of it: the greatest extent along an axis. */

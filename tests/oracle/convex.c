@@ -51,7 +51,8 @@ oracle_set oracle_box(int dim, const double *lo, const double *hi) {
     return finish(s);
 }
 
-oracle_set oracle_ray(int dim, const double *origin, const double *direction, double reach) {
+/* The ray as far as `reach` along the axis where it is fastest. */
+static oracle_set ray_within(int dim, const double *origin, const double *direction, mpq_t reach) {
     oracle_set s = set_new(dim, 2, 0);
     mpq_t factor, most;
     mpq_init(factor);
@@ -60,8 +61,7 @@ oracle_set oracle_ray(int dim, const double *origin, const double *direction, do
         mpq_set_d(factor, fabs(direction[k]));
         if (mpq_cmp(factor, most) > 0) mpq_set(most, factor);
     }
-    mpq_set_d(factor, reach);
-    mpq_div(factor, factor, most);
+    mpq_div(factor, reach, most);
     for (int k = 0; k < dim; k++) {
         mpq_set_d(s.x[k], origin[k]);
         mpq_set_d(s.x[dim + k], direction[k]);
@@ -71,6 +71,34 @@ oracle_set oracle_ray(int dim, const double *origin, const double *direction, do
     mpq_clear(factor);
     mpq_clear(most);
     return finish(s);
+}
+
+oracle_set oracle_ray(int dim, const double *origin, const double *direction, double reach) {
+    mpq_t length;
+    mpq_init(length);
+    mpq_set_d(length, reach);
+    oracle_set s = ray_within(dim, origin, direction, length);
+    mpq_clear(length);
+    return s;
+}
+
+oracle_set oracle_ray_past(int dim, const double *origin, const double *direction, const double *lo, const double *hi) {
+    mpq_t length, x, step;
+    mpq_init(length);
+    mpq_init(x);
+    mpq_init(step);
+    for (int k = 0; k < 2 * dim; k++) {
+        mpq_set_d(x, origin[k / 2]);
+        mpq_set_d(step, k % 2 ? hi[k / 2] : lo[k / 2]);
+        mpq_sub(step, step, x);
+        mpq_abs(step, step);
+        mpq_add(length, length, step);
+    }
+    oracle_set s = ray_within(dim, origin, direction, length);
+    mpq_clear(length);
+    mpq_clear(x);
+    mpq_clear(step);
+    return s;
 }
 
 oracle_set oracle_object(const froe_scene *scene, uint32_t object) {

@@ -27,6 +27,8 @@ oracle_set oracle_points(int dim, const double *coords, size_t count, double rad
 oracle_set oracle_box(int dim, const double *lo, const double *hi);
 /** A ray as far as a sphere of radius `reach` around its origin. */
 oracle_set oracle_ray(int dim, const double *origin, const double *direction, double reach);
+/** A ray as far as beyond all points of a box. */
+oracle_set oracle_ray_past(int dim, const double *origin, const double *direction, const double *lo, const double *hi);
 /** Where halfspaces normal . x <= offset and a box meet; count 0 when they do not. */
 oracle_set oracle_halfspaces(int dim, const double *normals, const double *offsets, size_t count, const double *lo,
                              const double *hi);

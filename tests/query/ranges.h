@@ -32,10 +32,42 @@ static inline void make_box(const world *w, world_dice *d, question *q) {
     }
 }
 
+/* From one place to another, or any vector; not 0. */
+static inline void make_vector(const world *w, world_dice *d, double *v) {
+    double from[FROE_MAX_DIM], to[FROE_MAX_DIM], most = 0;
+    fuzz_source r = world_fuzz(d);
+    const bool any = fuzz_int(&r, 0, 1);
+    world_point(w, d, from);
+    world_point(w, d, to);
+    for (int k = 0; k < w->dim; k++) {
+        v[k] = any ? extreme_number(&r, w->scene) : extreme_finite(to[k] - from[k]);
+        most = fmax(most, fabs(v[k]));
+    }
+    if (most == 0) v[world_below(d, (uint32_t)w->dim)] = extreme_scale(&r, w->scene);
+}
+
+/* Halfspaces whose planes run by a point, as nearly as doubles let them, or anywhere. */
+static inline void make_extreme_halfspaces(const world *w, world_dice *d, question *q) {
+    double centre[3], size[3];
+    memcpy(centre, q->points, sizeof centre);
+    q->range.count = 1 + world_below(d, w->dim == 2 ? 6 : 5);
+    for (size_t i = 0; i < q->range.count; i++) {
+        double *n = q->points + i * (size_t)w->dim, value = 0;
+        make_vector(w, d, n);
+        for (int k = 0; k < w->dim; k++) value += n[k] * centre[k];
+        world_point(w, d, size);
+        q->offsets[i] = world_below(d, 4) ? extreme_finite(value) : size[0];
+    }
+}
+
 /* Halfspaces around a point, at lattice distances on lattices; unbounded, flat or empty ones among them. */
 static inline void make_halfspaces(const world *w, world_dice *d, question *q) {
     double centre[3], size = size_of(d);
     size_t dim = (size_t)w->dim;
+    if (w->extreme) {
+        make_extreme_halfspaces(w, d, q);
+        return;
+    }
     memcpy(centre, q->points, sizeof centre);
     q->range.count = 1 + world_below(d, w->dim == 2 ? 6 : 5);
     for (size_t i = 0; i < q->range.count; i++) {
@@ -59,12 +91,16 @@ static inline void make_points(const world *w, world_dice *d, question *q, size_
 }
 
 static inline void make_radius(const world *w, world_dice *d, question *q) {
-    q->range.radius = size_of(d) * w->scale * world_unit(d);
-    if (w->lattice) q->range.radius = floor(q->range.radius);
+    const double size = size_of(d);
+    q->range.radius = world_length(w, d, size, q->points);
 }
 
 static inline void make_direction(const world *w, world_dice *d, question *q) {
     double *e = q->points + w->dim;
+    if (w->extreme) {
+        make_vector(w, d, e);
+        return;
+    }
     for (int k = 0; k < w->dim; k++)
         e[k] = w->lattice || !world_below(d, 3) ? (double)world_below(d, 5) - 2 : world_unit(d) - 0.5;
     bool zero = true;
@@ -83,7 +119,7 @@ static inline void clip(const world *w, const question *q, double *lo, double *h
 }
 
 static inline void make_oracle(const world *w, question *q) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], reach = 0;
+    double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
     size_t points[FROE_SHAPE_COUNT] = {[FROE_SHAPE_BALL] = 1,
                                        [FROE_SHAPE_SIMPLEX] = (size_t)w->dim + 1,
                                        [FROE_SHAPE_CAPSULE] = 2,
@@ -98,8 +134,7 @@ static inline void make_oracle(const world *w, question *q) {
         q->set = oracle_halfspaces(w->dim, q->points, q->offsets, q->range.count, lo, hi);
         break;
     case FROE_SHAPE_RAY:
-        for (int k = 0; k < w->dim; k++) reach += fabs(lo[k] - q->points[k]) + fabs(hi[k] - q->points[k]);
-        q->set = oracle_ray(w->dim, q->points, q->points + w->dim, reach);
+        q->set = oracle_ray_past(w->dim, q->points, q->points + w->dim, lo, hi);
         break;
     default:
         q->set = oracle_points(w->dim, q->points, points[q->range.shape], q->range.radius);
@@ -184,14 +219,18 @@ static inline void compare(const world *w, question *q, const bool *meets, size_
     free(found);
 }
 
+/* What brute force says about an object. */
+typedef bool range_truth(const world *w, const question *q, uint32_t object);
+
 /* By walks first .. last. Returns the number of decisions. */
-static inline size_t ask_by(const world *w, froe_range_shape shape, uint64_t seed, froe_walk first, froe_walk last) {
+static inline size_t ask_by(const world *w, froe_range_shape shape, uint64_t seed, froe_walk first, froe_walk last,
+                            range_truth *true_of) {
     world_dice d = {seed, 0};
     question q;
     bool *meets = calloc(w->count + 1, sizeof *meets);
     size_t expected = 0;
     make(w, &d, shape, &q);
-    for (uint32_t i = 0; i < w->count; i++) expected += meets[i] = truth(w, &q, i);
+    for (uint32_t i = 0; i < w->count; i++) expected += meets[i] = true_of(w, &q, i);
     for (q.range.walk = first; q.range.walk <= last; q.range.walk++) compare(w, &q, meets, expected);
     if (w->dim <= 3) oracle_set_free(&q.set);
     free(meets);
@@ -199,7 +238,7 @@ static inline size_t ask_by(const world *w, froe_range_shape shape, uint64_t see
 }
 
 static inline size_t ask(const world *w, froe_range_shape shape, uint64_t seed) {
-    return ask_by(w, shape, seed, FROE_WALK_AUTO, FROE_WALK_AUTO);
+    return ask_by(w, shape, seed, FROE_WALK_AUTO, FROE_WALK_AUTO, truth);
 }
 
 /** Kinds that lie flat, and kinds that do not. */

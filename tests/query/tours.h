@@ -51,4 +51,20 @@ static inline void tour_tiny(tour_check *check) {
         for (int dim = kind == FROE_POLYGON ? 3 : 2; dim <= 3; dim++)
             check(world_begin("one", world_mixture(dim, 1u << kind, 1, 3, 1, 1)), 40);
 }
+
+/** Scenes of every scale at once, of every dimension, and questions at every scale. */
+static inline void tour_extremes(tour_check *check, uint64_t scenes, int questions) {
+    const uint64_t first = extreme_seed(), last = first + scenes * extreme_rounds() / EXACT_SHARE;
+    for (uint64_t seed = first; seed < last; seed++) {
+        static const unsigned plane[] = {1 << FROE_SEGMENT, TOUR_FLAT, 1 << FROE_POINT | 1 << FROE_SEGMENT};
+        static const unsigned space[] = {1 << FROE_POLYGON, TOUR_FLAT | 1 << FROE_POLYGON};
+        const int dim = seed % 9 == 8 ? 4 + (int)(seed / 9 % (FROE_MAX_DIM - 3)) : 2 + (int)(seed % 2);
+        const unsigned kinds = dim == 2 ? plane[seed / 2 % 3] : dim == 3 ? space[seed / 2 % 2] : TOUR_MANY;
+        char name[64];
+        snprintf(name, sizeof name, "extremes, FROE_SEED=%llu", (unsigned long long)seed);
+        world w = world_begin(name, extreme_scene_new(dim, kinds, dim == 2 ? 9 : 6, seed));
+        w.extreme = true;
+        check(w, questions);
+    }
+}
 #endif

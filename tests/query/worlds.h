@@ -2,6 +2,7 @@
 #ifndef FROE_TESTS_QUERY_WORLDS_H
 #define FROE_TESTS_QUERY_WORLDS_H
 #include "oracle/convex.h"
+#include "query/extremes.h"
 #include "tree/trees.h"
 #include <froe/io.h>
 #include <froe/query.h>
@@ -20,6 +21,7 @@ typedef struct world {
     double scale; /**< queries lie in about 0 .. scale on each axis, plus `origin` */
     double origin[FROE_MAX_DIM];
     bool lattice;
+    bool extreme; /**< places and lengths are those of query/extremes.h */
 } world;
 
 /** Adds a tree, unless the builder does not serve the scene. */
@@ -131,6 +133,11 @@ static inline double world_unit(world_dice *d) {
     return trees_unit(d->seed, d->counter++);
 }
 
+/** The same for extremes.h. */
+static inline fuzz_source world_fuzz(world_dice *d) {
+    return (fuzz_source){base_hash(d->seed, 79, d->counter++)};
+}
+
 /** Puts a point into axis-parallel cuts of some tree: one, or as many as there are axes. */
 static inline void world_into_cuts(const world *w, world_dice *d, double *x) {
     if (!w->tree_count) return;
@@ -142,6 +149,12 @@ static inline void world_into_cuts(const world *w, world_dice *d, double *x) {
 }
 /** A point to ask about: anywhere, on a vertex, with coordinates of vertices, which cuts have, too, or in cuts. */
 static inline void world_point(const world *w, world_dice *d, double *x) {
+    if (w->extreme) {
+        fuzz_source r = world_fuzz(d);
+        extreme_point(&r, w->scene, x);
+        if (!world_below(d, 4)) world_into_cuts(w, d, x);
+        return;
+    }
     uint32_t vertices = (uint32_t)froe_scene_vertex_count(w->scene), style = world_below(d, 5);
     for (int k = 0; k < w->dim; k++) {
         x[k] = w->origin[k] + w->scale * (1.2 * world_unit(d) - 0.1);
@@ -154,9 +167,24 @@ static inline void world_point(const world *w, world_dice *d, double *x) {
 }
 /** One near another, by about `size` of the scene. */
 static inline void world_near(const world *w, world_dice *d, double size, const double *from, double *x) {
+    if (w->extreme) {
+        fuzz_source r = world_fuzz(d);
+        extreme_beside(&r, w->dim, from, extreme_scale(&r, w->scene), x);
+        if (fuzz_int(&r, 0, 1)) world_point(w, d, x);
+        return;
+    }
     for (int k = 0; k < w->dim; k++) {
         x[k] = from[k] + w->scale * size * (2 * world_unit(d) - 1);
         if (w->lattice) x[k] = floor(x[k]);
     }
+}
+/** A length up to about `size` of the scene, for what is asked at x. */
+static inline double world_length(const world *w, world_dice *d, double size, const double *x) {
+    if (w->extreme) {
+        fuzz_source r = world_fuzz(d);
+        return extreme_length(&r, w->scene, x);
+    }
+    const double length = size * w->scale * world_unit(d);
+    return w->lattice ? floor(length) : length;
 }
 #endif
