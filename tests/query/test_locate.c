@@ -1,5 +1,6 @@
 /* Locating points against brute force in rationals, and batches against single queries. */
 #include "query/standing.h"
+#include "query/tours.h"
 
 enum { DECISIONS = 1000000 };
 
@@ -16,12 +17,21 @@ static int begin(void **state) {
     return 0;
 }
 
+/* point: x as a set, up to three dimensions */
+static bool holds(const world *w, uint32_t object, const double *x, const oracle_set *point) {
+    const froe_object o = froe_scene_object(w->scene, object);
+    if (w->dim <= 3) return oracle_meet(&w->objects[object], point);
+    const double *lo = froe_scene_vertex(w->scene, froe_scene_corner(w->scene, object, 0));
+    const double *hi = o.form == FROE_BOX ? froe_scene_vertex(w->scene, froe_scene_corner(w->scene, object, 1)) : lo;
+    return oracle_meet_boxes(w->dim, lo, hi, o.radius, x, x, 0);
+}
+
 static size_t locate(const world *w, uint64_t seed, size_t *held) {
     world_dice d = {seed, 0};
     double x[FROE_MAX_DIM];
     bool *found = calloc(w->count, sizeof *found);
     world_point(w, &d, x);
-    oracle_set point = oracle_points(w->dim, x, 1, 0);
+    oracle_set point = oracle_points(w->dim <= 3 ? w->dim : 3, x, 1, 0);
     for (size_t t = 0; t < w->tree_count; t++) {
         froe_list list;
         assert_int_equal(froe_query_locate(w->queries[t], x, &list, NULL), FROE_OK);
@@ -31,7 +41,7 @@ static size_t locate(const world *w, uint64_t seed, size_t *held) {
             found[list.ids[i]] = true;
         }
         for (uint32_t i = 0; i < w->count; i++)
-            if (found[i] != oracle_meet(&w->objects[i], &point))
+            if (found[i] != holds(w, i, x, &point))
                 fail_msg("%s, tree %zu: object %u is%s found at %a %a", w->name, t, i, found[i] ? "" : " not", x[0],
                          x[1]);
         *held += list.count;
@@ -80,6 +90,16 @@ static void points_are_found_at_the_limits(void **state) {
     decisions += locate_in("boxes of a house", world_read("fzk-haus-boxes.csv"), 60);
     print_message("%zu decisions at the limits, %zu held\n", decisions, held_at_limits);
     assert_true(decisions > 200000 && held_at_limits > 1000);
+}
+
+static void check_extremes(world w, int points) {
+    for (uint64_t seed = 0; seed < (uint64_t)points; seed++) locate(&w, seed, &held_at_limits);
+    world_end(&w);
+}
+
+static void points_are_found_at_every_scale(void **state) {
+    (void)state;
+    tour_extremes(check_extremes, 60, 30);
 }
 
 static void points_outside_and_bad_points(void **state) {
@@ -191,6 +211,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_are_found_in_what_contains_them),
         cmocka_unit_test(points_are_found_at_the_limits),
+        cmocka_unit_test(points_are_found_at_every_scale),
         cmocka_unit_test(points_outside_and_bad_points),
         cmocka_unit_test(batches_answer_as_single_queries_with_any_number_of_threads),
         cmocka_unit_test(the_first_bad_query_of_a_batch_is_named),

@@ -25,6 +25,7 @@ static void draw(const world *w, world_dice *d, ask *a) {
         if (!isfinite(a->point[k])) a->point[k] = w->origin[k];
     a->k = counts[world_below(d, 5)];
     a->bound = world_below(d, 3) ? INFINITY : world_below(d, 2) ? 0 : w->scale * 0.25;
+    if (w->extreme && !isinf(a->bound)) a->bound = world_length(w, d, 1, a->point);
     if (w->lattice && !isinf(a->bound)) a->bound = floor(a->bound);
 }
 
@@ -82,7 +83,7 @@ static void check_world(world w, int points) {
     for (int i = 0; i < points; i++) {
         ask a = {.k = 0};
         draw(&w, &d, &a);
-        const int power = exact_shift(exact_shift(shift, a.point, FROE_MAX_DIM), &(double){w.scale * 0.25}, 1);
+        const int power = exact_shift(exact_shift(shift, a.point, FROE_MAX_DIM), &(double){isinf(a.bound) ? 0 : a.bound}, 1);
         exact_world_begin(&w, power, bodies);
         const size_t count = brute_force(&w, &a, bodies, power, expected);
         for (size_t t = 0; t < w.tree_count; t++) check_tree(&w, w.queries[t], &a, expected, count, power);
@@ -103,6 +104,10 @@ static void neighbours_among_all_kinds_on_lattices_and_off(void **state) {
 static void neighbours_in_real_scenes(void **state) {
     (void)state;
     tour_files(check_world, 16);
+}
+static void neighbours_at_every_scale(void **state) {
+    (void)state;
+    tour_extremes(check_world, 40, 12);
 }
 static void neighbours_in_scenes_of_one_object_or_none(void **state) {
     (void)state;
@@ -190,6 +195,7 @@ int main(void) {
         cmocka_unit_test(neighbours_among_all_kinds_on_lattices_and_off),
         cmocka_unit_test(neighbours_in_real_scenes),
         cmocka_unit_test(neighbours_among_points),
+        cmocka_unit_test(neighbours_at_every_scale),
         cmocka_unit_test(neighbours_in_scenes_of_one_object_or_none),
         cmocka_unit_test(bad_questions_are_refused_and_change_nothing),
         cmocka_unit_test(every_allocation_may_fail),

@@ -38,6 +38,7 @@ static size_t brute_force(const world *w, const exact_body *bodies, pair *out) {
 typedef struct reader {
     const pair *next, *end;
     bool shared;
+    const char *world;
 } reader;
 
 static bool read_pair(void *user, const froe_pair *p) {
@@ -46,7 +47,7 @@ static bool read_pair(void *user, const froe_pair *p) {
     while (!r->shared && r->next < r->end && r->next->corner) r->next++;
     assert_true(r->next < r->end);
     if (p->a != r->next->a || p->b != r->next->b || kinds[p->kind] != r->next->kind)
-        fail_msg("pair %u %u kind %d, not %u %u kind %d", p->a, p->b, kinds[p->kind], r->next->a, r->next->b,
+        fail_msg("%s: pair %u %u kind %d, not %u %u kind %d", r->world, p->a, p->b, kinds[p->kind], r->next->a, r->next->b,
                  r->next->kind);
     r->next++;
     return true;
@@ -68,7 +69,7 @@ static void check_world(world w, int questions) {
     const size_t count = brute_force(&w, bodies, expected);
     for (size_t t = 0; t < w.tree_count; t++) {
         for (int shared = 0; shared < 2; shared++) {
-            reader r = {expected, expected + count, shared};
+            reader r = {expected, expected + count, shared, w.name};
             assert_int_equal(froe_query_pairs(w.queries[t], shared, read_pair, &r, NULL), FROE_OK);
             while (!r.shared && r.next < r.end && r.next->corner) r.next++;
             assert_true(r.next == r.end);
@@ -101,6 +102,11 @@ static void pairs_in_real_scenes(void **state) {
     static const char *const files[] = {"freedoom-e1m1.geojson", "fzk-haus-boxes.csv"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         check_world(world_begin(files[i], world_read(files[i])), 0);
+}
+
+static void pairs_at_every_scale(void **state) {
+    (void)state;
+    tour_extremes(check_world, 80, 0);
 }
 
 static void pairs_in_scenes_of_one_object_or_none(void **state) {
@@ -305,6 +311,7 @@ int main(void) {
         cmocka_unit_test(pairs_in_generated_scenes),
         cmocka_unit_test(pairs_of_all_kinds_on_lattices_and_off),
         cmocka_unit_test(pairs_in_real_scenes),
+        cmocka_unit_test(pairs_at_every_scale),
         cmocka_unit_test(pairs_in_scenes_of_one_object_or_none),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(batches_answer_as_single_questions_do),

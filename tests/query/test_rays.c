@@ -41,6 +41,10 @@ static void aim(const world *w, world_dice *d, ask *a) {
     double to[FROE_MAX_DIM];
     world_point(w, d, a->origin);
     world_point(w, d, to);
+    if (w->extreme) {
+        fuzz_source r = world_fuzz(d);
+        for (int k = 0; k < w->dim && fuzz_int(&r, 0, 1); k++) to[k] = a->origin[k] + extreme_number(&r, w->scene);
+    }
     const uint32_t style = world_below(d, 4), axis = world_below(d, (uint32_t)w->dim);
     for (int k = 0; k < w->dim; k++) {
         a->direction[k] = to[k] - a->origin[k];
@@ -91,7 +95,8 @@ static void check_tree(const world *w, froe_query *q, const ask *a, const met *e
     if (first.object != (count ? expected[0].object : FROE_NONE))
         fail_msg("%s, %s: object %u, not %u", w->name, froe_tree_report(q->tree).method, first.object,
                  count ? expected[0].object : FROE_NONE);
-    if (count) assert_true(exact_rounds_to(&expected[0].t, first.t, 0));
+    if (count && !exact_rounds_to(&expected[0].t, first.t, 0))
+        fail_msg("%s, %s: object %u is not met at %a", w->name, froe_tree_report(q->tree).method, first.object, first.t);
     assert_int_equal(froe_query_ray_all(q, a->origin, a->direction, a->t_max, &all, NULL), FROE_OK);
     assert_int_equal(all.count, count);
     for (size_t i = 0; i < count; i++) {
@@ -134,6 +139,10 @@ static void rays_among_all_kinds_on_lattices_and_off(void **state) {
 static void rays_through_real_scenes(void **state) {
     (void)state;
     tour_files(check_world, 24);
+}
+static void rays_at_every_scale(void **state) {
+    (void)state;
+    tour_extremes(check_world, 40, 12);
 }
 static void rays_in_scenes_of_one_object_or_none(void **state) {
     (void)state;
@@ -291,6 +300,7 @@ int main(void) {
         cmocka_unit_test(rays_in_generated_scenes),
         cmocka_unit_test(rays_among_all_kinds_on_lattices_and_off),
         cmocka_unit_test(rays_through_real_scenes),
+        cmocka_unit_test(rays_at_every_scale),
         cmocka_unit_test(rays_in_scenes_of_one_object_or_none),
         cmocka_unit_test(bad_rays_are_refused_and_change_nothing),
         cmocka_unit_test(every_allocation_may_fail),
