@@ -37,7 +37,8 @@ static froe_status build(build_job *job, froe_tree **out) {
     split_method method = {
         .config = &refine, .choose = choose, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
-    build_promise(job, "height", job->scene->object_count, 0); /* each cut on a path consumes another object */
+    const double most = job->scene->object_count + build_levels_given(job); /* each other cut on a path consumes one */
+    build_promise(job, "height", most, 0);
     return split_grow(&split, &method, out);
 }
 

@@ -44,13 +44,14 @@ static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
     if (option[HEIGHT] < 0) option[HEIGHT] = option[EFFORT] == EFFORT_MIN ? 5 : LOW;
 }
 
-/** See the head of this file. Every cut leaves fewer fragments on either side, so n is a bound, too. */
+/** See the head of this file. Every cut leaves fewer fragments on either side, so n is a bound, too; but for a first cut
+ * that is given, below which all of them may be on one side. */
 static double promised_height(const build_job *job, const split_grain *grain) {
     double n = job->scene->object_count, v = job->scene->vertex_count;
     double need = split_grain_need(job->leaf, n), bound = grain->height > need ? grain->height : need;
     if (atomic_load(&grain->notes->medians)) bound += 3 * (base_log2(v + 1) + 1);
     bound += atomic_load(&grain->notes->unbalanced) + grain->peel;
-    return grain->height > 0 && bound < n ? bound : n;
+    return (grain->height > 0 && bound < n ? bound : n) + build_levels_given(job);
 }
 
 /** A tree of at most C log2 n + 2 levels, if cuts can be found. */
@@ -97,7 +98,7 @@ static froe_status grow_two(build_job *job, froe_tree **out) {
 static froe_status build(build_job *job, froe_tree **out) {
     const double c = job->option[HEIGHT];
     const split_job split = build_split_job(job);
-    build_promise(job, "height", job->scene->object_count, 0); /* renewed once it is known */
+    build_promise(job, "height", 0, 0); /* renewed once it is known */
     if (job->option[EFFORT] == EFFORT_MIN && (c == 0 || c > LOW)) return grow_two(job, out);
     return grow(job, &split, (int)job->option[EFFORT], c, out);
 }

@@ -36,4 +36,9 @@ typedef struct build_method {
 split_job build_split_job(const build_job *job);
 /** Adds a promise to job->meta. */
 void build_promise(build_job *job, const char *name, double promised, double measured);
+/** What a cut that the caller gives adds to a promise of height, which counts cuts by objects: that cut need not run
+ * along one. */
+static inline double build_levels_given(const build_job *job) {
+    return job->root ? 1 : 0;
+}
 #endif

@@ -132,7 +132,7 @@ bool geom_meet_surely(num_context *context, const geom_convex *a, const geom_con
  * less than 30 times 2^-53. NUM_UNSURE; boxes of no reach are decided. */
 static int filter_meet_boxes(int dim, const double *lo_a, const double *hi_a, const double *lo_b, const double *hi_b,
                              double reach) {
-    const double sure = 1 - 0x1p-46, square = reach * reach;
+    const double sure = 1 - 0x1p-46, square = filter_capped(reach * reach);
     bool apart = false;
     double sum = 0;
     for (int k = 0; k < dim; k++) {
@@ -141,6 +141,7 @@ static int filter_meet_boxes(int dim, const double *lo_a, const double *hi_a, co
         sum += gap > 0 ? gap * gap : 0;
     }
     if (!apart || reach == 0) return !apart;
+    sum = filter_capped(sum);
     if (sum * sure > square + NUM_BALL_TINY) return 0;
     return sum < square * sure - NUM_BALL_TINY ? 1 : NUM_UNSURE;
 }

@@ -137,6 +137,57 @@ static void a_section_outlives_the_file_it_comes_from(void **state) {
     froe_tree_free(opened);
 }
 
+/* ---------------------------------------------------------- degenerate scenes -- */
+
+/* `count` objects of one kind: at one place, in one line, or anywhere of a plane that the first section is. */
+static froe_scene *degenerate(int dim, froe_kind kind, uint32_t count, int how) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < count; i++) {
+        double x[9] = {0};
+        for (int k = 0; k < 3 * dim; k++) {
+            const int corner = k / dim, axis = k % dim;
+            const double along = how > 1 ? i : 0, beside = corner * (how > 0) + (axis == 0) * (corner == 2);
+            x[k] = axis == dim - 1 && how == 3 ? 0 : -8 + along + beside;
+        }
+        assert_int_equal(trees_add(scene, kind, 1, x, NULL, NULL), FROE_OK);
+    }
+    return scene;
+}
+
+static void check_sections(froe_scene *scene, const char *method, uint32_t leaf) {
+    static const double planes[][4] = {{-8, -8, -8, -8}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, -1, 0, 0},
+                                       {1, 1, 1, 0},     {1, 0, 0, -8}, {1, 0, 0, 1e9}};
+    froe_build_options o = froe_build_defaults();
+    froe_tree *tree;
+    o.method = method;
+    o.leaf = leaf;
+    if (froe_build(scene, &o, &tree, NULL)) return; /* of kinds that the method does not serve, or not with this leaf */
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
+        double plane[4];
+        memcpy(plane, planes[i], sizeof plane);
+        if (scene->dim == 2) plane[2] = plane[3];
+        if (scene->dim == 3 || plane[0] != 0 || plane[1] != 0) froe_tree_free(section_of(tree, plane));
+    }
+    froe_tree_free(tree);
+}
+
+/* The first cut adds a level that no object answers for. */
+static void sections_of_degenerate_scenes_keep_their_promises(void **state) {
+    static const char *const methods[] = {"grain", "density", "autopartition"};
+    static const uint32_t counts[] = {0, 1, 2, 3, 7};
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int kind = FROE_POINT; kind <= FROE_POLYGON; kind++)
+            for (int how = 0; how <= 3; how++)
+                for (size_t n = 0; n < 5 * 9; n++) {
+                    if (kind == FROE_POLYGON && (dim == 2 || how == 0)) continue; /* without an area they are refused */
+                    froe_scene *scene = degenerate(dim, (froe_kind)kind, counts[n / 9], how);
+                    check_sections(scene, methods[n % 3], (uint32_t)(n / 3 % 3));
+                    froe_scene_free(scene);
+                }
+}
+
 static void refuse(const froe_tree *tree, const double *plane, froe_status expected, const char *sentence) {
     froe_diagnostic why = {.message = ""};
     froe_tree *out = NULL;
@@ -185,6 +236,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_left_is_seen),     cmocka_unit_test(one_sees_through_what_is_left),
         cmocka_unit_test(sections_are_lines),       cmocka_unit_test(a_section_outlives_the_file_it_comes_from),
+        cmocka_unit_test(sections_of_degenerate_scenes_keep_their_promises),
         cmocka_unit_test(bad_sections_are_refused), cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
