@@ -278,9 +278,10 @@ static void scratch_free(split_work *work) {
     work->scratch = NULL;
 }
 
-/** Cuts of three until a part has `share` of the points, and so on until there is one. */
-static double most_height(double share, uint32_t points) {
-    double height = 0;
+/** Cuts of three until a part has `share` of the points, and so on until there is one; with leaves of no object one
+ * more, through that. */
+static double most_height(double share, uint32_t points, uint32_t leaf) {
+    double height = points && !leaf;
     for (double n = points; n > 1; n = floor(share * n)) height += SEQUENCE;
     return height;
 }
@@ -293,7 +294,7 @@ static void note(const void *config) {
     if (b->cubes) return;
     build_promise(job, "aspect", job->option[ASPECT], atomic_load(&b->notes->aspect));
     if (b->points && !atomic_load(&b->notes->unbalanced))
-        build_promise(job, "height", most_height(b->share, job->scene->object_count), 0);
+        build_promise(job, "height", most_height(b->share, job->scene->object_count, job->leaf), 0);
 }
 
 /** A cube that has all guards inside. */

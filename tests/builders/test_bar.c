@@ -386,6 +386,26 @@ static void cells_without_guards_meet_few_objects(void **state) {
 
 /* ----------------------------------------------------------------- refusals -- */
 
+/* Leaves of no object: a cut runs through the last one, too. */
+static void segments_of_no_length_end_in_cuts_as_low_as_promised(void **state) {
+    (void)state;
+    for (size_t count = 1; count <= 12; count++) {
+        froe_scene *scene;
+        double x[4 * 12];
+        assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+        for (size_t i = 0; i < 4 * count; i++) x[i] = trees_unit(count, 2 * (i / 4) + i % 2);
+        assert_int_equal(trees_add(scene, FROE_SEGMENT, count, x, NULL, NULL), FROE_OK);
+        froe_build_options o = froe_build_defaults();
+        froe_tree *tree;
+        o.method = "bar", o.leaf = 0;
+        assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+        audit(tree, "no length");
+        assert_true(promise_of(tree, "height", true) > 0);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
 static void what_has_no_directions_says_so(void **state) {
     static const char *const kinds[] = {"points-8d", "debris-5d"};
     const double far[] = {0, 0, 1.7e308, -1.7e308, 1, 1};
@@ -463,6 +483,7 @@ int main(void) {
         cmocka_unit_test(small_objects_have_a_guard_in_every_fat_cell),
         cmocka_unit_test(guards_are_as_many_as_sectors),
         cmocka_unit_test(cells_without_guards_meet_few_objects),
+        cmocka_unit_test(segments_of_no_length_end_in_cuts_as_low_as_promised),
         cmocka_unit_test(what_has_no_directions_says_so),
         cmocka_unit_test(directions_that_do_not_exist_are_refused),
         cmocka_unit_test(a_build_survives_every_failing_allocation),
