@@ -63,9 +63,9 @@ static void check_scene(int dim, unsigned kinds, uint64_t seed) {
 
 static void trees_at_every_scale_pass_the_exact_audit(void **state) {
     enum { FLAT = 1 << FROE_POINT | 1 << FROE_SEGMENT, SOLID = 1 << FROE_BOX | 1 << FROE_BALL };
-    static const unsigned kinds[][3] = {{1 << FROE_SEGMENT, FLAT, FLAT | SOLID | 1 << FROE_HULL},
-                                        {1 << FROE_POLYGON, 1 << FROE_POLYGON | FLAT,
-                                         FLAT | SOLID | 1 << FROE_HULL | 1 << FROE_POLYGON}};
+    static const unsigned kinds[][3] = {
+        {1 << FROE_SEGMENT, FLAT, FLAT | SOLID | 1 << FROE_HULL},
+        {1 << FROE_POLYGON, 1 << FROE_POLYGON | FLAT, FLAT | SOLID | 1 << FROE_HULL | 1 << FROE_POLYGON}};
     const uint64_t first = extreme_seed();
     (void)state;
     for (uint64_t seed = first; seed < first + 60 * extreme_rounds(); seed++) {

@@ -24,6 +24,10 @@ size_t exact_mark(void) {
     return pool.used;
 }
 
+void exact_release(size_t mark) {
+    pool.used = mark;
+}
+
 static mpz_ptr fresh(void) {
     size_t chunk = pool.used / CHUNK, at = pool.used++ % CHUNK;
     if (pool.used > pool.made) {

@@ -32,6 +32,8 @@ typedef struct exact_value {
 
 void exact_begin(int shift);
 size_t exact_mark(void);
+/** Takes back what was made since. */
+void exact_release(size_t mark);
 /** The least shift that makes these numbers whole, at least `shift`. */
 int exact_shift(int shift, const double *x, size_t count);
 exact_body exact_body_of(const geom_body *body);

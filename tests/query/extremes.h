@@ -101,8 +101,8 @@ static inline void extreme_copy(extreme_scene *s, uint32_t object) {
         memcpy(coords + c * dim, froe_scene_vertex(s->scene, froe_scene_corner(s->scene, object, c)),
                dim * sizeof *coords);
     const bool runs = o.form == FROE_HULL || o.form == FROE_POLYGON;
-    assert_int_equal(trees_add(s->scene, o.form, 1, coords, o.form == FROE_BALL ? &o.radius : NULL, runs ? starts : NULL),
-                     FROE_OK);
+    assert_int_equal(
+        trees_add(s->scene, o.form, 1, coords, o.form == FROE_BALL ? &o.radius : NULL, runs ? starts : NULL), FROE_OK);
 }
 
 static inline void extreme_add(extreme_scene *s, froe_kind kind) {
@@ -120,7 +120,8 @@ static inline void extreme_add(extreme_scene *s, froe_kind kind) {
             const double a = x[k], b = x[s->dim + k];
             x[k] = fmin(a, b), x[s->dim + k] = fmax(a, b);
         }
-        const double radius = s->style == 0 ? s->scale * fabs(fuzz_unit(&s->random)) : fabs(extreme_number(&s->random, s->scene));
+        const double radius =
+            s->style == 0 ? s->scale * fabs(fuzz_unit(&s->random)) : fabs(extreme_number(&s->random, s->scene));
         if (!trees_add(s->scene, kind, 1, x, kind == FROE_BALL ? &radius : NULL, kind == FROE_HULL ? starts : NULL))
             return;
     }
@@ -128,7 +129,8 @@ static inline void extreme_add(extreme_scene *s, froe_kind kind) {
 
 /** A scene of 1 .. most objects of the kinds in the mask. */
 static inline froe_scene *extreme_scene_new(int dim, unsigned kinds, int most, uint64_t seed) {
-    extreme_scene s = {.random = {base_hash(seed, 80, (uint64_t)dim)}, .dim = dim, .style = (int)(seed % EXTREME_STYLES)};
+    extreme_scene s = {
+        .random = {base_hash(seed, 80, (uint64_t)dim)}, .dim = dim, .style = (int)(seed % EXTREME_STYLES)};
     assert_int_equal(froe_scene_new(dim, NULL, &s.scene), FROE_OK);
     s.scale = extreme_scale(&s.random, s.scene);
     s.fuzz = (fuzz_class)fuzz_int(&s.random, 0, FUZZ_CLASSES - 1);

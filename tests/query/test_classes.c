@@ -92,8 +92,7 @@ static void check_world(world *w, uint64_t seeds) {
             for (int k = 0; k < w->dim; k++) w->origin[k] = x[k] - w->scale / 2;
         }
         const uint64_t shapes = w->dim > 3 ? 2 : FROE_SHAPE_COUNT;
-        ask_by(w, (froe_range_shape)(seed % shapes), seed, FROE_WALK_CLASSES, FROE_WALK_CLASSES,
-               truth);
+        ask_by(w, (froe_range_shape)(seed % shapes), seed, FROE_WALK_CLASSES, FROE_WALK_CLASSES, truth);
         memcpy(w->origin, origin, sizeof origin);
         w->scale = scale;
     }

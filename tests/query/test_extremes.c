@@ -1,5 +1,5 @@
-/* Ranges in scenes of every scale at once, by every walk, against brute force in whole numbers. Rays, locations, nearest
- * objects, pairs and groups are asked there by tests of their own. */
+/* Ranges in scenes of every scale at once, by every walk, against brute force in whole numbers. Rays, locations,
+ * nearest objects, pairs and groups are asked there by tests of their own. */
 #include "query/ranges.h"
 #include "query/tours.h"
 
@@ -9,17 +9,19 @@ static size_t decisions;
 
 /* A range as a body, where it is one. */
 static geom_body body_of(const world *w, const question *q) {
-    static const froe_kind forms[FROE_SHAPE_COUNT] = {
-        [FROE_SHAPE_BOX] = FROE_BOX,   [FROE_SHAPE_BALL] = FROE_BALL,      [FROE_SHAPE_SIMPLEX] = FROE_HULL,
-        [FROE_SHAPE_HULL] = FROE_HULL, [FROE_SHAPE_SEGMENT] = FROE_SEGMENT};
+    static const froe_kind forms[FROE_SHAPE_COUNT] = {[FROE_SHAPE_BOX] = FROE_BOX,
+                                                      [FROE_SHAPE_BALL] = FROE_BALL,
+                                                      [FROE_SHAPE_SIMPLEX] = FROE_HULL,
+                                                      [FROE_SHAPE_HULL] = FROE_HULL,
+                                                      [FROE_SHAPE_SEGMENT] = FROE_SEGMENT};
     const uint32_t counts[FROE_SHAPE_COUNT] = {[FROE_SHAPE_BOX] = 2,
                                                [FROE_SHAPE_BALL] = 1,
                                                [FROE_SHAPE_SIMPLEX] = (uint32_t)w->dim + 1,
                                                [FROE_SHAPE_HULL] = (uint32_t)q->range.count,
                                                [FROE_SHAPE_SEGMENT] = 2};
     const froe_range_shape shape = q->range.shape;
-    return (geom_body){.form = forms[shape], .dim = w->dim, .count = counts[shape], .coords = q->points,
-                       .radius = q->range.radius};
+    return (geom_body){
+        .form = forms[shape], .dim = w->dim, .count = counts[shape], .coords = q->points, .radius = q->range.radius};
 }
 
 static bool is_unbounded(const question *q, int dim) {
@@ -74,8 +76,8 @@ static void ranges_at_every_scale(void **state) {
 
 static void check_balls(world w, int questions) {
     for (int i = 0; i < questions; i++)
-        decisions += ask_by(&w, FROE_SHAPE_BALL, (uint64_t)i, FROE_WALK_AUTO, (froe_walk)(FROE_WALK_COUNT - 1),
-                            truth_at_scale);
+        decisions +=
+            ask_by(&w, FROE_SHAPE_BALL, (uint64_t)i, FROE_WALK_AUTO, (froe_walk)(FROE_WALK_COUNT - 1), truth_at_scale);
     world_end(&w);
 }
 

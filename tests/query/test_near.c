@@ -83,7 +83,8 @@ static void check_world(world w, int points) {
     for (int i = 0; i < points; i++) {
         ask a = {.k = 0};
         draw(&w, &d, &a);
-        const int power = exact_shift(exact_shift(shift, a.point, FROE_MAX_DIM), &(double){isinf(a.bound) ? 0 : a.bound}, 1);
+        const int power =
+            exact_shift(exact_shift(shift, a.point, FROE_MAX_DIM), &(double){isinf(a.bound) ? 0 : a.bound}, 1);
         exact_world_begin(&w, power, bodies);
         const size_t count = brute_force(&w, &a, bodies, power, expected);
         for (size_t t = 0; t < w.tree_count; t++) check_tree(&w, w.queries[t], &a, expected, count, power);

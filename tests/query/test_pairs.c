@@ -27,7 +27,9 @@ static size_t brute_force(const world *w, const exact_body *bodies, pair *out) {
         for (uint32_t b = a + 1; b < w->count; b++) {
             pair p = {a, b, 0, false};
             decisions += w->tree_count;
+            const size_t mark = exact_mark();
             if (boxes_meet(w->scene, a, b)) p.kind = exact_contact(&bodies[a], &bodies[b], &p.corner);
+            exact_release(mark);
             counts[p.kind]++;
             corners += p.corner;
             if (p.kind) out[count++] = p;
@@ -47,8 +49,8 @@ static bool read_pair(void *user, const froe_pair *p) {
     while (!r->shared && r->next < r->end && r->next->corner) r->next++;
     assert_true(r->next < r->end);
     if (p->a != r->next->a || p->b != r->next->b || kinds[p->kind] != r->next->kind)
-        fail_msg("%s: pair %u %u kind %d, not %u %u kind %d", r->world, p->a, p->b, kinds[p->kind], r->next->a, r->next->b,
-                 r->next->kind);
+        fail_msg("%s: pair %u %u kind %d, not %u %u kind %d", r->world, p->a, p->b, kinds[p->kind], r->next->a,
+                 r->next->b, r->next->kind);
     r->next++;
     return true;
 }

@@ -39,6 +39,39 @@ static void the_ends_of_the_range_of_doubles(void **state) {
     }
 }
 
+/* Beside a very short segment the square of its line's normal is denormal, or 0, when the line is not moved near the
+ * origin: what a ball reaches must not come out as nothing. By segments of four numbers. */
+static void balls_reach_across_cuts_along_very_short_segments(void **state) {
+    static const double segments[][4] = {{-1e-300, 1, 0x1p-1022, 1},  {1e300, 0x1p-1074, 0, -1},
+                                         {-1e-300, 1, 1e-300, 1},     {1e10, 0, 0, -1},
+                                         {-1e-300, 1, 0x1p-1022, 1},  {1e-300, 0x1p-1074, 1.5e308, 1e-300},
+                                         {-1, -1, 1e160, 0x1p-1022},  {1e300, 0x1p-1074, 1e-300, 1e160},
+                                         {1e160, 1.5e308, 3, 1e-160}, {-1, -1.5e308, 1e160, -1e-300},
+                                         {1e300, 0x1p-1074, 0, -1}};
+    static const size_t scenes[][2] = {{0, 2}, {2, 4}, {4, 11}};
+    static const double balls[][3] = {{-1, 3, 1e300}, {-1, 3, 10}, {0, 3, 3}, {-1, 3, 2.5}, {0, 1, 0}};
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        froe_scene *scene = world_mixture(2, 0, 0, 0, 0, 1);
+        for (size_t j = scenes[i][0]; j < scenes[i][1]; j++)
+            assert_int_equal(trees_add(scene, FROE_SEGMENT, 1, segments[j], NULL, NULL), FROE_OK);
+        world w = world_begin("short segments", scene);
+        for (size_t b = 0; b < sizeof balls / sizeof *balls; b++) {
+            question q = {.range = froe_range_defaults()};
+            bool meets[16];
+            size_t expected = 0;
+            q.range.shape = FROE_SHAPE_BALL;
+            q.range.points = memcpy(q.points, balls[b], 2 * sizeof **balls);
+            q.range.radius = balls[b][2];
+            make_oracle(&w, &q);
+            for (uint32_t o = 0; o < w.count; o++) expected += meets[o] = truth(&w, &q, o);
+            compare(&w, &q, meets, expected);
+            oracle_set_free(&q.set);
+        }
+        world_end(&w);
+    }
+}
+
 static void many_dimensions(void **state) {
     (void)state;
     for (int dim = 4; dim <= FROE_MAX_DIM; dim++) {
@@ -235,6 +268,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(empty_scenes_and_single_objects),
         cmocka_unit_test(the_ends_of_the_range_of_doubles),
+        cmocka_unit_test(balls_reach_across_cuts_along_very_short_segments),
         cmocka_unit_test(many_dimensions),
         cmocka_unit_test(a_real_map_and_a_real_model),
         cmocka_unit_test(a_point_like_the_normal_is_outside),

@@ -96,7 +96,8 @@ static void check_tree(const world *w, froe_query *q, const ask *a, const met *e
         fail_msg("%s, %s: object %u, not %u", w->name, froe_tree_report(q->tree).method, first.object,
                  count ? expected[0].object : FROE_NONE);
     if (count && !exact_rounds_to(&expected[0].t, first.t, 0))
-        fail_msg("%s, %s: object %u is not met at %a", w->name, froe_tree_report(q->tree).method, first.object, first.t);
+        fail_msg("%s, %s: object %u is not met at %a", w->name, froe_tree_report(q->tree).method, first.object,
+                 first.t);
     assert_int_equal(froe_query_ray_all(q, a->origin, a->direction, a->t_max, &all, NULL), FROE_OK);
     assert_int_equal(all.count, count);
     for (size_t i = 0; i < count; i++) {

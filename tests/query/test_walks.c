@@ -71,8 +71,7 @@ static void check_world(const char *name, froe_scene *scene, size_t seeds, bool 
     for (uint64_t seed = 0; seed < seeds; seed++) {
         if (deep) w.scale = ldexp(1, -(int)(seed % 60)), w.origin[0] = w.origin[1] = -0.5 * w.scale;
         const uint64_t shapes = w.dim > 3 ? 2 : FROE_SHAPE_COUNT; /* boxes and balls come first */
-        ask_by(&w, (froe_range_shape)(seed % shapes), seed, FROE_WALK_PLAIN, (froe_walk)(FROE_WALK_COUNT - 1),
-               truth);
+        ask_by(&w, (froe_range_shape)(seed % shapes), seed, FROE_WALK_PLAIN, (froe_walk)(FROE_WALK_COUNT - 1), truth);
     }
     world_end(&w);
 }

@@ -156,7 +156,7 @@ static froe_scene *degenerate(int dim, froe_kind kind, uint32_t count, int how) 
 }
 
 static void check_sections(froe_scene *scene, const char *method, uint32_t leaf) {
-    static const double planes[][4] = {{-8, -8, -8, -8}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, -1, 0, 0},
+    static const double planes[][4] = {{-8, -8, -8, -8}, {0, 1, 0, 0},  {0, 0, 1, 0},  {1, -1, 0, 0},
                                        {1, 1, 1, 0},     {1, 0, 0, -8}, {1, 0, 0, 1e9}};
     froe_build_options o = froe_build_defaults();
     froe_tree *tree;
@@ -234,10 +234,13 @@ static void every_allocation_may_fail(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_left_is_seen),     cmocka_unit_test(one_sees_through_what_is_left),
-        cmocka_unit_test(sections_are_lines),       cmocka_unit_test(a_section_outlives_the_file_it_comes_from),
+        cmocka_unit_test(what_is_left_is_seen),
+        cmocka_unit_test(one_sees_through_what_is_left),
+        cmocka_unit_test(sections_are_lines),
+        cmocka_unit_test(a_section_outlives_the_file_it_comes_from),
         cmocka_unit_test(sections_of_degenerate_scenes_keep_their_promises),
-        cmocka_unit_test(bad_sections_are_refused), cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(bad_sections_are_refused),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
