@@ -257,6 +257,7 @@ static int rank_of(const vec *d, int count, vec *normal) {
 
 /* Along n, how do a and b lie? 2: apart, 1: touching at most, 0: interiors overlap. In both senses of n. */
 static int separation(const exact_body *a, const exact_body *b, vec n) {
+    const size_t mark = pool.used;
     num lo[2] = {NULL, NULL}, hi[2] = {NULL, NULL};
     const exact_body *body[2] = {a, b};
     for (int s = 0; s < 2; s++)
@@ -266,11 +267,12 @@ static int separation(const exact_body *a, const exact_body *b, vec n) {
             if (!hi[s] || mpz_cmp(h, hi[s]) > 0) hi[s] = h;
         }
     int before = mpz_cmp(hi[0], lo[1]), after = mpz_cmp(hi[1], lo[0]);
+    exact_release(mark);
     return before < 0 || after < 0 ? 2 : before == 0 || after == 0;
 }
 
 /* Is w in the cone of these vectors? By Caratheodory some three independent ones, or fewer, do. */
-static bool in_cone(const vec *g, int count, vec w) {
+static bool find_cone(const vec *g, int count, vec w) {
     if (is_zero(w, 3)) return true;
     for (int i = 0; i < count; i++) {
         if (is_zero(cross(g[i], w), 3) && sgn(dot(g[i], w, 3)) > 0) return true;
@@ -289,6 +291,13 @@ static bool in_cone(const vec *g, int count, vec w) {
         }
     }
     return false;
+}
+
+static bool in_cone(const vec *g, int count, vec w) {
+    const size_t mark = pool.used;
+    const bool in = find_cone(g, count, w);
+    exact_release(mark);
+    return in;
 }
 
 static int generators(const exact_body *b, vec x, vec *out) {
@@ -323,11 +332,13 @@ static bool alone(const exact_body *a, const exact_body *b, vec x) {
         for (int j = 0; j < i; j++)
             for (int k = 0; k < m; k++)
                 for (int l = 0; l < k; l++) {
+                    const size_t mark = pool.used;
                     vec ray = cross(cross(g[i], g[j]), cross(h[k], h[l])),
                         back = cross(cross(h[k], h[l]), cross(g[i], g[j]));
                     if (is_zero(ray, 3)) continue;
                     if (in_cone(g, n, ray) && in_cone(h, m, ray)) return false;
                     if (in_cone(g, n, back) && in_cone(h, m, back)) return false;
+                    exact_release(mark);
                 }
     return true;
 }

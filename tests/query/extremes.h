@@ -6,6 +6,7 @@
  *     style 2  beside one another       each around a corner of an earlier object, or its copy
  *     style 3  one scale a coordinate
  *     style 4  a class of support/fuzz.h
+ *     style 5  one scale an object      each in the unit cube: cuts run along segments of no length to speak of
  *
  * Long runs: FROE_ROUNDS=100 multiplies the number of scenes, FROE_SEED=7000 begins elsewhere. */
 #ifndef FROE_TESTS_QUERY_EXTREMES_H
@@ -17,7 +18,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { EXTREME_CORNERS = 5, EXTREME_STYLES = 5 };
+enum { EXTREME_CORNERS = 5, EXTREME_STYLES = 6 };
 
 static inline uint64_t extreme_setting(const char *name, uint64_t otherwise) {
     const char *text = getenv(name);
@@ -76,12 +77,12 @@ static inline void extreme_corners(extreme_scene *s, double *out, size_t count) 
     const size_t dim = (size_t)s->dim;
     double centre[FROE_MAX_DIM] = {0};
     const double *from = extreme_vertex(&s->random, s->scene), power = extreme_scale(&s->random, s->scene);
-    const double around = extreme_scale(&s->random, s->scene);
-    for (size_t k = 0; k < dim; k++) centre[k] = s->style == 1 ? around * fuzz_unit(&s->random) : from ? from[k] : 0;
+    const double around = s->style == 5 ? 1 : extreme_scale(&s->random, s->scene);
+    for (size_t k = 0; k < dim; k++) centre[k] = s->style != 2 ? around * fuzz_unit(&s->random) : from ? from[k] : 0;
     for (size_t c = 0; c < count; c++) {
         double *x = out + c * dim;
         if (s->style == 0) extreme_beside(&s->random, s->dim, (const double[FROE_MAX_DIM]){0}, s->scale, x);
-        if (s->style == 1 || s->style == 2) extreme_beside(&s->random, s->dim, centre, power, x);
+        if (s->style == 1 || s->style == 2 || s->style == 5) extreme_beside(&s->random, s->dim, centre, power, x);
         for (size_t k = 0; k < dim && s->style == 3; k++) x[k] = extreme_number(&s->random, s->scene);
     }
     if (s->style == 4) {
@@ -129,9 +130,9 @@ static inline void extreme_add(extreme_scene *s, froe_kind kind) {
 
 /** A scene of 1 .. most objects of the kinds in the mask. */
 static inline froe_scene *extreme_scene_new(int dim, unsigned kinds, int most, uint64_t seed) {
-    extreme_scene s = {
-        .random = {base_hash(seed, 80, (uint64_t)dim)}, .dim = dim, .style = (int)(seed % EXTREME_STYLES)};
+    extreme_scene s = {.random = {base_hash(seed, 80, (uint64_t)dim)}, .dim = dim};
     assert_int_equal(froe_scene_new(dim, NULL, &s.scene), FROE_OK);
+    s.style = fuzz_int(&s.random, 0, EXTREME_STYLES - 1);
     s.scale = extreme_scale(&s.random, s.scene);
     s.fuzz = (fuzz_class)fuzz_int(&s.random, 0, FUZZ_CLASSES - 1);
     for (int left = fuzz_int(&s.random, 1, most); left > 0;) {

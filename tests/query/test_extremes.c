@@ -71,7 +71,7 @@ static void check_ranges(world w, int questions) {
 
 static void ranges_at_every_scale(void **state) {
     (void)state;
-    tour_extremes(check_ranges, 60, 6);
+    tour_extremes(check_ranges, 12, 6);
 }
 
 static void check_balls(world w, int questions) {
@@ -83,11 +83,41 @@ static void check_balls(world w, int questions) {
 
 static void balls_at_every_scale(void **state) {
     (void)state;
-    tour_extremes(check_balls, 200, 40);
+    tour_extremes(check_balls, 40, 10);
+}
+
+/* Segments of the unit square, the first so short that the square of its length underflows. */
+static froe_scene *short_and_long(uint64_t seed) {
+    fuzz_source r = {base_hash(seed, 82, 0)};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int i = 0, count = fuzz_int(&r, 2, 5); i < count; i++) {
+        const double scale = i ? 1 : ldexp(1, fuzz_int(&r, -1060, -500));
+        double x[4] = {fuzz_int(&r, 0, 1) * fuzz_unit(&r), fuzz_int(&r, 0, 1)};
+        extreme_beside(&r, 2, x, scale, x + 2);
+        if (fuzz_int(&r, 0, 1)) x[3] = x[1];
+        assert_int_equal(trees_add(scene, FROE_SEGMENT, 1, x, NULL, NULL), FROE_OK);
+    }
+    return scene;
+}
+
+static void balls_across_very_short_segments(void **state) {
+    const uint64_t first = extreme_seed(), last = first + 100 * extreme_rounds();
+    (void)state;
+    for (uint64_t seed = first; seed < last; seed++) {
+        char name[64];
+        snprintf(name, sizeof name, "short and long, FROE_SEED=%llu", (unsigned long long)seed);
+        world w = world_begin(name, short_and_long(seed));
+        w.scale = 4; /* balls of about the size of the scene, around it */
+        for (uint64_t i = 0; i < 6; i++)
+            decisions += ask_by(&w, FROE_SHAPE_BALL, i, FROE_WALK_AUTO, FROE_WALK_AUTO, truth_at_scale);
+        world_end(&w);
+    }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(balls_across_very_short_segments),
         cmocka_unit_test(balls_at_every_scale),
         cmocka_unit_test(ranges_at_every_scale),
     };
