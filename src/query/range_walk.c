@@ -219,7 +219,8 @@ static bool ball_is_beyond(const walk *w, const query_plane *h, int side) {
     double x[3] = {0}, error;
     for (int k = 0; k < w->dim; k++) x[k] = range->set.coords[k];
     const double value = query_plane_value(h, x, &error);
-    const double reach = range->set.radius * (filter_length(h->n) + 2 * h->n_err) * (1 + 0x1p-45) + error + NUM_BALL_TINY;
+    const double reach =
+        range->set.radius * (filter_length(h->n) + 2 * h->n_err) * (1 + 0x1p-45) + error + NUM_BALL_TINY;
     return (side ? -value : value) > reach;
 }
 
