@@ -131,6 +131,8 @@ endif()
 # The project looked at from outside: sources, compiled code, installation, documents.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
 froe_test(project layers ${scripts}/check-layers)
+froe_test(project flags ${scripts}/check-flags)
+set_tests_properties(project/flags PROPERTIES ENVIRONMENT CC=${CMAKE_C_COMPILER})
 froe_test(project index ${scripts}/check-index)
 froe_test(project root ${scripts}/check-root)
 file(GLOB transcripts CONFIGURE_DEPENDS tests/project/*.test)

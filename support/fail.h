@@ -1,6 +1,7 @@
 /* fail.h: how a failure gets its sentence. */
 #ifndef FROE_SUPPORT_FAIL_H
 #define FROE_SUPPORT_FAIL_H
+#include "support/arithmetic.h"
 #include <froe/froe.h>
 
 /** Fills `diag` (unless NULL) with a printf-formatted sentence and returns `status`. */

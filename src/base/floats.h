@@ -12,6 +12,7 @@
  * computed itself, go through volatile variables. */
 #ifndef FROE_BASE_FLOATS_H
 #define FROE_BASE_FLOATS_H
+#include "support/arithmetic.h"
 #include <froe/froe.h>
 
 #if defined(__x86_64__) && !defined(BASE_FLOATS_BY_C) /* MXCSR; froe uses no x87 registers */

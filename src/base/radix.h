@@ -1,6 +1,7 @@
 /* radix.h: stable least-significant-digit radix sort of (key, value) pairs. */
 #ifndef FROE_BASE_RADIX_H
 #define FROE_BASE_RADIX_H
+#include "support/arithmetic.h"
 #include <stddef.h>
 #include <stdint.h>
 

@@ -2,6 +2,7 @@
  * which the C library's qsort may do. */
 #ifndef FROE_BASE_SORT_H
 #define FROE_BASE_SORT_H
+#include "support/arithmetic.h"
 #include <stddef.h>
 #include <stdint.h>
 

@@ -72,10 +72,6 @@ froe_status num_rounding_check(froe_diagnostic *diag) {
 }
 
 bool num_machine_trusted(void) {
-#if defined(__FAST_MATH__) || FLT_EVAL_METHOD != 0
-    return false;
-#else
     return rounds_to_nearest_even() && rounds_once() && contracts_nothing() && fuses_on_demand() &&
            underflows_gradually() && keeps_residues();
-#endif
 }

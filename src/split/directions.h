@@ -10,6 +10,7 @@
  * sequence of them. Normals have entries 0, 1, -1: keys n . x are sums of coordinates. */
 #ifndef FROE_SPLIT_DIRECTIONS_H
 #define FROE_SPLIT_DIRECTIONS_H
+#include "support/arithmetic.h"
 #include <froe/froe.h>
 
 enum { DIRECTIONS_MOST = 7 };

@@ -8,6 +8,7 @@
  * guess. */
 #ifndef FROE_SPLIT_GUARD_GRID_H
 #define FROE_SPLIT_GUARD_GRID_H
+#include "support/arithmetic.h"
 #include <froe/froe.h>
 
 enum { GUARD_LEVELS = 10, GUARD_CODE_BITS = 20, GUARD_CODE = (1 << 20) - 1 }; /* at most; dim * levels; its mask */

@@ -2,6 +2,7 @@
 #ifndef FROE_SPLIT_GUARD_SORT_H
 #define FROE_SPLIT_GUARD_SORT_H
 #include "base/radix.h"
+#include "support/arithmetic.h"
 #include <stdbool.h>
 #include <stddef.h>
 
