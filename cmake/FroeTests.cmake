@@ -158,6 +158,9 @@ if(FROE_LOCALIZE)
       ${tests})
   endif()
 
+  froe_test(project selftest ${scripts}/check-selftest $<TARGET_FILE:froe_white>)
+  set_tests_properties(project/selftest PROPERTIES ENVIRONMENT CC=${CMAKE_C_COMPILER})
+
   set(stage ${PROJECT_BINARY_DIR}/stage)
   froe_test(project stage ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${stage})
   set_tests_properties(project/stage PROPERTIES FIXTURES_SETUP stage)

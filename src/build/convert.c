@@ -3,6 +3,7 @@
 #include "build/convert.h"
 #include "base/floats.h"
 #include "base/status.h"
+#include "geom/selftest.h"
 #include "split/convert.h"
 #include "split/ham_sandwich.h"
 #include <string.h>
@@ -110,7 +111,7 @@ static froe_status follow_plan(converter *c, bool prune, froe_tree **out) {
 
 froe_status build_converted(build_job *job, const convert_plan *plan, froe_tree **out) {
     converter c = {.job = job};
-    froe_status status = num_context_new(&job->alloc, &c.context);
+    froe_status status = geom_context_new(&job->alloc, &c.context);
     if (status) return base_fail_memory(job->diag);
     if (job->first > c.context.first) c.context.first = job->first;
     c.plan.scene = job->scene;

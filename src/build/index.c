@@ -19,6 +19,7 @@
 #include "base/radix.h"
 #include "base/status.h"
 #include "build/space.h"
+#include "geom/selftest.h"
 #include "split/grid.h"
 #include "split/halve.h"
 #include "tree/packer.h"
@@ -408,7 +409,7 @@ static froe_status grow(index_work *w, froe_tree **out) {
 
 static froe_status build_in_plane(build_job *job, froe_tree **out) {
     index_work w = {.job = job, .axis = {.context = &w.context}};
-    froe_status status = num_context_new(&job->alloc, &w.context);
+    froe_status status = geom_context_new(&job->alloc, &w.context);
     if (status) return status;
     if (job->first > w.context.first) w.context.first = job->first;
     status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);

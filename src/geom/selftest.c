@@ -6,8 +6,8 @@
  *
  * Coordinates are tenths: n times 0.1, rounded. The points lie on common lines and planes but for that rounding. Each
  * case was found by a search among 20,000 such of its formula: with all error bounds taken for 0, the filter and the
- * images that go with it, and then the running errors as well, give one and the same wrong answer. What is right was
- * computed in exact rationals (GMP) by tests/geom/test_selftest.c, which repeats that. */
+ * images that go with it, and then the running errors as well, give one and the same wrong answer. What is right, dyadic
+ * numbers said, which other tests compare with exact rationals (GMP). */
 #include "geom/selftest.h"
 #include "geom/eye.h"
 #include "geom/predicates.h"

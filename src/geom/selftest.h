@@ -6,7 +6,7 @@
 /** As num_context_new(), for all layers above: predicates start at NUM_EXACT also where this build gives a wrong answer
  * to one of the hard cases. Some 10 us. */
 froe_status geom_context_new(const froe_allocator *alloc, num_context *out);
-/** Is every answer to the hard cases right, or "unsure"? By filters and balls alone where `exact` is false: then
- * NULL, or the name of the first formula that is wrong. */
+/** The name of the first formula with a wrong answer to one of its hard cases; NULL: all are right. Predicates start
+ * where the context says. */
 const char *geom_formula_at_fault(num_context *context);
 #endif

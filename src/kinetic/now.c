@@ -1,10 +1,11 @@
 /* now.c: places, order and sides just after a tick: in doubles with error bounds, then exactly. */
 #include "kinetic/now.h"
+#include "geom/selftest.h"
 #include <math.h>
 
 froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out) {
     now_state now = {.motion = motion};
-    froe_status status = num_context_new(alloc, &now.context);
+    froe_status status = geom_context_new(alloc, &now.context);
     if (status) return status;
     now.memories = base_calloc(&now.context.alloc, NOW_MEMORIES, sizeof *now.memories);
     if (!now.memories || num_arena_reserve(&now.context.alloc, &now.context.arena, POLY_LIMBS) || now_grow(&now)) {

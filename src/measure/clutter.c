@@ -12,6 +12,7 @@
 #include "base/random.h"
 #include "base/status.h"
 #include "geom/meet.h"
+#include "geom/selftest.h"
 #include "measure/hierarchy.h"
 #include "measure/sample.h"
 #include "query/objects.h"
@@ -245,7 +246,7 @@ static froe_status begin(survey *s) {
     const froe_scene *scene = s->sample.scene;
     const froe_allocator *alloc = &s->sample.alloc;
     size_t n = scene->object_count, corners = (size_t)1 << s->dim;
-    froe_status status = num_context_new(alloc, &s->context);
+    froe_status status = geom_context_new(alloc, &s->context);
     if (!status) status = measure_bounds_new(&s->sample, &s->bounds);
     if (status) return status;
     if (n * corners > UINT32_MAX / 2) return FROE_E_LIMIT;

@@ -6,6 +6,7 @@
 #include "base/floats.h"
 #include "base/status.h"
 #include "geom/contact.h"
+#include "geom/selftest.h"
 #include "measure/odd_pairs.h"
 #include "scene/scene.h"
 
@@ -97,7 +98,7 @@ static froe_status make_tallies(survey *v) {
     if (!v->tallies) return FROE_E_MEMORY;
     for (unsigned i = 0; i < v->task.threads; i++) {
         tally *t = v->tallies + i;
-        t->ready = num_context_new(v->alloc, &t->context) == FROE_OK;
+        t->ready = geom_context_new(v->alloc, &t->context) == FROE_OK;
         t->sides = base_calloc(v->alloc, v->side_count, 1);
         if (!t->ready || !t->sides) return FROE_E_MEMORY;
     }

@@ -12,6 +12,7 @@
 #include "base/floats.h"
 #include "base/random.h"
 #include "geom/distance.h"
+#include "geom/selftest.h"
 #include "measure/enclosing.h"
 #include "measure/hierarchy.h"
 #include "measure/sample.h"
@@ -157,7 +158,7 @@ static froe_status begin(survey *s) {
     const froe_scene *scene = s->sample.scene;
     const froe_allocator *alloc = &s->sample.alloc;
     size_t n = scene->object_count;
-    froe_status status = num_context_new(alloc, &s->context);
+    froe_status status = geom_context_new(alloc, &s->context);
     if (!status) status = measure_bounds_new(&s->sample, &s->bounds);
     if (status) return status;
     s->size = base_calloc(alloc, n, sizeof *s->size);

@@ -1,6 +1,7 @@
 /* fatness.c: volume over that of the smallest enclosing ball; of polygons in space, area over that of the disc. */
 #include "base/floats.h"
 #include "base/status.h"
+#include "geom/selftest.h"
 #include "measure/enclosing.h"
 #include "measure/sample.h"
 #include "measure/volume.h"
@@ -120,7 +121,7 @@ froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_opt
     froe_status status = measure_sample_begin(scene, options, out, &s, diag);
     if (status) return status;
     froe_fatness found = {.thin = 0};
-    status = num_context_new(&s.alloc, &context);
+    status = geom_context_new(&s.alloc, &context);
     if (!status) {
         status = note_all(&s, &context, &found);
         num_context_free(&context);

@@ -2,6 +2,7 @@
 #include "query/context.h"
 #include "base/floats.h"
 #include "base/status.h"
+#include "geom/selftest.h"
 #include "query/packed.h"
 #include "query/space.h"
 
@@ -10,7 +11,7 @@ static froe_status take(const froe_tree *tree, query_shared *shared, froe_query 
     if (!q) return FROE_E_MEMORY;
     q->tree = tree;
     q->alloc = tree->alloc;
-    if (num_context_new(&tree->alloc, &q->numbers)) {
+    if (geom_context_new(&tree->alloc, &q->numbers)) {
         base_free(&tree->alloc, q, sizeof *q);
         return FROE_E_MEMORY;
     }

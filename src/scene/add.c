@@ -7,6 +7,7 @@
  *     commit       counts move on: the only step others can see; or the new vertices are forgotten */
 #include "base/floats.h"
 #include "base/status.h"
+#include "geom/selftest.h"
 #include "scene/forms.h"
 #include <math.h>
 #include <string.h>
@@ -103,7 +104,7 @@ static froe_status reserve(scene_adding *a) {
     const froe_objects *b = a->batch;
     struct scene_store *store = a->scene->store;
     if (b->kind == FROE_POLYGON && !store->context_ready) {
-        froe_status status = num_context_new(alloc, &store->context);
+        froe_status status = geom_context_new(alloc, &store->context);
         if (status) return base_fail_memory(a->diag);
         store->context_ready = true;
     }

@@ -1,5 +1,6 @@
 /* mapped.c: a scene over arrays from a file, which may say anything until it has been checked. */
 #include "base/status.h"
+#include "geom/selftest.h"
 #include "scene/polygon.h"
 #include "scene/store.h"
 #include <math.h>
@@ -123,7 +124,7 @@ static froe_status check_objects(const froe_scene *s, const froe_allocator *allo
     num_context context;
     if (!s->starts || s->starts[0] != 0 || s->starts[s->object_count] != s->corner_count)
         return bad(diag, "the offsets of the corners");
-    if (num_context_new(alloc, &context)) return base_fail_memory(diag);
+    if (geom_context_new(alloc, &context)) return base_fail_memory(diag);
     froe_status status = FROE_OK;
     for (uint32_t i = 0; !status && i < s->object_count; i++) status = check_object(s, i, &context, diag);
     num_context_free(&context);

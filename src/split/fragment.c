@@ -1,13 +1,14 @@
 /* fragment.c: classifying and cutting one fragment, exactly. */
 #include "split/fragment.h"
 #include "geom/filter.h"
+#include "geom/selftest.h"
 #include <string.h>
 
 froe_status split_set_new(const froe_scene *scene, const froe_allocator *alloc, split_set *out) {
     memset(out, 0, sizeof *out);
     out->scene = scene;
     out->alloc = *alloc;
-    return num_context_new(alloc, &out->context);
+    return geom_context_new(alloc, &out->context);
 }
 
 void split_set_free(split_set *set) {

@@ -5,6 +5,7 @@
  * for that waits: this call has no way to fail. */
 #include "base/floats.h"
 #include "geom/predicates.h"
+#include "geom/selftest.h"
 #include "tree/packed.h"
 #include "tree/ring.h"
 #include <sched.h>
@@ -19,7 +20,7 @@ struct tree_spare {
 froe_status tree_spare_new(const froe_allocator *alloc, tree_spare **out) {
     tree_spare *spare = base_calloc(alloc, 1, sizeof *spare);
     if (!spare) return FROE_E_MEMORY;
-    froe_status status = num_context_new(alloc, &spare->context);
+    froe_status status = geom_context_new(alloc, &spare->context);
     if (status) {
         base_free(alloc, spare, sizeof *spare);
         return status;
@@ -38,7 +39,7 @@ void tree_spare_free(const froe_allocator *alloc, tree_spare *spare) {
 /* The spare context, or `own` filled with a new one. */
 static num_context *borrow(const froe_tree *t, num_context *own) {
     if (!atomic_flag_test_and_set(&t->spare->taken)) return &t->spare->context;
-    if (num_context_new(&t->alloc, own) == FROE_OK) return own;
+    if (geom_context_new(&t->alloc, own) == FROE_OK) return own;
     while (atomic_flag_test_and_set(&t->spare->taken)) sched_yield();
     return &t->spare->context;
 }

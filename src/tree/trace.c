@@ -1,12 +1,13 @@
 /* trace.c: carrying points, segments and polygons down a tree, exactly. */
 #include "tree/trace.h"
+#include "geom/selftest.h"
 #include <math.h>
 #include <string.h>
 
 froe_status trace_new(const froe_tree *tree, bool exact_only, trace *out) {
     memset(out, 0, sizeof *out);
     out->alloc = tree->alloc;
-    froe_status status = num_context_new(&tree->alloc, &out->context);
+    froe_status status = geom_context_new(&tree->alloc, &out->context);
     if (status) return status;
     out->tree = tree;
     if (exact_only) out->context.first = NUM_EXACT;

@@ -6,6 +6,7 @@
  * where it stands. What the pieces mean is the business of the audit. */
 #include "tree/validate.h"
 #include "base/status.h"
+#include "geom/selftest.h"
 #include "tree/packed.h"
 #include "tree/walk.h"
 #include <math.h>
@@ -197,7 +198,7 @@ static bool meta_fits(const froe_tree *t) {
 froe_status tree_validate(const froe_tree *tree, froe_diagnostic *diag) {
     check c = {.tree = tree, .diag = diag};
     if (!meta_fits(tree)) return base_fail(diag, FROE_E_FORMAT, "the tree is corrupted: its description");
-    if (num_context_new(&tree->alloc, &c.context)) return base_fail_memory(diag);
+    if (geom_context_new(&tree->alloc, &c.context)) return base_fail_memory(diag);
     froe_status status = check_nodes(&c);
     num_context_free(&c.context);
     if (!status && tree_is_packed(tree)) status = packed_validate(tree, diag);

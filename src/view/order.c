@@ -2,13 +2,14 @@
 #include "view/order.h"
 #include "base/status.h"
 #include "geom/predicates.h"
+#include "geom/selftest.h"
 #include "tree/space.h"
 #include <math.h>
 
 froe_status view_order_begin(view_order *order, const froe_tree *tree, const geom_eye *eye, bool front_to_back,
                              const uint32_t *ranks) {
     *order = (view_order){.tree = tree, .eye = *eye, .front_to_back = front_to_back, .ranks = ranks};
-    froe_status status = num_context_new(&tree->alloc, &order->context);
+    froe_status status = geom_context_new(&tree->alloc, &order->context);
     return status ? status : view_order_restart(order);
 }
 
@@ -178,7 +179,7 @@ froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
                          "a tree of method '%s' lists whole objects, which are in no depth order: build another one",
                          tree->meta.method);
     if (tree->report.max_leaf <= 1) return FROE_OK;
-    if (num_context_new(&tree->alloc, &context)) return base_fail_memory(diag);
+    if (geom_context_new(&tree->alloc, &context)) return base_fail_memory(diag);
     for (uint32_t node = 0; node < tree->node_count && !status; node++) {
         if (!tree_is_leaf(tree->nodes + node)) continue;
         const tree_objects list = tree_list(tree, node);

@@ -3,6 +3,7 @@
 #include "base/floats.h"
 #include "base/status.h"
 #include "base/task.h"
+#include "geom/selftest.h"
 #include "view/order.h"
 
 enum { EYES = 32, NODES = 4096 }; /* eyes a word, nodes a job */
@@ -105,7 +106,7 @@ froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t
     b.sides = base_calloc(&tree->alloc, tree->node_count, sizeof *b.sides);
     b.contexts = base_calloc(&tree->alloc, task.threads, sizeof *b.contexts);
     for (unsigned i = 0; b.contexts && i < task.threads && !status; i++)
-        status = num_context_new(&tree->alloc, b.contexts + i);
+        status = geom_context_new(&tree->alloc, b.contexts + i);
     if (!b.sides || !b.contexts || status)
         status = base_fail_memory(diag);
     else

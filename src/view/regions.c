@@ -1,6 +1,7 @@
 /* regions.c: the public call for visible regions. */
 #include "base/floats.h"
 #include "base/status.h"
+#include "geom/selftest.h"
 #include "view/region.h"
 
 typedef struct giver {
@@ -31,7 +32,7 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
     bool go_on = true;
     if (!v || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     view_sights sights = v->sights; /* with numbers of its own: the rest is only read */
-    if (num_context_new(&v->alloc, &sights.context)) return base_fail_memory(diag);
+    if (geom_context_new(&v->alloc, &sights.context)) return base_fail_memory(diag);
     bool ok = true;
     for (uint32_t p = first; ok && go_on && p < v->surface->patch_count && p - first < count; p++) {
         if (v->patch_starts[p] == v->patch_starts[p + 1]) continue;

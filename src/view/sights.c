@@ -2,6 +2,7 @@
 #include "view/sights.h"
 #include "base/random.h"
 #include "geom/predicates.h"
+#include "geom/selftest.h"
 #include "view/order.h"
 #include <string.h>
 
@@ -20,7 +21,7 @@ froe_status view_sights_new(view_sights *s, const froe_tree *tree, const froe_su
     *s = (view_sights){.alloc = *alloc, .tree = tree, .surface = surface, .eye = *eye};
     s->window = window;
     s->window_count = window_count;
-    froe_status status = num_context_new(alloc, &s->context);
+    froe_status status = geom_context_new(alloc, &s->context);
     if (status) return status;
     const uint32_t objects = tree->scene->object_count, points = point_count(s);
     s->rays = base_calloc(alloc, (size_t)points + 1, sizeof *s->rays);

@@ -2,6 +2,7 @@
 #include "view/surface.h"
 #include "base/floats.h"
 #include "base/status.h"
+#include "geom/selftest.h"
 
 static void free_words(const froe_surface *s, uint32_t *words, size_t count) {
     base_free(&s->alloc, words, (count ? count : 1) * sizeof *words);
@@ -26,7 +27,7 @@ void froe_surface_free(froe_surface *s) {
 static froe_status fill(froe_surface *s) {
     num_context context;
     froe_status status = surface_find_edges(s);
-    if (!status) status = num_context_new(&s->alloc, &context);
+    if (!status) status = geom_context_new(&s->alloc, &context);
     if (status) return status;
     status = surface_find_patches(s, &context);
     num_context_free(&context);
