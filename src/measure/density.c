@@ -50,7 +50,7 @@ static bool surely_within(const survey *s, const double *point, double radius, u
         const double *p = scene_point(scene, object, i);
         double square = 0;
         for (int k = 0; k < scene->dim; k++) square += (p[k] - point[k]) * (p[k] - point[k]);
-        found = square * (1 + 0x1p-40) < radius * radius;
+        found = square * (1 + 0x1p-40) < radius * radius - 0x1p-1000; /* no denormal squares */
     }
     return found;
 }

@@ -3,8 +3,11 @@
  *        o-----.         the ball of at most four points of support; the point furthest outside comes in, and the
  *      .   .    o        smallest ball that is held by it and some of the others, and holds them all, is next. It
  *     o  ball    .  o    grows each time, so this ends (an LP-type problem: Matousek, Sharir and Welzl 1996).
- */
+ *
+ * Squares of lengths, and products of those, leave the range of doubles long before coordinates do: all differences are
+ * taken times a power of 2 that makes the object about as large as 1, and only radii are taken back. */
 #include "measure/enclosing.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -16,9 +19,23 @@ typedef struct support {
     int count;
 } support;
 
-static double square_distance(int dim, const double *a, const double *b) {
+double measure_scale(const froe_scene *scene, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], most = 0;
+    int exponent;
+    scene_object_bounds(scene, object, lo, hi);
+    for (int k = 0; k < scene->dim; k++) most = fmax(most, hi[k] - lo[k]);
+    most = fmin(most, DBL_MAX);
+    if (most == 0) return 1;
+    frexp(most, &exponent);
+    return ldexp(1, exponent < -1020 ? 1020 : exponent > 1020 ? -1020 : -exponent);
+}
+
+static double square_distance(int dim, const double *a, const double *b, double scale) {
     double sum = 0;
-    for (int k = 0; k < dim; k++) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    for (int k = 0; k < dim; k++) {
+        const double x = a[k] * scale - b[k] * scale;
+        sum += x * x;
+    }
     return sum;
 }
 
@@ -45,11 +62,11 @@ static bool solve(int m, double a[3][4]) {
 
 /* The ball with all these points on its surface and its centre among them: centre = p0 + sum t_i v_i, v_i = p_i - p0,
  * where 2 v_j . sum t_i v_i = |v_j|^2. */
-static bool circumscribe(int dim, const support *s, measure_ball *out) {
+static bool circumscribe(int dim, const support *s, double scale, measure_ball *out) {
     double v[3][3] = {{0}}, a[3][4] = {{0}};
     int m = s->count - 1;
     for (int i = 0; i < m; i++)
-        for (int k = 0; k < dim; k++) v[i][k] = s->point[i + 1][k] - s->point[0][k];
+        for (int k = 0; k < dim; k++) v[i][k] = s->point[i + 1][k] * scale - s->point[0][k] * scale;
     for (int i = 0; i < m; i++) {
         for (int j = 0; j < m; j++)
             for (int k = 0; k < dim; k++) a[i][j] += 2 * v[i][k] * v[j][k];
@@ -58,21 +75,21 @@ static bool circumscribe(int dim, const support *s, measure_ball *out) {
     if (!solve(m, a)) return false;
     for (int k = 0; k < dim; k++) {
         out->centre[k] = s->point[0][k];
-        for (int i = 0; i < m; i++) out->centre[k] += a[i][m] * v[i][k];
+        for (int i = 0; i < m; i++) out->centre[k] += a[i][m] * v[i][k] / scale;
     }
-    out->radius = sqrt(square_distance(dim, out->centre, s->point[0]));
+    out->radius = sqrt(square_distance(dim, out->centre, s->point[0], scale));
     return isfinite(out->radius);
 }
 
-static bool holds(int dim, const measure_ball *ball, const support *s) {
+static bool holds(int dim, const measure_ball *ball, const support *s, double scale) {
     bool all = true;
     for (int i = 0; i < s->count; i++)
-        all = all && sqrt(square_distance(dim, ball->centre, s->point[i])) <= ball->radius * SLACK;
+        all = all && sqrt(square_distance(dim, ball->centre, s->point[i], scale)) <= ball->radius * SLACK;
     return all;
 }
 
 /* Of the balls held by the last point and some of the others, the smallest that holds all. */
-static bool exchange(int dim, support *s, measure_ball *ball) {
+static bool exchange(int dim, support *s, double scale, measure_ball *ball) {
     support best = {.count = 0};
     measure_ball least = {.radius = INFINITY};
     int others = s->count - 1;
@@ -81,8 +98,8 @@ static bool exchange(int dim, support *s, measure_ball *ball) {
         for (int i = 0; i < others; i++)
             if (set >> i & 1) some.point[some.count++] = s->point[i];
         measure_ball b;
-        if (some.count > dim + 1 || !circumscribe(dim, &some, &b)) continue;
-        if (b.radius < least.radius && holds(dim, &b, s)) least = b, best = some;
+        if (some.count > dim + 1 || !circumscribe(dim, &some, scale, &b)) continue;
+        if (b.radius < least.radius && holds(dim, &b, s, scale)) least = b, best = some;
     }
     if (!best.count || least.radius <= ball->radius) return false; /* rounding: as near as doubles get */
     *s = best;
@@ -90,7 +107,8 @@ static bool exchange(int dim, support *s, measure_ball *ball) {
     return true;
 }
 
-static measure_ball enclose_corners(const froe_scene *scene, uint32_t object) {
+/* The radius times scale. */
+static measure_ball enclose_corners(const froe_scene *scene, uint32_t object, double scale) {
     support s = {{scene_point(scene, object, 0)}, 1};
     measure_ball ball = {.radius = 0};
     memcpy(ball.centre, s.point[0], (size_t)scene->dim * sizeof(double));
@@ -98,51 +116,53 @@ static measure_ball enclose_corners(const froe_scene *scene, uint32_t object) {
         double most = 0;
         for (uint32_t i = 0; i < scene_corners(scene, object); i++) {
             const double *p = scene_point(scene, object, i);
-            double far = square_distance(scene->dim, ball.centre, p);
+            double far = square_distance(scene->dim, ball.centre, p, scale);
             if (far > most) most = far, s.point[s.count] = p;
         }
         if (sqrt(most) <= ball.radius * SLACK) break;
         s.count++;
-        if (!exchange(scene->dim, &s, &ball)) return (ball.radius = sqrt(most), ball);
+        if (!exchange(scene->dim, &s, scale, &ball)) return (ball.radius = sqrt(most), ball);
     }
     return ball;
 }
 
-static measure_ball enclose_box(const froe_scene *scene, uint32_t object) {
+static measure_ball enclose_box(const froe_scene *scene, uint32_t object, double scale) {
     measure_ball ball;
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], sum = 0;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     scene_object_bounds(scene, object, lo, hi);
-    for (int k = 0; k < scene->dim; k++) {
-        double half = 0.5 * hi[k] - 0.5 * lo[k];
-        ball.centre[k] = lo[k] + half;
-        sum += half * half;
-    }
-    ball.radius = sqrt(sum);
+    for (int k = 0; k < scene->dim; k++) ball.centre[k] = lo[k] + (0.5 * hi[k] - 0.5 * lo[k]);
+    ball.radius = 0.5 * sqrt(square_distance(scene->dim, lo, hi, scale));
     return ball;
 }
 
 measure_ball measure_enclosing(const froe_scene *scene, uint32_t object) {
+    const double scale = measure_scale(scene, object);
     measure_ball ball;
     switch (scene_form(scene, object)) {
     case FROE_BOX:
     case FROE_POINT:
-        return enclose_box(scene, object);
+        ball = enclose_box(scene, object, scale);
+        break;
     case FROE_BALL:
         memcpy(ball.centre, scene_point(scene, object, 0), (size_t)scene->dim * sizeof(double));
         ball.radius = scene_radius(scene, object);
         return ball;
     default:
-        return enclose_corners(scene, object);
+        ball = enclose_corners(scene, object, scale);
     }
+    ball.radius /= scale;
+    return ball;
 }
 
 double measure_diameter(const froe_scene *scene, uint32_t object) {
     if (scene_form(scene, object) == FROE_BALL) return 2 * scene_radius(scene, object);
+    const double scale = measure_scale(scene, object);
     double most = 0;
     for (uint32_t i = 1; i < scene_corners(scene, object); i++)
         for (uint32_t j = 0; j < i; j++) {
-            double far = square_distance(scene->dim, scene_point(scene, object, i), scene_point(scene, object, j));
+            double far =
+                square_distance(scene->dim, scene_point(scene, object, i), scene_point(scene, object, j), scale);
             if (far > most) most = far;
         }
-    return sqrt(most);
+    return sqrt(most) / scale;
 }

@@ -17,16 +17,16 @@ static double ball_volume(int dim, double radius) {
     return volume;
 }
 
-static double box_volume(const froe_scene *scene, uint32_t object) {
+static double box_volume(const froe_scene *scene, uint32_t object, double scale) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], volume = 1;
     scene_object_bounds(scene, object, lo, hi);
-    for (int k = 0; k < scene->dim; k++) volume *= hi[k] - lo[k];
+    for (int k = 0; k < scene->dim; k++) volume *= hi[k] * scale - lo[k] * scale;
     return volume;
 }
 
-static void cross(const double *a, const double *b, const double *c, double *out) {
+static void cross(const double *a, const double *b, const double *c, double scale, double *out) {
     double u[3], v[3];
-    for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
+    for (int k = 0; k < 3; k++) u[k] = b[k] * scale - a[k] * scale, v[k] = c[k] * scale - a[k] * scale;
     out[0] = u[1] * v[2] - u[2] * v[1];
     out[1] = u[2] * v[0] - u[0] * v[2];
     out[2] = u[0] * v[1] - u[1] * v[0];
@@ -36,27 +36,28 @@ static double length(const double *v) {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-static double polygon_area(const froe_scene *scene, uint32_t object) {
+static double polygon_area(const froe_scene *scene, uint32_t object, double scale) {
     double sum[3] = {0}, part[3];
     for (uint32_t i = 2; i < scene_corners(scene, object); i++) {
-        cross(scene_point(scene, object, 0), scene_point(scene, object, i - 1), scene_point(scene, object, i), part);
+        cross(scene_point(scene, object, 0), scene_point(scene, object, i - 1), scene_point(scene, object, i), scale,
+              part);
         for (int k = 0; k < 3; k++) sum[k] += 0.5 * part[k];
     }
     return length(sum);
 }
 
 /* Width across the longest edge, over its length. */
-static double sliver_ratio(const froe_scene *scene, uint32_t object) {
+static double sliver_ratio(const froe_scene *scene, uint32_t object, double scale) {
     uint32_t n = scene_corners(scene, object), longest = 0;
     double most = 0, width = 0, v[3];
     for (uint32_t i = 0; i < n; i++) {
         const double *a = scene_point(scene, object, i), *b = scene_point(scene, object, (i + 1) % n);
-        for (int k = 0; k < 3; k++) v[k] = b[k] - a[k];
+        for (int k = 0; k < 3; k++) v[k] = b[k] * scale - a[k] * scale;
         if (length(v) > most) most = length(v), longest = i;
     }
     const double *a = scene_point(scene, object, longest), *b = scene_point(scene, object, (longest + 1) % n);
     for (uint32_t i = 0; i < n; i++) {
-        cross(a, b, scene_point(scene, object, i), v);
+        cross(a, b, scene_point(scene, object, i), scale, v);
         if (length(v) > width) width = length(v);
     }
     return width / most / most;
@@ -66,33 +67,35 @@ static bool note(measure_sample *s, int list, double value) {
     return array_push(&s->alloc, &s->values[list], value);
 }
 
-/* A solid: its share of the ball around it. */
-static bool note_full(measure_sample *s, uint32_t object, double volume, froe_fatness *out) {
+/* A solid: its share of the ball around it, both times a power of the scale. */
+static bool note_full(measure_sample *s, uint32_t object, double scale, double volume, froe_fatness *out) {
     const measure_ball ball = measure_enclosing(s->scene, object);
     out->thin += !(volume > 0);
-    return note(s, FULL, volume > 0 ? volume / ball_volume(s->scene->dim, ball.radius) : 0);
+    return note(s, FULL, volume > 0 ? volume / ball_volume(s->scene->dim, ball.radius * scale) : 0);
 }
 
 static froe_status note_hull(measure_sample *s, num_context *context, uint32_t object, froe_fatness *out) {
+    const double scale = measure_scale(s->scene, object);
     double volume;
-    froe_status status = measure_hull_volume(context, &s->alloc, s->scene, object, &volume);
-    return status ? status : note_full(s, object, volume, out) ? FROE_OK : FROE_E_MEMORY;
+    froe_status status = measure_hull_volume(context, &s->alloc, s->scene, object, scale, &volume);
+    return status ? status : note_full(s, object, scale, volume, out) ? FROE_OK : FROE_E_MEMORY;
 }
 
 static bool note_object(measure_sample *s, uint32_t object, froe_fatness *out) {
     const froe_scene *scene = s->scene;
+    const double scale = measure_scale(scene, object);
     measure_ball ball;
     switch (scene_form(scene, object)) {
     case FROE_BALL:
         out->thin += scene_radius(scene, object) == 0;
         return note(s, FULL, scene_radius(scene, object) > 0);
     case FROE_BOX:
-        return note_full(s, object, box_volume(scene, object), out);
+        return note_full(s, object, scale, box_volume(scene, object, scale), out);
     case FROE_POLYGON:
         out->thin++;
         ball = measure_enclosing(scene, object);
-        return note(s, FLAT, polygon_area(scene, object) / ball_volume(2, ball.radius)) &&
-               note(s, SLIVER, sliver_ratio(scene, object));
+        return note(s, FLAT, polygon_area(scene, object, scale) / ball_volume(2, ball.radius * scale)) &&
+               note(s, SLIVER, sliver_ratio(scene, object, scale));
     default:
         out->thin++;
         return true;

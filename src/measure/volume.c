@@ -35,8 +35,10 @@ static const double *corner(const hull *h, uint32_t i) {
 
 /* ----------------------------------------------------------------- in the plane -- */
 
-static double square_distance(const double *a, const double *b) {
-    return (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
+/* Is p beyond q, as seen from a corner of the hull with which both are in one line? By coordinates, exactly. */
+static bool beyond(const double *a, const double *q, const double *p) {
+    const int k = q[0] == a[0];
+    return q[k] > a[k] ? p[k] > q[k] : p[k] < q[k];
 }
 
 /* The corner after `at`, counterclockwise: no other lies right of the line to it, nor farther on it. */
@@ -51,12 +53,12 @@ static const double *next_on_hull(const hull *h, const double *at) {
             geom_plane plane = geom_plane_points(2, line);
             side = geom_side_vertex(h->context, &plane, p);
         }
-        if (side < 0 || (side == 0 && square_distance(at, p) > square_distance(at, best))) best = p;
+        if (side < 0 || (side == 0 && beyond(at, best, p))) best = p;
     }
     return best;
 }
 
-static double area(const hull *h) {
+static double area(const hull *h, double scale) {
     const double *start = corner(h, 0);
     for (uint32_t i = 1; i < scene_corners(h->scene, h->object); i++) {
         const double *p = corner(h, i);
@@ -65,7 +67,8 @@ static double area(const hull *h) {
     double sum = 0;
     const double *a = next_on_hull(h, start);
     for (const double *b; a && (b = next_on_hull(h, a)) != start; a = b)
-        sum += (a[0] - start[0]) * (b[1] - start[1]) - (a[1] - start[1]) * (b[0] - start[0]);
+        sum += (a[0] * scale - start[0] * scale) * (b[1] * scale - start[1] * scale) -
+               (a[1] * scale - start[1] * scale) * (b[0] * scale - start[0] * scale);
     return fabs(sum) / 2;
 }
 
@@ -135,12 +138,12 @@ static bool begin(hull *h) {
     return true;
 }
 
-static double sum_of_tetrahedra(const hull *h) {
+static double sum_of_tetrahedra(const hull *h, double scale) {
     const double *o = corner(h, 0);
     double sum = 0, v[3][3];
     for (size_t i = 0; i < h->facets.count; i++) {
         for (int j = 0; j < 3; j++)
-            for (int k = 0; k < 3; k++) v[j][k] = h->facets.data[i].p[j][k] - o[k];
+            for (int k = 0; k < 3; k++) v[j][k] = h->facets.data[i].p[j][k] * scale - o[k] * scale;
         sum += v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
                v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
     }
@@ -148,16 +151,16 @@ static double sum_of_tetrahedra(const hull *h) {
 }
 
 froe_status measure_hull_volume(num_context *context, const froe_allocator *alloc, const froe_scene *scene,
-                                uint32_t object, double *out) {
+                                uint32_t object, double scale, double *out) {
     hull h = {.context = context, .alloc = alloc, .scene = scene, .object = object};
     if (scene->dim == 2) {
-        *out = area(&h);
+        *out = area(&h, scale);
         return FROE_OK;
     }
     bool ok = begin(&h);
     for (uint32_t i = 0; i < scene_corners(scene, object) && ok && h.facets.count; i++)
         ok = add_corner(&h, corner(&h, i));
-    if (ok) *out = sum_of_tetrahedra(&h);
+    if (ok) *out = sum_of_tetrahedra(&h, scale);
     array_free(alloc, &h.facets);
     array_free(alloc, &h.border);
     return ok ? FROE_OK : FROE_E_MEMORY;

@@ -204,7 +204,7 @@ static void volumes_of_hulls(void **state) {
         assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
         assert_int_equal(froe_scene_add(scene, &hull, NULL), FROE_OK);
         assert_int_equal(num_context_new(NULL, &context), FROE_OK);
-        assert_int_equal(measure_hull_volume(&context, &scene->alloc, scene, 0, &found), FROE_OK);
+        assert_int_equal(measure_hull_volume(&context, &scene->alloc, scene, 0, 1, &found), FROE_OK);
         assert_true(fabs(found - volume) < 1e-9);
         froe_fatness fatness;
         assert_int_equal(froe_measure_fatness(scene, NULL, &fatness, NULL), FROE_OK);
@@ -244,19 +244,54 @@ static void enclosing_balls_enclose_and_touch(void **state) {
 
 /* --------------------------------------------------------------- order and scale -- */
 
+/* Polygons and hulls with three corners in one line, the middle one first, so small or so large that no square of theirs
+ * is a normal number. */
+static void shapes_are_as_fat_at_every_scale(void **state) {
+    static const double plane[] = {1, 0, 0, 0, 2, 0, 2, 2, 0, 2, 1, 2}, space[] = {0, 0, 0, 2, 0, 1, 0, 2, 3};
+    static const double tent[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0.5, 0.5, 1};
+    static const int powers[] = {0, -1000, -700, -540, 540, 1020};
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        froe_fatness first = {.thin = 0};
+        for (size_t i = 0; i < sizeof powers / sizeof *powers; i++) {
+            double corners[15], polygon[9];
+            const size_t starts[2] = {0, dim == 2 ? 6 : 5};
+            froe_scene *scene;
+            froe_fatness found;
+            for (int k = 0; k < (dim == 2 ? 12 : 15); k++) corners[k] = ldexp(dim == 2 ? plane[k] : tent[k], powers[i]);
+            for (int k = 0; k < 9; k++) polygon[k] = ldexp(space[k], powers[i]);
+            froe_objects hull = froe_objects_defaults(), triangle = hull;
+            hull.kind = FROE_HULL, hull.count = 1, hull.coords = corners, hull.starts = starts;
+            triangle.count = 1, triangle.coords = polygon;
+            assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+            assert_int_equal(froe_scene_add(scene, &hull, NULL), FROE_OK);
+            if (dim == 3) assert_int_equal(froe_scene_add(scene, &triangle, NULL), FROE_OK);
+            const froe_measure_options o = all_objects();
+            assert_int_equal(froe_measure_fatness(scene, &o, &found, NULL), FROE_OK);
+            if (i == 0) first = found;
+            assert_true(found.full.median > 0 && fabs(found.full.median - first.full.median) < 1e-9);
+            if (dim == 3) assert_true(found.flat.median > 0 && fabs(found.flat.median - first.flat.median) < 1e-9);
+            froe_scene_free(scene);
+        }
+    }
+}
+
 static void order_and_scale_change_nothing(void **state) {
+    enum { SCENES = 6 };
+    static const double scales[SCENES] = {1, 1, 0x1p-200, 0x1p-960, 0x1p-600, 0x1p980};
     (void)state;
     for (int kind = 0; kind < 2; kind++) {
-        froe_scene *scenes[3];
+        froe_scene *scenes[SCENES];
         froe_kind form = kind ? FROE_BOX : FROE_SEGMENT;
-        scenes[0] = make(form, 2, 50, 9, 1, 1);
-        scenes[1] = make(form, 2, 50, 9, 7, 1);
-        scenes[2] = make(form, 2, 50, 9, 1, 0x1p-200);
+        for (int i = 0; i < SCENES; i++) scenes[i] = make(form, 2, 50, 9, i == 1 ? 7 : 1, scales[i]);
         froe_measure_options o = all_objects();
-        froe_clutter clutter[3];
-        froe_density density[3];
-        froe_directional directional[3];
-        for (int i = 0; i < 3; i++) {
+        froe_clutter clutter[SCENES];
+        froe_density density[SCENES];
+        froe_directional directional[SCENES];
+        froe_fatness fatness[SCENES];
+        for (int i = 0; i < SCENES; i++) {
+            assert_int_equal(froe_measure_fatness(scenes[i], &o, &fatness[i], NULL), FROE_OK);
+            assert_memory_equal(&fatness[i], &fatness[0], sizeof fatness[0]);
             assert_int_equal(froe_measure_clutter(scenes[i], &o, &clutter[i], NULL), FROE_OK);
             assert_int_equal(froe_measure_density(scenes[i], FROE_SIZE_DIAMETER, &o, &density[i], NULL), FROE_OK);
             assert_int_equal(froe_measure_directional(scenes[i], 0.5, &o, &directional[i], NULL), FROE_OK);
@@ -267,7 +302,7 @@ static void order_and_scale_change_nothing(void **state) {
             assert_memory_equal(&density[i].load, &density[0].load, sizeof density[0].load);
             assert_memory_equal(&directional[i].extended, &directional[0].extended, sizeof directional[0].extended);
         }
-        for (int i = 0; i < 3; i++) froe_scene_free(scenes[i]);
+        for (int i = 0; i < SCENES; i++) froe_scene_free(scenes[i]);
     }
 }
 
@@ -346,6 +381,7 @@ int main(void) {
         cmocka_unit_test(fatness_of_known_shapes),
         cmocka_unit_test(volumes_of_hulls),
         cmocka_unit_test(enclosing_balls_enclose_and_touch),
+        cmocka_unit_test(shapes_are_as_fat_at_every_scale),
         cmocka_unit_test(order_and_scale_change_nothing),
         cmocka_unit_test(nothing_is_measured_without_objects),
         cmocka_unit_test(measures_survive_every_failing_allocation),
