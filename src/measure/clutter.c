@@ -15,7 +15,7 @@
 #include "geom/selftest.h"
 #include "measure/hierarchy.h"
 #include "measure/sample.h"
-#include "query/objects.h"
+#include "scene/convex.h"
 #include <math.h>
 #include <string.h>
 
@@ -138,7 +138,7 @@ static bool object_meets(survey *s, uint32_t object, const double *points) {
     if (form == FROE_BOX || form == FROE_POINT || corner_inside(s, object, points)) return true;
     if (s->dim <= 3) {
         geom_convex a = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = points};
-        geom_convex b = query_convex(scene, object);
+        geom_convex b = scene_convex(scene, object);
         return geom_meet(&s->context, &a, &b);
     }
     const double *p = scene_point(scene, object, 0); /* a ball */

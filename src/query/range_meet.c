@@ -2,8 +2,8 @@
 #include "geom/meet.h"
 #include "geom/predicates.h"
 #include "query/context.h"
-#include "query/objects.h"
 #include "query/segment.h"
+#include "scene/convex.h"
 #include <string.h>
 
 /* ------------------------------------------------------------------- boxes -- */
@@ -84,7 +84,7 @@ static bool box_meets(froe_query *q, const double *lo, const double *hi, uint32_
                                  scene_point(s, object, 1));
     if (box_meets_corner(s, object, lo, hi)) return true;
     const geom_convex box = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = ends};
-    const geom_convex set = query_convex(s, object);
+    const geom_convex set = scene_convex(s, object);
     return geom_meet(&q->numbers, &set, &box);
 }
 
@@ -123,7 +123,7 @@ static bool make_polytope(froe_query *q) {
 }
 
 static bool halfspaces_meet(froe_query *q, uint32_t object, bool *memory) {
-    const geom_convex set = query_convex(q->tree->scene, object);
+    const geom_convex set = scene_convex(q->tree->scene, object);
     const int known = halfspaces_meet_corners(&q->numbers, q->range.from, &set);
     if (known != NUM_UNSURE) return known;
     if (!make_polytope(q)) return *memory = true, false;
@@ -153,7 +153,7 @@ static bool set_meets(froe_query *q, uint32_t object) {
     double lo[3], hi[3];
     scene_object_bounds(s, object, lo, hi);
     if (boxes_apart(range->lo, range->hi, lo, hi, s->dim)) return false;
-    const geom_convex object_set = query_convex(s, object);
+    const geom_convex object_set = scene_convex(s, object);
     geom_convex set = range->set;
     if (set.core == GEOM_CORE_RAY) set.power = power_beyond(&set, lo, hi);
     return geom_meet(&q->numbers, &object_set, &set);

@@ -9,6 +9,7 @@
  * The sides of boxes are exact numbers; where one is no double the next double further out stands for it. Between the
  * two lies no coordinate of a vertex, a cut or a window. */
 #include "geom/meet.h"
+#include "scene/convex.h"
 #include "tree/space.h"
 #include <math.h>
 
@@ -22,11 +23,8 @@ static bool meets(num_context *context, const froe_scene *s, uint32_t object, co
     scene_object_bounds(s, object, lo, hi);
     for (int k = 0; k < 3; k++)
         if (lo[k] > corners[3 + k] || hi[k] < corners[k]) return false;
-    geom_convex box = {.core = GEOM_CORE_BOX, .dim = 3, .count = 8, .coords = corners};
-    geom_convex set = {.dim = 3, .coords = s->coords, .ids = s->corners + s->starts[object]};
-    set.count = scene_corners(s, object);
-    if (scene_form(s, object) == FROE_BALL) set.count = 1, set.radius = scene_radius(s, object);
-    if (scene_form(s, object) == FROE_BOX) set.core = GEOM_CORE_BOX, set.count = 8;
+    const geom_convex box = {.core = GEOM_CORE_BOX, .dim = 3, .count = 8, .coords = corners};
+    const geom_convex set = scene_convex(s, object);
     return geom_meet(context, &set, &box);
 }
 

@@ -4,9 +4,9 @@
  * objects closed and convex: what has a point strictly on a side goes there, what lies in the
  * cut ends there, and touching a cut from one side is being on that side only.
  *
- * Points, segments and polygons are traced exactly, and so are solids among axis-parallel cuts. For the
- * rest, whether a solid reaches into a cell that cuts bound from several sides is only enclosed:
- * it MAY be listed wherever no single cut excludes it, and MUST be where a point of it is known to lie.
+ * Points, segments and polygons are traced exactly, and so are boxes and balls among axis-parallel cuts. For the
+ * rest, whether a solid reaches into a cell that cuts bound from several sides is enclosed: it MAY be listed wherever
+ * no single cut excludes it, and MUST be where a point of it is known to lie, or is found (trace_cell.c).
  *
  * This is the audit's own clipping: it shares the predicates with the builders, nothing else. */
 #ifndef FROE_TREE_TRACE_H
@@ -38,10 +38,10 @@ typedef struct trace_part {
 /** A solid waiting: its part within the axis-parallel cuts above, and what is certain of it. */
 typedef struct trace_solid {
     uint32_t node, first, count;               /* hulls: corners certainly inside */
-    bool oblique;                              /* is there an oblique cut above? (boxes; hulls: one that divided it) */
+    bool oblique;                              /* is there an oblique cut above? (boxes) */
     bool exact;                                /* no oblique cut has divided it */
     bool inside;                               /* a witness is inside: a point of boxes, the centre of balls */
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /* boxes: the part; balls, hulls: the cell */
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /* boxes: the part; balls: the cell */
     double witness[FROE_MAX_DIM];
 } trace_solid;
 
@@ -76,6 +76,9 @@ froe_status trace_object(trace *t, uint32_t object, trace_fn *fn, void *user);
 
 /** The plane of a node's cut; good until the next call. */
 const geom_plane *trace_plane(trace *t, uint32_t node);
+/** Does the object, a solid, meet the open cell of a leaf? *meets is not changed where that is not known: above dimension
+ * 3, and where a cut that no doubles name divides the solid. FROE_E_MEMORY. */
+froe_status trace_cell_meets(trace *t, uint32_t leaf, bool *meets);
 /** The same as trace_object for boxes, balls and hulls; called by it. */
 froe_status trace_solid_object(trace *t);
 #endif

@@ -3,13 +3,12 @@
  * Where one cut divides a solid it is on both sides for certain. Where several do, its part between them
  * may be empty:
  *
- *         \  o /        axis-parallel cuts   boxes: the part is a box, exact; balls, hulls: distance to the cell, exact
- *       ---\--/---      any other            a witness, strictly inside all cuts so far, tells where it must be
- *           \/
+ *         \  o /        axis-parallel cuts   boxes: the part is a box, exact; balls: distance to the cell, exact
+ *       ---\--/---      any other            a witness, strictly inside all cuts so far, tells where it must be;
+ *           \/                               without one, trace_cell.c
  *
  * A witness w of a box stands for points near it: its part is a box P with w in it, so on an axis
  * where P extends beyond w, w may be moved a little. */
-#include "geom/meet.h"
 #include "tree/trace.h"
 #include <math.h>
 #include <string.h>
@@ -72,13 +71,6 @@ static unsigned box_oblique(trace *t, const geom_plane *plane, const trace_solid
     return box_allowed(child, part, whole, child);
 }
 
-/* The cells beside an axis-parallel cut, of balls and hulls. */
-static void narrow(const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
-    if (plane->form != GEOM_AXIS) return;
-    child[0].hi[plane->axis] = fmin(at->hi[plane->axis], plane->c);
-    child[1].lo[plane->axis] = fmax(at->lo[plane->axis], plane->c);
-}
-
 /* ------------------------------------------------------------------- balls -- */
 
 /* Does the closed ball, r > 0, meet the open cell? Sign of r^2 - squared distance of centre and cell. */
@@ -107,11 +99,15 @@ static unsigned ball_cut(trace *t, const geom_plane *plane, const trace_solid *a
     const froe_scene *s = t->tree->scene;
     const double *centre = scene_point(s, t->object, 0);
     int side = geom_side_ball(&t->context, plane, centre, scene_radius(s, t->object));
-    narrow(plane, at, child);
+    bool axis = plane->form == GEOM_AXIS;
+    if (axis) {
+        child[0].hi[plane->axis] = fmin(at->hi[plane->axis], plane->c);
+        child[1].lo[plane->axis] = fmax(at->lo[plane->axis], plane->c);
+    }
     if (side != 2) return side < 0 ? 1 : side > 0 ? 2 : 0;
     int middle = geom_side_vertex(&t->context, plane, centre);
     for (int i = 0; i < 2; i++) {
-        child[i].exact = at->exact && plane->form == GEOM_AXIS;
+        child[i].exact = at->exact && axis;
         child[i].inside = at->inside && middle == (i ? 1 : -1);
     }
     return 3;
@@ -131,13 +127,11 @@ static unsigned hull_cut(trace *t, const geom_plane *plane, const trace_solid *a
         t->sides.data[t->sides.count++] = (int8_t)side;
         if (side) reached |= side > 0 ? 2 : 1;
     }
-    narrow(plane, at, child);
-    if (reached != 3) return reached; /* all corners stay where they are */
+    if (reached != 3) return reached; /* nothing changes: all corners stay where they are */
     uint32_t *known = t->ring.data + at->first;
     t->ring.count = at->first + at->count;
     for (int i = 1; i >= 0; i--) {
         child[i].exact = false;
-        child[i].oblique |= plane->form != GEOM_AXIS;
         child[i].first = (uint32_t)t->ring.count;
         for (uint32_t k = 0; k < at->count; k++)
             if (t->sides.data[known[k]] == (i ? 1 : -1)) t->ring.data[t->ring.count++] = known[k];
@@ -145,26 +139,6 @@ static unsigned hull_cut(trace *t, const geom_plane *plane, const trace_solid *a
         child[i].inside = child[i].count > 0;
     }
     return reached;
-}
-
-/* Does the hull meet the open cell, among axis-parallel cuts? A cell without its outermost doubles stands for it, so that
- * closed sets can be compared: what a hull has in these alone is nowhere asked for. */
-static bool hull_meets(trace *t, const trace_solid *at) {
-    const froe_scene *s = t->tree->scene;
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], ends[6];
-    scene_object_bounds(s, t->object, lo, hi);
-    for (int k = 0; k < s->dim; k++) {
-        const double from = nextafter(at->lo[k], INFINITY), to = nextafter(at->hi[k], -INFINITY);
-        ends[k] = isinf(at->lo[k]) ? lo[k] : from;
-        ends[s->dim + k] = isinf(at->hi[k]) ? hi[k] : to;
-        if (ends[k] > ends[s->dim + k] || ends[k] > hi[k] || ends[s->dim + k] < lo[k]) return false;
-    }
-    const geom_convex cell = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = ends};
-    const geom_convex hull = {.dim = s->dim,
-                              .count = scene_corners(s, t->object),
-                              .coords = s->coords,
-                              .ids = s->corners + s->starts[t->object]};
-    return geom_meet(&t->context, &hull, &cell);
 }
 
 /* ----------------------------------------------------------------- tracing -- */
@@ -183,12 +157,14 @@ static unsigned cut(trace *t, const geom_plane *plane, const trace_solid *at, tr
     }
 }
 
-static void arrive(trace *t, const trace_solid *at, bool leaf) {
+/* False without memory. */
+static bool arrive(trace *t, const trace_solid *at, bool leaf) {
     trace_place place = {at->node, at->exact || at->inside, NULL, 0};
-    const froe_kind form = scene_form(t->tree->scene, t->object);
-    if (leaf && form == FROE_BALL && at->exact && !at->inside) place.must = ball_meets(t, at);
-    if (leaf && form == FROE_HULL && !at->oblique && !place.must) place.must = hull_meets(t, at);
+    const bool ball = leaf && scene_form(t->tree->scene, t->object) == FROE_BALL && at->exact;
+    if (ball && !at->inside) place.must = ball_meets(t, at);
+    if (leaf && !ball && !place.must && trace_cell_meets(t, at->node, &place.must)) return false;
     t->stopped = !t->fn(t->user, &place);
+    return true;
 }
 
 static bool follow(trace *t, trace_solid at) {
@@ -198,15 +174,11 @@ static bool follow(trace *t, trace_solid at) {
         trace_solid child[2];
         if (hull && !array_reserve(&t->alloc, &t->ring, 2 * (size_t)at.count)) return false;
         unsigned reached = cut(t, plane, &at, child);
-        if (!reached) {
-            arrive(t, &at, false);
-            return true;
-        }
+        if (!reached) return arrive(t, &at, false);
         if (reached == 3 && !array_push(&t->alloc, &t->solids, child[1])) return false;
         at = child[reached == 2];
     }
-    arrive(t, &at, true);
-    return true;
+    return arrive(t, &at, true);
 }
 
 static bool begin(trace *t) {

@@ -3,7 +3,7 @@
 #include "geom/meet.h"
 #include "measure/enclosing.h"
 #include "measure/volume.h"
-#include "query/objects.h"
+#include "scene/convex.h"
 #include <froe/measure.h>
 #include <math.h>
 #include <setjmp.h>
@@ -53,7 +53,7 @@ static froe_scene *make(froe_kind kind, int dim, int n, uint64_t seed, int turn,
 static bool meets(num_context *context, const froe_scene *scene, uint32_t object, double x, double y, double side) {
     const double points[4] = {x + 0x1p-20, y + 0x1p-20, x + side - 0x1p-20, y + side - 0x1p-20};
     geom_convex square = {.core = GEOM_CORE_BOX, .dim = 2, .count = 4, .coords = points};
-    geom_convex body = query_convex(scene, object);
+    geom_convex body = scene_convex(scene, object);
     return geom_meet(context, &square, &body);
 }
 

@@ -385,6 +385,10 @@ static inline bool answers_run(const froe_tree *tree, bool judge, uint64_t seed,
             a.w.origin[k] = lo[k], a.w.scale = fmax(hi[k] - lo[k], k ? a.w.scale : 0);
             a.huge |= fabs(lo[k]) > 0x1p1000 || fabs(hi[k]) > 0x1p1000;
         }
+    for (uint32_t i = 0; i < tree->node_count; i++) { /* points are drawn from cuts, too */
+        const froe_cut cut = tree_cut_at(tree, i);
+        a.huge |= cut.kind == FROE_CUT_AXIS && fabs(cut.value) > 0x1p1000;
+    }
     a.w.objects = calloc(a.w.count + 1, sizeof *a.w.objects);
     a.bodies = calloc(a.w.count + 1, sizeof *a.bodies);
     for (uint32_t i = 0; i < a.w.count && a.w.dim <= 3; i++) a.w.objects[i] = oracle_object(scene, i);

@@ -466,6 +466,31 @@ static void hulls_must_be_listed_in_cells_without_a_corner_of_theirs(void **stat
     }
 }
 
+/* A disc around (0, 0) in the cell where x > 1 and x + y > 2, which begins at (1, 1). */
+static void balls_beside_oblique_planes_must_be_listed_where_they_reach(void **state) {
+    (void)state;
+    const double centre[2] = {0, 0}, diagonal[2] = {1, 1}, radii[] = {1.25, 1.4375, 3};
+    const froe_cut cuts[2] = {{.kind = FROE_CUT_AXIS, .axis = 0, .value = 1},
+                              {.kind = FROE_CUT_PLANE, .normal = diagonal, .value = 2}};
+    const uint32_t splits[2] = {0, 2};
+    const entry entries[3] = {{1, 0, 0, {0}}, {3, 0, 0, {0}}, {4, 0, 0, {0}}};
+    for (size_t i = 0; i < 3; i++) {
+        froe_scene *scene;
+        assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_BALL, 1, centre, radii + i, NULL), FROE_OK);
+        froe_tree *with = hand_made(scene, cuts, splits, 2, entries, i ? 3 : 2, &by_hand);
+        froe_tree *without = hand_made(scene, cuts, splits, 2, entries, 2, &by_hand);
+        assert_right(with);
+        if (i)
+            assert_wrong(without, "a piece is missing");
+        else
+            assert_right(without);
+        froe_tree_free(with);
+        froe_tree_free(without);
+        froe_scene_free(scene);
+    }
+}
+
 /* A solid divided by the diagonal y = x, given by a segment: it has a corner on either side, and x = 9 excludes it. */
 static void solids_beside_oblique_cuts_are_enclosed(void **state) {
     (void)state;
@@ -691,6 +716,7 @@ int main(void) {
         cmocka_unit_test(balls_must_be_listed_exactly_where_their_distance_says),
         cmocka_unit_test(boxes_among_axis_parallel_cuts_are_exact),
         cmocka_unit_test(hulls_must_be_listed_in_cells_without_a_corner_of_theirs),
+        cmocka_unit_test(balls_beside_oblique_planes_must_be_listed_where_they_reach),
         cmocka_unit_test(solids_beside_oblique_cuts_are_enclosed),
         cmocka_unit_test(overfull_leaves_are_found),
         cmocka_unit_test(crowds_that_are_none_are_found),
