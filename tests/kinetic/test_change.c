@@ -105,10 +105,22 @@ static void test_changes_against_the_oracle(void **state) {
     assert_true(asked.rays > 12000 && asked.hits > asked.rays / 4 && asked.pairs > 2000);
 }
 
+/* Where lines are parallel at a tick and cross just after it, and where a segment is upright at a tick alone, fragments
+ * were told that end at 0 0, or that overlap. */
+static void test_fragments_where_lines_are_parallel_at_a_tick(void **state) {
+    (void)state;
+    static const uint64_t seeds[] = {223, 558, 568, 668, 723, 743};
+    for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
+        changing c = {.random = {seeds[i] * 1000003}, .questions = 6};
+        if (!changing_run(&c, 20)) fail_msg("seed %d: %s", (int)seeds[i], c.all.why);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_no_crossing_of_an_old_plan_is_remembered),
                                        cmocka_unit_test(test_plans_may_move_in_memory),
                                        cmocka_unit_test(test_segments_that_are_gone_need_no_plan),
-                                       cmocka_unit_test(test_changes_against_the_oracle)};
+                                       cmocka_unit_test(test_changes_against_the_oracle),
+                                       cmocka_unit_test(test_fragments_where_lines_are_parallel_at_a_tick)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
