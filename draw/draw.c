@@ -4,6 +4,7 @@
 #include "palette.h"
 #include "picture.h"
 #include "support/floats.h"
+#include "support/utf8.h"
 #include "support/writer.h"
 #include <math.h>
 #include <string.h>
@@ -99,7 +100,7 @@ static bool all_finite(const double *x, int count) {
 /* Cairo would refuse it too, but only after looking for fonts. */
 static bool is_utf8(const char *text) {
     while (*text) {
-        const size_t length = draw_utf8_length(text);
+        const size_t length = support_utf8_length(text);
         if (!length) return false;
         text += length;
     }

@@ -60,6 +60,11 @@ froe_status io_fail_memory(froe_diagnostic *diag) {
     return io_fail(diag, FROE_E_MEMORY, "out of memory");
 }
 
+froe_status io_fail_file(froe_diagnostic *diag, const char *path, int error) {
+    if (error == ENOMEM) return io_fail_memory(diag);
+    return io_fail(diag, FROE_E_IO, "%s: %s", io_short(path), io_errno(error).text);
+}
+
 const char *io_short(const char *path) {
     enum { KEPT = 96 };
     size_t length = strlen(path);

@@ -24,6 +24,8 @@ void io_buffer_free(const froe_allocator *alloc, io_buffer *buffer);
 froe_status io_fail(froe_diagnostic *diag, froe_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 froe_status io_fail_memory(froe_diagnostic *diag);
+/** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: what an errno value says about a file. */
+froe_status io_fail_file(froe_diagnostic *diag, const char *path, int error);
 /** The end of a path, short enough to leave room for the reason in a diagnostic. */
 const char *io_short(const char *path);
 /** "Why" of an errno value, from the calling thread's own buffer. */

@@ -42,7 +42,7 @@ froe_status io_load(const io_source *source, io_sink *sink, bool binary, io_buff
     ssize_t got = file < 0 ? -1 : read_fully(file, to, (size_t)source->size);
     int error = errno;
     if (file >= 0) close(file);
-    if (got < 0) return io_fail(sink->diag, FROE_E_IO, "%s: %s", io_short(source->path), io_errno(error).text);
+    if (got < 0) return io_fail_file(sink->diag, source->path, error);
     to[got] = '\0';
     text->size = (size_t)got;
     if (!binary && memchr(to, '\0', (size_t)got))
@@ -56,7 +56,7 @@ static froe_status look(io_source *source, froe_diagnostic *diag) {
     const char *name = io_short(source->path);
     struct stat about;
     int file = open(source->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return io_fail(diag, FROE_E_IO, "%s: %s", name, io_errno(errno).text);
+    if (file < 0) return io_fail_file(diag, source->path, errno);
     ssize_t got = -1;
     int error = fstat(file, &about) ? errno : 0;
     bool regular = !error && S_ISREG(about.st_mode), directory = !error && S_ISDIR(about.st_mode);
@@ -65,7 +65,7 @@ static froe_status look(io_source *source, froe_diagnostic *diag) {
         if (got < 0) error = errno;
     }
     close(file);
-    if (error) return io_fail(diag, FROE_E_IO, "%s: %s", name, io_errno(error).text);
+    if (error) return io_fail_file(diag, source->path, error);
     if (!regular)
         return io_fail(diag, FROE_E_IO, "%s: is %s, not a file", name, directory ? "a directory" : "a device");
     if (!got) return io_fail(diag, FROE_E_FORMAT, "%s: is empty", name);

@@ -232,25 +232,31 @@ static void set_format(const io_source *source, io_sink *sink, const struct aiSc
     io_report_format(sink, "float32", "%s (assimp)", format);
 }
 
-static const struct aiScene *import(const io_source *source, io_sink *sink) {
+/* assimp reports the exception that ended an import by its text alone. */
+static froe_status refuse_import(const io_source *source, io_sink *sink) {
+    char reason[160];
+    snprintf(reason, sizeof reason, "%.150s", aiGetErrorString());
+    reason[strcspn(reason, "\r\n")] = '\0';
+    if (strstr(reason, "bad_alloc"))
+        return io_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory", io_short(source->path));
+    return io_fail(sink->diag, FROE_E_FORMAT, "%s: %s", io_short(source->path),
+                   *reason ? reason : "cannot be imported");
+}
+
+static froe_status import(const io_source *source, io_sink *sink, const struct aiScene **scene) {
     pthread_mutex_lock(&import_lock);
-    const struct aiScene *scene = aiImportFile(source->path, 0);
-    if (!scene) {
-        char reason[160];
-        snprintf(reason, sizeof reason, "%.150s", aiGetErrorString());
-        reason[strcspn(reason, "\r\n")] = '\0';
-        io_fail(sink->diag, FROE_E_FORMAT, "%s: %s", io_short(source->path), *reason ? reason : "cannot be imported");
-    }
+    *scene = aiImportFile(source->path, 0);
+    froe_status status = *scene ? FROE_OK : refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);
-    return scene;
+    return status;
 }
 
 froe_status io_read_assimp(const io_source *source, io_sink *sink) {
     froe_status status = io_sink_open(sink, 3);
     if (!status) status = io_sink_progress(sink, 0);
+    const struct aiScene *scene;
+    if (!status) status = import(source, sink, &scene);
     if (status) return status;
-    const struct aiScene *scene = import(source, sink);
-    if (!scene) return FROE_E_FORMAT;
     walk w = {.scene = scene, .sink = sink, .faces = count_faces(scene)};
     set_format(source, sink, scene);
     w.linear = !strncmp(sink->report.format, "glTF", 4);

@@ -1,12 +1,13 @@
-/* read_motion.c: OGC Moving Features JSON (19-045r3), by jansson.
+/* read_motion.c: OGC Moving Features JSON (19-045r3).
  *
  *     feature -> temporalGeometry (or its prisms) -> one flight plan a point, one segment a pair of neighbours
  *
  * The file is walked twice: for its first and last instant, and for what moves. */
 #include "datetime.h"
+#include "json.h"
 #include "read.h"
 #include "support/floats.h"
-#include <jansson.h>
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -48,23 +49,23 @@ static froe_status no_memory(const reading *r) {
 
 /* -------------------------------------------------------------------- instants -- */
 
-static froe_status take_instant(const reading *r, const json_t *value, size_t i, double *out) {
-    if (json_is_number(value))
-        *out = json_number_value(value);
-    else if (!json_is_string(value) || !io_datetime(json_string_value(value), out))
+static froe_status take_instant(const reading *r, const io_json *value, size_t i, double *out) {
+    if (io_json_is(value, IO_JSON_NUMBER))
+        *out = value->number;
+    else if (!io_json_string(value) || !io_datetime(io_json_string(value), out))
         return fail_feature(r, FROE_E_FORMAT, "datetime %zu is neither a number nor an ISO 8601 instant", i);
     return FROE_OK;
 }
 
-static froe_status take_instants(reading *r, const json_t *geometry) {
-    const json_t *datetimes = json_object_get(geometry, "datetimes"), *value;
-    size_t i;
+static froe_status take_instants(reading *r, const io_json *geometry) {
+    const io_json *datetimes = io_json_get(geometry, "datetimes");
+    size_t i = 0;
     r->times.size = 0;
-    r->instants = json_array_size(datetimes);
+    r->instants = io_json_size(datetimes);
     if (!r->instants) return fail_feature(r, FROE_E_FORMAT, "datetimes are missing");
-    json_array_foreach(datetimes, i, value) {
+    IO_JSON_EACH(value, datetimes) {
         double t = 0;
-        froe_status status = take_instant(r, value, i, &t);
+        froe_status status = take_instant(r, value, i++, &t);
         if (status) return status;
         if (!io_buffer_put(&r->alloc, &r->times, &t, sizeof t)) return no_memory(r);
         if (t < r->first) r->first = t;
@@ -75,42 +76,52 @@ static froe_status take_instants(reading *r, const json_t *geometry) {
 
 /* ------------------------------------------------------------------ coordinates -- */
 
-static froe_status take_position(reading *r, const json_t *position, size_t instant, io_buffer *to) {
+static froe_status take_position(reading *r, const io_json *position, size_t instant, io_buffer *to) {
     double p[2];
-    if (json_array_size(position) < 2)
+    if (io_json_size(position) < 2)
         return fail_feature(r, FROE_E_FORMAT, "at instant %zu a position is no array of two numbers", instant);
-    for (size_t k = 0; k < 2; k++) {
-        const json_t *x = json_array_get(position, k);
-        if (!json_is_number(x))
+    const io_json *x = position + 1;
+    for (size_t k = 0; k < 2; k++, x = io_json_next(x)) {
+        if (!io_json_is(x, IO_JSON_NUMBER))
             return fail_feature(r, FROE_E_FORMAT, "at instant %zu a coordinate is no number", instant);
-        p[k] = json_number_value(x);
+        p[k] = x->number;
     }
-    if (json_array_size(position) > 2) r->flat = false;
+    if (io_json_size(position) > 2) r->flat = false;
     return io_buffer_put(&r->alloc, to, p, sizeof p) ? FROE_OK : no_memory(r);
 }
 
+/* Are two values arrays of the same numbers? */
+static bool are_equal(const io_json *a, const io_json *b) {
+    if (io_json_size(a) != io_json_size(b) || a->span != b->span) return false;
+    for (size_t i = 0; i < a->span; i++)
+        if (a[i].kind != b[i].kind || a[i].number != b[i].number) return false;
+    return true;
+}
+
 /* One ring, without its last point, which is the first again; `rings` receives its number of points. */
-static froe_status take_ring(reading *r, const json_t *ring, size_t instant, io_buffer *to, io_buffer *rings) {
-    size_t count = json_array_size(ring);
-    if (count < 4 || !json_equal(json_array_get(ring, 0), json_array_get(ring, count - 1)))
+static froe_status take_ring(reading *r, const io_json *ring, size_t instant, io_buffer *to, io_buffer *rings) {
+    const io_json *last = NULL;
+    IO_JSON_EACH(position, ring) last = position;
+    size_t count = io_json_size(ring);
+    if (count < 4 || !are_equal(ring + 1, last))
         return fail_feature(r, FROE_E_INPUT, "at instant %zu a ring is not closed, or has less than three corners",
                             instant);
     froe_status status = FROE_OK;
-    for (size_t i = 0; i + 1 < count && !status; i++) status = take_position(r, json_array_get(ring, i), instant, to);
+    for (const io_json *position = ring + 1; position != last && !status; position = io_json_next(position))
+        status = take_position(r, position, instant, to);
     count--;
     if (!status && !io_buffer_put(&r->alloc, rings, &count, sizeof count)) status = no_memory(r);
     return status;
 }
 
 /* The points of one instant, and how many there are in each line or ring. */
-static froe_status take_geometry(reading *r, form kind, const json_t *geometry, size_t instant, io_buffer *to,
+static froe_status take_geometry(reading *r, form kind, const io_json *geometry, size_t instant, io_buffer *to,
                                  io_buffer *rings) {
     froe_status status = FROE_OK;
-    size_t count = json_array_size(geometry), i;
-    const json_t *item;
+    size_t count = io_json_size(geometry);
     if (kind == POINT) return take_position(r, geometry, instant, to);
     if (!count) return fail_feature(r, FROE_E_INPUT, "at instant %zu there is no geometry", instant);
-    json_array_foreach(geometry, i, item) {
+    IO_JSON_EACH(item, geometry) {
         if (kind == LINE)
             status = take_position(r, item, instant, to);
         else
@@ -122,16 +133,17 @@ static froe_status take_geometry(reading *r, form kind, const json_t *geometry, 
 }
 
 /* All instants of an array: the same points at each, in `to` one instant after the other. */
-static froe_status take_all(reading *r, form kind, const json_t *array, const char *what, size_t count, io_buffer *to,
+static froe_status take_all(reading *r, form kind, const io_json *array, const char *what, size_t count, io_buffer *to,
                             io_buffer *rings) {
-    if (json_array_size(array) != count)
-        return fail_feature(r, FROE_E_FORMAT, "%zu %s for %zu instants", json_array_size(array), what, r->instants);
+    if (io_json_size(array) != count)
+        return fail_feature(r, FROE_E_FORMAT, "%zu %s for %zu instants", io_json_size(array), what, r->instants);
     to->size = 0;
     io_buffer here = {0};
     froe_status status = FROE_OK;
-    for (size_t i = 0; i < count && !status; i++) {
+    const io_json *geometry = array + 1;
+    for (size_t i = 0; i < count && !status; i++, geometry = io_json_next(geometry)) {
         here.size = 0;
-        status = take_geometry(r, kind, json_array_get(array, i), i, to, &here);
+        status = take_geometry(r, kind, geometry, i, to, &here);
         if (status) break;
         size_t points = to->size / (2 * sizeof(double)) / (i + 1);
         if (rings->size == 0 && rings->data == NULL) {
@@ -170,12 +182,12 @@ static froe_status make_spline(reading *r) {
     return FROE_OK;
 }
 
-static froe_status take_interpolation(reading *r, form kind, const json_t *geometry, io_buffer *rings,
+static froe_status take_interpolation(reading *r, form kind, const io_json *geometry, io_buffer *rings,
                                       bool *parabolas) {
-    const json_t *said = json_object_get(geometry, "interpolation"), *given = json_object_get(geometry, "controls");
-    if (!said) said = json_object_get(geometry, "interpolations"); /* drafts */
-    if (json_is_array(said)) said = json_array_get(said, 0);
-    const char *name = json_is_string(said) ? json_string_value(said) : "Linear";
+    const io_json *said = io_json_get(geometry, "interpolation"), *given = io_json_get(geometry, "controls");
+    if (!said) said = io_json_get(geometry, "interpolations"); /* drafts */
+    if (io_json_size(said)) said = said + 1;
+    const char *name = io_json_string(said) ? io_json_string(said) : "Linear";
     *parabolas = strcmp(name, "Quadratic") == 0;
     if (strcmp(name, "Linear") == 0) return FROE_OK;
     if (!*parabolas)
@@ -249,11 +261,11 @@ static froe_status add(reading *r, const io_buffer *times, const io_buffer *coor
     return status ? fail_feature(r, status, "%s", why.message) : FROE_OK;
 }
 
-static froe_status add_geometry(reading *r, form kind, const json_t *geometry) {
+static froe_status add_geometry(reading *r, form kind, const io_json *geometry) {
     io_buffer rings = {0}, times = {0}, coords = {0}, controls = {0};
     bool parabolas = false;
     froe_status status =
-        take_all(r, kind, json_object_get(geometry, "coordinates"), "geometries", r->instants, &r->coords, &rings);
+        take_all(r, kind, io_json_get(geometry, "coordinates"), "geometries", r->instants, &r->coords, &rings);
     if (!status) status = take_interpolation(r, kind, geometry, &rings, &parabolas);
     if (!status && (!transpose(r, parabolas, &times, &coords, &controls) || !put_segments(r, kind, &rings)))
         status = no_memory(r);
@@ -267,8 +279,8 @@ static froe_status add_geometry(reading *r, form kind, const json_t *geometry) {
 
 /* -------------------------------------------------------------------- features -- */
 
-static froe_status take_moving(reading *r, const json_t *geometry) {
-    const char *type = json_string_value(json_object_get(geometry, "type"));
+static froe_status take_moving(reading *r, const io_json *geometry) {
+    const char *type = io_json_string(io_json_get(geometry, "type"));
     int which = 0;
     while (which < FORMS && type && strcmp(type, forms[which]) != 0) which++;
     if (!type || which == FORMS)
@@ -278,22 +290,31 @@ static froe_status take_moving(reading *r, const json_t *geometry) {
     return status || !r->motion ? status : add_geometry(r, (form)which, geometry);
 }
 
+/* The first member of an object that is a string, or NULL. */
+static const char *first_string(const io_json *object) {
+    if (!io_json_is(object, IO_JSON_OBJECT)) return NULL;
+    const io_json *value = object + 2;
+    for (size_t i = 0; i < object->count; i++, value = io_json_next(value) + 1)
+        if (io_json_string(value)) return value->text;
+    return NULL;
+}
+
 /* What a feature is called: by its properties, or its id. */
-static const char *name_of(const json_t *feature, char number[32]) {
+static const char *name_of(const io_json *feature, char number[32]) {
     static const char *const keys[] = {"name", "title", "label", "id"};
-    json_t *properties = json_object_get(feature, "properties"), *id = json_object_get(feature, "id"), *value;
-    const char *key;
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        value = json_object_get(properties, keys[i]);
-        if (json_is_string(value)) return json_string_value(value);
-    }
-    if (json_is_string(id)) return json_string_value(id);
-    json_object_foreach(properties, key, value) if (json_is_string(value)) return json_string_value(value);
-    if (json_is_integer(id)) snprintf(number, 32, "%lld", (long long)json_integer_value(id));
+    const io_json *properties = io_json_get(feature, "properties"), *id = io_json_get(feature, "id");
+    const char *name = NULL;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys && !name; i++)
+        name = io_json_string(io_json_get(properties, keys[i]));
+    if (!name) name = io_json_string(id);
+    if (!name) name = first_string(properties);
+    if (name) return name;
+    size_t digits = io_json_is(id, IO_JSON_NUMBER) ? strspn(id->text, "-0123456789") : 0;
+    if (digits && digits < 32 && !strchr(".eE", id->text[digits])) snprintf(number, 32, "%.*s", (int)digits, id->text);
     return number;
 }
 
-static froe_status begin_feature(reading *r, const json_t *feature) {
+static froe_status begin_feature(reading *r, const io_json *feature) {
     char number[32];
     snprintf(number, sizeof number, "%zu", r->number);
     const froe_group group = {.name = name_of(feature, number)};
@@ -305,33 +326,31 @@ static froe_status begin_feature(reading *r, const json_t *feature) {
                                    : FROE_OK;
 }
 
-static froe_status take_feature(reading *r, const json_t *feature) {
-    const json_t *geometry = json_object_get(feature, "temporalGeometry"), *prism;
-    const json_t *prisms = json_object_get(geometry, "prisms");
-    size_t i;
-    if (!json_is_object(geometry)) {
+static froe_status take_feature(reading *r, const io_json *feature) {
+    const io_json *geometry = io_json_get(feature, "temporalGeometry");
+    const io_json *prisms = io_json_get(geometry, "prisms");
+    if (!io_json_is(geometry, IO_JSON_OBJECT)) {
         r->report.still += r->motion != NULL;
         return FROE_OK;
     }
     froe_status status = r->motion ? begin_feature(r, feature) : FROE_OK;
     if (!status && !prisms) status = take_moving(r, geometry);
-    json_array_foreach(prisms, i, prism) if (!status) status = take_moving(r, prism);
+    IO_JSON_EACH(prism, prisms) if (!status) status = take_moving(r, prism);
     if (!r->flat && r->motion) r->report.flattened++;
     return status;
 }
 
-static froe_status take_features(reading *r, const json_t *root) {
-    const json_t *features = json_object_get(root, "features"), *feature;
-    const char *type = json_string_value(json_object_get(root, "type"));
-    size_t i;
+static froe_status take_features(reading *r, const io_json *root) {
+    const io_json *features = io_json_get(root, "features");
+    const char *type = io_json_string(io_json_get(root, "type"));
     r->number = 0;
     if (type && strcmp(type, "Feature") == 0) return take_feature(r, root);
-    if (!json_is_array(features))
+    if (!io_json_is(features, IO_JSON_ARRAY))
         return io_fail(r->diag, FROE_E_FORMAT, "%s: is neither a Feature nor a FeatureCollection", io_short(r->path));
-    json_array_foreach(features, i, feature) {
-        r->number = i;
+    IO_JSON_EACH(feature, features) {
         froe_status status = take_feature(r, feature);
         if (status) return status;
+        r->number++;
     }
     return FROE_OK;
 }
@@ -354,25 +373,41 @@ static froe_status open_window(reading *r) {
     return status ? io_fail(r->diag, status, "%s: %s", io_short(r->path), why.message) : FROE_OK;
 }
 
-static froe_status load(reading *r, json_t **root) {
-    json_error_t error;
-    *root = json_load_file(r->path, 0, &error);
-    if (*root) return FROE_OK;
-    enum json_error_code code = json_error_code(&error);
-    if (code == json_error_out_of_memory) return no_memory(r);
-    if (code == json_error_cannot_open_file)
-        return io_fail(r->diag, FROE_E_IO, "%s: cannot be opened", io_short(r->path));
-    return io_fail(r->diag, FROE_E_FORMAT, "%s: line %d: %s", io_short(r->path), error.line, error.text);
+static froe_status load(const reading *r, io_buffer *text) {
+    enum { PART = 1 << 16 };
+    FILE *file = fopen(r->path, "r");
+    if (!file) return io_fail_file(r->diag, r->path, errno);
+    char *to;
+    size_t got = PART;
+    while (got == PART && (to = io_buffer_add(&r->alloc, text, PART))) {
+        got = fread(to, 1, PART, file);
+        text->size -= PART - got;
+    }
+    int error = ferror(file) ? errno : 0;
+    fclose(file);
+    if (error) return io_fail_file(r->diag, r->path, error);
+    return got < PART && io_buffer_put(&r->alloc, text, "", 1) ? FROE_OK : no_memory(r);
+}
+
+static froe_status parse(const reading *r, io_buffer *text, io_buffer *values) {
+    io_locale locale;
+    io_json_error error;
+    if (!io_locale_enter(&locale)) return no_memory(r);
+    froe_status status = io_json_read(&r->alloc, text->data, text->size - 1, values, &error);
+    io_locale_leave(&locale);
+    if (status == FROE_E_MEMORY) return no_memory(r);
+    return status ? io_fail(r->diag, status, "%s: line %zu: %s", io_short(r->path), error.line, error.reason) : FROE_OK;
 }
 
 static froe_status read_file(reading *r) {
-    json_t *root;
-    froe_status status = load(r, &root);
-    if (status) return status;
-    status = take_features(r, root);
+    io_buffer text = {0}, values = {0};
+    froe_status status = load(r, &text);
+    if (!status) status = parse(r, &text, &values);
+    if (!status) status = take_features(r, values.data);
     if (!status) status = open_window(r);
-    if (!status) status = take_features(r, root);
-    json_decref(root);
+    if (!status) status = take_features(r, values.data);
+    io_buffer_free(&r->alloc, &values);
+    io_buffer_free(&r->alloc, &text);
     return status;
 }
 

@@ -1,5 +1,6 @@
 /* writer.c: text files, numbers and quotes. */
 #include "writer.h"
+#include "support/utf8.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,22 +52,11 @@ void io_put_point(io_writer *w, const double *p, int dim, const char *separator)
     }
 }
 
-/* Bytes of the UTF-8 character at `c`; 0 when it is none (Unicode 15, table 3-7). */
-static size_t utf8_length(const unsigned char *c) {
-    if (c[0] < 0x80) return 1;
-    size_t length = c[0] >= 0xc2 && c[0] <= 0xdf ? 2 : (c[0] & 0xf0) == 0xe0 ? 3 : c[0] >= 0xf0 && c[0] <= 0xf4 ? 4 : 0;
-    for (size_t i = 1; i < length; ++i)
-        if ((c[i] & 0xc0) != 0x80) return 0;
-    bool overlong = (c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xf0 && c[1] < 0x90);
-    bool beyond = (c[0] == 0xed && c[1] > 0x9f) || (c[0] == 0xf4 && c[1] > 0x8f);
-    return overlong || beyond ? 0 : length;
-}
-
 void io_put_json(io_writer *w, const char *text) {
     const unsigned char *c = (const unsigned char *)text;
     put_byte(w, '"');
     while (*c) {
-        size_t length = utf8_length(c);
+        size_t length = support_utf8_length((const char *)c);
         if (!length) {
             io_put(w, "\\ufffd");
         } else if (*c < 0x20 || *c == 0x7f) {

@@ -1,5 +1,6 @@
 /* fail.c: sentences and details of failures. */
 #include "support/fail.h"
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,4 +47,9 @@ support_reason support_errno(int error) {
     if (strerror_r(error, reason.text, sizeof reason.text))
         snprintf(reason.text, sizeof reason.text, "error %d", error);
     return reason;
+}
+
+froe_status support_fail_file(froe_diagnostic *diag, const char *doing, const char *path, int error) {
+    if (error == ENOMEM) return support_fail_memory(diag);
+    return support_fail(diag, FROE_E_IO, "cannot %s '%s': %s", doing, support_short(path), support_errno(error).text);
 }

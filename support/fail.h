@@ -13,6 +13,9 @@ froe_status support_fail_at(froe_diagnostic *diag, froe_status status, uint32_t 
 /** FROE_E_MEMORY with its standard sentence. */
 froe_status support_fail_memory(froe_diagnostic *diag);
 
+/** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: "cannot DO 'PATH': REASON", of an errno value. */
+froe_status support_fail_file(froe_diagnostic *diag, const char *doing, const char *path, int error);
+
 /** The end of a path, short enough to leave room for the reason in a diagnostic. */
 const char *support_short(const char *path);
 /** What an errno value means, in words of the system, from the calling thread's own buffer. */

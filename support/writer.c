@@ -23,11 +23,6 @@ struct support_writer_room {
     unsigned char buffer[BUFFER];
 };
 
-static froe_status refuse(const support_writer *w, int error) {
-    if (error == ENOMEM) return support_fail_memory(w->diag);
-    return support_fail(w->diag, FROE_E_IO, "cannot write '%s': %s", support_short(w->path), support_errno(error).text);
-}
-
 /* ------------------------------------------------------------------- bytes -- */
 
 /* Waits until a descriptor that does not block takes bytes again. */
@@ -199,7 +194,7 @@ froe_status support_writer_open(support_writer *w, const char *path, const froe_
     int error = open_file(w);
     if (!error) return FROE_OK;
     support_callback(w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0));
-    return refuse(w, error);
+    return support_fail_file(diag, "write", path, error);
 }
 
 froe_status support_writer_close(support_writer *w, froe_status status) {
@@ -208,7 +203,7 @@ froe_status support_writer_close(support_writer *w, froe_status status) {
     /* An interrupted close() has closed the file, whose bytes are on the disk. */
     if (close(w->file) && errno != EINTR && !w->error) w->error = errno;
     if (!status && !w->error && *temporary && rename(temporary, target)) w->error = errno;
-    if (!status && w->error) status = refuse(w, w->error);
+    if (!status && w->error) status = support_fail_file(w->diag, "write", w->path, w->error);
     if (*temporary && status) unlink(temporary);
     if (*temporary && !status) sync_folder(target);
     support_callback(w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0));

@@ -32,22 +32,20 @@ static froe_status bad(const opening *o, const char *what) {
     return base_fail(o->diag, FROE_E_FORMAT, "'%.120s' is no valid tree file: %s", o->path, what);
 }
 
-static froe_status io_fail(const opening *o, int error) {
-    char reason[96] = "unknown error";
-    strerror_r(error, reason, sizeof reason);
-    return base_fail(o->diag, FROE_E_IO, "cannot read '%.120s': %s", o->path, reason);
+static froe_status unreadable(const opening *o, int error) {
+    return support_fail_file(o->diag, "read", o->path, error);
 }
 
 /* -------------------------------------------------------------------- file -- */
 
 static froe_status map_descriptor(opening *o, int fd) {
     struct stat info;
-    if (fstat(fd, &info)) return io_fail(o, errno);
-    if (!S_ISREG(info.st_mode)) return io_fail(o, S_ISDIR(info.st_mode) ? EISDIR : ENODEV);
+    if (fstat(fd, &info)) return unreadable(o, errno);
+    if (!S_ISREG(info.st_mode)) return unreadable(o, S_ISDIR(info.st_mode) ? EISDIR : ENODEV);
     if (info.st_size == 0) return bad(o, "it is empty");
     if ((uint64_t)info.st_size < sizeof(file_header)) return bad(o, "it is too short");
     void *map = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
-    if (map == MAP_FAILED) return io_fail(o, errno);
+    if (map == MAP_FAILED) return unreadable(o, errno);
     o->bytes = map;
     o->size = (size_t)info.st_size;
     return FROE_OK;
@@ -55,7 +53,7 @@ static froe_status map_descriptor(opening *o, int fd) {
 
 static froe_status map_file(opening *o) {
     int fd = open(o->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe must not keep us waiting */
-    if (fd < 0) return io_fail(o, errno);
+    if (fd < 0) return unreadable(o, errno);
     froe_status status = map_descriptor(o, fd);
     close(fd);
     return status;

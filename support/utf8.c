@@ -1,0 +1,17 @@
+/* utf8.c: Unicode 15, table 3-7. */
+#include "support/utf8.h"
+#include <stdbool.h>
+
+size_t support_utf8_length(const char *text) {
+    const unsigned char *c = (const unsigned char *)text;
+    if (c[0] < 0x80) return 1;
+    const size_t n = c[0] >= 0xC2 && c[0] <= 0xDF   ? 2
+                     : (c[0] & 0xF0) == 0xE0        ? 3
+                     : c[0] >= 0xF0 && c[0] <= 0xF4 ? 4
+                                                    : 0;
+    for (size_t i = 1; i < n; i++)
+        if ((c[i] & 0xC0) != 0x80) return 0;
+    const bool wrong = (c[0] == 0xE0 && c[1] < 0xA0) || (c[0] == 0xED && c[1] > 0x9F) ||
+                       (c[0] == 0xF0 && c[1] < 0x90) || (c[0] == 0xF4 && c[1] > 0x8F);
+    return wrong ? 0 : n;
+}
