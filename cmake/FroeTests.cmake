@@ -8,7 +8,7 @@ pkg_check_modules(GMP REQUIRED IMPORTED_TARGET GLOBAL gmp)
 
 # A limit is ten times what a test takes on two cores, so that a busy machine fails none: seconds, up to eight where
 # nothing is said. Sanitizers, counters of lines and unoptimised code take longer by a factor.
-set(takes cli/deep 15 cli/demo 15 cli/faults 15 cli/generate 15 cli/render 15 docs/docs-render 30 geom/sides 12
+set(takes cli/deep 15 cli/demo 15 cli/memory 15 cli/faults 15 cli/generate 15 cli/render 15 docs/docs-render 30 geom/sides 12
           kinetic/live-ordinary 15 kinetic/live-augmented 15 query/pairs 12
           query/range_eps-at_the_limits_they_keep_it_too 20 query/rays 12 query/walks 12 view/picture 12)
 set(slower 1)
