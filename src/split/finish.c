@@ -41,7 +41,7 @@ typedef struct finish {
     const split_refine *config;
     split_set *set;
     split_table *t;
-    const double *xlog2;
+    const double *xlog2; /* of split_price */
 } finish;
 
 split_table *split_table_new(const froe_allocator *alloc) {
@@ -194,14 +194,15 @@ static uint32_t choose(finish *f, const part *p) {
     uint32_t m = size(p->set), best = 0;
     double whole = xl[m], least = INFINITY;
     bool strict = m > 4 && split_balance_due(f->config, p->depth, whole / m);
+    double most = strict ? 0.75 * m : (double)INFINITY;
     mask left = f->config->free_cuts && p->set & t->free ? p->set & t->free : p->set;
     while (left) {
         uint32_t i = take(&left);
         const row *r = row_of(f, i, p->set);
         uint32_t splits = size(r->below & r->above & p->set);
         uint32_t a = size(r->below & p->set), b = size(r->above & p->set), larger = a > b ? a : b;
-        double cost = splits - f->config->weight * (whole - xl[a] - xl[b] + splits * (whole / m));
-        if (strict && 4 * larger > 3 * m) cost += 0x1p20 * ((double)larger / m - 0.75);
+        double cost = splits - f->config->weight * split_gain(whole, m, xl[a], xl[b], splits);
+        cost += split_penalty(larger, most, m);
         if (cost >= least) continue;
         least = cost;
         best = i;
@@ -375,7 +376,7 @@ static froe_status do_parts(finish *f, bool *full) {
 froe_status split_finish(const split_refine *config, split_work *work, const split_cell *cell, bool *done) {
     split_scratch *scratch = work->scratch;
     split_table *t = scratch->table;
-    finish f = {config, &work->set, t, scratch->view.xlog2};
+    finish f = {config, &work->set, t, scratch->price.xlog2};
     bool full = false;
     *done = fits(config, &work->set, cell);
     if (!*done) return FROE_OK;

@@ -9,7 +9,7 @@
  *     { a b c d e }  by b:          and inherit whatever c was not across.
  *     { c- } and { a c+ d e }
  *
- * The best line by split_cost() wins, free cuts first, as in refine.h, but all lines compete. */
+ * The best line by split_price_of() wins, free cuts first, as in refine.h, but all lines compete. */
 #ifndef FROE_SPLIT_FINISH_H
 #define FROE_SPLIT_FINISH_H
 #include "split/refine.h"

@@ -14,13 +14,12 @@ static double xlog2(const split_price *price, uint32_t k) {
 /** In bits, of the whole cell: xl(wk) = w xl(k) + wk log2 w, and m - A - B + S = on. */
 static double gain(const split_price *price, split_tally t, double weight) {
     uint32_t m = split_tally_all(t);
-    double whole = xlog2(price, m);
-    double bits = whole - xlog2(price, t.negative + t.both) - xlog2(price, t.positive + t.both) + t.both * (whole / m);
+    double bits =
+        split_gain(xlog2(price, m), m, xlog2(price, t.negative + t.both), xlog2(price, t.positive + t.both), t.both);
     return weight == 1 ? bits : weight * (bits + t.on * base_log2(weight));
 }
 
 double split_price_of(const split_price *price, const split_terms *terms, split_tally t, double weight) {
-    double excess = split_tally_larger(t) * weight - terms->most;
-    double penalty = excess > 0 ? 0x1p20 * excess / (split_tally_all(t) * weight) : 0;
+    double penalty = split_penalty(split_tally_larger(t) * weight, terms->most, split_tally_all(t) * weight);
     return t.both * weight - terms->weight * gain(price, t, weight) + penalty;
 }

@@ -7,6 +7,7 @@
 #ifndef FROE_SPLIT_PRICE_H
 #define FROE_SPLIT_PRICE_H
 #include "split/view.h"
+#include <math.h>
 
 enum { SPLIT_PRICE_TABLE = 4096 };
 
@@ -16,12 +17,21 @@ typedef struct split_price {
 
 typedef struct split_terms {
     double weight; /**< w */
-    double most;   /**< fragments of the cell that may be left on a side */
+    double most;   /**< fragments of the cell that may be left on a side; INFINITY: any number */
 } split_terms;
 
 void split_price_init(split_price *price);
 /** Of a cut that deals so with a cell of which one fragment in `weight` is shown. Lower is better. */
 double split_price_of(const split_price *price, const split_terms *terms, split_tally tally, double weight);
+
+/** g, from xl(m), m, xl(A), xl(B) and S. */
+static inline double split_gain(double whole, uint32_t m, double a, double b, uint32_t splits) {
+    return whole - a - b + splits * (whole / m);
+}
+/** What a side of `larger` of m fragments costs for being too full. */
+static inline double split_penalty(double larger, double most, double m) {
+    return larger > most ? 0x1p20 * (larger - most) / m : 0;
+}
 
 /** Fragments on the fuller side, split ones included. */
 static inline uint32_t split_tally_larger(split_tally t) {

@@ -12,7 +12,7 @@
 enum { QUANTILES = 10, SEPARATORS = 32 };
 
 froe_status split_scratch_begin(const froe_allocator *alloc, split_scratch *s) {
-    split_view_init(&s->view);
+    split_price_init(&s->price);
     s->table = split_table_new(alloc);
     return s->table ? FROE_OK : FROE_E_MEMORY;
 }
@@ -50,8 +50,8 @@ typedef struct contest {
     split_work *work;
     split_scratch *scratch;
     const split_cell *cell;
-    bool strict; /**< balance is due: see split_cost() */
-    bool solids; /**< there is nothing but boxes, balls and hulls */
+    split_terms terms; /**< with `most` where balance is due */
+    bool solids;       /**< there is nothing but boxes, balls and hulls */
     choice best;
 } contest;
 
@@ -62,9 +62,9 @@ static double solids_cost(split_tally t, double copy) {
 }
 
 static void enter(contest *c, const froe_cut *cut, split_tally tally) {
-    if (!tally.on && (!tally.negative || !tally.positive)) return; /* separates nothing */
+    if (!split_tally_useful(tally)) return;
     double cost = c->solids ? solids_cost(tally, c->config->copy)
-                            : split_cost(&c->scratch->view, tally, c->config->weight, c->strict);
+                            : split_price_of(&c->scratch->price, &c->terms, tally, c->scratch->view.weight);
     if (c->best.any && cost >= c->best.cost) return;
     uint32_t larger = tally.negative > tally.positive ? tally.negative : tally.positive;
     c->best = (choice){*cut, cost, true,
@@ -263,14 +263,15 @@ split_verdict split_refine_choose(const split_refine *config, split_work *work, 
     c.solids = solids_only(&c);
     if (cell->attempt && !c.solids) return last_resort(&c, cut);
     if (!c.solids && config->supports == 1 && !config->quantiles && !config->free_cuts) return last_resort(&c, cut);
-    c.strict = split_balance_due(config, cell->depth, base_log2(cell->count));
+    const bool strict = split_balance_due(config, cell->depth, base_log2(cell->count));
+    c.terms = (split_terms){config->weight, strict && cell->count > 4 ? 0.75 * cell->count : (double)INFINITY};
     if (!split_view_fill(&c.scratch->view, &work->set, cell, config->sample, config->seed)) return SPLIT_MEMORY;
     if (c.solids) return choose_among_solids(&c, cut);
     if (config->free_cuts) enter_free_cuts(&c);
     if (!c.best.any) {
         enter_supports(&c);
         if (config->quantiles && !enter_axes(&c, config->quantiles)) return SPLIT_MEMORY;
-        if (c.strict && work->set.scene->dim == 3) enter_edges(&c);
+        if (strict && work->set.scene->dim == 3) enter_edges(&c);
     }
     if (!c.best.any || !is_plane(&c, &c.best.cut)) return last_resort(&c, cut);
     *cut = c.best.cut;

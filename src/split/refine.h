@@ -2,7 +2,7 @@
  *
  * Candidates are the supporting planes of fragments, axis-parallel planes through ends of
  * extents, and, for kinds that are never cut, separating planes (separate.h). The best by
- * split_cost() wins; a free cut, a fragment that crosses its cell from border to border,
+ * split_price_of() wins; a free cut, a fragment that crosses its cell from border to border,
  * beats all others since it splits nothing that its plane does not have to split
  * (Paterson and Yao 1990; Sacks, theorem 12.9).
  *
@@ -11,6 +11,7 @@
 #ifndef FROE_SPLIT_REFINE_H
 #define FROE_SPLIT_REFINE_H
 #include "split/axes.h"
+#include "split/price.h"
 #include "split/separate.h"
 
 typedef struct split_refine {
@@ -20,7 +21,7 @@ typedef struct split_refine {
     uint32_t quantiles; /**< axis-parallel planes tried per axis; 0: an autopartition */
     uint32_t edges;     /**< planes through an edge and a vertex tried per cell where balance is due; 3D */
     uint32_t sample;    /**< fragments scored per candidate, at most */
-    double weight;      /**< of information against splits, in split_cost() */
+    double weight;      /**< of information against splits, in split_price_of() */
     double copy;        /**< what one more entry of a solid costs, in comparisons with all of its cell; 0: nothing */
     double height;      /**< cells deeper than this minus log_{4/3} m must be cut with balance; 0: no rule */
     uint32_t small;     /**< cells of at most so many segments in the plane are finished at once (finish.h); <= 32 */
@@ -33,6 +34,7 @@ typedef struct split_table split_table; /* finish.h */
 /** What refining keeps per thread. */
 typedef struct split_scratch {
     split_view view;
+    split_price price;
     split_axes axes; /**< for builders */
     split_separator separator;
     split_table *table;

@@ -1,6 +1,5 @@
 /* view.c: counting candidates, fast and only nearly right. */
 #include "split/view.h"
-#include "base/log2.h"
 #include "base/random.h"
 #include "base/sort.h"
 #include <math.h>
@@ -14,10 +13,6 @@ void split_view_free(const froe_allocator *alloc, split_view *view) {
     array_free(alloc, &view->values);
     array_free(alloc, &view->low);
     array_free(alloc, &view->high);
-}
-
-void split_view_init(split_view *view) {
-    for (uint32_t k = 2; k < SPLIT_TABLE; k++) view->xlog2[k] = k * base_log2(k);
 }
 
 /** Appends one corner, or ball. The caller has made room. */
@@ -265,19 +260,4 @@ split_tally split_view_count_axis(const split_view *view, double value) {
         t.on += !positive & !negative;
     }
     return t;
-}
-
-/* ------------------------------------------------------------------ scores -- */
-
-static double xlog2(const split_view *view, double k) {
-    if (k < SPLIT_TABLE && view->weight == 1) return view->xlog2[(uint32_t)k];
-    return k > 1 ? k * base_log2(k) : 0;
-}
-
-double split_cost(const split_view *view, split_tally t, double w, bool strict) {
-    double m = (t.negative + t.positive + t.on + t.both) * view->weight, splits = t.both * view->weight;
-    double a = (t.negative + t.both) * view->weight, b = (t.positive + t.both) * view->weight, larger = a > b ? a : b;
-    double whole = xlog2(view, m), gain = whole - xlog2(view, a) - xlog2(view, b) + splits * (whole / m);
-    double penalty = strict && m > 4 && larger > 0.75 * m ? 0x1p20 * (larger / m - 0.75) : 0;
-    return splits - w * gain + penalty;
 }

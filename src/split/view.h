@@ -7,8 +7,6 @@
 #define FROE_SPLIT_VIEW_H
 #include "split/grow.h"
 
-enum { SPLIT_TABLE = 512 };
-
 typedef struct split_view {
     ARRAY(double) x[3];        /**< coordinates of the corners, by axis (2D: two of them) */
     ARRAY(double) radius;      /**< per corner, where `round`: balls are shown by their centres */
@@ -21,7 +19,6 @@ typedef struct split_view {
     bool round;                /**< there are balls */
     double weight;             /**< fragments of the cell per fragment shown, >= 1 */
     double reach[3];           /**< largest |coordinate| by axis */
-    double xlog2[SPLIT_TABLE]; /**< k log2 k of small k */
 } split_view;
 
 /** How a cut would deal with the fragments shown. */
@@ -29,7 +26,6 @@ typedef struct split_tally {
     uint32_t negative, positive, on, both; /**< disjoint classes */
 } split_tally;
 
-void split_view_init(split_view *view);
 void split_view_free(const froe_allocator *alloc, split_view *view);
 /** Shows the cell, or `sample` fragments of it drawn (with replacement) by `seed` when it has more. */
 bool split_view_fill(split_view *view, const split_set *set, const split_cell *cell, uint32_t sample, uint64_t seed);
@@ -41,10 +37,4 @@ split_tally split_view_count_axis(const split_view *view, double value);
 void split_extent(const split_set *set, const split_fragment *fragment, int axis, double *low, double *high);
 /** Computes the extents on an axis, and their ends, sorted, as `values`. */
 bool split_view_extents(split_view *view, const split_set *set, const split_cell *cell, int axis);
-
-/** How a cut is scored: splits against information gained, in bits (on fragments count as located):
- *     gain = xl(m) - xl(A) - xl(B) + S log2 m,  xl(k) = k log2 k;   cost = S - w * gain
- * A, B: fragments on the two sides, split ones on both. With a penalty when the larger side exceeds
- * 3/4 of m while `strict`. Lower is better. */
-double split_cost(const split_view *view, split_tally tally, double w, bool strict);
 #endif
