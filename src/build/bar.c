@@ -64,7 +64,7 @@ typedef struct bar {
     bar_rule rule;
     bar_guards guards;
     uint32_t *originals; /* lowest equal object: the others have no guards of their own */
-    split_region root;
+    bar_region root;
     double share; /* of its points that a cell's sequence of cuts may leave together */
     uint32_t k, stop;
     bool cubes, points; /* points: there is nothing else */
@@ -111,14 +111,14 @@ static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
 /* ------------------------------------------------------------ guards of a cell -- */
 
 /** Is the point strictly between all facets? */
-static bool inside(const bar_rule *rule, const split_region *region, const double *keys) {
+static bool inside(const bar_rule *rule, const bar_region *region, const double *keys) {
     for (int i = 0; i < rule->directions.count; i++)
         if (!(keys[i] > region->lo[i] && keys[i] < region->hi[i])) return false;
     return true;
 }
 
 /** Appends the keys of those guards of an object that are inside. */
-static bool add_guards(const bar *b, const froe_allocator *alloc, bar_search *s, const split_region *region,
+static bool add_guards(const bar *b, const froe_allocator *alloc, bar_search *s, const bar_region *region,
                        uint32_t object) {
     double guards[BAR_GUARDS_MOST * 3], *keys;
     const froe_scene *scene = b->job->scene;
@@ -135,7 +135,7 @@ static bool add_guards(const bar *b, const froe_allocator *alloc, bar_search *s,
 }
 
 /** The keys of all guards inside, or of those of a sample of the objects. */
-static bool gather(const bar *b, const split_work *work, const split_cell *cell, const split_region *region) {
+static bool gather(const bar *b, const split_work *work, const split_cell *cell, const bar_region *region) {
     bar_scratch *scratch = work->scratch;
     bar_search *s = &scratch->search;
     const split_set *set = &work->set;
@@ -151,7 +151,7 @@ static bool gather(const bar *b, const split_work *work, const split_cell *cell,
 }
 
 /** Takes the corners of the object's box that are strictly inside: as many as the ends that are, multiplied. */
-static uint64_t take_corners(const bar *b, const split_region *box, uint32_t object, cube_guards *g) {
+static uint64_t take_corners(const bar *b, const bar_region *box, uint32_t object, cube_guards *g) {
     const int dim = b->job->scene->dim;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     bool in[2][FROE_MAX_DIM];
@@ -171,7 +171,7 @@ static uint64_t take_corners(const bar *b, const split_region *box, uint32_t obj
 
 /* -------------------------------------------------------------- the next cut -- */
 
-static bool plan_cube(const bar *b, const split_work *work, const split_cell *cell, const split_region *box,
+static bool plan_cube(const bar *b, const split_work *work, const split_cell *cell, const bar_region *box,
                       froe_cut *cut) {
     cube_guards g;
     uint64_t count = 0;
@@ -189,7 +189,7 @@ static void note_aspect(bar_notes *notes, const bar_candidate *c) {
     while (aspect > most && !atomic_compare_exchange_weak(&notes->aspect, &most, aspect)) continue;
 }
 
-static froe_status plan_bar(const bar *b, const split_work *work, const split_cell *cell, const split_region *region,
+static froe_status plan_bar(const bar *b, const split_work *work, const split_cell *cell, const bar_region *region,
                             bar_scratch *s) {
     bar_candidate c;
     if (!gather(b, work, cell, region)) return FROE_E_MEMORY;
@@ -207,20 +207,27 @@ static froe_status plan_bar(const bar *b, const split_work *work, const split_ce
     return FROE_OK;
 }
 
+/** Where a cell lies: kept in its room. */
+static bar_region region_of(const bar *b, const split_cell *cell) {
+    bar_region region = b->root;
+    if (cell->depth) memcpy(&region, &cell->room, sizeof region);
+    return region;
+}
+
 /** Finds the cut of the guard stage, if the cell is still in it. */
 static froe_status plan(const bar *b, const split_work *work, const split_cell *cell) {
     bar_scratch *s = work->scratch;
-    const split_region *region = cell->depth ? &cell->region : &b->root;
+    const bar_region region = region_of(b, cell);
     const double growth = b->job->option[GROWTH];
     s->planned = false;
     s->count = cell->count;
-    if (isnan(region->lo[0]) || cell->count <= b->refine.leaf) return FROE_OK;
+    if (isnan(region.lo[0]) || cell->count <= b->refine.leaf) return FROE_OK;
     froe_status status = FROE_OK;
     if (cell->count > b->stop && !(growth > 0 && cell->growth >= growth)) {
         if (b->cubes)
-            s->planned = plan_cube(b, work, cell, region, &s->cut);
+            s->planned = plan_cube(b, work, cell, &region, &s->cut);
         else
-            status = plan_bar(b, work, cell, region, s);
+            status = plan_bar(b, work, cell, &region, s);
     }
     if (!s->planned && s->count > 1) atomic_fetch_add(&b->notes->unbalanced, 1);
     return status;
@@ -245,19 +252,21 @@ static void divided(const void *config, const split_work *work, const split_cell
                     split_cell *positive, split_cell *negative) {
     const bar *b = config;
     const bar_scratch *s = work->scratch;
-    split_region region = cell->depth ? cell->region : b->root;
+    bar_region above = region_of(b, cell);
     if (guard && !b->cubes) {
         const uint32_t goal = (uint32_t)s->target;
-        region.cuts = goal == region.goal ? region.cuts + 1 : 1;
-        region.goal = goal;
+        above.cuts = goal == above.goal ? above.cuts + 1 : 1;
+        above.goal = goal;
     }
-    positive->region = negative->region = region;
-    if (!guard) { /* nothing is known of the shape of cells below */
-        positive->region.lo[0] = negative->region.lo[0] = NAN;
-        return;
+    bar_region below = above;
+    if (guard) {
+        const int i = b->cubes ? cut->axis : split_direction_of(&b->rule.directions, cut);
+        above.lo[i] = below.hi[i] = cut->value;
+    } else { /* nothing is known of the shape of cells below */
+        above.lo[0] = below.lo[0] = NAN;
     }
-    const int i = b->cubes ? cut->axis : split_direction_of(&b->rule.directions, cut);
-    positive->region.lo[i] = negative->region.hi[i] = cut->value;
+    memcpy(&positive->room, &above, sizeof above);
+    memcpy(&negative->room, &below, sizeof below);
 }
 
 /* -------------------------------------------------------------------- build -- */

@@ -145,7 +145,7 @@ static bool is_too_small(const bar_rule *rule, const bar_shape *shape) {
     return shape->width < rule->floor || shape->width < FLOOR * bar_shape_reach(shape);
 }
 
-static bool ready(const bar_rule *rule, const froe_allocator *alloc, bar_search *s, const split_region *region,
+static bool ready(const bar_rule *rule, const froe_allocator *alloc, bar_search *s, const bar_region *region,
                   uint32_t count) {
     bar_step first = {.region = *region, .count = count, .weight = 1};
     s->keys.count = (size_t)count * (size_t)rule->directions.count;
@@ -153,7 +153,7 @@ static bool ready(const bar_rule *rule, const froe_allocator *alloc, bar_search 
     return array_reserve(alloc, &s->column, count) && array_push(alloc, &s->steps, first);
 }
 
-bar_found bar_search_cut(const bar_rule *rule, const froe_allocator *alloc, bar_search *s, const split_region *region,
+bar_found bar_search_cut(const bar_rule *rule, const froe_allocator *alloc, bar_search *s, const bar_region *region,
                          uint32_t count, double target, bar_candidate *out) {
     bar_candidate all[DIRECTIONS_MOST], first[DIRECTIONS_MOST];
     if (!ready(rule, alloc, s, region, count)) return BAR_MEMORY;

@@ -21,7 +21,7 @@ typedef struct bar_rule {
 
 /** A cell that a sequence of cuts leads to. */
 typedef struct bar_step {
-    split_region region;
+    bar_region region;
     size_t row; /**< its points' keys */
     uint32_t count;
     double weight; /**< points that each of them stands for */
@@ -53,6 +53,6 @@ typedef enum bar_found {
 /** The cut of a region with `count` points, at least one, of which a part is to have `target` at most. Deterministic.
  */
 bar_found bar_search_cut(const bar_rule *rule, const froe_allocator *alloc, bar_search *search,
-                         const split_region *region, uint32_t count, double target, bar_candidate *out);
+                         const bar_region *region, uint32_t count, double target, bar_candidate *out);
 void bar_search_free(const froe_allocator *alloc, bar_search *search);
 #endif

@@ -11,8 +11,8 @@ enum { BISECTIONS = 40, ROUNDS = 3 };
 #define PAD 0x1p-48
 #define SAME 0x1p-44 /* corners no further apart than this share of the cell are one */
 
-split_region bar_region_of(int dim, const double *lo, const double *hi) {
-    split_region r = {.goal = 0};
+bar_region bar_region_of(int dim, const double *lo, const double *hi) {
+    bar_region r = {.goal = 0};
     for (int i = 0; i < FROE_MAX_DIM; i++) {
         r.lo[i] = i < dim ? lo[i] : -INFINITY;
         r.hi[i] = i < dim ? hi[i] : INFINITY;
@@ -35,7 +35,7 @@ static void lower(double *bound, int sign, double sum, double size) {
 }
 
 /** Bounds on axis k from one diagonal: n . x less what the other axes add at least, or at most. */
-static void bound_by_one(const split_directions *d, int i, int k, split_region *r) {
+static void bound_by_one(const split_directions *d, int i, int k, bar_region *r) {
     const double *n = d->normals[i];
     double least = n[k] > 0 ? r->lo[i] : -r->hi[i], most = n[k] > 0 ? r->hi[i] : -r->lo[i];
     double size[2] = {fabs(least), fabs(most)};
@@ -52,7 +52,7 @@ static void bound_by_one(const split_directions *d, int i, int k, split_region *
 }
 
 /** Bounds on an axis from two diagonals, if their sum or difference (sign) is twice an axis. */
-static void bound_by_two(const split_directions *d, int i, int j, int sign, split_region *r) {
+static void bound_by_two(const split_directions *d, int i, int j, int sign, bar_region *r) {
     int axis = -1, count = 0;
     for (int k = 0; k < d->dim; k++)
         if (d->normals[i][k] + sign * d->normals[j][k] != 0) axis = k, count++;
@@ -68,7 +68,7 @@ static void bound_by_two(const split_directions *d, int i, int j, int sign, spli
 
 /** Adds facets along the axes near the cell that do not touch it. One cut may leave a small corner of a large box: what
  * is computed near the middle of that says nothing about the corner. Sums of facets do. */
-static void tighten(const split_directions *d, split_region *r) {
+static void tighten(const split_directions *d, bar_region *r) {
     for (int round = 0; round < ROUNDS; round++)
         for (int i = d->dim; i < d->count; i++) {
             for (int k = 0; k < d->dim; k++) bound_by_one(d, i, k, r);
@@ -79,7 +79,7 @@ static void tighten(const split_directions *d, split_region *r) {
         }
 }
 
-static void find_shift(bar_shape *s, const split_region *r) {
+static void find_shift(bar_shape *s, const bar_region *r) {
     const split_directions *d = s->directions;
     double o[3] = {0};
     for (int k = 0; k < d->dim; k++) o[k] = 0.5 * r->lo[k] + 0.5 * r->hi[k];
@@ -197,9 +197,9 @@ static double aspect_of(const split_directions *d, const extent *e, double *leas
     return hi / lo;
 }
 
-bool bar_shape_of(const split_directions *d, const split_region *region, bar_shape *s) {
+bool bar_shape_of(const split_directions *d, const bar_region *region, bar_shape *s) {
     double lo[3], hi[3], size = 0;
-    split_region near = *region, *r = &near;
+    bar_region near = *region, *r = &near;
     s->directions = d;
     s->width = 0;
     tighten(d, r);

@@ -30,10 +30,17 @@ typedef struct bar_shape {
     double width, aspect;                            /**< least width */
 } bar_shape;
 
+/** What bounds a cell, or a box: n . x of its facets, per direction, or per axis. */
+typedef struct bar_region {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    uint32_t goal, cuts; /**< this many guards at most are to be left in it, and how many cuts that has taken so far */
+} bar_region;
+_Static_assert(sizeof(bar_region) <= sizeof(split_room), "a region has room in a cell");
+
 /** The region without any facet but those of a box of R^dim. */
-split_region bar_region_of(int dim, const double *lo, const double *hi);
+bar_region bar_region_of(int dim, const double *lo, const double *hi);
 /** False: the region has no interior that doubles would show. */
-bool bar_shape_of(const split_directions *directions, const split_region *region, bar_shape *out);
+bool bar_shape_of(const split_directions *directions, const bar_region *region, bar_shape *out);
 /** Largest coordinate of a point of the cell, about. */
 double bar_shape_reach(const bar_shape *shape);
 /** n . y of a cut n . x = value, and back, rounded once. */

@@ -126,8 +126,7 @@ static void make_children(const split_work *work, const split_cell *cell, uint32
                                .first = cell->first + (s ? 0 : positive),
                                .count = s ? positive : negative,
                                .corner_top = (uint32_t)work->set.corners.count,
-                               .guard = FROE_NONE,
-                               .frame = cell->frame};
+                               .guard = FROE_NONE};
 }
 
 /** Cuts in place and makes the children; *useless as for cell_cut, NULL: cut all the same. */

@@ -2,28 +2,28 @@
 #include "split/cube_cut.h"
 #include <math.h>
 
-static double side_of(const split_region *box, int k) {
+static double side_of(const bar_region *box, int k) {
     return 0.5 * box->hi[k] - 0.5 * box->lo[k];
 }
 
 /** Where the guards lie on an axis: how far they reach from the nearer end, and which one that is. */
-static double reach_of(const split_region *box, const cube_guards *g, int k, bool *high) {
+static double reach_of(const bar_region *box, const cube_guards *g, int k, bool *high) {
     const double from_lo = 0.5 * g->hi[k] - 0.5 * box->lo[k], from_hi = 0.5 * box->hi[k] - 0.5 * g->lo[k];
     *high = from_hi < from_lo;
     return *high ? from_hi : from_lo;
 }
 
-static bool make(const split_region *box, int k, double value, froe_cut *out) {
+static bool make(const bar_region *box, int k, double value, froe_cut *out) {
     *out = (froe_cut){.kind = FROE_CUT_AXIS, .axis = k, .value = value};
     return value > box->lo[k] && value < box->hi[k];
 }
 
-static bool halve(const split_region *box, int k, froe_cut *out) {
+static bool halve(const bar_region *box, int k, froe_cut *out) {
     return make(box, k, 0.5 * box->lo[k] + 0.5 * box->hi[k], out);
 }
 
 /** The box is a cube: shrink it to the corner near which all guards are, unless they are in several orthants. */
-static bool cut_cube(const split_region *box, int dim, const cube_guards *g, bool through, froe_cut *out) {
+static bool cut_cube(const bar_region *box, int dim, const cube_guards *g, bool through, froe_cut *out) {
     int far = 0;
     double most = -1;
     bool at_high = false;
@@ -38,7 +38,7 @@ static bool cut_cube(const split_region *box, int dim, const cube_guards *g, boo
 }
 
 /** The box is longer on axis k than on the shortest: make it as short there, if all guards are at one end of it. */
-static bool cut_longer(const split_region *box, const cube_guards *g, int k, double least, froe_cut *out) {
+static bool cut_longer(const bar_region *box, const cube_guards *g, int k, double least, froe_cut *out) {
     bool high;
     const double reach = reach_of(box, g, k, &high);
     if (reach > least || side_of(box, k) < 2 * least) return halve(box, k, out);
@@ -47,7 +47,7 @@ static bool cut_longer(const split_region *box, const cube_guards *g, int k, dou
     return make(box, k, value, out);
 }
 
-bool cube_cut(const split_region *box, int dim, const cube_guards *g, bool through, froe_cut *out) {
+bool cube_cut(const bar_region *box, int dim, const cube_guards *g, bool through, froe_cut *out) {
     double least = INFINITY, most = 0;
     int longest = 0;
     for (int k = 0; k < dim; k++) {

@@ -12,7 +12,7 @@
  * prune. */
 #ifndef FROE_SPLIT_CUBE_CUT_H
 #define FROE_SPLIT_CUBE_CUT_H
-#include "split/grow.h"
+#include "split/bar_shape.h"
 
 /** Bounds of the guards strictly inside of a box. */
 typedef struct cube_guards {
@@ -21,5 +21,5 @@ typedef struct cube_guards {
 
 /** The next cut of a box. `through`: through the farthest guard, which then is in neither part; or just beyond it.
  * False: doubles have no room for one. O(dim). */
-bool cube_cut(const split_region *box, int dim, const cube_guards *guards, bool through, froe_cut *out);
+bool cube_cut(const bar_region *box, int dim, const cube_guards *guards, bool through, froe_cut *out);
 #endif

@@ -19,6 +19,7 @@
  * docs/design/cylindrical.md. */
 #include "split/cylinder.h"
 #include "split/cell.h"
+#include <string.h>
 
 enum { LEFT, RIGHT };
 
@@ -29,6 +30,20 @@ typedef struct stretch {
     uint32_t edge;       /**< for crossings: the object (plane) or the number of the edge (space) */
     uint32_t u, v;       /**< vertices of the line, left and right */
 } stretch;
+
+/* ------------------------------------------------------------------ frames -- */
+
+/** The walls left and right of a cell, and in space the edges below and above. Kept in the cell's room. */
+typedef struct frame {
+    uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
+} frame;
+_Static_assert(sizeof(frame) <= sizeof(split_room), "a frame has room in a cell");
+
+static frame frame_of(const split_cell *cell) {
+    frame f = {{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
+    if (cell->depth) memcpy(&f, &cell->room, sizeof f);
+    return f;
+}
 
 /* ------------------------------------------------------------------ walls -- */
 
@@ -43,7 +58,7 @@ static bool is_wall(froe_cut_kind kind) {
 
 /** Does the wall on this side of the cell run through the end of the stretch? */
 static bool is_on_wall(split_set *set, const split_cell *cell, const stretch *s, int side) {
-    uint32_t node = cell->frame.wall[side];
+    uint32_t node = frame_of(cell).wall[side];
     const split_corner *end = s->end + side;
     if (node == FROE_NONE) return false;
     froe_cut wall = split_cut_at(set, node);
@@ -74,8 +89,9 @@ static froe_cut crossing_cut(split_set *set, uint32_t a, uint32_t b) {
 
 /** In space: the edge below or above on which the end of the stretch lies; FROE_NONE: neither. */
 static uint32_t edge_through(split_set *set, const split_cell *cell, const stretch *s, int side) {
+    const frame f = frame_of(cell);
     for (int i = 0; i < 2; i++) {
-        uint32_t edge = cell->frame.edge[i];
+        uint32_t edge = f.edge[i];
         if (edge == FROE_NONE) continue;
         froe_cut cut = edge_cut(set->scene, edge);
         split_plane plane = split_plane_of(set->scene, &cut);
@@ -145,11 +161,12 @@ static split_verdict cut_segment(split_set *set, const split_cell *cell, const s
 
 /** Does an edge, by its number, lie in the vertical plane below or above the cell? */
 static bool is_border(split_set *set, const split_cell *cell, uint32_t edge) {
+    const frame f = frame_of(cell);
     uint32_t v[2];
     froe_scene_edge(set->scene, edge, v);
     for (int i = 0; i < 2; i++) {
-        if (cell->frame.edge[i] == FROE_NONE) continue;
-        froe_cut border = edge_cut(set->scene, cell->frame.edge[i]);
+        if (f.edge[i] == FROE_NONE) continue;
+        froe_cut border = edge_cut(set->scene, f.edge[i]);
         geom_plane plane = scene_cut_plane(set->scene, &border);
         if (!geom_side_vertex(&set->context, &plane, scene_vertex(set->scene, v[0])) &&
             !geom_side_vertex(&set->context, &plane, scene_vertex(set->scene, v[1])))
@@ -283,10 +300,13 @@ void split_cylinder_divided(const void *config, const split_work *work, const sp
     (void)config;
     (void)work;
     (void)guard;
+    frame above = frame_of(cell), below = above;
     if (is_wall(cut->kind)) {
-        positive->frame.wall[LEFT] = negative->frame.wall[RIGHT] = cell->node;
+        above.wall[LEFT] = below.wall[RIGHT] = cell->node;
     } else if (cut->kind == FROE_CUT_EDGE) { /* runs to the right: its positive side is above */
-        positive->frame.edge[0] = cut->id[2];
-        negative->frame.edge[1] = cut->id[2];
+        above.edge[0] = cut->id[2];
+        below.edge[1] = cut->id[2];
     }
+    memcpy(&positive->room, &above, sizeof above);
+    memcpy(&negative->room, &below, sizeof below);
 }

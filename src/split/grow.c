@@ -63,12 +63,13 @@ static uint8_t leaf_flags(split_verdict verdict) {
     return verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : verdict == SPLIT_CROWDED ? TREE_CROWDED : 0;
 }
 
-/** Cuts the cell and tells its children so. */
+/** Cuts the cell and furnishes the rooms of its children. */
 static froe_status divide(const split_method *method, split_work *work, const split_cell *cell, const froe_cut *cut,
                           bool guard, bool *useless) {
     froe_status status = cell_cut(work, cell, cut, guard ? TREE_GUARD : 0, useless);
     if (status || !method->divided || (useless && *useless)) return status;
     split_cell *negative = work->cells.data + work->cells.count - 1;
+    negative->room = negative[-1].room = cell->room;
     method->divided(method->config, work, cell, cut, guard, negative - 1, negative);
     return FROE_OK;
 }
@@ -166,7 +167,6 @@ static froe_status start_workers(grow *g) {
 static froe_status push_root(grow *g, split_work *work) {
     uint32_t n = g->job->scene->object_count;
     split_cell root = {.path = 1, .guard = FROE_NONE, .growth = 1};
-    root.frame = (split_frame){{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
     if (g->job->guard && n && !g->job->root) {
         root.guard = 0;
         root.wholes = n;

@@ -13,16 +13,10 @@
 #include "split/fragment.h"
 #include "split/homes.h"
 
-/** The walls left and right of a cell of a cylindrical partition, and the edges below and above: see cylinder.c. */
-typedef struct split_frame {
-    uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
-} split_frame;
-
-/** What bounds a cell of a BAR tree or a box: n . x of its facets, per direction (directions.h), or per axis. */
-typedef struct split_region {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    uint32_t goal, cuts; /**< this many guards at most are to be left in it, and how many cuts that has taken so far */
-} split_region;
+/** What a method knows of a cell besides: bytes of its own, all zero at the root. */
+typedef struct split_room {
+    uint64_t words[2 * FROE_MAX_DIM + 1];
+} split_room;
 
 typedef struct split_cell {
     uint32_t node; /**< ring numbering */
@@ -35,10 +29,7 @@ typedef struct split_cell {
     float growth;           /**< fragmentation by the cuts so far: see density.c */
     uint32_t barren;        /**< cuts in a row that left nearly all fragments in this cell */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
-    union {                 /* what the method knows of its place; the root's is the method's to know */
-        split_frame frame;
-        split_region region;
-    };
+    split_room room;
 } split_cell;
 
 typedef enum split_verdict {
@@ -79,8 +70,8 @@ typedef struct split_method {
     split_verdict (*choose)(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
     /** Grows the whole subtree of a cell at once; *done false: no, by cuts. NULL: never. */
     froe_status (*finish)(const void *config, split_work *work, const split_cell *cell, bool *done);
-    /** Tells the children, positive and negative, of a cell that `cut` has just cut; NULL: nothing to tell. They
-     * have the frame of their parent so far. `guard`: it was a SPLIT_CUT_GUARD. */
+    /** Furnishes the rooms of the children, positive and negative, of a cell that `cut` has just cut: so far they are
+     * their parent's. NULL: the method uses no rooms. `guard`: it was a SPLIT_CUT_GUARD. */
     void (*divided)(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut, bool guard,
                     split_cell *positive, split_cell *negative);
     /** Is the cell to be cut by its node of the guard tree? NULL: never. */

@@ -8,17 +8,17 @@
 #include "split/grow.h"
 
 typedef struct split_view {
-    ARRAY(double) x[3];        /**< coordinates of the corners, by axis (2D: two of them) */
-    ARRAY(double) radius;      /**< per corner, where `round`: balls are shown by their centres */
-    ARRAY(uint32_t) start;     /**< count + 1 offsets of the fragments' corners */
-    ARRAY(uint8_t) side;       /**< bit 0: negative, bit 1: positive, per corner: of the last count */
-    ARRAY(double) values;      /**< ends of extents, for axis candidates */
-    ARRAY(double) low, high;   /**< extents of the fragments on the current axis */
-    uint32_t count;            /**< fragments shown */
-    bool pairs;                /**< every fragment has two corners, in the plane */
-    bool round;                /**< there are balls */
-    double weight;             /**< fragments of the cell per fragment shown, >= 1 */
-    double reach[3];           /**< largest |coordinate| by axis */
+    ARRAY(double) x[3];      /**< coordinates of the corners, by axis (2D: two of them) */
+    ARRAY(double) radius;    /**< per corner, where `round`: balls are shown by their centres */
+    ARRAY(uint32_t) start;   /**< count + 1 offsets of the fragments' corners */
+    ARRAY(uint8_t) side;     /**< bit 0: negative, bit 1: positive, per corner: of the last count */
+    ARRAY(double) values;    /**< ends of extents, for axis candidates */
+    ARRAY(double) low, high; /**< extents of the fragments on the current axis */
+    uint32_t count;          /**< fragments shown */
+    bool pairs;              /**< every fragment has two corners, in the plane */
+    bool round;              /**< there are balls */
+    double weight;           /**< fragments of the cell per fragment shown, >= 1 */
+    double reach[3];         /**< largest |coordinate| by axis */
 } split_view;
 
 /** How a cut would deal with the fragments shown. */

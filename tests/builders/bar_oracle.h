@@ -2,6 +2,7 @@
  * are what dim facets share and all others have on their inner side. */
 #ifndef FROE_TESTS_BUILDERS_BAR_ORACLE_H
 #define FROE_TESTS_BUILDERS_BAR_ORACLE_H
+#include "split/bar_shape.h"
 #include "split/directions.h"
 #include "split/grow.h"
 #include <gmp.h>
@@ -96,7 +97,7 @@ static inline void bar_oracle_corner(bar_oracle *o, const int *f) {
 }
 
 /** The square of the region's aspect, exactly; 0 for a region without interior. */
-static inline void bar_oracle_aspect(bar_oracle *o, const split_region *region, mpq_t out) {
+static inline void bar_oracle_aspect(bar_oracle *o, const bar_region *region, mpq_t out) {
     const split_directions *d = o->directions;
     const int facets = 2 * d->count;
     mpq_t least, most;

@@ -151,8 +151,8 @@ static void points_below_the_floor_end_alone_all_the_same(void **state) {
 /* ------------------------------------------------------------------- fatness -- */
 
 /** The regions of all nodes, from the cuts that led there. A hole (NAN) below the guard stage. */
-static split_region *regions_of(const froe_tree *t, const split_directions *d) {
-    split_region *region = calloc(t->node_count, sizeof *region);
+static bar_region *regions_of(const froe_tree *t, const split_directions *d) {
+    bar_region *region = calloc(t->node_count, sizeof *region);
     assert_non_null(region);
     region[0] = bar_region_of(d->dim, t->meta.root_lo, t->meta.root_hi);
     for (uint32_t i = 0; i < t->node_count; i++) {
@@ -172,7 +172,7 @@ static split_region *regions_of(const froe_tree *t, const split_directions *d) {
 
 /** Compares every cell of the guard stage with the promise, and the fattest with what was measured. */
 static void check_fatness(const froe_tree *t, const split_directions *d, const char *what) {
-    split_region *region = regions_of(t, d);
+    bar_region *region = regions_of(t, d);
     bar_oracle oracle;
     mpq_t square, most, promised;
     mpq_inits(square, most, promised, NULL);
@@ -228,7 +228,7 @@ static void cells_are_exactly_as_fat_as_promised(void **state) {
 /* -------------------------------------------------------------------- guards -- */
 
 /** A random fat cell of the unit square or cube. */
-static void random_cell(const split_directions *d, double most, uint64_t seed, split_region *region, bar_shape *shape) {
+static void random_cell(const split_directions *d, double most, uint64_t seed, bar_region *region, bar_shape *shape) {
     static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
     *region = bar_region_of(d->dim, zero, one);
     assert_true(bar_shape_of(d, region, shape));
@@ -260,7 +260,7 @@ static void border_point(const bar_shape *shape, uint64_t seed, double *x) {
     }
 }
 
-static bool is_inside(const split_directions *d, const split_region *region, const double *x) {
+static bool is_inside(const split_directions *d, const bar_region *region, const double *x) {
     for (int i = 0; i < d->count; i++) {
         const double key = split_key(d, i, x);
         if (!(key > region->lo[i] && key < region->hi[i])) return false;
@@ -277,7 +277,7 @@ static size_t unguarded(int dim, int directions, bar_guard_kind kind) {
     assert_true(split_directions_of(dim, directions, &d));
     bar_guards_make(&d, kind, &guards);
     for (uint64_t seed = 0; seed < TRIALS; seed++) {
-        split_region region;
+        bar_region region;
         bar_shape shape;
         froe_scene *scene;
         double ends[6], points[BAR_GUARDS_MOST * 3];

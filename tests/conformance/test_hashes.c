@@ -81,8 +81,7 @@ static void draw_point(source *s, double *out) {
 
 static void draw_box(source *s, double *lo_hi) {
     draw_point(s, lo_hi);
-    for (int k = 0; k < s->dim; k++)
-        lo_hi[s->dim + k] = lo_hi[k] + (0.05 + 0.3 * draw(s)) * (s->hi[k] - s->lo[k]);
+    for (int k = 0; k < s->dim; k++) lo_hi[s->dim + k] = lo_hi[k] + (0.05 + 0.3 * draw(s)) * (s->hi[k] - s->lo[k]);
 }
 
 static void put_ids(hash *h, froe_status status, const froe_list *found) {
@@ -271,8 +270,7 @@ int main(int count, char **arguments) {
             for (uint32_t leaf = 1; leaf <= 5; leaf += 4)
                 check_scene(&l, froe_generator_at(k), froe_method_at(m), leaf);
     for (size_t k = 0; froe_motion_generator_at(k); k++)
-        for (int augmented = 0; augmented < 2; augmented++)
-            check_motion(&l, froe_motion_generator_at(k), augmented);
+        for (int augmented = 0; augmented < 2; augmented++) check_motion(&l, froe_motion_generator_at(k), augmented);
     if (!l.expected) return 0;
     char more[LINE];
     while (fgets(more, sizeof more, l.expected)) l.wrong++, printf("- %s", more);
