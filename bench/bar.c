@@ -6,6 +6,7 @@
  * forgotten or not, and guards of three kinds (de Berg and Streppel, theorems 1 and 3). Counts, which are the same on
  * every machine. With FOLDER, writes figures there: bar-*.svg. A minute. */
 #include "bench.h"
+#include "build/options.h"
 #include "figure.h"
 #include <froe/query.h>
 #include <math.h>
@@ -156,7 +157,7 @@ static froe_scene *make_lines(size_t n) {
 }
 
 static froe_tree *build(froe_scene *scene, const spec *s) {
-    return bench_build(scene, s->method, s->settings, 1, 1, NULL);
+    return bench_build_by(build_tuned, scene, s->method, s->settings, 1, 1, NULL);
 }
 
 /** Nodes for eps = 2^-1 .. 2^-EXPONENTS and 0, ranges of a fixed size. Slope: of the first six. */
@@ -401,7 +402,7 @@ static void kinds_of_guards(void) {
             char settings[80];
             snprintf(settings, sizeof settings, "k=0 stop=1 growth=0 guards=%s", kinds[k]);
             froe_scene *scene = bench_generate(scenes[s], 4000, 1);
-            froe_tree *tree = bench_build(scene, "bar", settings, 1, 1, NULL);
+            froe_tree *tree = bench_build_by(build_tuned, scene, "bar", settings, 1, 1, NULL);
             const froe_report r = froe_tree_report(tree);
             printf(" %u (%.2f) |", fullest_cell(tree), (double)r.fragments / (double)r.objects);
             froe_tree_free(tree);

@@ -110,8 +110,8 @@ froe_scene *bench_generate(const char *kind, size_t n, unsigned long long seed) 
     return scene;
 }
 
-froe_tree *bench_build(froe_scene *scene, const char *method, const char *settings, uint32_t leaf, unsigned threads,
-                       double *seconds) {
+froe_tree *bench_build_by(bench_builder *builder, froe_scene *scene, const char *method, const char *settings,
+                          uint32_t leaf, unsigned threads, double *seconds) {
     froe_diagnostic diag = {0};
     froe_tree *tree = NULL;
     froe_build_options o = froe_build_defaults();
@@ -120,9 +120,14 @@ froe_tree *bench_build(froe_scene *scene, const char *method, const char *settin
     o.leaf = leaf;
     o.threads = threads;
     double start = bench_now();
-    bench_must(froe_build(scene, &o, &tree, &diag), &diag);
+    bench_must(builder(scene, &o, &tree, &diag), &diag);
     if (seconds) *seconds = bench_now() - start;
     return tree;
+}
+
+froe_tree *bench_build(froe_scene *scene, const char *method, const char *settings, uint32_t leaf, unsigned threads,
+                       double *seconds) {
+    return bench_build_by(froe_build, scene, method, settings, leaf, threads, seconds);
 }
 
 double bench_exponent(const double *x, const double *y, size_t count) {

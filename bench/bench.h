@@ -21,6 +21,10 @@ froe_scene *bench_segments(const double *xyxy, size_t n);
 froe_scene *bench_generate(const char *kind, size_t n, unsigned long long seed);
 froe_tree *bench_build(froe_scene *scene, const char *method, const char *settings, uint32_t leaf, unsigned threads,
                        double *seconds);
+/** The same by another function: build_tuned() of src/build/options.h, for benches that link to froe_core. */
+typedef froe_status bench_builder(froe_scene *, const froe_build_options *, froe_tree **, froe_diagnostic *);
+froe_tree *bench_build_by(bench_builder *builder, froe_scene *scene, const char *method, const char *settings,
+                          uint32_t leaf, unsigned threads, double *seconds);
 /** n disjoint short segments in random order, 4 numbers each, to be freed. */
 double *bench_scatter(size_t n, unsigned long long seed);
 /** Least squares slope of log y against log x. */

@@ -6,6 +6,7 @@
  * With WORD only claims of sources and methods whose names hold it. Exit status 1 if a claim fails. Claims of methods
  * that are not built are told as such. A couple of minutes on one core. */
 #include "claims.h"
+#include "build/options.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +25,7 @@ double claims_slope(const claims_series *s) {
 claims_tree claims_build(const char *kind, size_t n, const char *method, const char *settings, uint32_t leaf) {
     claims_tree t = {.scene = bench_generate(kind, n, 1)};
     const double start = bench_cpu();
-    t.tree = bench_build(t.scene, method, settings, leaf, 1, NULL);
+    t.tree = bench_build_by(build_tuned, t.scene, method, settings, leaf, 1, NULL);
     t.seconds = bench_cpu() - start;
     t.report = froe_tree_report(t.tree);
     return t;

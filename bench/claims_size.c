@@ -1,4 +1,5 @@
 /* claims_size.c: what the sources say of the size and height of partitions, and of the time to build them. */
+#include "build/options.h"
 #include "claims.h"
 #include <froe/measure.h>
 #include <math.h>
@@ -219,7 +220,7 @@ static double autopartition_in_the_plane(void) {
         double sum = 0;
         for (unsigned seed = 1; seed <= 5; seed++) {
             froe_scene *scene = bench_generate(*kind, 3000, seed);
-            froe_tree *tree = bench_build(scene, "autopartition", "free=no", 0, 1, NULL);
+            froe_tree *tree = bench_build_by(build_tuned, scene, "autopartition", "free=no", 0, 1, NULL);
             const froe_report r = froe_tree_report(tree);
             const double n = (double)r.objects;
             sum += (double)r.fragments / (n + 2 * n * log(n)) / 5;
@@ -259,8 +260,8 @@ static double size_against_lambda(void) {
     claims_series s = {.count = 0};
     for (size_t lambda = 4; lambda <= 1024; lambda *= 4) {
         froe_scene *scene = bundles(16384, lambda);
-        froe_tree *tree =
-            bench_build(scene, "density", "k=8 supports=1 quantiles=0 edges=0 small=0 free=no", 1, 1, NULL);
+        froe_tree *tree = bench_build_by(build_tuned, scene, "density",
+                                         "k=8 supports=1 quantiles=0 edges=0 small=0 free=no", 1, 1, NULL);
         claims_add(&s, log((double)lambda) + 1, (double)froe_tree_report(tree).size);
         froe_tree_free(tree);
         froe_scene_free(scene);

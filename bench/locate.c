@@ -7,6 +7,7 @@
  * a look at cuts in doubt. `centroids`: query/centroids.h, in trees that are deep. `chosen`: what queries do, exactly,
  * one at a time, and many together. */
 #include "bench.h"
+#include "build/options.h"
 #include "geom/predicates.h"
 #include "query/centroids.h"
 #include "query/descent.h"
@@ -160,7 +161,7 @@ static void print_row(const char *name, froe_scene *scene, froe_tree *tree) {
 }
 
 static void print_built(const char *name, froe_scene *scene, const char *method, const char *settings, uint32_t leaf) {
-    print_row(name, scene, bench_build(scene, method, settings, leaf, 1, NULL));
+    print_row(name, scene, bench_build_by(build_tuned, scene, method, settings, leaf, 1, NULL));
 }
 
 int main(void) {

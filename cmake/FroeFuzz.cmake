@@ -35,9 +35,9 @@ add_executable(fuzz_seeds fuzz/seeds.c tests/support/samples.c)
 target_include_directories(fuzz_seeds PRIVATE src tests ${PROJECT_SOURCE_DIR})
 if(FROE_HAS_IO)
   target_compile_definitions(fuzz_seeds PRIVATE FUZZ_IO)
-  target_link_libraries(fuzz_seeds PRIVATE froe_io_static)
+  target_link_libraries(fuzz_seeds PRIVATE froe_io_core)
 endif()
-target_link_libraries(fuzz_seeds PRIVATE froe_static)
+target_link_libraries(fuzz_seeds PRIVATE froe_core froe_support) # the objects themselves: small trees need internal settings
 set(seeds ${PROJECT_BINARY_DIR}/fuzz/seeds)
 add_custom_command(OUTPUT ${seeds}.made
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${seeds}

@@ -10,12 +10,13 @@
 #include "build/method.h"
 #include "split/refine.h"
 
-enum { CANDIDATES, WEIGHT, FREE, SAMPLE };
+enum { CANDIDATES, TUNING, WEIGHT, FREE, SAMPLE };
 
 static const char *const no_yes[] = {"no", "yes", NULL};
 static const froe_option_info options[] = {
     [CANDIDATES] = {"candidates", "planes tried per cell, of objects or of facets of boxes; 1: random order", 1, 1,
                     1000, NULL, true},
+    [TUNING] = {0},
     [WEIGHT] = {"weight", "bits of balance that outweigh one split (candidates > 1)", 0.1, 0, 100, NULL, false},
     [FREE] = {"free", "cut first with fragments that cross their cell", 1, 0, 1, no_yes, true},
     [SAMPLE] = {"sample", "fragments scored per candidate, at most", 512, 8, 1e6, NULL, true},
@@ -50,6 +51,7 @@ const build_method build_method_autopartition = {
              .dims = BUILD_DIMS_ALL,
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON | 1u << FROE_BOX,
              .options = options},
+    .tunable = true,
     .rooted = true,
     .build = build,
 };

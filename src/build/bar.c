@@ -25,7 +25,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-enum { DIRECTIONS, ASPECT, GUARDS, K, STOP, GROWTH };
+enum { DIRECTIONS, ASPECT, GUARDS, GROWTH, TUNING, K, STOP };
 enum {
     LONG = 32,        /* objects of a cell that takes long enough to ask whether to go on */
     STAR = 1024,      /* most objects of a cell that may be left when no cut balances its guards */
@@ -43,11 +43,12 @@ static const froe_option_info options[] = {
     [ASPECT] = {"aspect", "largest aspect ratio of a cell; -1: by directions", -1, -1, 1e6, NULL, false},
     [GUARDS] = {"guards", "of an object: hemisphere (6, 8, 32), pairs (of directions: 12, 24), boxes (no guarantee)", 0,
                 0, 2, guard_kinds, true},
+    [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never; -1: by dimension",
+                -1, -1, 1e9, NULL, false},
+    [TUNING] = {0},
     [K] = {"k", "guards left in a cell of the guard stage; -1: by kinds and dimension", -1, -1, 1e9, NULL, true},
     [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by kinds", -1, -1, 1e9, NULL,
               true},
-    [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never; -1: by dimension",
-                -1, -1, 1e9, NULL, false},
     {0},
 };
 
@@ -388,6 +389,7 @@ const build_method build_method_bar = {
              .dims = BUILD_DIMS_ALL,
              .kinds = BUILD_KINDS_ALL,
              .options = options},
+    .tunable = true,
     .resolve = resolve,
     .build = build,
 };

@@ -155,8 +155,8 @@ static froe_status check_order(const froe_build_options *o, const build_method *
     return status;
 }
 
-static froe_status prepare(const froe_build_options *o, const build_method *method, build_job *job) {
-    froe_status status = options_parse(method, o->settings, job->option, job->diag);
+static froe_status prepare(const froe_build_options *o, const build_method *method, bool tuned, build_job *job) {
+    froe_status status = options_parse(method, o->settings, tuned, job->option, job->diag);
     if (status) return status;
     if (method->resolve) method->resolve(job->scene, o->leaf, job->option);
     snprintf(job->meta.method, sizeof job->meta.method, "%s", method->info.name);
@@ -169,18 +169,19 @@ static froe_status prepare(const froe_build_options *o, const build_method *meth
 }
 
 /** A caller's decimal comma must neither refuse settings nor get into trees. */
-static froe_status prepare_in_any_locale(const froe_build_options *o, const build_method *method, build_job *job) {
+static froe_status prepare_in_any_locale(const froe_build_options *o, const build_method *method, bool tuned,
+                                         build_job *job) {
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), callers;
     if (!plain) return base_fail_memory(job->diag);
     callers = uselocale(plain);
-    froe_status status = prepare(o, method, job);
+    froe_status status = prepare(o, method, tuned, job);
     uselocale(callers);
     freelocale(plain);
     return status;
 }
 
-static froe_status build(froe_scene *scene, const froe_build_options *options, const froe_cut *root, froe_tree **out,
-                         froe_diagnostic *diag) {
+static froe_status build(froe_scene *scene, const froe_build_options *options, bool tuned, const froe_cut *root,
+                         froe_tree **out, froe_diagnostic *diag) {
     const build_method *method;
     base_task task;
     if (!scene || !out) return base_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
@@ -197,7 +198,7 @@ static froe_status build(froe_scene *scene, const froe_build_options *options, c
     if (status) return status;
     build_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag, .root = root};
     base_task_init(&task, o.threads, o.progress, o.user);
-    status = prepare_in_any_locale(&o, method, &job);
+    status = prepare_in_any_locale(&o, method, tuned, &job);
     if (!status && !base_progress(&task, 0)) status = base_fail(diag, FROE_E_CANCELLED, "cancelled");
     if (!status) status = method->build(&job, out);
     if (!status) base_progress(&task, 1);
@@ -206,7 +207,12 @@ static froe_status build(froe_scene *scene, const froe_build_options *options, c
 
 froe_status froe_build(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    return build(scene, options, NULL, out, diag);
+    return build(scene, options, false, NULL, out, diag);
+}
+
+froe_status build_tuned(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    return build(scene, options, true, NULL, out, diag);
 }
 
 /** A plane of doubles, as a cut. */
@@ -236,5 +242,5 @@ froe_status froe_tree_section(const froe_tree *tree, const double *plane, const 
     o.settings = tree->meta.settings;
     o.leaf = tree->meta.leaf;
     o.seed = tree->meta.seed;
-    return build(tree->scene, &o, &root, out, diag);
+    return build(tree->scene, &o, false, &root, out, diag);
 }

@@ -3,6 +3,7 @@
 #include "build/convert.h"
 #include "base/floats.h"
 #include "base/status.h"
+#include "build/options.h"
 #include "geom/selftest.h"
 #include "split/convert.h"
 #include "split/ham_sandwich.h"
@@ -44,7 +45,7 @@ static froe_status partition(converter *c, const convert_plan *plan) {
     o.threads = c->job->task->threads;
     o.progress = tell;
     o.user = c->job->task;
-    return froe_build(c->points, &o, &c->tree, c->job->diag);
+    return build_tuned(c->points, &o, &c->tree, c->job->diag);
 }
 
 /** Cuts of points are axis-parallel or have normals: others would name objects of another scene. */

@@ -8,7 +8,7 @@
  * those that segments make where they cross. */
 #include "build/convert.h"
 
-enum { FROM, PRUNE };
+enum { FROM, TUNING, PRUNE };
 
 /* The rules by which endpoints are partitioned, and the methods of the registry that do it. */
 static const char *const rules[] = {"kd", "bar", "quad", "median", "hamsandwich", NULL};
@@ -17,6 +17,7 @@ static const convert_plan plans[] = {
 static const char *const no_yes[] = {"no", "yes", NULL};
 static const froe_option_info options[] = {
     [FROM] = {"from", "the BSP of the endpoints to begin with; median: of x", 0, 0, 4, rules, true},
+    [TUNING] = {0},
     [PRUNE] = {"prune", "leave out cuts with nothing on one side where no other cut ends", 1, 0, 1, no_yes, true},
     {0},
 };
@@ -35,5 +36,6 @@ const build_method build_method_converted = {
              .dims = 1u << 2,
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT,
              .options = options},
+    .tunable = true,
     .build = build,
 };

@@ -24,7 +24,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-enum { MODE, K, FORM, STOP, GROWTH, SUPPORTS, QUANTILES, EDGES, WEIGHT, HEIGHT, FREE, SMALL, SAMPLE, COPY };
+enum { MODE, K, FORM, GROWTH, HEIGHT, TUNING, STOP, SUPPORTS, QUANTILES, EDGES, WEIGHT, FREE, SMALL, SAMPLE, COPY };
 enum { STAR = 1024 }; /* most objects of a cell that may be left for being barren */
 enum { MODE_FIXED, MODE_DOUBLING, MODE_TUNED };
 
@@ -36,17 +36,18 @@ static const froe_option_info options[] = {
     [K] = {"k", "guards left in a cell of the guard stage; -1: 256 in the plane, 16 elsewhere", -1, -1, 1e9, NULL,
            true},
     [FORM] = {"form", "outer cells of a shrink: slabs (de Berg) or a cross (Sacks)", 0, 0, 2, forms, true},
-    [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by dimension", -1, -1, 1e9,
-              NULL, true},
     [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never", 1.5, 0, 1e9, NULL,
                 false},
+    [HEIGHT] = {"height", "balanced cuts beyond this many times log2 n levels; 0: no rule", 2, 0, 1e9, NULL, false},
+    [TUNING] = {0},
+    [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by dimension", -1, -1, 1e9,
+              NULL, true},
     [SUPPORTS] = {"supports", "supporting planes tried per cell; -1: by dimension", -1, -1, 1000, NULL, true},
     [QUANTILES] = {"quantiles", "axis-parallel planes tried per cell and axis; -1: by dimension", -1, -1, 1000, NULL,
                    true},
     [EDGES] = {"edges", "planes through an edge and a vertex tried per cell where balance is due", 20, 0, 1000, NULL,
                true},
     [WEIGHT] = {"weight", "bits of information that outweigh one split", 0.1, 0, 100, NULL, false},
-    [HEIGHT] = {"height", "balanced cuts beyond this many times log2 n levels; 0: no rule", 2, 0, 1e9, NULL, false},
     [FREE] = {"free", "cut first with fragments that cross their cell", 1, 0, 1, no_yes, true},
     [SMALL] = {"small", "cells of at most so many segments in the plane are finished from a table of sides", 48, 0, 48,
                NULL, true},
@@ -269,6 +270,7 @@ const build_method build_method_density = {
              .dims = BUILD_DIMS_ALL,
              .kinds = BUILD_KINDS_ALL,
              .options = options},
+    .tunable = true,
     .resolve = resolve,
     .rooted = true,
     .build = build,

@@ -17,7 +17,7 @@
 #include "split/boxes.h"
 #include <math.h>
 
-enum { BOXES, DELTA, TRADE, BALANCE, SLACK, STRUCTURE };
+enum { BOXES, TRADE, BALANCE, SLACK, TUNING, DELTA, STRUCTURE };
 enum { AUTO, SWEEP, TREES };
 enum {
     CARVE_LEAST = 256,
@@ -29,12 +29,13 @@ static const char *const structures[] = {"auto", "sweep", "trees", NULL};
 static const froe_option_info options[] = {
     [BOXES] = {"boxes", "solid: cells end when no cut separates boxes; faces: when no face is left inside", 0, 0, 1,
                kinds, true},
-    [DELTA] = {"delta", "room beside a box, in sides of the box", 0.5, 0, 1e6, NULL, false},
     [TRADE] = {"trade", "boxes that may be divided for one room: more: better balanced", 2, 1, 64, NULL, true},
     [BALANCE] = {"balance",
                  "cuts that divide nothing come first if at least so balanced, as a share of the balance of others", 0,
                  0, 1, NULL, false},
     [SLACK] = {"slack", "share of the balance that is given up to divide less", 0.25, 0, 1, NULL, false},
+    [TUNING] = {0},
+    [DELTA] = {"delta", "room beside a box, in sides of the box", 0.5, 0, 1e6, NULL, false},
     [STRUCTURE] = {"structure", "how cuts are found; all find the same", AUTO, 0, 2, structures, true},
     {0},
 };
@@ -146,5 +147,6 @@ const build_method build_method_directional = {
              .dims = BUILD_DIMS_ALL,
              .kinds = 1u << FROE_POINT | 1u << FROE_BOX,
              .options = options},
+    .tunable = true,
     .build = build,
 };

@@ -18,7 +18,7 @@
 #include "base/status.h"
 #include "build/method.h"
 
-enum { EFFORT, HEIGHT, PEEL };
+enum { EFFORT, HEIGHT, TUNING, PEEL };
 enum { EFFORT_LOG = 2, EFFORT_MIN = 3, LOW = 2 };
 
 static const char *const efforts[] = {"fast", "default", "log", "min", NULL};
@@ -27,6 +27,7 @@ static const froe_option_info options[] = {
                 efforts, true},
     [HEIGHT] = {"height", "C: at most C log2 n + 2 levels, if cuts can be found; 0: no limit; -1: 2, with effort=min 5",
                 -1, -1, 1000, NULL, false},
+    [TUNING] = {0},
     [PEEL] = {"peel", "cells of so many pieces may take as many levels: fewer pieces", 0, 0, 1e9, NULL, true},
     {0},
 };
@@ -111,6 +112,7 @@ const build_method build_method_grain = {
              .dims = 1u << 2 | 1u << 3,
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON,
              .options = options},
+    .tunable = true,
     .resolve = resolve,
     .rooted = true,
     .build = build,

@@ -11,12 +11,13 @@
 #include "split/axial.h"
 #include <math.h>
 
-enum { LOAD, GROWTH };
+enum { GROWTH, TUNING, LOAD };
 #define LINES_MOST 0x1p30 /* on an axis */
 
 static const froe_option_info options[] = {
-    [LOAD] = {"load", "objects for each cell of the grid", 2, 0.001, 1e9, NULL, false},
     [GROWTH] = {"growth", "fragments per fragment at which a cell is cut along its objects", 4, 1, 1000, NULL, false},
+    [TUNING] = {0},
+    [LOAD] = {"load", "objects for each cell of the grid", 2, 0.001, 1e9, NULL, false},
     {0},
 };
 
@@ -102,5 +103,6 @@ const build_method build_method_grid = {
              .dims = BUILD_DIMS_ALL,
              .kinds = BUILD_KINDS_ALL,
              .options = options},
+    .tunable = true,
     .build = build,
 };

@@ -26,14 +26,15 @@
 #include <float.h>
 #include <math.h>
 
-enum { LOAD, LEAST, GROWTH, HEIGHT };
+enum { GROWTH, HEIGHT, TUNING, LOAD, LEAST };
 enum { BARREN = 2, LONELY = 3, AHEAD = 16 };
 
 static const froe_option_info options[] = {
-    [LOAD] = {"load", "objects in a cell of a grid of middle cuts, at most", 20, 1, 1e6, NULL, true},
-    [LEAST] = {"grid", "fragments from which a cell is cut by a grid", 256, 2, 1e9, NULL, true},
     [GROWTH] = {"growth", "fragments per fragment at which a cell is left as it is", 4, 1, 1000, NULL, false},
     [HEIGHT] = {"height", "medians beyond this many times log2 n levels, plus 16; 0: no rule", 2, 0, 1e9, NULL, false},
+    [TUNING] = {0},
+    [LOAD] = {"load", "objects in a cell of a grid of middle cuts, at most", 20, 1, 1e6, NULL, true},
+    [LEAST] = {"grid", "fragments from which a cell is cut by a grid", 256, 2, 1e9, NULL, true},
     {0},
 };
 
@@ -450,5 +451,6 @@ const build_method build_method_index = {
              .leaf = 24,
              .least_leaf = 1,
              .options = options},
+    .tunable = true,
     .build = build,
 };

@@ -12,7 +12,7 @@
 #include "split/axial.h"
 #include <math.h>
 
-enum { COST, AXES, GROWTH };
+enum { COST, GROWTH, TUNING, AXES };
 enum { MEDIAN, SURFACE };
 enum { WIDEST, CYCLE, FIRST };
 
@@ -20,9 +20,10 @@ static const char *const costs[] = {"median", "surface", NULL};
 static const char *const axes[] = {"widest", "cycle", "first", NULL};
 static const froe_option_info options[] = {
     [COST] = {"cost", "what a cut is to do: halve the objects, or save a search most", MEDIAN, 0, 1, costs, true},
+    [GROWTH] = {"growth", "fragments per fragment at which a cell is cut along its objects", 4, 1, 1000, NULL, false},
+    [TUNING] = {0},
     [AXES] = {"axes", "axis of a median: the widest, in turn, or the first that separates anything", WIDEST, 0, 2, axes,
               true},
-    [GROWTH] = {"growth", "fragments per fragment at which a cell is cut along its objects", 4, 1, 1000, NULL, false},
     {0},
 };
 
@@ -172,5 +173,6 @@ const build_method build_method_kd = {
              .dims = BUILD_DIMS_ALL,
              .kinds = BUILD_KINDS_ALL,
              .options = options},
+    .tunable = true,
     .build = build,
 };

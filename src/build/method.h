@@ -3,7 +3,7 @@
 #define FROE_BUILD_METHOD_H
 #include "split/grow.h"
 
-#define BUILD_OPTIONS 16 /* most options of a method */
+#define BUILD_OPTIONS 16 /* most options of a method, tuning and what stands between included */
 #define BUILD_DIMS_ALL 0x1fcu
 #define BUILD_KINDS_ALL 0x3fu
 
@@ -18,7 +18,7 @@ typedef struct build_job {
     const uint32_t *order;        /**< of all objects, or NULL */
     const froe_cut *root;         /**< the first cut, or NULL */
     num_stage first;              /**< where predicates start: NUM_FILTER, later ones for tests */
-    double option[BUILD_OPTIONS]; /**< values in the order of info.options */
+    double option[BUILD_OPTIONS]; /**< values in the order of info.options, tuning included */
     tree_meta meta;               /**< method, settings, seed, leaf are set; the builder adds promises and root */
 } build_job;
 
@@ -26,6 +26,7 @@ typedef struct build_method {
     froe_method_info info;
     /** Replaces "by dimension" values of options by what they mean for this scene; may be NULL. */
     void (*resolve)(const froe_scene *scene, uint32_t leaf, double *option);
+    bool tunable; /**< behind the end of info.options stands a second table: options_tuning() */
     bool ordered; /**< takes an order of the objects */
     bool rooted;  /**< takes a first cut */
     /** Builds the tree. The dispatcher has checked kinds, dims, leaf and option ranges. */

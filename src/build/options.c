@@ -21,8 +21,15 @@ static bool same(const char *name, const char *text, size_t length) {
     return strlen(name) == length && !strncmp(name, text, length);
 }
 
-static const froe_option_info *find(const build_method *method, const char *name, size_t length) {
-    for (const froe_option_info *o = method->info.options; o && o->name; o++)
+const froe_option_info *options_tuning(const build_method *method) {
+    const froe_option_info *o = method->info.options;
+    if (!method->tunable) return NULL;
+    while (o->name) o++;
+    return o + 1;
+}
+
+static const froe_option_info *find(const froe_option_info *table, const char *name, size_t length) {
+    for (const froe_option_info *o = table; o && o->name; o++)
         if (same(o->name, name, length)) return o;
     return NULL;
 }
@@ -59,14 +66,17 @@ static froe_status refuse_value(const froe_option_info *o, word w, froe_diagnost
                      o->whole ? "whole " : "", o->lo, o->hi);
 }
 
-froe_status options_parse(const build_method *method, const char *settings, double *value, froe_diagnostic *diag) {
-    const froe_option_info *options = method->info.options;
-    for (size_t i = 0; options && options[i].name; i++) value[i] = options[i].standard;
+froe_status options_parse(const build_method *method, const char *settings, bool tuned, double *value,
+                          froe_diagnostic *diag) {
+    const froe_option_info *options = method->info.options, *tuning = options_tuning(method);
+    for (const froe_option_info *o = options; o && o->name; o++) value[o - options] = o->standard;
+    for (const froe_option_info *o = tuning; o && o->name; o++) value[o - options] = o->standard;
     const char *at = settings ? settings : "";
     for (word w = next_word(&at); w.length; w = next_word(&at)) {
         const char *equal = memchr(w.text, '=', (size_t)w.length);
         size_t name = equal ? (size_t)(equal - w.text) : (size_t)w.length;
-        const froe_option_info *o = find(method, w.text, name);
+        const froe_option_info *o = find(options, w.text, name);
+        if (!o && tuned) o = find(tuning, w.text, name);
         if (!o)
             return base_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, (int)name,
                              w.text);

@@ -27,7 +27,7 @@ static froe_tree *build(froe_scene *scene, const char *settings) {
     froe_tree *tree = NULL;
     o.method = "bar";
     o.settings = settings;
-    if (froe_build(scene, &o, &tree, &diag)) fail_msg("%s: %s", settings ? settings : "", diag.message);
+    if (build_tuned(scene, &o, &tree, &diag)) fail_msg("%s: %s", settings ? settings : "", diag.message);
     return tree;
 }
 
@@ -459,7 +459,7 @@ static froe_status build_in(void *user, const froe_allocator *alloc) {
     o.settings = "stop=1 k=4";
     o.threads = 1;
     froe_status status = froe_generate(user, 24, 7, alloc, &scene, NULL);
-    if (!status) status = froe_build(scene, &o, &tree, NULL);
+    if (!status) status = build_tuned(scene, &o, &tree, NULL);
     froe_tree_free(tree);
     froe_scene_free(scene);
     return status;

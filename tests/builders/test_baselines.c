@@ -1,5 +1,6 @@
 /* test_baselines.c: kd, quad, grid, orthogonal paterson_yao, and autopartition on boxes: the cut of every node is the
  * one its rule names, found again by brute force; no scene makes them large. */
+#include "build/options.h"
 #include "tree/tree.h"
 #include <froe/io.h>
 #include <math.h>
@@ -37,7 +38,7 @@ static froe_tree *build(froe_scene *scene, const char *method, const char *setti
     o.method = method;
     o.settings = settings;
     o.leaf = leaf;
-    if (froe_build(scene, &o, &tree, &diag)) fail_msg("%s: %s", method, diag.message);
+    if (build_tuned(scene, &o, &tree, &diag)) fail_msg("%s: %s", method, diag.message);
     return tree;
 }
 

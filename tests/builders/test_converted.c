@@ -1,5 +1,6 @@
 /* test_converted.c: plans of endpoints, their homes and T-junctions, by brute force; what a converted tree owes to its
  * plan: size, height, cells met; balance along chords; every way to plan, on every kind of scene. */
+#include "build/options.h"
 #include "split/chord.h"
 #include "split/convert.h"
 #include "split/ham_sandwich.h"
@@ -34,7 +35,7 @@ static froe_status try_build(froe_scene *scene, const char *method, const char *
     o.settings = settings;
     o.leaf = leaf;
     o.threads = 1;
-    return froe_build(scene, &o, tree, diag);
+    return build_tuned(scene, &o, tree, diag);
 }
 
 static froe_tree *build(froe_scene *scene, const char *method, const char *settings, uint32_t leaf) {

@@ -1,5 +1,6 @@
 /* test_directional.c: cuts of boxes: sweeps and trees agree, rooms pay for what is divided, and nothing else matters
  * than the boxes. */
+#include "build/options.h"
 #include "split/boxes.h"
 #include "tree/tree.h"
 #include <float.h>
@@ -34,7 +35,7 @@ static froe_tree *build(froe_scene *scene, const char *settings, uint32_t leaf) 
     o.method = "directional";
     o.settings = settings;
     o.leaf = leaf;
-    if (froe_build(scene, &o, &tree, &diag)) fail_msg("%s", diag.message);
+    if (build_tuned(scene, &o, &tree, &diag)) fail_msg("%s", diag.message);
     return tree;
 }
 
@@ -328,7 +329,7 @@ static froe_status build_in(void *user, const froe_allocator *alloc) {
     o.settings = user;
     o.leaf = 1;
     froe_status status = froe_generate("debris-3d", 40, 7, alloc, &scene, NULL);
-    if (!status) status = froe_build(scene, &o, &tree, NULL);
+    if (!status) status = build_tuned(scene, &o, &tree, NULL);
     froe_tree_free(tree);
     froe_scene_free(scene);
     return status;

@@ -58,6 +58,10 @@ static bool has_option(const froe_method_info *method, const char *name) {
     return false;
 }
 
+static bool has_guard_stage(const froe_method_info *method) {
+    return !strcmp(method->name, "density") || !strcmp(method->name, "bar");
+}
+
 /** What a method needs to serve every scene. */
 static const char *plain_settings(const froe_method_info *method) {
     return has_option(method, "crossing") ? "crossing=split" : NULL;
@@ -65,7 +69,7 @@ static const char *plain_settings(const froe_method_info *method) {
 
 /** Small scenes must not slip by the guard stage of methods that have one. */
 static const char *settings_of(const froe_method_info *method) {
-    return has_option(method, "stop") ? "k=4 stop=1" : plain_settings(method);
+    return has_guard_stage(method) ? "k=4 stop=1" : plain_settings(method);
 }
 
 static froe_build_options options(const char *method, uint32_t leaf) {
@@ -81,7 +85,7 @@ static froe_build_options options(const char *method, uint32_t leaf) {
 static froe_tree *build(froe_scene *scene, const froe_build_options *o) {
     froe_diagnostic diag = {0};
     froe_tree *tree = NULL;
-    if (froe_build(scene, o, &tree, &diag)) fail_msg("%s: %s", o->method, diag.message);
+    if (build_tuned(scene, o, &tree, &diag)) fail_msg("%s: %s", o->method, diag.message);
     return tree;
 }
 
@@ -115,7 +119,7 @@ static void check_audit(froe_scene *scene, const froe_method_info *method, const
     for (size_t i = 0; i < (may_end_in_cuts(scene, method) ? 3 : 2) && !large; i++) {
         froe_build_options o = options(method->name, leaves[i]);
         for (int variant = 0; variant < 2; variant++) {
-            if (variant && !has_option(method, "stop")) break;
+            if (variant && !has_guard_stage(method)) break;
             if (variant) o.settings = settings_of(method);
             froe_tree *tree = build(scene, &o);
             audit(tree, name, leaves[i]);
@@ -150,7 +154,7 @@ static froe_status build_from_stage(froe_scene *scene, const build_method *metho
                      .max_fragments = BUDGET,
                      .first = first};
     *out = NULL;
-    assert_int_equal(options_parse(method, settings_of(&method->info), job.option, NULL), FROE_OK);
+    assert_int_equal(options_parse(method, settings_of(&method->info), true, job.option, NULL), FROE_OK);
     if (method->resolve) method->resolve(scene, 1, job.option);
     return method->build(&job, out);
 }
@@ -175,9 +179,9 @@ static void check_threads(froe_scene *scene, const froe_method_info *method, con
     froe_build_options o = options(method->name, 1);
     o.settings = settings_of(method);
     o.max_fragments = BUDGET; /* on scenes that need more, all numbers of threads refuse alike */
-    froe_status status = froe_build(scene, &o, &one, NULL);
+    froe_status status = build_tuned(scene, &o, &one, NULL);
     o.threads = 3;
-    assert_int_equal(froe_build(scene, &o, &three, NULL), status);
+    assert_int_equal(build_tuned(scene, &o, &three, NULL), status);
     if (!status) assert_same_tree(one, three);
     froe_tree_free(one);
     froe_tree_free(three);
@@ -189,11 +193,11 @@ static void check_budget(froe_scene *scene, const froe_method_info *method, cons
     uint64_t fragments = froe_tree_report(tree).fragments;
     (void)name;
     o.max_fragments = fragments;
-    assert_int_equal(froe_build(scene, &o, &again, NULL), FROE_OK);
+    assert_int_equal(build_tuned(scene, &o, &again, NULL), FROE_OK);
     froe_tree_free(again);
     again = NULL;
     o.max_fragments = fragments - 1;
-    if (o.max_fragments) assert_int_equal(froe_build(scene, &o, &again, NULL), FROE_E_BUDGET);
+    if (o.max_fragments) assert_int_equal(build_tuned(scene, &o, &again, NULL), FROE_E_BUDGET);
     assert_null(again);
     froe_tree_free(tree);
 }
@@ -211,7 +215,7 @@ static void check_cancel(froe_scene *scene, const froe_method_info *method, cons
         froe_build_options o = options(method->name, 1);
         o.progress = refuse;
         o.user = &left;
-        froe_status status = froe_build(scene, &o, &tree, NULL);
+        froe_status status = build_tuned(scene, &o, &tree, NULL);
         assert_true(status == FROE_E_CANCELLED || status == FROE_OK);
         if (calls == 1) assert_int_equal(status, FROE_E_CANCELLED);
         froe_tree_free(tree);
@@ -230,7 +234,7 @@ static froe_status build_in(void *user, const froe_allocator *alloc) {
     froe_build_options o = options(f->method, 1);
     if (!strcmp(f->method, "density")) o.settings = "k=4 stop=1";
     froe_status status = froe_generate(f->kind, 24, 7, alloc, &scene, NULL);
-    if (!status) status = froe_build(scene, &o, &tree, NULL);
+    if (!status) status = build_tuned(scene, &o, &tree, NULL);
     froe_tree_free(tree);
     froe_scene_free(scene);
     return status;
@@ -275,7 +279,7 @@ static void long_work_on_one_cell_can_be_cancelled(void **state) {
     o.settings = "stop=1000";
     o.progress = count_to_fifty;
     o.user = &calls;
-    assert_int_equal(froe_build(scene, &o, &tree, &diag), FROE_E_CANCELLED);
+    assert_int_equal(build_tuned(scene, &o, &tree, &diag), FROE_E_CANCELLED);
     assert_string_equal(diag.message, "cancelled");
     o.progress = NULL;
     tree = build(scene, &o);
@@ -309,7 +313,7 @@ static void every_cancelled_build_says_so(void **state) {
         o.progress = count_down;
         o.user = &calls;
         assert_int_equal(froe_generate("segments", MANY, 7, NULL, &scene, NULL), FROE_OK);
-        froe_status status = froe_build(scene, &o, &tree, &diag);
+        froe_status status = build_tuned(scene, &o, &tree, &diag);
         assert_int_equal(diag.status, status);
         assert_string_equal(diag.message, status ? "cancelled" : "");
         froe_tree_free(tree);
@@ -323,11 +327,11 @@ static void settings_have_decimal_points_in_any_locale(void **state) {
     for (size_t i = 0; i < sizeof locales / sizeof *locales; i++) {
         froe_scene *scene;
         froe_build_options o = options("density", 1);
-        o.settings = "weight=0.25";
+        o.settings = "growth=1.25";
         setlocale(LC_ALL, locales[i]); /* where it is not installed nothing changes */
         assert_int_equal(froe_generate("segments", OBJECTS, 7, NULL, &scene, NULL), FROE_OK);
         froe_tree *tree = build(scene, &o);
-        assert_non_null(strstr(froe_tree_report(tree).settings, "weight=0.25 "));
+        assert_non_null(strstr(froe_tree_report(tree).settings, "growth=1.25 "));
         froe_tree_free(tree);
         froe_scene_free(scene);
     }
@@ -376,7 +380,7 @@ static void a_long_build_of_few_objects_can_be_cancelled(void **state) {
         o.progress = refuse;
         o.user = &left;
         assert_int_equal(froe_generate(kinds[m % 2], m % 2 ? 900 : 200, 7, NULL, &scene, NULL), FROE_OK);
-        if (serves(method, scene)) assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_E_CANCELLED);
+        if (serves(method, scene)) assert_int_equal(build_tuned(scene, &o, &tree, NULL), FROE_E_CANCELLED);
         froe_scene_free(scene);
     }
 }

@@ -4,6 +4,7 @@
  *     test_conformance_hashes            compares; the lines that differ are printed, both ways
  *     test_conformance_hashes --write    prints the list as it is now: let it become hashes.txt, and say why it changed */
 #include "base/random.h"
+#include "build/options.h"
 #include <froe/io.h>
 #include <froe/kinetic.h>
 #include <froe/query.h>
@@ -198,11 +199,8 @@ static uint64_t hash_of_picture(const froe_tree *tree) {
 
 /** Methods that have a guard stage enter it, and those that refuse crossings are told to split. */
 static const char *settings_of(const froe_method_info *method) {
-    for (const froe_option_info *o = method->options; o && o->name; o++) {
-        if (!strcmp(o->name, "stop")) return "k=4 stop=1";
-        if (!strcmp(o->name, "crossing")) return "crossing=split";
-    }
-    return NULL;
+    if (!strcmp(method->name, "density") || !strcmp(method->name, "bar")) return "k=4 stop=1";
+    return strcmp(method->name, "cylindrical") ? NULL : "crossing=split";
 }
 
 static void check_scene(list *l, const froe_generator_info *kind, const froe_method_info *method, uint32_t leaf) {
@@ -216,7 +214,7 @@ static void check_scene(list *l, const froe_generator_info *kind, const froe_met
     o.threads = 1;
     o.max_fragments = 4000;
     if (froe_generate(kind->name, OBJECTS, 5, NULL, &scene, NULL)) abort();
-    const froe_status status = froe_build(scene, &o, &tree, NULL);
+    const froe_status status = build_tuned(scene, &o, &tree, NULL);
     if (status != FROE_E_UNSUPPORTED) {
         if (status) {
             snprintf(line, sizeof line, "%s %s %u status %d", kind->name, method->name, leaf, status);

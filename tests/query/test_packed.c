@@ -77,7 +77,7 @@ static froe_tree *tree_of(const kind_of_scene *k, bool grids) {
     froe_build_options o = froe_build_defaults();
     froe_diagnostic why;
     o.method = "index", o.leaf = k->leaf, o.settings = grids ? "grid=4 load=2" : NULL;
-    if (froe_build(scene, &o, &tree, &why)) fail_msg("%s: %s", k->name, why.message);
+    if (build_tuned(scene, &o, &tree, &why)) fail_msg("%s: %s", k->name, why.message);
     froe_scene_free(scene);
     assert_true(tree_is_packed(tree));
     assert_audited(tree, k->name);

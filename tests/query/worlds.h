@@ -34,7 +34,7 @@ static inline void world_build(world *w, const char *method, uint32_t leaf) {
     o.max_fragments = 40 * w->count + 40000;
     if (!strcmp(method, "density")) o.settings = "k=8 stop=1 growth=4";
     if (!strcmp(method, "cylindrical")) o.settings = "crossing=split";
-    froe_status status = froe_build(w->scene, &o, &tree, NULL);
+    froe_status status = build_tuned(w->scene, &o, &tree, NULL);
     if (status) {
         assert_true(status == FROE_E_UNSUPPORTED || status == FROE_E_OPTIONS || status == FROE_E_BUDGET);
         return;

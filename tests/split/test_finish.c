@@ -29,7 +29,7 @@ static froe_tree *build(froe_scene *scene, uint32_t leaf, const char *settings, 
     build_job job = {
         .scene = scene, .alloc = base_allocator(NULL), .task = &task, .leaf = leaf, .seed = 1, .first = first};
     job.meta.leaf = leaf;
-    assert_int_equal(options_parse(density, settings, job.option, NULL), FROE_OK);
+    assert_int_equal(options_parse(density, settings, true, job.option, NULL), FROE_OK);
     density->resolve(scene, leaf, job.option);
     assert_int_equal(density->build(&job, &tree), FROE_OK);
     return tree;

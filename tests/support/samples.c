@@ -1,5 +1,6 @@
 /* samples.c: see samples.h. */
 #include "support/samples.h"
+#include "build/options.h"
 #include "support/scatter.h"
 #include <froe/kinetic.h>
 #include <math.h>
@@ -103,7 +104,7 @@ static bool build(froe_scene *scene, const char *method, const char *name, sampl
     o.leaf = strcmp(method, "index") ? 1 : 3;
     if (!strcmp(method, "density")) o.settings = "k=4 stop=1 growth=4"; /* so that there is a guard stage */
     if (!strcmp(method, "cylindrical")) o.settings = "crossing=split";
-    const froe_status status = froe_build(scene, &o, &tree, NULL);
+    const froe_status status = build_tuned(scene, &o, &tree, NULL);
     if (status == FROE_E_UNSUPPORTED || status == FROE_E_OPTIONS) return true;
     need(status, method);
     const bool on = fn(user, method, name, tree);

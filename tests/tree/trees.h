@@ -1,6 +1,7 @@
 /* trees.h: small scenes and trees for the tests of this folder. */
 #ifndef FROE_TESTS_TREE_TREES_H
 #define FROE_TESTS_TREE_TREES_H
+#include "build/options.h"
 #include "support/memory.h"
 #include "support/scatter.h"
 #include "tree/draft.h"
@@ -23,7 +24,7 @@ static inline froe_tree *trees_build(froe_scene *scene, const char *method, uint
     o.leaf = leaf;
     o.threads = 1;
     if (!strcmp(method, "density")) o.settings = "k=8 stop=1 growth=4"; /* so that small scenes have a guard stage */
-    if (froe_build(scene, &o, &tree, &why) != FROE_OK) fail_msg("%s", why.message);
+    if (build_tuned(scene, &o, &tree, &why) != FROE_OK) fail_msg("%s", why.message);
     return tree;
 }
 
