@@ -19,23 +19,29 @@ static const cli_option options[] = {
      .min = 1, .max = UINT32_MAX},
     {"output", 'o', CLI_TEXT, offsetof(generate_args, output), "FILE",
      .help = ".geojson (plane), .csv (points, boxes, balls), .off or .obj (polygons), .mfjson (moving)"},
-    {"list", 0, CLI_FLAG, offsetof(generate_args, list), .help = "list the kinds"},
+    {"list", 0, CLI_FLAG, offsetof(generate_args, list), .help = "list the usual kinds; --list all: every kind"},
     {0},
 };
 
 static const cli_part parts[] = {{"Generate", options, 0}, {"Options", cli_common_options, 0}, {0}};
 
-static int list_kinds(const cli_common *common) {
+static void append_kind(json_t *kinds, const char *name, int dim, const char *kind, const char *summary) {
+    json_array_append_new(
+        kinds, json_pack("{s:s, s:i, s:s, s:s}", "name", name, "dim", dim, "kind", kind, "summary", summary));
+}
+
+static int list_kinds(const generate_args *args) {
     json_t *kinds = json_array();
+    const bool all = args->kind != NULL;
+    if (all && strcmp(args->kind, "all") != 0)
+        return cli_fail(CLI_USE, NULL, "--list takes no KIND but 'all', not '%s'", args->kind);
     const froe_generator_info *g;
     for (size_t i = 0; (g = froe_generator_at(i)) != NULL; i++)
-        json_array_append_new(kinds, json_pack("{s:s, s:i, s:s, s:s}", "name", g->name, "dim", g->dim, "kind",
-                                               froe_kind_name(g->kind), "summary", g->summary));
+        if (all || g->usual) append_kind(kinds, g->name, g->dim, froe_kind_name(g->kind), g->summary);
     const froe_motion_generator_info *moving;
     for (size_t i = 0; (moving = froe_motion_generator_at(i)) != NULL; i++)
-        json_array_append_new(kinds, json_pack("{s:s, s:i, s:s, s:s}", "name", moving->name, "dim", 2, "kind", "moving",
-                                               "summary", moving->summary));
-    return cli_report(common, NULL, json_pack("{s:o}", "kinds", kinds));
+        if (all || moving->usual) append_kind(kinds, moving->name, 2, "moving", moving->summary);
+    return cli_report(&args->common, NULL, json_pack("{s:o}", "kinds", kinds));
 }
 
 static int check_kind(const char *kind) {
@@ -54,7 +60,7 @@ static int check_kind(const char *kind) {
     }
     const char *hint = cli_nearest(kind, names, count);
     if (hint) return cli_fail(CLI_USE, NULL, "unknown kind '%s'; did you mean '%s'?", kind, hint);
-    return cli_fail(CLI_USE, NULL, "unknown kind '%s'; froe generate --list tells what there is", kind);
+    return cli_fail(CLI_USE, NULL, "unknown kind '%s'; froe generate --list all tells what there is", kind);
 }
 
 static bool is_moving(const char *kind) {
@@ -97,7 +103,7 @@ static int generate(const generate_args *args) {
 
 static int run(const void *given) {
     const generate_args *args = given;
-    if (args->list) return list_kinds(&args->common);
+    if (args->list) return list_kinds(args);
     if (!args->kind) return cli_fail(CLI_USE, NULL, "KIND is missing; froe generate --list tells what there is");
     const int code = check_kind(args->kind);
     if (code) return code;

@@ -170,12 +170,12 @@ typedef struct generator {
 } generator;
 
 static const generator generators[] = {
-    {{"moving", "short segments in the unit square, straight from place to place"}, make_linear},
-    {{"moving-quadratic", "the same on parabolas"}, make_quadratic},
-    {{"moving-lattice", "whole coordinates at whole times: much happens at once"}, make_lattice},
-    {{"moving-rigid", "two fields of segments that pass through one another"}, make_rigid},
-    {{"moving-spin", "segments that turn and drift, on parabolas"}, make_spin},
-    {{"moving-polygons", "polygons that go straight and change their shape"}, make_polygons},
+    {{"moving", "short segments in the unit square, straight from place to place", false}, make_linear},
+    {{"moving-quadratic", "the same on parabolas", false}, make_quadratic},
+    {{"moving-lattice", "whole coordinates at whole times: much happens at once", false}, make_lattice},
+    {{"moving-rigid", "two fields of segments that pass through one another", false}, make_rigid},
+    {{"moving-spin", "segments that turn and drift, on parabolas", false}, make_spin},
+    {{"moving-polygons", "polygons that go straight and change their shape", true}, make_polygons},
 };
 enum { GENERATORS = sizeof generators / sizeof *generators };
 

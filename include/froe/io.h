@@ -198,6 +198,7 @@ typedef struct froe_generator_info {
     int dim;             /**< of the scene */
     froe_kind kind;      /**< of its objects */
     const char *summary; /**< one line */
+    bool usual;          /**< what users ask for; the others are for tests and benches */
 } froe_generator_info;
 /** The i-th kind; NULL past the last. */
 FROE_API const froe_generator_info *froe_generator_at(size_t i);
@@ -213,6 +214,7 @@ FROE_API froe_status froe_generate(const char *kind, size_t n, uint64_t seed, co
 typedef struct froe_motion_generator_info {
     const char *name;    /**< e.g. "moving" */
     const char *summary; /**< one line */
+    bool usual;          /**< as of froe_generator_info */
 } froe_motion_generator_info;
 /** The i-th kind; NULL past the last. */
 FROE_API const froe_motion_generator_info *froe_motion_generator_at(size_t i);
