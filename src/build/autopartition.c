@@ -23,11 +23,11 @@ static const froe_option_info options[] = {
     {0},
 };
 
-static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+static split_verdict choose_support(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     return split_refine_choose(config, work, cell, cut);
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_autopartition(build_job *job, froe_tree **out) {
     split_refine refine = {.leaf = job->leaf,
                            .seed = job->seed,
                            .supports = (uint32_t)job->option[CANDIDATES],
@@ -35,8 +35,10 @@ static froe_status build(build_job *job, froe_tree **out) {
                            .weight = job->option[WEIGHT],
                            .free_cuts = job->option[FREE] != 0,
                            .facets = true};
-    split_method method = {
-        .config = &refine, .choose = choose, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
+    split_method method = {.config = &refine,
+                           .choose = choose_support,
+                           .scratch_new = split_scratch_new,
+                           .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
     const double most = job->scene->object_count + build_levels_given(job); /* each other cut on a path consumes one */
     build_promise(job, "height", most, 0);
@@ -53,5 +55,5 @@ const build_method build_method_autopartition = {
              .options = options},
     .tunable = true,
     .rooted = true,
-    .build = build,
+    .build = build_autopartition,
 };

@@ -99,7 +99,7 @@ static bool has_keys(const froe_scene *scene) {
     return most == 0 || (most >= SMALLEST && most <= LARGEST);
 }
 
-static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
+static void resolve_bar(const froe_scene *scene, uint32_t leaf, double *option) {
     const bool points = points_only(scene);
     (void)leaf;
     if (option[DIRECTIONS] < 0) option[DIRECTIONS] = scene->dim > 3 || !has_keys(scene) ? 0 : scene->dim == 2 ? 4 : 7;
@@ -112,7 +112,7 @@ static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
 /* ------------------------------------------------------------ guards of a cell -- */
 
 /** Is the point strictly between all facets? */
-static bool inside(const bar_rule *rule, const bar_region *region, const double *keys) {
+static bool is_inside_region(const bar_rule *rule, const bar_region *region, const double *keys) {
     for (int i = 0; i < rule->directions.count; i++)
         if (!(keys[i] > region->lo[i] && keys[i] < region->hi[i])) return false;
     return true;
@@ -130,13 +130,13 @@ static bool add_guards(const bar *b, const froe_allocator *alloc, bar_search *s,
     for (uint32_t j = 0; j < count; j++) {
         keys = s->keys.data + s->keys.count;
         for (int i = 0; i < g; i++) keys[i] = split_key(&b->rule.directions, i, guards + j * (size_t)dim);
-        if (point || inside(&b->rule, region, keys)) s->keys.count += (size_t)g;
+        if (point || is_inside_region(&b->rule, region, keys)) s->keys.count += (size_t)g;
     }
     return true;
 }
 
 /** The keys of all guards inside, or of those of a sample of the objects. */
-static bool gather(const bar *b, const split_work *work, const split_cell *cell, const bar_region *region) {
+static bool gather_guards(const bar *b, const split_work *work, const split_cell *cell, const bar_region *region) {
     bar_scratch *scratch = work->scratch;
     bar_search *s = &scratch->search;
     const split_set *set = &work->set;
@@ -193,7 +193,7 @@ static void note_aspect(bar_notes *notes, const bar_candidate *c) {
 static froe_status plan_bar(const bar *b, const split_work *work, const split_cell *cell, const bar_region *region,
                             bar_scratch *s) {
     bar_candidate c;
-    if (!gather(b, work, cell, region)) return FROE_E_MEMORY;
+    if (!gather_guards(b, work, cell, region)) return FROE_E_MEMORY;
     if (s->count <= b->k) return FROE_OK;
     const bool old = region->goal && s->count > region->goal;
     s->target = old ? region->goal : floor(b->share * s->count);
@@ -234,7 +234,7 @@ static froe_status plan(const bar *b, const split_work *work, const split_cell *
     return status;
 }
 
-static froe_status finish(const void *config, split_work *work, const split_cell *cell, bool *done) {
+static froe_status finish_bar_cell(const void *config, split_work *work, const split_cell *cell, bool *done) {
     const bar_scratch *s = work->scratch;
     const bar *b = config;
     if (cell->count >= LONG && !split_go_on(work)) return FROE_E_CANCELLED;
@@ -242,7 +242,7 @@ static froe_status finish(const void *config, split_work *work, const split_cell
     return status || s->planned ? status : split_finish(&b->refine, work, cell, done);
 }
 
-static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+static split_verdict choose_bar_cut(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const bar_scratch *s = work->scratch;
     if (!s->planned) return split_refine_choose(&((const bar *)config)->refine, work, cell, cut);
     *cut = s->cut;
@@ -296,7 +296,7 @@ static double most_height(double share, uint32_t points, uint32_t leaf) {
     return height;
 }
 
-static void note(const void *config) {
+static void note_bar(const void *config) {
     const bar *b = config;
     build_job *job = b->job;
     if (job->option[GROWTH] > 0 && !b->points)
@@ -338,7 +338,7 @@ static froe_status refuse_directions(build_job *job) {
 }
 
 /** What does not depend on objects one by one. */
-static froe_status begin(bar *b) {
+static froe_status prepare_bar(bar *b) {
     build_job *job = b->job;
     const int asked = (int)job->option[DIRECTIONS];
     b->points = points_only(job->scene);
@@ -356,23 +356,23 @@ static froe_status begin(bar *b) {
     return FROE_OK;
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_bar(build_job *job, froe_tree **out) {
     bar_notes notes = {0};
     bar b = {.job = job,
              .notes = &notes,
              .refine = split_axial_of(job->scene, job->leaf, job->seed, 1).refine}; /* as density's last stage */
     b.refine.small = FINISH_MOST;
     const size_t bytes = ((size_t)job->scene->object_count + 1) * sizeof *b.originals;
-    froe_status status = begin(&b);
+    froe_status status = prepare_bar(&b);
     if (status) return status;
     b.originals = base_realloc(&job->alloc, NULL, 0, bytes);
     if (!b.originals) return base_fail_memory(job->diag);
     status = scene_originals(job->scene, &job->alloc, b.originals);
     split_method method = {.config = &b,
-                           .choose = choose,
-                           .finish = finish,
+                           .choose = choose_bar_cut,
+                           .finish = finish_bar_cell,
                            .divided = divided,
-                           .note = note,
+                           .note = note_bar,
                            .scratch_new = scratch_new,
                            .scratch_free = scratch_free};
     split_job split = build_split_job(job);
@@ -390,6 +390,6 @@ const build_method build_method_bar = {
              .kinds = BUILD_KINDS_ALL,
              .options = options},
     .tunable = true,
-    .resolve = resolve,
-    .build = build,
+    .resolve = resolve_bar,
+    .build = build_bar,
 };

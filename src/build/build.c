@@ -180,8 +180,8 @@ static froe_status prepare_in_any_locale(const froe_build_options *o, const buil
     return status;
 }
 
-static froe_status build(froe_scene *scene, const froe_build_options *options, bool tuned, const froe_cut *root,
-                         froe_tree **out, froe_diagnostic *diag) {
+static froe_status build_by_method(froe_scene *scene, const froe_build_options *options, bool tuned,
+                                   const froe_cut *root, froe_tree **out, froe_diagnostic *diag) {
     const build_method *method;
     base_task task;
     if (!scene || !out) return base_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
@@ -207,12 +207,12 @@ static froe_status build(froe_scene *scene, const froe_build_options *options, b
 
 froe_status froe_build(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    return build(scene, options, false, NULL, out, diag);
+    return build_by_method(scene, options, false, NULL, out, diag);
 }
 
 froe_status build_tuned(froe_scene *scene, const froe_build_options *options, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    return build(scene, options, true, NULL, out, diag);
+    return build_by_method(scene, options, true, NULL, out, diag);
 }
 
 /** A plane of doubles, as a cut. */
@@ -242,5 +242,5 @@ froe_status froe_tree_section(const froe_tree *tree, const double *plane, const 
     o.settings = tree->meta.settings;
     o.leaf = tree->meta.leaf;
     o.seed = tree->meta.seed;
-    return build(tree->scene, &o, false, &root, out, diag);
+    return build_by_method(tree->scene, &o, false, &root, out, diag);
 }

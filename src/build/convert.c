@@ -19,7 +19,7 @@ typedef struct converter {
 
 /* ------------------------------------------------------------------ a method -- */
 
-static bool tell(void *user, double done) {
+static bool tell_share(void *user, double done) {
     BASE_FLOATS_OWN;
     base_task *task = user;
     return base_progress(task, task->done + 0.2 * done * (1 - task->done));
@@ -43,7 +43,7 @@ static froe_status partition(converter *c, const convert_plan *plan) {
     o.leaf = 1;
     o.seed = c->job->seed;
     o.threads = c->job->task->threads;
-    o.progress = tell;
+    o.progress = tell_share;
     o.user = c->job->task;
     return build_tuned(c->points, &o, &c->tree, c->job->diag);
 }

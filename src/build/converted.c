@@ -22,7 +22,7 @@ static const froe_option_info options[] = {
     {0},
 };
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_by_conversion(build_job *job, froe_tree **out) {
     convert_plan plan = plans[(int)job->option[FROM]];
     plan.prune = job->option[PRUNE] != 0;
     return build_converted(job, &plan, out);
@@ -37,5 +37,5 @@ const build_method build_method_converted = {
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT,
              .options = options},
     .tunable = true,
-    .build = build,
+    .build = build_by_conversion,
 };

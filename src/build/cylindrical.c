@@ -25,7 +25,7 @@ static const froe_option_info options[] = {
     {0},
 };
 
-static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
+static void resolve_cylindrical(const froe_scene *scene, uint32_t leaf, double *option) {
     (void)leaf;
     if (option[HEIGHT] < 0) option[HEIGHT] = scene->dim == 2 ? 6 : 10;
 }
@@ -60,8 +60,8 @@ static const uint32_t *draw_order(const build_job *job, draw *d, uint32_t attemp
 }
 
 /** Grows the tree to a given height at most (0: any). *too_deep: that was too little. */
-static froe_status grow(build_job *job, const uint32_t *order, uint32_t deepest, bool *too_deep, froe_diagnostic *why,
-                        froe_tree **out) {
+static froe_status grow_cylindrical(build_job *job, const uint32_t *order, uint32_t deepest, bool *too_deep,
+                                    froe_diagnostic *why, froe_tree **out) {
     atomic_bool deep;
     atomic_init(&deep, false);
     split_cylinder cylinder = {
@@ -88,13 +88,13 @@ static froe_status attempts(build_job *job, draw *d, froe_diagnostic *why, froe_
     froe_status status = FROE_OK;
     build_promise(job, "height", height, 0);
     for (uint32_t i = 0; i < draws && too_deep; i++)
-        status = grow(job, draw_order(job, d, i), (uint32_t)height, &too_deep, why, out);
+        status = grow_cylindrical(job, draw_order(job, d, i), (uint32_t)height, &too_deep, why, out);
     if (!too_deep) return status;
     *promised = any_height(job->scene);
-    return grow(job, draw_order(job, d, 0), 0, &too_deep, why, out);
+    return grow_cylindrical(job, draw_order(job, d, 0), 0, &too_deep, why, out);
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_cylindrical(build_job *job, froe_tree **out) {
     draw d = {NULL, NULL};
     froe_diagnostic why = {0};
     froe_status status = draw_new(job, &d);
@@ -114,7 +114,7 @@ const build_method build_method_cylindrical = {
              .dims = 1u << 2 | 1u << 3,
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON,
              .options = options},
-    .resolve = resolve,
+    .resolve = resolve_cylindrical,
     .ordered = true,
-    .build = build,
+    .build = build_cylindrical,
 };

@@ -74,7 +74,7 @@ typedef struct density {
 } density;
 
 /** In the plane axis-parallel cuts never beat the lines of segments; other kinds need them. */
-static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
+static void resolve_density(const froe_scene *scene, uint32_t leaf, double *option) {
     bool plane = scene->dim == 2, segments = plane;
     for (uint32_t i = 0; i < scene->object_count && segments; i++) segments = scene_form(scene, i) == FROE_SEGMENT;
     if (option[K] < 0) option[K] = plane ? 256 : 16;
@@ -94,12 +94,12 @@ static bool in_guard_stage(const void *config, const split_cell *cell) {
     return d->growth <= 0 || cell->growth < d->growth;
 }
 
-static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+static split_verdict choose_density_cut(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const density *d = config;
     return split_refine_choose(&d->refine, work, cell, cut);
 }
 
-static froe_status finish(const void *config, split_work *work, const split_cell *cell, bool *done) {
+static froe_status finish_density_cell(const void *config, split_work *work, const split_cell *cell, bool *done) {
     const density *d = config;
     return split_finish(&d->refine, work, cell, done);
 }
@@ -132,7 +132,7 @@ typedef struct guard_stage {
     split_homes homes;
 } guard_stage;
 
-static froe_status explain(const guard_stage *g, froe_status status) {
+static froe_status explain_guard_stage(const guard_stage *g, froe_status status) {
     if (status == FROE_E_LIMIT) return base_fail(g->job->diag, status, "more than 2^31 guards or fragments");
     if (status == FROE_E_CANCELLED) return base_fail(g->job->diag, status, "cancelled");
     return status ? base_fail_memory(g->job->diag) : FROE_OK;
@@ -145,7 +145,7 @@ static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
     split_homes_free(&g->job->alloc, &g->homes);
     froe_status status = split_guard_tree_of(&g->job->alloc, g->job->task, span, &o, &g->places, &g->tree);
     if (!status) status = split_homes_make(&g->job->alloc, g->job->task, &g->places, &g->tree, &g->homes);
-    return explain(g, status);
+    return explain_guard_stage(g, status);
 }
 
 /** A job for the shared loop with this guard tree. */
@@ -158,7 +158,7 @@ static split_job guard_job(const guard_stage *g) {
 
 /** Carries the objects down the guard tree without building anything. FROE_E_BUDGET: a load above `most`, which
  * is no failure yet, so it gets no sentence. */
-static froe_status measure(guard_stage *g, uint32_t most, loads *out) {
+static froe_status measure_loads(guard_stage *g, uint32_t most, loads *out) {
     out->leaves = out->fragments = out->squares = 0;
     out->largest = 0;
     out->most = most;
@@ -169,7 +169,7 @@ static froe_status measure(guard_stage *g, uint32_t most, loads *out) {
     split.span *= 0.1;
     split.diag = NULL;
     froe_status status = split_grow(&split, &method, NULL);
-    return status == FROE_E_BUDGET ? status : explain(g, status);
+    return status == FROE_E_BUDGET ? status : explain_guard_stage(g, status);
 }
 
 /** Sacks' loop, made safe: a round is given up at the first leaf above (1 + c_d) lambda objects, so that it
@@ -180,7 +180,7 @@ static froe_status by_doubling(guard_stage *g) {
     for (uint64_t lambda = 2;; lambda *= 2) {
         froe_status status = make_tree(g, (uint32_t)lambda, 0);
         uint64_t most = (1 + (uint64_t)g->tree.cell_load) * lambda;
-        if (!status) status = measure(g, most > n ? n : (uint32_t)most, &l);
+        if (!status) status = measure_loads(g, most > n ? n : (uint32_t)most, &l);
         if (!status) build_promise(g->job, "guard_load", (double)most, (double)l.largest);
         if (status != FROE_E_BUDGET) return status;
     }
@@ -193,7 +193,7 @@ static froe_status by_cost(guard_stage *g) {
     for (uint32_t k = 2; k <= 256; k *= 2) {
         loads l;
         froe_status status = make_tree(g, k, 0);
-        if (!status) status = measure(g, UINT32_MAX, &l);
+        if (!status) status = measure_loads(g, UINT32_MAX, &l);
         if (status) return status;
         double cost = (double)l.leaves + 2 * (double)l.fragments + 0.25 * (double)l.squares;
         if (k == 2 || cost < least) least = cost, best = k;
@@ -204,7 +204,7 @@ static froe_status by_cost(guard_stage *g) {
 static froe_status find_k(guard_stage *g) {
     int mode = (int)g->job->option[MODE];
     froe_status status = split_places_make(&g->job->alloc, g->job->task, g->job->scene, &g->places);
-    if (status) return explain(g, status);
+    if (status) return explain_guard_stage(g, status);
     if (mode == MODE_DOUBLING) return by_doubling(g);
     if (mode == MODE_TUNED) return by_cost(g);
     return make_tree(g, (uint32_t)g->job->option[K], 0.12);
@@ -239,7 +239,7 @@ static double *promise(build_job *job, const split_guard_tree *guard) {
     return &job->meta.promises[job->meta.promise_count - 1].measured;
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_density(build_job *job, froe_tree **out) {
     guard_stage g = {.job = job};
     froe_status status = find_k(&g);
     if (!status) {
@@ -247,8 +247,8 @@ static froe_status build(build_job *job, froe_tree **out) {
         d.growth = (float)job->option[GROWTH];
         d.patience = 2 * (uint32_t)job->scene->dim;
         split_method method = {.config = &d,
-                               .choose = choose,
-                               .finish = finish,
+                               .choose = choose_density_cut,
+                               .finish = finish_density_cell,
                                .in_guard_stage = in_guard_stage,
                                .scratch_new = split_scratch_new,
                                .scratch_free = split_scratch_free};
@@ -271,7 +271,7 @@ const build_method build_method_density = {
              .kinds = BUILD_KINDS_ALL,
              .options = options},
     .tunable = true,
-    .resolve = resolve,
+    .resolve = resolve_density,
     .rooted = true,
-    .build = build,
+    .build = build_density,
 };

@@ -41,7 +41,7 @@ static const froe_option_info options[] = {
 };
 
 /** All objects along a curve: fragments that meet in cells lie near each other in memory. */
-static void order(const froe_scene *scene, base_pair *pairs, uint32_t *objects) {
+static void order_boxes(const froe_scene *scene, base_pair *pairs, uint32_t *objects) {
     uint32_t n = scene->object_count;
     for (uint32_t i = 0; i < n; i++) {
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -52,13 +52,13 @@ static void order(const froe_scene *scene, base_pair *pairs, uint32_t *objects) 
     for (uint32_t i = 0; i < n; i++) objects[i] = pairs[i].value;
 }
 
-static froe_status begin(build_job *job, boxes *b) {
+static froe_status prepare_boxes(build_job *job, boxes *b) {
     uint32_t n = job->scene->object_count;
     boxes_cell root = {.cover = FROE_NONE};
     for (int k = 0; k < b->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
     uint32_t *objects = base_calloc(&job->alloc, n, sizeof *objects);
     base_pair *pairs = base_calloc(&job->alloc, 2 * (size_t)n, sizeof *pairs);
-    if (objects && pairs && n) order(job->scene, pairs, objects);
+    if (objects && pairs && n) order_boxes(job->scene, pairs, objects);
     froe_status status = objects && pairs ? FROE_OK : FROE_E_MEMORY;
     base_free(&job->alloc, pairs, n ? 2 * (size_t)n * sizeof *pairs : 1);
     if (!status) status = boxes_open(b, root, objects, n);
@@ -72,7 +72,7 @@ static froe_status check_budget(const build_job *job, const boxes *b, uint64_t m
 }
 
 /** Lists what is in the cell: its fragments, and the boxes that cover it. */
-static froe_status end_leaf(const build_job *job, boxes *b, const boxes_cell *cell) {
+static froe_status end_box_leaf(const build_job *job, boxes *b, const boxes_cell *cell) {
     uint32_t load = cell->count + cell->covers;
     froe_status status = check_budget(job, b, cell->covers);
     b->covered += cell->covers;
@@ -93,22 +93,22 @@ static bool worth_trees(const build_job *job, const boxes_cell *cell, const boxe
     return cell->count >= CARVE_LEAST && less + cut->divided < cell->count / CARVE_SHARE;
 }
 
-static froe_status do_cell(const build_job *job, boxes *b, const boxes_cell *cell) {
+static froe_status do_box_cell(const build_job *job, boxes *b, const boxes_cell *cell) {
     uint32_t load = cell->count + cell->covers;
-    if (!cell->count || (!b->options.faces && load <= job->leaf)) return end_leaf(job, b, cell);
+    if (!cell->count || (!b->options.faces && load <= job->leaf)) return end_box_leaf(job, b, cell);
     boxes_cut cut = boxes_sweep(b, cell);
-    if (!cut.found) return end_leaf(job, b, cell);
+    if (!cut.found) return end_box_leaf(job, b, cell);
     froe_status status = worth_trees(job, cell, &cut) ? boxes_carve(b, cell, job->task) : boxes_divide(b, cell, &cut);
     return status ? status : check_budget(job, b, 0);
 }
 
 /** All cells; the progress shown is the share of boxes that are in leaves. */
-static froe_status do_cells(const build_job *job, boxes *b) {
+static froe_status do_box_cells(const build_job *job, boxes *b) {
     double n = job->scene->object_count, from = job->task->done, left;
     froe_status status = FROE_OK;
     for (uint32_t turn = 0; b->cells.count && !status; turn++) {
         boxes_cell cell = b->cells.data[--b->cells.count];
-        status = do_cell(job, b, &cell);
+        status = do_box_cell(job, b, &cell);
         if (status || turn % 256) continue;
         left = (double)b->fragments.count < n ? (double)b->fragments.count / n : 1;
         if (!base_progress(job->task, from + 0.9 * (1 - left) * (1 - from))) status = FROE_E_CANCELLED;
@@ -116,7 +116,7 @@ static froe_status do_cells(const build_job *job, boxes *b) {
     return status;
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_directional(build_job *job, froe_tree **out) {
     boxes b = {.dim = 0};
     uint32_t trade = (uint32_t)job->option[TRADE], n = job->scene->object_count;
     boxes_options how = {.delta = job->option[DELTA],
@@ -129,8 +129,8 @@ static froe_status build(build_job *job, froe_tree **out) {
     if (!status && n && bound == 0)
         status = base_fail(job->diag, FROE_E_OPTIONS, "option 'trade': %u is too much in dimension %d", trade, b.dim);
     else {
-        if (!status) status = begin(job, &b);
-        if (!status) status = do_cells(job, &b);
+        if (!status) status = prepare_boxes(job, &b);
+        if (!status) status = do_box_cells(job, &b);
         build_promise(job, "fragments", bound + (double)b.paid + (double)b.covered, 0);
         if (!status) status = draft_seal(&b.draft, NULL, 0, job->scene, &job->meta, out);
         status = split_explain(job->diag, job->max_fragments, status);
@@ -148,5 +148,5 @@ const build_method build_method_directional = {
              .kinds = 1u << FROE_POINT | 1u << FROE_BOX,
              .options = options},
     .tunable = true,
-    .build = build,
+    .build = build_directional,
 };

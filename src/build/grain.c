@@ -39,7 +39,7 @@ static const split_effort presets[] = {
     {.supports = 40, .starts = 64, .turns = 20, .sample = 8192, .again = true},
 };
 
-static void resolve(const froe_scene *scene, uint32_t leaf, double *option) {
+static void resolve_grain(const froe_scene *scene, uint32_t leaf, double *option) {
     (void)scene;
     (void)leaf;
     if (option[HEIGHT] < 0) option[HEIGHT] = option[EFFORT] == EFFORT_MIN ? 5 : LOW;
@@ -56,7 +56,7 @@ static double promised_height(const build_job *job, const split_grain *grain) {
 }
 
 /** A tree of at most C log2 n + 2 levels, if cuts can be found. */
-static froe_status grow(build_job *job, const split_job *split, int effort, double c, froe_tree **out) {
+static froe_status grow_grain(build_job *job, const split_job *split, int effort, double c, froe_tree **out) {
     split_grain_notes notes = {0, false};
     split_grain grain = {.leaf = job->leaf,
                          .seed = job->seed,
@@ -81,12 +81,12 @@ static froe_status grow_two(build_job *job, froe_tree **out) {
     froe_tree *low = NULL;
     split.diag = NULL;
     split.span *= 0.5;
-    froe_status status = grow(job, &split, EFFORT_LOG, LOW, &low);
+    froe_status status = grow_grain(job, &split, EFFORT_LOG, LOW, &low);
     const size_t pieces = status ? 0 : froe_tree_piece_count(low);
     const bool fewest = !status && pieces <= job->scene->object_count;
     if (!fewest && (!status || status == FROE_E_BUDGET)) {
         if (pieces) split.max_fragments = pieces - 1;
-        status = grow(job, &split, EFFORT_MIN, job->option[HEIGHT], out);
+        status = grow_grain(job, &split, EFFORT_MIN, job->option[HEIGHT], out);
     }
     if (fewest || (pieces && status == FROE_E_BUDGET)) {
         *out = low;
@@ -96,12 +96,12 @@ static froe_status grow_two(build_job *job, froe_tree **out) {
     return split_explain(job->diag, job->max_fragments, status);
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_grain(build_job *job, froe_tree **out) {
     const double c = job->option[HEIGHT];
     const split_job split = build_split_job(job);
     build_promise(job, "height", 0, 0); /* renewed once it is known */
     if (job->option[EFFORT] == EFFORT_MIN && (c == 0 || c > LOW)) return grow_two(job, out);
-    return grow(job, &split, (int)job->option[EFFORT], c, out);
+    return grow_grain(job, &split, (int)job->option[EFFORT], c, out);
 }
 
 const build_method build_method_grain = {
@@ -113,7 +113,7 @@ const build_method build_method_grain = {
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON,
              .options = options},
     .tunable = true,
-    .resolve = resolve,
+    .resolve = resolve_grain,
     .rooted = true,
-    .build = build,
+    .build = build_grain,
 };

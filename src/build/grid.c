@@ -70,7 +70,7 @@ static void lines_in(const grid *g, int k, double from, double to, double *first
     for (int i = 0; i < 3 && *first <= *last && line(g, k, *last) > to; i++) --*last;
 }
 
-static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+static split_verdict choose_grid_line(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const grid *g = config;
     double most = 0;
     if (split_axial_over(&g->axial, cell)) return split_refine_choose(&g->axial.refine, work, cell, cut);
@@ -85,10 +85,10 @@ static split_verdict choose(const void *config, split_work *work, const split_ce
     return most > 0 ? SPLIT_CUT : split_refine_choose(&g->axial.refine, work, cell, cut);
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_grid(build_job *job, froe_tree **out) {
     grid g = {.axial = split_axial_of(job->scene, job->leaf, job->seed, job->option[GROWTH])};
     split_method method = {
-        .config = &g, .choose = choose, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
+        .config = &g, .choose = choose_grid_line, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
     if (job->scene->object_count) lay(&g, job->scene, job->scene->object_count / job->option[LOAD]);
     build_promise(job, "height", job->scene->object_count, 0); /* each cut leaves less on both sides */
@@ -104,5 +104,5 @@ const build_method build_method_grid = {
              .kinds = BUILD_KINDS_ALL,
              .options = options},
     .tunable = true,
-    .build = build,
+    .build = build_grid,
 };

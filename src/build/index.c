@@ -92,7 +92,7 @@ static bool taken(const index_work *w, size_t from, uint32_t object) {
 }
 
 /* The fragments of a node of the grid. */
-static froe_status gather(index_work *w, index_cell *cell) {
+static froe_status gather_fragments(index_work *w, index_cell *cell) {
     const split_grid *g = w->grids.data + w->grids.count - 1;
     uint32_t from = grid_first(g, cell->heap), to = grid_end(g, cell->heap);
     bool many = grid_level(cell->heap) < g->levels;
@@ -109,7 +109,7 @@ static froe_status gather(index_work *w, index_cell *cell) {
     return FROE_OK;
 }
 
-static froe_status end_leaf(index_work *w, const index_cell *cell) {
+static froe_status end_packed_leaf(index_work *w, const index_cell *cell) {
     uint64_t most = w->job->max_fragments;
     uint8_t flags = cell->count > w->job->leaf ? TREE_CROWDED : 0;
     const packed_fragment *fragments = w->items.data + cell->first;
@@ -121,7 +121,7 @@ static froe_status end_leaf(index_work *w, const index_cell *cell) {
 /* --------------------------------------------------------------- one cut -- */
 
 /* Splits the node; the cells of both sides, without contents. */
-static froe_status split(index_work *w, const index_cell *cell, int axis, double value, index_cell side[2]) {
+static froe_status split_index_node(index_work *w, const index_cell *cell, int axis, double value, index_cell side[2]) {
     uint32_t child;
     froe_status status = packer_split(&w->packer, cell->node, axis, value, &child);
     for (uint32_t i = 0; i < 2 && !status; i++) {
@@ -134,7 +134,7 @@ static froe_status split(index_work *w, const index_cell *cell, int axis, double
 }
 
 /* The negative child last, so that it comes first. */
-static froe_status push(index_work *w, const index_cell side[2]) {
+static froe_status push_index_cells(index_work *w, const index_cell side[2]) {
     bool room = array_push(&w->job->alloc, &w->cells, side[1]) && array_push(&w->job->alloc, &w->cells, side[0]);
     return room ? FROE_OK : FROE_E_MEMORY;
 }
@@ -146,7 +146,7 @@ static froe_status cut_grid_node(index_work *w, const index_cell *cell) {
     uint32_t level = grid_level(cell->heap), axis = g->axis[level];
     uint32_t middle = cell->line[axis] + (1u << g->rest[level][axis] >> 1);
     index_cell side[2];
-    froe_status status = split(w, cell, (int)axis, g->lines[axis][middle], side);
+    froe_status status = split_index_node(w, cell, (int)axis, g->lines[axis][middle], side);
     if (status) return status;
     for (uint32_t i = 0; i < 2; i++) {
         side[i].heap = 2 * cell->heap + i;
@@ -154,7 +154,7 @@ static froe_status cut_grid_node(index_work *w, const index_cell *cell) {
     }
     double sum = (double)g->count[2 * cell->heap] + g->count[2 * cell->heap + 1];
     side[0].growth = side[1].growth = cell->growth * sum / g->count[cell->heap];
-    return push(w, side);
+    return push_index_cells(w, side);
 }
 
 static void end_grid(index_work *w, const index_cell *cell) {
@@ -257,7 +257,7 @@ static bool is_deep(const index_work *w, const index_cell *cell) {
 }
 
 /* Names the cut of a cell; false: it is to be a leaf. */
-static bool choose(index_work *w, const index_cell *cell, halve_cut *cut, int *which) {
+static bool choose_halving(index_work *w, const index_cell *cell, halve_cut *cut, int *which) {
     const packed_fragment *f = w->items.data + cell->first;
     *which = 0;
     if (cell->growth >= w->job->option[GROWTH] || cell->barren >= BARREN) return false;
@@ -267,7 +267,8 @@ static bool choose(index_work *w, const index_cell *cell, halve_cut *cut, int *w
 }
 
 /* Deals the fragments: the positive ones take the place of all, the negative ones lie on top. */
-static froe_status deal(index_work *w, const index_cell *cell, const halve_cut *cut, int which, index_cell side[2]) {
+static froe_status deal_fragments(index_work *w, const index_cell *cell, const halve_cut *cut, int which,
+                                  index_cell side[2]) {
     uint32_t negative = cut->sides[0], positive = cut->sides[1];
     w->items.count = cell->first + cell->count;
     w->spare.count = 0;
@@ -293,9 +294,9 @@ static froe_status cut_cell(index_work *w, const index_cell *cell) {
         w->classes[i].count = 0;
         if (!array_reserve(&w->job->alloc, &w->classes[i], cell->count)) return FROE_E_MEMORY;
     }
-    if (!choose(w, cell, &cut, &which)) return end_leaf(w, cell);
-    froe_status status = split(w, cell, cut.axis, cut.value, side);
-    if (!status) status = deal(w, cell, &cut, which, side);
+    if (!choose_halving(w, cell, &cut, &which)) return end_packed_leaf(w, cell);
+    froe_status status = split_index_node(w, cell, cut.axis, cut.value, side);
+    if (!status) status = deal_fragments(w, cell, &cut, which, side);
     if (status) return status;
     bool lonely = !cut.sides[0] || !cut.sides[1], barren = 5 * (uint64_t)cut.both > 4 * (uint64_t)cell->count;
     for (int i = 0; i < 2; i++) {
@@ -303,7 +304,7 @@ static froe_status cut_cell(index_work *w, const index_cell *cell) {
         side[i].lonely = lonely ? cell->lonely + 1 : 0;
         side[i].barren = barren ? cell->barren + 1 : 0;
     }
-    return push(w, side);
+    return push_index_cells(w, side);
 }
 
 /* -------------------------------------------------------------------- loop -- */
@@ -311,7 +312,7 @@ static froe_status cut_cell(index_work *w, const index_cell *cell) {
 static froe_status do_fragments(index_work *w, const index_cell *cell) {
     bool made = false;
     froe_status status = FROE_OK;
-    if (cell->count <= w->job->leaf) return end_leaf(w, cell);
+    if (cell->count <= w->job->leaf) return end_packed_leaf(w, cell);
     if (cell->count >= w->job->option[LEAST] && !is_deep(w, cell) && cell->growth < w->job->option[GROWTH])
         status = begin_grid(w, cell, w->items.data + cell->first, &made);
     return status || made ? status : cut_cell(w, cell);
@@ -324,29 +325,29 @@ static bool is_inner(const index_work *w, const index_cell *cell) {
     return inner && g->count[cell->heap] > w->job->leaf;
 }
 
-static froe_status do_cell(index_work *w, index_cell *cell) {
+static froe_status do_index_cell(index_work *w, index_cell *cell) {
     froe_status status = FROE_OK;
     if (cell->heap == GRID_END) {
         end_grid(w, cell);
         return FROE_OK;
     }
     if (cell->heap && is_inner(w, cell)) return cut_grid_node(w, cell);
-    if (cell->heap) status = gather(w, cell);
+    if (cell->heap) status = gather_fragments(w, cell);
     w->items.count = cell->first + cell->count;
     return status ? status : do_fragments(w, cell);
 }
 
-static bool go_on(index_work *w) {
+static bool index_may_go_on(index_work *w) {
     double share = (double)w->packer.owners.count / (w->job->scene->object_count + 1.0);
     return base_progress(w->job->task, 0.1 + 0.8 * share);
 }
 
-static froe_status do_cells(index_work *w) {
+static froe_status do_index_cells(index_work *w) {
     froe_status status = FROE_OK;
     while (w->cells.count && !status) {
         index_cell cell = w->cells.data[--w->cells.count];
-        status = do_cell(w, &cell);
-        if (!status && !go_on(w)) status = FROE_E_CANCELLED;
+        status = do_index_cell(w, &cell);
+        if (!status && !index_may_go_on(w)) status = FROE_E_CANCELLED;
     }
     return status;
 }
@@ -383,7 +384,7 @@ static froe_status push_root(index_work *w) {
 
 /* -------------------------------------------------------------------- whole -- */
 
-static void clean_up(index_work *w) {
+static void free_index_work(index_work *w) {
     const froe_allocator *alloc = &w->job->alloc;
     size_t objects = w->job->scene->object_count;
     while (w->grids.count) grid_free(alloc, w->grids.data + --w->grids.count);
@@ -396,12 +397,12 @@ static void clean_up(index_work *w) {
     for (int i = 0; i < 2; i++) array_free(alloc, &w->classes[i]);
 }
 
-static froe_status grow(index_work *w, froe_tree **out) {
+static froe_status grow_index(index_work *w, froe_tree **out) {
     build_job *job = w->job;
     w->height = job->option[HEIGHT] > 0 ? job->option[HEIGHT] * base_log2(job->scene->object_count + 2.0) + 16 : 0;
     froe_status status = find_ends(w);
     if (!status) status = push_root(w);
-    if (!status) status = do_cells(w);
+    if (!status) status = do_index_cells(w);
     if (status) return status;
     status = packer_seal(&w->packer, job->scene, &job->meta, out);
     if (!status) (*out)->predicates = (*out)->report.predicates = w->context.stats;
@@ -415,24 +416,24 @@ static froe_status build_in_plane(build_job *job, froe_tree **out) {
     if (job->first > w.context.first) w.context.first = job->first;
     status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
     if (!status) {
-        status = grow(&w, out);
+        status = grow_index(&w, out);
         packer_free(&w.packer);
     }
-    clean_up(&w);
+    free_index_work(&w);
     num_context_free(&w.context);
     return status;
 }
 
-static bool serves(const froe_scene *s, uint32_t object) {
+static bool index_serves(const froe_scene *s, uint32_t object) {
     return s->dim == 3 || s->kinds[object] == FROE_POINT || s->kinds[object] == FROE_SEGMENT;
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_index(build_job *job, froe_tree **out) {
     const froe_scene *s = job->scene;
     if (s->object_count > PACKED_OBJECT)
         return base_fail(job->diag, FROE_E_LIMIT, "method 'index' serves at most 2^30 objects");
     for (uint32_t i = 0; i < s->object_count; i++)
-        if (!serves(s, i))
+        if (!index_serves(s, i))
             return base_fail_at(job->diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
                                 "method 'index' does not serve objects of kind '%s' in the plane",
                                 froe_kind_name((froe_kind)s->kinds[i]));
@@ -452,5 +453,5 @@ const build_method build_method_index = {
              .least_leaf = 1,
              .options = options},
     .tunable = true,
-    .build = build,
+    .build = build_index,
 };

@@ -38,7 +38,7 @@ typedef struct best_cut {
     froe_cut cut;
 } best_cut;
 
-static void enter(best_cut *best, double cost, int axis, double value) {
+static void enter_kd_cut(best_cut *best, double cost, int axis, double value) {
     if (!(cost < best->cost) || !isfinite(value)) return;
     *best = (best_cut){cost, {.kind = FROE_CUT_AXIS, .axis = axis, .value = value}};
 }
@@ -49,7 +49,7 @@ static bool median_on(split_axes *a, const split_work *work, const split_cell *c
     if (!split_axes_fill(a, &work->set, cell, axis)) return false;
     while (split_axes_next(a)) {
         if (!split_tally_separates(&a->tally)) continue;
-        enter(best, fabs((double)a->tally.negative - a->tally.positive), axis, a->value);
+        enter_kd_cut(best, fabs((double)a->tally.negative - a->tally.positive), axis, a->value);
     }
     return true;
 }
@@ -127,7 +127,7 @@ static bool surface_on(split_axes *a, const split_work *work, const split_cell *
         if (!split_tally_separates(t)) continue;
         double share = size > 0 ? (0.5 * a->value - 0.5 * from) / (0.5 * size) : 0;
         double below = (double)t->negative + t->both, above = (double)t->positive + t->both;
-        enter(best, (s.ends + s.side * share) * below + (s.ends + s.side * (1 - share)) * above, axis, a->value);
+        enter_kd_cut(best, (s.ends + s.side * share) * below + (s.ends + s.side * (1 - share)) * above, axis, a->value);
     }
     return true;
 }
@@ -143,7 +143,7 @@ static bool find_surface(split_work *work, const split_cell *cell, best_cut *bes
 
 /* ------------------------------------------------------------------- build -- */
 
-static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+static split_verdict choose_kd_cut(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const kd *d = config;
     best_cut best = {.cost = INFINITY};
     if (split_axial_over(&d->axial, cell)) return split_refine_choose(&d->axial.refine, work, cell, cut);
@@ -154,12 +154,12 @@ static split_verdict choose(const void *config, split_work *work, const split_ce
     return SPLIT_CUT;
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_kd(build_job *job, froe_tree **out) {
     kd d = {.axial = split_axial_of(job->scene, job->leaf, job->seed, job->option[GROWTH]),
             .cost = (int)job->option[COST],
             .axes = (int)job->option[AXES]};
     split_method method = {
-        .config = &d, .choose = choose, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
+        .config = &d, .choose = choose_kd_cut, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
     build_promise(job, "height", job->scene->object_count, 0); /* each cut leaves less on both sides */
     return split_grow(&split, &method, out);
@@ -174,5 +174,5 @@ const build_method build_method_kd = {
              .kinds = BUILD_KINDS_ALL,
              .options = options},
     .tunable = true,
-    .build = build,
+    .build = build_kd,
 };

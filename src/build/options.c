@@ -17,7 +17,7 @@ static word next_word(const char **at) {
     return w;
 }
 
-static bool same(const char *name, const char *text, size_t length) {
+static bool is_word(const char *name, const char *text, size_t length) {
     return strlen(name) == length && !strncmp(name, text, length);
 }
 
@@ -28,9 +28,9 @@ const froe_option_info *options_tuning(const build_method *method) {
     return o + 1;
 }
 
-static const froe_option_info *find(const froe_option_info *table, const char *name, size_t length) {
+static const froe_option_info *find_option(const froe_option_info *table, const char *name, size_t length) {
     for (const froe_option_info *o = table; o && o->name; o++)
-        if (same(o->name, name, length)) return o;
+        if (is_word(o->name, name, length)) return o;
     return NULL;
 }
 
@@ -46,7 +46,7 @@ static bool parse_number(const char *text, size_t length, double *out) {
 
 static bool parse_value(const froe_option_info *option, const char *text, size_t length, double *out) {
     for (size_t i = 0; option->choices && option->choices[i]; i++)
-        if (same(option->choices[i], text, length)) {
+        if (is_word(option->choices[i], text, length)) {
             *out = (double)i;
             return true;
         }
@@ -75,8 +75,8 @@ froe_status options_parse(const build_method *method, const char *settings, bool
     for (word w = next_word(&at); w.length; w = next_word(&at)) {
         const char *equal = memchr(w.text, '=', (size_t)w.length);
         size_t name = equal ? (size_t)(equal - w.text) : (size_t)w.length;
-        const froe_option_info *o = find(options, w.text, name);
-        if (!o && tuned) o = find(tuning, w.text, name);
+        const froe_option_info *o = find_option(options, w.text, name);
+        if (!o && tuned) o = find_option(tuning, w.text, name);
         if (!o)
             return base_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, (int)name,
                              w.text);

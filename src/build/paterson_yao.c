@@ -87,7 +87,7 @@ static void search_axis(split_axes *a, int axis, orthogonal_search *s) {
     s->middle = middle;
 }
 
-static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+static split_verdict choose_orthogonal(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const split_axial *axial = config;
     split_axes *axes = &((split_scratch *)work->scratch)->axes;
     orthogonal_search s = {.heavier = UINT32_MAX};
@@ -104,8 +104,10 @@ static split_verdict choose(const void *config, split_work *work, const split_ce
 static froe_status build_orthogonal(build_job *job, froe_tree **out) {
     double growth = job->option[GROWTH] > 0 ? job->option[GROWTH] : is_orthogonal(job->scene) ? (double)INFINITY : 4;
     split_axial axial = split_axial_of(job->scene, job->leaf, job->seed, growth);
-    split_method method = {
-        .config = &axial, .choose = choose, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
+    split_method method = {.config = &axial,
+                           .choose = choose_orthogonal,
+                           .scratch_new = split_scratch_new,
+                           .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
     build_promise(job, "height", job->scene->object_count, 0); /* each cut leaves less on both sides */
     return split_grow(&split, &method, out);
@@ -113,7 +115,7 @@ static froe_status build_orthogonal(build_job *job, froe_tree **out) {
 
 /* ----------------------------------------------------------------------- build -- */
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_paterson_yao(build_job *job, froe_tree **out) {
     static const convert_plan slabs = {"kd", "axes=first", true};
     int rule = (int)job->option[RULE];
     bool segments = has_segments_alone(job->scene);
@@ -132,5 +134,5 @@ const build_method build_method_paterson_yao = {
              .dims = BUILD_DIMS_ALL,
              .kinds = 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON | 1u << FROE_BOX,
              .options = options},
-    .build = build,
+    .build = build_paterson_yao,
 };

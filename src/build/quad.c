@@ -67,7 +67,7 @@ static double coarsest(double from, double to) {
 
 /* ------------------------------------------------------------------- build -- */
 
-static split_verdict choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+static split_verdict choose_quad_cut(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const split_axial *axial = config;
     int best = -1;
     if (split_axial_over(axial, cell)) return split_refine_choose(&axial->refine, work, cell, cut);
@@ -83,10 +83,12 @@ static split_verdict choose(const void *config, split_work *work, const split_ce
     return best >= 0 ? SPLIT_CUT : split_refine_choose(&axial->refine, work, cell, cut);
 }
 
-static froe_status build(build_job *job, froe_tree **out) {
+static froe_status build_quad(build_job *job, froe_tree **out) {
     split_axial axial = split_axial_of(job->scene, job->leaf, job->seed, job->option[GROWTH]);
-    split_method method = {
-        .config = &axial, .choose = choose, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
+    split_method method = {.config = &axial,
+                           .choose = choose_quad_cut,
+                           .scratch_new = split_scratch_new,
+                           .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
     build_promise(job, "height", job->scene->object_count, 0); /* each cut leaves less on both sides */
     return split_grow(&split, &method, out);
@@ -100,5 +102,5 @@ const build_method build_method_quad = {
              .dims = BUILD_DIMS_ALL,
              .kinds = BUILD_KINDS_ALL,
              .options = options},
-    .build = build,
+    .build = build_quad,
 };

@@ -31,7 +31,7 @@ typedef struct space_work {
     double done; /* share of the objects in finished leaves */
 } space_work;
 
-static froe_status end_leaf(space_work *w, const space_cell *cell) {
+static froe_status end_space_leaf(space_work *w, const space_cell *cell) {
     const uint64_t most = w->job->max_fragments;
     const uint8_t flags = cell->count > w->job->leaf ? TREE_CROWDED : 0;
     if (most && (uint64_t)w->packer.piece_count + cell->count > most) return FROE_E_BUDGET;
@@ -41,7 +41,7 @@ static froe_status end_leaf(space_work *w, const space_cell *cell) {
 }
 
 /* Names the cut of a cell and tells on which sides its items are; false: it is to be a leaf. */
-static bool choose(space_work *w, const space_cell *cell, surface_cut *cut) {
+static bool choose_surface_cut(space_work *w, const space_cell *cell, surface_cut *cut) {
     const space_item *items = w->items.data + cell->first;
     if (cell->count <= w->job->leaf || cell->growth >= w->growth || cell->barren >= BARREN) return false;
     if (!surface_choose(items, cell->count, cut)) return false;
@@ -50,7 +50,7 @@ static bool choose(space_work *w, const space_cell *cell, surface_cut *cut) {
 }
 
 /* The positive items take the place of all, the negative ones lie on top. */
-static froe_status deal(space_work *w, const space_cell *cell, surface_cut *cut, space_cell side[2]) {
+static froe_status deal_space_items(space_work *w, const space_cell *cell, surface_cut *cut, space_cell side[2]) {
     w->items.count = cell->first + cell->count;
     w->spare.count = 0;
     if (!array_reserve(&w->job->alloc, &w->items, cut->sides[0] + cut->sides[1] - cell->count) ||
@@ -73,9 +73,9 @@ static froe_status cut_cell(space_work *w, const space_cell *cell) {
     uint32_t child;
     w->classes.count = 0;
     if (!array_reserve(&w->job->alloc, &w->classes, cell->count)) return FROE_E_MEMORY;
-    if (!choose(w, cell, &cut)) return end_leaf(w, cell);
+    if (!choose_surface_cut(w, cell, &cut)) return end_space_leaf(w, cell);
     froe_status status = packer_split(&w->packer, cell->node, cut.axis, cut.value, &child);
-    if (!status) status = deal(w, cell, &cut, side);
+    if (!status) status = deal_space_items(w, cell, &cut, side);
     if (status) return status;
     const uint64_t listed = (uint64_t)cut.sides[0] + cut.sides[1];
     const bool barren = cut.cost > 0.98 || 5 * (listed - cell->count) > 4 * (uint64_t)cell->count;
@@ -88,7 +88,7 @@ static froe_status cut_cell(space_work *w, const space_cell *cell) {
     return array_push(alloc, &w->cells, side[1]) && array_push(alloc, &w->cells, side[0]) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status do_cells(space_work *w) {
+static froe_status do_space_cells(space_work *w) {
     const double objects = w->job->scene->object_count + 1.0;
     froe_status status = FROE_OK;
     while (w->cells.count && !status) {
@@ -99,7 +99,7 @@ static froe_status do_cells(space_work *w) {
     return status;
 }
 
-static froe_status begin(space_work *w) {
+static froe_status begin_space(space_work *w) {
     const froe_scene *s = w->job->scene;
     space_cell root = {.count = s->object_count, .growth = 1};
     if (!array_reserve(&w->job->alloc, &w->items, (size_t)s->object_count + s->object_count / 2)) return FROE_E_MEMORY;
@@ -120,8 +120,8 @@ froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
     space_work w = {.job = job, .growth = growth};
     froe_status status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
     if (status) return status;
-    status = begin(&w);
-    if (!status) status = do_cells(&w);
+    status = begin_space(&w);
+    if (!status) status = do_space_cells(&w);
     array_free(&job->alloc, &w.cells);
     array_free(&job->alloc, &w.items);
     array_free(&job->alloc, &w.spare);

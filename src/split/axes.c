@@ -20,7 +20,7 @@ static void extent(const split_set *set, const split_fragment *f, int axis, doub
 }
 
 /** REQUIRES: room for as many doubles in spare, and twice as many pairs. */
-static void sort(split_axes *a, double *x, size_t n) {
+static void sort_ends(split_axes *a, double *x, size_t n) {
     base_pair *pairs = a->pairs.data;
     for (size_t i = 0; i < n; i++) pairs[i] = (base_pair){base_double_key(x[i]), (uint32_t)i};
     base_radix_sort(pairs, pairs + n, n);
@@ -28,7 +28,7 @@ static void sort(split_axes *a, double *x, size_t n) {
     if (n) memcpy(x, a->spare.data, n * sizeof *x);
 }
 
-static bool make_room(split_axes *a, const froe_allocator *alloc, size_t n) {
+static bool reserve_ends(split_axes *a, const froe_allocator *alloc, size_t n) {
     a->low.count = a->high.count = a->flat.count = a->spare.count = a->pairs.count = 0;
     a->begun = a->ended = a->flats = 0;
     return array_reserve(alloc, &a->low, n) && array_reserve(alloc, &a->high, n) && array_reserve(alloc, &a->flat, n) &&
@@ -36,7 +36,7 @@ static bool make_room(split_axes *a, const froe_allocator *alloc, size_t n) {
 }
 
 bool split_axes_fill(split_axes *a, const split_set *set, const split_cell *cell, int axis) {
-    if (!make_room(a, &set->alloc, cell->count)) return false;
+    if (!reserve_ends(a, &set->alloc, cell->count)) return false;
     for (uint32_t i = 0; i < cell->count; i++) {
         double low, high;
         extent(set, set->items.data + cell->first + i, axis, &low, &high);
@@ -44,14 +44,14 @@ bool split_axes_fill(split_axes *a, const split_set *set, const split_cell *cell
         a->high.data[a->high.count++] = high;
         if (low == high) a->flat.data[a->flat.count++] = low;
     }
-    sort(a, a->low.data, a->low.count);
-    sort(a, a->high.data, a->high.count);
-    sort(a, a->flat.data, a->flat.count);
+    sort_ends(a, a->low.data, a->low.count);
+    sort_ends(a, a->high.data, a->high.count);
+    sort_ends(a, a->flat.data, a->flat.count);
     return true;
 }
 
 /** Takes all ends at the value. */
-static size_t pass(const double *x, size_t at, size_t count, double value) {
+static size_t pass_equal_ends(const double *x, size_t at, size_t count, double value) {
     while (at < count && x[at] <= value) at++;
     return at;
 }
@@ -62,9 +62,9 @@ bool split_axes_next(split_axes *a) {
     double low = a->begun < n ? a->low.data[a->begun] : a->high.data[a->ended], high = a->high.data[a->ended];
     size_t flats = a->flats, below = a->begun; /* those that begin below the value */
     a->value = low < high ? low : high;
-    a->begun = pass(a->low.data, a->begun, n, a->value);
-    a->ended = pass(a->high.data, a->ended, n, a->value);
-    a->flats = pass(a->flat.data, flats, a->flat.count, a->value);
+    a->begun = pass_equal_ends(a->low.data, a->begun, n, a->value);
+    a->ended = pass_equal_ends(a->high.data, a->ended, n, a->value);
+    a->flats = pass_equal_ends(a->flat.data, flats, a->flat.count, a->value);
     uint32_t on = (uint32_t)(a->flats - flats);
     a->tally = (split_tally){.negative = (uint32_t)a->ended - on, .positive = (uint32_t)(n - below) - on, .on = on};
     a->tally.both = (uint32_t)n - on - a->tally.negative - a->tally.positive;

@@ -82,7 +82,7 @@ static void confine(double x[2], const packed_box *box) {
 }
 
 /* Corners lie in no cut, but they may lie in the border of the root box. */
-static bool inside(const double *x, const packed_box *box) {
+static bool is_inside_box(const double *x, const packed_box *box) {
     return (x[0] >= box->lo[0]) & (x[0] <= box->hi[0]) & (x[1] >= box->lo[1]) & (x[1] <= box->hi[1]);
 }
 
@@ -93,7 +93,7 @@ void axis_clip(axis_work *work, uint32_t object, const packed_box *box, packed_f
     for (int last = 0; last < 2; last++) {
         const double *u = last ? ends->q : ends->p;
         double *x = last ? out->q : out->p;
-        if (inside(u, box)) {
+        if (is_inside_box(u, box)) {
             x[0] = u[0], x[1] = u[1];
             out->id |= last ? PACKED_END : PACKED_START;
             continue;

@@ -20,7 +20,7 @@ static const double *rows(const bar_search *s, const bar_step *step) {
     return s->keys.data + step->row;
 }
 
-static bool is_above(const bar_rule *rule, double key, double value) {
+static bool key_is_above(const bar_rule *rule, double key, double value) {
     return key > value || (!rule->through && key == value);
 }
 
@@ -30,7 +30,7 @@ static counts count_sides(const bar_rule *rule, const bar_search *s, const bar_s
     counts n = {0, 0};
     for (uint32_t i = 0; i < step->count; i++, key += rule->directions.count) {
         n.below += *key < value;
-        n.above += is_above(rule, *key, value);
+        n.above += key_is_above(rule, *key, value);
     }
     return n;
 }
@@ -38,7 +38,7 @@ static counts count_sides(const bar_rule *rule, const bar_search *s, const bar_s
 /* ---------------------------------------------------------------- the median -- */
 
 /** Between the median and the key before or after it, whichever leaves the parts more even. */
-static double between(const double *column, uint32_t count, double median) {
+static double number_between(const double *column, uint32_t count, double median) {
     uint32_t less = 0, more = 0;
     double before = -INFINITY, after = INFINITY;
     for (uint32_t i = 0; i < count; i++) {
@@ -58,12 +58,12 @@ static double middle_of(const bar_rule *rule, bar_search *s, const bar_step *ste
     const double *key = rows(s, step) + direction;
     for (uint32_t i = 0; i < step->count; i++, key += rule->directions.count) s->column.data[i] = *key;
     const double median = base_select(s->column.data, step->count, step->count / 2);
-    return rule->through ? median : between(s->column.data, step->count, median);
+    return rule->through ? median : number_between(s->column.data, step->count, median);
 }
 
 /* --------------------------------------------------------------- candidates -- */
 
-static bool fits(const bar_rule *rule, const bar_search *s, bar_candidate *c) {
+static bool fits_aspect(const bar_rule *rule, const bar_search *s, bar_candidate *c) {
     const double at = bar_shape_local(&s->shape, c->direction, c->value);
     if (!(at > s->shape.lo[c->direction] && at < s->shape.hi[c->direction])) return false;
     bar_shape_halves(&s->shape, c->direction, at, c->aspect);
@@ -77,13 +77,13 @@ static bool move_to_fit(const bar_rule *rule, const bar_search *s, bar_candidate
     const bool up = at < 0.5 * lo + 0.5 * hi;
     c->value = bar_shape_global(&s->shape, c->direction, up ? lo : hi);
     for (int i = 0; i <= MOVES; i++, c->value = nextafter(c->value, up ? INFINITY : -INFINITY))
-        if (fits(rule, s, c)) return true;
+        if (fits_aspect(rule, s, c)) return true;
     return false;
 }
 
 static bar_candidate candidate(const bar_rule *rule, bar_search *s, const bar_step *step, int direction) {
     bar_candidate c = {.direction = direction, .value = middle_of(rule, s, step, direction)};
-    if (!fits(rule, s, &c) && !move_to_fit(rule, s, &c)) return (bar_candidate){.direction = -1};
+    if (!fits_aspect(rule, s, &c) && !move_to_fit(rule, s, &c)) return (bar_candidate){.direction = -1};
     const counts n = count_sides(rule, s, step, direction, c.value);
     c.larger = (n.below > n.above ? n.below : n.above) * step->weight;
     return c;
@@ -115,8 +115,8 @@ static bar_candidate candidates(const bar_rule *rule, bar_search *s, const bar_s
 /* ---------------------------------------------------------------- sequences -- */
 
 /** Adds the part of a step that has most of its points, or a sample of them. */
-static bool push_part(const bar_rule *rule, const froe_allocator *alloc, bar_search *s, size_t at,
-                      const bar_candidate *c) {
+static bool push_bar_step(const bar_rule *rule, const froe_allocator *alloc, bar_search *s, size_t at,
+                          const bar_candidate *c) {
     bar_step from = s->steps.data[at], to = from;
     const size_t g = (size_t)rule->directions.count;
     const counts n = count_sides(rule, s, &from, c->direction, c->value);
@@ -131,7 +131,7 @@ static bool push_part(const bar_rule *rule, const froe_allocator *alloc, bar_sea
     if (!array_reserve(alloc, &s->keys, (size_t)(above ? n.above : n.below) * g)) return false;
     for (uint32_t i = 0, seen = 0; i < from.count; i++) {
         const double *row = rows(s, &from) + i * g;
-        if (!(above ? is_above(rule, row[c->direction], c->value) : row[c->direction] < c->value)) continue;
+        if (!(above ? key_is_above(rule, row[c->direction], c->value) : row[c->direction] < c->value)) continue;
         if (seen++ % stride) continue;
         memcpy(s->keys.data + s->keys.count, row, g * sizeof *row);
         s->keys.count += g;
@@ -168,7 +168,7 @@ bar_found bar_search_cut(const bar_rule *rule, const froe_allocator *alloc, bar_
         }
         if (!at) memcpy(first, all, sizeof all), *out = best;
         for (int i = 0; i < rule->directions.count && step.cuts + 1 < CUTS; i++)
-            if (all[i].direction >= 0 && !push_part(rule, alloc, s, at, all + i)) return BAR_MEMORY;
+            if (all[i].direction >= 0 && !push_bar_step(rule, alloc, s, at, all + i)) return BAR_MEMORY;
     }
     return out->direction < 0 ? BAR_NONE : BAR_UNBALANCED;
 }

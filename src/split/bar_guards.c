@@ -83,7 +83,7 @@ void bar_guards_make(const split_directions *directions, bar_guard_kind kind, ba
 /* -------------------------------------------------------------------- guards -- */
 
 /** Appends a guard that is not there yet. */
-static uint32_t append(double *out, uint32_t count, const double *x, int dim) {
+static uint32_t append_guard(double *out, uint32_t count, const double *x, int dim) {
     const size_t d = (size_t)dim;
     for (uint32_t i = 0; i < count; i++)
         if (!memcmp(out + i * d, x, d * sizeof *x)) return count;
@@ -106,7 +106,7 @@ static uint32_t pairs_of(const split_directions *d, const support *s, double *ou
                 double x[2];
                 meet(d->normals[i], corner & 1 ? s->hi[i] : s->lo[i], d->normals[j], corner & 2 ? s->hi[j] : s->lo[j],
                      x);
-                count = append(out, count, x, 2);
+                count = append_guard(out, count, x, 2);
             }
     return count;
 }
@@ -126,7 +126,7 @@ static uint32_t half_circles_of(const split_directions *d, const support *s, dou
             line[e] = to[at % g] * (at / g % 2 ? -1 : 1) > 0 ? s->lo[i[e]] : s->hi[i[e]];
         }
         meet(d->normals[i[0]], line[0], d->normals[i[1]], line[1], x);
-        count = append(out, count, x, 2);
+        count = append_guard(out, count, x, 2);
     }
     return count;
 }
@@ -146,17 +146,17 @@ static uint32_t spheres_of(const bar_guards *g, const support *s, double *out) {
             t = way > t ? way : t;
         }
         for (int k = 0; k < 3; k++) x[k] = c[k] + t * sector->u[k] + 0.0;
-        count = append(out, count, x, 3);
+        count = append_guard(out, count, x, 3);
     }
     return count;
 }
 
-static uint32_t corners_of(int dim, const support *s, double *out) {
+static uint32_t support_corners(int dim, const support *s, double *out) {
     uint32_t count = 0;
     for (uint32_t corner = 0; corner < 1u << dim; corner++) {
         double x[3] = {0};
         for (int k = 0; k < dim; k++) x[k] = corner >> k & 1 ? s->hi[k] : s->lo[k];
-        count = append(out, count, x, dim);
+        count = append_guard(out, count, x, dim);
     }
     return count;
 }
@@ -168,7 +168,7 @@ uint32_t bar_guards_of(const bar_guards *g, const froe_scene *scene, uint32_t ob
         return 1;
     }
     support_of(&g->directions, scene, object, &s);
-    if (g->kind == BAR_BOXES) return corners_of(scene->dim, &s, out);
+    if (g->kind == BAR_BOXES) return support_corners(scene->dim, &s, out);
     if (scene->dim == 3) return spheres_of(g, &s, out);
     return g->kind == BAR_PAIRS ? pairs_of(&g->directions, &s, out) : half_circles_of(&g->directions, &s, out);
 }

@@ -110,7 +110,7 @@ static bool joined(const bar_shape *s, uint32_t a, uint32_t b) {
 }
 
 /** Adds a corner, unless one of those from `first` on is there already. */
-static bool add_corner(bar_shape *s, uint32_t first, const bar_corner *corner, double size) {
+static bool add_bar_corner(bar_shape *s, uint32_t first, const bar_corner *corner, double size) {
     for (uint32_t c = first; c < s->count; c++) {
         int i = 0;
         while (i < s->directions->count && fabs(s->corners[c].at[i] - corner->at[i]) <= SAME * size) i++;
@@ -134,7 +134,7 @@ static bar_corner meet_edge(const bar_shape *s, uint32_t from, uint32_t to, int 
 }
 
 /** Keeps the part where sign * (n . y - at) >= 0. */
-static bool clip(bar_shape *s, int direction, double at, int sign, double size) {
+static bool clip_bar_shape(bar_shape *s, int direction, double at, int sign, double size) {
     const uint32_t old = s->count, facet = 1u << (2 * direction + (sign < 0));
     double beyond[BAR_CORNERS];
     uint32_t kept = 0;
@@ -144,7 +144,7 @@ static bool clip(bar_shape *s, int direction, double at, int sign, double size) 
             if (!(beyond[a] > 0 && beyond[b] < 0) || !joined(s, a, b)) continue;
             bar_corner corner = meet_edge(s, a, b, direction, at);
             corner.facets |= facet;
-            if (!add_corner(s, old, &corner, size)) return false;
+            if (!add_bar_corner(s, old, &corner, size)) return false;
         }
     for (uint32_t c = 0; c < s->count; c++) {
         if (c < old && beyond[c] < 0) continue;
@@ -178,7 +178,7 @@ static extent no_extent(void) {
     return e;
 }
 
-static void widen(extent *e, const bar_corner *c, int count) {
+static void widen_extent(extent *e, const bar_corner *c, int count) {
     for (int i = 0; i < count; i++) {
         e->lo[i] = c->at[i] < e->lo[i] ? c->at[i] : e->lo[i];
         e->hi[i] = c->at[i] > e->hi[i] ? c->at[i] : e->hi[i];
@@ -212,11 +212,11 @@ bool bar_shape_of(const split_directions *d, const bar_region *region, bar_shape
     }
     begin_box(s, lo, hi);
     for (int i = d->dim; i < d->count; i++) {
-        if (r->lo[i] > -INFINITY && !clip(s, i, bar_shape_local(s, i, r->lo[i]), 1, size)) return false;
-        if (r->hi[i] < INFINITY && !clip(s, i, bar_shape_local(s, i, r->hi[i]), -1, size)) return false;
+        if (r->lo[i] > -INFINITY && !clip_bar_shape(s, i, bar_shape_local(s, i, r->lo[i]), 1, size)) return false;
+        if (r->hi[i] < INFINITY && !clip_bar_shape(s, i, bar_shape_local(s, i, r->hi[i]), -1, size)) return false;
     }
     extent all = no_extent();
-    for (uint32_t c = 0; c < s->count; c++) widen(&all, s->corners + c, d->count);
+    for (uint32_t c = 0; c < s->count; c++) widen_extent(&all, s->corners + c, d->count);
     memcpy(s->lo, all.lo, sizeof all.lo);
     memcpy(s->hi, all.hi, sizeof all.hi);
     s->aspect = aspect_of(d, &all, &s->width);
@@ -234,15 +234,15 @@ void bar_shape_halves(const bar_shape *s, int direction, double at, double aspec
     extent part[2] = {no_extent(), no_extent()};
     double least;
     for (uint32_t c = 0; c < s->count; c++) {
-        if (s->corners[c].at[direction] <= at) widen(&part[0], s->corners + c, s->directions->count);
-        if (s->corners[c].at[direction] >= at) widen(&part[1], s->corners + c, s->directions->count);
+        if (s->corners[c].at[direction] <= at) widen_extent(&part[0], s->corners + c, s->directions->count);
+        if (s->corners[c].at[direction] >= at) widen_extent(&part[1], s->corners + c, s->directions->count);
     }
     for (uint32_t e = 0; e < s->edge_count; e++) {
         double a = s->corners[s->edges[e][0]].at[direction], b = s->corners[s->edges[e][1]].at[direction];
         if (!((a < at && b > at) || (a > at && b < at))) continue;
         const bar_corner corner = meet_edge(s, s->edges[e][0], s->edges[e][1], direction, at);
-        widen(&part[0], &corner, s->directions->count);
-        widen(&part[1], &corner, s->directions->count);
+        widen_extent(&part[0], &corner, s->directions->count);
+        widen_extent(&part[1], &corner, s->directions->count);
     }
     for (int side = 0; side < 2; side++) aspect[side] = aspect_of(s->directions, &part[side], &least);
 }

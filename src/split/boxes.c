@@ -94,7 +94,7 @@ void boxes_ends(const boxes *b, uint32_t object, double end[FROE_MAX_DIM][4]) {
 }
 
 /** Appends an event of the fragment added last. */
-static void note(boxes *b, boxes_cell *cell, int axis, boxes_end end, double x) {
+static void note_box_end(boxes *b, boxes_cell *cell, int axis, boxes_end end, double x) {
     b->events[axis].data[b->events[axis].count++] = (boxes_event){.x = x, .fragment = cell->count, .end = (uint8_t)end};
     cell->events[axis]++;
 }
@@ -105,7 +105,7 @@ static void note_axis(boxes *b, boxes_cell *cell, int axis, const double end[4],
     if (lo == hi) {
         f->inside |= (uint16_t)(3u << 2 * axis);
         b->flat = true;
-        note(b, cell, axis, BOXES_FLAT, lo);
+        note_box_end(b, cell, axis, BOXES_FLAT, lo);
         return;
     }
     bool inside[2] = {lo > least, hi < most};
@@ -113,10 +113,10 @@ static void note_axis(boxes *b, boxes_cell *cell, int axis, const double end[4],
                      end[BOXES_AFTER] < most && end[BOXES_AFTER] > hi};
     f->inside |= (uint16_t)((inside[0] | inside[1] << 1) << 2 * axis);
     f->alive |= (uint16_t)((alive[0] | alive[1] << 1) << 2 * axis);
-    if (alive[0]) note(b, cell, axis, BOXES_BEFORE, end[BOXES_BEFORE]);
-    if (inside[0]) note(b, cell, axis, BOXES_LO, lo);
-    if (inside[1]) note(b, cell, axis, BOXES_HI, hi);
-    if (alive[1]) note(b, cell, axis, BOXES_AFTER, end[BOXES_AFTER]);
+    if (alive[0]) note_box_end(b, cell, axis, BOXES_BEFORE, end[BOXES_BEFORE]);
+    if (inside[0]) note_box_end(b, cell, axis, BOXES_LO, lo);
+    if (inside[1]) note_box_end(b, cell, axis, BOXES_HI, hi);
+    if (alive[1]) note_box_end(b, cell, axis, BOXES_AFTER, end[BOXES_AFTER]);
 }
 
 bool boxes_add_cover(boxes *b, boxes_cell *cell, uint32_t object) {

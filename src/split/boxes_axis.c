@@ -12,7 +12,7 @@ static uint32_t distinct(const boxes_event *e, uint32_t count) {
 }
 
 /* Numbers the coordinates, and notes where each box has its ends. */
-static void number(boxes_axis *a, const boxes_event *e, uint32_t events) {
+static void number_places(boxes_axis *a, const boxes_event *e, uint32_t events) {
     uint32_t position = 0;
     for (uint32_t i = 0; i < a->count; i++) a->places[i].at[BOXES_HI] = a->size + 1;
     for (uint32_t i = 0; i < events; i++) {
@@ -26,7 +26,7 @@ static void number(boxes_axis *a, const boxes_event *e, uint32_t events) {
 }
 
 /* Orders the boxes by one end, by counting. first[p] becomes the number of boxes that have it before p. */
-static void order(boxes_axis *a, boxes_end end, uint32_t *first, uint32_t *sorted) {
+static void order_box_ends(boxes_axis *a, boxes_end end, uint32_t *first, uint32_t *sorted) {
     for (uint32_t i = 0; i < a->count; i++) first[a->places[i].at[end] + 2]++;
     for (uint32_t p = 1; p < a->size + 4; p++) first[p] += first[p - 1];
     for (uint32_t i = 0; i < a->count; i++) { /* first[p + 1] walks from the first box at p to the first one behind */
@@ -59,9 +59,9 @@ froe_status boxes_axis_new(const boxes *b, const boxes_cell *cell, int axis, box
     uint32_t events = cell->events[axis];
     *out = (boxes_axis){.count = cell->count, .size = distinct(e, events)};
     if (!make_arrays(&b->alloc, out)) return FROE_E_MEMORY;
-    number(out, e, events);
-    order(out, BOXES_LO, out->first[0], out->order[0]);
-    order(out, BOXES_HI, out->first[1], out->order[1]);
+    number_places(out, e, events);
+    order_box_ends(out, BOXES_LO, out->first[0], out->order[0]);
+    order_box_ends(out, BOXES_HI, out->first[1], out->order[1]);
     base_summit_raise(&out->least, 0, out->size + 2, -NO_FACE);
     return FROE_OK;
 }
@@ -176,7 +176,7 @@ static bool search_above(const search *s, int axis, boxes_spot *out) {
     return spot_at(s, axis, base_summit_last(s->in, at, last < s->end ? last + 1 : s->end, s->level), out);
 }
 
-static void find(const search *s, int axis, bool fewest, boxes_spot *best) {
+static void find_box_spot(const search *s, int axis, bool fewest, boxes_spot *best) {
     boxes_spot other;
     if (s->from >= s->end) return;
     search_below(s, axis, best);
@@ -204,14 +204,14 @@ void boxes_axis_best(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, bo
                      boxes_spot *lemma) {
     *least = *lemma = (boxes_spot){.at = 0};
     search s = around(a, &a->slack, lo, hi, 1);
-    find(&s, axis, false, lemma);
+    find_box_spot(&s, axis, false, lemma);
     if (anywhere) s.from = lo + 1, s.end = hi, s.middle = beyond_median(a, s.from, s.end);
-    if (fewest_divided(&s)) find(&s, axis, true, least);
+    if (fewest_divided(&s)) find_box_spot(&s, axis, true, least);
 }
 
 void boxes_axis_narrow(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, uint32_t least, boxes_spot *out) {
     search s = around(a, &a->least, lo, hi, least);
     *out = (boxes_spot){.at = 0};
-    if (fewest_divided(&s)) find(&s, axis, true, out);
+    if (fewest_divided(&s)) find_box_spot(&s, axis, true, out);
     if (out->cut.found && base_summit_max(&a->slack, out->at, out->at + 1) < 0) out->cut.found = false;
 }

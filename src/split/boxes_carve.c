@@ -29,14 +29,14 @@ static unsigned rooms(const carve *c, uint32_t box, int axis) {
     return c->fragments[box].alive >> 2 * axis & 3u;
 }
 
-static void weigh(carve *c, uint32_t box, int axis, int sign) {
+static void weigh_box(carve *c, uint32_t box, int axis, int sign) {
     int64_t weight = boxes_weight(c->b, c->fragments[box].alive, axis);
     boxes_axis_weigh(c->axis + axis, box, rooms(c, box, axis), sign * weight, c->b->options.trade);
 }
 
 static void give(carve *c, uint32_t box, bool there) {
     for (int k = 0; k < c->b->dim; k++) {
-        weigh(c, box, k, there ? 1 : -1);
+        weigh_box(c, box, k, there ? 1 : -1);
         boxes_axis_list(c->axis + k, box, rooms(c, box, k), there);
     }
     c->gone[box] = !there;
@@ -46,13 +46,13 @@ static void give(carve *c, uint32_t box, bool there) {
 /* A room dies: the box weighs less on the other axes. */
 static void kill_room(carve *c, uint32_t box, int axis, int room) {
     if (!(rooms(c, box, axis) >> room & 1)) return;
-    for (int k = 0; k < c->b->dim; k++) weigh(c, box, k, -1);
+    for (int k = 0; k < c->b->dim; k++) weigh_box(c, box, k, -1);
     boxes_axis_forget_room(c->axis + axis, box, room);
     c->fragments[box].alive &= (uint16_t) ~(1u << (2 * axis + room));
-    for (int k = 0; k < c->b->dim; k++) weigh(c, box, k, 1);
+    for (int k = 0; k < c->b->dim; k++) weigh_box(c, box, k, 1);
 }
 
-static froe_status begin(carve *c, const boxes_cell *cell) {
+static froe_status begin_carving(carve *c, const boxes_cell *cell) {
     boxes *b = c->b;
     const froe_allocator *alloc = &b->alloc;
     c->fragments = base_calloc(alloc, c->count, sizeof *c->fragments);
@@ -68,7 +68,7 @@ static froe_status begin(carve *c, const boxes_cell *cell) {
     return FROE_OK;
 }
 
-static void end(carve *c) {
+static void end_carving(carve *c) {
     const froe_allocator *alloc = &c->b->alloc;
     for (int k = 0; k < c->b->dim; k++) boxes_axis_free(alloc, c->axis + k);
     base_free(alloc, c->fragments, c->count * sizeof *c->fragments);
@@ -83,8 +83,8 @@ static void end(carve *c) {
 /* ------------------------------------------------------------------ reading off -- */
 
 /* Boxes in [from, end) of an order (0 by beginning, 1 by end) whose number in `tree` is at least `level`. */
-static bool collect(const carve *c, const boxes_axis *a, const base_summit *tree, int by, uint32_t from, uint32_t end,
-                    int64_t level, carve_list *out) {
+static bool collect_boxes(const carve *c, const boxes_axis *a, const base_summit *tree, int by, uint32_t from,
+                          uint32_t end, int64_t level, carve_list *out) {
     for (; (from = base_summit_first(tree, from, end, level)) != BASE_SUMMIT_NONE; from++)
         if (!array_push(&c->b->alloc, out, a->order[by][from])) return false;
     return true;
@@ -102,7 +102,7 @@ static int compare_numbers(void *user, uint32_t a, uint32_t b) {
     return a < b ? -1 : a > b;
 }
 
-static bool sort(carve *c, carve_list *list) {
+static bool sort_carve_list(carve *c, carve_list *list) {
     c->spare.count = 0;
     if (!array_reserve(&c->b->alloc, &c->spare, list->count)) return false;
     if (list->count) base_merge_sort(list->data, c->spare.data, list->count, compare_numbers, NULL);
@@ -121,11 +121,11 @@ static froe_status open_cell(carve *c, const boxes_cell *cell, const carve_list 
 /* ----------------------------------------------------------------------- one cut -- */
 
 /* Lists the boxes without extent that lie in the cut, and takes them away. */
-static froe_status emit_in_cut(carve *c, const boxes_axis *a, uint32_t at) {
+static froe_status emit_carved_in_cut(carve *c, const boxes_axis *a, uint32_t at) {
     boxes *b = c->b;
     froe_status status = FROE_OK;
     c->changed.count = 0;
-    if (!collect_at(c, a, 0, at, &c->changed) || !sort(c, &c->changed)) return FROE_E_MEMORY;
+    if (!collect_at(c, a, 0, at, &c->changed) || !sort_carve_list(c, &c->changed)) return FROE_E_MEMORY;
     bool begun = false;
     for (size_t i = 0; i < c->changed.count && !status; i++) {
         uint32_t box = c->changed.data[i];
@@ -142,10 +142,10 @@ static froe_status emit_in_cut(carve *c, const boxes_axis *a, uint32_t at) {
 static bool read_off(carve *c, const boxes_axis *a, uint32_t at, bool above) {
     uint32_t begun = a->first[0][at], ended = a->first[1][at + 1];
     c->small.count = c->divided.count = 0;
-    bool ok = collect(c, a, &a->reach, 0, 0, begun, (int64_t)at + 1, &c->divided);
-    ok = ok && (above ? collect(c, a, &a->after, 1, ended, c->count, 1, &c->small)
-                      : collect(c, a, &a->reach, 0, 0, begun, 1, &c->small));
-    return ok && sort(c, &c->small);
+    bool ok = collect_boxes(c, a, &a->reach, 0, 0, begun, (int64_t)at + 1, &c->divided);
+    ok = ok && (above ? collect_boxes(c, a, &a->after, 1, ended, c->count, 1, &c->small)
+                      : collect_boxes(c, a, &a->reach, 0, 0, begun, 1, &c->small));
+    return ok && sort_carve_list(c, &c->small);
 }
 
 static void pay(carve *c, const boxes_cut *cut) {
@@ -157,12 +157,12 @@ static void pay(carve *c, const boxes_cut *cut) {
 }
 
 /* What the cut does to the boxes that stay: rooms that it touches die, faces in it are faces inside no more. */
-static bool touch(carve *c, int axis, uint32_t at, bool above) {
+static bool touch_rooms(carve *c, int axis, uint32_t at, bool above) {
     boxes_axis *a = c->axis + axis;
     c->changed.count = c->covers.count = 0;
-    bool ok = collect(c, a, &a->before, 0, a->first[0][at], c->count, (int64_t)a->size + 1 - at, &c->changed);
+    bool ok = collect_boxes(c, a, &a->before, 0, a->first[0][at], c->count, (int64_t)a->size + 1 - at, &c->changed);
     size_t before = c->changed.count;
-    ok = ok && collect(c, a, &a->after, 1, 0, a->first[1][at + 1], at, &c->changed);
+    ok = ok && collect_boxes(c, a, &a->after, 1, 0, a->first[1][at + 1], at, &c->changed);
     for (size_t i = 0; i < c->changed.count && ok; i++) kill_room(c, c->changed.data[i], axis, i >= before);
     c->changed.count = 0;
     ok = ok && collect_at(c, a, above, at, &c->changed);
@@ -175,7 +175,7 @@ static bool touch(carve *c, int axis, uint32_t at, bool above) {
         f->inside &= (uint16_t) ~(1u << (2 * axis + above));
         if (!f->inside) ok = array_push(&c->b->alloc, &c->covers, c->changed.data[i]);
     }
-    return ok && sort(c, &c->covers);
+    return ok && sort_carve_list(c, &c->covers);
 }
 
 /* Takes the smaller side out. */
@@ -188,7 +188,7 @@ static void take_small(carve *c, const boxes_axis *a, uint32_t at, bool above) {
 }
 
 /* The rest goes on as the larger child. */
-static bool shrink(carve *c, const boxes_spot *spot, bool above, uint32_t child) {
+static bool shrink_carved(carve *c, const boxes_spot *spot, bool above, uint32_t child) {
     int axis = spot->cut.axis;
     (above ? c->cell.hi : c->cell.lo)[axis] = spot->cut.c;
     (above ? c->hi : c->lo)[axis] = spot->at;
@@ -200,12 +200,12 @@ static bool shrink(carve *c, const boxes_spot *spot, bool above, uint32_t child)
     return true;
 }
 
-static froe_status cut_off(carve *c, const boxes_spot *spot) {
+static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
     boxes_axis *a = c->axis + spot->cut.axis;
     uint32_t child = 0, at = spot->at;
     bool above = boxes_axis_below(a, at) > boxes_axis_above(a, at); /* the smaller side, without those divided */
     froe_status status = boxes_split_node(c->b, c->cell.node, &spot->cut, &child);
-    if (!status) status = emit_in_cut(c, a, at);
+    if (!status) status = emit_carved_in_cut(c, a, at);
     if (status) return status;
     if (!read_off(c, a, at, above)) return FROE_E_MEMORY;
     pay(c, &spot->cut);
@@ -215,11 +215,11 @@ static froe_status cut_off(carve *c, const boxes_spot *spot) {
     status = open_cell(c, &small, &c->small);
     if (status) return status;
     take_small(c, a, at, above);
-    if (!touch(c, spot->cut.axis, at, above)) return FROE_E_MEMORY;
-    return shrink(c, spot, above, child) ? FROE_OK : FROE_E_MEMORY;
+    if (!touch_rooms(c, spot->cut.axis, at, above)) return FROE_E_MEMORY;
+    return shrink_carved(c, spot, above, child) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static boxes_spot choose(const carve *c) {
+static boxes_spot choose_carving(const carve *c) {
     boxes_spot least = {.at = 0}, lemma = {.at = 0};
     for (int k = 0; k < c->b->dim; k++) {
         boxes_spot here[2];
@@ -249,14 +249,14 @@ static froe_status reopen(carve *c) {
 
 froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task) {
     carve c = {.b = b, .cell = *cell, .count = cell->count};
-    froe_status status = begin(&c, cell);
+    froe_status status = begin_carving(&c, cell);
     boxes_drop(b, cell);
     while (!status && c.left > c.count / 2) {
-        boxes_spot spot = choose(&c);
+        boxes_spot spot = choose_carving(&c);
         if (!spot.cut.found) break;
-        status = base_progress(task, task->done) ? cut_off(&c, &spot) : FROE_E_CANCELLED;
+        status = base_progress(task, task->done) ? cut_off_side(&c, &spot) : FROE_E_CANCELLED;
     }
     if (!status) status = reopen(&c);
-    end(&c);
+    end_carving(&c);
     return status;
 }

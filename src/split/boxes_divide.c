@@ -133,7 +133,7 @@ static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, 
 }
 
 /** Lists the boxes without extent that lie in the cut. */
-static froe_status emit_in_cut(boxes *b, const boxes_cell *cell) {
+static froe_status emit_boxes_in_cut(boxes *b, const boxes_cell *cell) {
     const boxes_fragment *item = b->fragments.data + cell->first;
     froe_status status = FROE_OK;
     bool begun = false;
@@ -160,7 +160,7 @@ froe_status boxes_split_node(boxes *b, uint32_t node, const boxes_cut *cut, uint
     return draft_split(&b->draft, node, &plane, 0, child);
 }
 
-static bool make_room(boxes *b, const boxes_cell *cell) {
+static bool reserve_boxes(boxes *b, const boxes_cell *cell) {
     b->marks.count = b->parts.count = b->spare.count = 0;
     return array_reserve(&b->alloc, &b->marks, cell->count) && array_reserve(&b->alloc, &b->parts, cell->count) &&
            array_reserve(&b->alloc, &b->spare, cell->count) && array_reserve(&b->alloc, &b->fragments, cell->count) &&
@@ -170,11 +170,11 @@ static bool make_room(boxes *b, const boxes_cell *cell) {
 froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut) {
     uint32_t child = 0;
     if (b->fragments.count + cell->count > BOXES_MOST) return FROE_E_LIMIT;
-    if (!make_room(b, cell)) return FROE_E_MEMORY;
+    if (!reserve_boxes(b, cell)) return FROE_E_MEMORY;
     mark(b, cell, cut);
     pay(b, cell, cut);
     froe_status status = boxes_split_node(b, cell->node, cut, &child);
-    if (!status) status = emit_in_cut(b, cell);
+    if (!status) status = emit_boxes_in_cut(b, cell);
     if (status) return status;
     boxes_cell side[2] = {*cell, *cell};
     for (uint32_t s = 0; s < 2; s++) {

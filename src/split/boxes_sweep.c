@@ -75,7 +75,7 @@ boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *
 /* ------------------------------------------------------------------ sweeping -- */
 
 /* Before the first event on each axis: boxes that begin at the border of the cell or before. */
-static void start(const boxes *b, const boxes_cell *cell, sweep s[FROE_MAX_DIM]) {
+static void start_sweeps(const boxes *b, const boxes_cell *cell, sweep s[FROE_MAX_DIM]) {
     const boxes_fragment *f = b->fragments.data + cell->first, *end = f + cell->count;
     for (int k = 0; k < b->dim; k++) s[k] = (sweep){0};
     for (; f < end; f++) {
@@ -93,8 +93,8 @@ static void start(const boxes *b, const boxes_cell *cell, sweep s[FROE_MAX_DIM])
 
 /* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. No branches:
  * ends come in no order that could be predicted. */
-static const boxes_event *arrive(const boxes_change *changes, sweep *s, const boxes_event *e, const boxes_event *end,
-                                 bool *face) {
+static const boxes_event *arrive_at_boxes(const boxes_change *changes, sweep *s, const boxes_event *e,
+                                          const boxes_event *end, bool *face) {
     unsigned kinds = 0;
     double x = e->x;
     do {
@@ -109,7 +109,7 @@ static const boxes_event *arrive(const boxes_change *changes, sweep *s, const bo
 }
 
 /* Leaves them behind. */
-static void leave(const boxes_change *changes, sweep *s, const boxes_event *e, const boxes_event *end) {
+static void leave_boxes(const boxes_change *changes, sweep *s, const boxes_event *e, const boxes_event *end) {
     for (; e < end; e++) {
         const boxes_change *change = changes + e->change;
         s->slack += change->slack[1];
@@ -158,12 +158,12 @@ static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, 
     const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
     while (e < end) {
         bool face;
-        const boxes_event *next = arrive(b->changes, &s, e, end, &face);
+        const boxes_event *next = arrive_at_boxes(b->changes, &s, e, end, &face);
         if (narrow)
             consider_narrow(&s, axis, e->x, face, &best);
         else
             consider(b, &s, axis, e->x, face, &best);
-        leave(b->changes, &s, e, next);
+        leave_boxes(b->changes, &s, e, next);
         e = next;
     }
     return best;
@@ -178,7 +178,7 @@ boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
     boxes_cut least = {.found = false}, lemma = {.found = false};
     uint32_t narrow = 0;
     sweep from[FROE_MAX_DIM];
-    start(b, cell, from);
+    start_sweeps(b, cell, from);
     for (int turn = 0; turn < (narrow ? 2 : 1); turn++) {
         for (int k = 0; k < b->dim && !perfect(b, cell, &least); k++) {
             if (!cell->events[k]) continue;

@@ -73,7 +73,7 @@ froe_status cell_tally(split_work *work, const split_cell *cell, const froe_cut 
 }
 
 /** Lists the ON fragments in the cut. */
-static froe_status emit_in_cut(split_set *set, const split_cell *cell, uint32_t count) {
+static froe_status emit_fragments_in_cut(split_set *set, const split_cell *cell, uint32_t count) {
     if (!count) return FROE_OK;
     froe_status status = draft_list(set->draft, cell->node - set->draft->outer);
     for (uint32_t i = 0; i < cell->count && !status; i++)
@@ -83,7 +83,8 @@ static froe_status emit_in_cut(split_set *set, const split_cell *cell, uint32_t 
 
 /** Replaces the cell's fragments by those of its children: positive below, negative on top. A fragment leaves at
  * most one on the positive side, so these close up in place while the negative ones wait aside. */
-static froe_status deal(split_set *set, const split_cell *cell, const split_plane *plane, const counts *n) {
+static froe_status deal_fragments_of_cell(split_set *set, const split_cell *cell, const split_plane *plane,
+                                          const counts *n) {
     if (!cell->count) { /* the arrays may not be there yet */
         set->items.count = cell->first;
         return FROE_OK;
@@ -115,7 +116,7 @@ static froe_status deal(split_set *set, const split_cell *cell, const split_plan
     return FROE_OK;
 }
 
-/** The children, with their fragments where deal() left them. */
+/** The children, with their fragments where deal_fragments_of_cell() left them. */
 static void make_children(const split_work *work, const split_cell *cell, uint32_t child, const counts *n,
                           split_cell side[2]) {
     uint32_t positive = n->of[SPLIT_POS] + n->of[SPLIT_BOTH], negative = n->of[SPLIT_NEG] + n->of[SPLIT_BOTH];
@@ -141,8 +142,8 @@ static froe_status cut_in_two(split_work *work, const split_cell *cell, const fr
     if (useless) *useless = !n.of[SPLIT_ON] && (!n.of[SPLIT_NEG] || !n.of[SPLIT_POS]);
     if (useless && *useless) return FROE_OK;
     status = draft_split(set->draft, local, &plane.cut, flags, &child);
-    if (!status) status = emit_in_cut(set, cell, n.of[SPLIT_ON]);
-    if (!status) status = deal(set, cell, &plane, &n);
+    if (!status) status = emit_fragments_in_cut(set, cell, n.of[SPLIT_ON]);
+    if (!status) status = deal_fragments_of_cell(set, cell, &plane, &n);
     if (status) return status;
     make_children(work, cell, child, &n, side);
     *in_cut = n.of[SPLIT_ON];
@@ -150,7 +151,7 @@ static froe_status cut_in_two(split_work *work, const split_cell *cell, const fr
 }
 
 /** The negative child last so that it comes first. */
-static froe_status push_children(split_work *work, const split_cell side[2]) {
+static froe_status push_child_cells(split_work *work, const split_cell side[2]) {
     if (!array_reserve(&work->set.alloc, &work->cells, 2)) return FROE_E_MEMORY;
     work->cells.data[work->cells.count++] = side[1];
     work->cells.data[work->cells.count++] = side[0];
@@ -174,7 +175,7 @@ froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *c
     froe_status status = cut_in_two(work, cell, cut, flags, useless, side, &in_cut);
     if (status || (useless && *useless)) return status;
     note_progress(cell, in_cut, side);
-    return push_children(work, side);
+    return push_child_cells(work, side);
 }
 
 /** Asks for the coordinates of objects that are about to be read, all at once: without this a cell of ten
@@ -213,5 +214,5 @@ froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *c
     }
     note_progress(cell, in_cut, side);
     work->guarded += in_cut;
-    return push_children(work, side);
+    return push_child_cells(work, side);
 }

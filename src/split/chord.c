@@ -32,23 +32,23 @@ static geom_plane line_of(const split_set *set, const split_cell *cell, const ch
     return line;
 }
 
-static bool is_above(const geom_plane *line, const chord_item *item) {
+static bool item_is_above(const geom_plane *line, const chord_item *item) {
     return filter_value(line, item->middle).x > 0;
 }
 
 /** Weights below and above a chord. */
-static void weigh(const chord_search *search, uint32_t chord, const geom_plane *line, uint64_t weight[2]) {
+static void weigh_chord(const chord_search *search, uint32_t chord, const geom_plane *line, uint64_t weight[2]) {
     weight[0] = weight[1] = 0;
     for (uint32_t i = 0; i < search->items.count; i++)
-        if (i != chord) weight[is_above(line, search->items.data + i)] += search->items.data[i].weight;
+        if (i != chord) weight[item_is_above(line, search->items.data + i)] += search->items.data[i].weight;
 }
 
 /** Leaves the candidates on one side of the chord. */
-static void keep(chord_search *search, uint32_t chord, const geom_plane *line, bool above) {
+static void keep_chord(chord_search *search, uint32_t chord, const geom_plane *line, bool above) {
     uint32_t *c = search->chords.data;
     size_t kept = 0;
     for (size_t i = 0; i < search->chords.count; i++)
-        if (c[i] != chord && is_above(line, search->items.data + c[i]) == above) c[kept++] = c[i];
+        if (c[i] != chord && item_is_above(line, search->items.data + c[i]) == above) c[kept++] = c[i];
     search->chords.count = kept;
 }
 
@@ -59,10 +59,10 @@ uint32_t chord_choose(chord_search *search, const split_set *set, const split_ce
         uint64_t draw = base_hash(seed, cell->path, 400000 + round);
         uint32_t chord = search->chords.data[base_below(draw, (uint32_t)search->chords.count)];
         geom_plane line = line_of(set, cell, search->items.data + chord);
-        weigh(search, chord, &line, weight);
+        weigh_chord(search, chord, &line, weight);
         uint64_t heavier = weight[0] > weight[1] ? weight[0] : weight[1];
         if (heavier < least) least = heavier, best = search->items.data[chord].item;
-        keep(search, chord, &line, weight[1] > weight[0]);
+        keep_chord(search, chord, &line, weight[1] > weight[0]);
     }
     return best;
 }

@@ -59,7 +59,8 @@ static bool push_cell(convert *c, uint32_t at, const region *r) {
 }
 
 /** The children of a cell that its cut has just made, positive first. */
-static froe_status push_children(convert *c, uint32_t node, const region *r, uint32_t negative, uint32_t positive) {
+static froe_status push_planned_cells(convert *c, uint32_t node, const region *r, uint32_t negative,
+                                      uint32_t positive) {
     geom_plane line = split_plane_at(&c->work.set, node);
     region part;
     region_clip(r, &line, 1, 0, &part);
@@ -78,7 +79,7 @@ static uint64_t pieces(const convert *c) {
 static froe_status cut_by_plan(convert *c, const split_cell *cell, uint32_t at, const region *r) {
     const point_node *n = c->job->plan->nodes.data + at;
     froe_status status = cell_cut(&c->work, cell, &n->cut, 0, NULL);
-    return status ? status : push_children(c, cell->node, r, n->child, n->child + 1);
+    return status ? status : push_planned_cells(c, cell->node, r, n->child, n->child + 1);
 }
 
 static froe_status cut_along_chord(convert *c, const split_cell *cell, uint32_t at, const region *r) {
@@ -89,7 +90,7 @@ static froe_status cut_along_chord(convert *c, const split_cell *cell, uint32_t 
     froe_status status = cell_cut(&c->work, cell, &cut, 0, NULL);
     if (status) return status;
     c->crossings += pieces(c) - before;
-    return push_children(c, cell->node, r, at, at);
+    return push_planned_cells(c, cell->node, r, at, at);
 }
 
 static split_verdict choose_in_star(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
@@ -135,7 +136,7 @@ static bool may_prune(const convert *c, uint32_t at, int side, const region *r) 
 /* -------------------------------------------------------------------- cells -- */
 
 /** Follows the plan from a node down to the first that cuts the cell. */
-static froe_status follow(convert *c, split_cell *cell, uint32_t at, const region *r) {
+static froe_status follow_plan(convert *c, split_cell *cell, uint32_t at, const region *r) {
     for (;;) {
         const point_node *n = c->job->plan->nodes.data + at;
         int side;
@@ -149,21 +150,21 @@ static froe_status follow(convert *c, split_cell *cell, uint32_t at, const regio
     }
 }
 
-static froe_status do_cell(convert *c) {
+static froe_status do_planned_cell(convert *c) {
     split_cell cell = c->work.cells.data[--c->work.cells.count];
     convert_cell own = c->cells.data[--c->cells.count];
     region r;
     c->work.set.corners.count = cell.corner_top;
     pop_region(c, own.corners, &r);
     if (cell.count <= c->job->leaf) return cell_leaf(&c->work, &cell, 0);
-    return own.at == FROE_NONE ? do_star(c, &cell) : follow(c, &cell, own.at, &r);
+    return own.at == FROE_NONE ? do_star(c, &cell) : follow_plan(c, &cell, own.at, &r);
 }
 
-static froe_status do_cells(convert *c) {
+static froe_status do_planned_cells(convert *c) {
     uint64_t most = c->job->max_fragments;
     froe_status status = FROE_OK;
     while (c->work.cells.count && !status) {
-        status = do_cell(c);
+        status = do_planned_cell(c);
         if (!status && most && pieces(c) > most) status = FROE_E_BUDGET;
         if (!status && !split_go_on(&c->work)) status = FROE_E_CANCELLED;
     }
@@ -172,7 +173,7 @@ static froe_status do_cells(convert *c) {
 
 /* -------------------------------------------------------------------- whole -- */
 
-static froe_status begin(convert *c) {
+static froe_status begin_conversion(convert *c) {
     const convert_job *job = c->job;
     uint32_t n = job->scene->object_count;
     region all = {.count = 0};
@@ -191,7 +192,7 @@ static froe_status begin(convert *c) {
     return push_cell(c, 0, &all) && array_push(&job->alloc, &c->work.cells, root) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static void clean_up(convert *c) {
+static void free_conversion(convert *c) {
     const froe_allocator *alloc = &c->job->alloc;
     split_scratch_free(&c->work);
     split_set_free(&c->work.set);
@@ -207,13 +208,13 @@ froe_status split_convert(const convert_job *job, froe_tree **out) {
     c.refine = split_axial_of(job->scene, job->leaf, job->seed, 1).refine;
     froe_status status = draft_new(&job->alloc, job->scene->dim, 0, &c.draft);
     if (status) return status;
-    status = begin(&c);
-    if (!status) status = do_cells(&c);
+    status = begin_conversion(&c);
+    if (!status) status = do_planned_cells(&c);
     if (!status) {
         *job->fragments += (double)c.crossings;
         num_stats_add(&c.draft.predicates, &c.work.set.context.stats);
         status = draft_seal(&c.draft, NULL, 0, job->scene, job->meta, out);
     }
-    clean_up(&c);
+    free_conversion(&c);
     return status;
 }

@@ -5,7 +5,7 @@
 
 #define TOUCHING 0x1p-36 /* neighbours in a mesh have a vertex in common, or an edge: they do not cross */
 
-static double dot(const double *a, const double *b) {
+static double dot_3(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -17,7 +17,7 @@ static void chord_of(const split_facets *f, const split_facet_plane *plane, uint
     for (uint32_t j = from; j < to && found < 2; j++) {
         uint32_t a = f->corner.data[j], b = f->corner.data[j + 1 < to ? j + 1 : from];
         double p[3] = {x[0][a], x[1][a], x[2][a]}, q[3] = {x[0][b], x[1][b], x[2][b]};
-        double u = dot(plane->n, p) - plane->d, v = dot(plane->n, q) - plane->d;
+        double u = dot_3(plane->n, p) - plane->d, v = dot_3(plane->n, q) - plane->d;
         if ((u > 0) == (v > 0)) continue;
         for (int k = 0; k < 3; k++) chord[found][k] = p[k] + (q[k] - p[k]) * (u / (u - v));
         found++;
@@ -26,9 +26,9 @@ static void chord_of(const split_facets *f, const split_facet_plane *plane, uint
 }
 
 /** Shortens a chord to a halfspace, less a hair. False: nothing is left. */
-static bool clip(double chord[2][3], const double at[3], const double inward[3]) {
-    double border = dot(at, inward) + TOUCHING * sqrt(dot(inward, inward));
-    double u = dot(chord[0], inward) - border, v = dot(chord[1], inward) - border;
+static bool clip_chord(double chord[2][3], const double at[3], const double inward[3]) {
+    double border = dot_3(at, inward) + TOUCHING * sqrt(dot_3(inward, inward));
+    double u = dot_3(chord[0], inward) - border, v = dot_3(chord[1], inward) - border;
     if (!(u > 0) && !(v > 0)) return false;
     if (u > 0 && v > 0) return true;
     double *outer = chord[u > 0];
@@ -60,7 +60,7 @@ static bool crosses(const split_facets *f, const froe_scene *scene, uint32_t obj
     chord_of(f, plane, fragment, chord);
     for (uint32_t i = 0; i < corners && some; i++) {
         border_of(f, scene, object, plane, i, at, inward);
-        some = clip(chord, at, inward);
+        some = clip_chord(chord, at, inward);
     }
     return some;
 }

@@ -33,7 +33,7 @@ static void forget(split_facets *f) {
     f->start.count = f->corner.count = 0;
 }
 
-static bool make_room(split_facets *f, const froe_allocator *alloc, uint32_t corners) {
+static bool reserve_facet_corners(split_facets *f, const froe_allocator *alloc, uint32_t corners) {
     f->y.count = f->z.count = f->x.count;
     return array_reserve(alloc, &f->x, corners) && array_reserve(alloc, &f->y, corners) &&
            array_reserve(alloc, &f->z, corners) && array_reserve(alloc, &f->vertex, corners) &&
@@ -42,7 +42,7 @@ static bool make_room(split_facets *f, const froe_allocator *alloc, uint32_t cor
 }
 
 /** A corner of its own; coordinates as in the scene for now. */
-static uint32_t add_corner(split_facets *f, const double *x, uint32_t vertex) {
+static uint32_t add_facet_corner(split_facets *f, const double *x, uint32_t vertex) {
     uint32_t at = (uint32_t)f->x.count++;
     f->x.data[at] = x[0];
     f->y.data[at] = x[1];
@@ -55,7 +55,7 @@ static uint32_t add_corner(split_facets *f, const double *x, uint32_t vertex) {
 static uint32_t add_vertex(split_facets *f, const froe_scene *scene, uint32_t vertex) {
     uint32_t at = f->place[vertex];
     if (at != FROE_NONE) return at;
-    f->place[vertex] = at = add_corner(f, scene_vertex(scene, vertex), vertex);
+    f->place[vertex] = at = add_facet_corner(f, scene_vertex(scene, vertex), vertex);
     f->vertices.data[f->vertices.count++] = at;
     return at;
 }
@@ -68,12 +68,12 @@ static const double *image(const split_set *set, const split_fragment *item, con
 
 static bool add_fragment(split_facets *f, const split_set *set, const split_fragment *item) {
     uint32_t n = split_corner_count(set, item);
-    if (!make_room(f, &set->alloc, n)) return false;
+    if (!reserve_facet_corners(f, &set->alloc, n)) return false;
     for (uint32_t i = 0; i < n; i++) {
         const split_corner *k = item->count ? set->corners.data + item->first + i : NULL;
         uint32_t vertex = !k ? scene_corner(set->scene, item->object, i) : k->type == SPLIT_VERTEX ? k->a : FROE_NONE;
-        uint32_t at =
-            vertex == FROE_NONE ? add_corner(f, image(set, item, k), FROE_NONE) : add_vertex(f, set->scene, vertex);
+        uint32_t at = vertex == FROE_NONE ? add_facet_corner(f, image(set, item, k), FROE_NONE)
+                                          : add_vertex(f, set->scene, vertex);
         f->corner.data[f->corner.count++] = at;
     }
     f->start.data[f->start.count++] = (uint32_t)f->corner.count;
@@ -112,7 +112,7 @@ static bool add_outside(split_facets *f, const split_set *set, const split_cell 
     f->corners = (uint32_t)f->x.count;
     f->inside = (uint32_t)f->vertices.count;
     if (f->inside >= f->count) return true;
-    if (!make_room(f, &set->alloc, 2 * f->count)) return false;
+    if (!reserve_facet_corners(f, &set->alloc, 2 * f->count)) return false;
     for (uint32_t i = 0; i < 2 * f->count; i++) {
         uint64_t hash = base_hash(seed, cell->path, 0x20000000 + i);
         uint32_t object = items[base_below(hash, cell->count)].object;
@@ -127,7 +127,7 @@ bool split_facets_fill(split_facets *f, const split_set *set, const split_cell *
     f->count = cell->count > sample ? sample : cell->count;
     f->weight = (double)cell->count / f->count;
     forget(f);
-    if (!make_room(f, &set->alloc, 1)) return false;
+    if (!reserve_facet_corners(f, &set->alloc, 1)) return false;
     f->start.data[f->start.count++] = 0;
     for (uint32_t i = 0; i < f->count; i++) {
         bool all = f->count == cell->count;
@@ -146,7 +146,7 @@ void split_facets_local(const split_facets *f, const double *x, double out[3]) {
     for (int k = 0; k < 3; k++) out[k] = k < f->dim ? (0.5 * x[k] - f->middle[k]) * f->scale : 0;
 }
 
-static double dot(const double *a, const double *b) {
+static double dot_3(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -154,12 +154,12 @@ static double dot(const double *a, const double *b) {
 static double edge(const split_facets *f, const froe_scene *scene, uint32_t a, uint32_t b, double out[3]) {
     const double *x = scene_vertex(scene, a), *y = scene_vertex(scene, b);
     for (int k = 0; k < 3; k++) out[k] = k < f->dim ? (0.5 * y[k] - 0.5 * x[k]) * f->scale : 0;
-    return dot(out, out);
+    return dot_3(out, out);
 }
 
 /** A normal of the plane through vertices, as long as twice their triangle's area; returns the square of their longest
  * distance. In the plane both are the distance of the two vertices. */
-static double normal_of(const split_facets *f, const froe_scene *scene, const uint32_t *id, double n[3]) {
+static double facet_normal(const split_facets *f, const froe_scene *scene, const uint32_t *id, double n[3]) {
     double u[3], v[3] = {0, 0, -1}, w[3], longest = edge(f, scene, id[0], id[1], u);
     if (f->dim == 3) {
         double vv = edge(f, scene, id[0], id[2], v), ww = edge(f, scene, id[1], id[2], w);
@@ -174,13 +174,13 @@ static double normal_of(const split_facets *f, const froe_scene *scene, const ui
 
 bool split_facets_plane(const split_facets *f, const froe_scene *scene, const uint32_t id[3], double thin,
                         split_facet_plane *out) {
-    double *n = out->n, longest = normal_of(f, scene, id, n), length = sqrt(dot(n, n)), over = 1 / length, at[3];
+    double *n = out->n, longest = facet_normal(f, scene, id, n), length = sqrt(dot_3(n, n)), over = 1 / length, at[3];
     if (!(length > thin * longest) || !(length > 0x1p-900) || !(length < 0x1p900)) return false; /* NaN, too */
     split_facets_local(f, scene_vertex(scene, id[0]), at);
     for (int k = 0; k < 3; k++) n[k] *= over, out->known[k] = k < f->dim ? f->place[id[k]] : FROE_NONE;
-    out->d = dot(n, at);
+    out->d = dot_3(n, at);
     /* a few roundings of the normal, which weigh more the thinner the triangle, and of the sums */
-    out->slack = 0x1p-48 * (1 + longest * over) * (1 + sqrt(dot(at, at)));
+    out->slack = 0x1p-48 * (1 + longest * over) * (1 + sqrt(dot_3(at, at)));
     return true;
 }
 
@@ -199,7 +199,7 @@ double split_facets_coordinate(const split_facets *f, const froe_scene *scene, u
 
 /* --------------------------------------------------------------- counting -- */
 
-static void find_sides(split_facets *f, const split_facet_plane *plane) {
+static void find_facet_sides(split_facets *f, const split_facet_plane *plane) {
     const double *x = f->x.data, *y = f->y.data, *z = f->z.data;
     const double a = plane->n[0], b = plane->n[1], c = plane->n[2], d = plane->d, slack = plane->slack;
     uint8_t *side = f->side.data;
@@ -215,7 +215,7 @@ split_tally split_facets_count(split_facets *f, const split_facet_plane *plane) 
     const uint32_t *start = f->start.data, *corner = f->corner.data;
     const uint8_t *side = f->side.data;
     uint32_t of[4] = {0}; /* on, negative, positive, both */
-    find_sides(f, plane);
+    find_facet_sides(f, plane);
     for (uint32_t i = 0; i < f->count; i++) {
         unsigned seen = 0;
         for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[corner[j]];

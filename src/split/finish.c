@@ -61,7 +61,7 @@ static mask bit(uint32_t column) {
 }
 
 /** Takes the lowest column out of a set that is not empty. */
-static uint32_t take(mask *set) {
+static uint32_t take_column(mask *set) {
     uint32_t column = (uint32_t)__builtin_ctzll(*set);
     *set &= *set - 1;
     return column;
@@ -74,7 +74,7 @@ static uint32_t size(mask set) { /* the plain architecture has no instruction fo
     return (uint32_t)(set * 0x0101010101010101u >> 56);
 }
 
-static void put(mask *set, mask which, bool in) {
+static void put_columns(mask *set, mask which, bool in) {
     *set = in ? *set | which : *set & ~which;
 }
 
@@ -96,10 +96,10 @@ static void load_piece(finish *f, uint32_t column, const split_fragment *piece) 
         stretch(t, 0, t->x[i][column] = x[0]);
         stretch(t, 1, t->y[i][column] = x[1]);
     }
-    put(&t->free, bit(column), piece->count && ring[0].edge & ring[1].edge & TREE_EDGE_CUT);
+    put_columns(&t->free, bit(column), piece->count && ring[0].edge & ring[1].edge & TREE_EDGE_CUT);
 }
 
-static void load(finish *f, const split_cell *cell) {
+static void load_table(finish *f, const split_cell *cell) {
     const froe_scene *scene = f->set->scene;
     split_table *t = f->t;
     bool trusted = num_rounding_trusted();
@@ -153,9 +153,9 @@ static void fill_place(const split_table *t, row *r, uint32_t column) {
         above |= value > e;
         sure &= (value < -e) | (value > e);
     }
-    put(&r->below, bit(column), below);
-    put(&r->above, bit(column), above);
-    put(&r->sure, bit(column), sure);
+    put_columns(&r->below, bit(column), below);
+    put_columns(&r->above, bit(column), above);
+    put_columns(&r->sure, bit(column), sure);
 }
 
 /** The row of a piece's line, which knows all pieces of a set then. */
@@ -167,7 +167,7 @@ static row *row_of(finish *f, uint32_t piece, mask set) {
     if (4 * size(missing) >= t->columns)
         fill_row(t, r);
     else
-        while (missing) fill_place(t, r, take(&missing));
+        while (missing) fill_place(t, r, take_column(&missing));
     if (f->set->context.first != NUM_FILTER) r->sure = 0;
     r->known |= set;
     r->below &= ~bit(piece);
@@ -179,16 +179,16 @@ static row *row_of(finish *f, uint32_t piece, mask set) {
 /** A piece got halves in columns `one`, where it was, and `other`: they are where it was, unless that is both sides. */
 static void inherit(row *r, uint32_t one, uint32_t other) {
     bool known = r->known & ~(r->below & r->above) & bit(one);
-    put(&r->known, bit(one) | bit(other), known);
-    put(&r->below, bit(other), r->below & bit(one));
-    put(&r->above, bit(other), r->above & bit(one));
-    put(&r->sure, bit(other), r->sure & bit(one));
+    put_columns(&r->known, bit(one) | bit(other), known);
+    put_columns(&r->below, bit(other), r->below & bit(one));
+    put_columns(&r->above, bit(other), r->above & bit(one));
+    put_columns(&r->sure, bit(other), r->sure & bit(one));
 }
 
 /* ------------------------------------------------------------------- choice -- */
 
 /** The piece whose line is the best cut of a part that is not empty. */
-static uint32_t choose(finish *f, const part *p) {
+static uint32_t choose_piece(finish *f, const part *p) {
     const split_table *t = f->t;
     const double *xl = f->xlog2;
     uint32_t m = size(p->set), best = 0;
@@ -197,7 +197,7 @@ static uint32_t choose(finish *f, const part *p) {
     double most = strict ? 0.75 * m : (double)INFINITY;
     mask left = f->config->free_cuts && p->set & t->free ? p->set & t->free : p->set;
     while (left) {
-        uint32_t i = take(&left);
+        uint32_t i = take_column(&left);
         const row *r = row_of(f, i, p->set);
         uint32_t splits = size(r->below & r->above & p->set);
         uint32_t a = size(r->below & p->set), b = size(r->above & p->set), larger = a > b ? a : b;
@@ -217,7 +217,7 @@ static uint32_t choose(finish *f, const part *p) {
 static froe_status list(finish *f, uint32_t node, mask set) {
     if (!set) return FROE_OK;
     froe_status status = draft_list(f->set->draft, node - f->set->draft->outer);
-    while (set && !status) status = split_emit(f->set, node, f->t->piece + take(&set));
+    while (set && !status) status = split_emit(f->set, node, f->t->piece + take_column(&set));
     return status;
 }
 
@@ -231,13 +231,13 @@ static froe_status make_sure(finish *f, row *r, const froe_cut *by, mask set) {
     if (!left) return FROE_OK;
     split_plane plane = split_plane_of(f->set->scene, by);
     while (left) {
-        uint32_t i = take(&left);
+        uint32_t i = take_column(&left);
         f->set->sides.count = 0;
         if (!array_reserve(&f->set->alloc, &f->set->sides, 2)) return FROE_E_MEMORY;
         int class = split_classify(f->set, &plane, f->t->piece + i);
-        put(&r->below, bit(i), class == SPLIT_NEG || class == SPLIT_BOTH);
-        put(&r->above, bit(i), class == SPLIT_POS || class == SPLIT_BOTH);
-        put(&r->sure, bit(i), true);
+        put_columns(&r->below, bit(i), class == SPLIT_NEG || class == SPLIT_BOTH);
+        put_columns(&r->above, bit(i), class == SPLIT_POS || class == SPLIT_BOTH);
+        put_columns(&r->sure, bit(i), true);
     }
     return FROE_OK;
 }
@@ -247,14 +247,14 @@ static uint32_t lowest_equal(const finish *f, uint32_t piece, mask on) {
     const split_fragment *all = f->t->piece;
     uint32_t best = piece;
     for (on &= ~bit(piece); on;) {
-        uint32_t i = take(&on);
+        uint32_t i = take_column(&on);
         if (all[i].object < all[best].object && scene_equal(f->set->scene, all[i].object, all[best].object)) best = i;
     }
     return best;
 }
 
 /** The cut along a piece, or along its lowest equal; its row, exact for this part. */
-static froe_status settle(finish *f, const part *p, uint32_t piece, froe_cut *by, row **out) {
+static froe_status find_exact_row(finish *f, const part *p, uint32_t piece, froe_cut *by, row **out) {
     for (;;) {
         row *r = row_of(f, piece, p->set);
         *by = (froe_cut){.kind = FROE_CUT_OBJECT, .id = {f->t->piece[piece].object}};
@@ -267,7 +267,7 @@ static froe_status settle(finish *f, const part *p, uint32_t piece, froe_cut *by
 }
 
 /** Divides a piece; the rows of `set` learn about its halves. */
-static froe_status divide(finish *f, const split_plane *plane, uint32_t node, uint32_t column, mask set) {
+static froe_status divide_piece(finish *f, const split_plane *plane, uint32_t node, uint32_t column, mask set) {
     split_set *s = f->set;
     split_table *t = f->t;
     split_fragment whole = t->piece[column], below, above;
@@ -280,7 +280,7 @@ static froe_status divide(finish *f, const split_plane *plane, uint32_t node, ui
     load_piece(f, column, &below);
     load_piece(f, other, &above);
     t->line[other] = t->line[column];
-    while (set) inherit(t->rows + t->line[take(&set)], column, other);
+    while (set) inherit(t->rows + t->line[take_column(&set)], column, other);
     return FROE_OK;
 }
 
@@ -292,7 +292,7 @@ static froe_status divide_all(finish *f, const froe_cut *by, uint32_t node, mask
     split_plane plane = split_plane_of(f->set->scene, by);
     while (both && !status) {
         *upper |= bit(f->t->columns);
-        status = divide(f, &plane, node, take(&both), set);
+        status = divide_piece(f, &plane, node, take_column(&both), set);
     }
     return status;
 }
@@ -314,7 +314,7 @@ static froe_status cut_part(finish *f, const part *p, bool *full) {
     froe_cut by;
     row *r;
     uint32_t child;
-    froe_status status = settle(f, p, choose(f, p), &by, &r);
+    froe_status status = find_exact_row(f, p, choose_piece(f, p), &by, &r);
     if (status) return status;
     mask below = r->below & p->set, above = r->above & p->set, both = below & above, upper;
     *full = f->t->columns + size(both) > ROOM;
@@ -341,7 +341,7 @@ static froe_status give_back(finish *f, split_work *work) {
                                                              .count = size(p->set),
                                                              .corner_top = p->corner_top,
                                                              .guard = FROE_NONE};
-        for (mask left = p->set; left;) s->items.data[s->items.count++] = t->piece[take(&left)];
+        for (mask left = p->set; left;) s->items.data[s->items.count++] = t->piece[take_column(&left)];
     }
     return FROE_OK;
 }
@@ -354,7 +354,7 @@ static froe_status do_part(finish *f, const part *p, bool *full) {
     return list(f, p->node, p->set);
 }
 
-static bool fits(const split_refine *config, const split_set *set, const split_cell *cell) {
+static bool fits_table(const split_refine *config, const split_set *set, const split_cell *cell) {
     if (set->scene->dim != 2 || cell->count > config->small || !cell->count) return false;
     for (uint32_t i = 0; i < cell->count; i++)
         if (scene_form(set->scene, set->items.data[cell->first + i].object) != FROE_SEGMENT) return false;
@@ -378,9 +378,9 @@ froe_status split_finish(const split_refine *config, split_work *work, const spl
     split_table *t = scratch->table;
     finish f = {config, &work->set, t, scratch->price.xlog2};
     bool full = false;
-    *done = fits(config, &work->set, cell);
+    *done = fits_table(config, &work->set, cell);
     if (!*done) return FROE_OK;
-    load(&f, cell);
+    load_table(&f, cell);
     t->parts = 1;
     t->stack[0] = (part){.set = ~(mask)0 >> (ROOM - cell->count),
                          .path = cell->path,

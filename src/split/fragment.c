@@ -141,7 +141,7 @@ int split_corner_side(split_set *set, const split_plane *plane, uint32_t object,
     return side == NUM_UNSURE ? derived_side(set, plane, object, k) : side;
 }
 
-static int class_of(bool negative, bool positive) {
+static int class_of_sides(bool negative, bool positive) {
     return negative ? (positive ? SPLIT_BOTH : SPLIT_NEG) : positive ? SPLIT_POS : SPLIT_ON;
 }
 
@@ -161,7 +161,7 @@ static int classify_box(split_set *set, const split_plane *plane, uint32_t objec
         negative |= side < 0;
         positive |= side > 0;
     }
-    return class_of(negative, positive);
+    return class_of_sides(negative, positive);
 }
 
 static int classify_ball(split_set *set, const split_plane *plane, uint32_t object) {
@@ -182,7 +182,7 @@ static int corner_sides(split_set *set, const split_plane *plane, const split_fr
         positive |= side > 0;
         set->sides.data[set->sides.count++] = (int8_t)side;
     }
-    return class_of(negative, positive);
+    return class_of_sides(negative, positive);
 }
 
 /** The class of a ring alone. Whether a plane splits it is mostly seen from corners that are far from the plane; only
@@ -196,7 +196,7 @@ static int ring_class(split_set *set, const split_plane *plane, const split_frag
         negative |= side == -1;
         positive |= side == 1;
     }
-    if (!unsure || (negative && positive)) return class_of(negative, positive);
+    if (!unsure || (negative && positive)) return class_of_sides(negative, positive);
     const int whole = object_side(set, plane, f->object);
     if (whole != NUM_UNSURE) return class_beside(whole);
     for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
@@ -205,7 +205,7 @@ static int ring_class(split_set *set, const split_plane *plane, const split_frag
         negative |= side < 0;
         positive |= side > 0;
     }
-    return class_of(negative, positive);
+    return class_of_sides(negative, positive);
 }
 
 /** Whole objects beside x[axis] = c, by comparisons alone. */
@@ -219,7 +219,7 @@ static int whole_beside_axis(split_set *set, const geom_plane *plane, const spli
         negative |= x < plane->c;
         positive |= x > plane->c;
     }
-    return class_of(negative, positive);
+    return class_of_sides(negative, positive);
 }
 
 static int classify_corners(split_set *set, const split_plane *plane, const split_fragment *f, bool is_cut) {
@@ -247,7 +247,7 @@ static int classify_pair(split_set *set, const split_plane *plane, const split_f
         set->sides.data[set->sides.count++] = (int8_t)a;
         set->sides.data[set->sides.count++] = (int8_t)b;
     }
-    return class_of((a < 0) | (b < 0), (a > 0) | (b > 0));
+    return class_of_sides((a < 0) | (b < 0), (a > 0) | (b > 0));
 }
 
 static bool is_pair_beside_line(const split_set *set, const split_plane *plane, const split_fragment *f,
@@ -284,7 +284,8 @@ split_corner split_corner_of(const split_set *set, const split_fragment *f, uint
 }
 
 /** Where an edge of the object crosses the plane: edge i of a polygon, or a segment (i = 0). */
-static split_corner crossing(split_set *set, const split_plane *plane, uint32_t node, uint32_t object, uint32_t i) {
+static split_corner corner_at_crossing(split_set *set, const split_plane *plane, uint32_t node, uint32_t object,
+                                       uint32_t i) {
     uint32_t n = scene_corners(set->scene, object);
     split_corner k = {.type = SPLIT_CROSSING, .c = node};
     k.a = scene_corner(set->scene, object, i);
@@ -303,7 +304,7 @@ static split_corner meeting(split_set *set, const split_plane *plane, uint32_t n
 }
 
 /** Appends a corner; the caller has made room. */
-static void put(split_set *set, split_fragment *f, split_corner corner, uint32_t edge) {
+static void put_corner(split_set *set, split_fragment *f, split_corner corner, uint32_t edge) {
     corner.edge = edge;
     set->corners.data[f->first + f->count++] = corner;
 }
@@ -311,12 +312,12 @@ static void put(split_set *set, split_fragment *f, split_corner corner, uint32_t
 static void divide_segment(split_set *set, const split_plane *plane, uint32_t node, const split_fragment *f,
                            const int8_t *sides, split_fragment *const side[2]) {
     split_corner start = split_corner_of(set, f, 0), end = split_corner_of(set, f, 1);
-    split_corner middle = crossing(set, plane, node, f->object, 0);
+    split_corner middle = corner_at_crossing(set, plane, node, f->object, 0);
     split_fragment *first = side[sides[0] > 0], *last = side[sides[0] < 0];
-    put(set, first, start, start.edge);
-    put(set, first, middle, TREE_EDGE_CUT | node);
-    put(set, last, middle, TREE_EDGE_CUT | node);
-    put(set, last, end, end.edge);
+    put_corner(set, first, start, start.edge);
+    put_corner(set, first, middle, TREE_EDGE_CUT | node);
+    put_corner(set, last, middle, TREE_EDGE_CUT | node);
+    put_corner(set, last, end, end.edge);
 }
 
 static void divide_polygon(split_set *set, const split_plane *plane, uint32_t node, const split_fragment *f,
@@ -326,16 +327,16 @@ static void divide_polygon(split_set *set, const split_plane *plane, uint32_t no
         split_corner k = split_corner_of(set, f, i);
         int here = sides[i], next = sides[i + 1 < n ? i + 1 : 0];
         if (here)
-            put(set, side[here > 0], k, k.edge);
+            put_corner(set, side[here > 0], k, k.edge);
         else { /* in the plane: the edge leaving it belongs to the side it leads to */
-            put(set, side[0], k, next < 0 ? k.edge : cut);
-            put(set, side[1], k, next > 0 ? k.edge : cut);
+            put_corner(set, side[0], k, next < 0 ? k.edge : cut);
+            put_corner(set, side[1], k, next > 0 ? k.edge : cut);
         }
         if (here * next >= 0) continue;
         split_corner x = k.edge & TREE_EDGE_CUT ? meeting(set, plane, node, f->object, k.edge & ~TREE_EDGE_CUT)
-                                                : crossing(set, plane, node, f->object, k.edge);
-        put(set, side[here > 0], x, cut);
-        put(set, side[here < 0], x, k.edge);
+                                                : corner_at_crossing(set, plane, node, f->object, k.edge);
+        put_corner(set, side[here > 0], x, cut);
+        put_corner(set, side[here < 0], x, k.edge);
     }
 }
 

@@ -103,7 +103,7 @@ static void note_bad(dealing *d, int axis, uint32_t line) {
 }
 
 /* Column or row of a number, by its image. */
-static uint32_t place(const split_grid *g, int axis, double x) {
+static uint32_t grid_place(const split_grid *g, int axis, double x) {
     const double *line = g->lines[axis];
     double guess = (x - line[0]) * g->scale[axis];
     uint32_t n = line_count(g, axis), i = guess > 0 ? guess < n ? (uint32_t)guess : n - 1 : 0;
@@ -115,7 +115,7 @@ static uint32_t place(const split_grid *g, int axis, double x) {
 /* Column or row of an end that a cut made. */
 static uint32_t place_cut_end(dealing *d, const packed_fragment *f, bool last, int axis) {
     const split_grid *g = d->grid;
-    uint32_t n = line_count(g, axis), i = place(g, axis, (last ? f->q : f->p)[axis]);
+    uint32_t n = line_count(g, axis), i = grid_place(g, axis, (last ? f->q : f->p)[axis]);
     for (int way = 0; way < 2; way++) {
         uint32_t line = i + (uint32_t)way;
         if (line == 0 || line == n) continue;
@@ -129,7 +129,7 @@ static uint32_t place_cut_end(dealing *d, const packed_fragment *f, bool last, i
 /* Column or row of a corner of an object. */
 static uint32_t place_corner(dealing *d, int axis, double x) {
     const double *line = d->grid->lines[axis];
-    uint32_t i = place(d->grid, axis, x);
+    uint32_t i = grid_place(d->grid, axis, x);
     if (x == line[i] && i) note_bad(d, axis, i);
     if (x == line[i + 1] && i + 1 < line_count(d->grid, axis)) note_bad(d, axis, i + 1);
     return i;
@@ -185,7 +185,7 @@ static void count_crossing(split_grid *g, uint32_t from, uint32_t to) {
 }
 
 /* All further cells of a fragment. */
-static froe_status walk(dealing *d, const grid_crosser *c) {
+static froe_status walk_grid_cells(dealing *d, const grid_crosser *c) {
     split_grid *g = d->grid;
     uint32_t at[2] = {c->from[0], c->from[1]}, cell = d->homes[c->index];
     uint32_t object = d->source->fragments ? d->source->fragments[c->index].id & PACKED_OBJECT : c->index;
@@ -206,7 +206,7 @@ static froe_status walk_all(dealing *d) {
     d->records.count = 0;
     memset(d->grid->count, 0, sizeof *d->grid->count << d->grid->levels << 1);
     for (size_t i = 0; i < d->crossers.count && !status && d->bad_axis < 0; i++) {
-        status = walk(d, d->crossers.data + i);
+        status = walk_grid_cells(d, d->crossers.data + i);
         if (i % BLOCK == 0 && !base_progress(d->task, d->task->done)) status = FROE_E_CANCELLED;
     }
     return status;

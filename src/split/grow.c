@@ -64,8 +64,8 @@ static uint8_t leaf_flags(split_verdict verdict) {
 }
 
 /** Cuts the cell and furnishes the rooms of its children. */
-static froe_status divide(const split_method *method, split_work *work, const split_cell *cell, const froe_cut *cut,
-                          bool guard, bool *useless) {
+static froe_status divide_cell(const split_method *method, split_work *work, const split_cell *cell,
+                               const froe_cut *cut, bool guard, bool *useless) {
     froe_status status = cell_cut(work, cell, cut, guard ? TREE_GUARD : 0, useless);
     if (status || !method->divided || (useless && *useless)) return status;
     split_cell *negative = work->cells.data + work->cells.count - 1;
@@ -81,8 +81,8 @@ froe_status split_step(const split_method *method, split_work *work, split_cell 
         split_verdict verdict = method->choose(method->config, work, cell, &cut);
         if (verdict > SPLIT_CUT_GUARD) return failure_of(verdict);
         if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
-        if (verdict > SPLIT_CUT) return divide(method, work, cell, &cut, verdict == SPLIT_CUT_GUARD, NULL);
-        status = divide(method, work, cell, &cut, false, &useless);
+        if (verdict > SPLIT_CUT) return divide_cell(method, work, cell, &cut, verdict == SPLIT_CUT_GUARD, NULL);
+        status = divide_cell(method, work, cell, &cut, false, &useless);
     }
     return status;
 }
@@ -95,7 +95,7 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     return status || done ? status : split_step(g->method, work, cell);
 }
 
-static froe_status do_cell(grow *g, split_work *work, split_cell *cell) {
+static froe_status grow_cell(grow *g, split_work *work, split_cell *cell) {
     bool guard = cell->guard != FROE_NONE && g->method->in_guard_stage(g->method->config, cell);
     if (cell->guard != FROE_NONE && !guard) work->guarded += split_load(cell);
     froe_status status = guard ? cell_cut_guard(work, g->job, cell) : refine_cell(g, work, cell);
@@ -127,7 +127,7 @@ static froe_status put_off(grow *g, split_work *work, const split_cell *cell) {
 }
 
 /** Works off all pending cells; in the main part, small ones are put off. */
-static froe_status do_cells(grow *g, split_work *work, bool main_part) {
+static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
     froe_status status = FROE_OK;
     for (uint32_t turn = 0; work->cells.count && !status; turn++) {
         split_cell cell = work->cells.data[--work->cells.count];
@@ -137,7 +137,7 @@ static froe_status do_cells(grow *g, split_work *work, bool main_part) {
         if (main_part && load <= g->task_size && load > TASK_TINY)
             status = put_off(g, work, &cell);
         else
-            status = do_cell(g, work, &cell);
+            status = grow_cell(g, work, &cell);
         bool ask = main_part || turn % 64 == 63; /* in tasks, too: one may be all there is */
         if (ask && !status && !split_go_on(work)) status = FROE_E_CANCELLED;
     }
@@ -183,7 +183,7 @@ static froe_status push_root(grow *g, split_work *work) {
 static froe_status cut_root(grow *g, split_work *work) {
     if (!g->job->root) return FROE_OK;
     const split_cell root = work->cells.data[--work->cells.count];
-    return divide(g->method, work, &root, g->job->root, false, NULL);
+    return divide_cell(g->method, work, &root, g->job->root, false, NULL);
 }
 
 static froe_status main_part(grow *g) {
@@ -193,7 +193,7 @@ static froe_status main_part(grow *g) {
     g->task_size = n / TASK_SHARE > TASK_LEAST ? n / TASK_SHARE : TASK_LEAST;
     froe_status status = push_root(g, work);
     if (!status) status = cut_root(g, work);
-    if (!status) status = do_cells(g, work, n > g->task_size || g->method->height > 0);
+    if (!status) status = grow_cells(g, work, n > g->task_size || g->method->height > 0);
     return status ? status : count_pieces(g, &g->main);
 }
 
@@ -225,7 +225,7 @@ static froe_status grow_task_from(grow *g, split_work *work, grow_task *task, ui
     cell.depth += sunk;
     work->deepest = 0;
     if (!array_push(alloc, &work->cells, cell)) return FROE_E_MEMORY;
-    status = do_cells(g, work, false);
+    status = grow_cells(g, work, false);
     if (status == FROE_E_INPUT) memcpy(task->crossing, work->crossing, sizeof task->crossing);
     return status;
 }
@@ -281,7 +281,7 @@ static froe_status seal(grow *g, froe_tree **out) {
     return status;
 }
 
-static void clean_up(grow *g) {
+static void free_grow(grow *g) {
     const froe_allocator *alloc = &g->job->alloc;
     for (unsigned i = 0; i < g->worker_count; i++) {
         split_work *work = g->workers + i;
@@ -323,6 +323,6 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
     if (!status) status = base_run(job->task, job->span, g.tasks.count, do_task, &g);
     if (!status && out) status = seal(&g, out);
     if (status == FROE_E_INPUT) explain_crossing(&g);
-    clean_up(&g);
+    free_grow(&g);
     return status == FROE_E_INPUT ? status : split_explain(job->diag, job->max_fragments, status);
 }

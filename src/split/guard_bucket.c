@@ -280,7 +280,7 @@ static void *carve(char *room, size_t *used, size_t bytes) {
 }
 
 /* Lays out all arrays in one block and returns its size; room NULL: only that. */
-static size_t lay_out(bucket *b, char *room) {
+static size_t lay_out_bucket(bucket *b, char *room) {
     size_t used = 0, cells = (size_t)1 << (b->dim * b->levels);
     if (!b->places) b->tables = carve(room, &used, guard_grid_size(b->dim, b->levels));
     b->routes = carve(room, &used, cells * sizeof *b->routes);
@@ -291,13 +291,13 @@ static size_t lay_out(bucket *b, char *room) {
     return used;
 }
 
-static froe_status make_room(bucket *b, uint32_t most_chunks) {
+static froe_status reserve_bucket(bucket *b, uint32_t most_chunks) {
     b->chunks = b->entries / CHUNK_COUNT < most_chunks ? b->entries / CHUNK_COUNT : most_chunks;
     if (!b->w->parallel || b->chunks < 1) b->chunks = 1;
     b->chunk_count = (b->entries + b->chunks - 1) / b->chunks;
-    char *room = guard_scratch(b->w, lay_out(b, NULL));
+    char *room = guard_scratch(b->w, lay_out_bucket(b, NULL));
     if (!room) return FROE_E_MEMORY;
-    lay_out(b, room);
+    lay_out_bucket(b, room);
     return FROE_OK;
 }
 
@@ -313,7 +313,7 @@ froe_status guard_bucket(guard_worker *w, const guard_item *item, const guard_cu
     bucket b = {.w = w, .item = item, .entries = item->count, .dim = w->plan->dim, .levels = levels};
     uint32_t threads = w->plan->task->threads;
     b.points = guard_points(w, item);
-    froe_status status = make_room(&b, threads < CHUNKS_MAX / 4 ? 4 * threads : CHUNKS_MAX);
+    froe_status status = reserve_bucket(&b, threads < CHUNKS_MAX / 4 ? 4 * threads : CHUNKS_MAX);
     if (status) return status;
     if (!guard_grid_make(b.dim, levels, cube, b.tables, &b.grid)) return guard_octree(w, item, cube);
     status = count_guards(&b);
@@ -355,7 +355,7 @@ froe_status guard_bucket_scene(guard_worker *w, const split_places *places, doub
     b.levels = places->grid.levels;
     mix_axes(&b);
     *count = 0;
-    froe_status status = make_room(&b, threads < CHUNKS_MAX ? threads : CHUNKS_MAX); /* sums are large */
+    froe_status status = reserve_bucket(&b, threads < CHUNKS_MAX ? threads : CHUNKS_MAX); /* sums are large */
     if (!status) status = count_guards(&b);
     if (status || (b.sums[0] > w->plan->k && shrinks(&b, &whole, b.sums[0]))) return status;
     *count = b.sums[0];

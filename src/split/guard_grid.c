@@ -44,7 +44,7 @@ int guard_grid_levels(uint64_t guards, int dim, int bits_most) {
 }
 
 /* Bits of a slice, spread to the bits of the code. */
-static uint32_t spread(uint32_t slice, int dim, int axis, int levels) {
+static uint32_t spread_bits(uint32_t slice, int dim, int axis, int levels) {
     uint32_t code = 0;
     for (int bit = 0; bit < levels; bit++) code |= (slice >> bit & 1) << (dim * bit + dim - 1 - axis);
     return code;
@@ -84,7 +84,7 @@ bool guard_grid_make(int dim, int levels, const guard_cube *cube, char *room, gu
         t->codes = (uint32_t *)(void *)(t->bounds + out->slices + 2);
         t->levels = (uint8_t *)(t->codes + out->slices);
         for (uint32_t i = 0; i < out->slices; i++) {
-            t->codes[i] = spread(i, dim, axis, levels);
+            t->codes[i] = spread_bits(i, dim, axis, levels);
             t->levels[i] = (uint8_t)(i ? levels - __builtin_ctz(i) : 0);
         }
         if (!fill_bounds(t->bounds, out->slices, cube->lo[axis], cube->hi[axis])) return false;

@@ -54,7 +54,7 @@ static const double *point_of(const phase *ph, uint32_t guard) {
     return ph->points + (size_t)guard * (size_t)ph->dim;
 }
 
-static void trim(phase *ph) {
+static void trim_cube(phase *ph) {
     for (int i = 0; i < ph->dim; i++) {
         while (ph->first[i] < ph->last[i] && !alive_at(ph, i, ph->first[i])) ph->first[i]++;
         while (ph->first[i] < ph->last[i] && !alive_at(ph, i, ph->last[i] - 1)) ph->last[i]--;
@@ -145,7 +145,7 @@ static guard_item part_of(const phase *ph, uint32_t node, uint32_t count) {
 }
 
 /* Makes an item or a leaf; *label is the one of its guards. */
-static froe_status leave(phase *ph, uint32_t node, uint32_t count, const guard_cube *cube, uint32_t *label) {
+static froe_status push_part(phase *ph, uint32_t node, uint32_t count, const guard_cube *cube, uint32_t *label) {
     guard_item part = part_of(ph, node, count);
     bool leaf = count <= ph->w->plan->k;
     *label = leaf ? (uint32_t)DEAD : FIRST + ph->items;
@@ -189,7 +189,7 @@ static void go_down(phase *ph, const side *sides, uint32_t first_cell) {
     ph->alive -= ph->listed;
 }
 
-static froe_status split(phase *ph, const side *sides) {
+static froe_status split_into_octants(phase *ph, const side *sides) {
     uint32_t counts[GUARD_CELLS + 1] = {0}, labels[GUARD_CELLS + 1], first, cells = 1u << ph->dim, rest = 0;
     list_split(ph, sides, counts);
     froe_status status = guard_octants(ph->w, ph->node, ph->height, ph->mid, &first);
@@ -199,7 +199,7 @@ static froe_status split(phase *ph, const side *sides) {
         guard_cube cube = ph->cube;
         if (code == rest) continue;
         guard_orthant(&cube, ph->mid, code, ph->dim);
-        status = leave(ph, first + code, counts[code], &cube, &labels[code]);
+        status = push_part(ph, first + code, counts[code], &cube, &labels[code]);
     }
     if (status) return status;
     labels[cells] = DEAD;
@@ -245,7 +245,7 @@ static void drop_border(phase *ph, const guard_shrunk *shrunk) {
     }
 }
 
-static froe_status shrink(phase *ph, uint32_t corner) {
+static froe_status shrink_cube(phase *ph, uint32_t corner) {
     guard_shrunk shrunk;
     guard_item here = part_of(ph, ph->node, ph->alive);
     uint32_t inner;
@@ -264,17 +264,17 @@ static froe_status shrink(phase *ph, uint32_t corner) {
 
 /* ---- the step */
 
-static froe_status follow(phase *ph) {
+static froe_status follow_phase(phase *ph) {
     uint32_t half = ph->item->count / 2;
     for (bool begun = false;; begun = true) {
         side sides[FROE_MAX_DIM];
         uint32_t corner;
         if (ph->alive <= ph->w->plan->k || (begun && ph->alive <= half))
-            return leave(ph, ph->node, ph->alive, &ph->cube, &ph->rest);
+            return push_part(ph, ph->node, ph->alive, &ph->cube, &ph->rest);
         if (base_cancelled(ph->w->plan->task)) return FROE_E_CANCELLED;
-        trim(ph);
+        trim_cube(ph);
         look_at_sides(ph, sides);
-        froe_status status = must_shrink(ph, sides, &corner) ? shrink(ph, corner) : split(ph, sides);
+        froe_status status = must_shrink(ph, sides, &corner) ? shrink_cube(ph, corner) : split_into_octants(ph, sides);
         if (status) return status;
     }
 }
@@ -311,7 +311,7 @@ froe_status guard_phase(guard_worker *w, const guard_item *item, const guard_cub
     ph.ends = ph.list + count;
     ph.codes = (uint16_t *)(ph.ends + count);
     w->phases++;
-    froe_status status = follow(&ph);
+    froe_status status = follow_phase(&ph);
     if (!status) distribute(&ph);
     return status;
 }

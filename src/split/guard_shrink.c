@@ -38,7 +38,7 @@ static int peel_one(const guard_cube *cube, int dim, uint32_t corner, guard_peel
 }
 
 /* Where axis i is cut: v +- s between the farthest guard left and the nearest one peeled on i. */
-static double place(double at, const double *left, const double *peeled, bool above) {
+static double place_between(double at, const double *left, const double *peeled, bool above) {
     if (left && (above ? *left < at : *left > at)) at = *left;
     if (peeled && (above ? *peeled > at : *peeled < at)) at = *peeled;
     return at;
@@ -61,8 +61,8 @@ void guard_shrink_rule(const guard_cube *cube, int dim, uint32_t corner, uint32_
     for (int i = 0; i < dim; i++) {
         bool above = guard_above(corner, dim, i);
         const double *left = peeler->farthest(peeler, i);
-        double at = place(above ? cube->hi[i] - size : cube->lo[i] + size, left ? left + i : NULL,
-                          peeled[i] ? nearest + i : NULL, above);
+        double at = place_between(above ? cube->hi[i] - size : cube->lo[i] + size, left ? left + i : NULL,
+                                  peeled[i] ? nearest + i : NULL, above);
         if (i == last) at = nearest[i];
         if (!(cube->lo[i] < at && at < cube->hi[i])) continue; /* rounding made the cube this flat */
         out->axes[out->count] = (uint8_t)i;

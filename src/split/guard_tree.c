@@ -72,7 +72,7 @@ static double promised_leaves(const guard_plan *plan, double guards) {
     return cells * (plan->k ? 2 * guards / plan->k - 1 : 2 * guards - 1) + 1;
 }
 
-static froe_status start(building *b, const guard_cube *root) {
+static froe_status start_guard_tree(building *b, const guard_cube *root) {
     memcpy(b->out->lo, root->lo, sizeof root->lo);
     memcpy(b->out->hi, root->hi, sizeof root->hi);
     return array_push(b->plan.alloc, &b->nodes, (split_guard_node){0}) ? FROE_OK : FROE_E_MEMORY;
@@ -88,7 +88,7 @@ static froe_status plant(building *b, const double *guards, size_t count) {
     b->foreman.input = guards;
     bounding_box(guards, count, b->plan.dim, &box);
     guard_root(&box, b->plan.dim, &root);
-    froe_status status = start(b, &root);
+    froe_status status = start_guard_tree(b, &root);
     bool all = guard_strictly_inside(box.lo, box.hi, &root, b->plan.dim);
     guard_item item = {.side = all ? GUARD_INPUT : GUARD_MAIN};
     item.count = b->count = (uint32_t)(all ? count : drop_border(b, guards, count, &root));
@@ -99,7 +99,7 @@ static froe_status plant(building *b, const double *guards, size_t count) {
 static froe_status plant_scene(building *b, const split_places *places) {
     const froe_scene *scene = places->scene;
     if (places->grid.levels && (uint64_t)scene->object_count << b->plan.dim <= GUARD_LIMIT) {
-        froe_status status = start(b, &places->root);
+        froe_status status = start_guard_tree(b, &places->root);
         if (!status) status = guard_bucket_scene(&b->foreman, places, &b->main, &b->bytes, &b->count);
         b->foreman.side[GUARD_MAIN] = b->main;
         if (status || b->count) return status;
@@ -247,7 +247,7 @@ static void add_up(split_guard_tree *out, const guard_worker *w) {
     if (w->height > out->height) out->height = w->height;
 }
 
-static froe_status finish(building *b) {
+static froe_status finish_guard_tree(building *b) {
     froe_status status = FROE_OK;
     add_up(b->out, &b->foreman);
     for (unsigned i = 0; i < b->hand_count; i++) add_up(b->out, &b->hands[i].work);
@@ -261,7 +261,8 @@ static froe_status finish(building *b) {
     return status;
 }
 
-static froe_status build(building *b, double span, const split_places *places, const double *guards, size_t count) {
+static froe_status build_guard_tree(building *b, double span, const split_places *places, const double *guards,
+                                    size_t count) {
     const base_task *task = b->plan.task;
     b->hands = base_calloc(b->plan.alloc, task->threads, sizeof *b->hands);
     if (!b->hands) return FROE_E_MEMORY;
@@ -274,10 +275,10 @@ static froe_status build(building *b, double span, const split_places *places, c
     b->out->promised = promised_leaves(&b->plan, b->count);
     status = oversee(b);
     if (!status) status = base_run(b->plan.task, b->jobs.count ? span : 0, b->jobs.count, run_job, b);
-    return status ? status : finish(b);
+    return status ? status : finish_guard_tree(b);
 }
 
-static void clean_up(building *b) {
+static void free_building(building *b) {
     const froe_allocator *alloc = b->plan.alloc;
     for (unsigned i = 0; i < b->hand_count; i++) {
         guard_worker_free(&b->hands[i].work);
@@ -319,9 +320,9 @@ static froe_status build_tree(const froe_allocator *alloc, base_task *task, doub
     b.foreman.nodes = &b.nodes;
     b.foreman.parallel = task->threads > 1;
     double done = task->done + span * task->scale;
-    froe_status status = build(&b, span, places, guards, count);
+    froe_status status = build_guard_tree(&b, span, places, guards, count);
     if (!status && !base_progress(task, done)) status = FROE_E_CANCELLED;
-    clean_up(&b);
+    free_building(&b);
     if (status)
         array_free(alloc, &tree.nodes);
     else

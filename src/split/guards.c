@@ -61,8 +61,8 @@ static froe_status write_chunk(void *user, unsigned worker, size_t chunk) {
     return FROE_OK;
 }
 
-static froe_status collect(const froe_allocator *alloc, base_task *task, double span, collection *c, size_t chunks,
-                           split_guards *out) {
+static froe_status collect_guards(const froe_allocator *alloc, base_task *task, double span, collection *c,
+                                  size_t chunks, split_guards *out) {
     froe_status status = base_run(task, 0.5 * span, chunks, count_chunk, c);
     if (status) return status;
     for (size_t chunk = 0; chunk < chunks; chunk++) c->starts[chunk + 1] += c->starts[chunk];
@@ -84,7 +84,7 @@ froe_status split_guards_of(const froe_allocator *alloc, base_task *task, double
     collection c = {.scene = scene, .ids = ids, .objects = count};
     c.starts = base_calloc(alloc, chunks + 1, sizeof *c.starts);
     if (!c.starts) return FROE_E_MEMORY;
-    froe_status status = collect(alloc, task, span, &c, chunks, out);
+    froe_status status = collect_guards(alloc, task, span, &c, chunks, out);
     base_free(alloc, c.starts, (chunks + 1) * sizeof *c.starts);
     return status;
 }

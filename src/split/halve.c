@@ -5,7 +5,8 @@
 enum { NUDGES = 8 };
 
 /* 1, 2 or 3; 0: an end lies in the cut. */
-static uint8_t class_of(axis_work *work, const packed_box *box, const packed_fragment *f, const halve_cut *cut) {
+static uint8_t class_of_halving(axis_work *work, const packed_box *box, const packed_fragment *f,
+                                const halve_cut *cut) {
     int first = axis_side(work, f, false, box, cut->axis, cut->value);
     int last = axis_side(work, f, true, box, cut->axis, cut->value);
     if (!first || !last) return 0;
@@ -16,7 +17,7 @@ static bool count_once(axis_work *work, const packed_box *box, const packed_frag
                        uint8_t *classes) {
     uint32_t of[4] = {0};
     for (uint32_t i = 0; i < count; i++) {
-        of[classes[i] = class_of(work, box, f + i, cut)]++;
+        of[classes[i] = class_of_halving(work, box, f + i, cut)]++;
         if (!classes[i]) return false;
     }
     cut->both = of[3];

@@ -78,7 +78,7 @@ static froe_cut sandwich(ham *h) {
 }
 
 /** Halves one set, across the axis on which it is wider. */
-static froe_cut halve(const ham *h, ham_point *p, size_t count) {
+static froe_cut halve_points(const ham *h, ham_point *p, size_t count) {
     double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 2; k++) {
@@ -94,7 +94,7 @@ static froe_cut halve(const ham *h, ham_point *p, size_t count) {
 /* ------------------------------------------------------------------- cells -- */
 
 /** Deals the points of a cell, which are on top, to both sides of its cut; those in the cut are done. */
-static froe_status deal(ham *h, const ham_cell *cell, const froe_cut *cut) {
+static froe_status deal_points(ham *h, const ham_cell *cell, const froe_cut *cut) {
     const froe_allocator *alloc = &h->tree->alloc;
     geom_plane plane = scene_cut_plane(h->tree->scene, cut);
     double length = sqrt(plane.n[0] * plane.n[0] + plane.n[1] * plane.n[1]), n[2], origin[2];
@@ -129,37 +129,37 @@ static froe_status push_child(ham *h, uint32_t node, int side, const froe_cut *c
 }
 
 /** Splits the node by the cut it was given, and names one for both children. */
-static froe_status do_cell(ham *h, const ham_cell *cell) {
+static froe_status cut_ham_cell(ham *h, const ham_cell *cell) {
     froe_cut cut = h->tree->nodes.data[cell->node].cut, next[2];
     uint32_t child;
-    froe_status status = deal(h, cell, &cut);
+    froe_status status = deal_points(h, cell, &cut);
     if (!status) status = point_tree_split(h->tree, cell->node, &cut, &child);
     if (status) return status;
     if (h->side[0].count > 1 && h->side[1].count > 1)
         next[0] = next[1] = sandwich(h);
     else
         for (int s = 0; s < 2; s++)
-            if (h->side[s].count > 1) next[s] = halve(h, h->side[s].data, h->side[s].count);
+            if (h->side[s].count > 1) next[s] = halve_points(h, h->side[s].data, h->side[s].count);
     for (int s = 1; s >= 0 && !status; s--) status = push_child(h, child + (uint32_t)s, s, &next[s]);
     return status;
 }
 
 /** All endpoints of the scene, each once, below the root. */
-static froe_status begin(ham *h) {
+static froe_status begin_ham(ham *h) {
     const froe_scene *s = h->tree->scene;
     if (!array_reserve(&h->tree->alloc, &h->side[0], s->vertex_count)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < s->vertex_count; i++) h->side[0].data[h->side[0].count++] = (ham_point){.vertex = i};
     if (h->side[0].count < 2) return FROE_OK;
-    froe_cut cut = halve(h, h->side[0].data, h->side[0].count);
+    froe_cut cut = halve_points(h, h->side[0].data, h->side[0].count);
     return push_child(h, 0, 0, &cut);
 }
 
 froe_status point_tree_by_ham_sandwich(point_tree *tree, num_context *context, base_task *task) {
     ham h = {.tree = tree, .context = context};
-    froe_status status = begin(&h);
+    froe_status status = begin_ham(&h);
     for (uint32_t turn = 0; h.cells.count && !status; turn++) {
         ham_cell cell = h.cells.data[--h.cells.count];
-        status = do_cell(&h, &cell);
+        status = cut_ham_cell(&h, &cell);
         if (!status && turn % 16 == 0 && !base_progress(task, task->done)) status = FROE_E_CANCELLED;
     }
     array_free(&tree->alloc, &h.cells);

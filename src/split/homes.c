@@ -159,7 +159,7 @@ static uint32_t *numbers(const froe_allocator *alloc, size_t count) {
 }
 
 /** Finds the home of each object, given memory for them. */
-static froe_status descend(const froe_allocator *alloc, descent *d) {
+static froe_status descend_to_homes(const froe_allocator *alloc, descent *d) {
     size_t n = d->places->object_count;
     const guard_grid *grid = &d->places->grid;
     if (grid->levels) {
@@ -183,7 +183,7 @@ froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const
     h.end = numbers(alloc, m);
     uint32_t *home = numbers(alloc, n), *own = base_calloc(alloc, m, sizeof *own);
     descent d = {.places = places, .nodes = guard->nodes.data, .task = task, .home = home};
-    froe_status status = h.ids && h.at && h.end && home && own ? descend(alloc, &d) : FROE_E_MEMORY;
+    froe_status status = h.ids && h.at && h.end && home && own ? descend_to_homes(alloc, &d) : FROE_E_MEMORY;
     if (!status) sort_by_home(guard->nodes.data, home, own, &h);
     base_free(alloc, home, n * sizeof *home);
     base_free(alloc, own, m * sizeof *own);

@@ -5,7 +5,8 @@
 enum { CHUNK = 8192 }; /* objects per job */
 
 /** Codes of a box, as in places.h. */
-static inline void place(const guard_grid *grid, const double *lo, const double *hi, int dim, uint32_t code[2]) {
+static inline void place_on_grid(const guard_grid *grid, const double *lo, const double *hi, int dim,
+                                 uint32_t code[2]) {
     uint32_t first = 0, last = 0, flat = 0, apart = 0;
     for (int i = 0; i < dim; i++) {
         const guard_axis *t = &grid->axes[i];
@@ -23,7 +24,7 @@ static inline void place_objects(const split_places *p, uint32_t begin, uint32_t
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     for (uint32_t i = begin; i < end; i++) {
         scene_bounds_in(p->scene, dim, i, lo, hi);
-        place(&p->grid, lo, hi, dim, p->codes[i]);
+        place_on_grid(&p->grid, lo, hi, dim, p->codes[i]);
     }
 }
 
@@ -44,7 +45,7 @@ static froe_status place_chunk(void *user, unsigned worker, size_t chunk) {
     return FROE_OK;
 }
 
-static froe_status fill(const froe_allocator *alloc, base_task *task, int levels, split_places *p) {
+static froe_status fill_places(const froe_allocator *alloc, base_task *task, int levels, split_places *p) {
     int dim = p->scene->dim;
     p->table_bytes = guard_grid_size(dim, levels);
     p->tables = base_realloc(alloc, NULL, 0, p->table_bytes);
@@ -69,7 +70,7 @@ froe_status split_places_make(const froe_allocator *alloc, base_task *task, cons
     memcpy(box.hi, scene->hi, sizeof box.hi);
     if (levels > 1) {
         guard_root(&box, scene->dim, &p.root);
-        if (guard_strictly_inside(box.lo, box.hi, &p.root, scene->dim)) status = fill(alloc, task, levels, &p);
+        if (guard_strictly_inside(box.lo, box.hi, &p.root, scene->dim)) status = fill_places(alloc, task, levels, &p);
     }
     if (status)
         split_places_free(alloc, &p);

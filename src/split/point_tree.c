@@ -41,7 +41,7 @@ typedef struct walk_step {
     bool left; /**< its children have been walked */
 } walk_step;
 
-static froe_status number_nodes(point_tree *t) {
+static froe_status number_point_nodes(point_tree *t) {
     ARRAY(walk_step) stack = {0};
     uint32_t time = 0;
     bool room = array_push(&t->alloc, &stack, (walk_step){0, 0, false});
@@ -178,7 +178,7 @@ static froe_status find_junctions(point_tree *t) {
 }
 
 froe_status point_tree_finish(point_tree *t, num_context *context) {
-    froe_status status = number_nodes(t);
+    froe_status status = number_point_nodes(t);
     if (!status) status = find_homes(t, context);
     return status ? status : find_junctions(t);
 }

@@ -61,7 +61,7 @@ static double solids_cost(split_tally t, double copy) {
     return (a * a + b * b) / (m * m) + copy * t.both / m;
 }
 
-static void enter(contest *c, const froe_cut *cut, split_tally tally) {
+static void enter_cut(contest *c, const froe_cut *cut, split_tally tally) {
     if (!split_tally_useful(tally)) return;
     double cost = c->solids ? solids_cost(tally, c->config->copy)
                             : split_price_of(&c->scratch->price, &c->terms, tally, c->scratch->view.weight);
@@ -79,7 +79,7 @@ static void enter_support(contest *c, uint32_t item) {
     const split_set *set = &c->work->set;
     if (set->scene->dim > 3) return;
     froe_cut cut = scene_support_cut(set->scene, set->items.data[c->cell->first + item].object);
-    if (cut.kind != FROE_CUT_NONE) enter(c, &cut, split_view_count(&c->scratch->view, set->scene, &cut));
+    if (cut.kind != FROE_CUT_NONE) enter_cut(c, &cut, split_view_count(&c->scratch->view, set->scene, &cut));
 }
 
 /** All fragments of a small cell, or a draw from a large one. */
@@ -121,7 +121,7 @@ static void enter_edge(contest *c, uint64_t draw) {
     cut.id[1] = scene_corner(scene, one, i + 1 < n ? i + 1 : 0);
     cut.id[2] = scene_corner(scene, other, j);
     if (cut.id[2] == cut.id[0] || cut.id[2] == cut.id[1]) return;
-    enter(c, &cut, split_view_count(&c->scratch->view, scene, &cut));
+    enter_cut(c, &cut, split_view_count(&c->scratch->view, scene, &cut));
 }
 
 static void enter_edges(contest *c) {
@@ -139,7 +139,7 @@ static bool enter_axes(contest *c, size_t quantiles) {
             size_t at = (2 * i + 1) * n / (2 * tries);
             froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis, .value = view->values.data[at]};
             if (!isfinite(cut.value) || (last < n && view->values.data[last] == cut.value)) continue;
-            enter(c, &cut, split_view_count_axis(view, cut.value));
+            enter_cut(c, &cut, split_view_count_axis(view, cut.value));
             last = at;
         }
     }
@@ -176,7 +176,7 @@ static void enter_separators(contest *c) {
         }
         froe_cut cut;
         if (b != FROE_NONE && split_separate_pair(c->work, a, b, &c->scratch->separator, &cut))
-            enter(c, &cut, split_view_count(&c->scratch->view, scene, &cut));
+            enter_cut(c, &cut, split_view_count(&c->scratch->view, scene, &cut));
     }
 }
 
@@ -190,7 +190,7 @@ static bool enter_facets(contest *c) {
         scene_object_bounds(scene, item_object(c, base_below(draw, c->cell->count)), lo, hi);
         froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis, .value = (base_mix(draw + 2) & 1 ? hi : lo)[axis]};
         if (!split_view_extents(&c->scratch->view, &c->work->set, c->cell, axis)) return false;
-        enter(c, &cut, split_view_count_axis(&c->scratch->view, cut.value));
+        enter_cut(c, &cut, split_view_count_axis(&c->scratch->view, cut.value));
     }
     return true;
 }
@@ -220,7 +220,7 @@ static split_verdict enter_any_separator(contest *c) {
     if (!any_facet(c, &cut)) verdict = split_separate(c->work, c->cell, &c->scratch->separator, &cut);
     if (verdict != SPLIT_CUT) return verdict;
     if (cell_tally(c->work, c->cell, &cut, &tally)) return SPLIT_MEMORY;
-    enter(c, &cut, tally);
+    enter_cut(c, &cut, tally);
     return SPLIT_CUT;
 }
 

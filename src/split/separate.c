@@ -29,7 +29,7 @@ static bool by_axis(const split_work *work, const split_cell *cell, froe_cut *cu
 }
 
 /** Does the plane have object a weakly on one side and b weakly on the other, neither in it? */
-static bool separates(split_work *work, const froe_cut *cut, uint32_t a, uint32_t b) {
+static bool cut_separates(split_work *work, const froe_cut *cut, uint32_t a, uint32_t b) {
     split_set *set = &work->set;
     split_plane plane = split_plane_of(set->scene, cut);
     split_fragment fa = {.object = a}, fb = {.object = b};
@@ -52,7 +52,7 @@ static bool between_balls(split_work *work, uint32_t a, uint32_t b, double *norm
     for (int k = 0; k < scene->dim; k++) at += normal[k] * (ca[k] + t * normal[k]);
     if (!(length > 0) || !isfinite(at) || !isfinite(length)) return false;
     *cut = (froe_cut){.kind = FROE_CUT_PLANE, .value = at, .normal = normal};
-    return separates(work, cut, a, b);
+    return cut_separates(work, cut, a, b);
 }
 
 /** Appends the corners of a hull; the caller has made room. */

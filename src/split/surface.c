@@ -105,24 +105,24 @@ bool surface_count(const space_item *items, uint32_t count, surface_cut *cut, ui
 
 /* ---------------------------------------------------------------------- deal -- */
 
-static void reach(space_item *b, int k, double lo, double hi) {
+static void reach_interval(space_item *b, int k, double lo, double hi) {
     b->lo[k] = lo < b->lo[k] ? lo : b->lo[k];
     b->hi[k] = hi > b->hi[k] ? hi : b->hi[k];
 }
 
 /* Bounds of a triangle's parts on both sides; corners in the cut belong to both. */
-static void divide(const double *const p[3], int axis, double c, space_item part[2]) {
+static void divide_triangle(const double *const p[3], int axis, double c, space_item part[2]) {
     part[0] = part[1] = (space_item){.lo = {INFINITY, INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY, -INFINITY}};
     for (int i = 0; i < 3; i++) {
         const double *u = p[i], *v = p[i == 2 ? 0 : i + 1];
-        for (int k = 0; u[axis] <= c && k < 3; k++) reach(part, k, u[k], u[k]);
-        for (int k = 0; u[axis] >= c && k < 3; k++) reach(part + 1, k, u[k], u[k]);
+        for (int k = 0; u[axis] <= c && k < 3; k++) reach_interval(part, k, u[k], u[k]);
+        for (int k = 0; u[axis] >= c && k < 3; k++) reach_interval(part + 1, k, u[k], u[k]);
         if (!(u[axis] < c && v[axis] > c) && !(u[axis] > c && v[axis] < c)) continue;
         const double s = (c - u[axis]) / (v[axis] - u[axis]);
         for (int k = 0; k < 3; k++) {
             const double x = u[k] + s * (v[k] - u[k]), slack = 0x1p-50 * (fabs(u[k]) + fabs(v[k]));
-            reach(part, k, x - slack, x + slack);
-            reach(part + 1, k, x - slack, x + slack);
+            reach_interval(part, k, x - slack, x + slack);
+            reach_interval(part + 1, k, x - slack, x + slack);
         }
     }
 }
@@ -163,7 +163,7 @@ static bool misses(const plane *a, const space_item *b) {
 }
 
 /* Cuts an item down to its part; false: nothing is left. */
-static bool shrink(space_item *item, const space_item *part, int axis) {
+static bool shrink_item(space_item *item, const space_item *part, int axis) {
     bool left = true;
     for (int k = 0; k < 3; k++) {
         if (k == axis) continue;
@@ -175,11 +175,12 @@ static bool shrink(space_item *item, const space_item *part, int axis) {
 }
 
 /* Clips both copies of a triangle, one for each side; is anything left there? */
-static void clip(const froe_scene *s, const surface_cut *cut, bool thorough, space_item *const out[2], bool left[2]) {
+static void clip_listed(const froe_scene *s, const surface_cut *cut, bool thorough, space_item *const out[2],
+                        bool left[2]) {
     const double *const p[3] = {space_corner(s, out[0], 0), space_corner(s, out[0], 1), space_corner(s, out[0], 2)};
     space_item part[2];
-    divide(p, cut->axis, cut->value, part);
-    for (int i = 0; i < 2; i++) left[i] = shrink(out[i], part + i, cut->axis);
+    divide_triangle(p, cut->axis, cut->value, part);
+    for (int i = 0; i < 2; i++) left[i] = shrink_item(out[i], part + i, cut->axis);
     if (!thorough) return;
     const plane a = plane_of(p);
     for (int i = 0; i < 2; i++) left[i] = left[i] && !misses(&a, out[i]);
@@ -205,7 +206,7 @@ void surface_deal(const froe_scene *s, const space_item *items, uint32_t count, 
         if (left[0]) *out[0] = item;
         if (left[1]) *out[1] = item;
         if (classes[i] == 3) out[0]->hi[cut->axis] = out[1]->lo[cut->axis] = cut->value;
-        if (classes[i] == 3 && item.corner != FROE_NONE && tame) clip(s, cut, thorough, out, left);
+        if (classes[i] == 3 && item.corner != FROE_NONE && tame) clip_listed(s, cut, thorough, out, left);
         below += left[0];
         above += left[1];
     }

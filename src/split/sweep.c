@@ -15,7 +15,7 @@ void split_sweep_free(const froe_allocator *alloc, split_sweep *s) {
     for (int k = 0; k < 3; k++) array_free(alloc, &s->change[k]);
 }
 
-static bool make_room(split_sweep *s, const froe_allocator *alloc, size_t corners) {
+static bool reserve_sweep(split_sweep *s, const froe_allocator *alloc, size_t corners) {
     s->order.count = s->spare.count = s->met.count = s->at.count = 0;
     for (int k = 0; k < 3; k++) {
         s->change[k].count = 0;
@@ -26,7 +26,7 @@ static bool make_room(split_sweep *s, const froe_allocator *alloc, size_t corner
 }
 
 /** A corner in a direction from 0 to 1. */
-static void put(split_sweep *s, double direction, uint32_t corner) {
+static void put_sweep_corner(split_sweep *s, double direction, uint32_t corner) {
     uint64_t top = ((uint64_t)1 << BITS) - 1, rounded = direction < 1 ? (uint64_t)(direction * 0x1p40) : top;
     s->order.data[s->order.count++] = rounded << INDEX | corner;
 }
@@ -84,7 +84,7 @@ static uint32_t rank(split_sweep *s, const split_facets *f) {
 /* --------------------------------------------------------------- counting -- */
 
 /** A fragment has no corner of some sort from one rank to another, both included. */
-static void note(split_sweep *s, int sort, uint32_t from, uint32_t to) {
+static void note_missing(split_sweep *s, int sort, uint32_t from, uint32_t to) {
     if (from > to) return;
     s->change[sort].data[from]++;
     s->change[sort].data[to + 1]--;
@@ -106,10 +106,10 @@ static void note_fragment(split_sweep *s, const uint32_t *corner, const uint32_t
     uint32_t first_negative = least_other < NEGATIVE ? least_other : ranks - 1;
     uint32_t last_negative = most >= NEGATIVE ? most - NEGATIVE : 0;
     uint32_t last_positive = most_other >= NEGATIVE ? most_other - NEGATIVE : 0;
-    note(s, 0, last_negative, first_positive);
-    note(s, 1, last_positive, first_negative);
-    note(s, 2, last_negative > last_positive ? last_negative : last_positive,
-         first_negative < first_positive ? first_negative : first_positive);
+    note_missing(s, 0, last_negative, first_positive);
+    note_missing(s, 1, last_positive, first_negative);
+    note_missing(s, 2, last_negative > last_positive ? last_negative : last_positive,
+                 first_negative < first_positive ? first_negative : first_positive);
 }
 
 static void note_fragments(split_sweep *s, const split_facets *f, uint32_t ranks) {
@@ -164,7 +164,7 @@ static void across(const double e[3], double f[3], double g[3]) {
 
 /** Where corners are met. Directions u, v of opposite sense lie in one plane: the lower half is turned up. They grow
  * with the angle; an arc tangent is not needed to sort. */
-static void look_along(split_sweep *s, const split_facets *t, const double p[3], const double e[3]) {
+static void look_along_edge(split_sweep *s, const split_facets *t, const double p[3], const double e[3]) {
     const double *x = t->x.data, *y = t->y.data, *z = t->z.data;
     const double near = 0x1p-40 * (1 + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
     double f[3], g[3];
@@ -175,7 +175,7 @@ static void look_along(split_sweep *s, const split_facets *t, const double p[3],
         double size = fabs(u) + fabs(v), cosine = u / size;
         bool below = v < 0 || (v == 0 && u < 0);
         s->met.data[i] = !(size > near) ? ALWAYS : below ? NEGATIVE : 0;
-        if (size > near) put(s, 0.5 - 0.5 * (below ? -cosine : cosine), i);
+        if (size > near) put_sweep_corner(s, 0.5 - 0.5 * (below ? -cosine : cosine), i);
     }
 }
 
@@ -199,9 +199,9 @@ bool split_sweep_pencil(split_sweep *s, const split_set *set, const split_facets
     double p[3], e[3];
     *best = FROE_NONE;
     if (facets->x.count > SPLIT_SWEEP_MOST) return true;
-    if (!make_room(s, &set->alloc, facets->x.count)) return false;
+    if (!reserve_sweep(s, &set->alloc, facets->x.count)) return false;
     if (!axle_of(facets, set->scene, axle, p, e)) return true;
-    look_along(s, facets, p, e);
+    look_along_edge(s, facets, p, e);
     uint32_t corner = winner(s, facets, price, terms, false);
     if (corner != FROE_NONE) *best = facets->vertex.data[corner];
     return true;
@@ -212,10 +212,10 @@ bool split_sweep_axis(split_sweep *s, const split_set *set, const split_facets *
     const double *x = axis == 0 ? facets->x.data : axis == 1 ? facets->y.data : facets->z.data;
     *best = FROE_NONE;
     if (facets->x.count > SPLIT_SWEEP_MOST) return true;
-    if (!make_room(s, &set->alloc, facets->x.count)) return false;
+    if (!reserve_sweep(s, &set->alloc, facets->x.count)) return false;
     for (uint32_t i = 0; i < facets->corners; i++) {
         s->met.data[i] = 0;
-        put(s, 0.5 + 0.75 * x[i], i); /* |x| <= 1/2, but for rounding */
+        put_sweep_corner(s, 0.5 + 0.75 * x[i], i); /* |x| <= 1/2, but for rounding */
     }
     *best = winner(s, facets, price, terms, true);
     return true;

@@ -16,7 +16,7 @@ void split_view_free(const froe_allocator *alloc, split_view *view) {
 }
 
 /** Appends one corner, or ball. The caller has made room. */
-static void add_corner(split_view *view, const double *x, double radius, int dim) {
+static void add_view_corner(split_view *view, const double *x, double radius, int dim) {
     size_t at = view->x[0].count++;
     for (int k = 0; k < dim; k++) {
         double size = fabs(x[k]) + radius;
@@ -27,17 +27,17 @@ static void add_corner(split_view *view, const double *x, double radius, int dim
     view->round |= radius > 0;
 }
 
-static void add_box(split_view *view, const split_set *set, uint32_t object, int dim) {
+static void add_view_box(split_view *view, const split_set *set, uint32_t object, int dim) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], x[3];
     scene_object_bounds(set->scene, object, lo, hi);
     for (unsigned corner = 0; corner < 1u << dim; corner++) {
         for (int k = 0; k < dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
-        add_corner(view, x, 0, dim);
+        add_view_corner(view, x, 0, dim);
     }
 }
 
 /** Room for n more corners and one more fragment. */
-static bool make_room(split_view *view, const froe_allocator *alloc, int dim, uint32_t n) {
+static bool reserve_view(split_view *view, const froe_allocator *alloc, int dim, uint32_t n) {
     for (int k = 0; k < dim; k++) {
         view->x[k].count = view->x[0].count;
         if (!array_reserve(alloc, &view->x[k], n)) return false;
@@ -51,12 +51,12 @@ static bool add_fragment(split_view *view, const split_set *set, const split_fra
     int dim = scene->dim;
     froe_kind form = scene_form(scene, f->object);
     uint32_t n = form == FROE_BOX ? 1u << dim : form == FROE_BALL ? 1 : split_corner_count(set, f);
-    if (!make_room(view, &set->alloc, dim, n)) return false;
+    if (!reserve_view(view, &set->alloc, dim, n)) return false;
     if (form == FROE_BOX)
-        add_box(view, set, f->object, dim);
+        add_view_box(view, set, f->object, dim);
     else
         for (uint32_t i = 0; i < n; i++)
-            add_corner(view, split_image(set, f, i), form == FROE_BALL ? scene_radius(scene, f->object) : 0, dim);
+            add_view_corner(view, split_image(set, f, i), form == FROE_BALL ? scene_radius(scene, f->object) : 0, dim);
     view->start.data[view->start.count++] = (uint32_t)view->x[0].count;
     return true;
 }
@@ -95,7 +95,7 @@ bool split_view_fill(split_view *view, const split_set *set, const split_cell *c
     if (set->scene->dim > 3) return true; /* axis-parallel planes are the only candidates */
     view->start.count = 0;
     for (int k = 0; k < 3; k++) view->x[k].count = 0, view->reach[k] = 0;
-    if (!make_room(view, &set->alloc, set->scene->dim, 2 * view->count)) return false;
+    if (!reserve_view(view, &set->alloc, set->scene->dim, 2 * view->count)) return false;
     if (set->scene->dim == 2 && view->count == cell->count)
         view->pairs = fill_pairs(view, set, set->items.data + cell->first);
     if (view->pairs) return true;
@@ -151,19 +151,19 @@ static double slack_of(const split_view *view, int dim, const rough *h) {
     return reach * 0x1p-49;
 }
 
-static uint8_t side_of(double value, double slack) {
+static uint8_t rough_side(double value, double slack) {
     return (uint8_t)((value < -slack) | (value > slack) << 1);
 }
 
-static void find_sides(split_view *view, int dim, const rough *h) {
+static void find_rough_sides(split_view *view, int dim, const rough *h) {
     size_t n = view->x[0].count;
     const double *x = view->x[0].data, *y = view->x[1].data, *z = view->x[2].data;
     double a = h->n[0], b = h->n[1], c = h->n[2], d = h->d, slack = slack_of(view, dim, h);
     uint8_t *side = view->side.data;
     if (dim == 2)
-        for (size_t i = 0; i < n; i++) side[i] = side_of(a * x[i] + b * y[i] - d, slack);
+        for (size_t i = 0; i < n; i++) side[i] = rough_side(a * x[i] + b * y[i] - d, slack);
     else
-        for (size_t i = 0; i < n; i++) side[i] = side_of(a * x[i] + b * y[i] + c * z[i] - d, slack);
+        for (size_t i = 0; i < n; i++) side[i] = rough_side(a * x[i] + b * y[i] + c * z[i] - d, slack);
 }
 
 /** The same where some corners are centres of balls: these reach further by their radius. */
@@ -174,7 +174,7 @@ static void find_sides_round(split_view *view, int dim, const rough *h) {
     for (size_t i = 0; i < view->x[0].count; i++) {
         double value = -h->d;
         for (int k = 0; k < dim; k++) value += h->n[k] * view->x[k].data[i];
-        view->side.data[i] = side_of(value, slack - view->radius.data[i] * length);
+        view->side.data[i] = rough_side(value, slack - view->radius.data[i] * length);
     }
 }
 
@@ -197,7 +197,7 @@ static split_tally count_rings(split_view *view, int dim, const rough *h) {
     uint32_t of[4] = {0}; /* on, negative, positive, both */
     const uint32_t *start = view->start.data;
     const uint8_t *side = view->side.data;
-    view->round ? find_sides_round(view, dim, h) : find_sides(view, dim, h);
+    view->round ? find_sides_round(view, dim, h) : find_rough_sides(view, dim, h);
     for (uint32_t i = 0; i < view->count; i++) {
         unsigned seen = 0;
         for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[j];
