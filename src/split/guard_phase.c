@@ -145,7 +145,7 @@ static guard_item part_of(const phase *ph, uint32_t node, uint32_t count) {
 }
 
 /* Makes an item or a leaf; *label is the one of its guards. */
-static froe_status push_part(phase *ph, uint32_t node, uint32_t count, const guard_cube *cube, uint32_t *label) {
+static froe_status push_guard_part(phase *ph, uint32_t node, uint32_t count, const guard_cube *cube, uint32_t *label) {
     guard_item part = part_of(ph, node, count);
     bool leaf = count <= ph->w->plan->k;
     *label = leaf ? (uint32_t)DEAD : FIRST + ph->items;
@@ -199,7 +199,7 @@ static froe_status split_into_octants(phase *ph, const side *sides) {
         guard_cube cube = ph->cube;
         if (code == rest) continue;
         guard_orthant(&cube, ph->mid, code, ph->dim);
-        status = push_part(ph, first + code, counts[code], &cube, &labels[code]);
+        status = push_guard_part(ph, first + code, counts[code], &cube, &labels[code]);
     }
     if (status) return status;
     labels[cells] = DEAD;
@@ -270,7 +270,7 @@ static froe_status follow_phase(phase *ph) {
         side sides[FROE_MAX_DIM];
         uint32_t corner;
         if (ph->alive <= ph->w->plan->k || (begun && ph->alive <= half))
-            return push_part(ph, ph->node, ph->alive, &ph->cube, &ph->rest);
+            return push_guard_part(ph, ph->node, ph->alive, &ph->cube, &ph->rest);
         if (base_cancelled(ph->w->plan->task)) return FROE_E_CANCELLED;
         trim_cube(ph);
         look_at_sides(ph, sides);
