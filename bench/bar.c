@@ -32,10 +32,8 @@ static bool serves(const spec *s, const froe_scene *scene) {
     const int dim = froe_scene_dim(scene);
     if (dim == 3 && s->settings && strstr(s->settings, "=3")) return false;
     for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++) {
-        bool all = !strcmp(m->name, s->method) && m->dims >> dim & 1;
-        for (int k = 0; k < FROE_KIND_COUNT && all; k++)
-            all = (m->kinds >> k & 1) || !froe_scene_kind_count(scene, (froe_kind)k);
-        if (all) return strcmp(s->method, "converted") != 0 || froe_scene_kind_count(scene, FROE_SEGMENT);
+        if (!strcmp(m->name, s->method) && froe_method_serves(m, scene, FROE_LEAF_OWN))
+            return strcmp(s->method, "converted") != 0 || froe_scene_kind_count(scene, FROE_SEGMENT);
     }
     return false;
 }

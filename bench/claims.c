@@ -44,10 +44,7 @@ bool claims_has(const char *method) {
 }
 
 bool claims_serves(const froe_method_info *method, const froe_scene *scene) {
-    bool serves = method->dims >> froe_scene_dim(scene) & 1;
-    for (int k = 0; k < FROE_KIND_COUNT; k++)
-        serves = serves && ((method->kinds >> k & 1) || !froe_scene_kind_count(scene, (froe_kind)k));
-    return serves;
+    return froe_method_serves(method, scene, FROE_LEAF_OWN);
 }
 
 /* ------------------------------------------------------------------- printing -- */

@@ -55,15 +55,6 @@ static void print(const subject *s, const char *method, const char *leaf, const 
     }
 }
 
-/** Every object of this method's kinds, and for leaf 0 all of one kind that cuts can hold. */
-static bool serves(const froe_method_info *m, const froe_scene *scene, uint32_t leaf) {
-    const int dim = froe_scene_dim(scene);
-    uint32_t kinds = 0;
-    for (int k = 0; k < FROE_KIND_COUNT; k++) kinds |= (uint32_t)(froe_scene_kind_count(scene, (froe_kind)k) > 0) << k;
-    const uint32_t full = dim == 2 ? 1u << FROE_SEGMENT : dim == 3 ? 1u << FROE_POLYGON : 0;
-    return m->dims >> dim & 1 && !(kinds & ~m->kinds) && (leaf > 0 || kinds == full);
-}
-
 static void ours(subject *s, const char *method, unsigned limit) {
     double out[COLUMNS];
     s->method = method;
@@ -76,9 +67,9 @@ static void all_of_ours(subject *s, unsigned limit) {
     const froe_method_info *m;
     for (s->leaf = 0; s->leaf < 2; s->leaf++) { /* density first: the others are compared with it */
         for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++)
-            if (!strcmp(m->name, "density") && serves(m, s->scene, s->leaf)) ours(s, m->name, limit);
+            if (!strcmp(m->name, "density") && froe_method_serves(m, s->scene, s->leaf)) ours(s, m->name, limit);
         for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++)
-            if (strcmp(m->name, "density") != 0 && serves(m, s->scene, s->leaf)) ours(s, m->name, limit);
+            if (strcmp(m->name, "density") != 0 && froe_method_serves(m, s->scene, s->leaf)) ours(s, m->name, limit);
     }
 }
 

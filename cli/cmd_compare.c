@@ -123,7 +123,7 @@ static json_t *rows_json(const compare_args *args, const compare_plan *plan, con
     for (size_t i = 0; (method = froe_method_at(i)) != NULL; i++) {
         const uint32_t own = method->leaf ? method->leaf : 1;
         const uint32_t leaf = plan->leaf == FROE_LEAF_OWN ? own : plan->leaf;
-        if (!is_wanted(args->methods, method->name) || !cli_method_serves(method, scene->scene, leaf)) continue;
+        if (!is_wanted(args->methods, method->name) || !froe_method_serves(method, scene->scene, leaf)) continue;
         if (json_array_append_new(rows, compare_row(plan, scene, method->name)) == 0) continue;
         json_decref(rows);
         return NULL;

@@ -91,7 +91,7 @@ static bool serves(const froe_method_info *method, int dim) {
     const froe_kind kind = dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
     const froe_option_info *o = method->options;
     while (o && o->name && strcmp(o->name, "crossing") != 0) o++;
-    return (method->dims >> dim & 1) && (method->kinds >> kind & 1) && !(dim == 3 && o && o->name);
+    return (method->kinds[dim] >> kind & 1) && !(dim == 3 && o && o->name);
 }
 
 static int compare_methods(const cli_common *common, const demo_scene *scene, demo_result *result) {

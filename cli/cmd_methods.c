@@ -19,18 +19,25 @@ static const cli_part parts[] = {{"Methods", options, 0}, {"Options", cli_common
 
 /* ------------------------------------------------------------------- JSON -- */
 
-static json_t *dims_json(uint32_t dims) {
+static json_t *dims_json(const uint32_t *kinds) {
     json_t *list = json_array();
     for (int d = 0; d <= FROE_MAX_DIM; d++)
-        if (dims >> d & 1) json_array_append_new(list, json_integer(d));
+        if (kinds[d]) json_array_append_new(list, json_integer(d));
     return list;
 }
 
-static json_t *kinds_json(uint32_t kinds) {
-    json_t *list = json_array();
-    for (int k = 0; k < FROE_KIND_COUNT; k++)
-        if (kinds >> k & 1) json_array_append_new(list, json_string(froe_kind_name((froe_kind)k)));
-    return list;
+/* By dimension. */
+static json_t *kinds_json(const uint32_t *kinds) {
+    json_t *all = json_object();
+    for (int d = 0; d <= FROE_MAX_DIM; d++) {
+        json_t *list = json_array();
+        for (int k = 0; k < FROE_KIND_COUNT; k++)
+            if (kinds[d] >> k & 1) json_array_append_new(list, json_string(froe_kind_name((froe_kind)k)));
+        const char name[] = {(char)('0' + d), 0};
+        if (kinds[d]) json_object_set(all, name, list);
+        json_decref(list);
+    }
+    return all;
 }
 
 static json_t *option_json(const froe_option_info *o) {
@@ -47,7 +54,7 @@ static json_t *method_json(const froe_method_info *m) {
     json_t *list = json_array();
     for (const froe_option_info *o = m->options; o && o->name; o++) json_array_append_new(list, option_json(o));
     return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:i, s:o}", "name", m->name, "summary", m->summary, "source",
-                     m->source, "guarantee", m->guarantee, "dims", dims_json(m->dims), "kinds", kinds_json(m->kinds),
+                     m->source, "guarantee", m->guarantee, "dims", dims_json(m->kinds), "kinds", kinds_json(m->kinds),
                      "leaf", m->leaf ? (int)m->leaf : 1, "options", list);
 }
 
@@ -59,16 +66,20 @@ static void put_line(const char *label, const char *text) {
     cli_wrap(stdout, text, strlen(text), printf("  %s", label), COLUMN);
 }
 
-static void put_dims_and_kinds(const froe_method_info *m) {
-    printf("  %-*s", COLUMN - 2, "dimensions");
-    const char *separator = "";
-    for (int d = 0; d <= FROE_MAX_DIM; d++)
-        if (m->dims >> d & 1) printf("%s%d", separator, d), separator = ", ";
-    printf("\n  %-*s", COLUMN - 2, "objects");
-    separator = "";
-    for (int k = 0; k < FROE_KIND_COUNT; k++)
-        if (m->kinds >> k & 1) printf("%s%s", separator, froe_kind_name((froe_kind)k)), separator = ", ";
-    putchar('\n');
+/* A line for all dimensions with the same kinds. */
+static void put_kinds(const froe_method_info *m) {
+    for (int d = 0, last; d <= FROE_MAX_DIM; d = last + 1) {
+        char label[32], list[100] = "";
+        for (last = d; last < FROE_MAX_DIM && m->kinds[last + 1] == m->kinds[d];) last++;
+        if (!m->kinds[d]) continue;
+        snprintf(label, sizeof label, d < last ? "in R^%d..R^%d" : "in R^%d", d, last);
+        for (int k = 0; k < FROE_KIND_COUNT; k++) {
+            const size_t used = strlen(list);
+            if (m->kinds[d] >> k & 1)
+                snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", froe_kind_name((froe_kind)k));
+        }
+        put_line(label, list);
+    }
 }
 
 static void put_option(const froe_option_info *o) {
@@ -91,7 +102,7 @@ static void put_method(const froe_method_info *m) {
     put_line("", m->summary);
     put_line("source", m->source);
     put_line("guarantee", m->guarantee);
-    put_dims_and_kinds(m);
+    put_kinds(m);
     if (m->options && m->options->name) printf("  options, with their defaults:\n");
     for (const froe_option_info *o = m->options; o && o->name; o++) put_option(o);
 }

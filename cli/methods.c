@@ -22,13 +22,3 @@ int cli_check_method(const char *name, bool may_be_auto) {
     if (!hint) return cli_fail(CLI_USE, NULL, "unknown method '%s'; there are %s", name, list);
     return cli_fail(CLI_USE, NULL, "unknown method '%s', did you mean '%s'? There are %s", name, hint, list);
 }
-
-bool cli_method_serves(const froe_method_info *method, const froe_scene *scene, uint32_t leaf) {
-    const int dim = froe_scene_dim(scene);
-    const froe_kind whole = dim == 2 ? FROE_SEGMENT : FROE_POLYGON; /* what leaf 0 is for */
-    bool serves = (method->dims >> dim & 1) && leaf >= method->least_leaf;
-    for (int k = 0; k < FROE_KIND_COUNT && serves; k++)
-        serves = !froe_scene_kind_count(scene, (froe_kind)k) ||
-                 ((method->kinds >> k & 1) && (leaf || ((froe_kind)k == whole && dim <= 3)));
-    return serves;
-}

@@ -6,6 +6,4 @@
 /** 0 if there is such a method, or if it is "auto" and that will do; otherwise says what there is and returns the exit
  * code. */
 int cli_check_method(const char *name, bool may_be_auto);
-/** Does the method serve the dimension and all objects of the scene, with leaves of so many objects? */
-bool cli_method_serves(const froe_method_info *method, const froe_scene *scene, uint32_t leaf);
 #endif

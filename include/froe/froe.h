@@ -249,18 +249,20 @@ typedef struct froe_option_info {
 
 /** A builder, as listed by `froe methods`. */
 typedef struct froe_method_info {
-    const char *name;                /**< e.g. "density" */
-    const char *summary;             /**< one line */
-    const char *source;              /**< paper and theorem */
-    const char *guarantee;           /**< what its size, height and time obey, or "none" */
-    uint32_t dims;                   /**< bit d set: serves R^d */
-    uint32_t kinds;                  /**< bit k set: serves froe_kind k */
-    uint32_t leaf;                   /**< its own leaf capacity; 0 stands for 1 */
-    uint32_t least_leaf;             /**< the smallest it takes */
-    const froe_option_info *options; /**< ended by a NULL name */
+    const char *name;                 /**< e.g. "density" */
+    const char *summary;              /**< one line */
+    const char *source;               /**< paper and theorem */
+    const char *guarantee;            /**< what its size, height and time obey, or "none" */
+    uint32_t kinds[FROE_MAX_DIM + 1]; /**< [d], bit k set: serves froe_kind k in R^d; 0: does not serve R^d */
+    uint32_t leaf;                    /**< its own leaf capacity; 0 stands for 1 */
+    uint32_t least_leaf;              /**< the smallest it takes */
+    const froe_option_info *options;  /**< ended by a NULL name */
 } froe_method_info;
 /** The i-th method; NULL past the last. "auto" is not listed. */
 FROE_API const froe_method_info *froe_method_at(size_t i);
+/** Does a method serve all objects of a scene, in leaves of so many (FROE_LEAF_OWN: its own)? Then froe_build() does not
+ * return FROE_E_UNSUPPORTED, unless an option or the coordinates call for it. False for NULL. O(n). */
+FROE_API bool froe_method_serves(const froe_method_info *method, const froe_scene *scene, uint32_t leaf);
 
 /** The method that "auto" stands for on a scene, for a purpose: "pieces" (NULL: this one), "query" or "draw".
  * NULL: there is no such purpose. O(n). */

@@ -83,9 +83,8 @@ static bool suits_grain(const froe_scene *scene, uint32_t kinds) {
  * serves. Directional has the fewest pieces of boxes, and is no slower. (docs/compare.md measures this choice.) */
 static const char *automatic(const froe_scene *scene, const char *purpose) {
     const uint32_t kinds = kinds_of(scene);
-    const bool plane = scene->dim == 2 && !(kinds & ~(1u << FROE_POINT | 1u << FROE_SEGMENT));
     const bool query = !strcmp(purpose, "query");
-    if ((plane || scene->dim == 3) && query) return "index";
+    if (query && froe_method_serves(&find_method("index")->info, scene, FROE_LEAF_OWN)) return "index";
     if (kinds == 1u << FROE_POINT && query) return "kd"; /* four times as fast as density in dimension 8 */
     if (kinds == 1u << FROE_BOX) return "directional";
     return !query && suits_grain(scene, kinds) ? "grain" : "density";
@@ -109,24 +108,37 @@ static froe_status choose_method(const froe_build_options *o, const froe_scene *
     return *out ? FROE_OK : refuse_method(name, diag);
 }
 
+/* Leaf 0: every object ends in a cut. */
+static uint32_t kinds_in_cuts(const froe_scene *scene) {
+    return scene->dim == 2 ? 1u << FROE_SEGMENT : scene->dim == 3 ? 1u << FROE_POLYGON : 0;
+}
+
+static uint32_t leaf_of(const froe_method_info *info, uint32_t leaf) {
+    return leaf != FROE_LEAF_OWN ? leaf : info->leaf ? info->leaf : 1;
+}
+
+bool froe_method_serves(const froe_method_info *method, const froe_scene *scene, uint32_t leaf) {
+    if (!method || !scene) return false;
+    uint32_t kinds = kinds_of(scene), capacity = leaf_of(method, leaf);
+    return method->kinds[scene->dim] && !(kinds & ~method->kinds[scene->dim]) && capacity >= method->least_leaf &&
+           (capacity || !(kinds & ~kinds_in_cuts(scene)));
+}
+
+/* Says why a method does not serve. */
 static froe_status check_scene(const build_method *method, const froe_scene *scene, uint32_t leaf,
                                froe_diagnostic *diag) {
-    uint32_t kinds = kinds_of(scene), alien = kinds & ~method->info.kinds;
-    for (int k = 0; k < FROE_KIND_COUNT; k++)
-        if (alien >> k & 1)
-            return base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' does not serve objects of kind '%s'",
-                             method->info.name, froe_kind_name((froe_kind)k));
-    if (!(method->info.dims >> scene->dim & 1))
-        return base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' does not serve dimension %d", method->info.name,
-                         scene->dim);
-    if (leaf < method->info.least_leaf)
-        return base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' serves leaf %u at least", method->info.name,
-                         method->info.least_leaf);
-    uint32_t plane = scene->dim == 2 ? 1u << FROE_SEGMENT : scene->dim == 3 ? 1u << FROE_POLYGON : 0;
-    if (!leaf && kinds & ~plane)
-        return base_fail(diag, FROE_E_UNSUPPORTED,
-                         "leaf 0 is for scenes of segments in the plane or of polygons in space only");
-    return FROE_OK;
+    const froe_method_info *info = &method->info;
+    uint32_t kinds = kinds_of(scene), alien = kinds & ~info->kinds[scene->dim];
+    if (froe_method_serves(info, scene, leaf)) return FROE_OK;
+    if (!info->kinds[scene->dim])
+        return base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' does not serve dimension %d", info->name, scene->dim);
+    if (alien)
+        return base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' does not serve objects of kind '%s' in dimension %d",
+                         info->name, froe_kind_name((froe_kind)__builtin_ctz(alien)), scene->dim);
+    if (leaf < info->least_leaf)
+        return base_fail(diag, FROE_E_UNSUPPORTED, "method '%s' serves leaf %u at least", info->name, info->least_leaf);
+    return base_fail(diag, FROE_E_UNSUPPORTED,
+                     "leaf 0 is for scenes of segments in the plane or of polygons in space only");
 }
 
 /** Is it an order of all objects, for a method that takes one? */
@@ -190,7 +202,7 @@ static froe_status build_by_method(froe_scene *scene, const froe_build_options *
     if (o.leaf > INT32_MAX && o.leaf != FROE_LEAF_OWN)
         return base_fail(diag, FROE_E_OPTIONS, "leaf capacity %u is above %d, the largest there is", o.leaf, INT32_MAX);
     froe_status status = choose_method(&o, scene, &method, diag);
-    if (!status && o.leaf == FROE_LEAF_OWN) o.leaf = method->info.leaf ? method->info.leaf : 1;
+    if (!status) o.leaf = leaf_of(&method->info, o.leaf);
     if (!status) status = check_scene(method, scene, o.leaf, diag);
     if (!status) status = check_order(&o, method, scene, diag);
     if (!status && root && !method->rooted)

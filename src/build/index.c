@@ -424,19 +424,10 @@ static froe_status build_in_plane(build_job *job, froe_tree **out) {
     return status;
 }
 
-static bool index_serves(const froe_scene *s, uint32_t object) {
-    return s->dim == 3 || s->kinds[object] == FROE_POINT || s->kinds[object] == FROE_SEGMENT;
-}
-
 static froe_status build_index(build_job *job, froe_tree **out) {
     const froe_scene *s = job->scene;
     if (s->object_count > PACKED_OBJECT)
         return base_fail(job->diag, FROE_E_LIMIT, "method 'index' serves at most 2^30 objects");
-    for (uint32_t i = 0; i < s->object_count; i++)
-        if (!index_serves(s, i))
-            return base_fail_at(job->diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
-                                "method 'index' does not serve objects of kind '%s' in the plane",
-                                froe_kind_name((froe_kind)s->kinds[i]));
     build_promise(job, "fragments", 2 * job->option[GROWTH] * s->object_count, 0);
     froe_status status = s->dim == 3 ? build_in_space(job, job->option[GROWTH], out) : build_in_plane(job, out);
     return split_explain(job->diag, job->max_fragments, status);
@@ -447,8 +438,7 @@ const build_method build_method_index = {
              .summary = "made to be queried: middle cuts or, in space, cuts by surface area; packed leaves",
              .source = "the octree rule, in binary cuts; MacDonald and Booth 1990; layout and queries are froe's own",
              .guarantee = "at most 2 growth n fragments; leaves over capacity where more cuts do not pay",
-             .dims = 1u << 2 | 1u << 3,
-             .kinds = BUILD_KINDS_ALL,
+             .kinds = {[2] = 1u << FROE_POINT | 1u << FROE_SEGMENT, [3] = BUILD_KINDS_ALL},
              .leaf = 24,
              .least_leaf = 1,
              .options = options},

@@ -6,6 +6,17 @@
 #define BUILD_OPTIONS 16 /* most options of a method, tuning and what stands between included */
 #define BUILD_DIMS_ALL 0x1fcu
 #define BUILD_KINDS_ALL 0x3fu
+/* What there is in R^d: polygons in space only, no segments and hulls beyond. */
+#define BUILD_KINDS_FLAT (BUILD_KINDS_ALL & ~(1u << FROE_POLYGON))
+#define BUILD_KINDS_HIGH (BUILD_KINDS_FLAT & ~(1u << FROE_SEGMENT | 1u << FROE_HULL))
+#define BUILD_IN(d, dims, kinds)                                                                                       \
+    [d] = (dims) >> (d)&1 ? (kinds) & ((d) == 2 ? BUILD_KINDS_FLAT : (d) == 3 ? BUILD_KINDS_ALL : BUILD_KINDS_HIGH) : 0
+/** info.kinds of a method that serves the same kinds in all of its dimensions. */
+#define BUILD_SERVES(dims, kinds)                                                                                      \
+    {                                                                                                                  \
+        BUILD_IN(2, dims, kinds), BUILD_IN(3, dims, kinds), BUILD_IN(4, dims, kinds), BUILD_IN(5, dims, kinds),        \
+            BUILD_IN(6, dims, kinds), BUILD_IN(7, dims, kinds), BUILD_IN(8, dims, kinds)                               \
+    }
 
 /** One build in progress. */
 typedef struct build_job {

@@ -99,8 +99,7 @@ const build_method build_method_quad = {
              .summary = "a compressed quadtree or octree: the coarsest dyadic cut that separates anything",
              .source = "Finkel and Bentley 1974; Samet: Foundations of multidimensional data structures, 2006",
              .guarantee = "at most 2 growth n fragments by dyadic cuts; the rest is cut along the objects",
-             .dims = BUILD_DIMS_ALL,
-             .kinds = BUILD_KINDS_ALL,
+             .kinds = BUILD_SERVES(BUILD_DIMS_ALL, BUILD_KINDS_ALL),
              .options = options},
     .build = build_quad,
 };

@@ -1,6 +1,7 @@
 /* Every builder on every kind of generated scene: the audit passes, and the tree depends on nothing but
  * scene, options and seed. Walks froe_method_at() and froe_generator_at(): a new builder or kind
  * of scene needs no line here. */
+#include "base/random.h"
 #include "build/options.h"
 #include "support/memory.h"
 #include "tree/tree.h"
@@ -22,13 +23,7 @@ enum {
 static const char *chosen; /* the only method to look at; NULL: all of them */
 
 static bool serves(const froe_method_info *m, const froe_scene *scene) {
-    if (chosen && strcmp(m->name, chosen)) return false;
-    for (int k = 0; k < FROE_KIND_COUNT; k++)
-        if (froe_scene_kind_count(scene, (froe_kind)k) && !(m->kinds >> k & 1)) return false;
-    const size_t flat = froe_scene_kind_count(scene, FROE_POINT) + froe_scene_kind_count(scene, FROE_SEGMENT);
-    const bool plane = froe_scene_dim(scene) == 2;
-    if (plane && !strcmp(m->name, "index") && flat < froe_scene_object_count(scene)) return false;
-    return m->dims >> froe_scene_dim(scene) & 1;
+    return (!chosen || !strcmp(m->name, chosen)) && froe_method_serves(m, scene, FROE_LEAF_OWN);
 }
 
 static bool may_end_in_cuts(const froe_scene *scene, const froe_method_info *method) {
@@ -385,6 +380,67 @@ static void a_long_build_of_few_objects_can_be_cancelled(void **state) {
     }
 }
 
+/** A few objects of one kind; NULL where there are none. */
+static froe_scene *scene_of_kind(int dim, froe_kind kind) {
+    enum { COUNT = 12 };
+    static const size_t corners[FROE_KIND_COUNT] = {1, 2, 3, 2, 1, 3};
+    double coords[COUNT * 3 * FROE_MAX_DIM], radii[COUNT];
+    const size_t width = (size_t)dim, each = corners[kind];
+    for (size_t i = 0; i < COUNT; i++) {
+        radii[i] = 0.25;
+        for (size_t c = 0; c < each; c++)
+            for (size_t k = 0; k < width; k++) /* corners ascend, as those of boxes must */
+                coords[(i * each + c) * width + k] =
+                    (double)(c + base_below(base_hash(i, k, kind), 40)) + (double)(c * (k + 1) * (k + c) % 7) / 16;
+    }
+    froe_scene *scene;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = kind, batch.count = COUNT, batch.coords = coords, batch.radii = kind == FROE_BALL ? radii : NULL;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    const froe_status status = froe_scene_add(scene, &batch, NULL);
+    if (!status) return scene;
+    assert_int_equal(status, FROE_E_UNSUPPORTED);
+    froe_scene_free(scene);
+    return NULL;
+}
+
+static void methods_serve_the_kinds_they_list_and_no_others(void **state) {
+    (void)state;
+    size_t served = 0, refused = 0;
+    for (int dim = 2; dim <= FROE_MAX_DIM; dim++)
+        for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
+            froe_scene *scene = scene_of_kind(dim, (froe_kind)kind);
+            const froe_method_info *m;
+            for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++) {
+                const bool listed = m->kinds[dim] >> kind & 1;
+                assert_true(m->kinds[0] == 0 && m->kinds[1] == 0);
+                assert_true(scene || !listed);
+                assert_int_equal(froe_method_serves(m, scene, FROE_LEAF_OWN), listed);
+                if (!scene) continue;
+                froe_tree *tree = NULL;
+                froe_diagnostic why = {.message = ""};
+                froe_build_options o = froe_build_defaults();
+                o.method = m->name, o.settings = plain_settings(m);
+                const froe_status status = froe_build(scene, &o, &tree, &why);
+                if (status != (listed ? FROE_OK : FROE_E_UNSUPPORTED))
+                    fail_msg("%s, %s in R^%d: status %d, %s", m->name, froe_kind_name((froe_kind)kind), dim, status,
+                             why.message);
+                assert_true(listed || strstr(why.message, "does not serve"));
+                froe_tree_free(tree);
+                served += listed, refused += !listed;
+            }
+            for (size_t i = 0; scene && i < 3; i++) { /* what auto stands for serves */
+                froe_tree *tree = NULL;
+                froe_build_options o = froe_build_defaults();
+                o.purpose = (const char *const[]){"pieces", "query", "draw"}[i];
+                assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+                froe_tree_free(tree);
+            }
+            froe_scene_free(scene);
+        }
+    assert_true(served > 100 && refused > 50);
+}
+
 /* With the name of a method as argument: that method alone. With "all": what is not looked at method by method. */
 int main(int argc, char **argv) {
     const struct CMUnitTest each[] = {
@@ -396,6 +452,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_build_can_be_cancelled),
     };
     const struct CMUnitTest all[] = {
+        cmocka_unit_test(methods_serve_the_kinds_they_list_and_no_others),
         cmocka_unit_test(long_work_on_one_cell_can_be_cancelled),
         cmocka_unit_test(every_cancelled_build_says_so),
         cmocka_unit_test(settings_have_decimal_points_in_any_locale),
