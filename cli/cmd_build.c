@@ -1,4 +1,5 @@
 /* cmd_build.c: froe build, from a scene to a tree and its report. */
+#include "budget.h"
 #include "command.h"
 #include "exit.h"
 #include "files.h"
@@ -42,8 +43,7 @@ static const cli_option options[] = {
     {"split-intersections", 0, CLI_FLAG, offsetof(build_args, split_intersections),
      .help = "cut polygons that cross others instead of refusing them (cylindrical): the same as --option "
              "crossing=split"},
-    {"max-fragments", 0, CLI_WHOLE, offsetof(build_args, max_fragments), "N",
-     .help = "give up beyond so many pieces (default 0: never)"},
+    CLI_BUDGET_OPTION(build_args, max_fragments),
     {0},
 };
 
@@ -74,14 +74,14 @@ static int build_with(const build_args *args, const cli_order *order, const char
     o.order_count = order->count;
     o.leaf = (uint32_t)args->leaf;
     o.seed = args->common.seed;
-    o.max_fragments = args->max_fragments;
+    o.max_fragments = cli_budget(args->max_fragments, scene);
     o.threads = (unsigned)args->common.threads;
     o.progress = cli_progress_step;
     o.user = &bar;
     froe_diagnostic diag;
     const froe_status status = froe_build(scene, &o, tree, &diag);
     cli_progress_end(&bar);
-    return status ? cli_fail_status(CLI_WORKING, args->scene.path, status, &diag) : 0;
+    return status ? cli_fail_build(args->scene.path, args->max_fragments, scene, status, &diag) : 0;
 }
 
 static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
@@ -138,7 +138,9 @@ const cli_command cli_command_build = {
                 "froe build house.glb --method autopartition --leaf 0 --json\n"
                 "froe build map.gpkg --layer roads --where \"lanes > 2\" -o roads.froe\n",
     .parts = parts,
-    .defaults = &(const build_args){.common = CLI_COMMON_DEFAULTS, .method = "auto", .leaf = FROE_LEAF_OWN},
+    .defaults =
+        &(const build_args){
+            .common = CLI_COMMON_DEFAULTS, .method = "auto", .leaf = FROE_LEAF_OWN, .max_fragments = CLI_BUDGET_OWN},
     .size = sizeof(build_args),
     .run = run,
 };

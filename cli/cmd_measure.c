@@ -1,4 +1,5 @@
 /* cmd_measure.c: froe measure, what a scene is like: clutter, density, fatness, directional density. */
+#include "budget.h"
 #include "command.h"
 #include "exit.h"
 #include "files.h"
@@ -12,7 +13,7 @@ typedef struct measure_args {
     cli_common common;
     cli_scene_args scene;
     const char *cube, *ball; /* pictures of them */
-    uint64_t samples;
+    uint64_t samples, max_fragments;
     cli_reals deltas;
     int counting;
 } measure_args;
@@ -23,6 +24,7 @@ static const cli_option options[] = {
      .help = "draw the worst cube among the objects around it (.svg, .pdf, .png)"},
     {"draw-ball", 0, CLI_TEXT, offsetof(measure_args, ball), "FILE",
      .help = "draw the densest ball, of radius density"},
+    CLI_BUDGET_OPTION(measure_args, max_fragments),
     {"samples", 0, CLI_WHOLE, offsetof(measure_args, samples), "N",
      .help = "objects, or cubes, looked at by each measure; 0: all objects", .max = UINT32_MAX},
     {"delta", 0, CLI_REALS, offsetof(measure_args, deltas), "D,...",
@@ -81,7 +83,9 @@ static int measure_clutter(survey *s, json_t *report) {
     json_object_set_new(json_object_get(report, "distributions"), "clutter of cubes", spread_json(&c.load));
     json_object_set_new(report, "clutter factor", out);
     const int code = end(s, status, out);
-    return code || !s->args->cube ? code : measure_draw_cube(&s->args->common, s->args->cube, s->scene, &c);
+    return code || !s->args->cube
+               ? code
+               : measure_draw_cube(&s->args->common, s->args->cube, s->scene, &c, s->args->max_fragments);
 }
 
 static int measure_density(survey *s, froe_size size, json_t *report) {
@@ -98,7 +102,7 @@ static int measure_density(survey *s, froe_size size, json_t *report) {
     json_object_set_new(report, names[size][0], out);
     const int code = end(s, status, out);
     if (code || size != FROE_SIZE_RADIUS || !s->args->ball) return code;
-    return measure_draw_ball(&s->args->common, s->args->ball, s->scene, &d);
+    return measure_draw_ball(&s->args->common, s->args->ball, s->scene, &d, s->args->max_fragments);
 }
 
 static int measure_fatness(survey *s, json_t *report) {
@@ -189,7 +193,7 @@ const cli_command cli_command_measure = {
     "sample.",
     .examples = "froe measure floor.geojson\nfroe measure house.glb --boxes --delta 0.5 --json\n",
     .parts = parts,
-    .defaults = &(const measure_args){.common = CLI_COMMON_DEFAULTS, .samples = 20000},
+    .defaults = &(const measure_args){.common = CLI_COMMON_DEFAULTS, .samples = 20000, .max_fragments = CLI_BUDGET_OWN},
     .size = sizeof(measure_args),
     .run = run,
 };

@@ -1,4 +1,5 @@
 /* cmd_render.c: froe render, hidden surfaces removed, exactly. */
+#include "budget.h"
 #include "command.h"
 #include "exit.h"
 #include "files.h"
@@ -57,6 +58,7 @@ static const cli_option camera[] = {
      .help = "for --scale 1:50: how long a unit of the scene is (default 1)"},
     {"section", 0, CLI_REALS, offsetof(render_args, section), "A,B,C,D",
      .help = "leave out what lies where a x + b y + c z > d, exactly; builds the tree anew for it"},
+    CLI_BUDGET_OPTION(render_args, max_fragments),
     {"turntable", 0, CLI_WHOLE, offsetof(render_args, turntable), "N",
      .help = "N pictures from all around; the name of the file says where their number goes, pic-%03d.svg", .min = 1,
      .max = 100000},
@@ -280,13 +282,14 @@ static int cut_section(const render_args *args, froe_tree **tree) {
         return cli_fail(CLI_USE, NULL, "--section: %zu numbers given, 4 needed", args->section.count);
     cli_progress bar = cli_progress_begin(&args->common, "cutting");
     o.threads = (unsigned)args->common.threads;
+    o.max_fragments = cli_budget(args->max_fragments, froe_tree_scene(whole));
     o.progress = cli_progress_step;
     o.user = &bar;
     const froe_status status = froe_tree_section(whole, args->section.at, &o, tree, &diag);
     cli_progress_end(&bar);
     if (status == FROE_E_ARG || status == FROE_E_UNSUPPORTED)
         return cli_fail(CLI_USE, NULL, "--section: %s", diag.message);
-    if (status) return cli_fail_status(CLI_WORKING, args->tree, status, &diag);
+    if (status) return cli_fail_build(args->tree, args->max_fragments, froe_tree_scene(whole), status, &diag);
     froe_tree_free(whole);
     return 0;
 }
@@ -335,7 +338,8 @@ const cli_command cli_command_render = {
                                      .line_width = NAN,
                                      .crease = NAN,
                                      .pixels = NAN,
-                                     .decimals = UINT64_MAX},
+                                     .decimals = UINT64_MAX,
+                                     .max_fragments = CLI_BUDGET_OWN},
     .size = sizeof(render_args),
     .run = run,
 };

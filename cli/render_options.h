@@ -12,6 +12,7 @@ typedef struct render_args {
     double halo, fov, unit, min_area, seconds, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
     uint64_t decimals;  /**< UINT64_MAX: not given */
     uint64_t turntable; /**< frames; 0: none */
+    uint64_t max_fragments;
     cli_reals eye, target, section;
     bool parallel, cull_back, animate;
 } render_args;

@@ -171,7 +171,7 @@ static froe_status paint(draw_picture *picture, froe_draw_format format, draw_ou
         status = solid ? draw_solid_paint(picture, output->cr) : draw_plane_paint(picture, output->cr);
     }
     if (status == FROE_E_MEMORY) draw_fail_memory(diag);
-    if (status == FROE_E_CANCELLED) draw_fail(diag, status, "Drawing was cancelled.");
+    if (status == FROE_E_CANCELLED) draw_fail(diag, status, "cancelled");
     return status == FROE_OK ? draw_output_finish(output, diag) : status;
 }
 
@@ -200,7 +200,7 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     status = paint(&picture, format, output, diag);
     draw_picture_free(&picture);
     if (status == FROE_OK && o.progress && !support_callback(o.progress(o.user, 1)))
-        return draw_fail(diag, FROE_E_CANCELLED, "Drawing was cancelled.");
+        return draw_fail(diag, FROE_E_CANCELLED, "cancelled");
     return status;
 }
 

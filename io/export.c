@@ -199,7 +199,7 @@ static froe_status run(job *j, const char *path) {
     if (status) return status;
     begin(j);
     status = j->what == FROE_EXPORT_FRAGMENTS ? write_fragments(j) : write_cells(j);
-    if (j->cancelled) status = io_fail(j->diag, FROE_E_CANCELLED, "%s: writing was cancelled", io_short(path));
+    if (j->cancelled) status = io_fail(j->diag, FROE_E_CANCELLED, "%s: cancelled", io_short(path));
     if (!status) j->format->end(&j->writer);
     io_buffer_free(&j->alloc, &j->coords);
     io_buffer_free(&j->alloc, &j->stack);

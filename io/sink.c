@@ -41,7 +41,7 @@ froe_status io_sink_fail(io_sink *sink, froe_status status, const char *format, 
 froe_status io_sink_progress(io_sink *sink, double done) {
     volatile const double share = done < 1 ? done : 1;
     if (!sink->progress || support_callback(sink->progress(sink->user, share))) return FROE_OK;
-    return io_fail(sink->diag, FROE_E_CANCELLED, "%s: reading was cancelled", io_short(sink->path));
+    return io_fail(sink->diag, FROE_E_CANCELLED, "%s: cancelled", io_short(sink->path));
 }
 
 /* ------------------------------------------------------------- the batch -- */

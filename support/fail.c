@@ -36,6 +36,10 @@ froe_status support_fail_memory(froe_diagnostic *diag) {
     return support_fail(diag, FROE_E_MEMORY, "out of memory");
 }
 
+froe_status support_fail_cancelled(froe_diagnostic *diag) {
+    return support_fail(diag, FROE_E_CANCELLED, "cancelled");
+}
+
 const char *support_short(const char *path) {
     enum { KEPT = 96 };
     size_t length = strlen(path);

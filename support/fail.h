@@ -12,6 +12,8 @@ froe_status support_fail_at(froe_diagnostic *diag, froe_status status, uint32_t 
                             const char *format, ...) __attribute__((format(printf, 6, 7)));
 /** FROE_E_MEMORY with its standard sentence. */
 froe_status support_fail_memory(froe_diagnostic *diag);
+/** FROE_E_CANCELLED with its standard sentence. */
+froe_status support_fail_cancelled(froe_diagnostic *diag);
 
 /** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: "cannot DO 'PATH': REASON", of an errno value. */
 froe_status support_fail_file(froe_diagnostic *diag, const char *doing, const char *path, int error);

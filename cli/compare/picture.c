@@ -1,5 +1,6 @@
 /* picture.c: PNG as base64 (RFC 4648), made by the draw library. */
 #include "compare/picture.h"
+#include "budget.h"
 #include <froe/draw.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,6 +59,7 @@ json_t *picture_scene_json(froe_scene *scene) {
     froe_build_options o = froe_build_defaults();
     froe_tree *tree;
     o.purpose = "query"; /* the quickest to build */
+    o.max_fragments = cli_budget(CLI_BUDGET_OWN, scene);
     if (froe_build(scene, &o, &tree, NULL)) return json_null();
     json_t *json = picture_json(tree, false);
     froe_tree_free(tree);

@@ -6,4 +6,5 @@
 #define base_fail support_fail
 #define base_fail_at support_fail_at
 #define base_fail_memory support_fail_memory
+#define base_fail_cancelled support_fail_cancelled
 #endif

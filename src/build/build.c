@@ -211,7 +211,7 @@ static froe_status build_by_method(froe_scene *scene, const froe_build_options *
     build_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag, .root = root};
     base_task_init(&task, o.threads, o.progress, o.user);
     status = prepare_in_any_locale(&o, method, tuned, &job);
-    if (!status && !base_progress(&task, 0)) status = base_fail(diag, FROE_E_CANCELLED, "cancelled");
+    if (!status && !base_progress(&task, 0)) status = base_fail_cancelled(diag);
     if (!status) status = method->build(&job, out);
     if (!status) base_progress(&task, 1);
     return status;

@@ -134,7 +134,7 @@ typedef struct guard_stage {
 
 static froe_status explain_guard_stage(const guard_stage *g, froe_status status) {
     if (status == FROE_E_LIMIT) return base_fail(g->job->diag, status, "more than 2^31 guards or fragments");
-    if (status == FROE_E_CANCELLED) return base_fail(g->job->diag, status, "cancelled");
+    if (status == FROE_E_CANCELLED) return base_fail_cancelled(g->job->diag);
     return status ? base_fail_memory(g->job->diag) : FROE_OK;
 }
 

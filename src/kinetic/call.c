@@ -17,7 +17,7 @@ bool live_goes_on(froe_kinetic *k) {
 
 froe_status live_fail(froe_kinetic *k, froe_diagnostic *diag) {
     if (!base_cancelled(&k->task)) return base_fail_memory(diag);
-    return base_fail(diag, FROE_E_CANCELLED, "cancelled by the progress function");
+    return base_fail_cancelled(diag);
 }
 
 /* Certificates of ends would last, though they may have been made for pieces of plans that have ended since. */

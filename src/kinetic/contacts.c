@@ -266,7 +266,7 @@ static void search_free(search *s) {
 
 static froe_status explain(froe_status status, froe_diagnostic *diag) {
     if (status == FROE_E_MEMORY) return base_fail_memory(diag);
-    if (status == FROE_E_CANCELLED) return base_fail(diag, status, "cancelled by the progress function");
+    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
     return status;
 }
 

@@ -162,7 +162,7 @@ froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_p
     base_task_init(&v.task, threads, progress, user);
     froe_status status = run(&v, &defects);
     survey_free(&v);
-    if (status == FROE_E_CANCELLED) return base_fail(diag, status, "cancelled by the progress function");
+    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
     if (status) return base_fail_memory(diag);
     *out = defects;
     return FROE_OK;

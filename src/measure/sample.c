@@ -105,6 +105,6 @@ froe_status measure_sample_spread(measure_sample *sample, int which, froe_spread
 froe_status measure_sample_end(measure_sample *sample, froe_status status, froe_diagnostic *diag) {
     measure_sample_free(sample);
     if (!status && !base_progress(&sample->task, 1)) status = FROE_E_CANCELLED;
-    if (status == FROE_E_CANCELLED) return base_fail(diag, status, "cancelled");
+    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
     return status == FROE_E_MEMORY ? base_fail_memory(diag) : status;
 }

@@ -251,7 +251,7 @@ static froe_status explain(const batch *b, froe_status status, froe_diagnostic *
             if (diag) *diag = b->chunks[i].diag;
             return status;
         }
-    if (status == FROE_E_CANCELLED) return base_fail(diag, status, "cancelled");
+    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
     return base_fail_memory(diag);
 }
 

@@ -157,7 +157,7 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
     if (!status) {
         status = query->packed ? packed_pairs(&workers, shared, fn, fn_user) : FROE_E_LIMIT;
         if (status == FROE_E_LIMIT) status = find_pairs(&workers, shared, fn, fn_user);
-        if (status == FROE_E_CANCELLED) base_fail(diag, status, "cancelled");
+        if (status == FROE_E_CANCELLED) base_fail_cancelled(diag);
         if (status == FROE_E_MEMORY) base_fail_memory(diag);
     }
     query_workers_give(&workers);

@@ -123,7 +123,7 @@ static froe_status progress(const scene_adding *a, size_t done, size_t work) {
     const froe_objects *b = a->batch;
     volatile const double share = (double)done / (double)work;
     if (!b->progress || base_callback(b->progress(b->user, share))) return FROE_OK;
-    return base_fail(a->diag, FROE_E_CANCELLED, "cancelled by the progress function");
+    return base_fail_cancelled(a->diag);
 }
 
 /** Names the object and the corner of it that a corner of the batch is. */

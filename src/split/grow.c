@@ -311,7 +311,7 @@ froe_status split_explain(froe_diagnostic *diag, uint64_t max_fragments, froe_st
         return base_fail(diag, status, "more than max_fragments = %llu pieces are needed",
                          (unsigned long long)max_fragments);
     if (status == FROE_E_LIMIT) return base_fail(diag, status, "the tree needs more than 2^31 nodes or pieces");
-    if (status == FROE_E_CANCELLED) return base_fail(diag, status, "cancelled");
+    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
     return status ? base_fail_memory(diag) : FROE_OK;
 }
 

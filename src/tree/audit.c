@@ -296,7 +296,7 @@ static froe_status start_workers(audit *a) {
 
 static froe_status tell(const audit *a, froe_status status) {
     const finding *first = a->findings;
-    if (status == FROE_E_CANCELLED) return base_fail(a->diag, status, "cancelled");
+    if (status == FROE_E_CANCELLED) return base_fail_cancelled(a->diag);
     for (unsigned i = 1; i < a->task->threads; i++)
         if (a->findings[i].job < first->job) first = a->findings + i;
     if (status && a->diag) *a->diag = first->diag;
@@ -335,10 +335,10 @@ static froe_status check_leaves(audit *a) {
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < t->node_count && !status; i++) {
         if (i % 65536 == 0) base_progress(a->task, a->task->done);
-        if (base_cancelled(a->task)) return base_fail(a->diag, FROE_E_CANCELLED, "cancelled");
+        if (base_cancelled(a->task)) return base_fail_cancelled(a->diag);
         if (tree_is_leaf(t->nodes + i)) status = check_leaf(a, i);
     }
-    return status || !base_cancelled(a->task) ? status : base_fail(a->diag, FROE_E_CANCELLED, "cancelled");
+    return status || !base_cancelled(a->task) ? status : base_fail_cancelled(a->diag);
 }
 
 /* ----------------------------------------------------------------- promises -- */
@@ -376,12 +376,12 @@ static void clean_up(audit *a) {
 }
 
 static froe_status check_all(audit *a) {
-    if (!base_progress(a->task, 0)) return base_fail(a->diag, FROE_E_CANCELLED, "cancelled");
+    if (!base_progress(a->task, 0)) return base_fail_cancelled(a->diag);
     froe_status status = check_structure(a);
     if (!status) status = check_report(a);
     if (!status) status = check_guard_stage(a);
     if (!status && tree_is_packed(a->tree)) status = check_frame(a);
-    if (!status && !base_progress(a->task, 0.1)) return base_fail(a->diag, FROE_E_CANCELLED, "cancelled");
+    if (!status && !base_progress(a->task, 0.1)) return base_fail_cancelled(a->diag);
     if (!status) status = check_lists(a);
     if (!status) status = check_leaves(a);
     if (!status) status = check_promises(a);

@@ -90,7 +90,7 @@ static froe_status run_batches(batch *b, base_task *task, const froe_eye *eyes, 
         if (!status) status = base_run(task, 0.7 * share, b->count, order_of_eye, b);
         b->pieces += b->count * b->tree->piece_count;
     }
-    return status == FROE_E_MEMORY ? base_fail_memory(diag) : status ? base_fail(diag, status, "cancelled") : FROE_OK;
+    return status == FROE_E_MEMORY ? base_fail_memory(diag) : status ? base_fail_cancelled(diag) : FROE_OK;
 }
 
 froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t count,

@@ -184,7 +184,7 @@ static froe_status failure(froe_status status, froe_diagnostic *diag) {
     case FROE_E_INPUT:
         return base_fail(diag, status, "the window, as the eye sees it, is not strictly convex");
     case FROE_E_CANCELLED:
-        return base_fail(diag, status, "cancelled");
+        return base_fail_cancelled(diag);
     default:
         return base_fail(diag, status, "more than 2^31 lines, corners or intervals are visible");
     }
