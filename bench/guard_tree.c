@@ -1,7 +1,7 @@
 /* guard_tree.c: processor seconds of the ways to build the guard tree, on one thread.
  *
  * The first column is the plain way, one octree level at a time; the others are ratios to it. */
-#include "split/guard_tree.h"
+#include "split/guard/guard_tree.h"
 #include "split/guard_scenes.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@
  * those of the first, which it takes by itself. */
 #include "bench.h"
 #include "plane.h"
-#include "query/packed.h"
+#include "query/packed/packed.h"
 #include <malloc.h>
 #include <math.h>
 #include <stdio.h>

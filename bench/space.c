@@ -12,7 +12,7 @@
  * many differ by more than 10^-9 of the scene (Embree: 10^-4; it rounds). */
 #include "peers/space.h"
 #include "bench.h"
-#include "query/space.h"
+#include "query/packed/space.h"
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>

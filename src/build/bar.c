@@ -4,7 +4,7 @@
  *     | .   . | ./|    |               at most three of them leave no more than two thirds (space: three quarters) of
  *     |      /| / |  . |               the points. A convex range meets O(1/eps^(d-1)) cells of its size, and O(1) of
  *     |    /  |/  |----|               each larger size.
- *     | ./    | . | .  |      objects: the same on guards (split/bar_guards.h). Objects are carried down, and guards
+ *     | ./    | . | .  |      objects: the same on guards (build/bar/bar_guards.h). Objects are carried down, and guards
  *     +-------+---+----+               of objects that a cell has lost are forgotten, before its cut is chosen.
  *
  * Duncan, Goodrich and Kobourov (1999); de Berg and Streppel, "Approximate range searching using binary space
@@ -12,15 +12,15 @@
  * there is. What stays together in cells of few guards is refined as by density, but not fat any more.
  *
  * Where there are no such directions (option directions=0, always beyond space) cells are cubes, and the cuts those
- * of a guard tree (split/cube_cut.h): fat, but not always low. */
+ * of a guard tree (build/bar/cube_cut.h): fat, but not always low. */
 #include "base/status.h"
+#include "build/bar/bar_cut.h"
+#include "build/bar/bar_guards.h"
+#include "build/bar/cube_cut.h"
 #include "build/method.h"
 #include "split/axial.h"
-#include "split/bar_cut.h"
-#include "split/bar_guards.h"
-#include "split/cube_cut.h"
 #include "split/finish.h"
-#include "split/guard_grid.h"
+#include "split/guard/guard_grid.h"
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>

@@ -4,9 +4,9 @@
  *                                                     O(n height) large, O(height) high
  *
  * de Berg and Streppel: Approximate range searching using binary space partitions (2004), theorem 1; see
- * split/convert.h. What is promised is the number of fragments: n (1 + 2 height of the BSP of points), and
+ * build/conversion/convert.h. What is promised is the number of fragments: n (1 + 2 height of the BSP of points), and
  * those that segments make where they cross. */
-#include "build/convert.h"
+#include "build/conversion/endpoints.h"
 
 enum { FROM, TUNING, PRUNE };
 

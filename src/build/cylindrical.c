@@ -11,8 +11,8 @@
 #include "base/radix.h"
 #include "base/random.h"
 #include "base/status.h"
+#include "build/cylindrical/cylinder.h"
 #include "build/method.h"
-#include "split/cylinder.h"
 
 enum { HEIGHT, DRAWS, CROSSING };
 

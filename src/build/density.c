@@ -19,7 +19,7 @@
 #include "base/status.h"
 #include "build/method.h"
 #include "split/finish.h"
-#include "split/guard_tree.h"
+#include "split/guard/guard_tree.h"
 #include "split/refine.h"
 #include <stdatomic.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  *
  *      __/\__/\__        a froe splits wood along the grain: most cuts are planes through three vertices, above all
  *     /\ a--v--b /\      through two consecutive edges of the mesh, which touch their neighbours and split few
- *     \/__\/__\/__\      (split/grain.h)
+ *     \/__\/__\/__\      (build/grain/grain.h)
  *
  * Height. A cell of m fragments needs N(m) levels when every cut leaves at most 7/10 on a side: N(m) = m for m <= 4,
  * and 4 + log_{10/7} (m / 4) beyond, less than 1.95 log2 m. A cut is balanced when both children need no more levels
@@ -13,7 +13,7 @@
  *   - other cuts, which take at least one fragment off each side: at most U on a path, where U is the number of
  *     fragments in the largest cell to which that happened. Each adds one level at most.
  * Hence the promise: H, + 3 (log2 v + 1) if there were such medians, + U. */
-#include "split/grain.h"
+#include "build/grain/grain.h"
 #include "base/log2.h"
 #include "base/status.h"
 #include "build/method.h"

@@ -1,10 +1,10 @@
-/* index.c: trees to be queried: middle cuts, packed leaves. In space: build/space.c.
+/* index.c: trees to be queried: middle cuts, packed leaves. In space: build/index/space.c.
  *
  *     +-------+---+---+    Cells are halved across their longer side until they hold at most `leaf` fragments: the
- *     |       | \ |   |    octree rule, with binary cuts. Large cells are halved many times at once (split/grid.h),
- *     |   /   +-\-+---+    small ones one by one (split/halve.h). Nothing but segments and points of the plane, which
+ *     |       | \ |   |    octree rule, with binary cuts. Large cells are halved many times at once (build/index/grid.h),
+ *     |   /   +-\-+---+    small ones one by one (build/index/halve.h). Nothing but segments and points of the plane, which
  *     |  /    |  \| / |    become fragments of their cells; a leaf is written as a block as soon as it is reached
- *     +-------+---+---+    (tree/packer.h).
+ *     +-------+---+---+    (tree/packed/packer.h).
  *
  * The root box is the bounds of the scene, widened by odd shares of its size, so that cuts do not fall on the round
  * numbers of which maps are made; a cut that meets a corner all the same is moved by a hair.
@@ -18,11 +18,11 @@
 #include "base/log2.h"
 #include "base/radix.h"
 #include "base/status.h"
-#include "build/space.h"
+#include "build/index/grid.h"
+#include "build/index/halve.h"
+#include "build/index/space.h"
 #include "geom/selftest.h"
-#include "split/grid.h"
-#include "split/halve.h"
-#include "tree/packer.h"
+#include "tree/packed/packer.h"
 #include <float.h>
 #include <math.h>
 

@@ -2,7 +2,7 @@
  *
  *     slabs          segments of the plane: medians of the x of endpoints; where a segment crosses a slab, along it.
  *                    O(n log n) for n disjoint ones (Efficient binary space partitions for hidden-surface removal and
- *                    solid modeling, 1990). It is the conversion of a plan of vertical lines (split/convert.h).
+ *                    solid modeling, 1990). It is the conversion of a plan of vertical lines (build/conversion/convert.h).
  *     orthogonal     axis-parallel objects: a cut that divides nothing, if there is one, the best balanced; else,
  *                    across the axis with most ends to choose from, through the middle of them (Optimal binary space
  *                    partitions for orthogonal objects, 1992; Murali, Agarwal and Vitter: Constructing binary space
@@ -11,7 +11,7 @@
  * Free cuts of the papers run through a facet that crosses its cell. In a cell of disjoint objects such a cut divides
  * nothing; that is what is asked here, so that gaps count, too. */
 #include "base/status.h"
-#include "build/convert.h"
+#include "build/conversion/endpoints.h"
 #include "split/axial.h"
 #include <math.h>
 

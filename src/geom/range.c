@@ -1,7 +1,7 @@
 /* range.c: bounds, facets, and what they exclude or include for certain. */
 #include "geom/range.h"
 #include "geom/filter.h"
-#include "geom/meet.h"
+#include "geom/meet/meet.h"
 #include <string.h>
 
 #define SURE (1 - 0x1p-48) /* pays for the few roundings of a sum of squares */

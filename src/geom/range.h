@@ -4,7 +4,7 @@
  *     geom_range_misses   is a ball certainly apart from a box?
  *     geom_range_holds    is a box certainly within the range, grown by a margin?
  *
- * What an object and a range have in common is decided exactly, by geom/meet.h on `set`. Here a range is known by
+ * What an object and a range have in common is decided exactly, by geom/meet/meet.h on `set`. Here a range is known by
  * its bounds and by facets: directions, and how far it extends there at most. A box shrinks facet by facet,
  *
  *     n . x <= c,  lo <= x <= hi      =>      n_k x_k  <=  c - sum of the others' least n_j x_j,

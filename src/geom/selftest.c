@@ -11,7 +11,7 @@
 #include "geom/selftest.h"
 #include "geom/eye.h"
 #include "geom/predicates.h"
-#include "geom/ray.h"
+#include "geom/ray/ray.h"
 
 typedef enum formula {
     VERTEX_2,   /* h0 h1, x */

@@ -7,7 +7,7 @@
 #include "base/floats.h"
 #include "base/sort.h"
 #include "base/status.h"
-#include "geom/box_pairs.h"
+#include "geom/meet/box_pairs.h"
 #include "kinetic/meet.h"
 #include "kinetic/slices.h"
 

@@ -11,7 +11,7 @@
 #include "base/floats.h"
 #include "base/random.h"
 #include "base/status.h"
-#include "geom/meet.h"
+#include "geom/meet/meet.h"
 #include "geom/selftest.h"
 #include "measure/hierarchy.h"
 #include "measure/sample.h"

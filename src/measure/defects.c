@@ -5,7 +5,7 @@
  * so threads do not show. */
 #include "base/floats.h"
 #include "base/status.h"
-#include "geom/contact.h"
+#include "geom/meet/contact.h"
 #include "geom/selftest.h"
 #include "measure/odd_pairs.h"
 #include "scene/scene.h"

@@ -11,7 +11,7 @@
  * compared exactly; sizes are what doubles make of them, so lambda is that of the scene with these sizes. */
 #include "base/floats.h"
 #include "base/random.h"
-#include "geom/distance.h"
+#include "geom/meet/distance.h"
 #include "geom/selftest.h"
 #include "measure/enclosing.h"
 #include "measure/hierarchy.h"

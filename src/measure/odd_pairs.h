@@ -6,7 +6,7 @@
  *                        everything else meets everything in boxes */
 #ifndef FROE_MEASURE_ODD_PAIRS_H
 #define FROE_MEASURE_ODD_PAIRS_H
-#include "geom/box_pairs.h"
+#include "geom/meet/box_pairs.h"
 #include "num/context.h"
 #include "scene/scene.h"
 

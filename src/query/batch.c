@@ -5,10 +5,10 @@
  */
 #include "base/floats.h"
 #include "base/status.h"
-#include "query/areas.h"
 #include "query/check.h"
-#include "query/packed.h"
-#include "query/space.h"
+#include "query/packed/packed.h"
+#include "query/packed/space.h"
+#include "query/point/areas.h"
 #include "query/workers.h"
 #include <string.h>
 

@@ -3,8 +3,8 @@
 #include "base/floats.h"
 #include "base/status.h"
 #include "geom/selftest.h"
-#include "query/packed.h"
-#include "query/space.h"
+#include "query/packed/packed.h"
+#include "query/packed/space.h"
 
 static froe_status take(const froe_tree *tree, query_shared *shared, froe_query **out) {
     froe_query *q = base_calloc(&tree->alloc, 1, sizeof *q);

@@ -12,9 +12,9 @@
 #define FROE_QUERY_CONTEXT_H
 #include "query/marks.h"
 #include "query/members.h"
-#include "query/near.h"
-#include "query/range.h"
-#include "query/ray.h"
+#include "query/near/near.h"
+#include "query/range/range.h"
+#include "query/ray/ray.h"
 #include "tree/tree.h"
 #include <froe/query.h>
 
@@ -50,13 +50,14 @@ struct froe_query {
     query_ray ray;
     query_near near;
     query_range range;
-    struct packed_work *packed; /**< packed trees of the plane only (query/packed.h) */
-    struct space_work *space;   /**< packed trees of space only (query/space.h) */
+    struct packed_work *packed; /**< packed trees of the plane only (query/packed/packed.h) */
+    struct space_work *space;   /**< packed trees of space only (query/packed/space.h) */
     struct {
         query_members inside, touched;
-    } groups; /**< of a point, while it is looked for (query/areas.h) */
+    } groups; /**< of a point, while it is looked for (query/point/areas.h) */
     struct {
-        froe_query **forks; /**< of the contexts of classes of sizes; NULL until they are asked (query/classes.h) */
+        froe_query *
+            *forks; /**< of the contexts of classes of sizes; NULL until they are asked (query/range/classes.h) */
         uint32_t count;
     } classes;
     ARRAY(uint32_t) found; /**< objects reported by the query in progress, or by the last one */

@@ -11,7 +11,7 @@
 #define FROE_SPLIT_GROW_H
 #include "base/task.h"
 #include "split/fragment.h"
-#include "split/homes.h"
+#include "split/guard/homes.h"
 
 /** What a method knows of a cell besides: bytes of its own, all zero at the root. */
 typedef struct split_room {

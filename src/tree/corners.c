@@ -6,7 +6,7 @@
 #include "base/floats.h"
 #include "geom/predicates.h"
 #include "geom/selftest.h"
-#include "tree/packed.h"
+#include "tree/packed/packed.h"
 #include "tree/ring.h"
 #include <sched.h>
 #include <stdatomic.h>

@@ -8,7 +8,7 @@
  * mapping. Everything has one place only: two equal trees make equal files. */
 #ifndef FROE_TREE_FILE_H
 #define FROE_TREE_FILE_H
-#include "tree/packed.h"
+#include "tree/packed/packed.h"
 
 #define FILE_VERSION 1u
 #define FILE_ALIGN 64u

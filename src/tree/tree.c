@@ -1,9 +1,9 @@
 /* tree.c: what a finished tree tells about itself: nodes, cuts, pieces, counts. */
 #include "base/floats.h"
 #include "tree/file.h"
-#include "tree/table.h"
+#include "tree/packed/table.h"
+#include "tree/packed/wide.h"
 #include "tree/walk.h"
-#include "tree/wide.h"
 #include <string.h>
 
 static void *take_array(const froe_allocator *alloc, size_t count, size_t item_size) {

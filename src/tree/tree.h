@@ -16,7 +16,7 @@
  * list has the place where it would begin. Unused fields are 0. tree/validate.c relies on it.
  *
  * A packed tree, one that is built to be queried, has plain cuts only and neither pieces nor bounds: its leaves are
- * blocks (tree/packed.h). Pieces are numbered all the same; tree_list() reads the lists of both layouts. */
+ * blocks (tree/packed/packed.h). Pieces are numbered all the same; tree_list() reads the lists of both layouts. */
 #ifndef FROE_TREE_TREE_H
 #define FROE_TREE_TREE_H
 #include "scene/scene.h"
@@ -82,8 +82,8 @@ typedef struct tree_packed {
     uint32_t *owners;
     void *memory; /**< that blocks lie in; NULL: in a mapped file */
     size_t memory_size;
-    tree_table *table; /**< of the plane; follows from the nodes: tree/table.h */
-    tree_wide *wide;   /**< of space; follows from the nodes and boxes: tree/wide.h */
+    tree_table *table; /**< of the plane; follows from the nodes: tree/packed/table.h */
+    tree_wide *wide;   /**< of space; follows from the nodes and boxes: tree/packed/wide.h */
 } tree_packed;
 
 /** A number context for calls that have no other (corners.c). */
@@ -122,8 +122,8 @@ typedef struct tree_objects {
 static inline bool tree_is_packed(const froe_tree *t) {
     return t->packed.blocks;
 }
-/** List of a packed leaf: in its block, behind 32 bytes and 8 for each fragment (tree/packed.h); in space behind 64
- * (tree/space.h). */
+/** List of a packed leaf: in its block, behind 32 bytes and 8 for each fragment (tree/packed/packed.h); in space behind 64
+ * (tree/packed/space.h). */
 static inline tree_objects tree_packed_list(const froe_tree *t, const tree_node *n) {
     size_t count = n->u.list.count, at = (size_t)n->child * 64 + (t->scene->dim == 3 ? 64 : 32 + 8 * count);
     return (tree_objects){.at = (const uint32_t *)(const void *)(t->packed.blocks + at),

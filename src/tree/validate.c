@@ -7,7 +7,7 @@
 #include "tree/validate.h"
 #include "base/status.h"
 #include "geom/selftest.h"
-#include "tree/packed.h"
+#include "tree/packed/packed.h"
 #include "tree/walk.h"
 #include <math.h>
 

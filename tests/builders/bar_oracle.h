@@ -2,8 +2,8 @@
  * are what dim facets share and all others have on their inner side. */
 #ifndef FROE_TESTS_BUILDERS_BAR_ORACLE_H
 #define FROE_TESTS_BUILDERS_BAR_ORACLE_H
-#include "split/bar_shape.h"
-#include "split/directions.h"
+#include "build/bar/bar_shape.h"
+#include "build/bar/directions.h"
 #include "split/grow.h"
 #include <gmp.h>
 #include <math.h>

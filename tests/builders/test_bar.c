@@ -1,8 +1,8 @@
 /* test_bar.c: cells are as fat as promised, exactly; points end low and alone; small objects have a guard in every
  * fat cell they meet; and what has no directions says so. */
+#include "build/bar/bar_guards.h"
+#include "build/bar/bar_shape.h"
 #include "builders/bar_oracle.h"
-#include "split/bar_guards.h"
-#include "split/bar_shape.h"
 #include "support/memory.h"
 #include "tree/trees.h"
 #include <froe/io.h>

@@ -1,9 +1,9 @@
 /* test_converted.c: plans of endpoints, their homes and T-junctions, by brute force; what a converted tree owes to its
  * plan: size, height, cells met; balance along chords; every way to plan, on every kind of scene. */
+#include "build/conversion/chord.h"
+#include "build/conversion/convert.h"
+#include "build/conversion/ham_sandwich.h"
 #include "build/options.h"
-#include "split/chord.h"
-#include "split/convert.h"
-#include "split/ham_sandwich.h"
 #include "tree/tree.h"
 #include <froe/io.h>
 #include <froe/query.h>

@@ -1,7 +1,7 @@
 /* test_directional.c: cuts of boxes: sweeps and trees agree, rooms pay for what is divided, and nothing else matters
  * than the boxes. */
+#include "build/directional/boxes.h"
 #include "build/options.h"
-#include "split/boxes.h"
 #include "tree/tree.h"
 #include <float.h>
 #include <froe/io.h>

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "geom/box_pairs.h"
+#include "geom/meet/box_pairs.h"
 #include <string.h>
 
 enum { MOST = 3000 };

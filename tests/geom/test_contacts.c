@@ -1,8 +1,8 @@
 /* How bodies meet, and how far points are from them, against the oracle: every pair of kinds, every class of
  * coordinates, every stage of the predicates. */
 #include "geom/bodies.h"
-#include "geom/contact.h"
-#include "geom/distance.h"
+#include "geom/meet/contact.h"
+#include "geom/meet/distance.h"
 #include <stdlib.h>
 
 static uint64_t counts[GEOM_CONTACTS], corners, total;

@@ -1,7 +1,7 @@
 /* Filters at both ends of the range of doubles: quotients of denormals, lengths whose squares underflow or overflow,
  * and sums of squares that come out infinite although the true ones do not. */
 #include "geom/filter.h"
-#include "geom/meet.h"
+#include "geom/meet/meet.h"
 #include "geom/range.h"
 #include "support/fuzz.h"
 #include "support/rational.h"

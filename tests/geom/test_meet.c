@@ -1,6 +1,6 @@
 /* Do convex sets meet? Every pair of cores, at every stage, against brute force in rationals. */
 #include "base/random.h"
-#include "geom/meet.h"
+#include "geom/meet/meet.h"
 #include "geom/polytope.h"
 #include "geom/range.h"
 #include "oracle/convex.h"

@@ -1,6 +1,6 @@
 /* Where rays meet bodies first, against the oracle: every kind, every class of coordinates, every stage. */
 #include "geom/bodies.h"
-#include "geom/ray.h"
+#include "geom/ray/ray.h"
 #include <stdlib.h>
 
 static uint64_t hits, misses, orders[3], sources[GEOM_SPHERE + 1], total;

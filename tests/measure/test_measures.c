@@ -1,6 +1,6 @@
 /* test_measures.c: what a scene is said to be like, beside brute force: bounds that hold, counts that are right, and
  * nothing that depends on the order or the scale of the objects. */
-#include "geom/meet.h"
+#include "geom/meet/meet.h"
 #include "measure/enclosing.h"
 #include "measure/volume.h"
 #include "scene/convex.h"

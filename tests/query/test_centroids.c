@@ -1,5 +1,5 @@
 /* Deep trees: the centroids find what plain descent finds, in few steps. */
-#include "query/centroids.h"
+#include "query/range/centroids.h"
 #include "query/ranges.h"
 
 enum { DEPTH = 20000 };

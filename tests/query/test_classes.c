@@ -1,6 +1,6 @@
 /* Small ranges by one point location in each class of sizes: the same answers as brute force in rationals, at the
  * borders of classes and wherever sizes are extreme. */
-#include "query/classes.h"
+#include "query/range/classes.h"
 #include "query/ranges.h"
 #include "support/memory.h"
 #include <float.h>

@@ -1,8 +1,8 @@
 /* The laid-out tree leads every point to the leaf that its exact sides lead it to, one at a time and many together. */
 #include "geom/predicates.h"
-#include "query/centroids.h"
-#include "query/descent.h"
-#include "query/leaf.h"
+#include "query/point/descent.h"
+#include "query/point/leaf.h"
+#include "query/range/centroids.h"
 #include "query/worlds.h"
 
 enum { POINTS = 3000 };

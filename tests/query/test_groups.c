@@ -1,8 +1,8 @@
 /* The groups that a point lies in, against brute force in rationals: maps, polygons that overlap and degenerate, lines
  * and solids beside them, on the trees of every builder, points anywhere, on corners, borders and cuts. */
 #include "oracle/segment.h"
-#include "query/areas.h"
 #include "query/exact_world.h"
+#include "query/point/areas.h"
 #include <unistd.h>
 
 enum { DECISIONS = 1000000, MOST_GROUPS = 256 };

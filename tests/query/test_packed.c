@@ -1,8 +1,8 @@
 /* Queries on packed trees: the same answers as brute force in rationals, in the same order on all kernels that the
  * machine has. */
 #include "oracle/segment.h"
-#include "query/packed.h"
-#include "tree/table.h"
+#include "query/packed/packed.h"
+#include "tree/packed/table.h"
 #include "tree/trees.h"
 #include <float.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Which objects meet, and how, against brute force in whole numbers: every builder. And the same questions asked in
  * batches. */
-#include "geom/contact.h"
+#include "geom/meet/contact.h"
 #include "query/context.h"
 #include "query/tours.h"
 

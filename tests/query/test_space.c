@@ -1,7 +1,7 @@
 /* Packed trees of space: the same answers as brute force, on all kernels that the machine has; validation and audit of
  * blocks. (What tests/query asks of all builders is asked of these, too.) */
 #include "oracle/convex.h"
-#include "query/space.h"
+#include "query/packed/space.h"
 #include "tree/trees.h"
 #include "tree/validate.h"
 #include <stdlib.h>

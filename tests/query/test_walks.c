@@ -1,5 +1,5 @@
 /* All walks find the same objects, on deep trees and on shallow ones; what they prepare is what they take it for. */
-#include "query/jump.h"
+#include "query/range/jump.h"
 #include "query/ranges.h"
 #include "support/memory.h"
 

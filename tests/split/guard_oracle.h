@@ -6,7 +6,7 @@
  * one tree that the rule describes. */
 #ifndef FROE_TESTS_SPLIT_GUARD_ORACLE_H
 #define FROE_TESTS_SPLIT_GUARD_ORACLE_H
-#include "split/guard_tree.h"
+#include "split/guard/guard_tree.h"
 #include "support/memory.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* test_grain.c: how the grain builder scores planes: against exact counts and against brute force, in every cell of
  * whole builds; and what it promises. */
+#include "build/grain/contest.h"
+#include "build/grain/crossing.h"
+#include "build/grain/sweep.h"
 #include "build/method.h"
-#include "geom/contact.h"
+#include "geom/meet/contact.h"
 #include "split/cell.h"
-#include "split/contest.h"
-#include "split/crossing.h"
-#include "split/sweep.h"
 #include "tree/tree.h"
 #include <math.h>
 #include <setjmp.h>

@@ -1,9 +1,9 @@
 /* The guard tree: against its rule, against itself in other orders, places and sizes, and in adversity. */
 #include "guard_oracle.h"
 #include "guard_scenes.h"
-#include "split/guard_shrink.h"
-#include "split/guards.h"
-#include "split/homes.h"
+#include "split/guard/guard_shrink.h"
+#include "split/guard/guards.h"
+#include "split/guard/homes.h"
 #include <pthread.h>
 
 enum { WAYS = 4 };

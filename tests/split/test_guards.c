@@ -1,7 +1,7 @@
 /* Guards of scenes: which vertices, how often, and in which order. */
 #include "support/memory.h"
 
-#include "split/guards.h"
+#include "split/guard/guards.h"
 #include <string.h>
 
 static froe_scene *new_scene(int dim, froe_kind kind, size_t count, const double *coords, const double *radii) {

@@ -3,7 +3,7 @@
 #include "geom/between.h"
 #include "geom/sets.h"
 #include "support/memory.h"
-#include "tree/normals.h"
+#include "tree/audit/normals.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

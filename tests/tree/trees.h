@@ -5,7 +5,7 @@
 #include "support/memory.h"
 #include "support/scatter.h"
 #include "tree/draft.h"
-#include "tree/packed.h"
+#include "tree/packed/packed.h"
 #include <string.h>
 
 static inline froe_scene *trees_scene(int dim, froe_kind kind, size_t count, uint32_t grid, double size,

@@ -6,7 +6,7 @@
 #ifndef FROE_TESTS_VIEW_PAGES_H
 #define FROE_TESTS_VIEW_PAGES_H
 #include "rays.h"
-#include "view/picture.h"
+#include "view/picture/picture.h"
 
 typedef struct page {
     const froe_tree *tree;

@@ -1,7 +1,7 @@
 /* test_graph.c: random graphs: after breaking no circle is left, the order keeps every arc that counts, and
  * graphs without circles lose nothing. */
 #include "../tree/trees.h"
-#include "view/graph.h"
+#include "view/picture/graph.h"
 #include <stdlib.h>
 
 enum { MOST = 3000 };

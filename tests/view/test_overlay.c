@@ -6,7 +6,7 @@
  * lines that are not equal are far apart. On a page where the whole scene is a hundredth of a pixel wide no line is
  * taken for another because they are near: what is drawn once there was found to be equal exactly. */
 #include "pages.h"
-#include "view/order.h"
+#include "view/visibility/order.h"
 
 enum { MOST = 40 };
 

@@ -1,7 +1,7 @@
 /* test_picture.c: pictures of whole faces, regions and fragments, their lines and cameras, against exact rays
  * (pages.h). */
 #include "pages.h"
-#include "view/order.h"
+#include "view/visibility/order.h"
 
 static froe_picture_report check_tree(froe_tree *tree, uint32_t eyes, uint32_t samples, froe_paint paint,
                                       bool through) {

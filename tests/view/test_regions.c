@@ -1,7 +1,7 @@
 /* test_regions.c: rings against the pieces they are made of. Inside every piece the rings wind once around, outside all
  * pieces not at all; the area is the sum of the pieces' areas. */
 #include "rays.h"
-#include "view/visibility.h"
+#include "view/visibility/visibility.h"
 
 typedef struct counts {
     const froe_visibility *v;

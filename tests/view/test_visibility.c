@@ -5,7 +5,7 @@
  * rank); none where the ray meets nothing or leaves the window. Points of edges are visible unless a polygon lies
  * before them. */
 #include "rays.h"
-#include "view/visibility.h"
+#include "view/visibility/visibility.h"
 
 typedef struct look {
     const froe_tree *tree;

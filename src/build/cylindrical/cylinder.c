@@ -1,0 +1,312 @@
+/* cylinder.c: cylindrical partitions, cut by cut (Agarwal, Erickson and Guibas, "Kinetic BSPs for intersecting
+ * segments and disjoint triangles", SODA 1998).
+ *
+ *        left wall :        above         : right wall      The first fragment of a cell, in the order of
+ *                  :______________________:                 priority, says how the cell is cut. Where it
+ *                  :    :           :     :                 ends inside, at a vertex or where it crosses
+ *                  :    o-----------+     :                 the edge below or above, walls go up and
+ *                  :    :     s    /:\    :                 down to the borders of the cell; then comes
+ *                  :____:_________/_:_\___:                 its own line.
+ *                            below
+ *
+ * So every cell is a trapezoid: left and right of it are walls (which may meet at infinity), below and
+ * above edges that span it. In space the trapezoid is what one sees from above: polygons first cut by the vertical
+ * planes through their edges, one after the other, until they span the cell, then by their own plane.
+ *
+ * Walls are sheared (geom/plane.h), so that nothing needs a case of its own: vertical segments, equal x, shared ends.
+ * An end on a wall that is there already needs no other. What lies in a line or plane that cuts stays in its list.
+ * Source and proofs: the paper's section 2; the cell by cell form and that it is the same tree as theirs are ours:
+ * docs/design/cylindrical.md. */
+#include "build/cylindrical/cylinder.h"
+#include "split/cell.h"
+#include <string.h>
+
+enum { LEFT, RIGHT };
+
+/** What is cut: a segment or, in space, an edge of a polygon; or a vertical polygon, as seen from above. */
+typedef struct stretch {
+    const split_fragment *fragment;
+    split_corner end[2]; /**< left and right */
+    uint32_t edge;       /**< for crossings: the object (plane) or the number of the edge (space) */
+    uint32_t u, v;       /**< vertices of the line, left and right */
+} stretch;
+
+/* ------------------------------------------------------------------ frames -- */
+
+/** The walls left and right of a cell, and in space the edges below and above. Kept in the cell's room. */
+typedef struct frame {
+    uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
+} frame;
+_Static_assert(sizeof(frame) <= sizeof(split_room), "a frame has room in a cell");
+
+static frame frame_of(const split_cell *cell) {
+    frame f = {{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
+    if (cell->depth) memcpy(&f, &cell->room, sizeof f);
+    return f;
+}
+
+/* ------------------------------------------------------------------ walls -- */
+
+static int order_xy(const double *p, const double *q) {
+    int k = p[0] == q[0];
+    return (p[k] > q[k]) - (p[k] < q[k]);
+}
+
+static bool is_wall(froe_cut_kind kind) {
+    return kind == FROE_CUT_VERTEX || kind == FROE_CUT_CROSSING;
+}
+
+/** Does the wall on this side of the cell run through the end of the stretch? */
+static bool is_on_wall(split_set *set, const split_cell *cell, const stretch *s, int side) {
+    uint32_t node = frame_of(cell).wall[side];
+    const split_corner *end = s->end + side;
+    if (node == FROE_NONE) return false;
+    froe_cut wall = split_cut_at(set, node);
+    if (end->type == SPLIT_VERTEX && wall.kind == FROE_CUT_VERTEX)
+        return !order_xy(scene_vertex(set->scene, end->a), scene_vertex(set->scene, wall.id[0]));
+    split_plane plane = split_plane_of(set->scene, &wall);
+    return !split_corner_side(set, &plane, s->fragment->object, end);
+}
+
+/** The vertical plane through an edge, by its number, from its left end to its right. */
+static froe_cut edge_cut(const froe_scene *scene, uint32_t edge) {
+    uint32_t v[2];
+    froe_scene_edge(scene, edge, v);
+    bool falls = order_xy(scene_vertex(scene, v[0]), scene_vertex(scene, v[1])) > 0;
+    return (froe_cut){.kind = FROE_CUT_EDGE, .id = {v[falls], v[!falls], edge}}; /* trees do not keep the third */
+}
+
+/** The wall where two lines cross: the second must cross the first from its right to its left. */
+static froe_cut crossing_cut(split_set *set, uint32_t a, uint32_t b) {
+    const double *line[2], *other[2];
+    scene_crossing_line(set->scene, a, line);
+    scene_crossing_line(set->scene, b, other);
+    geom_plane plane = set->scene->dim == 2 ? geom_plane_points(2, line) : geom_plane_vertical(line[0], line[1]);
+    int from = geom_side_vertex(&set->context, &plane, other[0]),
+        to = geom_side_vertex(&set->context, &plane, other[1]);
+    return (froe_cut){.kind = FROE_CUT_CROSSING, .id = {to > from ? a : b, to > from ? b : a}};
+}
+
+/** In space: the edge below or above on which the end of the stretch lies; FROE_NONE: neither. */
+static uint32_t edge_through(split_set *set, const split_cell *cell, const stretch *s, int side) {
+    const frame f = frame_of(cell);
+    for (int i = 0; i < 2; i++) {
+        uint32_t edge = f.edge[i];
+        if (edge == FROE_NONE) continue;
+        froe_cut cut = edge_cut(set->scene, edge);
+        split_plane plane = split_plane_of(set->scene, &cut);
+        if (!split_corner_side(set, &plane, s->fragment->object, s->end + side)) return edge;
+    }
+    return FROE_NONE;
+}
+
+/** What ends the stretch here: the first cut through that point; a wall if there is one among them. */
+static froe_cut end_cut(const split_set *set, const split_corner *end) {
+    froe_cut cut = split_cut_at(set, end->type == SPLIT_CROSSING ? end->c : end->a);
+    if (end->type != SPLIT_CORNER || is_wall(cut.kind)) return cut;
+    froe_cut second = split_cut_at(set, end->b);
+    return is_wall(second.kind) || cut.kind != FROE_CUT_EDGE ? second : cut;
+}
+
+/** Names the wall that the stretch needs at one end. False: none, it ends on one, or on another polygon. */
+static bool wall_at(split_set *set, const split_cell *cell, const stretch *s, int side, froe_cut *cut) {
+    const split_corner *end = s->end + side;
+    if (end->type == SPLIT_VERTEX) {
+        *cut = (froe_cut){.kind = FROE_CUT_VERTEX, .id = {end->a}};
+        return !is_on_wall(set, cell, s, side);
+    }
+    froe_cut by = end_cut(set, end);
+    bool space = set->scene->dim == 3;
+    if (is_wall(by.kind) || (space && by.kind != FROE_CUT_EDGE) || is_on_wall(set, cell, s, side)) return false;
+    uint32_t other = space ? edge_through(set, cell, s, side) : by.id[0];
+    if (other == FROE_NONE) return false;
+    *cut = crossing_cut(set, other, s->edge); /* the stretch has its ends on both sides of the other line */
+    return true;
+}
+
+/* ----------------------------------------------------------------- objects -- */
+
+/** Puts the ends in order. */
+static void turn_right(const froe_scene *scene, stretch *s) {
+    if (order_xy(scene_vertex(scene, s->u), scene_vertex(scene, s->v)) < 0) return;
+    uint32_t u = s->u;
+    split_corner left = s->end[LEFT];
+    s->u = s->v, s->v = u;
+    s->end[LEFT] = s->end[RIGHT], s->end[RIGHT] = left;
+}
+
+/** Left wall, right wall, line. */
+static split_verdict cut_stretch(split_set *set, const split_cell *cell, const stretch *s, const froe_cut *line,
+                                 froe_cut *cut) {
+    if (!wall_at(set, cell, s, LEFT, cut) && !wall_at(set, cell, s, RIGHT, cut)) *cut = *line;
+    return SPLIT_CUT_ANYWAY;
+}
+
+static split_verdict cut_vertex(const split_set *set, const split_fragment *f, froe_cut *cut) {
+    *cut = (froe_cut){.kind = FROE_CUT_VERTEX, .id = {scene_corner(set->scene, f->object, 0)}};
+    return SPLIT_CUT_ANYWAY;
+}
+
+static split_verdict cut_segment(split_set *set, const split_cell *cell, const split_fragment *f, froe_cut *cut) {
+    const froe_scene *scene = set->scene;
+    bool space = scene->dim == 3;
+    stretch s = {.fragment = f, .u = scene_corner(scene, f->object, 0), .v = scene_corner(scene, f->object, 1)};
+    if (!order_xy(scene_vertex(scene, s.u), scene_vertex(scene, s.v))) return cut_vertex(set, f, cut); /* vertical */
+    for (uint32_t i = 0; i < 2; i++) s.end[i] = split_corner_of(set, f, i);
+    s.edge = space ? scene->starts[f->object] : f->object;
+    turn_right(scene, &s);
+    froe_cut line = space ? edge_cut(scene, s.edge) : (froe_cut){.kind = FROE_CUT_OBJECT, .id = {f->object}};
+    return cut_stretch(set, cell, &s, &line, cut);
+}
+
+/** Does an edge, by its number, lie in the vertical plane below or above the cell? */
+static bool is_border(split_set *set, const split_cell *cell, uint32_t edge) {
+    const frame f = frame_of(cell);
+    uint32_t v[2];
+    froe_scene_edge(set->scene, edge, v);
+    for (int i = 0; i < 2; i++) {
+        if (f.edge[i] == FROE_NONE) continue;
+        froe_cut border = edge_cut(set->scene, f.edge[i]);
+        geom_plane plane = scene_cut_plane(set->scene, &border);
+        if (!geom_side_vertex(&set->context, &plane, scene_vertex(set->scene, v[0])) &&
+            !geom_side_vertex(&set->context, &plane, scene_vertex(set->scene, v[1])))
+            return true;
+    }
+    return false;
+}
+
+/** Length of an edge as seen from above, to choose by. */
+static double edge_length(const froe_scene *scene, uint32_t edge) {
+    uint32_t v[2];
+    froe_scene_edge(scene, edge, v);
+    const double *p = scene_vertex(scene, v[0]), *q = scene_vertex(scene, v[1]);
+    double x = fabs(0.5 * p[0] - 0.5 * q[0]), y = fabs(0.5 * p[1] - 0.5 * q[1]);
+    return x > y ? x : y;
+}
+
+/** Would the vertical plane through an edge leave all fragments on one side? Where polygons cut each other, an edge on
+ * the border of the cell need not be the one below or above, and to cut along it again would not end. */
+static froe_status is_idle(split_work *work, const split_cell *cell, uint32_t edge, bool *idle) {
+    froe_cut cut = edge_cut(work->set.scene, edge);
+    split_tally n;
+    froe_status status = cell_tally(work, cell, &cut, &n);
+    *idle = !status && !n.on && !n.both && (!n.negative || !n.positive);
+    return status;
+}
+
+/** Is there nothing to cut along an edge for? */
+static froe_status is_done(const split_cylinder *c, split_work *work, const split_cell *cell, uint32_t edge,
+                           bool *done) {
+    *done = is_border(&work->set, cell, edge);
+    return *done || c->refuse ? FROE_OK : is_idle(work, cell, edge, done);
+}
+
+/** The longest of the polygon's own edges that reaches into the cell, as the number of a corner of the fragment;
+ * FROE_NONE: there is none. Longest, because that of an upright triangle covers it. */
+static froe_status own_edge(const split_cylinder *c, split_work *work, const split_cell *cell, const split_fragment *f,
+                            uint32_t *at) {
+    const split_set *set = &work->set;
+    uint32_t count = split_corner_count(set, f), first = set->scene->starts[f->object], best = FROE_NONE;
+    double longest = 0;
+    *at = FROE_NONE;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t edge = split_corner_of(set, f, i).edge;
+        if (edge & TREE_EDGE_CUT) continue;
+        double length = edge_length(set->scene, first + edge);
+        bool done = !(length > longest || (length == longest && best != FROE_NONE && edge < best));
+        froe_status status = done ? FROE_OK : is_done(c, work, cell, first + edge, &done);
+        if (status) return status;
+        if (!done) best = edge, *at = i, longest = length;
+    }
+    return FROE_OK;
+}
+
+static stretch edge_stretch(const split_set *set, const split_fragment *f, uint32_t at) {
+    stretch s = {.fragment = f, .end = {split_corner_of(set, f, at)}};
+    uint32_t next = at + 1 < split_corner_count(set, f) ? at + 1 : 0, v[2];
+    s.end[1] = split_corner_of(set, f, next);
+    s.edge = set->scene->starts[f->object] + s.end[0].edge;
+    froe_scene_edge(set->scene, s.edge, v);
+    s.u = v[0], s.v = v[1];
+    turn_right(set->scene, &s);
+    return s;
+}
+
+/** Is the polygon a segment, as seen from above? */
+static bool is_upright(split_set *set, uint32_t object) {
+    const froe_scene *scene = set->scene;
+    geom_plane side = geom_plane_vertical(scene_point(scene, object, 0), scene_point(scene, object, 1));
+    return !geom_side_vertex(&set->context, &side, scene_point(scene, object, 2));
+}
+
+/** The polygon's plane; or, of an upright one that other polygons have robbed of its edges here, the same by an edge.
+ */
+static froe_cut polygon_cut(split_set *set, uint32_t object) {
+    const froe_scene *scene = set->scene;
+    uint32_t edge = scene->starts[object];
+    if (!is_upright(set, object)) return (froe_cut){.kind = FROE_CUT_OBJECT, .id = {object}};
+    while (!(edge_length(scene, edge) > 0)) edge++;
+    return edge_cut(scene, edge);
+}
+
+/** The first polygon of the cell that crosses the plane of `cut`, which is that of `object`. */
+static split_verdict refuse_crossing(split_work *work, const split_cell *cell, uint32_t object, const froe_cut *cut) {
+    const split_set *set = &work->set;
+    split_tally n;
+    if (cell_tally(work, cell, cut, &n)) return SPLIT_MEMORY;
+    if (!n.both) return SPLIT_CUT_ANYWAY;
+    uint32_t i = 0;
+    while (set->classes.data[i] != SPLIT_BOTH) i++;
+    work->crossing[0] = object;
+    work->crossing[1] = set->items.data[cell->first + i].object;
+    return SPLIT_REFUSE;
+}
+
+static split_verdict cut_polygon(const split_cylinder *c, split_work *work, const split_cell *cell,
+                                 const split_fragment *f, froe_cut *cut) {
+    uint32_t at;
+    if (own_edge(c, work, cell, f, &at)) return SPLIT_MEMORY;
+    if (at != FROE_NONE) {
+        stretch s = edge_stretch(&work->set, f, at);
+        froe_cut line = edge_cut(work->set.scene, s.edge);
+        return cut_stretch(&work->set, cell, &s, &line, cut);
+    }
+    *cut = polygon_cut(&work->set, f->object);
+    return c->refuse ? refuse_crossing(work, cell, f->object, cut) : SPLIT_CUT_ANYWAY;
+}
+
+/* ------------------------------------------------------------------- cells -- */
+
+split_verdict split_cylinder_choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
+    const split_cylinder *c = config;
+    if (cell->count <= c->leaf) return SPLIT_LEAF;
+    if (c->deepest && cell->depth >= c->deepest) {
+        atomic_store(c->too_deep, true);
+        return SPLIT_GIVE_UP;
+    }
+    const split_fragment first = work->set.items.data[cell->first];
+    switch (scene_form(work->set.scene, first.object)) {
+    case FROE_POINT:
+        return cut_vertex(&work->set, &first, cut);
+    case FROE_SEGMENT:
+        return cut_segment(&work->set, cell, &first, cut);
+    default:
+        return cut_polygon(c, work, cell, &first, cut);
+    }
+}
+
+void split_cylinder_divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut,
+                            bool guard, split_cell *positive, split_cell *negative) {
+    (void)config;
+    (void)work;
+    (void)guard;
+    frame above = frame_of(cell), below = above;
+    if (is_wall(cut->kind)) {
+        above.wall[LEFT] = below.wall[RIGHT] = cell->node;
+    } else if (cut->kind == FROE_CUT_EDGE) { /* runs to the right: its positive side is above */
+        above.edge[0] = cut->id[2];
+        below.edge[1] = cut->id[2];
+    }
+    memcpy(&positive->room, &above, sizeof above);
+    memcpy(&negative->room, &below, sizeof below);
+}

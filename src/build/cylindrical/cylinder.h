@@ -1,0 +1,19 @@
+/* cylinder.h: which cut comes next in a cell of a cylindrical partition? */
+#ifndef FROE_BUILD_CYLINDRICAL_CYLINDER_H
+#define FROE_BUILD_CYLINDRICAL_CYLINDER_H
+#include "split/grow.h"
+
+/** Settings, and what the threads find out together. */
+typedef struct split_cylinder {
+    uint32_t leaf;         /**< cells with so many fragments are done */
+    uint32_t deepest;      /**< give up at this depth; 0: never */
+    bool refuse;           /**< polygons that cross; otherwise they are cut */
+    atomic_bool *too_deep; /**< set when `deepest` was why */
+} split_cylinder;
+
+/** split_method.choose for a split_cylinder: names the next cut for the first fragment of the cell. */
+split_verdict split_cylinder_choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
+/** split_method.divided: which walls and edges bound the children. */
+void split_cylinder_divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut,
+                            bool guard, split_cell *positive, split_cell *negative);
+#endif

@@ -1,0 +1,262 @@
+/* boxes_carve.c: cutting small parts off a large cell, at the price of the small parts.
+ *
+ *     +--+-----------------------------+
+ *     |  |   what is left stays in its |      nested boxes, rows, stairs: a sweep over all events for each cut would
+ *     |  |   trees (boxes_axis.h)      |      be quadratic. Here a cut takes the boxes of the smaller side out of the
+ *     +--+-----------------------------+      trees, O(d log^2 n) each, and opens a cell for them.
+ *
+ * (Tobola and Nechvile, section 5.2: the smaller half is rebuilt.) A box that is taken out lands in a cell of at most
+ * half the fragments, and when half are left the rest is opened again, too: so each pays O(log n) times. */
+#include "base/sort.h"
+#include "build/directional/boxes_axis.h"
+
+typedef ARRAY(uint32_t) carve_list; /* of boxes, as they are numbered in the cell */
+
+typedef struct carve {
+    boxes *b;
+    boxes_cell cell;                             /* what is left: node, bounds, covers */
+    uint32_t count, left;                        /* boxes at first; now */
+    uint32_t lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /* its bounds as positions */
+    boxes_fragment *fragments;                   /* [count] */
+    bool *gone;                                  /* [count] */
+    boxes_axis axis[FROE_MAX_DIM];
+    carve_list small, divided, changed, covers, spare;
+} carve;
+
+/* ------------------------------------------------------------------ the trees -- */
+
+static unsigned rooms(const carve *c, uint32_t box, int axis) {
+    return c->fragments[box].alive >> 2 * axis & 3u;
+}
+
+static void weigh_box(carve *c, uint32_t box, int axis, int sign) {
+    int64_t weight = boxes_weight(c->b, c->fragments[box].alive, axis);
+    boxes_axis_weigh(c->axis + axis, box, rooms(c, box, axis), sign * weight, c->b->options.trade);
+}
+
+static void give(carve *c, uint32_t box, bool there) {
+    for (int k = 0; k < c->b->dim; k++) {
+        weigh_box(c, box, k, there ? 1 : -1);
+        boxes_axis_list(c->axis + k, box, rooms(c, box, k), there);
+    }
+    c->gone[box] = !there;
+    c->left += there ? 1 : UINT32_MAX;
+}
+
+/* A room dies: the box weighs less on the other axes. */
+static void kill_room(carve *c, uint32_t box, int axis, int room) {
+    if (!(rooms(c, box, axis) >> room & 1)) return;
+    for (int k = 0; k < c->b->dim; k++) weigh_box(c, box, k, -1);
+    boxes_axis_forget_room(c->axis + axis, box, room);
+    c->fragments[box].alive &= (uint16_t) ~(1u << (2 * axis + room));
+    for (int k = 0; k < c->b->dim; k++) weigh_box(c, box, k, 1);
+}
+
+static froe_status begin_carving(carve *c, const boxes_cell *cell) {
+    boxes *b = c->b;
+    const froe_allocator *alloc = &b->alloc;
+    c->fragments = base_calloc(alloc, c->count, sizeof *c->fragments);
+    c->gone = base_calloc(alloc, c->count, sizeof *c->gone);
+    if (!c->fragments || !c->gone) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < c->count; i++) c->fragments[i] = b->fragments.data[cell->first + i];
+    for (int k = 0; k < b->dim; k++) {
+        froe_status status = boxes_axis_new(b, cell, k, c->axis + k);
+        if (status) return status;
+        c->hi[k] = c->axis[k].size + 1;
+    }
+    for (uint32_t i = 0; i < c->count; i++) give(c, i, true);
+    return FROE_OK;
+}
+
+static void end_carving(carve *c) {
+    const froe_allocator *alloc = &c->b->alloc;
+    for (int k = 0; k < c->b->dim; k++) boxes_axis_free(alloc, c->axis + k);
+    base_free(alloc, c->fragments, c->count * sizeof *c->fragments);
+    base_free(alloc, c->gone, c->count * sizeof *c->gone);
+    array_free(alloc, &c->small);
+    array_free(alloc, &c->divided);
+    array_free(alloc, &c->changed);
+    array_free(alloc, &c->covers);
+    array_free(alloc, &c->spare);
+}
+
+/* ------------------------------------------------------------------ reading off -- */
+
+/* Boxes in [from, end) of an order (0 by beginning, 1 by end) whose number in `tree` is at least `level`. */
+static bool collect_boxes(const carve *c, const boxes_axis *a, const base_summit *tree, int by, uint32_t from,
+                          uint32_t end, int64_t level, carve_list *out) {
+    for (; (from = base_summit_first(tree, from, end, level)) != BASE_SUMMIT_NONE; from++)
+        if (!array_push(&c->b->alloc, out, a->order[by][from])) return false;
+    return true;
+}
+
+/* Boxes that begin (by 0) or end (1) at a position. */
+static bool collect_at(const carve *c, const boxes_axis *a, int by, uint32_t at, carve_list *out) {
+    for (uint32_t i = a->first[by][at]; i < a->first[by][at + 1]; i++)
+        if (!c->gone[a->order[by][i]] && !array_push(&c->b->alloc, out, a->order[by][i])) return false;
+    return true;
+}
+
+static int compare_numbers(void *user, uint32_t a, uint32_t b) {
+    (void)user;
+    return a < b ? -1 : a > b;
+}
+
+static bool sort_carve_list(carve *c, carve_list *list) {
+    c->spare.count = 0;
+    if (!array_reserve(&c->b->alloc, &c->spare, list->count)) return false;
+    if (list->count) base_merge_sort(list->data, c->spare.data, list->count, compare_numbers, NULL);
+    return true;
+}
+
+/* Opens a cell with these boxes, ascending. */
+static froe_status open_cell(carve *c, const boxes_cell *cell, const carve_list *list) {
+    boxes *b = c->b;
+    b->objects.count = 0;
+    if (!array_reserve(&b->alloc, &b->objects, list->count)) return FROE_E_MEMORY;
+    for (size_t i = 0; i < list->count; i++) b->objects.data[i] = c->fragments[list->data[i]].object;
+    return boxes_open(b, *cell, b->objects.data, (uint32_t)list->count);
+}
+
+/* ----------------------------------------------------------------------- one cut -- */
+
+/* Lists the boxes without extent that lie in the cut, and takes them away. */
+static froe_status emit_carved_in_cut(carve *c, const boxes_axis *a, uint32_t at) {
+    boxes *b = c->b;
+    froe_status status = FROE_OK;
+    c->changed.count = 0;
+    if (!collect_at(c, a, 0, at, &c->changed) || !sort_carve_list(c, &c->changed)) return FROE_E_MEMORY;
+    bool begun = false;
+    for (size_t i = 0; i < c->changed.count && !status; i++) {
+        uint32_t box = c->changed.data[i];
+        if (a->places[box].at[BOXES_HI] != at) continue;
+        if (!begun) status = draft_list(&b->draft, c->cell.node);
+        begun = true;
+        if (!status) status = draft_piece(&b->draft, c->cell.node, c->fragments[box].object, NULL, 0);
+        give(c, box, false);
+    }
+    return status;
+}
+
+/* The boxes across the cut, and all on the smaller side, these among them. */
+static bool read_off(carve *c, const boxes_axis *a, uint32_t at, bool above) {
+    uint32_t begun = a->first[0][at], ended = a->first[1][at + 1];
+    c->small.count = c->divided.count = 0;
+    bool ok = collect_boxes(c, a, &a->reach, 0, 0, begun, (int64_t)at + 1, &c->divided);
+    ok = ok && (above ? collect_boxes(c, a, &a->after, 1, ended, c->count, 1, &c->small)
+                      : collect_boxes(c, a, &a->reach, 0, 0, begun, 1, &c->small));
+    return ok && sort_carve_list(c, &c->small);
+}
+
+static void pay(carve *c, const boxes_cut *cut) {
+    for (size_t i = 0; i < c->divided.count && cut->forced; i++) {
+        uint32_t box = c->divided.data[i];
+        if (rooms(c, box, cut->axis) == 3) continue;
+        c->b->paid += (uint64_t)boxes_weight(c->b, c->fragments[box].alive, cut->axis);
+    }
+}
+
+/* What the cut does to the boxes that stay: rooms that it touches die, faces in it are faces inside no more. */
+static bool touch_rooms(carve *c, int axis, uint32_t at, bool above) {
+    boxes_axis *a = c->axis + axis;
+    c->changed.count = c->covers.count = 0;
+    bool ok = collect_boxes(c, a, &a->before, 0, a->first[0][at], c->count, (int64_t)a->size + 1 - at, &c->changed);
+    size_t before = c->changed.count;
+    ok = ok && collect_boxes(c, a, &a->after, 1, 0, a->first[1][at + 1], at, &c->changed);
+    for (size_t i = 0; i < c->changed.count && ok; i++) kill_room(c, c->changed.data[i], axis, i >= before);
+    c->changed.count = 0;
+    ok = ok && collect_at(c, a, above, at, &c->changed);
+    for (size_t i = 0; i < c->divided.count && ok; i++) {
+        kill_room(c, c->divided.data[i], axis, above);
+        ok = array_push(&c->b->alloc, &c->changed, c->divided.data[i]);
+    }
+    for (size_t i = 0; i < c->changed.count && ok; i++) {
+        boxes_fragment *f = c->fragments + c->changed.data[i];
+        f->inside &= (uint16_t) ~(1u << (2 * axis + above));
+        if (!f->inside) ok = array_push(&c->b->alloc, &c->covers, c->changed.data[i]);
+    }
+    return ok && sort_carve_list(c, &c->covers);
+}
+
+/* Takes the smaller side out. */
+static void take_small(carve *c, const boxes_axis *a, uint32_t at, bool above) {
+    for (size_t i = 0; i < c->small.count; i++) {
+        const uint32_t *p = a->places[c->small.data[i]].at;
+        bool divided = above ? p[BOXES_LO] < at : p[BOXES_HI] > at;
+        if (!divided) give(c, c->small.data[i], false);
+    }
+}
+
+/* The rest goes on as the larger child. */
+static bool shrink_carved(carve *c, const boxes_spot *spot, bool above, uint32_t child) {
+    int axis = spot->cut.axis;
+    (above ? c->cell.hi : c->cell.lo)[axis] = spot->cut.c;
+    (above ? c->hi : c->lo)[axis] = spot->at;
+    c->cell.node = child + !above;
+    for (size_t i = 0; i < c->covers.count; i++) {
+        give(c, c->covers.data[i], false);
+        if (!boxes_add_cover(c->b, &c->cell, c->fragments[c->covers.data[i]].object)) return false;
+    }
+    return true;
+}
+
+static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
+    boxes_axis *a = c->axis + spot->cut.axis;
+    uint32_t child = 0, at = spot->at;
+    bool above = boxes_axis_below(a, at) > boxes_axis_above(a, at); /* the smaller side, without those divided */
+    froe_status status = boxes_split_node(c->b, c->cell.node, &spot->cut, &child);
+    if (!status) status = emit_carved_in_cut(c, a, at);
+    if (status) return status;
+    if (!read_off(c, a, at, above)) return FROE_E_MEMORY;
+    pay(c, &spot->cut);
+    boxes_cell small = c->cell;
+    small.node = child + above;
+    (above ? small.lo : small.hi)[spot->cut.axis] = spot->cut.c;
+    status = open_cell(c, &small, &c->small);
+    if (status) return status;
+    take_small(c, a, at, above);
+    if (!touch_rooms(c, spot->cut.axis, at, above)) return FROE_E_MEMORY;
+    return shrink_carved(c, spot, above, child) ? FROE_OK : FROE_E_MEMORY;
+}
+
+static boxes_spot choose_carving(const carve *c) {
+    boxes_spot least = {.at = 0}, lemma = {.at = 0};
+    for (int k = 0; k < c->b->dim; k++) {
+        boxes_spot here[2];
+        boxes_axis_best(c->axis + k, k, c->lo[k], c->hi[k], c->b->options.faces, here, here + 1);
+        if (boxes_better(&here[0].cut, &least.cut, true)) least = here[0];
+        if (boxes_better(&here[1].cut, &lemma.cut, false)) lemma = here[1];
+    }
+    uint32_t enough = boxes_narrow(c->b, c->left, &least.cut, &lemma.cut);
+    for (int k = 0; k < c->b->dim && enough; k++) {
+        boxes_spot here;
+        boxes_axis_narrow(c->axis + k, k, c->lo[k], c->hi[k], enough, &here);
+        if (boxes_better(&here.cut, &lemma.cut, true)) lemma = here;
+    }
+    boxes_cut cut = boxes_decide(c->b, &least.cut, &lemma.cut);
+    bool by_lemma = lemma.cut.found && cut.axis == lemma.cut.axis && cut.c == lemma.cut.c;
+    return (boxes_spot){cut, by_lemma ? lemma.at : least.at};
+}
+
+/* What is left becomes a cell again. */
+static froe_status reopen(carve *c) {
+    c->small.count = 0;
+    if (!array_reserve(&c->b->alloc, &c->small, c->left)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < c->count; i++)
+        if (!c->gone[i]) c->small.data[c->small.count++] = i;
+    return open_cell(c, &c->cell, &c->small);
+}
+
+froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task) {
+    carve c = {.b = b, .cell = *cell, .count = cell->count};
+    froe_status status = begin_carving(&c, cell);
+    boxes_drop(b, cell);
+    while (!status && c.left > c.count / 2) {
+        boxes_spot spot = choose_carving(&c);
+        if (!spot.cut.found) break;
+        status = base_progress(task, task->done) ? cut_off_side(&c, &spot) : FROE_E_CANCELLED;
+    }
+    if (!status) status = reopen(&c);
+    end_carving(&c);
+    return status;
+}

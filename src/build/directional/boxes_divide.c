@@ -1,0 +1,191 @@
+/* boxes_divide.c: dealing the boxes of a cell to both sides of a cut.
+ *
+ * Fragments and ends keep their order, so nothing is sorted again. What lies above closes up in place, what lies below
+ * goes on top of it: that side comes next. */
+#include "build/directional/boxes.h"
+#include <string.h>
+
+enum { MARK_BELOW = 1, MARK_ABOVE = 2, MARK_KEEPS = 4 }; /* sides; from KEEPS on: which ends stay, below, then above */
+
+static unsigned kept(boxes_end end, bool above) {
+    return (unsigned)MARK_KEEPS << (above ? 4 : 0) << end;
+}
+
+/** Where the cut leaves each fragment: its sides, and which of its ends on the axis stay strictly inside there. */
+static void mark(boxes *b, const boxes_cell *cell, const boxes_cut *cut) {
+    const boxes_event *e = b->events[cut->axis].data + cell->event[cut->axis];
+    uint16_t *marks = b->marks.data;
+    for (uint32_t i = 0; i < cell->count; i++) marks[i] = MARK_BELOW | MARK_ABOVE;
+    for (uint32_t i = 0; i < cell->events[cut->axis]; i++) {
+        uint16_t *m = marks + e[i].fragment;
+        boxes_end end = (boxes_end)e[i].end;
+        bool below = e[i].x<cut->c, above = e[i].x> cut->c;
+        if (end == BOXES_FLAT) {
+            *m = (uint16_t)(below   ? MARK_BELOW | kept(BOXES_LO, false) | kept(BOXES_HI, false)
+                            : above ? MARK_ABOVE | kept(BOXES_LO, true) | kept(BOXES_HI, true)
+                                    : 0);
+            continue;
+        }
+        if (end == BOXES_LO && !below) *m &= (uint16_t)~MARK_BELOW;
+        if (end == BOXES_HI && !above) *m &= (uint16_t)~MARK_ABOVE;
+        if (below || above) *m |= (uint16_t)kept(end, above);
+    }
+}
+
+/** The fragment as its side sees it; mark: see mark(). */
+static boxes_fragment part(boxes_fragment f, unsigned mark, bool above, int axis) {
+    unsigned keeps = mark / kept(BOXES_BEFORE, above), bits = 3u << 2 * axis;
+    unsigned inside = (keeps >> BOXES_LO & 1) | (keeps >> BOXES_HI & 1) << 1;
+    unsigned alive = (keeps >> BOXES_BEFORE & 1) | (keeps >> BOXES_AFTER & 1) << 1;
+    f.inside = (uint16_t)((f.inside & ~bits) | inside << 2 * axis);
+    f.alive = (uint16_t)((f.alive & ~bits) | alive << 2 * axis);
+    return f;
+}
+
+/** From the numbers of its changes to those of a fragment with other rooms on the axis of a cut. */
+static void shift_changes(unsigned was, unsigned alive, int axis, int16_t shift[2]) {
+    int from = (int)(was >> 2 * axis & 3), to = (int)(alive >> 2 * axis & 3);
+    shift[0] = (int16_t)(((to > 0) - (from > 0)) * BOXES_SOME + ((to == 3) - (from == 3)) * BOXES_BOTH);
+    shift[1] = (int16_t)((to - from) * BOXES_ROOMS);
+}
+
+/** Deals the fragments: those above close up in place, those below go on top of them. */
+static bool deal_fragments(boxes *b, const boxes_cell *cell, const boxes_cut *cut, boxes_cell side[2]) {
+    boxes_fragment *item = b->fragments.data + cell->first;
+    boxes_parts *parts = b->parts.data;
+    bool ok = true;
+    b->fragments.count = cell->first;
+    for (uint32_t i = 0; i < cell->count && ok; i++) {
+        boxes_fragment whole = item[i];
+        unsigned mark = b->marks.data[i];
+        for (int s = 0; s < 2; s++) {
+            parts[i].name[s] = FROE_NONE;
+            if (!(mark & (s ? MARK_ABOVE : MARK_BELOW))) continue;
+            boxes_fragment f = part(whole, mark, s, cut->axis);
+            if (!f.inside) {
+                ok = ok && boxes_add_cover(b, &side[s], f.object);
+                continue;
+            }
+            parts[i].name[s] = side[s].count++;
+            shift_changes(whole.alive, f.alive, cut->axis, parts[i].shift[s]);
+            (s ? item : b->spare.data)[parts[i].name[s]] = f;
+        }
+    }
+    if (side[0].count) memcpy(item + side[1].count, b->spare.data, side[0].count * sizeof *item);
+    side[0].first = side[1].first + side[1].count;
+    b->fragments.count = (size_t)side[0].first + side[0].count;
+    return ok;
+}
+
+/** Writes the event as a side sees it; returns 1 if its fragment is there. No branches on that, which nobody could
+ * predict: what is not there will be written over. */
+static size_t hand_on(const boxes_event *e, const boxes_parts *parts, int side, bool across, boxes_event *to) {
+    *to = *e;
+    to->fragment = parts->name[side];
+    to->change = (uint16_t)(to->change + parts->shift[side][across]);
+    return parts->name[side] != FROE_NONE;
+}
+
+/** To both sides: those above close up in place, the others go aside. */
+static void deal_along(const boxes *b, boxes_event *item, size_t count, size_t dealt[2]) {
+    boxes_event *spare = b->spare_events.data;
+    size_t above = 0, below = 0;
+    for (size_t i = 0; i < count; i++) {
+        boxes_event e = item[i];
+        const boxes_parts *parts = b->parts.data + e.fragment;
+        above += hand_on(&e, parts, 1, false, item + above); /* at most item[i] */
+        below += hand_on(&e, parts, 0, false, spare + below);
+    }
+    dealt[0] = below, dealt[1] = above;
+}
+
+/** On the axis of the cut, where each goes to the side on which it lies. */
+static void deal_across(const boxes *b, double c, boxes_event *item, size_t count, size_t dealt[2]) {
+    boxes_event *spare = b->spare_events.data;
+    size_t above = 0, below = 0, i = 0;
+    for (; i < count && item[i].x < c; i++)
+        below += hand_on(item + i, b->parts.data + item[i].fragment, 0, true, spare + below);
+    while (i < count && item[i].x == c) i++;
+    for (; i < count; i++) {
+        boxes_event e = item[i];
+        above += hand_on(&e, b->parts.data + e.fragment, 1, true, item + above);
+    }
+    dealt[0] = below, dealt[1] = above;
+}
+
+static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, int axis, boxes_cell side[2]) {
+    uint32_t count = cell->events[axis];
+    size_t dealt[2];
+    b->spare_events.count = 0;
+    if (!array_reserve(&b->alloc, &b->spare_events, (size_t)count + 1) ||
+        !array_reserve(&b->alloc, &b->events[axis], count))
+        return false;
+    boxes_event *item = b->events[axis].data + cell->event[axis];
+    if (axis == cut->axis)
+        deal_across(b, cut->c, item, count, dealt);
+    else
+        deal_along(b, item, count, dealt);
+    for (int s = 0; s < 2; s++) side[s].events[axis] = (uint32_t)dealt[s];
+    side[0].event[axis] = cell->event[axis] + dealt[1];
+    if (dealt[0]) memcpy(item + dealt[1], b->spare_events.data, dealt[0] * sizeof *item);
+    b->events[axis].count = side[0].event[axis] + dealt[0];
+    return true;
+}
+
+/** Lists the boxes without extent that lie in the cut. */
+static froe_status emit_boxes_in_cut(boxes *b, const boxes_cell *cell) {
+    const boxes_fragment *item = b->fragments.data + cell->first;
+    froe_status status = FROE_OK;
+    bool begun = false;
+    for (uint32_t i = 0; i < cell->count && !status; i++) {
+        if (b->marks.data[i]) continue;
+        if (!begun) status = draft_list(&b->draft, cell->node);
+        begun = true;
+        if (!status) status = draft_piece(&b->draft, cell->node, item[i].object, NULL, 0);
+    }
+    return status;
+}
+
+/** The weight of what a forced cut divides, but for boxes with both rooms: those pay for themselves. */
+static void pay(boxes *b, const boxes_cell *cell, const boxes_cut *cut) {
+    for (uint32_t i = 0; i < cell->count && cut->forced; i++) {
+        uint16_t alive = b->fragments.data[cell->first + i].alive;
+        bool divided = (b->marks.data[i] & 3) == 3, both = (alive >> 2 * cut->axis & 3) == 3;
+        if (divided && !both) b->paid += (uint64_t)boxes_weight(b, alive, cut->axis);
+    }
+}
+
+froe_status boxes_split_node(boxes *b, uint32_t node, const boxes_cut *cut, uint32_t *child) {
+    froe_cut plane = {.kind = FROE_CUT_AXIS, .axis = cut->axis, .value = cut->c};
+    return draft_split(&b->draft, node, &plane, 0, child);
+}
+
+static bool reserve_boxes(boxes *b, const boxes_cell *cell) {
+    b->marks.count = b->parts.count = b->spare.count = 0;
+    return array_reserve(&b->alloc, &b->marks, cell->count) && array_reserve(&b->alloc, &b->parts, cell->count) &&
+           array_reserve(&b->alloc, &b->spare, cell->count) && array_reserve(&b->alloc, &b->fragments, cell->count) &&
+           array_reserve(&b->alloc, &b->cells, 2);
+}
+
+froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut) {
+    uint32_t child = 0;
+    if (b->fragments.count + cell->count > BOXES_MOST) return FROE_E_LIMIT;
+    if (!reserve_boxes(b, cell)) return FROE_E_MEMORY;
+    mark(b, cell, cut);
+    pay(b, cell, cut);
+    froe_status status = boxes_split_node(b, cell->node, cut, &child);
+    if (!status) status = emit_boxes_in_cut(b, cell);
+    if (status) return status;
+    boxes_cell side[2] = {*cell, *cell};
+    for (uint32_t s = 0; s < 2; s++) {
+        side[s].node = child + s;
+        side[s].count = 0;
+        (s ? side[s].lo : side[s].hi)[cut->axis] = cut->c;
+    }
+    bool ok = deal_fragments(b, cell, cut, side);
+    for (int k = 0; k < b->dim && ok; k++) ok = deal_events(b, cell, cut, k, side);
+    if (!ok) return FROE_E_MEMORY;
+    b->cells.data[b->cells.count++] = side[1];
+    b->cells.data[b->cells.count++] = side[0];
+    return FROE_OK;
+}

@@ -1,0 +1,48 @@
+/* halve.c: classes, counts, and two runs. */
+#include "build/index/halve.h"
+#include <math.h>
+
+enum { NUDGES = 8 };
+
+/* 1, 2 or 3; 0: an end lies in the cut. */
+static uint8_t class_of_halving(axis_work *work, const packed_box *box, const packed_fragment *f,
+                                const halve_cut *cut) {
+    int first = axis_side(work, f, false, box, cut->axis, cut->value);
+    int last = axis_side(work, f, true, box, cut->axis, cut->value);
+    if (!first || !last) return 0;
+    return (uint8_t)((first < 0 || last < 0 ? 1 : 0) | (first > 0 || last > 0 ? 2 : 0));
+}
+
+static bool count_once(axis_work *work, const packed_box *box, const packed_fragment *f, uint32_t count, halve_cut *cut,
+                       uint8_t *classes) {
+    uint32_t of[4] = {0};
+    for (uint32_t i = 0; i < count; i++) {
+        of[classes[i] = class_of_halving(work, box, f + i, cut)]++;
+        if (!classes[i]) return false;
+    }
+    cut->both = of[3];
+    cut->sides[0] = of[1] + of[3];
+    cut->sides[1] = of[2] + of[3];
+    return true;
+}
+
+bool halve_count(axis_work *work, const packed_box *box, const packed_fragment *f, uint32_t count, halve_cut *cut,
+                 uint8_t *classes) {
+    for (int i = 0; i < NUDGES; i++) {
+        if (!(cut->value > box->lo[cut->axis] && cut->value < box->hi[cut->axis])) return false;
+        if (count_once(work, box, f, count, cut, classes)) return true;
+        cut->value = nextafter(cut->value, INFINITY);
+    }
+    return false;
+}
+
+void halve_deal(const axis_ends *ends, const packed_fragment *f, uint32_t count, const halve_cut *cut,
+                const uint8_t *classes, packed_fragment *negative, packed_fragment *positive) {
+    for (uint32_t i = 0; i < count; i++) {
+        const packed_fragment fragment = f[i];
+        if (classes[i] == 3)
+            axis_divide(ends, &fragment, cut->axis, cut->value, negative++, positive++);
+        else
+            *(classes[i] == 1 ? negative++ : positive++) = fragment;
+    }
+}

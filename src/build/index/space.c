@@ -1,0 +1,132 @@
+/* space.c: trees of space to be queried: cuts by surface area, whole objects in packed leaves.
+ *
+ * Cells are cut where that saves a search most (build/index/surface.h), one by one, depth first; a leaf is written as a block
+ * as soon as it is reached. Objects are listed whole in all leaves they reach; while cells are cut each has the bounds
+ * of its part, so that none comes into a cell it does not meet, and boxes of leaves are tight.
+ *
+ * Where cuts do not pay, leaves stay over capacity: below cells that the cuts above have multiplied into `growth`
+ * listings for each, and where three cuts in a row would save less than a fiftieth, or divide nearly all. As in the
+ * plane there are at most 2 growth n listings. */
+#include "build/index/space.h"
+#include "build/index/surface.h"
+#include "tree/packed/packer.h"
+#include <math.h>
+#include <string.h>
+
+enum { BARREN = 3, THOROUGH = 256 };
+
+/* Its items are on top of all others when its turn comes. */
+typedef struct space_cell {
+    uint32_t node, first, count, barren;
+    double growth;
+} space_cell;
+
+typedef struct space_work {
+    build_job *job;
+    double growth;
+    tree_packer packer;
+    ARRAY(space_cell) cells;
+    ARRAY(space_item) items, spare;
+    ARRAY(uint8_t) classes;
+    double done; /* share of the objects in finished leaves */
+} space_work;
+
+static froe_status end_space_leaf(space_work *w, const space_cell *cell) {
+    const uint64_t most = w->job->max_fragments;
+    const uint8_t flags = cell->count > w->job->leaf ? TREE_CROWDED : 0;
+    if (most && (uint64_t)w->packer.piece_count + cell->count > most) return FROE_E_BUDGET;
+    w->items.count = cell->first;
+    w->done += cell->count / cell->growth;
+    return packer_space_leaf(&w->packer, cell->node, w->job->scene, w->items.data + cell->first, cell->count, flags);
+}
+
+/* Names the cut of a cell and tells on which sides its items are; false: it is to be a leaf. */
+static bool choose_surface_cut(space_work *w, const space_cell *cell, surface_cut *cut) {
+    const space_item *items = w->items.data + cell->first;
+    if (cell->count <= w->job->leaf || cell->growth >= w->growth || cell->barren >= BARREN) return false;
+    if (!surface_choose(items, cell->count, cut)) return false;
+    if (!surface_count(items, cell->count, cut, w->classes.data)) return false;
+    return cut->both < cell->count;
+}
+
+/* The positive items take the place of all, the negative ones lie on top. */
+static froe_status deal_space_items(space_work *w, const space_cell *cell, surface_cut *cut, space_cell side[2]) {
+    w->items.count = cell->first + cell->count;
+    w->spare.count = 0;
+    if (!array_reserve(&w->job->alloc, &w->items, cut->sides[0] + cut->sides[1] - cell->count) ||
+        !array_reserve(&w->job->alloc, &w->spare, cut->sides[0]))
+        return FROE_E_MEMORY;
+    space_item *items = w->items.data + cell->first;
+    const bool thorough = cell->count <= THOROUGH;
+    surface_deal(w->job->scene, items, cell->count, cut, w->classes.data, thorough, w->spare.data, items);
+    if (cut->sides[0]) memcpy(items + cut->sides[1], w->spare.data, cut->sides[0] * sizeof *items);
+    w->items.count = cell->first + cut->sides[0] + cut->sides[1];
+    side[0].first = cell->first + cut->sides[1];
+    side[1].first = cell->first;
+    for (int i = 0; i < 2; i++) side[i].count = cut->sides[i];
+    return FROE_OK;
+}
+
+static froe_status cut_cell(space_work *w, const space_cell *cell) {
+    surface_cut cut;
+    space_cell side[2] = {*cell, *cell};
+    uint32_t child;
+    w->classes.count = 0;
+    if (!array_reserve(&w->job->alloc, &w->classes, cell->count)) return FROE_E_MEMORY;
+    if (!choose_surface_cut(w, cell, &cut)) return end_space_leaf(w, cell);
+    froe_status status = packer_split(&w->packer, cell->node, cut.axis, cut.value, &child);
+    if (!status) status = deal_space_items(w, cell, &cut, side);
+    if (status) return status;
+    const uint64_t listed = (uint64_t)cut.sides[0] + cut.sides[1];
+    const bool barren = cut.cost > 0.98 || 5 * (listed - cell->count) > 4 * (uint64_t)cell->count;
+    for (uint32_t i = 0; i < 2; i++) {
+        side[i].node = child + i;
+        side[i].growth = listed > cell->count ? cell->growth * (double)listed / cell->count : cell->growth;
+        side[i].barren = barren ? cell->barren + 1 : 0;
+    }
+    const froe_allocator *alloc = &w->job->alloc; /* the negative child last, so that it comes first */
+    return array_push(alloc, &w->cells, side[1]) && array_push(alloc, &w->cells, side[0]) ? FROE_OK : FROE_E_MEMORY;
+}
+
+static froe_status do_space_cells(space_work *w) {
+    const double objects = w->job->scene->object_count + 1.0;
+    froe_status status = FROE_OK;
+    while (w->cells.count && !status) {
+        const space_cell cell = w->cells.data[--w->cells.count];
+        status = cut_cell(w, &cell);
+        if (!status && !base_progress(w->job->task, 0.05 + 0.9 * fmin(w->done / objects, 1))) return FROE_E_CANCELLED;
+    }
+    return status;
+}
+
+static froe_status begin_space(space_work *w) {
+    const froe_scene *s = w->job->scene;
+    space_cell root = {.count = s->object_count, .growth = 1};
+    if (!array_reserve(&w->job->alloc, &w->items, (size_t)s->object_count + s->object_count / 2)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        space_item *item = w->items.data + w->items.count++;
+        scene_bounds_in(s, 3, i, item->lo, item->hi);
+        item->object = i;
+        item->corner = space_is_triangle(s, i) ? s->starts[i] : FROE_NONE;
+    }
+    for (int k = 0; s->object_count && k < 3; k++) {
+        w->job->meta.root_lo[k] = s->lo[k] + 0.0;
+        w->job->meta.root_hi[k] = s->hi[k] + 0.0;
+    }
+    return array_push(&w->job->alloc, &w->cells, root) ? FROE_OK : FROE_E_MEMORY;
+}
+
+froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
+    space_work w = {.job = job, .growth = growth};
+    froe_status status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
+    if (status) return status;
+    status = begin_space(&w);
+    if (!status) status = do_space_cells(&w);
+    array_free(&job->alloc, &w.cells);
+    array_free(&job->alloc, &w.items);
+    array_free(&job->alloc, &w.spare);
+    array_free(&job->alloc, &w.classes);
+    if (!status) status = packer_seal(&w.packer, job->scene, &job->meta, out);
+    packer_free(&w.packer);
+    return status;
+}

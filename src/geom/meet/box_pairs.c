@@ -1,0 +1,275 @@
+/* box_pairs.c: touching boxes by streamed segment trees (Zomorodian, Edelsbrunner: Fast
+ * software for box intersections, 2002).
+ *
+ * Two boxes touch iff on every axis one holds the low end of the other. So, axis by
+ * axis, one set of boxes counts as intervals and one as points (their low ends):
+ *
+ *     points      .  .   .  .  | .   .   .  .        in the range a .. b of this axis
+ *     intervals  ---------------------------------   spans it: all points are in, go to the next axis
+ *                      ------- | -------             else: down to the halves it meets
+ *
+ * The tree is never built; its nodes are frames of an explicit stack that hold copies of their
+ * boxes. All coordinates are replaced by ranks, low ends before high ends where they are
+ * equal. Ranks are all different, so ranges halve, at most b - a intervals have an end inside,
+ * and neither equal coordinates nor nested boxes can spoil the balance. All lists stay sorted
+ * along axis 0, where a plain scan ends it. */
+#include "geom/meet/box_pairs.h"
+#include "base/array.h"
+#include "base/radix.h"
+#include "base/status.h"
+
+enum {
+    AXES = 3,
+    SMALL = 64,           /* lists shorter than this are scanned at once */
+    LEVELS = 33,          /* of one axis: ranges of 32-bit ranks halve */
+    POLL = 1 << 16,       /* pairs between two looks at the cancel button */
+    SLAB_BOXES = 1 << 10, /* low ends in a slab, the work of one job */
+    SLABS = 32
+};
+
+typedef struct box {
+    uint32_t id, lo[AXES], hi[AXES]; /* ranks */
+} box;
+
+/* A node of a tree: intervals and points are runs in the worker's arena. */
+typedef struct frame {
+    size_t intervals, interval_count, points, point_count;
+    size_t top;    /* the arena above belongs to its children */
+    uint32_t a, b; /* the points' low ends on this axis are in a .. b-1 */
+    int axis, step;
+} frame;
+
+typedef struct worker {
+    ARRAY(box) arena;
+    frame stack[AXES * LEVELS + 1];
+    int depth;
+    unsigned number;
+    uint32_t until_poll;
+} worker;
+
+typedef struct search {
+    const froe_allocator *alloc;
+    base_task *task;
+    int dim;
+    uint32_t count, slabs;
+    box *boxes; /* by lo[0] */
+    worker *workers;
+    geom_pair_fn *fn;
+    void *user;
+} search;
+
+/* ------------------------------------------------------------------- ranks -- */
+
+/* Ranks of all ends on one axis; a stable sort keeps low ends before equal high ends. */
+static void rank_axis(search *s, int axis, const double *lo, const double *hi, base_pair *pairs, base_pair *spare) {
+    uint32_t n = s->count;
+    for (uint32_t i = 0; i < n; i++) {
+        size_t at = (size_t)i * (size_t)s->dim + (size_t)axis;
+        pairs[i] = (base_pair){base_double_key(lo[at]), i};
+        pairs[n + i] = (base_pair){base_double_key(hi[at]), n + i};
+    }
+    base_radix_sort(pairs, spare, 2 * (size_t)n);
+    for (uint32_t rank = 0; rank < 2 * n; rank++) {
+        uint32_t end = pairs[rank].value;
+        if (end < n)
+            s->boxes[end].lo[axis] = rank;
+        else
+            s->boxes[end - n].hi[axis] = rank;
+    }
+}
+
+/* Sorts the boxes by lo[0]; ranks are the keys. */
+static void sort_boxes(search *s, base_pair *pairs, base_pair *spare, box *sorted) {
+    for (uint32_t i = 0; i < s->count; i++) pairs[i] = (base_pair){s->boxes[i].lo[0], i};
+    base_radix_sort(pairs, spare, s->count);
+    for (uint32_t i = 0; i < s->count; i++) sorted[i] = s->boxes[pairs[i].value];
+}
+
+static froe_status rank_boxes(search *s, const double *lo, const double *hi) {
+    size_t n = s->count, pair_bytes = 4 * n * sizeof(base_pair);
+    box *boxes = base_calloc(s->alloc, n, sizeof *boxes), *sorted = base_calloc(s->alloc, n, sizeof *sorted);
+    base_pair *pairs = base_realloc(s->alloc, NULL, 0, pair_bytes);
+    bool room = boxes && sorted && pairs;
+    if (room) {
+        s->boxes = boxes;
+        for (uint32_t i = 0; i < s->count; i++) boxes[i].id = i;
+        for (int axis = 0; axis < s->dim; axis++) rank_axis(s, axis, lo, hi, pairs, pairs + 2 * n);
+        sort_boxes(s, pairs, pairs + 2 * n, sorted);
+        s->boxes = sorted;
+    } else {
+        base_free(s->alloc, sorted, n * sizeof *sorted);
+    }
+    base_free(s->alloc, boxes, n * sizeof *boxes);
+    base_free(s->alloc, pairs, pair_bytes);
+    return room ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* ------------------------------------------------------------------- scans -- */
+
+static bool found(const search *s, worker *w, const box *interval, const box *point) {
+    if (!s->fn(s->user, w->number, interval->id, point->id)) return false;
+    if (--w->until_poll) return true;
+    w->until_poll = POLL;
+    if (w->number == 0) return base_progress(s->task, s->task->done); /* the calling thread */
+    return !base_cancelled(s->task);
+}
+
+/* Axis 0, the last one: each interval meets a run of the points. */
+static bool scan(const search *s, worker *w, const frame *f) {
+    const box *interval = w->arena.data + f->intervals, *interval_end = interval + f->interval_count;
+    const box *point = w->arena.data + f->points, *point_end = point + f->point_count;
+    for (; interval < interval_end; interval++) {
+        while (point < point_end && point->lo[0] <= interval->lo[0]) point++;
+        for (const box *p = point; p < point_end && p->lo[0] < interval->hi[0]; p++)
+            if (!found(s, w, interval, p)) return false;
+    }
+    return true;
+}
+
+/* Do the boxes touch on the axes from 1 on, the point's low end in the interval on the frame's? */
+static bool touch(const box *interval, const box *point, int axis) {
+    for (int k = 1; k < axis; k++)
+        if (interval->lo[k] >= point->hi[k] || point->lo[k] >= interval->hi[k]) return false;
+    return interval->lo[axis] < point->lo[axis] && point->lo[axis] < interval->hi[axis];
+}
+
+/* A short list: scan along axis 0 in both roles and look at the other axes pair by pair. */
+static bool scan_both(const search *s, worker *w, const frame *f) {
+    const box *interval = w->arena.data + f->intervals, *interval_end = interval + f->interval_count;
+    const box *point = w->arena.data + f->points, *point_end = point + f->point_count;
+    while (interval < interval_end && point < point_end) {
+        if (interval->lo[0] < point->lo[0]) {
+            for (const box *p = point; p < point_end && p->lo[0] < interval->hi[0]; p++)
+                if (touch(interval, p, f->axis) && !found(s, w, interval, p)) return false;
+            interval++;
+        } else {
+            for (const box *i = interval; i < interval_end && i->lo[0] < point->hi[0]; i++)
+                if (touch(i, point, f->axis) && !found(s, w, i, point)) return false;
+            point++;
+        }
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------- trees -- */
+
+/* Enters a node; its range shrinks to the low ends that are there. */
+static void push(worker *w, frame f) {
+    f.a = UINT32_MAX;
+    f.b = 0;
+    for (const box *p = w->arena.data + f.points, *end = p + f.point_count; p < end; p++) {
+        if (p->lo[f.axis] < f.a) f.a = p->lo[f.axis];
+        if (p->lo[f.axis] >= f.b) f.b = p->lo[f.axis] + 1;
+    }
+    f.top = w->arena.count;
+    f.step = 0;
+    w->stack[w->depth++] = f;
+}
+
+static bool spans(const box *interval, const frame *f) {
+    return interval->lo[f->axis] < f->a && interval->hi[f->axis] >= f->b;
+}
+
+/* Copies the intervals that span the node. */
+static void copy_spanning(worker *w, const frame *f) {
+    box *out = w->arena.data + f->top;
+    for (const box *i = w->arena.data + f->intervals, *end = i + f->interval_count; i < end; i++)
+        if (spans(i, f)) *out++ = *i;
+    w->arena.count = (size_t)(out - w->arena.data);
+}
+
+/* Enters the half a .. b of the node with copies of what belongs there. */
+static void push_half(worker *w, const frame *f, uint32_t a, uint32_t b) {
+    frame half = {.axis = f->axis, .points = f->top};
+    box *out = w->arena.data + f->top;
+    for (const box *p = w->arena.data + f->points, *end = p + f->point_count; p < end; p++)
+        if (p->lo[f->axis] >= a && p->lo[f->axis] < b) *out++ = *p;
+    half.point_count = (size_t)(out - w->arena.data) - half.points;
+    half.intervals = half.points + half.point_count;
+    for (const box *i = w->arena.data + f->intervals, *end = i + f->interval_count; i < end; i++)
+        if (i->lo[f->axis] < b && i->hi[f->axis] > a && !spans(i, f)) *out++ = *i;
+    half.interval_count = (size_t)(out - w->arena.data) - half.intervals;
+    w->arena.count = half.intervals + half.interval_count;
+    push(w, half);
+}
+
+/* Takes one step of the node on top: the spanning intervals in both roles on the next axis, then the halves. */
+static void step(worker *w, frame *f) {
+    uint32_t middle = f->a + (f->b - f->a) / 2;
+    size_t spanning = w->arena.count - f->top;
+    switch (f->step++) {
+    case 0:
+        copy_spanning(w, f);
+        spanning = w->arena.count - f->top;
+        push(w, (frame){f->top, spanning, f->points, f->point_count, .axis = f->axis - 1});
+        break;
+    case 1:
+        push(w, (frame){f->points, f->point_count, f->top, spanning, .axis = f->axis - 1});
+        break;
+    case 2:
+        push_half(w, f, f->a, middle);
+        break;
+    case 3:
+        push_half(w, f, middle, f->b);
+        break;
+    default:
+        w->depth--;
+    }
+}
+
+static froe_status run(const search *s, worker *w) {
+    while (w->depth) {
+        frame *f = &w->stack[w->depth - 1];
+        if (f->step != 1) w->arena.count = f->top; /* step 1 uses what step 0 copied */
+        size_t less = f->interval_count < f->point_count ? f->interval_count : f->point_count;
+        if (f->axis && less >= SMALL) {
+            if (!array_reserve(s->alloc, &w->arena, f->interval_count + f->point_count)) return FROE_E_MEMORY;
+            step(w, f);
+            continue;
+        }
+        w->depth--;
+        if (less && !(f->axis ? scan_both(s, w, f) : scan(s, w, f))) return FROE_E_CANCELLED;
+    }
+    return FROE_OK;
+}
+
+/* -------------------------------------------------------------------- jobs -- */
+
+/* One slab of the last axis: the boxes that begin in it against all that meet it. */
+static froe_status run_slab(void *user, unsigned number, size_t slab) {
+    const search *s = user;
+    worker *w = s->workers + number;
+    int axis = s->dim - 1;
+    uint64_t ends = 2 * (uint64_t)s->count;
+    uint32_t a = (uint32_t)(ends * slab / s->slabs), b = (uint32_t)(ends * (slab + 1) / s->slabs);
+    frame all = {.axis = axis};
+    w->arena.count = 0;
+    w->depth = 0;
+    w->number = number;
+    w->until_poll = POLL;
+    for (int points = 0; points < 2; points++) {
+        for (const box *i = s->boxes, *end = i + s->count; i < end; i++) {
+            bool in = i->lo[axis] < b && (points ? i->lo[axis] >= a : i->hi[axis] > a);
+            if (in && !array_push(s->alloc, &w->arena, *i)) return FROE_E_MEMORY;
+        }
+        if (!points) all.interval_count = all.points = w->arena.count;
+    }
+    all.point_count = w->arena.count - all.points;
+    push(w, all);
+    return run(s, w);
+}
+
+froe_status geom_box_pairs(const froe_allocator *alloc, base_task *task, double span, int dim, uint32_t count,
+                           const double *lo, const double *hi, geom_pair_fn *fn, void *user) {
+    search s = {.alloc = alloc, .task = task, .dim = dim, .count = count, .fn = fn, .user = user};
+    if (count < 2) return FROE_OK;
+    froe_status status = rank_boxes(&s, lo, hi);
+    if (status) return status;
+    s.slabs = count / SLAB_BOXES < 1 ? 1 : count / SLAB_BOXES > SLABS ? SLABS : count / SLAB_BOXES;
+    s.workers = base_calloc(alloc, task->threads, sizeof *s.workers);
+    status = s.workers ? base_run(task, span, s.slabs, run_slab, &s) : FROE_E_MEMORY;
+    for (unsigned i = 0; s.workers && i < task->threads; i++) array_free(alloc, &s.workers[i].arena);
+    base_free(alloc, s.workers, task->threads * sizeof *s.workers);
+    base_free(alloc, s.boxes, count * sizeof *s.boxes);
+    return status;
+}

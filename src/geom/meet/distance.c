@@ -1,0 +1,214 @@
+/* distance.c: see distance.h. */
+#include "geom/meet/distance.h"
+#include "geom/filter.h"
+#include "geom/formulas.h"
+#include "geom/meet/feature.h"
+#include "geom/meet/gap.h"
+#include "num/pair.h"
+#include "num/root.h"
+#include <string.h>
+
+#include "num/ball_terms.inc"
+
+#include "geom/meet/distance_body.inc"
+
+#include "num/dyadic_terms.inc"
+
+#include "geom/meet/distance_body.inc"
+
+static num_ratio exact_square(num_arena *arena, const double *point, const geom_distance *d) {
+    num_ratio s;
+    s.top = dyadic_square(arena, d, point, &s.bottom);
+    return s;
+}
+
+/* Most triangles of space, without a search. */
+static bool find_feature(num_context *context, const double *point, const geom_body *body, geom_distance *d) {
+    if (body->dim != 3 || body->count != 3 || context->first != NUM_FILTER || !num_rounding_trusted()) return false;
+    const double *const corner[3] = {geom_body_point(body, 0), geom_body_point(body, 1), geom_body_point(body, 2)};
+    geom_feature f;
+    context->stats.calls++;
+    if (!geom_feature_nearest(point, corner, &f)) return false;
+    context->stats.filtered++;
+    d->count = f.count;
+    d->square = f.square;
+    memcpy(d->corner, f.corner, sizeof d->corner);
+    return true;
+}
+
+static void find_simplex(num_context *context, const double *point, const geom_body *body, geom_distance *d) {
+    geom_body at = geom_body_at(body->dim, point);
+    geom_gap gap = geom_gap_between(context, body, &at);
+    d->count = gap.zero ? 0 : gap.count;
+    for (int i = 0; i < d->count; i++) d->corner[i] = geom_body_point(body, gap.a[i]);
+}
+
+geom_distance geom_distance_from(num_context *context, const double *point, const geom_body *body) {
+    geom_distance d = {.dim = body->dim, .radius = body->form == FROE_BALL ? body->radius : 0};
+    if (body->form == FROE_POINT || body->form == FROE_BOX || body->form == FROE_BALL) {
+        d.lo = geom_body_point(body, 0);
+        d.hi = body->form == FROE_BOX ? geom_body_point(body, 1) : d.lo;
+    } else if (find_feature(context, point, body, &d)) {
+        return d;
+    } else {
+        find_simplex(context, point, body, &d);
+    }
+    num_ball bottom, top = ball_square(NULL, &d, point, &bottom);
+    d.square = bottom.x == 1 && bottom.e == 0 ? top : filter_div(top, bottom);
+    if (context->first == NUM_EXACT) d.square = (num_ball){0, INFINITY};
+    return d;
+}
+
+num_ball geom_distance_image(const geom_distance *a) {
+    num_ball d = num_ball_sqrt(a->square);
+    return a->radius > 0 ? filter_sub(d, num_ball_from(a->radius)) : d;
+}
+
+/* ------------------------------------------------------------- comparisons -- */
+
+/* S - r^2 */
+static int beyond_radius(num_arena *arena, num_ratio s, double radius) {
+    num_dyadic r = num_dyadic_from(arena, radius);
+    return num_dyadic_compare(s.top, num_dyadic_mul(arena, num_dyadic_mul(arena, r, r), s.bottom));
+}
+
+/* sqrt(S) - r - x, x >= 0 */
+static int beyond_both(num_arena *arena, num_ratio s, double radius, num_dyadic x) {
+    num_dyadic sum = num_dyadic_add(arena, num_dyadic_from(arena, radius), x);
+    return num_dyadic_compare(s.top, num_dyadic_mul(arena, num_dyadic_mul(arena, sum, sum), s.bottom));
+}
+
+static int compare_images(const geom_distance *a, const geom_distance *b) {
+    if (a->radius > 0 || b->radius > 0) return filter_sign(filter_sub(geom_distance_image(a), geom_distance_image(b)));
+    return filter_sign(filter_sub(a->square, b->square));
+}
+
+/* Do both come from the same corners? Objects of one scene share them. */
+static bool same_source(const geom_distance *a, const geom_distance *b) {
+    if (a->lo || b->lo || a->count != b->count || a->radius != b->radius) return false;
+    int shared = 0;
+    for (int i = 0; i < a->count; i++)
+        for (int j = 0; j < b->count; j++) shared += a->corner[i] == b->corner[j];
+    return shared == a->count;
+}
+
+int geom_distance_compare(num_context *context, const double *point, const geom_distance *a, const geom_distance *b) {
+    context->stats.calls++;
+    if (same_source(a, b)) {
+        context->stats.filtered++;
+        return 0;
+    }
+    int sure = compare_images(a, b);
+    bool inside = a->radius > 0 || b->radius > 0; /* then images below 0 mean 0 */
+    if (sure != NUM_UNSURE && !(inside && filter_sign(geom_distance_image(sure > 0 ? a : b)) != 1)) {
+        context->stats.filtered++;
+        return sure;
+    }
+    num_arena *arena = &context->arena;
+    arena->top = 0;
+    context->stats.exact++;
+    num_ratio s = exact_square(arena, point, a), t = exact_square(arena, point, b);
+    bool out_a = beyond_radius(arena, s, a->radius) > 0, out_b = beyond_radius(arena, t, b->radius) > 0;
+    if (!out_a || !out_b) return out_a - out_b;
+    num_dyadic e = num_dyadic_sub(arena, num_dyadic_from(arena, a->radius), num_dyadic_from(arena, b->radius));
+    return num_roots_compare(arena, s, t, e);
+}
+
+int geom_distance_compare_to(num_context *context, const double *point, const geom_distance *a, double bound) {
+    if (isinf(bound)) return -1;
+    context->stats.calls++;
+    int sure = filter_sign(filter_sub(geom_distance_image(a), num_ball_from(bound)));
+    if (sure == 1 || (sure == -1 && bound > 0)) {
+        context->stats.filtered++;
+        return sure;
+    }
+    num_arena *arena = &context->arena;
+    arena->top = 0;
+    context->stats.exact++;
+    num_ratio s = exact_square(arena, point, a);
+    int sign = beyond_both(arena, s, a->radius, num_dyadic_from(arena, bound));
+    return sign < 0 && bound == 0 ? 0 : sign;
+}
+
+/* ---------------------------------------------------------------- rounding -- */
+
+typedef struct rounding {
+    num_ratio square;
+    double radius;
+} rounding;
+
+static int against(void *user, num_arena *arena, num_dyadic x) {
+    const rounding *r = user;
+    return beyond_both(arena, r->square, r->radius, x);
+}
+
+/* Rounds sqrt(S) if that is sure: it errs by 2^-94 of itself and by `error`. */
+static bool round_root(num_pair s, double error, double *out) {
+    if (!(s.hi > 0x1p-400)) return false;
+    const num_pair root = num_pair_sqrt(s);
+    error += 0x1p-94 * root.hi;
+    *out = root.hi + (root.lo - error);
+    return *out == root.hi + (root.lo + error);
+}
+
+/* The distance from a point or a box, if pairs of doubles can tell how it is to be rounded. Its sum of squares errs by
+ * less than 2^-96 of itself, and by underflows, which are nothing beside 2^-400. */
+static bool round_box(const double *point, const geom_distance *a, double *out) {
+    num_pair s = {0, 0};
+    for (int k = 0; k < a->dim; k++) {
+        const double x = point[k], nearest = x < a->lo[k] ? a->lo[k] : x > a->hi[k] ? a->hi[k] : x;
+        const num_pair gap = num_pair_sum(nearest, -x);
+        if (!(fabs(gap.hi) < 0x1p100)) return false;
+        s = num_pair_add(s, num_pair_mul(gap, gap));
+    }
+    return round_root(s, 0, out);
+}
+
+/* q - p, in the plane with a third coordinate 0. */
+static double between(int dim, const double *p, const double *q, num_pair out[3]) {
+    const double a[3] = {p[0], p[1], dim == 3 ? p[2] : 0}, b[3] = {q[0], q[1], dim == 3 ? q[2] : 0};
+    return num_pair_between(a, b, out);
+}
+
+/* The distance from a simplex, if pairs of doubles can tell how it is to be rounded: sqrt(S) errs by 2^-94 of
+ * itself and by what the numerator of S errs. With sizes as sums of coordinates, |e|^2 at least a third of that: v x e
+ * by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f| |v|, as n by 2^-96 |e| |f|. */
+static bool round_simplex(const double *point, const geom_distance *a, double *out) {
+    num_pair v[3], e[3], f[3], n[3], s;
+    double sizes[3] = {between(a->dim, point, a->corner[0], v), 1, 1}, error = 0;
+    if (a->count > 1) sizes[1] = between(a->dim, a->corner[0], a->corner[1], e);
+    if (a->count > 2) sizes[2] = between(a->dim, a->corner[0], a->corner[2], f);
+    for (int i = 0; i < 3; i++)
+        if (!(sizes[i] > 0x1p-100 && sizes[i] < 0x1p100)) return false;
+    if (a->count == 1) {
+        s = num_pair_dot(v, v);
+    } else if (a->count == 2) {
+        num_pair_cross(v, e, n);
+        s = num_pair_div(num_pair_dot(n, n), num_pair_dot(e, e));
+        error = 0x1p-94 * sizes[0];
+    } else {
+        num_pair_cross(e, f, n);
+        const num_pair height = num_pair_dot(n, v), bottom = num_pair_dot(n, n);
+        s = num_pair_div(num_pair_mul(height, height), bottom);
+        if (!(bottom.hi > 0x1p-600)) return false;
+        error = 0x1p-93 * sizes[1] * sizes[2] * (sizes[0] + sqrt(s.hi)) / sqrt(bottom.hi);
+    }
+    return round_root(s, error, out);
+}
+
+/* Where pairs do not tell, exact numbers do. */
+static bool round_by_pairs(const num_context *context, const double *point, const geom_distance *a, double *out) {
+    if (context->first == NUM_EXACT || a->radius > 0) return false;
+    if (a->lo) return round_box(point, a, out);
+    return a->count && a->dim <= 3 && round_simplex(point, a, out);
+}
+
+double geom_distance_round(num_context *context, const double *point, const geom_distance *a) {
+    num_arena *arena = &context->arena;
+    double rounded;
+    arena->top = 0;
+    if (round_by_pairs(context, point, a, &rounded)) return rounded;
+    rounding r = {exact_square(arena, point, a), a->radius};
+    if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;
+    return num_nearest(arena, against, &r, geom_distance_image(a).x);
+}

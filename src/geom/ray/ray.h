@@ -1,0 +1,48 @@
+/* ray.h: where does a ray meet a body first? Decided exactly; parameters compared exactly, rounded once, for output.
+ *
+ * The ray is  o + t d,  t >= 0, in any dimension. A parameter is kept as what it comes from, with a certified image:
+ *
+ *     START        0: the origin is in the body
+ *     COORDINATE   (c - o_k) / d_k                                            degree 1 / 1
+ *     LINE         2D cross products, (p - o) x e / d x e  with  e = q - p    degree 2 / 2
+ *     PLANE        n (p - o) / n d                                            degree 3 / 3
+ *     SPHERE       (-b - sqrt(b^2 - a c)) / a,  a = d^2, b = d (o - m), c = (o - m)^2 - r^2
+ */
+#ifndef FROE_GEOM_RAY_RAY_H
+#define FROE_GEOM_RAY_RAY_H
+#include "geom/body.h"
+#include "num/ball.h"
+
+typedef struct geom_ray {
+    int dim;
+    double o[FROE_MAX_DIM], d[FROE_MAX_DIM]; /**< origin; direction, not 0 */
+} geom_ray;
+
+typedef enum geom_source { GEOM_START, GEOM_COORDINATE, GEOM_LINE, GEOM_PLANE, GEOM_SPHERE } geom_source;
+
+/** A parameter t >= 0. */
+typedef struct geom_hit {
+    geom_source source;
+    int axis, other;         /**< COORDINATE: k; LINE: the two axes it is seen in */
+    double c;                /**< COORDINATE: c; SPHERE: the radius */
+    const double *p, *q, *r; /**< corners of the body; SPHERE: the centre */
+    num_ball t;              /**< image: infinite error where nothing is known */
+} geom_hit;
+
+/** False: it does not. Keeps pointers to the body's points. */
+bool geom_ray_meets(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first);
+/** Sign of a - b. */
+int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *a, const geom_hit *b);
+/** Sign of a - t, t >= 0 or infinite. */
+int geom_hit_compare_to(num_context *context, const geom_ray *ray, const geom_hit *a, double t);
+/** The nearest double. */
+double geom_hit_round(num_context *context, const geom_ray *ray, const geom_hit *a);
+
+/** The same as geom_ray_meets() for hulls, and for flat bodies in the plane of the ray: corners in any order,
+ * dimension 2 or 3. Called by it. */
+bool geom_ray_meets_hull(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first);
+/** Fills the image of a hit. */
+void geom_hit_image(num_context *context, const geom_ray *ray, geom_hit *hit);
+/** Sign of the parameter, whatever it is. */
+int geom_hit_sign(num_context *context, const geom_ray *ray, const geom_hit *hit);
+#endif

@@ -1,0 +1,160 @@
+/* near.c: the k nearest objects.
+ *
+ * The k best so far form a heap with the worst on top, compared exactly. When there are k of them, what is further
+ * away than the worst is passed over: places by their bounds, objects by those of their bounding boxes, and the
+ * rest by comparing distances, whose images decide but for ties. Of points there are candidates, few more than k
+ * (near_points.c), which are sorted. */
+#include "query/near/near.h"
+#include "base/floats.h"
+#include "query/check.h"
+#include "query/context.h"
+#include "query/heap.h"
+#include <string.h>
+
+void query_near_free(query_near *n, const froe_allocator *alloc) {
+    array_free(alloc, &n->places);
+    array_free(alloc, &n->free);
+    array_free(alloc, &n->heap);
+    array_free(alloc, &n->best);
+    array_free(alloc, &n->candidates);
+    array_free(alloc, &n->found);
+    array_free(alloc, &n->order);
+    array_free(alloc, &n->out);
+}
+
+/* Is a further away than b? Never equal. */
+static bool further(void *user, uint32_t a, uint32_t b) {
+    froe_query *q = user;
+    const query_neighbour *x = q->near.found.data + a, *y = q->near.found.data + b;
+    if (x->square > query_near_reach(y->square)) return true;
+    if (y->square > query_near_reach(x->square)) return false;
+    const int order = geom_distance_compare(&q->numbers, q->near.point, &x->distance, &y->distance);
+    return order ? order > 0 : x->object > y->object;
+}
+
+/* The places and objects that the worst neighbour leaves in the race. Its image says little where squares leave the
+ * range of doubles. */
+static void lower_limit(froe_query *q) {
+    const geom_distance *d = &q->near.found.data[q->near.order.data[0]].distance;
+    const num_ball image = geom_distance_image(d);
+    double most = image.x + image.e;
+    if (!(image.e <= 0x1p-20 * image.x))
+        most = geom_distance_round(&q->numbers, q->near.point, d) * (1 + 0x1p-51) + 0x1p-1074;
+    const double limit = query_near_square(&q->near, most);
+    if (limit < q->near.limit) q->near.limit = limit;
+}
+
+/* Takes a neighbour among the k best, in place of the worst if there are k. False: no memory. */
+static bool take(froe_query *q, const query_neighbour *x, size_t k) {
+    query_near *n = &q->near;
+    if (n->order.count < k) {
+        if (!array_reserve(&q->alloc, &n->found, 2) || !array_reserve(&q->alloc, &n->order, 1)) return false;
+        n->found.data[n->found.count] = *x;
+        n->order.data[n->order.count++] = (uint32_t)n->found.count++;
+        query_heap_rise(n->order.data, n->order.count - 1, further, q);
+    } else {
+        n->found.data[n->found.count] = *x; /* room was made for one more */
+        if (!further(q, n->order.data[0], (uint32_t)n->found.count)) return true;
+        n->found.data[n->order.data[0]] = *x;
+        query_heap_sink(n->order.data, n->order.count, 0, further, q);
+    }
+    if (n->order.count == k) lower_limit(q);
+    return true;
+}
+
+static bool beyond_limit(froe_query *q, uint32_t object) {
+    const froe_scene *s = q->tree->scene;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    scene_object_bounds(s, object, lo, hi);
+    return query_near_box(&q->near, s->dim, lo, hi) > q->near.limit;
+}
+
+/* False: it is beyond the bound. */
+static bool measure(froe_query *q, const geom_body *body, double bound, query_neighbour *out) {
+    out->distance = geom_distance_from(&q->numbers, q->near.point, body);
+    return geom_distance_compare_to(&q->numbers, q->near.point, &out->distance, bound) <= 0;
+}
+
+/* An object of a list. */
+static bool look_up(froe_query *q, const tree_objects *list, uint32_t i, size_t k, double bound) {
+    const uint32_t object = tree_object(list, i);
+    if (query_seen(q, list, i, object)) return true;
+    q->stats.tests++;
+    if (!q->near.packed && beyond_limit(q, object)) return true; /* packed trees have looked at more than boxes */
+    const geom_body body = scene_body(q->tree->scene, object);
+    query_neighbour x = {.square = NAN, .object = object};
+    return !measure(q, &body, bound, &x) || take(q, &x, k);
+}
+
+static froe_status find(froe_query *q, size_t k, double bound, froe_diagnostic *diag) {
+    tree_objects list;
+    q->near.one = k == 1;
+    froe_status status = query_near_begin(q, diag);
+    if (bound < INFINITY) q->near.limit = query_near_square(&q->near, bound);
+    while (!status && k && !(status = query_near_next(q, &list)) && list.count) {
+        if (!query_expect(q, list.count)) return FROE_E_MEMORY;
+        for (uint32_t i = 0; i < list.count; i++)
+            if (!look_up(q, &list, i, k, bound)) return FROE_E_MEMORY;
+    }
+    query_heap_unwind(q->near.order.data, q->near.order.count, further, q);
+    return status;
+}
+
+/* The nearest of the candidates, sorted. */
+static froe_status find_points(froe_query *q, size_t k, double bound, bool *done, froe_diagnostic *diag) {
+    query_near *n = &q->near;
+    const froe_status status = query_near_points(q, k, bound, done, diag);
+    if (status || !*done) return status;
+    if (!array_reserve(&q->alloc, &n->found, n->candidates.count) ||
+        !array_reserve(&q->alloc, &n->order, n->candidates.count))
+        return FROE_E_MEMORY;
+    for (size_t i = 0; i < n->candidates.count; i++) {
+        const query_candidate *c = n->candidates.data + i;
+        const geom_body body = geom_body_at(q->tree->scene->dim, c->at);
+        query_neighbour *x = n->found.data + n->found.count;
+        x->square = c->square;
+        x->object = c->object;
+        if (!measure(q, &body, bound, x)) continue;
+        n->order.data[n->order.count++] = (uint32_t)n->found.count++;
+    }
+    query_heap_sort(n->order.data, n->order.count, further, q);
+    if (n->order.count > k) n->order.count = k;
+    return FROE_OK;
+}
+
+/* Distances as doubles. */
+static bool deliver(froe_query *q) {
+    query_near *n = &q->near;
+    n->out.count = 0;
+    if (!array_reserve(&q->alloc, &n->out, n->order.count)) return false;
+    for (size_t i = 0; i < n->order.count; i++) {
+        const query_neighbour *x = n->found.data + n->order.data[i];
+        const double distance = geom_distance_round(&q->numbers, n->point, &x->distance);
+        n->out.data[n->out.count++] = (froe_neighbour){x->object, distance};
+    }
+    return true;
+}
+
+froe_status froe_query_near(froe_query *query, const double *point, size_t k, double bound, froe_neighbours *out,
+                            froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_near: NULL argument.");
+    query_near *n = &query->near;
+    const int dim = query->tree->scene->dim;
+    froe_status status = query_check_point(point, dim, "A point", diag);
+    if (status) return status;
+    if (!(bound >= 0)) return base_fail(diag, FROE_E_INPUT, "Neighbours are to be within %g.", bound);
+    const uint64_t exact = query->numbers.stats.exact;
+    query_begin(query);
+    n->found.count = n->order.count = 0;
+    memset(n->point, 0, sizeof n->point);
+    memcpy(n->point, point, (size_t)dim * sizeof *point);
+    n->limit = INFINITY;
+    bool done = false;
+    if (k) status = find_points(query, k, bound, &done, diag);
+    if (!status && !done) status = find(query, k, bound, diag);
+    query->stats.exact += query->numbers.stats.exact - exact;
+    if (status == FROE_E_MEMORY || (!status && !deliver(query))) return base_fail_memory(diag);
+    if (!status) *out = (froe_neighbours){n->out.data, n->out.count};
+    return status;
+}

@@ -1,0 +1,74 @@
+/* near.h: regions of a tree in the order of their distance.
+ *
+ *     near_walk.c     the lists of a tree, those of the nearest regions first: an iterator
+ *     near_points.c   where all objects are points: candidates, few more than k, by doubles side by side
+ *     near.c          the k nearest objects in them
+ */
+#ifndef FROE_QUERY_NEAR_NEAR_H
+#define FROE_QUERY_NEAR_NEAR_H
+#include "base/array.h"
+#include "geom/meet/distance.h"
+#include <froe/query.h>
+
+typedef struct query_neighbour {
+    geom_distance distance;
+    double square; /**< of a candidate (below); NaN: nothing is known beside the distance */
+    uint32_t object;
+} query_neighbour;
+
+/** A node that waits. */
+typedef struct query_place {
+    double bound; /**< of its distance */
+    uint32_t node;
+} query_place;
+
+/** A point that may be among the nearest. */
+typedef struct query_candidate {
+    double square; /**< of its distance, scaled and rounded */
+    const double *at;
+    uint32_t object;
+} query_candidate;
+
+/** Distances of nodes are squares of lower bounds, all coordinates times `scale`, a power of 2 that keeps the squares
+ * in range. */
+typedef struct query_near {
+    double point[FROE_MAX_DIM], scaled[FROE_MAX_DIM];
+    double scale;
+    double limit;   /**< what is further away is passed over; may fall while the tree is walked */
+    bool packed;    /**< walked by query/packed/space.h */
+    bool one;       /**< only the nearest is wanted */
+    query_place at; /**< where to go on; node FROE_NONE: at the nearest that waits */
+    ARRAY(query_place) places;
+    ARRAY(uint32_t) free; /**< places to be used again */
+    ARRAY(uint32_t) heap; /**< of places */
+    ARRAY(double) best;   /**< a heap of the k least squares among candidates */
+    ARRAY(query_candidate) candidates;
+    ARRAY(query_neighbour) found;
+    ARRAY(uint32_t) order;
+    ARRAY(froe_neighbour) out;
+} query_near;
+
+struct froe_query;
+struct tree_objects;
+void query_near_free(query_near *n, const froe_allocator *alloc);
+
+/** Begins with query->near.point. FROE_E_MEMORY. */
+froe_status query_near_begin(struct froe_query *query, froe_diagnostic *diag);
+/** The next list; with no objects: there is none left within query->near.limit. FROE_E_MEMORY. */
+froe_status query_near_next(struct froe_query *query, struct tree_objects *list);
+/** Where all objects are points and lists have their coordinates: *done, and query->near.candidates has the k nearest
+ * to query->near.point, or all within the bound if there are fewer, and whatever doubles do not tell from them.
+ * FROE_E_MEMORY. */
+froe_status query_near_points(struct froe_query *query, size_t k, double bound, bool *done, froe_diagnostic *diag);
+/** A power of 2 that brings the greatest coordinate near 1: then squares neither overflow nor, where it matters,
+ * underflow. */
+double query_near_scale(const froe_scene *scene, const double *point);
+/** What no true square up to that of a candidate comes out above. */
+static inline double query_near_reach(double square) {
+    return square * (1 + 0x1p-46) + 0x1p-1030;
+}
+/** A lower bound of the squared distance from a box, scaled. */
+double query_near_box(const query_near *n, int dim, const double *lo, const double *hi);
+/** An upper bound of the square of a distance, scaled. */
+double query_near_square(const query_near *n, double distance);
+#endif

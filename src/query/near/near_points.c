@@ -1,0 +1,145 @@
+/* near_points.c: the k nearest of many points.
+ *
+ *       k best so far   k-th  reach
+ *     ----.--..---.------.------]---x----x-->     squares of distances, in doubles
+ *
+ * Coordinates lie side by side (pieces.h). What is beyond the k-th of the squares by more than rounding explains is
+ * out. A few more than k are left in the end, and only those are compared exactly.
+ *
+ * Depth first, the nearer child before the other (Friedman, Bentley and Finkel: An algorithm for finding best matches
+ * in logarithmic expected time, 1977), by the boxes of what is below nodes.
+ *
+ * Rounding. Coordinates are scaled by a power of 2 to at most 2^25, so that a difference errs by a 2^-52nd of it and
+ * less than 2^-1072 in any rounding mode, and the sum of up to eight squares by less than a 2^-48th and less than
+ * 2^-1040. So a true square that is not above that of s comes out at most at query_near_reach(s), and so does the
+ * distance of a box that holds its point. */
+#include "query/check.h"
+#include "query/near/contents.h"
+#include "query/near/near.h"
+#include "query/pieces.h"
+#include <math.h>
+
+static double square_of(double x) {
+    return x * x;
+}
+
+/* Squared distance of a box from a scaled point, 0 inside; infinite where the box is of nothing. */
+static double box_square(const query_near *n, const query_contents *c, uint32_t node) {
+    const double *lo = query_contents_box(c, node), *hi = lo + c->dim, *x = n->scaled;
+    double sum = 0;
+    for (size_t k = 0; k < c->dim; k++) {
+        const double below = lo[k] * n->scale - x[k], above = x[k] - hi[k] * n->scale;
+        const double gap = below > above ? below : above;
+        sum += gap > 0 ? square_of(gap) : 0;
+    }
+    return lo[0] > hi[0] ? (double)INFINITY : sum;
+}
+
+/* ----------------------------------------------------------------- k best -- */
+
+/* Puts a square on the heap of the k least, the greatest on top, in place of that if there are k. */
+static void keep(query_near *n, double square, size_t k) {
+    double *heap = n->best.data;
+    size_t i;
+    if (n->best.count < k) {
+        for (i = n->best.count++; i && heap[(i - 1) / 2] < square; i = (i - 1) / 2) heap[i] = heap[(i - 1) / 2];
+    } else {
+        i = 0;
+        for (size_t child = 1; child < k; child = 2 * i + 1) {
+            if (child + 1 < k && heap[child + 1] > heap[child]) child++;
+            if (heap[child] <= square) break;
+            heap[i] = heap[child];
+            i = child;
+        }
+    }
+    heap[i] = square;
+    if (n->best.count == k && query_near_reach(heap[0]) < n->limit) n->limit = query_near_reach(heap[0]);
+}
+
+/* Forgets candidates that are out by now. */
+static void sift(query_near *n) {
+    size_t kept = 0;
+    for (size_t i = 0; i < n->candidates.count; i++)
+        if (n->candidates.data[i].square <= n->limit) n->candidates.data[kept++] = n->candidates.data[i];
+    n->candidates.count = kept;
+}
+
+/* Room for one list more: candidates stay within twice k and some, but for ties. */
+static bool make_room(froe_query *q, size_t k, size_t count) {
+    query_near *n = &q->near;
+    if (n->candidates.count > 2 * k + 64) sift(n);
+    return array_reserve(&q->alloc, &n->candidates, count) && array_reserve(&q->alloc, &n->best, count < k ? count : k);
+}
+
+static bool scan(froe_query *q, const query_pieces *pieces, const tree_objects *list, size_t k) {
+    query_near *n = &q->near;
+    const size_t dim = (size_t)q->tree->scene->dim;
+    const double *at = pieces->points + list->first * dim;
+    if (!make_room(q, k, list->count)) return false;
+    for (uint32_t i = 0; i < list->count; i++, at += dim) {
+        double square = 0;
+        for (size_t j = 0; j < dim; j++) square += square_of(at[j] * n->scale - n->scaled[j]);
+        if (!(square <= n->limit)) continue;
+        n->candidates.data[n->candidates.count++] = (query_candidate){square, at, tree_object(list, i)};
+        keep(n, square, k);
+    }
+    q->stats.tests += list->count;
+    return true;
+}
+
+/* ----------------------------------------------------------------- descent -- */
+
+static bool wait(froe_query *q, uint32_t node, double square) {
+    if (square > q->near.limit) return true;
+    if (!array_reserve(&q->alloc, &q->near.places, 1)) return false;
+    q->near.places.data[q->near.places.count++] = (query_place){square, node};
+    return true;
+}
+
+/* From a node to the nearest leaf below; what is further away waits. */
+static bool descend(froe_query *q, const query_contents *c, const query_pieces *pieces, uint32_t node, size_t k) {
+    const froe_tree *t = q->tree;
+    for (;;) {
+        const tree_node *at = t->nodes + node;
+        q->stats.nodes++;
+        if (at->type != TREE_PLAIN) {
+            const tree_objects list = tree_list(t, node);
+            q->stats.leaves += tree_is_leaf(at);
+            if (list.count && !scan(q, pieces, &list, k)) return false;
+            if (tree_is_leaf(at)) return true;
+        }
+        const double left = box_square(&q->near, c, at->child), right = box_square(&q->near, c, at->child + 1);
+        const bool swap = right < left;
+        if (!wait(q, at->child + !swap, swap ? left : right)) return false;
+        if ((swap ? right : left) > q->near.limit) return true;
+        node = at->child + swap;
+    }
+}
+
+static bool walk(froe_query *q, const query_contents *c, const query_pieces *pieces, size_t k) {
+    query_near *n = &q->near;
+    bool memory = wait(q, 0, box_square(n, c, 0));
+    while (memory && n->places.count) {
+        const query_place at = n->places.data[--n->places.count];
+        if (at.bound <= n->limit) memory = descend(q, c, pieces, at.node, k);
+    }
+    return memory;
+}
+
+froe_status query_near_points(froe_query *q, size_t k, double bound, bool *done, froe_diagnostic *diag) {
+    const query_contents *contents;
+    const query_pieces *pieces;
+    query_near *n = &q->near;
+    froe_status status = query_pieces_of(q, &pieces, diag);
+    *done = !status && pieces->points;
+    if (!*done) return status;
+    status = query_contents_of(q, &contents, diag);
+    if (status) return status;
+    n->places.count = n->best.count = n->candidates.count = 0;
+    n->scale = query_near_scale(q->tree->scene, n->point);
+    n->limit = bound < INFINITY ? query_near_reach(query_near_square(n, bound)) : (double)INFINITY;
+    for (size_t i = 0; i < contents->dim; i++) n->scaled[i] = n->point[i] * n->scale;
+    if (!walk(q, contents, pieces, k)) return FROE_E_MEMORY;
+    sift(n);
+    return FROE_OK;
+}

@@ -1,0 +1,56 @@
+/* packed.h: queries on packed trees (tree/packed/packed.h), several leaves in flight, sixteen fragments at a time.
+ *
+ *     jump table -> walk -> [leaf, leaf, slice, leaf ...] -> kernels -> sure answers, unsure ones -> exact predicates
+ *
+ * Walks compare doubles, so nothing about them is uncertain. Blocks are asked for while the walk goes on and tested
+ * after it, so that their cache misses overlap. */
+#ifndef FROE_QUERY_PACKED_PACKED_H
+#define FROE_QUERY_PACKED_PACKED_H
+#include "query/context.h"
+#include "query/packed/packed_kernel.h"
+#include "query/workers.h"
+
+typedef struct packed_waiting {
+    uint32_t node;
+    uint32_t open; /**< bits: sides of the window that a cut of its region may still meet: x lo, x hi, y lo, y hi */
+} packed_waiting;
+
+/** A leaf to be tested, or, with an end, the leaves from one block up to another, all of them in the window. */
+typedef struct packed_visit {
+    uint32_t block, end, count;
+} packed_visit;
+
+enum { PACKED_FLIGHT = 16 }; /* vertical rays in flight */
+
+/** What a context has for packed trees. */
+typedef struct packed_work {
+    const packed_kernels *kernels;
+    ARRAY(packed_waiting) stack; /**< room for the height of the tree */
+    ARRAY(packed_visit) visits;
+    ARRAY(packed_unsure) unsure;
+    ARRAY(uint32_t) candidates;
+    ARRAY(uint16_t) bits; /**< of a row of pairs */
+    uint32_t *climbs;     /**< stacks of PACKED_FLIGHT vertical rays, of height + 2 nodes each */
+    size_t climb_size;
+    uint64_t decided; /**< fragments that kernels left open, for tests and benches */
+} packed_work;
+
+/** For the context of a packed tree. FROE_E_MEMORY. O(height). */
+froe_status packed_work_new(const froe_tree *t, packed_work **out);
+void packed_work_free(packed_work *work, const froe_allocator *alloc);
+
+/** Objects that meet a closed box: they are query->found. The caller has begun the query. FROE_E_MEMORY. */
+froe_status packed_range(froe_query *query, const double *lo, const double *hi);
+/** How many there are. FROE_E_MEMORY. */
+froe_status packed_count_range(froe_query *query, const double *lo, const double *hi, uint64_t *out);
+/** Some of them, at least one if there is any. FROE_E_MEMORY. */
+froe_status packed_any(froe_query *query, const double *lo, const double *hi);
+/** The first segment above (1) or below (-1) each of `count` points, through it counts: that of lowest id where it
+ * meets several at one point; FROE_NONE if there is none. Finite points. FROE_E_MEMORY. */
+froe_status packed_vertical(froe_query *query, const double *points, size_t count, int direction, uint32_t *objects);
+/** All that can be wrong with a point to look up or down from. */
+froe_status query_vertical_check(const froe_query *query, const double *point, int direction, froe_diagnostic *diag);
+/** As froe_batch_pairs(). FROE_E_LIMIT, before anything has been told: more pairs than are worth gathering;
+ * FROE_E_MEMORY, FROE_E_CANCELLED. */
+froe_status packed_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user);
+#endif

@@ -1,0 +1,70 @@
+/* packed_kernel.h: sixteen fragments of a block at a time, beside a window, a vertical ray, or another fragment.
+ *
+ *      sure no  <------- unsure ------->  sure yes
+ *     ----------|-----------------------|----------->
+ *            -bound         0        +bound
+ *
+ * Units are within the error E of the block from the truth, so each answer has three values. What is unsure is
+ * decided by the caller, exactly, on the objects: with 16 bits a cell, about one fragment in twenty thousand.
+ *
+ * The same source (packed_kernel.inc) is compiled three times, over lanes of AVX-512, of AVX2 and of what any compiler
+ * has. Its floating-point operations are the same, one by one, and none is fused, so all three give the same answers in
+ * the same order and leave the same ones unsure. */
+#ifndef FROE_QUERY_PACKED_PACKED_KERNEL_H
+#define FROE_QUERY_PACKED_PACKED_KERNEL_H
+#include "tree/packed/packed.h"
+
+enum { PACKED_LANES = 16 };
+
+/** A closed axis-parallel window; bounds may be infinite. */
+typedef packed_box packed_window;
+
+/** A fragment that a kernel could not decide. */
+typedef struct packed_unsure {
+    const packed_header *block;
+    uint32_t id; /**< with flags */
+} packed_unsure;
+
+/** What a kernel appends to. The caller has made room: `count` + PACKED_LANES ids, `count` unsure ones. */
+typedef struct packed_answers {
+    uint32_t *ids; /**< objects */
+    size_t count;
+    packed_unsure *unsure;
+    size_t unsure_count;
+} packed_answers;
+
+/** What a vertical ray meets first in a block. */
+typedef struct packed_heights {
+    bool sure;            /**< then there is one candidate, and it is the answer */
+    uint32_t count;       /**< of candidates; 0: nothing is met */
+    uint32_t *candidates; /**< objects; room for those of the block and PACKED_LANES more */
+} packed_heights;
+
+/** Fragments j > i of a block that meet fragment i, as bits: bit j % 16 of word j / 16. */
+typedef struct packed_row {
+    uint16_t *crossing; /**< surely cross, inside of the cell and of both fragments */
+    uint16_t *unsure;
+} packed_row;
+
+typedef struct packed_kernels {
+    const char *name;
+    /** Fragments that report for a window: they meet it, and the segment enters it with them, for p is outside or its
+     * own first end. Exactly one fragment of each segment that meets a convex window does. */
+    void (*window)(const packed_header *block, uint32_t count, const packed_window *window, packed_answers *out);
+    /** The segments met first by the ray from (x, y), upwards (1) or downwards (-1), that starts in the closed cell or
+     * enters it. */
+    void (*vertical)(const packed_header *block, uint32_t count, const double *point, int direction,
+                     packed_heights *out);
+    /** Words 0 .. (count - 1) / 16 of the row are written. */
+    void (*pairs)(const packed_header *block, uint32_t count, uint32_t i, packed_row *out);
+} packed_kernels;
+
+extern const packed_kernels packed_kernels_plain;
+#if defined(__x86_64__) && defined(__GNUC__)
+#define PACKED_X86 1
+extern const packed_kernels packed_kernels_avx2, packed_kernels_avx512;
+#endif
+
+/** The i-th set of kernels that this machine can run, the fastest first; NULL past the last. */
+const packed_kernels *packed_kernels_at(size_t i);
+#endif

@@ -1,0 +1,164 @@
+/* packed_plain.c: sixteen floats as four short vectors, in the notation that gcc and clang have for any machine. */
+#include "query/packed/packed_kernel.h"
+#include "query/packed/space_kernel.h"
+#include <math.h>
+#include <string.h>
+
+#define LANES __attribute__((always_inline)) static inline
+#define LANES_KERNEL static
+#define KERNELS packed_kernels_plain
+#define KERNELS_NAME "plain"
+#define SPACE_KERNELS space_kernels_plain
+#define EACH for (int i = 0; i < 4; i++)
+
+typedef float floats __attribute__((vector_size(16)));
+typedef int32_t ints __attribute__((vector_size(16)));
+typedef struct lanes {
+    floats x[4];
+} lanes;
+typedef struct lanes_mask {
+    ints x[4]; /* 0 or all ones */
+} lanes_mask;
+
+LANES floats pick(ints m, floats a, floats b) {
+    return (floats)(((ints)a & m) | ((ints)b & ~m));
+}
+LANES lanes lanes_units(const uint16_t *p) {
+    lanes r;
+    EACH r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
+    return r;
+}
+LANES lanes lanes_bytes(const uint8_t *p) {
+    lanes r;
+    EACH r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
+    return r;
+}
+LANES void lanes_store(float *x, lanes a) {
+    memcpy(x, &a, sizeof a);
+}
+LANES lanes lanes_sqrt(lanes a) {
+    EACH a.x[i] = (floats){sqrtf(a.x[i][0]), sqrtf(a.x[i][1]), sqrtf(a.x[i][2]), sqrtf(a.x[i][3])};
+    return a;
+}
+LANES lanes lanes_pick(lanes_mask m, lanes a, lanes b) {
+    EACH a.x[i] = pick(m.x[i], a.x[i], b.x[i]);
+    return a;
+}
+LANES lanes lanes_set(float x) {
+    lanes r;
+    EACH r.x[i] = (floats){x, x, x, x};
+    return r;
+}
+LANES lanes lanes_add(lanes a, lanes b) {
+    EACH a.x[i] += b.x[i];
+    return a;
+}
+LANES lanes lanes_sub(lanes a, lanes b) {
+    EACH a.x[i] -= b.x[i];
+    return a;
+}
+LANES lanes lanes_mul(lanes a, lanes b) {
+    EACH a.x[i] *= b.x[i];
+    return a;
+}
+LANES lanes lanes_div(lanes a, lanes b) {
+    EACH a.x[i] /= b.x[i];
+    return a;
+}
+LANES lanes lanes_min(lanes a, lanes b) {
+    EACH a.x[i] = pick(a.x[i] < b.x[i], a.x[i], b.x[i]);
+    return a;
+}
+LANES lanes lanes_max(lanes a, lanes b) {
+    EACH a.x[i] = pick(a.x[i] > b.x[i], a.x[i], b.x[i]);
+    return a;
+}
+LANES lanes lanes_abs(lanes a) {
+    EACH a.x[i] = (floats)((ints)a.x[i] & 0x7fffffff);
+    return a;
+}
+LANES lanes_mask lanes_first(uint32_t n) {
+    lanes_mask m;
+    int32_t end = n < PACKED_LANES ? (int32_t)n : PACKED_LANES;
+    EACH m.x[i] = (ints){4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3} < end;
+    return m;
+}
+LANES lanes_mask lanes_le(lanes_mask m, lanes a, lanes b) {
+    EACH m.x[i] &= a.x[i] <= b.x[i];
+    return m;
+}
+LANES lanes_mask lanes_lt(lanes_mask m, lanes a, lanes b) {
+    EACH m.x[i] &= a.x[i] < b.x[i];
+    return m;
+}
+LANES lanes_mask lanes_and(lanes_mask m, lanes_mask n) {
+    EACH m.x[i] &= n.x[i];
+    return m;
+}
+LANES lanes_mask lanes_or(lanes_mask m, lanes_mask n) {
+    EACH m.x[i] |= n.x[i];
+    return m;
+}
+LANES lanes_mask lanes_without(lanes_mask m, lanes_mask n) {
+    EACH m.x[i] &= ~n.x[i];
+    return m;
+}
+/* Each lane keeps its own bit; the four vectors have different ones. */
+LANES uint32_t lanes_bits(lanes_mask m) {
+    ints all = (m.x[0] & (ints){1, 2, 4, 8}) | (m.x[1] & (ints){16, 32, 64, 128}) |
+               (m.x[2] & (ints){256, 512, 1024, 2048}) | (m.x[3] & (ints){4096, 8192, 16384, 32768});
+    return (uint32_t)(all[0] | all[1] | all[2] | all[3]);
+}
+LANES lanes_mask lanes_flagged(const uint32_t *ids, int shift) {
+    lanes_mask m;
+    memcpy(&m, ids, sizeof m);
+    EACH m.x[i] = m.x[i] << shift >> 31; /* arithmetic: copies of the sign */
+    return m;
+}
+LANES float lanes_least(lanes_mask m, lanes a) {
+    const floats none = {(float)INFINITY, (float)INFINITY, (float)INFINITY, (float)INFINITY};
+    floats least = none;
+    EACH a.x[i] = pick(m.x[i], a.x[i], none), least = pick(a.x[i] < least, a.x[i], least);
+    float left = least[0] < least[1] ? least[0] : least[1], right = least[2] < least[3] ? least[2] : least[3];
+    return left < right ? left : right;
+}
+LANES uint32_t lanes_put(uint32_t *out, const uint32_t *ids, uint32_t which) {
+    uint32_t count = 0;
+    for (; which; which &= which - 1) out[count++] = ids[__builtin_ctz(which)] & PACKED_OBJECT;
+    return count;
+}
+
+#include "query/packed/packed_kernel.inc"
+#include "query/packed/space_kernel.inc"
+
+/* -------------------------------------------------------------- which ones -- */
+
+#ifdef PACKED_X86
+static bool has_avx512(void) {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+}
+static bool has_avx2(void) {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("bmi");
+}
+#endif
+
+const packed_kernels *packed_kernels_at(size_t i) {
+    const packed_kernels *all[4] = {NULL};
+    size_t count = 0;
+#ifdef PACKED_X86
+    if (has_avx512()) all[count++] = &packed_kernels_avx512;
+    if (has_avx2()) all[count++] = &packed_kernels_avx2;
+#endif
+    all[count++] = &packed_kernels_plain;
+    return i < count ? all[i] : NULL;
+}
+
+const space_kernels *space_kernels_at(size_t i) {
+    const packed_kernels *same = packed_kernels_at(i);
+#ifdef PACKED_X86
+    if (same == &packed_kernels_avx512) return &space_kernels_avx512;
+    if (same == &packed_kernels_avx2) return &space_kernels_avx2;
+#endif
+    return same ? &space_kernels_plain : NULL;
+}

@@ -1,0 +1,228 @@
+/* packed_vertical.c: the first segment above or below a point.
+ *
+ *      |   |  2 |     A ray begins in its column of the jump table and climbs from cell to cell; below, cuts
+ *      +---+----+     across it have both sides on a stack, the nearer one first. What it meets first in the first
+ *      |   | 1 /|     leaf where it meets anything is the answer: pieces end where their cells do, and by general
+ *      +---+-|--+     position (tree/packed/packed.h) every segment through that point is in this very leaf.
+ *      |   | 0  |
+ *
+ * Rays fly in flocks: each in turn tests its block, which has been asked for a round before, and asks for its next. */
+#include "query/packed/packed.h"
+#include "query/segment.h"
+#include "tree/packed/table.h"
+
+/** A ray on its way. */
+typedef struct climb {
+    const double *point;
+    uint32_t *object; /* its answer */
+    uint32_t *stack;
+    uint32_t waiting;      /* nodes on the stack */
+    uint32_t block, count; /* of the leaf to be tested next */
+    uint32_t column, row;  /* of the table; column NO_TABLE: none */
+    tree_entry last;       /* the entry that it went to last */
+    uint64_t nodes;        /* passed */
+} climb;
+#define NO_TABLE UINT32_MAX
+
+/* At a leaf: asks for its block. */
+static void arrive(const froe_tree *t, climb *c, uint32_t block, uint32_t count) {
+    const uint8_t *bytes = t->packed.blocks + (size_t)block * PACKED_BLOCK;
+    c->block = block;
+    c->count = count;
+    for (uint32_t at = 0; at < 32 + 12 * count; at += 64) __builtin_prefetch(bytes + at);
+}
+
+/* Goes down to the leaf where the ray begins or enters; what comes after it on its way waits. */
+static void descend(const froe_tree *t, climb *c, int direction, uint32_t node) {
+    const tree_node *n = t->nodes + node;
+    for (; !tree_is_leaf(n); c->nodes++) {
+        uint32_t upper = c->point[n->axis] >= n->u.value, ahead = n->axis == 1 && (direction > 0) == !upper;
+        c->stack[c->waiting] = n->child + !upper;
+        c->waiting += ahead;
+        n = t->nodes + n->child + upper;
+    }
+    arrive(t, c, n->child, n->u.list.count);
+}
+
+/* To where an entry of the table says. */
+static void enter(const froe_tree *t, climb *c, int direction, tree_entry entry) {
+    c->last = entry;
+    if (entry.kind & TABLE_LEAF)
+        arrive(t, c, entry.at, entry.kind & ~TABLE_LEAF);
+    else
+        descend(t, c, direction, entry.at);
+}
+
+static void begin_at_root(const froe_tree *t, climb *c, int direction) {
+    c->column = NO_TABLE;
+    c->waiting = 0;
+    descend(t, c, direction, 0);
+}
+
+/* Is the point in the core of a column, so that the column is the ray's? */
+static bool find_column(const tree_table *table, climb *c) {
+    double place = table ? tree_table_place(table, 0, c->point[0]) : 0;
+    if (!table || !(place >= 0 && place < table->cells[0])) return false;
+    c->column = (uint32_t)place;
+    return place >= c->column + TABLE_HAIR && place <= c->column + 1 - TABLE_HAIR;
+}
+
+/* To its first leaf. */
+static void begin(const froe_tree *t, climb *c, int direction) {
+    const tree_table *table = t->packed.table;
+    uint32_t from, to;
+    c->waiting = 0;
+    if (!find_column(table, c)) {
+        begin_at_root(t, c, direction);
+        return;
+    }
+    tree_table_span(table, 1, c->point[1], c->point[1], &from, &to);
+    c->row = direction > 0 ? from : to;
+    enter(t, c, direction, tree_table_at(table, c->column, c->row));
+}
+
+/* To its next leaf; false: there is none. */
+static bool go_on(const froe_tree *t, climb *c, int direction) {
+    const tree_table *table = t->packed.table;
+    if (c->waiting) {
+        descend(t, c, direction, c->stack[--c->waiting]);
+        return true;
+    }
+    if (c->column == NO_TABLE) return false;
+    while (direction > 0 ? c->row + 1 < table->cells[1] : c->row > 0) {
+        uint32_t line = direction > 0 ? c->row + 1 : c->row;
+        if (table->crooked[1][line]) { /* once more, on the safe way */
+            begin_at_root(t, c, direction);
+            return true;
+        }
+        c->row += direction > 0 ? 1u : UINT32_MAX;
+        tree_entry entry = tree_table_at(table, c->column, c->row);
+        if (entry.at == c->last.at && entry.kind == c->last.kind) continue;
+        enter(t, c, direction, entry);
+        return true;
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------- leaves -- */
+
+/* Is a place beyond the far side of its cell? Then it is not in this leaf that the ray meets it. */
+static bool beyond(froe_query *q, const packed_header *block, const query_height *at, int direction) {
+    packed_box cell;
+    packed_cell(q->tree, block, &cell);
+    query_height side = {.known = true, .x = at->x, .y = direction > 0 ? cell.hi[1] : cell.lo[1]};
+    return query_height_compare(&q->numbers, at, &side) * direction > 0;
+}
+
+/* The candidate that is met first, exactly. */
+static uint32_t first_of(froe_query *q, const packed_header *block, const packed_heights *h, const double *point,
+                         int direction) {
+    query_height best = {0}, here;
+    uint32_t object = FROE_NONE;
+    const double *ends[2];
+    q->packed->decided += h->count;
+    for (uint32_t i = 0; i < h->count; i++) {
+        if (q->tree->scene->kinds[h->candidates[i]] != FROE_SEGMENT) continue; /* points never are sure */
+        packed_ends(q->tree->scene, h->candidates[i], ends);
+        if (!query_height_at(&q->numbers, ends[0], ends[1], point, direction, &here)) continue;
+        int order = object == FROE_NONE ? -1 : query_height_compare(&q->numbers, &here, &best) * direction;
+        if (order > 0 || (order == 0 && h->candidates[i] > object)) continue;
+        best = here;
+        object = h->candidates[i];
+    }
+    return object != FROE_NONE && beyond(q, block, &best, direction) ? FROE_NONE : object;
+}
+
+static uint32_t test(froe_query *q, uint32_t block, uint32_t count, const double *point, int direction) {
+    const uint8_t *bytes = q->tree->packed.blocks + (size_t)block * PACKED_BLOCK;
+    const packed_header *header = (const packed_header *)(const void *)bytes;
+    packed_heights h = {.candidates = q->packed->candidates.data};
+    if (!count) return FROE_NONE;
+    q->stats.leaves++;
+    q->stats.tests += count;
+    q->packed->kernels->vertical(header, count, point, direction, &h);
+    if (h.sure || !h.count) return h.count ? h.candidates[0] : FROE_NONE;
+    return first_of(q, header, &h, point, direction);
+}
+
+/* -------------------------------------------------------------------- whole -- */
+
+/* Can the ray meet anything? */
+static bool aims_at_scene(const froe_tree *t, const double *point, int direction) {
+    const tree_meta *m = &t->meta;
+    bool beside = point[0] < m->root_lo[0] || point[0] > m->root_hi[0];
+    return !beside && (direction > 0 ? point[1] <= m->root_hi[1] : point[1] >= m->root_lo[1]);
+}
+
+/* Asks for the entry of a point that will begin soon. */
+static void ask_for_entry(const tree_table *table, const double *point) {
+    double column = tree_table_place(table, 0, point[0]), row = tree_table_place(table, 1, point[1]);
+    if (column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])
+        __builtin_prefetch(table->entries + (size_t)column * table->cells[1] + (size_t)row);
+}
+
+/* Begins the next of the points that can have an answer. */
+static size_t launch(froe_query *q, const double *points, size_t count, size_t next, int direction, uint32_t *objects,
+                     climb *c, bool *flies) {
+    *flies = false;
+    for (; next < count && !*flies; next++) {
+        objects[next] = FROE_NONE;
+        if (!aims_at_scene(q->tree, points + 2 * next, direction)) continue;
+        c->point = points + 2 * next;
+        c->object = objects + next;
+        c->nodes = 0;
+        if (next + PACKED_FLIGHT < count && q->tree->packed.table)
+            ask_for_entry(q->tree->packed.table, c->point + 2 * PACKED_FLIGHT);
+        begin(q->tree, c, direction);
+        *flies = true;
+    }
+    return next;
+}
+
+/* One ray alone asks for the block after next while it waits for the next. */
+static uint32_t climb_alone(froe_query *q, climb *c, int direction) {
+    for (;;) {
+        uint32_t block = c->block, count = c->count;
+        bool more = go_on(q->tree, c, direction);
+        uint32_t object = test(q, block, count, c->point, direction);
+        if (object == FROE_NONE && more) continue;
+        q->stats.nodes += c->nodes;
+        return object;
+    }
+}
+
+/* A flock: the last ray takes the place of one that has arrived when there is none to follow it. */
+static void fly(froe_query *q, climb *flock, size_t flying, const double *points, size_t count, size_t next,
+                int direction, uint32_t *objects) {
+    for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
+        climb *c = flock + i;
+        uint32_t object = test(q, c->block, c->count, c->point, direction), *stack = c->stack;
+        bool flies;
+        if (object == FROE_NONE && go_on(q->tree, c, direction)) continue;
+        *c->object = object;
+        q->stats.nodes += c->nodes;
+        next = launch(q, points, count, next, direction, objects, c, &flies);
+        if (flies) continue;
+        *c = flock[--flying];
+        flock[flying].stack = stack;
+        if (i == flying) i = 0;
+    }
+}
+
+froe_status packed_vertical(froe_query *q, const double *points, size_t count, int direction, uint32_t *objects) {
+    packed_work *work = q->packed;
+    climb flock[PACKED_FLIGHT];
+    size_t next = 0, flying = 0;
+    q->stats.queries += count;
+    work->candidates.count = 0;
+    if (!array_reserve(&q->alloc, &work->candidates, q->tree->report.max_leaf + PACKED_LANES)) return FROE_E_MEMORY;
+    for (bool flies = true; flying < PACKED_FLIGHT && flies; flying += flies) {
+        flock[flying].stack = work->climbs + flying * work->climb_size;
+        next = launch(q, points, count, next, direction, objects, flock + flying, &flies);
+    }
+    if (count == 1 && flying)
+        *objects = climb_alone(q, flock, direction);
+    else
+        fly(q, flock, flying, points, count, next, direction, objects);
+    return FROE_OK;
+}

@@ -1,0 +1,62 @@
+/* space.h: searches of packed trees of space (tree/packed/space.h), by their wide nodes (tree/packed/wide.h).
+ *
+ *     stack     [ ... | key, what | key, what ]     wide nodes, leaves and objects, the least key on top
+ *
+ * A walk takes what is on top: of a node it puts the children back that may be met, of a leaf the objects; an
+ * object it hands out, to be decided exactly by whoever asked. Keys are lower bounds: of a ray's parameter, or of
+ * squared distances. So objects come nearly in order, few are looked at that are not the answer, and of those that
+ * could be it none is missed. */
+#ifndef FROE_QUERY_PACKED_SPACE_H
+#define FROE_QUERY_PACKED_SPACE_H
+#include "query/context.h"
+#include "query/packed/space_kernel.h"
+
+/** A walk along a ray, or around a point. */
+typedef struct space_walk {
+    bool near; /**< by distance, not along a ray */
+    space_ray ray;
+    space_point point;
+    double per;      /**< units of the ray's parameter, of squared distances, per 1 */
+    double told;     /**< the limit as it was last seen, and ... */
+    float limit;     /**< ... what it means for keys */
+    uint32_t object; /**< the one handed out */
+    ARRAY(uint64_t) stack;
+} space_walk;
+
+typedef struct space_runner space_runner; /* space_flock.c */
+
+/** What a context has for packed trees of space. */
+typedef struct space_work {
+    const space_kernels *kernels;
+    space_walk walk;
+    space_runner *flock;             /**< NULL until a batch of rays comes */
+    ARRAY(uint32_t) objects, others; /**< from kernels */
+    ARRAY(float) keys;
+} space_work;
+
+froe_status space_work_new(const froe_tree *t, space_work **out);
+void space_work_free(space_work *work, const froe_allocator *alloc);
+
+/** Begins along a ray, or around query->near.point. *begun false: these are not for single precision, and the general
+ * walk has to do it. FROE_E_MEMORY. */
+froe_status space_walk_ray(froe_query *query, space_walk *walk, const geom_ray *ray, bool *begun);
+froe_status space_walk_near(froe_query *query, space_walk *walk, bool *begun);
+/** The next object, as a list, unless it is beyond the limit, which may have fallen; none: there is none left.
+ * FROE_E_MEMORY. */
+froe_status space_walk_next(froe_query *query, space_walk *walk, double limit, tree_objects *list);
+
+typedef enum space_step { SPACE_ON, SPACE_OBJECT, SPACE_END, SPACE_NO_MEMORY } space_step;
+/** One step of a walk that is one of many: what it will look at next is asked for, so that others can go on until it is
+ * there. SPACE_OBJECT: walk->object is handed out. */
+space_step space_walk_step(froe_query *query, space_walk *walk, double limit);
+
+/** The first hits of rays that have been checked, or, hits NULL, any object met by each. As froe_query_ray() and
+ * froe_query_ray_any(), for query->tree->packed.wide. FROE_E_MEMORY. */
+froe_status space_rays(froe_query *query, const double *origins, const double *directions, size_t count, double t_max,
+                       froe_hit *hits, uint32_t *objects, froe_diagnostic *diag);
+void space_flock_free(space_runner *flock, const froe_allocator *alloc);
+
+/** Objects that meet a closed box, or, with `any`, some of them if there are any: they are query->found. The caller
+ * has begun the query and called query_range_of_box(). FROE_E_MEMORY. */
+froe_status space_range(froe_query *query, const double *lo, const double *hi, bool any);
+#endif

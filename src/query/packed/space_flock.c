@@ -1,0 +1,127 @@
+/* space_flock.c: rays in flocks: while one waits for memory, others go on.
+ *
+ *     ray 0   [node] ........ [node] ........ [leaf] ........ [object] ........ [decided]
+ *     ray 1     [node] ........ [leaf] ........ [node] ........ [leaf] ........ [node]
+ *     ray 2       [node] ....
+ *
+ * Each in turn takes one step of its walk (space_walk.c) and asks for what the next one needs; so does an object,
+ * before it is decided. Answers do not depend on who else flies: a ray has a walk and a limit of its own. */
+#include "base/status.h"
+#include "query/packed/space.h"
+#include <string.h>
+
+enum { FLIGHT = 12 };
+
+/** A ray on its way. */
+struct space_runner {
+    space_walk walk;
+    geom_ray ray;
+    double limit;
+    query_met best;   /* object FROE_NONE: none so far */
+    uint32_t pending; /* an object to be decided; FROE_NONE: none */
+    size_t at;        /* of the ray among all */
+};
+
+typedef struct flight {
+    froe_query *query;
+    const double *origins, *directions;
+    double t_max;
+    froe_hit *hits;
+    uint32_t *objects;
+    size_t count, next;
+    froe_diagnostic *diag;
+} flight;
+
+void space_flock_free(space_runner *flock, const froe_allocator *alloc) {
+    if (!flock) return;
+    for (int i = 0; i < FLIGHT; i++) array_free(alloc, &flock[i].walk.stack);
+    base_free(alloc, flock, FLIGHT * sizeof *flock);
+}
+
+/* A ray that is not for single precision. */
+static froe_status go_alone(flight *f, size_t i) {
+    const double *origin = f->origins + 3 * i, *direction = f->directions + 3 * i;
+    if (f->hits) return froe_query_ray(f->query, origin, direction, f->t_max, f->hits + i, f->diag);
+    return froe_query_ray_any(f->query, origin, direction, f->t_max, f->objects + i, f->diag);
+}
+
+/* The next ray sets out; *flies false: none is left. */
+static froe_status launch(flight *f, space_runner *r, bool *flies) {
+    *flies = false;
+    while (f->next < f->count && !*flies) {
+        r->at = f->next++;
+        r->ray = (geom_ray){.dim = 3};
+        memcpy(r->ray.o, f->origins + 3 * r->at, 3 * sizeof(double));
+        memcpy(r->ray.d, f->directions + 3 * r->at, 3 * sizeof(double));
+        r->limit = f->t_max;
+        r->best.object = r->pending = FROE_NONE;
+        if (space_walk_ray(f->query, &r->walk, &r->ray, flies)) return base_fail_memory(f->diag);
+        const froe_status status = *flies ? FROE_OK : go_alone(f, r->at);
+        if (status) return status;
+    }
+    f->query->stats.queries += *flies;
+    return FROE_OK;
+}
+
+static void arrive(const flight *f, const space_runner *r) {
+    const bool meets = r->best.object != FROE_NONE;
+    if (f->objects) f->objects[r->at] = r->best.object;
+    if (!f->hits) return;
+    f->hits[r->at] = (froe_hit){.object = r->best.object};
+    if (meets) f->hits[r->at].t = geom_hit_round(&f->query->numbers, &r->ray, &r->best.hit);
+}
+
+/* False: the ray has gone far enough. */
+static bool decide(const flight *f, space_runner *r) {
+    query_met met;
+    const uint32_t object = r->pending;
+    r->pending = FROE_NONE;
+    if (object == r->best.object || !query_ray_meets(f->query, &r->ray, object, f->t_max, &met)) return true;
+    if (r->best.object != FROE_NONE && !query_ray_nearer(f->query, &r->ray, &met, &r->best)) return true;
+    r->best = met;
+    const double limit = query_ray_latest(&met.hit);
+    if (limit < r->limit) r->limit = limit;
+    return f->hits;
+}
+
+/* SPACE_END: it has arrived. */
+static space_step step(const flight *f, space_runner *r) {
+    if (r->pending != FROE_NONE && !decide(f, r)) return SPACE_END;
+    const space_step did = space_walk_step(f->query, &r->walk, r->limit);
+    if (did != SPACE_OBJECT) return did;
+    r->pending = r->walk.object;
+    scene_ask_points(f->query->tree->scene, r->pending);
+    return SPACE_ON;
+}
+
+/* The last ray takes the place of one that has arrived when there is none to follow it. */
+static froe_status fly(flight *f, space_runner *flock) {
+    size_t flying = 0;
+    bool flies = true;
+    froe_status status = FROE_OK;
+    for (; flying < FLIGHT && flies && !status; flying += flies) status = launch(f, flock + flying, &flies);
+    for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
+        const space_step did = step(f, flock + i);
+        if (did == SPACE_NO_MEMORY) return base_fail_memory(f->diag);
+        if (did != SPACE_END) continue;
+        arrive(f, flock + i);
+        status = launch(f, flock + i, &flies);
+        if (flies || status) continue;
+        const space_runner gone = flock[i];
+        flock[i] = flock[--flying];
+        flock[flying] = gone;
+        if (i == flying) i = 0;
+    }
+    return status;
+}
+
+froe_status space_rays(froe_query *q, const double *origins, const double *directions, size_t count, double t_max,
+                       froe_hit *hits, uint32_t *objects, froe_diagnostic *diag) {
+    const uint64_t exact = q->numbers.stats.exact;
+    flight f = {q, origins, directions, t_max, hits, objects, count, 0, diag};
+    if (!q->space->flock) q->space->flock = base_calloc(&q->alloc, FLIGHT, sizeof *q->space->flock);
+    if (!q->space->flock) return base_fail_memory(diag);
+    const froe_status status = fly(&f, q->space->flock);
+    q->stats.exact += q->numbers.stats.exact - exact;
+    return status;
+}

@@ -1,0 +1,67 @@
+/* space_window.c: windows on packed trees of space.
+ *
+ * Leaves are gathered first, and their blocks asked for, then tested. What a kernel is sure of is reported, the rest is
+ * decided exactly; an object that several leaves list is looked at once. */
+#include "query/packed/space.h"
+
+static void ask_for(const uint8_t *block) {
+    for (int at = 0; at < 512; at += 64) __builtin_prefetch(block + at);
+}
+
+/* Leaves whose boxes the window may meet: their blocks become `others`. */
+static bool gather(froe_query *q, const space_window *window) {
+    space_work *w = q->space;
+    const tree_wide *wide = q->tree->packed.wide;
+    w->objects.count = w->others.count = 0;
+    if (!array_push(&q->alloc, &w->objects, 0)) return false;
+    while (w->objects.count) {
+        const wide_node *n = wide->nodes + w->objects.data[--w->objects.count];
+        q->stats.nodes++;
+        if (!array_reserve(&q->alloc, &w->objects, WIDE_CHILDREN) ||
+            !array_reserve(&q->alloc, &w->others, WIDE_CHILDREN))
+            return false;
+        for (uint32_t bits = w->kernels->window_node(n, window); bits; bits &= bits - 1) {
+            const uint32_t child = n->child[__builtin_ctz(bits)];
+            if (child & WIDE_LEAF) {
+                ask_for(q->tree->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK);
+                w->others.data[w->others.count++] = child & WIDE_INDEX;
+            } else {
+                __builtin_prefetch(wide->nodes + child);
+                w->objects.data[w->objects.count++] = child;
+            }
+        }
+    }
+    return true;
+}
+
+/* Objects of a block that meet the window. False without memory. */
+static bool answer(froe_query *q, const space_header *h, const space_window *window) {
+    space_work *w = q->space;
+    const size_t room = h->count + PACKED_LANES;
+    bool memory = false;
+    w->objects.count = 0;
+    if (!query_expect(q, h->count) || !array_reserve(&q->alloc, &w->objects, 2 * room)) return false;
+    space_answers answers = {w->objects.data, w->objects.data + room, 0, 0};
+    w->kernels->window(h, window, &answers);
+    q->stats.leaves++;
+    for (size_t i = 0; i < answers.sure_count; i++)
+        if (query_mark(&q->marks, answers.sure[i])) query_found(q, answers.sure[i]);
+    for (size_t i = 0; i < answers.unsure_count; i++)
+        if (query_mark(&q->marks, answers.unsure[i]) && query_range_meets(q, answers.unsure[i], &memory))
+            query_found(q, answers.unsure[i]);
+    return true;
+}
+
+froe_status space_range(froe_query *q, const double *lo, const double *hi, bool any) {
+    const tree_wide *wide = q->tree->packed.wide;
+    space_window window = {.wide = wide};
+    for (int k = 0; k < 3; k++) {
+        window.lo[k] = lo[k], window.hi[k] = hi[k];
+        window.from[k] = (lo[k] - wide->middle[k]) * wide->scale;
+        window.to[k] = (hi[k] - wide->middle[k]) * wide->scale;
+    }
+    if (!gather(q, &window)) return FROE_E_MEMORY;
+    for (size_t i = 0; i < q->space->others.count && !(any && q->found.count); i++)
+        if (!answer(q, space_block(q->tree, q->space->others.data[i]), &window)) return FROE_E_MEMORY;
+    return FROE_OK;
+}

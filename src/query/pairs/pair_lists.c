@@ -1,0 +1,104 @@
+/* pair_lists.c: see pair_lists.h. */
+#include "query/pairs/pair_lists.h"
+#include "base/floats.h"
+#include "query/heap.h"
+
+enum { ROOM = 1024 }; /* pairs that a thread may add without asking others */
+#define PAIR_OBJECT ((1u << PAIR_KIND) - 1)
+
+froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32_t objects, unsigned threads,
+                            uint32_t most) {
+    *out = (pair_lists){.alloc = alloc, .objects = objects, .threads = threads};
+    atomic_init(&out->left, most);
+    while (objects >> out->shift >= PAIR_PARTS) out->shift++;
+    out->lists = base_calloc(alloc, threads, sizeof *out->lists);
+    return out->lists ? FROE_OK : FROE_E_MEMORY;
+}
+
+void pair_lists_give(pair_lists *l) {
+    for (unsigned i = 0; l->lists && i < l->threads; i++)
+        for (int part = 0; part < PAIR_PARTS; part++) array_free(l->alloc, &l->lists[i].parts[part]);
+    base_free(l->alloc, l->lists, l->threads * sizeof *l->lists);
+    base_free(l->alloc, l->starts, ((size_t)l->objects + 1) * sizeof *l->starts);
+    base_free(l->alloc, l->sorted, (l->firsts[PAIR_PARTS] + 1) * sizeof *l->sorted);
+}
+
+/* Room for more pairs, of what is left for all. */
+static bool ask_room(pair_lists *l, pair_list *list) {
+    unsigned left = atomic_load(&l->left), taken;
+    do taken = left < ROOM ? left : ROOM;
+    while (taken && !atomic_compare_exchange_weak(&l->left, &left, left - taken));
+    list->room = taken;
+    return taken > 0;
+}
+
+froe_status pair_lists_add(pair_lists *l, unsigned thread, uint32_t a, uint32_t b, froe_meeting kind) {
+    pair_list *list = l->lists + thread;
+    const pair_item item = {a < b ? a : b, (a < b ? b : a) | (uint32_t)kind << PAIR_KIND};
+    if (!list->room && !ask_room(l, list)) return FROE_E_LIMIT;
+    if (!array_push(l->alloc, &list->parts[item.a >> l->shift], item)) return FROE_E_MEMORY;
+    list->room--;
+    return FROE_OK;
+}
+
+/* ----------------------------------------------------------------- sorting -- */
+
+static bool later(void *user, uint32_t i, uint32_t j) {
+    (void)user;
+    return (i & PAIR_OBJECT) > (j & PAIR_OBJECT);
+}
+
+/* Counts the pairs of each first id of a part; starts[id] is then where those of the next id begin. */
+static void count_firsts(const pair_lists *l, size_t part, uint32_t from, uint32_t to) {
+    for (unsigned t = 0; t < l->threads; t++)
+        for (size_t i = 0; i < l->lists[t].parts[part].count; i++) l->starts[l->lists[t].parts[part].data[i].a]++;
+    uint32_t sum = (uint32_t)l->firsts[part];
+    for (uint32_t id = from; id < to; id++) l->starts[id] = sum += l->starts[id];
+}
+
+/* Puts them, the last first, so that starts[id] ends where its own begin. */
+static void put_seconds(const pair_lists *l, size_t part) {
+    for (unsigned t = 0; t < l->threads; t++)
+        for (size_t i = 0; i < l->lists[t].parts[part].count; i++) {
+            const pair_item item = l->lists[t].parts[part].data[i];
+            l->sorted[--l->starts[item.a]] = item.b;
+        }
+}
+
+static froe_status sort_part(void *user, unsigned worker, size_t part) {
+    const pair_lists *l = user;
+    const uint64_t next = (uint64_t)(part + 1) << l->shift;
+    const uint32_t from = (uint32_t)part << l->shift, to = next < l->objects ? (uint32_t)next : l->objects;
+    (void)worker;
+    if (from >= to) return FROE_OK;
+    count_firsts(l, part, from, to);
+    put_seconds(l, part);
+    for (uint32_t id = from; id < to; id++) {
+        const size_t end = id + 1 < to ? l->starts[id + 1] : l->firsts[part + 1];
+        query_heap_sort(l->sorted + l->starts[id], end - l->starts[id], later, NULL);
+    }
+    return FROE_OK;
+}
+
+froe_status pair_lists_sort(pair_lists *l, base_task *task, double span) {
+    size_t sum = 0;
+    for (int part = 0; part < PAIR_PARTS; part++) {
+        l->firsts[part] = sum;
+        for (unsigned t = 0; t < l->threads; t++) sum += l->lists[t].parts[part].count;
+    }
+    l->starts = base_calloc(l->alloc, (size_t)l->objects + 1, sizeof *l->starts);
+    l->sorted = base_calloc(l->alloc, sum + 1, sizeof *l->sorted);
+    l->firsts[PAIR_PARTS] = sum;
+    if (!l->starts || !l->sorted) return FROE_E_MEMORY;
+    l->starts[l->objects] = (uint32_t)sum;
+    return base_run(task, span, PAIR_PARTS, sort_part, l);
+}
+
+void pair_lists_tell(const pair_lists *l, froe_pair_fn *fn, void *user) {
+    for (uint32_t a = 0; a < l->objects; a++)
+        for (uint32_t i = l->starts[a]; i < l->starts[a + 1]; i++) {
+            const uint32_t b = l->sorted[i];
+            const froe_pair pair = {a, b & PAIR_OBJECT, (froe_meeting)(b >> PAIR_KIND)};
+            if (!base_callback(fn(user, &pair))) return;
+        }
+}

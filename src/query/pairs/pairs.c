@@ -1,0 +1,172 @@
+/* pairs.c: which objects meet, and how?
+ *
+ * Objects that touch across a cut need not share a list, so each object in turn is asked for as a closed range,
+ * which misses nothing (range_walk.c); of two that meet, the one with the lower id finds the other. How they meet is
+ * then decided exactly (geom/meet/contact.h).
+ *
+ *     objects    0 .. 63 | 64 .. 127 | ...    jobs, a wave of them at a time, told in order when it is whole */
+#include "base/floats.h"
+#include "base/status.h"
+#include "geom/meet/contact.h"
+#include "query/heap.h"
+#include "query/packed/packed.h"
+#include "query/workers.h"
+#include <string.h>
+
+enum { CHUNK = 64, WAVE = 32 }; /* objects a job; jobs a thread before what they found is told */
+
+/* What a thread needs beside its context. */
+typedef struct desk {
+    froe_query *q;
+    ARRAY(double) points;     /* of the object that asks */
+    ARRAY(signed char) sides; /* for geom_contact_of() */
+} desk;
+
+typedef struct chunk {
+    ARRAY(froe_pair) pairs;
+} chunk;
+
+typedef struct search {
+    query_workers *workers;
+    bool shared;
+    desk *desks;        /* [thread] */
+    chunk *chunks;      /* of a wave */
+    size_t chunk_count; /* most of a wave */
+    uint32_t first;     /* object of the wave */
+} search;
+
+/* An object as a range. False without memory. */
+static bool take(desk *d, const geom_body *b, froe_range *range) {
+    const size_t dim = (size_t)b->dim, count = b->form == FROE_POINT ? 2 : b->count;
+    d->points.count = 0;
+    if (!array_reserve(&d->q->alloc, &d->points, count * dim)) return false;
+    for (uint32_t i = 0; i < count; i++)
+        memcpy(d->points.data + i * dim, geom_body_point(b, b->form == FROE_POINT ? 0 : i), dim * sizeof(double));
+    *range = froe_range_defaults();
+    range->points = d->points.data;
+    range->count = b->count;
+    range->radius = b->radius;
+    range->shape = b->form == FROE_BALL                              ? FROE_SHAPE_BALL
+                   : b->form == FROE_SEGMENT                         ? FROE_SHAPE_SEGMENT
+                   : b->form == FROE_HULL || b->form == FROE_POLYGON ? FROE_SHAPE_HULL
+                                                                     : FROE_SHAPE_BOX;
+    return true;
+}
+
+static bool greater(void *user, uint32_t a, uint32_t b) {
+    (void)user;
+    return a > b;
+}
+
+/* Keeps what was found with an id above that of the object, in order. */
+static void keep_later(froe_query *q, uint32_t object) {
+    size_t kept = 0;
+    for (size_t i = 0; i < q->found.count; i++)
+        if (q->found.data[i] > object) q->found.data[kept++] = q->found.data[i];
+    q->found.count = kept;
+    query_heap_sort(q->found.data, kept, greater, NULL);
+}
+
+/* Adds the pairs of an object with those found. False without memory. */
+static bool add_pairs(desk *d, uint32_t object, const geom_body *a, bool shared, chunk *out) {
+    static const froe_meeting kinds[GEOM_CONTACTS] = {
+        [GEOM_CROSS] = FROE_MEET_CROSS, [GEOM_TOUCH] = FROE_MEET_TOUCH, [GEOM_OVERLAP] = FROE_MEET_OVERLAP};
+    froe_query *q = d->q;
+    for (size_t i = 0; i < q->found.count; i++) {
+        const geom_body b = scene_body(q->tree->scene, q->found.data[i]);
+        d->sides.count = 0;
+        if (!array_reserve(&q->alloc, &d->sides, (size_t)a->count + b.count)) return false;
+        const geom_contact c = geom_contact_of(&q->numbers, a, &b, d->sides.data);
+        if (!shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) continue;
+        if (!array_push(&q->alloc, &out->pairs, (froe_pair){object, q->found.data[i], kinds[c.kind]})) return false;
+    }
+    return true;
+}
+
+/* Finds the pairs of some objects with later ones. */
+static froe_status find(void *user, unsigned worker, size_t job) {
+    search *s = user;
+    desk *d = s->desks + worker;
+    chunk *out = s->chunks + job;
+    const froe_scene *scene = d->q->tree->scene;
+    const uint32_t first = s->first + (uint32_t)job * CHUNK, left = scene->object_count - first;
+    out->pairs.count = 0;
+    for (uint32_t i = first; i < first + (left < CHUNK ? left : CHUNK); i++) {
+        const geom_body body = scene_body(scene, i);
+        froe_range range;
+        if (!take(d, &body, &range)) return FROE_E_MEMORY;
+        const froe_status status = query_range_ask(d->q, &range, false, NULL);
+        if (status) return status;
+        keep_later(d->q, i);
+        if (!add_pairs(d, i, &body, s->shared, out)) return FROE_E_MEMORY;
+    }
+    return FROE_OK;
+}
+
+/* Wave after wave is found by all threads, then told in order. */
+static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, void *user) {
+    const uint64_t jobs = ((uint64_t)objects + CHUNK - 1) / CHUNK;
+    for (uint64_t done = 0; done < jobs; done += s->chunk_count) {
+        const size_t count = jobs - done < s->chunk_count ? (size_t)(jobs - done) : s->chunk_count;
+        s->first = (uint32_t)done * CHUNK;
+        const froe_status status = base_run(&s->workers->task, (double)count / (double)jobs, count, find, s);
+        if (status) return status;
+        for (size_t i = 0; i < count; i++)
+            for (size_t n = 0; n < s->chunks[i].pairs.count; n++)
+                if (!base_callback(fn(user, s->chunks[i].pairs.data + n))) return FROE_OK;
+    }
+    return FROE_OK;
+}
+
+static bool take_desks(search *s, const froe_allocator *alloc) {
+    const unsigned threads = s->workers->count;
+    s->chunk_count = threads > 1 ? (size_t)threads * WAVE : 1;
+    s->desks = base_calloc(alloc, threads, sizeof *s->desks);
+    s->chunks = base_calloc(alloc, s->chunk_count, sizeof *s->chunks);
+    for (unsigned i = 0; s->desks && i < threads; i++) s->desks[i].q = s->workers->queries[i];
+    return s->desks && s->chunks;
+}
+
+static void give_desks(search *s, const froe_allocator *alloc) {
+    for (unsigned i = 0; s->desks && i < s->workers->count; i++) {
+        array_free(alloc, &s->desks[i].points);
+        array_free(alloc, &s->desks[i].sides);
+    }
+    for (size_t i = 0; s->chunks && i < s->chunk_count; i++) array_free(alloc, &s->chunks[i].pairs);
+    base_free(alloc, s->desks, s->workers->count * sizeof *s->desks);
+    base_free(alloc, s->chunks, s->chunk_count * sizeof *s->chunks);
+}
+
+static froe_status find_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
+    const froe_query *query = workers->queries[0];
+    search s = {.workers = workers, .shared = shared};
+    const froe_status status =
+        take_desks(&s, &query->alloc) ? search_all(&s, query->tree->scene->object_count, fn, user) : FROE_E_MEMORY;
+    give_desks(&s, &query->alloc);
+    return status;
+}
+
+froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options, froe_pair_fn *fn,
+                             void *fn_user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || !fn) return base_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
+    const size_t jobs = ((size_t)query->tree->scene->object_count + CHUNK - 1) / CHUNK;
+    const uint64_t queries = query->stats.queries;
+    query_workers workers;
+    froe_status status = query_workers_take(query, options, jobs, &workers, diag);
+    if (!status) {
+        status = query->packed ? packed_pairs(&workers, shared, fn, fn_user) : FROE_E_LIMIT;
+        if (status == FROE_E_LIMIT) status = find_pairs(&workers, shared, fn, fn_user);
+        if (status == FROE_E_CANCELLED) base_fail_cancelled(diag);
+        if (status == FROE_E_MEMORY) base_fail_memory(diag);
+    }
+    query_workers_give(&workers);
+    query->stats.queries = queries + 1; /* and not one for each object that asked */
+    return status;
+}
+
+froe_status froe_query_pairs(froe_query *query, bool shared, froe_pair_fn *fn, void *user, froe_diagnostic *diag) {
+    froe_batch_options alone = froe_batch_defaults();
+    alone.threads = 1;
+    return froe_batch_pairs(query, shared, &alone, fn, user, diag);
+}

@@ -1,0 +1,186 @@
+/* descent.c: see descent.h. */
+#include "query/point/descent.h"
+#include "base/status.h"
+#include <math.h>
+
+enum { GROUP = 8, LEAVES_PER_CELL = 16 };
+
+static void free_descent(const froe_allocator *alloc, query_part *part) {
+    query_descent *d = (query_descent *)part;
+    base_free(alloc, d->cuts, d->cut_count * sizeof *d->cuts);
+    base_free(alloc, d->nodes, d->cut_count * sizeof *d->nodes);
+    base_free(alloc, d->table, (size_t)d->columns * d->rows * sizeof *d->table);
+    base_free(alloc, d, sizeof *d);
+}
+
+/* ------------------------------------------------------------------- order -- */
+
+typedef struct plan {
+    const froe_tree *tree;
+    const froe_allocator *alloc;
+    query_descent *d;
+    uint32_t *weights; /* [node]: leaves below */
+    uint32_t *numbers; /* [node]: of its cut */
+    ARRAY(uint32_t) roots;
+} plan;
+
+static void weigh(plan *p) {
+    const tree_node *nodes = p->tree->nodes;
+    for (uint32_t v = p->tree->node_count; v-- > 0;) /* children come after their parents */
+        p->weights[v] = tree_is_leaf(nodes + v) ? 1 : p->weights[nodes[v].child] + p->weights[nodes[v].child + 1];
+}
+
+/* The heaviest of some nodes, which is taken from them. */
+static uint32_t take_heaviest(const plan *p, uint32_t *open, size_t *count) {
+    size_t best = 0;
+    for (size_t i = 1; i < *count; i++)
+        if (p->weights[open[i]] > p->weights[open[best]]) best = i;
+    const uint32_t node = open[best];
+    open[best] = open[--*count];
+    return node;
+}
+
+/* Numbers a group of cuts; the roots of others below it wait. */
+static bool number_group(plan *p, uint32_t root) {
+    uint32_t open[GROUP + 1] = {root};
+    size_t count = 1;
+    for (int taken = 0; taken < GROUP && count; taken++) {
+        const uint32_t node = take_heaviest(p, open, &count), child = p->tree->nodes[node].child;
+        p->numbers[node] = p->d->cut_count;
+        p->d->nodes[p->d->cut_count++] = node;
+        for (uint32_t side = 0; side < 2; side++)
+            if (!tree_is_leaf(p->tree->nodes + child + side)) open[count++] = child + side;
+    }
+    if (!array_reserve(p->alloc, &p->roots, count)) return false;
+    for (size_t i = 0; i < count; i++) p->roots.data[p->roots.count++] = open[i];
+    return true;
+}
+
+static bool number_cuts(plan *p) {
+    bool ok = array_push(p->alloc, &p->roots, 0);
+    while (ok && p->roots.count) ok = number_group(p, p->roots.data[--p->roots.count]);
+    return ok;
+}
+
+/* -------------------------------------------------------------------- cuts -- */
+
+/* A line as floats see it; false: they cannot. */
+static bool see_line(const query_descent *d, const geom_plane *h, int *major, double *slope, double *c) {
+    if (h->form <= GEOM_AT_CROSSING) {
+        *major = h->axis;
+        *slope = 0;
+        *c = (d->lo[h->axis] - h->c) * d->scale;
+        return h->c_err * d->scale <= 0x1p-26 && fabs(*c) <= 2;
+    }
+    const double *o = h->p[0];
+    *major = fabs(h->n[1]) > fabs(h->n[0]);
+    const int other = !*major;
+    const double n = h->n[*major], along = d->lo[*major] - (h->form == GEOM_POINTS ? o[*major] : 0),
+                 across = d->lo[other] - (h->form == GEOM_POINTS ? o[other] : 0),
+                 value = h->form == GEOM_VECTOR ? h->c / n : 0;
+    *slope = h->n[other] / n;
+    *c = (along + *slope * across - value) * d->scale;
+    const double size = (fabs(along) + fabs(across) + fabs(value)) * d->scale;
+    return h->n_err <= fabs(n) * 0x1p-40 && size <= 0x1p10 && fabs(*c) <= 2;
+}
+
+static uint32_t place_of(const plan *p, uint32_t node) {
+    const tree_node *n = p->tree->nodes + node;
+    if (!tree_is_leaf(n)) return p->numbers[node];
+    return node | DESCENT_LEAF | (n->u.list.count ? 0 : DESCENT_EMPTY);
+}
+
+static void lay_cut(plan *p, uint32_t number) {
+    const uint32_t node = p->d->nodes[number], child = p->tree->nodes[node].child;
+    const geom_plane h = tree_plane_at(p->tree, node);
+    int major;
+    double slope, c;
+    const bool seen = see_line(p->d, &h, &major, &slope, &c), back = seen && h.n[major] < 0;
+    descent_cut *cut = p->d->cuts + number;
+    *cut = (descent_cut){.slope = seen ? (float)slope : 0, .c = seen ? (float)c : NAN};
+    for (uint32_t side = 0; side < 2; side++) cut->next[side ^ back] = place_of(p, child + side);
+    if (seen && major) cut->next[0] |= DESCENT_STEEP;
+    if (back) p->d->nodes[number] |= DESCENT_BACK;
+}
+
+/* ------------------------------------------------------------------- table -- */
+
+/* The first cut from here on that may meet a cell. */
+static uint32_t settle(const query_descent *d, uint32_t next, const float middle[2], float half) {
+    while (!(next & DESCENT_LEAF)) {
+        const descent_cut *cut = d->cuts + next;
+        const float value = query_descent_value(cut, middle);
+        if (!(fabsf(value) > half * (1 + fabsf(cut->slope)) + 2 * DESCENT_DOUBT)) break;
+        next = query_descent_next(cut, value > 0);
+    }
+    return next;
+}
+
+/* From coarse cells to fine ones, the first of each four last as it takes the place of their parent. */
+static void fill_table(query_descent *d) {
+    d->table[0] = 0;
+    for (uint32_t step = 1u << ilogbf(d->grid); step; step /= 2)
+        for (uint32_t i = (d->columns - 1) / step + 1; i-- > 0;)
+            for (uint32_t j = (d->rows - 1) / step + 1; j-- > 0;) {
+                const size_t parent = (size_t)(i & ~1u) * step * d->rows + (size_t)(j & ~1u) * step;
+                const float half = 0.5f * (float)step / d->grid,
+                            middle[2] = {(2 * (float)i + 1) * half, (2 * (float)j + 1) * half};
+                d->table[(size_t)i * step * d->rows + (size_t)j * step] = settle(d, d->table[parent], middle, half);
+            }
+}
+
+/* ------------------------------------------------------------------ making -- */
+
+/* Units of the scene, in which its longer side is a little less than 1; false: there are none. */
+static bool take_units(query_descent *d, const froe_tree *t) {
+    const froe_scene *s = t->scene;
+    double side[2];
+    if (s->dim != 2 || tree_is_packed(t) || !s->object_count || t->node_count > DESCENT_NODE) return false;
+    for (int k = 0; k < 2; k++) d->lo[k] = s->lo[k], side[k] = s->hi[k] - s->lo[k];
+    const double most = fmax(side[0], side[1]);
+    if (!(most >= 0x1p-900 && most <= 0x1p900) || tree_is_leaf(t->nodes)) return false;
+    d->scale = (1 - 0x1p-10) / most;
+    const double cells = (double)t->node_count / (2 * LEAVES_PER_CELL), area = side[0] * d->scale * side[1] * d->scale;
+    d->grid = exp2f(fminf(fmaxf(roundf(0.5f * log2f((float)(cells / fmax(area, 0x1p-10)))), 0), 13));
+    d->columns = (uint32_t)(side[0] * d->scale * (double)d->grid) + 1;
+    d->rows = (uint32_t)(side[1] * d->scale * (double)d->grid) + 1;
+    return true;
+}
+
+static bool fill(query_descent *d, const froe_tree *t, const froe_allocator *alloc) {
+    plan p = {.tree = t, .alloc = alloc, .d = d};
+    const uint32_t cuts = t->node_count / 2;
+    bool ok = false;
+    d->cuts = base_calloc(alloc, cuts, sizeof *d->cuts);
+    d->nodes = base_calloc(alloc, cuts, sizeof *d->nodes);
+    d->table = base_calloc(alloc, (size_t)d->columns * d->rows, sizeof *d->table);
+    p.weights = base_calloc(alloc, t->node_count, sizeof *p.weights);
+    p.numbers = base_calloc(alloc, t->node_count, sizeof *p.numbers);
+    if (d->cuts && d->nodes && d->table && p.weights && p.numbers) {
+        weigh(&p);
+        ok = number_cuts(&p);
+        for (uint32_t i = 0; ok && i < cuts; i++) lay_cut(&p, i);
+        if (ok) fill_table(d);
+    }
+    d->cut_count = cuts;
+    base_free(alloc, p.weights, t->node_count * sizeof *p.weights);
+    base_free(alloc, p.numbers, t->node_count * sizeof *p.numbers);
+    array_free(alloc, &p.roots);
+    return ok;
+}
+
+static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    query_descent *d = base_calloc(&q->alloc, 1, sizeof *d);
+    if (!d) return base_fail_memory(diag);
+    d->part.free = free_descent;
+    *out = &d->part;
+    d->there = q->numbers.first == NUM_FILTER && take_units(d, q->tree);
+    return d->there && !fill(d, q->tree, &q->alloc) ? base_fail_memory(diag) : FROE_OK;
+}
+
+froe_status query_descent_of(froe_query *query, const query_descent **out, froe_diagnostic *diag) {
+    const query_part *part;
+    const froe_status status = query_prepare(query, QUERY_DESCENT, make, &part, diag);
+    if (status == FROE_OK) *out = (const query_descent *)part;
+    return status;
+}

@@ -1,0 +1,60 @@
+/* groups.c: the groups that a point of the plane lies in: those of its leaf, and those on whose borders it is. */
+#include "base/floats.h"
+#include "base/status.h"
+#include "query/check.h"
+#include "query/point/areas.h"
+
+/* Groups of the objects that contain the point. */
+static froe_status add_holders(froe_query *q, const double *point, froe_diagnostic *diag) {
+    const uint32_t *groups = q->tree->scene->groups;
+    const froe_status status = query_locate(q, point, diag);
+    for (size_t i = 0; !status && i < q->found.count; i++) {
+        const uint32_t group = groups ? groups[q->found.data[i]] : FROE_NONE;
+        if (group != FROE_NONE && !query_members_add(&q->groups.touched, &q->alloc, group))
+            return base_fail_memory(diag);
+    }
+    return status;
+}
+
+/* The groups on whose borders the point is join those that it is inside of. */
+static froe_status gather(froe_query *q, const query_areas *areas, const double *point, froe_diagnostic *diag) {
+    froe_status status = FROE_OK;
+    if (areas->solids || !areas->borders) status = add_holders(q, point, diag);
+    for (size_t i = 0; !status && i < q->groups.touched.count; i++)
+        if (!query_members_add(&q->groups.inside, &q->alloc, q->groups.touched.data[i])) return base_fail_memory(diag);
+    return status;
+}
+
+froe_status query_groups_in(froe_query *q, const query_areas *areas, const double *point, const query_leaf *leaf,
+                            froe_diagnostic *diag) {
+    const uint64_t queries = q->stats.queries + 1, exact = q->numbers.stats.exact;
+    froe_status status = FROE_OK;
+    q->groups.inside.count = q->groups.touched.count = 0;
+    if (query_in_scene(q->tree->scene, point)) {
+        if (areas->borders && query_areas_enter(q, areas, leaf, point)) return base_fail_memory(diag);
+        status = gather(q, areas, point, diag);
+    }
+    q->stats.queries = queries;
+    q->stats.exact += q->numbers.stats.exact - exact;
+    return status;
+}
+
+froe_status query_groups_prepare(froe_query *query, const query_areas **out, froe_diagnostic *diag) {
+    if (query->tree->scene->dim != 2)
+        return base_fail(diag, FROE_E_UNSUPPORTED, "Which groups a point lies in is asked in the plane only.");
+    return query_areas_of(query, out, diag);
+}
+
+froe_status froe_query_groups(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    const query_areas *areas;
+    query_leaf leaf = {0};
+    if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_groups: NULL argument.");
+    froe_status status = query_groups_prepare(query, &areas, diag);
+    if (!status) status = query_check_point(point, 2, "A point", diag);
+    if (status) return status;
+    if (areas->borders && query_leaf_find(query, point, &leaf)) return base_fail_memory(diag);
+    status = query_groups_in(query, areas, point, &leaf, diag);
+    if (!status) *out = (froe_list){query->groups.inside.data, query->groups.inside.count};
+    return status;
+}

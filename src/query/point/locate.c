@@ -1,0 +1,71 @@
+/* locate.c: the objects that contain a point. Where it is on no cut they are in the list of its leaf: what contains it
+ * meets the leaf's open cell. On a cut it is a range of one point, which visits the list there and both sides. */
+#include "base/floats.h"
+#include "base/status.h"
+#include "query/check.h"
+#include "query/context.h"
+#include "query/point/leaf.h"
+#include "query/segment.h"
+#include <string.h>
+
+static bool holds(froe_query *q, uint32_t object, const double *x, bool *memory) {
+    const froe_scene *s = q->tree->scene;
+    if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return query_range_meets(q, object, memory);
+    q->stats.tests++;
+    return query_segment_meets_box(&q->numbers, scene_point(s, object, 0), scene_point(s, object, 1), x, x);
+}
+
+/* Those of a list. */
+static froe_status test_list(froe_query *q, const tree_objects *list, const froe_range *point, froe_diagnostic *diag) {
+    bool memory = false;
+    query_begin(q);
+    query_range_of_box(q, point);
+    if (!query_expect(q, list->count)) return base_fail_memory(diag);
+    for (uint32_t i = 0; i < list->count; i++) {
+        const uint32_t object = tree_object(list, i);
+        if (!query_seen(q, list, i, object) && holds(q, object, point->points, &memory)) query_found(q, object);
+    }
+    return memory ? base_fail_memory(diag) : FROE_OK;
+}
+
+/* A point as a range. */
+typedef struct spot {
+    froe_range range;
+    double ends[2 * FROE_MAX_DIM];
+} spot;
+
+static froe_status take(const froe_query *q, const double *point, spot *out, froe_diagnostic *diag) {
+    const size_t dim = (size_t)q->tree->scene->dim;
+    out->range = froe_range_defaults();
+    out->range.points = out->ends;
+    for (size_t k = 0; k < dim; k++) out->ends[k] = out->ends[dim + k] = point[k];
+    return query_check_point(point, (int)dim, "A point", diag);
+}
+
+froe_status query_locate_in(froe_query *q, const double *point, const query_leaf *leaf, froe_diagnostic *diag) {
+    spot s;
+    const froe_status status = take(q, point, &s, diag);
+    if (status) return status;
+    if (leaf->on_cut) return query_range_ask(q, &s.range, false, diag);
+    const tree_objects list = leaf->empty ? (tree_objects){0} : tree_list(q->tree, leaf->place);
+    return test_list(q, &list, &s.range, diag);
+}
+
+froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *diag) {
+    query_leaf leaf;
+    spot s;
+    const froe_status status = take(q, point, &s, diag);
+    if (status) return status;
+    if (tree_is_packed(q->tree)) return query_range_ask(q, &s.range, false, diag);
+    if (!query_in_scene(q->tree->scene, point)) return test_list(q, &(tree_objects){0}, &s.range, diag);
+    if (query_leaf_find(q, point, &leaf)) return base_fail_memory(diag);
+    return query_locate_in(q, point, &leaf, diag);
+}
+
+froe_status froe_query_locate(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_locate: NULL argument.");
+    const froe_status status = query_locate(query, point, diag);
+    if (!status) *out = query_list(query);
+    return status;
+}

@@ -1,0 +1,155 @@
+/* centroids.c: regions of all nodes, and the order in which to ask about them. */
+#include "query/range/centroids.h"
+#include "base/status.h"
+#include <math.h>
+#include <string.h>
+
+/* Plain descent is faster up to this many times the logarithm of the nodes. */
+enum { DEEP = 4 };
+
+static void free_centroids(const froe_allocator *alloc, query_part *part) {
+    query_centroids *c = (query_centroids *)part;
+    if (c->steps) base_free(alloc, c->steps, c->node_count * sizeof *c->steps);
+    if (c->boxes) base_free(alloc, c->boxes, (size_t)c->node_count * 2 * (size_t)c->dim * sizeof *c->boxes);
+    base_free(alloc, c, sizeof *c);
+}
+
+bool query_is_deep(const froe_tree *t) {
+    uint64_t log = 1;
+    while (t->node_count >> log) log++;
+    return t->report.height > DEEP * log;
+}
+
+/* ------------------------------------------------------------------ regions -- */
+
+/* An inner node with an axis-parallel cut? */
+static bool axis_cut(const froe_tree *t, uint32_t node, int *axis, double *value) {
+    const froe_cut cut = tree_cut_at(t, node);
+    *axis = cut.axis;
+    *value = cut.value;
+    return cut.kind == FROE_CUT_AXIS;
+}
+
+/* Sizes of the subtrees among axis-parallel cuts, 0 below oblique ones; parents; regions. */
+typedef struct plan {
+    const froe_tree *tree;
+    query_centroids *c;
+    uint32_t *sizes, *parents;
+    bool *gone;            /* is the subtree no longer part of what is left above it? */
+    ARRAY(uint64_t) parts; /* a root, and where the step that divides it goes: 2 step + side, or none */
+} plan;
+
+static void lay_regions(plan *p) {
+    const froe_tree *t = p->tree;
+    const size_t dim = (size_t)p->c->dim, width = 2 * dim;
+    for (size_t k = 0; k < width; k++) p->c->boxes[k] = k < dim ? -INFINITY : INFINITY;
+    p->sizes[0] = 1;
+    for (uint32_t v = 0; v < t->node_count; v++) { /* parents come first */
+        int axis;
+        double value;
+        if (!p->sizes[v] || !axis_cut(t, v, &axis, &value)) continue;
+        for (uint32_t side = 0; side < 2; side++) {
+            const uint32_t child = t->nodes[v].child + side;
+            double *box = p->c->boxes + child * width;
+            memcpy(box, p->c->boxes + v * width, width * sizeof *box);
+            box[side ? (size_t)axis : dim + (size_t)axis] = value;
+            p->parents[child] = v;
+            p->sizes[child] = 1;
+        }
+    }
+    for (uint32_t v = t->node_count - 1; v > 0; v--)
+        if (p->sizes[v]) p->sizes[p->parents[v]] += p->sizes[v];
+}
+
+/* ---------------------------------------------------------------- centroids -- */
+
+/* Of two children that are left the heavier; FROE_NONE if none is. */
+static uint32_t heavier(const plan *p, uint32_t node) {
+    const uint32_t child = p->tree->nodes[node].child;
+    if (tree_is_leaf(p->tree->nodes + node) || !p->sizes[child]) return FROE_NONE;
+    const uint32_t left = p->gone[child] ? 0 : p->sizes[child], right = p->gone[child + 1] ? 0 : p->sizes[child + 1];
+    return !left && !right ? FROE_NONE : child + (right > left);
+}
+
+static uint32_t find_centroid(const plan *p, uint32_t root) {
+    uint32_t v = heavier(p, root), next;
+    while ((uint64_t)p->sizes[v] * 3 > (uint64_t)p->sizes[root] * 2 && (next = heavier(p, v)) != FROE_NONE) v = next;
+    return v;
+}
+
+/* Takes the subtree of v out of the part that begins at root. */
+static void take_out(plan *p, uint32_t v, uint32_t root) {
+    p->gone[v] = true;
+    for (uint32_t u = v; u != root;) {
+        u = p->parents[u];
+        p->sizes[u] -= p->sizes[v];
+    }
+}
+
+static void link_to(plan *p, uint64_t from, uint32_t to) {
+    if (from == UINT64_MAX)
+        p->c->root = to;
+    else
+        p->c->steps[from / 2].next[from % 2] = to;
+}
+
+static bool push_part(plan *p, uint32_t root, uint64_t from) {
+    return array_push(&p->tree->alloc, &p->parts, root) && array_push(&p->tree->alloc, &p->parts, from);
+}
+
+static bool divide_parts(plan *p) {
+    bool ok = push_part(p, 0, UINT64_MAX);
+    while (ok && p->parts.count) {
+        const uint64_t from = p->parts.data[--p->parts.count];
+        const uint32_t root = (uint32_t)p->parts.data[--p->parts.count];
+        if (p->sizes[root] == 1) {
+            link_to(p, from, root | CENTROID_END);
+            continue;
+        }
+        const uint32_t v = find_centroid(p, root), step = p->c->count++;
+        p->c->steps[step].node = v;
+        link_to(p, from, step);
+        take_out(p, v, root);
+        ok = push_part(p, root, 2 * (uint64_t)step) && push_part(p, v, 2 * (uint64_t)step + 1);
+    }
+    return ok;
+}
+
+/* ------------------------------------------------------------------- making -- */
+
+static froe_status fill(query_centroids *c, const froe_tree *t) {
+    const froe_allocator *alloc = &t->alloc;
+    plan p = {.tree = t, .c = c};
+    bool ok = false;
+    c->steps = base_calloc(alloc, c->node_count, sizeof *c->steps);
+    c->boxes = base_calloc(alloc, (size_t)c->node_count * 2 * (size_t)c->dim, sizeof *c->boxes);
+    p.sizes = base_calloc(alloc, c->node_count, sizeof *p.sizes);
+    p.parents = base_calloc(alloc, c->node_count, sizeof *p.parents);
+    p.gone = base_calloc(alloc, c->node_count, sizeof *p.gone);
+    if (c->steps && c->boxes && p.sizes && p.parents && p.gone) {
+        lay_regions(&p);
+        ok = divide_parts(&p);
+    }
+    base_free(alloc, p.sizes, c->node_count * sizeof *p.sizes);
+    base_free(alloc, p.parents, c->node_count * sizeof *p.parents);
+    base_free(alloc, p.gone, c->node_count * sizeof *p.gone);
+    array_free(alloc, &p.parts);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    query_centroids *c = base_calloc(&q->alloc, 1, sizeof *c);
+    if (!c) return base_fail_memory(diag);
+    c->part.free = free_centroids;
+    *out = &c->part;
+    c->dim = q->tree->scene->dim;
+    c->node_count = q->tree->node_count;
+    return fill(c, q->tree) ? base_fail_memory(diag) : FROE_OK;
+}
+
+froe_status query_centroids_of(froe_query *query, const query_centroids **out, froe_diagnostic *diag) {
+    const query_part *part;
+    const froe_status status = query_prepare(query, QUERY_CENTROIDS, make, &part, diag);
+    if (status == FROE_OK) *out = (const query_centroids *)part;
+    return status;
+}

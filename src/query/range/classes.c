@@ -1,0 +1,130 @@
+/* classes.c: a tree of enlarged boxes for the objects of each class. */
+#include "query/range/classes.h"
+#include "base/radix.h"
+#include "base/status.h"
+#include <float.h>
+
+/* A tree that no overlap of boxes makes large, as it does those of `directional`. Leaves hold about what overlaps. */
+static const char METHOD[] = "kd";
+enum { LEAF = 2 }; /* times 2^dim */
+
+static void free_class(const froe_allocator *alloc, query_class *c) {
+    froe_query_free(c->query);
+    froe_tree_free(c->tree);
+    base_free(alloc, c->ids, c->count * sizeof *c->ids);
+}
+
+static void free_classes(const froe_allocator *alloc, query_part *part) {
+    query_classes *p = (query_classes *)part;
+    for (uint32_t i = 0; p->classes && i < p->count; i++) free_class(alloc, p->classes + i);
+    base_free(alloc, p->classes, p->count * sizeof *p->classes);
+    base_free(alloc, p, sizeof *p);
+}
+
+/* ----------------------------------------------------------------- classes -- */
+
+/* Half the greatest extent of an object; those below the normal numbers count as none. */
+static double size_of(const froe_scene *s, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], most = 0;
+    scene_object_bounds(s, object, lo, hi);
+    for (int k = 0; k < s->dim; k++) most = fmax(most, 0.5 * hi[k] - 0.5 * lo[k]);
+    return most < DBL_MIN ? 0 : most;
+}
+
+/* The greatest power of two that is no greater. */
+static double step_of(double size) {
+    int exponent;
+    if (size == 0) return 0;
+    frexp(size, &exponent);
+    return ldexp(1, exponent - 1);
+}
+
+/* Beyond x by a step, and a little further; no further than numbers go. */
+static double beyond(double x, double step, double direction) {
+    const double far = nextafter(x + direction * step, direction * INFINITY);
+    return fmin(fmax(far, -DBL_MAX), DBL_MAX);
+}
+
+static froe_status add_boxes(froe_scene *boxes, const froe_scene *s, const query_class *c, froe_diagnostic *diag) {
+    double ends[2 * FROE_MAX_DIM], *lo = ends, *hi = ends + s->dim;
+    froe_objects box = froe_objects_defaults();
+    froe_status status = FROE_OK;
+    box.kind = FROE_BOX;
+    box.count = 1;
+    box.coords = ends;
+    for (uint32_t i = 0; i < c->count && !status; i++) {
+        scene_object_bounds(s, c->ids[i], lo, hi);
+        for (int k = 0; k < s->dim; k++) {
+            lo[k] = c->step > 0 ? beyond(lo[k], c->step, -1) : lo[k];
+            hi[k] = c->step > 0 ? beyond(hi[k], c->step, 1) : hi[k];
+        }
+        status = froe_scene_add(boxes, &box, diag);
+    }
+    return status;
+}
+
+static froe_status build_class(const froe_tree *t, query_class *c, froe_diagnostic *diag) {
+    froe_scene *boxes = NULL;
+    froe_build_options o = froe_build_defaults();
+    o.method = METHOD;
+    o.leaf = (uint32_t)LEAF << t->scene->dim;
+    o.threads = 1;
+    froe_status status = froe_scene_new(t->scene->dim, &t->alloc, &boxes);
+    if (status) return base_fail_memory(diag);
+    status = add_boxes(boxes, t->scene, c, diag);
+    if (!status) status = froe_build(boxes, &o, &c->tree, diag);
+    if (!status) status = froe_query_new(c->tree, &c->query, diag);
+    froe_scene_free(boxes);
+    return status;
+}
+
+/* ------------------------------------------------------------------ making -- */
+
+/* A class of the objects first .. first + count. */
+static froe_status fill_class(query_class *c, const froe_tree *t, const base_pair *sorted, uint32_t count, double step,
+                              froe_diagnostic *diag) {
+    *c = (query_class){.step = step, .count = count};
+    c->ids = base_calloc(&t->alloc, count, sizeof *c->ids);
+    if (!c->ids) return base_fail_memory(diag);
+    for (uint32_t i = 0; i < count; i++) c->ids[i] = sorted[i].value;
+    return build_class(t, c, diag);
+}
+
+static froe_status add_classes(query_classes *p, const froe_tree *t, const base_pair *sorted, froe_diagnostic *diag) {
+    const uint32_t objects = t->scene->object_count;
+    uint32_t count = 0, next = 0, made = 0;
+    for (uint32_t i = 0; i < objects; i++) count += !i || sorted[i].key != sorted[i - 1].key;
+    p->classes = base_calloc(&t->alloc, count, sizeof *p->classes);
+    if (!p->classes) return base_fail_memory(diag);
+    p->count = count;
+    froe_status status = FROE_OK;
+    for (uint32_t first = 0; first < objects && !status; first = next) {
+        const double step = step_of(size_of(t->scene, sorted[first].value));
+        for (next = first; next < objects && sorted[next].key == sorted[first].key;) next++;
+        status = fill_class(p->classes + made++, t, sorted + first, next - first, step, diag);
+    }
+    return status;
+}
+
+static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    const froe_tree *t = q->tree;
+    const size_t objects = t->scene->object_count;
+    query_classes *p = base_calloc(&q->alloc, 1, sizeof *p);
+    if (!p) return base_fail_memory(diag);
+    p->part.free = free_classes;
+    *out = &p->part;
+    base_pair *sorted = base_calloc(&q->alloc, 2 * objects, sizeof *sorted);
+    if (!sorted) return base_fail_memory(diag);
+    for (uint32_t i = 0; i < objects; i++) sorted[i] = (base_pair){base_double_key(step_of(size_of(t->scene, i))), i};
+    base_radix_sort(sorted, sorted + objects, objects);
+    const froe_status status = add_classes(p, t, sorted, diag);
+    base_free(&q->alloc, sorted, (objects ? 2 * objects * sizeof *sorted : 1));
+    return status;
+}
+
+froe_status query_classes_of(froe_query *query, const query_classes **out, froe_diagnostic *diag) {
+    const query_part *part;
+    const froe_status status = query_prepare(query, QUERY_CLASSES, make, &part, diag);
+    if (status == FROE_OK) *out = (const query_classes *)part;
+    return status;
+}

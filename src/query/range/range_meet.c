@@ -1,0 +1,215 @@
+/* range_meet.c: does an object meet the range? The easy ways first, and in the end exactly. */
+#include "geom/meet/meet.h"
+#include "geom/predicates.h"
+#include "query/context.h"
+#include "query/segment.h"
+#include "scene/convex.h"
+#include <string.h>
+
+/* ------------------------------------------------------------------- boxes -- */
+
+/* An object that is a box grown by a radius: false if it is none. */
+static bool as_box(const froe_scene *s, uint32_t object, const double **lo, const double **hi, double *radius) {
+    *lo = *hi = scene_point(s, object, 0);
+    *radius = 0;
+    switch (scene_form(s, object)) {
+    case FROE_POINT:
+        return true;
+    case FROE_BALL:
+        *radius = scene_radius(s, object);
+        return true;
+    case FROE_BOX:
+        *hi = scene_point(s, object, 1);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool in_box(const double *x, const double *lo, const double *hi, int dim) {
+    for (int k = 0; k < dim; k++)
+        if (x[k] < lo[k] || x[k] > hi[k]) return false;
+    return true;
+}
+
+/* Do the boxes lo, hi and a, b have no point in common? */
+static bool boxes_apart(const double *lo, const double *hi, const double *a, const double *b, int dim) {
+    for (int k = 0; k < dim; k++)
+        if (hi[k] < a[k] || b[k] < lo[k]) return true;
+    return false;
+}
+
+/* The line of u and v, seen along an axis of space (-1: in the plane): is the box strictly on one side of it? It is
+ * enough to look at the two corners furthest across. */
+static bool beside(num_context *context, int axis, const double *u, const double *v, const double *lo,
+                   const double *hi) {
+    const int x = axis == 0 ? 1 : 0, y = axis < 0 || axis == 2 ? 1 : 2;
+    const double p[2] = {u[x], u[y]}, q[2] = {v[x], v[y]};
+    const bool rising = (q[0] > p[0]) == (q[1] > p[1]);
+    const double a[2] = {lo[x], rising ? hi[y] : lo[y]}, b[2] = {hi[x], rising ? lo[y] : hi[y]};
+    if (p[0] == q[0] || p[1] == q[1]) return false; /* bounds have told */
+    const geom_plane line = geom_plane_points(2, (const double *const[]){p, q});
+    const int side = geom_side_vertex(context, &line, a);
+    return side && side == geom_side_vertex(context, &line, b);
+}
+
+/* A segment and a box whose bounds meet. */
+static bool box_meets_segment(num_context *context, int dim, const double *lo, const double *hi, const double *u,
+                              const double *v) {
+    if (in_box(u, lo, hi, dim) || in_box(v, lo, hi, dim)) return true;
+    if (dim == 2) return !beside(context, -1, u, v, lo, hi);
+    for (int axis = 0; axis < 3; axis++)
+        if (beside(context, axis, u, v, lo, hi)) return false;
+    return true;
+}
+
+static bool box_meets_corner(const froe_scene *s, uint32_t object, const double *lo, const double *hi) {
+    for (uint32_t i = 0, n = scene_corners(s, object); i < n; i++)
+        if (in_box(scene_point(s, object, i), lo, hi, s->dim)) return true;
+    return false;
+}
+
+/* Only what lies within the bounds of the object counts, so that no bound is infinite. */
+static bool box_meets(froe_query *q, const double *lo, const double *hi, uint32_t object) {
+    const froe_scene *s = q->tree->scene;
+    double ends[6], a[3], b[3];
+    scene_object_bounds(s, object, a, b);
+    if (boxes_apart(lo, hi, a, b, s->dim)) return false;
+    for (int k = 0; k < s->dim; k++) {
+        ends[k] = lo[k] > a[k] ? lo[k] : a[k];
+        ends[s->dim + k] = hi[k] < b[k] ? hi[k] : b[k];
+    }
+    if (scene_form(s, object) == FROE_SEGMENT)
+        return box_meets_segment(&q->numbers, s->dim, ends, ends + s->dim, scene_point(s, object, 0),
+                                 scene_point(s, object, 1));
+    if (box_meets_corner(s, object, lo, hi)) return true;
+    const geom_convex box = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = ends};
+    const geom_convex set = scene_convex(s, object);
+    return geom_meet(&q->numbers, &set, &box);
+}
+
+/* -------------------------------------------------------------- halfspaces -- */
+
+/* 1: a corner of the object is in all halfspaces; 0: none is in one of them, nor anything else of the object;
+ * NUM_UNSURE. */
+static int halfspaces_meet_corners(num_context *context, const froe_range *from, const geom_convex *set) {
+    const uint32_t watched = set->count < 64 ? set->count : 64;
+    uint64_t in_all = watched < 64 ? ((uint64_t)1 << watched) - 1 : UINT64_MAX;
+    for (size_t h = 0; h < from->count; h++) {
+        const geom_plane plane = geom_plane_vector(set->dim, from->points + h * (size_t)set->dim, from->offsets[h]);
+        uint32_t outside = 0;
+        for (uint32_t i = 0; i < set->count; i++) {
+            double x[3];
+            for (int k = 0; k < set->dim; k++) x[k] = geom_convex_coordinate(set, i, k);
+            if (geom_side_vertex(context, &plane, x) <= 0) continue;
+            outside++;
+            if (i < watched) in_all &= ~((uint64_t)1 << i);
+        }
+        if (outside == set->count && set->radius == 0) return 0;
+    }
+    return in_all ? 1 : NUM_UNSURE;
+}
+
+/* The corners of the halfspaces within the bounds of the scene, when they are needed first. */
+static bool make_polytope(froe_query *q) {
+    query_range *r = &q->range;
+    const froe_scene *s = q->tree->scene;
+    if (r->polytope_made) return true;
+    r->polytope_made = geom_polytope_make(&q->numbers, &q->alloc, s->dim, r->from->points, r->from->offsets,
+                                          r->from->count, s->lo, s->hi, &r->polytope) &&
+                       !num_arena_reserve(&q->alloc, &q->numbers.arena, geom_meet_arena);
+    r->range.set = geom_polytope_convex(&r->polytope, s->dim);
+    return r->polytope_made;
+}
+
+static bool halfspaces_meet(froe_query *q, uint32_t object, bool *memory) {
+    const geom_convex set = scene_convex(q->tree->scene, object);
+    const int known = halfspaces_meet_corners(&q->numbers, q->range.from, &set);
+    if (known != NUM_UNSURE) return known;
+    if (!make_polytope(q)) return *memory = true, false;
+    return q->range.range.set.count && geom_meet(&q->numbers, &set, &q->range.range.set);
+}
+
+/* -------------------------------------------------------------------- rays -- */
+
+/* How often a ray's direction must be doubled to lead beyond the bounds of the object. */
+static int power_beyond(const geom_convex *ray, const double *lo, const double *hi) {
+    const double *o = geom_convex_point(ray, 0), *d = geom_convex_point(ray, 1);
+    int axis = 0, span_exponent, step_exponent;
+    for (int k = 1; k < ray->dim; k++)
+        if (fabs(d[k]) > fabs(d[axis])) axis = k;
+    const double below = fabs(lo[axis] / 4 - o[axis] / 4), above = fabs(hi[axis] / 4 - o[axis] / 4);
+    frexp(below > above ? below : above, &span_exponent);
+    frexp(d[axis], &step_exponent);
+    const int power = span_exponent + 2 - step_exponent + 2;
+    return power > 0 ? power : 0;
+}
+
+/* ----------------------------------------------------------------- meeting -- */
+
+static bool set_meets(froe_query *q, uint32_t object) {
+    const froe_scene *s = q->tree->scene;
+    const geom_range *range = &q->range.range;
+    double lo[3], hi[3];
+    scene_object_bounds(s, object, lo, hi);
+    if (boxes_apart(range->lo, range->hi, lo, hi, s->dim)) return false;
+    const geom_convex object_set = scene_convex(s, object);
+    geom_convex set = range->set;
+    if (set.core == GEOM_CORE_RAY) set.power = power_beyond(&set, lo, hi);
+    return geom_meet(&q->numbers, &object_set, &set);
+}
+
+/* Is a corner of the object within the margin of the range for certain? Of boxes and balls. Where an object of many
+ * corners is told so, it need not be known whether it meets the range itself. */
+static bool holds_corner(froe_query *q, uint32_t object) {
+    const froe_scene *s = q->tree->scene;
+    const query_range *r = &q->range;
+    if (r->range.kind != GEOM_RANGE_BALL && (r->range.kind != GEOM_RANGE_BOX || r->margin == 0)) return false;
+    for (uint32_t i = 0, n = scene_corners(s, object); i < n; i++) {
+        const double *x = scene_point(s, object, i);
+        if (geom_range_holds(&q->numbers, &r->range, r->margin, x, x)) return true;
+    }
+    return false;
+}
+
+/* A ball and an object of corners. */
+static bool ball_meets(froe_query *q, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    scene_object_bounds(q->tree->scene, object, lo, hi);
+    return !geom_range_misses(&q->range.range, lo, hi) && set_meets(q, object);
+}
+
+static bool decide(froe_query *q, uint32_t object, bool *memory) {
+    const froe_scene *s = q->tree->scene;
+    const froe_range *from = q->range.from;
+    const double *lo, *hi;
+    double radius;
+    const bool boxlike = as_box(s, object, &lo, &hi, &radius);
+    if (!boxlike && holds_corner(q, object)) return true;
+    switch (from->shape) {
+    case FROE_SHAPE_BOX:
+        if (boxlike)
+            return geom_meet_boxes(&q->numbers, s->dim, lo, hi, radius, from->points, from->points + s->dim, 0);
+        return box_meets(q, from->points, from->points + s->dim, object);
+    case FROE_SHAPE_BALL:
+        if (boxlike)
+            return geom_meet_boxes(&q->numbers, s->dim, lo, hi, radius, from->points, from->points, from->radius);
+        return ball_meets(q, object);
+    case FROE_SHAPE_SEGMENT:
+        if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return set_meets(q, object);
+        return query_segments_meet(&q->numbers, from->points, from->points + 2, scene_point(s, object, 0),
+                                   scene_point(s, object, 1));
+    case FROE_SHAPE_HALFSPACES:
+        return halfspaces_meet(q, object, memory);
+    default:
+        return set_meets(q, object);
+    }
+}
+
+bool query_range_meets(froe_query *q, uint32_t object, bool *memory) {
+    const uint64_t exact = q->numbers.stats.exact;
+    const bool meets = decide(q, object, memory);
+    q->stats.tests++;
+    q->stats.exact += q->numbers.stats.exact != exact;
+    return meets;
+}

@@ -1,0 +1,444 @@
+/* range_walk.c: from the root to all lists that may hold objects which meet the range.
+ *
+ * At a cut the range is on one side for certain, or both children and the list of the cut are visited: with
+ * objects listed where they meet open cells, and ranges and regions closed, that misses nothing (if an object and
+ * the range share a point, some list visited has the object). Where a region lies in the range, all lists below it
+ * are one slice, reported without a test.
+ *
+ * In deep trees, whoever has gone past many cuts without meeting one is led to the next (jump.h).
+ *
+ * A waiting node has its region's bounds and, for solid ranges, those of the range within the region. Thin ranges
+ * (segments, rays) have an interval of their parameter instead: origin + t direction. */
+#include "query/cuts.h"
+#include "query/pieces.h"
+#include "query/range/jump.h"
+#include "tree/packed/space.h"
+#include <string.h>
+
+typedef struct walk {
+    froe_query *q;
+    const froe_tree *tree;
+    const query_planes *planes;
+    query_jump jump;
+    const query_pieces *pieces;
+    query_range *r;
+    int dim;
+    bool points;  /* are leaves tested by coordinates? */
+    size_t width; /* doubles of a waiting node */
+    bool memory;  /* ran out */
+} walk;
+
+static bool done(const walk *w) {
+    return w->memory || (w->r->any && w->q->found.count);
+}
+
+/* ------------------------------------------------------------------- lists -- */
+
+/* Reports those objects of a list that meet the range. */
+static void test_list(walk *w, const tree_objects *list) {
+    froe_query *q = w->q;
+    if (!query_expect(q, list->count)) w->memory = true;
+    for (uint32_t i = 0; i < list->count && !w->memory; i++) {
+        const uint32_t object = tree_object(list, i);
+        if (query_seen(q, list, i, object)) continue;
+        if (query_range_meets(q, object, &w->memory)) query_found(q, object);
+        if (w->r->any && q->found.count) return;
+    }
+}
+
+/* The same for a list of points, each of which is in no other. It is anyone's guess which are in the range, so that
+ * nothing waits for it. */
+static void test_points(walk *w, const tree_objects *list) {
+    froe_query *q = w->q;
+    const double *x = w->pieces->points + (size_t)list->first * (size_t)w->dim;
+    if (!array_reserve(&q->alloc, &q->found, list->count)) {
+        w->memory = true;
+        return;
+    }
+    for (uint32_t i = 0; i < list->count; i++, x += w->dim) {
+        const uint32_t object = tree_object(list, i);
+        int has = geom_range_has(&w->r->range, x);
+        if (has == NUM_UNSURE)
+            has = query_range_meets(q, object, &w->memory);
+        else
+            q->stats.tests++;
+        q->found.data[q->found.count] = object;
+        q->found.count += (size_t)has;
+    }
+}
+
+/* Takes all of a list whose objects are where they are listed. */
+static void take_flat(walk *w, const tree_objects *list) {
+    froe_query *q = w->q;
+    const bool whole = w->pieces->whole;
+    if (!(whole ? array_reserve(&q->alloc, &q->found, list->count) : query_expect(q, list->count))) {
+        w->memory = true;
+        return;
+    }
+    uint32_t *found = q->found.data + q->found.count;
+    if (!whole) {
+        q->found.count += query_mark_all(&q->marks, list->at, list->stride, list->count, found);
+        return;
+    }
+    for (uint32_t i = 0; i < list->count; i++) found[i] = list->at[(size_t)i * list->stride];
+    q->found.count += list->count;
+}
+
+/* Of a list whose region is in the range: only solids, and whatever packed trees of space hold, may be listed where
+ * they are not. */
+static void take_list(walk *w, const tree_objects *list) {
+    froe_query *q = w->q;
+    if (!query_expect(q, list->count)) w->memory = true;
+    for (uint32_t i = 0; i < list->count && !w->memory; i++) {
+        const uint32_t object = tree_object(list, i);
+        if (query_seen(q, list, i, object)) continue;
+        const bool there = w->tree->scene->forms[object] < FROE_BOX && !tree_is_space(w->tree);
+        if (there || query_range_meets(q, object, &w->memory)) query_found(q, object);
+        if (w->r->any && q->found.count) return;
+    }
+}
+
+/* Where the lists of a subtree begin. */
+static uint32_t slice_begin(const froe_tree *t, uint32_t node) {
+    while (t->nodes[node].type == TREE_PLAIN) node = t->nodes[node].child;
+    return t->nodes[node].type == TREE_LEAF ? t->nodes[node].u.list.first : t->cuts[t->nodes[node].u.cut].first;
+}
+static uint32_t slice_end(const froe_tree *t, uint32_t node) {
+    while (t->nodes[node].type != TREE_LEAF) node = t->nodes[node].child + 1;
+    return t->nodes[node].u.list.first + t->nodes[node].u.list.count;
+}
+
+/* Where lists lie in blocks: leaf after leaf. */
+static void take_blocks(walk *w, uint32_t node) {
+    query_range *r = w->r;
+    const size_t base = r->nodes.count;
+    w->memory |= !array_push(&w->q->alloc, &r->nodes, node);
+    while (!done(w) && r->nodes.count > base) {
+        const uint32_t at = r->nodes.data[--r->nodes.count];
+        const tree_node *n = w->tree->nodes + at;
+        if (tree_is_leaf(n)) {
+            const tree_objects list = tree_list(w->tree, at);
+            take_list(w, &list);
+        } else {
+            w->memory |=
+                !array_push(&w->q->alloc, &r->nodes, n->child + 1) || !array_push(&w->q->alloc, &r->nodes, n->child);
+        }
+    }
+}
+
+static void take_slice(walk *w, uint32_t node) {
+    w->q->stats.slices++;
+    if (tree_is_packed(w->tree)) {
+        take_blocks(w, node);
+        return;
+    }
+    const uint32_t first = slice_begin(w->tree, node), end = slice_end(w->tree, node);
+    tree_objects list = {.stride = sizeof(tree_piece) / sizeof(uint32_t), .mask = UINT32_MAX};
+    list.first = first;
+    list.count = end - first;
+    if (list.count) list.at = &w->tree->pieces[first].object;
+    w->pieces->flat ? take_flat(w, &list) : take_list(w, &list);
+}
+
+/* The list of a leaf, or of a cut that the range may touch. */
+static void visit_list(walk *w, uint32_t node) {
+    const tree_objects list = tree_list(w->tree, node);
+    w->points ? test_points(w, &list) : test_list(w, &list);
+}
+
+/* ------------------------------------------------------------------- stack -- */
+
+static void push(walk *w, uint32_t node, const double *state) {
+    query_range *r = w->r;
+    if (!array_push(&w->q->alloc, &r->nodes, node) || !array_reserve(&w->q->alloc, &r->boxes, w->width)) {
+        w->memory = true;
+        return;
+    }
+    memcpy(r->boxes.data + r->boxes.count, state, w->width * sizeof *state);
+    r->boxes.count += w->width;
+}
+
+static uint32_t pop(walk *w, double *state) {
+    query_range *r = w->r;
+    r->boxes.count -= w->width;
+    memcpy(state, r->boxes.data + r->boxes.count, w->width * sizeof *state);
+    return r->nodes.data[--r->nodes.count];
+}
+
+/* ------------------------------------------------------------------ solids -- */
+
+enum { BOX = 2 * FROE_MAX_DIM };
+
+/* The parts of a waiting node's state. */
+typedef struct place {
+    double *lo, *hi;           /* bounds of the region */
+    double *part_lo, *part_hi; /* bounds of the range within; for boxes and balls those of the region */
+} place;
+
+static place place_of(const walk *w, double *state) {
+    const size_t dim = (size_t)w->dim, part = w->width > 2 * dim ? 2 * dim : 0;
+    return (place){state, state + dim, state + part, state + part + dim};
+}
+
+/* Cuts the state of a region down to side 0 or 1 of a cut. False: the range is not there. */
+static bool go_beside_axis(const walk *w, const query_cut *cut, int side, double *state) {
+    const geom_range *range = &w->r->range;
+    const place p = place_of(w, state);
+    (side ? p.lo : p.hi)[cut->axis] = cut->value;
+    switch (range->kind) {
+    case GEOM_RANGE_BOX:
+        return side ? range->hi[cut->axis] >= cut->value : range->lo[cut->axis] <= cut->value;
+    case GEOM_RANGE_BALL:
+        return !geom_range_misses(range, p.lo, p.hi);
+    default:
+        if (side ? p.part_hi[cut->axis] < cut->value : p.part_lo[cut->axis] > cut->value) return false;
+        if (side ? p.part_lo[cut->axis] < cut->value : p.part_hi[cut->axis] > cut->value) {
+            (side ? p.part_lo : p.part_hi)[cut->axis] = cut->value;
+            return geom_range_shrink(range, p.part_lo, p.part_hi);
+        }
+        return true;
+    }
+}
+
+/* n . x <= c for all points of a box on that side of the plane, rounded outwards. */
+static double plane_bound(const query_plane *h, int side, int dim, const double *lo, const double *hi) {
+    double size = fabs(h->c), spread = 0, shift = 0;
+    for (int k = 0; k < dim; k++) {
+        const double most = filter_greater(fabs(lo[k] - h->o[k]), fabs(hi[k] - h->o[k]));
+        spread += most;
+        size += fabs(h->n[k]) * (most + fabs(h->o[k]));
+        shift += h->n[k] * h->o[k];
+    }
+    const double error = (16 * FILTER_U * size + h->n_err * spread + NUM_BALL_TINY) * FILTER_UP;
+    return (side ? -(h->c + shift) : h->c + shift) + error;
+}
+
+/* Is the ball certainly on the other side of the plane? */
+static bool ball_is_beyond(const walk *w, const query_plane *h, int side) {
+    const geom_range *range = &w->r->range;
+    double x[3] = {0}, error;
+    for (int k = 0; k < w->dim; k++) x[k] = range->set.coords[k];
+    const double value = query_plane_value(h, x, &error);
+    const double reach =
+        range->set.radius * (filter_length(h->n) + 2 * h->n_err) * (1 + 0x1p-45) + error + NUM_BALL_TINY;
+    return (side ? -value : value) > reach;
+}
+
+static bool go_beside_plane(const walk *w, const query_cut *cut, int side, double *state) {
+    const geom_range *range = &w->r->range;
+    const query_plane *h = cut->plane;
+    const place p = place_of(w, state);
+    double n[3];
+    for (int k = 0; k < 3; k++) n[k] = side ? -h->n[k] : h->n[k];
+    if (range->kind == GEOM_RANGE_BALL && ball_is_beyond(w, h, side)) return false;
+    if (!geom_shrink_box(n, plane_bound(h, side, w->dim, p.lo, p.hi), w->dim, p.lo, p.hi)) return false;
+    switch (range->kind) {
+    case GEOM_RANGE_BOX: {
+        double lo[3], hi[3];
+        for (int k = 0; k < w->dim; k++) {
+            lo[k] = filter_greater(p.lo[k], range->lo[k]);
+            hi[k] = p.hi[k] < range->hi[k] ? p.hi[k] : range->hi[k];
+        }
+        return geom_shrink_box(n, plane_bound(h, side, w->dim, lo, hi), w->dim, lo, hi);
+    }
+    case GEOM_RANGE_BALL:
+        return !geom_range_misses(range, p.lo, p.hi);
+    default:
+        return geom_shrink_box(n, plane_bound(h, side, w->dim, p.part_lo, p.part_hi), w->dim, p.part_lo, p.part_hi) &&
+               geom_range_shrink(range, p.part_lo, p.part_hi);
+    }
+}
+
+static bool go_beside(const walk *w, const query_cut *cut, int side, double *state) {
+    return cut->axis >= 0 ? go_beside_axis(w, cut, side, state) : go_beside_plane(w, cut, side, state);
+}
+
+/* The node where the range meets the next cut, below this one, which becomes the region of the state. */
+static uint32_t jump(const walk *w, uint32_t node, double *state) {
+    const geom_range *range = &w->r->range;
+    const place p = place_of(w, state);
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    for (int k = 0; k < w->dim; k++) {
+        lo[k] = filter_greater(p.part_lo[k], range->lo[k]);
+        hi[k] = p.part_hi[k] < range->hi[k] ? p.part_hi[k] : range->hi[k];
+    }
+    const uint32_t found = query_jump_below(&w->jump, node, lo, hi);
+    if (found == node) return node;
+    const double *box = query_centroid_box(w->jump.centroids, found);
+    for (int k = 0; k < w->dim; k++) {
+        p.lo[k] = filter_greater(p.lo[k], box[k]);
+        p.hi[k] = p.hi[k] < box[w->dim + k] ? p.hi[k] : box[w->dim + k];
+    }
+    return found;
+}
+
+/* Goes down from a node to the first leaf, or to nothing; leaves what is beside for later. */
+static void follow_solid(walk *w, uint32_t node, double *state) {
+    double other[2 * BOX];
+    for (int passed = 0; !done(w); passed++) {
+        if (query_jump_is_due(&w->jump, passed)) node = jump(w, node, state);
+        const tree_node *n = w->tree->nodes + node;
+        const place p = place_of(w, state);
+        w->q->stats.nodes++;
+        if (geom_range_holds(&w->q->numbers, &w->r->range, w->r->margin, p.lo, p.hi)) {
+            take_slice(w, node);
+            return;
+        }
+        if (tree_is_leaf(n)) {
+            w->q->stats.leaves++;
+            visit_list(w, node);
+            return;
+        }
+        const query_cut cut = query_cut_at(w->tree, w->planes, n);
+        memcpy(other, state, w->width * sizeof *state);
+        const bool left = go_beside(w, &cut, 0, state), right = go_beside(w, &cut, 1, other);
+        if (!left && !right) return;
+        if (left && right) {
+            push(w, n->child + 1, other);
+            if (n->type == TREE_TABLED) visit_list(w, node);
+            passed = -1;
+        }
+        if (!left) memcpy(state, other, w->width * sizeof *state);
+        node = n->child + !left;
+    }
+}
+
+/* False: the range is nowhere near. */
+static bool begin_solid(walk *w, double *state) {
+    const froe_scene *s = w->tree->scene;
+    const geom_range *range = &w->r->range;
+    const size_t dim = (size_t)w->dim;
+    w->width = range->kind == GEOM_RANGE_SOLID ? 4 * dim : 2 * dim;
+    const place p = place_of(w, state);
+    memcpy(p.lo, s->lo, dim * sizeof *state);
+    memcpy(p.hi, s->hi, dim * sizeof *state);
+    for (size_t k = 0; k < dim; k++)
+        if (range->lo[k] > s->hi[k] || range->hi[k] < s->lo[k]) return false;
+    if (range->kind != GEOM_RANGE_SOLID) return true;
+    for (size_t k = 0; k < dim; k++) {
+        p.part_lo[k] = filter_greater(s->lo[k], range->lo[k]);
+        p.part_hi[k] = s->hi[k] < range->hi[k] ? s->hi[k] : range->hi[k];
+    }
+    return geom_range_shrink(range, p.part_lo, p.part_hi);
+}
+
+/* ------------------------------------------------------------- thin ranges -- */
+
+/* Where on the range lies the cut? False: nowhere for certain, and then the sides that the range reaches
+ * for t[0] <= t <= t[1] are known; true: at *at, up to *error. */
+static bool find_crossing(const walk *w, const query_cut *cut, const double *t, double *at, double *error,
+                          unsigned *sides, bool *rising) {
+    const geom_convex *set = &w->r->range.set;
+    const double *o = geom_convex_point(set, 0), *e = geom_convex_point(set, 1);
+    num_ball value, slope;
+    if (cut->axis >= 0) {
+        const double d = set->core == GEOM_CORE_RAY ? e[cut->axis] : e[cut->axis] - o[cut->axis];
+        value = filter_difference(o[cut->axis], cut->value);
+        slope = (num_ball){d, set->core == GEOM_CORE_RAY ? 0 : 2 * FILTER_U * fabs(d)};
+    } else {
+        double x[3] = {0}, d[3] = {0};
+        for (int k = 0; k < w->dim; k++) x[k] = o[k], d[k] = set->core == GEOM_CORE_RAY ? e[k] : e[k] - o[k];
+        value.x = query_plane_value(cut->plane, x, &value.e);
+        slope.x = query_plane_slope(cut->plane, d, &slope.e);
+        slope.e += slope.e; /* pays for the differences in d, too */
+    }
+    if (fabs(slope.x) > slope.e) {
+        const num_ball crossing = filter_div(value, slope);
+        *rising = slope.x > 0;
+        *at = -crossing.x;
+        *error = crossing.e;
+        if (isfinite(*at) && isfinite(*error)) return true;
+    }
+    const double most = slope.x == 0 && slope.e == 0 ? 0 : (fabs(slope.x) + slope.e) * t[1] * (1 + 0x1p-45);
+    const double reach = (value.e + most) * FILTER_UP;
+    *sides = value.x > reach ? 2 : value.x < -reach ? 1 : 3; /* on both for a NaN */
+    return false;
+}
+
+/* The sides of a cut that the range reaches within the interval, which is divided for both. */
+static unsigned divide(const walk *w, const query_cut *cut, const double *t, double below[2], double above[2]) {
+    double at, error;
+    unsigned sides;
+    bool rising;
+    memcpy(below, t, 2 * sizeof *t);
+    memcpy(above, t, 2 * sizeof *t);
+    if (!find_crossing(w, cut, t, &at, &error, &sides, &rising)) return sides;
+    double *first = rising ? below : above, *last = rising ? above : below;
+    const double late = nextafter(at + error, INFINITY), early = nextafter(at - error, -INFINITY);
+    if (late < t[0]) return rising ? 2 : 1;
+    if (early > t[1]) return rising ? 1 : 2;
+    if (late < t[1]) first[1] = late;
+    if (early > t[0]) last[0] = early;
+    return 3;
+}
+
+/* The same for the part of a thin range with parameters in an interval: its bounds, rounded outwards. An infinite
+ * parameter is in no region. */
+static uint32_t jump_thin(const walk *w, uint32_t node, const double *t) {
+    const geom_convex *set = &w->r->range.set;
+    const double *o = geom_convex_point(set, 0), *e = geom_convex_point(set, 1);
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    for (int k = 0; k < w->dim; k++) {
+        const double d = set->core == GEOM_CORE_RAY ? e[k] : e[k] - o[k], x = o[k] + t[0] * d, y = o[k] + t[1] * d;
+        const double error = 8 * FILTER_U * (fabs(o[k]) + t[1] * fabs(d)) + NUM_BALL_TINY;
+        if (!(x - error > -INFINITY && y + error < INFINITY && x + error < INFINITY && y - error > -INFINITY))
+            return node;
+        lo[k] = (x < y ? x : y) - error;
+        hi[k] = (x < y ? y : x) + error;
+    }
+    return query_jump_below(&w->jump, node, lo, hi);
+}
+
+static void follow_thin(walk *w, uint32_t node, double *t) {
+    for (int passed = 0; !done(w); passed++) {
+        if (query_jump_is_due(&w->jump, passed)) node = jump_thin(w, node, t);
+        const tree_node *n = w->tree->nodes + node;
+        double below[2], above[2];
+        w->q->stats.nodes++;
+        if (tree_is_leaf(n)) {
+            w->q->stats.leaves++;
+            visit_list(w, node);
+            return;
+        }
+        const query_cut cut = query_cut_at(w->tree, w->planes, n);
+        const unsigned sides = divide(w, &cut, t, below, above);
+        if (sides == 3) {
+            push(w, n->child + 1, above);
+            if (n->type == TREE_TABLED) visit_list(w, node);
+            passed = -1;
+        }
+        memcpy(t, sides == 2 ? above : below, 2 * sizeof *t);
+        node = n->child + (sides == 2);
+    }
+}
+
+/* -------------------------------------------------------------------- walk -- */
+
+static bool begin(walk *w, double *state) {
+    if (w->r->range.kind != GEOM_RANGE_THIN) return begin_solid(w, state);
+    w->width = 2;
+    state[0] = 0;
+    state[1] = w->r->shape == FROE_SHAPE_RAY ? INFINITY : 1;
+    return true;
+}
+
+froe_status query_range_walk(froe_query *q) {
+    walk w = {.q = q, .tree = q->tree, .r = &q->range, .dim = q->tree->scene->dim};
+    double state[2 * BOX];
+    froe_status status = query_planes_of(q, &w.planes, NULL);
+    if (!status) status = query_jump_prepare(q, q->range.walk, &w.jump);
+    if (!status) status = query_pieces_of(q, &w.pieces, NULL);
+    if (status) return status;
+    w.points = w.pieces->points && q->numbers.first == NUM_FILTER;
+    q->range.nodes.count = q->range.boxes.count = 0;
+    if (!q->tree->scene->object_count || !begin(&w, state)) return FROE_OK;
+    push(&w, 0, state);
+    while (!done(&w) && q->range.nodes.count) {
+        const uint32_t node = pop(&w, state);
+        if (w.r->range.kind == GEOM_RANGE_THIN)
+            follow_thin(&w, node, state);
+        else
+            follow_solid(&w, node, state);
+    }
+    return w.memory ? FROE_E_MEMORY : FROE_OK;
+}

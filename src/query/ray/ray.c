@@ -1,0 +1,178 @@
+/* ray.c: what does a ray meet?
+ *
+ * Every object in the lists along the ray is asked once, exactly. Of two that are met, the one met first is
+ * found by their images, and exactly where these overlap; what the ray can reach only beyond the best
+ * so far is not visited. Since rounding keeps the order, all of them are sorted by their rounded parameters, and
+ * only where these are equal by the exact ones. */
+#include "query/ray/ray.h"
+#include "base/floats.h"
+#include "base/status.h"
+#include "query/check.h"
+#include "query/context.h"
+#include "query/heap.h"
+#include <string.h>
+
+void query_ray_free(query_ray *r, const froe_allocator *alloc) {
+    array_free(alloc, &r->steps);
+    array_free(alloc, &r->met);
+    array_free(alloc, &r->order);
+    array_free(alloc, &r->hits);
+}
+
+froe_status query_ray_take(froe_query *q, const double *origin, const double *direction, double t_max,
+                           froe_diagnostic *diag) {
+    const int dim = q->tree->scene->dim;
+    froe_status status = query_check_point(origin, dim, "The origin of a ray", diag);
+    if (!status) status = query_check_point(direction, dim, "The direction of a ray", diag);
+    if (status) return status;
+    if (!(t_max >= 0)) return base_fail(diag, FROE_E_INPUT, "A ray ends at t = %g.", t_max);
+    bool goes = false;
+    for (int k = 0; k < dim; k++) goes = goes || direction[k] != 0;
+    if (!goes) return base_fail(diag, FROE_E_INPUT, "The direction of a ray is 0.");
+    q->ray.ray = (geom_ray){.dim = dim};
+    memcpy(q->ray.ray.o, origin, (size_t)dim * sizeof *origin);
+    memcpy(q->ray.ray.d, direction, (size_t)dim * sizeof *direction);
+    q->ray.limit = t_max;
+    return FROE_OK;
+}
+
+bool query_ray_meets(froe_query *q, const geom_ray *ray, uint32_t object, double t_max, query_met *out) {
+    const geom_body body = scene_body(q->tree->scene, object);
+    q->stats.tests++;
+    out->object = object;
+    return geom_ray_meets(&q->numbers, ray, &body, &out->hit) &&
+           geom_hit_compare_to(&q->numbers, ray, &out->hit, t_max) <= 0;
+}
+
+bool query_ray_nearer(froe_query *q, const geom_ray *ray, const query_met *met, const query_met *best) {
+    const int order = geom_hit_compare(&q->numbers, ray, &met->hit, &best->hit);
+    return order < 0 || (order == 0 && met->object < best->object);
+}
+
+double query_ray_latest(const geom_hit *hit) {
+    const double t = (hit->t.x + hit->t.e) * (1 + 0x1p-50);
+    return t >= 0 ? t : (double)INFINITY;
+}
+
+/* How to look at what is met: return false to stop. */
+typedef bool met_fn(froe_query *q, const query_met *met);
+
+static bool is_of(const froe_scene *s, uint32_t object, uint32_t kinds) {
+    return kinds == UINT32_MAX || kinds >> s->kinds[object] & 1;
+}
+
+/* Hands all objects met, each once, to a function. */
+static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *fn, froe_diagnostic *diag) {
+    const uint64_t exact = q->numbers.stats.exact;
+    tree_objects list;
+    query_met met;
+    bool more = true;
+    query_begin(q);
+    q->ray.met.count = 0;
+    froe_status status = query_walk_begin(q, diag);
+    while (!status && more && !(status = query_walk_next(q, &list)) && list.count) {
+        if (!query_expect(q, list.count)) status = FROE_E_MEMORY;
+        for (uint32_t i = 0; i < list.count && more && !status; i++) {
+            const uint32_t object = tree_object(&list, i);
+            if (!is_of(q->tree->scene, object, kinds) || query_seen(q, &list, i, object)) continue;
+            if (!query_ray_meets(q, &q->ray.ray, object, t_max, &met)) continue;
+            if (!array_reserve(&q->alloc, &q->ray.met, 1)) status = FROE_E_MEMORY;
+            if (!status) more = fn(q, &met);
+        }
+    }
+    q->stats.exact += q->numbers.stats.exact - exact;
+    return status == FROE_E_MEMORY ? base_fail_memory(diag) : status;
+}
+
+/* ------------------------------------------------------------------- first -- */
+
+static bool keep_first(froe_query *q, const query_met *met) {
+    query_met *best = q->ray.met.data;
+    if (q->ray.met.count && !query_ray_nearer(q, &q->ray.ray, met, best)) return true;
+    *best = *met;
+    q->ray.met.count = 1;
+    const double limit = query_ray_latest(&best->hit);
+    if (limit < q->ray.limit) q->ray.limit = limit;
+    return true;
+}
+
+froe_status query_ray_first(froe_query *q, double t_max, uint32_t kinds, froe_diagnostic *diag) {
+    return for_all(q, t_max, kinds, keep_first, diag);
+}
+
+froe_status froe_query_ray(froe_query *query, const double *origin, const double *direction, double t_max,
+                           froe_hit *hit, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || !origin || !direction || !hit) return base_fail(diag, FROE_E_ARG, "froe_query_ray: NULL argument.");
+    froe_status status = query_ray_take(query, origin, direction, t_max, diag);
+    if (!status) status = query_ray_first(query, t_max, UINT32_MAX, diag);
+    if (status) return status;
+    *hit = (froe_hit){.object = FROE_NONE};
+    if (!query->ray.met.count) return FROE_OK;
+    hit->object = query->ray.met.data[0].object;
+    hit->t = geom_hit_round(&query->numbers, &query->ray.ray, &query->ray.met.data[0].hit);
+    return FROE_OK;
+}
+
+/* --------------------------------------------------------------------- any -- */
+
+static bool keep_any(froe_query *q, const query_met *met) {
+    q->ray.met.data[q->ray.met.count++] = *met;
+    return false;
+}
+
+froe_status froe_query_ray_any(froe_query *query, const double *origin, const double *direction, double t_max,
+                               uint32_t *object, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || !origin || !direction || !object)
+        return base_fail(diag, FROE_E_ARG, "froe_query_ray_any: NULL argument.");
+    froe_status status = query_ray_take(query, origin, direction, t_max, diag);
+    if (!status) status = for_all(query, t_max, UINT32_MAX, keep_any, diag);
+    if (!status) *object = query->ray.met.count ? query->ray.met.data[0].object : FROE_NONE;
+    return status;
+}
+
+/* --------------------------------------------------------------------- all -- */
+
+static bool keep_all(froe_query *q, const query_met *met) {
+    q->ray.met.data[q->ray.met.count++] = *met;
+    return true;
+}
+
+static bool later(void *user, uint32_t a, uint32_t b) {
+    froe_query *q = user;
+    const froe_hit *s = q->ray.hits.data + a, *t = q->ray.hits.data + b;
+    if (s->t != t->t) return s->t > t->t;
+    const int order = geom_hit_compare(&q->numbers, &q->ray.ray, &q->ray.met.data[a].hit, &q->ray.met.data[b].hit);
+    return order ? order > 0 : s->object > t->object;
+}
+
+/* Fills the hits in the order met, then sorts their numbers; the first half of `hits` is scratch. */
+static froe_status sort_hits(froe_query *q) {
+    query_ray *r = &q->ray;
+    const size_t count = r->met.count;
+    r->hits.count = r->order.count = 0;
+    if (!array_reserve(&q->alloc, &r->hits, 2 * count) || !array_reserve(&q->alloc, &r->order, count))
+        return FROE_E_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const double t = geom_hit_round(&q->numbers, &r->ray, &r->met.data[i].hit);
+        r->hits.data[i] = (froe_hit){r->met.data[i].object, t};
+        r->order.data[i] = (uint32_t)i;
+    }
+    query_heap_sort(r->order.data, count, later, q);
+    for (size_t i = 0; i < count; i++) r->hits.data[count + i] = r->hits.data[r->order.data[i]];
+    return FROE_OK;
+}
+
+froe_status froe_query_ray_all(froe_query *query, const double *origin, const double *direction, double t_max,
+                               froe_hits *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || !origin || !direction || !out)
+        return base_fail(diag, FROE_E_ARG, "froe_query_ray_all: NULL argument.");
+    froe_status status = query_ray_take(query, origin, direction, t_max, diag);
+    if (!status) status = for_all(query, t_max, UINT32_MAX, keep_all, diag);
+    if (status) return status;
+    if (sort_hits(query)) return base_fail_memory(diag);
+    *out = (froe_hits){query->ray.hits.data + query->ray.met.count, query->ray.met.count};
+    return FROE_OK;
+}

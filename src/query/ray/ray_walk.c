@@ -1,0 +1,126 @@
+/* ray_walk.c: which lists does a ray come by, in which order?
+ *
+ *     child 0  |  child 1        A cut parts the ray at one parameter. What is known of it is an interval; before it,
+ *        o-----|=====>           the ray is on one side, after it on the other, and within it perhaps in the cut. So
+ *      enter  lo hi   leave      the first child, the list of the cut and the second child are visited in this order,
+ *              |                 each for its own interval, cut down to that of the node.
+ *
+ * Intervals are rounded outwards, and a ray that may be parallel to a cut is on both sides throughout, unless it is
+ * further from the cut than it can come within its interval, which ends with the scene: with objects listed where they
+ * meet open cells, and regions closed, no object is missed. The stack is as deep as the tree at most. */
+#include "base/status.h"
+#include "query/cuts.h"
+#include "query/packed/space.h"
+#include "query/ray/ray.h"
+
+/* Where the ray crosses a cut, at most; first: the side it comes from. */
+typedef struct crossing {
+    double lo, hi;
+    int first;
+    bool both; /* in or beside the cut all the way */
+} crossing;
+
+/* Of -value / slope, each within its error. Not finite: anywhere. */
+static crossing crossing_of(double value, double value_error, double slope, double slope_error) {
+    num_ball t = filter_div((num_ball){-value, value_error}, (num_ball){slope, slope_error});
+    if (!(t.e < INFINITY) || !isfinite(t.x)) return (crossing){.both = true};
+    return (crossing){t.x - t.e * (1 + 0x1p-50), t.x + t.e * (1 + 0x1p-50), slope < 0, false};
+}
+
+/* On the side where the origin is throughout. */
+static crossing beside(double value) {
+    const double side = value < 0 ? INFINITY : -(double)INFINITY;
+    return (crossing){side, side, 0, false};
+}
+
+static crossing cross_axis(const geom_ray *ray, int axis, double value) {
+    const double ahead = value - ray->o[axis], d = ray->d[axis];
+    if (d == 0) return ahead == 0 ? (crossing){.both = true} : beside(-ahead);
+    const double t = ahead / d, e = 0x1p-51 * fabs(t) + 0x1p-1070;
+    if (!isfinite(t)) return (crossing){.both = true};
+    return (crossing){t - e, t + e, d < 0, false};
+}
+
+/* Up to the parameter `leave`. */
+static crossing cross_plane(const geom_ray *ray, const query_plane *plane, double leave) {
+    double value_error, slope_error;
+    const double value = query_plane_value(plane, ray->o, &value_error);
+    const double slope = query_plane_slope(plane, ray->d, &slope_error);
+    const crossing c = crossing_of(value, value_error, slope, slope_error);
+    const double reach = value_error + (fabs(slope) + slope_error) * leave;
+    return c.both && fabs(value) > reach * (1 + 0x1p-50) ? beside(value) : c;
+}
+
+static bool push(froe_query *q, query_step step) {
+    if (step.enter > step.leave || step.enter > q->ray.limit || step.enter == INFINITY) return true;
+    return array_push(&q->alloc, &q->ray.steps, step);
+}
+
+/* Replaces an inner node by what the ray visits of it: the first to come on top. */
+static bool divide(froe_query *q, const query_planes *planes, const query_step *s) {
+    const froe_tree *t = q->tree;
+    const tree_node *node = t->nodes + s->node;
+    const query_cut cut = query_cut_at(t, planes, node);
+    const crossing c =
+        cut.axis >= 0 ? cross_axis(&q->ray.ray, cut.axis, cut.value) : cross_plane(&q->ray.ray, cut.plane, s->leave);
+    query_step first = {node->child + (uint32_t)c.first, false, s->enter, s->leave}, list = *s, second = first;
+    second.node = node->child + 1 - (uint32_t)c.first;
+    list.list = true;
+    if (!c.both) {
+        list.enter = second.enter = c.lo > s->enter ? c.lo : s->enter;
+        list.leave = first.leave = c.hi < s->leave ? c.hi : s->leave;
+    }
+    const bool listed = node->type == TREE_TABLED && t->cuts[node->u.cut].count;
+    return push(q, second) && (!listed || push(q, list)) && push(q, first);
+}
+
+/* The part of the ray that may be within the bounds of the scene. */
+static query_step within_scene(const froe_query *q) {
+    const froe_scene *s = q->tree->scene;
+    const geom_ray *ray = &q->ray.ray;
+    query_step root = {0, false, 0, INFINITY};
+    for (int k = 0; k < s->dim; k++) {
+        if (ray->d[k] == 0) {
+            if (ray->o[k] < s->lo[k] || ray->o[k] > s->hi[k]) root.leave = -1;
+            continue;
+        }
+        const bool falls = ray->d[k] < 0;
+        const crossing in = cross_axis(ray, k, falls ? s->hi[k] : s->lo[k]),
+                       out = cross_axis(ray, k, falls ? s->lo[k] : s->hi[k]);
+        if (!in.both && in.lo > root.enter) root.enter = in.lo;
+        if (!out.both && out.hi < root.leave) root.leave = out.hi;
+    }
+    return root;
+}
+
+froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
+    const query_planes *planes;
+    q->ray.packed = false;
+    if (q->space && space_walk_ray(q, &q->space->walk, &q->ray.ray, &q->ray.packed)) return base_fail_memory(diag);
+    if (q->ray.packed) return FROE_OK;
+    froe_status status = query_planes_of(q, &planes, diag);
+    q->ray.steps.count = 0;
+    if (!status && !push(q, within_scene(q))) status = base_fail_memory(diag);
+    return status;
+}
+
+froe_status query_walk_next(froe_query *q, tree_objects *list) {
+    const query_planes *planes;
+    if (q->ray.packed) return space_walk_next(q, &q->space->walk, q->ray.limit, list);
+    froe_status status = query_planes_of(q, &planes, NULL); /* they are there */
+    list->count = 0;
+    while (!status && q->ray.steps.count) {
+        const query_step s = q->ray.steps.data[--q->ray.steps.count];
+        if (s.enter > q->ray.limit) continue;
+        const bool leaf = tree_is_leaf(q->tree->nodes + s.node);
+        q->stats.nodes += !s.list;
+        q->stats.leaves += leaf;
+        if (leaf || s.list) {
+            *list = tree_list(q->tree, s.node);
+            if (list->count) return FROE_OK;
+        } else if (!divide(q, planes, &s)) {
+            return FROE_E_MEMORY;
+        }
+    }
+    return status;
+}

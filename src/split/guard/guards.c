@@ -1,0 +1,95 @@
+/* guards.c: the vertices of bounding boxes, counted first, then written, by many threads at once. */
+#include "split/guard/guards.h"
+#include <string.h>
+
+enum { CHUNK = 1 << 14 }; /* objects */
+
+typedef struct collection {
+    const froe_scene *scene;
+    const uint32_t *ids;
+    size_t objects;
+    size_t *starts; /* [chunk + 1] first its count, then its first guard */
+    double *points;
+} collection;
+
+static void bounds_of(const collection *c, size_t at, double *lo, double *hi) {
+    scene_object_bounds(c->scene, c->ids ? c->ids[at] : (uint32_t)at, lo, hi);
+}
+
+static size_t chunk_end(const collection *c, size_t chunk) {
+    size_t end = (chunk + 1) * CHUNK;
+    return end < c->objects ? end : c->objects;
+}
+
+static froe_status count_chunk(void *user, unsigned worker, size_t chunk) {
+    (void)worker;
+    collection *c = user;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    size_t count = 0;
+    for (size_t at = chunk * CHUNK; at < chunk_end(c, chunk); at++) {
+        size_t vertices = 1;
+        bounds_of(c, at, lo, hi);
+        for (int i = 0; i < c->scene->dim; i++) vertices <<= lo[i] < hi[i];
+        count += vertices;
+    }
+    c->starts[chunk + 1] = count;
+    return FROE_OK;
+}
+
+/* Doubles the list of vertices for every axis on which the box is not flat. */
+static size_t write_vertices(const double *lo, const double *hi, int dim, double *to) {
+    size_t count = 1, size = (size_t)dim;
+    memcpy(to, lo, size * sizeof *to);
+    for (int i = 0; i < dim; i++) {
+        if (!(lo[i] < hi[i])) continue;
+        memcpy(to + count * size, to, count * size * sizeof *to);
+        for (size_t v = count; v < 2 * count; v++) to[v * size + (size_t)i] = hi[i];
+        count *= 2;
+    }
+    return count;
+}
+
+static froe_status write_chunk(void *user, unsigned worker, size_t chunk) {
+    (void)worker;
+    collection *c = user;
+    size_t dim = (size_t)c->scene->dim;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], *to = c->points + c->starts[chunk] * dim;
+    for (size_t at = chunk * CHUNK; at < chunk_end(c, chunk); at++) {
+        bounds_of(c, at, lo, hi);
+        to += write_vertices(lo, hi, c->scene->dim, to) * dim;
+    }
+    return FROE_OK;
+}
+
+static froe_status collect_guards(const froe_allocator *alloc, base_task *task, double span, collection *c,
+                                  size_t chunks, split_guards *out) {
+    froe_status status = base_run(task, 0.5 * span, chunks, count_chunk, c);
+    if (status) return status;
+    for (size_t chunk = 0; chunk < chunks; chunk++) c->starts[chunk + 1] += c->starts[chunk];
+    size_t count = c->starts[chunks], size;
+    if (__builtin_mul_overflow(count, (size_t)c->scene->dim * sizeof(double), &size)) return FROE_E_MEMORY;
+    c->points = size ? base_realloc(alloc, NULL, 0, size) : NULL;
+    if (size && !c->points) return FROE_E_MEMORY;
+    status = base_run(task, 0.5 * span, chunks, write_chunk, c);
+    if (status)
+        base_free(alloc, c->points, size);
+    else
+        *out = (split_guards){.dim = c->scene->dim, .count = count, .capacity = count, .points = c->points};
+    return status;
+}
+
+froe_status split_guards_of(const froe_allocator *alloc, base_task *task, double span, const froe_scene *scene,
+                            const uint32_t *ids, size_t count, split_guards *out) {
+    size_t chunks = (count + CHUNK - 1) / CHUNK;
+    collection c = {.scene = scene, .ids = ids, .objects = count};
+    c.starts = base_calloc(alloc, chunks + 1, sizeof *c.starts);
+    if (!c.starts) return FROE_E_MEMORY;
+    froe_status status = collect_guards(alloc, task, span, &c, chunks, out);
+    base_free(alloc, c.starts, (chunks + 1) * sizeof *c.starts);
+    return status;
+}
+
+void split_guards_free(const froe_allocator *alloc, split_guards *guards) {
+    base_free(alloc, guards->points, guards->capacity * (size_t)guards->dim * sizeof *guards->points);
+    *guards = (split_guards){.dim = guards->dim};
+}

@@ -1,0 +1,195 @@
+/* homes.c: where each object's descent ends, then a counting sort of the objects by home.
+ *
+ * As far as the guard tree is an octree, a table tells its node for each cell of the grid of places.h, on all
+ * levels. There the bits in which both codes of an object begin alike are its way down. Only below a shrink, or below
+ * the grid, or when it touches a plane, does an object have to be compared with cuts. */
+#include "split/guard/homes.h"
+
+enum { CHUNK = 8192, ABREAST = 8 }; /* objects per job, and going down together */
+
+typedef struct box {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+} box;
+
+#define ASTRAY 0x80000000u /* of a node in the map: what is below does not follow the grid */
+
+typedef struct descent {
+    const split_places *places;
+    const split_guard_node *nodes;
+    base_task *task;
+    uint32_t *home;
+    uint32_t *map; /* the node of each cell of the grid, on all levels; NULL: there is no grid */
+    size_t map_count;
+} descent;
+
+/** Who has to go down by comparisons: up to ABREAST objects, and where they start. */
+typedef struct queue {
+    uint32_t object[ABREAST], node[ABREAST];
+    size_t count;
+} queue;
+
+/* ------------------------------------------------------------------ the map -- */
+
+/** The node of a cell's part, given that of the cell; its middle planes. */
+static uint32_t part_node(const descent *d, uint32_t node, const double *mid, uint32_t part, int dim) {
+    if (node & ASTRAY || !d->nodes[node].child) return node;
+    uint32_t at = node;
+    for (int i = 0; i < dim; i++) {
+        const split_guard_node *n = d->nodes + at;
+        if (!n->child || n->axis != i || n->value != mid[i]) return node | ASTRAY;
+        at = n->child + guard_above(part, dim, i);
+    }
+    return at;
+}
+
+static void fill_map(const descent *d) {
+    const guard_grid *grid = &d->places->grid;
+    int dim = grid->dim;
+    d->map[0] = 0;
+    for (int level = 0; level < grid->levels; level++)
+        for (uint32_t code = 0; code < 1u << (dim * level); code++) {
+            guard_cube cube;
+            double mid[FROE_MAX_DIM];
+            uint32_t node = d->map[grid->starts[level] + code], *parts = d->map + grid->starts[level + 1];
+            guard_grid_cell(grid, level, code, &cube, mid);
+            for (uint32_t part = 0; part < 1u << dim; part++)
+                parts[(code << dim) + part] = part_node(d, node, mid, part, dim);
+        }
+}
+
+/* ---------------------------------------------------------------- the descent -- */
+
+/** The home of an object, if its codes tell; or a node above it, ASTRAY. */
+static inline uint32_t look_up(const descent *d, const uint32_t code[2]) {
+    const guard_grid *grid = &d->places->grid;
+    if (code[0] & PLACES_APART) return ASTRAY;
+    uint32_t first = code[0] & GUARD_CODE, differ = first ^ code[1];
+    int dim = grid->dim, bits = dim * grid->levels;
+    if (!differ) { /* within a cell of the last level */
+        uint32_t node = d->map[grid->starts[grid->levels] + first];
+        return d->nodes[node & ~ASTRAY].child ? node | ASTRAY : node;
+    }
+    int alike = bits - 32 + __builtin_clz(differ), level = grid->level_of[alike], rest = bits - dim * level;
+    uint32_t node = d->map[grid->starts[level] + (first >> rest)];
+    if (d->map[grid->starts[level + 1] + (first >> (rest - dim))] & ASTRAY) return node | ASTRAY;
+    for (int bit = rest - 1; bit >= bits - alike && d->nodes[node].child; bit--)
+        node = d->nodes[node].child + (first >> bit & 1);
+    return node;
+}
+
+/** For each box the lowest node whose cell holds it, or the first whose cut it lies across, or in, from
+ * a node above on. Several boxes go down abreast, so that one waits for memory while others go on. */
+static void find_homes(const split_guard_node *nodes, const box *boxes, size_t count, uint32_t *home) {
+    for (bool moving = true; moving;) {
+        moving = false;
+        for (size_t i = 0; i < count; i++) {
+            const split_guard_node *n = nodes + home[i];
+            bool below = boxes[i].lo[n->axis]<n->value, above = boxes[i].hi[n->axis]> n->value;
+            bool step = n->child && below != above;
+            home[i] = step ? n->child + above : home[i];
+            moving |= step;
+        }
+    }
+}
+
+static void empty(const descent *d, queue *q) {
+    box boxes[ABREAST];
+    for (size_t k = 0; k < q->count; k++) scene_object_bounds(d->places->scene, q->object[k], boxes[k].lo, boxes[k].hi);
+    find_homes(d->nodes, boxes, q->count, q->node);
+    for (size_t k = 0; k < q->count; k++) d->home[q->object[k]] = q->node[k];
+    q->count = 0;
+}
+
+static froe_status descend_chunk(void *user, unsigned worker, size_t job) {
+    const descent *d = user;
+    size_t first = job * CHUNK, last = first + CHUNK;
+    queue q = {.count = 0};
+    (void)worker;
+    if (base_cancelled(d->task)) return FROE_E_CANCELLED;
+    if (last > d->places->object_count) last = d->places->object_count;
+    for (size_t i = first; i < last; i++) {
+        uint32_t node = d->map ? look_up(d, d->places->codes[i]) : ASTRAY;
+        d->home[i] = node;
+        if (!(node & ASTRAY)) continue;
+        q.object[q.count] = (uint32_t)i;
+        q.node[q.count++] = node & ~ASTRAY;
+        if (q.count == ABREAST) empty(d, &q);
+    }
+    empty(d, &q);
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------------------- the sort -- */
+
+/** Slices from the numbers of own homes: children come later than their parent, so two passes do. */
+static void make_slices(const split_guard_node *nodes, const uint32_t *own, split_homes *h) {
+    for (size_t v = h->node_count; v-- > 0;) { /* end: so many homes in the subtree */
+        uint32_t child = nodes[v].child;
+        h->end[v] = own[v] + (child ? h->end[child] + h->end[child + 1] : 0);
+    }
+    h->at[0] = 0;
+    for (size_t v = 0; v < h->node_count; v++) {
+        uint32_t child = nodes[v].child;
+        if (child) {
+            h->at[child] = h->at[v] + own[v];
+            h->at[child + 1] = h->at[child] + h->end[child];
+        }
+        h->end[v] += h->at[v];
+    }
+}
+
+/** Counting sort of the objects by home. `own` is zero. */
+static void sort_by_home(const split_guard_node *nodes, const uint32_t *home, uint32_t *own, split_homes *h) {
+    for (size_t i = 0; i < h->object_count; i++) own[home[i]]++;
+    make_slices(nodes, own, h);
+    for (size_t v = 0; v < h->node_count; v++) own[v] = h->at[v];
+    for (uint32_t i = 0; i < h->object_count; i++) h->ids[own[home[i]]++] = i;
+}
+
+void split_homes_free(const froe_allocator *alloc, split_homes *h) {
+    base_free(alloc, h->ids, h->object_count * sizeof *h->ids);
+    base_free(alloc, h->at, h->node_count * sizeof *h->at);
+    base_free(alloc, h->end, h->node_count * sizeof *h->end);
+    *h = (split_homes){0};
+}
+
+/** Memory for count numbers, not cleared; one at least. */
+static uint32_t *numbers(const froe_allocator *alloc, size_t count) {
+    return base_realloc(alloc, NULL, 0, count * sizeof(uint32_t));
+}
+
+/** Finds the home of each object, given memory for them. */
+static froe_status descend_to_homes(const froe_allocator *alloc, descent *d) {
+    size_t n = d->places->object_count;
+    const guard_grid *grid = &d->places->grid;
+    if (grid->levels) {
+        d->map_count = grid->starts[grid->levels + 1];
+        d->map = numbers(alloc, d->map_count);
+        if (!d->map) return FROE_E_MEMORY;
+        fill_map(d);
+    }
+    froe_status status = base_run(d->task, 0, (n + CHUNK - 1) / CHUNK, descend_chunk, d);
+    base_free(alloc, d->map, d->map_count * sizeof *d->map);
+    return status;
+}
+
+froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const split_places *places,
+                             const split_guard_tree *guard, split_homes *out) {
+    size_t n = places->object_count, m = guard->nodes.count;
+    if (!n) return FROE_OK;
+    split_homes h = {.object_count = n, .node_count = m};
+    h.ids = numbers(alloc, n);
+    h.at = numbers(alloc, m);
+    h.end = numbers(alloc, m);
+    uint32_t *home = numbers(alloc, n), *own = base_calloc(alloc, m, sizeof *own);
+    descent d = {.places = places, .nodes = guard->nodes.data, .task = task, .home = home};
+    froe_status status = h.ids && h.at && h.end && home && own ? descend_to_homes(alloc, &d) : FROE_E_MEMORY;
+    if (!status) sort_by_home(guard->nodes.data, home, own, &h);
+    base_free(alloc, home, n * sizeof *home);
+    base_free(alloc, own, m * sizeof *own);
+    if (status)
+        split_homes_free(alloc, &h);
+    else
+        *out = h;
+    return status;
+}

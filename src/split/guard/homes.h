@@ -1,0 +1,33 @@
+/* homes.h: where in the guard tree each object first meets a cut.
+ *
+ *            x = 4                 object 7 goes left of x = 4, right of y = 1, and lies across x = 2:
+ *           /     \                its home is that node. Above it nobody needs to look at it again.
+ *        y = 1    ...
+ *       /     \                    ids:  [ homes of v | homes below left(v) | homes below right(v) ]
+ *      ...   x = 2   <- 7                 at[v]                                              end[v]
+ *
+ * In this order the objects that lie wholly in a cell and have been cut by nothing are one slice, so
+ * the guard stage carries a cell's cut fragments only (de Berg, lemma 2.2: each object is found
+ * by its lowest node that contains it). O(n height) comparisons, no arithmetic. */
+#ifndef FROE_SPLIT_GUARD_HOMES_H
+#define FROE_SPLIT_GUARD_HOMES_H
+#include "scene/scene.h"
+#include "split/guard/guard_tree.h"
+
+typedef struct split_homes {
+    uint32_t *ids;      /**< all objects, by home */
+    uint32_t *at, *end; /**< per guard node: its slice of ids, its own homes first */
+    size_t object_count, node_count;
+} split_homes;
+
+/** The tree is that of the same scene. */
+froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const split_places *places,
+                             const split_guard_tree *guard, split_homes *out);
+void split_homes_free(const froe_allocator *alloc, split_homes *homes);
+
+/** The objects whose home is `node` itself: ids[at[node] ..], so many. */
+static inline uint32_t split_homes_own(const split_homes *homes, const split_guard_tree *guard, uint32_t node) {
+    uint32_t child = guard->nodes.data[node].child;
+    return (child ? homes->at[child] : homes->end[node]) - homes->at[node];
+}
+#endif

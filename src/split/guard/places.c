@@ -1,0 +1,86 @@
+/* places.c: one pass over the objects. */
+#include "split/guard/places.h"
+#include <string.h>
+
+enum { CHUNK = 8192 }; /* objects per job */
+
+/** Codes of a box, as in places.h. */
+static inline void place_on_grid(const guard_grid *grid, const double *lo, const double *hi, int dim,
+                                 uint32_t code[2]) {
+    uint32_t first = 0, last = 0, flat = 0, apart = 0;
+    for (int i = 0; i < dim; i++) {
+        const guard_axis *t = &grid->axes[i];
+        uint32_t from = guard_slice(t, lo[i]), to = guard_slice(t, hi[i]);
+        first |= t->codes[from];
+        last |= t->codes[to];
+        flat |= (uint32_t)(lo[i] == hi[i]) << i;
+        apart |= (lo[i] == t->bounds[from]) | (hi[i] == t->bounds[to]);
+    }
+    code[0] = first | flat << PLACES_FLAT | (apart ? PLACES_APART : 0);
+    code[1] = last;
+}
+
+static inline void place_objects(const split_places *p, uint32_t begin, uint32_t end, int dim) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    for (uint32_t i = begin; i < end; i++) {
+        scene_bounds_in(p->scene, dim, i, lo, hi);
+        place_on_grid(&p->grid, lo, hi, dim, p->codes[i]);
+    }
+}
+
+static froe_status place_chunk(void *user, unsigned worker, size_t chunk) {
+    const split_places *p = user;
+    size_t end = (chunk + 1) * CHUNK < p->object_count ? (chunk + 1) * CHUNK : p->object_count;
+    (void)worker;
+    switch (p->grid.dim) { /* one source, compiled for the common dimensions */
+    case 2:
+        place_objects(p, (uint32_t)(chunk * CHUNK), (uint32_t)end, 2);
+        break;
+    case 3:
+        place_objects(p, (uint32_t)(chunk * CHUNK), (uint32_t)end, 3);
+        break;
+    default:
+        place_objects(p, (uint32_t)(chunk * CHUNK), (uint32_t)end, p->grid.dim);
+    }
+    return FROE_OK;
+}
+
+static froe_status fill_places(const froe_allocator *alloc, base_task *task, int levels, split_places *p) {
+    int dim = p->scene->dim;
+    p->table_bytes = guard_grid_size(dim, levels);
+    p->tables = base_realloc(alloc, NULL, 0, p->table_bytes);
+    if (!p->tables) return FROE_E_MEMORY;
+    if (!guard_grid_make(dim, levels, &p->root, p->tables, &p->grid)) {
+        p->grid.levels = 0;
+        return FROE_OK;
+    }
+    p->codes = base_realloc(alloc, NULL, 0, p->object_count * sizeof *p->codes);
+    if (!p->codes) return FROE_E_MEMORY;
+    return base_run(task, 0, (p->object_count + CHUNK - 1) / CHUNK, place_chunk, p);
+}
+
+froe_status split_places_make(const froe_allocator *alloc, base_task *task, const froe_scene *scene,
+                              split_places *out) {
+    split_places p = {.scene = scene, .object_count = scene->object_count};
+    uint64_t guards = (uint64_t)scene->object_count << scene->dim;
+    int levels = guard_grid_levels(guards, scene->dim, GUARD_CODE_BITS);
+    guard_cube box = {.lo = {0}};
+    froe_status status = FROE_OK;
+    memcpy(box.lo, scene->lo, sizeof box.lo);
+    memcpy(box.hi, scene->hi, sizeof box.hi);
+    if (levels > 1) {
+        guard_root(&box, scene->dim, &p.root);
+        if (guard_strictly_inside(box.lo, box.hi, &p.root, scene->dim)) status = fill_places(alloc, task, levels, &p);
+    }
+    if (status)
+        split_places_free(alloc, &p);
+    else
+        *out = p;
+    return status;
+}
+
+void split_places_free(const froe_allocator *alloc, split_places *p) {
+    if (p->codes) base_free(alloc, p->codes, p->object_count * sizeof *p->codes);
+    base_free(alloc, p->tables, p->table_bytes);
+    *p = (split_places){.scene = p->scene};
+}

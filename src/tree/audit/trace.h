@@ -1,0 +1,84 @@
+/* trace.h: where the pieces of an object must be, found from the cuts alone.
+ *
+ * The object is carried from the root and clipped exactly by every cut it meets. Cells are open,
+ * objects closed and convex: what has a point strictly on a side goes there, what lies in the
+ * cut ends there, and touching a cut from one side is being on that side only.
+ *
+ * Points, segments and polygons are traced exactly, and so are boxes and balls among axis-parallel cuts. For the
+ * rest, whether a solid reaches into a cell that cuts bound from several sides is enclosed: it MAY be listed wherever
+ * no single cut excludes it, and MUST be where a point of it is known to lie, or is found (trace_cell.c).
+ *
+ * This is the audit's own clipping: it shares the predicates with the builders, nothing else. */
+#ifndef FROE_TREE_AUDIT_TRACE_H
+#define FROE_TREE_AUDIT_TRACE_H
+#include "geom/predicates.h"
+#include "tree/ring.h"
+
+/** A place for a piece: a leaf, or an inner node in whose cut it lies. */
+typedef struct trace_place {
+    uint32_t node;
+    bool must;            /**< false: allowed only */
+    const uint32_t *ring; /**< the fragment there, as in tree.h; NULL: kinds that are not cut */
+    uint32_t count;
+} trace_place;
+/** False stops the trace. */
+typedef bool trace_fn(void *user, const trace_place *place);
+
+/** A corner of the part being carried: the edge that leaves it (segments: what ends it there) and an image. */
+typedef struct trace_corner {
+    double x[3], error;
+    uint32_t edge;
+} trace_corner;
+
+/** A part waiting for its turn: a run of corners. */
+typedef struct trace_part {
+    uint32_t node, first, count;
+} trace_part;
+
+/** A solid waiting: its part within the axis-parallel cuts above, and what is certain of it. */
+typedef struct trace_solid {
+    uint32_t node, first, count;               /* hulls: corners certainly inside */
+    bool oblique;                              /* is there an oblique cut above? (boxes) */
+    bool exact;                                /* no oblique cut has divided it */
+    bool inside;                               /* a witness is inside: a point of boxes, the centre of balls */
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /* boxes: the part; balls: the cell */
+    double witness[FROE_MAX_DIM];
+} trace_solid;
+
+/** Planes of the nodes met last: neighbouring objects take the same paths. */
+#define TRACE_PLANES 512
+typedef struct trace_planes {
+    uint32_t id1[TRACE_PLANES]; /* node + 1, 0: free */
+    geom_plane plane[TRACE_PLANES];
+} trace_planes;
+
+/** What tracing works with; one per thread. */
+typedef struct trace {
+    const froe_tree *tree;
+    froe_allocator alloc;
+    num_context context;
+    trace_planes *planes;
+    trace_fn *fn;
+    void *user;
+    uint32_t object;
+    bool stopped;
+    ARRAY(trace_corner) corners;
+    ARRAY(trace_part) parts;
+    ARRAY(trace_solid) solids;
+    ARRAY(int8_t) sides;
+    ARRAY(uint32_t) ring;
+} trace;
+
+froe_status trace_new(const froe_tree *tree, bool exact_only, trace *out);
+void trace_free(trace *t);
+/** Visits all places of one object, in the order of the lists. FROE_E_MEMORY. */
+froe_status trace_object(trace *t, uint32_t object, trace_fn *fn, void *user);
+
+/** The plane of a node's cut; good until the next call. */
+const geom_plane *trace_plane(trace *t, uint32_t node);
+/** Does the object, a solid, meet the open cell of a leaf? *meets is not changed where that is not known: above dimension
+ * 3, and where a cut that no doubles name divides the solid. FROE_E_MEMORY. */
+froe_status trace_cell_meets(trace *t, uint32_t leaf, bool *meets);
+/** The same as trace_object for boxes, balls and hulls; called by it. */
+froe_status trace_solid_object(trace *t);
+#endif

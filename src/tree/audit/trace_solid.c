@@ -1,0 +1,209 @@
+/* trace_solid.c: carrying boxes, balls and hulls down a tree; they go to both sides as a whole.
+ *
+ * Where one cut divides a solid it is on both sides for certain. Where several do, its part between them
+ * may be empty:
+ *
+ *         \  o /        axis-parallel cuts   boxes: the part is a box, exact; balls: distance to the cell, exact
+ *       ---\--/---      any other            a witness, strictly inside all cuts so far, tells where it must be;
+ *           \/                               without one, trace_cell.c
+ *
+ * A witness w of a box stands for points near it: its part is a box P with w in it, so on an axis
+ * where P extends beyond w, w may be moved a little. */
+#include "tree/audit/trace.h"
+#include <math.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------- boxes -- */
+
+/* The sides of an oblique plane that a box reaches, and for each a corner strictly there. */
+static unsigned box_reach(trace *t, const geom_plane *plane, const double *lo, const double *hi, double strict[2][3]) {
+    unsigned reached = 0;
+    int dim = t->tree->scene->dim;
+    for (unsigned i = 0; i < 1u << dim && reached != 3; i++) {
+        double x[3] = {0};
+        for (int k = 0; k < dim; k++) x[k] = i >> k & 1 ? hi[k] : lo[k];
+        int side = geom_side_vertex(&t->context, plane, x);
+        if (!side || reached >> (side > 0) & 1) continue;
+        reached |= side > 0 ? 2 : 1;
+        memcpy(strict[side > 0], x, sizeof x);
+    }
+    return reached;
+}
+
+static unsigned interval_reach(double lo, double hi, double c) {
+    return (lo < c ? 1u : 0) | (hi > c ? 2u : 0);
+}
+
+/* Below an oblique cut the whole box may be listed on every side it reaches; the part says where it must be. */
+static unsigned box_allowed(const trace_solid *at, unsigned part, unsigned whole, trace_solid child[2]) {
+    if (!at->oblique) return part;
+    for (unsigned i = 0; i < 2; i++)
+        if (!(part >> i & 1)) child[i].exact = child[i].inside = false;
+    return whole;
+}
+
+static unsigned box_axis(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    int axis = plane->axis;
+    double c = plane->c, w = at->witness[axis];
+    scene_object_bounds(t->tree->scene, t->object, lo, hi);
+    child[0].inside = at->inside && w <= c;
+    child[1].inside = at->inside && w >= c;
+    unsigned part = interval_reach(at->lo[axis], at->hi[axis], c), whole = interval_reach(lo[axis], hi[axis], c);
+    if (part == 3) child[0].hi[axis] = child[1].lo[axis] = c;
+    return box_allowed(at, part, whole, child);
+}
+
+static unsigned box_oblique(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+    double strict[2][3], any[2][3], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    unsigned part = box_reach(t, plane, at->lo, at->hi, strict), whole;
+    scene_object_bounds(t->tree->scene, t->object, lo, hi);
+    whole = box_reach(t, plane, lo, hi, any);
+    child[0].oblique = child[1].oblique = true;
+    if (part == 3) {
+        int side = at->inside && !at->exact ? geom_side_vertex(&t->context, plane, at->witness) : 0;
+        for (int i = 0; i < 2; i++) {
+            child[i].exact = false;
+            child[i].inside = at->exact || (at->inside && side == (i ? 1 : -1));
+            if (at->exact) memcpy(child[i].witness, strict[i], sizeof strict[i]);
+        }
+    }
+    return box_allowed(child, part, whole, child);
+}
+
+/* ------------------------------------------------------------------- balls -- */
+
+/* Does the closed ball, r > 0, meet the open cell? Sign of r^2 - squared distance of centre and cell. */
+static bool ball_meets(trace *t, const trace_solid *at) {
+    const froe_scene *s = t->tree->scene;
+    const double *c = scene_point(s, t->object, 0);
+    double r = scene_radius(s, t->object);
+    num_ball sum = num_ball_mul(num_ball_from(r), num_ball_from(r));
+    num_arena *arena = &t->context.arena;
+    arena->top = 0;
+    num_dyadic radius = num_dyadic_from(arena, r), exact = num_dyadic_mul(arena, radius, radius);
+    for (int k = 0; k < s->dim; k++) {
+        if (at->lo[k] >= at->hi[k]) return false; /* a cut beside its cell leaves an empty one */
+        if (c[k] >= at->lo[k] && c[k] <= at->hi[k]) continue;
+        double border = c[k] < at->lo[k] ? at->lo[k] : at->hi[k];
+        num_ball d = num_ball_sub(num_ball_from(border), num_ball_from(c[k]));
+        num_dyadic e = num_dyadic_sub(arena, num_dyadic_from(arena, border), num_dyadic_from(arena, c[k]));
+        sum = num_ball_sub(sum, num_ball_mul(d, d));
+        exact = num_dyadic_sub(arena, exact, num_dyadic_mul(arena, e, e));
+    }
+    int sign = t->context.first == NUM_EXACT ? NUM_UNSURE : num_ball_sign(sum);
+    return (sign == NUM_UNSURE ? exact.sign : sign) > 0;
+}
+
+static unsigned ball_cut(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+    const froe_scene *s = t->tree->scene;
+    const double *centre = scene_point(s, t->object, 0);
+    int side = geom_side_ball(&t->context, plane, centre, scene_radius(s, t->object));
+    bool axis = plane->form == GEOM_AXIS;
+    if (axis) {
+        child[0].hi[plane->axis] = fmin(at->hi[plane->axis], plane->c);
+        child[1].lo[plane->axis] = fmax(at->lo[plane->axis], plane->c);
+    }
+    if (side != 2) return side < 0 ? 1 : side > 0 ? 2 : 0;
+    int middle = geom_side_vertex(&t->context, plane, centre);
+    for (int i = 0; i < 2; i++) {
+        child[i].exact = at->exact && axis;
+        child[i].inside = at->inside && middle == (i ? 1 : -1);
+    }
+    return 3;
+}
+
+/* ------------------------------------------------------------------- hulls -- */
+
+/* Corners of the hull on each side of the cut; those strictly on a side, of the corners known to be inside, follow
+ * one another behind the waiting ones: first the positive, then the negative. */
+static unsigned hull_cut(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+    const froe_scene *s = t->tree->scene;
+    uint32_t n = scene_corners(s, t->object);
+    unsigned reached = 0;
+    t->sides.count = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        int side = geom_side_vertex(&t->context, plane, scene_point(s, t->object, i));
+        t->sides.data[t->sides.count++] = (int8_t)side;
+        if (side) reached |= side > 0 ? 2 : 1;
+    }
+    if (reached != 3) return reached; /* nothing changes: all corners stay where they are */
+    uint32_t *known = t->ring.data + at->first;
+    t->ring.count = at->first + at->count;
+    for (int i = 1; i >= 0; i--) {
+        child[i].exact = false;
+        child[i].first = (uint32_t)t->ring.count;
+        for (uint32_t k = 0; k < at->count; k++)
+            if (t->sides.data[known[k]] == (i ? 1 : -1)) t->ring.data[t->ring.count++] = known[k];
+        child[i].count = (uint32_t)t->ring.count - child[i].first;
+        child[i].inside = child[i].count > 0;
+    }
+    return reached;
+}
+
+/* ----------------------------------------------------------------- tracing -- */
+
+static unsigned cut(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+    child[0] = child[1] = *at;
+    child[0].node = t->tree->nodes[at->node].child;
+    child[1].node = child[0].node + 1;
+    switch (scene_form(t->tree->scene, t->object)) {
+    case FROE_BOX:
+        return plane->form == GEOM_AXIS ? box_axis(t, plane, at, child) : box_oblique(t, plane, at, child);
+    case FROE_BALL:
+        return ball_cut(t, plane, at, child);
+    default:
+        return hull_cut(t, plane, at, child);
+    }
+}
+
+/* False without memory. */
+static bool arrive(trace *t, const trace_solid *at, bool leaf) {
+    trace_place place = {at->node, at->exact || at->inside, NULL, 0};
+    const bool ball = leaf && scene_form(t->tree->scene, t->object) == FROE_BALL && at->exact;
+    if (ball && !at->inside) place.must = ball_meets(t, at);
+    if (leaf && !ball && !place.must && trace_cell_meets(t, at->node, &place.must)) return false;
+    t->stopped = !t->fn(t->user, &place);
+    return true;
+}
+
+static bool follow(trace *t, trace_solid at) {
+    bool hull = scene_form(t->tree->scene, t->object) == FROE_HULL;
+    while (!tree_is_leaf(t->tree->nodes + at.node)) {
+        const geom_plane *plane = trace_plane(t, at.node);
+        trace_solid child[2];
+        if (hull && !array_reserve(&t->alloc, &t->ring, 2 * (size_t)at.count)) return false;
+        unsigned reached = cut(t, plane, &at, child);
+        if (!reached) return arrive(t, &at, false);
+        if (reached == 3 && !array_push(&t->alloc, &t->solids, child[1])) return false;
+        at = child[reached == 2];
+    }
+    return arrive(t, &at, true);
+}
+
+static bool begin(trace *t) {
+    const froe_scene *s = t->tree->scene;
+    trace_solid root = {.exact = true, .inside = true};
+    for (int k = 0; k < s->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
+    if (scene_form(s, t->object) == FROE_BOX) {
+        scene_object_bounds(s, t->object, root.lo, root.hi);
+        memcpy(root.witness, root.lo, sizeof root.witness);
+    }
+    t->ring.count = t->solids.count = 0;
+    if (scene_form(s, t->object) == FROE_HULL) {
+        root.count = scene_corners(s, t->object);
+        if (!array_reserve(&t->alloc, &t->sides, root.count) || !array_reserve(&t->alloc, &t->ring, root.count))
+            return false;
+        for (uint32_t i = 0; i < root.count; i++) t->ring.data[t->ring.count++] = i;
+    }
+    return array_push(&t->alloc, &t->solids, root);
+}
+
+froe_status trace_solid_object(trace *t) {
+    bool ok = begin(t);
+    while (ok && !t->stopped && t->solids.count) {
+        trace_solid at = t->solids.data[--t->solids.count];
+        ok = follow(t, at);
+    }
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

@@ -1,0 +1,117 @@
+/* packed.c: writing blocks, and what general code asks of them: which leaf, which cell, which ring.
+ *
+ * Quantisation. unit = floor((x - lo) * scale + 0.5) in doubles. Of its four roundings each changes the result by at
+ * most 2^-53 of a number below 2^17, together less than 2^-20; the image x may be off by `error`, so
+ * |unit - (true x - lo) * scale| <= 0.5 + 2^-20 + error * scale. Clamping to the cell brings nothing further from a
+ * point of it. */
+#include "tree/packed/packed.h"
+#include "geom/predicates.h"
+#include <math.h>
+
+/* ----------------------------------------------------------------- writing -- */
+
+double packed_scale(const packed_box *box) {
+    double x = box->hi[0] - box->lo[0], y = box->hi[1] - box->lo[1], side = x > y ? x : y;
+    double scale = PACKED_UNITS / side * (1 - 0x1p-40);
+    bool tame = side <= 0x1p1000 && side >= 0x1p-1000; /* false for infinity: the cell is too large */
+    return tame ? scale : 0;
+}
+
+static float worst_error(const packed_fragment *f, uint32_t count, double scale) {
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < count; i++) most = f[i].error > most ? f[i].error : most;
+    double units = (0.5 + 0x1p-20 + packed_error(most) * scale) * (1 + 0x1p-20);
+    return units < 0x1p15 ? (float)units : PACKED_COARSE; /* infinity and NaN are coarse */
+}
+
+static uint16_t unit_of(double x, double lo, double scale) {
+    double u = (x - lo) * scale + 0.5;
+    return (uint16_t)(u > 0 ? u < PACKED_UNITS ? (int)u : PACKED_UNITS : 0);
+}
+
+void packed_write(packed_header *block, const packed_box *box, uint32_t owner, const packed_fragment *f,
+                  uint32_t count) {
+    const double x = box->lo[0], y = box->lo[1];
+    double scale = packed_scale(box);
+    float error = worst_error(f, count, scale);
+    if (error >= PACKED_COARSE || scale == 0) scale = 0, error = PACKED_COARSE;
+    *block = (packed_header){.lo = {x, y}, .scale = scale, .owner = owner, .error = error};
+    uint16_t *px = (uint16_t *)(void *)(block + 1), *py = px + count, *qx = py + count, *qy = qx + count;
+    uint32_t *ids = (uint32_t *)(void *)(qy + count);
+    for (uint32_t i = 0; i < count; i++) {
+        px[i] = unit_of(f[i].p[0], x, scale);
+        py[i] = unit_of(f[i].p[1], y, scale);
+        qx[i] = unit_of(f[i].q[0], x, scale);
+        qy[i] = unit_of(f[i].q[1], y, scale);
+        ids[i] = f[i].id;
+    }
+}
+
+/* ----------------------------------------------------------------- finding -- */
+
+uint32_t packed_count(const froe_tree *t) {
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < t->node_count; i++)
+        if (tree_is_leaf(t->nodes + i)) sum += t->nodes[i].u.list.count;
+    return sum;
+}
+
+static uint32_t first_piece(const froe_tree *t, uint32_t node) {
+    while (!tree_is_leaf(t->nodes + node)) node = t->nodes[node].child;
+    return t->nodes[node].u.list.first;
+}
+
+uint32_t packed_leaf_in(const froe_tree *t, uint32_t piece, double *lo, double *hi) {
+    uint32_t node = 0;
+    for (int k = 0; k < t->scene->dim; k++) lo[k] = t->meta.root_lo[k], hi[k] = t->meta.root_hi[k];
+    while (!tree_is_leaf(t->nodes + node)) {
+        const tree_node *n = t->nodes + node;
+        bool upper = piece >= first_piece(t, n->child + 1);
+        (upper ? lo : hi)[n->axis] = n->u.value;
+        node = n->child + upper;
+    }
+    return node;
+}
+
+uint32_t packed_leaf(const froe_tree *t, uint32_t piece) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    return packed_leaf_in(t, piece, lo, hi);
+}
+
+/* The child that holds a cell with this lower corner. */
+static uint32_t step_towards(const tree_node *n, const double *lo) {
+    return n->child + (n->u.value <= lo[n->axis]);
+}
+
+uint32_t packed_cell(const froe_tree *t, const packed_header *block, packed_box *box) {
+    uint32_t node = 0, next;
+    for (int k = 0; k < 2; k++) box->lo[k] = t->meta.root_lo[k], box->hi[k] = t->meta.root_hi[k];
+    for (const tree_node *n = t->nodes; !tree_is_leaf(n); node = next, n = t->nodes + node) {
+        next = step_towards(n, block->lo);
+        (next == n->child ? box->hi : box->lo)[n->axis] = n->u.value;
+    }
+    return node;
+}
+
+/* ------------------------------------------------------------------- rings -- */
+
+/* Is this end of a segment, own or where the cut of a node ends it, on the other side of a plain cut? */
+static bool end_beyond(const froe_tree *t, num_context *context, uint32_t object, uint32_t end, const tree_node *cut,
+                       int side) {
+    const double *u = scene_point(t->scene, object, 0), *v = scene_point(t->scene, object, 1);
+    if (!(end & TREE_EDGE_CUT)) return ((end ? v : u)[cut->axis] - cut->u.value) * side < 0;
+    geom_plane plane = geom_plane_axis(2, cut->axis, cut->u.value), made = tree_plane_at(t, end & ~TREE_EDGE_CUT);
+    return geom_side_crossing(context, &plane, u, v, &made) * side < 0;
+}
+
+void packed_ring(const froe_tree *t, num_context *context, uint32_t leaf, uint32_t object, uint32_t ring[2]) {
+    const double *lo = packed_block(t, t->nodes + leaf)->lo;
+    uint32_t node = 0, next;
+    ring[0] = 0;
+    ring[1] = 1;
+    for (const tree_node *n = t->nodes; !tree_is_leaf(n); node = next, n = t->nodes + node) {
+        next = step_towards(n, lo);
+        for (int i = 0; i < 2; i++)
+            if (end_beyond(t, context, object, ring[i], n, next == n->child ? -1 : 1)) ring[i] = TREE_EDGE_CUT | node;
+    }
+}

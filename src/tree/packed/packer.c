@@ -1,0 +1,167 @@
+/* packer.c: nodes, blocks and owners appended behind one another. */
+#include "tree/packed/packer.h"
+#include "tree/draft.h"
+#include <string.h>
+
+enum { MOST_NODES = 0x7ffffffe };
+
+/* Blocks begin at the first multiple of their size. */
+static size_t gap(const void *memory) {
+    return (PACKED_BLOCK - (uintptr_t)memory % PACKED_BLOCK) % PACKED_BLOCK;
+}
+
+/* Gives the blocks room for `room` of them and the sentinel; what is there moves along. */
+static froe_status resize(tree_packer *p, uint32_t room) {
+    size_t size = ((size_t)room + 2) * PACKED_BLOCK, before = p->memory ? gap(p->memory) : 0;
+    uint8_t *memory = base_realloc(&p->alloc, p->memory, p->memory_size, size);
+    if (!memory) return FROE_E_MEMORY;
+    if (gap(memory) != before) memmove(memory + gap(memory), memory + before, (size_t)p->block_count * PACKED_BLOCK);
+    p->memory = memory;
+    p->memory_size = size;
+    p->block_room = room;
+    return FROE_OK;
+}
+
+static froe_status make_room(tree_packer *p, uint32_t blocks) {
+    uint64_t need = (uint64_t)p->block_count + blocks, room = p->block_room + p->block_room / 2 + 16;
+    if (need <= p->block_room) return FROE_OK;
+    if (need >= UINT32_MAX - 1) return FROE_E_LIMIT;
+    if (room < need || room >= UINT32_MAX - 1) room = need;
+    return resize(p, (uint32_t)room);
+}
+
+static uint8_t *block_at(const tree_packer *p, uint32_t block) {
+    return p->memory + gap(p->memory) + (size_t)block * PACKED_BLOCK;
+}
+
+froe_status packer_new(const froe_allocator *alloc, int dim, uint32_t objects, uint32_t leaf, tree_packer *out) {
+    tree_packer p = {.alloc = *alloc};
+    /* Room for the rest of a tree of space is taken, not touched, and given back: large arrays are slow to move. */
+    uint64_t leaves = objects / (leaf / 2 + 1) + 1, blocks = leaves + (dim == 3 ? objects : objects / 4);
+    bool taken = !resize(&p, blocks < UINT32_MAX / 2 ? (uint32_t)blocks : UINT32_MAX / 2) &&
+                 array_reserve(alloc, &p.owners, objects + 1) && array_reserve(alloc, &p.nodes, 2 * leaves + 1);
+    if (taken) p.nodes.data[p.nodes.count++] = (tree_node){0};
+    if (taken)
+        *out = p;
+    else
+        packer_free(&p);
+    return taken ? FROE_OK : FROE_E_MEMORY;
+}
+
+void packer_free(tree_packer *p) {
+    array_free(&p->alloc, &p->nodes);
+    array_free(&p->alloc, &p->owners);
+    base_free(&p->alloc, p->memory, p->memory_size);
+    p->memory = NULL;
+}
+
+froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, uint32_t *child) {
+    if (p->nodes.count + 2 > MOST_NODES) return FROE_E_LIMIT;
+    if (!array_reserve(&p->alloc, &p->nodes, 2)) return FROE_E_MEMORY;
+    *child = (uint32_t)p->nodes.count;
+    p->nodes.data[node] = (tree_node){.u.value = value, .child = *child, .type = TREE_PLAIN, .axis = (uint8_t)axis};
+    memset(p->nodes.data + *child, 0, 2 * sizeof(tree_node));
+    p->nodes.count += 2;
+    return FROE_OK;
+}
+
+/* Makes a node a leaf of so many pieces and blocks, which are yet to be written. */
+static froe_status take_leaf(tree_packer *p, uint32_t node, uint32_t count, uint32_t size, uint8_t flags,
+                             void **block) {
+    if (count > MOST_NODES - p->piece_count) return FROE_E_LIMIT;
+    froe_status status = make_room(p, size);
+    if (status) return status;
+    *block = block_at(p, p->block_count);
+    p->nodes.data[node] =
+        (tree_node){.u.list = {p->piece_count, count}, .child = p->block_count, .type = TREE_LEAF, .flags = flags};
+    p->piece_count += count;
+    p->block_count += size;
+    return FROE_OK;
+}
+
+froe_status packer_leaf(tree_packer *p, uint32_t node, const packed_box *box, const packed_fragment *fragments,
+                        uint32_t count, uint8_t flags) {
+    uint32_t size = packed_size(count), owner = (uint32_t)p->owners.count;
+    void *block;
+    if (!array_reserve(&p->alloc, &p->owners, count)) return FROE_E_MEMORY;
+    froe_status status = take_leaf(p, node, count, size, flags, &block);
+    if (status) return status;
+    memset((uint8_t *)block + (size_t)(size - 1) * PACKED_BLOCK, 0, PACKED_BLOCK); /* what follows the ids */
+    packed_write(block, box, owner, fragments, count);
+    for (uint32_t i = 0; i < count; i++) {
+        p->owners.data[p->owners.count] = fragments[i].id & PACKED_OBJECT;
+        p->owners.count += fragments[i].id >> 31;
+    }
+    return FROE_OK;
+}
+
+froe_status packer_space_leaf(tree_packer *p, uint32_t node, const froe_scene *scene, space_item *items, uint32_t count,
+                              uint8_t flags) {
+    uint32_t triangles = space_sort(items, count), size = space_size(count, triangles);
+    void *block;
+    froe_status status = take_leaf(p, node, count, size, flags, &block);
+    if (status) return status;
+    memset(block, 0, (size_t)size * PACKED_BLOCK);
+    space_write(block, scene, items, count, triangles);
+    return FROE_OK;
+}
+
+/* An array of exactly its size, one byte for an empty one; it stays as it was where that fails. */
+static froe_status trim(const froe_allocator *alloc, void **data, size_t room, size_t count, size_t item_size) {
+    void *trimmed = base_realloc(alloc, *data, room * item_size, count ? count * item_size : 1);
+    if (!trimmed) return FROE_E_MEMORY;
+    *data = trimmed;
+    return FROE_OK;
+}
+
+static froe_status seal_blocks(tree_packer *p) {
+    froe_status status = resize(p, p->block_count);
+    if (status) return status;
+    packed_header *sentinel = (packed_header *)(void *)block_at(p, p->block_count);
+    memset(sentinel, 0, PACKED_BLOCK);
+    sentinel->owner = (uint32_t)p->owners.count; /* 0 in trees of space */
+    return FROE_OK;
+}
+
+static froe_status trim_nodes(tree_packer *p) {
+    froe_status status =
+        trim(&p->alloc, (void **)&p->nodes.data, p->nodes.capacity, p->nodes.count, sizeof *p->nodes.data);
+    if (!status) p->nodes.capacity = p->nodes.count;
+    return status;
+}
+
+/* The last step that can fail: from here on the array of owners is the tree's. */
+static froe_status trim_owners(tree_packer *p) {
+    return trim(&p->alloc, (void **)&p->owners.data, p->owners.capacity, p->owners.count, sizeof *p->owners.data);
+}
+
+/* Hands the arrays over. */
+static void fill_tree(tree_packer *p, froe_tree *t) {
+    t->nodes = p->nodes.data;
+    t->node_count = (uint32_t)p->nodes.count;
+    t->piece_count = p->piece_count;
+    t->packed = (tree_packed){.memory = p->memory,
+                              .memory_size = p->memory_size,
+                              .blocks = block_at(p, 0),
+                              .block_count = p->block_count + 1,
+                              .owners = p->owners.data,
+                              .owner_count = (uint32_t)p->owners.count};
+    *p = (tree_packer){.alloc = p->alloc};
+}
+
+froe_status packer_seal(tree_packer *p, froe_scene *scene, const tree_meta *meta, froe_tree **out) {
+    froe_tree *t;
+    froe_status status = seal_blocks(p);
+    if (!status) status = trim_nodes(p);
+    if (!status) status = draft_shell(&p->alloc, scene, meta, &t);
+    if (status) return status;
+    status = trim_owners(p);
+    if (!status) fill_tree(p, t);
+    if (!status) status = tree_finish(t);
+    if (!status) status = tree_fill_promises(t);
+    if (status)
+        froe_tree_free(t);
+    else
+        *out = t;
+    return status;
+}

@@ -1,0 +1,117 @@
+/* arcs.c: whose visible piece lies over what somebody else paints.
+ *
+ * Each node may be painted whole, once, if it comes after every node that paints, behind it, where it is visible: then
+ * the last to paint any point is the one that is visible there. A grid on the page finds pairs of a visible piece and a
+ * part; separating axes in doubles decide almost all of them, sightlines the rest: parts that touch must not count. */
+#include "view/picture/grid.h"
+#include "view/picture/parts.h"
+
+typedef struct finder {
+    view_parts *parts;
+    view_sights *sights;
+    view_arcs *arcs;
+    view_grid grid;
+    print_ring piece;
+    view_ring ring;
+    uint32_t *stamps; /* per part: the visible piece + 1 that it was compared with last */
+    uint32_t *known;  /* per node: the node + 1 that is known to come after it */
+    uint64_t most, *tests;
+} finder;
+
+/* ---------------------------------------------------------------------- overlap -- */
+
+static bool beyond(view_sights *s, const view_corner *a, uint32_t a_count, const view_corner *b, uint32_t b_count) {
+    for (uint32_t i = 0; i < a_count; i++) {
+        const view_way way = a[i].way;
+        bool all = true;
+        for (uint32_t j = 0; j < b_count && all; j++) {
+            const int side = view_side(s, way >> 1, &b[j].ray, b[j].vertex, b[j ? j - 1 : b_count - 1].way, b[j].way);
+            all = way & 1 ? side >= 0 : side <= 0;
+        }
+        if (all) return true;
+    }
+    return false;
+}
+
+static bool overlap_exactly(finder *f, const view_piece *piece, const paint_part *part, int kind) {
+    const froe_visibility *v = f->parts->v;
+    const view_corner *a = v->corners.data + piece->first, *b;
+    uint32_t count;
+    if (kind == PART_VISIBLE) {
+        b = v->corners.data + v->pieces[part->source].first;
+        count = v->pieces[part->source].count;
+    } else {
+        const bool ok = kind == PART_PIECE ? view_beam_of(f->sights, part->source, &f->ring)
+                                           : view_beam_of_object(f->sights, part->source, &f->ring);
+        if (!ok) return true; /* an arc too many does no harm */
+        b = f->ring.data;
+        count = (uint32_t)f->ring.count;
+    }
+    return !beyond(f->sights, a, piece->count, b, count) && !beyond(f->sights, b, count, a, piece->count);
+}
+
+/* Do their interiors overlap? Where rounding could hide that, sightlines tell. */
+static bool overlap(finder *f, const view_piece *piece, size_t i) {
+    const paint_part *part = f->parts->parts.data + i;
+    const print_point *ring = f->parts->points.data + part->first;
+    const double unsure = 1e-9 * (f->parts->view->width + f->parts->view->height);
+    if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, -unsure)) return false;
+    if (print_overlap(f->piece.data, f->piece.count, ring, part->count, unsure)) return true;
+    return overlap_exactly(f, piece, part, f->parts->kinds.data[i]);
+}
+
+/* ------------------------------------------------------------------------- arcs -- */
+
+static froe_status compare(finder *f, uint32_t visible, uint32_t i) {
+    const view_piece *piece = f->parts->v->pieces + visible;
+    const paint_part *part = f->parts->parts.data + i;
+    const uint32_t node = f->parts->node_of[visible];
+    if (f->stamps[i] == visible + 1) return FROE_OK;
+    f->stamps[i] = visible + 1;
+    if (part->node == node || f->known[part->node] == node + 1) return FROE_OK;
+    if (f->parts->clear && part->place <= piece->place) return FROE_OK;
+    if (++*f->tests > f->most) return FROE_E_BUDGET;
+    if (!overlap(f, piece, i)) return FROE_OK;
+    f->known[part->node] = node + 1;
+    return array_push(&f->parts->v->alloc, f->arcs, (graph_arc){part->node, node}) ? FROE_OK : FROE_E_MEMORY;
+}
+
+static froe_status compare_piece(finder *f, uint32_t visible) {
+    froe_status status = FROE_OK;
+    const view_grid *g = &f->grid;
+    f->piece.count = 0;
+    if (!view_print_visible(f->parts, visible, &f->piece)) return FROE_E_MEMORY;
+    if (f->piece.count < 3) return FROE_OK;
+    const view_cells r = view_grid_cells(g, f->piece.data, f->piece.count, 0);
+    for (uint32_t y = r.y0; y <= r.y1; y++)
+        for (uint32_t x = r.x0; x <= r.x1; x++) {
+            const size_t cell = (size_t)y * g->cells + x;
+            for (uint32_t e = g->starts[cell]; e < g->starts[cell + 1] && !status; e++)
+                status = compare(f, visible, g->entries[e]);
+        }
+    return status;
+}
+
+static const print_point *points_of(const void *user, size_t i, size_t *points) {
+    const view_parts *p = user;
+    *points = p->parts.data[i].count;
+    return p->points.data + p->parts.data[i].first;
+}
+
+froe_status view_find_arcs(view_parts *parts, view_sights *sights, uint64_t most, view_arcs *arcs, uint64_t *tests) {
+    const froe_allocator *alloc = &parts->v->alloc;
+    finder f = {.parts = parts, .sights = sights, .arcs = arcs, .most = most, .tests = tests};
+    const size_t part_count = parts->parts.count, node_count = parts->nodes.count;
+    arcs->count = 0;
+    f.stamps = base_calloc(alloc, part_count + 1, sizeof *f.stamps);
+    f.known = base_calloc(alloc, node_count + 1, sizeof *f.known);
+    froe_status status = f.stamps && f.known ? FROE_OK : FROE_E_MEMORY;
+    if (!status) status = view_grid_new(alloc, parts->view, part_count, points_of, parts, &f.grid);
+    for (uint32_t i = 0; i < parts->v->piece_count && !status; i++) status = compare_piece(&f, i);
+    base_free(alloc, f.stamps, (part_count + 1) * sizeof *f.stamps);
+    base_free(alloc, f.known, (node_count + 1) * sizeof *f.known);
+    view_grid_free(alloc, &f.grid);
+    array_free(alloc, &f.piece);
+    array_free(alloc, &f.ring);
+    return status;
+}

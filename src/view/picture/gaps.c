@@ -1,0 +1,168 @@
+/* gaps.c: what goes away of a segment because of others.
+ *
+ *      |         |              A halo parts a line from a nearer one that crosses it, or behind which it ends; the
+ *   ---  ---   --| -- --        depth between the two must be as much as the gap is wide, or neighbours on a curved
+ *      |         |              surface would part each other. Hidden lines of one wall lie behind those of the next:
+ *    halo      dashes           drawn twice, their dashes would fill each other's gaps. */
+#include "base/sort.h"
+#include "view/picture/grid.h"
+#include "view/picture/strokes.h"
+#include <math.h>
+
+typedef struct gap {
+    double from, to;
+} gap;
+
+typedef struct gapper {
+    const froe_allocator *alloc;
+    const froe_projection *view;
+    double halo;    /* width of gaps */
+    double same[2]; /* how near lines count as one: visible ones, hidden ones */
+    const view_segments *in;
+    view_grid grid;
+    uint32_t *stamps; /* per segment: the one + 1 that it was compared with last */
+    ARRAY(gap) gaps;  /* of the one at work */
+    ARRAY(uint32_t) order;
+    view_segments out;
+} gapper;
+
+static const print_point *points_of(const void *user, size_t i, size_t *points) {
+    const view_segments *s = user;
+    *points = 2;
+    return s->data[i].at;
+}
+
+/* The stretch of s that is no farther than `width` from t, measured across and along it; false: none. */
+static bool stretch_near(const view_segment *s, const view_segment *t, double width, gap *out) {
+    const double dx = t->at[1].x - t->at[0].x, dy = t->at[1].y - t->at[0].y, length = sqrt(dx * dx + dy * dy);
+    *out = (gap){0, 1};
+    if (!(length > 0)) return false;
+    const double limits[2][2] = {{-width, width}, {0, length}};
+    for (int k = 0; k < 2; k++) { /* across, along */
+        double at[2];
+        for (int e = 0; e < 2; e++) {
+            const double x = s->at[e].x - t->at[0].x, y = s->at[e].y - t->at[0].y;
+            at[e] = (k ? dx * x + dy * y : dx * y - dy * x) / length;
+        }
+        for (int side = 0; side < 2; side++) {
+            const double from = side ? limits[k][1] - at[0] : at[0] - limits[k][0],
+                         to = side ? limits[k][1] - at[1] : at[1] - limits[k][0];
+            if (from < 0 && to < 0) return false;
+            if (from < 0) out->from = fmax(out->from, from / (from - to));
+            if (to < 0) out->to = fmin(out->to, from / (from - to));
+        }
+    }
+    return out->from < out->to;
+}
+
+/* How far t is in front of s, in units of the page, in the middle of a stretch of s. */
+static double depth_between(const gapper *g, const view_segment *s, const view_segment *t, gap stretch) {
+    const double middle = 0.5 * (stretch.from + stretch.to), dx = t->at[1].x - t->at[0].x, dy = t->at[1].y - t->at[0].y,
+                 x = s->at[0].x + middle * (s->at[1].x - s->at[0].x) - t->at[0].x,
+                 y = s->at[0].y + middle * (s->at[1].y - s->at[0].y) - t->at[0].y,
+                 along = (x * dx + y * dy) / (dx * dx + dy * dy),
+                 near_s = s->near[0] + middle * (s->near[1] - s->near[0]),
+                 near_t = t->near[0] + along * (t->near[1] - t->near[0]);
+    return g->view->scale * (g->view->eye.parallel ? near_t - near_s : 1 - near_s / near_t);
+}
+
+static double length_of(const view_segment *s) {
+    const double x = s->at[1].x - s->at[0].x, y = s->at[1].y - s->at[0].y;
+    return sqrt(x * x + y * y);
+}
+
+static bool meet(const view_segment *s, const view_segment *t) {
+    for (int e = 0; e < 4; e++)
+        if (s->vertex[e / 2] != FROE_NONE && s->vertex[e / 2] == t->vertex[e % 2]) return true;
+    return false;
+}
+
+/* Does t take something away from s? */
+static bool compare(gapper *g, uint32_t i, uint32_t j) {
+    const view_segment *s = g->in->data + i, *t = g->in->data + j;
+    gap x;
+    const int weaker = view_strength(t->kind, t->hidden) - view_strength(s->kind, s->hidden);
+    for (int wide = 0; wide <= s->hidden && (weaker > 0 || (!weaker && j < i)); wide++)
+        if (stretch_near(s, t, g->same[wide], &x) && (x.to - x.from) * length_of(s) >= 8 * g->same[wide] &&
+            !array_push(g->alloc, &g->gaps, x)) /* shorter ones only cross */
+            return false;
+    if (s->hidden || t->hidden || !(g->halo > 0) || meet(s, t) || !stretch_near(s, t, g->halo, &x)) return true;
+    return depth_between(g, s, t, x) < g->halo || array_push(g->alloc, &g->gaps, x);
+}
+
+static bool compare_all(gapper *g, uint32_t i) {
+    const view_segment *s = g->in->data + i;
+    const view_cells c = view_grid_cells(&g->grid, s->at, 2, fmax(g->same[s->hidden], s->hidden ? 0 : g->halo));
+    g->gaps.count = 0;
+    for (uint32_t y = c.y0; y <= c.y1; y++)
+        for (uint32_t x = c.x0; x <= c.x1; x++) {
+            const size_t cell = (size_t)y * g->grid.cells + x;
+            for (uint32_t e = g->grid.starts[cell]; e < g->grid.starts[cell + 1]; e++) {
+                const uint32_t j = g->grid.entries[e];
+                if (j == i || g->stamps[j] == i + 1) continue;
+                g->stamps[j] = i + 1;
+                if (!compare(g, i, j)) return false;
+            }
+        }
+    return true;
+}
+
+static int by_start(void *user, uint32_t a, uint32_t b) {
+    const gapper *g = user;
+    return (g->gaps.data[a].from > g->gaps.data[b].from) - (g->gaps.data[a].from < g->gaps.data[b].from);
+}
+
+static bool put_part(gapper *g, const view_segment *s, double from, double to) {
+    view_segment part = *s;
+    if (to - from < 1 && (to - from) * length_of(s) < g->same[0]) return true;
+    const double share[2] = {from, to};
+    for (int e = 0; e < 2; e++) {
+        const double t = share[e];
+        if (t == e) continue;
+        part.vertex[e] = FROE_NONE;
+        part.at[e].x = s->at[0].x + t * (s->at[1].x - s->at[0].x);
+        part.at[e].y = s->at[0].y + t * (s->at[1].y - s->at[0].y);
+        part.near[e] = s->near[0] + t * (s->near[1] - s->near[0]);
+    }
+    return array_push(g->alloc, &g->out, part);
+}
+
+static bool put_rest(gapper *g, uint32_t i) {
+    const view_segment *s = g->in->data + i;
+    const size_t n = g->gaps.count;
+    double last = 0;
+    g->order.count = 0;
+    if (!array_reserve(g->alloc, &g->order, 2 * n)) return false;
+    for (uint32_t k = 0; k < n; k++) g->order.data[k] = k;
+    base_merge_sort(g->order.data, g->order.data + n, n, by_start, g);
+    for (size_t k = 0; k < n; k++) {
+        const gap x = g->gaps.data[g->order.data[k]];
+        if (x.from > last && !put_part(g, s, last, x.from)) return false;
+        last = fmax(last, x.to);
+    }
+    return last >= 1 || put_part(g, s, last, 1);
+}
+
+froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection *view, double halo,
+                              view_segments *segments) {
+    gapper g = {.alloc = alloc, .view = view, .halo = halo, .in = segments};
+    const size_t n = segments->count;
+    g.same[0] = 2.5e-6 * (view->width + view->height);
+    g.same[1] = 20 * g.same[0];
+    g.stamps = base_calloc(alloc, n + 1, sizeof *g.stamps);
+    froe_status status = g.stamps ? FROE_OK : FROE_E_MEMORY;
+    if (!status) status = view_grid_new(alloc, view, n, points_of, segments, &g.grid);
+    for (uint32_t i = 0; !status && i < n; i++)
+        if (!compare_all(&g, i) || !put_rest(&g, i)) status = FROE_E_MEMORY;
+    base_free(alloc, g.stamps, (n + 1) * sizeof *g.stamps);
+    view_grid_free(alloc, &g.grid);
+    array_free(alloc, &g.gaps);
+    array_free(alloc, &g.order);
+    if (status) {
+        array_free(alloc, &g.out);
+        return status;
+    }
+    array_free(alloc, segments);
+    *segments = g.out;
+    return FROE_OK;
+}

@@ -1,0 +1,233 @@
+/* interleave.c: when lines are painted that do not all go on top.
+ *
+ *      ____
+ *     /   /|      The outer half of a wide line lies on what is beyond its edge. Where that is nearer than the line,
+ *  --/---/ |      a line on top of all would spoil it: the line is painted before whatever nearer is visible
+ *   /___/  |      within its reach, but after all else that is visible there, its own faces among it.
+ *
+ * So lines with something nearer by them become nodes of the order graph. Where that closes circles, lines are made
+ * late, never what they lie on: a late line goes on top of all, as lines without anything nearer do.
+ * All in doubles: what is visible has been decided; this tells half a line's width. */
+#include "view/picture/grid.h"
+#include "view/picture/picture.h"
+#include <math.h>
+
+typedef struct sorter {
+    view_painter *p;
+    double reach;
+    print_ring points;               /* of all visible pieces */
+    ARRAY(uint32_t) starts;          /* of each, and their end */
+    uint32_t *stamps;                /* per visible piece: the segment + 1 that looked at it last */
+    ARRAY(uint32_t) nearer, farther; /* nodes in front of the segment at work within its reach, and not in front */
+    ARRAY(uint32_t) lines;           /* segments that are nodes: those of the picture come before */
+    view_arcs arcs;
+    view_grid grid;
+} sorter;
+
+static const print_point *points_of(const void *user, size_t i, size_t *points) {
+    const sorter *s = user;
+    *points = s->starts.data[i + 1] - s->starts.data[i];
+    return s->points.data + s->starts.data[i];
+}
+
+static bool print_pieces(sorter *s) {
+    const froe_allocator *alloc = &s->p->picture->alloc;
+    const uint32_t n = s->p->v->piece_count;
+    if (!array_reserve(alloc, &s->starts, (size_t)n + 1)) return false;
+    s->starts.data[s->starts.count++] = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        if (!view_print_visible(&s->p->parts, i, &s->points)) return false;
+        s->starts.data[s->starts.count++] = (uint32_t)s->points.count;
+    }
+    s->stamps = base_calloc(alloc, (size_t)n + 1, sizeof *s->stamps);
+    return s->stamps && !view_grid_new(alloc, s->p->options->view, n, points_of, s, &s->grid);
+}
+
+/* --------------------------------------------------------------------- distances -- */
+
+/* A place of the page on or by a segment: the share of the segment, and how far away it is. */
+typedef struct meeting {
+    print_point at;
+    double share, square;
+} meeting;
+
+/* The point of ab nearest to q, as its share. */
+static double share_of(print_point a, print_point b, print_point q) {
+    const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+    const double t = square > 0 ? ((q.x - a.x) * dx + (q.y - a.y) * dy) / square : 0;
+    return fmin(1, fmax(0, t));
+}
+
+static print_point point_at(print_point a, print_point b, double t) {
+    return (print_point){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+}
+
+/* Keeps the meeting of `at`, a point of the piece, with a share of the segment if it is the nearest. */
+static void offer(meeting *best, print_point at, print_point on, double share) {
+    const double x = at.x - on.x, y = at.y - on.y, square = x * x + y * y;
+    if (square < best->square) *best = (meeting){at, share, square};
+}
+
+/* What of ab is inside a convex ring, if anything. */
+static bool clip(const print_point *ring, size_t n, print_point a, print_point b, double share[2]) {
+    const double turn = print_area(ring, n) > 0 ? 1 : -1;
+    share[0] = 0, share[1] = 1;
+    for (size_t i = 0; i < n; i++) {
+        const print_point p = ring[i], q = ring[i + 1 < n ? i + 1 : 0];
+        const double at_a = turn * ((q.y - p.y) * (a.x - p.x) - (q.x - p.x) * (a.y - p.y)),
+                     at_b = turn * ((q.y - p.y) * (b.x - p.x) - (q.x - p.x) * (b.y - p.y));
+        if (at_a < 0 && at_b < 0) return false;
+        if (at_a < 0) share[0] = fmax(share[0], at_a / (at_a - at_b));
+        if (at_b < 0) share[1] = fmin(share[1], at_a / (at_a - at_b));
+    }
+    return share[0] <= share[1];
+}
+
+/* Where a segment and a convex ring are nearest to each other. */
+static meeting nearest(const print_point *ring, size_t n, print_point a, print_point b) {
+    double share[2];
+    meeting best = {.square = INFINITY};
+    if (clip(ring, n, a, b, share)) {
+        const double middle = 0.5 * (share[0] + share[1]);
+        return (meeting){point_at(a, b, middle), middle, 0};
+    }
+    for (size_t i = 0; i < n; i++) {
+        const print_point p = ring[i], q = ring[i + 1 < n ? i + 1 : 0];
+        const double t = share_of(a, b, p);
+        offer(&best, p, point_at(a, b, t), t);
+        offer(&best, point_at(p, q, share_of(p, q, a)), a, 0);
+        offer(&best, point_at(p, q, share_of(p, q, b)), b, 1);
+    }
+    return best;
+}
+
+/* ------------------------------------------------------------------------ depths -- */
+
+/* How near the plane of an object is at a point of the page, as `near` of segments. */
+static double near_at(const view_painter *p, uint32_t object, print_point page) {
+    const froe_projection *view = p->options->view;
+    double at[3][3], n[3], k = 0;
+    for (uint32_t i = 0; i < 3; i++) view_camera_point(view, scene_point(p->v->tree->scene, object, i), at[i]);
+    for (int c = 0; c < 3; c++) {
+        const int i = (c + 1) % 3, j = (c + 2) % 3;
+        n[c] = (at[1][i] - at[0][i]) * (at[2][j] - at[0][j]) - (at[1][j] - at[0][j]) * (at[2][i] - at[0][i]);
+        k += n[c] * at[0][c];
+    }
+    const double x = (page.x - view->centre[0]) / view->scale, y = (view->centre[1] - page.y) / view->scale;
+    if (view->eye.parallel) return (n[0] * x + n[1] * y - k) / n[2];
+    return (n[0] * x + n[1] * y + n[2]) / k;
+}
+
+/* In front of a segment by more than a line is wide: less is what neighbours on a curved surface are. */
+static bool is_nearer(const sorter *s, uint32_t visible, const view_segment *segment, const meeting *m) {
+    const froe_projection *view = s->p->options->view;
+    const double own = segment->near[0] + m->share * (segment->near[1] - segment->near[0]);
+    const double wide = 2 * s->reach / view->scale * (view->eye.parallel ? 1 : own);
+    return near_at(s->p, s->p->v->pieces[visible].object, m->at) > own + wide;
+}
+
+/* ------------------------------------------------------------------------- nodes -- */
+
+/* Takes note of a visible piece if it is within reach. */
+static bool note(sorter *s, uint32_t i, uint32_t visible, const view_segment *segment) {
+    const froe_allocator *alloc = &s->p->picture->alloc;
+    size_t n;
+    const print_point *ring = points_of(s, visible, &n);
+    const uint32_t node = s->p->parts.node_of[visible];
+    if (s->stamps[visible] == i + 1) return true;
+    s->stamps[visible] = i + 1;
+    if (n < 3) return true;
+    const meeting m = nearest(ring, n, segment->at[0], segment->at[1]);
+    if (m.square > s->reach * s->reach) return true;
+    return is_nearer(s, visible, segment, &m) ? array_push(alloc, &s->nearer, node)
+                                              : array_push(alloc, &s->farther, node);
+}
+
+static bool look_around(sorter *s, uint32_t i) {
+    const view_segment *segment = s->p->segments.data + i;
+    const view_cells r = view_grid_cells(&s->grid, segment->at, 2, s->reach);
+    s->nearer.count = s->farther.count = 0;
+    for (uint32_t y = r.y0; y <= r.y1; y++)
+        for (uint32_t x = r.x0; x <= r.x1; x++) {
+            const size_t cell = (size_t)y * s->grid.cells + x;
+            for (uint32_t e = s->grid.starts[cell]; e < s->grid.starts[cell + 1]; e++)
+                if (!note(s, i, s->grid.entries[e], segment)) return false;
+        }
+    return true;
+}
+
+static bool add_line(sorter *s, uint32_t i) {
+    const froe_allocator *alloc = &s->p->picture->alloc;
+    const uint32_t own = s->p->graph.count + (uint32_t)s->lines.count;
+    if (s->p->segments.data[i].hidden) return true;
+    if (!look_around(s, i)) return false;
+    if (!s->nearer.count) return true;
+    for (size_t k = 0; k < s->farther.count; k++)
+        if (!array_push(alloc, &s->arcs, (graph_arc){s->farther.data[k], own})) return false;
+    for (size_t k = 0; k < s->nearer.count; k++)
+        if (!array_push(alloc, &s->arcs, (graph_arc){own, s->nearer.data[k]})) return false;
+    return array_push(alloc, &s->lines, i);
+}
+
+/* The arcs of the picture that still count. */
+static bool add_arcs(sorter *s) {
+    const view_graph *g = &s->p->graph;
+    for (uint32_t v = 0; v < g->count; v++)
+        for (uint32_t e = g->out_starts[v]; e < g->out_starts[v + 1] && !g->late[v]; e++)
+            if (!array_push(&s->p->picture->alloc, &s->arcs, (graph_arc){v, g->outs[e]})) return false;
+    return true;
+}
+
+/* ------------------------------------------------------------------------- order -- */
+
+/* Parts an order of all nodes into that of the picture's and the places of lines in it. */
+static void take_order(sorter *s, const view_graph *g, const uint32_t *order) {
+    view_painter *p = s->p;
+    uint32_t place = 0;
+    for (uint32_t i = 0; i < g->count; i++) {
+        const uint32_t v = order[i];
+        if (v < p->graph.count) {
+            p->order[place++] = v;
+        } else if (!g->late[v] && place < p->graph.count) {
+            p->segments.data[s->lines.data[v - p->graph.count]].place = place;
+            p->breaks[place] = 1;
+        }
+    }
+}
+
+static froe_status sort(sorter *s, view_graph *g) {
+    const froe_allocator *alloc = &s->p->picture->alloc;
+    const uint32_t faces = s->p->graph.count, n = faces + (uint32_t)s->lines.count;
+    froe_status status = view_graph_new(alloc, n, s->arcs.data, s->arcs.count, g);
+    uint8_t *fixed = base_calloc(alloc, (size_t)n + 1, 1);
+    uint32_t *order = base_calloc(alloc, (size_t)n + 1, sizeof *order);
+    s->p->breaks = base_calloc(alloc, (size_t)faces + 1, 1);
+    if (!status && (!fixed || !order || !s->p->breaks)) status = FROE_E_MEMORY;
+    for (uint32_t v = 0; !status && v < faces; v++) fixed[v] = 1;
+    if (!status) status = view_graph_break(alloc, g, fixed);
+    if (!status) status = view_sort_nodes(s->p, g, order);
+    if (!status) take_order(s, g, order);
+    base_free(alloc, fixed, (size_t)n + 1);
+    base_free(alloc, order, ((size_t)n + 1) * sizeof *order);
+    return status;
+}
+
+froe_status view_interleave(view_painter *p) {
+    const froe_allocator *alloc = &p->picture->alloc;
+    sorter s = {.p = p, .reach = p->options->interleave};
+    view_graph g = {0};
+    bool ok = print_pieces(&s);
+    for (uint32_t i = 0; ok && i < p->segments.count; i++) ok = add_line(&s, i);
+    ok = ok && add_arcs(&s);
+    const froe_status status = ok ? sort(&s, &g) : FROE_E_MEMORY;
+    view_graph_free(alloc, &g);
+    view_grid_free(alloc, &s.grid);
+    base_free(alloc, s.stamps, ((size_t)p->v->piece_count + 1) * sizeof *s.stamps);
+    array_free(alloc, &s.points);
+    array_free(alloc, &s.starts);
+    array_free(alloc, &s.nearer);
+    array_free(alloc, &s.farther);
+    array_free(alloc, &s.lines);
+    array_free(alloc, &s.arcs);
+    return status;
+}

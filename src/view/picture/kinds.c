@@ -1,0 +1,66 @@
+/* kinds.c: which edges are lines of the picture.
+ *
+ * Edges within a patch never are. An edge between two polygons is a silhouette when the eye is in front of one and
+ * behind the other, their corners taken to turn the same way along a surface: exact signs. Angles only sort creases
+ * from the rest, in doubles. */
+#include "view/picture/picture.h"
+#include <math.h>
+#include <string.h>
+
+static uint32_t group_of(const froe_scene *s, uint32_t object) {
+    return s->groups ? s->groups[object] : FROE_NONE;
+}
+
+static froe_line change_of(const froe_scene *s, uint32_t a, uint32_t b) {
+    if (a == b) return (froe_line)0;
+    if (a == FROE_NONE || b == FROE_NONE) return FROE_LINE_OBJECT;
+    const froe_group x = froe_scene_group(s, a), y = froe_scene_group(s, b);
+    return !strcmp(x.name, y.name) && strcmp(x.material, y.material) != 0 ? FROE_LINE_MATERIAL : FROE_LINE_OBJECT;
+}
+
+static double cosine(const froe_scene *s, uint32_t a, uint32_t b) {
+    geom_plane p, q;
+    double dot = 0, pp = 0, qq = 0;
+    scene_support(s, a, &p);
+    scene_support(s, b, &q);
+    for (int k = 0; k < 3; k++) {
+        const double x = p.n[k] / p.n_max, y = q.n[k] / q.n_max;
+        dot += x * y, pp += x * x, qq += y * y;
+    }
+    return dot / sqrt(pp * qq);
+}
+
+/* The kind of an edge between two polygons across which no patch goes on. */
+static froe_line kind_of_pair(view_sights *sights, uint32_t edge, uint32_t a, uint32_t b, uint32_t wanted,
+                              double limit) {
+    const froe_surface *s = sights->surface;
+    const bool turned = surface_ascends(s, a, edge) ==
+                        surface_ascends(s, b, edge); /* the second runs the other way than its neighbour asks */
+    const int x = view_facing(sights, a), y = view_facing(sights, b) * (turned ? -1 : 1);
+    if (wanted & FROE_LINE_SILHOUETTE && (x > 0) != (y > 0)) return FROE_LINE_SILHOUETTE;
+    const froe_line change = change_of(s->scene, group_of(s->scene, a), group_of(s->scene, b));
+    if (wanted & change) return change;
+    const double c = cosine(s->scene, a, b) * (turned ? -1 : 1);
+    return wanted & FROE_LINE_CREASE && c <= limit ? FROE_LINE_CREASE : FROE_LINE_MESH;
+}
+
+int view_strength(uint8_t kind, bool hidden) {
+    static const uint8_t kinds[] = {FROE_LINE_MESH,     FROE_LINE_CREASE,     FROE_LINE_MATERIAL, FROE_LINE_OBJECT,
+                                    FROE_LINE_CROSSING, FROE_LINE_SILHOUETTE, FROE_LINE_BORDER,   FROE_LINE_SECTION};
+    int i = sizeof kinds - 1;
+    while (i && kinds[i] != kind) i--;
+    return i + (hidden ? 0 : (int)sizeof kinds);
+}
+
+void view_line_kinds(view_sights *sights, uint32_t wanted, double crease, uint8_t *kinds) {
+    const froe_surface *s = sights->surface;
+    const double t = crease < 180 ? view_tan(crease / 2) : INFINITY; /* cos a = (1 - t^2) / (1 + t^2) */
+    const double limit = crease < 180 ? (1 - t * t) / (1 + t * t) : -1;
+    for (uint32_t e = 0; e < s->edge_count; e++) {
+        const uint32_t *use = s->uses + s->edge_starts[e], count = s->edge_starts[e + 1] - s->edge_starts[e];
+        froe_line kind = FROE_LINE_BORDER;
+        if (count == 2 && use[0] != use[1])
+            kind = s->inside[e] ? (froe_line)0 : kind_of_pair(sights, e, use[0], use[1], wanted, limit);
+        kinds[e] = (uint8_t)(kind & wanted);
+    }
+}

@@ -1,0 +1,228 @@
+/* outline.c: borders of patches are the edges that their polygons do not share. */
+#include "view/picture/outline.h"
+#include <math.h>
+#include <string.h>
+
+froe_status view_outliner_new(view_outliner *o, view_sights *sights, const froe_projection *view, bool cull_back) {
+    const size_t n = (size_t)sights->tree->scene->vertex_count + 1;
+    *o = (view_outliner){.alloc = sights->alloc, .sights = sights, .view = view, .cull_back = cull_back};
+    o->press = (print_press){.alloc = sights->alloc, .view = view};
+    o->first_side = base_calloc(&o->alloc, n, sizeof *o->first_side);
+    if (!o->first_side) return FROE_E_MEMORY;
+    memset(o->first_side, 0xff, n * sizeof *o->first_side);
+    return FROE_OK;
+}
+
+void view_outliner_free(view_outliner *o) {
+    if (!o->sights) return;
+    base_free(&o->alloc, o->first_side, ((size_t)o->sights->tree->scene->vertex_count + 1) * sizeof *o->first_side);
+    array_free(&o->alloc, &o->sides);
+    array_free(&o->alloc, &o->starts);
+    array_free(&o->alloc, &o->ring);
+    array_free(&o->alloc, &o->detours);
+    print_free(&o->press);
+}
+
+/* ------------------------------------------------------------------------ sides -- */
+
+/* The polygon with which the patch goes on across an edge; FROE_NONE. */
+static uint32_t across(const froe_surface *s, uint32_t edge, uint32_t object) {
+    const uint32_t *use = s->uses + s->edge_starts[edge];
+    return !s->inside[edge] ? FROE_NONE : use[0] == object ? use[1] : use[0];
+}
+
+static bool is_drawn(const view_outliner *o, uint32_t object) {
+    const int facing = view_facing(o->sights, object);
+    return facing > 0 || (facing < 0 && !o->cull_back);
+}
+
+static bool add_side(view_outliner *o, uint32_t edge, uint32_t object, uint32_t from, uint32_t to) {
+    const uint32_t side = (uint32_t)o->sides.count;
+    if (!array_push(&o->alloc, &o->sides, (outline_side){edge, to, object, o->first_side[from]}) ||
+        !array_push(&o->alloc, &o->starts, from))
+        return false;
+    o->first_side[from] = side;
+    return true;
+}
+
+/* The sides of one polygon, as they turn left; not those across which the patch goes on. */
+static bool add_sides(view_outliner *o, uint32_t object) {
+    const froe_surface *s = o->sights->surface;
+    const froe_scene *scene = s->scene;
+    const bool front = view_facing(o->sights, object) > 0;
+    for (uint32_t i = 0, n = scene_corners(scene, object); i < n; i++) {
+        const uint32_t edge = s->edge_of[scene->starts[object] + i], other = across(s, edge, object);
+        const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
+        if (other != FROE_NONE && is_drawn(o, other)) continue;
+        if (!add_side(o, edge, object, front ? a : b, front ? b : a)) return false;
+    }
+    return true;
+}
+
+/* ----------------------------------------------------------------------- points -- */
+
+static print_point page_of(const view_outliner *o, uint32_t vertex) {
+    print_point p = {0, 0};
+    double page[2];
+    if (froe_project(o->view, view_vertex(o->sights, vertex), page)) p = (print_point){page[0], page[1]};
+    return p;
+}
+
+/* Goes the border straight on from u by v to w? Exactly, in space. */
+static bool is_straight(const view_outliner *o, uint32_t u, uint32_t v, uint32_t w) {
+    const double *const p[3] = {view_vertex(o->sights, u), view_vertex(o->sights, v), view_vertex(o->sights, w)};
+    const geom_plane plane = geom_plane_points(3, p);
+    return !geom_plane_valid(&o->sights->context, &plane);
+}
+
+/* The polygon across a side into which the patch may be extended; FROE_NONE. */
+static uint32_t under(const view_outliner *o, uint32_t patch, uint32_t edge) {
+    const froe_surface *s = o->sights->surface;
+    const uint32_t *use = s->uses + s->edge_starts[edge];
+    if (!(o->underlap > 0) || !o->runs || s->edge_starts[edge + 1] - s->edge_starts[edge] != 2) return FROE_NONE;
+    const uint32_t other = s->patch_of[use[0]] == patch ? use[1] : use[0], far = s->patch_of[other];
+    if (far == patch || o->runs[far] == FROE_NONE || o->runs[far] <= o->runs[patch] || !is_drawn(o, other))
+        return FROE_NONE;
+    return other;
+}
+
+/* The corner of a polygon farthest from ab, on the other side of it than the patch, which is on its left. */
+static bool apex(const view_outliner *o, uint32_t object, print_point a, print_point b, print_point *c,
+                 double *height) {
+    const froe_scene *scene = o->sights->surface->scene;
+    const double dx = b.x - a.x, dy = b.y - a.y, length = sqrt(dx * dx + dy * dy);
+    *height = 0;
+    for (uint32_t i = 0; i < scene_corners(scene, object); i++) {
+        double at[3], page[2];
+        view_camera_point(o->view, scene_point(scene, object, i), at);
+        if (!o->view->eye.parallel && !(at[2] > o->view->near)) return false;
+        view_camera_page(o->view, at, page);
+        const double right = dx * (page[1] - a.y) - dy * (page[0] - a.x); /* y points down */
+        if (right > *height * length) {
+            *height = right / length;
+            *c = (print_point){page[0], page[1]};
+        }
+    }
+    return *height > 1e-6 * o->underlap;
+}
+
+/* From a and b towards c, which is `height` away from ab, as far as the width of the underlap; or just c. */
+static outline_detour detour_by(const view_outliner *o, print_point a, print_point b, print_point c, double height) {
+    const double t = height > o->underlap ? o->underlap / height : 1;
+    if (t > 0.99) return (outline_detour){1, {c}};
+    return (outline_detour){
+        2, {{a.x + t * (c.x - a.x), a.y + t * (c.y - a.y)}, {b.x + t * (c.x - b.x), b.y + t * (c.y - b.y)}}};
+}
+
+/* A side where the patch is hidden, and with it what hides it ends, is drawn short; see seams.h. */
+static bool trim(view_outliner *o, uint32_t object, print_point a, print_point b, outline_detour *out) {
+    print_point c;
+    double height;
+    bool hidden;
+    if (!apex(o, object, b, a, &c, &height)) return true;
+    const outline_detour d = detour_by(o, a, b, c, height);
+    const print_point ring[4] = {a, b, d.at[d.count - 1], d.at[0]};
+    if (!view_seams_hidden(o->seams, o->node, ring, 2 + d.count, &hidden)) return false;
+    if (hidden) *out = d;
+    return true;
+}
+
+static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline_detour *out) {
+    const outline_side *s = o->sides.data + side;
+    const uint32_t object = under(o, patch, s->edge);
+    const print_point a = page_of(o, o->starts.data[side]), b = page_of(o, s->to);
+    print_point c;
+    double height;
+    bool bare;
+    out->count = 0;
+    if (object != FROE_NONE && apex(o, object, a, b, &c, &height)) {
+        *out = detour_by(o, a, b, c, height);
+        return true;
+    }
+    if (!o->seams) return true;
+    return view_seams_look(o->seams, o->node, a, b, &bare) && (!bare || trim(o, s->object, a, b, out));
+}
+
+/* ------------------------------------------------------------------------ rings -- */
+
+/* Takes the sides of one ring off the lists. */
+static bool take_ring(view_outliner *o, uint32_t side) {
+    o->ring.count = 0;
+    for (uint32_t at = o->starts.data[side]; o->first_side[at] != FROE_NONE;) {
+        const uint32_t next = o->first_side[at];
+        o->first_side[at] = o->sides.data[next].next;
+        if (!array_push(&o->alloc, &o->ring, next)) return false;
+        at = o->sides.data[next].to;
+    }
+    return true;
+}
+
+/* Is any vertex of the ring out of sight, or so far away that the ring must be cut? Then it goes through the press. */
+static bool press_ring(view_outliner *o, print_ring *points, bool *cut) {
+    print_begin(&o->press);
+    for (size_t i = 0; i < o->ring.count; i++)
+        if (!print_add(&o->press, view_vertex(o->sights, o->starts.data[o->ring.data[i]]))) return false;
+    return print_end(&o->press, points, cut);
+}
+
+/* Strips along the sides of a ring as it is printed. */
+static bool look_along(view_outliner *o, const print_point *ring, size_t count) {
+    bool bare;
+    for (size_t i = 0; o->seams && i < count; i++)
+        if (!view_seams_look(o->seams, o->node, ring[i], ring[i + 1 < count ? i + 1 : 0], &bare)) return false;
+    return true;
+}
+
+static bool put_sides(view_outliner *o, uint32_t patch, print_ring *points) {
+    const size_t n = o->ring.count;
+    o->detours.count = 0;
+    if (!array_reserve(&o->alloc, &o->detours, n) || !array_reserve(&o->alloc, points, 3 * n)) return false;
+    for (size_t i = 0; i < n; i++)
+        if (!find_detour(o, patch, o->ring.data[i], &o->detours.data[i])) return false;
+    for (size_t i = 0; i < n; i++) {
+        const size_t j = i ? i - 1 : n - 1;
+        const uint32_t side = o->ring.data[i], before = o->ring.data[j], a = o->starts.data[side];
+        const outline_detour *d = o->detours.data + i;
+        const bool plain = !d->count && !o->detours.data[j].count;
+        if (plain && is_straight(o, o->starts.data[before], a, o->sides.data[side].to)) continue;
+        points->data[points->count++] = page_of(o, a);
+        for (uint32_t k = 0; k < d->count; k++) points->data[points->count++] = d->at[k];
+    }
+    return true;
+}
+
+static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
+    const size_t first = points->count;
+    bool cut;
+    if (!press_ring(o, points, &cut)) return false;
+    if (cut) {
+        if (!look_along(o, points->data + first, points->count - first)) return false;
+    } else {
+        points->count = first;
+        if (!put_sides(o, patch, points)) return false;
+    }
+    if (points->count - first < 3) {
+        points->count = first;
+        return true;
+    }
+    return array_push(&o->alloc, ends, (uint32_t)points->count);
+}
+
+static bool put_rings(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
+    for (uint32_t i = 0; i < o->sides.count; i++) {
+        if (!take_ring(o, i)) return false;
+        if (o->ring.count > 2 && !put_ring(o, patch, points, ends)) return false;
+    }
+    return true;
+}
+
+bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
+    const froe_surface *s = o->sights->surface;
+    bool ok = true;
+    o->sides.count = o->starts.count = 0;
+    for (uint32_t m = s->patch_starts[patch]; ok && m < s->patch_starts[patch + 1]; m++)
+        ok = !is_drawn(o, s->members[m]) || add_sides(o, s->members[m]);
+    ok = ok && put_rings(o, patch, points, ends);
+    for (size_t i = 0; i < o->starts.count; i++) o->first_side[o->starts.data[i]] = FROE_NONE;
+    return ok;
+}

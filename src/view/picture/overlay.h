@@ -1,0 +1,25 @@
+/* overlay.h: lines that lie on each other on the page are drawn once.
+ *
+ *     o=========o              a   Where polygons touch in edges of different lengths, or one stands behind the
+ *          o=========o         b   other, edges have parts of their lines of sight in common. There, the strongest
+ *     o----|----|----|----o    c   line is drawn: a visible one before a hidden one, then by kind.
+ *
+ *     aaaaaaaaaabbbbbcccccc        Which lines are one, and in which order ends lie on it, is decided exactly. */
+#ifndef FROE_VIEW_PICTURE_OVERLAY_H
+#define FROE_VIEW_PICTURE_OVERLAY_H
+#include "view/picture/strokes.h"
+#include "view/visibility/visibility.h"
+
+/** A stretch that is to be drawn. */
+typedef struct view_item {
+    view_run run;
+    print_point at[2]; /**< on the page */
+    double near[2];    /**< as in view_segment */
+    uint8_t kind, hidden;
+} view_item;
+typedef ARRAY(view_item) view_items;
+
+/** Appends what is drawn of them as segments, which have no more than points in common where they lie on one line.
+ * `depths`: parts at which different items are nearest to the eye stay apart. FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status view_overlay(view_sights *sights, const view_items *items, bool depths, view_segments *out);
+#endif

@@ -1,0 +1,229 @@
+/* paint.c: shapes: whole patches and clipped ones, visible regions, fragments. */
+#include "view/picture/picture.h"
+
+froe_status view_leave_out(view_painter *p) {
+    const froe_visibility *v = p->v;
+    froe_picture_report *report = &p->picture->report;
+    print_ring ring = {0};
+    bool ok = (p->left_out = base_calloc(&v->alloc, (size_t)v->surface->patch_count + 1, 1)) != NULL;
+    for (uint32_t patch = 0; ok && patch < v->surface->patch_count; patch++) {
+        const uint32_t first = v->patch_starts[patch], end = v->patch_starts[patch + 1];
+        double area = 0;
+        for (uint32_t i = first; ok && i < end; i++) {
+            ring.count = 0;
+            ok = view_print_visible(&p->parts, i, &ring);
+            area += 0.5 * print_area(ring.data, ring.count);
+        }
+        if (first == end || area >= p->options->min_area) continue;
+        p->left_out[patch] = 1;
+        report->left_out++;
+        report->left_out_area += area;
+    }
+    array_free(&v->alloc, &ring);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+static bool is_left_out(const view_painter *p, uint32_t patch) {
+    return p->left_out && p->left_out[patch];
+}
+
+bool view_begin_shape(froe_picture *picture, uint32_t patch, bool whole) {
+    return array_push(&picture->alloc, &picture->shapes,
+                      (picture_shape){patch, (uint32_t)picture->ring_ends.count, 0, whole});
+}
+
+void view_end_shape(froe_picture *picture) {
+    picture_shape *last = picture->shapes.data + picture->shapes.count - 1;
+    last->ring_count = (uint32_t)picture->ring_ends.count - last->first_ring;
+    if (!last->ring_count) picture->shapes.count--;
+    picture->report.whole += last->ring_count && last->whole;
+}
+
+/* Ends the ring whose points are those from `first` on; rings of less than three points go away. */
+static bool end_ring(froe_picture *picture, size_t first) {
+    if (picture->points.count - first < 3) {
+        picture->points.count = first;
+        return true;
+    }
+    return array_push(&picture->alloc, &picture->ring_ends, (uint32_t)picture->points.count);
+}
+
+/* What lies along the sides of the last ring, which begins at `first`; strips come after all rings of a shape. */
+static bool look_along(view_painter *p, uint32_t node, size_t first) {
+    const print_point *ring = p->picture->points.data + first;
+    const size_t n = p->picture->points.count - first;
+    bool bare;
+    for (size_t i = 0; p->seams.parts && i < n; i++)
+        if (!view_seams_look(&p->seams, node, ring[i], ring[i + 1 < n ? i + 1 : 0], &bare)) return false;
+    return true;
+}
+
+static bool put_strips(view_painter *p) {
+    return !p->seams.parts || view_seams_flush(&p->seams, &p->picture->points, &p->picture->ring_ends);
+}
+
+static bool is_clear(const view_painter *p, uint32_t patch) {
+    return p->options->clear && p->options->clear[patch];
+}
+
+/* `node` paints it; FROE_NONE: by itself. */
+static bool put_region(view_painter *p, uint32_t patch, uint32_t node) {
+    froe_picture *picture = p->picture;
+    const view_region *r = &p->region;
+    const view_sights *s = p->sights;
+    const bool strips = node != FROE_NONE && !is_clear(p, patch);
+    if (view_region_make(&p->region, p->v, p->sights, patch) || !view_begin_shape(picture, patch, false)) return false;
+    for (size_t i = 0; i + 1 < r->starts.count; i++) {
+        const size_t first = picture->points.count;
+        if (!array_reserve(&picture->alloc, &picture->points, r->starts.data[i + 1] - r->starts.data[i])) return false;
+        for (uint32_t c = r->starts.data[i]; c < r->starts.data[i + 1]; c++) {
+            double page[2];
+            view_camera_ray(p->options->view, s->eye.origin, s->eye.axis, p->v->corners.data[r->corners.data[c]].ray.x,
+                            page);
+            picture->points.data[picture->points.count++] = (print_point){page[0], page[1]};
+        }
+        if (!end_ring(picture, first) || (strips && !look_along(p, node, first))) return false;
+    }
+    if (strips && !put_strips(p)) return false;
+    view_end_shape(picture);
+    return true;
+}
+
+/* The visible parts of one piece of the tree. */
+static bool put_parts_of_piece(view_painter *p, uint32_t number) {
+    froe_picture *picture = p->picture;
+    const paint_node *node = p->parts.nodes.data + number;
+    const bool opaque = !is_clear(p, node->patch);
+    const froe_visibility *v = p->v;
+    if (!view_begin_shape(picture, node->patch, false)) return false;
+    for (uint32_t i = v->patch_starts[node->patch]; i < v->patch_starts[node->patch + 1]; i++) {
+        const size_t first = picture->points.count;
+        if (v->pieces[i].piece != node->piece) continue;
+        if (!view_print_visible(&p->parts, i, &picture->points) || !end_ring(picture, first) ||
+            (opaque && !look_along(p, number, first)))
+            return false;
+    }
+    if (!put_strips(p)) return false;
+    view_end_shape(picture);
+    return true;
+}
+
+/* ------------------------------------------------------------------------- whole -- */
+
+/* Is nothing painted of a patch but what is visible? */
+static bool is_clipped(const view_painter *p, uint32_t node) {
+    return p->graph.late[node] || p->parts.split[p->parts.nodes.data[node].patch] == PARTS_REGION;
+}
+
+/* Runs of patches of one style without lines between; patches painted whole and opaque get the number of theirs. */
+static void number_runs(view_painter *p) {
+    uint32_t run = 0, last = FROE_NONE;
+    for (uint32_t i = 0; i < p->v->surface->patch_count; i++) p->runs[i] = FROE_NONE;
+    for (uint32_t i = 0; i < p->graph.count; i++) {
+        const uint32_t v = p->order[i];
+        const paint_node *node = p->parts.nodes.data + v;
+        const uint32_t style = p->options->styles ? p->options->styles[node->patch] : 0;
+        run += style != last || (p->breaks && p->breaks[i]);
+        last = style;
+        if (node->piece == FROE_NONE && !is_clipped(p, v) && !is_clear(p, node->patch)) p->runs[node->patch] = run;
+    }
+}
+
+static bool put_whole(view_painter *p, uint32_t patch, uint32_t node) {
+    froe_picture *picture = p->picture;
+    p->outliner.node = node;
+    p->outliner.seams = p->seams.parts && !is_clear(p, patch) ? &p->seams : NULL;
+    if (!view_begin_shape(picture, patch, true) ||
+        !view_outline(&p->outliner, patch, &picture->points, &picture->ring_ends) || !put_strips(p))
+        return false;
+    view_end_shape(picture);
+    return true;
+}
+
+static froe_status begin_outlines(view_painter *p) {
+    const froe_status status = view_outliner_new(&p->outliner, p->sights, p->options->view, p->options->cull_back);
+    p->runs = base_calloc(&p->picture->alloc, (size_t)p->v->surface->patch_count + 1, sizeof *p->runs);
+    if (status || !p->runs) return FROE_E_MEMORY;
+    number_runs(p);
+    p->outliner.underlap = p->options->underlap;
+    p->outliner.runs = p->runs;
+    if (!(p->options->underlap > 0)) return FROE_OK;
+    return view_seams_new(&p->seams, &p->parts, p->order, p->breaks, p->options->styles, p->options->clear,
+                          p->options->underlap);
+}
+
+froe_status view_paint_whole(view_painter *p) {
+    p->painted = base_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->painted);
+    if (!p->painted || begin_outlines(p)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < p->graph.count; i++) {
+        const uint32_t v = p->order[i];
+        const paint_node *node = p->parts.nodes.data + v;
+        p->painted[i] = (uint32_t)p->picture->shapes.count;
+        const bool ok = is_left_out(p, node->patch) ? true
+                        : node->piece != FROE_NONE  ? put_parts_of_piece(p, v)
+                        : is_clipped(p, v)          ? put_region(p, node->patch, v)
+                                                    : put_whole(p, node->patch, v);
+        if (!ok) return FROE_E_MEMORY;
+        if (p->picture->points.count > INT32_MAX) return FROE_E_LIMIT;
+    }
+    return FROE_OK;
+}
+
+/* ----------------------------------------------------------------------- regions -- */
+
+/* Visible patches by style, which is all that their order is good for. */
+static base_pair *list_by_style(view_painter *p, size_t *count) {
+    const froe_visibility *v = p->v;
+    const uint32_t patches = v->surface->patch_count;
+    base_pair *pairs = base_calloc(&p->picture->alloc, 2 * (size_t)patches + 1, sizeof *pairs);
+    *count = 0;
+    for (uint32_t i = 0; pairs && i < patches; i++)
+        if (v->patch_starts[i] < v->patch_starts[i + 1] && !is_left_out(p, i))
+            pairs[(*count)++] = (base_pair){p->options->styles ? p->options->styles[i] : 0, i};
+    if (pairs) base_radix_sort(pairs, pairs + *count, *count);
+    return pairs;
+}
+
+froe_status view_paint_regions(view_painter *p) {
+    size_t count;
+    base_pair *pairs = list_by_style(p, &count);
+    bool ok = pairs != NULL;
+    for (size_t i = 0; ok && i < count; i++) ok = put_region(p, pairs[i].value, FROE_NONE);
+    base_free(&p->picture->alloc, pairs, (2 * (size_t)p->v->surface->patch_count + 1) * sizeof *pairs);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* --------------------------------------------------------------------- fragments -- */
+
+/* Pieces of the tree with a visible part, farthest first, each once. */
+static size_t list_pieces(const froe_visibility *v, base_pair *pairs) {
+    for (uint32_t i = 0; i < v->piece_count; i++)
+        pairs[i] = (base_pair){UINT32_MAX - v->pieces[i].place, v->pieces[i].piece};
+    base_radix_sort(pairs, pairs + v->piece_count, v->piece_count);
+    size_t count = 0;
+    for (uint32_t i = 0; i < v->piece_count; i++)
+        if (i == 0 || pairs[i].key != pairs[i - 1].key) pairs[count++] = pairs[i];
+    return count;
+}
+
+static bool put_piece(view_painter *p, uint32_t piece) {
+    froe_picture *picture = p->picture;
+    const size_t first = picture->points.count;
+    const uint32_t patch = p->v->surface->patch_of[p->v->tree->pieces[piece].object];
+    if (is_left_out(p, patch)) return true;
+    if (!view_begin_shape(picture, patch, false) || !view_print_piece(&p->parts, p->sights, piece, &picture->points) ||
+        !end_ring(picture, first))
+        return false;
+    view_end_shape(picture);
+    return true;
+}
+
+froe_status view_paint_fragments(view_painter *p) {
+    const size_t room = 2 * (size_t)p->v->piece_count + 1;
+    base_pair *pairs = base_calloc(&p->picture->alloc, room, sizeof *pairs);
+    const size_t count = pairs ? list_pieces(p->v, pairs) : 0;
+    bool ok = pairs != NULL;
+    for (size_t i = 0; ok && i < count; i++) ok = put_piece(p, pairs[i].value);
+    base_free(&p->picture->alloc, pairs, room * sizeof *pairs);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

@@ -1,0 +1,135 @@
+/* parts.c: nodes, and what they paint, on the page. */
+#include "view/picture/parts.h"
+
+froe_status view_parts_new(view_parts *p, const froe_visibility *v, const froe_projection *view, uint32_t *places,
+                           bool cull_back) {
+    const uint32_t patches = v->surface->patch_count;
+    *p = (view_parts){.v = v, .view = view, .places = places, .clear = places != NULL, .cull_back = cull_back};
+    p->press = (print_press){.alloc = v->alloc, .view = view};
+    p->split = base_calloc(&v->alloc, (size_t)patches + 1, 1);
+    p->node_of_patch = base_calloc(&v->alloc, (size_t)patches + 1, sizeof *p->node_of_patch);
+    p->node_of = base_calloc(&v->alloc, (size_t)v->piece_count + 1, sizeof *p->node_of);
+    return p->split && p->node_of_patch && p->node_of ? FROE_OK : FROE_E_MEMORY;
+}
+
+void view_parts_free(view_parts *p) {
+    if (!p->v) return;
+    const froe_allocator *alloc = &p->v->alloc;
+    base_free(alloc, p->split, (size_t)p->v->surface->patch_count + 1);
+    base_free(alloc, p->node_of_patch, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->node_of_patch);
+    base_free(alloc, p->node_of, ((size_t)p->v->piece_count + 1) * sizeof *p->node_of);
+    array_free(alloc, &p->nodes);
+    array_free(alloc, &p->parts);
+    array_free(alloc, &p->kinds);
+    array_free(alloc, &p->points);
+    array_free(alloc, &p->ring);
+    print_free(&p->press);
+}
+
+/* ----------------------------------------------------------------------- prints -- */
+
+/* A ring of sightlines in the plane of a patch, onto the page. */
+static bool print_ring_of(view_parts *p, uint32_t patch, const view_corner *ring, size_t count, print_ring *out) {
+    const geom_plane plane = view_plane_of(&p->v->sights, patch);
+    bool cut;
+    print_begin(&p->press);
+    for (size_t i = 0; i < count; i++) {
+        double x[3];
+        view_point_on(&p->v->sights, &plane, ring[i].ray.x, x);
+        if (!print_add(&p->press, x)) return false;
+    }
+    return print_end(&p->press, out, &cut);
+}
+
+bool view_print_visible(view_parts *p, uint32_t visible, print_ring *out) {
+    const view_piece *piece = p->v->pieces + visible;
+    return print_ring_of(p, piece->patch, p->v->corners.data + piece->first, piece->count, out);
+}
+
+bool view_print_piece(view_parts *p, view_sights *sights, uint32_t piece, print_ring *out) {
+    const uint32_t patch = p->v->surface->patch_of[p->v->tree->pieces[piece].object];
+    return view_beam_of(sights, piece, &p->ring) && print_ring_of(p, patch, p->ring.data, p->ring.count, out);
+}
+
+static bool print_object(view_parts *p, view_sights *sights, uint32_t object, print_ring *out) {
+    const froe_scene *s = p->v->tree->scene;
+    const uint32_t n = scene_corners(s, object);
+    bool cut;
+    print_begin(&p->press);
+    for (uint32_t i = 0; i < n; i++)
+        if (!print_add(&p->press, scene_point(s, object, view_facing(sights, object) > 0 ? i : n - 1 - i)))
+            return false;
+    return print_end(&p->press, out, &cut);
+}
+
+/* ------------------------------------------------------------------------ parts -- */
+
+static bool add_part(view_parts *p, view_sights *sights, uint32_t node, int kind, uint32_t source, uint32_t place) {
+    const froe_allocator *alloc = &p->v->alloc;
+    paint_part part = {.node = node, .place = place, .source = source, .first = (uint32_t)p->points.count};
+    const bool ok = kind == PART_OBJECT  ? print_object(p, sights, source, &p->points)
+                    : kind == PART_PIECE ? view_print_piece(p, sights, source, &p->points)
+                                         : view_print_visible(p, source, &p->points);
+    part.count = (uint32_t)p->points.count - part.first;
+    if (!ok) return false;
+    if (part.count < 3) { /* away from the page */
+        p->points.count = part.first;
+        return true;
+    }
+    return array_push(alloc, &p->parts, part) && array_push(alloc, &p->kinds, (uint8_t)kind);
+}
+
+static bool is_drawn(const view_parts *p, view_sights *sights, uint32_t object) {
+    const int facing = view_facing(sights, object);
+    return facing > 0 || (facing < 0 && !p->cull_back);
+}
+
+/* One node for a patch; or one for each piece of it with a visible part. */
+static bool add_nodes(view_parts *p, uint32_t patch) {
+    const froe_visibility *v = p->v;
+    const froe_allocator *alloc = &v->alloc;
+    p->node_of_patch[patch] = (uint32_t)p->nodes.count;
+    const bool pieces = p->split[patch] == PARTS_PIECES;
+    if (!pieces && !array_push(alloc, &p->nodes, (paint_node){patch, FROE_NONE})) return false;
+    for (uint32_t i = v->patch_starts[patch]; i < v->patch_starts[patch + 1]; i++) {
+        const bool next = pieces && (i == v->patch_starts[patch] || v->pieces[i].piece != v->pieces[i - 1].piece);
+        if (next && !array_push(alloc, &p->nodes, (paint_node){patch, v->pieces[i].piece})) return false;
+        p->node_of[i] = (uint32_t)p->nodes.count - 1;
+    }
+    return true;
+}
+
+static bool add_parts_of_patch(view_parts *p, view_sights *sights, uint32_t patch) {
+    const froe_surface *s = p->v->surface;
+    const froe_visibility *v = p->v;
+    for (uint32_t i = v->patch_starts[patch]; p->split[patch] && i < v->patch_starts[patch + 1]; i++)
+        if (!add_part(p, sights, p->node_of[i], PART_VISIBLE, i, v->pieces[i].place)) return false;
+    for (uint32_t m = s->patch_starts[patch]; !p->clear && !p->split[patch] && m < s->patch_starts[patch + 1]; m++)
+        if (is_drawn(p, sights, s->members[m]) &&
+            !add_part(p, sights, p->node_of_patch[patch], PART_OBJECT, s->members[m], 0))
+            return false;
+    return true;
+}
+
+/* All pieces of the tree that whole patches paint. */
+static bool add_pieces(view_parts *p, view_sights *sights) {
+    const froe_tree *t = p->v->tree;
+    for (uint32_t i = 0; i < t->piece_count; i++) {
+        const uint32_t object = t->pieces[i].object, patch = p->v->surface->patch_of[object];
+        if (patch == FROE_NONE || p->node_of_patch[patch] == FROE_NONE || p->split[patch]) continue;
+        if (is_drawn(p, sights, object) && !add_part(p, sights, p->node_of_patch[patch], PART_PIECE, i, p->places[i]))
+            return false;
+    }
+    return true;
+}
+
+froe_status view_parts_make(view_parts *p, view_sights *sights) {
+    const froe_visibility *v = p->v;
+    p->nodes.count = p->parts.count = p->kinds.count = p->points.count = 0;
+    for (uint32_t patch = 0; patch < v->surface->patch_count; patch++) {
+        p->node_of_patch[patch] = FROE_NONE;
+        if (v->patch_starts[patch] == v->patch_starts[patch + 1]) continue;
+        if (!add_nodes(p, patch) || !add_parts_of_patch(p, sights, patch)) return FROE_E_MEMORY;
+    }
+    return !p->clear || add_pieces(p, sights) ? FROE_OK : FROE_E_MEMORY;
+}

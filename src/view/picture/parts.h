@@ -1,0 +1,62 @@
+/* parts.h: what will be painted, before it is known in which order: nodes of the order graph, and the convex parts
+ * that each of them paints.
+ *
+ * A node is a whole patch, painted with all its polygons, or what is visible of one that a section cuts, or of a single
+ * piece of the tree: this only where one sees through something and whole patches would form circles. */
+#ifndef FROE_VIEW_PICTURE_PARTS_H
+#define FROE_VIEW_PICTURE_PARTS_H
+#include "view/picture/graph.h"
+#include "view/print.h"
+#include "view/visibility/visibility.h"
+
+typedef struct paint_node {
+    uint32_t patch;
+    uint32_t piece; /**< of the tree; FROE_NONE: the whole patch */
+} paint_node;
+
+typedef struct paint_part {
+    uint32_t node;
+    uint32_t place;        /**< front to back, as of visible pieces; 0 where whole patches are opaque: it is behind */
+    uint32_t source;       /**< see kind */
+    uint32_t first, count; /**< its ring on the page, in `points` */
+} paint_part;
+
+/** How a patch is painted: `split` of view_parts. */
+enum { PARTS_WHOLE, PARTS_PIECES, PARTS_REGION };
+
+/** What `source` of a part is. */
+enum { PART_OBJECT, PART_PIECE, PART_VISIBLE };
+
+typedef struct view_parts {
+    const froe_visibility *v;
+    const froe_projection *view;
+    bool clear; /**< one sees through some patches: parts are pieces of the tree, with places */
+    bool cull_back;
+    uint32_t *places;        /**< clear: per piece of the tree, its place front to back */
+    uint8_t *split;          /**< per patch: PARTS_... */
+    uint32_t *node_of_patch; /**< per patch: its node (its first, when split); FROE_NONE: not visible */
+    uint32_t *node_of;       /**< per visible piece */
+    ARRAY(paint_node) nodes;
+    ARRAY(paint_part) parts;
+    ARRAY(uint8_t) kinds; /**< per part */
+    print_ring points;
+    print_press press;
+    view_ring ring;
+} view_parts;
+
+/** `sights` are those of the visibility, which may grow. places NULL: nothing is clear. FROE_E_MEMORY. */
+froe_status view_parts_new(view_parts *parts, const froe_visibility *v, const froe_projection *view, uint32_t *places,
+                           bool cull_back);
+void view_parts_free(view_parts *parts);
+/** Makes nodes and parts anew, as `split` says. */
+froe_status view_parts_make(view_parts *parts, view_sights *sights);
+/** Appends the ring of a visible piece on the page. */
+bool view_print_visible(view_parts *parts, uint32_t visible, print_ring *out);
+/** Appends the ring of a tree's piece. */
+bool view_print_piece(view_parts *parts, view_sights *sights, uint32_t piece, print_ring *out);
+
+/** Who must come after whom: arcs of the graph, as many as there are. *tests counts pairs that were compared;
+ * FROE_E_BUDGET when they would exceed `most`. Overlaps are decided exactly. */
+typedef ARRAY(graph_arc) view_arcs;
+froe_status view_find_arcs(view_parts *parts, view_sights *sights, uint64_t most, view_arcs *arcs, uint64_t *tests);
+#endif

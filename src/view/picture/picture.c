@@ -1,0 +1,259 @@
+/* picture.c: the public calls for pictures: look, plan, paint. */
+#include "view/picture/picture.h"
+#include "base/floats.h"
+#include "base/status.h"
+#include "view/visibility/order.h"
+#include <math.h>
+
+froe_picture_options froe_picture_defaults(void) {
+    return (froe_picture_options){.size = sizeof(froe_picture_options), .crease = 30};
+}
+
+const char *froe_paint_name(froe_paint paint) {
+    static const char *const names[FROE_PAINT_COUNT] = {"whole", "regions", "fragments"};
+    return paint >= 0 && paint < FROE_PAINT_COUNT ? names[paint] : NULL;
+}
+
+const char *froe_line_name(froe_line kind) {
+    switch (kind) {
+    case FROE_LINE_BORDER:
+        return "border";
+    case FROE_LINE_SILHOUETTE:
+        return "silhouette";
+    case FROE_LINE_OBJECT:
+        return "object";
+    case FROE_LINE_MATERIAL:
+        return "material";
+    case FROE_LINE_CREASE:
+        return "crease";
+    case FROE_LINE_MESH:
+        return "mesh";
+    case FROE_LINE_CROSSING:
+        return "crossing";
+    case FROE_LINE_SECTION:
+        return "section";
+    default:
+        return NULL;
+    }
+}
+
+/* --------------------------------------------------------------------- looking -- */
+
+/* Kinds need to know where the eye is: lines of sight of their own, as those of the visibility are not there yet. */
+static froe_status find_kinds(const view_painter *p, const froe_tree *tree, const froe_surface *surface, uint8_t *kinds,
+                              froe_diagnostic *diag) {
+    geom_eye eye;
+    view_sights sights;
+    froe_status status = view_eye_of(tree, &p->options->view->eye, &eye, diag);
+    if (status) return status;
+    status = view_sights_new(&sights, tree, surface, &eye, NULL, 0, &p->picture->alloc);
+    if (!status) view_line_kinds(&sights, p->options->lines, p->options->crease, kinds);
+    view_sights_free(&sights);
+    return status ? base_fail_memory(diag) : FROE_OK;
+}
+
+static froe_status look(view_painter *p, const froe_tree *tree, const froe_surface *surface, const uint8_t *kinds,
+                        froe_diagnostic *diag) {
+    const froe_picture_options *o = p->options;
+    froe_visibility_options look = froe_visibility_defaults();
+    look.eye = o->view->eye;
+    look.window = o->view->window;
+    look.window_corners = 4;
+    look.clear = o->clear;
+    look.priorities = o->priorities;
+    look.edges = kinds;
+    look.cull_back = o->cull_back;
+    look.crossings = o->lines & (FROE_LINE_CROSSING | FROE_LINE_SECTION);
+    look.hidden_crossings = look.crossings && o->hidden;
+    look.section = o->section;
+    look.alloc = &p->picture->alloc;
+    look.progress = o->progress;
+    look.user = o->user;
+    const froe_status status = froe_visibility_new(tree, surface, &look, &p->v, diag);
+    if (status) return status;
+    p->sights = &p->v->sights;
+    p->picture->report.visibility = froe_visibility_statistics(p->v);
+    return FROE_OK;
+}
+
+static bool sees_through(const froe_picture_options *o, const froe_surface *surface) {
+    for (uint32_t i = 0; o->clear && i < surface->patch_count; i++)
+        if (o->clear[i]) return true;
+    return false;
+}
+
+/* -------------------------------------------------------------------- painting -- */
+
+/* Who is painted after whom, as far as that matters. */
+static froe_status plan_fills(view_painter *p) {
+    froe_picture_report *report = &p->picture->report;
+    froe_status status = FROE_OK;
+    report->paint = p->options->paint;
+    if (p->options->no_fills) return FROE_OK;
+    if (p->options->paint == FROE_PAINT_WHOLE && sees_through(p->options, p->v->surface)) {
+        p->places = base_calloc(&p->picture->alloc, (size_t)p->v->tree->piece_count + 1, sizeof *p->places);
+        status = p->places ? view_find_places(p->v, p->options->priorities, p->places) : FROE_E_MEMORY;
+    }
+    if (!status) status = view_parts_new(&p->parts, p->v, p->options->view, p->places, p->options->cull_back);
+    if (!status && p->options->paint == FROE_PAINT_WHOLE) {
+        status = view_plan_whole(p);
+        if (status == FROE_E_BUDGET) {
+            report->paint = FROE_PAINT_FRAGMENTS;
+            status = FROE_OK;
+        }
+    }
+    if (!status && p->options->min_area > 0) status = view_leave_out(p);
+    return status;
+}
+
+static froe_status paint_fills(view_painter *p) {
+    const froe_picture_report *report = &p->picture->report;
+    if (p->options->no_fills) return FROE_OK;
+    return report->paint == FROE_PAINT_WHOLE     ? view_paint_whole(p)
+           : report->paint == FROE_PAINT_REGIONS ? view_paint_regions(p)
+                                                 : view_paint_fragments(p);
+}
+
+static froe_status note_styles(view_painter *p) {
+    froe_picture *picture = p->picture;
+    picture->styles = base_calloc(&picture->alloc, picture->shapes.count + 1, sizeof *picture->styles);
+    if (!picture->styles) return FROE_E_MEMORY;
+    for (size_t i = 0; p->options->styles && i < picture->shapes.count; i++)
+        picture->styles[i] = p->options->styles[picture->shapes.data[i].patch];
+    picture->report.shapes = picture->shapes.count;
+    picture->report.points = picture->points.count;
+    picture->report.strokes = picture->strokes.count;
+    return FROE_OK;
+}
+
+static void free_painter(view_painter *p) {
+    const froe_allocator *alloc = &p->picture->alloc;
+    view_outliner_free(&p->outliner);
+    view_seams_free(&p->seams);
+    view_graph_free(alloc, &p->graph);
+    array_free(alloc, &p->arcs);
+    view_region_free(alloc, &p->region);
+    base_free(alloc, p->order, (p->parts.nodes.count + 1) * sizeof *p->order);
+    base_free(alloc, p->breaks, p->parts.nodes.count + 1);
+    array_free(alloc, &p->items);
+    array_free(alloc, &p->segments);
+    base_free(alloc, p->painted, (p->parts.nodes.count + 1) * sizeof *p->painted);
+    if (p->v) {
+        base_free(alloc, p->places, ((size_t)p->v->tree->piece_count + 1) * sizeof *p->places);
+        base_free(alloc, p->left_out, (size_t)p->v->surface->patch_count + 1);
+        base_free(alloc, p->runs, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->runs);
+    }
+    view_parts_free(&p->parts);
+    froe_visibility_free(p->v);
+}
+
+static froe_status make(view_painter *p, const froe_tree *tree, const froe_surface *surface, froe_diagnostic *diag) {
+    uint8_t *kinds = base_calloc(&p->picture->alloc, (size_t)surface->edge_count + 1, 1);
+    if (!kinds) return base_fail_memory(diag);
+    froe_status status = p->options->lines ? find_kinds(p, tree, surface, kinds, diag) : FROE_OK;
+    if (!status) status = look(p, tree, surface, kinds, diag);
+    if (!status) {
+        if (p->options->lines) status = view_make_segments(p, kinds);
+        if (!status) status = plan_fills(p);
+        if (!status) status = paint_fills(p);
+        if (!status) status = view_make_strokes(p);
+        if (!status) status = note_styles(p);
+        if (status == FROE_E_MEMORY) base_fail_memory(diag);
+        if (status == FROE_E_LIMIT) base_fail(diag, status, "the picture has more than 2^31 points or demands");
+    }
+    base_free(&p->picture->alloc, kinds, (size_t)surface->edge_count + 1);
+    return status;
+}
+
+/* --------------------------------------------------------------------- calling -- */
+
+static froe_status check(const froe_picture_options *o, froe_diagnostic *diag) {
+    if (!o || o->size != sizeof *o)
+        return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_picture_defaults()");
+    if (!o->view) return base_fail(diag, FROE_E_ARG, "there is no view");
+    if (o->paint < 0 || o->paint >= FROE_PAINT_COUNT)
+        return base_fail(diag, FROE_E_OPTIONS, "no such paint: %d", (int)o->paint);
+    if (!(o->underlap >= 0) || !isfinite(o->underlap))
+        return base_fail(diag, FROE_E_OPTIONS, "an underlap of %g is none", o->underlap);
+    if (!(o->min_area >= 0) || !isfinite(o->min_area))
+        return base_fail(diag, FROE_E_OPTIONS, "a least area of %g is none", o->min_area);
+    if (!(o->halo >= 0) || !isfinite(o->halo)) return base_fail(diag, FROE_E_OPTIONS, "a halo of %g is none", o->halo);
+    if (!(o->interleave >= 0) || !isfinite(o->interleave))
+        return base_fail(diag, FROE_E_OPTIONS, "lines that reach %g cannot be interleaved", o->interleave);
+    if (!(o->crease >= 0 && o->crease <= 180))
+        return base_fail(diag, FROE_E_OPTIONS, "a crease angle of %g degrees is not in 0 .. 180", o->crease);
+    return FROE_OK;
+}
+
+froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface, const froe_picture_options *options,
+                             froe_picture **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!tree || !surface || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    froe_status status = check(options, diag);
+    if (status) return status;
+    const froe_allocator alloc = base_allocator(options->alloc);
+    froe_picture *picture = base_calloc(&alloc, 1, sizeof *picture);
+    if (!picture) return base_fail_memory(diag);
+    picture->alloc = alloc;
+    view_painter p = {.picture = picture, .options = options};
+    status = make(&p, tree, surface, diag);
+    free_painter(&p);
+    if (status) {
+        froe_picture_free(picture);
+        return status;
+    }
+    *out = picture;
+    return FROE_OK;
+}
+
+void froe_picture_free(froe_picture *p) {
+    if (!p) return;
+    const froe_allocator alloc = p->alloc;
+    base_free(&alloc, p->styles, (p->shapes.count + 1) * sizeof *p->styles);
+    array_free(&alloc, &p->shapes);
+    array_free(&alloc, &p->points);
+    array_free(&alloc, &p->ring_ends);
+    array_free(&alloc, &p->strokes);
+    array_free(&alloc, &p->stroke_points);
+    base_free(&alloc, p, sizeof *p);
+}
+
+/* ---------------------------------------------------------------------- reading -- */
+
+size_t froe_picture_shape_count(const froe_picture *p) {
+    return p->shapes.count;
+}
+
+froe_shape froe_picture_shape(const froe_picture *p, size_t i) {
+    if (i >= p->shapes.count) return (froe_shape){.patch = FROE_NONE};
+    const picture_shape *s = p->shapes.data + i;
+    return (froe_shape){s->patch, p->styles[i], s->whole, s->first_ring, s->ring_count};
+}
+
+const double *froe_picture_ring(const froe_picture *p, size_t ring, size_t *points) {
+    *points = 0;
+    if (ring >= p->ring_ends.count) return NULL;
+    const uint32_t first = ring ? p->ring_ends.data[ring - 1] : 0;
+    *points = p->ring_ends.data[ring] - first;
+    return &p->points.data[first].x;
+}
+
+size_t froe_picture_stroke_count(const froe_picture *p) {
+    return p->strokes.count;
+}
+
+froe_stroke froe_picture_stroke(const froe_picture *p, size_t i) {
+    if (i >= p->strokes.count) return (froe_stroke){.count = 0};
+    const picture_stroke *s = p->strokes.data + i;
+    return (froe_stroke){.kind = (froe_line)s->kind,
+                         .hidden = s->hidden,
+                         .closed = s->closed,
+                         .butt = {s->butt[0], s->butt[1]},
+                         .place = s->place,
+                         .points = &p->stroke_points.data[s->first].x,
+                         .count = s->count};
+}
+
+froe_picture_report froe_picture_statistics(const froe_picture *p) {
+    return p->report;
+}

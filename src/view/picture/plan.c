@@ -1,0 +1,86 @@
+/* plan.c: from who lies over whom to an order.
+ *
+ * Where all is opaque, circles are broken by patches that will be painted clipped to what is visible of them: what
+ * they would spoil they no longer touch. Where one sees through something, that is no way out: a clipped patch still
+ * has to come before what is seen through in front of it. There patches in circles are divided into their pieces, and
+ * arcs are found anew; in the end all are pieces, whose order by the tree has no circles, so this ends. */
+#include "view/picture/picture.h"
+
+/* Of patches that a section cuts nothing is painted but what is visible. */
+static void cut_by_section(view_painter *p) {
+    const froe_visibility *v = p->v;
+    const froe_tree *t = v->tree;
+    const uint32_t middle = v->section ? tree_first_piece(t, t->nodes->child + 1) : 0;
+    const uint32_t from = v->section < 0 ? middle : tree_first_piece(t, t->nodes->child);
+    for (uint32_t i = from; v->section && i < (v->section < 0 ? t->piece_count : middle); i++) {
+        const uint32_t patch = v->surface->patch_of[t->pieces[i].object];
+        if (patch != FROE_NONE) p->parts.split[patch] = PARTS_REGION;
+    }
+}
+
+static uint64_t most_pairs(const view_painter *p) {
+    const uint64_t given = p->options->max_graph, own = 1000 * (uint64_t)p->v->piece_count;
+    return given ? given : own > 50000000 ? own : 50000000;
+}
+
+static froe_status find_graph(view_painter *p) {
+    const froe_allocator *alloc = &p->picture->alloc;
+    froe_picture_report *report = &p->picture->report;
+    view_graph_free(alloc, &p->graph);
+    froe_status status = view_parts_make(&p->parts, p->sights);
+    if (!status) status = view_find_arcs(&p->parts, p->sights, most_pairs(p), &p->arcs, &report->tests);
+    if (!status) status = view_graph_new(alloc, (uint32_t)p->parts.nodes.count, p->arcs.data, p->arcs.count, &p->graph);
+    if (status) return status;
+    const size_t n = p->parts.nodes.count;
+    uint8_t *fixed = base_calloc(alloc, n + 1, 1);
+    if (!fixed) return FROE_E_MEMORY;
+    for (size_t i = 0; i < n; i++) fixed[i] = p->parts.nodes.data[i].piece != FROE_NONE;
+    status = view_graph_break(alloc, &p->graph, fixed);
+    base_free(alloc, fixed, n + 1);
+    report->arcs = p->graph.arc_count;
+    if (!report->cyclic) report->cyclic = p->graph.cyclic;
+    return status;
+}
+
+/* Divides the patches of late nodes. False when there was none. */
+static bool split_late(view_painter *p) {
+    bool any = false;
+    for (uint32_t v = 0; v < p->graph.count; v++) {
+        const paint_node *node = p->parts.nodes.data + v;
+        if (!p->graph.late[v] || node->piece != FROE_NONE) continue;
+        p->picture->report.late++;
+        p->parts.split[node->patch] = PARTS_PIECES;
+        any = true;
+    }
+    return any;
+}
+
+/* Lines have a style of their own. */
+static uint32_t style_of(const view_painter *p, uint32_t v, uint32_t lines) {
+    if (v >= p->parts.nodes.count) return lines;
+    return p->options->styles ? p->options->styles[p->parts.nodes.data[v].patch] : 0;
+}
+
+froe_status view_sort_nodes(const view_painter *p, const view_graph *graph, uint32_t *order) {
+    const froe_allocator *alloc = &p->picture->alloc;
+    uint32_t lines = 0, *styles = base_calloc(alloc, (size_t)graph->count + 1, sizeof *styles);
+    if (!styles) return FROE_E_MEMORY;
+    for (uint32_t v = 0; v < p->parts.nodes.count; v++)
+        if (style_of(p, v, 0) >= lines) lines = style_of(p, v, 0) + 1;
+    for (uint32_t v = 0; v < graph->count; v++) styles[v] = style_of(p, v, lines);
+    const froe_status status = view_graph_sort(alloc, graph, styles, lines + 1, order);
+    base_free(alloc, styles, ((size_t)graph->count + 1) * sizeof *styles);
+    return status;
+}
+
+froe_status view_plan_whole(view_painter *p) {
+    const bool clear = p->places != NULL;
+    cut_by_section(p);
+    froe_status status = find_graph(p);
+    while (!status && clear && split_late(p)) status = find_graph(p);
+    if (!clear) p->picture->report.late = p->graph.late_count;
+    if (status) return status;
+    p->order = base_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->order);
+    if (!p->order) return FROE_E_MEMORY;
+    return p->options->interleave > 0 ? view_interleave(p) : view_sort_nodes(p, &p->graph, p->order);
+}

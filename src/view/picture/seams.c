@@ -1,0 +1,287 @@
+/* seams.c: visible pieces on the page, and what of them lies along a side. */
+#include "view/picture/seams.h"
+#include "base/sort.h"
+#include <math.h>
+
+/* ----------------------------------------------------------------- begin, end -- */
+
+static bool number_nodes(view_seams *s, const uint32_t *order, const uint8_t *breaks, const uint32_t *styles) {
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    const size_t n = s->parts->nodes.count;
+    uint32_t run = 0, last = FROE_NONE;
+    s->place = base_calloc(alloc, n + 1, sizeof *s->place);
+    s->run = base_calloc(alloc, n + 1, sizeof *s->run);
+    if (!s->place || !s->run) return false;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t patch = s->parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
+        run += style != last || (breaks && breaks[i]);
+        last = style;
+        s->place[order[i]] = i;
+        s->run[order[i]] = run;
+    }
+    return true;
+}
+
+static bool print_pieces(view_seams *s, view_parts *parts) {
+    const froe_allocator *alloc = &parts->v->alloc;
+    if (!array_reserve(alloc, &s->pieces, parts->v->piece_count)) return false;
+    for (uint32_t i = 0; i < parts->v->piece_count; i++) {
+        seam_span span = {.first = s->points.count};
+        if (!view_print_visible(parts, i, &s->points)) return false;
+        span.count = s->points.count - span.first;
+        s->pieces.data[s->pieces.count++] = span;
+    }
+    return true;
+}
+
+static const print_point *points_of(const void *user, size_t i, size_t *points) {
+    const view_seams *s = user;
+    *points = s->pieces.data[i].count;
+    return s->points.data + s->pieces.data[i].first;
+}
+
+froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
+                           const uint32_t *styles, const uint8_t *clear, double width) {
+    *s = (view_seams){.parts = parts, .clear = clear, .width = width};
+    if (!number_nodes(s, order, breaks, styles) || !print_pieces(s, parts)) return FROE_E_MEMORY;
+    return view_grid_new(&parts->v->alloc, parts->view, s->pieces.count, points_of, s, &s->grid);
+}
+
+void view_seams_free(view_seams *s) {
+    if (!s->parts) return;
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    base_free(alloc, s->place, (s->parts->nodes.count + 1) * sizeof *s->place);
+    base_free(alloc, s->run, (s->parts->nodes.count + 1) * sizeof *s->run);
+    view_grid_free(alloc, &s->grid);
+    array_free(alloc, &s->points);
+    array_free(alloc, &s->pieces);
+    array_free(alloc, &s->near);
+    array_free(alloc, &s->inside);
+    array_free(alloc, &s->beyond);
+    array_free(alloc, &s->order);
+    array_free(alloc, &s->extra);
+    array_free(alloc, &s->extra_ends);
+    array_free(alloc, &s->clip[0]);
+    array_free(alloc, &s->clip[1]);
+}
+
+/* -------------------------------------------------------------------- clipping -- */
+
+/* What of a convex ring is left of ab, as the eye sees it. */
+static bool clip_left(const froe_allocator *alloc, const print_ring *in, print_point a, print_point b,
+                      print_ring *out) {
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    out->count = 0;
+    if (!array_reserve(alloc, out, 2 * in->count)) return false;
+    for (size_t i = 0; i < in->count; i++) {
+        const print_point p = in->data[i], q = in->data[i + 1 < in->count ? i + 1 : 0];
+        const double at_p = dy * (p.x - a.x) - dx * (p.y - a.y), at_q = dy * (q.x - a.x) - dx * (q.y - a.y);
+        if (at_p >= 0) out->data[out->count++] = p;
+        if ((at_p >= 0) == (at_q >= 0)) continue;
+        const double t = at_p / (at_p - at_q);
+        out->data[out->count++] = (print_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+    }
+    return true;
+}
+
+/* The common part of a visible piece and a convex ring of four corners, into clip[0]. */
+static bool clip_piece(view_seams *s, uint32_t visible, const print_point ring[4]) {
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    const seam_span span = s->pieces.data[visible];
+    s->clip[0].count = 0;
+    if (!array_reserve(alloc, &s->clip[0], span.count)) return false;
+    for (size_t i = 0; i < span.count; i++) s->clip[0].data[s->clip[0].count++] = s->points.data[span.first + i];
+    for (int i = 0; i < 4; i++)
+        if (!clip_left(alloc, &s->clip[i % 2], ring[i], ring[(i + 1) % 4], &s->clip[!(i % 2)])) return false;
+    return true;
+}
+
+static bool put_extra(view_seams *s, const print_point *ring, size_t count) {
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    if (!array_reserve(alloc, &s->extra, count)) return false;
+    for (size_t i = 0; i < count; i++) s->extra.data[s->extra.count++] = ring[i];
+    return array_push(alloc, &s->extra_ends, (uint32_t)s->extra.count);
+}
+
+/* -------------------------------------------------------------------- looking -- */
+
+/* A strip of some width on the right of ab (on its left: negative), turning left. */
+static void make_strip(print_point a, print_point b, double width, print_point out[4]) {
+    const double dx = b.x - a.x, dy = b.y - a.y, length = sqrt(dx * dx + dy * dy);
+    const double x = -dy / length * width, y = dx / length * width; /* to the right: y points down */
+    const bool right = width > 0;
+    out[0] = right ? b : a;
+    out[1] = right ? a : b;
+    out[2] = (print_point){out[1].x + x, out[1].y + y};
+    out[3] = (print_point){out[0].x + x, out[0].y + y};
+}
+
+/* Pieces that may meet a ring, each once. */
+static bool list_near(view_seams *s, const print_point *ring, size_t count) {
+    const view_grid *g = &s->grid;
+    const view_cells strip = view_grid_cells(g, ring, count, 0);
+    s->near.count = 0;
+    for (uint32_t y = strip.y0; y <= strip.y1; y++)
+        for (uint32_t x = strip.x0; x <= strip.x1; x++) {
+            const size_t cell = (size_t)y * g->cells + x;
+            for (uint32_t e = g->starts[cell]; e < g->starts[cell + 1]; e++) {
+                const seam_span span = s->pieces.data[g->entries[e]];
+                const view_cells own = view_grid_cells(g, s->points.data + span.first, span.count, 0);
+                const bool first = x == (own.x0 > strip.x0 ? own.x0 : strip.x0) &&
+                                   y == (own.y0 > strip.y0 ? own.y0 : strip.y0); /* of the cells in common */
+                if (first && !array_push(&s->parts->v->alloc, &s->near, g->entries[e])) return false;
+            }
+        }
+    return true;
+}
+
+static bool meets(const view_seams *s, uint32_t visible, const print_point *ring, size_t count) {
+    const seam_span span = s->pieces.data[visible];
+    return span.count > 2 && print_overlap(s->points.data + span.first, span.count, ring, count, 0.02 * s->width);
+}
+
+static bool any_of_node(const view_seams *s, uint32_t node, const print_point *ring, size_t count) {
+    for (size_t i = 0; i < s->near.count; i++)
+        if (s->parts->node_of[s->near.data[i]] == node && meets(s, s->near.data[i], ring, count)) return true;
+    return false;
+}
+
+/* Painted later than the node, in another path, and nothing shines through it. */
+static bool covers(const view_seams *s, uint32_t visible, uint32_t node) {
+    const uint32_t other = s->parts->node_of[visible];
+    return s->place[other] > s->place[node] && s->run[other] != s->run[node] &&
+           !(s->clear && s->clear[s->parts->v->pieces[visible].patch]);
+}
+
+/* Does something that is painted later end at a side: visible inside, but not beyond? */
+static bool ends_with(const view_seams *s, uint32_t node, const print_point inner[4], const print_point outer[4]) {
+    for (size_t i = 0; i < s->near.count; i++) {
+        const uint32_t visible = s->near.data[i];
+        if (covers(s, visible, node) && meets(s, visible, inner, 4) &&
+            !any_of_node(s, s->parts->node_of[visible], outer, 4))
+            return true;
+    }
+    return false;
+}
+
+/* ---------------------------------------------------------------------- strips -- */
+
+/* Appends the stretch of ab along which a piece lies in a strip beside it. */
+static bool add_range(view_seams *s, seam_ranges *ranges, uint32_t visible, const print_point strip[4], print_point a,
+                      print_point b) {
+    const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+    seam_range r = {1, 0};
+    if (!clip_piece(s, visible, strip)) return false;
+    for (size_t i = 0; i < s->clip[0].count; i++) {
+        const double t = ((s->clip[0].data[i].x - a.x) * dx + (s->clip[0].data[i].y - a.y) * dy) / square;
+        r.from = fmin(r.from, fmax(t, 0)), r.to = fmax(r.to, fmin(t, 1));
+    }
+    return r.from >= r.to || array_push(&s->parts->v->alloc, ranges, r);
+}
+
+static int by_start(void *user, uint32_t i, uint32_t j) {
+    const seam_ranges *ranges = user;
+    const double x = ranges->data[i].from, y = ranges->data[j].from;
+    return (x > y) - (x < y);
+}
+
+/* Sorts ranges and joins what touches. */
+static bool join_ranges(view_seams *s, seam_ranges *ranges) {
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    const size_t n = ranges->count;
+    s->order.count = 0;
+    if (!array_reserve(alloc, &s->order, 2 * n) || !array_reserve(alloc, ranges, n)) return false;
+    for (uint32_t i = 0; i < n; i++) s->order.data[i] = i;
+    base_merge_sort(s->order.data, s->order.data + n, n, by_start, ranges);
+    for (size_t i = 0; i < n; i++) ranges->data[n + i] = ranges->data[s->order.data[i]];
+    ranges->count = 0;
+    for (size_t i = 0; i < n; i++) {
+        const seam_range r = ranges->data[n + i];
+        seam_range *last = ranges->data + ranges->count - 1;
+        if (ranges->count && r.from <= last->to + 1e-6)
+            last->to = fmax(last->to, r.to);
+        else
+            ranges->data[ranges->count++] = r;
+    }
+    return true;
+}
+
+/* Do pieces that are painted later cover all of a convex ring? (They do not overlap.) */
+static bool is_covered(view_seams *s, uint32_t node, const print_point ring[4], bool *all) {
+    double covered = 0;
+    for (size_t i = 0; i < s->near.count; i++) {
+        if (!covers(s, s->near.data[i], node)) continue;
+        if (!clip_piece(s, s->near.data[i], ring)) return false;
+        covered += s->clip[0].count < 3 ? 0 : print_area(s->clip[0].data, s->clip[0].count);
+    }
+    *all = covered > 0.999 * print_area(ring, 4);
+    return true;
+}
+
+/* Beyond ab from one share to the other, narrower outside, as wide as there is room. */
+static bool put_strip(view_seams *s, uint32_t node, print_point a, print_point b, double from, double to) {
+    const double dx = b.x - a.x, dy = b.y - a.y, length = sqrt(dx * dx + dy * dy);
+    const print_point u = {a.x + from * dx, a.y + from * dy}, v = {a.x + to * dx, a.y + to * dy};
+    bool all = (to - from) * length < s->width; /* too short to be seen */
+    for (double width = s->width; !all && width > 0.2 * s->width; width *= 0.5) {
+        const double w = width / length, x = dx * w, y = dy * w;
+        const print_point strip[4] = {
+            v, u, {u.x - y + 0.4 * x, u.y + x + 0.4 * y}, {v.x - y - 0.4 * x, v.y + x - 0.4 * y}};
+        if (!is_covered(s, node, strip, &all) || (all && !put_extra(s, strip, 4))) return false;
+    }
+    return true;
+}
+
+/* Where the node is visible inside ab and something later beyond it. */
+static bool put_strips(view_seams *s, uint32_t node, print_point a, print_point b) {
+    print_point inner[4], outer[4];
+    s->inside.count = s->beyond.count = 0;
+    make_strip(a, b, -0.1 * s->width, inner);
+    make_strip(a, b, 0.1 * s->width, outer);
+    for (size_t i = 0; i < s->near.count; i++) {
+        const uint32_t visible = s->near.data[i];
+        if (s->parts->node_of[visible] == node && !add_range(s, &s->inside, visible, inner, a, b)) return false;
+        if (covers(s, visible, node) && !add_range(s, &s->beyond, visible, outer, a, b)) return false;
+    }
+    if (!s->beyond.count || !join_ranges(s, &s->inside) || !join_ranges(s, &s->beyond)) return s->beyond.count == 0;
+    for (size_t i = 0, j = 0; i < s->inside.count && j < s->beyond.count;) {
+        const seam_range p = s->inside.data[i], q = s->beyond.data[j];
+        const double from = fmax(p.from, q.from), to = fmin(p.to, q.to);
+        if (from < to && !put_strip(s, node, a, b, from, to)) return false;
+        if (p.to < q.to)
+            i++;
+        else
+            j++;
+    }
+    return true;
+}
+
+bool view_seams_look(view_seams *s, uint32_t node, print_point a, print_point b, bool *bare) {
+    print_point inner[4], outer[4], both[8];
+    *bare = false;
+    if (a.x == b.x && a.y == b.y) return true;
+    make_strip(a, b, -0.5 * s->width, inner);
+    make_strip(a, b, s->width, outer);
+    for (int i = 0; i < 4; i++) both[i] = inner[i], both[4 + i] = outer[i];
+    if (!list_near(s, both, 8)) return false;
+    if (any_of_node(s, node, inner, 4)) return put_strips(s, node, a, b);
+    make_strip(a, b, 0.5 * s->width, outer);
+    *bare = ends_with(s, node, inner, outer);
+    return true;
+}
+
+bool view_seams_hidden(view_seams *s, uint32_t node, const print_point *ring, size_t count, bool *hidden) {
+    if (!list_near(s, ring, count)) return false;
+    *hidden = !any_of_node(s, node, ring, count);
+    return true;
+}
+
+bool view_seams_flush(view_seams *s, print_ring *points, print_ends *ends) {
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    const uint32_t first = (uint32_t)points->count;
+    if (!array_reserve(alloc, points, s->extra.count) || !array_reserve(alloc, ends, s->extra_ends.count)) return false;
+    for (size_t i = 0; i < s->extra.count; i++) points->data[points->count++] = s->extra.data[i];
+    for (size_t i = 0; i < s->extra_ends.count; i++) ends->data[ends->count++] = first + s->extra_ends.data[i];
+    s->extra.count = s->extra_ends.count = 0;
+    return true;
+}

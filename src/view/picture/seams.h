@@ -1,0 +1,62 @@
+/* seams.h: what happens along the sides of shapes, so that antialiasing neither lets the background through nor lets
+ * what is hidden out.
+ *
+ * STRIPS. Where A ends and a face B goes on that is painted later, A may be drawn into B: whatever is added at a point
+ * whose visible face is painted later than A, that face paints over. So the strip beyond a side of A is cut to the
+ * visible pieces of later faces. (Faces that share an edge have it shorter: outline.h.)
+ *
+ *        A    |////|  B            strip: beyond A's side, within what is visible of B
+ *             |////|
+ *
+ * TRIMS. Where a border of A is hidden, but ends together with what hides it, the two coverages of a pixel compound,
+ * and A's colour shows along the outline of the other. There A is drawn short: nothing visible of it may lie in what
+ * goes.
+ *
+ *        |::::: A, hidden by B     trim: the dotted part goes
+ *        |::::: B
+ */
+#ifndef FROE_VIEW_PICTURE_SEAMS_H
+#define FROE_VIEW_PICTURE_SEAMS_H
+#include "view/picture/grid.h"
+#include "view/picture/parts.h"
+
+typedef struct seam_span {
+    size_t first, count;
+} seam_span;
+
+/** A stretch of a side, in shares of its length. */
+typedef struct seam_range {
+    double from, to;
+} seam_range;
+typedef ARRAY(seam_range) seam_ranges;
+
+typedef struct view_seams {
+    const view_parts *parts; /**< NULL: there is nothing to be done */
+    const uint8_t *clear;    /**< per patch, or NULL */
+    double width;
+    uint32_t *place;            /**< per node: when it is painted */
+    uint32_t *run;              /**< per node: nodes of one run share a path */
+    print_ring points;          /**< of all visible pieces */
+    ARRAY(seam_span) pieces;    /**< per visible piece */
+    view_grid grid;             /**< of them */
+    ARRAY(uint32_t) near;       /**< pieces near a side */
+    seam_ranges inside, beyond; /**< of the side: where its node is visible inside; where something later is beyond */
+    ARRAY(uint32_t) order;      /**< for sorting those */
+    print_ring extra;           /**< strips of the shape in the making */
+    ARRAY(uint32_t) extra_ends; /**< per strip: where its points end */
+    print_ring clip[2];
+} view_seams;
+
+/** `order`: all nodes as they are painted; `breaks` per place in it: something else is painted before; `styles` per
+ * patch; these two may be NULL. FROE_E_MEMORY. */
+froe_status view_seams_new(view_seams *seams, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
+                           const uint32_t *styles, const uint8_t *clear, double width);
+void view_seams_free(view_seams *seams);
+/** Looks along a side of a node's shape, which lies on its left as the eye sees it. Where the node is visible beside
+ * it, strips are added; *bare: it is not, and what is visible there ends at the side as well. False without memory. */
+bool view_seams_look(view_seams *seams, uint32_t node, print_point a, print_point b, bool *bare);
+/** *hidden: nothing is visible of a node in a convex ring, turning left. False without memory. */
+bool view_seams_hidden(view_seams *seams, uint32_t node, const print_point *ring, size_t count, bool *hidden);
+/** Appends the strips found since, as rings. False without memory. */
+bool view_seams_flush(view_seams *seams, print_ring *points, print_ends *ends);
+#endif

@@ -1,0 +1,120 @@
+/* segments.c: intervals of edges, and crossings, become segments on the page. */
+#include "base/radix.h"
+#include "geom/predicates.h"
+#include "view/picture/picture.h"
+#include <math.h>
+
+static void set_end(const view_painter *p, view_item *item, int e, const double *u, const double *v, double t) {
+    const froe_projection *view = p->options->view;
+    double x[3], at[3], page[2];
+    for (int k = 0; k < 3; k++) x[k] = t == 1 ? v[k] : u[k] + t * (v[k] - u[k]);
+    view_camera_point(view, x, at);
+    view_camera_page(view, at, page);
+    item->at[e] = (print_point){page[0], page[1]};
+    item->near[e] = view->eye.parallel ? -at[2] : 1 / at[2];
+}
+
+/* Far enough beyond the page that no rounding matters: what is visible, or hidden, has been cut to it exactly. */
+#define BEYOND 1e-6
+
+/* A stretch of the segment from a to b, between two shares, unless it is too near to the eye. */
+static bool add_item(view_painter *p, view_item *item, const double *a, const double *b, double from, double to) {
+    double share[2] = {from, to};
+    if (!print_clip_segment(p->options->view, a, b, BEYOND, share)) return true;
+    for (int e = 0; e < 2; e++) set_end(p, item, e, a, b, share[e]);
+    return array_push(&p->picture->alloc, &p->items, *item);
+}
+
+static bool add_stretch(view_painter *p, uint32_t edge, uint8_t kind, bool hidden, const view_mark mark[2]) {
+    view_sights *s = p->sights;
+    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
+    view_item item = {.run = {view_line_of_edge(s, edge), {mark[0], mark[1]}}, .kind = kind, .hidden = hidden};
+    return add_item(p, &item, view_vertex(s, v[0]), view_vertex(s, v[1]), view_share_of(s, edge, mark[0]),
+                    view_share_of(s, edge, mark[1]));
+}
+
+/* What of an edge the section has left; *left: anything. */
+static froe_status cut_to_section(view_sights *s, uint32_t edge, int section, view_mark mark[2], bool *left) {
+    const geom_plane plane = tree_plane_at(s->tree, 0);
+    int side[2];
+    for (int e = 0; e < 2; e++)
+        side[e] = section * geom_side_vertex(&s->context, &plane, view_vertex(s, mark[e].vertex));
+    *left = side[0] > 0 || side[1] > 0 || (!side[0] && !side[1]);
+    if (!*left || side[0] * side[1] >= 0) return FROE_OK;
+    return view_stop_edge(s, edge, view_line_of_edge(s, edge), &mark[side[1] < 0]);
+}
+
+/* All of an edge that is on the page, as if it were hidden: what is visible of it lies over that. */
+static froe_status add_hidden(view_painter *p, uint32_t edge, uint8_t kind) {
+    view_sights *s = p->sights;
+    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
+    view_mark mark[2] = {{.vertex = v[0]}, {.vertex = v[1]}};
+    bool left = true;
+    if (view_is_point(s, edge)) return FROE_OK;
+    const uint32_t line = view_line_of_edge(s, edge);
+    if (line == FROE_NONE) return FROE_E_MEMORY;
+    const froe_status status = p->v->section ? cut_to_section(s, edge, p->v->section, mark, &left) : FROE_OK;
+    if (status || !left) return status;
+    view_stretch part = {edge, {view_end_at(s, line, mark[0]), view_end_at(s, line, mark[1])}};
+    if (!view_cut_to_window(s, line, &part)) return FROE_OK;
+    for (int e = 0; e < 2; e++) mark[e] = view_mark_of(&part.end[e]);
+    return add_stretch(p, edge, kind, true, mark) ? FROE_OK : FROE_E_MEMORY;
+}
+
+static froe_status add_edge(view_painter *p, uint32_t edge, uint8_t kind) {
+    const uint32_t *starts = p->v->edge_starts + edge;
+    for (uint32_t i = starts[0]; i < starts[1]; i++)
+        if (!add_stretch(p, edge, kind, false, p->v->interval_marks + 2 * (size_t)i)) return FROE_E_MEMORY;
+    return p->options->hidden ? add_hidden(p, edge, kind) : FROE_OK;
+}
+
+static bool add_crossings(view_painter *p) {
+    size_t count;
+    const froe_crossing *x = froe_visibility_crossings(p->v, &count);
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t kind = x[i].section ? FROE_LINE_SECTION : FROE_LINE_CROSSING;
+        view_item item = {.run = p->v->crossing_runs.data[i], .kind = (uint8_t)kind, .hidden = x[i].hidden};
+        if (p->options->lines & kind && !add_item(p, &item, x[i].from, x[i].to, 0, 1)) return false;
+    }
+    return true;
+}
+
+/* ----------------------------------------------------------------------- chains -- */
+
+static bool is_crossing(const view_segment *s) {
+    return s->kind == FROE_LINE_CROSSING || s->kind == FROE_LINE_SECTION;
+}
+
+/* Ends of crossings at one place of the page get one number, above those of vertices. */
+static bool number_crossings(view_painter *p) {
+    const size_t most = 2 * p->segments.count;
+    const double fine = 1e9 / (p->options->view->width + p->options->view->height);
+    uint32_t number = p->sights->tree->scene->vertex_count;
+    base_pair *pairs = base_calloc(&p->picture->alloc, 2 * most + 1, sizeof *pairs);
+    size_t n = 0;
+    for (uint32_t i = 0; pairs && i < most; i++) {
+        const print_point at = p->segments.data[i / 2].at[i % 2];
+        const uint64_t x = (uint64_t)(int64_t)floor(at.x * fine + 0.5) & UINT32_MAX,
+                       y = (uint64_t)(int64_t)floor(at.y * fine + 0.5) & UINT32_MAX;
+        if (is_crossing(p->segments.data + i / 2)) pairs[n++] = (base_pair){x << 32 | y, i};
+    }
+    if (pairs) base_radix_sort(pairs, pairs + n, n);
+    for (size_t i = 0; pairs && i < n; i++) {
+        number += i && pairs[i].key != pairs[i - 1].key;
+        p->segments.data[pairs[i].value / 2].vertex[pairs[i].value % 2] = number;
+    }
+    base_free(&p->picture->alloc, pairs, (2 * most + 1) * sizeof *pairs);
+    return pairs != NULL;
+}
+
+froe_status view_make_segments(view_painter *p, const uint8_t *kinds) {
+    const froe_picture_options *o = p->options;
+    froe_status status = FROE_OK;
+    for (uint32_t e = 0; !status && e < p->sights->surface->edge_count; e++)
+        if (kinds[e]) status = add_edge(p, e, kinds[e]);
+    if (!status && !add_crossings(p)) status = FROE_E_MEMORY;
+    if (!status) status = view_overlay(p->sights, &p->items, o->halo > 0 || o->interleave > 0, &p->segments);
+    if (!status && !number_crossings(p)) status = FROE_E_MEMORY;
+    if (!status) status = view_cut_segments(&p->picture->alloc, o->view, o->halo, &p->segments);
+    return status;
+}

@@ -1,0 +1,140 @@
+/* strokes.c: segments of one kind that meet at a vertex become polylines.
+ *
+ * At a vertex where several could go on, the straightest does. Where a line ends because something begins to hide it, a
+ * round cap would stick out over what hides it: such ends are marked. */
+#include "view/picture/picture.h"
+#include <math.h>
+
+typedef struct chainer {
+    view_painter *p;
+    const froe_allocator *alloc;
+    ARRAY(base_pair) ends; /* by class and vertex: 2 * segment + end; twice as long for sorting */
+    size_t end_count;
+    print_ring forth, back;
+} chainer;
+
+static uint32_t class_of(const view_segment *s) {
+    return (s->hidden ? 0u : (uint32_t)FROE_LINE_END) + s->kind;
+}
+
+static bool list_ends(chainer *c) {
+    const size_t n = c->p->segments.count;
+    if (!array_reserve(c->alloc, &c->ends, 4 * n)) return false;
+    c->end_count = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const view_segment *s = c->p->segments.data + i;
+        for (uint32_t e = 0; e < 2; e++)
+            if (s->vertex[e] != FROE_NONE)
+                c->ends.data[c->end_count++] = (base_pair){(uint64_t)class_of(s) << 32 | s->vertex[e], 2 * i + e};
+    }
+    base_radix_sort(c->ends.data, c->ends.data + c->end_count, c->end_count);
+    return true;
+}
+
+/* -------------------------------------------------------------------- polylines -- */
+
+static size_t first_end(const chainer *c, uint64_t key) {
+    size_t lo = 0, hi = c->end_count;
+    while (lo < hi) {
+        const size_t mid = lo + (hi - lo) / 2;
+        if (c->ends.data[mid].key < key)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+/* The unused segment that goes on straightest beyond end `e` of segment `i`: 2 * segment + end; FROE_NONE. */
+static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
+    const view_segment *s = c->p->segments.data + i;
+    if (s->vertex[e] == FROE_NONE) return FROE_NONE;
+    const uint64_t key = (uint64_t)class_of(s) << 32 | s->vertex[e];
+    const double dx = s->at[e].x - s->at[!e].x, dy = s->at[e].y - s->at[!e].y;
+    double best = -INFINITY;
+    uint32_t found = FROE_NONE;
+    for (size_t k = first_end(c, key); k < c->end_count && c->ends.data[k].key == key; k++) {
+        const uint32_t other = c->ends.data[k].value >> 1, end = c->ends.data[k].value & 1;
+        const view_segment *t = c->p->segments.data + other;
+        if (t->used || t->place != s->place) continue;
+        const double x = t->at[!end].x - t->at[end].x, y = t->at[!end].y - t->at[end].y, length = sqrt(x * x + y * y);
+        const double along = length > 0 ? (dx * x + dy * y) / length : 0;
+        if (along > best) best = along, found = 2 * other + end;
+    }
+    return found;
+}
+
+/* Follows segments from end `e` of segment `i`; their far ends go to `out`. *free: the last end is within an edge. */
+static bool follow(chainer *c, uint32_t i, uint32_t e, print_ring *out, uint32_t *vertex) {
+    out->count = 0;
+    for (;;) {
+        *vertex = c->p->segments.data[i].vertex[e];
+        const uint32_t next = continuation(c, i, e);
+        if (next == FROE_NONE) return true;
+        i = next >> 1, e = !(next & 1);
+        c->p->segments.data[i].used = 1;
+        if (!array_push(c->alloc, out, c->p->segments.data[i].at[e])) return false;
+    }
+}
+
+static bool put_stroke(chainer *c, uint32_t i) {
+    froe_picture *picture = c->p->picture;
+    view_segment *s = c->p->segments.data + i;
+    uint32_t start, end;
+    s->used = 1;
+    if (!follow(c, i, 1, &c->forth, &end) || !follow(c, i, 0, &c->back, &start)) return false;
+    picture_stroke stroke = {
+        .first = (uint32_t)picture->stroke_points.count, .kind = s->kind, .hidden = s->hidden, .place = s->place};
+    stroke.count = (uint32_t)(c->forth.count + c->back.count + 2);
+    stroke.butt[0] = start == FROE_NONE, stroke.butt[1] = end == FROE_NONE;
+    if (!array_reserve(c->alloc, &picture->stroke_points, stroke.count)) return false;
+    print_point *out = picture->stroke_points.data + stroke.first;
+    for (size_t k = c->back.count; k-- > 0;) *out++ = c->back.data[k];
+    *out++ = s->at[0], *out++ = s->at[1];
+    for (size_t k = 0; k < c->forth.count; k++) *out++ = c->forth.data[k];
+    stroke.closed = start != FROE_NONE && start == end && stroke.count > 3;
+    if (stroke.closed) stroke.count--; /* the last point is the first */
+    picture->stroke_points.count += stroke.count;
+    return array_push(c->alloc, &picture->strokes, stroke);
+}
+
+/* Hidden lines first, then by kind. */
+static bool put_strokes(chainer *c) {
+    for (int hidden = 1; hidden >= 0; hidden--)
+        for (uint32_t kind = FROE_LINE_END >> 1; kind; kind >>= 1)
+            for (uint32_t i = 0; i < c->p->segments.count; i++) {
+                const view_segment *s = c->p->segments.data + i;
+                if (s->used || s->kind != kind || s->hidden != hidden) continue;
+                if (!put_stroke(c, i)) return false;
+            }
+    return true;
+}
+
+/* Those that are painted earlier first, and otherwise as they are. */
+static bool sort_strokes(chainer *c) {
+    froe_picture *picture = c->p->picture;
+    const size_t n = picture->strokes.count;
+    base_pair *pairs = base_calloc(c->alloc, 2 * n + 1, sizeof *pairs);
+    if (!pairs || !array_reserve(c->alloc, &picture->strokes, n))
+        return base_free(c->alloc, pairs, (2 * n + 1) * sizeof *pairs), false;
+    picture_stroke *strokes = picture->strokes.data;
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t place = strokes[i].place;
+        strokes[i].place = place == FROE_NONE ? (uint32_t)picture->shapes.count : c->p->painted[place];
+        pairs[i] = (base_pair){strokes[i].place, (uint32_t)i};
+        strokes[n + i] = strokes[i];
+    }
+    base_radix_sort(pairs, pairs + n, n);
+    for (size_t i = 0; i < n; i++) strokes[i] = strokes[n + pairs[i].value];
+    base_free(c->alloc, pairs, (2 * n + 1) * sizeof *pairs);
+    return true;
+}
+
+froe_status view_make_strokes(view_painter *painter) {
+    chainer c = {.p = painter, .alloc = &painter->picture->alloc};
+    const bool ok = list_ends(&c) && put_strokes(&c) && sort_strokes(&c);
+    array_free(c.alloc, &c.ends);
+    array_free(c.alloc, &c.forth);
+    array_free(c.alloc, &c.back);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

@@ -1,0 +1,21 @@
+/* strokes.h: lines on the page on their way to strokes: straight segments first. */
+#ifndef FROE_VIEW_PICTURE_STROKES_H
+#define FROE_VIEW_PICTURE_STROKES_H
+#include "view/print.h"
+
+typedef struct view_segment {
+    uint32_t vertex[2]; /**< what it may be chained by; FROE_NONE: it ends within its line */
+    print_point at[2];
+    double near[2]; /**< grows towards the eye, linearly along the segment: 1 / depth, or in parallel - depth */
+    uint32_t place; /**< nodes that are painted before it; FROE_NONE: all */
+    uint8_t kind, hidden, used;
+} view_segment;
+typedef ARRAY(view_segment) view_segments;
+
+/** Where lines lie on each other, that of the highest strength is drawn: a visible one, then the widest. */
+int view_strength(uint8_t kind, bool hidden);
+/** Takes away what shall not be drawn: what all but lies on a stronger or earlier segment, and, with a halo > 0, of
+ * visible ones what comes nearer than that to a visible one that is in front of it by as much or more. FROE_E_MEMORY. */
+froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection *view, double halo,
+                              view_segments *segments);
+#endif

@@ -1,0 +1,106 @@
+/* topological.c: Kahn's order (1962), style by style.
+ *
+ * Nodes that are ready wait in a stack per style, and styles with waiting nodes in a heap by how many wait. The heap's
+ * entries are made when a count grows; an entry that tells another count than the style has is old and skipped. */
+#include "view/picture/graph.h"
+
+typedef struct heap_entry {
+    uint32_t waiting, style;
+} heap_entry;
+
+typedef struct sorter {
+    const froe_allocator *alloc;
+    const view_graph *g;
+    const uint32_t *styles;  /* NULL: all 0 */
+    uint32_t *missing;       /* per node: arcs from nodes not painted yet */
+    uint32_t *below;         /* per node: the one below it in its stack */
+    uint32_t *top, *waiting; /* per style */
+    ARRAY(heap_entry) heap;
+} sorter;
+
+static uint32_t style_of(const sorter *s, uint32_t v) {
+    return s->styles ? s->styles[v] : 0;
+}
+
+/* More waiting first, then the lower style. */
+static bool before(heap_entry a, heap_entry b) {
+    return a.waiting != b.waiting ? a.waiting > b.waiting : a.style < b.style;
+}
+
+static bool push_style(sorter *s, uint32_t style) {
+    if (!array_push(s->alloc, &s->heap, (heap_entry){s->waiting[style], style})) return false;
+    heap_entry *h = s->heap.data;
+    for (size_t i = s->heap.count - 1; i && before(h[i], h[(i - 1) / 2]); i = (i - 1) / 2) {
+        const heap_entry swap = h[i];
+        h[i] = h[(i - 1) / 2];
+        h[(i - 1) / 2] = swap;
+    }
+    return true;
+}
+
+static heap_entry pop_style(sorter *s) {
+    heap_entry *h = s->heap.data, first = h[0], last = h[--s->heap.count];
+    size_t i = 0;
+    for (size_t child; (child = 2 * i + 1) < s->heap.count; i = child) {
+        if (child + 1 < s->heap.count && before(h[child + 1], h[child])) child++;
+        if (!before(h[child], last)) break;
+        h[i] = h[child];
+    }
+    h[i] = last;
+    return first;
+}
+
+static bool make_ready(sorter *s, uint32_t v) {
+    const uint32_t style = style_of(s, v);
+    s->below[v] = s->top[style];
+    s->top[style] = v;
+    s->waiting[style]++;
+    return push_style(s, style);
+}
+
+/* The style to go on with: `now` while anything of it waits. */
+static uint32_t next_style(sorter *s, uint32_t now) {
+    if (now != UINT32_MAX && s->waiting[now]) return now;
+    for (;;) {
+        const heap_entry e = pop_style(s);
+        if (s->waiting[e.style] == e.waiting && e.waiting) return e.style;
+        if (s->waiting[e.style] && !push_style(s, e.style)) return UINT32_MAX; /* cannot fail: one was just popped */
+    }
+}
+
+static bool run(sorter *s, uint32_t *order) {
+    const view_graph *g = s->g;
+    for (uint32_t i = 0; i < g->arc_count; i++) s->missing[g->outs[i]]++;
+    for (uint32_t v = 0; v < g->count; v++)
+        if (g->late[v])
+            for (uint32_t i = g->out_starts[v]; i < g->out_starts[v + 1]; i++) s->missing[g->outs[i]]--;
+    for (uint32_t v = g->count; v-- > 0;) /* the lowest comes to lie on top */
+        if (!s->missing[v] && !make_ready(s, v)) return false;
+    uint32_t style = UINT32_MAX;
+    for (uint32_t k = 0; k < g->count; k++) {
+        style = next_style(s, style);
+        const uint32_t v = order[k] = s->top[style];
+        s->top[style] = s->below[v];
+        s->waiting[style]--;
+        for (uint32_t i = g->out_starts[v + 1]; !g->late[v] && i-- > g->out_starts[v];)
+            if (--s->missing[g->outs[i]] == 0 && !make_ready(s, g->outs[i])) return false;
+    }
+    return true;
+}
+
+froe_status view_graph_sort(const froe_allocator *alloc, const view_graph *graph, const uint32_t *styles,
+                            uint32_t style_count, uint32_t *order) {
+    const size_t n = (size_t)graph->count + 1, m = (size_t)style_count + 1;
+    sorter s = {.alloc = alloc, .g = graph, .styles = styles};
+    s.missing = base_calloc(alloc, n, sizeof *s.missing);
+    s.below = base_calloc(alloc, n, sizeof *s.below);
+    s.top = base_calloc(alloc, m, sizeof *s.top);
+    s.waiting = base_calloc(alloc, m, sizeof *s.waiting);
+    const bool ok = s.missing && s.below && s.top && s.waiting && run(&s, order);
+    base_free(alloc, s.missing, n * sizeof *s.missing);
+    base_free(alloc, s.below, n * sizeof *s.below);
+    base_free(alloc, s.top, m * sizeof *s.top);
+    base_free(alloc, s.waiting, m * sizeof *s.waiting);
+    array_free(alloc, &s.heap);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

@@ -1,0 +1,117 @@
+/* beam.c: rings of pieces (tree/ring.h) become rings of sightlines. */
+#include "view/visibility/beam.h"
+
+/* The ring of a piece: entry i is the side that leaves corner i, an own edge or a cut. */
+typedef struct outline {
+    uint32_t object, count;
+    const uint32_t *ring; /* NULL: the whole polygon */
+} outline;
+
+static outline outline_of(const froe_tree *t, uint32_t piece) {
+    const tree_piece *p = t->pieces + piece;
+    if (!p->ring) return (outline){p->object, scene_corners(t->scene, p->object), NULL};
+    return (outline){p->object, t->bounds[p->ring], t->bounds + p->ring + 1};
+}
+
+static uint32_t entry(const outline *o, uint32_t i) {
+    return o->ring ? o->ring[i] : i;
+}
+
+static uint32_t edge_of(const view_sights *s, uint32_t object, uint32_t side) {
+    return s->surface->edge_of[s->tree->scene->starts[object] + side];
+}
+
+/* The way along an entry, the piece on its positive side; `facing` is the side of the eye. For an own edge the ring
+ * turns left as the eye sees it when the eye is in front. On the support s of a patch the covector of a cut line is
+ * -s(E) a(x). */
+static view_way way_of(view_sights *s, uint32_t piece, uint32_t object, uint32_t side, int facing) {
+    const froe_scene *scene = s->tree->scene;
+    if (!(side & TREE_EDGE_CUT)) {
+        const uint32_t n = scene_corners(scene, object), line = view_line_of_edge(s, edge_of(s, object, side));
+        const bool ascends =
+            scene_corner(scene, object, side) < scene_corner(scene, object, side + 1 < n ? side + 1 : 0);
+        return line == FROE_NONE ? FROE_NONE : 2 * line + (ascends != (facing > 0));
+    }
+    const uint32_t node = side & ~TREE_EDGE_CUT, patch = s->surface->patch_of[object];
+    const uint32_t line = view_line_of_cut(s, patch, node);
+    const bool positive = piece >= tree_first_piece(s->tree, s->tree->nodes[node].child + 1);
+    const bool in_front = view_facing(s, surface_first(s->surface, patch)) > 0;
+    return line == FROE_NONE ? FROE_NONE : 2 * line + (positive == in_front);
+}
+
+static bool is_straight(const view_sights *s, uint32_t object, uint32_t before, uint32_t after) {
+    return !((before | after) & TREE_EDGE_CUT) && s->surface->straight[s->tree->scene->starts[object] + after];
+}
+
+/* Corners in the order of turning left; a corner lies between entries i - 1 and i of the outline. */
+static bool make_ring(view_sights *s, uint32_t piece, const outline *o, view_ring *ring) {
+    const int facing = view_facing(s, o->object);
+    ring->count = 0;
+    if (!array_reserve(&s->alloc, ring, o->count)) return false;
+    for (uint32_t j = 0; j < o->count; j++) {
+        const uint32_t i = facing > 0 ? j : o->count - 1 - j, i_before = i ? i - 1 : o->count - 1;
+        const uint32_t before = entry(o, i_before), after = entry(o, i);
+        if (is_straight(s, o->object, before, after)) continue;
+        const bool own = !((before | after) & TREE_EDGE_CUT);
+        view_corner k = {.vertex = own ? scene_corner(s->tree->scene, o->object, after) : FROE_NONE};
+        k.way = way_of(s, piece, o->object, facing > 0 ? after : before, facing);
+        if (k.way == FROE_NONE) return false;
+        ring->data[ring->count++] = k;
+    }
+    for (size_t i = 0; i < ring->count; i++) {
+        view_corner *k = ring->data + i;
+        const view_way before = ring->data[i ? i - 1 : ring->count - 1].way;
+        k->ray = k->vertex != FROE_NONE ? s->rays[k->vertex] : view_meeting(s, before, k->way);
+    }
+    return true;
+}
+
+bool view_beam_of(view_sights *s, uint32_t piece, view_ring *ring) {
+    const outline o = outline_of(s->tree, piece);
+    return make_ring(s, piece, &o, ring);
+}
+
+bool view_beam_of_object(view_sights *s, uint32_t object, view_ring *ring) {
+    const outline o = {object, scene_corners(s->tree->scene, object), NULL};
+    return make_ring(s, 0, &o, ring);
+}
+
+/* ------------------------------------------------------------------ stretches -- */
+
+uint32_t view_side_count(const view_sights *s, uint32_t piece) {
+    return outline_of(s->tree, piece).count;
+}
+
+/* Where the cut of a node ends a stretch: its lower vertex is on the positive side of the way. */
+static bool end_at_cut(view_sights *s, uint32_t object, uint32_t edge, uint32_t node, view_end *out) {
+    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge, own = view_line_of_edge(s, edge);
+    const uint32_t line = view_line_of_cut(s, s->surface->patch_of[object], node);
+    if (own == FROE_NONE || line == FROE_NONE) return false;
+    int side = view_side(s, line, &s->rays[v[0]], v[0], 0, 0);
+    if (!side) side = -view_side(s, line, &s->rays[v[1]], v[1], 0, 0);
+    out->vertex = FROE_NONE;
+    out->way = 2 * line + (side < 0);
+    out->ray = view_meeting(s, 2 * own, out->way);
+    return true;
+}
+
+static bool set_end(view_sights *s, uint32_t object, uint32_t edge, uint32_t neighbour, uint32_t vertex,
+                    view_end *out) {
+    if (neighbour & TREE_EDGE_CUT) return end_at_cut(s, object, edge, neighbour & ~TREE_EDGE_CUT, out);
+    *out = (view_end){.ray = s->rays[vertex], .vertex = vertex};
+    return true;
+}
+
+bool view_stretch_of(view_sights *s, uint32_t piece, uint32_t i, view_stretch *out, froe_status *status) {
+    const outline o = outline_of(s->tree, piece);
+    const uint32_t side = entry(&o, i);
+    if (side & TREE_EDGE_CUT) return false;
+    const uint32_t n = scene_corners(s->tree->scene, o.object), edge = edge_of(s, o.object, side);
+    const uint32_t from = scene_corner(s->tree->scene, o.object, side),
+                   to = scene_corner(s->tree->scene, o.object, side + 1 < n ? side + 1 : 0);
+    out->edge = edge;
+    if (!set_end(s, o.object, edge, entry(&o, i ? i - 1 : o.count - 1), from, &out->end[from > to]) ||
+        !set_end(s, o.object, edge, entry(&o, i + 1 < o.count ? i + 1 : 0), to, &out->end[from < to]))
+        *status = FROE_E_MEMORY;
+    return *status == FROE_OK;
+}

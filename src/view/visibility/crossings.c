@@ -1,0 +1,240 @@
+/* crossings.c: cut sides within the polygons of their cuts. */
+#include "view/visibility/crossings.h"
+#include "base/sort.h"
+#include "geom/predicates.h"
+#include <string.h>
+
+/* ---------------------------------------------------------------------- finding -- */
+
+/* The side that leaves corner i of a beam, along its line: see side_of() in region.c. */
+static view_stretch stretch_of(const view_ring *ring, uint32_t i) {
+    const uint32_t count = (uint32_t)ring->count, j = i + 1 < count ? i + 1 : 0;
+    const view_corner *k = ring->data + i, *next = ring->data + j;
+    const view_way before = ring->data[i ? i - 1 : count - 1].way;
+    const uint32_t turned = k->way & 1;
+    view_stretch s = {.edge = k->way >> 1};
+    s.end[turned] = (view_end){k->ray, k->vertex, before ^ 1 ^ turned};
+    s.end[!turned] = (view_end){next->ray, next->vertex, next->way ^ turned};
+    return s;
+}
+
+/* Cuts a stretch to the inside of a beam; false when nothing is left, or it runs along the border. */
+static bool cut_to_beam(view_sights *s, const view_ring *beam, view_stretch *part) {
+    bool left = true;
+    for (size_t i = 0; left && i < beam->count; i++) left = view_cut_stretch(s, part->edge, beam->data[i].way, part);
+    return left;
+}
+
+/* The node whose cut makes side `way` of a piece; FROE_NONE: no cut does. */
+static uint32_t node_of(const view_sights *s, view_way way) {
+    const view_line *l = s->lines.data + (way >> 1);
+    return l->kind == VIEW_CUT ? l->b : FROE_NONE;
+}
+
+static bool keep_open(void *user, const view_stretch *part) {
+    view_crosser *c = user;
+    return array_push(&c->sights->alloc, &c->open, *part);
+}
+
+/* What of the open stretches lies inside a piece of the list. */
+static bool keep_inside(view_crosser *c, uint32_t piece, view_stretches *out) {
+    if (!view_beam_of(c->sights, piece, &c->list_ring)) return false;
+    for (size_t i = 0; i < c->open.count; i++) {
+        view_stretch part = c->open.data[i];
+        if (cut_to_beam(c->sights, &c->list_ring, &part) && !array_push(&c->sights->alloc, out, part)) return false;
+    }
+    return true;
+}
+
+/* What of the open stretches lies inside the list of a cut, or all where that is the section. */
+static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_stretches *out) {
+    view_sights *s = c->sights;
+    const tree_objects list = tree_list(s->tree, node);
+    const bool section = node == 0 && c->section;
+    bool ok = true;
+    for (size_t k = 0; ok && section && k < c->open.count; k++) ok = array_push(&s->alloc, out, c->open.data[k]);
+    for (uint32_t k = 0; ok && !section && c->open.count && k < list.count; k++) {
+        const uint32_t object = tree_object(&list, k), other = s->surface->patch_of[object];
+        if (other != FROE_NONE && other != patch && view_facing(s, object)) ok = keep_inside(c, list.first + k, out);
+    }
+    return ok;
+}
+
+froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_ring *ring) {
+    view_sights *s = c->sights;
+    const uint32_t patch = s->surface->patch_of[s->tree->pieces[piece].object];
+    for (uint32_t i = 0; i < ring->count; i++) {
+        const uint32_t node = node_of(s, ring->data[i].way);
+        if (node == FROE_NONE || (!tree_list(s->tree, node).count && !(node == 0 && c->section))) continue;
+        const view_stretch side = stretch_of(ring, i);
+        view_stretch inside = side;
+        c->open.count = 0;
+        if (c->hidden && view_cut_to_window(s, side.edge, &inside) &&
+            (!keep_open(c, &inside) || !keep_crossed(c, node, patch, &c->all)))
+            return FROE_E_MEMORY;
+        c->open.count = 0; /* first what is open: most is hidden */
+        const froe_status status =
+            view_screen_classify(c->screen, &side, side.edge, ring->data, (uint32_t)ring->count, keep_open, c);
+        if (status) return status;
+        if (!keep_crossed(c, node, patch, &c->seen)) return FROE_E_MEMORY;
+    }
+    return FROE_OK;
+}
+
+void view_crosser_free(view_crosser *c) {
+    array_free(&c->sights->alloc, &c->open);
+    array_free(&c->sights->alloc, &c->seen);
+    array_free(&c->sights->alloc, &c->all);
+    array_free(&c->sights->alloc, &c->list_ring);
+}
+
+/* ----------------------------------------------------------------------- keeping -- */
+
+typedef struct crossing_line {
+    uint32_t line, patch;
+    bool section, hidden;
+} crossing_line;
+
+/* A stretch in its final form. A patch that is seen edge-on is met in the section. */
+static bool put_crossing(froe_visibility *v, const view_end *from, const view_end *to, crossing_line on) {
+    froe_crossing x = {.patch = on.patch, .section = on.section, .hidden = on.hidden};
+    const view_run run = {on.line, {view_mark_of(from), view_mark_of(to)}};
+    geom_plane plane = view_plane_of(&v->sights, x.patch);
+    if (!view_facing(&v->sights, surface_first(v->surface, x.patch))) plane = tree_plane_at(v->tree, 0);
+    view_point_on(&v->sights, &plane, from->ray.x, x.from);
+    view_point_on(&v->sights, &plane, to->ray.x, x.to);
+    return array_push(&v->alloc, &v->crossings, x) && array_push(&v->alloc, &v->crossing_runs, run);
+}
+
+/* The line of a stretch that was found on a cut side. */
+static crossing_line line_of(const froe_visibility *v, uint32_t line, bool hidden) {
+    const view_line *l = v->sights.lines.data + line;
+    return (crossing_line){line, l->a, v->section && l->b == 0, hidden};
+}
+
+/* -------------------------------------------------------------- along the section -- */
+
+/* An edge of a polygon seen edge-on that is seen as a line: all of them lie on one. */
+static uint32_t edge_in_sight(view_sights *s, uint32_t object) {
+    const uint32_t *edges = s->surface->edge_of + s->tree->scene->starts[object];
+    uint32_t i = 0;
+    while (view_is_point(s, edges[i])) i++;
+    return edges[i];
+}
+
+/* The two points of its border in which the section parts a polygon, on a line; *count: how many were found. */
+static froe_status find_stops(view_sights *s, uint32_t object, uint32_t line, view_mark out[2], int *count) {
+    const froe_scene *scene = s->tree->scene;
+    const geom_plane plane = tree_plane_at(s->tree, 0);
+    const uint32_t n = scene_corners(scene, object);
+    froe_status status = FROE_OK;
+    int reached = 0, last = geom_side_vertex(&s->context, &plane, scene_point(scene, object, n - 1));
+    *count = 0;
+    for (uint32_t i = 0; i < n && !status; i++) {
+        const int side = geom_side_vertex(&s->context, &plane, scene_point(scene, object, i));
+        const uint32_t before = s->surface->edge_of[scene->starts[object] + (i ? i - 1 : n - 1)];
+        reached |= side > 0 ? 2 : side < 0 ? 1 : 0;
+        if (!side && *count < 2) out[(*count)++] = (view_mark){.vertex = scene_corner(scene, object, i)};
+        if (side * last < 0 && *count < 2) status = view_stop_edge(s, before, line, &out[(*count)++]);
+        last = side;
+    }
+    if (reached != 3) *count = 0; /* it is only touched */
+    return status;
+}
+
+froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
+    view_sights *s = &v->sights;
+    const uint32_t line = view_line_of_edge(s, edge_in_sight(s, object));
+    view_mark mark[2];
+    int count;
+    if (line == FROE_NONE) return FROE_E_MEMORY;
+    const froe_status status = find_stops(s, object, line, mark, &count);
+    if (status || count < 2) return status;
+    view_stretch part = {line, {view_end_at(s, line, mark[0]), view_end_at(s, line, mark[1])}};
+    const int order = view_compare_ends(s, line, &part.end[0], &part.end[1]);
+    if (!order) return FROE_OK;
+    if (order > 0) part = (view_stretch){line, {part.end[1], part.end[0]}};
+    if (!view_cut_to_window(s, line, &part)) return FROE_OK;
+    return put_crossing(v, &part.end[0], &part.end[1], (crossing_line){line, s->surface->patch_of[object], true, false})
+               ? FROE_OK
+               : FROE_E_MEMORY;
+}
+
+/* ---------------------------------------------------------------------- joining -- */
+
+typedef struct joiner {
+    view_sights *sights;
+    const view_stretch *stretches;
+} joiner;
+
+static int by_line(void *user, uint32_t a, uint32_t b) {
+    const joiner *j = user;
+    const view_stretch *x = j->stretches + a, *y = j->stretches + b;
+    if (x->edge != y->edge) return x->edge < y->edge ? -1 : 1;
+    return view_compare_along(j->sights, x->edge, &x->end[0], &y->end[0]);
+}
+
+/* Unites the stretches of each line; what is left is in order and disjoint. */
+static void unite(view_sights *s, const uint32_t *items, const view_stretch *stretches, view_stretches *out) {
+    for (size_t i = 0; i < out->count; i++) out->data[i] = stretches[items[i]];
+    size_t kept = 0;
+    for (size_t i = 0; i < out->count; i++) {
+        const view_stretch next = out->data[i];
+        view_stretch *last = kept ? out->data + kept - 1 : NULL;
+        if (!last || last->edge != next.edge || view_compare_along(s, next.edge, &next.end[0], &last->end[1]) > 0)
+            out->data[kept++] = next;
+        else if (view_compare_along(s, next.edge, &next.end[1], &last->end[1]) > 0)
+            last->end[1] = next.end[1];
+    }
+    out->count = kept;
+}
+
+static froe_status join(view_sights *s, view_stretches *stretches) {
+    const size_t n = stretches->count;
+    if (n > INT32_MAX) return FROE_E_LIMIT;
+    uint32_t *items = base_calloc(&s->alloc, 2 * n + 1, sizeof *items);
+    view_stretch *copy = base_calloc(&s->alloc, n + 1, sizeof *copy);
+    if (items && copy) {
+        joiner j = {s, copy};
+        if (n) memcpy(copy, stretches->data, n * sizeof *copy);
+        for (uint32_t i = 0; i < n; i++) items[i] = i;
+        base_merge_sort(items, items + n, n, by_line, &j);
+        unite(s, items, copy, stretches);
+    }
+    const bool ok = items && copy;
+    base_free(&s->alloc, items, (2 * n + 1) * sizeof *items);
+    base_free(&s->alloc, copy, (n + 1) * sizeof *copy);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* What lies between the visible stretches *seen and before `end` in their array; *seen moves on. */
+static bool put_hidden(froe_visibility *v, const view_stretch *part, const view_stretch **seen,
+                       const view_stretch *end) {
+    view_sights *s = &v->sights;
+    const uint32_t line = part->edge;
+    const view_end *from = &part->end[0], *to = &part->end[1];
+    while (*seen < end && (*seen)->edge < line) ++*seen;
+    for (const view_stretch *x = *seen; x < end && x->edge == line; x++) {
+        if (view_compare_along(s, line, &x->end[1], from) <= 0) continue;
+        if (view_compare_along(s, line, &x->end[0], to) >= 0) break;
+        if (view_compare_along(s, line, from, &x->end[0]) < 0 &&
+            !put_crossing(v, from, &x->end[0], line_of(v, line, true)))
+            return false;
+        from = &x->end[1];
+    }
+    return view_compare_along(s, line, from, to) >= 0 || put_crossing(v, from, to, line_of(v, line, true));
+}
+
+froe_status view_join_crossings(froe_visibility *v, view_crosser *c) {
+    froe_status status = join(&v->sights, &c->seen);
+    if (!status) status = join(&v->sights, &c->all);
+    bool ok = !status;
+    for (size_t i = 0; ok && i < c->seen.count; i++) {
+        const view_stretch *x = c->seen.data + i;
+        ok = put_crossing(v, &x->end[0], &x->end[1], line_of(v, x->edge, false));
+    }
+    const view_stretch *seen = c->seen.data;
+    for (size_t i = 0; ok && i < c->all.count; i++)
+        ok = put_hidden(v, c->all.data + i, &seen, c->seen.data + c->seen.count);
+    return status ? status : ok ? FROE_OK : FROE_E_MEMORY;
+}

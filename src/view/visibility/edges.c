@@ -1,0 +1,76 @@
+/* edges.c: equal pairs of vertices are found by sorting them. */
+#include "base/radix.h"
+#include "view/visibility/surface.h"
+
+/* One pair (lower vertex, higher vertex) and the corner its edge leaves, for all edges of polygons. */
+static uint32_t list_pairs(const froe_scene *s, base_pair *pairs) {
+    uint32_t count = 0;
+    for (uint32_t o = 0; o < s->object_count; o++) {
+        if (scene_form(s, o) != FROE_POLYGON) continue;
+        const uint32_t n = scene_corners(s, o);
+        for (uint32_t i = 0; i < n; i++) {
+            const uint32_t a = scene_corner(s, o, i), b = scene_corner(s, o, i + 1 < n ? i + 1 : 0);
+            pairs[count++] = (base_pair){(uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a), s->starts[o] + i};
+        }
+    }
+    return count;
+}
+
+static uint32_t count_runs(const base_pair *pairs, uint32_t count) {
+    uint32_t runs = 0;
+    for (uint32_t i = 0; i < count; i++) runs += i == 0 || pairs[i].key != pairs[i - 1].key;
+    return runs;
+}
+
+static uint32_t *take(const froe_allocator *alloc, size_t count, bool *ok) {
+    uint32_t *out = base_calloc(alloc, count ? count : 1, sizeof *out);
+    *ok = *ok && out;
+    return out;
+}
+
+/* Which object has this corner, for ascending corners. */
+static void name_objects(const froe_scene *s, uint32_t *object_of) {
+    for (uint32_t o = 0; o < s->object_count; o++)
+        for (uint32_t i = s->starts[o]; i < s->starts[o + 1]; i++) object_of[i] = o;
+}
+
+static void fill(froe_surface *out, const base_pair *pairs, const uint32_t *object_of) {
+    uint32_t edge = 0;
+    for (uint32_t i = 0; i < out->use_count; i++) {
+        if (i == 0 || pairs[i].key != pairs[i - 1].key) {
+            edge += i > 0;
+            out->edge_starts[edge] = i;
+            out->vertices[2 * edge] = (uint32_t)(pairs[i].key >> 32);
+            out->vertices[2 * edge + 1] = (uint32_t)pairs[i].key;
+        }
+        out->edge_of[pairs[i].value] = edge;
+        out->uses[i] = object_of[pairs[i].value];
+    }
+    out->edge_starts[out->edge_count] = out->use_count;
+}
+
+froe_status surface_find_edges(froe_surface *out) {
+    const froe_scene *s = out->scene;
+    const froe_allocator *alloc = &out->alloc;
+    const uint32_t corners = s->object_count ? s->starts[s->object_count] : 0, most = corners ? corners : 1;
+    base_pair *pairs = base_calloc(alloc, 2 * (size_t)most, sizeof *pairs);
+    bool ok = pairs != NULL;
+    uint32_t *object_of = take(alloc, most, &ok);
+    out->edge_of = take(alloc, most, &ok);
+    if (ok) {
+        out->use_count = list_pairs(s, pairs);
+        base_radix_sort(pairs, pairs + most, out->use_count);
+        out->edge_count = count_runs(pairs, out->use_count);
+    }
+    out->vertices = take(alloc, 2 * (size_t)out->edge_count, &ok);
+    out->edge_starts = take(alloc, (size_t)out->edge_count + 1, &ok);
+    out->uses = take(alloc, out->use_count, &ok);
+    if (ok) {
+        for (uint32_t i = 0; i < corners; i++) out->edge_of[i] = FROE_NONE;
+        name_objects(s, object_of);
+        fill(out, pairs, object_of);
+    }
+    base_free(alloc, object_of, most * sizeof *object_of);
+    base_free(alloc, pairs, 2 * (size_t)most * sizeof *pairs);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

@@ -1,0 +1,102 @@
+/* intervals.c: the visible stretches of an edge, in exact order, joined where they touch or overlap.
+ *
+ * The end X = l x m of a stretch of the edge with line l lies before Y = l x n, seen along the edge, when
+ * det(l, m, n) > 0, that is when X is on the positive side of n. */
+#include "base/sort.h"
+#include "view/visibility/visibility.h"
+#include <string.h>
+
+/* b is a meeting. */
+int view_compare_along(view_sights *s, uint32_t line, const view_end *a, const view_end *b) {
+    const int side = view_side(s, b->way >> 1, &a->ray, a->vertex, 2 * line, a->way);
+    return b->way & 1 ? side : -side;
+}
+
+int view_compare_ends(view_sights *s, uint32_t line, const view_end *a, const view_end *b) {
+    if (b->vertex == FROE_NONE) return view_compare_along(s, line, a, b);
+    if (a->vertex == FROE_NONE) return -view_compare_along(s, line, b, a);
+    return view_compare_vertices(s, line, a->vertex, b->vertex);
+}
+
+view_end view_end_at(view_sights *s, uint32_t line, view_mark mark) {
+    if (mark.vertex != FROE_NONE) return (view_end){.ray = s->rays[mark.vertex], .vertex = mark.vertex};
+    return (view_end){view_meeting(s, 2 * line, mark.way), FROE_NONE, mark.way};
+}
+
+/* ------------------------------------------------------------------- parameters -- */
+
+/* t with h(u + t (v - u)) = 0: all rays of a picture have the same scale, so that h is linear along the edge. */
+double view_share_of(view_sights *s, uint32_t edge, view_mark mark) {
+    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
+    if (mark.vertex != FROE_NONE) return mark.vertex == v[1];
+    const filter_vector *h = &s->lines.data[mark.way >> 1].image;
+    const num_ball at_u = filter_dot(h, &s->rays[v[0]]), at_v = filter_dot(h, &s->rays[v[1]]);
+    const num_ball t = filter_div(at_u, filter_sub(at_u, at_v));
+    const double x = t.e <= 0x1p-44 ? t.x : view_share_round(s, mark.way >> 1, v[0], v[1]);
+    return x < 0 ? 0 : x > 1 ? 1 : x;
+}
+
+/* ---------------------------------------------------------------------- joining -- */
+
+typedef struct joiner {
+    froe_visibility *v;
+    const view_stretch *stretches;
+    uint32_t edge, line;
+} joiner;
+
+static int by_start(void *user, uint32_t a, uint32_t b) {
+    joiner *j = user;
+    return view_compare_ends(&j->v->sights, j->line, &j->stretches[a].end[0], &j->stretches[b].end[0]);
+}
+
+/* Appends the union of the sorted stretches of one edge; rounding keeps the order. */
+static void join(joiner *j, const uint32_t *items, uint32_t count) {
+    froe_visibility *v = j->v;
+    double last = 0;
+    for (uint32_t i = 0; i < count;) {
+        const view_end *from = &j->stretches[items[i]].end[0], *to = &j->stretches[items[i]].end[1];
+        for (i++; i < count && view_compare_ends(&v->sights, j->line, &j->stretches[items[i]].end[0], to) <= 0; i++)
+            if (view_compare_ends(&v->sights, j->line, &j->stretches[items[i]].end[1], to) > 0)
+                to = &j->stretches[items[i]].end[1];
+        const view_mark marks[2] = {view_mark_of(from), view_mark_of(to)};
+        froe_interval x = {view_share_of(&v->sights, j->edge, marks[0]), view_share_of(&v->sights, j->edge, marks[1])};
+        if (x.from < last) x.from = last;
+        if (x.to < x.from) x.to = x.from;
+        last = x.to;
+        memcpy(v->interval_marks + 2 * (size_t)v->interval_count, marks, sizeof marks);
+        v->intervals[v->interval_count++] = x;
+    }
+}
+
+/* items[starts[e] .. starts[e+1]) become the stretches of edge e. */
+static void distribute(const view_stretches *stretches, uint32_t edges, uint32_t *starts, uint32_t *items) {
+    for (size_t i = 0; i < stretches->count; i++) starts[stretches->data[i].edge + 1]++;
+    for (uint32_t e = 0; e < edges; e++) starts[e + 1] += starts[e];
+    for (size_t i = stretches->count; i-- > 0;) items[--starts[stretches->data[i].edge + 1]] = (uint32_t)i;
+    for (uint32_t e = 0; e < edges; e++) starts[e] = starts[e + 1]; /* ends were lowered to the starts */
+    starts[edges] = (uint32_t)stretches->count;
+}
+
+froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches) {
+    const froe_allocator *alloc = &v->alloc;
+    const uint32_t edges = v->surface->edge_count;
+    const size_t n = stretches->count;
+    if (n > INT32_MAX) return FROE_E_LIMIT;
+    v->edge_starts = base_calloc(alloc, (size_t)edges + 1, sizeof *v->edge_starts);
+    v->interval_room = n + 1;
+    v->intervals = base_calloc(alloc, n + 1, sizeof *v->intervals);
+    v->interval_marks = base_calloc(alloc, 2 * (n + 1), sizeof *v->interval_marks);
+    uint32_t *items = base_calloc(alloc, 2 * n + 1, sizeof *items), *starts = v->edge_starts;
+    const bool ok = starts && v->intervals && v->interval_marks && items;
+    if (ok) distribute(stretches, edges, starts, items);
+    for (uint32_t e = 0; ok && e < edges; e++) {
+        const uint32_t count = starts[e + 1] - starts[e], first = starts[e];
+        joiner j = {v, stretches->data, e, count ? view_line_of_edge(&v->sights, e) : FROE_NONE};
+        starts[e] = v->interval_count;
+        base_merge_sort(items + first, items + n, count, by_start, &j);
+        join(&j, items + first, count);
+    }
+    if (ok) starts[edges] = v->interval_count;
+    base_free(alloc, items, (2 * n + 1) * sizeof *items);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

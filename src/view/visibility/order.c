@@ -1,0 +1,194 @@
+/* order.c: the walk behind every depth order, with a stack of its own. */
+#include "view/visibility/order.h"
+#include "base/status.h"
+#include "geom/predicates.h"
+#include "geom/selftest.h"
+#include "tree/packed/space.h"
+#include <math.h>
+
+froe_status view_order_begin(view_order *order, const froe_tree *tree, const geom_eye *eye, bool front_to_back,
+                             const uint32_t *ranks) {
+    *order = (view_order){.tree = tree, .eye = *eye, .front_to_back = front_to_back, .ranks = ranks};
+    froe_status status = geom_context_new(&tree->alloc, &order->context);
+    return status ? status : view_order_restart(order);
+}
+
+froe_status view_order_restart(view_order *order) {
+    order->visits.count = 0;
+    order->list_at = order->list_end = 0;
+    if (!array_push(&order->tree->alloc, &order->visits, (view_visit){0, false})) order->status = FROE_E_MEMORY;
+    return order->status;
+}
+
+froe_status view_order_end(view_order *order) {
+    const froe_allocator *alloc = &order->tree->alloc;
+    array_free(alloc, &order->visits);
+    array_free(alloc, &order->list);
+    num_context_free(&order->context);
+    return order->status;
+}
+
+/* ---------------------------------------------------------------------- lists -- */
+
+static uint32_t rank_of(const view_order *order, uint32_t object) {
+    const froe_scene *scene = order->tree->scene;
+    return order->ranks ? order->ranks[object] : scene->faces ? scene->faces[object] : object;
+}
+
+/* Makes a list ready to be handed out; its last entry is in front of the others when back to front. */
+static bool begin_list(view_order *order, tree_objects list) {
+    order->list.count = 0;
+    if (!array_reserve(&order->tree->alloc, &order->list, 2 * (size_t)list.count)) return false;
+    base_pair *pairs = order->list.data;
+    order->list_at = 0;
+    order->list_end = list.count;
+    for (uint32_t i = 0; i < list.count; i++) pairs[i].value = list.first + i;
+    if (list.count < 2) return true;
+    for (uint32_t i = 0; i < list.count; i++) pairs[i].key = rank_of(order, tree_object(&list, i));
+    base_radix_sort(pairs, pairs + list.count, list.count);
+    return true;
+}
+
+static uint32_t next_of_list(view_order *order) {
+    size_t i = order->list_at++;
+    return order->list.data[order->front_to_back ? order->list_end - 1 - i : i].value;
+}
+
+/* ----------------------------------------------------------------------- walk -- */
+
+/* The three points that make the cut of a node; false: it is made of something else. */
+static bool points_of_cut(const froe_tree *tree, uint32_t node, const double *points[3]) {
+    const tree_node *n = tree->nodes + node;
+    if (n->type != TREE_TABLED || tree->scene->dim != 3) return false;
+    const tree_cut *cut = tree->cuts + n->u.cut;
+    if (cut->kind == FROE_CUT_OBJECT) {
+        for (uint32_t i = 0; i < 3; i++) points[i] = scene_point(tree->scene, cut->a, i);
+        return true;
+    }
+    if (cut->kind != FROE_CUT_VERTICES) return false;
+    const uint32_t vertices[3] = {cut->a, cut->u.id.b, cut->u.id.c};
+    for (int i = 0; i < 3; i++) points[i] = scene_vertex(tree->scene, vertices[i]);
+    return true;
+}
+
+int view_side_of_eye(num_context *context, const froe_tree *tree, uint32_t node, const geom_eye *eye) {
+    const tree_node *n = tree->nodes + node;
+    const double *p[3];
+    if (n->type == TREE_PLAIN) {
+        const double x = eye->at[n->axis], limit = eye->parallel ? 0 : n->u.value;
+        return (x > limit) - (x < limit);
+    }
+    if (context->first == NUM_FILTER && points_of_cut(tree, node, p)) {
+        const int sure = geom_side_of_eye_filter(p[0], p[1], p[2], eye);
+        if (sure != NUM_UNSURE) return sure;
+    }
+    const geom_plane plane = tree_plane_at(tree, node);
+    return geom_side_of_eye(context, &plane, eye);
+}
+
+static int side_at(view_order *order, uint32_t node) {
+    if (order->sides) return (int)(order->sides[node] >> order->shift & 3) - 1;
+    return view_side_of_eye(&order->context, order->tree, node, &order->eye);
+}
+
+static bool push_child(view_order *order, uint32_t node, uint32_t child) {
+    const bool away = node == 0 && order->section && child != order->tree->nodes->child + (order->section > 0);
+    return away || array_push(&order->tree->alloc, &order->visits, (view_visit){child, false});
+}
+
+/* Leaves the two children of a node, and its list between them, pending. */
+static bool push_node(view_order *order, uint32_t node) {
+    const froe_allocator *alloc = &order->tree->alloc;
+    const tree_node *n = order->tree->nodes + node;
+    uint32_t near = n->child + (side_at(order, node) >= 0), far = 2 * n->child + 1 - near;
+    uint32_t first = order->front_to_back ? near : far, last = order->front_to_back ? far : near;
+    if (!push_child(order, node, last)) return false;
+    if (n->type == TREE_TABLED && order->tree->cuts[n->u.cut].count &&
+        !array_push(alloc, &order->visits, (view_visit){node, true}))
+        return false;
+    return push_child(order, node, first);
+}
+
+static bool visit(view_order *order) {
+    view_visit at = order->visits.data[--order->visits.count];
+    if (!at.list && !tree_is_leaf(order->tree->nodes + at.node)) return push_node(order, at.node);
+    return begin_list(order, tree_list(order->tree, at.node));
+}
+
+bool view_order_next(view_order *order, uint32_t *piece) {
+    while (order->list_at == order->list_end) {
+        if (!order->visits.count) return false;
+        if (visit(order)) continue;
+        order->status = FROE_E_MEMORY;
+        return false;
+    }
+    *piece = next_of_list(order);
+    return true;
+}
+
+/* --------------------------------------------------------------------- checks -- */
+
+froe_status view_eye_of(const froe_tree *tree, const froe_eye *eye, geom_eye *out, froe_diagnostic *diag) {
+    double at[3] = {0}, origin[3] = {0}, most = 0;
+    for (int k = 0; k < tree->scene->dim && k < 3; k++) {
+        if (!isfinite(eye->at[k]))
+            return base_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
+                                "coordinate %d of the eye is not a finite number", k);
+        at[k] = eye->at[k];
+        most = fmax(most, fabs(at[k]));
+        if (tree->scene->object_count) origin[k] = 0.5 * tree->scene->lo[k] + 0.5 * tree->scene->hi[k];
+    }
+    if (eye->parallel && most == 0) return base_fail(diag, FROE_E_ARG, "the direction of a parallel eye has length 0");
+    *out = geom_eye_make(eye->parallel, at, origin);
+    return FROE_OK;
+}
+
+static froe_status check_kinds(const froe_scene *scene, froe_diagnostic *diag) {
+    if (scene->dim > 3)
+        return base_fail(diag, FROE_E_UNSUPPORTED, "depth orders exist in 2 and 3 dimensions, not in %d", scene->dim);
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (scene_form(scene, i) > FROE_POLYGON)
+            return base_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
+                                "object %u is a %s, which no cut divides: its place in a depth order is not known", i,
+                                froe_kind_name(scene_form(scene, i)));
+    return FROE_OK;
+}
+
+/* Do all these pieces lie in the hyperplane of the first that has one? */
+static bool in_one_plane(num_context *context, const froe_scene *scene, const tree_objects *list) {
+    geom_plane plane;
+    const froe_kind full = scene->dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
+    uint32_t base = 0;
+    while (base < list->count && scene_form(scene, tree_object(list, base)) != full) base++;
+    if (base == list->count) return false;
+    scene_support(scene, tree_object(list, base), &plane);
+    for (uint32_t i = 0; i < list->count; i++) {
+        const uint32_t object = tree_object(list, i);
+        for (uint32_t k = 0; k < scene_corners(scene, object); k++)
+            if (geom_side_vertex(context, &plane, scene_point(scene, object, k)) != 0) return false;
+    }
+    return true;
+}
+
+froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
+    num_context context;
+    froe_status status = check_kinds(tree->scene, diag);
+    if (status) return status;
+    if (tree_is_space(tree))
+        return base_fail(diag, FROE_E_UNSUPPORTED,
+                         "a tree of method '%s' lists whole objects, which are in no depth order: build another one",
+                         tree->meta.method);
+    if (tree->report.max_leaf <= 1) return FROE_OK;
+    if (geom_context_new(&tree->alloc, &context)) return base_fail_memory(diag);
+    for (uint32_t node = 0; node < tree->node_count && !status; node++) {
+        if (!tree_is_leaf(tree->nodes + node)) continue;
+        const tree_objects list = tree_list(tree, node);
+        if (list.count > 1 && !in_one_plane(&context, tree->scene, &list))
+            status = base_fail_at(diag, FROE_E_UNSUPPORTED, tree_object(&list, 0), FROE_NONE, FROE_NONE,
+                                  "a leaf holds %u pieces (one of object %u) without a cut between them: build the "
+                                  "tree with leaf 1 or 0",
+                                  list.count, tree_object(&list, 0));
+    }
+    num_context_free(&context);
+    return status;
+}

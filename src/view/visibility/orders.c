@@ -1,0 +1,118 @@
+/* orders.c: the public calls for depth orders. Many eyes at once share the work on each cut:
+ * first all sides of up to 32 eyes, two bits each in a word per node, then one walk per eye. */
+#include "base/floats.h"
+#include "base/status.h"
+#include "base/task.h"
+#include "geom/selftest.h"
+#include "view/visibility/order.h"
+
+enum { EYES = 32, NODES = 4096 }; /* eyes a word, nodes a job */
+
+froe_order_options froe_order_defaults(void) {
+    return (froe_order_options){.size = sizeof(froe_order_options)};
+}
+
+static froe_status check(const froe_tree *tree, const froe_order_options **options, const froe_order_options *standard,
+                         froe_diagnostic *diag) {
+    if (!tree) return base_fail(diag, FROE_E_ARG, "the tree is NULL");
+    if (!*options) *options = standard;
+    if ((*options)->size != sizeof **options)
+        return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_order_defaults()");
+    return view_order_check(tree, diag);
+}
+
+froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const froe_order_options *options,
+                            froe_order_fn *fn, void *user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    const froe_order_options standard = froe_order_defaults();
+    geom_eye from;
+    view_order order;
+    uint32_t piece;
+    if (!eye || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    froe_status status = check(tree, &options, &standard, diag);
+    if (!status) status = view_eye_of(tree, eye, &from, diag);
+    if (status) return status;
+    status = view_order_begin(&order, tree, &from, options->front_to_back, options->ranks);
+    while (!status && view_order_next(&order, &piece) && base_callback(fn(user, piece))) {
+    }
+    status = view_order_end(&order) ? FROE_E_MEMORY : status;
+    return status ? base_fail_memory(diag) : FROE_OK;
+}
+
+/* ------------------------------------------------------------------ many eyes -- */
+
+typedef struct batch {
+    const froe_tree *tree;
+    const froe_order_options *options;
+    const geom_eye *eyes;
+    size_t count; /* at most EYES */
+    uint64_t *sides;
+    uint32_t *pieces;
+    num_context *contexts; /* one a worker */
+} batch;
+
+static froe_status sides_of_nodes(void *user, unsigned worker, size_t job) {
+    batch *b = user;
+    uint32_t end =
+        (uint32_t)(job + 1) * NODES < b->tree->node_count ? (uint32_t)(job + 1) * NODES : b->tree->node_count;
+    for (uint32_t node = (uint32_t)job * NODES; node < end; node++) {
+        b->sides[node] = 0;
+        if (tree_is_leaf(b->tree->nodes + node)) continue;
+        for (size_t e = 0; e < b->count; e++)
+            b->sides[node] |= (uint64_t)(view_side_of_eye(b->contexts + worker, b->tree, node, b->eyes + e) + 1)
+                              << 2 * e;
+    }
+    return FROE_OK;
+}
+
+static froe_status order_of_eye(void *user, unsigned worker, size_t job) {
+    batch *b = user;
+    view_order order;
+    uint32_t *out = b->pieces + job * b->tree->piece_count;
+    (void)worker;
+    froe_status status = view_order_begin(&order, b->tree, b->eyes + job, b->options->front_to_back, b->options->ranks);
+    order.sides = b->sides;
+    order.shift = 2 * (unsigned)job;
+    while (!status && view_order_next(&order, out)) out++;
+    return view_order_end(&order) ? FROE_E_MEMORY : status;
+}
+
+static froe_status run_batches(batch *b, base_task *task, const froe_eye *eyes, size_t count, froe_diagnostic *diag) {
+    geom_eye from[EYES];
+    froe_status status = FROE_OK;
+    b->eyes = from;
+    for (size_t i = 0; i < count && !status; i += EYES) {
+        b->count = count - i < EYES ? count - i : EYES;
+        for (size_t e = 0; e < b->count && !status; e++) status = view_eye_of(b->tree, eyes + i + e, from + e, diag);
+        if (status) return status;
+        double share = (double)b->count / (double)count;
+        status = base_run(task, 0.3 * share, (b->tree->node_count + NODES - 1) / NODES, sides_of_nodes, b);
+        if (!status) status = base_run(task, 0.7 * share, b->count, order_of_eye, b);
+        b->pieces += b->count * b->tree->piece_count;
+    }
+    return status == FROE_E_MEMORY ? base_fail_memory(diag) : status ? base_fail_cancelled(diag) : FROE_OK;
+}
+
+froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t count,
+                             const froe_order_options *options, uint32_t *pieces, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    const froe_order_options standard = froe_order_defaults();
+    if (count && (!eyes || !pieces)) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    froe_status status = check(tree, &options, &standard, diag);
+    if (status) return status;
+    base_task task;
+    base_task_init(&task, options->threads, options->progress, options->user);
+    batch b = {.tree = tree, .options = options, .pieces = pieces};
+    b.sides = base_calloc(&tree->alloc, tree->node_count, sizeof *b.sides);
+    b.contexts = base_calloc(&tree->alloc, task.threads, sizeof *b.contexts);
+    for (unsigned i = 0; b.contexts && i < task.threads && !status; i++)
+        status = geom_context_new(&tree->alloc, b.contexts + i);
+    if (!b.sides || !b.contexts || status)
+        status = base_fail_memory(diag);
+    else
+        status = run_batches(&b, &task, eyes, count, diag);
+    for (unsigned i = 0; b.contexts && i < task.threads; i++) num_context_free(b.contexts + i);
+    base_free(&tree->alloc, b.contexts, task.threads * sizeof *b.contexts);
+    base_free(&tree->alloc, b.sides, tree->node_count * sizeof *b.sides);
+    return status;
+}

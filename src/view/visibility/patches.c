@@ -1,0 +1,113 @@
+/* patches.c: polygons that hang together in one plane, by union-find over edges. */
+#include "geom/eye.h"
+#include "geom/predicates.h"
+#include "view/visibility/surface.h"
+
+static uint32_t find(uint32_t *parent, uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]]; /* path halving */
+    return i;
+}
+
+/* The lower number stays the root, so that a patch is named by its first object. */
+static void unite(uint32_t *parent, uint32_t a, uint32_t b) {
+    a = find(parent, a), b = find(parent, b);
+    if (a < b)
+        parent[b] = a;
+    else
+        parent[a] = b;
+}
+
+/* Do two polygons of one plane turn the same way, seen from the same side? */
+static bool same_turn(num_context *context, const geom_plane *a, const geom_plane *b) {
+    for (int k = 0; k < 3; k++) {
+        const double direction[3] = {k == 0, k == 1, k == 2};
+        const geom_eye eye = geom_eye_make(true, direction, NULL);
+        const int side = geom_side_of_eye(context, a, &eye);
+        if (side) return side == geom_side_of_eye(context, b, &eye);
+    }
+    return false;
+}
+
+static bool in_plane(num_context *context, const froe_scene *s, const geom_plane *plane, uint32_t object) {
+    for (uint32_t i = 0; i < scene_corners(s, object); i++)
+        if (geom_side_vertex(context, plane, scene_point(s, object, i)) != 0) return false;
+    return true;
+}
+
+/* One plane, and the two sides of the edge: then each is left of the edge as it runs, so they run in opposite ways
+ * if they turn the same way. */
+static bool continues(const froe_surface *s, num_context *context, uint32_t edge, uint32_t a, uint32_t b) {
+    geom_plane plane, other;
+    scene_support(s->scene, a, &plane);
+    if (!in_plane(context, s->scene, &plane, b)) return false;
+    scene_support(s->scene, b, &other);
+    return same_turn(context, &plane, &other) == (surface_ascends(s, a, edge) != surface_ascends(s, b, edge));
+}
+
+static uint32_t group_of(const froe_scene *s, uint32_t object) {
+    return s->groups ? s->groups[object] : FROE_NONE;
+}
+
+static void unite_neighbours(froe_surface *s, num_context *context, uint32_t *parent) {
+    for (uint32_t e = 0; e < s->edge_count; e++) {
+        const uint32_t *use = s->uses + s->edge_starts[e];
+        if (s->edge_starts[e + 1] - s->edge_starts[e] != 2 || use[0] == use[1]) continue;
+        s->inside[e] =
+            group_of(s->scene, use[0]) == group_of(s->scene, use[1]) && continues(s, context, e, use[0], use[1]);
+        if (s->inside[e]) unite(parent, use[0], use[1]);
+    }
+}
+
+/* Numbers the roots in ascending order and lists the members of each. */
+static void number(froe_surface *s, uint32_t *parent) {
+    const uint32_t n = s->scene->object_count;
+    uint32_t *starts = s->patch_starts;
+    for (uint32_t o = 0; o < n; o++) {
+        const bool polygon = scene_form(s->scene, o) == FROE_POLYGON;
+        const uint32_t root = find(parent, o);
+        s->patch_of[o] = !polygon ? FROE_NONE : root == o ? s->patch_count++ : s->patch_of[root];
+        if (polygon) starts[s->patch_of[o] + 1]++;
+    }
+    for (uint32_t p = 0; p < s->patch_count; p++) starts[p + 1] += starts[p];
+    s->member_count = starts[s->patch_count];
+    for (uint32_t o = n; o-- > 0;) { /* downwards, by lowering the ends */
+        const uint32_t p = s->patch_of[o];
+        if (p != FROE_NONE) s->members[--starts[p + 1]] = o;
+    }
+    for (uint32_t p = 0; p < s->patch_count; p++) starts[p] = starts[p + 1]; /* ends were lowered to the starts */
+    starts[s->patch_count] = s->member_count;
+}
+
+/* Corners where a polygon of more than three corners goes straight on. */
+static void find_straight(froe_surface *s, num_context *context) {
+    const froe_scene *scene = s->scene;
+    for (uint32_t o = 0; o < scene->object_count; o++) {
+        const uint32_t n = scene_corners(scene, o);
+        if (scene_form(scene, o) != FROE_POLYGON || n == 3) continue;
+        for (uint32_t i = 0; i < n; i++) {
+            const double *const p[3] = {scene_point(scene, o, i ? i - 1 : n - 1), scene_point(scene, o, i),
+                                        scene_point(scene, o, i + 1 < n ? i + 1 : 0)};
+            const geom_plane plane = geom_plane_points(3, p);
+            s->straight[scene->starts[o] + i] = !geom_plane_valid(context, &plane);
+        }
+    }
+}
+
+froe_status surface_find_patches(froe_surface *s, num_context *context) {
+    const size_t n = s->scene->object_count, corners = n ? s->scene->starts[n] : 0;
+    uint32_t *parent = base_calloc(&s->alloc, n + 1, sizeof *parent);
+    s->patch_of = base_calloc(&s->alloc, n + 1, sizeof *s->patch_of);
+    s->patch_starts = base_calloc(&s->alloc, n + 2, sizeof *s->patch_starts);
+    s->members = base_calloc(&s->alloc, n + 1, sizeof *s->members);
+    s->straight = base_calloc(&s->alloc, corners + 1, sizeof *s->straight);
+    s->inside = base_calloc(&s->alloc, (size_t)s->edge_count + 1, sizeof *s->inside);
+    const bool ok = parent && s->patch_of && s->patch_starts && s->members && s->straight && s->inside;
+    if (ok) {
+        for (uint32_t o = 0; o < n; o++) parent[o] = o;
+        unite_neighbours(s, context, parent);
+        number(s, parent);
+        find_straight(s, context);
+    }
+    base_free(&s->alloc, parent, (n + 1) * sizeof *parent);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

@@ -1,0 +1,172 @@
+/* region.c: sides cancel along lines, what is left is chained to rings.
+ *
+ * A corner of a piece stands for its point; corners that are the same point of a line are united. Around any point the
+ * pieces of a region meet along lines, so that the ends of borders which belong together become one. */
+#include "view/visibility/region.h"
+#include "base/sort.h"
+
+typedef struct maker {
+    view_region *r;
+    const froe_visibility *v;
+    view_sights *sights;
+    const froe_allocator *alloc;
+} maker;
+
+/* ------------------------------------------------------------------------ points -- */
+
+static uint32_t find(uint32_t *point, uint32_t i) {
+    while (point[i] != i) i = point[i] = point[point[i]];
+    return i;
+}
+
+static void unite(uint32_t *point, uint32_t a, uint32_t b) {
+    a = find(point, a), b = find(point, b);
+    point[a > b ? a : b] = a > b ? b : a;
+}
+
+/* ------------------------------------------------------------------------- sides -- */
+
+/* The side that leaves corner i of a piece. A corner is  before x way, and also  way x after  of the side before. */
+static region_side side_of(const view_corner *ring, uint32_t count, uint32_t i, uint32_t number) {
+    const uint32_t j = i + 1 < count ? i + 1 : 0;
+    const view_way way = ring[i].way, before = ring[i ? i - 1 : count - 1].way, after = ring[j].way;
+    const uint32_t turned = way & 1;
+    region_side s = {.line = way >> 1, .turned = turned};
+    s.end[turned] = number + i;
+    s.end[!turned] = number + j;
+    s.across[turned] = before ^ 1 ^ turned; /* before x way = line x -before, or with the line turned: line x before */
+    s.across[!turned] = after ^ turned;
+    return s;
+}
+
+static bool list_sides(maker *m, uint32_t patch) {
+    const froe_visibility *v = m->v;
+    view_region *r = m->r;
+    size_t total = 0;
+    for (uint32_t p = v->patch_starts[patch]; p < v->patch_starts[patch + 1]; p++) total += v->pieces[p].count;
+    r->sides.count = r->point.count = r->first_border.count = r->corner_of.count = 0;
+    if (!array_reserve(m->alloc, &r->sides, total) || !array_reserve(m->alloc, &r->point, total) ||
+        !array_reserve(m->alloc, &r->first_border, total) || !array_reserve(m->alloc, &r->by_line, 2 * total) ||
+        !array_reserve(m->alloc, &r->corner_of, total))
+        return false;
+    for (uint32_t p = v->patch_starts[patch]; p < v->patch_starts[patch + 1]; p++) {
+        const view_piece *piece = v->pieces + p;
+        const uint32_t number = (uint32_t)r->sides.count;
+        for (uint32_t i = 0; i < piece->count; i++) {
+            const uint32_t n = number + i;
+            r->sides.data[r->sides.count++] = side_of(v->corners.data + piece->first, piece->count, i, number);
+            r->corner_of.data[r->corner_of.count++] = piece->first + i;
+            r->point.data[r->point.count++] = n;
+            r->first_border.data[r->first_border.count++] = FROE_NONE;
+            r->by_line.data[n] = (base_pair){r->sides.data[n].line, n};
+        }
+    }
+    base_radix_sort(r->by_line.data, r->by_line.data + total, total);
+    return true;
+}
+
+/* ------------------------------------------------------------------ along a line -- */
+
+static int compare_ends(void *user, uint32_t a, uint32_t b) {
+    maker *m = user;
+    const region_side *s = m->r->sides.data + (a >> 1), *t = m->r->sides.data + (b >> 1);
+    const uint32_t p = s->end[a & 1], q = t->end[b & 1];
+    if (find(m->r->point.data, p) == find(m->r->point.data, q)) return 0;
+    const view_corner *x = m->v->corners.data + m->r->corner_of.data[p];
+    const view_corner *y = m->v->corners.data + m->r->corner_of.data[q];
+    if (x->vertex != FROE_NONE && x->vertex == y->vertex) return 0;
+    const view_way n = t->across[b & 1];
+    const int side = view_side(m->sights, n >> 1, &x->ray, x->vertex, 2 * s->line, s->across[a & 1]);
+    return n & 1 ? side : -side;
+}
+
+static bool put_border(maker *m, uint32_t from, uint32_t to) {
+    return array_push(m->alloc, &m->r->borders, (region_border){from, to, FROE_NONE});
+}
+
+/* Sorted ends of all sides on a line: between two points there is border where pieces are on one side only. */
+static bool sweep(maker *m, const uint32_t *ends, uint32_t count) {
+    int active[2] = {0, 0}, state = 0;
+    uint32_t since = 0;
+    for (uint32_t i = 0; i < count;) {
+        const uint32_t here = m->r->sides.data[ends[i] >> 1].end[ends[i] & 1];
+        uint32_t j = i;
+        for (; j < count && (j == i || compare_ends(m, ends[j - 1], ends[j]) == 0); j++) {
+            const region_side *s = m->r->sides.data + (ends[j] >> 1);
+            unite(m->r->point.data, here, s->end[ends[j] & 1]);
+            active[s->turned] += ends[j] & 1 ? -1 : 1;
+        }
+        i = j;
+        const int now = (active[0] > 0) - (active[1] > 0);
+        if (now == state) continue;
+        if (state && !put_border(m, state > 0 ? since : here, state > 0 ? here : since)) return false;
+        state = now;
+        since = here;
+    }
+    return true;
+}
+
+static bool sweep_lines(maker *m) {
+    view_region *r = m->r;
+    const uint32_t total = (uint32_t)r->sides.count;
+    r->borders.count = 0;
+    for (uint32_t i = 0; i < total;) {
+        uint32_t j = i, count = 0;
+        while (j < total && r->by_line.data[j].key == r->by_line.data[i].key) j++;
+        r->ends.count = 0;
+        if (!array_reserve(m->alloc, &r->ends, 4 * (size_t)(j - i))) return false;
+        for (uint32_t k = i; k < j; k++)
+            for (uint32_t e = 0; e < 2; e++) r->ends.data[count++] = 2 * r->by_line.data[k].value + e;
+        base_merge_sort(r->ends.data, r->ends.data + count, count, compare_ends, m);
+        if (!sweep(m, r->ends.data, count)) return false;
+        i = j;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------------- rings -- */
+
+static uint32_t take_border(maker *m, uint32_t corner) {
+    uint32_t *first = m->r->first_border.data + find(m->r->point.data, corner), border = *first;
+    if (border != FROE_NONE) *first = m->r->borders.data[border].next;
+    return border;
+}
+
+static bool chain(maker *m) {
+    view_region *r = m->r;
+    for (uint32_t b = 0; b < r->borders.count; b++) {
+        uint32_t *first = r->first_border.data + find(r->point.data, r->borders.data[b].from);
+        r->borders.data[b].next = *first;
+        *first = b;
+    }
+    r->corners.count = r->starts.count = 0;
+    if (!array_reserve(m->alloc, &r->corners, r->borders.count) ||
+        !array_reserve(m->alloc, &r->starts, r->borders.count + 1))
+        return false;
+    for (uint32_t b = 0; b < r->borders.count; b++) {
+        uint32_t border = take_border(m, r->borders.data[b].from);
+        if (border == FROE_NONE) continue;
+        r->starts.data[r->starts.count++] = (uint32_t)r->corners.count;
+        for (; border != FROE_NONE; border = take_border(m, r->borders.data[border].to))
+            r->corners.data[r->corners.count++] = r->corner_of.data[r->borders.data[border].from];
+    }
+    r->starts.data[r->starts.count++] = (uint32_t)r->corners.count;
+    return true;
+}
+
+froe_status view_region_make(view_region *region, const froe_visibility *v, view_sights *sights, uint32_t patch) {
+    maker m = {region, v, sights, &v->alloc};
+    return list_sides(&m, patch) && sweep_lines(&m) && chain(&m) ? FROE_OK : FROE_E_MEMORY;
+}
+
+void view_region_free(const froe_allocator *alloc, view_region *r) {
+    array_free(alloc, &r->corners);
+    array_free(alloc, &r->starts);
+    array_free(alloc, &r->corner_of);
+    array_free(alloc, &r->sides);
+    array_free(alloc, &r->by_line);
+    array_free(alloc, &r->ends);
+    array_free(alloc, &r->point);
+    array_free(alloc, &r->borders);
+    array_free(alloc, &r->first_border);
+}

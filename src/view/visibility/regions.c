@@ -1,0 +1,46 @@
+/* regions.c: the public call for visible regions. */
+#include "base/floats.h"
+#include "base/status.h"
+#include "geom/selftest.h"
+#include "view/visibility/region.h"
+
+typedef struct giver {
+    view_region region;
+    ARRAY(double) coords;
+    ARRAY(size_t) starts;
+} giver;
+
+static bool give(giver *g, const froe_visibility *v, uint32_t patch, froe_region_fn *fn, void *user, bool *go_on) {
+    const view_region *r = &g->region;
+    const geom_plane plane = view_plane_of(&v->sights, patch);
+    g->coords.count = g->starts.count = 0;
+    if (!array_reserve(&v->alloc, &g->coords, 3 * r->corners.count) ||
+        !array_reserve(&v->alloc, &g->starts, r->starts.count))
+        return false;
+    for (size_t i = 0; i < r->starts.count; i++) g->starts.data[i] = r->starts.data[i];
+    for (size_t i = 0; i < r->corners.count; i++)
+        view_point_on(&v->sights, &plane, v->corners.data[r->corners.data[i]].ray.x, g->coords.data + 3 * i);
+    const size_t rings = r->starts.count - 1;
+    *go_on = base_callback(fn(user, patch, g->coords.data, g->starts.data, rings));
+    return true;
+}
+
+froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, uint32_t count, froe_region_fn *fn,
+                                    void *user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    giver g = {.coords = {0}};
+    bool go_on = true;
+    if (!v || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    view_sights sights = v->sights; /* with numbers of its own: the rest is only read */
+    if (geom_context_new(&v->alloc, &sights.context)) return base_fail_memory(diag);
+    bool ok = true;
+    for (uint32_t p = first; ok && go_on && p < v->surface->patch_count && p - first < count; p++) {
+        if (v->patch_starts[p] == v->patch_starts[p + 1]) continue;
+        ok = view_region_make(&g.region, v, &sights, p) == FROE_OK && give(&g, v, p, fn, user, &go_on);
+    }
+    view_region_free(&v->alloc, &g.region);
+    array_free(&v->alloc, &g.coords);
+    array_free(&v->alloc, &g.starts);
+    num_context_free(&sights.context);
+    return ok ? FROE_OK : base_fail_memory(diag);
+}

@@ -1,0 +1,237 @@
+/* sights.c: the table of lines, and sides that need more than images. */
+#include "view/visibility/sights.h"
+#include "base/random.h"
+#include "geom/predicates.h"
+#include "geom/selftest.h"
+#include "view/visibility/order.h"
+#include <string.h>
+
+/* Relative errors of images of lines: below FINE nothing better is sought, above COARSE nothing is spared. */
+#define FINE 0x1p-49
+#define COARSE 0x1p-44
+
+/* ------------------------------------------------------------------ begin, end -- */
+
+static uint32_t point_count(const view_sights *s) {
+    return s->tree->scene->vertex_count + s->window_count;
+}
+
+froe_status view_sights_new(view_sights *s, const froe_tree *tree, const froe_surface *surface, const geom_eye *eye,
+                            const double *window, uint32_t window_count, const froe_allocator *alloc) {
+    *s = (view_sights){.alloc = *alloc, .tree = tree, .surface = surface, .eye = *eye};
+    s->window = window;
+    s->window_count = window_count;
+    froe_status status = geom_context_new(alloc, &s->context);
+    if (status) return status;
+    const uint32_t objects = tree->scene->object_count, points = point_count(s);
+    s->rays = base_calloc(alloc, (size_t)points + 1, sizeof *s->rays);
+    s->eye_sides = base_calloc(alloc, (size_t)objects + 1, sizeof *s->eye_sides);
+    s->of_edge = base_calloc(alloc, (size_t)surface->edge_count + 1, sizeof *s->of_edge);
+    if (!s->rays || !s->eye_sides || !s->of_edge) return FROE_E_MEMORY;
+    memset(s->eye_sides, 2, objects);
+    for (uint32_t i = 0; i < points; i++) s->rays[i] = geom_ray_image(eye, view_vertex(s, i));
+    return FROE_OK;
+}
+
+void view_sights_free(view_sights *s) {
+    if (s->rays) base_free(&s->alloc, s->rays, ((size_t)point_count(s) + 1) * sizeof *s->rays);
+    if (s->eye_sides) base_free(&s->alloc, s->eye_sides, (size_t)s->tree->scene->object_count + 1);
+    if (s->of_edge) base_free(&s->alloc, s->of_edge, ((size_t)s->surface->edge_count + 1) * sizeof *s->of_edge);
+    array_free(&s->alloc, &s->lines);
+    scene_table_free(&s->alloc, &s->made);
+    num_context_free(&s->context);
+}
+
+int view_facing(view_sights *s, uint32_t object) {
+    if (s->eye_sides[object] == 2) {
+        geom_plane plane;
+        scene_support(s->tree->scene, object, &plane);
+        s->eye_sides[object] = (int8_t)geom_side_of_eye(&s->context, &plane, &s->eye);
+    }
+    return s->eye_sides[object];
+}
+
+/* ----------------------------------------------------------------------- lines -- */
+
+/* The line as geom knows it; `planes` receives what it refers to. */
+static geom_line resolve(view_sights *s, uint32_t line, geom_plane planes[2]) {
+    const view_line *l = s->lines.data + line;
+    if (l->kind == VIEW_EDGE)
+        return (geom_line){.kind = GEOM_SIGHT_EDGE, .u = view_vertex(s, l->a), .v = view_vertex(s, l->b)};
+    if (l->kind == VIEW_STOP) {
+        const uint32_t *v = s->surface->vertices + 2 * (size_t)l->a;
+        planes[1] = tree_plane_at(s->tree, 0);
+        return (geom_line){.kind = GEOM_SIGHT_STOP,
+                           .u = view_vertex(s, v[0]),
+                           .v = view_vertex(s, v[1]),
+                           .a = &planes[1],
+                           .axis = (int)l->b};
+    }
+    scene_support(s->tree->scene, surface_first(s->surface, l->a), &planes[0]);
+    planes[1] = tree_plane_at(s->tree, l->b);
+    return (geom_line){.kind = GEOM_SIGHT_CUT, .s = &planes[0], .a = &planes[1]};
+}
+
+/* From the rays of its ends, if that is fine enough; else by balls; else from exact numbers, which costs as much as
+ * one exact decision and spares many: planes that differ by little more than rounding are common in models. */
+static filter_vector image_of(view_sights *s, const view_line *l, const geom_line *exact) {
+    filter_vector image = {.e = INFINITY};
+    if (s->context.first != NUM_FILTER) return image;
+    if (l->kind == VIEW_EDGE) image = filter_cross(&s->rays[l->a], &s->rays[l->b]);
+    if (!(image.e <= FINE * image.most)) image = geom_line_image(&s->eye, exact);
+    if (!(image.e <= COARSE * image.most)) {
+        geom_line_round(&s->context, &s->eye, exact, image.x);
+        image.most = 1;
+        image.e = 0x1p-52;
+    }
+    return image;
+}
+
+static uint32_t add_line(view_sights *s, uint32_t kind, uint32_t a, uint32_t b) {
+    const uint32_t line = (uint32_t)s->lines.count;
+    geom_plane planes[2];
+    if (line >= INT32_MAX || !array_push(&s->alloc, &s->lines, (view_line){.kind = kind, .a = a, .b = b}))
+        return FROE_NONE;
+    const geom_line exact = resolve(s, line, planes);
+    s->lines.data[line].image = image_of(s, s->lines.data + line, &exact);
+    return line;
+}
+
+uint32_t view_line_of_edge(view_sights *s, uint32_t edge) {
+    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
+    if (!s->of_edge[edge]) s->of_edge[edge] = add_line(s, VIEW_EDGE, v[0], v[1]) + 1;
+    return s->of_edge[edge] - 1;
+}
+
+uint32_t view_line_of_window(view_sights *s, uint32_t side) {
+    const uint32_t first = s->tree->scene->vertex_count;
+    return add_line(s, VIEW_EDGE, first + side, first + (side + 1) % s->window_count);
+}
+
+uint32_t view_line_of_cut(view_sights *s, uint32_t patch, uint32_t node) {
+    const uint32_t tag = (uint32_t)base_hash(0, patch, node);
+    if (!scene_table_reserve(&s->alloc, &s->made, 1)) return FROE_NONE;
+    size_t at = scene_table_home(&s->made, tag);
+    for (uint32_t id = scene_table_find(&s->made, tag, &at); id != FROE_NONE;
+         id = scene_table_find_next(&s->made, tag, &at)) {
+        const view_line *l = s->lines.data + id;
+        if (l->a == patch && l->b == node) return id;
+    }
+    const uint32_t line = add_line(s, VIEW_CUT, patch, node);
+    if (line != FROE_NONE) scene_table_put(&s->made, at, tag, line);
+    return line;
+}
+
+bool view_is_point(view_sights *s, uint32_t edge) {
+    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
+    const filter_vector image = filter_cross(&s->rays[v[0]], &s->rays[v[1]]);
+    double out[3];
+    if (image.most > image.e) return false;
+    const geom_line exact = {.kind = GEOM_SIGHT_EDGE, .u = view_vertex(s, v[0]), .v = view_vertex(s, v[1])};
+    return !geom_line_round(&s->context, &s->eye, &exact, out);
+}
+
+/* The largest component of a key. */
+static int axis_of(const double key[3]) {
+    return fabs(key[0]) == 1 ? 0 : fabs(key[1]) == 1 ? 1 : 2;
+}
+
+bool view_line_key(view_sights *s, uint32_t line, double key[3], bool *turned) {
+    geom_plane planes[2];
+    const geom_line exact = resolve(s, line, planes);
+    if (!geom_line_round(&s->context, &s->eye, &exact, key)) return false;
+    *turned = key[axis_of(key)] < 0;
+    for (int k = 0; k < 3 && *turned; k++) key[k] = -key[k];
+    return true;
+}
+
+int view_compare_lines(view_sights *s, uint32_t a, uint32_t b, const double key[3]) {
+    geom_plane planes[4];
+    if (a == b) return 0;
+    const geom_line x = resolve(s, a, planes), y = resolve(s, b, planes + 2);
+    return geom_line_compare(&s->context, &s->eye, &x, &y, axis_of(key));
+}
+
+/* The point X = a(v) r(u) - a(u) r(v) (or its opposite, with a(v) < 0) and the axis e make the line X x e, and
+ * l x (X x e) = X (l . e). */
+froe_status view_stop_edge(view_sights *s, uint32_t edge, uint32_t line, view_mark *out) {
+    const uint32_t v = s->surface->vertices[2 * (size_t)edge + 1];
+    const geom_plane plane = tree_plane_at(s->tree, 0);
+    double key[3];
+    bool turned;
+    (void)view_line_key(s, line, key, &turned);
+    const uint32_t stop = add_line(s, VIEW_STOP, edge, (uint32_t)axis_of(key));
+    const bool behind = geom_side_vertex(&s->context, &plane, view_vertex(s, v)) < 0;
+    *out = (view_mark){FROE_NONE, 2 * stop + (turned != behind)};
+    return stop == FROE_NONE ? FROE_E_MEMORY : FROE_OK;
+}
+
+/* ----------------------------------------------------------------------- sides -- */
+
+static int known(view_sights *s) {
+    s->context.stats.calls++;
+    s->context.stats.by_id++;
+    return 0;
+}
+
+int view_side_exactly(view_sights *s, uint32_t line, uint32_t vertex, view_way a, view_way b) {
+    const view_line *l = s->lines.data + line;
+    geom_plane planes[6];
+    if (vertex == FROE_NONE && (a >> 1 == line || b >> 1 == line)) return known(s);
+    if (vertex != FROE_NONE && l->kind == VIEW_EDGE && (l->a == vertex || l->b == vertex)) return known(s);
+    const geom_line h = resolve(s, line, planes);
+    if (vertex != FROE_NONE) return geom_line_side_point(&s->context, &s->eye, &h, view_vertex(s, vertex));
+    const geom_line first = resolve(s, a >> 1, planes + 2), second = resolve(s, b >> 1, planes + 4);
+    const int side = geom_line_side_meeting(&s->context, &s->eye, &h, &first, &second);
+    return (a ^ b) & 1 ? -side : side;
+}
+
+int view_compare_vertices(view_sights *s, uint32_t line, uint32_t u, uint32_t v) {
+    if (u == v) return 0;
+    const filter_vector through = filter_cross(&s->rays[u], &s->rays[v]);
+    const int sure = geom_line_image_side(&s->lines.data[line].image, &through);
+    s->context.stats.filtered += sure != NUM_UNSURE;
+    if (sure != NUM_UNSURE) return -sure;
+    geom_plane planes[2];
+    const geom_line h = resolve(s, line, planes);
+    return -geom_line_order(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
+}
+
+/* ---------------------------------------------------------------------- output -- */
+
+filter_vector view_meeting_round(view_sights *s, view_way a, view_way b) {
+    geom_plane planes[4];
+    const geom_line first = resolve(s, a >> 1, planes), second = resolve(s, b >> 1, planes + 2);
+    filter_vector ray = {.most = 1, .e = s->context.first == NUM_FILTER ? 0x1p-52 : INFINITY};
+    geom_meeting_round(&s->context, &s->eye, &first, &second, ray.x);
+    for (int k = 0; k < 3 && (a ^ b) & 1; k++) ray.x[k] = -ray.x[k];
+    return ray;
+}
+
+double view_share_round(view_sights *s, uint32_t line, uint32_t u, uint32_t v) {
+    geom_plane planes[2];
+    const geom_line h = resolve(s, line, planes);
+    return geom_share_round(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
+}
+
+geom_plane view_plane_of(const view_sights *s, uint32_t patch) {
+    geom_plane plane;
+    scene_support(s->tree->scene, surface_first(s->surface, patch), &plane);
+    return plane;
+}
+
+/* x = e - t r, or for a parallel eye x = y + t d with y the point of the ray in the plane w_k = 0. */
+void view_point_on(const view_sights *s, const geom_plane *plane, const double ray[3], double out[3]) {
+    const geom_eye *eye = &s->eye;
+    double start[3], way[3], at = 0, slope = 0;
+    for (int k = 0; k < 3; k++) {
+        start[k] = eye->parallel ? eye->origin[k] : eye->at[k];
+        way[k] = eye->parallel ? eye->at[k] : -ray[k];
+    }
+    for (int c = 0; c < 2 && eye->parallel; c++) start[(eye->axis + 1 + c) % 3] += ray[c] / ray[2];
+    for (int k = 0; k < 3; k++) {
+        at += plane->n[k] * (start[k] - plane->p[0][k]);
+        slope += plane->n[k] * way[k];
+    }
+    for (int k = 0; k < 3; k++) out[k] = start[k] - way[k] * (at / slope);
+}

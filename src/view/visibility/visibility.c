@@ -1,0 +1,275 @@
+/* visibility.c: pieces front to back, each sent down the beam tree. */
+#include "base/floats.h"
+#include "base/status.h"
+#include "view/visibility/crossings.h"
+#include "view/visibility/order.h"
+#include <math.h>
+#include <string.h>
+
+froe_visibility_options froe_visibility_defaults(void) {
+    return (froe_visibility_options){.size = sizeof(froe_visibility_options)};
+}
+
+typedef struct looker {
+    froe_visibility *v;
+    const froe_visibility_options *options;
+    base_task task;
+    view_screen screen;
+    view_ring ring;
+    view_stretches stretches;
+    view_crosser crosser;
+    ARRAY(view_piece) pieces;
+    uint32_t *ranks; /* per object */
+    view_piece now;
+} looker;
+
+/* --------------------------------------------------------------------- looking -- */
+
+static bool keep_stretch(void *user, const view_stretch *part) {
+    looker *k = user;
+    return array_push(&k->v->alloc, &k->stretches, *part);
+}
+
+static bool keep_beam(void *user, const view_corner *ring, uint32_t count) {
+    looker *k = user;
+    froe_visibility *v = k->v;
+    if (!array_reserve(&v->alloc, &v->corners, count) || !array_reserve(&v->alloc, &k->pieces, 1)) return false;
+    k->now.first = (uint32_t)v->corners.count;
+    k->now.count = count;
+    memcpy(v->corners.data + v->corners.count, ring, count * sizeof *ring);
+    v->corners.count += count;
+    k->pieces.data[k->pieces.count++] = k->now;
+    return v->corners.count <= INT32_MAX;
+}
+
+/* Before its own face covers anything. */
+static froe_status look_at_edges(looker *k, uint32_t piece) {
+    froe_status status = FROE_OK;
+    view_stretch stretch;
+    for (uint32_t i = 0, n = view_side_count(&k->v->sights, piece); i < n && !status; i++) {
+        const bool part = view_stretch_of(&k->v->sights, piece, i, &stretch, &status);
+        if (!part || (k->options->edges && !k->options->edges[stretch.edge])) continue;
+        status = view_screen_classify(&k->screen, &stretch, view_line_of_edge(&k->v->sights, stretch.edge),
+                                      k->ring.data, (uint32_t)k->ring.count, keep_stretch, k);
+    }
+    if (!status && k->options->crossings) status = view_look_at_crossings(&k->crosser, piece, &k->ring);
+    return status;
+}
+
+static froe_status look_at(looker *k, uint32_t piece, uint32_t place) {
+    froe_visibility *v = k->v;
+    const uint32_t object = v->tree->pieces[piece].object, patch = v->surface->patch_of[object];
+    if (patch == FROE_NONE) return FROE_OK;
+    const int facing = view_facing(&v->sights, object);
+    if (!facing || (k->options->cull_back && facing < 0)) return FROE_OK;
+    if (!view_beam_of(&v->sights, piece, &k->ring)) return FROE_E_MEMORY;
+    const froe_status status = look_at_edges(k, piece);
+    if (status) return status;
+    k->now = (view_piece){.patch = patch, .object = object, .piece = piece, .place = place};
+    const bool opaque = !k->options->clear || !k->options->clear[patch];
+    return view_screen_insert(&k->screen, k->ring.data, (uint32_t)k->ring.count, opaque, keep_beam, k);
+}
+
+/* Polygons seen edge-on show where the section cuts them, if nothing can be in front of that. */
+static froe_status look_along_section(looker *k) {
+    froe_visibility *v = k->v;
+    froe_status status = FROE_OK;
+    if (!v->section || !k->options->crossings ||
+        view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) != -v->section)
+        return FROE_OK;
+    for (uint32_t o = 0; o < v->surface->scene->object_count && !status; o++)
+        if (v->surface->patch_of[o] != FROE_NONE && !view_facing(&v->sights, o)) status = view_look_along_section(v, o);
+    return status;
+}
+
+static froe_status look_at_all(looker *k) {
+    froe_visibility *v = k->v;
+    view_order order;
+    uint32_t piece, place = 0;
+    froe_status status = view_order_begin(&order, v->tree, &v->sights.eye, true, k->ranks);
+    order.section = v->section;
+    const bool all = k->options->crossings && k->options->hidden_crossings;
+    while (!status && (k->screen.open || all) && view_order_next(&order, &piece)) {
+        status = look_at(k, piece, place++);
+        if (place % 1024 == 0 && !base_progress(&k->task, 0.9 * place / v->tree->piece_count))
+            status = FROE_E_CANCELLED;
+    }
+    num_stats_add(&v->sights.context.stats, &order.context.stats);
+    const froe_status end = view_order_end(&order);
+    v->report.pieces = place;
+    return status ? status : end;
+}
+
+/* -------------------------------------------------------------------- finishing -- */
+
+/* Pieces by patch, in their order. */
+static froe_status sort_pieces(looker *k) {
+    froe_visibility *v = k->v;
+    const uint32_t patches = v->surface->patch_count, n = (uint32_t)k->pieces.count;
+    uint32_t *starts = base_calloc(&v->alloc, (size_t)patches + 1, sizeof *starts);
+    v->patch_starts = starts;
+    v->piece_count = n;
+    v->pieces = base_calloc(&v->alloc, (size_t)n + 1, sizeof *v->pieces);
+    if (!starts || !v->pieces) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < n; i++) starts[k->pieces.data[i].patch + 1]++;
+    for (uint32_t p = 0; p < patches; p++) starts[p + 1] += starts[p];
+    for (uint32_t i = n; i-- > 0;) v->pieces[--starts[k->pieces.data[i].patch + 1]] = k->pieces.data[i];
+    for (uint32_t p = 0; p < patches; p++) starts[p] = starts[p + 1]; /* ends were lowered to the starts */
+    starts[patches] = n;
+    return FROE_OK;
+}
+
+static void note_counts(froe_visibility *v, const view_screen *screen) {
+    v->report.visible_pieces = v->piece_count;
+    v->report.intervals = v->interval_count;
+    v->report.screen_nodes = screen->nodes.count;
+    v->report.lines = v->sights.lines.count;
+    v->report.predicates = v->sights.context.stats;
+    v->report.predicates.calls = v->report.predicates.by_id + v->report.predicates.filtered +
+                                 v->report.predicates.refined + v->report.predicates.exact;
+}
+
+static froe_status look(looker *k, const geom_eye *eye) {
+    froe_visibility *v = k->v;
+    froe_status status = view_sights_new(&v->sights, v->tree, v->surface, eye, k->options->window,
+                                         (uint32_t)k->options->window_corners, &v->alloc);
+    if (!status) status = view_screen_new(&k->screen, &v->sights);
+    k->crosser = (view_crosser){
+        .sights = &v->sights, .screen = &k->screen, .section = v->section != 0, .hidden = k->options->hidden_crossings};
+    if (!status) status = view_rank_objects(&v->alloc, v->surface, k->options->priorities, &k->ranks);
+    if (!status) status = look_at_all(k);
+    if (!status) status = look_along_section(k);
+    if (!status) status = sort_pieces(k);
+    if (!status) status = view_join_intervals(v, &k->stretches);
+    if (!status) status = view_join_crossings(v, &k->crosser);
+    if (!status) view_tally(v, k->options->cull_back);
+    if (!status) note_counts(v, &k->screen);
+    view_screen_free(&k->screen);
+    array_free(&v->alloc, &k->ring);
+    array_free(&v->alloc, &k->stretches);
+    view_crosser_free(&k->crosser);
+    array_free(&v->alloc, &k->pieces);
+    base_free(&v->alloc, k->ranks, ((size_t)v->surface->scene->object_count + 1) * sizeof *k->ranks);
+    return status;
+}
+
+/* ---------------------------------------------------------------------- calling -- */
+
+static froe_status check(const froe_tree *tree, const froe_surface *surface, const froe_visibility_options *o,
+                         froe_diagnostic *diag) {
+    if (!tree || !surface) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!o || o->size != sizeof *o)
+        return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_visibility_defaults()");
+    if (surface->scene != tree->scene) return base_fail(diag, FROE_E_ARG, "the surface is not of the tree's scene");
+    if (o->section < -1 || o->section > 1)
+        return base_fail(diag, FROE_E_OPTIONS, "a section is -1, 0 or 1, not %d", o->section);
+    if (o->section && tree_is_leaf(tree->nodes))
+        return base_fail(diag, FROE_E_OPTIONS, "a tree of a single leaf has no cut to be its section");
+    if (o->window && (o->window_corners < 3 || o->window_corners > FROE_WINDOW_MOST))
+        return base_fail(diag, FROE_E_OPTIONS, "a window has 3 to %d corners, not %zu", FROE_WINDOW_MOST,
+                         o->window_corners);
+    for (size_t i = 0; o->window && i < 3 * o->window_corners; i++)
+        if (!isfinite(o->window[i]))
+            return base_fail_at(diag, FROE_E_OPTIONS, FROE_NONE, (uint32_t)(i / 3), (uint32_t)(i % 3),
+                                "corner %zu of the window is not finite", i / 3);
+    return view_order_check(tree, diag);
+}
+
+static froe_status failure(froe_status status, froe_diagnostic *diag) {
+    switch (status) {
+    case FROE_OK:
+        return FROE_OK;
+    case FROE_E_MEMORY:
+        return base_fail_memory(diag);
+    case FROE_E_INPUT:
+        return base_fail(diag, status, "the window, as the eye sees it, is not strictly convex");
+    case FROE_E_CANCELLED:
+        return base_fail_cancelled(diag);
+    default:
+        return base_fail(diag, status, "more than 2^31 lines, corners or intervals are visible");
+    }
+}
+
+froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surface,
+                                const froe_visibility_options *options, froe_visibility **out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    geom_eye eye;
+    if (!out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    froe_status status = check(tree, surface, options, diag);
+    if (!status) status = view_eye_of(tree, &options->eye, &eye, diag);
+    if (status) return status;
+    const froe_allocator alloc = base_allocator(options->alloc);
+    froe_visibility *v = base_calloc(&alloc, 1, sizeof *v);
+    if (!v) return base_fail_memory(diag);
+    v->alloc = alloc;
+    v->tree = tree;
+    v->surface = surface;
+    v->section = options->section;
+    looker k = {.v = v, .options = options};
+    base_task_init(&k.task, 1, options->progress, options->user);
+    status = look(&k, &eye);
+    if (status) {
+        froe_visibility_free(v);
+        return failure(status, diag);
+    }
+    *out = v;
+    return FROE_OK;
+}
+
+void froe_visibility_free(froe_visibility *v) {
+    if (!v) return;
+    const froe_allocator alloc = v->alloc;
+    if (v->sights.surface) view_sights_free(&v->sights);
+    if (v->pieces) base_free(&alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
+    array_free(&alloc, &v->corners);
+    base_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);
+    base_free(&alloc, v->intervals, v->interval_room * sizeof *v->intervals);
+    base_free(&alloc, v->interval_marks, 2 * v->interval_room * sizeof *v->interval_marks);
+    array_free(&alloc, &v->crossings);
+    array_free(&alloc, &v->crossing_runs);
+    base_free(&alloc, v->edge_starts, ((size_t)v->surface->edge_count + 1) * sizeof *v->edge_starts);
+    base_free(&alloc, v, sizeof *v);
+}
+
+/* --------------------------------------------------------------------- reading -- */
+
+size_t froe_visibility_piece_count(const froe_visibility *v) {
+    return v->piece_count;
+}
+
+froe_visible froe_visibility_piece(const froe_visibility *v, size_t i) {
+    if (i >= v->piece_count) return (froe_visible){.patch = FROE_NONE, .object = FROE_NONE};
+    const view_piece *p = v->pieces + i;
+    return (froe_visible){p->patch, p->object, p->piece, p->place, p->count};
+}
+
+size_t froe_visibility_of_patch(const froe_visibility *v, uint32_t patch, size_t *first) {
+    const bool there = patch < v->surface->patch_count;
+    *first = there ? v->patch_starts[patch] : 0;
+    return there ? v->patch_starts[patch + 1] - v->patch_starts[patch] : 0;
+}
+
+size_t froe_visibility_corners(const froe_visibility *v, size_t i, double *coords, size_t capacity) {
+    BASE_FLOATS_OWN;
+    if (i >= v->piece_count) return 0;
+    const view_piece *p = v->pieces + i;
+    const geom_plane plane = view_plane_of(&v->sights, p->patch);
+    for (uint32_t c = 0; c < p->count && c < capacity; c++)
+        view_point_on(&v->sights, &plane, v->corners.data[p->first + c].ray.x, coords + 3 * (size_t)c);
+    return p->count;
+}
+
+const froe_interval *froe_visibility_of_edge(const froe_visibility *v, uint32_t edge, size_t *count) {
+    const bool there = edge < v->surface->edge_count;
+    *count = there ? v->edge_starts[edge + 1] - v->edge_starts[edge] : 0;
+    return v->intervals + (there ? v->edge_starts[edge] : 0);
+}
+
+const froe_crossing *froe_visibility_crossings(const froe_visibility *v, size_t *count) {
+    *count = v->crossings.count;
+    return v->crossings.data;
+}
+
+froe_visibility_report froe_visibility_statistics(const froe_visibility *v) {
+    return v->report;
+}

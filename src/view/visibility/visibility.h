@@ -1,0 +1,58 @@
+/* visibility.h: what one eye sees, from inside. */
+#ifndef FROE_VIEW_VISIBILITY_VISIBILITY_H
+#define FROE_VIEW_VISIBILITY_VISIBILITY_H
+#include "base/task.h"
+#include "view/visibility/beam.h"
+
+typedef struct view_piece {
+    uint32_t patch, object, piece, place;
+    uint32_t first, count; /**< its ring in `corners` */
+} view_piece;
+
+/** A part of a line, from mark to mark in its direction. */
+typedef struct view_run {
+    uint32_t line;
+    view_mark end[2];
+} view_run;
+
+struct froe_visibility {
+    froe_allocator alloc;
+    const froe_tree *tree;
+    const froe_surface *surface;
+    view_sights sights;
+    int section;        /**< see froe_visibility_options */
+    view_piece *pieces; /**< ordered by patch, then place */
+    uint32_t piece_count;
+    ARRAY(view_corner) corners;
+    uint32_t *patch_starts; /**< patch_count + 1, into pieces */
+    froe_interval *intervals;
+    view_mark *interval_marks; /**< two per interval: where it ends exactly, on the line of its edge */
+    uint32_t interval_count;
+    size_t interval_room;
+    uint32_t *edge_starts; /**< edge_count + 1, into intervals */
+    ARRAY(froe_crossing) crossings;
+    ARRAY(view_run) crossing_runs; /**< the same, exactly */
+    froe_visibility_report report;
+};
+
+typedef ARRAY(view_stretch) view_stretches;
+
+/** The rank of every object within its plane (see froe_visibility_options), object_count + 1 words; also without
+ * success to be freed. FROE_E_MEMORY. */
+froe_status view_rank_objects(const froe_allocator *alloc, const froe_surface *surface, const int32_t *priorities,
+                              uint32_t **ranks);
+/** The place of every piece of the tree, front to back, as in froe_visible. FROE_E_MEMORY. */
+froe_status view_find_places(const froe_visibility *v, const int32_t *priorities, uint32_t *places);
+/** Counts, for the report, what is visible and what is not, and why. */
+void view_tally(froe_visibility *v, bool cull_back);
+/** Joins the visible stretches of each edge to intervals. FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches);
+/** The end of a stretch of a line at a mark. */
+view_end view_end_at(view_sights *sights, uint32_t line, view_mark mark);
+/** Compares two meetings, or a vertex with a meeting, along a line of sight: -1 the first comes first. Exact. */
+int view_compare_along(view_sights *sights, uint32_t line, const view_end *a, const view_end *b);
+/** The same for any two ends. */
+int view_compare_ends(view_sights *sights, uint32_t line, const view_end *a, const view_end *b);
+/** Where an end lies on an edge, as its share from the lower vertex (0) to the higher (1), rounded. */
+double view_share_of(view_sights *sights, uint32_t edge, view_mark mark);
+#endif
