@@ -1,5 +1,6 @@
 /* exit.c: statuses to exit codes, in one table, and error messages. */
 #include "exit.h"
+#include "support/fail.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,16 +47,17 @@ static void place(char *out, size_t size, const froe_diagnostic *diag) {
         snprintf(out, size, "object %u, corner %u: ", diag->object, diag->corner);
 }
 
-/* A message that begins with its file, as readers' do: what comes after. */
+/* The library names a file by the end of its path. A message that begins with it, as readers' do: what comes after. */
 static const char *without_file(const char *reason, const char *file) {
-    const size_t length = strlen(file);
-    return strncmp(reason, file, length) == 0 && strncmp(reason + length, ": ", 2) == 0 ? reason + length + 2 : reason;
+    const char *end = support_short(file);
+    const size_t length = strlen(end);
+    return strncmp(reason, end, length) == 0 && strncmp(reason + length, ": ", 2) == 0 ? reason + length + 2 : reason;
 }
 
 /* A message that has its file in quotes need not be told which it is. */
 static bool quotes(const char *reason, const char *file) {
-    const char *at = strstr(reason, file);
-    return at && at > reason && at[-1] == '\'' && at[strlen(file)] == '\'';
+    const char *end = support_short(file), *at = strstr(reason, end);
+    return at && at > reason && at[-1] == '\'' && at[strlen(end)] == '\'';
 }
 
 int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag) {

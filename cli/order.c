@@ -51,6 +51,7 @@ int cli_read_order(const char *path, cli_order *out) {
     if (!file) return cli_fail(CLI_INPUT, path, "%s", strerror(errno));
     int code = read_lines(file, path, out);
     fclose(file);
+    if (!code && !out->count) code = cli_fail(CLI_INPUT, path, "holds no object ids");
     if (!code) return 0;
     free(out->ids);
     *out = (cli_order){NULL, 0};

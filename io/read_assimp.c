@@ -235,12 +235,13 @@ static void set_format(const io_source *source, io_sink *sink, const struct aiSc
 /* assimp reports the exception that ended an import by its text alone. */
 static froe_status refuse_import(const io_source *source, io_sink *sink) {
     char reason[160];
-    snprintf(reason, sizeof reason, "%.150s", aiGetErrorString());
+    const char *said = aiGetErrorString();
+    snprintf(reason, sizeof reason, "%.150s", strstr(said, source->path) ? "" : said);
     reason[strcspn(reason, "\r\n")] = '\0';
     if (strstr(reason, "bad_alloc"))
         return io_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory", io_short(source->path));
     return io_fail(sink->diag, FROE_E_FORMAT, "%s: %s", io_short(source->path),
-                   *reason ? reason : "cannot be imported");
+                   *reason ? reason : "is of no type that can be read");
 }
 
 static froe_status import(const io_source *source, io_sink *sink, const struct aiScene **scene) {

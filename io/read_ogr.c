@@ -12,6 +12,7 @@
 /* ---------------------------------------------------------------- errors -- */
 
 typedef struct heard {
+    const char *path; /* which froe names itself */
     bool failed;
     char text[160];
 } heard;
@@ -22,7 +23,7 @@ static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)
     bool about_axes = !strncmp(text, "PROJ", 4); /* froe takes coordinates as they are */
     if (class < CE_Failure || h->failed || about_axes) return;
     h->failed = true;
-    snprintf(h->text, sizeof h->text, "%s", text);
+    snprintf(h->text, sizeof h->text, "%s", strstr(text, h->path) ? "" : text);
     for (char *c = h->text; *c; ++c)
         if (*c == '\n' || *c == '\r') *c = ' ';
 }
@@ -52,7 +53,7 @@ typedef struct map {
 
 static froe_status map_fail(map *m, froe_status status, const char *otherwise) {
     return io_fail(m->sink->diag, status, "%s: %s", io_short(m->source->path),
-                   m->heard.failed ? m->heard.text : otherwise);
+                   m->heard.failed && *m->heard.text ? m->heard.text : otherwise);
 }
 
 static int find_field(OGRFeatureDefnH fields, const char *const *names) {
@@ -196,7 +197,7 @@ static froe_status add_layers(map *m) {
     m->sink->report.layers_left = (uint64_t)layers - m->sink->report.layers;
     m->heard.failed = false; /* what was said before did not keep the file from opening */
     if (!status) status = one ? add_layer(m, one) : add_all(m);
-    if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "");
+    if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "cannot be read to its end");
     if (!status) status = io_sink_end_feature(m->sink);
     m->sink->inside = NULL;
     return status;
@@ -213,7 +214,7 @@ static GDALDatasetH open_map(const io_source *source) {
 }
 
 froe_status io_read_ogr(const io_source *source, io_sink *sink) {
-    map m = {.source = source, .sink = sink};
+    map m = {.source = source, .sink = sink, .heard.path = source->path};
     sink->unit = "feature";
     froe_status status = io_sink_open(sink, 2);
     if (status) return status;

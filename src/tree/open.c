@@ -29,7 +29,7 @@ typedef struct opening {
 } opening;
 
 static froe_status bad(const opening *o, const char *what) {
-    return base_fail(o->diag, FROE_E_FORMAT, "'%.120s' is no valid tree file: %s", o->path, what);
+    return base_fail(o->diag, FROE_E_FORMAT, "'%s' is no valid tree file: %s", support_short(o->path), what);
 }
 
 static froe_status unreadable(const opening *o, int error) {
