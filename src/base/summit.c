@@ -1,14 +1,14 @@
 /* summit.c: a segment tree with sums at the nodes; bottom-up, no recursion. */
 #include "base/summit.h"
 
-static uint32_t rounded(uint32_t size) {
+static uint32_t rounded_up(uint32_t size) {
     uint32_t power = 1;
     while (power < size) power *= 2;
     return power;
 }
 
 froe_status base_summit_new(const froe_allocator *alloc, uint32_t size, base_summit *out) {
-    *out = (base_summit){.size = rounded(size)};
+    *out = (base_summit){.size = rounded_up(size)};
     out->node = base_calloc(alloc, 2 * (size_t)out->size, sizeof *out->node);
     return out->node ? FROE_OK : FROE_E_MEMORY;
 }
@@ -28,7 +28,7 @@ static void lift(base_summit_node *node, int64_t by) {
 }
 
 /** Brings the nodes above a changed one up to date. */
-static void settle(base_summit *s, uint32_t i) {
+static void settle_inner(base_summit *s, uint32_t i) {
     for (i /= 2; i; i /= 2) s->node[i].max = higher(s->node[2 * i].max, s->node[2 * i + 1].max) + s->node[i].add;
 }
 
@@ -39,8 +39,8 @@ void base_summit_raise(base_summit *s, uint32_t from, uint32_t end, int64_t by) 
         if (a & 1) lift(s->node + a++, by);
         if (b & 1) lift(s->node + --b, by);
     }
-    settle(s, from + s->size);
-    settle(s, end - 1 + s->size);
+    settle_inner(s, from + s->size);
+    settle_inner(s, end - 1 + s->size);
 }
 
 /** What was added above node i. */
@@ -51,7 +51,7 @@ static int64_t above(const base_summit *s, uint32_t i) {
 }
 
 /** Below node i, which has a number of at least `level` in it, the first or last of these. */
-static uint32_t descend(const base_summit *s, uint32_t i, int64_t level, bool last) {
+static uint32_t descend_to_first(const base_summit *s, uint32_t i, int64_t level, bool last) {
     level -= above(s, i);
     while (i < s->size) {
         level -= s->node[i].add;
@@ -67,7 +67,7 @@ uint32_t base_summit_first(const base_summit *s, uint32_t from, uint32_t end, in
     for (;;) { /* i: the next node that begins at the first position not yet looked at */
         while (!(i & 1)) i /= 2;
         if (s->node[i].max + above(s, i) >= level) {
-            uint32_t at = descend(s, i, level, false);
+            uint32_t at = descend_to_first(s, i, level, false);
             return at < end ? at : BASE_SUMMIT_NONE;
         }
         if (!(i & (i + 1))) return BASE_SUMMIT_NONE; /* nothing lies to the right */
@@ -81,7 +81,7 @@ uint32_t base_summit_last(const base_summit *s, uint32_t from, uint32_t end, int
     for (;;) {
         while (i > 1 && i & 1) i /= 2;
         if (s->node[i].max + above(s, i) >= level) {
-            uint32_t at = descend(s, i, level, true);
+            uint32_t at = descend_to_first(s, i, level, true);
             return at >= from ? at : BASE_SUMMIT_NONE;
         }
         if (!(i & (i - 1))) return BASE_SUMMIT_NONE; /* nothing lies to the left */

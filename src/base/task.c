@@ -61,7 +61,7 @@ static void note_failure(crew *c, size_t job, froe_status status) {
 }
 
 /* Does one more job; false when there is none left to do. */
-static bool work(crew *c, unsigned worker) {
+static bool work_on_jobs(crew *c, unsigned worker) {
     if (base_cancelled(c->task)) return false;
     size_t job = atomic_fetch_add(&c->next, 1);
     if (job >= c->count || job > atomic_load(&c->failed)) return false;
@@ -71,7 +71,7 @@ static bool work(crew *c, unsigned worker) {
     return true;
 }
 
-static void report(crew *c, bool always) {
+static void report_progress(crew *c, bool always) {
     double share = (double)atomic_load(&c->finished) / (double)c->count;
     double done = c->start + c->span * share;
     if (always || done >= c->task->done + STEP) base_progress(c->task, done);
@@ -81,7 +81,7 @@ static void *labour(void *argument) {
     hand *h = argument;
     crew *c = h->crew;
     base_floats_begin_thread(c->caller);
-    while (work(c, h->worker)) {
+    while (work_on_jobs(c, h->worker)) {
     }
     pthread_mutex_lock(&c->lock);
     if (--c->working == 0) pthread_cond_signal(&c->quiet);
@@ -117,7 +117,7 @@ static void wait_for_quiet(crew *c) {
         until.tv_nsec %= 1000000000;
         pthread_cond_timedwait(&c->quiet, &c->lock, &until);
         pthread_mutex_unlock(&c->lock);
-        report(c, true);
+        report_progress(c, true);
         pthread_mutex_lock(&c->lock);
     }
     pthread_mutex_unlock(&c->lock);
@@ -127,7 +127,7 @@ static void run_crew(crew *c, unsigned others) {
     hand hands[BASE_THREADS_MAX];
     pthread_t threads[BASE_THREADS_MAX];
     unsigned hired = others ? hire(c, others, hands, threads) : 0;
-    while (work(c, 0)) report(c, false);
+    while (work_on_jobs(c, 0)) report_progress(c, false);
     if (hired) wait_for_quiet(c);
     for (unsigned i = 0; i < hired; i++) pthread_join(threads[i], NULL);
 }

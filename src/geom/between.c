@@ -75,7 +75,7 @@ static void move_to_front(geom_member *members, uint32_t at) {
 }
 
 /* Takes up the planes through one point more. */
-static void descend(search *s) {
+static void descend_walk(search *s) {
     uint32_t at = s->levels[s->depth].next;
     s->basis[s->depth++] = s->members[at];
     s->levels[s->depth] = (level){.limit = at};
@@ -91,13 +91,13 @@ static void ascend(search *s) {
 }
 
 /* Looks at the next point. False: no plane is right for it and for those before. */
-static bool step(search *s) {
+static bool step_walk(search *s) {
     level *l = s->levels + s->depth;
     const geom_member *m = s->members + l->next;
     int side = geom_side_vertex(s->context, &s->plane, m->x) * s->sign * m->set;
     if (side < 0 && l->strict) {
         if (s->depth == s->dim) return false;
-        descend(s);
+        descend_walk(s);
         return true;
     }
     if (side < 0) s->sign = -s->sign; /* all before lie in the plane: turned round it is as right for them */
@@ -116,7 +116,7 @@ geom_answer geom_between(num_context *context, int dim, geom_member *members, ui
         if (done && !s.depth) break;
         if (done)
             ascend(&s);
-        else if (!step(&s))
+        else if (!step_walk(&s))
             return GEOM_NO;
     }
     if (!s.levels[0].strict) return GEOM_FLAT;

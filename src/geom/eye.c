@@ -71,7 +71,7 @@ int geom_side_of_eye_filter(const double *p, const double *q, const double *r, c
 
 /* ------------------------------------------------------------------ images -- */
 
-static filter_vector gather(const num_ball x[3]) {
+static filter_vector gather_vector(const num_ball x[3]) {
     filter_vector out = {.most = 0};
     for (int k = 0; k < 3; k++) {
         out.x[k] = x[k].x;
@@ -85,13 +85,13 @@ static filter_vector gather(const num_ball x[3]) {
 filter_vector geom_ray_image(const geom_eye *eye, const double *x) {
     num_ball r[3];
     ball_ray(NULL, eye, x, r);
-    return gather(r);
+    return gather_vector(r);
 }
 
 filter_vector geom_line_image(const geom_eye *eye, const geom_line *line) {
     num_ball n[3];
     ball_line(NULL, eye, line, n);
-    return gather(n);
+    return gather_vector(n);
 }
 
 /* ------------------------------------------------------------------- sides -- */
@@ -101,7 +101,7 @@ static bool same_point(const double *a, const double *b) {
 }
 
 /* Is x one of the points that make the line? */
-static bool holds(const geom_line *h, const double *x) {
+static bool line_holds(const geom_line *h, const double *x) {
     return h->kind == GEOM_SIGHT_EDGE && (same_point(h->u, x) || same_point(h->v, x));
 }
 
@@ -123,7 +123,7 @@ int geom_line_side_point(num_context *context, const geom_eye *eye, const geom_l
     if (context->first == NUM_FILTER) {
         int sure = point_filter(eye, h, x);
         if (sure != NUM_UNSURE) return num_filtered(context, sure);
-        if (holds(h, x)) {
+        if (line_holds(h, x)) {
             context->stats.by_id++;
             return 0;
         }

@@ -4,7 +4,7 @@
 #include "geom/predicates.h"
 
 /* origin + offset / divisor, rounded. */
-static double rounded(num_arena *arena, double origin, num_dyadic offset, num_dyadic divisor) {
+static double rounded_image(num_arena *arena, double origin, num_dyadic offset, num_dyadic divisor) {
     num_dyadic shift = num_dyadic_mul(arena, num_dyadic_from(arena, origin), divisor);
     return num_dyadic_quotient(arena, num_dyadic_add(arena, shift, offset), divisor);
 }
@@ -13,7 +13,7 @@ static double rounded(num_arena *arena, double origin, num_dyadic offset, num_dy
 static double limit(num_arena *arena, double origin, const num_sheared *offset, const num_sheared *divisor) {
     int order = num_sheared_order(divisor);
     if (order == NUM_SHEARED_TERMS) order = 0; /* a file may say that parallel planes meet */
-    return rounded(arena, origin, offset->a[order], divisor->a[order]);
+    return rounded_image(arena, origin, offset->a[order], divisor->a[order]);
 }
 
 static void round_sheared_crossing(num_arena *arena, const double *u, const double *v, const geom_plane *a,
@@ -31,7 +31,7 @@ void geom_round_crossing(num_context *context, const double *u, const double *v,
         return;
     }
     dyadic_crossing_point(&context->arena, u, v, a, offset, &divisor);
-    for (int k = 0; k < a->dim; k++) out[k] = rounded(&context->arena, u[k], offset[k], divisor);
+    for (int k = 0; k < a->dim; k++) out[k] = rounded_image(&context->arena, u[k], offset[k], divisor);
 }
 
 static void round_sheared_corner(num_arena *arena, const geom_plane *const planes[3], const double z[3], double *out) {
@@ -52,7 +52,7 @@ void geom_round_corner(num_context *context, const geom_plane *s, const geom_pla
         return;
     }
     dyadic_corner_point(&context->arena, planes[0], planes[1], planes[2], z, offset, &divisor);
-    for (int k = 0; k < 3; k++) out[k] = rounded(&context->arena, z[k], offset[k], divisor);
+    for (int k = 0; k < 3; k++) out[k] = rounded_image(&context->arena, z[k], offset[k], divisor);
 }
 
 /* Keeps x, an image of a number between p and q, between them; returns its error. */

@@ -33,7 +33,7 @@ static bool lay_planes(const froe_allocator *alloc, int dim, const double *norma
 /* ------------------------------------------------------------------- lines -- */
 
 /* Sign of n_a . (n_b x n_c). */
-static int turn(num_context *context, const geom_plane *a, const geom_plane *b, const geom_plane *c) {
+static int turn_of_planes(num_context *context, const geom_plane *a, const geom_plane *b, const geom_plane *c) {
     num_ball u[3], v[3], w[3], cross[3];
     num_dyadic d[3], e[3], f[3], product[3];
     if (context->first != NUM_EXACT) {
@@ -59,7 +59,7 @@ typedef struct line {
 } line;
 
 /* Is the point where the line meets plane `at` within halfspace `of`? Outside -1, on its border 0, inside 1. */
-static int within(const line *l, uint32_t of, uint32_t at) {
+static int is_within_line(const line *l, uint32_t of, uint32_t at) {
     const geom_plane *planes = l->polytope->planes.data;
     int side = geom_side_corner(l->context, planes + of, planes + l->a, planes + l->b, planes + at);
     return -side * l->polytope->senses.data[of];
@@ -68,13 +68,14 @@ static int within(const line *l, uint32_t of, uint32_t at) {
 /* Takes from the line what a halfspace does not hold; false: nothing is left. */
 static bool cut_line(line *l, uint32_t plane) {
     const geom_plane *planes = l->polytope->planes.data;
-    int way = turn(l->context, planes + plane, planes + l->a, planes + l->b) * l->polytope->senses.data[plane];
+    int way =
+        turn_of_planes(l->context, planes + plane, planes + l->a, planes + l->b) * l->polytope->senses.data[plane];
     if (!way && l->after[0] == FROE_NONE) return l->put_off = true;
-    if (!way) return within(l, plane, l->after[0]) >= 0;
+    if (!way) return is_within_line(l, plane, l->after[0]) >= 0;
     uint32_t *end = &l->after[way > 0], other = l->after[way < 0];
-    if (*end != FROE_NONE && within(l, *end, plane) <= 0) return true;
+    if (*end != FROE_NONE && is_within_line(l, *end, plane) <= 0) return true;
     *end = plane;
-    return other == FROE_NONE || within(l, plane, other) >= 0;
+    return other == FROE_NONE || is_within_line(l, plane, other) >= 0;
 }
 
 /* The box ends every line. */
@@ -83,8 +84,8 @@ static bool find_ends(line *l, uint32_t count) {
         if (i != l->a && i != l->b && !cut_line(l, i)) return false;
     for (uint32_t i = 0; i < count && l->put_off; i++) {
         const geom_plane *planes = l->polytope->planes.data;
-        if (i == l->a || i == l->b || turn(l->context, planes + i, planes + l->a, planes + l->b)) continue;
-        if (within(l, i, l->after[0]) < 0) return false;
+        if (i == l->a || i == l->b || turn_of_planes(l->context, planes + i, planes + l->a, planes + l->b)) continue;
+        if (is_within_line(l, i, l->after[0]) < 0) return false;
     }
     return true;
 }
@@ -94,7 +95,7 @@ static int by_number(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static bool add_corner(const froe_allocator *alloc, geom_polytope *p, uint32_t a, uint32_t b, uint32_t c) {
+static bool add_polytope_corner(const froe_allocator *alloc, geom_polytope *p, uint32_t a, uint32_t b, uint32_t c) {
     geom_meeting corner = {{a, b, c}};
     base_sort(corner.planes, 3, sizeof *corner.planes, by_number);
     return array_push(alloc, &p->corners, corner);
@@ -103,16 +104,16 @@ static bool add_corner(const froe_allocator *alloc, geom_polytope *p, uint32_t a
 static bool parallel(num_context *context, const geom_plane *a, const geom_plane *b) {
     for (int k = 0; k < 3; k++) {
         geom_plane axis = geom_plane_axis(3, k, 0);
-        if (turn(context, a, b, &axis)) return false;
+        if (turn_of_planes(context, a, b, &axis)) return false;
     }
     return true;
 }
 
-static bool add_line(num_context *context, const froe_allocator *alloc, geom_polytope *p, uint32_t a, uint32_t b,
-                     uint32_t count) {
+static bool add_polytope_line(num_context *context, const froe_allocator *alloc, geom_polytope *p, uint32_t a,
+                              uint32_t b, uint32_t count) {
     line l = {.context = context, .polytope = p, .a = a, .b = b, .after = {FROE_NONE, FROE_NONE}};
     if (parallel(context, p->planes.data + a, p->planes.data + b) || !find_ends(&l, count)) return true;
-    return add_corner(alloc, p, a, b, l.after[0]) && add_corner(alloc, p, a, b, l.after[1]);
+    return add_polytope_corner(alloc, p, a, b, l.after[0]) && add_polytope_corner(alloc, p, a, b, l.after[1]);
 }
 
 /* ----------------------------------------------------------------- corners -- */
@@ -154,9 +155,9 @@ bool geom_polytope_make(num_context *context, const froe_allocator *alloc, int d
     uint32_t most = (uint32_t)out->planes.count - 1;
     for (uint32_t a = 0; a < most && ok; a++) {
         if (dim == 2)
-            ok = add_line(context, alloc, out, a, most, most);
+            ok = add_polytope_line(context, alloc, out, a, most, most);
         else
-            for (uint32_t b = a + 1; b < most && ok; b++) ok = add_line(context, alloc, out, a, b, most);
+            for (uint32_t b = a + 1; b < most && ok; b++) ok = add_polytope_line(context, alloc, out, a, b, most);
     }
     drop_repeated(out);
     return ok && add_images(alloc, dim, out);

@@ -21,15 +21,15 @@ static int ratio_sign(int value, int divisor) {
 
 /* ------------------------------------------------------------ coincidences -- */
 
-static int point_count(const geom_plane *plane) {
+static int plane_point_count(const geom_plane *plane) {
     return plane->form == GEOM_POINTS ? plane->dim : plane->form == GEOM_VERTICAL ? 2 : 0;
 }
 
 /* Is x on h by definition? (False does not mean that it is not.) */
-static bool holds(const geom_plane *h, const double *x) {
+static bool plane_holds(const geom_plane *h, const double *x) {
     if (h->form == GEOM_AXIS) return x[h->axis] == h->c;
     if (h->form == GEOM_AT_VERTEX) return x[0] == h->p[0][0] && x[1] == h->p[0][1];
-    for (int i = 0; i < point_count(h); i++) {
+    for (int i = 0; i < plane_point_count(h); i++) {
         const double *p = h->p[i];
         if (p[0] == x[0] && p[1] == x[1] && (h->dim == 2 || h->form == GEOM_VERTICAL || p[2] == x[2])) return true;
     }
@@ -39,7 +39,7 @@ static bool holds(const geom_plane *h, const double *x) {
 /* How many of the defining points of a lie on b and c by definition? */
 static int shared(const geom_plane *a, const geom_plane *b, const geom_plane *c) {
     int count = 0;
-    for (int i = 0; i < point_count(a); i++) count += holds(b, a->p[i]) && holds(c, a->p[i]);
+    for (int i = 0; i < plane_point_count(a); i++) count += plane_holds(b, a->p[i]) && plane_holds(c, a->p[i]);
     return count;
 }
 
@@ -55,7 +55,7 @@ static bool same_plane(const geom_plane *g, const geom_plane *h) {
     if (g == h) return true;
     if (g->form == GEOM_AXIS) return h->form == GEOM_AXIS && g->axis == h->axis && g->c == h->c;
     if (g->form == GEOM_POINTS) return shared(g, h, h) == g->dim;
-    if (g->form == GEOM_AT_VERTEX) return h->form == GEOM_AT_VERTEX && holds(h, g->p[0]);
+    if (g->form == GEOM_AT_VERTEX) return h->form == GEOM_AT_VERTEX && plane_holds(h, g->p[0]);
     if (g->form == GEOM_AT_CROSSING) return h->form == GEOM_AT_CROSSING && same_crossing(g, h);
     if (g->form == GEOM_VERTICAL) return h->form == GEOM_VERTICAL && shared(g, h, h) == 2;
     return h->form == GEOM_VECTOR && g->c == h->c && g->p[0][0] == h->p[0][0] && g->p[0][1] == h->p[0][1] &&
@@ -105,7 +105,7 @@ static int plain_vertex(num_context *context, const geom_plane *h, const double 
         if (h->form == GEOM_AXIS) return num_by_id(context, sign_of(x[h->axis], h->c));
         int sure = filter_sign(filter_value(h, x));
         if (sure != NUM_UNSURE) return num_filtered(context, sure);
-        if (holds(h, x)) return num_by_id(context, 0);
+        if (plane_holds(h, x)) return num_by_id(context, 0);
     }
     if (context->first <= NUM_BALL) {
         int sure = num_ball_sign(ball_vertex(NULL, h, x));
@@ -168,8 +168,8 @@ static int crossing_sheared(num_context *context, const geom_plane *h, const dou
 /* What is known of the crossing by definition: its side in *side, or a vertex that it is. */
 static const double *crossing_known(const geom_plane *h, const double *u, const double *v, const geom_plane *a,
                                     int *side) {
-    *side = same_plane(h, a) || (holds(h, u) && holds(h, v)) ? 0 : NUM_UNSURE;
-    return holds(a, u) ? u : holds(a, v) ? v : NULL;
+    *side = same_plane(h, a) || (plane_holds(h, u) && plane_holds(h, v)) ? 0 : NUM_UNSURE;
+    return plane_holds(a, u) ? u : plane_holds(a, v) ? v : NULL;
 }
 
 /* Neither h nor a is sheared. */
@@ -308,9 +308,9 @@ static const double *corner_known(const geom_plane *h, const geom_plane *const p
     const geom_plane *s = planes[0], *a = planes[1], *b = planes[2];
     *side = holds_line(h, s, a) || holds_line(h, s, b) || holds_line(h, a, b) ? 0 : NUM_UNSURE;
     for (int j = 0; j < 3; j++)
-        for (int i = 0; i < point_count(planes[j]); i++) {
+        for (int i = 0; i < plane_point_count(planes[j]); i++) {
             const double *x = planes[j]->p[i];
-            if (holds(s, x) && holds(a, x) && holds(b, x)) return x;
+            if (plane_holds(s, x) && plane_holds(a, x) && plane_holds(b, x)) return x;
         }
     return NULL;
 }

@@ -9,7 +9,8 @@
 #include "kinetic/live.h"
 #include <math.h>
 
-static froe_status check(froe_kinetic *k, const double *at, const double *to, const void *out, froe_diagnostic *diag) {
+static froe_status check_question(froe_kinetic *k, const double *at, const double *to, const void *out,
+                                  froe_diagnostic *diag) {
     if (!k || !at || !to || !out) return base_fail(diag, FROE_E_ARG, "a question to a kinetic partition: NULL");
     for (int i = 0; i < 2; i++)
         if (!isfinite(at[i]) || !isfinite(to[i])) return base_fail(diag, FROE_E_ARG, "a coordinate is NaN or infinite");
@@ -37,7 +38,7 @@ static froe_kinetic_place place_on(uint32_t segment) {
 }
 
 /* Just after the tick. */
-static froe_kinetic_place place_of(froe_kinetic *k, now_name point) {
+static froe_kinetic_place kinetic_place_of(froe_kinetic *k, now_name point) {
     froe_kinetic_place place = {FROE_NONE, FROE_NONE, FROE_NONE};
     for (uint32_t x = node_at(k, ROOT)->child[0]; x;) {
         const live_node *n = node_at(k, x);
@@ -96,7 +97,7 @@ static uint32_t touched(froe_kinetic *k, now_name point) {
 }
 
 /* An answer that did not come about for lack of memory: the tree is as it was. */
-static froe_status answer(froe_kinetic *k, froe_diagnostic *diag) {
+static froe_status status_of_answer(froe_kinetic *k, froe_diagnostic *diag) {
     if (!k->short_of_memory) return FROE_OK;
     k->short_of_memory = false;
     return base_fail_memory(diag);
@@ -104,16 +105,16 @@ static froe_status answer(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kinetic_place *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    froe_status status = check(k, at, at, out, diag);
+    froe_status status = check_question(k, at, at, out, diag);
     if (status) return status;
     now_name point = end_name(k, now_ask(&k->now, at, at), 0);
     k->now.tied = false;
-    froe_kinetic_place place = place_of(k, point);
+    froe_kinetic_place place = kinetic_place_of(k, point);
     if (place.on == FROE_NONE && k->now.tied) {
         const uint32_t on = touched(k, point);
         if (on != FROE_NONE) place = place_on(on);
     }
-    status = answer(k, diag);
+    status = status_of_answer(k, diag);
     if (!status) *out = place;
     return status;
 }
@@ -121,7 +122,7 @@ froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kineti
 /* --------------------------------------------------------------------- rays -- */
 
 /* What is left to be done, in a stack: a subtree, or the segment of a node. */
-static void push(froe_kinetic *k, uint32_t node, const live_cell *cell, bool segment) {
+static void push_visit(froe_kinetic *k, uint32_t node, const live_cell *cell, bool segment) {
     live_visit v = {*cell, node, segment};
     if (node && !array_push(&k->alloc, &k->visits, v)) k->short_of_memory = true;
 }
@@ -131,12 +132,12 @@ static void push(froe_kinetic *k, uint32_t node, const live_cell *cell, bool seg
 static void push_parts(froe_kinetic *k, const live_visit *v, const int order[5]) {
     for (int i = 4; i >= 0; i--) {
         if (order[i] < 0) {
-            push(k, v->node, &v->cell, true);
+            push_visit(k, v->node, &v->cell, true);
             continue;
         }
         if (order[i] < UP && node_at(k, v->node)->wall[order[i]] == END_NONE) continue;
         live_cell inner = live_child_cell(k, &v->cell, v->node, order[i]);
-        push(k, node_at(k, v->node)->child[order[i]], &inner, false);
+        push_visit(k, node_at(k, v->node)->child[order[i]], &inner, false);
     }
 }
 
@@ -165,7 +166,7 @@ static bool overlaps(froe_kinetic *k, const live_visit *v, uint32_t ray, uint32_
 }
 
 /* Does the ray meet the segment of a node in the middle part of its cell? */
-static bool meets(froe_kinetic *k, const live_visit *v, uint32_t ray) {
+static bool ray_meets_cell(froe_kinetic *k, const live_visit *v, uint32_t ray) {
     uint32_t segment = node_at(k, v->node)->segment;
     int side[2], other[2];
     for (int i = 0; i < 2; i++) {
@@ -178,7 +179,7 @@ static bool meets(froe_kinetic *k, const live_visit *v, uint32_t ray) {
 }
 
 /* The parts in the order in which the ray comes to them. */
-static void follow(froe_kinetic *k, const live_visit *v, uint32_t ray) {
+static void follow_ray(froe_kinetic *k, const live_visit *v, uint32_t ray) {
     bool turned = k->now.segments.data[ray].turned;
     uint32_t segment = node_at(k, v->node)->segment;
     int from = now_side(&k->now, segment, k->now.segments.data[ray].end[0]);
@@ -199,29 +200,29 @@ static bool is_point(froe_kinetic *k, uint32_t ray) {
 froe_status froe_kinetic_ray(froe_kinetic *k, const double from[2], const double to[2], uint32_t *hit,
                              froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    froe_status status = check(k, from, to, hit, diag);
+    froe_status status = check_question(k, from, to, hit, diag);
     if (status) return status;
-    uint32_t ray = now_ask(&k->now, from, to), found = place_of(k, end_name(k, ray, 0)).on, end[2];
+    uint32_t ray = now_ask(&k->now, from, to), found = kinetic_place_of(k, end_name(k, ray, 0)).on, end[2];
     live_cell plane = live_plane();
     k->visits.count = 0;
-    if (found == FROE_NONE && !is_point(k, ray)) push(k, node_at(k, ROOT)->child[0], &plane, false);
+    if (found == FROE_NONE && !is_point(k, ray)) push_visit(k, node_at(k, ROOT)->child[0], &plane, false);
     while (k->visits.count && found == FROE_NONE && !k->short_of_memory) {
         live_visit v = k->visits.data[--k->visits.count];
         if (v.back) {
-            if (meets(k, &v, ray)) found = node_at(k, v.node)->segment;
+            if (ray_meets_cell(k, &v, ray)) found = node_at(k, v.node)->segment;
         } else if (live_clip(k, ray, &v.cell, end)) {
-            follow(k, &v, ray);
+            follow_ray(k, &v, ray);
         }
     }
     k->visits.count = 0;
-    status = answer(k, diag);
+    status = status_of_answer(k, diag);
     if (!status) *hit = found;
     return status;
 }
 
 /* -------------------------------------------------------------------- order -- */
 
-static bool tell(froe_kinetic *k, const live_visit *v, froe_kinetic_order_fn *visit, void *user) {
+static bool tell_fragments(froe_kinetic *k, const live_visit *v, froe_kinetic_order_fn *visit, void *user) {
     const live_node *n = node_at(k, v->node);
     double at[4];
     for (int side = 0; side < 2; side++) {
@@ -236,17 +237,17 @@ static bool tell(froe_kinetic *k, const live_visit *v, froe_kinetic_order_fn *vi
 froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kinetic_order_fn *visit, void *user,
                                froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    froe_status status = check(k, eye, eye, (const void *)&visit, diag);
+    froe_status status = check_question(k, eye, eye, (const void *)&visit, diag);
     if (!status && !visit) status = base_fail(diag, FROE_E_ARG, "froe_kinetic_order: NULL");
     if (status) return status;
     now_name point = end_name(k, now_ask(&k->now, eye, eye), 0);
     live_cell plane = live_plane();
     k->visits.count = 0;
-    push(k, node_at(k, ROOT)->child[0], &plane, false);
+    push_visit(k, node_at(k, ROOT)->child[0], &plane, false);
     while (k->visits.count && !k->short_of_memory) {
         live_visit v = k->visits.data[--k->visits.count];
         if (v.back) {
-            if (!tell(k, &v, visit, user)) break;
+            if (!tell_fragments(k, &v, visit, user)) break;
             continue;
         }
         int part = part_of(k, node_at(k, v.node), point);
@@ -259,5 +260,5 @@ froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kineti
             push_parts(k, &v, (int[]){LEFT, RIGHT, order[0], order[1], order[2]});
     }
     k->visits.count = 0;
-    return answer(k, diag);
+    return status_of_answer(k, diag);
 }

@@ -55,8 +55,8 @@ froe_status live_compare(const froe_kinetic *k, const froe_kinetic *fresh, bool 
     return room ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status tell(const froe_kinetic *k, const froe_kinetic *fresh, const uint32_t node[2],
-                        froe_diagnostic *diag) {
+static froe_status tell_difference(const froe_kinetic *k, const froe_kinetic *fresh, const uint32_t node[2],
+                                   froe_diagnostic *diag) {
     const live_node *m = node_at(k, node[0]), *n = node_at(fresh, node[1]);
     if (same_node(k, node[0], fresh, node[1]))
         return base_fail_at(diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
@@ -118,7 +118,7 @@ froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
     if (status)
         base_fail_memory(diag);
     else if (node[0])
-        status = tell(k, fresh, node, diag);
+        status = tell_difference(k, fresh, node, diag);
     else if (k->node_count != fresh->node_count)
         status = base_fail(diag, FROE_E_INPUT, "%zu nodes, %zu from scratch", k->node_count, fresh->node_count);
     else

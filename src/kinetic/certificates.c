@@ -166,7 +166,7 @@ static bool find_cut(const froe_kinetic *k, uint32_t node) {
     return cut;
 }
 
-static void visit(froe_kinetic *k, uint32_t node, const live_cell *cell) {
+static void visit_region(froe_kinetic *k, uint32_t node, const live_cell *cell) {
     live_visit v = {*cell, node, false};
     if (!array_push(&k->alloc, &k->visits, v)) k->short_of_memory = true;
 }
@@ -174,7 +174,7 @@ static void visit(froe_kinetic *k, uint32_t node, const live_cell *cell) {
 /* All touched nodes of a subtree, children before parents. */
 static void certify_touched(froe_kinetic *k, uint32_t root, live_cell cell) {
     k->visits.count = 0;
-    visit(k, root, &cell);
+    visit_region(k, root, &cell);
     while (k->visits.count) {
         live_visit *top = k->visits.data + k->visits.count - 1;
         uint32_t node = top->node;
@@ -192,7 +192,7 @@ static void certify_touched(froe_kinetic *k, uint32_t root, live_cell cell) {
             uint32_t child = node_at(k, node)->child[i];
             if (!child || node_at(k, child)->stamp != k->stamp) continue;
             live_cell inner = live_child_cell(k, &cell, node, i);
-            visit(k, child, &inner);
+            visit_region(k, child, &inner);
         }
     }
 }

@@ -5,7 +5,7 @@
  * with it may come to light then. */
 #include "kinetic/live.h"
 
-static void push(froe_kinetic *k, const live_cell *cell, uint32_t parent, uint8_t slot) {
+static void push_insertion(froe_kinetic *k, const live_cell *cell, uint32_t parent, uint8_t slot) {
     live_task task = {*cell, 0, 0, parent, slot};
     if (!array_push(&k->alloc, &k->tasks, task)) k->short_of_memory = true;
 }
@@ -25,7 +25,7 @@ static void insert_below(froe_kinetic *k, uint32_t segment, const live_task *at)
     for (uint8_t slot = 0; slot < 4; slot++) {
         if (slot < UP && node_at(k, node)->wall[slot] == END_NONE) continue;
         live_cell cell = live_child_cell(k, &at->cell, node, slot);
-        if (live_clip(k, segment, &cell, end)) push(k, &cell, node, slot);
+        if (live_clip(k, segment, &cell, end)) push_insertion(k, &cell, node, slot);
     }
 }
 
@@ -37,7 +37,7 @@ static void insert_nodes(froe_kinetic *k, uint32_t segment) {
     const live_site all = {ROOT, 0, false, live_plane()};
     size_t waiting = k->tasks.count;
     k->stamp++;
-    push(k, &all.cell, ROOT, 0);
+    push_insertion(k, &all.cell, ROOT, 0);
     while (k->tasks.count > waiting) {
         live_task task = k->tasks.data[--k->tasks.count];
         insert_below(k, segment, &task);

@@ -55,7 +55,7 @@ static bool is_asked_for(const search *s, const motion_object *a, const motion_o
     return !share_a_vertex(a, b) && !(s->o->apart && a->group != FROE_NONE && a->group == b->group);
 }
 
-static double later(double a, double b) {
+static double later_time(double a, double b) {
     return a > b ? a : b;
 }
 
@@ -66,7 +66,7 @@ static double earlier(double a, double b) {
 /* The time both live in, within the time asked for. */
 static void common_life(const search *s, uint32_t a, uint32_t b, double life[2]) {
     const motion_object *p = s->m->objects.data + a, *q = s->m->objects.data + b;
-    life[0] = later(s->from, later(p->birth, q->birth));
+    life[0] = later_time(s->from, later_time(p->birth, q->birth));
     life[1] = earlier(s->to, earlier(p->death, q->death));
 }
 
@@ -84,7 +84,7 @@ static bool look_at_slices(void *user, unsigned number, uint32_t i, uint32_t j) 
     const froe_motion *m = s->m;
     if (p->object == q->object || !is_asked_for(s, m->objects.data + p->object, m->objects.data + q->object))
         return true;
-    double from = later(p->from, q->from), to = earlier(p->to, q->to), life[2];
+    double from = later_time(p->from, q->from), to = earlier(p->to, q->to), life[2];
     common_life(s, p->object, q->object, life);
     if (from > to || (from == to && life[0] < life[1])) return true;
     w->candidates++;
@@ -152,7 +152,7 @@ static void free_order(const search *s, uint32_t *order, size_t count) {
     base_free(&s->m->alloc, order, (2 * count + 1) * sizeof *order);
 }
 
-static froe_status gather(search *s) {
+static froe_status gather_contacts(search *s) {
     size_t count = 0;
     for (unsigned i = 0; i < s->task.threads; i++) count += s->workers[i].records.count;
     if (count >= UINT32_MAX / 2) return FROE_E_LIMIT;
@@ -176,7 +176,7 @@ static froe_contact contact_of(const search *s, const record *r) {
 }
 
 /* Does a contact go on where its last span ended? */
-static bool goes_on(const record *last, const record *next) {
+static bool contact_goes_on(const record *last, const record *next) {
     return last->a == next->a && last->b == next->b && last->span.to_end && next->span.from_start &&
            last->span.end.high == next->span.begin.low;
 }
@@ -188,12 +188,12 @@ static void tighten(froe_contact *c) {
     if (c->begin[1] > c->end[1]) c->begin[1] = c->end[1];
 }
 
-static void join(search *s, const uint32_t *order) {
+static void join_contacts(search *s, const uint32_t *order) {
     const record *last = NULL;
     for (size_t i = 0; i < s->records.count; i++) {
         const record *r = s->records.data + order[i];
         froe_contact next = contact_of(s, r);
-        if (last && goes_on(last, r)) {
+        if (last && contact_goes_on(last, r)) {
             froe_contact *c = s->contacts + s->contact_count - 1;
             for (int k = 0; k < 2; k++) c->end[k] = next.end[k];
             c->to_stop = next.to_stop;
@@ -207,18 +207,18 @@ static void join(search *s, const uint32_t *order) {
 }
 
 static froe_status make_contacts(search *s) {
-    froe_status status = gather(s);
+    froe_status status = gather_contacts(s);
     if (status) return status;
     size_t count = s->records.count;
     s->contacts = base_calloc(&s->m->alloc, count + 1, sizeof *s->contacts);
     uint32_t *order = sorted(s, count, compare_records);
-    if (s->contacts && order) join(s, order);
+    if (s->contacts && order) join_contacts(s, order);
     status = s->contacts && order ? FROE_OK : FROE_E_MEMORY;
     free_order(s, order, count);
     return status;
 }
 
-static froe_status tell(search *s, froe_contact_fn *fn, void *user) {
+static froe_status tell_contacts(search *s, froe_contact_fn *fn, void *user) {
     uint32_t *order = sorted(s, s->contact_count, compare_contacts);
     if (!order) return FROE_E_MEMORY;
     double first = (double)INFINITY; /* the first contact begins no later */
@@ -233,7 +233,7 @@ static froe_status tell(search *s, froe_contact_fn *fn, void *user) {
 
 /* --------------------------------------------------------------------- a search -- */
 
-static froe_status check(search *s, froe_diagnostic *diag) {
+static froe_status check_contact_search(search *s, froe_diagnostic *diag) {
     const froe_contact_options *o = s->o;
     if (o->size != sizeof *o) return base_fail(diag, FROE_E_OPTIONS, "options not from froe_contact_defaults()");
     s->from = isnan(o->from) ? s->m->begin : o->from;
@@ -264,7 +264,7 @@ static void search_free(search *s) {
     motion_slices_free(s->m, &s->slices);
 }
 
-static froe_status explain(froe_status status, froe_diagnostic *diag) {
+static froe_status explain_contact_search(froe_status status, froe_diagnostic *diag) {
     if (status == FROE_E_MEMORY) return base_fail_memory(diag);
     if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
     return status;
@@ -276,15 +276,15 @@ froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_o
     const froe_contact_options standard = froe_contact_defaults();
     if (!motion || !fn) return base_fail(diag, FROE_E_ARG, "no motion, or nobody to tell the contacts to");
     search s = {.m = motion, .o = options ? options : &standard};
-    froe_status status = check(&s, diag);
+    froe_status status = check_contact_search(&s, diag);
     if (status) return status;
     base_task_init(&s.task, s.o->threads, s.o->progress, s.o->user);
     status = motion_slices_find(motion, s.from, s.to, &s.slices);
     if (status == FROE_E_LIMIT) return base_fail(diag, status, "more than 2^31 boxes in the plane and in time");
     if (!status) status = find_spans(&s, diag);
     if (!status) status = make_contacts(&s);
-    if (!status) status = tell(&s, fn, user);
+    if (!status) status = tell_contacts(&s, fn, user);
     if (!status && s.o->statistics) count_up(&s, s.o->statistics);
     search_free(&s);
-    return explain(status, diag);
+    return explain_contact_search(status, diag);
 }

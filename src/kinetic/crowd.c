@@ -53,7 +53,7 @@ static double rise(froe_kinetic *k, uint32_t segment, double dx) {
 }
 
 /* Where p is or was; x is how far the other point has gone. */
-static live_place place_of(froe_kinetic *k, now_name p, double x) {
+static live_place place_of_name(froe_kinetic *k, now_name p, double x) {
     now_spot spot = now_spot_of(&k->now, p);
     live_place out = {{spot.x, spot.y}, {spot.x, spot.y}, 0};
     double error[2] = {spot.error, spot.error};
@@ -92,7 +92,7 @@ typedef struct line {
     double at[2][2], error, speed;
 } line;
 
-static line line_of(froe_kinetic *k, uint32_t segment) {
+static line line_of_segment(froe_kinetic *k, uint32_t segment) {
     const uint32_t *end = k->now.segments.data[segment].end;
     line out = {.error = 0, .speed = speed_of(k, segment)};
     for (int i = 0; i < 2; i++) {
@@ -125,7 +125,7 @@ static bool is_near_place(const line *s, const live_place *place) {
 }
 
 static bool is_near(froe_kinetic *k, uint32_t segment) {
-    const line s = line_of(k, segment);
+    const line s = line_of_segment(k, segment);
     for (size_t i = 0; i < k->places.count; i++)
         if (is_near_place(&s, k->places.data + i)) return true;
     return false;
@@ -142,12 +142,12 @@ bool live_find_strangers(froe_kinetic *k, const uint32_t *segments, size_t count
 /* ------------------------------------------------------------------- items -- */
 
 static bool is_at(froe_kinetic *k, uint32_t vertex, const live_place *place) {
-    live_place at = place_of(k, (now_name){vertex, NAME_VERTEX}, 0);
+    live_place at = place_of_name(k, (now_name){vertex, NAME_VERTEX}, 0);
     return places_meet(&at, place);
 }
 
 static bool comes_to(froe_kinetic *k, uint32_t segment, const live_place *place) {
-    const line s = line_of(k, segment);
+    const line s = line_of_segment(k, segment);
     return is_near_place(&s, place);
 }
 
@@ -180,7 +180,7 @@ bool live_join_item(froe_kinetic *k, const live_item *item) {
         join_by_name(k, name[i]);
         if (name[i].b == NAME_SEGMENT) continue;
         now_name other = name[1 - i].b == NAME_SEGMENT ? name[i] : name[1 - i];
-        place[i] = place_of(k, name[i], now_spot_of(&k->now, other).x);
+        place[i] = place_of_name(k, name[i], now_spot_of(&k->now, other).x);
         if (!array_push(&k->alloc, &k->places, place[i])) k->short_of_memory = true;
     }
     return live_belong_together(k, item) || are_apart(k, name, place);
@@ -221,7 +221,7 @@ static bool near_line(const line *s, const line *t, double far, double share[2])
 
 /* Two segments: where they cross, and all along where they are so near that it may have been there. */
 void live_reach_pair(froe_kinetic *k, double slab[2], uint32_t s, uint32_t t) {
-    const line a = line_of(k, s), b = line_of(k, t);
+    const line a = line_of_segment(k, s), b = line_of_segment(k, t);
     double share[2], far = margin(a.speed, b.speed) + 2 * (a.error + b.error);
     if (!near_line(&b, &a, far, share) || !near_line(&a, &b, far, share)) return;
     double x[2] = {a.at[0][0] + share[0] * (a.at[1][0] - a.at[0][0]),

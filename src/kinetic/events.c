@@ -47,7 +47,7 @@ static bool is_inside(froe_kinetic *k, const live_cell *cell) {
 
 /* The nearest cell, from that of a node up, whose walls are outside the slab; and none of whose borders is
  * involved, if care is needed. */
-static uint32_t climb(froe_kinetic *k, uint32_t node, bool careful) {
+static uint32_t climb_clear_of_slab(froe_kinetic *k, uint32_t node, bool careful) {
     for (;; node = node_at(k, node)->parent) {
         if (node_at(k, node)->parent == ROOT) return node;
         live_cell cell = live_cell_of(k, node);
@@ -93,10 +93,11 @@ static uint32_t root_at(const froe_kinetic *k, size_t i) {
 static void add_roots(froe_kinetic *k, const live_item *item) {
     if (!is_current(k, item)) return;
     if (item->kind != CERT_TURN) {
-        add_root(k, climb(k, node_of(k, item), false));
+        add_root(k, climb_clear_of_slab(k, node_of(k, item), false));
         return;
     }
-    for (uint32_t n = segment_at(k, item->cert)->nodes; n; n = node_at(k, n)->next) add_root(k, climb(k, n, false));
+    for (uint32_t n = segment_at(k, item->cert)->nodes; n; n = node_at(k, n)->next)
+        add_root(k, climb_clear_of_slab(k, n, false));
 }
 
 static uint32_t depth_of(const froe_kinetic *k, uint32_t node) {
@@ -149,7 +150,7 @@ static bool is_sound(const froe_kinetic *k) {
 }
 
 /* Surgery next to a wall that is passed, if that is all that happens. */
-static live_outcome pass(froe_kinetic *k, const group *g) {
+static live_outcome pass_wall(froe_kinetic *k, const group *g) {
     live_outcome outcome = LIVE_DONE;
     k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
     for (size_t i = 0; i < g->count && !outcome && is_sound(k); i++) {
@@ -197,7 +198,7 @@ static void operate_carefully(froe_kinetic *k, group *g) {
         if (node == ROOT) k->broken = true; /* a new tree */
         if (!node || !is_sound(k)) return;
         k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
-        node = climb(k, node, true);
+        node = climb_clear_of_slab(k, node, true);
         if (live_slab(k, node)) return;
     } while (is_sound(k));
 }
@@ -238,16 +239,18 @@ static void add_objects(const froe_kinetic *k, froe_event *e, const live_item *i
     }
 }
 
-static double time_of(const froe_kinetic *k, int64_t tick) {
+static double time_of_tick(const froe_kinetic *k, int64_t tick) {
     return k->now.motion->begin + ldexp((double)tick, k->now.motion->power);
 }
 
 static froe_event event_at(const froe_kinetic *k, froe_event_kind kind) {
-    return (froe_event){
-        .kind = kind, .tick = k->now.tick, .early = time_of(k, k->now.tick - 2), .late = time_of(k, k->now.tick)};
+    return (froe_event){.kind = kind,
+                        .tick = k->now.tick,
+                        .early = time_of_tick(k, k->now.tick - 2),
+                        .late = time_of_tick(k, k->now.tick)};
 }
 
-static bool tell(froe_kinetic *k, const live_watcher *watcher, const froe_event *event, const now_claim *claim) {
+static bool tell_event(froe_kinetic *k, const live_watcher *watcher, const froe_event *event, const now_claim *claim) {
     k->counts.events[event->kind]++;
     if (!watcher->visit) return true;
     k->told = true;
@@ -273,7 +276,7 @@ static froe_event describe(const froe_kinetic *k, const group *g) {
 
 /* ------------------------------------------------------------------ rounds -- */
 
-static bool add_item(froe_kinetic *k, uint32_t cert) {
+static bool add_failed_cert(froe_kinetic *k, uint32_t cert) {
     if (k->certs.data[cert].kind >= CERT_TURN) return true;
     const now_claim claim = live_claim_of(k, cert);
     live_item item = {cert, k->certs.data[cert].kind, claim, {0, 0}};
@@ -307,7 +310,7 @@ static void sort_items(froe_kinetic *k) {
     for (size_t i = 0; i < n; i++) k->items.data[i] = k->items.data[n + i];
 }
 
-static void gather(froe_kinetic *k) {
+static void gather_failed_certs(froe_kinetic *k) {
     k->items.count = 0;
     for (size_t i = 0; i < k->turning.count; i++) {
         const uint32_t s = k->turning.data[i], *end = k->now.segments.data[s].end;
@@ -319,7 +322,7 @@ static void gather(froe_kinetic *k) {
     live_due(k, k->now.tick);
     size_t count = k->order.count;
     for (size_t i = 0; i < count && !k->short_of_memory; i++) /* add_item moves certificates in the queue, not here */
-        if (!add_item(k, k->order.data[i]) || !live_goes_on(k)) k->short_of_memory = true;
+        if (!add_failed_cert(k, k->order.data[i]) || !live_goes_on(k)) k->short_of_memory = true;
     sort_items(k);
 }
 
@@ -362,7 +365,7 @@ static void repair(froe_kinetic *k, group *g, unsigned round) {
     bool simple = call_crew(k, g) && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
                   !live_has_loose_ends(k, item_of(k, g, 0));
     k->now.lost = !(g->slab[0] <= g->slab[1] && g->slab[1] - g->slab[0] < (double)INFINITY);
-    live_outcome outcome = simple ? pass(k, g) : LIVE_NOT_NARROW;
+    live_outcome outcome = simple ? pass_wall(k, g) : LIVE_NOT_NARROW;
     if (outcome && !operate(k, g, simple && outcome == LIVE_NOT_NARROW)) {
         k->counts.crowds++;
         operate_carefully(k, g);
@@ -378,14 +381,14 @@ static bool handle_group(froe_kinetic *k, group *g, unsigned round, const live_w
     if (k->short_of_memory) return true;
     const froe_event event = describe(k, g);
     k->counts.batches += event.kind == FROE_EVENT_BATCH;
-    return round > 0 || tell(k, watcher, &event, &item_of(k, g, 0)->claim);
+    return round > 0 || tell_event(k, watcher, &event, &item_of(k, g, 0)->claim);
 }
 
 /* Until nothing is due any more. */
-static bool settle(froe_kinetic *k, const live_watcher *watcher) {
+static bool settle_tick(froe_kinetic *k, const live_watcher *watcher) {
     bool go_on = true;
     for (unsigned round = 0; !k->short_of_memory; round++) {
-        gather(k);
+        gather_failed_certs(k);
         if (!k->items.count || k->short_of_memory) break;
         if (round >= RESTART_ROUND) {
             live_restart(k);
@@ -404,7 +407,7 @@ static bool settle(froe_kinetic *k, const live_watcher *watcher) {
 
 /* ------------------------------------------------------------------- steps -- */
 
-static void leave(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
+static void leave_tree(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
     for (size_t i = 0; i < k->leaving.count; i++)
         if (k->leaving.data[i] / 2 == segment) {
             k->leaving.data[i] |= tell_it;
@@ -419,12 +422,12 @@ static void gather_leaving(froe_kinetic *k, int64_t tick) {
     for (size_t i = 0; i < k->order.count; i++) {
         const live_cert *c = k->certs.data + k->order.data[i];
         if (c->kind == CERT_LIFE) {
-            leave(k, c->owner, 1);
+            leave_tree(k, c->owner, 1);
         } else if (c->kind == CERT_PAIR) {
-            leave(k, k->pairs.data[c->owner].segment[1], 0);
+            leave_tree(k, k->pairs.data[c->owner].segment[1], 0);
         } else if (c->kind == CERT_COURSE) {
             for (uint32_t e = k->vertices.data[c->owner]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-                leave(k, e / 2, 1);
+                leave_tree(k, e / 2, 1);
         }
     }
     for (size_t i = 0; i < k->order.count; i++) {
@@ -462,7 +465,7 @@ static void turn_segments(froe_kinetic *k) {
     k->turning.count = kept;
 }
 
-static bool enter(froe_kinetic *k, const live_watcher *watcher) {
+static bool enter_tree(froe_kinetic *k, const live_watcher *watcher) {
     static const now_claim nothing = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
     bool go_on = true;
     for (size_t i = 0; i < k->leaving.count && !k->short_of_memory; i++) {
@@ -476,7 +479,7 @@ static bool enter(froe_kinetic *k, const live_watcher *watcher) {
         if (there) live_insert(k, s);
         froe_event event = event_at(k, kind);
         add_object(&event, s);
-        if (k->leaving.data[i] % 2) go_on &= tell(k, watcher, &event, &nothing);
+        if (k->leaving.data[i] % 2) go_on &= tell_event(k, watcher, &event, &nothing);
     }
     k->leaving.count = 0;
     return go_on;
@@ -491,7 +494,7 @@ bool live_step(froe_kinetic *k, int64_t tick, const live_watcher *watcher) {
     let_leave(k, next);
     k->now.tick = next;
     turn_segments(k);
-    bool go_on = settle(k, watcher);
-    go_on &= enter(k, watcher);
-    return settle(k, watcher) && go_on;
+    bool go_on = settle_tick(k, watcher);
+    go_on &= enter_tree(k, watcher);
+    return settle_tick(k, watcher) && go_on;
 }

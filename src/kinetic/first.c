@@ -231,7 +231,7 @@ static int64_t search_exactly(const search *f, int64_t low, int power) {
 
 /* ------------------------------------------------------------------ search -- */
 
-static int64_t look(const search *f, stretch *s, bool *halve_it) {
+static int64_t look_at_stretch(const search *f, stretch *s, bool *halve_it) {
     int64_t high = s->low + ((int64_t)1 << s->power);
     *halve_it = false;
     if (s->low > f->span) return -1;
@@ -251,7 +251,7 @@ static int64_t look(const search *f, stretch *s, bool *halve_it) {
     }
 }
 
-static int64_t find(const search *f) {
+static int64_t find_first_failure(const search *f) {
     stretch stack[LEVELS + 2];
     int top = 1, power = 0;
     while (((int64_t)1 << power) < f->span) power++;
@@ -259,7 +259,7 @@ static int64_t find(const search *f) {
     while (top) {
         stretch *s = stack + --top;
         bool again;
-        int64_t at = look(f, s, &again);
+        int64_t at = look_at_stretch(f, s, &again);
         if (at >= 0) return at <= f->span ? f->start + at : NOW_NEVER;
         if (!again) continue;
         stretch left = *s;
@@ -306,7 +306,7 @@ static int64_t first_change(now_state *now, const now_claim *claim, int64_t last
     }
     while (p.degree && p.c[p.degree].x == 0 && p.c[p.degree].e == 0) p.degree--;
     f.p = &p;
-    return find(&f);
+    return find_first_failure(&f);
 }
 
 /* When the denominators behind a claim first change their signs, until `last`. */

@@ -101,7 +101,7 @@ static size_t deal(froe_kinetic *k, size_t first, size_t count, const live_cell 
     return kept;
 }
 
-static void push(froe_kinetic *k, const live_task *task) {
+static void push_task(froe_kinetic *k, const live_task *task) {
     if (task->count && !array_push(&k->alloc, &k->tasks, *task)) k->short_of_memory = true;
 }
 
@@ -118,7 +118,7 @@ static void grow_node(froe_kinetic *k, const live_task *task) {
         if (slot < UP && end[slot] == END_NONE) continue;
         live_task child = {live_child_cell(k, &task->cell, node, slot), k->list.count, 0, node, (uint8_t)slot};
         child.count = deal(k, task->first + 1, task->count - 1, &child.cell);
-        push(k, &child);
+        push_task(k, &child);
     }
 }
 
@@ -128,7 +128,7 @@ void live_grow(froe_kinetic *k, const live_cell *cell, size_t first, uint32_t pa
     live_task task = {*cell, k->list.count, 0, parent, slot};
     task.count = deal(k, first, k->list.count - first, cell);
     size_t waiting = k->tasks.count;
-    push(k, &task);
+    push_task(k, &task);
     while (k->tasks.count > waiting) {
         task = k->tasks.data[--k->tasks.count];
         if (!k->short_of_memory) grow_node(k, &task);

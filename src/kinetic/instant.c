@@ -18,7 +18,7 @@ static int sign_at(num_arena *arena, const poly_exact *p, num_dyadic s) {
 }
 
 /* The time `s` ticks after a tick, rounded down (-1) or up (1). */
-static double rounded(num_arena *arena, const froe_motion *m, int64_t tick, num_dyadic s, int way) {
+static double rounded_time(num_arena *arena, const froe_motion *m, int64_t tick, num_dyadic s, int way) {
     num_dyadic ticks = num_dyadic_add(arena, num_dyadic_scaled(arena, 1, (uint64_t)tick, 0), s);
     num_dyadic length = num_dyadic_scaled(arena, 1, 1, m->power);
     num_dyadic time = num_dyadic_add(arena, num_dyadic_from(arena, m->begin), num_dyadic_mul(arena, ticks, length));
@@ -28,7 +28,7 @@ static double rounded(num_arena *arena, const froe_motion *m, int64_t tick, num_
 }
 
 static void bracket_of(const froe_kinetic *k, num_arena *arena, int64_t tick, const num_dyadic s[2], double out[2]) {
-    for (int i = 0; i < 2; i++) out[i] = rounded(arena, k->now.motion, tick, s[i], i ? 1 : -1);
+    for (int i = 0; i < 2; i++) out[i] = rounded_time(arena, k->now.motion, tick, s[i], i ? 1 : -1);
 }
 
 /* The arena holds the polynomial up to `top`; what is above is for each step anew, but for the two ends. */

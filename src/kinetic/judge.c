@@ -47,7 +47,7 @@ static void cast_side(cast *c, uint32_t segment, uint32_t vertex) {
 
 /* ------------------------------------------------------------------ widths -- */
 
-static num_limbs2 size_of(num_short x) {
+static num_limbs2 size_of_short(num_short x) {
     return x < 0 ? -(num_limbs2)x : (num_limbs2)x;
 }
 
@@ -64,7 +64,7 @@ static int terms_of(const cast *c, int i) {
 
 static int curve_bits(const cast *c, int i) {
     num_limbs2 all = 0;
-    for (int k = 0; k < terms_of(c, i); k++) all |= size_of(c->curve[i].x[k]) | size_of(c->curve[i].y[k]);
+    for (int k = 0; k < terms_of(c, i); k++) all |= size_of_short(c->curve[i].x[k]) | size_of_short(c->curve[i].y[k]);
     return bits_of(all);
 }
 
@@ -90,7 +90,7 @@ static void drop_weights(cast *c) {
         const int degree = piece_of(c, i)->degree;
         if (degree == c->degree) continue;
         const num_short by = degree ? v->w : whole;
-        if (curve_bits(c, i) + bits_of(size_of(by)) > SHORT_BITS) return;
+        if (curve_bits(c, i) + bits_of(size_of_short(by)) > SHORT_BITS) return;
         for (int k = 0; k < terms_of(c, i); k++) v->x[k] *= by, v->y[k] *= by;
         v->w = whole;
     }
@@ -116,7 +116,7 @@ static bool cast_integers(cast *c) {
     }
     drop_weights(c);
     for (int i = 0; i < c->count; i++) {
-        int place = curve_bits(c, i), weight = bits_of(size_of(c->curve[i].w));
+        int place = curve_bits(c, i), weight = bits_of(size_of_short(c->curve[i].w));
         c->place = place > c->place ? place : c->place;
         c->weight = weight > c->weight ? weight : c->weight;
     }

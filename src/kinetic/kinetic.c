@@ -167,20 +167,20 @@ void froe_kinetic_free(froe_kinetic *k) {
 
 /* --------------------------------------------------------------------- time -- */
 
-static double time_of(const froe_kinetic *k, int64_t tick) {
+static double time_at_tick(const froe_kinetic *k, int64_t tick) {
     return k->now.motion->begin + ldexp((double)tick, k->now.motion->power);
 }
 
 double froe_kinetic_time(const froe_kinetic *k) {
     BASE_FLOATS_OWN;
-    volatile const double time = time_of(k, k->now.tick); /* see base/floats.h */
+    volatile const double time = time_at_tick(k, k->now.tick); /* see base/floats.h */
     return time;
 }
 
 double froe_kinetic_next(const froe_kinetic *k) {
     BASE_FLOATS_OWN;
     int64_t tick = live_next_tick(k);
-    volatile const double time = tick > live_last_tick(k) ? (double)INFINITY : time_of(k, tick);
+    volatile const double time = tick > live_last_tick(k) ? (double)INFINITY : time_at_tick(k, tick);
     return time;
 }
 
@@ -252,7 +252,7 @@ froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnosti
 /* From now to when the last of the segments of a vertex dies. */
 static void life_of(const froe_kinetic *k, uint32_t vertex, double life[2]) {
     const froe_motion *m = k->now.motion;
-    life[0] = life[1] = time_of(k, k->now.tick);
+    life[0] = life[1] = time_at_tick(k, k->now.tick);
     for (size_t s = 0; s < k->segments.count; s++) {
         const motion_object *o = m->objects.data + s;
         const bool lives = o->first <= o->last && o->last >= k->now.tick;

@@ -163,7 +163,7 @@ static bool meet_at(meeting *g, const moment *at) {
 /* ------------------------------------------------------------------- between -- */
 
 /* The middle between the upper end of one interval and the lower end of the next; NULL: 0 and 1. False: too close. */
-static bool middle(meeting *g, num_isolated *before, num_isolated *after, num_dyadic *out) {
+static bool middle_between(meeting *g, num_isolated *before, num_isolated *after, num_dyadic *out) {
     num_arena *arena = &g->w->arena;
     for (;;) {
         size_t mark = arena->top;
@@ -183,7 +183,7 @@ static bool middle(meeting *g, num_isolated *before, num_isolated *after, num_dy
 }
 
 /* From share to time: an enclosure of two doubles. */
-static bool time_of(const meeting *g, num_isolated *root, meet_time *out) {
+static bool time_of_root(const meeting *g, num_isolated *root, meet_time *out) {
     int length, size;
     frexp(g->b - g->a, &length);
     frexp(fabs(g->a) > fabs(g->b) ? g->a : g->b, &size);
@@ -211,7 +211,7 @@ static void pass_gap(meet_worker *w, bool *now, bool meets) {
 }
 
 /* Both ends, the events, and the gaps between them, one after the other. */
-static bool walk(meeting *g) {
+static bool walk_roots(meeting *g) {
     meet_worker *w = g->w;
     moment at = {.share = {0}};
     bool now = false;
@@ -220,7 +220,7 @@ static bool walk(meeting *g) {
         num_isolated *before = k ? g->events[k - 1].at : NULL, *after = k < g->event_count ? g->events[k].at : NULL;
         meet_time then = {g->b, g->b};
         size_t mark = w->arena.top;
-        if (!middle(g, before, after, &at.share) || (after && !time_of(g, after, &then))) return false;
+        if (!middle_between(g, before, after, &at.share) || (after && !time_of_root(g, after, &then))) return false;
         at.event = NULL;
         pass_gap(w, &now, meet_at(g, &at));
         at.event = after ? &g->events[k] : NULL;
@@ -244,7 +244,7 @@ static bool find_spans(meeting *g) {
     moment start = {.share = {0}}, end = {.share = num_dyadic_scaled(&g->w->arena, 1, 1, 0)};
     bool at_start = meet_at(g, &start), at_end = meet_at(g, &end);
     if (g->a < g->b) {
-        if (!find_events(g) || !walk(g)) return false;
+        if (!find_events(g) || !walk_roots(g)) return false;
     } else if (at_start) {
         meet_time at = {g->a, g->a};
         g->w->spans[g->w->span_count++] = (meet_span){.begin = at, .end = at, .instant = true};

@@ -39,7 +39,7 @@ static int top_bit(double x) {
     return e;
 }
 
-static int least(int a, int b) {
+static int least_of(int a, int b) {
     return a < b ? a : b;
 }
 
@@ -48,9 +48,9 @@ static int most(int a, int b) {
 }
 
 /* The unit of times in the piece that begins at a knot, and how many of them it lasts. */
-static void measure(const froe_motion *m, motion_knot *knot, const motion_knot *next) {
+static void measure_knot(const froe_motion *m, motion_knot *knot, const motion_knot *next) {
     enum { SPARE = 120 }; /* no time itself may be wider */
-    int unit = least(least(last_bit(m->begin), m->power), least(last_bit(knot->time), last_bit(next->time)));
+    int unit = least_of(least_of(last_bit(m->begin), m->power), least_of(last_bit(knot->time), last_bit(next->time)));
     int top = most(most(top_bit(m->begin), top_bit(m->end)), most(top_bit(knot->time), top_bit(next->time)));
     knot->unit = (int16_t)unit;
     knot->bits = INT16_MAX;
@@ -74,13 +74,13 @@ static froe_status fail_at_knot(adding *a, const plan_input *p, size_t i, const 
 static froe_status take_number(adding *a, const plan_input *p, size_t i, const char *what, double value, double *out) {
     if (!isfinite(value)) return fail_at_knot(a, p, i, what, value);
     *out = value + 0.0;
-    a->unit = least(a->unit, last_bit(*out));
+    a->unit = least_of(a->unit, last_bit(*out));
     a->top = most(a->top, top_bit(*out));
     return FROE_OK;
 }
 
 static void take_time(adding *a, double time) {
-    a->time_unit = least(a->time_unit, last_bit(time));
+    a->time_unit = least_of(a->time_unit, last_bit(time));
     a->time_top = most(a->time_top, top_bit(time));
 }
 
@@ -112,7 +112,7 @@ static froe_status take_plan(adding *a, const plan_input *p, motion_plan *plan) 
     for (size_t i = 0; i < p->count; i++) {
         froe_status status = take_knot(a, p, i, knots + i);
         if (status) return status;
-        if (i) measure(a->motion, knots + i - 1, knots + i);
+        if (i) measure_knot(a->motion, knots + i - 1, knots + i);
     }
     a->knots += p->count;
     return FROE_OK;
@@ -137,7 +137,7 @@ static froe_status check_cover(const adding *a, const motion_plan *plan, uint32_
 
 /* --------------------------------------------------------------------- a batch -- */
 
-static froe_status check(const adding *a) {
+static froe_status check_batch(const adding *a) {
     const froe_moving *b = a->batch;
     if (b->size != sizeof *b) return base_fail(a->diag, FROE_E_OPTIONS, "batch not from froe_moving_defaults()");
     if ((b->vertex_count && (!b->starts || !b->times || !b->coords)) || (b->count && !b->vertex_count))
@@ -212,9 +212,9 @@ static froe_status take_segment(adding *a, uint32_t j, motion_object *o) {
     return status;
 }
 
-static adding begin(froe_motion *m, const froe_moving *batch, froe_diagnostic *diag) {
+static adding begin_adding(froe_motion *m, const froe_moving *batch, froe_diagnostic *diag) {
     adding a = {.motion = m, .batch = batch, .diag = diag, .unit = m->unit, .top = m->top};
-    a.time_unit = least(m->time_unit, least(last_bit(m->begin), last_bit(m->end)));
+    a.time_unit = least_of(m->time_unit, least_of(last_bit(m->begin), last_bit(m->end)));
     a.time_top = most(m->time_top, most(top_bit(m->begin), top_bit(m->end)));
     return a;
 }
@@ -231,8 +231,8 @@ static void commit(const adding *a) {
 froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!motion || !batch) return base_fail(diag, FROE_E_ARG, "no motion or no batch");
-    adding a = begin(motion, batch, diag);
-    froe_status status = check(&a);
+    adding a = begin_adding(motion, batch, diag);
+    froe_status status = check_batch(&a);
     if (!status) status = reserve(&a);
     if (!status) status = take_vertices(&a);
     for (uint32_t j = 0; j < batch->count && !status; j++)
@@ -246,7 +246,7 @@ froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_
 
 froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const double *times, const double *coords,
                           const double *controls, const double life[2], froe_diagnostic *diag) {
-    adding a = begin(m, NULL, diag);
+    adding a = begin_adding(m, NULL, diag);
     plan_input input = {count, times, coords, controls, vertex};
     motion_plan plan;
     m->edition++;

@@ -43,7 +43,7 @@ static int way_past(const froe_kinetic *k, uint32_t near, uint32_t owner, uint32
 }
 
 /* From the place at `far` down along the wall. False: not as it should be. */
-static bool descend(const froe_kinetic *k, uint32_t near, uint32_t owner, half *far) {
+static bool descend_to_half(const froe_kinetic *k, uint32_t near, uint32_t owner, half *far) {
     uint32_t segment = node_at(k, near)->segment;
     for (;;) {
         uint32_t x = node_at(k, far->site.parent)->child[far->site.slot];
@@ -98,7 +98,7 @@ static bool find_far(froe_kinetic *k, now_name point, passing *p) {
     p->far.side = 1 - side;
     p->far.site.parent = owner;
     p->far.site.slot = (uint8_t)(slot >= UP ? side : order > 0 ? UP : DOWN);
-    if (!descend(k, p->node, owner, &p->far)) return false;
+    if (!descend_to_half(k, p->node, owner, &p->far)) return false;
     look_at(k, &p->far.site);
     if (!name_is(p->far.site.cell.wall[1 - side], wall)) return false;
     const uint32_t root = root_of(k, &p->far.site);
@@ -118,15 +118,15 @@ static bool is_beyond(froe_kinetic *k, const half *h, now_name wall) {
     return h->side == RIGHT ? order < 0 : order > 0;
 }
 
-static void push(froe_kinetic *k, uint32_t node, unsigned back) {
+static void push_half_visit(froe_kinetic *k, uint32_t node, unsigned back) {
     if (node && !array_push(&k->alloc, &k->order, 2 * node + back)) k->short_of_memory = true;
 }
 
 /* Lists what crosses a subtree of a half along the wall that is passed, from the bottom up, and stamps what touches
  * that wall. False: something has a wall in the thin part. */
-static bool walk(froe_kinetic *k, const half *h, uint32_t node) {
+static bool walk_half(froe_kinetic *k, const half *h, uint32_t node) {
     k->order.count = 0;
-    push(k, node, 0);
+    push_half_visit(k, node, 0);
     while (k->order.count && !k->short_of_memory) {
         const uint32_t top = k->order.data[--k->order.count], x = top / 2;
         live_node *n = node_at(k, x);
@@ -139,12 +139,12 @@ static bool walk(froe_kinetic *k, const half *h, uint32_t node) {
         const bool ends = n->wall[h->side] != END_NONE;
         if (!is_beyond(k, h, wall_name(k, n->segment, n->wall[ends ? h->side : 1 - h->side]))) return false;
         if (ends) {
-            push(k, n->child[h->side], 0);
+            push_half_visit(k, n->child[h->side], 0);
             continue;
         }
-        push(k, n->child[UP], 0);
-        push(k, x, 1);
-        push(k, n->child[DOWN], 0);
+        push_half_visit(k, n->child[UP], 0);
+        push_half_visit(k, x, 1);
+        push_half_visit(k, n->child[DOWN], 0);
     }
     return true;
 }
@@ -154,7 +154,7 @@ static bool walk_past(froe_kinetic *k, const half *h, uint32_t node) {
     live_node *n = node_at(k, node);
     n->stamp = k->stamp;
     const uint32_t up = n->child[UP];
-    return walk(k, h, n->child[DOWN]) && walk(k, h, up);
+    return walk_half(k, h, n->child[DOWN]) && walk_half(k, h, up);
 }
 
 /* What crosses the wall in the far cell, from below; then what else there is in the near one. */
@@ -164,11 +164,11 @@ static bool list_threads(froe_kinetic *k, passing *p) {
     const int side = p->near.side;
     live_new_list(k);
     bool thin = p->grows
-                    ? walk(k, &p->far, root)
+                    ? walk_half(k, &p->far, root)
                     : is_beyond(k, &p->far, wall_name(k, p->segment, r->wall[side])) && walk_past(k, &p->far, root);
     p->thread = k->list.count;
     if (!thin) return false;
-    if (!p->grows) return walk(k, &p->near, n->child[1 - side]);
+    if (!p->grows) return walk_half(k, &p->near, n->child[1 - side]);
     return is_beyond(k, &p->near, wall_name(k, p->segment, n->wall[1 - side])) && walk_past(k, &p->near, p->node);
 }
 

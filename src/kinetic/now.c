@@ -71,7 +71,7 @@ uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
 /* ------------------------------------------------------------------ places -- */
 
 /* a / b, b > 0. */
-static num_ball divide(num_ball a, num_ball b) {
+static num_ball quotient_ball(num_ball a, num_ball b) {
     double q = a.x / b.x, least = b.x - b.e;
     if (!(least > 0)) return (num_ball){q, (double)INFINITY};
     return (num_ball){q, ((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP + NUM_BALL_TINY};
@@ -90,7 +90,7 @@ static ball2 minus(ball2 a, ball2 b) {
     return (ball2){num_ball_sub(a.x, b.x), num_ball_sub(a.y, b.y)};
 }
 
-static num_ball cross(ball2 a, ball2 b) {
+static num_ball cross_balls(ball2 a, ball2 b) {
     return num_ball_sub(num_ball_mul(a.x, b.y), num_ball_mul(a.y, b.x));
 }
 
@@ -126,9 +126,9 @@ static now_spot crossing_spot(now_state *now, now_name p) {
     const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
     ball2 a = vertex_ball(now, s[0]), d = minus(vertex_ball(now, s[1]), a);
     ball2 c = vertex_ball(now, t[0]), e = minus(vertex_ball(now, t[1]), c);
-    num_ball turn = cross(d, e), shift = cross(minus(c, a), e);
+    num_ball turn = cross_balls(d, e), shift = cross_balls(minus(c, a), e);
     if (turn.x < 0) turn.x = -turn.x, shift.x = -shift.x;
-    num_ball share = divide(shift, turn);
+    num_ball share = quotient_ball(shift, turn);
     num_ball x = num_ball_add(a.x, num_ball_mul(share, d.x)), y = num_ball_add(a.y, num_ball_mul(share, d.y));
     double error = x.e > y.e ? x.e : y.e, size = fabs(d.x.x) + fabs(d.y.x);
     if (!(error < size * 0x1p-20) || !isfinite(x.x) || !isfinite(y.x)) return exact_spot(now, p);
@@ -214,7 +214,7 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
     int quick = quick_side(now_vertex_spot(now, u), now_vertex_spot(now, v), now_vertex_spot(now, vertex));
     if (quick != NUM_UNSURE) return quick;
     ball2 a = vertex_ball(now, u), d = minus(vertex_ball(now, v), a);
-    int sign = num_ball_sign(cross(d, minus(vertex_ball(now, vertex), a)));
+    int sign = num_ball_sign(cross_balls(d, minus(vertex_ball(now, vertex), a)));
     if (sign == 1 || sign == -1) return sign;
     now->context.stats.exact++;
     sign = now_judge_side(now, segment, vertex, false);
@@ -229,7 +229,7 @@ static int lines_turn(now_state *now, now_name crossing) {
     const uint32_t *s = now->segments.data[crossing.a].end, *t = now->segments.data[crossing.b].end;
     ball2 d = minus(vertex_ball(now, s[1]), vertex_ball(now, s[0]));
     ball2 e = minus(vertex_ball(now, t[1]), vertex_ball(now, t[0]));
-    int sign = num_ball_sign(cross(d, e));
+    int sign = num_ball_sign(cross_balls(d, e));
     if (sign == 1 || sign == -1) return sign;
     sign = now_judge_lines(now, crossing, false);
     return sign ? sign : now_judge_lines(now, crossing, true);

@@ -116,13 +116,13 @@ void motion_span_ball(const froe_motion *m, const motion_piece *piece, double fr
 /* --------------------------------------------------------------- in doubles -- */
 
 /* a / b, b > 0. */
-static num_ball divide(num_ball a, num_ball b) {
+static num_ball divide_place(num_ball a, num_ball b) {
     double q = a.x / b.x, least = b.x - b.e;
     if (!(least > 0)) return (num_ball){q, (double)INFINITY};
     return (num_ball){q, (((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP) + NUM_BALL_TINY};
 }
 
-static num_ball between(double p, double q, num_ball share) {
+static num_ball ball_between(double p, double q, num_ball share) {
     num_ball from = num_ball_from(p);
     return num_ball_add(from, num_ball_mul(share, num_ball_sub(num_ball_from(q), from)));
 }
@@ -130,20 +130,20 @@ static num_ball between(double p, double q, num_ball share) {
 /* De Casteljau; with two different shares, the blossom. */
 static num_ball along(const motion_piece *piece, num_ball s, num_ball t, int k) {
     double p = piece->from->at[k], q = piece->to->at[k], c = piece->from->control[k];
-    if (piece->degree < 2) return between(p, q, s);
-    num_ball from = between(p, c, s), to = between(c, q, s);
+    if (piece->degree < 2) return ball_between(p, q, s);
+    num_ball from = ball_between(p, c, s), to = ball_between(c, q, s);
     return num_ball_add(from, num_ball_mul(t, num_ball_sub(to, from)));
 }
 
 /* How much of the piece has passed. */
-static num_ball share_of(const froe_motion *m, const motion_piece *piece, num_ball passed) {
+static num_ball share_of_piece(const froe_motion *m, const motion_piece *piece, num_ball passed) {
     if (!piece->degree) return num_ball_from(0);
     ball_weights w = ball_weigh(NULL, m, piece, passed);
-    return divide(w.b, num_ball_add(w.a, w.b));
+    return divide_place(w.b, num_ball_add(w.a, w.b));
 }
 
 double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double out[2]) {
-    num_ball share = share_of(m, piece, ball_ticks(m, tick));
+    num_ball share = share_of_piece(m, piece, ball_ticks(m, tick));
     num_ball x = along(piece, share, share, 0), y = along(piece, share, share, 1);
     out[0] = x.x;
     out[1] = y.x;
@@ -161,8 +161,8 @@ static void extend(num_ball x, double *lo, double *hi) {
 void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double lo[2],
                    double hi[2]) {
     num_ball begin = num_ball_from(m->begin);
-    num_ball s = share_of(m, piece, num_ball_sub(num_ball_from(from), begin));
-    num_ball t = share_of(m, piece, num_ball_sub(num_ball_from(to), begin));
+    num_ball s = share_of_piece(m, piece, num_ball_sub(num_ball_from(from), begin));
+    num_ball t = share_of_piece(m, piece, num_ball_sub(num_ball_from(to), begin));
     for (int k = 0; k < 2; k++) {
         extend(along(piece, s, s, k), &lo[k], &hi[k]);
         extend(along(piece, t, t, k), &lo[k], &hi[k]);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* The limbs of a number from place `low` on. */
-static bool append(froe_places *p, num_dyadic a, int low, places_part *out) {
+static bool append_limbs(froe_places *p, num_dyadic a, int low, places_part *out) {
     const size_t zeros = a.sign ? (size_t)(a.exponent - low) : 0;
     *out = (places_part){p->limbs.count, (uint32_t)(zeros + a.count), a.sign};
     if (!a.sign) return true; /* no limbs, and perhaps nowhere to put them */
@@ -37,7 +37,7 @@ bool places_add(froe_places *p, const exact_point *at, bool rounded) {
     for (int i = 0; i < 2; i++)
         if (number[i].sign && number[i].exponent < low) low = number[i].exponent;
     for (int i = 0; i < 3; i++)
-        if (!append(p, number[i], low, entry.part + i)) return false;
+        if (!append_limbs(p, number[i], low, entry.part + i)) return false;
     reduce(p, entry.part);
     return array_push(&p->alloc, &p->entries, entry);
 }

@@ -1,7 +1,7 @@
 /* queue.c: certificates, and which of them fails next: a heap of four children a node (Johnson 1975). */
 #include "kinetic/live.h"
 
-static void put(froe_kinetic *k, size_t place, live_turn turn) {
+static void put_turn(froe_kinetic *k, size_t place, live_turn turn) {
     k->queue.data[place] = turn;
     k->certs.data[turn.cert].place = (uint32_t)place;
 }
@@ -9,8 +9,8 @@ static void put(froe_kinetic *k, size_t place, live_turn turn) {
 static void rise(froe_kinetic *k, size_t place) {
     const live_turn turn = k->queue.data[place];
     for (; place && turn.tick < k->queue.data[(place - 1) / 4].tick; place = (place - 1) / 4)
-        put(k, place, k->queue.data[(place - 1) / 4]);
-    put(k, place, turn);
+        put_turn(k, place, k->queue.data[(place - 1) / 4]);
+    put_turn(k, place, turn);
 }
 
 static void sink(froe_kinetic *k, size_t place) {
@@ -22,19 +22,19 @@ static void sink(froe_kinetic *k, size_t place) {
         while (++child < end)
             if (queue[child].tick < queue[best].tick) best = child;
         if (queue[best].tick >= turn.tick) break;
-        put(k, place, queue[best]);
+        put_turn(k, place, queue[best]);
         place = best;
     }
-    put(k, place, turn);
+    put_turn(k, place, turn);
 }
 
-static void leave(froe_kinetic *k, uint32_t cert) {
+static void leave_queue(froe_kinetic *k, uint32_t cert) {
     const uint32_t place = k->certs.data[cert].place;
     if (place == CERT_NONE) return;
     const live_turn last = k->queue.data[--k->queue.count];
     k->certs.data[cert].place = CERT_NONE;
     if (last.cert == cert) return;
-    put(k, place, last);
+    put_turn(k, place, last);
     rise(k, place);
     sink(k, k->certs.data[last.cert].place);
 }
@@ -43,7 +43,7 @@ void live_set_tick(froe_kinetic *k, uint32_t cert, int64_t tick) {
     live_cert *c = k->certs.data + cert;
     c->tick = tick;
     if (tick == NOW_NEVER) {
-        leave(k, cert);
+        leave_queue(k, cert);
         return;
     }
     if (c->place == CERT_NONE) c->place = (uint32_t)k->queue.count++; /* there is room: live_new_cert */
@@ -84,7 +84,7 @@ static live_recent *recent_at(const froe_kinetic *k, const now_claim *c) {
 
 void live_drop_cert(froe_kinetic *k, uint32_t cert) {
     live_cert *c = k->certs.data + cert;
-    leave(k, cert);
+    leave_queue(k, cert);
     if (c->kind <= CERT_BELOW) *recent_at(k, &c->claim) = (live_recent){c->claim, k->stamp, c->tick};
     c->kind = CERT_FREE;
     c->next = k->free_cert;

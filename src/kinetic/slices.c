@@ -27,7 +27,7 @@ static double typical_spacing(const froe_motion *m) {
     return sqrt((width / n + DBL_MIN) * (height > width / 16 ? height : width / 16));
 }
 
-static bool put(slicing *s, uint32_t object, const motion_piece piece[2], double from, double to) {
+static bool put_slice(slicing *s, uint32_t object, const motion_piece piece[2], double from, double to) {
     double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {-(double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < 2; i++) motion_extend(s->m, &piece[i], from, to, lo, hi);
     const froe_allocator *alloc = &s->m->alloc;
@@ -68,10 +68,10 @@ static bool cut_piece(slicing *s, uint32_t object, const motion_piece piece[2], 
         double end = m->begin + k * step;
         if (!(end > next)) continue;
         if (end >= to) break;
-        if (!put(s, object, piece, next, end)) return false;
+        if (!put_slice(s, object, piece, next, end)) return false;
         next = end;
     }
-    return put(s, object, piece, next, to);
+    return put_slice(s, object, piece, next, to);
 }
 
 static bool slice_object(slicing *s, uint32_t object, double from, double to) {

@@ -82,7 +82,7 @@ static bool take_places(picture *p) {
     return true;
 }
 
-static froe_status build(const picture *p, froe_tree **tree, froe_diagnostic *diag) {
+static froe_status build_snapshot_tree(const picture *p, froe_tree **tree, froe_diagnostic *diag) {
     froe_scene *scene = NULL;
     froe_status status = froe_scene_new(2, &p->k->alloc, &scene);
     if (status) return base_fail_memory(diag);
@@ -119,18 +119,18 @@ typedef struct comparison {
     bool short_of_memory;
 } comparison;
 
-static void push(comparison *c, uint32_t live, froe_node tree) {
+static void push_pair_of_nodes(comparison *c, uint32_t live, froe_node tree) {
     if (!array_push(&c->k->alloc, &c->stack, ((twins){live, tree}))) c->short_of_memory = true;
 }
 
-static uint32_t corner_of(const comparison *c, uint32_t object, uint32_t end) {
+static uint32_t snapshot_corner(const comparison *c, uint32_t object, uint32_t end) {
     return froe_scene_corner(c->scene, object, end);
 }
 
 /* Is a cut of the tree the wall that a segment has at one of its ends? */
 static bool is_wall(const comparison *c, uint32_t segment, uint32_t wall, const froe_cut *cut) {
     const uint32_t object = c->index[segment];
-    if (is_end(wall)) return cut->kind == FROE_CUT_VERTEX && cut->id[0] == corner_of(c, object, END_0 - wall);
+    if (is_end(wall)) return cut->kind == FROE_CUT_VERTEX && cut->id[0] == snapshot_corner(c, object, END_0 - wall);
     if (cut->kind != FROE_CUT_CROSSING) return false;
     const uint32_t a = c->originals[cut->id[0]], b = c->originals[cut->id[1]];
     const uint32_t s = c->originals[object], t = c->originals[c->index[wall]];
@@ -145,19 +145,19 @@ static bool is_same(comparison *c, twins at) {
     for (int side = 0; side < 2; side++) {
         if (n->wall[side] == END_NONE) continue;
         if (!is_wall(c, n->segment, n->wall[side], &info.cut)) return false;
-        push(c, n->child[side], info.child[side]);
+        push_pair_of_nodes(c, n->child[side], info.child[side]);
         info = froe_tree_node(c->tree, info.child[1 - side]);
     }
     const uint32_t object = c->index[n->segment], cut = info.cut.id[0];
     if (info.cut.kind != FROE_CUT_OBJECT || c->originals[cut] != c->originals[object]) return false;
-    const bool reversed = corner_of(c, cut, 0) != corner_of(c, object, 0);
+    const bool reversed = snapshot_corner(c, cut, 0) != snapshot_corner(c, object, 0);
     const bool turned = c->k->now.segments.data[n->segment].turned != reversed;
-    push(c, n->child[turned ? DOWN : UP], info.child[1]);
-    push(c, n->child[turned ? UP : DOWN], info.child[0]);
+    push_pair_of_nodes(c, n->child[turned ? DOWN : UP], info.child[1]);
+    push_pair_of_nodes(c, n->child[turned ? UP : DOWN], info.child[0]);
     return true;
 }
 
-static froe_status compare(const picture *p, const froe_tree *tree, bool *alike) {
+static froe_status compare_with_tree(const picture *p, const froe_tree *tree, bool *alike) {
     const froe_allocator *alloc = &p->k->alloc;
     const size_t all = p->k->segments.count;
     comparison c = {.k = p->k, .tree = tree, .scene = froe_tree_scene(tree)};
@@ -165,7 +165,7 @@ static froe_status compare(const picture *p, const froe_tree *tree, bool *alike)
     c.originals = base_calloc(alloc, p->count + 1, sizeof *c.originals);
     c.short_of_memory = !c.index || !c.originals || scene_originals(c.scene, alloc, c.originals);
     for (uint32_t i = 0; i < p->count && !c.short_of_memory; i++) c.index[p->objects[i]] = i;
-    if (!c.short_of_memory) push(&c, node_at(p->k, ROOT)->child[0], froe_tree_root(tree));
+    if (!c.short_of_memory) push_pair_of_nodes(&c, node_at(p->k, ROOT)->child[0], froe_tree_root(tree));
     *alike = true;
     while (c.stack.count && *alike && !c.short_of_memory) *alike = is_same(&c, c.stack.data[--c.stack.count]);
     array_free(alloc, &c.stack);
@@ -176,7 +176,7 @@ static froe_status compare(const picture *p, const froe_tree *tree, bool *alike)
 
 /* ---------------------------------------------------------------- snapshots -- */
 
-static froe_status make(picture *p, bool refuse, froe_snapshot *out, froe_diagnostic *diag) {
+static froe_status make_snapshot(picture *p, bool refuse, froe_snapshot *out, froe_diagnostic *diag) {
     take_objects(p);
     if (!take_places(p)) return live_fail(p->k, diag);
     if (refuse && p->rounded)
@@ -184,9 +184,9 @@ static froe_status make(picture *p, bool refuse, froe_snapshot *out, froe_diagno
             diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
             "segment %u ends where no double is at this tick; vertices that would have to be rounded: %zu",
             p->first_rounded, p->rounded);
-    froe_status status = build(p, &out->tree, diag);
+    froe_status status = build_snapshot_tree(p, &out->tree, diag);
     if (status) return status;
-    if (compare(p, out->tree, &out->alike)) {
+    if (compare_with_tree(p, out->tree, &out->alike)) {
         froe_tree_free(out->tree);
         return base_fail_memory(diag);
     }
@@ -206,7 +206,7 @@ froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *
     froe_snapshot made = {0};
     froe_status status = live_begin(k, diag);
     if (status) return status;
-    status = picture_new(k, o->places, &p) ? make(&p, o->refuse, &made, diag) : base_fail_memory(diag);
+    status = picture_new(k, o->places, &p) ? make_snapshot(&p, o->refuse, &made, diag) : base_fail_memory(diag);
     if (!status) *out = made;
     picture_free(&p);
     return status;

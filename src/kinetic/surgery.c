@@ -11,7 +11,7 @@
  * reach the border between them, so it ends at a wall of its own, and the other tree belongs behind that wall. */
 #include "kinetic/live.h"
 
-static void push(froe_kinetic *k, uint32_t a, uint32_t b, const uint32_t parent[2], const uint8_t slot[2]) {
+static void push_cutting(froe_kinetic *k, uint32_t a, uint32_t b, const uint32_t parent[2], const uint8_t slot[2]) {
     live_cutting c = {a, b, {parent[0], parent[1]}, {slot[0], slot[1]}};
     if (!array_push(&k->alloc, &k->cuttings, c)) k->short_of_memory = true;
 }
@@ -48,7 +48,7 @@ static void split_node(froe_kinetic *k, const live_cutting *c, now_name line) {
         uint8_t slot[2] = {c->slot[0], c->slot[1]};
         live_attach(k, parent[1 - side], slot[1 - side], c->a); /* as a whole to the other side */
         parent[1 - side] = c->a, slot[1 - side] = (uint8_t)side;
-        push(k, n->child[side], LEAF, parent, slot);
+        push_cutting(k, n->child[side], LEAF, parent, slot);
         return;
     }
     uint32_t half = right_half(k, c->a);
@@ -56,12 +56,13 @@ static void split_node(froe_kinetic *k, const live_cutting *c, now_name line) {
     live_attach(k, c->parent[0], c->slot[0], c->a);
     live_attach(k, c->parent[1], c->slot[1], half);
     for (int i = UP; i <= DOWN; i++)
-        push(k, node_at(k, c->a)->child[i], LEAF, (uint32_t[]){c->a, half}, (uint8_t[]){(uint8_t)i, (uint8_t)i});
+        push_cutting(k, node_at(k, c->a)->child[i], LEAF, (uint32_t[]){c->a, half},
+                     (uint8_t[]){(uint8_t)i, (uint8_t)i});
 }
 
 void live_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]) {
     size_t waiting = k->cuttings.count;
-    push(k, node, LEAF, parent, slot);
+    push_cutting(k, node, LEAF, parent, slot);
     while (k->cuttings.count > waiting && !k->short_of_memory) {
         live_cutting c = k->cuttings.data[--k->cuttings.count];
         if (c.a) {
@@ -82,7 +83,7 @@ static void merge(froe_kinetic *k, uint32_t a, uint32_t b) {
     if (m->wall[RIGHT] != END_NONE || n->wall[LEFT] != END_NONE) k->broken = true;
     for (int i = UP; i <= DOWN; i++) {
         const uint8_t side = (uint8_t)i;
-        push(k, m->child[i], n->child[i], (uint32_t[]){a, a}, (uint8_t[]){side, side});
+        push_cutting(k, m->child[i], n->child[i], (uint32_t[]){a, a}, (uint8_t[]){side, side});
     }
     const uint32_t wall = n->wall[RIGHT];
     live_set_wall(k, b, RIGHT, END_NONE);
@@ -115,13 +116,13 @@ static void join_nodes(froe_kinetic *k, const live_cutting *c) {
     if (node_at(k, first)->wall[side] == END_NONE) k->broken = true;
     live_attach(k, parent, slot, first);
     uint32_t inner = node_at(k, first)->child[side];
-    push(k, side == RIGHT ? inner : a, side == RIGHT ? b : inner, (uint32_t[]){first, first},
-         (uint8_t[]){(uint8_t)side, (uint8_t)side});
+    push_cutting(k, side == RIGHT ? inner : a, side == RIGHT ? b : inner, (uint32_t[]){first, first},
+                 (uint8_t[]){(uint8_t)side, (uint8_t)side});
 }
 
 void live_join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot) {
     size_t waiting = k->cuttings.count;
-    push(k, a, b, (uint32_t[]){parent, parent}, (uint8_t[]){slot, slot});
+    push_cutting(k, a, b, (uint32_t[]){parent, parent}, (uint8_t[]){slot, slot});
     while (k->cuttings.count > waiting && !k->short_of_memory) {
         live_cutting c = k->cuttings.data[--k->cuttings.count];
         join_nodes(k, &c);

@@ -164,21 +164,21 @@ void live_note_half(froe_kinetic *k, uint32_t node, int side) {
     if (!array_push(&k->alloc, &k->halves, half)) k->short_of_memory = true;
 }
 
-static void push(froe_kinetic *k, uint32_t node) {
+static void push_turned_node(froe_kinetic *k, uint32_t node) {
     if (node && !array_push(&k->alloc, &k->order, node)) k->short_of_memory = true;
 }
 
 /* All regions of a subtree whose border on a side is that of its cell. */
 static void cover_hugging(froe_kinetic *k, uint32_t top, int side) {
     k->order.count = 0;
-    push(k, top);
+    push_turned_node(k, top);
     while (k->order.count) {
         const live_node *n = node_at(k, k->order.data[--k->order.count]);
         const bool ends = n->wall[side] != END_NONE;
         const uint32_t cert = n->cert[!ends ? CERT_MIDDLE : side == LEFT ? CERT_LEFT : CERT_RIGHT];
         if (cert != CERT_NONE) live_cover_turns(k, cert);
-        for (int i = UP; i <= DOWN && !ends; i++) push(k, n->child[i]);
-        if (ends) push(k, n->child[side]);
+        for (int i = UP; i <= DOWN && !ends; i++) push_turned_node(k, n->child[i]);
+        if (ends) push_turned_node(k, n->child[side]);
     }
 }
 

@@ -41,7 +41,7 @@ typedef struct survey {
     uint64_t keys[BEST];
 } survey;
 
-static double draw(survey *s) {
+static double draw_share(survey *s) {
     return (double)(base_hash(s->key, 1, s->draws++) >> 11) * 0x1p-53;
 }
 
@@ -91,7 +91,7 @@ static void grow_away(survey *s, cube *c) {
     int blocking = -1;
     for (int k = 0; k < s->dim; k++) {
         unsigned low = c->blocked >> 2 * k & 1, high = c->blocked >> (2 * k + 1) & 1;
-        bool upwards = low || (!high && draw(s) < 0.5);
+        bool upwards = low || (!high && draw_share(s) < 0.5);
         up |= (unsigned)upwards << k;
         corner[k] = upwards ? c->lo[k] : c->hi[k];
         c->lo[k] = upwards ? corner[k] : corner[k] - side;
@@ -110,7 +110,7 @@ static void grow_away(survey *s, cube *c) {
     c->blocked = blocking < 0 ? 0 : c->blocked | 1u << (2 * blocking + (int)(up >> blocking & 1));
 }
 
-static cube grow(survey *s, const double *centre) {
+static cube grow_cube(survey *s, const double *centre) {
     cube c = grow_around(s, centre);
     for (int turn = 0; turn <= s->dim && !locked(s, &c); turn++) grow_away(s, &c);
     return c;
@@ -160,7 +160,7 @@ static uint32_t count(survey *s, const cube *c) {
 }
 
 /* Keeps the best cubes in order; of those that meet as many objects, that of the lower key. */
-static void keep(survey *s, const cube *c, uint32_t met) {
+static void keep_cube(survey *s, const cube *c, uint32_t met) {
     int at = BEST;
     while (at && (met > s->met[at - 1] || (met == s->met[at - 1] && s->key < s->keys[at - 1]))) at--;
     if (at == BEST) return;
@@ -174,14 +174,14 @@ static void keep(survey *s, const cube *c, uint32_t met) {
 }
 
 /* Other cubes near a good one, from places within it: as long as they gain. */
-static void climb(survey *s, cube *best, uint32_t *most) {
+static void climb_from(survey *s, cube *best, uint32_t *most) {
     for (int try = 0; try < CLIMB; try++) {
         double centre[FROE_MAX_DIM];
         for (int k = 0; k < s->dim; k++) {
-            double share = try % 2 ? draw(s) : 0.35 + 0.3 * draw(s);
+            double share = try % 2 ? draw_share(s) : 0.35 + 0.3 * draw_share(s);
             centre[k] = best->lo[k] * (1 - share) + best->hi[k] * share;
         }
-        cube c = grow(s, centre);
+        cube c = grow_cube(s, centre);
         uint32_t met = count(s, &c);
         if (met <= *most) continue;
         *most = met;
@@ -191,14 +191,14 @@ static void climb(survey *s, cube *best, uint32_t *most) {
 }
 
 /* A place near an object, at a distance of any order of magnitude. */
-static void place(survey *s, uint32_t object, double *out) {
+static void place_cube(survey *s, uint32_t object, double *out) {
     const double *lo = s->bounds.lo + (size_t)object * (size_t)s->dim,
                  *hi = s->bounds.hi + (size_t)object * (size_t)s->dim;
     double away = s->limit;
     for (uint32_t steps = base_below(base_hash(s->key, 2, s->draws++), 40); steps; steps--) away *= 0.5;
     for (int k = 0; k < s->dim; k++) {
-        double share = draw(s), at = lo[k] * (1 - share) + hi[k] * share;
-        out[k] = at + away * (2 * draw(s) - 1);
+        double share = draw_share(s), at = lo[k] * (1 - share) + hi[k] * share;
+        out[k] = at + away * (2 * draw_share(s) - 1);
     }
 }
 
@@ -209,21 +209,21 @@ static froe_status look_everywhere(survey *s) {
         if (!measure_sample_go_on(&s->sample, i)) return FROE_E_CANCELLED;
         s->key = measure_sample_key(&s->sample, object);
         s->draws = 0;
-        place(s, object, centre);
-        cube c = grow(s, centre);
+        place_cube(s, object, centre);
+        cube c = grow_cube(s, centre);
         uint32_t met = count(s, &c);
-        keep(s, &c, met);
+        keep_cube(s, &c, met);
         if (!array_push(&s->sample.alloc, &s->sample.values[0], met)) return FROE_E_MEMORY;
     }
     return FROE_OK;
 }
 
-static froe_status look(survey *s, froe_clutter *out) {
+static froe_status look_for_clutter(survey *s, froe_clutter *out) {
     froe_status status = look_everywhere(s);
     uint32_t best = 0;
     for (uint32_t i = 0; i < BEST && !status; i++) {
         s->key = s->keys[i];
-        climb(s, s->cubes + i, s->met + i);
+        climb_from(s, s->cubes + i, s->met + i);
         if (s->met[i] > s->met[best]) best = i;
     }
     if (status) return status;
@@ -242,7 +242,7 @@ static void add_guards(survey *s, size_t object, size_t corners) {
         for (int k = 0; k < s->dim; k++) *to++ = (c >> k & 1 ? s->bounds.hi : s->bounds.lo)[at + (size_t)k];
 }
 
-static froe_status begin(survey *s) {
+static froe_status begin_clutter(survey *s) {
     const froe_scene *scene = s->sample.scene;
     const froe_allocator *alloc = &s->sample.alloc;
     size_t n = scene->object_count, corners = (size_t)1 << s->dim;
@@ -261,7 +261,7 @@ static froe_status begin(survey *s) {
                   : measure_hierarchy_new(alloc, s->dim, (uint32_t)n, s->bounds.lo, s->bounds.hi, NULL, &s->objects);
 }
 
-static void end(survey *s) {
+static void end_clutter(survey *s) {
     const froe_allocator *alloc = &s->sample.alloc;
     if (s->context.alloc.fn) num_context_free(&s->context);
     measure_bounds_free(&s->sample, &s->bounds);
@@ -277,9 +277,9 @@ froe_status froe_measure_clutter(const froe_scene *scene, const froe_measure_opt
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;
     s.dim = scene->dim;
-    status = begin(&s);
+    status = begin_clutter(&s);
     if (status == FROE_E_LIMIT) base_fail(diag, status, "more than 2^31 corners of bounding boxes");
-    if (!status) status = look(&s, out);
-    end(&s);
+    if (!status) status = look_for_clutter(&s, out);
+    end_clutter(&s);
     return measure_sample_end(&s.sample, status, diag);
 }

@@ -6,7 +6,7 @@
 
 enum { STEP = 1024 }; /* windows between two reports of progress */
 
-static bool go_on(measure_sample *sample, size_t done, size_t all) {
+static bool sample_goes_on(measure_sample *sample, size_t done, size_t all) {
     return done % STEP || base_progress(&sample->task, (double)done / ((double)all + 1));
 }
 
@@ -18,7 +18,7 @@ static bool overlap(int dim, const double *lo, const double *hi, const double *f
     return inside;
 }
 
-static uint32_t look(const measure_hierarchy *boxes, const measure_windows *w, size_t i) {
+static uint32_t look_in_window(const measure_hierarchy *boxes, const measure_windows *w, size_t i) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     uint32_t count = 0;
     w->get(w->user, i, lo, hi);
@@ -36,8 +36,8 @@ froe_status measure_count_by_search(measure_sample *sample, const measure_window
     froe_status status = measure_hierarchy_new(&sample->alloc, scene->dim, scene->object_count, windows->bounds->lo,
                                                windows->bounds->hi, NULL, &boxes);
     for (size_t i = 0; i < windows->count && !status; i++) {
-        if (go_on(sample, i, windows->count))
-            out[i] = look(&boxes, windows, i);
+        if (sample_goes_on(sample, i, windows->count))
+            out[i] = look_in_window(&boxes, windows, i);
         else
             status = FROE_E_CANCELLED;
     }
@@ -109,7 +109,7 @@ typedef struct counter {
 
 /* The corner that stands for window i where upper ends are asked for on the axes in `upper`. A box that begins before
  * hi and ends up to lo: all that end there, but if lo = hi, not the flat ones at it, which do not begin before. */
-static void corner(const counter *c, size_t i, unsigned upper, uint32_t below[]) {
+static void corners_below(const counter *c, size_t i, unsigned upper, uint32_t below[]) {
     uint32_t n = c->sample->scene->object_count;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     c->windows->get(c->windows->user, i, lo, hi);
@@ -131,9 +131,9 @@ static froe_status add_product(counter *c, unsigned upper) {
     froe_status status = measure_dominance_new(&c->sample->alloc, dim, c->sample->scene->object_count, rank, &tree);
     for (size_t i = 0; i < count && !status; i++) {
         uint32_t below[FROE_MAX_DIM];
-        corner(c, i, upper, below);
+        corners_below(c, i, upper, below);
         c->out[i] += sign * measure_dominance_count(&tree, below);
-        if (!go_on(c->sample, upper * count + i, products * count)) status = FROE_E_CANCELLED;
+        if (!sample_goes_on(c->sample, upper * count + i, products * count)) status = FROE_E_CANCELLED;
     }
     measure_dominance_free(&tree);
     return status;

@@ -139,7 +139,7 @@ static void survey_free(survey *v) {
     base_free(v->alloc, v->objects, (v->scene->object_count + (size_t)1) * sizeof *v->objects);
 }
 
-static froe_status run(survey *v, froe_defects *out) {
+static froe_status run_survey(survey *v, froe_defects *out) {
     v->objects = base_calloc(v->alloc, v->scene->object_count + (size_t)1, sizeof *v->objects);
     if (!v->objects) return FROE_E_MEMORY;
     froe_status status = scene_originals(v->scene, v->alloc, v->objects);
@@ -160,7 +160,7 @@ froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_p
     survey v = {.scene = scene, .alloc = &scene->alloc};
     froe_defects defects = {.size = sizeof defects};
     base_task_init(&v.task, threads, progress, user);
-    froe_status status = run(&v, &defects);
+    froe_status status = run_survey(&v, &defects);
     survey_free(&v);
     if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
     if (status) return base_fail_memory(diag);

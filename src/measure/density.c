@@ -55,7 +55,7 @@ static bool surely_within(const survey *s, const double *point, double radius, u
     return found;
 }
 
-static bool within(survey *s, const double *point, double radius, uint32_t object) {
+static bool is_within_radius(survey *s, const double *point, double radius, uint32_t object) {
     if (surely_within(s, point, radius, object)) return true;
     geom_body body = scene_body(s->sample.scene, object);
     geom_distance distance = geom_distance_from(&s->context, point, &body);
@@ -69,7 +69,7 @@ static bool find_near(survey *s, const double *centre, double reach, double leas
     measure_search search = measure_search_begin(&s->objects, lo, hi, least);
     s->near.count = 0;
     for (uint32_t i; (i = measure_search_next(&search)) != FROE_NONE;)
-        if (within(s, centre, reach, i) && !array_push(&s->sample.alloc, &s->near, i)) return false;
+        if (is_within_radius(s, centre, reach, i) && !array_push(&s->sample.alloc, &s->near, i)) return false;
     return true;
 }
 
@@ -77,7 +77,7 @@ static bool find_near(survey *s, const double *centre, double reach, double leas
 static void try_ball(survey *s, const double *centre, double radius) {
     uint32_t count = 0;
     for (size_t i = 0; i < s->near.count && count + (s->near.count - i) > s->out.lower; i++)
-        count += within(s, centre, radius, s->near.data[i]);
+        count += is_within_radius(s, centre, radius, s->near.data[i]);
     if (count <= s->out.lower) return;
     s->out.lower = count;
     s->out.radius = radius;
@@ -124,7 +124,7 @@ static bool look_around(survey *s, uint32_t object, measure_ball *ball, double *
     return find_near(s, ball->centre, reach, s->size[object]);
 }
 
-static void keep(survey *s, candidate c) {
+static void keep_candidate(survey *s, candidate c) {
     uint32_t at = s->best_count < TRIED ? s->best_count++ : TRIED;
     while (at && (s->best[at - 1].load < c.load || (s->best[at - 1].load == c.load && s->best[at - 1].key > c.key))) {
         if (at < TRIED) s->best[at] = s->best[at - 1];
@@ -140,7 +140,7 @@ static froe_status note_object(survey *s, uint32_t object) {
     uint32_t count = (uint32_t)s->near.count;
     if (count > s->out.upper) s->out.upper = count;
     if (count > s->out.lower) try_ball(s, ball.centre, radius);
-    keep(s, (candidate){count, object, s->keys[object]});
+    keep_candidate(s, (candidate){count, object, s->keys[object]});
     return array_push(&s->sample.alloc, &s->sample.values[0], count) ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -154,7 +154,7 @@ static froe_status try_best(survey *s) {
     return FROE_OK;
 }
 
-static froe_status begin(survey *s) {
+static froe_status begin_density(survey *s) {
     const froe_scene *scene = s->sample.scene;
     const froe_allocator *alloc = &s->sample.alloc;
     size_t n = scene->object_count;
@@ -171,7 +171,7 @@ static froe_status begin(survey *s) {
     return measure_hierarchy_new(alloc, scene->dim, (uint32_t)n, s->bounds.lo, s->bounds.hi, s->size, &s->objects);
 }
 
-static void end(survey *s) {
+static void end_density(survey *s) {
     const froe_allocator *alloc = &s->sample.alloc;
     size_t n = s->sample.scene->object_count;
     if (s->context.alloc.fn) num_context_free(&s->context);
@@ -188,7 +188,7 @@ froe_status froe_measure_density(const froe_scene *scene, froe_size size, const 
     survey s = {.kind = size};
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;
-    status = begin(&s);
+    status = begin_density(&s);
     for (uint32_t i = 0; i < s.sample.count && !status; i++)
         status = measure_sample_go_on(&s.sample, i) ? note_object(&s, measure_sample_object(&s.sample, i))
                                                     : FROE_E_CANCELLED;
@@ -196,6 +196,6 @@ froe_status froe_measure_density(const froe_scene *scene, froe_size size, const 
     s.out.count = s.sample.count;
     if (!status) status = measure_sample_spread(&s.sample, 0, &s.out.load);
     if (!status) *out = s.out;
-    end(&s);
+    end_density(&s);
     return measure_sample_end(&s.sample, status, diag);
 }

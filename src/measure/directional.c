@@ -47,7 +47,7 @@ static double much(const survey *s, double side) {
 }
 
 /* What the face across `axis` of a box with these sides is widened by on axis k. */
-static double room(const survey *s, const double *side, int longest, int axis, int form, int k) {
+static double room_of_side(const survey *s, const double *side, int longest, int axis, int form, int k) {
     double face = 0;
     if (form == NONE) return 0;
     if (form == SIMPLE || k == form - EVEN) return s->delta * side[k];
@@ -66,7 +66,7 @@ static void window(const void *user, size_t i, double *lo, double *hi) {
     double side[FROE_MAX_DIM];
     int longest = longest_side(s, object, side), axis = face / 2;
     for (int k = 0; k < dim; k++) {
-        double by = room(s, side, longest, axis, form, k);
+        double by = room_of_side(s, side, longest, axis, form, k);
         lo[k] = s->bounds.lo[at + (size_t)k] - by;
         hi[k] = s->bounds.hi[at + (size_t)k] + by;
     }
@@ -110,7 +110,7 @@ static bool note_box(survey *s, uint32_t i) {
     return true;
 }
 
-static froe_status look(survey *s, froe_counting counting) {
+static froe_status look_for_directional(survey *s, froe_counting counting) {
     measure_windows windows = {&s->bounds, s->sample.count * windows_each(s->sample.scene->dim), window, s};
     froe_status status = measure_bounds_new(&s->sample, &s->bounds);
     s->counts = base_calloc(&s->sample.alloc, windows.count, sizeof *s->counts);
@@ -134,7 +134,7 @@ froe_status froe_measure_directional(const froe_scene *scene, double delta, cons
     if (status) return status;
     if (!(delta >= 0) || !isfinite(delta))
         return base_fail(diag, FROE_E_ARG, "delta = %g: a finite number >= 0 is needed", delta);
-    status = look(&s, counting);
+    status = look_for_directional(&s, counting);
     if (!status) *out = (froe_directional){.delta = delta, .count = s.sample.count};
     if (!status) status = measure_sample_spread(&s.sample, 0, &out->simple);
     if (!status) status = measure_sample_spread(&s.sample, 1, &out->extended);

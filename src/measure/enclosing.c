@@ -81,7 +81,7 @@ static bool circumscribe(int dim, const support *s, double scale, measure_ball *
     return isfinite(out->radius);
 }
 
-static bool holds(int dim, const measure_ball *ball, const support *s, double scale) {
+static bool ball_holds(int dim, const measure_ball *ball, const support *s, double scale) {
     bool all = true;
     for (int i = 0; i < s->count; i++)
         all = all && sqrt(square_distance(dim, ball->centre, s->point[i], scale)) <= ball->radius * SLACK;
@@ -99,7 +99,7 @@ static bool exchange(int dim, support *s, double scale, measure_ball *ball) {
             if (set >> i & 1) some.point[some.count++] = s->point[i];
         measure_ball b;
         if (some.count > dim + 1 || !circumscribe(dim, &some, scale, &b)) continue;
-        if (b.radius < least.radius && holds(dim, &b, s, scale)) least = b, best = some;
+        if (b.radius < least.radius && ball_holds(dim, &b, s, scale)) least = b, best = some;
     }
     if (!best.count || least.radius <= ball->radius) return false; /* rounding: as near as doubles get */
     *s = best;

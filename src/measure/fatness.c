@@ -24,7 +24,7 @@ static double box_volume(const froe_scene *scene, uint32_t object, double scale)
     return volume;
 }
 
-static void cross(const double *a, const double *b, const double *c, double scale, double *out) {
+static void cross_of_points(const double *a, const double *b, const double *c, double scale, double *out) {
     double u[3], v[3];
     for (int k = 0; k < 3; k++) u[k] = b[k] * scale - a[k] * scale, v[k] = c[k] * scale - a[k] * scale;
     out[0] = u[1] * v[2] - u[2] * v[1];
@@ -39,8 +39,8 @@ static double length(const double *v) {
 static double polygon_area(const froe_scene *scene, uint32_t object, double scale) {
     double sum[3] = {0}, part[3];
     for (uint32_t i = 2; i < scene_corners(scene, object); i++) {
-        cross(scene_point(scene, object, 0), scene_point(scene, object, i - 1), scene_point(scene, object, i), scale,
-              part);
+        cross_of_points(scene_point(scene, object, 0), scene_point(scene, object, i - 1), scene_point(scene, object, i),
+                        scale, part);
         for (int k = 0; k < 3; k++) sum[k] += 0.5 * part[k];
     }
     return length(sum);
@@ -57,7 +57,7 @@ static double sliver_ratio(const froe_scene *scene, uint32_t object, double scal
     }
     const double *a = scene_point(scene, object, longest), *b = scene_point(scene, object, (longest + 1) % n);
     for (uint32_t i = 0; i < n; i++) {
-        cross(a, b, scene_point(scene, object, i), scale, v);
+        cross_of_points(a, b, scene_point(scene, object, i), scale, v);
         if (length(v) > width) width = length(v);
     }
     return width / most / most;

@@ -59,7 +59,7 @@ static void fill_level(measure_hierarchy *h, uint32_t level) {
     }
 }
 
-static void lay_out(measure_hierarchy *h) {
+static void lay_out_hierarchy(measure_hierarchy *h) {
     uint32_t width = h->count;
     h->first[0] = 0;
     while (width) {
@@ -73,7 +73,7 @@ static void lay_out(measure_hierarchy *h) {
 froe_status measure_hierarchy_new(const froe_allocator *alloc, int dim, uint32_t count, const double *lo,
                                   const double *hi, const double *size, measure_hierarchy *out) {
     *out = (measure_hierarchy){.alloc = *alloc, .dim = dim, .count = count};
-    lay_out(out);
+    lay_out_hierarchy(out);
     size_t numbers = (size_t)out->entries * (size_t)dim;
     out->ids = base_calloc(alloc, count, sizeof *out->ids);
     out->lo = base_calloc(alloc, numbers, sizeof *out->lo);

@@ -29,7 +29,7 @@ typedef struct hull {
     ARRAY(edge) border;
 } hull;
 
-static const double *corner(const hull *h, uint32_t i) {
+static const double *hull_corner(const hull *h, uint32_t i) {
     return scene_point(h->scene, h->object, i);
 }
 
@@ -45,7 +45,7 @@ static bool beyond(const double *a, const double *q, const double *p) {
 static const double *next_on_hull(const hull *h, const double *at) {
     const double *best = NULL;
     for (uint32_t i = 0; i < scene_corners(h->scene, h->object); i++) {
-        const double *p = corner(h, i);
+        const double *p = hull_corner(h, i);
         if (p == at) continue;
         int side = -1;
         if (best) {
@@ -59,9 +59,9 @@ static const double *next_on_hull(const hull *h, const double *at) {
 }
 
 static double area(const hull *h, double scale) {
-    const double *start = corner(h, 0);
+    const double *start = hull_corner(h, 0);
     for (uint32_t i = 1; i < scene_corners(h->scene, h->object); i++) {
-        const double *p = corner(h, i);
+        const double *p = hull_corner(h, i);
         if (p[0] < start[0] || (p[0] == start[0] && p[1] < start[1])) start = p;
     }
     double sum = 0;
@@ -103,7 +103,7 @@ static bool find_border(hull *h) {
     return true;
 }
 
-static bool add_corner(hull *h, const double *x) {
+static bool add_hull_corner(hull *h, const double *x) {
     for (size_t i = 0; i < h->facets.count; i++)
         h->facets.data[i].seen = geom_side_vertex(h->context, &h->facets.data[i].plane, x) > 0;
     if (!find_border(h)) return false;
@@ -117,19 +117,19 @@ static bool add_corner(hull *h, const double *x) {
 }
 
 /* A tetrahedron of four corners that are not in one plane; no facets: there is none. */
-static bool begin(hull *h) {
+static bool begin_hull(hull *h) {
     const uint32_t n = scene_corners(h->scene, h->object);
-    const double *p[3] = {corner(h, 0), n > 1 ? corner(h, 1) : NULL, NULL};
+    const double *p[3] = {hull_corner(h, 0), n > 1 ? hull_corner(h, 1) : NULL, NULL};
     geom_plane plane;
     uint32_t i = 2;
     bool spans = false;
     for (; i < n && !spans; i++) {
-        p[2] = corner(h, i);
+        p[2] = hull_corner(h, i);
         plane = geom_plane_points(3, p);
         spans = geom_plane_valid(h->context, &plane);
     }
     for (; i < n; i++) {
-        const double *x = corner(h, i);
+        const double *x = hull_corner(h, i);
         const int side = geom_side_vertex(h->context, &plane, x);
         if (!side) continue;
         const double *a = p[0], *b = side > 0 ? p[2] : p[1], *c = side > 0 ? p[1] : p[2]; /* x is behind a, b, c */
@@ -139,7 +139,7 @@ static bool begin(hull *h) {
 }
 
 static double sum_of_tetrahedra(const hull *h, double scale) {
-    const double *o = corner(h, 0);
+    const double *o = hull_corner(h, 0);
     double sum = 0, v[3][3];
     for (size_t i = 0; i < h->facets.count; i++) {
         for (int j = 0; j < 3; j++)
@@ -157,9 +157,9 @@ froe_status measure_hull_volume(num_context *context, const froe_allocator *allo
         *out = area(&h, scale);
         return FROE_OK;
     }
-    bool ok = begin(&h);
+    bool ok = begin_hull(&h);
     for (uint32_t i = 0; i < scene_corners(scene, object) && ok && h.facets.count; i++)
-        ok = add_corner(&h, corner(&h, i));
+        ok = add_hull_corner(&h, hull_corner(&h, i));
     if (ok) *out = sum_of_tetrahedra(&h, scale);
     array_free(alloc, &h.facets);
     array_free(alloc, &h.border);

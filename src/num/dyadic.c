@@ -47,7 +47,7 @@ void num_arena_free(const froe_allocator *alloc, num_arena *arena) {
     *arena = (num_arena){0};
 }
 
-static uint64_t *take(num_arena *arena, uint32_t count) {
+static uint64_t *take_limbs(num_arena *arena, uint32_t count) {
     uint64_t *limbs = arena->limbs + arena->top;
     arena->top += count;
     assert(arena->top <= arena->capacity);
@@ -56,7 +56,7 @@ static uint64_t *take(num_arena *arena, uint32_t count) {
 }
 
 /* Strips zero limbs from both ends. */
-static num_dyadic trim(int sign, int exponent, uint32_t count, const uint64_t *limbs) {
+static num_dyadic trim_limbs(int sign, int exponent, uint32_t count, const uint64_t *limbs) {
     while (count && limbs[count - 1] == 0) count--;
     while (count && limbs[0] == 0) limbs++, exponent++, count--;
     if (!count) return (num_dyadic){0};
@@ -65,10 +65,10 @@ static num_dyadic trim(int sign, int exponent, uint32_t count, const uint64_t *l
 
 num_dyadic num_dyadic_scaled(num_arena *arena, int sign, uint64_t whole, int power) {
     int exponent = power >= 0 ? power / 64 : -((63 - power) / 64), shift = power - 64 * exponent;
-    uint64_t *limbs = take(arena, 2);
+    uint64_t *limbs = take_limbs(arena, 2);
     limbs[0] = whole << shift;
     limbs[1] = shift ? whole >> (64 - shift) : 0;
-    return trim(sign, exponent, 2, limbs);
+    return trim_limbs(sign, exponent, 2, limbs);
 }
 
 num_dyadic num_dyadic_from(num_arena *arena, double x) {
@@ -108,8 +108,8 @@ int num_dyadic_compare(num_dyadic a, num_dyadic b) {
 }
 
 /* The limbs of a from place `low` on, `count` of them, zeros around. Loops, not memcpy: a is short. */
-static uint64_t *spread(num_arena *arena, num_dyadic a, int low, uint32_t count) {
-    uint64_t *limbs = take(arena, count), *at = limbs, *end = limbs + count;
+static uint64_t *spread_limbs(num_arena *arena, num_dyadic a, int low, uint32_t count) {
+    uint64_t *limbs = take_limbs(arena, count), *at = limbs, *end = limbs + count;
     for (int gap = a.exponent - low; gap > 0; gap--) *at++ = 0;
     for (uint32_t i = 0; i < a.count; i++) *at++ = a.limbs[i];
     while (at < end) *at++ = 0;
@@ -121,7 +121,7 @@ static num_dyadic add_magnitudes(num_arena *arena, int sign, num_dyadic a, num_d
     int low = a.exponent < b.exponent ? a.exponent : b.exponent;
     int high = top_of(a) > top_of(b) ? top_of(a) : top_of(b);
     uint32_t count = (uint32_t)(high - low) + 1;
-    uint64_t *sum = spread(arena, a, low, count);
+    uint64_t *sum = spread_limbs(arena, a, low, count);
     uint64_t carry = 0, *at = sum + (b.exponent - low);
     for (uint32_t i = 0; i < b.count; i++) {
         wide t = (wide)at[i] + b.limbs[i] + carry;
@@ -129,14 +129,14 @@ static num_dyadic add_magnitudes(num_arena *arena, int sign, num_dyadic a, num_d
         carry = (uint64_t)(t >> 64);
     }
     for (uint64_t *rest = at + b.count; carry; rest++) carry = ++*rest == 0;
-    return trim(sign, low, count, sum);
+    return trim_limbs(sign, low, count, sum);
 }
 
 /* |a| - |b| for |a| > |b| > 0. */
 static num_dyadic sub_magnitudes(num_arena *arena, int sign, num_dyadic a, num_dyadic b) {
     int low = a.exponent < b.exponent ? a.exponent : b.exponent;
     uint32_t count = (uint32_t)(top_of(a) - low);
-    uint64_t *difference = spread(arena, a, low, count);
+    uint64_t *difference = spread_limbs(arena, a, low, count);
     uint64_t borrow = 0, *at = difference + (b.exponent - low);
     for (uint32_t i = 0; i < b.count; i++) {
         wide t = (wide)at[i] - b.limbs[i] - borrow;
@@ -144,7 +144,7 @@ static num_dyadic sub_magnitudes(num_arena *arena, int sign, num_dyadic a, num_d
         borrow = (uint64_t)(t >> 64) & 1;
     }
     for (uint64_t *rest = at + b.count; borrow; rest++) borrow = (*rest)-- == 0;
-    return trim(sign, low, count, difference);
+    return trim_limbs(sign, low, count, difference);
 }
 
 num_dyadic num_dyadic_add(num_arena *arena, num_dyadic a, num_dyadic b) {
@@ -185,8 +185,8 @@ static void next_row(uint64_t *row, uint64_t factor, num_dyadic b) {
 num_dyadic num_dyadic_mul(num_arena *arena, num_dyadic a, num_dyadic b) {
     if (!a.sign || !b.sign) return (num_dyadic){0};
     uint32_t count = a.count + b.count;
-    uint64_t *product = take(arena, count);
+    uint64_t *product = take_limbs(arena, count);
     first_row(product, a.limbs[0], b);
     for (uint32_t i = 1; i < a.count; i++) next_row(product + i, a.limbs[i], b);
-    return trim(a.sign * b.sign, a.exponent + b.exponent, count, product);
+    return trim_limbs(a.sign * b.sign, a.exponent + b.exponent, count, product);
 }

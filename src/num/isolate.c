@@ -148,7 +148,7 @@ typedef enum outcome { FOUND, HIT, TOO_CLOSE } outcome;
 
 /* Narrows 0 .. 1 to the k-th root, k = 1, 2, ...; `before`: variations at 0. HIT: what is now exact is a root, maybe
  * another one. Sturm's theorem does not speak of points that are multiple roots. */
-static outcome find(num_arena *arena, int before, int k, num_isolated *at) {
+static outcome find_root(num_arena *arena, int before, int k, num_isolated *at) {
     const num_chain *chain = &at->of->chain;
     while (!is_alone(arena, at)) {
         if (at->depth == NUM_MOST_DEPTH) return TOO_CLOSE;
@@ -173,7 +173,7 @@ static outcome find_all(num_arena *arena, num_isolation *out, int exact) {
     for (int k = 1; k <= count; k++) {
         num_isolated *at = &out->root[exact + k - 1];
         *at = (num_isolated){.of = out};
-        outcome found = find(arena, before, k, at);
+        outcome found = find_root(arena, before, k, at);
         if (found == HIT) out->root[exact] = *at;
         if (found != FOUND) return found;
     }
@@ -225,7 +225,7 @@ int num_isolated_sign(num_arena *arena, const num_isolated *root, const num_poly
 }
 
 /* -1, 1: apart; 0: one interval holds the other, or they are the same point. */
-static int place(num_arena *arena, const num_isolated *a, const num_isolated *b) {
+static int place_of_roots(num_arena *arena, const num_isolated *a, const num_isolated *b) {
     size_t mark = arena->top;
     num_dyadic low_a = fraction(a->lo), low_b = fraction(b->lo);
     num_dyadic high_a = num_isolated_high(arena, a), high_b = num_isolated_high(arena, b);
@@ -238,7 +238,7 @@ static int place(num_arena *arena, const num_isolated *a, const num_isolated *b)
 int num_isolated_compare(num_arena *arena, num_isolated *a, num_isolated *b) {
     enum { PATIENCE = 24 }; /* halvings before the exact question */
     for (int round = 0;; round++) {
-        int order = place(arena, a, b);
+        int order = place_of_roots(arena, a, b);
         if (order) return order;
         if (a->exact && b->exact) return 0;
         /* the outer polynomial has one root in the outer interval, which holds the inner root */

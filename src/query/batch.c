@@ -142,7 +142,7 @@ static double distance_of(const froe_query *q, size_t i) {
 }
 
 /* Appends what a query found to its chunk. */
-static bool append(const batch *b, const froe_query *q, chunk *c) {
+static bool append_answers(const batch *b, const froe_query *q, chunk *c) {
     const size_t count = q->found.count;
     if (!array_reserve(&q->alloc, &c->ids, count)) return false;
     if (b->value && !array_reserve(&q->alloc, &c->values, count)) return false;
@@ -206,7 +206,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     froe_status status = b->ask_in ? find_leaves(b, q, first, end, leaves, &c->diag) : FROE_OK;
     for (size_t i = first; i < end && !status; i++) {
         status = b->ask_in ? b->ask_in(b, q, i, leaves + (i - first), &c->diag) : b->ask(b, q, i, &c->diag);
-        if (!status && !append(b, q, c)) status = base_fail_memory(&c->diag);
+        if (!status && !append_answers(b, q, c)) status = base_fail_memory(&c->diag);
         if (status) c->diag.object = (uint32_t)i;
         c->counts[i - first] = (uint32_t)q->found.count;
     }
@@ -215,7 +215,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
 
 /* --------------------------------------------------------------- gathering -- */
 
-static froe_status gather(const batch *b, froe_answers *out) {
+static froe_status gather_answers(const batch *b, froe_answers *out) {
     const froe_allocator *alloc = &b->query->alloc;
     froe_answers answers = {.queries = b->count, .alloc = *alloc};
     size_t total = 0;
@@ -245,7 +245,7 @@ static froe_status gather(const batch *b, froe_answers *out) {
 /* ----------------------------------------------------------------- running -- */
 
 /* What the first bad query said. */
-static froe_status explain(const batch *b, froe_status status, froe_diagnostic *diag) {
+static froe_status explain_batch(const batch *b, froe_status status, froe_diagnostic *diag) {
     for (size_t i = 0; i < b->chunk_count; i++)
         if (b->chunks[i].diag.status == status) {
             if (diag) *diag = b->chunks[i].diag;
@@ -255,21 +255,23 @@ static froe_status explain(const batch *b, froe_status status, froe_diagnostic *
     return base_fail_memory(diag);
 }
 
-static froe_status work(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+static froe_status work_through_batch(batch *b, const froe_batch_options *options, froe_answers *out,
+                                      froe_diagnostic *diag) {
     froe_status status = query_workers_take(b->query, options, b->chunk_count, &b->workers, diag);
-    if (!status && (status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b))) explain(b, status, diag);
-    if (!status && out && (status = gather(b, out))) base_fail_memory(diag);
+    if (!status && (status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b)))
+        explain_batch(b, status, diag);
+    if (!status && out && (status = gather_answers(b, out))) base_fail_memory(diag);
     query_workers_give(&b->workers);
     return status;
 }
 
-static froe_status run(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+static froe_status run_batch(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     const froe_allocator *alloc = &b->query->alloc;
     if (b->count > UINT32_MAX - 1) return base_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
     b->chunk_count = (b->count + CHUNK - 1) / CHUNK;
     b->chunks = base_calloc(alloc, b->chunk_count, sizeof *b->chunks);
     if (!b->chunks) return base_fail_memory(diag);
-    const froe_status status = work(b, options, out, diag);
+    const froe_status status = work_through_batch(b, options, out, diag);
     for (size_t i = 0; i < b->chunk_count; i++) {
         array_free(alloc, &b->chunks[i].ids);
         array_free(alloc, &b->chunks[i].values);
@@ -283,7 +285,7 @@ froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t
     BASE_FLOATS_OWN;
     if (!query || !out || (count && !ranges)) return base_fail(diag, FROE_E_ARG, "froe_batch_range: NULL argument.");
     batch b = {.query = query, .ask = ask_range, .ranges = ranges, .count = count};
-    return run(&b, options, out, diag);
+    return run_batch(&b, options, out, diag);
 }
 
 froe_status froe_batch_locate(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
@@ -292,7 +294,7 @@ froe_status froe_batch_locate(froe_query *query, const double *points, size_t co
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_locate: NULL argument.");
     batch b = {.query = query, .ask = ask_locate, .points = points, .count = count};
     if (!tree_is_packed(query->tree)) b.ask_in = ask_locate_in;
-    return run(&b, options, out, diag);
+    return run_batch(&b, options, out, diag);
 }
 
 froe_status froe_batch_groups(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
@@ -306,7 +308,7 @@ froe_status froe_batch_groups(froe_query *query, const double *points, size_t co
         b.ask_in = ask_groups_in;
     else
         b.ask = ask_groups;
-    return run(&b, options, out, diag);
+    return run_batch(&b, options, out, diag);
 }
 
 froe_status froe_batch_vertical(froe_query *query, const double *points, size_t count, int direction,
@@ -317,7 +319,7 @@ froe_status froe_batch_vertical(froe_query *query, const double *points, size_t 
     batch b = {.query = query, .ask = ask_vertical, .points = points, .count = count};
     b.direction = direction;
     b.objects = objects;
-    return run(&b, options, NULL, diag);
+    return run_batch(&b, options, NULL, diag);
 }
 
 /* The rays of a call; its answers are `hits`, `objects` or `out`. */
@@ -331,7 +333,7 @@ static froe_status run_rays(froe_query *query, const double *origins, const doub
     b->directions = directions;
     b->count = count;
     b->limit = t_max;
-    return run(b, options, out, diag);
+    return run_batch(b, options, out, diag);
 }
 
 froe_status froe_batch_ray(froe_query *query, const double *origins, const double *directions, size_t count,
@@ -364,5 +366,5 @@ froe_status froe_batch_near(froe_query *query, const double *points, size_t coun
     if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_near: NULL argument.");
     batch b = {.query = query, .ask = ask_near, .points = points, .count = count, .k = k, .limit = bound};
     b.value = distance_of;
-    return run(&b, options, out, diag);
+    return run_batch(&b, options, out, diag);
 }

@@ -6,7 +6,7 @@
 #include "query/packed/packed.h"
 #include "query/packed/space.h"
 
-static froe_status take(const froe_tree *tree, query_shared *shared, froe_query **out) {
+static froe_status take_context(const froe_tree *tree, query_shared *shared, froe_query **out) {
     froe_query *q = base_calloc(&tree->alloc, 1, sizeof *q);
     if (!q) return FROE_E_MEMORY;
     q->tree = tree;
@@ -34,7 +34,7 @@ froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnos
     if (!tree || !out) return base_fail(diag, FROE_E_ARG, "froe_query_new: NULL argument.");
     query_shared *shared = base_calloc(&tree->alloc, 1, sizeof *shared);
     if (!shared) return base_fail_memory(diag);
-    if (take(tree, shared, out)) {
+    if (take_context(tree, shared, out)) {
         base_free(&tree->alloc, shared, sizeof *shared);
         return base_fail_memory(diag);
     }
@@ -45,7 +45,7 @@ froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnos
 froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !out) return base_fail(diag, FROE_E_ARG, "froe_query_fork: NULL argument.");
-    if (take(query->tree, query->shared, out)) return base_fail_memory(diag);
+    if (take_context(query->tree, query->shared, out)) return base_fail_memory(diag);
     (*out)->numbers.first = query->numbers.first;
     if (query->packed) (*out)->packed->kernels = query->packed->kernels;
     atomic_fetch_add(&query->shared->holds, 1);

@@ -17,7 +17,7 @@ static query_plane lay_out_wall(const geom_plane *plane) {
     return out;
 }
 
-static query_plane lay_out(const geom_plane *plane) {
+static query_plane lay_out_plane(const geom_plane *plane) {
     query_plane out = {.c = plane->c, .n_err = plane->n_err};
     if (plane->form == GEOM_AT_CROSSING) return lay_out_wall(plane);
     memcpy(out.n, plane->n, sizeof out.n);
@@ -25,7 +25,7 @@ static query_plane lay_out(const geom_plane *plane) {
     return out;
 }
 
-static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+static froe_status make_cuts(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
     query_planes *p = base_calloc(&q->alloc, 1, sizeof *p);
     if (!p) return base_fail_memory(diag);
@@ -41,14 +41,14 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
         const tree_node *node = t->nodes + v;
         if (node->type != TREE_TABLED || t->cuts[node->u.cut].kind == FROE_CUT_AXIS) continue;
         geom_plane plane = tree_plane_at(t, v);
-        p->planes[node->u.cut] = lay_out(&plane);
+        p->planes[node->u.cut] = lay_out_plane(&plane);
     }
     return FROE_OK;
 }
 
 froe_status query_planes_of(froe_query *query, const query_planes **out, froe_diagnostic *diag) {
     const query_part *part;
-    froe_status status = query_prepare(query, QUERY_PLANES, make, &part, diag);
+    froe_status status = query_prepare(query, QUERY_PLANES, make_cuts, &part, diag);
     if (status == FROE_OK) *out = (const query_planes *)part;
     return status;
 }

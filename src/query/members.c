@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* Where a number is, or would be. */
-static size_t place_of(const query_members *set, uint32_t number) {
+static size_t place_of_member(const query_members *set, uint32_t number) {
     size_t low = 0, high = set->count;
     while (low < high) {
         const size_t middle = (low + high) / 2;
@@ -16,7 +16,7 @@ static size_t place_of(const query_members *set, uint32_t number) {
     return low;
 }
 
-static bool put(query_members *set, const froe_allocator *alloc, size_t at, uint32_t number) {
+static bool put_member(query_members *set, const froe_allocator *alloc, size_t at, uint32_t number) {
     if (!array_reserve(alloc, set, 1)) return false;
     memmove(set->data + at + 1, set->data + at, (set->count - at) * sizeof *set->data);
     set->data[at] = number;
@@ -25,13 +25,13 @@ static bool put(query_members *set, const froe_allocator *alloc, size_t at, uint
 }
 
 bool query_members_add(query_members *set, const froe_allocator *alloc, uint32_t number) {
-    const size_t at = place_of(set, number);
-    return (at < set->count && set->data[at] == number) || put(set, alloc, at, number);
+    const size_t at = place_of_member(set, number);
+    return (at < set->count && set->data[at] == number) || put_member(set, alloc, at, number);
 }
 
 bool query_members_flip(query_members *set, const froe_allocator *alloc, uint32_t number) {
-    const size_t at = place_of(set, number);
-    if (at == set->count || set->data[at] != number) return put(set, alloc, at, number);
+    const size_t at = place_of_member(set, number);
+    if (at == set->count || set->data[at] != number) return put_member(set, alloc, at, number);
     set->count--;
     memmove(set->data + at, set->data + at + 1, (set->count - at) * sizeof *set->data);
     return true;

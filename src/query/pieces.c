@@ -23,7 +23,7 @@ static froe_status lay_points(query_pieces *p, const froe_tree *t, const froe_al
     return FROE_OK;
 }
 
-static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+static froe_status make_pieces(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
     const froe_scene *s = t->scene;
     query_pieces *p = base_calloc(&q->alloc, 1, sizeof *p);
@@ -42,7 +42,7 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
 
 froe_status query_pieces_of(froe_query *query, const query_pieces **out, froe_diagnostic *diag) {
     const query_part *part;
-    const froe_status status = query_prepare(query, QUERY_PIECES, make, &part, diag);
+    const froe_status status = query_prepare(query, QUERY_PIECES, make_pieces, &part, diag);
     if (status == FROE_OK) *out = (const query_pieces *)part;
     return status;
 }

@@ -24,7 +24,7 @@ static bool common_box(const double *u, const double *v, const double *lo, const
     return true;
 }
 
-static bool holds(const double *lo, const double *hi, const double *x) {
+static bool interval_holds(const double *lo, const double *hi, const double *x) {
     return lo[0] <= x[0] && x[0] <= hi[0] && lo[1] <= x[1] && x[1] <= hi[1];
 }
 
@@ -34,7 +34,7 @@ bool query_segment_meets_box(num_context *numbers, const double *u, const double
                              const double *hi) {
     double box[2][2];
     if (!common_box(u, v, lo, hi, box)) return false;
-    if (u[0] == v[0] || u[1] == v[1] || holds(lo, hi, u) || holds(lo, hi, v)) return true;
+    if (u[0] == v[0] || u[1] == v[1] || interval_holds(lo, hi, u) || interval_holds(lo, hi, v)) return true;
     bool rising = (u[0] < v[0]) == (u[1] < v[1]);
     const double one[2] = {box[0][0], box[rising][1]}, other[2] = {box[1][0], box[!rising][1]};
     return query_turn(numbers, u, v, one) * query_turn(numbers, u, v, other) <= 0;
@@ -80,7 +80,7 @@ bool query_height_at(num_context *numbers, const double *u, const double *v, con
 }
 
 /* Is the line of a, at its x, above (1), below (-1) or at b? */
-static int beside(num_context *numbers, const query_height *a, const query_height *b) {
+static int height_beside(num_context *numbers, const query_height *a, const query_height *b) {
     geom_plane column = geom_plane_axis(2, 0, a->x);
     geom_plane plane =
         b->known ? geom_plane_axis(2, 1, b->y) : geom_plane_points(2, (const double *const[]){b->u, b->v});
@@ -89,5 +89,5 @@ static int beside(num_context *numbers, const query_height *a, const query_heigh
 
 int query_height_compare(num_context *numbers, const query_height *a, const query_height *b) {
     if (a->known && b->known) return (a->y > b->y) - (a->y < b->y);
-    return a->known ? -beside(numbers, b, a) : beside(numbers, a, b);
+    return a->known ? -height_beside(numbers, b, a) : height_beside(numbers, a, b);
 }

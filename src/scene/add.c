@@ -78,7 +78,7 @@ static froe_status check_limits(scene_adding *a) {
     return FROE_OK;
 }
 
-static froe_status check(scene_adding *a) {
+static froe_status check_adding(scene_adding *a) {
     const froe_objects *b = a->batch;
     if (!a->scene || !b) return base_fail(a->diag, FROE_E_ARG, "scene or batch is null");
     if (b->size != sizeof *b) /* once the struct has grown: its older sizes too, with defaults for what they lack */
@@ -142,7 +142,7 @@ static froe_status fail_at_corner(const scene_adding *a, size_t corner, int axis
 }
 
 /** Copies a chunk of corners, checked; -0 becomes +0 by adding +0. */
-static froe_status gather(scene_adding *a, size_t done, size_t count, double *points) {
+static froe_status gather_points(scene_adding *a, size_t done, size_t count, double *points) {
     const froe_objects *b = a->batch;
     int dim = a->scene->dim;
     for (size_t i = 0; i < count; i++) {
@@ -166,7 +166,7 @@ static froe_status take_vertices(scene_adding *a) {
     double points[SCENE_CHUNK * FROE_MAX_DIM];
     for (size_t done = 0, chunks = 0; done < a->corners; done += SCENE_CHUNK, chunks++) {
         size_t count = a->corners - done < SCENE_CHUNK ? a->corners - done : SCENE_CHUNK;
-        froe_status status = gather(a, done, count, points);
+        froe_status status = gather_points(a, done, count, points);
         if (status) return status;
         status = scene_vertices_add(a->scene, points, count, ids + done);
         if (status == FROE_E_LIMIT) return base_fail(a->diag, status, "more than %u vertices", SCENE_LIMIT);
@@ -236,7 +236,7 @@ static void commit(const scene_adding *a) {
 froe_status froe_scene_add(froe_scene *scene, const froe_objects *batch, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     scene_adding a = {.scene = scene, .batch = batch, .diag = diag};
-    froe_status status = check(&a);
+    froe_status status = check_adding(&a);
     if (status || !batch->count) return status;
     for (int k = 0; k < FROE_MAX_DIM; k++) a.lo[k] = INFINITY, a.hi[k] = -INFINITY;
     status = reserve(&a);

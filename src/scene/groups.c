@@ -4,7 +4,7 @@
 #include <string.h>
 
 /** Appends a string and tells its offset; "" and NULL cost nothing. REQUIRES: room in text. */
-static uint32_t put_text(struct scene_store *store, const char *string) {
+static uint32_t put_group_text(struct scene_store *store, const char *string) {
     if (!string || !*string) return 0;
     size_t offset = store->text.count, size = strlen(string) + 1;
     memcpy(store->text.data + offset, string, size);
@@ -30,10 +30,10 @@ froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uin
     if (room) {
         if (!store->text.count) store->text.data[store->text.count++] = 0;
         scene_group *g = store->group_table.data + store->group_table.count++;
-        g->name = put_text(store, group->name);
-        g->material = put_text(store, group->material);
-        g->left = put_text(store, group->left);
-        g->right = put_text(store, group->right);
+        g->name = put_group_text(store, group->name);
+        g->material = put_group_text(store, group->material);
+        g->left = put_group_text(store, group->left);
+        g->right = put_group_text(store, group->right);
         g->colour = group->colour;
         if (id) *id = (uint32_t)store->group_table.count - 1;
     }

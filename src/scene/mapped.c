@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-static froe_status bad(froe_diagnostic *diag, const char *what) {
+static froe_status bad_scene(froe_diagnostic *diag, const char *what) {
     return base_fail(diag, FROE_E_FORMAT, "the scene of the file is corrupted: %s", what);
 }
 
@@ -32,7 +32,7 @@ static froe_status check_different(const froe_scene *s, const froe_allocator *al
         uint32_t other = scene_table_find(&table, tag, &at);
         while (other != FROE_NONE && memcmp(scene_vertex(s, v), scene_vertex(s, other), bytes) != 0)
             other = scene_table_find_next(&table, tag, &at);
-        if (other != FROE_NONE) status = bad(diag, "two vertices are equal");
+        if (other != FROE_NONE) status = bad_scene(diag, "two vertices are equal");
         scene_table_put(&table, at, tag, v);
     }
     scene_table_free(alloc, &table);
@@ -41,7 +41,7 @@ static froe_status check_different(const froe_scene *s, const froe_allocator *al
 
 static froe_status check_vertices(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
     for (size_t i = 0, n = (size_t)s->vertex_count * (size_t)s->dim; i < n; i++)
-        if (!plain_number(s->coords[i])) return bad(diag, "a coordinate is not finite, or is -0");
+        if (!plain_number(s->coords[i])) return bad_scene(diag, "a coordinate is not finite, or is -0");
     return check_different(s, alloc, diag);
 }
 
@@ -123,7 +123,7 @@ static froe_status check_object(const froe_scene *s, uint32_t object, num_contex
 static froe_status check_objects(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
     num_context context;
     if (!s->starts || s->starts[0] != 0 || s->starts[s->object_count] != s->corner_count)
-        return bad(diag, "the offsets of the corners");
+        return bad_scene(diag, "the offsets of the corners");
     if (geom_context_new(alloc, &context)) return base_fail_memory(diag);
     froe_status status = FROE_OK;
     for (uint32_t i = 0; !status && i < s->object_count; i++) status = check_object(s, i, &context, diag);
@@ -135,25 +135,25 @@ static froe_status check_objects(const froe_scene *s, const froe_allocator *allo
 
 static froe_status check_groups(const froe_scene *s, froe_diagnostic *diag) {
     if (!s->group_count) return FROE_OK;
-    if (!s->text_size || s->text[0] || s->text[s->text_size - 1]) return bad(diag, "the strings of the groups");
+    if (!s->text_size || s->text[0] || s->text[s->text_size - 1]) return bad_scene(diag, "the strings of the groups");
     for (uint32_t i = 0; i < s->group_count; i++) {
         const scene_group *g = s->group_table + i;
         if (g->name >= s->text_size || g->material >= s->text_size || g->left >= s->text_size ||
             g->right >= s->text_size)
-            return bad(diag, "the strings of a group");
+            return bad_scene(diag, "the strings of a group");
     }
     return FROE_OK;
 }
 
 static froe_status check_counts(const froe_scene *s, froe_diagnostic *diag) {
-    if (s->dim < 2 || s->dim > FROE_MAX_DIM) return bad(diag, "its dimension");
+    if (s->dim < 2 || s->dim > FROE_MAX_DIM) return bad_scene(diag, "its dimension");
     if (s->object_count > SCENE_LIMIT || s->vertex_count > SCENE_LIMIT || s->group_count > SCENE_LIMIT ||
         s->corner_count > SCENE_CORNER_LIMIT)
-        return bad(diag, "its counts");
+        return bad_scene(diag, "its counts");
     bool objects = !s->object_count || (s->kinds && s->forms && s->corners);
     bool vertices = (!s->vertex_count || s->coords) && (!s->radius_count || s->radii);
     bool groups = !s->group_count || (s->group_table && s->text);
-    return objects && vertices && groups ? FROE_OK : bad(diag, "a part is missing");
+    return objects && vertices && groups ? FROE_OK : bad_scene(diag, "a part is missing");
 }
 
 froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {

@@ -29,7 +29,7 @@ static const double *at(const ring_view *r, uint32_t i) {
 /* ---------------------------------------------------------------- the plane -- */
 
 /** Turn of the projected corners i, j, k. */
-static int turn(const ring_view *r, uint32_t i, uint32_t j, uint32_t k) {
+static int turn_at(const ring_view *r, uint32_t i, uint32_t j, uint32_t k) {
     return geom_projected_turn(r->context, r->axis, at(r, i), at(r, j), at(r, k));
 }
 
@@ -71,7 +71,7 @@ static int orientation(const ring_view *r) {
     uint32_t n = r->count, least = 0;
     for (uint32_t i = 1; i < n; i++)
         if (ascends(r, i, least)) least = i;
-    return turn(r, least ? least - 1 : n - 1, least, least + 1 < n ? least + 1 : 0);
+    return turn_at(r, least ? least - 1 : n - 1, least, least + 1 < n ? least + 1 : 0);
 }
 
 static bool convex(const ring_view *r, scene_fault *fault) {
@@ -80,7 +80,7 @@ static bool convex(const ring_view *r, scene_fault *fault) {
     uint32_t n = r->count, minima = 0;
     for (uint32_t i = n - 1, j = 0, k = 1; j < n; i = j++, k = k + 1 < n ? k + 1 : 0) {
         bool before = ascends(r, i, j), after = ascends(r, j, k);
-        int t = turn(r, i, j, k);
+        int t = turn_at(r, i, j, k);
         fault->vertex = r->ring[j];
         fault->reason = t == 0 && before != after ? "folds back on itself" : "is not convex";
         if (t == 0 ? before != after : t != way) return false;

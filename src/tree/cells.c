@@ -43,7 +43,7 @@ static void free_walk(cell_walk *w) {
     array_free(&w->alloc, &w->starts);
 }
 
-static bool push(cell_walk *w, uint32_t node, uint32_t depth, const shape *s) {
+static bool push_cell_shape(cell_walk *w, uint32_t node, uint32_t depth, const shape *s) {
     cell_pending item = {node, depth, s->points.count, s->loops.count, s->starts.count};
     shape *to = &w->packed;
     if (!array_reserve(&w->alloc, &to->points, item.points) || !array_reserve(&w->alloc, &to->loops, item.loops) ||
@@ -58,7 +58,7 @@ static bool push(cell_walk *w, uint32_t node, uint32_t depth, const shape *s) {
     return true;
 }
 
-static bool pop(cell_walk *w, cell_pending *item) {
+static bool pop_cell_shape(cell_walk *w, cell_pending *item) {
     shape *from = &w->packed, top;
     *item = w->pending.data[--w->pending.count];
     memset(&top, 0, sizeof top);
@@ -104,7 +104,7 @@ static bool show(cell_walk *w, const cell_pending *at) {
 }
 
 /* Shows one node and leaves its children pending, the negative one on top. */
-static bool visit(cell_walk *w, const cell_pending *at) {
+static bool visit_cell(cell_walk *w, const cell_pending *at) {
     const tree_node *n = w->tree->nodes + at->node;
     unsigned reached;
     w->cut.points.count = 0;
@@ -117,15 +117,15 @@ static bool visit(cell_walk *w, const cell_pending *at) {
         if (!shape_clip(&w->alloc, w->dim, &w->now, &plane, i ? 1 : -1, &w->scratch, &w->part[i], i ? NULL : &w->cut))
             return false;
     if (!show(w, at)) return false;
-    if (reached != 1 && !push(w, n->child + 1, at->depth + 1, both ? &w->part[1] : &w->now)) return false;
-    return reached == 2 || push(w, n->child, at->depth + 1, both ? &w->part[0] : &w->now);
+    if (reached != 1 && !push_cell_shape(w, n->child + 1, at->depth + 1, both ? &w->part[1] : &w->now)) return false;
+    return reached == 2 || push_cell_shape(w, n->child, at->depth + 1, both ? &w->part[0] : &w->now);
 }
 
 static bool walk_cells(cell_walk *w, const double *lo, const double *hi) {
-    if (!shape_box(&w->alloc, w->dim, lo, hi, w->exponent, &w->now) || !push(w, 0, 0, &w->now)) return false;
+    if (!shape_box(&w->alloc, w->dim, lo, hi, w->exponent, &w->now) || !push_cell_shape(w, 0, 0, &w->now)) return false;
     while (w->pending.count && !w->stopped) {
         cell_pending at;
-        if (!pop(w, &at) || !visit(w, &at)) return false;
+        if (!pop_cell_shape(w, &at) || !visit_cell(w, &at)) return false;
     }
     return true;
 }

@@ -28,7 +28,7 @@ typedef struct opening {
     froe_scene scene; /* arrays as the file claims them */
 } opening;
 
-static froe_status bad(const opening *o, const char *what) {
+static froe_status bad_file(const opening *o, const char *what) {
     return base_fail(o->diag, FROE_E_FORMAT, "'%s' is no valid tree file: %s", support_short(o->path), what);
 }
 
@@ -42,8 +42,8 @@ static froe_status map_descriptor(opening *o, int fd) {
     struct stat info;
     if (fstat(fd, &info)) return unreadable(o, errno);
     if (!S_ISREG(info.st_mode)) return unreadable(o, S_ISDIR(info.st_mode) ? EISDIR : ENODEV);
-    if (info.st_size == 0) return bad(o, "it is empty");
-    if ((uint64_t)info.st_size < sizeof(file_header)) return bad(o, "it is too short");
+    if (info.st_size == 0) return bad_file(o, "it is empty");
+    if ((uint64_t)info.st_size < sizeof(file_header)) return bad_file(o, "it is too short");
     void *map = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
     if (map == MAP_FAILED) return unreadable(o, errno);
     o->bytes = map;
@@ -61,7 +61,7 @@ static froe_status map_file(opening *o) {
 
 /* ------------------------------------------------------------------ layout -- */
 
-static bool all_zero(const uint8_t *bytes, uint64_t from, uint64_t to) {
+static bool is_zero_between(const uint8_t *bytes, uint64_t from, uint64_t to) {
     for (; from < to; from++)
         if (bytes[from]) return false;
     return true;
@@ -70,15 +70,15 @@ static bool all_zero(const uint8_t *bytes, uint64_t from, uint64_t to) {
 static froe_status check_header(opening *o) {
     const file_header *h = o->header = (const file_header *)(const void *)o->bytes;
     const size_t table = FILE_SECTIONS * sizeof(file_section);
-    if (memcmp(h->magic, FILE_MAGIC, sizeof h->magic) != 0) return bad(o, "it does not begin as one");
-    if (h->version != FILE_VERSION) return bad(o, "its version is not one this froe reads");
-    if (h->size != o->size) return bad(o, h->size > o->size ? "it is truncated" : "something follows its end");
-    if (h->sections != FILE_SECTIONS || o->size < sizeof *h + table) return bad(o, "its section table");
+    if (memcmp(h->magic, FILE_MAGIC, sizeof h->magic) != 0) return bad_file(o, "it does not begin as one");
+    if (h->version != FILE_VERSION) return bad_file(o, "its version is not one this froe reads");
+    if (h->size != o->size) return bad_file(o, h->size > o->size ? "it is truncated" : "something follows its end");
+    if (h->sections != FILE_SECTIONS || o->size < sizeof *h + table) return bad_file(o, "its section table");
     o->table = (const file_section *)(const void *)(o->bytes + sizeof *h);
     if (h->checksum != file_checksum(o->table, table, file_checksum(h, offsetof(file_header, checksum), 0)))
-        return bad(o, "the checksum of its header");
-    if (h->unused || h->spare[0] || h->spare[1] || h->spare[2]) return bad(o, "an unused field that is not 0");
-    return h->dim >= 2 && h->dim <= FROE_MAX_DIM ? FROE_OK : bad(o, "its dimension");
+        return bad_file(o, "the checksum of its header");
+    if (h->unused || h->spare[0] || h->spare[1] || h->spare[2]) return bad_file(o, "an unused field that is not 0");
+    return h->dim >= 2 && h->dim <= FROE_MAX_DIM ? FROE_OK : bad_file(o, "its dimension");
 }
 
 /* Sections lie in the order of their ids, without gaps but for the zeros that align them. */
@@ -91,15 +91,17 @@ static froe_status check_sections(const opening *o) {
         const file_section *s = o->table + i;
         uint64_t offset = file_align(end);
         if (s->id != i + 1 || s->item_size != file_part(&empty, (file_id)s->id, &data, &size))
-            return bad(o, "a section it does not know");
+            return bad_file(o, "a section it does not know");
         if (s->offset != offset || offset > o->size || s->size > o->size - offset)
-            return bad(o, "a section out of place");
-        if (s->size % s->item_size || s->size / s->item_size > UINT32_MAX) return bad(o, "a section of odd size");
-        if (!all_zero(o->bytes, end, offset)) return bad(o, "bytes between sections");
-        if (s->checksum != file_checksum(o->bytes + offset, s->size, 0)) return bad(o, "the checksum of a section");
+            return bad_file(o, "a section out of place");
+        if (s->size % s->item_size || s->size / s->item_size > UINT32_MAX) return bad_file(o, "a section of odd size");
+        if (!is_zero_between(o->bytes, end, offset)) return bad_file(o, "bytes between sections");
+        if (s->checksum != file_checksum(o->bytes + offset, s->size, 0))
+            return bad_file(o, "the checksum of a section");
         end = offset + s->size;
     }
-    if (file_align(end) != o->size || !all_zero(o->bytes, end, o->size)) return bad(o, "something follows its end");
+    if (file_align(end) != o->size || !is_zero_between(o->bytes, end, o->size))
+        return bad_file(o, "something follows its end");
     return FROE_OK;
 }
 
@@ -133,13 +135,13 @@ static froe_status claim_scene(opening *o) {
     s->vertex_count = coords / o->header->dim;
     bool fits = coords % o->header->dim == 0 && forms == s->object_count && starts == (uint64_t)s->object_count + 1 &&
                 optional(tags, forms) && optional(faces, forms) && optional(groups, forms);
-    return fits ? FROE_OK : bad(o, "sections that do not fit together");
+    return fits ? FROE_OK : bad_file(o, "sections that do not fit together");
 }
 
 static froe_status claim_tree(const opening *o, froe_tree *t) {
     uint32_t count;
     const void *meta = section(o, FILE_META, &count);
-    if (count != 1) return bad(o, "its description");
+    if (count != 1) return bad_file(o, "its description");
     memcpy(&t->meta, meta, sizeof t->meta);
     t->nodes = section(o, FILE_NODES, &t->node_count);
     t->cuts = section(o, FILE_CUTS, &t->cut_count);
@@ -148,7 +150,7 @@ static froe_status claim_tree(const opening *o, froe_tree *t) {
     t->normals = section(o, FILE_NORMALS, &t->normal_count);
     t->packed.blocks = section(o, FILE_BLOCKS, &t->packed.block_count);
     t->packed.owners = section(o, FILE_OWNERS, &t->packed.owner_count);
-    if (tree_is_packed(t) && t->piece_count) return bad(o, "sections that do not fit together");
+    if (tree_is_packed(t) && t->piece_count) return bad_file(o, "sections that do not fit together");
     if (tree_is_packed(t)) t->piece_count = packed_count(t);
     return FROE_OK;
 }

@@ -73,7 +73,7 @@ static void copy_cut(seal *s, uint32_t source, uint32_t *index) {
 }
 
 /* Places one node with all it owns; true when its children, a fresh pair, come next. */
-static bool place(seal *s, seal_visit *visit) {
+static bool place_node(seal *s, seal_visit *visit) {
     tree_node node;
     if (visit->source == 0 && s->maps[0][visit->from]) { /* grafted: go on in the other draft */
         uint32_t source = s->maps[0][visit->from];
@@ -95,14 +95,14 @@ static bool place(seal *s, seal_visit *visit) {
     return node.type != TREE_LEAF;
 }
 
-static froe_status walk(seal *s) {
+static froe_status walk_draft(seal *s) {
     const froe_allocator *alloc = &s->tree->alloc;
     s->nodes = s->bounds = 1;
     s->tree->bounds[0] = 0;
     if (!array_push(alloc, &s->stack, (seal_visit){0, 0, 0})) return FROE_E_MEMORY;
     while (s->stack.count) {
         seal_visit at = s->stack.data[--s->stack.count];
-        while (place(s, &at)) {
+        while (place_node(s, &at)) {
             seal_visit right = {at.source, at.from + 1, at.to + 1};
             if (!array_push(alloc, &s->stack, right)) return FROE_E_MEMORY;
         }
@@ -157,7 +157,7 @@ static void free_scratch(seal *s) {
 static froe_status fill_tree(seal *s) {
     froe_status status = take_arrays(s);
     if (!status) status = take_maps(s);
-    if (!status) status = walk(s);
+    if (!status) status = walk_draft(s);
     if (status) return status;
     s->tree->predicates = s->main->predicates;
     for (size_t i = 0; i < s->graft_count; i++) num_stats_add(&s->tree->predicates, &s->grafts[i].draft->predicates);

@@ -157,7 +157,7 @@ static bool clear_edges(clip *c) {
 }
 
 /* New point where the edge meets the plane; the same bits from either side of it. */
-static bool cross(clip *c, uint32_t a, uint32_t b, uint32_t *point) {
+static bool cross_edge(clip *c, uint32_t a, uint32_t b, uint32_t *point) {
     shape *out = c->out;
     size_t dim = (size_t)c->dim;
     if (!array_reserve(c->alloc, &out->points, dim)) return false;
@@ -182,11 +182,11 @@ static bool edge_slot(clip *c, uint32_t a, uint32_t b, uint32_t *slot) {
     *slot = at;
     if (edges[at].kept != SHAPE_EMPTY) return true;
     edges[at] = (shape_edge){a, b, a, SHAPE_EMPTY};
-    return c->scratch->sides.data[a] == 0 || cross(c, a, b, &edges[at].point);
+    return c->scratch->sides.data[a] == 0 || cross_edge(c, a, b, &edges[at].point);
 }
 
 /* Appends a point to the last face unless it just was. */
-static bool add(clip *c, uint32_t point) {
+static bool add_point(clip *c, uint32_t point) {
     size_t first = c->out->starts.data[c->out->starts.count - 1];
     if (c->out->loops.count > first && c->out->loops.data[c->out->loops.count - 1] == point) return true;
     return array_push(c->alloc, &c->out->loops, point);
@@ -211,10 +211,10 @@ static bool clip_face(clip *c, const uint32_t *loop, uint32_t count) {
     uint32_t slot, exit = SHAPE_EMPTY, wait = SHAPE_EMPTY;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t a = loop[i], b = loop[i + 1 < count ? i + 1 : 0];
-        if (kept(c, a) && !add(c, a)) return false;
+        if (kept(c, a) && !add_point(c, a)) return false;
         if (kept(c, a) == kept(c, b)) continue;
         if (!edge_slot(c, kept(c, a) ? a : b, kept(c, a) ? b : a, &slot)) return false;
-        if (!add(c, c->scratch->edges.data[slot].point)) return false;
+        if (!add_point(c, c->scratch->edges.data[slot].point)) return false;
         if (kept(c, a))
             exit = slot;
         else if (exit != SHAPE_EMPTY)
@@ -234,7 +234,7 @@ static bool close_cut(clip *c) {
         if (edges[at].kept == SHAPE_EMPTY || edges[at].next == SHAPE_EMPTY) continue;
         while (edges[at].next != SHAPE_EMPTY) {
             uint32_t next = edges[at].next;
-            if (!add(c, edges[at].point)) return false;
+            if (!add_point(c, edges[at].point)) return false;
             edges[at].next = SHAPE_EMPTY;
             at = next;
         }

@@ -23,7 +23,7 @@ static double dot(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static void cross(const double *a, const double *b, double *out) {
+static void cross_vectors(const double *a, const double *b, double *out) {
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         out[k] = a[i] * b[j] - a[j] * b[i];
@@ -88,7 +88,7 @@ void view_camera_ray(const froe_projection *view, const double origin[3], int ax
 
 /* ---------------------------------------------------------------------- placing -- */
 
-static froe_status check(const froe_camera *c, froe_diagnostic *diag) {
+static froe_status check_camera(const froe_camera *c, froe_diagnostic *diag) {
     if (c->size != sizeof *c) return base_fail(diag, FROE_E_OPTIONS, "the camera is not from froe_camera_defaults()");
     for (int k = 0; k < 3; k++)
         if (!isfinite(c->eye[k]) || !isfinite(c->target[k]) || !isfinite(c->up[k]))
@@ -117,12 +117,12 @@ static froe_status set_axes(const froe_camera *c, froe_projection *out, froe_dia
         if (axis >= 0)
             for (int k = 0; k < 3; k++) up[k] = k == axis;
         if (!normalize(up)) continue;
-        cross(up, out->back, out->right);
+        cross_vectors(up, out->back, out->right);
         out->up_axis = axis;
         if (dot(out->right, out->right) > 1e-12) break;
     }
     normalize(out->right);
-    cross(out->back, out->right, out->up);
+    cross_vectors(out->back, out->right, out->up);
     return FROE_OK;
 }
 
@@ -133,7 +133,7 @@ typedef struct fit_points {
     ARRAY(double) own;
 } fit_points;
 
-static bool keep(const froe_allocator *alloc, fit_points *points, const double *x) {
+static bool keep_fit_point(const froe_allocator *alloc, fit_points *points, const double *x) {
     if (!array_reserve(alloc, &points->own, 3)) return false;
     memcpy(points->own.data + points->own.count, x, 3 * sizeof *x);
     points->own.count += 3;
@@ -145,10 +145,10 @@ static bool keep_edge(const froe_allocator *alloc, fit_points *points, const dou
                       const double *b) {
     const double at_a = dot(plane, a) - plane[3], at_b = dot(plane, b) - plane[3];
     double x[3];
-    if (at_a <= 0 && !keep(alloc, points, a)) return false;
+    if (at_a <= 0 && !keep_fit_point(alloc, points, a)) return false;
     if ((at_a <= 0) == (at_b <= 0)) return true;
     for (int k = 0; k < 3; k++) x[k] = a[k] + at_a / (at_a - at_b) * (b[k] - a[k]);
-    return keep(alloc, points, x);
+    return keep_fit_point(alloc, points, x);
 }
 
 static bool fit_points_new(const froe_camera *c, const froe_scene *scene, fit_points *out) {
@@ -224,7 +224,7 @@ static double extent_of(const froe_scene *scene) {
 }
 
 /* The corners of the page, in space, at the distance of the scene. */
-static void set_window(froe_projection *out, double distance) {
+static void set_view_window(froe_projection *out, double distance) {
     for (int i = 0; i < 4; i++) {
         const double x = (i == 1 || i == 2 ? out->width : 0) - out->centre[0],
                      y = out->centre[1] - (i < 2 ? 0 : out->height);
@@ -261,7 +261,7 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
         view.scale =
             camera->parallel ? camera->scale : (0.5 * camera->height - camera->margin) / view_tan(camera->fov / 2);
     if (status) return status;
-    set_window(&view, distance);
+    set_view_window(&view, distance);
     *out = view;
     return FROE_OK;
 }
@@ -273,7 +273,7 @@ froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene
     if (!camera || !scene || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (scene->dim != 3)
         return base_fail(diag, FROE_E_UNSUPPORTED, "cameras look at scenes in space, not in R^%d", scene->dim);
-    froe_status status = check(camera, diag);
+    froe_status status = check_camera(camera, diag);
     if (status) return status;
     const bool ok = fit_points_new(camera, scene, &points);
     status = ok ? put_in_place(camera, scene, &points, out, diag) : base_fail_memory(diag);

@@ -6,7 +6,7 @@ void print_free(print_press *press) {
     for (int i = 0; i < 2; i++) array_free(&press->alloc, &press->at[i]);
 }
 
-static bool put(print_press *p, int which, double x, double y, double z) {
+static bool put_on_page(print_press *p, int which, double x, double y, double z) {
     if (!array_reserve(&p->alloc, &p->at[which], 3)) return false;
     double *out = p->at[which].data + p->at[which].count;
     out[0] = x, out[1] = y, out[2] = z;
@@ -17,7 +17,7 @@ static bool put(print_press *p, int which, double x, double y, double z) {
 bool print_add(print_press *press, const double *point) {
     double at[3];
     view_camera_point(press->view, point, at);
-    return put(press, 0, at[0], at[1], at[2]);
+    return put_on_page(press, 0, at[0], at[1], at[2]);
 }
 
 /* Five half-spaces n . p + c >= 0: before the eye, and inside each side of the page, enlarged by `beyond` of its size.
@@ -51,11 +51,12 @@ static bool cut_side(print_press *p, int from, int side, bool *cut) {
         const double *a = ring + 3 * i, *b = ring + 3 * (i + 1 < count ? i + 1 : 0);
         const double at_a = n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c,
                      at_b = n[0] * b[0] + n[1] * b[1] + n[2] * b[2] + c;
-        if (at_a >= 0 && !put(p, !from, a[0], a[1], a[2])) return false;
+        if (at_a >= 0 && !put_on_page(p, !from, a[0], a[1], a[2])) return false;
         if (!(at_a >= 0)) *cut = true;
         if ((at_a >= 0) == (at_b >= 0)) continue;
         const double t = at_a / (at_a - at_b);
-        if (!put(p, !from, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]))) return false;
+        if (!put_on_page(p, !from, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])))
+            return false;
     }
     return true;
 }

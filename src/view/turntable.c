@@ -8,7 +8,7 @@
 #include <math.h>
 
 /* v turned about an axis of length 1 (Rodrigues 1840). */
-static void turn(const double *axis, double cosine, double sine, const double *v, double out[3]) {
+static void turn_about(const double *axis, double cosine, double sine, const double *v, double out[3]) {
     double along = 0;
     for (int k = 0; k < 3; k++) along += axis[k] * v[k];
     for (int k = 0; k < 3; k++) {
@@ -61,7 +61,7 @@ froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene,
                      half_s = 2 * t / (1 + t * t);
         cameras[i] = *camera;
         cameras[i].fit = true;
-        turn(axis, half_c * half_c - half_s * half_s, 2 * half_c * half_s, way, cameras[i].eye);
+        turn_about(axis, half_c * half_c - half_s * half_s, 2 * half_c * half_s, way, cameras[i].eye);
         for (int k = 0; k < 3; k++) cameras[i].target[k] = middle[k], cameras[i].eye[k] += middle[k];
         const froe_status status = fit(&cameras[i], scene, middle, &distance, &scale, diag);
         if (status) return status;

@@ -127,7 +127,7 @@ static bool scan(const search *s, worker *w, const frame *f) {
 }
 
 /* Do the boxes touch on the axes from 1 on, the point's low end in the interval on the frame's? */
-static bool touch(const box *interval, const box *point, int axis) {
+static bool intervals_touch(const box *interval, const box *point, int axis) {
     for (int k = 1; k < axis; k++)
         if (interval->lo[k] >= point->hi[k] || point->lo[k] >= interval->hi[k]) return false;
     return interval->lo[axis] < point->lo[axis] && point->lo[axis] < interval->hi[axis];
@@ -140,11 +140,11 @@ static bool scan_both(const search *s, worker *w, const frame *f) {
     while (interval < interval_end && point < point_end) {
         if (interval->lo[0] < point->lo[0]) {
             for (const box *p = point; p < point_end && p->lo[0] < interval->hi[0]; p++)
-                if (touch(interval, p, f->axis) && !found(s, w, interval, p)) return false;
+                if (intervals_touch(interval, p, f->axis) && !found(s, w, interval, p)) return false;
             interval++;
         } else {
             for (const box *i = interval; i < interval_end && i->lo[0] < point->hi[0]; i++)
-                if (touch(i, point, f->axis) && !found(s, w, i, point)) return false;
+                if (intervals_touch(i, point, f->axis) && !found(s, w, i, point)) return false;
             point++;
         }
     }
@@ -154,7 +154,7 @@ static bool scan_both(const search *s, worker *w, const frame *f) {
 /* ------------------------------------------------------------------- trees -- */
 
 /* Enters a node; its range shrinks to the low ends that are there. */
-static void push(worker *w, frame f) {
+static void push_frame(worker *w, frame f) {
     f.a = UINT32_MAX;
     f.b = 0;
     for (const box *p = w->arena.data + f.points, *end = p + f.point_count; p < end; p++) {
@@ -190,21 +190,21 @@ static void push_half(worker *w, const frame *f, uint32_t a, uint32_t b) {
         if (i->lo[f->axis] < b && i->hi[f->axis] > a && !spans(i, f)) *out++ = *i;
     half.interval_count = (size_t)(out - w->arena.data) - half.intervals;
     w->arena.count = half.intervals + half.interval_count;
-    push(w, half);
+    push_frame(w, half);
 }
 
 /* Takes one step of the node on top: the spanning intervals in both roles on the next axis, then the halves. */
-static void step(worker *w, frame *f) {
+static void step_frame(worker *w, frame *f) {
     uint32_t middle = f->a + (f->b - f->a) / 2;
     size_t spanning = w->arena.count - f->top;
     switch (f->step++) {
     case 0:
         copy_spanning(w, f);
         spanning = w->arena.count - f->top;
-        push(w, (frame){f->top, spanning, f->points, f->point_count, .axis = f->axis - 1});
+        push_frame(w, (frame){f->top, spanning, f->points, f->point_count, .axis = f->axis - 1});
         break;
     case 1:
-        push(w, (frame){f->points, f->point_count, f->top, spanning, .axis = f->axis - 1});
+        push_frame(w, (frame){f->points, f->point_count, f->top, spanning, .axis = f->axis - 1});
         break;
     case 2:
         push_half(w, f, f->a, middle);
@@ -217,14 +217,14 @@ static void step(worker *w, frame *f) {
     }
 }
 
-static froe_status run(const search *s, worker *w) {
+static froe_status run_box_search(const search *s, worker *w) {
     while (w->depth) {
         frame *f = &w->stack[w->depth - 1];
         if (f->step != 1) w->arena.count = f->top; /* step 1 uses what step 0 copied */
         size_t less = f->interval_count < f->point_count ? f->interval_count : f->point_count;
         if (f->axis && less >= SMALL) {
             if (!array_reserve(s->alloc, &w->arena, f->interval_count + f->point_count)) return FROE_E_MEMORY;
-            step(w, f);
+            step_frame(w, f);
             continue;
         }
         w->depth--;
@@ -255,8 +255,8 @@ static froe_status run_slab(void *user, unsigned number, size_t slab) {
         if (!points) all.interval_count = all.points = w->arena.count;
     }
     all.point_count = w->arena.count - all.points;
-    push(w, all);
-    return run(s, w);
+    push_frame(w, all);
+    return run_box_search(s, w);
 }
 
 froe_status geom_box_pairs(const froe_allocator *alloc, base_task *task, double span, int dim, uint32_t count,

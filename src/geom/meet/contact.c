@@ -27,7 +27,7 @@
 
 static const geom_contact apart = {GEOM_APART, GEOM_TOUCH_SOMEHOW}, overlap = {GEOM_OVERLAP, GEOM_TOUCH_SOMEHOW};
 
-static geom_contact touch(geom_touch how) {
+static geom_contact contact_by_touch(geom_touch how) {
     return (geom_contact){GEOM_TOUCH, how};
 }
 
@@ -42,7 +42,7 @@ static geom_contact on_line(const double *const p[2], const double *const q[2]) 
     int i = less(p[0], p[1]) ? 0 : 1, j = less(q[0], q[1]) ? 0 : 1;
     if (less(p[i], q[1 - j]) && less(q[j], p[1 - i])) return overlap;
     bool common = geom_same_point(p[i], q[1 - j], 2) || geom_same_point(q[j], p[1 - i], 2);
-    return common ? touch(GEOM_TOUCH_AT_CORNER) : apart;
+    return common ? contact_by_touch(GEOM_TOUCH_AT_CORNER) : apart;
 }
 
 geom_contact geom_contact_segments(num_context *context, const geom_body *a, const geom_body *b) {
@@ -56,7 +56,7 @@ geom_contact geom_contact_segments(num_context *context, const geom_body *a, con
     if (other[0] * other[1] > 0) return apart;
     bool across = side[0] * side[1] < 0, crossed = other[0] * other[1] < 0;
     if (across && crossed) return (geom_contact){GEOM_CROSS, GEOM_TOUCH_SOMEHOW};
-    return touch(across || crossed ? GEOM_TOUCH_JUNCTION : GEOM_TOUCH_AT_CORNER);
+    return contact_by_touch(across || crossed ? GEOM_TOUCH_JUNCTION : GEOM_TOUCH_AT_CORNER);
 }
 
 /* ------------------------------------------------------- boxes, points, balls -- */
@@ -85,7 +85,7 @@ static geom_contact meet_boxes(const geom_body *a, const geom_body *b) {
                           : flat_y         ? x[0] < lo && lo < x[1]
                                            : lo < hi);
     }
-    if (!inner) return touch(corner ? GEOM_TOUCH_AT_CORNER : GEOM_TOUCH_SOMEHOW);
+    if (!inner) return contact_by_touch(corner ? GEOM_TOUCH_AT_CORNER : GEOM_TOUCH_SOMEHOW);
     int least = rank_a < rank_b ? rank_a : rank_b;
     return (geom_contact){rank == least ? GEOM_OVERLAP : GEOM_CROSS, GEOM_TOUCH_SOMEHOW};
 }
@@ -95,7 +95,7 @@ static geom_contact meet_ball(num_context *context, const geom_body *ball, const
     const double *centre = geom_body_point(ball, 0);
     geom_distance d = geom_distance_from(context, centre, b);
     int sign = geom_distance_compare_to(context, centre, &d, ball->radius);
-    return sign > 0 ? apart : sign < 0 ? overlap : touch(GEOM_TOUCH_SOMEHOW);
+    return sign > 0 ? apart : sign < 0 ? overlap : contact_by_touch(GEOM_TOUCH_SOMEHOW);
 }
 
 /* --------------------------------------------------------------- polytopes -- */
@@ -185,12 +185,13 @@ static bool meet_elsewhere(num_context *context, const geom_body *a, const geom_
 
 static geom_contact meet_polytopes(num_context *context, const geom_body *a, const geom_body *b) {
     uint32_t i, j;
-    if (common_corner(a, b, &i, &j) && !meet_elsewhere(context, a, b, i, j)) return touch(GEOM_TOUCH_AT_CORNER);
+    if (common_corner(a, b, &i, &j) && !meet_elsewhere(context, a, b, i, j))
+        return contact_by_touch(GEOM_TOUCH_AT_CORNER);
     geom_gap gap = geom_gap_between(context, a, b);
     if (!gap.zero) return apart;
     pair p = {.context = context, .a = a, .b = b, .i = gap.a[0], .j = gap.b[0]};
     add_directions(&p, &gap);
-    if (!inside(&p)) return touch(GEOM_TOUCH_SOMEHOW);
+    if (!inside(&p)) return contact_by_touch(GEOM_TOUCH_SOMEHOW);
     int rank_a = geom_body_rank(context, a), rank_b = geom_body_rank(context, b);
     int most = rank_a > rank_b ? rank_a : rank_b; /* rank of the meet = rank_a + rank_b - rank of C */
     return (geom_contact){p.rank == most ? GEOM_OVERLAP : GEOM_CROSS, GEOM_TOUCH_SOMEHOW};

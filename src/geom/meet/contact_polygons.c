@@ -23,23 +23,23 @@ typedef struct polygon {
     bool front, behind, on; /* are there such corners? */
 } polygon;
 
-static const double *corner(const polygon *p, uint32_t i) {
+static const double *polygon_corner(const polygon *p, uint32_t i) {
     return geom_body_point(p->body, i < p->count ? i : 0);
 }
 
 static bool has_corner(const polygon *p, const double *x) {
     for (uint32_t i = 0; i < p->count; i++)
-        if (geom_same_point(corner(p, i), x, 3)) return true;
+        if (geom_same_point(polygon_corner(p, i), x, 3)) return true;
     return false;
 }
 
 /* False: all corners are strictly on one side, and the polygons apart. */
 static bool find_sides(polygon *p, const polygon *other) {
-    geom_plane plane =
-        geom_plane_points(3, (const double *const[]){corner(other, 0), corner(other, 1), corner(other, 2)});
+    geom_plane plane = geom_plane_points(
+        3, (const double *const[]){polygon_corner(other, 0), polygon_corner(other, 1), polygon_corner(other, 2)});
     for (uint32_t i = 0; i < p->count; i++) {
-        bool common = has_corner(other, corner(p, i));
-        int side = common ? 0 : geom_side_vertex(p->context, &plane, corner(p, i));
+        bool common = has_corner(other, polygon_corner(p, i));
+        int side = common ? 0 : geom_side_vertex(p->context, &plane, polygon_corner(p, i));
         p->sides[i] = (signed char)side;
         p->front |= side > 0;
         p->behind |= side < 0;
@@ -56,8 +56,8 @@ static void find_edge(const polygon *p, bool up, const double *ends[2]) {
         bool from = p->sides[i] < 0, to = p->sides[i + 1 < p->count ? i + 1 : 0] < 0;
         if (up ? from && !to : !from && to) break;
     }
-    ends[0] = corner(p, up ? i : i + 1);
-    ends[1] = corner(p, up ? i + 1 : i);
+    ends[0] = polygon_corner(p, up ? i : i + 1);
+    ends[1] = polygon_corner(p, up ? i + 1 : i);
 }
 
 /* Order along D of the points where edges of P and Q meet the line: 1 when Q's comes later. */
@@ -76,21 +76,22 @@ static bool pierce(const polygon *p, const polygon *q) {
 
 /* A projection that keeps the polygon's area, and which way it turns there. */
 static int projection(const polygon *p, int *axis) {
-    *axis = geom_projection_axis(p->context, corner(p, 0), corner(p, 1), corner(p, 2));
-    return geom_projected_turn(p->context, *axis, corner(p, 0), corner(p, 1), corner(p, 2));
+    *axis = geom_projection_axis(p->context, polygon_corner(p, 0), polygon_corner(p, 1), polygon_corner(p, 2));
+    return geom_projected_turn(p->context, *axis, polygon_corner(p, 0), polygon_corner(p, 1), polygon_corner(p, 2));
 }
 
 /* Is x, a point of the plane of p, in p? */
 static bool contains(const polygon *p, const double *x) {
     int axis, way = projection(p, &axis);
     for (uint32_t i = 0; i < p->count; i++)
-        if (geom_projected_turn(p->context, axis, corner(p, i), corner(p, i + 1), x) == -way) return false;
+        if (geom_projected_turn(p->context, axis, polygon_corner(p, i), polygon_corner(p, i + 1), x) == -way)
+            return false;
     return true;
 }
 
 static bool holds_corner(const polygon *p, const polygon *q) {
     for (uint32_t i = 0; i < q->count; i++)
-        if (q->sides[i] == 0 && !has_corner(p, corner(q, i)) && contains(p, corner(q, i))) return true;
+        if (q->sides[i] == 0 && !has_corner(p, polygon_corner(q, i)) && contains(p, polygon_corner(q, i))) return true;
     return false;
 }
 
@@ -99,8 +100,8 @@ static bool separates(const polygon *p, const polygon *q) {
     int axis, way = projection(p, &axis);
     for (uint32_t i = 0; i < p->count; i++) {
         uint32_t j = 0;
-        while (j < q->count &&
-               geom_projected_turn(p->context, axis, corner(p, i), corner(p, i + 1), corner(q, j)) != way)
+        while (j < q->count && geom_projected_turn(p->context, axis, polygon_corner(p, i), polygon_corner(p, i + 1),
+                                                   polygon_corner(q, j)) != way)
             j++;
         if (j == q->count) return true;
     }
@@ -111,8 +112,8 @@ static bool separates(const polygon *p, const polygon *q) {
 static bool line_meets(const polygon *p, const double *u, const double *v) {
     int ways = 0;
     for (uint32_t i = 0; i < p->count; i++) {
-        geom_plane plane = geom_plane_points(3, (const double *const[]){u, v, corner(p, i)});
-        int side = geom_side_vertex(p->context, &plane, corner(p, i + 1));
+        geom_plane plane = geom_plane_points(3, (const double *const[]){u, v, polygon_corner(p, i)});
+        int side = geom_side_vertex(p->context, &plane, polygon_corner(p, i + 1));
         ways |= side > 0 ? 1 : side < 0 ? 2 : 0;
     }
     return ways != 3;
@@ -121,7 +122,7 @@ static bool line_meets(const polygon *p, const double *u, const double *v) {
 /* Is the line between two corners of p an edge of it? */
 static bool is_edge(const polygon *p, const double *a, const double *b) {
     for (uint32_t i = 0; i < p->count; i++) {
-        const double *c = corner(p, i), *d = corner(p, i + 1);
+        const double *c = polygon_corner(p, i), *d = polygon_corner(p, i + 1);
         if (geom_same_point(a, c, 3) && geom_same_point(b, d, 3)) return true;
         if (geom_same_point(a, d, 3) && geom_same_point(b, c, 3)) return true;
     }
@@ -132,7 +133,7 @@ static bool is_edge(const polygon *p, const double *a, const double *b) {
  * corner of either in the other but common ones, this is the only way left to meet. */
 static bool edge_touches(const polygon *p, const polygon *q) {
     for (uint32_t i = 0, j = q->count - 1; i < q->count; j = i++) {
-        const double *a = corner(q, j), *b = corner(q, i);
+        const double *a = polygon_corner(q, j), *b = polygon_corner(q, i);
         if (q->sides[j] * q->sides[i] < 0 && line_meets(p, a, b)) return true;
         if (!q->sides[j] && !q->sides[i] && has_corner(p, a) && has_corner(p, b) && !is_edge(p, a, b)) return true;
     }
@@ -141,7 +142,7 @@ static bool edge_touches(const polygon *p, const polygon *q) {
 
 static uint32_t common_corners(const polygon *p, const polygon *q) {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < p->count; i++) count += has_corner(q, corner(p, i));
+    for (uint32_t i = 0; i < p->count; i++) count += has_corner(q, polygon_corner(p, i));
     return count;
 }
 

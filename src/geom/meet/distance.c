@@ -165,7 +165,7 @@ static bool round_box(const double *point, const geom_distance *a, double *out) 
 }
 
 /* q - p, in the plane with a third coordinate 0. */
-static double between(int dim, const double *p, const double *q, num_pair out[3]) {
+static double difference_between(int dim, const double *p, const double *q, num_pair out[3]) {
     const double a[3] = {p[0], p[1], dim == 3 ? p[2] : 0}, b[3] = {q[0], q[1], dim == 3 ? q[2] : 0};
     return num_pair_between(a, b, out);
 }
@@ -175,9 +175,9 @@ static double between(int dim, const double *p, const double *q, num_pair out[3]
  * by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f| |v|, as n by 2^-96 |e| |f|. */
 static bool round_simplex(const double *point, const geom_distance *a, double *out) {
     num_pair v[3], e[3], f[3], n[3], s;
-    double sizes[3] = {between(a->dim, point, a->corner[0], v), 1, 1}, error = 0;
-    if (a->count > 1) sizes[1] = between(a->dim, a->corner[0], a->corner[1], e);
-    if (a->count > 2) sizes[2] = between(a->dim, a->corner[0], a->corner[2], f);
+    double sizes[3] = {difference_between(a->dim, point, a->corner[0], v), 1, 1}, error = 0;
+    if (a->count > 1) sizes[1] = difference_between(a->dim, a->corner[0], a->corner[1], e);
+    if (a->count > 2) sizes[2] = difference_between(a->dim, a->corner[0], a->corner[2], f);
     for (int i = 0; i < 3; i++)
         if (!(sizes[i] > 0x1p-100 && sizes[i] < 0x1p100)) return false;
     if (a->count == 1) {

@@ -48,7 +48,7 @@ static bool vanishes(num_context *context, const geom_differences *s, uint32_t i
 }
 
 /* Any difference that counts, to begin with. */
-static bool begin(num_context *context, const geom_differences *s, geom_gap *g) {
+static bool begin_gap(num_context *context, const geom_differences *s, geom_gap *g) {
     uint32_t n = geom_body_corners(s->a), m = geom_body_corners(s->b);
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < m; j++) {
@@ -62,7 +62,7 @@ static bool begin(num_context *context, const geom_differences *s, geom_gap *g) 
 
 bool geom_gap_among(num_context *context, const geom_differences *set, geom_gap *out) {
     geom_gap guess;
-    if (!begin(context, set, &guess)) return false;
+    if (!begin_gap(context, set, &guess)) return false;
     context->stats.calls++;
     if (context->first == NUM_FILTER) plain_search(NULL, set, &guess, GUESS_STEPS);
     *out = guess;

@@ -157,7 +157,7 @@ double geom_hit_round(num_context *context, const geom_ray *ray, const geom_hit 
 /* ------------------------------------------------------------------- sides -- */
 
 /* As filter_sum (geom/filter.h): two differences, two products, one more difference. */
-static int beside(num_context *context, const geom_ray *ray, const double *p) {
+static int side_beside_ray(num_context *context, const geom_ray *ray, const double *p) {
     double a = ray->d[0] * (p[1] - ray->o[1]), b = ray->d[1] * (p[0] - ray->o[0]);
     context->stats.calls++;
     if (context->first == NUM_FILTER) {
@@ -285,7 +285,7 @@ static bool meets_along(num_context *context, const geom_ray *ray, const double 
 
 static bool meets_segment_2d(num_context *context, const geom_ray *ray, const double *p, const double *q,
                              geom_hit *first) {
-    int at_p = beside(context, ray, p), at_q = beside(context, ray, q);
+    int at_p = side_beside_ray(context, ray, p), at_q = side_beside_ray(context, ray, q);
     if (at_p * at_q > 0) return false;
     if (!at_p && !at_q) return meets_along(context, ray, p, q, first);
     geom_plane line = geom_plane_points(2, (const double *const[]){p, q});

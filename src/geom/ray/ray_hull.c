@@ -32,7 +32,7 @@ typedef struct program {
 #include "geom/ray/ray_hull_body.inc"
 
 /* Some corners whose shadows hold the line; false: it misses the hull. */
-static bool begin(num_context *context, program *lp) {
+static bool begin_program(num_context *context, program *lp) {
     geom_body origin = geom_body_at(lp->ray->dim, lp->ray->o);
     geom_differences shadows = {.a = lp->body, .b = &origin, .along = true};
     geom_gap gap;
@@ -93,7 +93,7 @@ static geom_hit hit_of(num_context *context, const program *lp) {
 
 bool geom_ray_meets_hull(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
     program lp = {.ray = ray, .body = body};
-    if (!begin(context, &lp)) return false;
+    if (!begin_program(context, &lp)) return false;
     solve(context, &lp);
     geom_hit hit = hit_of(context, &lp);
     if (geom_hit_sign(context, ray, &hit) < 0) { /* entered before it begins: is the origin inside, or all behind it? */

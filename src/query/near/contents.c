@@ -38,7 +38,7 @@ static void add_box(size_t dim, double *to, const double *lo, const double *hi) 
 }
 
 /* Puts the box of what a node has in place of its region; its children's boxes are there. */
-static void gather(query_contents *c, const froe_tree *t, uint32_t node) {
+static void gather_contents(query_contents *c, const froe_tree *t, uint32_t node) {
     const size_t dim = c->dim;
     const tree_objects list = tree_list(t, node);
     double *box = box_of(c, node), held[2 * FROE_MAX_DIM], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -58,7 +58,7 @@ static void gather(query_contents *c, const froe_tree *t, uint32_t node) {
     memcpy(box, held, 2 * dim * sizeof *box);
 }
 
-static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+static froe_status make_contents(froe_query *q, query_part **out, froe_diagnostic *diag) {
     query_contents *c = base_calloc(&q->alloc, 1, sizeof *c);
     if (!c) return base_fail_memory(diag);
     c->part.free = free_contents;
@@ -68,13 +68,13 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
     c->boxes = base_calloc(&q->alloc, c->node_count * 2 * c->dim, sizeof *c->boxes);
     if (!c->boxes) return base_fail_memory(diag);
     lay_regions(c, q->tree);
-    for (uint32_t v = q->tree->node_count; v-- > 0;) gather(c, q->tree, v);
+    for (uint32_t v = q->tree->node_count; v-- > 0;) gather_contents(c, q->tree, v);
     return FROE_OK;
 }
 
 froe_status query_contents_of(froe_query *query, const query_contents **out, froe_diagnostic *diag) {
     const query_part *part;
-    const froe_status status = query_prepare(query, QUERY_CONTENTS, make, &part, diag);
+    const froe_status status = query_prepare(query, QUERY_CONTENTS, make_contents, &part, diag);
     if (status == FROE_OK) *out = (const query_contents *)part;
     return status;
 }

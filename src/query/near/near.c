@@ -45,7 +45,7 @@ static void lower_limit(froe_query *q) {
 }
 
 /* Takes a neighbour among the k best, in place of the worst if there are k. False: no memory. */
-static bool take(froe_query *q, const query_neighbour *x, size_t k) {
+static bool take_neighbour(froe_query *q, const query_neighbour *x, size_t k) {
     query_near *n = &q->near;
     if (n->order.count < k) {
         if (!array_reserve(&q->alloc, &n->found, 2) || !array_reserve(&q->alloc, &n->order, 1)) return false;
@@ -70,7 +70,7 @@ static bool beyond_limit(froe_query *q, uint32_t object) {
 }
 
 /* False: it is beyond the bound. */
-static bool measure(froe_query *q, const geom_body *body, double bound, query_neighbour *out) {
+static bool measure_neighbour(froe_query *q, const geom_body *body, double bound, query_neighbour *out) {
     out->distance = geom_distance_from(&q->numbers, q->near.point, body);
     return geom_distance_compare_to(&q->numbers, q->near.point, &out->distance, bound) <= 0;
 }
@@ -83,10 +83,10 @@ static bool look_up(froe_query *q, const tree_objects *list, uint32_t i, size_t 
     if (!q->near.packed && beyond_limit(q, object)) return true; /* packed trees have looked at more than boxes */
     const geom_body body = scene_body(q->tree->scene, object);
     query_neighbour x = {.square = NAN, .object = object};
-    return !measure(q, &body, bound, &x) || take(q, &x, k);
+    return !measure_neighbour(q, &body, bound, &x) || take_neighbour(q, &x, k);
 }
 
-static froe_status find(froe_query *q, size_t k, double bound, froe_diagnostic *diag) {
+static froe_status find_neighbours(froe_query *q, size_t k, double bound, froe_diagnostic *diag) {
     tree_objects list;
     q->near.one = k == 1;
     froe_status status = query_near_begin(q, diag);
@@ -114,7 +114,7 @@ static froe_status find_points(froe_query *q, size_t k, double bound, bool *done
         query_neighbour *x = n->found.data + n->found.count;
         x->square = c->square;
         x->object = c->object;
-        if (!measure(q, &body, bound, x)) continue;
+        if (!measure_neighbour(q, &body, bound, x)) continue;
         n->order.data[n->order.count++] = (uint32_t)n->found.count++;
     }
     query_heap_sort(n->order.data, n->order.count, further, q);
@@ -152,7 +152,7 @@ froe_status froe_query_near(froe_query *query, const double *point, size_t k, do
     n->limit = INFINITY;
     bool done = false;
     if (k) status = find_points(query, k, bound, &done, diag);
-    if (!status && !done) status = find(query, k, bound, diag);
+    if (!status && !done) status = find_neighbours(query, k, bound, diag);
     query->stats.exact += query->numbers.stats.exact - exact;
     if (status == FROE_E_MEMORY || (!status && !deliver(query))) return base_fail_memory(diag);
     if (!status) *out = (froe_neighbours){n->out.data, n->out.count};

@@ -38,7 +38,7 @@ static double box_square(const query_near *n, const query_contents *c, uint32_t 
 /* ----------------------------------------------------------------- k best -- */
 
 /* Puts a square on the heap of the k least, the greatest on top, in place of that if there are k. */
-static void keep(query_near *n, double square, size_t k) {
+static void keep_point(query_near *n, double square, size_t k) {
     double *heap = n->best.data;
     size_t i;
     if (n->best.count < k) {
@@ -65,7 +65,7 @@ static void sift(query_near *n) {
 }
 
 /* Room for one list more: candidates stay within twice k and some, but for ties. */
-static bool make_room(froe_query *q, size_t k, size_t count) {
+static bool reserve_neighbours(froe_query *q, size_t k, size_t count) {
     query_near *n = &q->near;
     if (n->candidates.count > 2 * k + 64) sift(n);
     return array_reserve(&q->alloc, &n->candidates, count) && array_reserve(&q->alloc, &n->best, count < k ? count : k);
@@ -75,13 +75,13 @@ static bool scan(froe_query *q, const query_pieces *pieces, const tree_objects *
     query_near *n = &q->near;
     const size_t dim = (size_t)q->tree->scene->dim;
     const double *at = pieces->points + list->first * dim;
-    if (!make_room(q, k, list->count)) return false;
+    if (!reserve_neighbours(q, k, list->count)) return false;
     for (uint32_t i = 0; i < list->count; i++, at += dim) {
         double square = 0;
         for (size_t j = 0; j < dim; j++) square += square_of(at[j] * n->scale - n->scaled[j]);
         if (!(square <= n->limit)) continue;
         n->candidates.data[n->candidates.count++] = (query_candidate){square, at, tree_object(list, i)};
-        keep(n, square, k);
+        keep_point(n, square, k);
     }
     q->stats.tests += list->count;
     return true;
@@ -97,7 +97,8 @@ static bool wait(froe_query *q, uint32_t node, double square) {
 }
 
 /* From a node to the nearest leaf below; what is further away waits. */
-static bool descend(froe_query *q, const query_contents *c, const query_pieces *pieces, uint32_t node, size_t k) {
+static bool descend_nearer_child(froe_query *q, const query_contents *c, const query_pieces *pieces, uint32_t node,
+                                 size_t k) {
     const froe_tree *t = q->tree;
     for (;;) {
         const tree_node *at = t->nodes + node;
@@ -116,12 +117,12 @@ static bool descend(froe_query *q, const query_contents *c, const query_pieces *
     }
 }
 
-static bool walk(froe_query *q, const query_contents *c, const query_pieces *pieces, size_t k) {
+static bool walk_points(froe_query *q, const query_contents *c, const query_pieces *pieces, size_t k) {
     query_near *n = &q->near;
     bool memory = wait(q, 0, box_square(n, c, 0));
     while (memory && n->places.count) {
         const query_place at = n->places.data[--n->places.count];
-        if (at.bound <= n->limit) memory = descend(q, c, pieces, at.node, k);
+        if (at.bound <= n->limit) memory = descend_nearer_child(q, c, pieces, at.node, k);
     }
     return memory;
 }
@@ -139,7 +140,7 @@ froe_status query_near_points(froe_query *q, size_t k, double bound, bool *done,
     n->scale = query_near_scale(q->tree->scene, n->point);
     n->limit = bound < INFINITY ? query_near_reach(query_near_square(n, bound)) : (double)INFINITY;
     for (size_t i = 0; i < contents->dim; i++) n->scaled[i] = n->point[i] * n->scale;
-    if (!walk(q, contents, pieces, k)) return FROE_E_MEMORY;
+    if (!walk_points(q, contents, pieces, k)) return FROE_E_MEMORY;
     sift(n);
     return FROE_OK;
 }

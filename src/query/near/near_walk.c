@@ -74,7 +74,7 @@ static bool nearer(void *user, uint32_t a, uint32_t b) {
     return n->places.data[a].bound < n->places.data[b].bound;
 }
 
-static bool push(froe_query *q, query_place at) {
+static bool push_region(froe_query *q, query_place at) {
     query_near *n = &q->near;
     uint32_t place = (uint32_t)n->places.count;
     if (at.bound > n->limit || isinf(at.bound)) return true;
@@ -92,7 +92,7 @@ static bool push(froe_query *q, query_place at) {
 }
 
 /* Takes the nearest place off the heap. */
-static bool pop(query_near *n) {
+static bool pop_region(query_near *n) {
     if (!n->heap.count || n->places.data[n->heap.data[0]].bound > n->limit) return false;
     const uint32_t place = n->heap.data[0];
     n->heap.data[0] = n->heap.data[--n->heap.count];
@@ -105,7 +105,7 @@ static bool pop(query_near *n) {
 /* ----------------------------------------------------------------- walking -- */
 
 /* On to the nearer child, unless something nearer waits. False without memory. */
-static bool go_on(froe_query *q, const query_contents *c, uint32_t child) {
+static bool go_on_to_child(froe_query *q, const query_contents *c, uint32_t child) {
     query_near *n = &q->near;
     query_place near = {bound_of(n, c, child), child}, far = {bound_of(n, c, child + 1), child + 1};
     if (far.bound < near.bound) {
@@ -114,8 +114,8 @@ static bool go_on(froe_query *q, const query_contents *c, uint32_t child) {
         far = swap;
     }
     n->at.node = FROE_NONE;
-    if (!push(q, far)) return false;
-    if (n->heap.count && n->places.data[n->heap.data[0]].bound < near.bound) return push(q, near);
+    if (!push_region(q, far)) return false;
+    if (n->heap.count && n->places.data[n->heap.data[0]].bound < near.bound) return push_region(q, near);
     if (near.bound <= n->limit && !isinf(near.bound)) n->at = near;
     return true;
 }
@@ -127,13 +127,13 @@ froe_status query_near_next(froe_query *q, tree_objects *list) {
     const query_contents *contents;
     froe_status status = query_contents_of(q, &contents, NULL); /* they are there */
     list->count = 0;
-    while (!status && (n->at.node != FROE_NONE || pop(n))) {
+    while (!status && (n->at.node != FROE_NONE || pop_region(n))) {
         const tree_node *node = t->nodes + n->at.node;
         *list = tree_list(t, n->at.node);
         q->stats.nodes++;
         q->stats.leaves += tree_is_leaf(node);
         n->at.node = FROE_NONE;
-        if (!tree_is_leaf(node) && !go_on(q, contents, node->child)) status = FROE_E_MEMORY;
+        if (!tree_is_leaf(node) && !go_on_to_child(q, contents, node->child)) status = FROE_E_MEMORY;
         if (list->count) break;
     }
     return status;

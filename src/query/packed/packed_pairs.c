@@ -60,7 +60,7 @@ static bool precedes(const double *a, const double *b) {
     return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
 }
 
-static bool holds(pairing *p, const double *const s[2], const double *x) {
+static bool segment_holds(pairing *p, const double *const s[2], const double *x) {
     return query_segment_meets_box(&p->q->numbers, s[0], s[1], x, x);
 }
 
@@ -68,15 +68,15 @@ static bool holds(pairing *p, const double *const s[2], const double *x) {
 static bool end_here(pairing *p, const double *const a[2], const double *const b[2]) {
     const double *first = NULL;
     for (int i = 0; i < 2; i++) {
-        if ((!first || precedes(a[i], first)) && holds(p, b, a[i])) first = a[i];
-        if ((!first || precedes(b[i], first)) && holds(p, a, b[i])) first = b[i];
+        if ((!first || precedes(a[i], first)) && segment_holds(p, b, a[i])) first = a[i];
+        if ((!first || precedes(b[i], first)) && segment_holds(p, a, b[i])) first = b[i];
     }
     return first && is_here(p, first);
 }
 
 /* ------------------------------------------------------------------- pairs -- */
 
-static void gather(pairing *p, uint32_t a, uint32_t b, froe_meeting kind) {
+static void gather_pair(pairing *p, uint32_t a, uint32_t b, froe_meeting kind) {
     if (!p->status) p->status = pair_lists_add(&p->search->lists, p->worker, a, b, kind);
 }
 
@@ -89,7 +89,7 @@ static const double *only_corner(pairing *p, const double *const a[2], const dou
     return NULL;
 }
 
-static void decide(pairing *p, uint32_t a, uint32_t b) {
+static void decide_pair(pairing *p, uint32_t a, uint32_t b) {
     static const froe_meeting kinds[GEOM_CONTACTS] = {
         [GEOM_CROSS] = FROE_MEET_CROSS, [GEOM_TOUCH] = FROE_MEET_TOUCH, [GEOM_OVERLAP] = FROE_MEET_OVERLAP};
     const froe_scene *s = p->q->tree->scene;
@@ -100,19 +100,19 @@ static void decide(pairing *p, uint32_t a, uint32_t b) {
     packed_ends(s, b, v);
     const double *corner = only_corner(p, u, v);
     if (corner) {
-        if (p->search->shared && is_here(p, corner)) gather(p, a, b, FROE_MEET_TOUCH);
+        if (p->search->shared && is_here(p, corner)) gather_pair(p, a, b, FROE_MEET_TOUCH);
         return;
     }
     const geom_body one = scene_body(s, a), other = scene_body(s, b);
     const geom_contact c = geom_contact_of(&p->q->numbers, &one, &other, sides);
     if (c.kind == GEOM_APART) return;
     if (!p->search->shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) return;
-    if (c.kind == GEOM_CROSS ? crossing_here(p, u, v) : end_here(p, u, v)) gather(p, a, b, kinds[c.kind]);
+    if (c.kind == GEOM_CROSS ? crossing_here(p, u, v) : end_here(p, u, v)) gather_pair(p, a, b, kinds[c.kind]);
 }
 
 /* Asks for coordinates: each of the three loads that lead to them waits for the one before, but not for those of
  * other objects. */
-static void ask_for(const froe_scene *s, const uint32_t *objects, size_t count) {
+static void prefetch_objects(const froe_scene *s, const uint32_t *objects, size_t count) {
     for (size_t i = 0; i < count; i++) __builtin_prefetch(s->starts + objects[i]);
     for (size_t i = 0; i < count; i++) __builtin_prefetch(s->corners + s->starts[objects[i]]);
     for (size_t i = 0; i < count; i++) {
@@ -126,8 +126,8 @@ static void decide_open(pairing *p) {
     const uint32_t *open = p->q->packed->candidates.data;
     const size_t count = p->q->packed->candidates.count;
     for (size_t i = 0; i < count && !p->status; i += 2) {
-        if (i % ASKED == 0) ask_for(p->q->tree->scene, open + i, count - i < ASKED ? count - i : ASKED);
-        decide(p, open[i], open[i + 1]);
+        if (i % ASKED == 0) prefetch_objects(p->q->tree->scene, open + i, count - i < ASKED ? count - i : ASKED);
+        decide_pair(p, open[i], open[i + 1]);
     }
     p->q->packed->candidates.count = 0;
 }
@@ -146,7 +146,7 @@ static void pair_row(pairing *p, const uint32_t *ids, uint32_t count, uint32_t i
         for (uint32_t bits = row->crossing[word] | row->unsure[word]; bits && !p->status; bits &= bits - 1) {
             uint32_t bit = (uint32_t)__builtin_ctz(bits), j = word * PACKED_LANES + bit;
             if (row->crossing[word] >> bit & 1)
-                gather(p, ids[i] & PACKED_OBJECT, ids[j] & PACKED_OBJECT, FROE_MEET_CROSS);
+                gather_pair(p, ids[i] & PACKED_OBJECT, ids[j] & PACKED_OBJECT, FROE_MEET_CROSS);
             else
                 leave_open(p, ids[i] & PACKED_OBJECT, ids[j] & PACKED_OBJECT);
         }

@@ -25,7 +25,7 @@ typedef struct climb {
 #define NO_TABLE UINT32_MAX
 
 /* At a leaf: asks for its block. */
-static void arrive(const froe_tree *t, climb *c, uint32_t block, uint32_t count) {
+static void arrive_at_block(const froe_tree *t, climb *c, uint32_t block, uint32_t count) {
     const uint8_t *bytes = t->packed.blocks + (size_t)block * PACKED_BLOCK;
     c->block = block;
     c->count = count;
@@ -33,7 +33,7 @@ static void arrive(const froe_tree *t, climb *c, uint32_t block, uint32_t count)
 }
 
 /* Goes down to the leaf where the ray begins or enters; what comes after it on its way waits. */
-static void descend(const froe_tree *t, climb *c, int direction, uint32_t node) {
+static void descend_from(const froe_tree *t, climb *c, int direction, uint32_t node) {
     const tree_node *n = t->nodes + node;
     for (; !tree_is_leaf(n); c->nodes++) {
         uint32_t upper = c->point[n->axis] >= n->u.value, ahead = n->axis == 1 && (direction > 0) == !upper;
@@ -41,22 +41,22 @@ static void descend(const froe_tree *t, climb *c, int direction, uint32_t node) 
         c->waiting += ahead;
         n = t->nodes + n->child + upper;
     }
-    arrive(t, c, n->child, n->u.list.count);
+    arrive_at_block(t, c, n->child, n->u.list.count);
 }
 
 /* To where an entry of the table says. */
-static void enter(const froe_tree *t, climb *c, int direction, tree_entry entry) {
+static void enter_column(const froe_tree *t, climb *c, int direction, tree_entry entry) {
     c->last = entry;
     if (entry.kind & TABLE_LEAF)
-        arrive(t, c, entry.at, entry.kind & ~TABLE_LEAF);
+        arrive_at_block(t, c, entry.at, entry.kind & ~TABLE_LEAF);
     else
-        descend(t, c, direction, entry.at);
+        descend_from(t, c, direction, entry.at);
 }
 
 static void begin_at_root(const froe_tree *t, climb *c, int direction) {
     c->column = NO_TABLE;
     c->waiting = 0;
-    descend(t, c, direction, 0);
+    descend_from(t, c, direction, 0);
 }
 
 /* Is the point in the core of a column, so that the column is the ray's? */
@@ -68,7 +68,7 @@ static bool find_column(const tree_table *table, climb *c) {
 }
 
 /* To its first leaf. */
-static void begin(const froe_tree *t, climb *c, int direction) {
+static void begin_climb(const froe_tree *t, climb *c, int direction) {
     const tree_table *table = t->packed.table;
     uint32_t from, to;
     c->waiting = 0;
@@ -78,14 +78,14 @@ static void begin(const froe_tree *t, climb *c, int direction) {
     }
     tree_table_span(table, 1, c->point[1], c->point[1], &from, &to);
     c->row = direction > 0 ? from : to;
-    enter(t, c, direction, tree_table_at(table, c->column, c->row));
+    enter_column(t, c, direction, tree_table_at(table, c->column, c->row));
 }
 
 /* To its next leaf; false: there is none. */
-static bool go_on(const froe_tree *t, climb *c, int direction) {
+static bool go_on_climbing(const froe_tree *t, climb *c, int direction) {
     const tree_table *table = t->packed.table;
     if (c->waiting) {
-        descend(t, c, direction, c->stack[--c->waiting]);
+        descend_from(t, c, direction, c->stack[--c->waiting]);
         return true;
     }
     if (c->column == NO_TABLE) return false;
@@ -98,7 +98,7 @@ static bool go_on(const froe_tree *t, climb *c, int direction) {
         c->row += direction > 0 ? 1u : UINT32_MAX;
         tree_entry entry = tree_table_at(table, c->column, c->row);
         if (entry.at == c->last.at && entry.kind == c->last.kind) continue;
-        enter(t, c, direction, entry);
+        enter_column(t, c, direction, entry);
         return true;
     }
     return false;
@@ -107,7 +107,7 @@ static bool go_on(const froe_tree *t, climb *c, int direction) {
 /* ------------------------------------------------------------------- leaves -- */
 
 /* Is a place beyond the far side of its cell? Then it is not in this leaf that the ray meets it. */
-static bool beyond(froe_query *q, const packed_header *block, const query_height *at, int direction) {
+static bool is_beyond_height(froe_query *q, const packed_header *block, const query_height *at, int direction) {
     packed_box cell;
     packed_cell(q->tree, block, &cell);
     query_height side = {.known = true, .x = at->x, .y = direction > 0 ? cell.hi[1] : cell.lo[1]};
@@ -130,7 +130,7 @@ static uint32_t first_of(froe_query *q, const packed_header *block, const packed
         best = here;
         object = h->candidates[i];
     }
-    return object != FROE_NONE && beyond(q, block, &best, direction) ? FROE_NONE : object;
+    return object != FROE_NONE && is_beyond_height(q, block, &best, direction) ? FROE_NONE : object;
 }
 
 static uint32_t test(froe_query *q, uint32_t block, uint32_t count, const double *point, int direction) {
@@ -162,8 +162,8 @@ static void ask_for_entry(const tree_table *table, const double *point) {
 }
 
 /* Begins the next of the points that can have an answer. */
-static size_t launch(froe_query *q, const double *points, size_t count, size_t next, int direction, uint32_t *objects,
-                     climb *c, bool *flies) {
+static size_t launch_climbs(froe_query *q, const double *points, size_t count, size_t next, int direction,
+                            uint32_t *objects, climb *c, bool *flies) {
     *flies = false;
     for (; next < count && !*flies; next++) {
         objects[next] = FROE_NONE;
@@ -173,7 +173,7 @@ static size_t launch(froe_query *q, const double *points, size_t count, size_t n
         c->nodes = 0;
         if (next + PACKED_FLIGHT < count && q->tree->packed.table)
             ask_for_entry(q->tree->packed.table, c->point + 2 * PACKED_FLIGHT);
-        begin(q->tree, c, direction);
+        begin_climb(q->tree, c, direction);
         *flies = true;
     }
     return next;
@@ -183,7 +183,7 @@ static size_t launch(froe_query *q, const double *points, size_t count, size_t n
 static uint32_t climb_alone(froe_query *q, climb *c, int direction) {
     for (;;) {
         uint32_t block = c->block, count = c->count;
-        bool more = go_on(q->tree, c, direction);
+        bool more = go_on_climbing(q->tree, c, direction);
         uint32_t object = test(q, block, count, c->point, direction);
         if (object == FROE_NONE && more) continue;
         q->stats.nodes += c->nodes;
@@ -198,10 +198,10 @@ static void fly(froe_query *q, climb *flock, size_t flying, const double *points
         climb *c = flock + i;
         uint32_t object = test(q, c->block, c->count, c->point, direction), *stack = c->stack;
         bool flies;
-        if (object == FROE_NONE && go_on(q->tree, c, direction)) continue;
+        if (object == FROE_NONE && go_on_climbing(q->tree, c, direction)) continue;
         *c->object = object;
         q->stats.nodes += c->nodes;
-        next = launch(q, points, count, next, direction, objects, c, &flies);
+        next = launch_climbs(q, points, count, next, direction, objects, c, &flies);
         if (flies) continue;
         *c = flock[--flying];
         flock[flying].stack = stack;
@@ -218,7 +218,7 @@ froe_status packed_vertical(froe_query *q, const double *points, size_t count, i
     if (!array_reserve(&q->alloc, &work->candidates, q->tree->report.max_leaf + PACKED_LANES)) return FROE_E_MEMORY;
     for (bool flies = true; flying < PACKED_FLIGHT && flies; flying += flies) {
         flock[flying].stack = work->climbs + flying * work->climb_size;
-        next = launch(q, points, count, next, direction, objects, flock + flying, &flies);
+        next = launch_climbs(q, points, count, next, direction, objects, flock + flying, &flies);
     }
     if (count == 1 && flying)
         *objects = climb_alone(q, flock, direction);

@@ -42,7 +42,7 @@ void packed_work_free(packed_work *work, const froe_allocator *alloc) {
 
 /* -------------------------------------------------------------------- walk -- */
 
-static void ask_for(const uint8_t *block, uint32_t count) {
+static void prefetch_block(const uint8_t *block, uint32_t count) {
     for (uint32_t at = 0; at < 32 + 12 * count; at += 64) __builtin_prefetch(block + at);
 }
 
@@ -64,12 +64,12 @@ static packed_visit slice_of(const froe_tree *t, uint32_t node) {
 static bool visit_leaf(froe_query *q, uint32_t block, uint32_t count) {
     const packed_visit visit = {block, 0, count};
     if (!count) return true;
-    ask_for(q->tree->packed.blocks + (size_t)block * PACKED_BLOCK, count);
+    prefetch_block(q->tree->packed.blocks + (size_t)block * PACKED_BLOCK, count);
     return array_push(&q->alloc, &q->packed->visits, visit);
 }
 
 /* All leaves below a node whose closed cells meet the window. False without memory. */
-static bool walk(froe_query *q, const packed_window *w, uint32_t node, uint32_t open) {
+static bool walk_window(froe_query *q, const packed_window *w, uint32_t node, uint32_t open) {
     const tree_node *nodes = q->tree->nodes;
     packed_work *work = q->packed;
     packed_waiting *stack = work->stack.data, *top = stack;
@@ -132,10 +132,11 @@ static froe_status collect(froe_query *q, const packed_window *w) {
     for (int k = 0; k < 2; k++)
         if (w->lo[k] > q->tree->meta.root_hi[k] || w->hi[k] < q->tree->meta.root_lo[k]) return FROE_OK;
     count = find_starts(q->tree->packed.table, w, starts);
-    if (!count) return walk(q, w, 0, open_at_root(q->tree, w)) ? FROE_OK : FROE_E_MEMORY;
+    if (!count) return walk_window(q, w, 0, open_at_root(q->tree, w)) ? FROE_OK : FROE_E_MEMORY;
     for (uint32_t i = 0; i < count; i++) {
         bool leaf = starts[i].kind & TABLE_LEAF;
-        if (!(leaf ? visit_leaf(q, starts[i].at, starts[i].kind & ~TABLE_LEAF) : walk(q, w, starts[i].at, ALL_OPEN)))
+        if (!(leaf ? visit_leaf(q, starts[i].at, starts[i].kind & ~TABLE_LEAF)
+                   : walk_window(q, w, starts[i].at, ALL_OPEN)))
             return FROE_E_MEMORY;
     }
     return FROE_OK;
@@ -152,7 +153,7 @@ static packed_box common(const packed_box *a, const packed_box *b) {
     return c;
 }
 
-static bool meets(froe_query *q, const double *const ends[2], const packed_box *box) {
+static bool ends_meet_box(froe_query *q, const double *const ends[2], const packed_box *box) {
     return query_segment_meets_box(&q->numbers, ends[0], ends[1], box->lo, box->hi);
 }
 
@@ -164,21 +165,22 @@ static bool reports(froe_query *q, const packed_unsure *u, const packed_window *
     const double *ends[2];
     packed_box cell;
     packed_ends(q->tree->scene, u->id & PACKED_OBJECT, ends);
-    if (packed_is_whole(u->id)) return meets(q, ends, w);
+    if (packed_is_whole(u->id)) return ends_meet_box(q, ends, w);
     packed_cell(q->tree, u->block, &cell);
     packed_box part = common(&cell, w), left = part, level = part;
-    if (!meets(q, ends, &part)) return false;
+    if (!ends_meet_box(q, ends, &part)) return false;
     if (u->id & PACKED_START) return true;
     left.hi[0] = cell.lo[0];
     level.lo[1] = level.hi[1] = ends[0][1] < ends[1][1] ? cell.lo[1] : cell.hi[1];
     bool upright = ends[0][0] == ends[1][0], flat = ends[0][1] == ends[1][1]; /* may lie along the root box */
-    bool enters_left = !upright && left.lo[0] <= left.hi[0] && meets(q, ends, &left);
-    bool enters_level = !flat && part.lo[1] <= level.lo[1] && level.lo[1] <= part.hi[1] && meets(q, ends, &level);
+    bool enters_left = !upright && left.lo[0] <= left.hi[0] && ends_meet_box(q, ends, &left);
+    bool enters_level =
+        !flat && part.lo[1] <= level.lo[1] && level.lo[1] <= part.hi[1] && ends_meet_box(q, ends, &level);
     return !enters_left && !enters_level;
 }
 
 /* Appends the answers of one visit to query->found. False without memory. */
-static bool answer(froe_query *q, const packed_visit *v, const packed_window *w) {
+static bool answer_window(froe_query *q, const packed_visit *v, const packed_window *w) {
     const packed_header *block = block_at(q->tree, v->block);
     packed_work *work = q->packed;
     if (v->end) {
@@ -202,7 +204,7 @@ static bool answer(froe_query *q, const packed_visit *v, const packed_window *w)
 }
 
 /* Decides what is unsure. */
-static bool settle(froe_query *q, const packed_window *w) {
+static bool settle_unsure(froe_query *q, const packed_window *w) {
     packed_work *work = q->packed;
     uint64_t exact = q->numbers.stats.exact;
     work->decided += work->unsure.count;
@@ -224,8 +226,8 @@ froe_status packed_range(froe_query *q, const double *lo, const double *hi) {
     froe_status status = collect(q, &w);
     q->found.count = 0;
     for (size_t i = 0; i < q->packed->visits.count && !status; i++)
-        if (!answer(q, q->packed->visits.data + i, &w)) status = FROE_E_MEMORY;
-    return status || settle(q, &w) ? status : FROE_E_MEMORY;
+        if (!answer_window(q, q->packed->visits.data + i, &w)) status = FROE_E_MEMORY;
+    return status || settle_unsure(q, &w) ? status : FROE_E_MEMORY;
 }
 
 froe_status packed_count_range(froe_query *q, const double *lo, const double *hi, uint64_t *out) {
@@ -237,12 +239,12 @@ froe_status packed_count_range(froe_query *q, const double *lo, const double *hi
         const packed_visit *v = q->packed->visits.data + i;
         if (v->end)
             sum += block_at(q->tree, v->end)->owner - block_at(q->tree, v->block)->owner, q->stats.slices++;
-        else if (!answer(q, v, &w))
+        else if (!answer_window(q, v, &w))
             status = FROE_E_MEMORY;
         sum += q->found.count;
         q->found.count = 0;
     }
-    if (!status && !settle(q, &w)) status = FROE_E_MEMORY;
+    if (!status && !settle_unsure(q, &w)) status = FROE_E_MEMORY;
     sum += q->found.count;
     q->found.count = 0;
     if (!status) *out = sum;
@@ -254,7 +256,7 @@ froe_status packed_any(froe_query *q, const double *lo, const double *hi) {
     froe_status status = collect(q, &w);
     q->found.count = 0;
     for (size_t i = 0; i < q->packed->visits.count && !status && !q->found.count; i++) {
-        if (!answer(q, q->packed->visits.data + i, &w) || !settle(q, &w)) status = FROE_E_MEMORY;
+        if (!answer_window(q, q->packed->visits.data + i, &w) || !settle_unsure(q, &w)) status = FROE_E_MEMORY;
     }
     return status;
 }

@@ -46,7 +46,7 @@ static froe_status go_alone(flight *f, size_t i) {
 }
 
 /* The next ray sets out; *flies false: none is left. */
-static froe_status launch(flight *f, space_runner *r, bool *flies) {
+static froe_status launch_ray(flight *f, space_runner *r, bool *flies) {
     *flies = false;
     while (f->next < f->count && !*flies) {
         r->at = f->next++;
@@ -63,7 +63,7 @@ static froe_status launch(flight *f, space_runner *r, bool *flies) {
     return FROE_OK;
 }
 
-static void arrive(const flight *f, const space_runner *r) {
+static void arrive_with_hit(const flight *f, const space_runner *r) {
     const bool meets = r->best.object != FROE_NONE;
     if (f->objects) f->objects[r->at] = r->best.object;
     if (!f->hits) return;
@@ -72,7 +72,7 @@ static void arrive(const flight *f, const space_runner *r) {
 }
 
 /* False: the ray has gone far enough. */
-static bool decide(const flight *f, space_runner *r) {
+static bool decide_hit(const flight *f, space_runner *r) {
     query_met met;
     const uint32_t object = r->pending;
     r->pending = FROE_NONE;
@@ -85,8 +85,8 @@ static bool decide(const flight *f, space_runner *r) {
 }
 
 /* SPACE_END: it has arrived. */
-static space_step step(const flight *f, space_runner *r) {
-    if (r->pending != FROE_NONE && !decide(f, r)) return SPACE_END;
+static space_step step_ray(const flight *f, space_runner *r) {
+    if (r->pending != FROE_NONE && !decide_hit(f, r)) return SPACE_END;
     const space_step did = space_walk_step(f->query, &r->walk, r->limit);
     if (did != SPACE_OBJECT) return did;
     r->pending = r->walk.object;
@@ -99,13 +99,13 @@ static froe_status fly(flight *f, space_runner *flock) {
     size_t flying = 0;
     bool flies = true;
     froe_status status = FROE_OK;
-    for (; flying < FLIGHT && flies && !status; flying += flies) status = launch(f, flock + flying, &flies);
+    for (; flying < FLIGHT && flies && !status; flying += flies) status = launch_ray(f, flock + flying, &flies);
     for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
-        const space_step did = step(f, flock + i);
+        const space_step did = step_ray(f, flock + i);
         if (did == SPACE_NO_MEMORY) return base_fail_memory(f->diag);
         if (did != SPACE_END) continue;
-        arrive(f, flock + i);
-        status = launch(f, flock + i, &flies);
+        arrive_with_hit(f, flock + i);
+        status = launch_ray(f, flock + i, &flies);
         if (flies || status) continue;
         const space_runner gone = flock[i];
         flock[i] = flock[--flying];

@@ -29,7 +29,7 @@ void space_work_free(space_work *work, const froe_allocator *alloc) {
 
 /* ------------------------------------------------------------------- begin -- */
 
-static froe_status begin(froe_query *q, space_walk *w, bool near, bool meets) {
+static froe_status begin_space_walk(froe_query *q, space_walk *w, bool near, bool meets) {
     w->near = near;
     w->told = -1;
     w->limit = (float)INFINITY;
@@ -110,7 +110,7 @@ froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, bo
     w->per = wide->scale * size;
     const bool meets = find_start(r, &q->tree->meta);
     enter_scene(r);
-    return begin(q, w, false, meets);
+    return begin_space_walk(q, w, false, meets);
 }
 
 froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {
@@ -125,7 +125,7 @@ froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {
     }
     if (!*begun) return FROE_OK;
     w->per = (wide->scale / q->near.scale) * (wide->scale / q->near.scale);
-    return begin(q, w, true, true);
+    return begin_space_walk(q, w, true, true);
 }
 
 /* -------------------------------------------------------------------- limit -- */
@@ -242,7 +242,7 @@ static bool push_objects(froe_query *q, space_walk *w, uint32_t block, float key
 }
 
 /* Takes what is on top: an object is handed out, of all else what is met takes its place. */
-static space_step take(froe_query *q, space_walk *w, bool ask) {
+static space_step take_space_item(froe_query *q, space_walk *w, bool ask) {
     const uint64_t top = w->stack.data[--w->stack.count];
     const uint32_t what = (uint32_t)top;
     if (what & OBJECT && !(what & WIDE_LEAF)) {
@@ -255,7 +255,7 @@ static space_step take(froe_query *q, space_walk *w, bool ask) {
 }
 
 /* Takes off what is beyond the limit. */
-static bool settle(space_walk *w) {
+static bool settle_item(space_walk *w) {
     while (w->stack.count && key_of(w->stack.data[w->stack.count - 1]) > w->limit) w->stack.count--;
     return w->stack.count;
 }
@@ -263,15 +263,15 @@ static bool settle(space_walk *w) {
 froe_status space_walk_next(froe_query *q, space_walk *w, double limit, tree_objects *list) {
     space_step step = SPACE_ON;
     update_limit(w, limit);
-    while (step == SPACE_ON) step = settle(w) ? take(q, w, true) : SPACE_END;
+    while (step == SPACE_ON) step = settle_item(w) ? take_space_item(q, w, true) : SPACE_END;
     *list = (tree_objects){.at = &w->object, .stride = 1, .mask = UINT32_MAX, .count = step == SPACE_OBJECT};
     return step == SPACE_NO_MEMORY ? FROE_E_MEMORY : FROE_OK;
 }
 
 space_step space_walk_step(froe_query *q, space_walk *w, double limit) {
     update_limit(w, limit);
-    if (!settle(w)) return SPACE_END;
-    const space_step step = take(q, w, false);
-    if (step == SPACE_ON && settle(w)) ask_for(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]);
+    if (!settle_item(w)) return SPACE_END;
+    const space_step step = take_space_item(q, w, false);
+    if (step == SPACE_ON && settle_item(w)) ask_for(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]);
     return step;
 }

@@ -4,12 +4,12 @@
  * decided exactly; an object that several leaves list is looked at once. */
 #include "query/packed/space.h"
 
-static void ask_for(const uint8_t *block) {
+static void prefetch_space_block(const uint8_t *block) {
     for (int at = 0; at < 512; at += 64) __builtin_prefetch(block + at);
 }
 
 /* Leaves whose boxes the window may meet: their blocks become `others`. */
-static bool gather(froe_query *q, const space_window *window) {
+static bool gather_in_window(froe_query *q, const space_window *window) {
     space_work *w = q->space;
     const tree_wide *wide = q->tree->packed.wide;
     w->objects.count = w->others.count = 0;
@@ -23,7 +23,7 @@ static bool gather(froe_query *q, const space_window *window) {
         for (uint32_t bits = w->kernels->window_node(n, window); bits; bits &= bits - 1) {
             const uint32_t child = n->child[__builtin_ctz(bits)];
             if (child & WIDE_LEAF) {
-                ask_for(q->tree->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK);
+                prefetch_space_block(q->tree->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK);
                 w->others.data[w->others.count++] = child & WIDE_INDEX;
             } else {
                 __builtin_prefetch(wide->nodes + child);
@@ -35,7 +35,7 @@ static bool gather(froe_query *q, const space_window *window) {
 }
 
 /* Objects of a block that meet the window. False without memory. */
-static bool answer(froe_query *q, const space_header *h, const space_window *window) {
+static bool answer_space_window(froe_query *q, const space_header *h, const space_window *window) {
     space_work *w = q->space;
     const size_t room = h->count + PACKED_LANES;
     bool memory = false;
@@ -60,8 +60,8 @@ froe_status space_range(froe_query *q, const double *lo, const double *hi, bool 
         window.from[k] = (lo[k] - wide->middle[k]) * wide->scale;
         window.to[k] = (hi[k] - wide->middle[k]) * wide->scale;
     }
-    if (!gather(q, &window)) return FROE_E_MEMORY;
+    if (!gather_in_window(q, &window)) return FROE_E_MEMORY;
     for (size_t i = 0; i < q->space->others.count && !(any && q->found.count); i++)
-        if (!answer(q, space_block(q->tree, q->space->others.data[i]), &window)) return FROE_E_MEMORY;
+        if (!answer_space_window(q, space_block(q->tree, q->space->others.data[i]), &window)) return FROE_E_MEMORY;
     return FROE_OK;
 }

@@ -43,7 +43,7 @@ froe_status pair_lists_add(pair_lists *l, unsigned thread, uint32_t a, uint32_t 
 
 /* ----------------------------------------------------------------- sorting -- */
 
-static bool later(void *user, uint32_t i, uint32_t j) {
+static bool pair_is_later(void *user, uint32_t i, uint32_t j) {
     (void)user;
     return (i & PAIR_OBJECT) > (j & PAIR_OBJECT);
 }
@@ -75,7 +75,7 @@ static froe_status sort_part(void *user, unsigned worker, size_t part) {
     put_seconds(l, part);
     for (uint32_t id = from; id < to; id++) {
         const size_t end = id + 1 < to ? l->starts[id + 1] : l->firsts[part + 1];
-        query_heap_sort(l->sorted + l->starts[id], end - l->starts[id], later, NULL);
+        query_heap_sort(l->sorted + l->starts[id], end - l->starts[id], pair_is_later, NULL);
     }
     return FROE_OK;
 }

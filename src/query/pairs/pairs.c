@@ -36,7 +36,7 @@ typedef struct search {
 } search;
 
 /* An object as a range. False without memory. */
-static bool take(desk *d, const geom_body *b, froe_range *range) {
+static bool take_body(desk *d, const geom_body *b, froe_range *range) {
     const size_t dim = (size_t)b->dim, count = b->form == FROE_POINT ? 2 : b->count;
     d->points.count = 0;
     if (!array_reserve(&d->q->alloc, &d->points, count * dim)) return false;
@@ -84,7 +84,7 @@ static bool add_pairs(desk *d, uint32_t object, const geom_body *a, bool shared,
 }
 
 /* Finds the pairs of some objects with later ones. */
-static froe_status find(void *user, unsigned worker, size_t job) {
+static froe_status find_partners(void *user, unsigned worker, size_t job) {
     search *s = user;
     desk *d = s->desks + worker;
     chunk *out = s->chunks + job;
@@ -94,7 +94,7 @@ static froe_status find(void *user, unsigned worker, size_t job) {
     for (uint32_t i = first; i < first + (left < CHUNK ? left : CHUNK); i++) {
         const geom_body body = scene_body(scene, i);
         froe_range range;
-        if (!take(d, &body, &range)) return FROE_E_MEMORY;
+        if (!take_body(d, &body, &range)) return FROE_E_MEMORY;
         const froe_status status = query_range_ask(d->q, &range, false, NULL);
         if (status) return status;
         keep_later(d->q, i);
@@ -109,7 +109,7 @@ static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, voi
     for (uint64_t done = 0; done < jobs; done += s->chunk_count) {
         const size_t count = jobs - done < s->chunk_count ? (size_t)(jobs - done) : s->chunk_count;
         s->first = (uint32_t)done * CHUNK;
-        const froe_status status = base_run(&s->workers->task, (double)count / (double)jobs, count, find, s);
+        const froe_status status = base_run(&s->workers->task, (double)count / (double)jobs, count, find_partners, s);
         if (status) return status;
         for (size_t i = 0; i < count; i++)
             for (size_t n = 0; n < s->chunks[i].pairs.count; n++)

@@ -143,7 +143,7 @@ static void free_areas(const froe_allocator *alloc, query_part *part) {
     base_free(alloc, a, sizeof *a);
 }
 
-static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+static froe_status make_areas(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_query_stats stats = q->stats;
     query_areas *areas = base_calloc(&q->alloc, 1, sizeof *areas);
     if (!areas) return base_fail_memory(diag);
@@ -157,7 +157,7 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
 
 froe_status query_areas_of(froe_query *query, const query_areas **out, froe_diagnostic *diag) {
     const query_part *part;
-    const froe_status status = query_prepare(query, QUERY_AREAS, make, &part, diag);
+    const froe_status status = query_prepare(query, QUERY_AREAS, make_areas, &part, diag);
     if (status == FROE_OK) *out = (const query_areas *)part;
     return status;
 }

@@ -50,7 +50,7 @@ static void gather_ends(survey *v) {
     }
 }
 
-static froe_status refuse(const survey *v, const base_pair *end, froe_diagnostic *diag) {
+static froe_status refuse_open_border(const survey *v, const base_pair *end, froe_diagnostic *diag) {
     const uint32_t group = (uint32_t)(end->key >> 32);
     const double *x = scene_vertex(v->scene, (uint32_t)end->key);
     return base_fail_at(diag, FROE_E_UNSUPPORTED, end->value, FROE_NONE, FROE_NONE,
@@ -65,13 +65,13 @@ static froe_status check_ends(survey *v, froe_diagnostic *diag) {
         for (end = i + 1; end < v->count && v->pairs[end].key == v->pairs[i].key;) end++;
         uint8_t *group = v->groups + (v->pairs[i].key >> 32);
         if ((end - i) % 2 == 0) continue;
-        if (*group == RINGED) return refuse(v, v->pairs + i, diag);
+        if (*group == RINGED) return refuse_open_border(v, v->pairs + i, diag);
         *group = OPEN;
     }
     return FROE_OK;
 }
 
-static void settle(survey *v) {
+static void settle_areas(survey *v) {
     const froe_scene *s = v->scene;
     for (uint32_t i = 0; i < s->object_count; i++) {
         uint8_t *role = v->areas->roles + i;
@@ -97,7 +97,7 @@ froe_status query_areas_assign(froe_query *q, query_areas *areas, froe_diagnosti
         find_rings(&v);
         gather_ends(&v);
         status = check_ends(&v, diag);
-        settle(&v);
+        settle_areas(&v);
     } else {
         base_fail_memory(diag);
     }

@@ -30,7 +30,7 @@ static bool change(froe_query *q, query_members *set, change_fn *fn, const query
 }
 
 /* What a segment near the way between two points does to its groups. */
-static bool pass(froe_query *q, const query_border *s, bool border, const double *from, const double *to) {
+static bool pass_border(froe_query *q, const query_border *s, bool border, const double *from, const double *to) {
     num_context *numbers = &q->numbers;
     const int side = query_turn(numbers, s->u, s->v, to);
     if (side == 0 && in_bounds(s->u, s->v, to)) return change(q, &q->groups.touched, query_members_add, s);
@@ -64,7 +64,7 @@ froe_status query_areas_travel(froe_query *q, const query_areas *areas, const do
     for (size_t i = 0; i < q->found.count; i++) {
         query_border s;
         const int role = see(q, areas, q->found.data[i], from, &s);
-        if (role && !pass(q, &s, role == AREA_BORDER, from, to)) return base_fail_memory(diag);
+        if (role && !pass_border(q, &s, role == AREA_BORDER, from, to)) return base_fail_memory(diag);
     }
     return FROE_OK;
 }
@@ -81,12 +81,12 @@ static bool pass_leaf(froe_query *q, const query_area_leaf *leaf, const double *
     const double *from = leaf->from.at;
     q->stats.tests += count;
     for (uint32_t i = 0; i < count; i++)
-        if (bounds_meet(from, to, s[i].u, s[i].v) && !pass(q, s + i, i < leaf->borders, from, to)) return false;
+        if (bounds_meet(from, to, s[i].u, s[i].v) && !pass_border(q, s + i, i < leaf->borders, from, to)) return false;
     return true;
 }
 
 /* What a point on the border of a cell lies on may be listed elsewhere. Other borders are crossed within the cell. */
-static froe_status touch(froe_query *q, const query_areas *areas, const double *point) {
+static froe_status touch_borders(froe_query *q, const query_areas *areas, const double *point) {
     const double ends[4] = {point[0], point[1], point[0], point[1]};
     froe_range range = froe_range_defaults();
     range.points = ends;
@@ -109,7 +109,7 @@ froe_status query_areas_enter(froe_query *q, const query_areas *areas, const que
     if (!query_sets_copy(&areas->sets, &q->alloc, set, &q->groups.inside)) return FROE_E_MEMORY;
     if (far) return query_areas_travel(q, areas, far->at, point, NULL);
     if (there && !pass_leaf(q, there, point)) return FROE_E_MEMORY;
-    return leaf->on_cut ? touch(q, areas, point) : FROE_OK;
+    return leaf->on_cut ? touch_borders(q, areas, point) : FROE_OK;
 }
 
 /* Slots, the beginnings of leaves, and what comes behind, in turn: none of them waits for one before. */
@@ -151,7 +151,7 @@ static bool comes_later(void *user, uint32_t a, uint32_t b) {
 }
 
 /* Those of a list that have a role, seen from its reference. */
-static bool gather(settling *w, const tree_objects *list, int role, const double *from) {
+static bool gather_borders(settling *w, const tree_objects *list, int role, const double *from) {
     query_border s;
     w->seen.count = w->order.count = 0;
     for (uint32_t i = 0; i < list->count; i++) {
@@ -164,7 +164,7 @@ static bool gather(settling *w, const tree_objects *list, int role, const double
 }
 
 /* Appends them, equal ones two by two. */
-static bool append(settling *w, uint32_t *count) {
+static bool append_border(settling *w, uint32_t *count) {
     enum { WORDS = sizeof(query_border) / sizeof(uint64_t) };
     query_border *seen = w->seen.data, *last = NULL;
     if (!array_reserve(&w->q->alloc, &w->areas->leaves, w->order.count * WORDS)) return false;
@@ -191,8 +191,8 @@ static bool settle_near(settling *w, const tree_objects *list, query_reference f
     const size_t start = areas->leaves.count;
     if (!array_reserve(&w->q->alloc, &areas->leaves, WORDS)) return false;
     areas->leaves.count += WORDS;
-    if (!gather(w, list, AREA_BORDER, from.at) || !append(w, &leaf.borders)) return false;
-    if (!gather(w, list, AREA_MEMBER, from.at) || !append(w, &leaf.others)) return false;
+    if (!gather_borders(w, list, AREA_BORDER, from.at) || !append_border(w, &leaf.borders)) return false;
+    if (!gather_borders(w, list, AREA_MEMBER, from.at) || !append_border(w, &leaf.others)) return false;
     if (leaf.borders + leaf.others == 0) {
         areas->leaves.count = start;
         *slot = from.set | AREA_SET;

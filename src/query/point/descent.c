@@ -84,7 +84,7 @@ static bool see_line(const query_descent *d, const geom_plane *h, int *major, do
     return h->n_err <= fabs(n) * 0x1p-40 && size <= 0x1p10 && fabs(*c) <= 2;
 }
 
-static uint32_t place_of(const plan *p, uint32_t node) {
+static uint32_t place_of_node(const plan *p, uint32_t node) {
     const tree_node *n = p->tree->nodes + node;
     if (!tree_is_leaf(n)) return p->numbers[node];
     return node | DESCENT_LEAF | (n->u.list.count ? 0 : DESCENT_EMPTY);
@@ -98,7 +98,7 @@ static void lay_cut(plan *p, uint32_t number) {
     const bool seen = see_line(p->d, &h, &major, &slope, &c), back = seen && h.n[major] < 0;
     descent_cut *cut = p->d->cuts + number;
     *cut = (descent_cut){.slope = seen ? (float)slope : 0, .c = seen ? (float)c : NAN};
-    for (uint32_t side = 0; side < 2; side++) cut->next[side ^ back] = place_of(p, child + side);
+    for (uint32_t side = 0; side < 2; side++) cut->next[side ^ back] = place_of_node(p, child + side);
     if (seen && major) cut->next[0] |= DESCENT_STEEP;
     if (back) p->d->nodes[number] |= DESCENT_BACK;
 }
@@ -106,7 +106,7 @@ static void lay_cut(plan *p, uint32_t number) {
 /* ------------------------------------------------------------------- table -- */
 
 /* The first cut from here on that may meet a cell. */
-static uint32_t settle(const query_descent *d, uint32_t next, const float middle[2], float half) {
+static uint32_t settle_cut(const query_descent *d, uint32_t next, const float middle[2], float half) {
     while (!(next & DESCENT_LEAF)) {
         const descent_cut *cut = d->cuts + next;
         const float value = query_descent_value(cut, middle);
@@ -125,7 +125,7 @@ static void fill_table(query_descent *d) {
                 const size_t parent = (size_t)(i & ~1u) * step * d->rows + (size_t)(j & ~1u) * step;
                 const float half = 0.5f * (float)step / d->grid,
                             middle[2] = {(2 * (float)i + 1) * half, (2 * (float)j + 1) * half};
-                d->table[(size_t)i * step * d->rows + (size_t)j * step] = settle(d, d->table[parent], middle, half);
+                d->table[(size_t)i * step * d->rows + (size_t)j * step] = settle_cut(d, d->table[parent], middle, half);
             }
 }
 
@@ -147,7 +147,7 @@ static bool take_units(query_descent *d, const froe_tree *t) {
     return true;
 }
 
-static bool fill(query_descent *d, const froe_tree *t, const froe_allocator *alloc) {
+static bool fill_descent(query_descent *d, const froe_tree *t, const froe_allocator *alloc) {
     plan p = {.tree = t, .alloc = alloc, .d = d};
     const uint32_t cuts = t->node_count / 2;
     bool ok = false;
@@ -169,18 +169,18 @@ static bool fill(query_descent *d, const froe_tree *t, const froe_allocator *all
     return ok;
 }
 
-static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+static froe_status make_descent(froe_query *q, query_part **out, froe_diagnostic *diag) {
     query_descent *d = base_calloc(&q->alloc, 1, sizeof *d);
     if (!d) return base_fail_memory(diag);
     d->part.free = free_descent;
     *out = &d->part;
     d->there = q->numbers.first == NUM_FILTER && take_units(d, q->tree);
-    return d->there && !fill(d, q->tree, &q->alloc) ? base_fail_memory(diag) : FROE_OK;
+    return d->there && !fill_descent(d, q->tree, &q->alloc) ? base_fail_memory(diag) : FROE_OK;
 }
 
 froe_status query_descent_of(froe_query *query, const query_descent **out, froe_diagnostic *diag) {
     const query_part *part;
-    const froe_status status = query_prepare(query, QUERY_DESCENT, make, &part, diag);
+    const froe_status status = query_prepare(query, QUERY_DESCENT, make_descent, &part, diag);
     if (status == FROE_OK) *out = (const query_descent *)part;
     return status;
 }

@@ -17,7 +17,7 @@ static froe_status add_holders(froe_query *q, const double *point, froe_diagnost
 }
 
 /* The groups on whose borders the point is join those that it is inside of. */
-static froe_status gather(froe_query *q, const query_areas *areas, const double *point, froe_diagnostic *diag) {
+static froe_status gather_groups(froe_query *q, const query_areas *areas, const double *point, froe_diagnostic *diag) {
     froe_status status = FROE_OK;
     if (areas->solids || !areas->borders) status = add_holders(q, point, diag);
     for (size_t i = 0; !status && i < q->groups.touched.count; i++)
@@ -32,7 +32,7 @@ froe_status query_groups_in(froe_query *q, const query_areas *areas, const doubl
     q->groups.inside.count = q->groups.touched.count = 0;
     if (query_in_scene(q->tree->scene, point)) {
         if (areas->borders && query_areas_enter(q, areas, leaf, point)) return base_fail_memory(diag);
-        status = gather(q, areas, point, diag);
+        status = gather_groups(q, areas, point, diag);
     }
     q->stats.queries = queries;
     q->stats.exact += q->numbers.stats.exact - exact;

@@ -36,7 +36,7 @@ static int side_in_space(froe_query *q, const query_planes *planes, const tree_n
 }
 
 /* Side of a point beside the cut of a node: -1, 0, 1. No planes are needed in the plane. */
-static int side_of(froe_query *q, const query_planes *planes, uint32_t node, const double *x) {
+static int side_of_point(froe_query *q, const query_planes *planes, uint32_t node, const double *x) {
     const froe_tree *t = q->tree;
     const tree_node *n = t->nodes + node;
     if (n->type == TREE_PLAIN) return (x[n->axis] > n->u.value) - (x[n->axis] < n->u.value);
@@ -50,7 +50,7 @@ static int side_of(froe_query *q, const query_planes *planes, uint32_t node, con
 static query_leaf go_down(froe_query *q, const query_planes *planes, uint32_t node, const double *x) {
     bool on_cut = false;
     for (; !tree_is_leaf(q->tree->nodes + node); q->stats.nodes++) {
-        const int side = side_of(q, planes, node, x);
+        const int side = side_of_point(q, planes, node, x);
         on_cut |= side == 0;
         node = q->tree->nodes[node].child + (side > 0);
     }
@@ -120,7 +120,7 @@ typedef struct flyer {
 } flyer;
 
 /* Passes a cut; one that floats cannot tell from the point as the tree has it. */
-static void pass(froe_query *q, const query_descent *d, flyer *f, const double *x) {
+static void pass_cut(froe_query *q, const query_descent *d, flyer *f, const double *x) {
     const descent_cut *cut = d->cuts + f->p.next;
     const float value = query_descent_value(cut, f->p.at);
     bool right = value > 0;
@@ -128,7 +128,7 @@ static void pass(froe_query *q, const query_descent *d, flyer *f, const double *
     f->steps++;
     if (!(fabsf(value) > DESCENT_DOUBT)) {
         const uint32_t node = d->nodes[f->p.next];
-        const int side = side_of(q, NULL, node & ~DESCENT_BACK, x);
+        const int side = side_of_point(q, NULL, node & ~DESCENT_BACK, x);
         f->on_cut |= side == 0;
         right = (side > 0) != !!(node & DESCENT_BACK);
     }
@@ -140,14 +140,14 @@ static bool has_come(const ways *w, const flyer *f) {
     return f->p.next & DESCENT_LEAF || (f->steps >= PATIENCE && w->centroids && !(w->centroids->root & CENTROID_END));
 }
 
-static query_leaf arrive(froe_query *q, const ways *w, const flyer *f, const double *x) {
+static query_leaf arrive_at_leaf(froe_query *q, const ways *w, const flyer *f, const double *x) {
     if (!(f->p.next & DESCENT_LEAF)) return find_by_tree(q, w, x);
     return (query_leaf){.place = f->p.next & DESCENT_NODE, .on_cut = f->on_cut, .empty = f->p.next & DESCENT_EMPTY};
 }
 
 /* Begins the next of the points that are in the scene. */
-static size_t launch(froe_query *q, const ways *w, const double *points, size_t count, size_t next, flyer *f,
-                     query_leaf *leaves, bool *flies) {
+static size_t launch_points(froe_query *q, const ways *w, const double *points, size_t count, size_t next, flyer *f,
+                            query_leaf *leaves, bool *flies) {
     for (*flies = false; next < count && !*flies; next++) {
         *f = (flyer){.number = next};
         if (next + AHEAD < count) query_descent_ask(w->descent, points + 2 * (next + AHEAD));
@@ -162,18 +162,18 @@ static void find_flock(froe_query *q, const ways *w, const double *points, size_
     flyer flock[FLIGHT];
     size_t next = 0, flying = 0;
     for (bool flies = true; flying < FLIGHT && flies; flying += flies)
-        next = launch(q, w, points, count, next, flock + flying, leaves, &flies);
+        next = launch_points(q, w, points, count, next, flock + flying, leaves, &flies);
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
         flyer *f = flock + i;
         const double *x = points + 2 * f->number;
         bool flies;
         if (!has_come(w, f)) {
-            pass(q, w->descent, f, x);
+            pass_cut(q, w->descent, f, x);
             if (!(f->p.next & DESCENT_LEAF)) __builtin_prefetch(w->descent->cuts + f->p.next);
             continue;
         }
-        leaves[f->number] = arrive(q, w, f, x);
-        next = launch(q, w, points, count, next, f, leaves, &flies);
+        leaves[f->number] = arrive_at_leaf(q, w, f, x);
+        next = launch_points(q, w, points, count, next, f, leaves, &flies);
         if (!flies) *f = flock[--flying];
         if (i == flying) i = 0;
     }
@@ -188,8 +188,8 @@ froe_status query_leaf_find(froe_query *q, const double *point, query_leaf *out)
     if (status) return status;
     q->stats.leaves++;
     if (w.descends && query_descent_begin(w.descent, point, &f.p)) {
-        while (!has_come(&w, &f)) pass(q, w.descent, &f, point);
-        *out = arrive(q, &w, &f, point);
+        while (!has_come(&w, &f)) pass_cut(q, w.descent, &f, point);
+        *out = arrive_at_leaf(q, &w, &f, point);
     } else {
         *out = find_by_tree(q, &w, point);
     }

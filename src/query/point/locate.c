@@ -8,7 +8,7 @@
 #include "query/segment.h"
 #include <string.h>
 
-static bool holds(froe_query *q, uint32_t object, const double *x, bool *memory) {
+static bool object_holds(froe_query *q, uint32_t object, const double *x, bool *memory) {
     const froe_scene *s = q->tree->scene;
     if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return query_range_meets(q, object, memory);
     q->stats.tests++;
@@ -23,7 +23,7 @@ static froe_status test_list(froe_query *q, const tree_objects *list, const froe
     if (!query_expect(q, list->count)) return base_fail_memory(diag);
     for (uint32_t i = 0; i < list->count; i++) {
         const uint32_t object = tree_object(list, i);
-        if (!query_seen(q, list, i, object) && holds(q, object, point->points, &memory)) query_found(q, object);
+        if (!query_seen(q, list, i, object) && object_holds(q, object, point->points, &memory)) query_found(q, object);
     }
     return memory ? base_fail_memory(diag) : FROE_OK;
 }
@@ -34,7 +34,7 @@ typedef struct spot {
     double ends[2 * FROE_MAX_DIM];
 } spot;
 
-static froe_status take(const froe_query *q, const double *point, spot *out, froe_diagnostic *diag) {
+static froe_status take_point(const froe_query *q, const double *point, spot *out, froe_diagnostic *diag) {
     const size_t dim = (size_t)q->tree->scene->dim;
     out->range = froe_range_defaults();
     out->range.points = out->ends;
@@ -44,7 +44,7 @@ static froe_status take(const froe_query *q, const double *point, spot *out, fro
 
 froe_status query_locate_in(froe_query *q, const double *point, const query_leaf *leaf, froe_diagnostic *diag) {
     spot s;
-    const froe_status status = take(q, point, &s, diag);
+    const froe_status status = take_point(q, point, &s, diag);
     if (status) return status;
     if (leaf->on_cut) return query_range_ask(q, &s.range, false, diag);
     const tree_objects list = leaf->empty ? (tree_objects){0} : tree_list(q->tree, leaf->place);
@@ -54,7 +54,7 @@ froe_status query_locate_in(froe_query *q, const double *point, const query_leaf
 froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *diag) {
     query_leaf leaf;
     spot s;
-    const froe_status status = take(q, point, &s, diag);
+    const froe_status status = take_point(q, point, &s, diag);
     if (status) return status;
     if (tree_is_packed(q->tree)) return query_range_ask(q, &s.range, false, diag);
     if (!query_in_scene(q->tree->scene, point)) return test_list(q, &(tree_objects){0}, &s.range, diag);

@@ -58,7 +58,7 @@ static void lay_paths(query_ancestors *a, const froe_tree *t) {
     }
 }
 
-static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+static froe_status make_ancestors(froe_query *q, query_part **out, froe_diagnostic *diag) {
     query_ancestors *a = base_calloc(&q->alloc, 1, sizeof *a);
     if (!a) return base_fail_memory(diag);
     a->part.free = free_ancestors;
@@ -74,13 +74,13 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
 
 froe_status query_ancestors_of(froe_query *query, const query_ancestors **out, froe_diagnostic *diag) {
     const query_part *part;
-    const froe_status status = query_prepare(query, QUERY_ANCESTORS, make, &part, diag);
+    const froe_status status = query_prepare(query, QUERY_ANCESTORS, make_ancestors, &part, diag);
     if (status == FROE_OK) *out = (const query_ancestors *)part;
     return status;
 }
 
 /* The lowest node on a path above a node, or the node itself where the path is its own. */
-static uint32_t climb(const query_ancestors *a, uint32_t node, uint32_t path) {
+static uint32_t climb_path(const query_ancestors *a, uint32_t node, uint32_t path) {
     const query_ancestor *n = a->of + node;
     if (n->path == path) return node;
     const uint32_t below = n->ascending & ((path & -path) - 1);
@@ -93,6 +93,6 @@ uint32_t query_ancestors_lowest(const query_ancestors *ancestors, uint32_t a, ui
     const unsigned place = top_bit(x->path ^ y->path);
     const uint32_t common = (x->ascending & y->ascending) >> place << place;
     const uint32_t path = number_above(x->path, (unsigned)__builtin_ctz(common));
-    const uint32_t from_a = climb(ancestors, a, path), from_b = climb(ancestors, b, path);
+    const uint32_t from_a = climb_path(ancestors, a, path), from_b = climb_path(ancestors, b, path);
     return ancestors->of[from_a].order < ancestors->of[from_b].order ? from_a : from_b;
 }

@@ -117,7 +117,7 @@ static bool divide_parts(plan *p) {
 
 /* ------------------------------------------------------------------- making -- */
 
-static froe_status fill(query_centroids *c, const froe_tree *t) {
+static froe_status fill_centroids(query_centroids *c, const froe_tree *t) {
     const froe_allocator *alloc = &t->alloc;
     plan p = {.tree = t, .c = c};
     bool ok = false;
@@ -137,19 +137,19 @@ static froe_status fill(query_centroids *c, const froe_tree *t) {
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+static froe_status make_centroids(froe_query *q, query_part **out, froe_diagnostic *diag) {
     query_centroids *c = base_calloc(&q->alloc, 1, sizeof *c);
     if (!c) return base_fail_memory(diag);
     c->part.free = free_centroids;
     *out = &c->part;
     c->dim = q->tree->scene->dim;
     c->node_count = q->tree->node_count;
-    return fill(c, q->tree) ? base_fail_memory(diag) : FROE_OK;
+    return fill_centroids(c, q->tree) ? base_fail_memory(diag) : FROE_OK;
 }
 
 froe_status query_centroids_of(froe_query *query, const query_centroids **out, froe_diagnostic *diag) {
     const query_part *part;
-    const froe_status status = query_prepare(query, QUERY_CENTROIDS, make, &part, diag);
+    const froe_status status = query_prepare(query, QUERY_CENTROIDS, make_centroids, &part, diag);
     if (status == FROE_OK) *out = (const query_centroids *)part;
     return status;
 }

@@ -24,7 +24,7 @@ static void free_classes(const froe_allocator *alloc, query_part *part) {
 /* ----------------------------------------------------------------- classes -- */
 
 /* Half the greatest extent of an object; those below the normal numbers count as none. */
-static double size_of(const froe_scene *s, uint32_t object) {
+static double size_of_object(const froe_scene *s, uint32_t object) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], most = 0;
     scene_object_bounds(s, object, lo, hi);
     for (int k = 0; k < s->dim; k++) most = fmax(most, 0.5 * hi[k] - 0.5 * lo[k]);
@@ -32,7 +32,7 @@ static double size_of(const froe_scene *s, uint32_t object) {
 }
 
 /* The greatest power of two that is no greater. */
-static double step_of(double size) {
+static double step_of_size(double size) {
     int exponent;
     if (size == 0) return 0;
     frexp(size, &exponent);
@@ -40,7 +40,7 @@ static double step_of(double size) {
 }
 
 /* Beyond x by a step, and a little further; no further than numbers go. */
-static double beyond(double x, double step, double direction) {
+static double number_beyond(double x, double step, double direction) {
     const double far = nextafter(x + direction * step, direction * INFINITY);
     return fmin(fmax(far, -DBL_MAX), DBL_MAX);
 }
@@ -55,8 +55,8 @@ static froe_status add_boxes(froe_scene *boxes, const froe_scene *s, const query
     for (uint32_t i = 0; i < c->count && !status; i++) {
         scene_object_bounds(s, c->ids[i], lo, hi);
         for (int k = 0; k < s->dim; k++) {
-            lo[k] = c->step > 0 ? beyond(lo[k], c->step, -1) : lo[k];
-            hi[k] = c->step > 0 ? beyond(hi[k], c->step, 1) : hi[k];
+            lo[k] = c->step > 0 ? number_beyond(lo[k], c->step, -1) : lo[k];
+            hi[k] = c->step > 0 ? number_beyond(hi[k], c->step, 1) : hi[k];
         }
         status = froe_scene_add(boxes, &box, diag);
     }
@@ -99,14 +99,14 @@ static froe_status add_classes(query_classes *p, const froe_tree *t, const base_
     p->count = count;
     froe_status status = FROE_OK;
     for (uint32_t first = 0; first < objects && !status; first = next) {
-        const double step = step_of(size_of(t->scene, sorted[first].value));
+        const double step = step_of_size(size_of_object(t->scene, sorted[first].value));
         for (next = first; next < objects && sorted[next].key == sorted[first].key;) next++;
         status = fill_class(p->classes + made++, t, sorted + first, next - first, step, diag);
     }
     return status;
 }
 
-static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) {
+static froe_status make_classes(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
     const size_t objects = t->scene->object_count;
     query_classes *p = base_calloc(&q->alloc, 1, sizeof *p);
@@ -115,7 +115,8 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
     *out = &p->part;
     base_pair *sorted = base_calloc(&q->alloc, 2 * objects, sizeof *sorted);
     if (!sorted) return base_fail_memory(diag);
-    for (uint32_t i = 0; i < objects; i++) sorted[i] = (base_pair){base_double_key(step_of(size_of(t->scene, i))), i};
+    for (uint32_t i = 0; i < objects; i++)
+        sorted[i] = (base_pair){base_double_key(step_of_size(size_of_object(t->scene, i))), i};
     base_radix_sort(sorted, sorted + objects, objects);
     const froe_status status = add_classes(p, t, sorted, diag);
     base_free(&q->alloc, sorted, (objects ? 2 * objects * sizeof *sorted : 1));
@@ -124,7 +125,7 @@ static froe_status make(froe_query *q, query_part **out, froe_diagnostic *diag) 
 
 froe_status query_classes_of(froe_query *query, const query_classes **out, froe_diagnostic *diag) {
     const query_part *part;
-    const froe_status status = query_prepare(query, QUERY_CLASSES, make, &part, diag);
+    const froe_status status = query_prepare(query, QUERY_CLASSES, make_classes, &part, diag);
     if (status == FROE_OK) *out = (const query_classes *)part;
     return status;
 }

@@ -41,8 +41,8 @@ static bool boxes_apart(const double *lo, const double *hi, const double *a, con
 
 /* The line of u and v, seen along an axis of space (-1: in the plane): is the box strictly on one side of it? It is
  * enough to look at the two corners furthest across. */
-static bool beside(num_context *context, int axis, const double *u, const double *v, const double *lo,
-                   const double *hi) {
+static bool segment_beside_box(num_context *context, int axis, const double *u, const double *v, const double *lo,
+                               const double *hi) {
     const int x = axis == 0 ? 1 : 0, y = axis < 0 || axis == 2 ? 1 : 2;
     const double p[2] = {u[x], u[y]}, q[2] = {v[x], v[y]};
     const bool rising = (q[0] > p[0]) == (q[1] > p[1]);
@@ -57,9 +57,9 @@ static bool beside(num_context *context, int axis, const double *u, const double
 static bool box_meets_segment(num_context *context, int dim, const double *lo, const double *hi, const double *u,
                               const double *v) {
     if (in_box(u, lo, hi, dim) || in_box(v, lo, hi, dim)) return true;
-    if (dim == 2) return !beside(context, -1, u, v, lo, hi);
+    if (dim == 2) return !segment_beside_box(context, -1, u, v, lo, hi);
     for (int axis = 0; axis < 3; axis++)
-        if (beside(context, axis, u, v, lo, hi)) return false;
+        if (segment_beside_box(context, axis, u, v, lo, hi)) return false;
     return true;
 }
 
@@ -179,7 +179,7 @@ static bool ball_meets(froe_query *q, uint32_t object) {
     return !geom_range_misses(&q->range.range, lo, hi) && set_meets(q, object);
 }
 
-static bool decide(froe_query *q, uint32_t object, bool *memory) {
+static bool decide_object(froe_query *q, uint32_t object, bool *memory) {
     const froe_scene *s = q->tree->scene;
     const froe_range *from = q->range.from;
     const double *lo, *hi;
@@ -208,7 +208,7 @@ static bool decide(froe_query *q, uint32_t object, bool *memory) {
 
 bool query_range_meets(froe_query *q, uint32_t object, bool *memory) {
     const uint64_t exact = q->numbers.stats.exact;
-    const bool meets = decide(q, object, memory);
+    const bool meets = decide_object(q, object, memory);
     q->stats.tests++;
     q->stats.exact += q->numbers.stats.exact != exact;
     return meets;

@@ -29,7 +29,7 @@ void query_range_free(query_range *r, const froe_allocator *alloc) {
 
 /* ---------------------------------------------------------------- checking -- */
 
-static size_t point_count(const froe_range *r, size_t dim) {
+static size_t range_point_count(const froe_range *r, size_t dim) {
     switch (r->shape) {
     case FROE_SHAPE_BALL:
         return 1;
@@ -55,7 +55,7 @@ static bool coordinate_fits(const froe_range *r, size_t i, size_t dim) {
 }
 
 static froe_status check_numbers(const froe_range *r, size_t dim, froe_diagnostic *diag) {
-    const size_t count = point_count(r, dim);
+    const size_t count = range_point_count(r, dim);
     for (size_t i = 0; i < count * dim; i++)
         if (!coordinate_fits(r, i, dim))
             return base_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], r->points[i]);
@@ -82,7 +82,7 @@ froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *dia
         return base_fail(diag, FROE_E_OPTIONS, "There is no walk of number %u.", (unsigned)r->walk);
     if (dim > 3 && r->shape != FROE_SHAPE_BOX && r->shape != FROE_SHAPE_BALL)
         return base_fail(diag, FROE_E_UNSUPPORTED, "There is no %s in %d dimensions.", names[r->shape], dim);
-    const size_t count = point_count(r, (size_t)dim);
+    const size_t count = range_point_count(r, (size_t)dim);
     const bool halfspaces = r->shape == FROE_SHAPE_HALFSPACES;
     if ((count && !r->points) || (halfspaces && count && !r->offsets))
         return base_fail(diag, FROE_E_ARG, "A %s without points.", names[r->shape]);
@@ -199,7 +199,7 @@ static void take_bounds(geom_range *r, const froe_range *from) {
 enum { FEW_POINTS = 256 };
 
 /* The greatest distance of two points of a set, about. */
-static double spread(size_t dim, const double *points, size_t count) {
+static double spread_of_points(size_t dim, const double *points, size_t count) {
     double most = 0;
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < i; j++) {
@@ -223,9 +223,9 @@ static double extent(const geom_range *r) {
 /* A lower bound of the diameter; of halfspaces that of their corners. */
 static double diameter(const geom_range *r, const froe_range *from) {
     const size_t dim = (size_t)r->dim;
-    const size_t count = from->shape == FROE_SHAPE_HALFSPACES ? r->set.count : point_count(from, dim);
+    const size_t count = from->shape == FROE_SHAPE_HALFSPACES ? r->set.count : range_point_count(from, dim);
     const double *points = from->shape == FROE_SHAPE_HALFSPACES ? r->set.coords : from->points;
-    const double most = count <= FEW_POINTS ? spread(dim, points, count) : extent(r);
+    const double most = count <= FEW_POINTS ? spread_of_points(dim, points, count) : extent(r);
     const double radius = has_radius(from->shape) ? from->radius : 0;
     const double size = (most - 4 * r->set.error) * (1 - 0x1p-45) + 2 * radius;
     return size > 0x1p-500 ? size * (1 - 0x1p-45) : 0;
@@ -286,7 +286,7 @@ static geom_range_kind kind_of(froe_range_shape shape) {
 }
 
 static geom_convex set_of(const froe_range *from, int dim) {
-    geom_convex set = {.dim = dim, .coords = from->points, .count = (uint32_t)point_count(from, (size_t)dim)};
+    geom_convex set = {.dim = dim, .coords = from->points, .count = (uint32_t)range_point_count(from, (size_t)dim)};
     if (has_radius(from->shape)) set.radius = from->radius;
     if (from->shape == FROE_SHAPE_RAY) set.core = GEOM_CORE_RAY;
     if (from->shape == FROE_SHAPE_BOX) set.core = GEOM_CORE_BOX, set.count = 1u << dim;

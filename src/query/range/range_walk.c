@@ -148,7 +148,7 @@ static void visit_list(walk *w, uint32_t node) {
 
 /* ------------------------------------------------------------------- stack -- */
 
-static void push(walk *w, uint32_t node, const double *state) {
+static void push_state(walk *w, uint32_t node, const double *state) {
     query_range *r = w->r;
     if (!array_push(&w->q->alloc, &r->nodes, node) || !array_reserve(&w->q->alloc, &r->boxes, w->width)) {
         w->memory = true;
@@ -158,7 +158,7 @@ static void push(walk *w, uint32_t node, const double *state) {
     r->boxes.count += w->width;
 }
 
-static uint32_t pop(walk *w, double *state) {
+static uint32_t pop_state(walk *w, double *state) {
     query_range *r = w->r;
     r->boxes.count -= w->width;
     memcpy(state, r->boxes.data + r->boxes.count, w->width * sizeof *state);
@@ -175,7 +175,7 @@ typedef struct place {
     double *part_lo, *part_hi; /* bounds of the range within; for boxes and balls those of the region */
 } place;
 
-static place place_of(const walk *w, double *state) {
+static place place_in_range(const walk *w, double *state) {
     const size_t dim = (size_t)w->dim, part = w->width > 2 * dim ? 2 * dim : 0;
     return (place){state, state + dim, state + part, state + part + dim};
 }
@@ -183,7 +183,7 @@ static place place_of(const walk *w, double *state) {
 /* Cuts the state of a region down to side 0 or 1 of a cut. False: the range is not there. */
 static bool go_beside_axis(const walk *w, const query_cut *cut, int side, double *state) {
     const geom_range *range = &w->r->range;
-    const place p = place_of(w, state);
+    const place p = place_in_range(w, state);
     (side ? p.lo : p.hi)[cut->axis] = cut->value;
     switch (range->kind) {
     case GEOM_RANGE_BOX:
@@ -227,7 +227,7 @@ static bool ball_is_beyond(const walk *w, const query_plane *h, int side) {
 static bool go_beside_plane(const walk *w, const query_cut *cut, int side, double *state) {
     const geom_range *range = &w->r->range;
     const query_plane *h = cut->plane;
-    const place p = place_of(w, state);
+    const place p = place_in_range(w, state);
     double n[3];
     for (int k = 0; k < 3; k++) n[k] = side ? -h->n[k] : h->n[k];
     if (range->kind == GEOM_RANGE_BALL && ball_is_beyond(w, h, side)) return false;
@@ -256,7 +256,7 @@ static bool go_beside(const walk *w, const query_cut *cut, int side, double *sta
 /* The node where the range meets the next cut, below this one, which becomes the region of the state. */
 static uint32_t jump(const walk *w, uint32_t node, double *state) {
     const geom_range *range = &w->r->range;
-    const place p = place_of(w, state);
+    const place p = place_in_range(w, state);
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     for (int k = 0; k < w->dim; k++) {
         lo[k] = filter_greater(p.part_lo[k], range->lo[k]);
@@ -278,7 +278,7 @@ static void follow_solid(walk *w, uint32_t node, double *state) {
     for (int passed = 0; !done(w); passed++) {
         if (query_jump_is_due(&w->jump, passed)) node = jump(w, node, state);
         const tree_node *n = w->tree->nodes + node;
-        const place p = place_of(w, state);
+        const place p = place_in_range(w, state);
         w->q->stats.nodes++;
         if (geom_range_holds(&w->q->numbers, &w->r->range, w->r->margin, p.lo, p.hi)) {
             take_slice(w, node);
@@ -294,7 +294,7 @@ static void follow_solid(walk *w, uint32_t node, double *state) {
         const bool left = go_beside(w, &cut, 0, state), right = go_beside(w, &cut, 1, other);
         if (!left && !right) return;
         if (left && right) {
-            push(w, n->child + 1, other);
+            push_state(w, n->child + 1, other);
             if (n->type == TREE_TABLED) visit_list(w, node);
             passed = -1;
         }
@@ -309,7 +309,7 @@ static bool begin_solid(walk *w, double *state) {
     const geom_range *range = &w->r->range;
     const size_t dim = (size_t)w->dim;
     w->width = range->kind == GEOM_RANGE_SOLID ? 4 * dim : 2 * dim;
-    const place p = place_of(w, state);
+    const place p = place_in_range(w, state);
     memcpy(p.lo, s->lo, dim * sizeof *state);
     memcpy(p.hi, s->hi, dim * sizeof *state);
     for (size_t k = 0; k < dim; k++)
@@ -356,7 +356,8 @@ static bool find_crossing(const walk *w, const query_cut *cut, const double *t, 
 }
 
 /* The sides of a cut that the range reaches within the interval, which is divided for both. */
-static unsigned divide(const walk *w, const query_cut *cut, const double *t, double below[2], double above[2]) {
+static unsigned divide_interval(const walk *w, const query_cut *cut, const double *t, double below[2],
+                                double above[2]) {
     double at, error;
     unsigned sides;
     bool rising;
@@ -401,9 +402,9 @@ static void follow_thin(walk *w, uint32_t node, double *t) {
             return;
         }
         const query_cut cut = query_cut_at(w->tree, w->planes, n);
-        const unsigned sides = divide(w, &cut, t, below, above);
+        const unsigned sides = divide_interval(w, &cut, t, below, above);
         if (sides == 3) {
-            push(w, n->child + 1, above);
+            push_state(w, n->child + 1, above);
             if (n->type == TREE_TABLED) visit_list(w, node);
             passed = -1;
         }
@@ -414,7 +415,7 @@ static void follow_thin(walk *w, uint32_t node, double *t) {
 
 /* -------------------------------------------------------------------- walk -- */
 
-static bool begin(walk *w, double *state) {
+static bool begin_walk(walk *w, double *state) {
     if (w->r->range.kind != GEOM_RANGE_THIN) return begin_solid(w, state);
     w->width = 2;
     state[0] = 0;
@@ -431,10 +432,10 @@ froe_status query_range_walk(froe_query *q) {
     if (status) return status;
     w.points = w.pieces->points && q->numbers.first == NUM_FILTER;
     q->range.nodes.count = q->range.boxes.count = 0;
-    if (!q->tree->scene->object_count || !begin(&w, state)) return FROE_OK;
-    push(&w, 0, state);
+    if (!q->tree->scene->object_count || !begin_walk(&w, state)) return FROE_OK;
+    push_state(&w, 0, state);
     while (!done(&w) && q->range.nodes.count) {
-        const uint32_t node = pop(&w, state);
+        const uint32_t node = pop_state(&w, state);
         if (w.r->range.kind == GEOM_RANGE_THIN)
             follow_thin(&w, node, state);
         else

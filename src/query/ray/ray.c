@@ -139,7 +139,7 @@ static bool keep_all(froe_query *q, const query_met *met) {
     return true;
 }
 
-static bool later(void *user, uint32_t a, uint32_t b) {
+static bool hit_is_later(void *user, uint32_t a, uint32_t b) {
     froe_query *q = user;
     const froe_hit *s = q->ray.hits.data + a, *t = q->ray.hits.data + b;
     if (s->t != t->t) return s->t > t->t;
@@ -159,7 +159,7 @@ static froe_status sort_hits(froe_query *q) {
         r->hits.data[i] = (froe_hit){r->met.data[i].object, t};
         r->order.data[i] = (uint32_t)i;
     }
-    query_heap_sort(r->order.data, count, later, q);
+    query_heap_sort(r->order.data, count, hit_is_later, q);
     for (size_t i = 0; i < count; i++) r->hits.data[count + i] = r->hits.data[r->order.data[i]];
     return FROE_OK;
 }

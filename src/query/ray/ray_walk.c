@@ -28,14 +28,14 @@ static crossing crossing_of(double value, double value_error, double slope, doub
 }
 
 /* On the side where the origin is throughout. */
-static crossing beside(double value) {
+static crossing crossing_at(double value) {
     const double side = value < 0 ? INFINITY : -(double)INFINITY;
     return (crossing){side, side, 0, false};
 }
 
 static crossing cross_axis(const geom_ray *ray, int axis, double value) {
     const double ahead = value - ray->o[axis], d = ray->d[axis];
-    if (d == 0) return ahead == 0 ? (crossing){.both = true} : beside(-ahead);
+    if (d == 0) return ahead == 0 ? (crossing){.both = true} : crossing_at(-ahead);
     const double t = ahead / d, e = 0x1p-51 * fabs(t) + 0x1p-1070;
     if (!isfinite(t)) return (crossing){.both = true};
     return (crossing){t - e, t + e, d < 0, false};
@@ -48,16 +48,16 @@ static crossing cross_plane(const geom_ray *ray, const query_plane *plane, doubl
     const double slope = query_plane_slope(plane, ray->d, &slope_error);
     const crossing c = crossing_of(value, value_error, slope, slope_error);
     const double reach = value_error + (fabs(slope) + slope_error) * leave;
-    return c.both && fabs(value) > reach * (1 + 0x1p-50) ? beside(value) : c;
+    return c.both && fabs(value) > reach * (1 + 0x1p-50) ? crossing_at(value) : c;
 }
 
-static bool push(froe_query *q, query_step step) {
+static bool push_step(froe_query *q, query_step step) {
     if (step.enter > step.leave || step.enter > q->ray.limit || step.enter == INFINITY) return true;
     return array_push(&q->alloc, &q->ray.steps, step);
 }
 
 /* Replaces an inner node by what the ray visits of it: the first to come on top. */
-static bool divide(froe_query *q, const query_planes *planes, const query_step *s) {
+static bool divide_step(froe_query *q, const query_planes *planes, const query_step *s) {
     const froe_tree *t = q->tree;
     const tree_node *node = t->nodes + s->node;
     const query_cut cut = query_cut_at(t, planes, node);
@@ -71,7 +71,7 @@ static bool divide(froe_query *q, const query_planes *planes, const query_step *
         list.leave = first.leave = c.hi < s->leave ? c.hi : s->leave;
     }
     const bool listed = node->type == TREE_TABLED && t->cuts[node->u.cut].count;
-    return push(q, second) && (!listed || push(q, list)) && push(q, first);
+    return push_step(q, second) && (!listed || push_step(q, list)) && push_step(q, first);
 }
 
 /* The part of the ray that may be within the bounds of the scene. */
@@ -100,7 +100,7 @@ froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
     if (q->ray.packed) return FROE_OK;
     froe_status status = query_planes_of(q, &planes, diag);
     q->ray.steps.count = 0;
-    if (!status && !push(q, within_scene(q))) status = base_fail_memory(diag);
+    if (!status && !push_step(q, within_scene(q))) status = base_fail_memory(diag);
     return status;
 }
 
@@ -118,7 +118,7 @@ froe_status query_walk_next(froe_query *q, tree_objects *list) {
         if (leaf || s.list) {
             *list = tree_list(q->tree, s.node);
             if (list->count) return FROE_OK;
-        } else if (!divide(q, planes, &s)) {
+        } else if (!divide_step(q, planes, &s)) {
             return FROE_E_MEMORY;
         }
     }

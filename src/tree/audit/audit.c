@@ -294,7 +294,7 @@ static froe_status start_workers(audit *a) {
     return status ? base_fail_memory(a->diag) : FROE_OK;
 }
 
-static froe_status tell(const audit *a, froe_status status) {
+static froe_status tell_audit(const audit *a, froe_status status) {
     const finding *first = a->findings;
     if (status == FROE_E_CANCELLED) return base_fail_cancelled(a->diag);
     for (unsigned i = 1; i < a->task->threads; i++)
@@ -308,7 +308,7 @@ static froe_status check_lists(audit *a) {
     if (!status) status = start_workers(a);
     if (status) return status;
     size_t jobs = ((size_t)a->tree->scene->object_count + CHUNK - 1) / CHUNK;
-    return tell(a, base_run(a->task, 0.8, jobs, check_chunk, a));
+    return tell_audit(a, base_run(a->task, 0.8, jobs, check_chunk, a));
 }
 
 /* ------------------------------------------------------------------- leaves -- */

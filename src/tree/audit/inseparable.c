@@ -13,7 +13,7 @@ typedef struct pair {
 } pair;
 
 /* To be asked in long loops. */
-static bool go_on(const pair *p) {
+static bool pair_may_go_on(const pair *p) {
     return base_progress(p->task, p->task->done);
 }
 
@@ -129,7 +129,7 @@ static bool share_a_point(const froe_scene *s, const tree_objects *list) {
 
 static froe_status any_pair_separated(pair *p, const tree_objects *list, bool *out) {
     *out = false;
-    for (uint32_t i = 0; i < list->count && go_on(p); i++) {
+    for (uint32_t i = 0; i < list->count && pair_may_go_on(p); i++) {
         p->a = tree_object(list, i);
         if (scene_form(p->scene, p->a) < FROE_BALL) continue; /* axis-parallel planes are complete for boxes */
         for (uint32_t j = 0; j < i && !*out; j++) {
@@ -164,7 +164,7 @@ froe_status inseparable_refuted(num_context *context, base_task *task, const fro
 }
 
 static froe_status count_crowd(pair *p, const tree_objects *list, tree_crowd *crowd) {
-    while (!tree_crowd_known(crowd) && go_on(p)) {
+    while (!tree_crowd_known(crowd) && pair_may_go_on(p)) {
         p->a = tree_object(list, crowd->a);
         p->b = tree_object(list, crowd->b);
         bool apart = axis_separates_pair(p);

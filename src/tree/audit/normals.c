@@ -84,7 +84,7 @@ static bool cut_off(normals *m, normals_vector d) {
 }
 
 /* All normals: the axes, in both directions. */
-static bool begin(normals *m) {
+static bool begin_normals(normals *m) {
     m->vectors.count = m->rays.count = 0;
     for (int k = 0; k < 3; k++)
         if (!array_push(&m->alloc, &m->vectors, (normals_vector){origin, axes[k]})) return false;
@@ -169,7 +169,7 @@ froe_status normals_apart(normals *m, bool *apart) {
     *apart = false;
     if (m->dim == 2 && !pad(m)) return FROE_E_MEMORY;
     if (flat(m)) return FROE_OK;
-    if (!begin(m)) return FROE_E_MEMORY;
+    if (!begin_normals(m)) return FROE_E_MEMORY;
     while (m->rays.count) {
         normals_vector d = worst_in_the_middle(m);
         if (!cuts(m, d)) {

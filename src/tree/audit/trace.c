@@ -124,7 +124,7 @@ static trace_corner edge_crossing(const trace *t, const geom_plane *plane, uint3
     return c;
 }
 
-static void put(trace *t, trace_corner c, uint32_t edge) {
+static void put_trace_corner(trace *t, trace_corner c, uint32_t edge) {
     c.edge = edge;
     t->corners.data[t->corners.count++] = c;
 }
@@ -135,23 +135,23 @@ static void polygon_side(trace *t, const geom_plane *plane, const trace_part *pa
     for (uint32_t i = 0; i < part->count; i++) {
         trace_corner c = t->corners.data[part->first + i];
         int here = sides[i] * side, next = sides[i + 1 < part->count ? i + 1 : 0] * side;
-        if (here > 0 || (here == 0 && next > 0)) put(t, c, c.edge);
-        if (here == 0 && next <= 0) put(t, c, cut);
-        if (here > 0 && next < 0) put(t, edge_crossing(t, plane, c.edge, cut), cut);
-        if (here < 0 && next > 0) put(t, edge_crossing(t, plane, c.edge, c.edge), c.edge);
+        if (here > 0 || (here == 0 && next > 0)) put_trace_corner(t, c, c.edge);
+        if (here == 0 && next <= 0) put_trace_corner(t, c, cut);
+        if (here > 0 && next < 0) put_trace_corner(t, edge_crossing(t, plane, c.edge, cut), cut);
+        if (here < 0 && next > 0) put_trace_corner(t, edge_crossing(t, plane, c.edge, c.edge), c.edge);
     }
 }
 
 static void segment_side(trace *t, const geom_plane *plane, const trace_part *part, uint32_t cut, int side) {
     for (uint32_t i = 0; i < 2; i++) {
         trace_corner c = t->corners.data[part->first + i];
-        put(t, t->sides.data[i] * side > 0 ? c : own_crossing(t, plane, 0, cut),
-            t->sides.data[i] * side > 0 ? c.edge : cut);
+        put_trace_corner(t, t->sides.data[i] * side > 0 ? c : own_crossing(t, plane, 0, cut),
+                         t->sides.data[i] * side > 0 ? c.edge : cut);
     }
 }
 
 /* Replaces a part by its two sides: the positive one waits, the negative one is next. */
-static froe_status divide(trace *t, const geom_plane *plane, trace_part *part) {
+static froe_status divide_trace(trace *t, const geom_plane *plane, trace_part *part) {
     uint32_t room = part->count + 2, top = part->first + part->count, cut = TREE_EDGE_CUT | part->node;
     uint32_t child = t->tree->nodes[part->node].child, middle;
     bool segment = scene_form(t->tree->scene, t->object) == FROE_SEGMENT;
@@ -171,7 +171,7 @@ static froe_status divide(trace *t, const geom_plane *plane, trace_part *part) {
 
 /* ----------------------------------------------------------------- tracing -- */
 
-static froe_status arrive(trace *t, const trace_part *part) {
+static froe_status arrive_in_cell(trace *t, const trace_part *part) {
     trace_place place = {part->node, true, NULL, part->count};
     t->ring.count = 0;
     if (!array_reserve(&t->alloc, &t->ring, part->count)) return FROE_E_MEMORY;
@@ -182,7 +182,7 @@ static froe_status arrive(trace *t, const trace_part *part) {
 }
 
 /* Follows one part until it arrives; what is cut off on the way waits. */
-static froe_status follow(trace *t, trace_part part) {
+static froe_status follow_object(trace *t, trace_part part) {
     while (!tree_is_leaf(t->tree->nodes + part.node)) {
         unsigned reached = plain_side(t, &part);
         if (reached) {
@@ -193,16 +193,16 @@ static froe_status follow(trace *t, trace_part part) {
         if (!corner_sides(t, plane, &part, &reached)) return FROE_E_MEMORY;
         if (!reached) break;
         if (reached == 3) {
-            froe_status status = divide(t, plane, &part);
+            froe_status status = divide_trace(t, plane, &part);
             if (status) return status;
         } else {
             part.node = t->tree->nodes[part.node].child + (reached == 2);
         }
     }
-    return arrive(t, &part);
+    return arrive_in_cell(t, &part);
 }
 
-static bool begin(trace *t) {
+static bool begin_trace(trace *t) {
     const froe_scene *s = t->tree->scene;
     uint32_t count = scene_corners(s, t->object);
     size_t bytes = (size_t)(s->dim < 3 ? s->dim : 3) * sizeof(double);
@@ -223,11 +223,11 @@ froe_status trace_object(trace *t, uint32_t object, trace_fn *fn, void *user) {
     t->user = user;
     t->stopped = false;
     if (scene_form(t->tree->scene, object) > FROE_POLYGON) return trace_solid_object(t);
-    if (!begin(t)) return FROE_E_MEMORY;
+    if (!begin_trace(t)) return FROE_E_MEMORY;
     while (!status && !t->stopped && t->parts.count) {
         trace_part part = t->parts.data[--t->parts.count];
         t->corners.count = part.first + part.count;
-        status = follow(t, part);
+        status = follow_object(t, part);
     }
     return status;
 }

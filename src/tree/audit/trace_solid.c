@@ -158,7 +158,7 @@ static unsigned cut(trace *t, const geom_plane *plane, const trace_solid *at, tr
 }
 
 /* False without memory. */
-static bool arrive(trace *t, const trace_solid *at, bool leaf) {
+static bool arrive_solid(trace *t, const trace_solid *at, bool leaf) {
     trace_place place = {at->node, at->exact || at->inside, NULL, 0};
     const bool ball = leaf && scene_form(t->tree->scene, t->object) == FROE_BALL && at->exact;
     if (ball && !at->inside) place.must = ball_meets(t, at);
@@ -167,21 +167,21 @@ static bool arrive(trace *t, const trace_solid *at, bool leaf) {
     return true;
 }
 
-static bool follow(trace *t, trace_solid at) {
+static bool follow_solid(trace *t, trace_solid at) {
     bool hull = scene_form(t->tree->scene, t->object) == FROE_HULL;
     while (!tree_is_leaf(t->tree->nodes + at.node)) {
         const geom_plane *plane = trace_plane(t, at.node);
         trace_solid child[2];
         if (hull && !array_reserve(&t->alloc, &t->ring, 2 * (size_t)at.count)) return false;
         unsigned reached = cut(t, plane, &at, child);
-        if (!reached) return arrive(t, &at, false);
+        if (!reached) return arrive_solid(t, &at, false);
         if (reached == 3 && !array_push(&t->alloc, &t->solids, child[1])) return false;
         at = child[reached == 2];
     }
-    return arrive(t, &at, true);
+    return arrive_solid(t, &at, true);
 }
 
-static bool begin(trace *t) {
+static bool begin_solids(trace *t) {
     const froe_scene *s = t->tree->scene;
     trace_solid root = {.exact = true, .inside = true};
     for (int k = 0; k < s->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
@@ -200,10 +200,10 @@ static bool begin(trace *t) {
 }
 
 froe_status trace_solid_object(trace *t) {
-    bool ok = begin(t);
+    bool ok = begin_solids(t);
     while (ok && !t->stopped && t->solids.count) {
         trace_solid at = t->solids.data[--t->solids.count];
-        ok = follow(t, at);
+        ok = follow_solid(t, at);
     }
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

@@ -24,7 +24,7 @@ static float worst_error(const packed_fragment *f, uint32_t count, double scale)
     return units < 0x1p15 ? (float)units : PACKED_COARSE; /* infinity and NaN are coarse */
 }
 
-static uint16_t unit_of(double x, double lo, double scale) {
+static uint16_t unit_of_number(double x, double lo, double scale) {
     double u = (x - lo) * scale + 0.5;
     return (uint16_t)(u > 0 ? u < PACKED_UNITS ? (int)u : PACKED_UNITS : 0);
 }
@@ -39,10 +39,10 @@ void packed_write(packed_header *block, const packed_box *box, uint32_t owner, c
     uint16_t *px = (uint16_t *)(void *)(block + 1), *py = px + count, *qx = py + count, *qy = qx + count;
     uint32_t *ids = (uint32_t *)(void *)(qy + count);
     for (uint32_t i = 0; i < count; i++) {
-        px[i] = unit_of(f[i].p[0], x, scale);
-        py[i] = unit_of(f[i].p[1], y, scale);
-        qx[i] = unit_of(f[i].q[0], x, scale);
-        qy[i] = unit_of(f[i].q[1], y, scale);
+        px[i] = unit_of_number(f[i].p[0], x, scale);
+        py[i] = unit_of_number(f[i].p[1], y, scale);
+        qx[i] = unit_of_number(f[i].q[0], x, scale);
+        qy[i] = unit_of_number(f[i].q[1], y, scale);
         ids[i] = f[i].id;
     }
 }

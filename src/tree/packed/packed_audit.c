@@ -12,7 +12,7 @@ typedef struct packed_end {
 } packed_end;
 
 /* Exact side beside x[axis] = value. */
-static int side_of(const packed_end *e, int axis, double value) {
+static int side_of_end(const packed_end *e, int axis, double value) {
     geom_plane plane = geom_plane_axis(2, axis, value);
     if (e->point.kind == RING_VERTEX) return geom_side_vertex(e->context, &plane, e->point.x);
     geom_plane made = tree_plane_at(e->tree, e->point.a);
@@ -34,7 +34,7 @@ static bool in_general_position(const packed_end *e) {
             continue;
         }
         for (int upper = 0; upper < 2; upper++) {
-            int side = side_of(e, axis, (upper ? e->box->hi : e->box->lo)[axis]) * (upper ? -1 : 1);
+            int side = side_of_end(e, axis, (upper ? e->box->hi : e->box->lo)[axis]) * (upper ? -1 : 1);
             if (is_cut(e, axis, upper) ? side <= 0 : side < 0) return false;
         }
     }

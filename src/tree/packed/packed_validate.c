@@ -14,11 +14,11 @@ typedef struct packed_check {
     uint32_t blocks, owners; /* seen so far */
 } packed_check;
 
-static froe_status bad(const packed_check *c, uint32_t node, const char *what) {
+static froe_status bad_block(const packed_check *c, uint32_t node, const char *what) {
     return base_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, node);
 }
 
-static bool all_zero(const uint8_t *from, const uint8_t *to) {
+static bool bytes_are_zero(const uint8_t *from, const uint8_t *to) {
     while (from < to && !*from) from++;
     return from == to;
 }
@@ -36,13 +36,13 @@ static froe_status check_ids(packed_check *c, uint32_t node, const uint32_t *ids
     const froe_tree *t = c->tree;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t object = ids[i] & PACKED_OBJECT;
-        if (object >= t->scene->object_count) return bad(c, node, "an object that does not exist");
-        if (scene_form(t->scene, object) > FROE_SEGMENT) return bad(c, node, "a kind that no block can hold");
+        if (object >= t->scene->object_count) return bad_block(c, node, "an object that does not exist");
+        if (scene_form(t->scene, object) > FROE_SEGMENT) return bad_block(c, node, "a kind that no block can hold");
         if (scene_form(t->scene, object) == FROE_POINT && !packed_is_whole(ids[i]))
-            return bad(c, node, "a part of a point");
+            return bad_block(c, node, "a part of a point");
         if (!(ids[i] & PACKED_START)) continue;
         if (c->owners == t->packed.owner_count || t->packed.owners[c->owners] != object)
-            return bad(c, node, "owners that differ from the blocks");
+            return bad_block(c, node, "owners that differ from the blocks");
         c->owners++;
     }
     return FROE_OK;
@@ -53,13 +53,13 @@ static froe_status check_block(packed_check *c, uint32_t node) {
     const tree_node *n = t->nodes + node;
     uint32_t count = n->u.list.count, room = t->packed.block_count - 1 - c->blocks; /* without the sentinel */
     if (n->child != c->blocks || (uint64_t)count * 12 > (uint64_t)room * PACKED_BLOCK || packed_size(count) > room)
-        return bad(c, node, "a block out of place");
+        return bad_block(c, node, "a block out of place");
     const packed_header *h = packed_block(t, n);
     const uint32_t *ids = packed_ids(h, count);
     c->blocks += packed_size(count);
-    if (!header_fits(c, node, h)) return bad(c, node, "a block whose header does not fit");
-    if (!all_zero((const uint8_t *)(ids + count), t->packed.blocks + (size_t)c->blocks * PACKED_BLOCK))
-        return bad(c, node, "a block with something behind its end");
+    if (!header_fits(c, node, h)) return bad_block(c, node, "a block whose header does not fit");
+    if (!bytes_are_zero((const uint8_t *)(ids + count), t->packed.blocks + (size_t)c->blocks * PACKED_BLOCK))
+        return bad_block(c, node, "a block with something behind its end");
     return check_ids(c, node, ids, count);
 }
 
@@ -68,7 +68,7 @@ static bool sentinel_fits(const packed_check *c) {
     const uint8_t *bytes = c->tree->packed.blocks + (size_t)c->blocks * PACKED_BLOCK;
     const packed_header *h = (const packed_header *)(const void *)bytes;
     return h->owner == c->owners && h->lo[0] == 0 && h->lo[1] == 0 && h->scale == 0 && h->error == 0 &&
-           all_zero(bytes + sizeof *h, bytes + PACKED_BLOCK);
+           bytes_are_zero(bytes + sizeof *h, bytes + PACKED_BLOCK);
 }
 
 static bool root_fits(const froe_tree *t) {
@@ -80,7 +80,7 @@ froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
     if (tree_is_space(t)) return space_validate(t, diag);
     packed_check c = {.tree = t, .diag = diag};
     tree_walk walk = {.tree = t};
-    froe_status status = root_fits(t) && !t->cut_count ? FROE_OK : bad(&c, 0, "not a tree that can be packed");
+    froe_status status = root_fits(t) && !t->cut_count ? FROE_OK : bad_block(&c, 0, "not a tree that can be packed");
     while (!status && tree_walk_next(&walk))
         if (tree_is_leaf(t->nodes + walk.node)) status = check_block(&c, walk.node);
     if (tree_walk_end(&walk)) return base_fail_memory(diag);

@@ -22,7 +22,7 @@ static froe_status resize(tree_packer *p, uint32_t room) {
     return FROE_OK;
 }
 
-static froe_status make_room(tree_packer *p, uint32_t blocks) {
+static froe_status reserve_blocks(tree_packer *p, uint32_t blocks) {
     uint64_t need = (uint64_t)p->block_count + blocks, room = p->block_room + p->block_room / 2 + 16;
     if (need <= p->block_room) return FROE_OK;
     if (need >= UINT32_MAX - 1) return FROE_E_LIMIT;
@@ -69,7 +69,7 @@ froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, 
 static froe_status take_leaf(tree_packer *p, uint32_t node, uint32_t count, uint32_t size, uint8_t flags,
                              void **block) {
     if (count > MOST_NODES - p->piece_count) return FROE_E_LIMIT;
-    froe_status status = make_room(p, size);
+    froe_status status = reserve_blocks(p, size);
     if (status) return status;
     *block = block_at(p, p->block_count);
     p->nodes.data[node] =
@@ -107,7 +107,7 @@ froe_status packer_space_leaf(tree_packer *p, uint32_t node, const froe_scene *s
 }
 
 /* An array of exactly its size, one byte for an empty one; it stays as it was where that fails. */
-static froe_status trim(const froe_allocator *alloc, void **data, size_t room, size_t count, size_t item_size) {
+static froe_status trim_array(const froe_allocator *alloc, void **data, size_t room, size_t count, size_t item_size) {
     void *trimmed = base_realloc(alloc, *data, room * item_size, count ? count * item_size : 1);
     if (!trimmed) return FROE_E_MEMORY;
     *data = trimmed;
@@ -125,14 +125,14 @@ static froe_status seal_blocks(tree_packer *p) {
 
 static froe_status trim_nodes(tree_packer *p) {
     froe_status status =
-        trim(&p->alloc, (void **)&p->nodes.data, p->nodes.capacity, p->nodes.count, sizeof *p->nodes.data);
+        trim_array(&p->alloc, (void **)&p->nodes.data, p->nodes.capacity, p->nodes.count, sizeof *p->nodes.data);
     if (!status) p->nodes.capacity = p->nodes.count;
     return status;
 }
 
 /* The last step that can fail: from here on the array of owners is the tree's. */
 static froe_status trim_owners(tree_packer *p) {
-    return trim(&p->alloc, (void **)&p->owners.data, p->owners.capacity, p->owners.count, sizeof *p->owners.data);
+    return trim_array(&p->alloc, (void **)&p->owners.data, p->owners.capacity, p->owners.count, sizeof *p->owners.data);
 }
 
 /* Hands the arrays over. */

@@ -31,7 +31,7 @@ typedef struct bounds {
     double lo[3], hi[3];
 } bounds;
 
-static void grow(bounds *b, const double *lo, const double *hi) {
+static void grow_bounds(bounds *b, const double *lo, const double *hi) {
     for (int k = 0; k < 3; k++) {
         b->lo[k] = lo[k] < b->lo[k] ? lo[k] : b->lo[k];
         b->hi[k] = hi[k] > b->hi[k] ? hi[k] : b->hi[k];
@@ -54,14 +54,14 @@ static double scale_for(const bounds *b) {
 }
 
 /* Rounded down. */
-static uint16_t unit_of(double x, double lo, double scale, double up) {
+static uint16_t unit_of_bound(double x, double lo, double scale, double up) {
     const double u = (x - lo) * scale + up;
     return (uint16_t)(u > 0 ? u < PACKED_UNITS ? (int32_t)u : PACKED_UNITS : 0);
 }
 
 static uint16_t unit_above(double x, double lo, double scale) {
     const double u = (x - lo) * scale;
-    const uint16_t below = unit_of(x, lo, scale, 0);
+    const uint16_t below = unit_of_bound(x, lo, scale, 0);
     return (uint16_t)(below + (u > below && below < PACKED_UNITS));
 }
 
@@ -71,11 +71,11 @@ static void write_rows(const space_header *h, uint16_t *rows, const froe_scene *
         for (uint32_t c = 0; c < 3; c++) {
             const double *x = space_corner(s, items + i, c);
             for (size_t k = 0; k < 3; k++)
-                rows[c < 2 ? (3 * c + k) * n + i : 6 * n + k * m + i] = unit_of(x[k], h->lo[k], h->scale, 0.5);
+                rows[c < 2 ? (3 * c + k) * n + i : 6 * n + k * m + i] = unit_of_bound(x[k], h->lo[k], h->scale, 0.5);
         }
     for (size_t i = m; i < n; i++)
         for (size_t k = 0; k < 3; k++) {
-            rows[k * n + i] = unit_of(items[i].lo[k], h->lo[k], h->scale, 0);
+            rows[k * n + i] = unit_of_bound(items[i].lo[k], h->lo[k], h->scale, 0);
             rows[(3 + k) * n + i] = unit_above(items[i].hi[k], h->lo[k], h->scale);
         }
 }
@@ -87,22 +87,22 @@ void space_write(space_header *h, const froe_scene *s, const space_item *items, 
     for (uint32_t i = 0; i < count; i++) space_ask_corners(s, items + i);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t object = items[i].object;
-        grow(&parts, items[i].lo, items[i].hi);
+        grow_bounds(&parts, items[i].lo, items[i].hi);
         for (uint32_t c = 0; i < triangles && c < 3; c++) {
             const double *x = space_corner(s, items + i, c);
-            grow(&frame, x, x);
+            grow_bounds(&frame, x, x);
         }
         const bool exact = i >= triangles && (scene_form(s, object) == FROE_BOX || scene_form(s, object) == FROE_POINT);
         ids[i] = object | (exact ? SPACE_EXACT : 0);
     }
-    if (count) grow(&frame, parts.lo, parts.hi);
+    if (count) grow_bounds(&frame, parts.lo, parts.hi);
     h->count = count;
     h->triangles = triangles;
     h->scale = count ? scale_for(&frame) : 0;
     if (h->scale == 0) return;
     for (int k = 0; k < 3; k++) {
         h->lo[k] = frame.lo[k] + 0.0; /* no -0 */
-        h->box[0][k] = unit_of(parts.lo[k], h->lo[k], h->scale, 0);
+        h->box[0][k] = unit_of_bound(parts.lo[k], h->lo[k], h->scale, 0);
         h->box[1][k] = unit_above(parts.hi[k], h->lo[k], h->scale);
     }
     write_rows(h, (uint16_t *)(void *)(ids + count), s, items);

@@ -18,7 +18,7 @@ typedef struct space_cell {
 } space_cell;
 
 /* Does the object meet a part of the cell? */
-static bool meets(num_context *context, const froe_scene *s, uint32_t object, const double corners[6]) {
+static bool object_meets_box(num_context *context, const froe_scene *s, uint32_t object, const double corners[6]) {
     double lo[3], hi[3];
     scene_object_bounds(s, object, lo, hi);
     for (int k = 0; k < 3; k++)
@@ -48,15 +48,15 @@ static double outside(num_context *context, const space_header *h, int k, double
 }
 
 /* Is nothing of the object in the cell outside of the box? */
-static bool within(num_context *context, const froe_tree *t, const space_header *h, const space_cell *cell,
-                   uint32_t object, const uint16_t box[2][3]) {
+static bool is_within_cell(num_context *context, const froe_tree *t, const space_header *h, const space_cell *cell,
+                           uint32_t object, const uint16_t box[2][3]) {
     for (int k = 0; k < 3; k++) {
         const double low = outside(context, h, k, box[0][k] - 0x1p-20, -1);
         const double high = outside(context, h, k, box[1][k] + 0x1p-20, 1);
         for (int upper = 0; upper < 2; upper++) {
             double c[6] = {cell->lo[0], cell->lo[1], cell->lo[2], cell->hi[0], cell->hi[1], cell->hi[2]};
             c[upper ? k : 3 + k] = upper ? high : low;
-            if (c[k] <= c[3 + k] && meets(context, t->scene, object, c)) return false;
+            if (c[k] <= c[3 + k] && object_meets_box(context, t->scene, object, c)) return false;
         }
     }
     return true;
@@ -101,5 +101,6 @@ const char *space_refuted(num_context *context, const froe_tree *t, uint32_t pie
     }
     if (id & SPACE_EXACT && loose(context, h, &cell, lo, hi, (const uint16_t(*)[3])box))
         return "a box larger than the object";
-    return within(context, t, h, &cell, object, (const uint16_t(*)[3])box) ? NULL : "a box that the object leaves";
+    return is_within_cell(context, t, h, &cell, object, (const uint16_t(*)[3])box) ? NULL
+                                                                                   : "a box that the object leaves";
 }

@@ -8,11 +8,11 @@
 #include "tree/walk.h"
 #include <math.h>
 
-static froe_status bad(froe_diagnostic *diag, uint32_t node, const char *what) {
+static froe_status bad_space_block(froe_diagnostic *diag, uint32_t node, const char *what) {
     return base_fail(diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, node);
 }
 
-static bool all_zero(const uint8_t *from, const uint8_t *to) {
+static bool range_is_zero(const uint8_t *from, const uint8_t *to) {
     while (from < to && !*from) from++;
     return from == to;
 }
@@ -63,8 +63,9 @@ static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t 
     *blocks += space_size(count, h->triangles);
     const uint8_t *end = (const uint8_t *)(space_row(h, 8) + h->triangles);
     const uint8_t *from = h->scale == 0 ? (const uint8_t *)(space_ids(h) + count) : end;
-    return all_zero(from, t->packed.blocks + (size_t)*blocks * PACKED_BLOCK) ? NULL
-                                                                             : "a block with something behind its end";
+    return range_is_zero(from, t->packed.blocks + (size_t)*blocks * PACKED_BLOCK)
+               ? NULL
+               : "a block with something behind its end";
 }
 
 static bool root_fits(const froe_tree *t) {
@@ -76,16 +77,16 @@ static bool root_fits(const froe_tree *t) {
 froe_status space_validate(const froe_tree *t, froe_diagnostic *diag) {
     tree_walk walk = {.tree = t};
     uint32_t blocks = 0;
-    froe_status status = root_fits(t) ? FROE_OK : bad(diag, 0, "not a tree that can be packed");
+    froe_status status = root_fits(t) ? FROE_OK : bad_space_block(diag, 0, "not a tree that can be packed");
     while (!status && tree_walk_next(&walk)) {
         const tree_node *n = t->nodes + walk.node;
         const char *why = tree_is_leaf(n) ? check_block(t, n, &blocks) : NULL;
-        if (why) status = bad(diag, walk.node, why);
+        if (why) status = bad_space_block(diag, walk.node, why);
     }
     if (tree_walk_end(&walk)) return base_fail_memory(diag);
     if (status) return status;
     const uint8_t *sentinel = t->packed.blocks + (size_t)blocks * PACKED_BLOCK;
-    if (blocks + 1 != t->packed.block_count || !all_zero(sentinel, sentinel + PACKED_BLOCK))
+    if (blocks + 1 != t->packed.block_count || !range_is_zero(sentinel, sentinel + PACKED_BLOCK))
         return base_fail(diag, FROE_E_FORMAT, "the tree is corrupted: blocks that no leaf uses");
     return FROE_OK;
 }

@@ -51,7 +51,7 @@ static bool grid_fits(const froe_tree *t) {
 
 /* ----------------------------------------------------------------- filling -- */
 
-static void fill(filling *f, const table_rect *r, uint32_t ragged) {
+static void fill_rect(filling *f, const table_rect *r, uint32_t ragged) {
     const tree_node *n = f->tree->nodes + r->node;
     tree_entry entry = {r->node, ragged};
     if (tree_is_leaf(n)) entry = (tree_entry){n->child, TABLE_LEAF | n->u.list.count};
@@ -83,7 +83,7 @@ static uint32_t first_not_short(double place, uint32_t from, uint32_t to) {
 }
 
 /* Serves the cells that the cut divides, and puts the others off to its children. */
-static bool divide(filling *f, const table_rect *r) {
+static bool divide_rect(filling *f, const table_rect *r) {
     const tree_node *n = f->tree->nodes + r->node;
     double place = tree_table_place(f->table, n->axis, n->u.value);
     uint32_t middle = first_not_short(place, r->from[n->axis], r->to[n->axis]);
@@ -94,7 +94,7 @@ static bool divide(filling *f, const table_rect *r) {
     high.node = n->child + 1, high.from[n->axis] = beyond;
     between.from[n->axis] = middle, between.to[n->axis] = beyond;
     bool all = middle == r->from[n->axis] && beyond == r->to[n->axis];
-    fill(f, &between, all ? 0 : TABLE_RAGGED);
+    fill_rect(f, &between, all ? 0 : TABLE_RAGGED);
     if (middle > r->from[n->axis] && !array_push(&f->tree->alloc, &f->stack, low)) return false;
     return beyond == r->to[n->axis] || array_push(&f->tree->alloc, &f->stack, high);
 }
@@ -105,9 +105,9 @@ static froe_status fill_all(filling *f) {
     while (room && f->stack.count) {
         table_rect r = f->stack.data[--f->stack.count];
         if (tree_is_leaf(f->tree->nodes + r.node))
-            fill(f, &r, 0);
+            fill_rect(f, &r, 0);
         else
-            room = divide(f, &r);
+            room = divide_rect(f, &r);
     }
     array_free(&f->tree->alloc, &f->stack);
     return room ? FROE_OK : FROE_E_MEMORY;

@@ -158,7 +158,7 @@ static uint8_t byte_above(double u) {
     return (uint8_t)(below + (u > below && below < 255));
 }
 
-static void fill(const widening *w, wide_node *n, const bounds *all, const uint32_t child[], uint32_t count) {
+static void fill_wide_node(const widening *w, wide_node *n, const bounds *all, const uint32_t child[], uint32_t count) {
     *n = (wide_node){.count = (uint8_t)count, .unused = WIDE_NORMAL};
     for (int k = 0; k < 3; k++) {
         n->lo[k] = all->lo[k] + 0.0;
@@ -180,7 +180,7 @@ static bool make_nodes(widening *w) {
     for (size_t i = 0; i < w->todo.count; i++) {
         uint32_t node = w->todo.data[i], count = open_up(w, node, child);
         wide_node wide;
-        fill(w, &wide, w->boxes + node, child, count);
+        fill_wide_node(w, &wide, w->boxes + node, child, count);
         for (uint32_t c = 0; c < count; c++) {
             const tree_node *n = w->tree->nodes + child[c];
             wide.child[c] = tree_is_leaf(n) ? WIDE_LEAF | n->child : (uint32_t)w->todo.count;

@@ -20,7 +20,8 @@ typedef struct finder {
 
 /* ---------------------------------------------------------------------- overlap -- */
 
-static bool beyond(view_sights *s, const view_corner *a, uint32_t a_count, const view_corner *b, uint32_t b_count) {
+static bool ring_is_beyond(view_sights *s, const view_corner *a, uint32_t a_count, const view_corner *b,
+                           uint32_t b_count) {
     for (uint32_t i = 0; i < a_count; i++) {
         const view_way way = a[i].way;
         bool all = true;
@@ -47,7 +48,8 @@ static bool overlap_exactly(finder *f, const view_piece *piece, const paint_part
         b = f->ring.data;
         count = (uint32_t)f->ring.count;
     }
-    return !beyond(f->sights, a, piece->count, b, count) && !beyond(f->sights, b, count, a, piece->count);
+    return !ring_is_beyond(f->sights, a, piece->count, b, count) &&
+           !ring_is_beyond(f->sights, b, count, a, piece->count);
 }
 
 /* Do their interiors overlap? Where rounding could hide that, sightlines tell. */
@@ -62,7 +64,7 @@ static bool overlap(finder *f, const view_piece *piece, size_t i) {
 
 /* ------------------------------------------------------------------------- arcs -- */
 
-static froe_status compare(finder *f, uint32_t visible, uint32_t i) {
+static froe_status compare_visible(finder *f, uint32_t visible, uint32_t i) {
     const view_piece *piece = f->parts->v->pieces + visible;
     const paint_part *part = f->parts->parts.data + i;
     const uint32_t node = f->parts->node_of[visible];
@@ -87,12 +89,12 @@ static froe_status compare_piece(finder *f, uint32_t visible) {
         for (uint32_t x = r.x0; x <= r.x1; x++) {
             const size_t cell = (size_t)y * g->cells + x;
             for (uint32_t e = g->starts[cell]; e < g->starts[cell + 1] && !status; e++)
-                status = compare(f, visible, g->entries[e]);
+                status = compare_visible(f, visible, g->entries[e]);
         }
     return status;
 }
 
-static const print_point *points_of(const void *user, size_t i, size_t *points) {
+static const print_point *arc_points(const void *user, size_t i, size_t *points) {
     const view_parts *p = user;
     *points = p->parts.data[i].count;
     return p->points.data + p->parts.data[i].first;
@@ -106,7 +108,7 @@ froe_status view_find_arcs(view_parts *parts, view_sights *sights, uint64_t most
     f.stamps = base_calloc(alloc, part_count + 1, sizeof *f.stamps);
     f.known = base_calloc(alloc, node_count + 1, sizeof *f.known);
     froe_status status = f.stamps && f.known ? FROE_OK : FROE_E_MEMORY;
-    if (!status) status = view_grid_new(alloc, parts->view, part_count, points_of, parts, &f.grid);
+    if (!status) status = view_grid_new(alloc, parts->view, part_count, arc_points, parts, &f.grid);
     for (uint32_t i = 0; i < parts->v->piece_count && !status; i++) status = compare_piece(&f, i);
     base_free(alloc, f.stamps, (part_count + 1) * sizeof *f.stamps);
     base_free(alloc, f.known, (node_count + 1) * sizeof *f.known);

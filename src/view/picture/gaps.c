@@ -26,7 +26,7 @@ typedef struct gapper {
     view_segments out;
 } gapper;
 
-static const print_point *points_of(const void *user, size_t i, size_t *points) {
+static const print_point *gap_points(const void *user, size_t i, size_t *points) {
     const view_segments *s = user;
     *points = 2;
     return s->data[i].at;
@@ -78,7 +78,7 @@ static bool meet(const view_segment *s, const view_segment *t) {
 }
 
 /* Does t take something away from s? */
-static bool compare(gapper *g, uint32_t i, uint32_t j) {
+static bool compare_lines(gapper *g, uint32_t i, uint32_t j) {
     const view_segment *s = g->in->data + i, *t = g->in->data + j;
     gap x;
     const int weaker = view_strength(t->kind, t->hidden) - view_strength(s->kind, s->hidden);
@@ -101,13 +101,13 @@ static bool compare_all(gapper *g, uint32_t i) {
                 const uint32_t j = g->grid.entries[e];
                 if (j == i || g->stamps[j] == i + 1) continue;
                 g->stamps[j] = i + 1;
-                if (!compare(g, i, j)) return false;
+                if (!compare_lines(g, i, j)) return false;
             }
         }
     return true;
 }
 
-static int by_start(void *user, uint32_t a, uint32_t b) {
+static int by_gap_start(void *user, uint32_t a, uint32_t b) {
     const gapper *g = user;
     return (g->gaps.data[a].from > g->gaps.data[b].from) - (g->gaps.data[a].from < g->gaps.data[b].from);
 }
@@ -134,7 +134,7 @@ static bool put_rest(gapper *g, uint32_t i) {
     g->order.count = 0;
     if (!array_reserve(g->alloc, &g->order, 2 * n)) return false;
     for (uint32_t k = 0; k < n; k++) g->order.data[k] = k;
-    base_merge_sort(g->order.data, g->order.data + n, n, by_start, g);
+    base_merge_sort(g->order.data, g->order.data + n, n, by_gap_start, g);
     for (size_t k = 0; k < n; k++) {
         const gap x = g->gaps.data[g->order.data[k]];
         if (x.from > last && !put_part(g, s, last, x.from)) return false;
@@ -151,7 +151,7 @@ froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection
     g.same[1] = 20 * g.same[0];
     g.stamps = base_calloc(alloc, n + 1, sizeof *g.stamps);
     froe_status status = g.stamps ? FROE_OK : FROE_E_MEMORY;
-    if (!status) status = view_grid_new(alloc, view, n, points_of, segments, &g.grid);
+    if (!status) status = view_grid_new(alloc, view, n, gap_points, segments, &g.grid);
     for (uint32_t i = 0; !status && i < n; i++)
         if (!compare_all(&g, i) || !put_rest(&g, i)) status = FROE_E_MEMORY;
     base_free(alloc, g.stamps, (n + 1) * sizeof *g.stamps);

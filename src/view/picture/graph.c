@@ -78,14 +78,14 @@ typedef struct breaker {
     bool first_round;
 } breaker;
 
-static bool enter(breaker *b, uint32_t v) {
+static bool enter_vertex(breaker *b, uint32_t v) {
     b->index[v] = b->low[v] = ++b->counter;
     b->on_stack[v] = 1;
     return array_push(b->alloc, &b->stack, v) && array_push(b->alloc, &b->calls, (base_pair){b->g->out_starts[v], v});
 }
 
 /* Pops the component of v; one of several nodes is kept. */
-static bool leave(breaker *b, uint32_t v) {
+static bool leave_vertex(breaker *b, uint32_t v) {
     size_t first = b->stack.count;
     do b->on_stack[b->stack.data[--first]] = 0;
     while (b->stack.data[first] != v);
@@ -102,7 +102,7 @@ static bool leave(breaker *b, uint32_t v) {
 
 /* All components that v reaches within its set. */
 static bool search(breaker *b, uint32_t root) {
-    if (!enter(b, root)) return false;
+    if (!enter_vertex(b, root)) return false;
     while (b->calls.count) {
         base_pair *top = b->calls.data + b->calls.count - 1;
         const uint32_t v = top->value;
@@ -110,7 +110,7 @@ static bool search(breaker *b, uint32_t root) {
             const uint32_t w = b->g->outs[top->key++];
             if (b->set[w] != b->set_number) continue;
             if (!b->index[w]) {
-                if (!enter(b, w)) return false;
+                if (!enter_vertex(b, w)) return false;
             } else if (b->on_stack[w] && b->index[w] < b->low[v]) {
                 b->low[v] = b->index[w];
             }
@@ -121,7 +121,7 @@ static bool search(breaker *b, uint32_t root) {
             const uint32_t u = b->calls.data[b->calls.count - 1].value;
             if (b->low[v] < b->low[u]) b->low[u] = b->low[v];
         }
-        if (b->low[v] == b->index[v] && !leave(b, v)) return false;
+        if (b->low[v] == b->index[v] && !leave_vertex(b, v)) return false;
     }
     return true;
 }

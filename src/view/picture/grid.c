@@ -56,7 +56,7 @@ static void choose_cells(const filler *f, const froe_projection *view) {
     }
 }
 
-static void fill(const filler *f, bool count_only) {
+static void fill_grid(const filler *f, bool count_only) {
     view_grid *g = f->grid;
     for (size_t i = f->count; i-- > 0;) {
         const view_cells c = cells_of(f, i);
@@ -79,9 +79,9 @@ froe_status view_grid_new(const froe_allocator *alloc, const froe_projection *vi
     out->starts = base_calloc(alloc, cells + 1, sizeof *out->starts);
     if (out->entry_count < UINT32_MAX) out->entries = base_calloc(alloc, out->entry_count + 1, sizeof *out->entries);
     if (!out->starts || !out->entries) return FROE_E_MEMORY;
-    fill(&f, true);
+    fill_grid(&f, true);
     for (size_t i = 1; i <= cells; i++) out->starts[i] += out->starts[i - 1]; /* ends, which filling lowers to starts */
-    fill(&f, false);
+    fill_grid(&f, false);
     return FROE_OK;
 }
 

@@ -24,7 +24,7 @@ typedef struct sorter {
     view_grid grid;
 } sorter;
 
-static const print_point *points_of(const void *user, size_t i, size_t *points) {
+static const print_point *line_points(const void *user, size_t i, size_t *points) {
     const sorter *s = user;
     *points = s->starts.data[i + 1] - s->starts.data[i];
     return s->points.data + s->starts.data[i];
@@ -40,7 +40,7 @@ static bool print_pieces(sorter *s) {
         s->starts.data[s->starts.count++] = (uint32_t)s->points.count;
     }
     s->stamps = base_calloc(alloc, (size_t)n + 1, sizeof *s->stamps);
-    return s->stamps && !view_grid_new(alloc, s->p->options->view, n, points_of, s, &s->grid);
+    return s->stamps && !view_grid_new(alloc, s->p->options->view, n, line_points, s, &s->grid);
 }
 
 /* --------------------------------------------------------------------- distances -- */
@@ -52,7 +52,7 @@ typedef struct meeting {
 } meeting;
 
 /* The point of ab nearest to q, as its share. */
-static double share_of(print_point a, print_point b, print_point q) {
+static double share_along(print_point a, print_point b, print_point q) {
     const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
     const double t = square > 0 ? ((q.x - a.x) * dx + (q.y - a.y) * dy) / square : 0;
     return fmin(1, fmax(0, t));
@@ -93,10 +93,10 @@ static meeting nearest(const print_point *ring, size_t n, print_point a, print_p
     }
     for (size_t i = 0; i < n; i++) {
         const print_point p = ring[i], q = ring[i + 1 < n ? i + 1 : 0];
-        const double t = share_of(a, b, p);
+        const double t = share_along(a, b, p);
         offer(&best, p, point_at(a, b, t), t);
-        offer(&best, point_at(p, q, share_of(p, q, a)), a, 0);
-        offer(&best, point_at(p, q, share_of(p, q, b)), b, 1);
+        offer(&best, point_at(p, q, share_along(p, q, a)), a, 0);
+        offer(&best, point_at(p, q, share_along(p, q, b)), b, 1);
     }
     return best;
 }
@@ -132,7 +132,7 @@ static bool is_nearer(const sorter *s, uint32_t visible, const view_segment *seg
 static bool note(sorter *s, uint32_t i, uint32_t visible, const view_segment *segment) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     size_t n;
-    const print_point *ring = points_of(s, visible, &n);
+    const print_point *ring = line_points(s, visible, &n);
     const uint32_t node = s->p->parts.node_of[visible];
     if (s->stamps[visible] == i + 1) return true;
     s->stamps[visible] = i + 1;
@@ -156,7 +156,7 @@ static bool look_around(sorter *s, uint32_t i) {
     return true;
 }
 
-static bool add_line(sorter *s, uint32_t i) {
+static bool add_interleaved_line(sorter *s, uint32_t i) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     const uint32_t own = s->p->graph.count + (uint32_t)s->lines.count;
     if (s->p->segments.data[i].hidden) return true;
@@ -217,7 +217,7 @@ froe_status view_interleave(view_painter *p) {
     sorter s = {.p = p, .reach = p->options->interleave};
     view_graph g = {0};
     bool ok = print_pieces(&s);
-    for (uint32_t i = 0; ok && i < p->segments.count; i++) ok = add_line(&s, i);
+    for (uint32_t i = 0; ok && i < p->segments.count; i++) ok = add_interleaved_line(&s, i);
     ok = ok && add_arcs(&s);
     const froe_status status = ok ? sort(&s, &g) : FROE_E_MEMORY;
     view_graph_free(alloc, &g);

@@ -36,7 +36,7 @@ static bool is_drawn(const view_outliner *o, uint32_t object) {
     return facing > 0 || (facing < 0 && !o->cull_back);
 }
 
-static bool add_side(view_outliner *o, uint32_t edge, uint32_t object, uint32_t from, uint32_t to) {
+static bool add_outline_side(view_outliner *o, uint32_t edge, uint32_t object, uint32_t from, uint32_t to) {
     const uint32_t side = (uint32_t)o->sides.count;
     if (!array_push(&o->alloc, &o->sides, (outline_side){edge, to, object, o->first_side[from]}) ||
         !array_push(&o->alloc, &o->starts, from))
@@ -54,7 +54,7 @@ static bool add_sides(view_outliner *o, uint32_t object) {
         const uint32_t edge = s->edge_of[scene->starts[object] + i], other = across(s, edge, object);
         const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
         if (other != FROE_NONE && is_drawn(o, other)) continue;
-        if (!add_side(o, edge, object, front ? a : b, front ? b : a)) return false;
+        if (!add_outline_side(o, edge, object, front ? a : b, front ? b : a)) return false;
     }
     return true;
 }
@@ -69,7 +69,7 @@ static print_point page_of(const view_outliner *o, uint32_t vertex) {
 }
 
 /* Goes the border straight on from u by v to w? Exactly, in space. */
-static bool is_straight(const view_outliner *o, uint32_t u, uint32_t v, uint32_t w) {
+static bool goes_straight(const view_outliner *o, uint32_t u, uint32_t v, uint32_t w) {
     const double *const p[3] = {view_vertex(o->sights, u), view_vertex(o->sights, v), view_vertex(o->sights, w)};
     const geom_plane plane = geom_plane_points(3, p);
     return !geom_plane_valid(&o->sights->context, &plane);
@@ -115,7 +115,7 @@ static outline_detour detour_by(const view_outliner *o, print_point a, print_poi
 }
 
 /* A side where the patch is hidden, and with it what hides it ends, is drawn short; see seams.h. */
-static bool trim(view_outliner *o, uint32_t object, print_point a, print_point b, outline_detour *out) {
+static bool trim_detour(view_outliner *o, uint32_t object, print_point a, print_point b, outline_detour *out) {
     print_point c;
     double height;
     bool hidden;
@@ -140,7 +140,7 @@ static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline
         return true;
     }
     if (!o->seams) return true;
-    return view_seams_look(o->seams, o->node, a, b, &bare) && (!bare || trim(o, s->object, a, b, out));
+    return view_seams_look(o->seams, o->node, a, b, &bare) && (!bare || trim_detour(o, s->object, a, b, out));
 }
 
 /* ------------------------------------------------------------------------ rings -- */
@@ -184,7 +184,7 @@ static bool put_sides(view_outliner *o, uint32_t patch, print_ring *points) {
         const uint32_t side = o->ring.data[i], before = o->ring.data[j], a = o->starts.data[side];
         const outline_detour *d = o->detours.data + i;
         const bool plain = !d->count && !o->detours.data[j].count;
-        if (plain && is_straight(o, o->starts.data[before], a, o->sides.data[side].to)) continue;
+        if (plain && goes_straight(o, o->starts.data[before], a, o->sides.data[side].to)) continue;
         points->data[points->count++] = page_of(o, a);
         for (uint32_t k = 0; k < d->count; k++) points->data[points->count++] = d->at[k];
     }

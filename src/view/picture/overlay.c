@@ -140,7 +140,7 @@ static uint32_t next_free(uint32_t *next, uint32_t i) {
 }
 
 /* One after the other, members take those of their parts that are still free. */
-static bool paint(overlayer *o, base_compare_fn *compare, overlay_ids *out) {
+static bool paint_line_of_sight(overlayer *o, base_compare_fn *compare, overlay_ids *out) {
     const froe_allocator *alloc = &o->sights->alloc;
     const uint32_t n = (uint32_t)o->places.count;
     out->count = o->next.count = 0;
@@ -161,7 +161,7 @@ static bool paint(overlayer *o, base_compare_fn *compare, overlay_ids *out) {
 /* -------------------------------------------------------------------- segments -- */
 
 /* Does what is drawn go on unchanged beyond part i? */
-static bool goes_on(const overlayer *o, uint32_t i) {
+static bool line_goes_on(const overlayer *o, uint32_t i) {
     const uint32_t here = o->drawn.data[i], beyond = o->drawn.data[i + 1];
     if (beyond == FROE_NONE) return false;
     const overlay_member *x = o->members.data + here, *y = o->members.data + beyond;
@@ -184,7 +184,7 @@ static uint32_t vertex_at(const overlayer *o, uint32_t part, int e) {
 static bool put_segments(overlayer *o, view_segments *out) {
     for (uint32_t i = 0, first; i + 1 < o->places.count; i++) {
         if (o->drawn.data[i] == FROE_NONE) continue;
-        for (first = i; i + 2 < o->places.count && goes_on(o, i);) i++;
+        for (first = i; i + 2 < o->places.count && line_goes_on(o, i);) i++;
         const overlay_member *m = o->members.data + o->drawn.data[first],
                              *nearest = o->members.data + o->front.data[first];
         view_segment s = {.kind = m->kind, .hidden = m->hidden, .place = FROE_NONE};
@@ -210,8 +210,8 @@ static bool overlay_line_at(overlayer *o, const view_items *items, const uint32_
         const overlay_line *l = o->lines.data + lines[i];
         if (!add_members(o, items, l, l->turned != first->turned)) return false;
     }
-    return find_places(o) && paint(o, by_strength, &o->drawn) && paint(o, by_nearness, &o->front) &&
-           put_segments(o, out);
+    return find_places(o) && paint_line_of_sight(o, by_strength, &o->drawn) &&
+           paint_line_of_sight(o, by_nearness, &o->front) && put_segments(o, out);
 }
 
 static void free_overlayer(overlayer *o) {

@@ -129,7 +129,7 @@ static void number_runs(view_painter *p) {
     }
 }
 
-static bool put_whole(view_painter *p, uint32_t patch, uint32_t node) {
+static bool put_whole_patch(view_painter *p, uint32_t patch, uint32_t node) {
     froe_picture *picture = p->picture;
     p->outliner.node = node;
     p->outliner.seams = p->seams.parts && !is_clear(p, patch) ? &p->seams : NULL;
@@ -162,7 +162,7 @@ froe_status view_paint_whole(view_painter *p) {
         const bool ok = is_left_out(p, node->patch) ? true
                         : node->piece != FROE_NONE  ? put_parts_of_piece(p, v)
                         : is_clipped(p, v)          ? put_region(p, node->patch, v)
-                                                    : put_whole(p, node->patch, v);
+                                                    : put_whole_patch(p, node->patch, v);
         if (!ok) return FROE_E_MEMORY;
         if (p->picture->points.count > INT32_MAX) return FROE_E_LIMIT;
     }

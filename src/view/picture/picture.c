@@ -52,8 +52,8 @@ static froe_status find_kinds(const view_painter *p, const froe_tree *tree, cons
     return status ? base_fail_memory(diag) : FROE_OK;
 }
 
-static froe_status look(view_painter *p, const froe_tree *tree, const froe_surface *surface, const uint8_t *kinds,
-                        froe_diagnostic *diag) {
+static froe_status look_for_picture(view_painter *p, const froe_tree *tree, const froe_surface *surface,
+                                    const uint8_t *kinds, froe_diagnostic *diag) {
     const froe_picture_options *o = p->options;
     froe_visibility_options look = froe_visibility_defaults();
     look.eye = o->view->eye;
@@ -147,11 +147,12 @@ static void free_painter(view_painter *p) {
     froe_visibility_free(p->v);
 }
 
-static froe_status make(view_painter *p, const froe_tree *tree, const froe_surface *surface, froe_diagnostic *diag) {
+static froe_status make_picture(view_painter *p, const froe_tree *tree, const froe_surface *surface,
+                                froe_diagnostic *diag) {
     uint8_t *kinds = base_calloc(&p->picture->alloc, (size_t)surface->edge_count + 1, 1);
     if (!kinds) return base_fail_memory(diag);
     froe_status status = p->options->lines ? find_kinds(p, tree, surface, kinds, diag) : FROE_OK;
-    if (!status) status = look(p, tree, surface, kinds, diag);
+    if (!status) status = look_for_picture(p, tree, surface, kinds, diag);
     if (!status) {
         if (p->options->lines) status = view_make_segments(p, kinds);
         if (!status) status = plan_fills(p);
@@ -167,7 +168,7 @@ static froe_status make(view_painter *p, const froe_tree *tree, const froe_surfa
 
 /* --------------------------------------------------------------------- calling -- */
 
-static froe_status check(const froe_picture_options *o, froe_diagnostic *diag) {
+static froe_status check_picture_options(const froe_picture_options *o, froe_diagnostic *diag) {
     if (!o || o->size != sizeof *o)
         return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_picture_defaults()");
     if (!o->view) return base_fail(diag, FROE_E_ARG, "there is no view");
@@ -189,14 +190,14 @@ froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
                              froe_picture **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!tree || !surface || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
-    froe_status status = check(options, diag);
+    froe_status status = check_picture_options(options, diag);
     if (status) return status;
     const froe_allocator alloc = base_allocator(options->alloc);
     froe_picture *picture = base_calloc(&alloc, 1, sizeof *picture);
     if (!picture) return base_fail_memory(diag);
     picture->alloc = alloc;
     view_painter p = {.picture = picture, .options = options};
-    status = make(&p, tree, surface, diag);
+    status = make_picture(&p, tree, surface, diag);
     free_painter(&p);
     if (status) {
         froe_picture_free(picture);

@@ -56,7 +56,7 @@ static bool split_late(view_painter *p) {
 }
 
 /* Lines have a style of their own. */
-static uint32_t style_of(const view_painter *p, uint32_t v, uint32_t lines) {
+static uint32_t style_of_node(const view_painter *p, uint32_t v, uint32_t lines) {
     if (v >= p->parts.nodes.count) return lines;
     return p->options->styles ? p->options->styles[p->parts.nodes.data[v].patch] : 0;
 }
@@ -66,8 +66,8 @@ froe_status view_sort_nodes(const view_painter *p, const view_graph *graph, uint
     uint32_t lines = 0, *styles = base_calloc(alloc, (size_t)graph->count + 1, sizeof *styles);
     if (!styles) return FROE_E_MEMORY;
     for (uint32_t v = 0; v < p->parts.nodes.count; v++)
-        if (style_of(p, v, 0) >= lines) lines = style_of(p, v, 0) + 1;
-    for (uint32_t v = 0; v < graph->count; v++) styles[v] = style_of(p, v, lines);
+        if (style_of_node(p, v, 0) >= lines) lines = style_of_node(p, v, 0) + 1;
+    for (uint32_t v = 0; v < graph->count; v++) styles[v] = style_of_node(p, v, lines);
     const froe_status status = view_graph_sort(alloc, graph, styles, lines + 1, order);
     base_free(alloc, styles, ((size_t)graph->count + 1) * sizeof *styles);
     return status;

@@ -34,7 +34,7 @@ static bool print_pieces(view_seams *s, view_parts *parts) {
     return true;
 }
 
-static const print_point *points_of(const void *user, size_t i, size_t *points) {
+static const print_point *seam_points(const void *user, size_t i, size_t *points) {
     const view_seams *s = user;
     *points = s->pieces.data[i].count;
     return s->points.data + s->pieces.data[i].first;
@@ -44,7 +44,7 @@ froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *ord
                            const uint32_t *styles, const uint8_t *clear, double width) {
     *s = (view_seams){.parts = parts, .clear = clear, .width = width};
     if (!number_nodes(s, order, breaks, styles) || !print_pieces(s, parts)) return FROE_E_MEMORY;
-    return view_grid_new(&parts->v->alloc, parts->view, s->pieces.count, points_of, s, &s->grid);
+    return view_grid_new(&parts->v->alloc, parts->view, s->pieces.count, seam_points, s, &s->grid);
 }
 
 void view_seams_free(view_seams *s) {
@@ -135,14 +135,15 @@ static bool list_near(view_seams *s, const print_point *ring, size_t count) {
     return true;
 }
 
-static bool meets(const view_seams *s, uint32_t visible, const print_point *ring, size_t count) {
+static bool ring_meets_visible(const view_seams *s, uint32_t visible, const print_point *ring, size_t count) {
     const seam_span span = s->pieces.data[visible];
     return span.count > 2 && print_overlap(s->points.data + span.first, span.count, ring, count, 0.02 * s->width);
 }
 
 static bool any_of_node(const view_seams *s, uint32_t node, const print_point *ring, size_t count) {
     for (size_t i = 0; i < s->near.count; i++)
-        if (s->parts->node_of[s->near.data[i]] == node && meets(s, s->near.data[i], ring, count)) return true;
+        if (s->parts->node_of[s->near.data[i]] == node && ring_meets_visible(s, s->near.data[i], ring, count))
+            return true;
     return false;
 }
 
@@ -157,7 +158,7 @@ static bool covers(const view_seams *s, uint32_t visible, uint32_t node) {
 static bool ends_with(const view_seams *s, uint32_t node, const print_point inner[4], const print_point outer[4]) {
     for (size_t i = 0; i < s->near.count; i++) {
         const uint32_t visible = s->near.data[i];
-        if (covers(s, visible, node) && meets(s, visible, inner, 4) &&
+        if (covers(s, visible, node) && ring_meets_visible(s, visible, inner, 4) &&
             !any_of_node(s, s->parts->node_of[visible], outer, 4))
             return true;
     }
@@ -179,7 +180,7 @@ static bool add_range(view_seams *s, seam_ranges *ranges, uint32_t visible, cons
     return r.from >= r.to || array_push(&s->parts->v->alloc, ranges, r);
 }
 
-static int by_start(void *user, uint32_t i, uint32_t j) {
+static int by_seam_start(void *user, uint32_t i, uint32_t j) {
     const seam_ranges *ranges = user;
     const double x = ranges->data[i].from, y = ranges->data[j].from;
     return (x > y) - (x < y);
@@ -192,7 +193,7 @@ static bool join_ranges(view_seams *s, seam_ranges *ranges) {
     s->order.count = 0;
     if (!array_reserve(alloc, &s->order, 2 * n) || !array_reserve(alloc, ranges, n)) return false;
     for (uint32_t i = 0; i < n; i++) s->order.data[i] = i;
-    base_merge_sort(s->order.data, s->order.data + n, n, by_start, ranges);
+    base_merge_sort(s->order.data, s->order.data + n, n, by_seam_start, ranges);
     for (size_t i = 0; i < n; i++) ranges->data[n + i] = ranges->data[s->order.data[i]];
     ranges->count = 0;
     for (size_t i = 0; i < n; i++) {

@@ -18,7 +18,7 @@ static void set_end(const view_painter *p, view_item *item, int e, const double 
 #define BEYOND 1e-6
 
 /* A stretch of the segment from a to b, between two shares, unless it is too near to the eye. */
-static bool add_item(view_painter *p, view_item *item, const double *a, const double *b, double from, double to) {
+static bool add_view_item(view_painter *p, view_item *item, const double *a, const double *b, double from, double to) {
     double share[2] = {from, to};
     if (!print_clip_segment(p->options->view, a, b, BEYOND, share)) return true;
     for (int e = 0; e < 2; e++) set_end(p, item, e, a, b, share[e]);
@@ -29,8 +29,8 @@ static bool add_stretch(view_painter *p, uint32_t edge, uint8_t kind, bool hidde
     view_sights *s = p->sights;
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     view_item item = {.run = {view_line_of_edge(s, edge), {mark[0], mark[1]}}, .kind = kind, .hidden = hidden};
-    return add_item(p, &item, view_vertex(s, v[0]), view_vertex(s, v[1]), view_share_of(s, edge, mark[0]),
-                    view_share_of(s, edge, mark[1]));
+    return add_view_item(p, &item, view_vertex(s, v[0]), view_vertex(s, v[1]), view_share_of(s, edge, mark[0]),
+                         view_share_of(s, edge, mark[1]));
 }
 
 /* What of an edge the section has left; *left: anything. */
@@ -74,7 +74,7 @@ static bool add_crossings(view_painter *p) {
     for (size_t i = 0; i < count; i++) {
         const uint32_t kind = x[i].section ? FROE_LINE_SECTION : FROE_LINE_CROSSING;
         view_item item = {.run = p->v->crossing_runs.data[i], .kind = (uint8_t)kind, .hidden = x[i].hidden};
-        if (p->options->lines & kind && !add_item(p, &item, x[i].from, x[i].to, 0, 1)) return false;
+        if (p->options->lines & kind && !add_view_item(p, &item, x[i].from, x[i].to, 0, 1)) return false;
     }
     return true;
 }

@@ -65,7 +65,7 @@ static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
 }
 
 /* Follows segments from end `e` of segment `i`; their far ends go to `out`. *free: the last end is within an edge. */
-static bool follow(chainer *c, uint32_t i, uint32_t e, print_ring *out, uint32_t *vertex) {
+static bool follow_chain(chainer *c, uint32_t i, uint32_t e, print_ring *out, uint32_t *vertex) {
     out->count = 0;
     for (;;) {
         *vertex = c->p->segments.data[i].vertex[e];
@@ -82,7 +82,7 @@ static bool put_stroke(chainer *c, uint32_t i) {
     view_segment *s = c->p->segments.data + i;
     uint32_t start, end;
     s->used = 1;
-    if (!follow(c, i, 1, &c->forth, &end) || !follow(c, i, 0, &c->back, &start)) return false;
+    if (!follow_chain(c, i, 1, &c->forth, &end) || !follow_chain(c, i, 0, &c->back, &start)) return false;
     picture_stroke stroke = {
         .first = (uint32_t)picture->stroke_points.count, .kind = s->kind, .hidden = s->hidden, .place = s->place};
     stroke.count = (uint32_t)(c->forth.count + c->back.count + 2);

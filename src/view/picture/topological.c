@@ -18,7 +18,7 @@ typedef struct sorter {
     ARRAY(heap_entry) heap;
 } sorter;
 
-static uint32_t style_of(const sorter *s, uint32_t v) {
+static uint32_t style_of_vertex(const sorter *s, uint32_t v) {
     return s->styles ? s->styles[v] : 0;
 }
 
@@ -51,7 +51,7 @@ static heap_entry pop_style(sorter *s) {
 }
 
 static bool make_ready(sorter *s, uint32_t v) {
-    const uint32_t style = style_of(s, v);
+    const uint32_t style = style_of_vertex(s, v);
     s->below[v] = s->top[style];
     s->top[style] = v;
     s->waiting[style]++;
@@ -68,7 +68,7 @@ static uint32_t next_style(sorter *s, uint32_t now) {
     }
 }
 
-static bool run(sorter *s, uint32_t *order) {
+static bool sort_by_style(sorter *s, uint32_t *order) {
     const view_graph *g = s->g;
     for (uint32_t i = 0; i < g->arc_count; i++) s->missing[g->outs[i]]++;
     for (uint32_t v = 0; v < g->count; v++)
@@ -96,7 +96,7 @@ froe_status view_graph_sort(const froe_allocator *alloc, const view_graph *graph
     s.below = base_calloc(alloc, n, sizeof *s.below);
     s.top = base_calloc(alloc, m, sizeof *s.top);
     s.waiting = base_calloc(alloc, m, sizeof *s.waiting);
-    const bool ok = s.missing && s.below && s.top && s.waiting && run(&s, order);
+    const bool ok = s.missing && s.below && s.top && s.waiting && sort_by_style(&s, order);
     base_free(alloc, s.missing, n * sizeof *s.missing);
     base_free(alloc, s.below, n * sizeof *s.below);
     base_free(alloc, s.top, m * sizeof *s.top);

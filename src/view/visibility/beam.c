@@ -39,7 +39,7 @@ static view_way way_of(view_sights *s, uint32_t piece, uint32_t object, uint32_t
     return line == FROE_NONE ? FROE_NONE : 2 * line + (positive == in_front);
 }
 
-static bool is_straight(const view_sights *s, uint32_t object, uint32_t before, uint32_t after) {
+static bool is_straight_at(const view_sights *s, uint32_t object, uint32_t before, uint32_t after) {
     return !((before | after) & TREE_EDGE_CUT) && s->surface->straight[s->tree->scene->starts[object] + after];
 }
 
@@ -51,7 +51,7 @@ static bool make_ring(view_sights *s, uint32_t piece, const outline *o, view_rin
     for (uint32_t j = 0; j < o->count; j++) {
         const uint32_t i = facing > 0 ? j : o->count - 1 - j, i_before = i ? i - 1 : o->count - 1;
         const uint32_t before = entry(o, i_before), after = entry(o, i);
-        if (is_straight(s, o->object, before, after)) continue;
+        if (is_straight_at(s, o->object, before, after)) continue;
         const bool own = !((before | after) & TREE_EDGE_CUT);
         view_corner k = {.vertex = own ? scene_corner(s->tree->scene, o->object, after) : FROE_NONE};
         k.way = way_of(s, piece, o->object, facing > 0 ? after : before, facing);

@@ -107,7 +107,7 @@ static bool put_crossing(froe_visibility *v, const view_end *from, const view_en
 }
 
 /* The line of a stretch that was found on a cut side. */
-static crossing_line line_of(const froe_visibility *v, uint32_t line, bool hidden) {
+static crossing_line line_of_crossing(const froe_visibility *v, uint32_t line, bool hidden) {
     const view_line *l = v->sights.lines.data + line;
     return (crossing_line){line, l->a, v->section && l->b == 0, hidden};
 }
@@ -175,7 +175,7 @@ static int by_line(void *user, uint32_t a, uint32_t b) {
 }
 
 /* Unites the stretches of each line; what is left is in order and disjoint. */
-static void unite(view_sights *s, const uint32_t *items, const view_stretch *stretches, view_stretches *out) {
+static void unite_stretches(view_sights *s, const uint32_t *items, const view_stretch *stretches, view_stretches *out) {
     for (size_t i = 0; i < out->count; i++) out->data[i] = stretches[items[i]];
     size_t kept = 0;
     for (size_t i = 0; i < out->count; i++) {
@@ -189,7 +189,7 @@ static void unite(view_sights *s, const uint32_t *items, const view_stretch *str
     out->count = kept;
 }
 
-static froe_status join(view_sights *s, view_stretches *stretches) {
+static froe_status join_stretches(view_sights *s, view_stretches *stretches) {
     const size_t n = stretches->count;
     if (n > INT32_MAX) return FROE_E_LIMIT;
     uint32_t *items = base_calloc(&s->alloc, 2 * n + 1, sizeof *items);
@@ -199,7 +199,7 @@ static froe_status join(view_sights *s, view_stretches *stretches) {
         if (n) memcpy(copy, stretches->data, n * sizeof *copy);
         for (uint32_t i = 0; i < n; i++) items[i] = i;
         base_merge_sort(items, items + n, n, by_line, &j);
-        unite(s, items, copy, stretches);
+        unite_stretches(s, items, copy, stretches);
     }
     const bool ok = items && copy;
     base_free(&s->alloc, items, (2 * n + 1) * sizeof *items);
@@ -218,20 +218,20 @@ static bool put_hidden(froe_visibility *v, const view_stretch *part, const view_
         if (view_compare_along(s, line, &x->end[1], from) <= 0) continue;
         if (view_compare_along(s, line, &x->end[0], to) >= 0) break;
         if (view_compare_along(s, line, from, &x->end[0]) < 0 &&
-            !put_crossing(v, from, &x->end[0], line_of(v, line, true)))
+            !put_crossing(v, from, &x->end[0], line_of_crossing(v, line, true)))
             return false;
         from = &x->end[1];
     }
-    return view_compare_along(s, line, from, to) >= 0 || put_crossing(v, from, to, line_of(v, line, true));
+    return view_compare_along(s, line, from, to) >= 0 || put_crossing(v, from, to, line_of_crossing(v, line, true));
 }
 
 froe_status view_join_crossings(froe_visibility *v, view_crosser *c) {
-    froe_status status = join(&v->sights, &c->seen);
-    if (!status) status = join(&v->sights, &c->all);
+    froe_status status = join_stretches(&v->sights, &c->seen);
+    if (!status) status = join_stretches(&v->sights, &c->all);
     bool ok = !status;
     for (size_t i = 0; ok && i < c->seen.count; i++) {
         const view_stretch *x = c->seen.data + i;
-        ok = put_crossing(v, &x->end[0], &x->end[1], line_of(v, x->edge, false));
+        ok = put_crossing(v, &x->end[0], &x->end[1], line_of_crossing(v, x->edge, false));
     }
     const view_stretch *seen = c->seen.data;
     for (size_t i = 0; ok && i < c->all.count; i++)

@@ -22,7 +22,7 @@ static uint32_t count_runs(const base_pair *pairs, uint32_t count) {
     return runs;
 }
 
-static uint32_t *take(const froe_allocator *alloc, size_t count, bool *ok) {
+static uint32_t *take_numbers(const froe_allocator *alloc, size_t count, bool *ok) {
     uint32_t *out = base_calloc(alloc, count ? count : 1, sizeof *out);
     *ok = *ok && out;
     return out;
@@ -34,7 +34,7 @@ static void name_objects(const froe_scene *s, uint32_t *object_of) {
         for (uint32_t i = s->starts[o]; i < s->starts[o + 1]; i++) object_of[i] = o;
 }
 
-static void fill(froe_surface *out, const base_pair *pairs, const uint32_t *object_of) {
+static void fill_edges(froe_surface *out, const base_pair *pairs, const uint32_t *object_of) {
     uint32_t edge = 0;
     for (uint32_t i = 0; i < out->use_count; i++) {
         if (i == 0 || pairs[i].key != pairs[i - 1].key) {
@@ -55,20 +55,20 @@ froe_status surface_find_edges(froe_surface *out) {
     const uint32_t corners = s->object_count ? s->starts[s->object_count] : 0, most = corners ? corners : 1;
     base_pair *pairs = base_calloc(alloc, 2 * (size_t)most, sizeof *pairs);
     bool ok = pairs != NULL;
-    uint32_t *object_of = take(alloc, most, &ok);
-    out->edge_of = take(alloc, most, &ok);
+    uint32_t *object_of = take_numbers(alloc, most, &ok);
+    out->edge_of = take_numbers(alloc, most, &ok);
     if (ok) {
         out->use_count = list_pairs(s, pairs);
         base_radix_sort(pairs, pairs + most, out->use_count);
         out->edge_count = count_runs(pairs, out->use_count);
     }
-    out->vertices = take(alloc, 2 * (size_t)out->edge_count, &ok);
-    out->edge_starts = take(alloc, (size_t)out->edge_count + 1, &ok);
-    out->uses = take(alloc, out->use_count, &ok);
+    out->vertices = take_numbers(alloc, 2 * (size_t)out->edge_count, &ok);
+    out->edge_starts = take_numbers(alloc, (size_t)out->edge_count + 1, &ok);
+    out->uses = take_numbers(alloc, out->use_count, &ok);
     if (ok) {
         for (uint32_t i = 0; i < corners; i++) out->edge_of[i] = FROE_NONE;
         name_objects(s, object_of);
-        fill(out, pairs, object_of);
+        fill_edges(out, pairs, object_of);
     }
     base_free(alloc, object_of, most * sizeof *object_of);
     base_free(alloc, pairs, 2 * (size_t)most * sizeof *pairs);

@@ -44,13 +44,13 @@ typedef struct joiner {
     uint32_t edge, line;
 } joiner;
 
-static int by_start(void *user, uint32_t a, uint32_t b) {
+static int by_interval_start(void *user, uint32_t a, uint32_t b) {
     joiner *j = user;
     return view_compare_ends(&j->v->sights, j->line, &j->stretches[a].end[0], &j->stretches[b].end[0]);
 }
 
 /* Appends the union of the sorted stretches of one edge; rounding keeps the order. */
-static void join(joiner *j, const uint32_t *items, uint32_t count) {
+static void join_intervals(joiner *j, const uint32_t *items, uint32_t count) {
     froe_visibility *v = j->v;
     double last = 0;
     for (uint32_t i = 0; i < count;) {
@@ -93,8 +93,8 @@ froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretc
         const uint32_t count = starts[e + 1] - starts[e], first = starts[e];
         joiner j = {v, stretches->data, e, count ? view_line_of_edge(&v->sights, e) : FROE_NONE};
         starts[e] = v->interval_count;
-        base_merge_sort(items + first, items + n, count, by_start, &j);
-        join(&j, items + first, count);
+        base_merge_sort(items + first, items + n, count, by_interval_start, &j);
+        join_intervals(&j, items + first, count);
     }
     if (ok) starts[edges] = v->interval_count;
     base_free(alloc, items, (2 * n + 1) * sizeof *items);

@@ -109,7 +109,7 @@ static bool push_node(view_order *order, uint32_t node) {
     return push_child(order, node, first);
 }
 
-static bool visit(view_order *order) {
+static bool visit_in_order(view_order *order) {
     view_visit at = order->visits.data[--order->visits.count];
     if (!at.list && !tree_is_leaf(order->tree->nodes + at.node)) return push_node(order, at.node);
     return begin_list(order, tree_list(order->tree, at.node));
@@ -118,7 +118,7 @@ static bool visit(view_order *order) {
 bool view_order_next(view_order *order, uint32_t *piece) {
     while (order->list_at == order->list_end) {
         if (!order->visits.count) return false;
-        if (visit(order)) continue;
+        if (visit_in_order(order)) continue;
         order->status = FROE_E_MEMORY;
         return false;
     }

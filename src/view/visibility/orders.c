@@ -12,8 +12,8 @@ froe_order_options froe_order_defaults(void) {
     return (froe_order_options){.size = sizeof(froe_order_options)};
 }
 
-static froe_status check(const froe_tree *tree, const froe_order_options **options, const froe_order_options *standard,
-                         froe_diagnostic *diag) {
+static froe_status check_orders(const froe_tree *tree, const froe_order_options **options,
+                                const froe_order_options *standard, froe_diagnostic *diag) {
     if (!tree) return base_fail(diag, FROE_E_ARG, "the tree is NULL");
     if (!*options) *options = standard;
     if ((*options)->size != sizeof **options)
@@ -29,7 +29,7 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
     view_order order;
     uint32_t piece;
     if (!eye || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
-    froe_status status = check(tree, &options, &standard, diag);
+    froe_status status = check_orders(tree, &options, &standard, diag);
     if (!status) status = view_eye_of(tree, eye, &from, diag);
     if (status) return status;
     status = view_order_begin(&order, tree, &from, options->front_to_back, options->ranks);
@@ -98,7 +98,7 @@ froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t
     BASE_FLOATS_OWN;
     const froe_order_options standard = froe_order_defaults();
     if (count && (!eyes || !pieces)) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
-    froe_status status = check(tree, &options, &standard, diag);
+    froe_status status = check_orders(tree, &options, &standard, diag);
     if (status) return status;
     base_task task;
     base_task_init(&task, options->threads, options->progress, options->user);

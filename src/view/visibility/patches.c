@@ -3,14 +3,14 @@
 #include "geom/predicates.h"
 #include "view/visibility/surface.h"
 
-static uint32_t find(uint32_t *parent, uint32_t i) {
+static uint32_t find_patch_root(uint32_t *parent, uint32_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]]; /* path halving */
     return i;
 }
 
 /* The lower number stays the root, so that a patch is named by its first object. */
-static void unite(uint32_t *parent, uint32_t a, uint32_t b) {
-    a = find(parent, a), b = find(parent, b);
+static void unite_patches(uint32_t *parent, uint32_t a, uint32_t b) {
+    a = find_patch_root(parent, a), b = find_patch_root(parent, b);
     if (a < b)
         parent[b] = a;
     else
@@ -54,7 +54,7 @@ static void unite_neighbours(froe_surface *s, num_context *context, uint32_t *pa
         if (s->edge_starts[e + 1] - s->edge_starts[e] != 2 || use[0] == use[1]) continue;
         s->inside[e] =
             group_of(s->scene, use[0]) == group_of(s->scene, use[1]) && continues(s, context, e, use[0], use[1]);
-        if (s->inside[e]) unite(parent, use[0], use[1]);
+        if (s->inside[e]) unite_patches(parent, use[0], use[1]);
     }
 }
 
@@ -64,7 +64,7 @@ static void number(froe_surface *s, uint32_t *parent) {
     uint32_t *starts = s->patch_starts;
     for (uint32_t o = 0; o < n; o++) {
         const bool polygon = scene_form(s->scene, o) == FROE_POLYGON;
-        const uint32_t root = find(parent, o);
+        const uint32_t root = find_patch_root(parent, o);
         s->patch_of[o] = !polygon ? FROE_NONE : root == o ? s->patch_count++ : s->patch_of[root];
         if (polygon) starts[s->patch_of[o] + 1]++;
     }

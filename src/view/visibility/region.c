@@ -14,20 +14,20 @@ typedef struct maker {
 
 /* ------------------------------------------------------------------------ points -- */
 
-static uint32_t find(uint32_t *point, uint32_t i) {
+static uint32_t find_point_root(uint32_t *point, uint32_t i) {
     while (point[i] != i) i = point[i] = point[point[i]];
     return i;
 }
 
-static void unite(uint32_t *point, uint32_t a, uint32_t b) {
-    a = find(point, a), b = find(point, b);
+static void unite_points(uint32_t *point, uint32_t a, uint32_t b) {
+    a = find_point_root(point, a), b = find_point_root(point, b);
     point[a > b ? a : b] = a > b ? b : a;
 }
 
 /* ------------------------------------------------------------------------- sides -- */
 
 /* The side that leaves corner i of a piece. A corner is  before x way, and also  way x after  of the side before. */
-static region_side side_of(const view_corner *ring, uint32_t count, uint32_t i, uint32_t number) {
+static region_side side_of_ring(const view_corner *ring, uint32_t count, uint32_t i, uint32_t number) {
     const uint32_t j = i + 1 < count ? i + 1 : 0;
     const view_way way = ring[i].way, before = ring[i ? i - 1 : count - 1].way, after = ring[j].way;
     const uint32_t turned = way & 1;
@@ -54,7 +54,7 @@ static bool list_sides(maker *m, uint32_t patch) {
         const uint32_t number = (uint32_t)r->sides.count;
         for (uint32_t i = 0; i < piece->count; i++) {
             const uint32_t n = number + i;
-            r->sides.data[r->sides.count++] = side_of(v->corners.data + piece->first, piece->count, i, number);
+            r->sides.data[r->sides.count++] = side_of_ring(v->corners.data + piece->first, piece->count, i, number);
             r->corner_of.data[r->corner_of.count++] = piece->first + i;
             r->point.data[r->point.count++] = n;
             r->first_border.data[r->first_border.count++] = FROE_NONE;
@@ -71,7 +71,7 @@ static int compare_ends(void *user, uint32_t a, uint32_t b) {
     maker *m = user;
     const region_side *s = m->r->sides.data + (a >> 1), *t = m->r->sides.data + (b >> 1);
     const uint32_t p = s->end[a & 1], q = t->end[b & 1];
-    if (find(m->r->point.data, p) == find(m->r->point.data, q)) return 0;
+    if (find_point_root(m->r->point.data, p) == find_point_root(m->r->point.data, q)) return 0;
     const view_corner *x = m->v->corners.data + m->r->corner_of.data[p];
     const view_corner *y = m->v->corners.data + m->r->corner_of.data[q];
     if (x->vertex != FROE_NONE && x->vertex == y->vertex) return 0;
@@ -93,7 +93,7 @@ static bool sweep(maker *m, const uint32_t *ends, uint32_t count) {
         uint32_t j = i;
         for (; j < count && (j == i || compare_ends(m, ends[j - 1], ends[j]) == 0); j++) {
             const region_side *s = m->r->sides.data + (ends[j] >> 1);
-            unite(m->r->point.data, here, s->end[ends[j] & 1]);
+            unite_points(m->r->point.data, here, s->end[ends[j] & 1]);
             active[s->turned] += ends[j] & 1 ? -1 : 1;
         }
         i = j;
@@ -127,7 +127,7 @@ static bool sweep_lines(maker *m) {
 /* ------------------------------------------------------------------------- rings -- */
 
 static uint32_t take_border(maker *m, uint32_t corner) {
-    uint32_t *first = m->r->first_border.data + find(m->r->point.data, corner), border = *first;
+    uint32_t *first = m->r->first_border.data + find_point_root(m->r->point.data, corner), border = *first;
     if (border != FROE_NONE) *first = m->r->borders.data[border].next;
     return border;
 }
@@ -135,7 +135,7 @@ static uint32_t take_border(maker *m, uint32_t corner) {
 static bool chain(maker *m) {
     view_region *r = m->r;
     for (uint32_t b = 0; b < r->borders.count; b++) {
-        uint32_t *first = r->first_border.data + find(r->point.data, r->borders.data[b].from);
+        uint32_t *first = r->first_border.data + find_point_root(r->point.data, r->borders.data[b].from);
         r->borders.data[b].next = *first;
         *first = b;
     }

@@ -119,7 +119,7 @@ static void cut_off(view_screen *s, size_t first, uint32_t count, uint32_t line,
 }
 
 /* Replaces the topmost beam, its ring at `first`, by its two parts, the negative one on top. */
-static bool divide(view_screen *s, uint32_t node, size_t first, uint32_t count) {
+static bool divide_beam(view_screen *s, uint32_t node, size_t first, uint32_t count) {
     const froe_allocator *alloc = &s->sights->alloc;
     const view_screen_node n = s->nodes.data[node];
     if (!array_reserve(alloc, &s->corners, 2 * ((size_t)count + 2)) || !array_reserve(alloc, &s->beams, 2))
@@ -159,7 +159,7 @@ static bool send(view_screen *s, bool covers, view_beam_fn *fn, void *user) {
     while (node < VIEW_COVERED) {
         const view_screen_node *n = s->nodes.data + node;
         const unsigned reached = find_sides(s, n->line, ring, count);
-        if (reached == 3) return divide(s, node, top.first, count);
+        if (reached == 3) return divide_beam(s, node, top.first, count);
         mark_bound(s, ring, count);
         slot = 2 * node + (reached == 2);
         node = n->child[reached == 2];

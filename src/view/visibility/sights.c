@@ -12,7 +12,7 @@
 
 /* ------------------------------------------------------------------ begin, end -- */
 
-static uint32_t point_count(const view_sights *s) {
+static uint32_t sight_point_count(const view_sights *s) {
     return s->tree->scene->vertex_count + s->window_count;
 }
 
@@ -23,7 +23,7 @@ froe_status view_sights_new(view_sights *s, const froe_tree *tree, const froe_su
     s->window_count = window_count;
     froe_status status = geom_context_new(alloc, &s->context);
     if (status) return status;
-    const uint32_t objects = tree->scene->object_count, points = point_count(s);
+    const uint32_t objects = tree->scene->object_count, points = sight_point_count(s);
     s->rays = base_calloc(alloc, (size_t)points + 1, sizeof *s->rays);
     s->eye_sides = base_calloc(alloc, (size_t)objects + 1, sizeof *s->eye_sides);
     s->of_edge = base_calloc(alloc, (size_t)surface->edge_count + 1, sizeof *s->of_edge);
@@ -34,7 +34,7 @@ froe_status view_sights_new(view_sights *s, const froe_tree *tree, const froe_su
 }
 
 void view_sights_free(view_sights *s) {
-    if (s->rays) base_free(&s->alloc, s->rays, ((size_t)point_count(s) + 1) * sizeof *s->rays);
+    if (s->rays) base_free(&s->alloc, s->rays, ((size_t)sight_point_count(s) + 1) * sizeof *s->rays);
     if (s->eye_sides) base_free(&s->alloc, s->eye_sides, (size_t)s->tree->scene->object_count + 1);
     if (s->of_edge) base_free(&s->alloc, s->of_edge, ((size_t)s->surface->edge_count + 1) * sizeof *s->of_edge);
     array_free(&s->alloc, &s->lines);
@@ -87,7 +87,7 @@ static filter_vector image_of(view_sights *s, const view_line *l, const geom_lin
     return image;
 }
 
-static uint32_t add_line(view_sights *s, uint32_t kind, uint32_t a, uint32_t b) {
+static uint32_t add_sight_line(view_sights *s, uint32_t kind, uint32_t a, uint32_t b) {
     const uint32_t line = (uint32_t)s->lines.count;
     geom_plane planes[2];
     if (line >= INT32_MAX || !array_push(&s->alloc, &s->lines, (view_line){.kind = kind, .a = a, .b = b}))
@@ -99,13 +99,13 @@ static uint32_t add_line(view_sights *s, uint32_t kind, uint32_t a, uint32_t b) 
 
 uint32_t view_line_of_edge(view_sights *s, uint32_t edge) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
-    if (!s->of_edge[edge]) s->of_edge[edge] = add_line(s, VIEW_EDGE, v[0], v[1]) + 1;
+    if (!s->of_edge[edge]) s->of_edge[edge] = add_sight_line(s, VIEW_EDGE, v[0], v[1]) + 1;
     return s->of_edge[edge] - 1;
 }
 
 uint32_t view_line_of_window(view_sights *s, uint32_t side) {
     const uint32_t first = s->tree->scene->vertex_count;
-    return add_line(s, VIEW_EDGE, first + side, first + (side + 1) % s->window_count);
+    return add_sight_line(s, VIEW_EDGE, first + side, first + (side + 1) % s->window_count);
 }
 
 uint32_t view_line_of_cut(view_sights *s, uint32_t patch, uint32_t node) {
@@ -117,7 +117,7 @@ uint32_t view_line_of_cut(view_sights *s, uint32_t patch, uint32_t node) {
         const view_line *l = s->lines.data + id;
         if (l->a == patch && l->b == node) return id;
     }
-    const uint32_t line = add_line(s, VIEW_CUT, patch, node);
+    const uint32_t line = add_sight_line(s, VIEW_CUT, patch, node);
     if (line != FROE_NONE) scene_table_put(&s->made, at, tag, line);
     return line;
 }
@@ -160,7 +160,7 @@ froe_status view_stop_edge(view_sights *s, uint32_t edge, uint32_t line, view_ma
     double key[3];
     bool turned;
     (void)view_line_key(s, line, key, &turned);
-    const uint32_t stop = add_line(s, VIEW_STOP, edge, (uint32_t)axis_of(key));
+    const uint32_t stop = add_sight_line(s, VIEW_STOP, edge, (uint32_t)axis_of(key));
     const bool behind = geom_side_vertex(&s->context, &plane, view_vertex(s, v)) < 0;
     *out = (view_mark){FROE_NONE, 2 * stop + (turned != behind)};
     return stop == FROE_NONE ? FROE_E_MEMORY : FROE_OK;

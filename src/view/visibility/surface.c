@@ -24,7 +24,7 @@ void froe_surface_free(froe_surface *s) {
     base_free(&alloc, s, sizeof *s);
 }
 
-static froe_status fill(froe_surface *s) {
+static froe_status fill_surface(froe_surface *s) {
     num_context context;
     froe_status status = surface_find_edges(s);
     if (!status) status = geom_context_new(&s->alloc, &context);
@@ -45,7 +45,7 @@ froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *allo
     if (!s) return base_fail_memory(diag);
     s->alloc = own;
     s->scene = scene;
-    if (fill(s)) {
+    if (fill_surface(s)) {
         froe_surface_free(s);
         return base_fail_memory(diag);
     }

@@ -129,7 +129,7 @@ static void note_counts(froe_visibility *v, const view_screen *screen) {
                                  v->report.predicates.refined + v->report.predicates.exact;
 }
 
-static froe_status look(looker *k, const geom_eye *eye) {
+static froe_status look_from_eye(looker *k, const geom_eye *eye) {
     froe_visibility *v = k->v;
     froe_status status = view_sights_new(&v->sights, v->tree, v->surface, eye, k->options->window,
                                          (uint32_t)k->options->window_corners, &v->alloc);
@@ -155,8 +155,8 @@ static froe_status look(looker *k, const geom_eye *eye) {
 
 /* ---------------------------------------------------------------------- calling -- */
 
-static froe_status check(const froe_tree *tree, const froe_surface *surface, const froe_visibility_options *o,
-                         froe_diagnostic *diag) {
+static froe_status check_visibility_options(const froe_tree *tree, const froe_surface *surface,
+                                            const froe_visibility_options *o, froe_diagnostic *diag) {
     if (!tree || !surface) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (!o || o->size != sizeof *o)
         return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_visibility_defaults()");
@@ -195,7 +195,7 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     BASE_FLOATS_OWN;
     geom_eye eye;
     if (!out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
-    froe_status status = check(tree, surface, options, diag);
+    froe_status status = check_visibility_options(tree, surface, options, diag);
     if (!status) status = view_eye_of(tree, &options->eye, &eye, diag);
     if (status) return status;
     const froe_allocator alloc = base_allocator(options->alloc);
@@ -207,7 +207,7 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     v->section = options->section;
     looker k = {.v = v, .options = options};
     base_task_init(&k.task, 1, options->progress, options->user);
-    status = look(&k, &eye);
+    status = look_from_eye(&k, &eye);
     if (status) {
         froe_visibility_free(v);
         return failure(status, diag);
