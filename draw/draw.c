@@ -159,7 +159,8 @@ static uint32_t standard_layers(froe_draw_style style) {
                                        : FROE_DRAW_CELLS | FROE_DRAW_CUTS | FROE_DRAW_FRAGMENTS | FROE_DRAW_OBJECTS;
 }
 
-static froe_status paint(draw_picture *picture, froe_draw_format format, draw_output *output, froe_diagnostic *diag) {
+static froe_status paint_page(draw_picture *picture, froe_draw_format format, draw_output *output,
+                              froe_diagnostic *diag) {
     const draw_page *page = &picture->page;
     bool solid = page->options->style == FROE_DRAW_EXPLODED;
     froe_status status = solid ? draw_solid_plan(picture) : draw_plane_plan(picture);
@@ -197,7 +198,7 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     draw_picture picture = {.show = o.show ? o.show : standard_layers(o.style)};
     picture.page = (draw_page){.tree = tree, .options = &o, .alloc = output->alloc, .task = &task};
     frame_scene(&picture, &o);
-    status = paint(&picture, format, output, diag);
+    status = paint_page(&picture, format, output, diag);
     draw_picture_free(&picture);
     if (status == FROE_OK && o.progress && !support_callback(o.progress(o.user, 1)))
         return draw_fail(diag, FROE_E_CANCELLED, "cancelled");

@@ -9,7 +9,7 @@ static bool is_foreign(const char *at, size_t length) {
     return length == 3 && !memcmp(at, "\xEF\xBF", 2) && (unsigned char)at[2] >= 0xBE;
 }
 
-static const char *name_of(char c) {
+static const char *entity_of(char c) {
     switch (c) {
     case '<':
         return "&lt;";
@@ -29,7 +29,7 @@ size_t draw_escape(const char **text, char out[8]) {
     if (!*at) return 0;
     size_t n = support_utf8_length(at);
     *text += n ? n : 1;
-    const char *as = n && !is_foreign(at, n) ? name_of(*at) : "\xEF\xBF\xBD";
+    const char *as = n && !is_foreign(at, n) ? entity_of(*at) : "\xEF\xBF\xBD";
     if (as) n = strlen(as);
     memcpy(out, as ? as : at, n);
     return n;

@@ -56,7 +56,7 @@ static void normal_of(const double *corners, size_t count, double *n) {
 
 /* ------------------------------------------------------------------- items -- */
 
-static bool add_point(walk *w, draw_point at, double reach, bool cut) {
+static bool add_item_point(walk *w, draw_point at, double reach, bool cut) {
     draw_solid *solid = w->solid;
     bool first = solid->points.count == 0;
     draw_point lo = {at.x - reach, at.y - reach}, hi = {at.x + reach, at.y + reach};
@@ -75,7 +75,7 @@ static bool add_item(walk *w, draw_item item, const double *corners, size_t coun
         const double *p = corners + 3 * i;
         const double moved[3] = {p[0] + k * middle[0], p[1] + k * middle[1], p[2] + k * middle[2]};
         draw_point at = draw_camera_project(&w->solid->camera, moved);
-        if (!add_point(w, at, item.radius, made && made[i].id1)) return false;
+        if (!add_item_point(w, at, item.radius, made && made[i].id1)) return false;
     }
     return draw_push(w->alloc, &w->solid->items, item);
 }
@@ -264,7 +264,7 @@ static bool visit_node(walk *w, const frame *at) {
            push(w, info.child[near], NODE, part, at->depth + 1);
 }
 
-static bool visit(walk *w, const frame *at) {
+static bool visit_item(walk *w, const frame *at) {
     if (at->stage == BACKS) return add_faces(w, at->part - 1, DRAW_BACK);
     if (at->stage == NODE) return visit_node(w, at);
     froe_node_info info = froe_tree_node(w->tree, at->node);
@@ -277,7 +277,7 @@ froe_status draw_solid_items(draw_solid *solid) {
     bool ok = push(&w, froe_tree_root(page->tree), NODE, 0, 0);
     while (ok && w.frames.count && draw_tick(page->task)) {
         frame top = w.frames.data[--w.frames.count];
-        ok = visit(&w, &top);
+        ok = visit_item(&w, &top);
     }
     draw_release(&page->alloc, &w.frames);
     draw_release(&page->alloc, &w.list);

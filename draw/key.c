@@ -45,7 +45,7 @@ static void letter(const draw_page *page, cairo_t *cr, const key_view *key, int 
 }
 
 /* Scales the key so that the whole box, seen from the corner, fills the rectangle. */
-static void place(key_view *key, double left, double top, double width, double height) {
+static void place_key(key_view *key, double left, double top, double width, double height) {
     draw_point lo = {0, 0};
     for (int i = 0; i < 8; i++) {
         const double p[3] = {(i & 1 ? 1 : -1) * key->half[0], (i & 2 ? 1 : -1) * key->half[1],
@@ -60,7 +60,7 @@ static void place(key_view *key, double left, double top, double width, double h
 void draw_paint_key(const draw_page *page, cairo_t *cr, const draw_space *space, const double *half, double left,
                     double top, double width, double height) {
     key_view key = {.half = half, .camera = draw_camera_from(space, (const double[3]){0, 0, 0})};
-    place(&key, left + 0.24 * width, top + 0.24 * height, 0.52 * width, 0.52 * height);
+    place_key(&key, left + 0.24 * width, top + 0.24 * height, 0.52 * width, 0.52 * height);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     for (int axis = 0; axis < 3; axis++) {
         rectangle_path(&key, cr, axis, 0);

@@ -70,7 +70,7 @@ static stroke directed(const draw_shape *shape, uint32_t object) {
     return turn ? (stroke){q, p, object, shape->cut[1], false} : (stroke){p, q, object, shape->cut[0], false};
 }
 
-static bool take(painter *pen, const draw_shape *shape, uint32_t object, bool whole) {
+static bool take_object(painter *pen, const draw_shape *shape, uint32_t object, bool whole) {
     if (hidden(pen, shape)) return true;
     if (shape->sort == DRAW_DOT) return draw_push(&pen->page->alloc, &pen->points, shape->points[0]);
     if (shape->sort != DRAW_STROKE) {
@@ -92,12 +92,12 @@ static bool mark_cut(painter *pen) {
     return pen->cut;
 }
 
-static bool gather_objects(painter *pen) {
+static bool gather_whole_objects(painter *pen) {
     draw_shape shape;
     for (size_t i = 0; i < pen->object_count && draw_tick(pen->page->task); i++) {
         if (!draw_shape_of_object(&pen->shaper, (uint32_t)i, &shape)) return false;
         if (!pen->cut || pen->cut[i] == WHOLE) {
-            if (!take(pen, &shape, (uint32_t)i, true)) return false;
+            if (!take_object(pen, &shape, (uint32_t)i, true)) return false;
         } else if (shape.sort == DRAW_NOTHING)
             pen->cut[i] = CUT_UNSEEN; /* so are its pieces, whose corners cost exact arithmetic */
     }
@@ -110,7 +110,8 @@ static bool gather_pieces(painter *pen) {
     for (size_t i = 0; i < count && draw_tick(pen->page->task); i++) {
         froe_piece piece = froe_tree_piece(pen->shaper.tree, i);
         if (piece.whole || pen->cut[piece.object] == CUT_UNSEEN) continue;
-        if (!draw_shape_of_piece(&pen->shaper, i, &shape) || !take(pen, &shape, piece.object, false)) return false;
+        if (!draw_shape_of_piece(&pen->shaper, i, &shape) || !take_object(pen, &shape, piece.object, false))
+            return false;
     }
     return true;
 }
@@ -166,7 +167,7 @@ static void paint_points(painter *pen) {
     cairo_fill(pen->cr);
 }
 
-static void paint(painter *pen) {
+static void paint_object(painter *pen) {
     cairo_t *cr = pen->cr;
     alternate(pen);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
@@ -183,10 +184,10 @@ static void paint(painter *pen) {
     paint_ticks(pen);
 }
 
-static bool gather(painter *pen, bool pieces) {
+static bool gather_shapes(painter *pen, bool pieces) {
     const draw_page *page = pen->page;
     return draw_dots_new(&page->alloc, 0, 0, page->width, page->height, pen->view->detail, &pen->dots) &&
-           (!pieces || mark_cut(pen)) && gather_objects(pen) && (!pieces || gather_pieces(pen));
+           (!pieces || mark_cut(pen)) && gather_whole_objects(pen) && (!pieces || gather_pieces(pen));
 }
 
 froe_status draw_paint_objects(const draw_page *page, cairo_t *cr, const draw_view *view, uint32_t show) {
@@ -196,8 +197,8 @@ froe_status draw_paint_objects(const draw_page *page, cairo_t *cr, const draw_vi
     pen.shaper = (draw_shaper){.alloc = page->alloc, .tree = page->tree, .scene = scene, .view = view};
     pen.object_count = froe_scene_object_count(scene);
     pen.weight = weight_for(page, view, pen.object_count);
-    bool ok = gather(&pen, show & FROE_DRAW_FRAGMENTS);
-    if (ok && !page->task->cancelled) paint(&pen);
+    bool ok = gather_shapes(&pen, show & FROE_DRAW_FRAGMENTS);
+    if (ok && !page->task->cancelled) paint_object(&pen);
     draw_dots_free(&pen.dots);
     draw_free(&page->alloc, pen.cut, pen.object_count * sizeof *pen.cut);
     draw_release(&page->alloc, &pen.ink);

@@ -139,7 +139,7 @@ static bool split(walk *w, frame top, const froe_node_info *info, double size) {
            push_part(w, info->child[1], top.depth + 1, &line, 1, top.count);
 }
 
-static bool begin(walk *w) {
+static bool begin_partition(walk *w) {
     draw_point lo = w->view->lo, hi = w->view->hi;
     if (!draw_reserve(&w->out->alloc, &w->stack, 4)) return false;
     w->stack.data[0] = lo;
@@ -165,7 +165,7 @@ static bool step(walk *w) {
 froe_status draw_partition_add(draw_partition *out, const froe_tree *tree, const draw_view *view, uint32_t max_depth,
                                draw_task *task) {
     walk w = {.tree = tree, .scene = froe_tree_scene(tree), .view = view, .max_depth = max_depth, .out = out};
-    bool ok = begin(&w);
+    bool ok = begin_partition(&w);
     while (ok && w.frames.count && draw_tick(task)) ok = step(&w);
     draw_release(&out->alloc, &w.frames);
     draw_release(&out->alloc, &w.stack);

@@ -63,7 +63,7 @@ static bool keep_wall(draw_solid *solid, const froe_cell *cell) {
     return true;
 }
 
-static bool visit(void *user, const froe_cell *cell) {
+static bool visit_part(void *user, const froe_cell *cell) {
     SUPPORT_FLOATS_OWN;
     collector *c = user;
     draw_solid *solid = c->solid;
@@ -81,6 +81,6 @@ froe_status draw_solid_parts(draw_solid *solid) {
     double lo[3] = {0}, hi[3] = {0};
     if (!froe_scene_bounds(froe_tree_scene(page->tree), lo, hi)) return FROE_OK;
     collector c = {solid, FROE_OK};
-    froe_status status = froe_tree_cells(page->tree, lo, hi, visit, &c, NULL);
+    froe_status status = froe_tree_cells(page->tree, lo, hi, visit_part, &c, NULL);
     return c.status != FROE_OK ? c.status : status;
 }

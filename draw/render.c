@@ -72,7 +72,8 @@ typedef struct range {
     double value, lo, hi;
 } range;
 
-static froe_status check(const froe_scene *scene, const froe_render_options *o, int format, froe_diagnostic *diag) {
+static froe_status check_render_options(const froe_scene *scene, const froe_render_options *o, int format,
+                                        froe_diagnostic *diag) {
     if (o->size != sizeof *o)
         return draw_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_render_defaults().");
     const double pixels = format == FROE_DRAW_PNG ? o->pixels : 1;
@@ -129,7 +130,7 @@ static froe_status spread_groups(draw_render *r) {
     return FROE_OK;
 }
 
-static froe_status look(draw_render *r, froe_diagnostic *diag) {
+static froe_status look_at_scene(draw_render *r, froe_diagnostic *diag) {
     const froe_render_options *o = r->options;
     froe_picture_options p = froe_picture_defaults();
     p.view = &r->view;
@@ -160,7 +161,7 @@ static froe_status prepare(draw_render *r, const froe_camera *camera, froe_diagn
     r->patches = froe_surface_patch_count(r->surface);
     status = draw_shade(r);
     if (!status) status = spread_groups(r);
-    status = status ? draw_fail_memory(diag) : look(r, diag);
+    status = status ? draw_fail_memory(diag) : look_at_scene(r, diag);
     if (status) return status;
     r->report.picture = froe_picture_statistics(r->picture);
     r->report.view = r->view;
@@ -206,7 +207,7 @@ froe_status froe_render(const froe_tree *tree, const char *path, const froe_rend
         return draw_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf, .eps or .png.",
                          path);
     draw_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options};
-    froe_status status = check(r.scene, options, format, diag);
+    froe_status status = check_render_options(r.scene, options, format, diag);
     if (status) return status;
     r.alloc = draw_allocator(options->alloc);
     r.grid = grid_of(options, format);
@@ -246,7 +247,7 @@ froe_status froe_render_animation(const froe_tree *tree, const char *path, const
         return draw_fail(diag, FROE_E_OPTIONS, "Only SVG moves: '%.140s' does not end in .svg.", path);
     if (!(seconds > 0 && seconds <= 1e6))
         return draw_fail(diag, FROE_E_OPTIONS, "A round of %g seconds is none.", seconds);
-    froe_status status = check(froe_tree_scene(tree), options, format, diag);
+    froe_status status = check_render_options(froe_tree_scene(tree), options, format, diag);
     draw_output output = {.alloc = draw_allocator(options->alloc)};
     for (size_t i = 0; !status && i < count; i++) {
         draw_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options, .alloc = output.alloc};

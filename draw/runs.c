@@ -12,7 +12,7 @@ static bool joins(const draw_render *r, const froe_shape *first, const froe_shap
            froe_surface_patch(r->surface, first->patch).group == froe_surface_patch(r->surface, next->patch).group;
 }
 
-static size_t place_of(const draw_render *r, size_t stroke) {
+static size_t place_of_stroke(const draw_render *r, size_t stroke) {
     return stroke < froe_picture_stroke_count(r->picture) ? froe_picture_stroke(r->picture, stroke).place : SIZE_MAX;
 }
 
@@ -20,7 +20,7 @@ static size_t place_of(const draw_render *r, size_t stroke) {
 static draw_run stroke_run(const draw_render *r, const draw_cursor *at) {
     const froe_stroke first = froe_picture_stroke(r->picture, at->stroke);
     draw_run run = {true, at->shape >= froe_picture_shape_count(r->picture), at->stroke, at->stroke + 1};
-    while (place_of(r, run.end) <= at->shape) {
+    while (place_of_stroke(r, run.end) <= at->shape) {
         const froe_stroke next = froe_picture_stroke(r->picture, run.end);
         if (next.kind != first.kind || next.hidden != first.hidden) break;
         run.end++;
@@ -30,7 +30,7 @@ static draw_run stroke_run(const draw_render *r, const draw_cursor *at) {
 
 /* Shapes up to one that may not share their path, or that a stroke comes before. */
 static draw_run shape_run(const draw_render *r, const draw_cursor *at) {
-    const size_t count = froe_picture_shape_count(r->picture), place = place_of(r, at->stroke);
+    const size_t count = froe_picture_shape_count(r->picture), place = place_of_stroke(r, at->stroke);
     const froe_shape first = froe_picture_shape(r->picture, at->shape);
     draw_run run = {false, false, at->shape, at->shape + 1};
     while (run.end < count && run.end < place) {
@@ -53,7 +53,7 @@ static bool run_shows(const draw_render *r, const draw_run *run) {
 
 bool draw_next_run(const draw_render *r, draw_cursor *at, draw_run *run) {
     do {
-        const bool lines = place_of(r, at->stroke) <= at->shape;
+        const bool lines = place_of_stroke(r, at->stroke) <= at->shape;
         if (!lines && at->shape >= froe_picture_shape_count(r->picture)) return false;
         *run = lines ? stroke_run(r, at) : shape_run(r, at);
         *(lines ? &at->stroke : &at->shape) = run->end;

@@ -37,7 +37,7 @@ static double light_on(const draw_render *r, uint32_t object) {
     return at >= 0 && at <= 1 ? at : 1;
 }
 
-static const char *name_of(const draw_render *r, uint32_t group, bool material) {
+static const char *name_of_group(const draw_render *r, uint32_t group, bool material) {
     const froe_group g = froe_scene_group(r->scene, group);
     return material ? g.material : g.name;
 }
@@ -47,7 +47,7 @@ static uint32_t *first_of_name(const draw_render *r, bool material) {
     const size_t groups = froe_scene_group_count(r->scene);
     uint32_t *out = draw_calloc(&r->alloc, groups + 1, sizeof *out);
     for (uint32_t g = 0; out && g < groups; g++)
-        while (out[g] < g && strcmp(name_of(r, out[g], material), name_of(r, g, material)) != 0) out[g]++;
+        while (out[g] < g && strcmp(name_of_group(r, out[g], material), name_of_group(r, g, material)) != 0) out[g]++;
     return out;
 }
 

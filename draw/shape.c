@@ -45,7 +45,7 @@ static double over(const draw_shaper *s, size_t corner) {
     return s->view->axis < 0 ? 0 : s->solid.data[3 * corner + (size_t)s->view->axis] - s->view->at;
 }
 
-static draw_point crossing(const draw_shaper *s, size_t i, size_t j) {
+static draw_point shape_crossing(const draw_shaper *s, size_t i, size_t j) {
     draw_point p = flat(s, i), q = flat(s, j);
     double t = over(s, i) / (over(s, i) - over(s, j));
     return (draw_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
@@ -79,7 +79,7 @@ size_t draw_hull(draw_point *points, draw_point *spare, size_t count) {
     return made;
 }
 
-static bool add_point(draw_shaper *s, draw_point p) {
+static bool add_shape_point(draw_shaper *s, draw_point p) {
     return draw_push(&s->alloc, &s->points, p);
 }
 
@@ -133,7 +133,7 @@ static bool plane_figure(draw_shaper *s, bool pieces, draw_shape *out) {
         if ((!on && !across) || (count == 2 && i == 1 && across)) continue;
         bool cut = pieces && (s->made.data[i].id1 || (on && count > 2 && s->made.data[i ? i - 1 : count - 1].id1));
         if (s->points.count < 2) out->cut[s->points.count] = cut;
-        if (!add_point(s, on ? flat(s, i) : crossing(s, i, j))) return false;
+        if (!add_shape_point(s, on ? flat(s, i) : shape_crossing(s, i, j))) return false;
     }
     if (count > 2 && s->points.count < 2) s->points.count = 0;
     if (flat_corners < count && s->points.count > 2) outermost(s);
@@ -146,8 +146,8 @@ static bool box(draw_shaper *s, draw_shape *out) {
     draw_point p = flat(s, 0), q = flat(s, 1);
     draw_point lo = {fmin(p.x, q.x), fmin(p.y, q.y)}, hi = {fmax(p.x, q.x), fmax(p.y, q.y)};
     bool thin = lo.x == hi.x || lo.y == hi.y;
-    bool ok = add_point(s, lo) && (thin || add_point(s, (draw_point){hi.x, lo.y})) && add_point(s, hi) &&
-              (thin || add_point(s, (draw_point){lo.x, hi.y}));
+    bool ok = add_shape_point(s, lo) && (thin || add_shape_point(s, (draw_point){hi.x, lo.y})) &&
+              add_shape_point(s, hi) && (thin || add_shape_point(s, (draw_point){lo.x, hi.y}));
     return ok && finish(s, out);
 }
 
@@ -165,7 +165,7 @@ static bool wide_disc(draw_shaper *s, draw_point c, double r, draw_shape *out) {
             p[i] = (draw_point){m.x / length, m.y / length};
         }
     for (int i = 0; i < CORNERS; i++)
-        if (!add_point(s, (draw_point){c.x + r * p[i].x, c.y + r * p[i].y})) return false;
+        if (!add_shape_point(s, (draw_point){c.x + r * p[i].x, c.y + r * p[i].y})) return false;
     return finish(s, out);
 }
 
@@ -177,9 +177,9 @@ static bool ball(draw_shaper *s, double raw_radius, draw_shape *out) {
     r = sqrt((r - h) * (r + h));
     draw_point c = flat(s, 0), lo = s->view->lo, hi = s->view->hi;
     if (c.x + r < lo.x || c.x - r > hi.x || c.y + r < lo.y || c.y - r > hi.y) return true;
-    if (r == 0) return add_point(s, c) && finish(s, out);
+    if (r == 0) return add_shape_point(s, c) && finish(s, out);
     if (r > 64 * (hi.x - lo.x + hi.y - lo.y)) return wide_disc(s, c, r, out);
-    if (!add_point(s, draw_view_map(s->view, c))) return false;
+    if (!add_shape_point(s, draw_view_map(s->view, c))) return false;
     *out = (draw_shape){.sort = DRAW_DISC, .points = s->points.data, .count = 1, .radius = r * s->view->scale};
     return true;
 }
@@ -188,9 +188,10 @@ static bool hull(draw_shaper *s, draw_shape *out) {
     size_t count = corner_count(s);
     for (size_t i = 0; i < count; i++) {
         double a = over(s, i);
-        if (a == 0 && !add_point(s, flat(s, i))) return false;
+        if (a == 0 && !add_shape_point(s, flat(s, i))) return false;
         for (size_t j = i + 1; a != 0 && j < count; j++)
-            if (((a < 0 && over(s, j) > 0) || (a > 0 && over(s, j) < 0)) && !add_point(s, crossing(s, i, j)))
+            if (((a < 0 && over(s, j) > 0) || (a > 0 && over(s, j) < 0)) &&
+                !add_shape_point(s, shape_crossing(s, i, j)))
                 return false;
     }
     if (!room(s)) return false;

@@ -13,7 +13,7 @@
 
 /* ---------------------------------------------------------------- planning -- */
 
-static froe_status gather(draw_picture *picture, draw_solid *solid) {
+static froe_status gather_solids(draw_picture *picture, draw_solid *solid) {
     const draw_page *page = &picture->page;
     const froe_scene *scene = froe_tree_scene(page->tree);
     solid->picture = picture;
@@ -34,7 +34,7 @@ froe_status draw_solid_plan(draw_picture *picture) {
     draw_solid *solid = draw_calloc(&picture->page.alloc, 1, sizeof *solid);
     if (!solid) return FROE_E_MEMORY;
     picture->solid = solid;
-    froe_status status = gather(picture, solid);
+    froe_status status = gather_solids(picture, solid);
     double across = solid->hi.x - solid->lo.x, up = solid->hi.y - solid->lo.y;
     draw_page_plan(&picture->page, across > 0 ? fmin(up / across, 4) : 1, 0, 0);
     return status;

@@ -28,7 +28,7 @@ typedef struct svg_writer {
     uint32_t layer; /* that is open; FROE_NONE */
 } svg_writer;
 
-static void put(svg_writer *w, const char *text, size_t length) {
+static void put_svg(svg_writer *w, const char *text, size_t length) {
     w->ok = w->ok && draw_reserve(&w->output->alloc, &w->output->bytes, length);
     if (!w->ok) return;
     memcpy(w->output->bytes.data + w->output->bytes.count, text, length);
@@ -36,24 +36,24 @@ static void put(svg_writer *w, const char *text, size_t length) {
 }
 
 static void put_text(svg_writer *w, const char *text) {
-    put(w, text, strlen(text));
+    put_svg(w, text, strlen(text));
 }
 
 static void put_escaped(svg_writer *w, const char *text) {
     char out[8];
-    for (size_t n; (n = draw_escape(&text, out));) put(w, out, n);
+    for (size_t n; (n = draw_escape(&text, out));) put_svg(w, out, n);
 }
 
 static void put_number(svg_writer *w, int64_t steps) {
     char text[32];
     const int length = snprintf(text, sizeof text, "%s%lld", w->number && steps >= 0 ? " " : "", (long long)steps);
-    put(w, text, (size_t)length);
+    put_svg(w, text, (size_t)length);
     w->number = true;
 }
 
 static void put_command(svg_writer *w, char command) {
     if (w->command != command) {
-        put(w, &command, 1);
+        put_svg(w, &command, 1);
         w->number = false;
     }
     w->command = command;

@@ -45,7 +45,7 @@ static void deal(io_animation *a) {
     a->starts[objects] = 2 * a->count;
 }
 
-static froe_status check(const io_animation *a, froe_diagnostic *diag) {
+static froe_status check_animation(const io_animation *a, froe_diagnostic *diag) {
     if (a->options.size != sizeof a->options || !(a->options.width > 4 * IO_ANIMATION_MARGIN) ||
         !isfinite(a->options.width) || !(a->options.seconds > 0) || !isfinite(a->options.seconds))
         return io_fail(diag, FROE_E_OPTIONS,
@@ -77,7 +77,7 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
     a.options = options ? *options : froe_animation_defaults();
     a.begin = froe_motion_window(motion).begin;
     a.end = froe_motion_window(motion).end;
-    froe_status status = check(&a, diag);
+    froe_status status = check_animation(&a, diag);
     if (status) return status;
     io_extension extension = io_path_extension(path);
     bool svg = strcmp(extension.text, "svg") == 0;

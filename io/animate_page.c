@@ -96,7 +96,7 @@ static void put_plan(io_writer *w, const froe_motion *m, uint32_t vertex) {
 }
 
 /* In a script no text may end it. */
-static void put_text(io_writer *w, const char *text) {
+static void put_page_text(io_writer *w, const char *text) {
     char safe[64];
     size_t i = 0;
     for (; text[i] && i + 1 < sizeof safe; i++) safe[i] = text[i] == '<' ? '(' : text[i];
@@ -112,7 +112,7 @@ static void put_object(io_writer *w, const io_animation *a, uint32_t i) {
     put_member(w, ",", o.birth);
     put_member(w, ",", o.death);
     io_put(w, ",");
-    put_text(w, o.group == FROE_NONE ? "" : froe_motion_group(a->motion, o.group).name);
+    put_page_text(w, o.group == FROE_NONE ? "" : froe_motion_group(a->motion, o.group).name);
     io_put(w, "]");
 }
 

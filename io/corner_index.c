@@ -155,13 +155,13 @@ static bool beside(const double *box, const double *a, const double *b, const do
     return right_of(box, a, b) || right_of(box, b, c) || right_of(box, c, a);
 }
 
-static bool same(const double *p, const double *q) {
+static bool same_place(const double *p, const double *q) {
     return p[0] == q[0] && p[1] == q[1];
 }
 
 static bool holds(const double *a, const double *b, const double *c, const double *p) {
-    return !same(p, a) && !same(p, b) && !same(p, c) && io_orient(a, b, p) >= 0 && io_orient(b, c, p) >= 0 &&
-           io_orient(c, a, p) >= 0;
+    return !same_place(p, a) && !same_place(p, b) && !same_place(p, c) && io_orient(a, b, p) >= 0 &&
+           io_orient(b, c, p) >= 0 && io_orient(c, a, p) >= 0;
 }
 
 bool io_corner_index_any(const io_corner_index *index, const double *a, const double *b, const double *c) {

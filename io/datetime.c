@@ -16,7 +16,7 @@ static bool take_number(const char **at, int digits, int most, int *out) {
     return *out <= most;
 }
 
-static bool take(const char **at, char c) {
+static bool take_character(const char **at, char c) {
     return **at == c && *(*at)++;
 }
 
@@ -35,8 +35,8 @@ static int64_t days_of(int year, int month, int day) {
 static bool take_date(const char **at, int64_t *days) {
     static const int lengths[] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     int year, month, day;
-    if (!take_number(at, 4, 9999, &year) || !take(at, '-') || !take_number(at, 2, 12, &month) || !take(at, '-') ||
-        !take_number(at, 2, 31, &day))
+    if (!take_number(at, 4, 9999, &year) || !take_character(at, '-') || !take_number(at, 2, 12, &month) ||
+        !take_character(at, '-') || !take_number(at, 2, 31, &day))
         return false;
     if (!year || !month || !day || day > lengths[month - 1] || (month == 2 && day == 29 && !is_leap(year)))
         return false;
@@ -49,8 +49,8 @@ static bool take_clock(const char **at, int *seconds, char digits[18]) {
     int hour, minute = 0, second = 0;
     size_t count = 0;
     if (!take_number(at, 2, 24, &hour)) return false;
-    if (take(at, ':') && !take_number(at, 2, 59, &minute)) return false;
-    if (take(at, ':') && !take_number(at, 2, 60, &second)) return false;
+    if (take_character(at, ':') && !take_number(at, 2, 59, &minute)) return false;
+    if (take_character(at, ':') && !take_number(at, 2, 60, &second)) return false;
     if (**at == '.' || **at == ',')
         for (++*at; isdigit((unsigned char)**at); ++*at)
             if (count < 17) digits[count++] = **at;
@@ -62,10 +62,10 @@ static bool take_clock(const char **at, int *seconds, char digits[18]) {
 static bool take_zone(const char **at, int *minutes) {
     int hours = 0, rest = 0;
     *minutes = 0;
-    if (!**at || take(at, 'Z') || take(at, 'z')) return true;
-    int sign = take(at, '+') ? 1 : take(at, '-') ? -1 : 0;
+    if (!**at || take_character(at, 'Z') || take_character(at, 'z')) return true;
+    int sign = take_character(at, '+') ? 1 : take_character(at, '-') ? -1 : 0;
     if (!sign || !take_number(at, 2, 23, &hours)) return false;
-    take(at, ':');
+    take_character(at, ':');
     if (**at && !take_number(at, 2, 59, &rest)) return false;
     *minutes = sign * (60 * hours + rest);
     return true;
@@ -89,7 +89,7 @@ bool io_datetime(const char *text, double *milliseconds) {
     char digits[18] = "";
     if (!take_date(&text, &days)) return false;
     if (*text) {
-        if (!take(&text, 'T') && !take(&text, 't') && !take(&text, ' ')) return false;
+        if (!take_character(&text, 'T') && !take_character(&text, 't') && !take_character(&text, ' ')) return false;
         if (!take_clock(&text, &seconds, digits) || !take_zone(&text, &zone) || *text) return false;
     }
     *milliseconds = milliseconds_of(days * 86400 + seconds - 60 * (int64_t)zone, digits);

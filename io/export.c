@@ -171,7 +171,7 @@ static froe_status write_cells(job *j) {
 
 /* -------------------------------------------------------------------- all -- */
 
-static void begin(job *j) {
+static void begin_export(job *j) {
     io_shape like = {.dim = j->dim};
     froe_object object = {.group = FROE_NONE};
     froe_cell cell = {.depth = 0};
@@ -183,7 +183,7 @@ static void begin(job *j) {
     j->format->begin(&j->writer, &like);
 }
 
-static froe_status check(job *j, const char *path) {
+static froe_status check_export(job *j, const char *path) {
     const char *extensions = j->dim == 2 ? ".geojson or .csv" : j->dim == 3 ? ".obj or .csv" : ".csv";
     bool fits = j->format && j->dim >= j->format->least_dim && j->dim <= j->format->most_dim;
     if (fits && (j->dim <= 3 || j->what == FROE_EXPORT_FRAGMENTS)) return FROE_OK;
@@ -197,7 +197,7 @@ static froe_status check(job *j, const char *path) {
 static froe_status run(job *j, const char *path) {
     froe_status status = io_writer_open(&j->writer, path, j->diag);
     if (status) return status;
-    begin(j);
+    begin_export(j);
     status = j->what == FROE_EXPORT_FRAGMENTS ? write_fragments(j) : write_cells(j);
     if (j->cancelled) status = io_fail(j->diag, FROE_E_CANCELLED, "%s: cancelled", io_short(path));
     if (!status) j->format->end(&j->writer);
@@ -224,6 +224,6 @@ froe_status froe_export(const froe_tree *tree, const char *path, froe_export_wha
              .options = options ? options : &defaults,
              .format = io_format_of(path),
              .diag = diag};
-    froe_status status = check(&j, path);
+    froe_status status = check_export(&j, path);
     return status ? status : run(&j, path);
 }

@@ -100,7 +100,7 @@ const froe_generator_info *froe_generator_at(size_t i) {
     return i < GENERATORS ? &generators[i].info : NULL;
 }
 
-static const generator *find(const char *name) {
+static const generator *find_generator(const char *name) {
     for (size_t i = 0; i < GENERATORS; ++i)
         if (!strcmp(generators[i].info.name, name)) return &generators[i];
     return NULL;
@@ -110,7 +110,7 @@ froe_status froe_generate(const char *kind, size_t n, uint64_t seed, const froe_
                           froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!kind || !out) return io_fail(diag, FROE_E_ARG, "froe_generate: kind and out must not be NULL");
-    const generator *g = find(kind);
+    const generator *g = find_generator(kind);
     if (!g) return io_fail(diag, FROE_E_OPTIONS, "'%.60s' is no kind of scene that can be generated", kind);
     if (!n) return io_fail(diag, FROE_E_ARG, "a scene of 0 objects cannot be generated");
     if (n >= (1u << 31) - 2) return io_fail(diag, FROE_E_LIMIT, "%zu objects are more than a scene can hold", n);

@@ -41,13 +41,13 @@ static void skip_blanks(parser *p) {
     for (; *p->at == ' ' || *p->at == '\t' || *p->at == '\r' || *p->at == '\n'; p->at++) p->line += *p->at == '\n';
 }
 
-static bool take(parser *p, char byte) {
+static bool take_byte(parser *p, char byte) {
     if (*p->at != byte || p->at == p->end) return false;
     p->at++;
     return true;
 }
 
-static froe_status put(parser *p, io_json_kind kind, const char *text, double number) {
+static froe_status put_value(parser *p, io_json_kind kind, const char *text, double number) {
     const io_json value = {.kind = kind, .span = 1, .number = number, .text = text};
     return io_buffer_put(p->alloc, p->values, &value, sizeof value) ? FROE_OK : FROE_E_MEMORY;
 }
@@ -60,7 +60,7 @@ static froe_status read_name(parser *p) {
         size_t length = strlen(names[i]);
         if (strncmp(p->at, names[i], length) != 0) continue;
         p->at += length;
-        return put(p, IO_JSON_NAME, p->at - length, 0);
+        return put_value(p, IO_JSON_NAME, p->at - length, 0);
     }
     return expected(p, "a value");
 }
@@ -71,7 +71,7 @@ static bool skip_digits(char **at) {
     return digits > 0;
 }
 
-static froe_status read_number(parser *p) {
+static froe_status read_json_number(parser *p) {
     char *begin = p->at, *at = begin + (*begin == '-');
     bool right = *at == '0' ? at++, true : skip_digits(&at);
     if (right && *at == '.') {
@@ -86,7 +86,7 @@ static froe_status read_number(parser *p) {
     double number = strtod(begin, NULL);
     if (isinf(number)) return expected(p, "a smaller number");
     p->at = at;
-    return put(p, IO_JSON_NUMBER, begin, number);
+    return put_value(p, IO_JSON_NUMBER, begin, number);
 }
 
 /* The four hexadecimal digits of \uXXXX; -1: they are none. */
@@ -148,7 +148,7 @@ static froe_status read_string(parser *p) {
     }
     p->at++;
     *to = '\0';
-    return put(p, IO_JSON_STRING, begin, 0);
+    return put_value(p, IO_JSON_STRING, begin, 0);
 }
 
 /* -------------------------------------------------------------- containers -- */
@@ -157,9 +157,9 @@ static froe_status read_string(parser *p) {
 static froe_status read_value(parser *p) {
     skip_blanks(p);
     if (*p->at == '"') return read_string(p);
-    if (*p->at == '-' || (*p->at >= '0' && *p->at <= '9')) return read_number(p);
+    if (*p->at == '-' || (*p->at >= '0' && *p->at <= '9')) return read_json_number(p);
     if (*p->at != '[' && *p->at != '{') return read_name(p);
-    froe_status status = put(p, *p->at == '[' ? IO_JSON_ARRAY : IO_JSON_OBJECT, p->at, 0);
+    froe_status status = put_value(p, *p->at == '[' ? IO_JSON_ARRAY : IO_JSON_OBJECT, p->at, 0);
     if (status) return status;
     value_at(p, count_values(p) - 1)->span = p->open;
     p->open = count_values(p);
@@ -173,7 +173,7 @@ static froe_status read_key(parser *p) {
     if (*p->at != '"') return expected(p, object->count ? "string" : "string or '}'");
     froe_status status = read_string(p);
     skip_blanks(p);
-    if (!status && !take(p, ':')) status = expected(p, "':'");
+    if (!status && !take_byte(p, ':')) status = expected(p, "':'");
     return status;
 }
 
@@ -184,8 +184,8 @@ static bool goes_on(parser *p, bool begun, froe_status *status) {
         const char *close = container->kind == IO_JSON_ARRAY ? "']'" : "'}'";
         container->count += !begun;
         skip_blanks(p);
-        if (!take(p, close[1])) {
-            if (!begun && !take(p, ',')) *status = expected(p, close);
+        if (!take_byte(p, close[1])) {
+            if (!begun && !take_byte(p, ',')) *status = expected(p, close);
             return !*status;
         }
         size_t outer = container->span;

@@ -56,7 +56,7 @@ static bool more(const maker *m) {
     return !m->random.status && m->made < m->random.n;
 }
 
-static void place(maker *m, double to[2]) {
+static void place_in_square(maker *m, double to[2]) {
     io_place(&m->random, 2, to);
 }
 
@@ -68,7 +68,7 @@ static void make_linear(maker *m) {
         body b = body_of(2, KNOTS);
         for (size_t k = 0; k < KNOTS; k++) {
             double d[2];
-            place(m, b.xy[0][k]);
+            place_in_square(m, b.xy[0][k]);
             io_direction(&m->random, 2, d);
             for (int i = 0; i < 2; i++) b.xy[1][k][i] = b.xy[0][k][i] + m->side * d[i];
         }
@@ -82,8 +82,8 @@ static void make_quadratic(maker *m) {
         body b = body_of(2, 3);
         for (size_t k = 0; k < b.knots; k++) {
             double d[2];
-            place(m, b.xy[0][k]);
-            place(m, b.controls[0][k]);
+            place_in_square(m, b.xy[0][k]);
+            place_in_square(m, b.controls[0][k]);
             io_direction(&m->random, 2, d);
             for (int i = 0; i < 2; i++) {
                 b.xy[1][k][i] = b.xy[0][k][i] + m->side * d[i];
@@ -112,7 +112,7 @@ static void make_rigid(maker *m) {
     while (more(m)) {
         body b = body_of(2, 2);
         double p[2], d[2], way[2] = {0.25, 0.125}, sign = m->made % 2 ? 1 : -1;
-        place(m, p);
+        place_in_square(m, p);
         io_direction(&m->random, 2, d);
         for (size_t k = 0; k < 2; k++)
             for (int i = 0; i < 2; i++) {
@@ -128,7 +128,7 @@ static void make_spin(maker *m) {
     while (more(m)) {
         body b = body_of(2, KNOTS);
         double p[2], d[2], drift[2];
-        place(m, p);
+        place_in_square(m, p);
         io_direction(&m->random, 2, d);
         io_direction(&m->random, 2, drift);
         for (size_t k = 0; k < KNOTS; k++) {
@@ -153,7 +153,7 @@ static void make_polygons(maker *m) {
         body b = body_of(3 + io_below(&m->random, MOST_CORNERS - 2), KNOTS);
         for (size_t k = 0; k < KNOTS; k++) {
             double p[2], corner[2];
-            place(m, p);
+            place_in_square(m, p);
             for (size_t c = 0; c < b.corners; c++) {
                 double radius = m->side * io_between(&m->random, 0.4, 0.8);
                 io_circle(c, b.corners, corner);

@@ -3,7 +3,7 @@
 #include <math.h>
 
 /* A segment of the given length in a random direction. */
-static void put(io_maker *m, const double *centre, double length) {
+static void put_segment(io_maker *m, const double *centre, double length) {
     double d[2];
     io_direction(m, 2, d);
     double x = 0.5 * length * d[0], y = 0.5 * length * d[1];
@@ -15,7 +15,7 @@ void io_make_segments(io_maker *m) {
     while (!io_done(m)) {
         double centre[2];
         io_place(m, 2, centre);
-        put(m, centre, length * io_between(m, 0.3, 1));
+        put_segment(m, centre, length * io_between(m, 0.3, 1));
     }
 }
 
@@ -26,7 +26,7 @@ void io_make_disjoint(io_maker *m) {
         double centre[2];
         io_grid(i, side, 2, centre);
         for (int k = 0; k < 2; ++k) centre[k] = (centre[k] + 0.5) * step;
-        put(m, centre, step * io_between(m, 0.3, 0.9));
+        put_segment(m, centre, step * io_between(m, 0.3, 0.9));
     }
 }
 
@@ -36,7 +36,7 @@ void io_make_mixed(io_maker *m) {
         double centre[2];
         io_place(m, 2, centre);
         double length = least / (1 - io_unit(m)); /* P(length > L) = least / L */
-        put(m, centre, length < 1 ? length : 1);
+        put_segment(m, centre, length < 1 ? length : 1);
     }
 }
 
@@ -50,7 +50,7 @@ void io_make_clusters(io_maker *m) {
         for (uint32_t i = c % SIZES; i; --i) width *= 0.5;
         double centre[2] = {io_unit_at(m, 1, c, 0), io_unit_at(m, 1, c, 1)};
         for (int i = 0; i < 6; ++i) centre[i % 2] += width * (io_unit(m) - 0.5);
-        put(m, centre, length * width * io_between(m, 0.3, 1));
+        put_segment(m, centre, length * width * io_between(m, 0.3, 1));
     }
 }
 

@@ -4,7 +4,7 @@
 #include <math.h>
 
 /* Corners in three random directions from a centre. */
-static void put(io_maker *m, const double *centre, double radius) {
+static void put_triangle(io_maker *m, const double *centre, double radius) {
     double corners[3][3];
     for (int i = 0; i < 3; ++i) {
         io_direction(m, 3, corners[i]);
@@ -18,7 +18,7 @@ void io_make_triangles(io_maker *m) {
     while (!io_done(m)) {
         double centre[3];
         io_place(m, 3, centre);
-        put(m, centre, radius);
+        put_triangle(m, centre, radius);
     }
 }
 
@@ -29,7 +29,7 @@ void io_make_disjoint_3d(io_maker *m) {
         double centre[3];
         io_grid(i, side, 3, centre);
         for (int k = 0; k < 3; ++k) centre[k] = (centre[k] + 0.5) * step;
-        put(m, centre, step * io_between(m, 0.2, 0.45));
+        put_triangle(m, centre, step * io_between(m, 0.2, 0.45));
     }
 }
 
@@ -39,7 +39,7 @@ void io_make_mixed_3d(io_maker *m) {
         double centre[3];
         io_place(m, 3, centre);
         double radius = least / (1 - io_unit(m)); /* P(radius > R) = least / R */
-        put(m, centre, radius < 0.5 ? radius : 0.5);
+        put_triangle(m, centre, radius < 0.5 ? radius : 0.5);
     }
 }
 
@@ -53,7 +53,7 @@ void io_make_clusters_3d(io_maker *m) {
         for (uint32_t i = c % SIZES; i; --i) width *= 0.5;
         for (int k = 0; k < 3; ++k) centre[k] = io_unit_at(m, 1, c, (uint64_t)k);
         for (int i = 0; i < 9; ++i) centre[i % 3] += width * (io_unit(m) - 0.5);
-        put(m, centre, radius * width);
+        put_triangle(m, centre, radius * width);
     }
 }
 

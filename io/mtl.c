@@ -93,7 +93,7 @@ static froe_status read_line(io_sink *sink, io_materials *materials, const char 
 }
 
 /* A name at or below the folder of the OBJ, as a path. False: it is none. */
-static bool find(const char *path, const char *name, char out[PATH_ROOM]) {
+static bool find_material(const char *path, const char *name, char out[PATH_ROOM]) {
     const char *slash = strrchr(path, '/');
     const int folder = slash ? (int)(slash - path) + 1 : 0;
     if (*name == '/' || !strcmp(name, "..") || !strncmp(name, "../", 3) || strstr(name, "/../")) return false;
@@ -107,7 +107,7 @@ froe_status io_materials_read(io_sink *sink, const char *path, const char *name,
     char library[PATH_ROOM];
     struct stat about;
     io_buffer text = {0};
-    if (!find(path, name, library) || stat(library, &about)) return FROE_OK;
+    if (!find_material(path, name, library) || stat(library, &about)) return FROE_OK;
     const io_source source = {.path = library, .size = (uint64_t)about.st_size};
     froe_status status = io_load(&source, sink, false, &text);
     for (char *line = text.data, *next; !status && line && *line; line = next) {

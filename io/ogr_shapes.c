@@ -7,7 +7,7 @@ void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes) {
     io_buffer_free(alloc, &shapes->points);
 }
 
-static froe_status out_of_memory(io_sink *sink) {
+static froe_status shapes_out_of_memory(io_sink *sink) {
     return io_sink_fail(sink, FROE_E_MEMORY, "out of memory");
 }
 
@@ -17,7 +17,7 @@ static froe_status load_points(io_sink *sink, io_shapes *shapes, OGRGeometryH li
     *count = n > 0 ? (size_t)n : 0;
     shapes->points.size = 0;
     double *xy = io_buffer_add(&sink->alloc, &shapes->points, (*count + 1) * 2 * sizeof *xy);
-    if (!xy) return out_of_memory(sink);
+    if (!xy) return shapes_out_of_memory(sink);
     if (*count) OGR_G_GetPoints(line, xy, 2 * sizeof *xy, xy + 1, 2 * sizeof *xy, NULL, 0);
     return FROE_OK;
 }
@@ -33,7 +33,7 @@ static bool is_collection(OGRwkbGeometryType type) {
 static froe_status each_part(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry, part_fn *fn, void *user) {
     const froe_allocator *alloc = &sink->alloc;
     shapes->stack.size = 0;
-    if (!io_buffer_put(alloc, &shapes->stack, &geometry, sizeof geometry)) return out_of_memory(sink);
+    if (!io_buffer_put(alloc, &shapes->stack, &geometry, sizeof geometry)) return shapes_out_of_memory(sink);
     froe_status status = FROE_OK;
     while (shapes->stack.size && !status) {
         shapes->stack.size -= sizeof(OGRGeometryH);
@@ -45,7 +45,7 @@ static froe_status each_part(io_sink *sink, io_shapes *shapes, OGRGeometryH geom
         }
         for (int i = OGR_G_GetGeometryCount(part); i-- > 0;) {
             OGRGeometryH child = OGR_G_GetGeometryRef(part, i);
-            if (!io_buffer_put(alloc, &shapes->stack, &child, sizeof child)) return out_of_memory(sink);
+            if (!io_buffer_put(alloc, &shapes->stack, &child, sizeof child)) return shapes_out_of_memory(sink);
         }
     }
     return status;
@@ -108,7 +108,7 @@ static froe_status add_polygon(io_sink *sink, io_shapes *shapes, OGRGeometryH po
     return status;
 }
 
-static froe_status add_point(io_sink *sink, OGRGeometryH point) {
+static froe_status add_ogr_point(io_sink *sink, OGRGeometryH point) {
     double p[2] = {OGR_G_GetX(point, 0), OGR_G_GetY(point, 0)};
     return io_sink_point(sink, p);
 }
@@ -118,7 +118,7 @@ static froe_status add_part(void *user, io_sink *sink, io_shapes *shapes, OGRGeo
     if (OGR_G_IsEmpty(part)) return ++sink->report.skipped, FROE_OK;
     switch (type) {
     case wkbPoint:
-        return add_point(sink, part);
+        return add_ogr_point(sink, part);
     case wkbLineString:
         return add_line(sink, shapes, part, false);
     case wkbPolygon:

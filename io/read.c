@@ -52,7 +52,7 @@ froe_status io_load(const io_source *source, io_sink *sink, bool binary, io_buff
 }
 
 /* Opens the file just long enough to know its size and its first bytes. */
-static froe_status look(io_source *source, froe_diagnostic *diag) {
+static froe_status look_at_file(io_source *source, froe_diagnostic *diag) {
     const char *name = io_short(source->path);
     struct stat about;
     int file = open(source->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -104,7 +104,8 @@ static io_reader *choose(const io_source *source) {
     return io_read_ogr;
 }
 
-static froe_status check(const char *path, const froe_read_options *o, froe_scene **out, froe_diagnostic *diag) {
+static froe_status check_read_options(const char *path, const froe_read_options *o, froe_scene **out,
+                                      froe_diagnostic *diag) {
     if (!path || !out) return io_fail(diag, FROE_E_ARG, "froe_read: path and out must not be NULL");
     if (o && o->size != sizeof *o)
         return io_fail(diag, FROE_E_OPTIONS, "froe_read: the options do not come from froe_read_defaults()");
@@ -146,7 +147,7 @@ froe_status froe_read(const char *path, const froe_read_options *options, froe_s
     SUPPORT_FLOATS_OWN;
     double start = io_seconds();
     froe_read_options defaults = froe_read_defaults();
-    froe_status status = check(path, options, out, diag);
+    froe_status status = check_read_options(path, options, out, diag);
     if (status) return status;
     io_source source = {.path = path, .options = options ? options : &defaults};
     const froe_read_options *o = source.options;
@@ -159,7 +160,7 @@ froe_status froe_read(const char *path, const froe_read_options *options, froe_s
                     .user = o->user};
     io_locale locale;
     if (!io_locale_enter(&locale)) return io_fail_memory(diag);
-    status = look(&source, diag);
+    status = look_at_file(&source, diag);
     if (!status) status = pour(&source, &sink, out);
     io_sink_free(&sink);
     io_locale_leave(&locale);

@@ -51,7 +51,7 @@ typedef struct walk {
     bool linear; /* colours are shares of light (glTF), not of sRGB */
 } walk;
 
-static froe_status out_of_memory(walk *w) {
+static froe_status assimp_out_of_memory(walk *w) {
     return io_fail(w->sink->diag, FROE_E_MEMORY, "%s: out of memory", io_short(w->sink->path));
 }
 
@@ -70,7 +70,7 @@ static void multiply(const double *parent, const struct aiMatrix4x4 *m, double *
 static froe_status transform(walk *w, const struct aiMesh *mesh, const double *m) {
     w->points.size = 0;
     double *to = io_buffer_add(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3 * sizeof *to);
-    if (!to) return out_of_memory(w);
+    if (!to) return assimp_out_of_memory(w);
     for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
         const double p[3] = {mesh->mVertices[i].x, mesh->mVertices[i].y, mesh->mVertices[i].z};
         for (int k = 0; k < 3; ++k, ++to)
@@ -86,13 +86,13 @@ static froe_status add_face(walk *w, const struct aiMesh *mesh, const struct aiF
         unsigned at = face->mIndices[i];
         if (at >= mesh->mNumVertices) return corrupt(w, "a face names a vertex that does not exist");
         if (!io_buffer_put(&w->sink->alloc, &w->corners, points + 3 * (size_t)at, 3 * sizeof *points))
-            return out_of_memory(w);
+            return assimp_out_of_memory(w);
     }
     if (!face->mNumIndices) return ++w->sink->report.skipped, FROE_OK;
     return io_sink_face(w->sink, w->corners.data, face->mNumIndices);
 }
 
-static froe_status report(walk *w) {
+static froe_status report_assimp(walk *w) {
     enum { FACES_PER_REPORT = 8192 };
     if (w->faces_done++ % FACES_PER_REPORT) return FROE_OK;
     double half = w->faces ? 0.5 * (double)w->faces_done / (double)w->faces : 0.5;
@@ -105,7 +105,7 @@ static froe_status add_cloud(walk *w, const struct aiMesh *mesh) {
     const double *points = w->points.data;
     for (unsigned i = 0; i < mesh->mNumVertices && !status; ++i) {
         status = io_sink_point(w->sink, points + 3 * (size_t)i);
-        if (!status) status = report(w);
+        if (!status) status = report_assimp(w);
     }
     return status;
 }
@@ -150,7 +150,7 @@ static uint32_t material_colour(walk *w, unsigned index) {
 }
 
 /* One group for each node and name of a material, or with `boxes` for each node. */
-static froe_status enter_group(walk *w, const struct aiNode *node, unsigned material) {
+static froe_status enter_node_group(walk *w, const struct aiNode *node, unsigned material) {
     struct aiString name, other;
     material_name(w, material, &name);
     const uint32_t *known = w->materials.data;
@@ -162,19 +162,19 @@ static froe_status enter_group(walk *w, const struct aiNode *node, unsigned mate
     froe_status status = io_sink_group(w->sink, &group);
     if (status) return status;
     uint32_t pair[2] = {material, w->sink->group};
-    return io_buffer_put(&w->sink->alloc, &w->materials, pair, sizeof pair) ? FROE_OK : out_of_memory(w);
+    return io_buffer_put(&w->sink->alloc, &w->materials, pair, sizeof pair) ? FROE_OK : assimp_out_of_memory(w);
 }
 
 static froe_status add_mesh(walk *w, const struct aiNode *node, unsigned index, const double *m) {
     if (index >= w->scene->mNumMeshes) return corrupt(w, "a node names a mesh that does not exist");
     const struct aiMesh *mesh = w->scene->mMeshes[index];
-    froe_status status = enter_group(w, node, mesh->mMaterialIndex);
+    froe_status status = enter_node_group(w, node, mesh->mMaterialIndex);
     if (!status) status = transform(w, mesh, m);
     if (!status && !mesh->mNumFaces) status = add_cloud(w, mesh);
     for (unsigned i = 0; i < mesh->mNumFaces && !status; ++i) {
         w->sink->number = i;
         status = add_face(w, mesh, &mesh->mFaces[i]);
-        if (!status) status = report(w);
+        if (!status) status = report_assimp(w);
     }
     return status;
 }
@@ -191,7 +191,7 @@ static froe_status add_node(walk *w, const struct aiNode *node, const double *m)
 static froe_status push(walk *w, const struct aiNode *node, const double *parent) {
     visit next = {.node = node};
     memcpy(next.parent, parent, sizeof next.parent);
-    return io_buffer_put(&w->sink->alloc, &w->stack, &next, sizeof next) ? FROE_OK : out_of_memory(w);
+    return io_buffer_put(&w->sink->alloc, &w->stack, &next, sizeof next) ? FROE_OK : assimp_out_of_memory(w);
 }
 
 static froe_status walk_nodes(walk *w) {

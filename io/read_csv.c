@@ -104,7 +104,7 @@ static bool settle(table *t, bool sided) {
 }
 
 /* Reads the header line, which it changes, and moves `at` behind it. */
-static header read_header(char **at, table *t) {
+static header read_csv_header(char **at, table *t) {
     if (!strncmp(*at, "\xef\xbb\xbf", 3)) *at += 3;
     size_t length = strcspn(*at, "\r\n");
     char *line = *at;
@@ -131,7 +131,7 @@ static header peek_header(const io_source *source, table *t) {
     if (memchr(source->head, '\0', length)) return OTHER;
     memcpy(line, source->head, length);
     line[length] = '\0';
-    return read_header(&at, t);
+    return read_csv_header(&at, t);
 }
 
 bool io_csv_recognise(const io_source *source) {
@@ -163,7 +163,7 @@ typedef struct row {
     bool tagged;
 } row;
 
-static froe_status read_number(io_sink *sink, const char *field, double *value) {
+static froe_status read_csv_number(io_sink *sink, const char *field, double *value) {
     char *end;
     *value = strtod(field, &end); /* correctly rounded, in the C locale of this thread */
     if (end != field && !*end) return FROE_OK;
@@ -172,10 +172,10 @@ static froe_status read_number(io_sink *sink, const char *field, double *value) 
 }
 
 static froe_status read_field(io_sink *sink, const table *t, int role, const char *field, row *r) {
-    if (role == RADIUS && t->kind == FROE_BALL) return read_number(sink, field, &r->radius);
+    if (role == RADIUS && t->kind == FROE_BALL) return read_csv_number(sink, field, &r->radius);
     if (role < RADIUS) {
         int corner = role / FROE_MAX_DIM, axis = role % FROE_MAX_DIM;
-        return read_number(sink, field, &r->corners[corner * t->dim + axis]);
+        return read_csv_number(sink, field, &r->corners[corner * t->dim + axis]);
     }
     if (role != TAG) return FROE_OK;
     char *end;
@@ -239,7 +239,7 @@ froe_status io_read_csv(const io_source *source, io_sink *sink) {
     table t;
     froe_status status = io_load(source, sink, false, &text);
     char *at = text.data;
-    header what = status ? OURS : read_header(&at, &t);
+    header what = status ? OURS : read_csv_header(&at, &t);
     if (what != OURS) status = refuse_header(source, sink, what);
     if (!status) status = io_sink_open(sink, t.dim);
     sink->unit = "row";

@@ -241,7 +241,7 @@ static bool put_segments(reading *r, form kind, const io_buffer *rings) {
     return true;
 }
 
-static froe_status add(reading *r, const io_buffer *times, const io_buffer *coords, const io_buffer *controls) {
+static froe_status add_moving(reading *r, const io_buffer *times, const io_buffer *coords, const io_buffer *controls) {
     froe_diagnostic why;
     froe_moving b = froe_moving_defaults();
     b.vertex_count = r->points;
@@ -269,7 +269,7 @@ static froe_status add_geometry(reading *r, form kind, const io_json *geometry) 
     if (!status) status = take_interpolation(r, kind, geometry, &rings, &parabolas);
     if (!status && (!transpose(r, parabolas, &times, &coords, &controls) || !put_segments(r, kind, &rings)))
         status = no_memory(r);
-    if (!status) status = add(r, &times, &coords, &controls);
+    if (!status) status = add_moving(r, &times, &coords, &controls);
     io_buffer_free(&r->alloc, &rings);
     io_buffer_free(&r->alloc, &times);
     io_buffer_free(&r->alloc, &coords);
@@ -300,7 +300,7 @@ static const char *first_string(const io_json *object) {
 }
 
 /* What a feature is called: by its properties, or its id. */
-static const char *name_of(const io_json *feature, char number[32]) {
+static const char *name_of_feature(const io_json *feature, char number[32]) {
     static const char *const keys[] = {"name", "title", "label", "id"};
     const io_json *properties = io_json_get(feature, "properties"), *id = io_json_get(feature, "id");
     const char *name = NULL;
@@ -317,7 +317,7 @@ static const char *name_of(const io_json *feature, char number[32]) {
 static froe_status begin_feature(reading *r, const io_json *feature) {
     char number[32];
     snprintf(number, sizeof number, "%zu", r->number);
-    const froe_group group = {.name = name_of(feature, number)};
+    const froe_group group = {.name = name_of_feature(feature, number)};
     r->flat = true;
     r->report.features++;
     froe_status status = froe_motion_add_group(r->motion, &group, &r->group);

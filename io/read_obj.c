@@ -36,7 +36,7 @@ typedef struct obj {
     bool regroup, refeature; /* name or material, name changed since the last element */
 } obj;
 
-static froe_status broken(obj *o, const char *what) {
+static froe_status broken_obj(obj *o, const char *what) {
     return io_fail(o->sink->diag, FROE_E_FORMAT, "%s: line %llu: %s", io_short(o->sink->path),
                    (unsigned long long)o->number, what);
 }
@@ -56,7 +56,7 @@ static uint32_t hash(const char *name, const char *material) { /* FNV-1a */
     return h % BUCKETS;
 }
 
-static froe_status enter_group(obj *o) {
+static froe_status enter_named_group(obj *o) {
     o->sink->group = FROE_NONE;
     if (!*o->name && !*o->material) return FROE_OK;
     uint32_t bucket = hash(o->name, o->material);
@@ -107,7 +107,7 @@ static froe_status read_vertex(obj *o, const char *at) {
     for (int k = 0; k < 3; ++k) {
         char *end;
         p[k] = strtod(at, &end);
-        if (end == at) return broken(o, "a vertex needs three coordinates");
+        if (end == at) return broken_obj(o, "a vertex needs three coordinates");
         at = end;
     }
     return io_buffer_put(&o->sink->alloc, &o->points, p, sizeof p) ? FROE_OK : out_of_memory(o);
@@ -120,9 +120,9 @@ static froe_status read_corners(obj *o, const char *at, size_t *count) {
     for (*count = 0; at += strspn(at, " \t\r"), *at; ++*count) {
         char *end;
         int64_t index = strtoll(at, &end, 10);
-        if (end == at) return broken(o, "an index is not a number");
+        if (end == at) return broken_obj(o, "an index is not a number");
         if (index < 0) index += vertices + 1;
-        if (index < 1 || index > vertices) return broken(o, "an index names a vertex that does not exist");
+        if (index < 1 || index > vertices) return broken_obj(o, "an index names a vertex that does not exist");
         const double *p = (const double *)o->points.data + 3 * (index - 1);
         if (!io_buffer_put(&o->sink->alloc, &o->corners, p, 3 * sizeof *p)) return out_of_memory(o);
         at = end + strcspn(end, " \t\r"); /* texture and normal */
@@ -134,7 +134,7 @@ static froe_status read_corners(obj *o, const char *at, size_t *count) {
 static froe_status enter(obj *o) {
     froe_status status = FROE_OK;
     if (o->refeature) status = io_sink_feature(o->sink, o->number);
-    if (!status && (o->regroup || o->refeature)) status = enter_group(o);
+    if (!status && (o->regroup || o->refeature)) status = enter_named_group(o);
     o->refeature = o->regroup = false;
     o->sink->number = o->number;
     return status;

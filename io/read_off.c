@@ -15,7 +15,7 @@ typedef struct off {
     io_buffer points, corners; /* doubles, 3 each */
 } off;
 
-static froe_status broken(off *o, const char *what) {
+static froe_status broken_off(off *o, const char *what) {
     size_t line = 1;
     for (const char *c = o->begin; c < o->at; ++c) line += *c == '\n';
     return io_fail(o->sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", io_short(o->source->path), line, what);
@@ -51,7 +51,7 @@ static bool whole(off *o, uint64_t *value) {
     return true;
 }
 
-static froe_status read_header(off *o) {
+static froe_status read_off_header(off *o) {
     skip_blanks(o);
     size_t prefix = strspn(o->at, "STCN4n");
     if (memchr(o->at, '4', prefix) || memchr(o->at, 'n', prefix))
@@ -64,8 +64,9 @@ static froe_status read_header(off *o) {
         return io_fail(o->sink->diag, FROE_E_UNSUPPORTED, "%s: binary OFF is not read", io_short(o->source->path));
     uint64_t edges;
     if (!whole(o, &o->vertices) || !whole(o, &o->faces) || !whole(o, &edges))
-        return broken(o, "the counts of vertices, faces and edges are missing");
-    if (o->vertices > o->length || o->faces > o->length) return broken(o, "the file is shorter than its counts say");
+        return broken_off(o, "the counts of vertices, faces and edges are missing");
+    if (o->vertices > o->length || o->faces > o->length)
+        return broken_off(o, "the file is shorter than its counts say");
     return FROE_OK;
 }
 
@@ -74,7 +75,7 @@ static froe_status read_vertices(off *o) {
     if (!p) return io_fail_memory(o->sink->diag);
     for (uint64_t i = 0; i < o->vertices; ++i) {
         for (int k = 0; k < 3; ++k)
-            if (!number(o, p++)) return broken(o, *o->at ? "a coordinate is not a number" : "vertices are missing");
+            if (!number(o, p++)) return broken_off(o, *o->at ? "a coordinate is not a number" : "vertices are missing");
         if (o->extras) skip_line(o);
     }
     return FROE_OK;
@@ -85,8 +86,8 @@ static froe_status read_face(off *o, uint64_t corners) {
     o->corners.size = 0;
     for (uint64_t i = 0; i < corners; ++i) {
         uint64_t vertex;
-        if (!whole(o, &vertex)) return broken(o, *o->at ? "an index is not a number" : "faces are missing");
-        if (vertex >= o->vertices) return broken(o, "a face names a vertex that does not exist");
+        if (!whole(o, &vertex)) return broken_off(o, *o->at ? "an index is not a number" : "faces are missing");
+        if (vertex >= o->vertices) return broken_off(o, "a face names a vertex that does not exist");
         if (!io_buffer_put(&o->sink->alloc, &o->corners, points + 3 * vertex, 3 * sizeof *points))
             return io_fail_memory(o->sink->diag);
     }
@@ -101,7 +102,8 @@ static froe_status read_faces(off *o) {
     for (uint64_t i = 0; i < o->faces && !status; ++i) {
         uint64_t corners;
         o->sink->number = i;
-        if (!whole(o, &corners)) return broken(o, *o->at ? "a count of corners is not a number" : "faces are missing");
+        if (!whole(o, &corners))
+            return broken_off(o, *o->at ? "a count of corners is not a number" : "faces are missing");
         status = read_face(o, corners);
         if (!status && i % FACES_PER_REPORT == 0)
             status = io_sink_progress(o->sink, (double)(o->at - o->begin) / (double)o->length);
@@ -113,7 +115,7 @@ froe_status io_read_off(const io_source *source, io_sink *sink) {
     io_buffer text = {0};
     froe_status status = io_load(source, sink, false, &text);
     off o = {.source = source, .sink = sink, .begin = text.data, .at = text.data, .length = text.size};
-    if (!status) status = read_header(&o);
+    if (!status) status = read_off_header(&o);
     if (!status) status = io_sink_open(sink, 3);
     if (!status) status = read_vertices(&o);
     io_report_format(sink, "float64", "OFF");

@@ -123,7 +123,7 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
     return status;
 }
 
-static froe_status report(map *m, double done) {
+static froe_status report_ogr(map *m, double done) {
     enum { FEATURES_PER_REPORT = 256 };
     return m->features_done++ % FEATURES_PER_REPORT ? FROE_OK : io_sink_progress(m->sink, done);
 }
@@ -141,7 +141,7 @@ static froe_status add_all(map *m) {
         enter_layer(m, layer);
         status = add_feature(m, feature);
         OGR_F_Destroy(feature);
-        if (!status) status = report(m, done);
+        if (!status) status = report_ogr(m, done);
     }
     return status;
 }
@@ -156,7 +156,7 @@ static froe_status add_layer(map *m, OGRLayerH layer) {
         if (!feature) break;
         status = add_feature(m, feature);
         OGR_F_Destroy(feature);
-        if (!status) status = report(m, expected > 0 ? (double)m->features_done / expected : 0);
+        if (!status) status = report_ogr(m, expected > 0 ? (double)m->features_done / expected : 0);
     }
     return status;
 }

@@ -126,7 +126,7 @@ static froe_status read_format(ply *p) {
     return broken(p, "its format is neither ascii nor binary");
 }
 
-static froe_status read_header(ply *p) {
+static froe_status read_ply_header(ply *p) {
     froe_status status = FROE_OK;
     bool formatted = false;
     char word[WORD_ROOM];
@@ -266,7 +266,7 @@ froe_status io_read_ply(const io_source *source, io_sink *sink) {
     p.at = file.data;
     p.end = p.at + file.size;
     if (!status && strncmp(p.at, "ply", 3) != 0) status = broken(&p, "does not begin like PLY");
-    if (!status) status = read_header(&p);
+    if (!status) status = read_ply_header(&p);
     if (!status) status = io_sink_open(sink, 3);
     io_report_format(sink, p.text || p.doubles ? "float64" : "float32", "PLY");
     sink->report.layers = 1;

@@ -75,11 +75,11 @@ static froe_status flush(io_sink *sink) {
     return FROE_OK;
 }
 
-static froe_status out_of_memory(io_sink *sink) {
+static froe_status sink_out_of_memory(io_sink *sink) {
     return io_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory after %zu objects", io_short(sink->path), sink->total);
 }
 
-static froe_status put(io_sink *sink, froe_kind kind, const double *coords, size_t corners) {
+static froe_status put_in_sink(io_sink *sink, froe_kind kind, const double *coords, size_t corners) {
     bool full = sink->count == BATCH_OBJECTS || sink->coords.size > BATCH_BYTES;
     if (full || (sink->count && kind != sink->kind)) {
         froe_status status = flush(sink);
@@ -92,15 +92,15 @@ static froe_status put(io_sink *sink, froe_kind kind, const double *coords, size
     uint64_t tag = sink->tagged ? sink->tag : id;
     size_t point_bytes = (size_t)sink->dim * sizeof(double), start = sink->coords.size / point_bytes;
     if (kind == FROE_POLYGON) {
-        if (!sink->count && !io_buffer_put(alloc, &sink->starts, &start, sizeof start)) return out_of_memory(sink);
+        if (!sink->count && !io_buffer_put(alloc, &sink->starts, &start, sizeof start)) return sink_out_of_memory(sink);
         size_t end = start + corners;
-        if (!io_buffer_put(alloc, &sink->starts, &end, sizeof end)) return out_of_memory(sink);
+        if (!io_buffer_put(alloc, &sink->starts, &end, sizeof end)) return sink_out_of_memory(sink);
     }
     if (!io_buffer_put(alloc, &sink->coords, coords, corners * point_bytes) ||
         !io_buffer_put(alloc, &sink->object_faces, &face, sizeof face) ||
         !io_buffer_put(alloc, &sink->groups, &sink->group, sizeof sink->group) ||
         !io_buffer_put(alloc, &sink->tags, &tag, sizeof tag))
-        return out_of_memory(sink);
+        return sink_out_of_memory(sink);
     ++sink->count;
     ++sink->total;
     return FROE_OK;
@@ -132,12 +132,12 @@ froe_status io_sink_end_feature(io_sink *sink) {
     memcpy(corners + sink->dim, sink->hi, (size_t)sink->dim * sizeof(double));
     sink->bounded = false;
     sink->face = FROE_NONE;
-    return put(sink, FROE_BOX, corners, 2);
+    return put_in_sink(sink, FROE_BOX, corners, 2);
 }
 
 froe_status io_sink_group(io_sink *sink, const froe_group *group) {
     froe_status status = froe_scene_add_group(sink->scene, group, &sink->group);
-    if (status == FROE_E_MEMORY) return out_of_memory(sink);
+    if (status == FROE_E_MEMORY) return sink_out_of_memory(sink);
     if (status) return io_sink_fail(sink, status, "its group '%.60s' cannot be added", group->name ? group->name : "");
     ++sink->report.groups;
     return FROE_OK;
@@ -177,23 +177,23 @@ static void extend(io_sink *sink, const double *p) {
 }
 
 /* Checks; then adds the object, or with `boxes` only widens the feature's box. */
-static froe_status add(io_sink *sink, froe_kind kind, const double *coords, size_t corners) {
+static froe_status add_to_sink(io_sink *sink, froe_kind kind, const double *coords, size_t corners) {
     froe_status status = finite(sink, coords, corners);
     if (status) return status;
-    if (!sink->boxes) return put(sink, kind, coords, corners);
+    if (!sink->boxes) return put_in_sink(sink, kind, coords, corners);
     for (size_t i = 0; i < corners; ++i) extend(sink, coords + i * (size_t)sink->dim);
     return FROE_OK;
 }
 
 froe_status io_sink_point(io_sink *sink, const double *p) {
-    return add(sink, FROE_POINT, p, 1);
+    return add_to_sink(sink, FROE_POINT, p, 1);
 }
 
 static froe_status add_pair(io_sink *sink, froe_kind kind, const double *a, const double *b) {
     double corners[2 * FROE_MAX_DIM];
     memcpy(corners, a, (size_t)sink->dim * sizeof(double));
     memcpy(corners + sink->dim, b, (size_t)sink->dim * sizeof(double));
-    return add(sink, kind, corners, 2);
+    return add_to_sink(sink, kind, corners, 2);
 }
 
 froe_status io_sink_segment(io_sink *sink, const double *a, const double *b) {
@@ -221,8 +221,8 @@ froe_status io_sink_ball(io_sink *sink, const double *centre, double radius) {
         }
         return add_pair(sink, FROE_BOX, lo, hi);
     }
-    status = put(sink, FROE_BALL, centre, 1);
-    if (!status && !io_buffer_put(&sink->alloc, &sink->radii, &radius, sizeof radius)) return out_of_memory(sink);
+    status = put_in_sink(sink, FROE_BALL, centre, 1);
+    if (!status && !io_buffer_put(&sink->alloc, &sink->radii, &radius, sizeof radius)) return sink_out_of_memory(sink);
     return status;
 }
 
@@ -230,14 +230,14 @@ froe_status io_sink_triangle(io_sink *sink, const double *a, const double *b, co
     double corners[3 * FROE_MAX_DIM];
     const double *from[3] = {a, b, c};
     for (int i = 0; i < 3; ++i) memcpy(corners + i * sink->dim, from[i], (size_t)sink->dim * sizeof(double));
-    return add(sink, FROE_POLYGON, corners, 3);
+    return add_to_sink(sink, FROE_POLYGON, corners, 3);
 }
 
 /* The core itself says whether it would take the polygon as it is. */
 static froe_status polygon_fits(io_sink *sink, const double *corners, size_t count, bool *fits) {
     froe_scene *trial;
     froe_status status = froe_scene_new(sink->dim, &sink->alloc, &trial);
-    if (status) return out_of_memory(sink);
+    if (status) return sink_out_of_memory(sink);
     size_t starts[2] = {0, count};
     froe_objects one = froe_objects_defaults();
     one.kind = FROE_POLYGON;
@@ -247,14 +247,14 @@ static froe_status polygon_fits(io_sink *sink, const double *corners, size_t cou
     status = froe_scene_add(trial, &one, NULL);
     froe_scene_free(trial);
     *fits = !status;
-    if (status == FROE_E_MEMORY) return out_of_memory(sink);
+    if (status == FROE_E_MEMORY) return sink_out_of_memory(sink);
     return FROE_OK;
 }
 
 static froe_status split(io_sink *sink, const double *corners, size_t count) {
     io_buffer triangles = {0};
     froe_status status = FROE_OK;
-    if (!io_triangulate(&sink->alloc, corners, count, &triangles)) status = out_of_memory(sink);
+    if (!io_triangulate(&sink->alloc, corners, count, &triangles)) status = sink_out_of_memory(sink);
     const uint32_t *at = triangles.data;
     for (size_t i = 0; !status && i < triangles.size / sizeof *at; i += 3)
         status = io_sink_triangle(sink, corners + 3 * at[i], corners + 3 * at[i + 1], corners + 3 * at[i + 2]);
@@ -266,13 +266,13 @@ static froe_status split(io_sink *sink, const double *corners, size_t count) {
 froe_status io_sink_face(io_sink *sink, const double *corners, size_t count) {
     if (count == 1) return io_sink_point(sink, corners);
     if (count == 2) return io_sink_segment(sink, corners, corners + 3);
-    if (count == 3 || sink->boxes) return add(sink, FROE_POLYGON, corners, count);
+    if (count == 3 || sink->boxes) return add_to_sink(sink, FROE_POLYGON, corners, count);
     froe_status status = finite(sink, corners, count);
     bool whole = false;
     if (!status && sink->faces == FROE_FACES_POLYGONS) status = polygon_fits(sink, corners, count, &whole);
     if (status) return status;
     io_sink_new_face(sink);
-    status = whole ? put(sink, FROE_POLYGON, corners, count) : split(sink, corners, count);
+    status = whole ? put_in_sink(sink, FROE_POLYGON, corners, count) : split(sink, corners, count);
     sink->face = FROE_NONE;
     return status;
 }

@@ -45,7 +45,7 @@ int io_orient(const double *a, const double *b, const double *c) {
     return 0;
 }
 
-static bool same(const double *a, const double *b) {
+static bool same_corner(const double *a, const double *b) {
     return a[0] == b[0] && a[1] == b[1];
 }
 
@@ -55,9 +55,9 @@ int io_ring_side(const double *xy, size_t count) {
         const double *p = xy + 2 * i, *q = xy + 2 * low;
         if (p[0] < q[0] || (p[0] == q[0] && p[1] < q[1])) low = i;
     }
-    for (before = low; before != (low + 1) % count && same(xy + 2 * before, xy + 2 * low);)
+    for (before = low; before != (low + 1) % count && same_corner(xy + 2 * before, xy + 2 * low);)
         before = (before + count - 1) % count;
-    for (after = low; after != before && same(xy + 2 * after, xy + 2 * low);) after = (after + 1) % count;
+    for (after = low; after != before && same_corner(xy + 2 * after, xy + 2 * low);) after = (after + 1) % count;
     return io_orient(xy + 2 * before, xy + 2 * low, xy + 2 * after);
 }
 

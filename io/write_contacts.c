@@ -25,7 +25,7 @@ static double number_of(const froe_contact *c, int column) {
     return values[column - 2];
 }
 
-static const char *name_of(const froe_motion *m, const froe_contact *c, int column) {
+static const char *name_of_object(const froe_motion *m, const froe_contact *c, int column) {
     uint32_t group = froe_motion_object(m, column == COLUMNS - 1 ? c->b : c->a).group;
     return group == FROE_NONE ? "" : froe_motion_group(m, group).name;
 }
@@ -36,9 +36,9 @@ static void put_cell(io_writer *w, const froe_motion *m, const froe_contact *c, 
     else if (columns[column].type == NUMBER)
         io_put_number(w, number_of(c, column));
     else if (json)
-        io_put_json(w, name_of(m, c, column));
+        io_put_json(w, name_of_object(m, c, column));
     else
-        io_put_csv(w, name_of(m, c, column));
+        io_put_csv(w, name_of_object(m, c, column));
 }
 
 static void put_csv(io_writer *w, const froe_motion *m, const froe_contact *contacts, size_t count) {

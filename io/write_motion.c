@@ -35,7 +35,7 @@ static chain chain_at(const froe_motion *m, uint32_t first) {
 }
 
 /* Do all vertices have the same instants, from the birth to the death of the segments? */
-static froe_status check(const chain *c, froe_diagnostic *diag) {
+static froe_status check_motion(const chain *c, froe_diagnostic *diag) {
     froe_moving_object o = froe_motion_object(c->motion, c->first);
     uint32_t v0 = vertex_of(c, 0);
     size_t count = froe_motion_knot_count(c->motion, v0);
@@ -130,7 +130,7 @@ froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_
     uint32_t count = (uint32_t)froe_motion_object_count(motion);
     for (uint32_t i = 0; i < count;) {
         chain c = chain_at(motion, i);
-        froe_status status = check(&c, diag);
+        froe_status status = check_motion(&c, diag);
         if (status) return status;
         i = c.end;
     }

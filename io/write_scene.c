@@ -23,7 +23,7 @@ static uint32_t corners_of(const froe_object *o) {
     return o->corners < least ? least : o->corners;
 }
 
-static const double *place_of(const pen *p, uint32_t object, const froe_object *o, uint32_t corner) {
+static const double *place_of_corner(const pen *p, uint32_t object, const froe_object *o, uint32_t corner) {
     return froe_scene_vertex(p->scene, corner_of(p, object, o, corner));
 }
 
@@ -91,7 +91,7 @@ static uint32_t run_end(const pen *p, uint32_t first, const froe_object *o) {
     return end;
 }
 
-static void put_line(pen *p, const double *a, const double *b) {
+static void put_scene_line(pen *p, const double *a, const double *b) {
     io_put(&p->writer, "[");
     position(p, a);
     io_put(&p->writer, ",");
@@ -106,10 +106,10 @@ static void put_lines(pen *p, uint32_t first, uint32_t end) {
         froe_object o = froe_scene_object(p->scene, i);
         if (i == first || corner_of(p, i, &o, 0) != last) {
             io_put(&p->writer, i > first ? "],[" : "[[");
-            position(p, place_of(p, i, &o, 0));
+            position(p, place_of_corner(p, i, &o, 0));
         }
         io_put(&p->writer, ",");
-        position(p, place_of(p, i, &o, 1));
+        position(p, place_of_corner(p, i, &o, 1));
         last = corner_of(p, i, &o, 1);
     }
     io_put(&p->writer, "]]");
@@ -127,9 +127,10 @@ static void write_geojson(pen *p) {
         froe_object o = froe_scene_object(p->scene, i);
         end = o.kind == FROE_SEGMENT ? run_end(p, i, &o) : i + 1;
         begin_feature(p, i, &o, type_of(o.kind, end - i));
-        if (o.kind == FROE_POINT) position(p, place_of(p, i, &o, 0));
-        if (o.kind == FROE_BOX) put_box(p, place_of(p, i, &o, 0), place_of(p, i, &o, 1));
-        if (o.kind == FROE_SEGMENT && end == i + 1) put_line(p, place_of(p, i, &o, 0), place_of(p, i, &o, 1));
+        if (o.kind == FROE_POINT) position(p, place_of_corner(p, i, &o, 0));
+        if (o.kind == FROE_BOX) put_box(p, place_of_corner(p, i, &o, 0), place_of_corner(p, i, &o, 1));
+        if (o.kind == FROE_SEGMENT && end == i + 1)
+            put_scene_line(p, place_of_corner(p, i, &o, 0), place_of_corner(p, i, &o, 1));
         if (o.kind == FROE_SEGMENT && end > i + 1) put_lines(p, i, end);
         io_put(&p->writer, "}}");
     }
@@ -155,7 +156,7 @@ static void write_csv(pen *p) {
     for (uint32_t i = 0; i < p->objects; ++i) {
         froe_object o = froe_scene_object(p->scene, i);
         for (uint32_t c = 0; c < (kind == FROE_BOX ? 2u : 1u); ++c) {
-            io_put_point(&p->writer, place_of(p, i, &o, c), p->dim, ",");
+            io_put_point(&p->writer, place_of_corner(p, i, &o, c), p->dim, ",");
             io_put(&p->writer, ",");
         }
         if (kind == FROE_BALL) {
@@ -243,14 +244,14 @@ static const kind_of_file files[] = {
     {"obj", "OBJ", POINTS | SEGMENTS | POLYGONS, 3, 3, write_obj},
 };
 
-static const kind_of_file *find(const char *path) {
+static const kind_of_file *find_place(const char *path) {
     io_extension extension = io_path_extension(path);
     for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
         if (!strcmp(files[i].extension, extension.text)) return &files[i];
     return NULL;
 }
 
-static froe_status check(const pen *p, const kind_of_file *file) {
+static froe_status check_written_scene(const pen *p, const kind_of_file *file) {
     if (!file)
         return io_fail(p->diag, FROE_E_UNSUPPORTED, "%s: a scene is written to .geojson, .csv, .off or .obj",
                        io_short(p->path));
@@ -268,8 +269,8 @@ froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_dia
              .diag = diag,
              .dim = froe_scene_dim(scene),
              .objects = froe_scene_object_count(scene)};
-    const kind_of_file *file = find(path);
-    froe_status status = check(&p, file);
+    const kind_of_file *file = find_place(path);
+    froe_status status = check_written_scene(&p, file);
     if (!status) status = io_writer_open(&p.writer, path, diag);
     if (status) return status;
     file->write(&p);

@@ -73,7 +73,7 @@ static int agreed(int a, int b) {
 }
 
 /* The images of a crossing or corner are another way to the same answer. */
-static int crossing(num_context *context, int dim, const double *p) {
+static int case_crossing(num_context *context, int dim, const double *p) {
     const geom_plane h = plane_of(dim, p), a = plane_of(dim, p + dim * dim);
     const double *u = p + 2 * dim * dim, *v = u + dim;
     double x[3];
@@ -107,7 +107,7 @@ static int cut(num_context *context, const double *p) {
     return agreed(geom_line_image_side(&image, &ray), geom_line_side_point(context, &eye, &line, p + 21));
 }
 
-static int meeting(num_context *context, const double *p) {
+static int case_meeting(num_context *context, const double *p) {
     const geom_eye eye = geom_eye_make(false, p, NULL);
     geom_line lines[3];
     for (int i = 0; i < 3; i++) lines[i] = (geom_line){.kind = GEOM_SIGHT_EDGE, .u = p + 3 + 6 * i, .v = p + 6 + 6 * i};
@@ -121,7 +121,7 @@ static int meets(num_context *context, const double *p) {
     return geom_ray_meets(context, &ray, &triangle, &hit);
 }
 
-static int answer(num_context *context, formula f, const double *p) {
+static int answer_case(num_context *context, formula f, const double *p) {
     const int dim = dim_of(f);
     geom_plane h = f <= EYE_AFAR ? plane_of(dim, p) : (geom_plane){.dim = 3};
     geom_eye eye;
@@ -133,7 +133,7 @@ static int answer(num_context *context, formula f, const double *p) {
                       geom_side_vertex(context, &h, p + dim * dim));
     case CROSSING_2:
     case CROSSING_3:
-        return crossing(context, dim, p);
+        return case_crossing(context, dim, p);
     case CORNER:
         return corner(context, p);
     case BALL_2:
@@ -150,7 +150,7 @@ static int answer(num_context *context, formula f, const double *p) {
     case CUT_POINT:
         return cut(context, p);
     case MEETING:
-        return meeting(context, p);
+        return case_meeting(context, p);
     case RAY:
         return meets(context, p);
     case FORMULAS:
@@ -159,15 +159,15 @@ static int answer(num_context *context, formula f, const double *p) {
     return NUM_UNSURE;
 }
 
-static int ask(num_context *context, const hard_case *c) {
+static int ask_case(num_context *context, const hard_case *c) {
     double points[3 * HARD_POINTS];
     for (int i = 0; i < 3 * HARD_POINTS; i++) points[i] = c->tenths[i] * 0.1;
-    return answer(context, c->formula, points);
+    return answer_case(context, c->formula, points);
 }
 
 const char *geom_formula_at_fault(num_context *context) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const int found = ask(context, cases + i);
+        const int found = ask_case(context, cases + i);
         if (found != NUM_UNSURE && found != cases[i].right) return names[cases[i].formula];
     }
     return NULL;

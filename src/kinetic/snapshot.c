@@ -41,7 +41,7 @@ static void picture_free(picture *p) {
     froe_places_free(p->places);
 }
 
-static int by_key(void *user, uint32_t a, uint32_t b) {
+static int by_object_key(void *user, uint32_t a, uint32_t b) {
     const picture *p = user;
     return comes_before(p->k, p->objects[a], p->objects[b]) ? -1 : 1;
 }
@@ -56,7 +56,7 @@ static void take_objects(picture *p) {
         p->order[n] = n;
         n++;
     }
-    if (n > 1) base_merge_sort(p->order, p->order + n, n, by_key, p);
+    if (n > 1) base_merge_sort(p->order, p->order + n, n, by_object_key, p);
 }
 
 static bool keep_place(const picture *p, uint32_t vertex, bool rounded) {

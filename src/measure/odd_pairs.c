@@ -171,7 +171,7 @@ static bool visit_sheet(search *s, unsigned worker, uint32_t visitor, const shee
 }
 
 /* What is loose visits all sheets, what is in a sheet visits those before it. */
-static bool visit(search *s, unsigned worker, uint32_t visitor) {
+static bool visit_sheets(search *s, unsigned worker, uint32_t visitor) {
     size_t at = (size_t)visitor * (size_t)s->of->scene->dim;
     measure_search sheets = measure_search_begin(&s->bounds, s->lo + at, s->hi + at, 0);
     for (uint32_t i; (i = measure_search_next(&sheets)) != FROE_NONE;) {
@@ -185,7 +185,7 @@ static froe_status visit_job(void *user, unsigned worker, size_t job) {
     search *s = user;
     size_t end = (job + 1) * VISITORS;
     for (size_t i = job * VISITORS; i < end && i < s->of->count; i++)
-        if (!visit(s, worker, (uint32_t)i)) return FROE_E_CANCELLED;
+        if (!visit_sheets(s, worker, (uint32_t)i)) return FROE_E_CANCELLED;
     return FROE_OK;
 }
 

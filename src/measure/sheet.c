@@ -46,18 +46,18 @@ static bool before(const double *p, const double *q) {
     return p[0] < q[0] || (p[0] == q[0] && p[1] < q[1]);
 }
 
-static bool same(const double *p, const double *q) {
+static bool same_sheet_place(const double *p, const double *q) {
     return p[0] == q[0] && p[1] == q[1];
 }
 
 /* Where is f, of e? 1 above, -1 below, 0: on one line. Both meet the line of the sweep, and do not cross before it. f
  * may be a point. */
-static int place(const sweep *s, const edge *e, const edge *f) {
+static int place_on_sheet(const sweep *s, const edge *e, const edge *f) {
     if (e == f) return 0;
     bool later = before(f->p, e->p);
     const edge *first = later ? f : e, *second = later ? e : f;
-    int sign = same(first->p, second->p) ? 0 : geom_turn(s->context, first->p, first->q, second->p);
-    if (!sign && !same(second->p, second->q)) sign = geom_turn(s->context, first->p, first->q, second->q);
+    int sign = same_sheet_place(first->p, second->p) ? 0 : geom_turn(s->context, first->p, first->q, second->p);
+    if (!sign && !same_sheet_place(second->p, second->q)) sign = geom_turn(s->context, first->p, first->q, second->q);
     return later ? -sign : sign;
 }
 
@@ -132,7 +132,7 @@ static froe_status join_sides(sweep *s) {
     return room ? FROE_OK : FROE_E_MEMORY;
 }
 
-static const double *place_of(const sweep *s, const base_pair *event) {
+static const double *event_place(const sweep *s, const base_pair *event) {
     const edge *e = s->edges.data + event->value / 2;
     return event->value % 2 ? e->p : e->q;
 }
@@ -144,7 +144,8 @@ static froe_status sort_events(sweep *s) {
     if (!s->events) return FROE_E_MEMORY;
     for (size_t i = 0; i < s->event_count; i++) s->events[i].value = (uint32_t)i + 2;
     for (int k = 2; k--;) {
-        for (size_t i = 0; i < s->event_count; i++) s->events[i].key = base_double_key(place_of(s, s->events + i)[k]);
+        for (size_t i = 0; i < s->event_count; i++)
+            s->events[i].key = base_double_key(event_place(s, s->events + i)[k]);
         base_radix_sort(s->events, s->events + s->event_count, s->event_count);
     }
     return FROE_OK;
@@ -156,10 +157,10 @@ static froe_status sort_events(sweep *s) {
 static uint32_t splay(const sweep *s, uint32_t top, const edge *key) {
     edge *e = s->edges.data;
     uint32_t parts[2] = {0, 0}, *tails[2] = {parts, parts + 1}; /* what lies below and above of all that was passed */
-    for (int sign; (sign = place(s, e + top, key)) != 0;) {
+    for (int sign; (sign = place_on_sheet(s, e + top, key)) != 0;) {
         int towards = sign > 0;
         uint32_t child = e[top].child[towards];
-        if (child && place(s, e + child, key) == sign) { /* rotate */
+        if (child && place_on_sheet(s, e + child, key) == sign) { /* rotate */
             e[top].child[towards] = e[child].child[!towards];
             e[child].child[!towards] = top;
             top = child;
@@ -188,7 +189,7 @@ static void insert(sweep *s, uint32_t number) {
     new->child[0] = new->child[1] = 0;
     if (s->root) {
         s->root = splay(s, s->root, new);
-        int sign = place(s, e + s->root, new), towards = sign > 0;
+        int sign = place_on_sheet(s, e + s->root, new), towards = sign > 0;
         if (!sign) {
             condemn_edge(s, new);
             return;
@@ -254,7 +255,7 @@ static void compare_sides(sweep *s, uint32_t low, uint32_t high) {
 static void settle(sweep *s, const edge *point, bool for_good) {
     edge *e = s->edges.data;
     uint32_t low = s->root ? s->root = splay(s, s->root, point) : 0;
-    while (low && place(s, e + low, point) <= 0) low = e[low].neighbour[0];
+    while (low && place_on_sheet(s, e + low, point) <= 0) low = e[low].neighbour[0];
     for (bool here = true; here;) {
         uint32_t high = e[low].neighbour[1];
         if (cross(s, low, high)) {
@@ -265,7 +266,7 @@ static void settle(sweep *s, const edge *point, bool for_good) {
             continue;
         }
         if (for_good) compare_sides(s, low, high);
-        here = high && !place(s, e + high, point);
+        here = high && !place_on_sheet(s, e + high, point);
         low = high;
     }
 }
@@ -288,14 +289,14 @@ static froe_status touch(sweep *s, const edge *on, size_t first, size_t end) {
  * cross there. */
 static froe_status pass(sweep *s, size_t first, size_t end) {
     edge *e = s->edges.data, point = {.on = true};
-    for (int k = 0; k < 2; k++) point.p[k] = point.q[k] = place_of(s, s->events + first)[k];
+    for (int k = 0; k < 2; k++) point.p[k] = point.q[k] = event_place(s, s->events + first)[k];
     for (size_t i = first; i < end; i++) {
         uint32_t number = s->events[i].value / 2;
         if (s->events[i].value % 2 == 0 && e[number].on) take_out(s, number);
     }
     settle(s, &point, false);
     if (s->root) s->root = splay(s, s->root, &point);
-    if (s->root && !place(s, e + s->root, &point)) {
+    if (s->root && !place_on_sheet(s, e + s->root, &point)) {
         froe_status status = touch(s, e + s->root, first, end);
         if (status) return status;
     }
@@ -309,8 +310,8 @@ static froe_status run(sweep *s, base_task *task) {
     froe_status status = FROE_OK;
     size_t looked = 0;
     for (size_t first = 0, end; first < s->event_count && !status; first = end) {
-        const double *at = place_of(s, s->events + first);
-        for (end = first + 1; end < s->event_count && same(at, place_of(s, s->events + end));) end++;
+        const double *at = event_place(s, s->events + first);
+        for (end = first + 1; end < s->event_count && same_sheet_place(at, event_place(s, s->events + end));) end++;
         status = pass(s, first, end);
         if (first < looked) continue;
         looked = first + POLL;

@@ -51,7 +51,7 @@ static bool add_side(trace_cell *c, const froe_cut *cut, int side) {
     return room && array_push(alloc, &c->offsets, nextafter(offset, -(double)INFINITY));
 }
 
-static bool gather(trace_cell *c, uint32_t leaf) {
+static bool gather_cell_planes(trace_cell *c, uint32_t leaf) {
     const froe_tree *t = c->t->tree;
     bool room = true;
     for (uint32_t node = 0, next; c->known && room && node != leaf; node = next) {
@@ -82,7 +82,7 @@ static froe_status compare(trace_cell *c, bool *meets) {
 
 froe_status trace_cell_meets(trace *t, uint32_t leaf, bool *meets) {
     trace_cell c = {.t = t, .known = t->tree->scene->dim <= 3};
-    froe_status status = gather(&c, leaf) ? FROE_OK : FROE_E_MEMORY;
+    froe_status status = gather_cell_planes(&c, leaf) ? FROE_OK : FROE_E_MEMORY;
     if (!status && c.known) status = compare(&c, meets);
     array_free(&t->alloc, &c.normals);
     array_free(&t->alloc, &c.offsets);

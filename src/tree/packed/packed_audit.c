@@ -110,7 +110,7 @@ typedef struct packed_region {
 } packed_region;
 
 /* In the plane the root box is a little larger than the scene; in space searches scale by it. */
-static bool root_fits(const froe_tree *t) {
+static bool root_fits_table(const froe_tree *t) {
     const froe_scene *s = t->scene;
     const double *lo = t->meta.root_lo, *hi = t->meta.root_hi;
     for (int k = 0; k < FROE_MAX_DIM; k++) {
@@ -136,7 +136,7 @@ froe_status packed_frame_refuted(const froe_tree *t, uint32_t *node, const char 
     ARRAY(packed_region) waiting = {NULL, 0, 0};
     packed_region at = {.node = 0}, side[2];
     *node = 0;
-    *why = root_fits(t) ? NULL : "a root box that does not fit the scene";
+    *why = root_fits_table(t) ? NULL : "a root box that does not fit the scene";
     memcpy(at.lo, t->meta.root_lo, sizeof at.lo);
     memcpy(at.hi, t->meta.root_hi, sizeof at.hi);
     bool room = array_push(&t->alloc, &waiting, at);

@@ -68,7 +68,7 @@ static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t 
                : "a block with something behind its end";
 }
 
-static bool root_fits(const froe_tree *t) {
+static bool root_fits_scene(const froe_tree *t) {
     for (int k = 0; k < 3; k++)
         if (!(t->meta.root_lo[k] <= t->meta.root_hi[k])) return false;
     return !t->cut_count && !t->packed.owner_count;
@@ -77,7 +77,7 @@ static bool root_fits(const froe_tree *t) {
 froe_status space_validate(const froe_tree *t, froe_diagnostic *diag) {
     tree_walk walk = {.tree = t};
     uint32_t blocks = 0;
-    froe_status status = root_fits(t) ? FROE_OK : bad_space_block(diag, 0, "not a tree that can be packed");
+    froe_status status = root_fits_scene(t) ? FROE_OK : bad_space_block(diag, 0, "not a tree that can be packed");
     while (!status && tree_walk_next(&walk)) {
         const tree_node *n = t->nodes + walk.node;
         const char *why = tree_is_leaf(n) ? check_block(t, n, &blocks) : NULL;
