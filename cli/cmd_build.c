@@ -113,7 +113,7 @@ static int build_and_report(const build_args *args, froe_scene *scene, double se
     return code;
 }
 
-static int run(const void *given) {
+static int run_build(const void *given) {
     const build_args *args = given;
     int code = cli_check_method(args->method, true);
     if (!code) code = cli_check_outputs((const char *[]){args->scene.path, args->order}, 2, &args->output, 1);
@@ -142,5 +142,5 @@ const cli_command cli_command_build = {
         &(const build_args){
             .common = CLI_COMMON_DEFAULTS, .method = "auto", .leaf = FROE_LEAF_OWN, .max_fragments = CLI_BUDGET_OWN},
     .size = sizeof(build_args),
-    .run = run,
+    .run = run_build,
 };

@@ -58,7 +58,7 @@ static int report_success(const check_args *args, const froe_tree *tree, double 
                                 (json_int_t)r.height, "seconds", seconds));
 }
 
-static int run(const void *given) {
+static int run_check(const void *given) {
     const check_args *args = given;
     froe_tree *tree;
     int code = cli_open_tree(args->tree, &tree);
@@ -87,5 +87,5 @@ const cli_command cli_command_check = {
     .parts = parts,
     .defaults = &(const check_args){.common = CLI_COMMON_DEFAULTS},
     .size = sizeof(check_args),
-    .run = run,
+    .run = run_check,
 };

@@ -189,7 +189,7 @@ static int compare_and_write(const compare_args *args, froe_scene *const *scenes
     return cli_fail(CLI_RESOURCES, NULL, "out of memory");
 }
 
-static int run(const void *given) {
+static int run_compare(const void *given) {
     const compare_args *args = given;
     froe_scene *scenes[sizeof args->scenes.at / sizeof *args->scenes.at] = {NULL};
     meter meters[sizeof args->scenes.at / sizeof *args->scenes.at] = {{0}};
@@ -231,5 +231,5 @@ const cli_command cli_command_compare = {
                                       .seconds = 20,
                                       .pieces = 100},
     .size = sizeof(compare_args),
-    .run = run,
+    .run = run_compare,
 };

@@ -135,7 +135,7 @@ static int run_scenes(const cli_common *common, demo_result *results) {
     return code;
 }
 
-static int run(const void *given) {
+static int run_demo(const void *given) {
     const demo_args *args = given;
     int code = make_folder(args->output);
     if (code) return code;
@@ -161,5 +161,5 @@ const cli_command cli_command_demo = {
     .parts = parts,
     .defaults = &(const demo_args){.common = CLI_COMMON_DEFAULTS, .output = "build/demo"},
     .size = sizeof(demo_args),
-    .run = run,
+    .run = run_demo,
 };

@@ -158,7 +158,7 @@ static int set_options(const draw_args *args, size_t dim, froe_draw_options *o) 
     return code;
 }
 
-static int draw(const draw_args *args, const froe_tree *tree) {
+static int draw_tree(const draw_args *args, const froe_tree *tree) {
     froe_draw_options o = froe_draw_defaults();
     int code = set_options(args, (size_t)froe_scene_dim(froe_tree_scene(tree)), &o);
     if (code) return code;
@@ -171,7 +171,7 @@ static int draw(const draw_args *args, const froe_tree *tree) {
     return status ? cli_fail_status(CLI_WRITING, args->output, status, &diag) : 0;
 }
 
-static int run(const void *given) {
+static int run_draw(const void *given) {
     const draw_args *args = given;
     froe_draw_format format;
     if (!froe_draw_format_of(args->output, &format))
@@ -180,7 +180,7 @@ static int run(const void *given) {
     int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
     if (!code) code = cli_open_tree(args->tree, &tree);
     if (code) return code;
-    code = draw(args, tree);
+    code = draw_tree(args, tree);
     if (!code)
         code = cli_report(
             &args->common, NULL,
@@ -211,5 +211,5 @@ const cli_command cli_command_draw = {
                                    .max_depth = UINT64_MAX,
                                    .explode_depth = UINT64_MAX},
     .size = sizeof(draw_args),
-    .run = run,
+    .run = run_draw,
 };

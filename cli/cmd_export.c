@@ -50,7 +50,7 @@ static int export_tree(const export_args *args, const froe_tree *tree) {
     return status ? cli_fail_status(CLI_WRITING, args->output, status, &diag) : 0;
 }
 
-static int run(const void *given) {
+static int run_export(const void *given) {
     const export_args *args = given;
     froe_tree *tree;
     int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
@@ -76,5 +76,5 @@ const cli_command cli_command_export = {
     .parts = parts,
     .defaults = &(const export_args){.common = CLI_COMMON_DEFAULTS},
     .size = sizeof(export_args),
-    .run = run,
+    .run = run_export,
 };

@@ -101,7 +101,7 @@ static int generate(const generate_args *args) {
     return code;
 }
 
-static int run(const void *given) {
+static int run_generate(const void *given) {
     const generate_args *args = given;
     if (args->list) return list_kinds(args);
     if (!args->kind) return cli_fail(CLI_USE, NULL, "KIND is missing; froe generate --list tells what there is");
@@ -120,5 +120,5 @@ const cli_command cli_command_generate = {
     .parts = parts,
     .defaults = &(const generate_args){.common = CLI_COMMON_DEFAULTS, .n = 1000},
     .size = sizeof(generate_args),
-    .run = run,
+    .run = run_generate,
 };

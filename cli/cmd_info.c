@@ -72,7 +72,7 @@ static int find_defects(const info_args *args, const froe_scene *scene, froe_def
     return status ? cli_fail_status(CLI_WORKING, args->scene.path, status, &diag) : 0;
 }
 
-static int run(const void *given) {
+static int run_info(const void *given) {
     const info_args *args = given;
     froe_scene *scene;
     froe_read_report reader;
@@ -97,5 +97,5 @@ const cli_command cli_command_info = {
     .parts = parts,
     .defaults = &(const info_args){.common = CLI_COMMON_DEFAULTS},
     .size = sizeof(info_args),
-    .run = run,
+    .run = run_info,
 };

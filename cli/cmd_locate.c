@@ -75,8 +75,8 @@ static void put_groups(const froe_scene *scene, const cli_block *block, const fr
         }
 }
 
-static froe_status answer(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
-                          froe_diagnostic *diag) {
+static froe_status answer_point(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                froe_diagnostic *diag) {
     const locate_args *args = given;
     const bool areas = asked->dim == 2 && froe_scene_group_count(asked->scene) > 0;
     froe_answers objects = {0}, groups = {0};
@@ -132,7 +132,7 @@ static const char *header(const locate_args *args) {
     return args->above || args->below ? "query,object" : "query,object,group";
 }
 
-static int run(const void *given) {
+static int run_locate(const void *given) {
     const locate_args *args = given;
     if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above and --below exclude each other");
     if (args->groups && (args->above || args->below))
@@ -143,7 +143,7 @@ static int run(const void *given) {
                                  .header = header(args),
                                  .answer = args->above || args->below ? answer_vertical
                                            : args->groups             ? answer_groups
-                                                                      : answer,
+                                                                      : answer_point,
                                  .given = args};
     return cli_queries_run(&queries);
 }
@@ -164,5 +164,5 @@ const cli_command cli_command_locate = {
     .parts = parts,
     .defaults = &(const locate_args){.common = CLI_COMMON_DEFAULTS},
     .size = sizeof(locate_args),
-    .run = run,
+    .run = run_locate,
 };

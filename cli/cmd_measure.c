@@ -149,7 +149,7 @@ static int measure(survey *s, json_t *report) {
     return code ? code : measure_directional(s, report);
 }
 
-static int run(const void *given) {
+static int run_measure(const void *given) {
     const measure_args *args = given;
     froe_scene *scene;
     froe_read_report reader;
@@ -195,5 +195,5 @@ const cli_command cli_command_measure = {
     .parts = parts,
     .defaults = &(const measure_args){.common = CLI_COMMON_DEFAULTS, .samples = 20000, .max_fragments = CLI_BUDGET_OWN},
     .size = sizeof(measure_args),
-    .run = run,
+    .run = run_measure,
 };

@@ -131,7 +131,7 @@ static int print_json(const methods_args *args) {
     return cli_report(&args->common, NULL, json_pack("{s:o}", "methods", list));
 }
 
-static int run(const void *given) {
+static int run_methods(const void *given) {
     const methods_args *args = given;
     bool known = !args->name;
     const froe_method_info *m;
@@ -149,5 +149,5 @@ const cli_command cli_command_methods = {
     .parts = parts,
     .defaults = &(const methods_args){.common = CLI_COMMON_DEFAULTS},
     .size = sizeof(methods_args),
-    .run = run,
+    .run = run_methods,
 };

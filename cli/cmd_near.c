@@ -29,8 +29,8 @@ static const cli_part parts[] = {{"Near", options, 0},
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
-static froe_status answer(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
-                          froe_diagnostic *diag) {
+static froe_status answer_near(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                               froe_diagnostic *diag) {
     const near_args *args = given;
     froe_answers answers;
     const froe_status status = froe_batch_near(asked->query, cli_block_numbers(block), block->count, args->k,
@@ -50,14 +50,14 @@ static froe_status answer(const void *given, const cli_asked *asked, const cli_b
     return FROE_OK;
 }
 
-static int run(const void *given) {
+static int run_near(const void *given) {
     const near_args *args = given;
     if (args->bound < 0) return cli_fail(CLI_USE, NULL, "--within must not be negative");
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns,
                                  .header = args->query.count ? "query,count" : "query,object,distance",
-                                 .answer = answer,
+                                 .answer = answer_near,
                                  .given = args};
     return cli_queries_run(&queries);
 }
@@ -73,5 +73,5 @@ const cli_command cli_command_near = {
     .parts = parts,
     .defaults = &(const near_args){.common = CLI_COMMON_DEFAULTS, .k = 1, .bound = INFINITY},
     .size = sizeof(near_args),
-    .run = run,
+    .run = run_near,
 };

@@ -78,7 +78,7 @@ static int ask(const pairs_args *args, const froe_tree *tree, writing *w) {
     return w->stopped && !status ? cli_fail(CLI_CANCELLED, NULL, "interrupted") : code;
 }
 
-static int run(const void *given) {
+static int run_pairs(const void *given) {
     const pairs_args *args = given;
     froe_tree *tree;
     writing *w = calloc(1, sizeof *w);
@@ -103,5 +103,5 @@ const cli_command cli_command_pairs = {
     .parts = parts,
     .defaults = &(const pairs_args){.common = CLI_COMMON_DEFAULTS},
     .size = sizeof(pairs_args),
-    .run = run,
+    .run = run_pairs,
 };

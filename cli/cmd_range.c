@@ -114,8 +114,8 @@ static size_t lay_ranges(ranges *r, const cli_block *block) {
     return block->count;
 }
 
-static froe_status answer(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
-                          froe_diagnostic *diag) {
+static froe_status answer_range(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                froe_diagnostic *diag) {
     const range_args *args = given;
     ranges r = {.args = args, .dim = asked->dim};
     froe_answers answers = {0};
@@ -134,14 +134,14 @@ static froe_status answer(const void *given, const cli_asked *asked, const cli_b
     return status;
 }
 
-static int run(const void *given) {
+static int run_range(const void *given) {
     const range_args *args = given;
     if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps must not be negative");
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns[args->shape],
                                  .header = args->query.count ? "query,count" : "query,object",
-                                 .answer = answer,
+                                 .answer = answer_range,
                                  .given = args};
     return cli_queries_run(&queries);
 }
@@ -163,5 +163,5 @@ const cli_command cli_command_range = {
     .parts = parts,
     .defaults = &(const range_args){.common = CLI_COMMON_DEFAULTS},
     .size = sizeof(range_args),
-    .run = run,
+    .run = run_range,
 };

@@ -94,8 +94,8 @@ static froe_status answer_all(const ray_args *args, const cli_asked *asked, cons
     return FROE_OK;
 }
 
-static froe_status answer(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
-                          froe_diagnostic *diag) {
+static froe_status answer_ray(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                              froe_diagnostic *diag) {
     const ray_args *args = given;
     flight f;
     const froe_status status = !take_rays(&f, block, asked->dim)
@@ -106,14 +106,14 @@ static froe_status answer(const void *given, const cli_asked *asked, const cli_b
     return status;
 }
 
-static int run(const void *given) {
+static int run_ray(const void *given) {
     const ray_args *args = given;
     if (args->t_max < 0) return cli_fail(CLI_USE, NULL, "--t-max must not be negative");
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns,
                                  .header = args->query.count ? "query,count" : "query,object,t",
-                                 .answer = answer,
+                                 .answer = answer_ray,
                                  .given = args};
     return cli_queries_run(&queries);
 }
@@ -130,5 +130,5 @@ const cli_command cli_command_ray = {
     .parts = parts,
     .defaults = &(const ray_args){.common = CLI_COMMON_DEFAULTS, .t_max = INFINITY},
     .size = sizeof(ray_args),
-    .run = run,
+    .run = run_ray,
 };

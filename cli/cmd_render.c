@@ -294,7 +294,7 @@ static int cut_section(const render_args *args, froe_tree **tree) {
     return 0;
 }
 
-static int run(const void *given) {
+static int run_render(const void *given) {
     const render_args *args = given;
     froe_tree *tree;
     int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
@@ -341,5 +341,5 @@ const cli_command cli_command_render = {
                                      .decimals = UINT64_MAX,
                                      .max_fragments = CLI_BUDGET_OWN},
     .size = sizeof(render_args),
-    .run = run,
+    .run = run_render,
 };

@@ -132,7 +132,7 @@ static void read_block(run *r) {
 /* -------------------------------------------------------------- answering -- */
 
 /* The queries first .. first + count of the block. */
-static froe_status answer(run *r, size_t first, size_t count, froe_diagnostic *diag) {
+static froe_status answer_rows(run *r, size_t first, size_t count, froe_diagnostic *diag) {
     const cli_block block = {
         .count = count, .width = r->width, .starts = r->starts + first, .numbers = r->numbers, .ids = r->ids + first};
     if (!count) return FROE_OK;
@@ -145,11 +145,11 @@ static void answer_block(run *r, size_t count) {
     size_t first = 0;
     while (first < count) {
         froe_diagnostic diag = {0};
-        froe_status status = answer(r, first, count - first, &diag);
+        froe_status status = answer_rows(r, first, count - first, &diag);
         if (!status) return;
         size_t bad = diag.object;
         if (status == FROE_E_INPUT && bad < count - first) {
-            status = answer(r, first, bad, &diag);
+            status = answer_rows(r, first, bad, &diag);
             if (!status) refuse(r, r->lines[first + bad], diag.message);
             first += bad + 1;
         }
@@ -203,7 +203,7 @@ froe_status cli_diagnose(froe_diagnostic *diag, froe_status status, size_t objec
     return status;
 }
 
-static int ask(const cli_queries *queries, const cli_asked *asked) {
+static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
     run *r = calloc(1, sizeof *r);
     if (!r) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
     r->q = queries;
@@ -240,7 +240,7 @@ int cli_queries_run(const cli_queries *queries) {
     asked.dim = (size_t)froe_scene_dim(asked.scene);
     asked.batch.threads = (unsigned)queries->common->threads;
     const froe_status status = froe_query_new(tree, &asked.query, &diag);
-    code = status ? cli_fail_status(CLI_WORKING, queries->args->tree, status, &diag) : ask(queries, &asked);
+    code = status ? cli_fail_status(CLI_WORKING, queries->args->tree, status, &diag) : ask_batch(queries, &asked);
     froe_query_free(asked.query);
     froe_tree_free(tree);
     return code;

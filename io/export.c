@@ -194,7 +194,7 @@ static froe_status check_export(job *j, const char *path) {
                    extensions);
 }
 
-static froe_status run(job *j, const char *path) {
+static froe_status run_export(job *j, const char *path) {
     froe_status status = io_writer_open(&j->writer, path, j->diag);
     if (status) return status;
     begin_export(j);
@@ -225,5 +225,5 @@ froe_status froe_export(const froe_tree *tree, const char *path, froe_export_wha
              .format = io_format_of(path),
              .diag = diag};
     froe_status status = check_export(&j, path);
-    return status ? status : run(&j, path);
+    return status ? status : run_export(&j, path);
 }

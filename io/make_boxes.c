@@ -2,7 +2,7 @@
 #include "maker.h"
 #include <string.h>
 
-static void add_box(io_maker *m, const double *lo, const double *hi) {
+static void add_made_box(io_maker *m, const double *lo, const double *hi) {
     if (!io_done(m)) m->status = io_sink_box(&m->sink, lo, hi);
 }
 
@@ -13,7 +13,7 @@ void io_make_rows(io_maker *m) {
         double x = io_below(m, 4), y = (double)(row * 10);
         while (x < width && !io_done(m)) {
             const double lo[2] = {x, y}, hi[2] = {x + 1 + io_below(m, 8), y + 8};
-            add_box(m, lo, hi);
+            add_made_box(m, lo, hi);
             x = hi[0] + (io_below(m, 4) ? 0 : 1 + io_below(m, 3));
         }
     }
@@ -40,7 +40,7 @@ static void add_in_cells(io_maker *m, const size_t *from, const size_t *extent) 
         lo[k] = (double)from[k] + io_between(m, 0, 0.3);
         hi[k] = (double)(from[k] + extent[k]) - io_between(m, 0, 0.3);
     }
-    add_box(m, lo, hi);
+    add_made_box(m, lo, hi);
 }
 
 /* Boxes of `wide` x `wide` x `other` cells, the odd axis at random, anywhere they find room among the others. */
@@ -85,7 +85,7 @@ void io_make_towers(io_maker *m) {
             hi[k] = (double)lot + 10 + io_below(m, 7); /* up to the neighbour's lot: some touch */
         }
         hi[2] = 8 + 4 * (double)io_below(m, 20);
-        add_box(m, lo, hi);
+        add_made_box(m, lo, hi);
     }
 }
 
@@ -98,7 +98,7 @@ void io_make_panels(io_maker *m) {
         io_grid(i, side, 3, at);
         for (int k = 0; k < 3; k++) at[k] *= k < 2 ? ROOM : HEIGHT;
         const double ceiling[3] = {at[0] + ROOM, at[1] + ROOM, at[2] + THICK};
-        add_box(m, at, ceiling);
+        add_made_box(m, at, ceiling);
         for (int axis = 0; axis < 2; axis++) {
             double door = 4 + io_below(m, 16);
             for (int half = 0; half < 2; half++) {
@@ -106,7 +106,7 @@ void io_make_panels(io_maker *m) {
                 lo[2] += THICK;
                 lo[axis] = at[axis] + (half ? door + 6 : THICK);
                 hi[axis] = at[axis] + (half ? ROOM : door);
-                add_box(m, lo, hi);
+                add_made_box(m, lo, hi);
             }
         }
     }
@@ -117,7 +117,7 @@ void io_make_shells(io_maker *m) {
     for (size_t i = 1; !io_done(m); i++) {
         double r = (double)i;
         const double lo[3] = {-r, -r, -r}, hi[3] = {r, r, r};
-        add_box(m, lo, hi);
+        add_made_box(m, lo, hi);
     }
 }
 
@@ -135,7 +135,7 @@ void io_make_bars(io_maker *m) {
             lo[k] = turn ? at[turn - 1] + (turn == 1 ? 0 : 2) : 0;
             hi[k] = turn ? lo[k] + 1 : (double)(4 * side);
         }
-        add_box(m, lo, hi);
+        add_made_box(m, lo, hi);
     }
 }
 
@@ -149,7 +149,7 @@ void io_make_plates(io_maker *m) {
             lo[k] += io_between(m, 0, wide / 16);
             hi[k] -= io_between(m, 0, wide / 16);
         }
-        add_box(m, lo, hi);
+        add_made_box(m, lo, hi);
     }
 }
 
@@ -162,7 +162,7 @@ void io_make_moons(io_maker *m) {
         double at[3], lo[3], hi[3];
         io_grid(i, row, 3, at);
         for (int k = 0; k < 3; k++) at[k] *= 4 * large, hi[k] = at[k] + large;
-        add_box(m, at, hi);
+        add_made_box(m, at, hi);
         for (size_t moon = 0; moon < 2 * crowd; moon++) {
             int across = moon < crowd ? 1 : 2;
             size_t place = moon % crowd, layer = place / side;
@@ -170,7 +170,7 @@ void io_make_moons(io_maker *m) {
             lo[3 - across] = at[3 - across] + 2 * (double)(place % side);
             lo[across] = at[across] + large - 0.5;
             for (int k = 0; k < 3; k++) hi[k] = lo[k] + 1;
-            add_box(m, lo, hi);
+            add_made_box(m, lo, hi);
         }
     }
 }
@@ -182,7 +182,7 @@ void io_make_bricks(io_maker *m) {
         double lo[3], hi[3];
         io_grid(i, side, 3, lo);
         for (int k = 0; k < 3; k++) hi[k] = lo[k] + 1;
-        add_box(m, lo, hi);
+        add_made_box(m, lo, hi);
     }
 }
 
@@ -194,6 +194,6 @@ void io_make_debris(io_maker *m) {
             lo[k] = io_below(m, 6);
             hi[k] = lo[k] + io_below(m, 4);
         }
-        add_box(m, lo, hi);
+        add_made_box(m, lo, hi);
     }
 }

@@ -25,7 +25,7 @@ typedef struct run {
 /* ------------------------------------------------------------------- drawing -- */
 
 /* A random number in [0, 1) (Steele, Lea and Flood 2014: splitmix64). */
-static double draw(run *r) {
+static double draw_workload(run *r) {
     uint64_t x = r->key + ++r->draws * 0x9E3779B97F4A7C15u;
     x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
     x = (x ^ x >> 27) * 0x94D049BB133111EBu;
@@ -34,9 +34,9 @@ static double draw(run *r) {
 
 /* A place near a corner of an object, `away` sides of the scene from it at most. */
 static void draw_place(run *r, double away, double *out) {
-    const uint32_t object = (uint32_t)(draw(r) * (double)froe_scene_object_count(r->scene));
-    const double *corner = part_corner(r->scene, object, (uint32_t)(draw(r) * 8));
-    for (int k = 0; k < r->dim; k++) out[k] = corner[k] + away * (2 * draw(r) - 1) * r->side[k];
+    const uint32_t object = (uint32_t)(draw_workload(r) * (double)froe_scene_object_count(r->scene));
+    const double *corner = part_corner(r->scene, object, (uint32_t)(draw_workload(r) * 8));
+    for (int k = 0; k < r->dim; k++) out[k] = corner[k] + away * (2 * draw_workload(r) - 1) * r->side[k];
 }
 
 static void draw_window(run *r, double share, double *points) {
@@ -66,14 +66,14 @@ static froe_status ask_ray(run *r, uint64_t *found) {
     double origin[FROE_MAX_DIM], direction[FROE_MAX_DIM];
     froe_hit hit;
     draw_place(r, 0.1, origin);
-    for (int k = 0; k < r->dim; k++) direction[k] = draw(r) - 0.5;
+    for (int k = 0; k < r->dim; k++) direction[k] = draw_workload(r) - 0.5;
     if (direction[0] == 0) direction[0] = 1;
     const froe_status status = froe_query_ray(r->query, origin, direction, INFINITY, &hit, r->diag);
     if (!status) *found += hit.object != FROE_NONE;
     return status;
 }
 
-static froe_status ask(run *r, query_kind kind, double eps, uint64_t i, uint64_t *found) {
+static froe_status ask_workload(run *r, query_kind kind, double eps, uint64_t i, uint64_t *found) {
     double point[FROE_MAX_DIM];
     froe_list list;
     froe_status status;
@@ -123,7 +123,7 @@ static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe
     const double started = cli_thread_seconds();
     froe_query_statistics(r->query);
     while (asked < count && !*status && !over(r, started)) {
-        *status = ask(r, kind, eps, asked, &found);
+        *status = ask_workload(r, kind, eps, asked, &found);
         const froe_query_stats one = froe_query_statistics(r->query);
         sum.nodes += one.nodes, sum.leaves += one.leaves, sum.tests += one.tests;
         r->nodes[asked++] = one.nodes;
@@ -132,7 +132,7 @@ static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe
     json_t *out = costs_json(r, asked, &sum, found);
     if (!r->load->times || !asked) return out;
     const double start = cli_thread_seconds();
-    for (uint64_t i = 0; i < asked && !*status; i++) *status = ask(r, kind, eps, i, &found);
+    for (uint64_t i = 0; i < asked && !*status; i++) *status = ask_workload(r, kind, eps, i, &found);
     json_object_set_new(out, "microseconds", json_real(1e6 * (cli_thread_seconds() - start) / (double)asked));
     return out;
 }

@@ -306,7 +306,7 @@ static froe_status pass(sweep *s, size_t first, size_t end) {
     return FROE_OK;
 }
 
-static froe_status run(sweep *s, base_task *task) {
+static froe_status sweep_sheet(sweep *s, base_task *task) {
     froe_status status = FROE_OK;
     size_t looked = 0;
     for (size_t first = 0, end; first < s->event_count && !status; first = end) {
@@ -327,7 +327,7 @@ froe_status measure_sheet_sweep(num_context *context, base_task *task, const fro
     for (uint32_t i = 0; i < count && !status; i++) status = add_object(&s, i, objects[i]);
     if (!status) status = join_sides(&s);
     if (!status) status = sort_events(&s);
-    if (!status) status = run(&s, task);
+    if (!status) status = sweep_sheet(&s, task);
     array_free(s.alloc, &s.sides);
     array_free(s.alloc, &s.edges);
     base_free(s.alloc, s.events, s.event_room * sizeof *s.events);
