@@ -30,7 +30,7 @@ static const char *name_of_object(const froe_motion *m, const froe_contact *c, i
     return group == FROE_NONE ? "" : froe_motion_group(m, group).name;
 }
 
-static void put_cell(io_writer *w, const froe_motion *m, const froe_contact *c, int column, bool json) {
+static void put_contact_cell(io_writer *w, const froe_motion *m, const froe_contact *c, int column, bool json) {
     if (columns[column].type == WHOLE)
         io_put_whole(w, whole_of(c, column));
     else if (columns[column].type == NUMBER)
@@ -45,7 +45,7 @@ static void put_csv(io_writer *w, const froe_motion *m, const froe_contact *cont
     for (int k = 0; k < COLUMNS; k++) io_put(w, k ? "," : ""), io_put(w, columns[k].name);
     io_put(w, "\n");
     for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < COLUMNS; k++) io_put(w, k ? "," : ""), put_cell(w, m, contacts + i, k, false);
+        for (int k = 0; k < COLUMNS; k++) io_put(w, k ? "," : ""), put_contact_cell(w, m, contacts + i, k, false);
         io_put(w, "\n");
     }
 }
@@ -57,7 +57,7 @@ static void put_json(io_writer *w, const froe_motion *m, const froe_contact *con
             io_put(w, k ? ", " : i ? ",\n {" : "\n {");
             io_put_json(w, columns[k].name);
             io_put(w, ": ");
-            put_cell(w, m, contacts + i, k, true);
+            put_contact_cell(w, m, contacts + i, k, true);
         }
         io_put(w, "}");
     }
