@@ -21,7 +21,8 @@ list(TRANSFORM methods REPLACE "^FROE_METHOD\\((.*)\\)$" "\\1")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS src/build/methods.def)
 set(split_conformance/builders all ${methods})
 set(split_kinetic/live ordinary augmented)
-set(split_query/range_eps approximate_answers_keep_their_contract at_the_limits_they_keep_it_too)
+set(split_query/range_eps approximate_answers_keep_their_contract at_the_limits_they_keep_it_too
+    at_every_scale_they_keep_it_too)
 
 # froe_test(AREA NAME COMMAND...): runs in a scratch folder of its own
 function(froe_test area name)

@@ -48,6 +48,7 @@ froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diag
     if (take_context(query->tree, query->shared, out)) return base_fail_memory(diag);
     (*out)->numbers.first = query->numbers.first;
     if (query->packed) (*out)->packed->kernels = query->packed->kernels;
+    if (query->space) (*out)->space->kernels = query->space->kernels;
     atomic_fetch_add(&query->shared->holds, 1);
     return FROE_OK;
 }

@@ -91,8 +91,7 @@ int exact_shift(int shift, const double *x, size_t count) {
         int exponent;
         double mantissa = frexp(x[i], &exponent);
         if (x[i] == 0) continue;
-        int bits = 53;
-        for (double m = ldexp(mantissa, 53); fmod(m, 2) == 0; m /= 2) bits--;
+        const int bits = 53 - __builtin_ctzll((uint64_t)fabs(ldexp(mantissa, 53)));
         if (bits - exponent > shift) shift = bits - exponent;
     }
     return shift;

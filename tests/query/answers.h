@@ -8,8 +8,8 @@
 #ifndef FROE_TESTS_QUERY_ANSWERS_H
 #define FROE_TESTS_QUERY_ANSWERS_H
 #include "oracle/segment.h"
-#include "query/exact_world.h"
-#include "query/ranges.h"
+#include "query/context.h"
+#include "query/exact_ranges.h"
 
 typedef struct answers {
     world w;
@@ -71,10 +71,11 @@ static inline void answers_range(answers *a, world_dice *d, froe_range_shape sha
     uint32_t any;
     make(&a->w, d, shape, &q);
     q.range.walk = walk;
+    range_truth *const meets = a->w.extreme ? exact_range_meets : truth;
     const bool usable = shape == FROE_SHAPE_BOX ? !isnan(q.points[0]) : answers_finite(q.points, MOST_POINTS * 3);
     if (usable && isfinite(q.range.radius) && answers_finite(q.offsets, MOST_POINTS)) {
         bool *expected = calloc(a->w.count + 1, sizeof *expected);
-        for (uint32_t i = 0; a->judge && i < a->w.count; i++) all += expected[i] = truth(&a->w, &q, i);
+        for (uint32_t i = 0; a->judge && i < a->w.count; i++) all += expected[i] = meets(&a->w, &q, i);
         if (answers_came(a, "range", froe_query_range(a->q, &q.range, &got, NULL)))
             answers_judge_list(a, froe_range_shape_name(shape), q.points, &got, expected);
         if (answers_came(a, "count", froe_query_count(a->q, &q.range, &count, NULL)) && count != all)
@@ -336,18 +337,23 @@ static inline void answers_groups(answers *a, const double *x) {
 /* ------------------------------------------------------------------- whole -- */
 
 /* Shapes of ranges for a dimension, by turns. In space the oracle takes minutes for some boxes and halfspaces or hulls. */
-static inline froe_range_shape answers_shape(int dim, int round) {
+static inline froe_range_shape answers_shape(const world *w, int round) {
+    const int dim = w->dim;
+    static const froe_range_shape exact[] = {FROE_SHAPE_BOX, FROE_SHAPE_BALL,    FROE_SHAPE_SEGMENT,
+                                             FROE_SHAPE_RAY, FROE_SHAPE_SIMPLEX, FROE_SHAPE_HULL};
     static const froe_range_shape space[] = {FROE_SHAPE_BOX,     FROE_SHAPE_BALL,    FROE_SHAPE_SEGMENT,
                                              FROE_SHAPE_CAPSULE, FROE_SHAPE_SIMPLEX, FROE_SHAPE_RAY};
+    if (w->extreme) return exact[round % (dim <= 3 ? 6 : 2)]; /* of which the oracle needs no rationals */
     if (dim == 2) return (froe_range_shape)(round % FROE_SHAPE_COUNT);
     return space[round % (dim == 3 ? 6 : 2)];
 }
 
 static inline void answers_round(answers *a, world_dice *d, int round) {
+    const int shape_round = a->w.extreme ? (int)world_below(d, 6) : round;
     double x[FROE_MAX_DIM], to[FROE_MAX_DIM], direction[FROE_MAX_DIM];
     const int dim = a->w.dim;
-    const froe_range_shape shape = answers_shape(dim, round);
-    if (!a->huge) {
+    const froe_range_shape shape = answers_shape(&a->w, shape_round);
+    if (!a->huge || a->w.extreme) {
         answers_range(a, d, shape, FROE_WALK_AUTO);
         answers_range(a, d, shape, (froe_walk)(round % FROE_WALK_COUNT));
         answers_range(a, d, FROE_SHAPE_BOX, FROE_WALK_AUTO);
@@ -359,6 +365,7 @@ static inline void answers_round(answers *a, world_dice *d, int round) {
         direction[k] = round % 3 ? to[k] - x[k] : k == round % dim ? 1 : 0;
         some |= direction[k] != 0;
     }
+    if (a->w.extreme) make_vector(&a->w, d, direction), some = true;
     if (!answers_finite(x, (size_t)dim) || !answers_finite(direction, (size_t)dim)) return;
     const int power = exact_shift(exact_shift(a->shift, x, (size_t)dim), direction, (size_t)dim);
     if (a->judge) exact_world_begin(&a->w, power, a->bodies);
@@ -367,19 +374,22 @@ static inline void answers_round(answers *a, world_dice *d, int round) {
     if (some) answers_ray(a, x, direction);
     if (dim == 2) answers_vertical(a, x, round % 2 ? 1 : -1);
     if (dim == 2) answers_groups(a, x);
-    if (round == 0) answers_all_pairs(a);
+    if (round == 0 && !a->w.extreme) answers_all_pairs(a);
 }
 
-static inline bool answers_run(const froe_tree *tree, bool judge, uint64_t seed, int rounds, char *why, size_t room) {
-    answers a = {.judge = judge, .why = why, .room = room};
+typedef enum answers_mode { ANSWERS_JUDGE = 1, ANSWERS_EXTREME = 2 } answers_mode;
+
+static inline bool answers_run(froe_query *q, unsigned mode, uint64_t seed, int rounds, char *why, size_t room) {
+    answers a = {.q = q, .judge = mode & ANSWERS_JUDGE, .why = why, .room = room};
     world_dice d = {seed, 0};
     double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
+    const froe_tree *tree = q->tree;
     const froe_scene *scene = froe_tree_scene(tree);
     froe_tree *trees[] = {(froe_tree *)(uintptr_t)tree};
     a.w = (world){.name = "tree", .dim = froe_scene_dim(scene), .count = froe_scene_object_count(scene)};
     a.w.scene = (froe_scene *)(uintptr_t)scene;
     a.w.trees = trees, a.w.tree_count = 1, a.w.scale = 1;
-    if (froe_query_new(tree, &a.q, NULL)) return snprintf(why, room, "no context"), false;
+    a.w.extreme = mode & ANSWERS_EXTREME;
     if (froe_scene_bounds(scene, lo, hi))
         for (int k = 0; k < a.w.dim; k++) {
             a.w.origin[k] = lo[k], a.w.scale = fmax(hi[k] - lo[k], k ? a.w.scale : 0);
@@ -392,7 +402,7 @@ static inline bool answers_run(const froe_tree *tree, bool judge, uint64_t seed,
     a.w.objects = calloc(a.w.count + 1, sizeof *a.w.objects);
     a.bodies = calloc(a.w.count + 1, sizeof *a.bodies);
     for (uint32_t i = 0; i < a.w.count && a.w.dim <= 3; i++) a.w.objects[i] = oracle_object(scene, i);
-    if (judge) a.shift = exact_world_shift(&a.w);
+    if (a.judge) a.shift = exact_world_shift(&a.w);
     for (int round = 0; round < rounds && !a.wrong; round++) {
         a.w.lattice = a.w.scale >= 2 && round % 2;
         answers_round(&a, &d, round);
@@ -400,18 +410,31 @@ static inline bool answers_run(const froe_tree *tree, bool judge, uint64_t seed,
     for (uint32_t i = 0; i < a.w.count && a.w.dim <= 3; i++) oracle_set_free(&a.w.objects[i]);
     free(a.bodies);
     free(a.w.objects);
-    froe_query_free(a.q);
     return !a.wrong;
+}
+
+static inline bool answers_ask_tree(const froe_tree *tree, unsigned mode, uint64_t seed, int rounds, char *why,
+                                    size_t room) {
+    froe_query *q;
+    if (froe_query_new(tree, &q, NULL)) return snprintf(why, room, "no context"), false;
+    const bool right = answers_run(q, mode, seed, rounds, why, room);
+    froe_query_free(q);
+    return right;
 }
 
 /** Are the answers to `rounds` of questions of every kind right? If not, `why` says which is the first wrong one. */
 static inline bool answers_right(const froe_tree *tree, uint64_t seed, int rounds, char *why, size_t room) {
-    return answers_run(tree, true, seed, rounds, why, room);
+    return answers_ask_tree(tree, ANSWERS_JUDGE, seed, rounds, why, room);
+}
+
+/** The same by a context, with places and lengths of every scale; without pairs, which take long there. */
+static inline bool answers_right_at_every_scale(froe_query *q, uint64_t seed, int rounds, char *why, size_t room) {
+    return answers_run(q, ANSWERS_JUDGE | ANSWERS_EXTREME, seed, rounds, why, room);
 }
 
 /** Asks the same questions of a tree that may be wrong. */
 static inline void answers_ask(const froe_tree *tree, uint64_t seed, int rounds) {
     char why[40];
-    (void)answers_run(tree, false, seed, rounds, why, sizeof why);
+    (void)answers_ask_tree(tree, 0, seed, rounds, why, sizeof why);
 }
 #endif

@@ -7,6 +7,7 @@
  *     style 3  one scale a coordinate
  *     style 4  a class of support/fuzz.h
  *     style 5  one scale an object      each in the unit cube: cuts run along segments of no length to speak of
+ *     style 6  one scale an object      up to that of the scene, and all over the scene, which has any scale
  *
  * Long runs: FROE_ROUNDS=100 multiplies the number of scenes, FROE_SEED=7000 begins elsewhere. */
 #ifndef FROE_TESTS_QUERY_EXTREMES_H
@@ -18,7 +19,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { EXTREME_CORNERS = 5, EXTREME_STYLES = 6 };
+enum { EXTREME_CORNERS = 5, EXTREME_STYLES = 7 };
 
 static inline uint64_t extreme_setting(const char *name, uint64_t otherwise) {
     const char *text = getenv(name);
@@ -64,7 +65,7 @@ typedef struct extreme_scene {
     fuzz_source random;
     froe_scene *scene;
     int dim, style;
-    double scale; /**< style 0 */
+    double scale; /**< styles 0 and 6 */
     fuzz_class fuzz;
 } extreme_scene;
 
@@ -76,13 +77,14 @@ static inline void extreme_beside(fuzz_source *r, int dim, const double *x, doub
 static inline void extreme_corners(extreme_scene *s, double *out, size_t count) {
     const size_t dim = (size_t)s->dim;
     double centre[FROE_MAX_DIM] = {0};
-    const double *from = extreme_vertex(&s->random, s->scene), power = extreme_scale(&s->random, s->scene);
-    const double around = s->style == 5 ? 1 : extreme_scale(&s->random, s->scene);
+    const double *from = extreme_vertex(&s->random, s->scene), drawn = extreme_scale(&s->random, s->scene);
+    const double beside = s->style == 5 ? 1 : extreme_scale(&s->random, s->scene);
+    const double around = s->style == 6 ? s->scale : beside, power = s->style == 6 ? fmin(drawn, around) : drawn;
     for (size_t k = 0; k < dim; k++) centre[k] = s->style != 2 ? around * fuzz_unit(&s->random) : from ? from[k] : 0;
     for (size_t c = 0; c < count; c++) {
         double *x = out + c * dim;
         if (s->style == 0) extreme_beside(&s->random, s->dim, (const double[FROE_MAX_DIM]){0}, s->scale, x);
-        if (s->style == 1 || s->style == 2 || s->style == 5) extreme_beside(&s->random, s->dim, centre, power, x);
+        if (s->style == 1 || s->style == 2 || s->style > 4) extreme_beside(&s->random, s->dim, centre, power, x);
         for (size_t k = 0; k < dim && s->style == 3; k++) x[k] = extreme_number(&s->random, s->scene);
     }
     if (s->style == 4) {
@@ -128,17 +130,28 @@ static inline void extreme_add(extreme_scene *s, froe_kind kind) {
     }
 }
 
-/** A scene of 1 .. most objects of the kinds in the mask. */
-static inline froe_scene *extreme_scene_new(int dim, unsigned kinds, int most, uint64_t seed) {
-    extreme_scene s = {.random = {base_hash(seed, 80, (uint64_t)dim)}, .dim = dim};
+/** Adds objects of the kinds in the mask. */
+static inline void extreme_grow(extreme_scene *s, unsigned kinds, int count) {
+    while (count > 0) {
+        const int kind = fuzz_int(&s->random, 0, FROE_KIND_COUNT - 1);
+        if (kinds >> kind & 1) extreme_add(s, (froe_kind)kind), count--;
+    }
+}
+
+/** A scene without objects, of the style. */
+static inline extreme_scene extreme_begin(int dim, int style, uint64_t seed) {
+    extreme_scene s = {.random = {base_hash(seed, 80, (uint64_t)dim)}, .dim = dim, .style = style};
     assert_int_equal(froe_scene_new(dim, NULL, &s.scene), FROE_OK);
-    s.style = fuzz_int(&s.random, 0, EXTREME_STYLES - 1);
     s.scale = extreme_scale(&s.random, s.scene);
     s.fuzz = (fuzz_class)fuzz_int(&s.random, 0, FUZZ_CLASSES - 1);
-    for (int left = fuzz_int(&s.random, 1, most); left > 0;) {
-        const int kind = fuzz_int(&s.random, 0, FROE_KIND_COUNT - 1);
-        if (kinds >> kind & 1) extreme_add(&s, (froe_kind)kind), left--;
-    }
+    return s;
+}
+
+/** A scene of 1 .. most objects of the kinds in the mask, of any style. */
+static inline froe_scene *extreme_scene_new(int dim, unsigned kinds, int most, uint64_t seed) {
+    fuzz_source r = {base_hash(seed, 83, (uint64_t)dim)};
+    extreme_scene s = extreme_begin(dim, fuzz_int(&r, 0, EXTREME_STYLES - 1), seed);
+    extreme_grow(&s, kinds, fuzz_int(&r, 1, most));
     return s.scene;
 }
 

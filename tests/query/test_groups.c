@@ -61,7 +61,8 @@ static void check_point(const map *m, const double *x) {
     for (size_t t = 0; t < m->w.tree_count; t++) {
         froe_list got;
         bool found[MOST_GROUPS] = {false};
-        assert_int_equal(froe_query_groups(m->w.queries[t], x, &got, NULL), FROE_OK);
+        froe_diagnostic why;
+        if (froe_query_groups(m->w.queries[t], x, &got, &why)) fail_msg("%s: %s", m->w.name, why.message);
         for (size_t i = 0; i < got.count; i++) {
             assert_true(got.ids[i] < groups && (!i || got.ids[i] > got.ids[i - 1]));
             found[got.ids[i]] = true;
@@ -188,6 +189,41 @@ static void coordinates_of_any_size(void **state) {
     check_map(map_of("huge", random_rings(8, 0, 1e300, 5), false), 60);
     check_map(map_of("largest", random_rings(8, 2, 0x1.8p1021, 6), false), 60);
     check_map(map_of("denormal", random_rings(8, 5, 0x1p-1074, 7), false), 60);
+}
+
+/* Rings of every scale: tiny areas beside huge ones, inside of them, and on their borders. */
+static froe_scene *extreme_rings(uint64_t seed) {
+    extreme_scene s = extreme_begin(2, (int)(seed % EXTREME_STYLES), seed);
+    const int groups = fuzz_int(&s.random, 2, 6);
+    for (int g = 0; g < groups; g++) {
+        const uint32_t group = add_group(s.scene, "area"), face = fuzz_int(&s.random, 0, 1) ? 1000 + group : FROE_NONE;
+        for (int ring = fuzz_int(&s.random, 1, 2); ring > 0; ring--) {
+            double points[EXTREME_CORNERS * 2];
+            const int count = fuzz_int(&s.random, 3, EXTREME_CORNERS);
+            extreme_corners(&s, points, (size_t)count);
+            add_path(s.scene, group, face, points, (uint32_t)count, true);
+        }
+    }
+    return s.scene;
+}
+
+/* Areas are told from a point outside, which scenes do not have that reach as far as doubles do on all sides. */
+static bool has_outside(const froe_scene *scene) {
+    double lo[2], hi[2];
+    froe_scene_bounds(scene, lo, hi);
+    return lo[0] > -DBL_MAX || lo[1] > -DBL_MAX || hi[0] < DBL_MAX || hi[1] < DBL_MAX;
+}
+
+static void areas_at_every_scale(void **state) {
+    const uint64_t first = extreme_seed(), last = first + 60 * extreme_rounds() / EXACT_SHARE;
+    (void)state;
+    for (uint64_t seed = first; seed < last; seed++) {
+        char name[64];
+        snprintf(name, sizeof name, "areas, FROE_SEED=%llu", (unsigned long long)seed);
+        map m = map_of(name, extreme_rings(seed), false);
+        m.w.extreme = true;
+        check_map(m, has_outside(m.w.scene) ? 30 : 0);
+    }
 }
 
 static void lines_and_solids_have_their_own_points_only(void **state) {
@@ -386,6 +422,7 @@ int main(void) {
         cmocka_unit_test(countries_and_states),
         cmocka_unit_test(rings_that_overlap_and_cross),
         cmocka_unit_test(coordinates_of_any_size),
+        cmocka_unit_test(areas_at_every_scale),
         cmocka_unit_test(lines_and_solids_have_their_own_points_only),
         cmocka_unit_test(rings_bound_areas_and_lines_of_the_same_group_do_not),
         cmocka_unit_test(scenes_without_groups_or_objects_have_none),
