@@ -231,7 +231,8 @@ typedef struct froe_projection {
 } froe_projection;
 /** Computed in doubles by + - * / and square roots alone: the same everywhere. Only the eye, and the window as
  * rounded, decide what is visible. FROE_E_OPTIONS: not from _defaults(), a size, angle or scale out of range.
- * FROE_E_ARG: the eye is at the target, NaN or infinity. FROE_E_INPUT: nothing to fit. O(vertices). */
+ * FROE_E_ARG: the eye is at the target, NaN, infinity, or too far away. FROE_E_INPUT: nothing to fit.
+ * FROE_E_UNSUPPORTED: the scene's extent is not in 2^-1000 .. 2^1000, nor 0. O(vertices). */
 FROE_API froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene, froe_projection *out,
                                        froe_diagnostic *diag);
 /** A turntable: cameras[0 .. count-1] look at the middle of the scene as `camera` looks at its target, the i-th turned

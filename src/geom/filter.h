@@ -164,6 +164,12 @@ static inline filter_vector filter_normal(const geom_plane *h) {
     return (filter_vector){{h->n[0], h->n[1], h->n[2]}, h->n_max, h->n_err};
 }
 
+/* Is the error at most that share of the vector? Not where the vector overflows, or nearly: infinity is a share of
+ * infinity. */
+static inline bool filter_is_fine(const filter_vector *v, double share) {
+    return v->e <= share * v->most && v->most < 0x1p1000;
+}
+
 /* Three doubles; and q - p, of which each component is rounded once. */
 static inline filter_vector filter_exact(const double x[3]) {
     const double most = filter_greater(filter_greater(fabs(x[0]), fabs(x[1])), fabs(x[2]));

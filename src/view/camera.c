@@ -216,11 +216,32 @@ static froe_status fill_page(const froe_camera *c, const fit_points *points, fro
     return FROE_OK;
 }
 
+/* The diagonal of the scene's box: sides are multiplied by a power of two, so that no square underflows or overflows.
+ * 1 for a scene of a single point, or of none. */
 static double extent_of(const froe_scene *scene) {
-    double sum = 0;
-    for (int k = 0; k < 3 && scene->object_count; k++)
-        sum += (scene->hi[k] - scene->lo[k]) * (scene->hi[k] - scene->lo[k]);
-    return sum > 0 && isfinite(sum) ? sqrt(sum) : 1;
+    double most = 0, sum = 0;
+    int exponent;
+    for (int k = 0; k < 3 && scene->object_count; k++) most = fmax(most, 0.5 * scene->hi[k] - 0.5 * scene->lo[k]);
+    if (!(most > 0)) return 1;
+    frexp(most, &exponent);
+    for (int k = 0; k < 3; k++) {
+        const double side = ldexp(0.5 * scene->hi[k] - 0.5 * scene->lo[k], -exponent);
+        sum += side * side;
+    }
+    return ldexp(sqrt(sum), exponent + 1);
+}
+
+/* Extents whose projections on any page neither overflow nor lose bits that are seen: the camera multiplies and divides
+ * them by sines, by tangents of angles of view and by scales of a page. */
+#define LEAST_EXTENT 0x1p-1000
+#define MOST_EXTENT 0x1p1000
+
+static froe_status check_extent(double extent, froe_diagnostic *diag) {
+    if (extent >= LEAST_EXTENT && extent <= MOST_EXTENT) return FROE_OK;
+    return base_fail(diag, FROE_E_UNSUPPORTED,
+                     "The scene extends over %g, and cameras look at scenes of 2^-1000 to 2^1000 only: multiply its "
+                     "coordinates by a power of two.",
+                     extent);
 }
 
 /* The corners of the page, in space, at the distance of the scene. */
@@ -242,6 +263,8 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
     froe_status status = set_axes(camera, &view, diag);
     if (status) return status;
     const double extent = extent_of(scene);
+    status = check_extent(extent, diag);
+    if (status) return status;
     double distance = extent;
     for (int k = 0; k < 3; k++) {
         const double middle = scene->object_count ? 0.5 * scene->lo[k] + 0.5 * scene->hi[k] : 0;
@@ -262,6 +285,12 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
             camera->parallel ? camera->scale : (0.5 * camera->height - camera->margin) / view_tan(camera->fov / 2);
     if (status) return status;
     set_view_window(&view, distance);
+    for (int i = 0; i < 12; i++)
+        if (!isfinite(view.window[i]))
+            return base_fail(diag, FROE_E_ARG,
+                             "The page, put where the scene is, has corners beyond all doubles: the "
+                             "eye is too far away, or the scale of %g is too small.",
+                             view.scale);
     *out = view;
     return FROE_OK;
 }

@@ -1,5 +1,6 @@
 /* Packed trees of many blocks in scenes of every scale: each set of kernels that the machine has gives the answers of
  * brute force, to batches as to single questions. (test_extremes.c asks trees of few objects, by the best kernels.) */
+#include "build/options.h"
 #include "query/answers.h"
 #include "query/packed.h"
 #include "query/space.h"
@@ -33,7 +34,7 @@ static froe_tree *tree_of(const scene_case *c) {
     froe_diagnostic why;
     o.method = "index", o.leaf = 2;
     if (froe_scene_dim(c->scene) == 2 && c->seed / 2 % 2) o.settings = "grid=4 load=2";
-    if (froe_build(c->scene, &o, &tree, &why)) fail_msg("%s: %s", c->name, why.message);
+    if (build_tuned(c->scene, &o, &tree, &why)) fail_msg("%s: %s", c->name, why.message);
     if (froe_tree_audit(tree, NULL, &why)) fail_msg("%s: %s", c->name, why.message);
     sum.blocks += tree->packed.block_count;
     if (tree->packed.wide) sum.wide += tree->packed.wide->count;

@@ -78,8 +78,8 @@ static filter_vector image_of(view_sights *s, const view_line *l, const geom_lin
     filter_vector image = {.e = INFINITY};
     if (s->context.first != NUM_FILTER) return image;
     if (l->kind == VIEW_EDGE) image = filter_cross(&s->rays[l->a], &s->rays[l->b]);
-    if (!(image.e <= FINE * image.most)) image = geom_line_image(&s->eye, exact);
-    if (!(image.e <= COARSE * image.most)) {
+    if (!filter_is_fine(&image, FINE)) image = geom_line_image(&s->eye, exact);
+    if (!filter_is_fine(&image, COARSE)) {
         geom_line_round(&s->context, &s->eye, exact, image.x);
         image.most = 1;
         image.e = 0x1p-52;
@@ -214,9 +214,24 @@ double view_share_round(view_sights *s, uint32_t line, uint32_t u, uint32_t v) {
     return geom_share_round(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
 }
 
+/* Its normal to a largest component of 1/2 .. 1, by an exact multiplication: products with coordinates do not overflow.
+ * The normal itself has done so where its points are further from one another than 2^500. */
 geom_plane view_plane_of(const view_sights *s, uint32_t patch) {
     geom_plane plane;
+    int exponent;
     scene_support(s->tree->scene, surface_first(s->surface, patch), &plane);
+    if (!(plane.n_max < INFINITY)) {
+        double d[3], e[3];
+        for (int k = 0; k < 3; k++) {
+            d[k] = ldexp(plane.p[1][k], -600) - ldexp(plane.p[0][k], -600);
+            e[k] = ldexp(plane.p[2][k], -600) - ldexp(plane.p[0][k], -600);
+        }
+        const filter_vector p = filter_exact(d), q = filter_exact(e), n = filter_cross(&p, &q);
+        memcpy(plane.n, n.x, sizeof plane.n);
+        plane.n_max = n.most;
+    }
+    frexp(plane.n_max, &exponent);
+    for (int k = 0; k < 3; k++) plane.n[k] = ldexp(plane.n[k], -exponent);
     return plane;
 }
 

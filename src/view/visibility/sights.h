@@ -82,7 +82,7 @@ filter_vector view_meeting_round(view_sights *sights, view_way a, view_way b);
 #define VIEW_COARSE 0x1p-32 /**< relative error of an image above which it is made anew */
 static inline filter_vector view_meeting(view_sights *s, view_way a, view_way b) {
     const filter_vector n_a = view_way_image(s, a), n_b = view_way_image(s, b), ray = filter_cross(&n_a, &n_b);
-    return ray.e <= VIEW_COARSE * ray.most ? ray : view_meeting_round(s, a, b);
+    return filter_is_fine(&ray, VIEW_COARSE) ? ray : view_meeting_round(s, a, b);
 }
 
 /** The side when the image does not tell it. */

@@ -1,0 +1,112 @@
+/* Pictures of scenes of any scale: times a power of two a scene looks as before, and points of the page show what exact
+ * rays meet. */
+#include "pages.h"
+#include "query/worlds.h"
+
+enum { SAMPLES = 60, CAMERAS = 3 };
+
+static froe_camera camera_at(int number) {
+    froe_camera c = froe_camera_defaults();
+    c.parallel = number == 1;
+    if (number == 2) c.eye[0] = -2, c.eye[1] = 1, c.eye[2] = 7;
+    return c;
+}
+
+/* What a picture shows, in numbers. */
+typedef struct summary {
+    size_t shapes, strokes;
+    double length;
+} summary;
+
+static summary look(const froe_scene *unit, int power, int camera) {
+    froe_scene *scene = world_scaled(unit, power);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    const froe_camera c = camera_at(camera);
+    page p;
+    open_page(&p, tree);
+    p.options.lines = FROE_LINE_BORDER;
+    place(&p, &c);
+    check_view(&p, SAMPLES, (uint32_t)camera);
+    summary s = {froe_picture_shape_count(p.picture), froe_picture_stroke_count(p.picture), 0};
+    for (size_t i = 0; i < s.strokes; i++) {
+        const froe_stroke stroke = froe_picture_stroke(p.picture, i);
+        s.length += length_of(&stroke);
+    }
+    assert_true(p.shown > SAMPLES / 10);
+    froe_picture_free(p.picture);
+    close_page(&p);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    return s;
+}
+
+static void a_scene_times_a_power_of_two_looks_the_same(void **state) {
+    static const int powers[] = {-998, -900, -600, -500, -350, -100, 100, 350, 500, 600, 900, 996};
+    froe_scene *unit = world_mixture(3, 1 << FROE_POLYGON, 16, 0, 0.8, 3);
+    (void)state;
+    for (int camera = 0; camera < CAMERAS; camera++) {
+        const summary before = look(unit, 0, camera);
+        for (size_t i = 0; i < sizeof powers / sizeof *powers; i++) {
+            const summary s = look(unit, powers[i], camera);
+            if (s.shapes != before.shapes || s.strokes != before.strokes ||
+                !(fabs(s.length - before.length) < 1e-9 * before.length))
+                fail_msg("times 2^%d: %zu shapes, %zu strokes of length %.17g; not %zu, %zu, %.17g", powers[i],
+                         s.shapes, s.strokes, s.length, before.shapes, before.strokes, before.length);
+        }
+    }
+    froe_scene_free(unit);
+}
+
+/* Around triangles whose smallest and largest differ by a factor of 2^600. */
+static void tiny_faces_beside_huge_ones_are_painted(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        froe_scene *scene;
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        for (uint32_t i = 0; i < 24; i++) {
+            double x[9];
+            const double scale = ldexp(1, -(int)(i % 6) * 120);
+            for (uint32_t k = 0; k < 9; k++) x[k] = scale * (trees_unit(seed, 9 * i + k) - 0.5);
+            assert_int_equal(trees_add(scene, FROE_POLYGON, 1, x, NULL, NULL), FROE_OK);
+        }
+        froe_tree *tree = trees_build(scene, "density", 1);
+        froe_scene_free(scene);
+        for (int camera = 0; camera < CAMERAS; camera++) {
+            const froe_camera c = camera_at(camera);
+            page p;
+            open_page(&p, tree);
+            place(&p, &c);
+            check_view(&p, SAMPLES, (uint32_t)seed);
+            assert_true(p.shown > 0);
+            froe_picture_free(p.picture);
+            close_page(&p);
+        }
+        froe_tree_free(tree);
+    }
+}
+
+/* What is smaller or larger is refused by what is the matter with it. */
+static void scenes_beyond_cameras_are_refused(void **state) {
+    static const int powers[] = {-1070, -1010, 1010, 1021};
+    froe_scene *unit = world_mixture(3, 1 << FROE_POLYGON, 4, 0, 0.8, 3);
+    (void)state;
+    for (size_t i = 0; i < sizeof powers / sizeof *powers; i++) {
+        froe_scene *scene = world_scaled(unit, powers[i]);
+        const froe_camera c = froe_camera_defaults();
+        froe_projection view;
+        froe_diagnostic why;
+        assert_int_equal(froe_camera_place(&c, scene, &view, &why), FROE_E_UNSUPPORTED);
+        assert_non_null(strstr(why.message, "2^-1000 to 2^1000"));
+        froe_scene_free(scene);
+    }
+    froe_scene_free(unit);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_scene_times_a_power_of_two_looks_the_same),
+        cmocka_unit_test(tiny_faces_beside_huge_ones_are_painted),
+        cmocka_unit_test(scenes_beyond_cameras_are_refused),
+    };
+    return cmocka_run_group_tests_name("view/extremes", tests, NULL, NULL);
+}
