@@ -2,9 +2,9 @@
  * brute force, to batches as to single questions. (test_extremes.c asks trees of few objects, by the best kernels.) */
 #include "build/options.h"
 #include "query/answers.h"
-#include "query/packed.h"
-#include "query/space.h"
-#include "tree/wide.h"
+#include "query/packed/packed.h"
+#include "query/packed/space.h"
+#include "tree/packed/wide.h"
 
 enum { BATCH = 40 };
 
