@@ -1,6 +1,6 @@
-/* floats.c: what a thread's caller computes with, during a call that computes otherwise: the one thing that froe
- * remembers by the thread. No object could: allocators are called from everywhere, and a tree by many threads at once.
- */
+/* floats.c: the floating point of the caller, kept for each thread while froe computes with its own.
+ * It is the only state that froe keeps by the thread. An object cannot hold it: an allocator is called from everywhere,
+ * and a tree is used by many threads at once. */
 #include "base/floats.h"
 
 static _Thread_local base_floats_held

@@ -103,7 +103,7 @@ unsigned base_floats_change_to_own(void);
 static inline unsigned base_floats_begin_own(void) {
     return base_floats_are_own(base_floats_now()) ? 0 : base_floats_change_to_own();
 }
-/** The caller's. */
+/** The caller's floating point from now on. */
 unsigned base_floats_begin_caller(void);
 void base_floats_undo(unsigned began);
 static inline void base_floats_end(const unsigned *began) {

@@ -1,5 +1,5 @@
-/* log2.h: a logarithm of our own, from + - * / alone, so that scores, and with them
- * trees, are the same bit for bit everywhere. (The C library's log2 differs between systems.) */
+/* log2.h: a logarithm from + - * / alone, so that scores, and with them trees, are the same
+ * bit for bit everywhere. (The C library's log2 differs between systems.) */
 #ifndef FROE_BASE_LOG2_H
 #define FROE_BASE_LOG2_H
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/* summit.c: a segment tree with sums at the nodes; bottom-up, no recursion. */
+/* summit.c: a range-maximum tree with sums at the nodes; bottom-up, no recursion. */
 #include "base/summit.h"
 
 static uint32_t rounded_up(uint32_t size) {

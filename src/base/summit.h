@@ -1,4 +1,4 @@
-/* summit.h: numbers at positions 0 .. size - 1, raised over ranges; where is the first, the last, that is high enough?
+/* summit.h: a range-maximum tree: numbers at 0 .. size - 1, raised over ranges; the first or last that is high enough.
  *
  *             max                    each node: what was added to its whole range, and the maximum of what
  *            /    \                  its children have on top of that. Sums commute with maxima, so a raise

@@ -2,8 +2,8 @@
  *
  * Workers claim job numbers from one counter, so whatever fails, every job with a
  * lower number has been claimed before and runs to its end: the lowest failing job
- * does not depend on the number of threads. The calling thread works too, and is the
- * only one that talks to the progress callback. */
+ * does not depend on the number of threads. The calling thread works too, and it alone
+ * calls the progress callback. */
 #include "base/task.h"
 #include "base/floats.h"
 #include <pthread.h>
@@ -89,7 +89,7 @@ static void *labour(void *argument) {
     return NULL;
 }
 
-/* Starts up to `wanted` threads; as many as the system gives. */
+/* Starts up to `wanted` threads, fewer if the system refuses. */
 static unsigned hire(crew *c, unsigned wanted, hand *hands, pthread_t *threads) {
     pthread_attr_t attr;
     unsigned hired = 0;
@@ -106,7 +106,7 @@ static unsigned hire(crew *c, unsigned wanted, hand *hands, pthread_t *threads) 
     return hired;
 }
 
-/* Waits until the other threads are done, so that cancelling works meanwhile. */
+/* Waits until the other threads are done; reports progress meanwhile, so that the callback can cancel. */
 static void wait_for_quiet(crew *c) {
     pthread_mutex_lock(&c->lock);
     while (c->working) {

@@ -16,7 +16,7 @@ typedef struct base_task {
 
 /** threads 0: one per processor. */
 void base_task_init(base_task *task, unsigned threads, froe_progress_fn *progress, void *user);
-/** Reports the share done; false (for good) once the callback said no. Calling thread only. */
+/** Reports the share done; false (for good) once the callback returned false. Calling thread only. */
 bool base_progress(base_task *task, double done);
 static inline bool base_cancelled(base_task *task) {
     return atomic_load_explicit(&task->cancelled, memory_order_relaxed);
@@ -27,7 +27,7 @@ typedef froe_status base_job_fn(void *user, unsigned worker, size_t job);
 /** Runs jobs 0..count-1, in any order, on task->threads threads (the calling one
  * included), and reports progress from `done` to `done + span * scale`. Returns the status
  * of the lowest-numbered failing job; later jobs may then not have run. FROE_E_CANCELLED when
- * the callback says no. Falls back to fewer threads when the system gives none: never fails
- * by itself. Not to be called from a job. */
+ * the callback returns false. Falls back to fewer threads when the system gives none: never
+ * fails by itself. Not to be called from a job. */
 froe_status base_run(base_task *task, double span, size_t count, base_job_fn *fn, void *user);
 #endif

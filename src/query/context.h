@@ -4,8 +4,8 @@
  *     froe_query -----+--->  query_shared: tree, and parts prepared at first need
  *     froe_query ----'          (planes of cuts, centroids, borders of groups, ...)
  *
- * A part is made by whoever needs it first. Two threads may make it at once; then one of the two is thrown
- * away. Nobody waits, and a part never changes once it is there.
+ * A part is made by the first thread that needs it. If two threads make it at once, one of the two is thrown
+ * away. No thread waits, and a part never changes once it is there.
  *
  * Answers are gathered without duplicates: query_expect() makes room, query_found() reports. */
 #ifndef FROE_QUERY_CONTEXT_H
@@ -18,7 +18,7 @@
 #include "tree/tree.h"
 #include <froe/query.h>
 
-/** Something prepared once for all contexts of a tree: the first member of its struct. */
+/** Data prepared once for all contexts of a tree: the first member of its struct. */
 typedef struct query_part {
     void (*free)(const froe_allocator *alloc, struct query_part *part);
 } query_part;

@@ -63,7 +63,7 @@ static inline size_t query_mark_all(query_marks *marks, const uint32_t *objects,
     }
     uint32_t *numbers = marks->numbers;
     const uint32_t query = marks->query;
-    for (size_t i = 0; i < count; i++) { /* without branches: which are marked is anyone's guess */
+    for (size_t i = 0; i < count; i++) { /* which are marked is unpredictable, so branch-free */
         const uint32_t object = objects[i * stride];
         out[fresh] = object;
         fresh += numbers[object] != query;

@@ -32,8 +32,8 @@ static bool further(void *user, uint32_t a, uint32_t b) {
     return order ? order > 0 : x->object > y->object;
 }
 
-/* The places and objects that the worst neighbour leaves in the race. Its image says little where squares leave the
- * range of doubles. */
+/* Lowers the limit to the distance of the worst neighbour. Its image says little where squares leave the range of
+ * doubles. */
 static void lower_limit(froe_query *q) {
     const geom_distance *d = &q->near.found.data[q->near.order.data[0]].distance;
     const num_ball image = geom_distance_image(d);

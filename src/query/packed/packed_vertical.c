@@ -6,12 +6,13 @@
  *      +---+-|--+     position (tree/packed/packed.h) every segment through that point is in this very leaf.
  *      |   | 0  |
  *
- * Rays fly in flocks: each in turn tests its block, which has been asked for a round before, and asks for its next. */
+ * Rays advance in batches: each in turn tests its block, which it prefetched one round before, and prefetches its next
+ * one. */
 #include "query/packed/packed.h"
 #include "query/segment.h"
 #include "tree/packed/table.h"
 
-/** A ray on its way. */
+/** A ray in progress. */
 typedef struct climb {
     const double *point;
     uint32_t *object; /* its answer */
@@ -44,7 +45,7 @@ static void descend_from(const froe_tree *t, climb *c, int direction, uint32_t n
     arrive_at_block(t, c, n->child, n->u.list.count);
 }
 
-/* To where an entry of the table says. */
+/* Goes on at the leaf or node that an entry of the table names. */
 static void enter_column(const froe_tree *t, climb *c, int direction, tree_entry entry) {
     c->last = entry;
     if (entry.kind & TABLE_LEAF)
@@ -67,7 +68,7 @@ static bool find_column(const tree_table *table, climb *c) {
     return place >= c->column + TABLE_HAIR && place <= c->column + 1 - TABLE_HAIR;
 }
 
-/* To its first leaf. */
+/* Finds the first leaf of a ray. */
 static void begin_climb(const froe_tree *t, climb *c, int direction) {
     const tree_table *table = t->packed.table;
     uint32_t from, to;
@@ -81,7 +82,7 @@ static void begin_climb(const froe_tree *t, climb *c, int direction) {
     enter_column(t, c, direction, tree_table_at(table, c->column, c->row));
 }
 
-/* To its next leaf; false: there is none. */
+/* Finds the next leaf of a ray; false: there is none. */
 static bool go_on_climbing(const froe_tree *t, climb *c, int direction) {
     const tree_table *table = t->packed.table;
     if (c->waiting) {
@@ -91,7 +92,7 @@ static bool go_on_climbing(const froe_tree *t, climb *c, int direction) {
     if (c->column == NO_TABLE) return false;
     while (direction > 0 ? c->row + 1 < table->cells[1] : c->row > 0) {
         uint32_t line = direction > 0 ? c->row + 1 : c->row;
-        if (table->crooked[1][line]) { /* once more, on the safe way */
+        if (table->crooked[1][line]) { /* the table says nothing of crooked lines */
             begin_at_root(t, c, direction);
             return true;
         }
@@ -154,7 +155,7 @@ static bool aims_at_scene(const froe_tree *t, const double *point, int direction
     return !beside && (direction > 0 ? point[1] <= m->root_hi[1] : point[1] >= m->root_lo[1]);
 }
 
-/* Asks for the entry of a point that will begin soon. */
+/* Prefetches the entry of a point that begins soon. */
 static void ask_for_entry(const tree_table *table, const double *point) {
     double column = tree_table_place(table, 0, point[0]), row = tree_table_place(table, 1, point[1]);
     if (column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])
@@ -179,7 +180,7 @@ static size_t launch_climbs(froe_query *q, const double *points, size_t count, s
     return next;
 }
 
-/* One ray alone asks for the block after next while it waits for the next. */
+/* Answers one ray alone: it prefetches the block after next while it waits for the next. */
 static uint32_t climb_alone(froe_query *q, climb *c, int direction) {
     for (;;) {
         uint32_t block = c->block, count = c->count;
@@ -191,7 +192,7 @@ static uint32_t climb_alone(froe_query *q, climb *c, int direction) {
     }
 }
 
-/* A flock: the last ray takes the place of one that has arrived when there is none to follow it. */
+/* Answers a batch: the next ray takes the place of one that is answered; where none is left, the last one does. */
 static void fly(froe_query *q, climb *flock, size_t flying, const double *points, size_t count, size_t next,
                 int direction, uint32_t *objects) {
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {

@@ -2,10 +2,10 @@
  *
  *     stack     [ ... | key, what | key, what ]     wide nodes, leaves and objects, the least key on top
  *
- * A walk takes what is on top: of a node it puts the children back that may be met, of a leaf the objects; an
- * object it hands out, to be decided exactly by whoever asked. Keys are lower bounds: of a ray's parameter, or of
- * squared distances. So objects come nearly in order, few are looked at that are not the answer, and of those that
- * could be it none is missed. */
+ * A walk takes the entry on top. It replaces a node by those of its children that may be met, and a leaf by those of
+ * its objects. An object is handed out, and the caller decides it exactly. Keys are lower bounds, of a ray's parameter
+ * or of squared distances. So objects come nearly in order, few of them are not the answer, and none that may be the
+ * answer is missed. */
 #ifndef FROE_QUERY_PACKED_SPACE_H
 #define FROE_QUERY_PACKED_SPACE_H
 #include "query/context.h"
@@ -37,8 +37,8 @@ typedef struct space_work {
 froe_status space_work_new(const froe_tree *t, space_work **out);
 void space_work_free(space_work *work, const froe_allocator *alloc);
 
-/** Begins along a ray, or around query->near.point. *begun false: these are not for single precision, and the general
- * walk has to do it. FROE_E_MEMORY. */
+/** Begins along a ray, or around query->near.point. *begun false: single precision cannot hold these numbers, and the
+ * general walk has to be used. FROE_E_MEMORY. */
 froe_status space_walk_ray(froe_query *query, space_walk *walk, const geom_ray *ray, bool *begun);
 froe_status space_walk_near(froe_query *query, space_walk *walk, bool *begun);
 /** The next object, as a list, unless it is beyond the limit, which may have fallen; none: there is none left.
@@ -46,8 +46,8 @@ froe_status space_walk_near(froe_query *query, space_walk *walk, bool *begun);
 froe_status space_walk_next(froe_query *query, space_walk *walk, double limit, tree_objects *list);
 
 typedef enum space_step { SPACE_ON, SPACE_OBJECT, SPACE_END, SPACE_NO_MEMORY } space_step;
-/** One step of a walk that is one of many: what it will look at next is asked for, so that others can go on until it is
- * there. SPACE_OBJECT: walk->object is handed out. */
+/** One step of a walk that is one of many: it prefetches what the next step reads, so that other walks can go on until
+ * that is in the cache. SPACE_OBJECT: walk->object is handed out. */
 space_step space_walk_step(froe_query *query, space_walk *walk, double limit);
 
 /** The first hits of rays that have been checked, or, hits NULL, any object met by each. As froe_query_ray() and

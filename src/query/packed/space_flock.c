@@ -1,18 +1,19 @@
-/* space_flock.c: rays in flocks: while one waits for memory, others go on.
+/* space_flock.c: rays in batches: while one waits for memory, others go on.
  *
  *     ray 0   [node] ........ [node] ........ [leaf] ........ [object] ........ [decided]
  *     ray 1     [node] ........ [leaf] ........ [node] ........ [leaf] ........ [node]
  *     ray 2       [node] ....
  *
- * Each in turn takes one step of its walk (space_walk.c) and asks for what the next one needs; so does an object,
- * before it is decided. Answers do not depend on who else flies: a ray has a walk and a limit of its own. */
+ * Each ray in turn takes one step of its walk (space_walk.c) and prefetches what its next step needs. The points of an
+ * object are prefetched before the object is decided. Answers do not depend on the other rays of the batch: each ray
+ * has a walk and a limit of its own. */
 #include "base/status.h"
 #include "query/packed/space.h"
 #include <string.h>
 
 enum { FLIGHT = 12 };
 
-/** A ray on its way. */
+/** A ray in progress. */
 struct space_runner {
     space_walk walk;
     geom_ray ray;
@@ -38,14 +39,14 @@ void space_flock_free(space_runner *flock, const froe_allocator *alloc) {
     base_free(alloc, flock, FLIGHT * sizeof *flock);
 }
 
-/* A ray that is not for single precision. */
+/* A ray whose numbers single precision cannot hold: the general walk answers it. */
 static froe_status go_alone(flight *f, size_t i) {
     const double *origin = f->origins + 3 * i, *direction = f->directions + 3 * i;
     if (f->hits) return froe_query_ray(f->query, origin, direction, f->t_max, f->hits + i, f->diag);
     return froe_query_ray_any(f->query, origin, direction, f->t_max, f->objects + i, f->diag);
 }
 
-/* The next ray sets out; *flies false: none is left. */
+/* Begins the next ray; *flies false: none is left. */
 static froe_status launch_ray(flight *f, space_runner *r, bool *flies) {
     *flies = false;
     while (f->next < f->count && !*flies) {
@@ -71,7 +72,7 @@ static void arrive_with_hit(const flight *f, const space_runner *r) {
     if (meets) f->hits[r->at].t = geom_hit_round(&f->query->numbers, &r->ray, &r->best.hit);
 }
 
-/* False: the ray has gone far enough. */
+/* Decides the pending object exactly. False: the answer of the ray is known. */
 static bool decide_hit(const flight *f, space_runner *r) {
     query_met met;
     const uint32_t object = r->pending;
@@ -84,7 +85,7 @@ static bool decide_hit(const flight *f, space_runner *r) {
     return f->hits;
 }
 
-/* SPACE_END: it has arrived. */
+/* SPACE_END: the ray is answered. */
 static space_step step_ray(const flight *f, space_runner *r) {
     if (r->pending != FROE_NONE && !decide_hit(f, r)) return SPACE_END;
     const space_step did = space_walk_step(f->query, &r->walk, r->limit);
@@ -94,7 +95,7 @@ static space_step step_ray(const flight *f, space_runner *r) {
     return SPACE_ON;
 }
 
-/* The last ray takes the place of one that has arrived when there is none to follow it. */
+/* The next ray takes the place of one that is answered; where none is left, the last ray of the batch does. */
 static froe_status fly(flight *f, space_runner *flock) {
     size_t flying = 0;
     bool flies = true;

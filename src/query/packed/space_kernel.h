@@ -10,7 +10,7 @@
 #include "tree/packed/wide.h"
 
 /** A ray o + u d in the coordinates of a wide tree, in whose box it is for u >= start only. Keys are u - start. Fourth
- * components are 0, for those who load four. */
+ * components are 0, since kernels load four. */
 typedef struct space_ray {
     const tree_wide *wide;
     double o[4], d[4]; /**< the largest component of d is between 1/2 and 1 */

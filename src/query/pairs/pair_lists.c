@@ -3,7 +3,7 @@
 #include "base/floats.h"
 #include "query/heap.h"
 
-enum { ROOM = 1024 }; /* pairs that a thread may add without asking others */
+enum { ROOM = 1024 }; /* pairs that a thread takes from the common stock at a time */
 #define PAIR_OBJECT ((1u << PAIR_KIND) - 1)
 
 froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32_t objects, unsigned threads,
@@ -23,7 +23,7 @@ void pair_lists_give(pair_lists *l) {
     base_free(l->alloc, l->sorted, (l->firsts[PAIR_PARTS] + 1) * sizeof *l->sorted);
 }
 
-/* Room for more pairs, of what is left for all. */
+/* Takes room for up to ROOM pairs from what is left for all threads; false: nothing is left. */
 static bool ask_room(pair_lists *l, pair_list *list) {
     unsigned left = atomic_load(&l->left), taken;
     do taken = left < ROOM ? left : ROOM;
@@ -56,7 +56,7 @@ static void count_firsts(const pair_lists *l, size_t part, uint32_t from, uint32
     for (uint32_t id = from; id < to; id++) l->starts[id] = sum += l->starts[id];
 }
 
-/* Puts them, the last first, so that starts[id] ends where its own begin. */
+/* Puts the pairs of a part in their places, the last first: then starts[id] is where the pairs of id begin. */
 static void put_seconds(const pair_lists *l, size_t part) {
     for (unsigned t = 0; t < l->threads; t++)
         for (size_t i = 0; i < l->lists[t].parts[part].count; i++) {

@@ -6,7 +6,7 @@
  *                  sorted     sorted            each part by one thread: counted by the first id, then by the second
  *                     `----------'-----> told
  *
- * Each pair is added once, so that their order does not depend on who found which. */
+ * Each pair is added once, so that their order does not depend on which thread found which pair. */
 #ifndef FROE_QUERY_PAIRS_PAIR_LISTS_H
 #define FROE_QUERY_PAIRS_PAIR_LISTS_H
 #include "base/array.h"

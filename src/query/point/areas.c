@@ -85,7 +85,7 @@ static bool find_outside(const froe_scene *s, double x[2]) {
     return isfinite(x[1]);
 }
 
-/* A box with the scene well within. */
+/* A box around the scene, with a margin of an eighth of its size and more. */
 static void frame(const froe_scene *s, double lo[2], double hi[2]) {
     double most = 0, size = 0;
     for (int k = 0; k < 2; k++) {
@@ -99,7 +99,7 @@ static void frame(const froe_scene *s, double lo[2], double hi[2]) {
     }
 }
 
-/* Cells too thin to be seen take the reference of a neighbour. */
+/* Cells without a reference of their own take that of the leaf before. */
 static void fill_slots(survey *v) {
     const froe_tree *t = v->q->tree;
     uint32_t last = AREA_FAR;

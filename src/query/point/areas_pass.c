@@ -13,7 +13,7 @@ static bool in_bounds(const double *u, const double *v, const double *x) {
     return true;
 }
 
-/* Without branches: which of a list's borders are near the way is anyone's guess. */
+/* Which of a list's borders are near the way is unpredictable, so branch-free. */
 static bool bounds_meet(const double *a, const double *b, const double *u, const double *v) {
     bool apart = false;
     for (int k = 0; k < 2; k++) {
@@ -127,7 +127,7 @@ void query_areas_ask(const query_areas *areas, const query_leaf *leaves, size_t 
 
 /* ---------------------------------------------------------------- settling -- */
 
-/** What leaves have is made one after the other. */
+/** Turns the leaves of a tree, one after the other, into what a query reads. */
 typedef struct settling {
     froe_query *q;
     query_areas *areas;
@@ -150,7 +150,7 @@ static bool comes_later(void *user, uint32_t a, uint32_t b) {
     return order ? order > 0 : a > b;
 }
 
-/* Those of a list that have a role, seen from its reference. */
+/* The objects of a list that have a role, seen from the reference of its leaf, in order. */
 static bool gather_borders(settling *w, const tree_objects *list, int role, const double *from) {
     query_border s;
     w->seen.count = w->order.count = 0;
@@ -163,7 +163,7 @@ static bool gather_borders(settling *w, const tree_objects *list, int role, cons
     return true;
 }
 
-/* Appends them, equal ones two by two. */
+/* Appends the gathered borders; two that are equal share one entry. */
 static bool append_border(settling *w, uint32_t *count) {
     enum { WORDS = sizeof(query_border) / sizeof(uint64_t) };
     query_border *seen = w->seen.data, *last = NULL;

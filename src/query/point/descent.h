@@ -9,10 +9,10 @@
  *
  * A cut is two floats: a line a x + b y + c = 0 divided by the greater of |a| and |b|, in units of the scene. Floats
  * tell the side of all points but those within DESCENT_DOUBT of the line; these are told exactly by the cut of the
- * tree. So nothing here is ever wrong, and what scenes of very different sizes cost is one more look at the tree.
+ * tree. So no answer is wrong, and a doubtful point costs one more look at the tree.
  *
  * Cuts lie where they are needed together: a group is a cut and those below it that most leaves are under (as van
- * Emde Boas lays out trees, but that ours are not balanced). The table names, for every cell of a grid, the first cut
+ * Emde Boas lays out trees, but these trees are not balanced). The table names, for every cell of a grid, the first cut
  * below the root that may meet it. */
 #ifndef FROE_QUERY_POINT_DESCENT_H
 #define FROE_QUERY_POINT_DESCENT_H
@@ -47,7 +47,7 @@ typedef struct query_descent {
 /** Prepares it. FROE_E_MEMORY. O(nodes), once for all forks. */
 froe_status query_descent_of(froe_query *query, const query_descent **out, froe_diagnostic *diag);
 
-/** A point on its way. */
+/** A point in progress. */
 typedef struct descent_point {
     float at[2];   /**< in units */
     uint32_t next; /**< as in descent_cut */
@@ -67,7 +67,7 @@ static inline bool query_descent_begin(const query_descent *d, const double *x, 
     out->next = d->table[cell];
     return true;
 }
-/** Asks memory for what a point begins with. */
+/** Prefetches the table entry that a point begins with. */
 static inline void query_descent_ask(const query_descent *d, const double *x) {
     float at[2];
     const size_t cell = query_descent_cell(d, x, at);

@@ -1,4 +1,4 @@
-/* leaf.c: from a head start down to the leaf. */
+/* leaf.c: from a table or a search by centroids down to the leaf. */
 #include "query/point/leaf.h"
 #include "geom/predicates.h"
 #include "query/cuts.h"
@@ -107,11 +107,11 @@ static query_leaf find_by_tree(froe_query *q, const ways *w, const double *x) {
 
 enum {
     FLIGHT = 16,  /* points that go down in turns */
-    AHEAD = 8,    /* points whose beginnings are asked for before it is their turn */
-    PATIENCE = 32 /* cuts in deep trees until the centroids are asked: about what that costs */
+    AHEAD = 8,    /* points whose table entries are prefetched before their turn */
+    PATIENCE = 32 /* cuts in deep trees before the search by centroids: about its cost */
 };
 
-/** A point on its way, and which of them it is. */
+/** A point in progress, and its number. */
 typedef struct flyer {
     descent_point p;
     uint32_t steps;
@@ -119,7 +119,7 @@ typedef struct flyer {
     size_t number;
 } flyer;
 
-/* Passes a cut; one that floats cannot tell from the point as the tree has it. */
+/* Passes a cut: by floats, or, where these are in doubt, by the exact cut of the tree. */
 static void pass_cut(froe_query *q, const query_descent *d, flyer *f, const double *x) {
     const descent_cut *cut = d->cuts + f->p.next;
     const float value = query_descent_value(cut, f->p.at);
@@ -135,7 +135,7 @@ static void pass_cut(froe_query *q, const query_descent *d, flyer *f, const doub
     f->p.next = query_descent_next(cut, right);
 }
 
-/* Has the point come to its leaf, or to the end of its patience? Centroids of oblique cuts are of no use. */
+/* Has the point come to its leaf, or passed PATIENCE cuts? Centroids say nothing of oblique cuts. */
 static bool has_come(const ways *w, const flyer *f) {
     return f->p.next & DESCENT_LEAF || (f->steps >= PATIENCE && w->centroids && !(w->centroids->root & CENTROID_END));
 }
@@ -157,7 +157,7 @@ static size_t launch_points(froe_query *q, const ways *w, const double *points, 
     return next;
 }
 
-/* Each asks for its next cut, which has come when it is its turn again. */
+/* Each point in turn passes a cut and prefetches its next one, which is in the cache at its next turn. */
 static void find_flock(froe_query *q, const ways *w, const double *points, size_t count, query_leaf *leaves) {
     flyer flock[FLIGHT];
     size_t next = 0, flying = 0;

@@ -6,8 +6,8 @@
  *     binary tree  of these numbers as bits: 100 above 010 and 110 above 001, 011, ...; a path lies below
  *                  another in the tree only if its number does in this one
  *
- * Schieber and Vishkin (On finding lowest common ancestors: simplification and parallelization, 1988), who made the
- * structure of Harel and Tarjan (Fast algorithms for finding nearest common ancestors, 1984) simple. De Berg's range
+ * Schieber and Vishkin (On finding lowest common ancestors: simplification and parallelization, 1988), a simpler form
+ * of the structure of Harel and Tarjan (Fast algorithms for finding nearest common ancestors, 1984). De Berg's range
  * queries rest on the latter (jump.h). */
 #ifndef FROE_QUERY_RANGE_ANCESTORS_H
 #define FROE_QUERY_RANGE_ANCESTORS_H

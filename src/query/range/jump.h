@@ -24,7 +24,7 @@ typedef struct query_jump {
 
 /** Prepares what a walk takes. FROE_E_MEMORY. O(nodes log nodes), once for all forks. */
 froe_status query_jump_prepare(froe_query *query, froe_walk walk, query_jump *out);
-/** Is it time to ask, so many cuts passed in a row? */
+/** Is a jump due after so many cuts passed in a row? */
 static inline bool query_jump_is_due(const query_jump *jump, int passed) {
     enum { PATIENCE = 16 };
     return jump->centroids && (jump->ancestors || passed == PATIENCE);

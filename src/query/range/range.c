@@ -5,7 +5,7 @@
 #include "query/packed/space.h"
 #include "query/range/classes.h"
 
-/* A window on a packed tree goes its own, faster way, unless another is asked for. */
+/* Windows on packed trees have a faster walk of their own, unless another walk is asked for. */
 static bool is_window(const froe_range *range) {
     return range->size == sizeof *range && range->shape == FROE_SHAPE_BOX && range->eps == 0 &&
            range->walk == FROE_WALK_AUTO;

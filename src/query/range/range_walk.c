@@ -5,7 +5,7 @@
  * the range share a point, some list visited has the object). Where a region lies in the range, all lists below it
  * are one slice, reported without a test.
  *
- * In deep trees, whoever has gone past many cuts without meeting one is led to the next (jump.h).
+ * In deep trees, after 16 missed cuts the search jumps to the next one that the range meets (jump.h).
  *
  * A waiting node has its region's bounds and, for solid ranges, those of the range within the region. Thin ranges
  * (segments, rays) have an interval of their parameter instead: origin + t direction. */
@@ -46,8 +46,8 @@ static void test_list(walk *w, const tree_objects *list) {
     }
 }
 
-/* The same for a list of points, each of which is in no other. It is anyone's guess which are in the range, so that
- * nothing waits for it. */
+/* The same for a list of points, each of which is in no other list. Which of them are in the range is unpredictable, so
+ * the loop is branch-free. */
 static void test_points(walk *w, const tree_objects *list) {
     froe_query *q = w->q;
     const double *x = w->pieces->points + (size_t)list->first * (size_t)w->dim;
