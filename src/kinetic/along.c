@@ -1,4 +1,4 @@
-/* along.c: which of two points of one segment is nearer to its end 0? This does not change when the segment turns.
+/* along.c: the order of two points along a segment from its end 0. A turn of the segment does not change it.
  *
  *            end 1       With u and v the turns of a line against end 0 and end 1, the line crosses the segment the share
  *       b -----o-- -     u / (u - v) of the way from end 0: 0 and 1 for the ends themselves. So of two lines

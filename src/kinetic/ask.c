@@ -1,5 +1,5 @@
-/* ask.c: questions about the present: where a point is, what a ray meets first, what is behind what. As all else they
- * are about where segments are just after the tick; but a point is also on those that it lies on at the tick itself.
+/* ask.c: questions about the present: where a point is, what a ray meets first, the order from back to front. They
+ * are about the segments just after the tick; but a point is also on those that it lies on at the tick itself.
  *
  *        :  UP   :           A ray meets what is in the near part of a cell first, then the segment that cuts it,
  *   LEFT : __s___: RIGHT     then what is in the far part. The ray is a segment that takes no part, so that it is
@@ -96,7 +96,7 @@ static uint32_t touched(froe_kinetic *k, now_name point) {
     return FROE_NONE;
 }
 
-/* An answer that did not come about for lack of memory: the tree is as it was. */
+/* The status of an answer. Lack of memory leaves the tree as it was. */
 static froe_status status_of_answer(froe_kinetic *k, froe_diagnostic *diag) {
     if (!k->short_of_memory) return FROE_OK;
     k->short_of_memory = false;

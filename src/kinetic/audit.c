@@ -1,4 +1,4 @@
-/* audit.c: is a live partition what would be made from scratch, and will it be until its certificates fail? */
+/* audit.c: checks a live partition and its certificates against those made from scratch. */
 #include "base/floats.h"
 #include "base/status.h"
 #include "kinetic/live.h"
@@ -12,7 +12,7 @@ static bool same_node(const froe_kinetic *k, uint32_t a, const froe_kinetic *l, 
     return true;
 }
 
-/* Does a certificate say what the same one from scratch does? There may be more than from scratch: they follow. */
+/* Does a certificate claim what the same one from scratch does? More than from scratch are allowed: they follow. */
 static bool same_cert(const froe_kinetic *k, uint32_t a, const froe_kinetic *fresh, uint32_t b) {
     if (a == CERT_NONE || b == CERT_NONE) return b == CERT_NONE;
     const now_claim c = live_claim_of(k, a), d = live_claim_of(fresh, b);
@@ -78,8 +78,8 @@ static int64_t tick_from_scratch(froe_kinetic *k, uint32_t cert) {
     return now_first_failure(&k->now, &c->claim);
 }
 
-/* Does each certificate fail when the same one from scratch does? A late one would miss what happens until then. One
- * of an augmented partition may be early, as it may be about more than it says; it is asked again then. */
+/* Does each certificate fail when the same one from scratch does? A late one would miss events. One
+ * of an augmented partition may be early, as it may cover more than its claim; it is tested again then. */
 static froe_status audit_ticks(froe_kinetic *k, froe_diagnostic *diag) {
     for (uint32_t i = 0; i < k->certs.count; i++) {
         const live_cert *c = k->certs.data + i;

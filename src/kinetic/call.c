@@ -1,4 +1,4 @@
-/* call.c: how a call from outside begins, goes on and ends: it may be cancelled, and it may run out of memory. Either leaves
+/* call.c: how a public call begins, goes on and ends. It may be cancelled, and it may run out of memory. Either leaves
  * the tree incomplete, and the next call makes it anew. */
 #include "base/status.h"
 #include "kinetic/live.h"
@@ -20,7 +20,7 @@ froe_status live_fail(froe_kinetic *k, froe_diagnostic *diag) {
     return base_fail_cancelled(diag);
 }
 
-/* Certificates of ends would last, though they may have been made for pieces of plans that have ended since. */
+/* Forgets the certificates of ends, too, as they may be about pieces of plans that have ended since. */
 static void make_anew(froe_kinetic *k) {
     k->short_of_memory = false;
     for (uint32_t s = 0; s < k->segments.count; s++) {

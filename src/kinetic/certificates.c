@@ -1,13 +1,13 @@
 /* certificates.c: what proves that a live partition is what it should be.
  *
  *        :  |  :                      regions   the walls left and right of a region keep their order. Only regions
- *     ___:__|__:___ above             that have no wall inside are watched: the others follow
+ *     ___:__|__:___ above             without a wall inside have certificates: the others follow
  *        :  o----             ends    an end with a wall is below the next segment above and above the next below
  *     ___:_____:___ below     turns   the left end of a segment is left of the right end
  *
- * As long as they all hold the partition is right, and when one fails it is made right near that place. Source: the
- * paper's sections 2.2 and 2.3; that regions between a wall of the node and one of its cell need watching,
- * too, is ours. */
+ * As long as they all hold the partition is right, and when one fails it is repaired near that place. Source: the
+ * paper's sections 2.2 and 2.3. That regions between a wall of the node and one of its cell need certificates, too,
+ * is not in the paper. */
 #include "kinetic/live.h"
 
 int64_t live_fail_tick(froe_kinetic *k, const now_claim *claim) {
@@ -79,7 +79,7 @@ void live_borders(const froe_kinetic *k, uint32_t node, const live_cell *cell, c
         if (name_exists(own[side])) out[side] = own[side];
 }
 
-/* The middle between two ends of a segment is there as long as the segment is, however it turns. */
+/* Does the middle lie between the two ends of the segment? Then it exists as long as the segment does. */
 static bool is_whole(const froe_kinetic *k, const live_node *n) {
     return k->options.augmented && is_end(n->wall[LEFT]) && is_end(n->wall[RIGHT]);
 }
@@ -104,7 +104,7 @@ static uint32_t next_segment(froe_kinetic *k, uint32_t node, const live_cell *ce
     uint32_t vertex = wall_name(k, n->segment, n->wall[side]).a;
     for (uint32_t x = n->child[side]; x;) {
         n = node_at(k, x);
-        if (n->wall[1 - side] != END_NONE) { /* hug the wall */
+        if (n->wall[1 - side] != END_NONE) { /* to the child next to the wall */
             x = n->child[1 - side];
             continue;
         }
@@ -142,7 +142,7 @@ void live_forget_ends(froe_kinetic *k, uint32_t segment) {
     for (int i = 0; i < 2; i++) forget_end(k, segment_at(k, segment)->end + i);
 }
 
-/* Of touched ends that are nowhere near what was operated on, and of those whose walls went away. */
+/* Certifies the touched ends outside of the subtree, and those whose walls went away. */
 static void certify_ends(froe_kinetic *k) {
     for (size_t i = 0; i < k->ends.count; i++) {
         uint32_t segment = k->ends.data[i] / 2, which = k->ends.data[i] % 2;
@@ -204,7 +204,7 @@ live_site live_site_of(const froe_kinetic *k, uint32_t node) {
 
 void live_certify(froe_kinetic *k, const live_site *site) {
     uint32_t root = node_at(k, site->parent)->child[site->slot];
-    if (k->short_of_memory) return; /* parts may hang nowhere */
+    if (k->short_of_memory) return; /* parts may have no parent */
     if (root && node_at(k, root)->stamp == k->stamp) certify_touched(k, root, site->cell);
     bool changed = has_cut(k, root) != site->cut;
     for (uint32_t node = site->parent; changed && node != ROOT; node = node_at(k, node)->parent) {

@@ -1,8 +1,8 @@
 /* change.c: segments enter and leave a live partition, and with them changes of flight plans.
  *
  * Where a segment comes before the one that cuts a cell, everything in that cell is made anew; with random keys that
- * is O(log^2 n) nodes on average. All nodes of a segment that leaves are made anew without it. What lay in one line
- * with it may come to light then. */
+ * is O(log^2 n) nodes on average. All nodes of a segment that leaves are made anew without it. Segments in one line
+ * with it may come into the tree then. */
 #include "kinetic/live.h"
 
 static void push_insertion(froe_kinetic *k, const live_cell *cell, uint32_t parent, uint8_t slot) {
@@ -87,7 +87,7 @@ static void remove_nodes(froe_kinetic *k, uint32_t segment) {
         const live_site site = live_site_of(k, node);
         k->stamp++;
         live_new_list(k);
-        segment_at(k, segment)->stamp = k->list_stamp; /* it does not get on the list */
+        segment_at(k, segment)->stamp = k->list_stamp; /* keeps it off the list */
         live_collect(k, node);
         live_free_tree(k, node);
         live_grow(k, &site.cell, 0, site.parent, site.slot);

@@ -1,6 +1,6 @@
-/* contacts.c: when do moving objects meet?
+/* contacts.c: the times at which moving objects meet.
  *
- *     slices (slices.h)  ->  pairs whose boxes touch  ->  spans of time (meet.h)  ->  joined, sorted, told
+ *     slices (slices.h)  ->  pairs whose boxes touch  ->  spans of time (meet.h)  ->  joined, sorted, reported
  *
  * Slices of two objects that touch have a time in common, and all these times together are the time in which both live;
  * so spans that end and begin at the instant where two such times meet are one contact. */
@@ -70,8 +70,8 @@ static void common_life(const search *s, uint32_t a, uint32_t b, double life[2])
     life[1] = earlier(s->to, earlier(p->death, q->death));
 }
 
-/* Meets two slices; those that have but an instant in common do so at the end of longer ones, unless it is all
- * there is. */
+/* Finds the spans of two slices. Slices with a single instant in common are skipped, as longer ones end there, unless
+ * the objects have no more time in common. */
 static bool look_at_slices(void *user, unsigned number, uint32_t i, uint32_t j) {
     search *s = user;
     worker *w = s->workers + number;

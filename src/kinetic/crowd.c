@@ -1,15 +1,15 @@
-/* crowd.c: who takes part in what happens at a place.
+/* crowd.c: finds the segments that take part in an event.
  *
- *        \ |            An event is about the segments that its certificates name: its crew. Others may be at the same
- *     ----\o====        place, with vertices that have no walls and no certificates of their own, because they lie on
- *         |\  d         the walls of others or ride on segments. They are found by looking: whoever comes within the
- *         | b           margin of the place, which is more than anything there moves in the two ticks since all was
- * well, belongs to the crew; and what happens to them lies between the ends and crossings of theirs that are near.
- * Doubles are enough for that, since the crew may be too large. */
+ *        \ |            The participants of an event are first the segments that its certificates name. Neighbours may
+ *     ----\o====        be at the same place without walls and certificates of their own, because their vertices lie
+ *         |\  d         on the walls of others or ride on segments. Every segment that comes within a margin of the
+ *         | b           place is added to the participants. The margin is more than anything there moves in two ticks,
+ * which is the time since all certificates held. The event lies between those ends and crossings of the participants
+ * that are near. Doubles suffice, since the set of participants may be too large, but not too small. */
 #include "kinetic/live.h"
 #include <math.h>
 
-enum { MANY = 48 }; /* beyond, their crossings are not looked at one by one */
+enum { MANY = 48 }; /* with more participants, their crossings are not computed pair by pair */
 
 void live_new_crew(froe_kinetic *k) {
     k->crew_stamp++;
@@ -43,7 +43,7 @@ static double speed_of(froe_kinetic *k, uint32_t segment) {
     return a > b ? a : b;
 }
 
-/* How far y can be off where the line of a segment has gone on by dx. */
+/* The change in y along a segment where x changes by dx, at most. */
 static double rise(froe_kinetic *k, uint32_t segment, double dx) {
     const uint32_t *end = k->now.segments.data[segment].end;
     now_spot a = now_spot_of(&k->now, (now_name){end[0], NAME_VERTEX});
@@ -52,7 +52,7 @@ static double rise(froe_kinetic *k, uint32_t segment, double dx) {
     return rises < height ? rises : height; /* NaN, too */
 }
 
-/* Where p is or was; x is how far the other point has gone. */
+/* A box around p. Around a crossing it reaches along the lines as far as x, where the other point is. */
 static live_place place_of_name(froe_kinetic *k, now_name p, double x) {
     now_spot spot = now_spot_of(&k->now, p);
     live_place out = {{spot.x, spot.y}, {spot.x, spot.y}, 0};
@@ -74,7 +74,7 @@ static live_place place_of_name(froe_kinetic *k, now_name p, double x) {
     return out;
 }
 
-/* The furthest that anything of these speeds goes in two ticks, twice over. */
+/* Twice the distance by which points of these speeds approach each other in two ticks. */
 static double margin(double speed, double other) {
     return 4 * (speed + other);
 }
@@ -103,7 +103,7 @@ static line line_of_segment(froe_kinetic *k, uint32_t segment) {
     return out;
 }
 
-/* Does a segment perhaps come into a box that is larger by `far` on all sides? */
+/* May a segment meet the box when it is enlarged by `far` on all sides? */
 static bool line_meets(const line *s, const double low[2], const double high[2], double far) {
     double centre[2], half[2], d[2];
     far += 2 * s->error;
@@ -151,7 +151,7 @@ static bool comes_to(froe_kinetic *k, uint32_t segment, const live_place *place)
     return is_near_place(&s, place);
 }
 
-/* Do the points of a certificate lie in different places, and do the segments of one keep away from the other? */
+/* Do the points of a certificate lie in different places, and do the segments of each keep away from the other? */
 static bool are_apart(froe_kinetic *k, const now_name name[2], const live_place place[2]) {
     if (places_meet(place, place + 1)) return false;
     for (int i = 0; i < 2; i++) {
@@ -200,7 +200,7 @@ bool live_has_loose_ends(froe_kinetic *k, const live_item *item) {
 
 /* ------------------------------------------------------------------- reach -- */
 
-/* Where s is near the line of t: shares of the way along s. False: nowhere. */
+/* The part of s that is near the line of t, as shares of the way along s. False: there is none. */
 static bool near_line(const line *s, const line *t, double far, double share[2]) {
     double d[2] = {t->at[1][0] - t->at[0][0], t->at[1][1] - t->at[0][1]}, off[2], slack = 0;
     for (int e = 0; e < 2; e++) {
@@ -219,7 +219,7 @@ static bool near_line(const line *s, const line *t, double far, double share[2])
     return share[0] <= share[1];
 }
 
-/* Two segments: where they cross, and all along where they are so near that it may have been there. */
+/* Includes the present crossing and all of the part where the segments are so near that it may have been there. */
 void live_reach_pair(froe_kinetic *k, double slab[2], uint32_t s, uint32_t t) {
     const line a = line_of_segment(k, s), b = line_of_segment(k, t);
     double share[2], far = margin(a.speed, b.speed) + 2 * (a.error + b.error);

@@ -1,10 +1,10 @@
 /* events.c: from one instant at which something happens to the next.
  *
- * All certificates that fail at a tick are taken together: those whose slabs overlap form a group, and a group is
- * one surgery, or several in cells that have nothing to do with one another. Where a group looks like one of the
- * paper's events, the cells are small; anything else, and whatever involves points that coincide, gets a cell whose
- * borders certainly have no part in it. Whether that was enough, the certificates tell afterwards: what still fails is
- * due at once, and is met with a larger cell each time, at last with the whole tree. */
+ * All certificates that fail at a tick are taken together: those whose slabs overlap form a group. A group is repaired
+ * by one surgery, or by several in unrelated cells. Where a group looks like one of the paper's events, the cells are
+ * small. Any other group, and any group with points that coincide, gets a cell none of whose borders is involved. The
+ * certificates show afterwards whether that was enough: those that still fail are due at once, and are repaired in a
+ * larger cell each time, at last in the whole tree. */
 #include "base/floats.h"
 #include "base/sort.h"
 #include "kinetic/live.h"
@@ -24,7 +24,7 @@ static uint32_t ancestor_with(const froe_kinetic *k, uint32_t node, uint32_t seg
     return n == ROOT ? node : n;
 }
 
-/* The node whose certificate this is; or further up, at the segment that an end passes. */
+/* The node of the certificate, or the ancestor with the segment that a point of it meets, if that cuts earlier. */
 static uint32_t node_of(const froe_kinetic *k, const live_item *item) {
     const live_cert *c = k->certs.data + item->cert;
     uint32_t node, met;
@@ -45,8 +45,8 @@ static bool is_inside(froe_kinetic *k, const live_cell *cell) {
            (!name_exists(cell->wall[RIGHT]) || now_compare(&k->now, cell->wall[RIGHT], line[1]) > 0);
 }
 
-/* The nearest cell, from that of a node up, whose walls are outside the slab; and none of whose borders is
- * involved, if care is needed. */
+/* The lowest ancestor, from a node up, whose cell has its walls outside the slab; with `careful` also one none of whose
+ * borders is a participant. */
 static uint32_t climb_clear_of_slab(froe_kinetic *k, uint32_t node, bool careful) {
     for (;; node = node_at(k, node)->parent) {
         if (node_at(k, node)->parent == ROOT) return node;
@@ -58,7 +58,7 @@ static uint32_t climb_clear_of_slab(froe_kinetic *k, uint32_t node, bool careful
 
 /* ------------------------------------------------------------------ groups -- */
 
-/* Items whose slabs hang together. */
+/* Items whose slabs overlap, directly or through others. */
 typedef struct group {
     size_t first, count; /* of the items */
     double slab[2];
@@ -76,7 +76,7 @@ static bool is_current(const froe_kinetic *k, const live_item *item) {
     return claim_is(&claim, &item->claim);
 }
 
-/* As its place, 4 parent + slot, which outlives the node. */
+/* Stores the place of the node, 4 parent + slot, which stays valid when the node is replaced. */
 static void add_root(froe_kinetic *k, uint32_t node) {
     if (!node) return;
     uint32_t place = 4 * node_at(k, node)->parent + live_slot_of(k, node);
@@ -115,7 +115,7 @@ static uint32_t common_ancestor(const froe_kinetic *k, uint32_t a, uint32_t b) {
     return a;
 }
 
-/* Leaves only those roots that are below no other. */
+/* Keeps only those roots that are below no other. */
 static void reduce_roots(froe_kinetic *k) {
     size_t kept = 0;
     for (size_t i = 0; i < k->roots.count; i++) {
@@ -137,7 +137,7 @@ static uint32_t common_root(const froe_kinetic *k) {
     return node;
 }
 
-/* Who takes part, and where. False: points in one place that have nothing to do with one another. */
+/* Collects the participants and places of a group. False: unrelated points may be in one place. */
 static bool call_crew(froe_kinetic *k, const group *g) {
     bool usual = true;
     live_new_crew(k);
@@ -160,7 +160,7 @@ static live_outcome pass_wall(froe_kinetic *k, const group *g) {
     return outcome;
 }
 
-/* Surgery in small cells, if the event is a simple one. False: it is not, or strangers came. */
+/* Surgery in small cells, if the event is a simple one. False: it is not, or participants were added. */
 static bool operate(froe_kinetic *k, const group *g, bool simple) {
     k->roots.count = 0;
     k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
@@ -174,7 +174,7 @@ static bool operate(froe_kinetic *k, const group *g, bool simple) {
     return true;
 }
 
-/* Widens the group's slab by what its crew has to do with, and takes in the items that it meets then. */
+/* Widens the group's slab by the near ends and crossings of its participants, and adds the items that it then meets. */
 static void widen(froe_kinetic *k, group *g) {
     size_t count;
     do {
@@ -190,7 +190,7 @@ static void widen(froe_kinetic *k, group *g) {
     } while (k->crew.count > count);
 }
 
-/* Surgery in one cell, none of whose borders has a part in this. */
+/* Surgery in one cell, none of whose borders is a participant. */
 static void operate_carefully(froe_kinetic *k, group *g) {
     do {
         widen(k, g);
@@ -280,7 +280,7 @@ static bool add_failed_cert(froe_kinetic *k, uint32_t cert) {
     if (k->certs.data[cert].kind >= CERT_TURN) return true;
     const now_claim claim = live_claim_of(k, cert);
     live_item item = {cert, k->certs.data[cert].kind, claim, {0, 0}};
-    if (now_holds(&k->now, &claim) >= 0) { /* between the last tick and this one it failed, and held again */
+    if (now_holds(&k->now, &claim) >= 0) { /* between the last tick and this one it failed and became true again */
         live_rearm(k, cert);
         return true;
     }
@@ -326,7 +326,7 @@ static void gather_failed_certs(froe_kinetic *k) {
     sort_items(k);
 }
 
-/* The items from i on whose slabs hang together. */
+/* The group that begins with item i. */
 static group group_from(const froe_kinetic *k, size_t i) {
     const live_item *items = k->items.data;
     group g = {i, 1, {items[i].slab[0], items[i].slab[1]}};
@@ -359,7 +359,7 @@ static bool is_free_turn(const froe_kinetic *k, const group *g) {
     return g->count == 1 && item->kind == CERT_TURN && live_turns_freely(k, item->cert);
 }
 
-/* Puts right what a group is about. */
+/* Repairs the tree where the certificates of a group fail. */
 static void repair(froe_kinetic *k, group *g, unsigned round) {
     const froe_event event = describe(k, g);
     bool simple = call_crew(k, g) && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
@@ -436,7 +436,7 @@ static void gather_leaving(froe_kinetic *k, int64_t tick) {
     }
 }
 
-/* Takes them out. Where one goes, others may turn out to lie in one line, and have to go, too. */
+/* Takes them out. Others in one line with them may have to be taken out, too. */
 static void let_leave(froe_kinetic *k, int64_t tick) {
     size_t gone = 0;
     k->leaving.count = 0;
@@ -447,7 +447,7 @@ static void let_leave(froe_kinetic *k, int64_t tick) {
     } while (!k->short_of_memory);
 }
 
-/* Ends that change sides: before anything else is asked at this tick, as sides depend on it. */
+/* Swaps the ends of segments that turn. This comes before any other question at the tick, as sides depend on it. */
 static void turn_segments(froe_kinetic *k) {
     k->turning.count = 0;
     live_due(k, k->now.tick);

@@ -4,7 +4,7 @@
  *      o     +                           Bernstein's form over an interval of ticks the polynomial lies within
  *     -------------o----- s              the hull of its coefficients: if these are surely positive, the claim
  *                +                       holds throughout; if their signs surely change once, there is one root,
- *                      +                 and no more is needed than to find the tick behind it. Otherwise the
+ *                      +                 and only the tick behind it is to be found. Otherwise the
  *                                        interval is halved (de Casteljau), and where doubles say nothing any more,
  * Descartes' rule is applied to the exact polynomial. Ticks are judged by predicates, never by polynomials.
  * Source: Lane and Riesenfeld, "Bounds on a polynomial", BIT 1981; Collins and Akritas, SYMSAC 1976. */
@@ -40,8 +40,8 @@ static int sign_near(const poly_ball *p, double s) {
     return y > error ? 1 : y < -error ? -1 : 0;
 }
 
-/* REQUIRES: within the span. Before lines become parallel their crossing leaves the segments, and this claim is gone:
- * nobody is lost. */
+/* REQUIRES: within the span. Before lines become parallel their crossing leaves the segments, and the claim is gone.
+ * So `lost` is restored. */
 static bool fails_at(const search *f, int64_t s) {
     now_state *now = f->now;
     int sign = sign_near(f->p, (double)s);
@@ -54,14 +54,14 @@ static bool fails_at(const search *f, int64_t s) {
     return fails;
 }
 
-/* Now is an odd tick: those to look at are s = 0, 2, 4, ... */
+/* The present tick is odd: claims are tested at s = 0, 2, 4, ... */
 static int64_t next_even(int64_t s) {
     return s + (s & 1);
 }
 
-#define MOST_STEP ((int64_t)1 << 40) /* beyond, halving is left to find the place */
+#define MOST_STEP ((int64_t)1 << 40) /* with larger steps, halving finds the place */
 
-/* The claim holds at `good` and not at `bad`, both even, and changes but once: find it, near a guess. */
+/* The claim holds at `good` and not at `bad`, both even, and changes once: finds that place, from a guess. */
 static int64_t bracket(const search *f, int64_t good, int64_t bad, int64_t guess) {
     int64_t step = 2, at = next_even(guess);
     while (bad - good > 2) {
@@ -168,7 +168,7 @@ static verdict judge(int d, const num_ball *b) {
     return changes == 1 && last < 0 ? ONE_ROOT : HALVE;
 }
 
-/* The claim changes but once from low to high: where? -1: behind the span, where other pieces hold. */
+/* Where a claim fails that changes once from low to high. -1: behind the span, where other pieces hold. */
 static int64_t try_one_root(const search *f, int64_t low, int64_t high) {
     const int64_t good = low & ~(int64_t)1, last = f->span & ~(int64_t)1;
     int64_t bad = next_even(high);
@@ -189,7 +189,7 @@ static int64_t try_all(const search *f, int64_t low, int64_t high) {
 
 /* ----------------------------------------------------------------- exactly -- */
 
-/* The polynomial is in `p`, or if it is too wide for that made anew each time. */
+/* The polynomial is in `p`, or is made anew each time if it is too wide for that. */
 static int count_roots(const search *f, const poly_wide *p, int64_t low, int power, int *sign) {
     if (p) return wide_variations(p, low, power, sign);
     poly_exact exact;
@@ -278,7 +278,7 @@ static int64_t least_last(now_state *now, uint32_t segment, int64_t last) {
     return last;
 }
 
-/* Up to which tick the flight of all that is behind a name is one polynomial. */
+/* The last tick up to which all vertices behind a name keep their pieces. */
 static int64_t named_last(now_state *now, now_name p, int64_t last) {
     if (p.b == NAME_VERTEX) {
         int64_t piece = now_course_last(now, p.a);

@@ -1,5 +1,5 @@
-/* grow.c: the partition of some segments in a cell, from scratch: the definition that everything else has to agree
- * with. The first segment in order cuts the cell; each part gets those of the others that reach into it.
+/* grow.c: the partition of some segments in a cell, from scratch: the definition of the tree, with which all updates
+ * agree. The first segment in order cuts the cell; each part gets those of the others that reach into it.
  *
  * Cells are open, walls are points in the order of x + eps y: an end on a wall needs none of its own, and what lies in
  * the line of an edge, touches it or ends on it from outside is not in the cell. This covers shared ends, ends on

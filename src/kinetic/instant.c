@@ -1,4 +1,4 @@
-/* instant.c: when an event happens, between two doubles next to one another.
+/* instant.c: the time of an event, between two neighbouring doubles.
  *
  *     early        f > 0                The certificate holds just after one odd tick and does not after the next. It
  *     ---|-------o---------|---- t      is a polynomial in between, so halving with its exact signs closes in on

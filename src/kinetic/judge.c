@@ -1,9 +1,9 @@
-/* judge.c: order and sides where doubles do not tell: in stack integers of 128 bits if these are wide enough, of 320,
+/* judge.c: order and sides where doubles do not decide: in stack integers of 128 bits if these are wide enough, of 320,
  * or in dyadic numbers, of any width.
  *
- * Vertices whose pieces last from the same instant to the same instant share their denominator, as most do: then it is
- * left out, for no order and no side depends on a common scale. How wide results can be follows from how wide the
- * vertices are at this tick; the formulas are those of poly_body.inc. */
+ * Vertices whose pieces last from the same instant to the same instant share their denominator, as most do. Then it is
+ * left out, for no order and no side depends on a common scale. The width of results follows from the width of the
+ * vertices at this tick; the formulas are those of poly_body.inc. */
 #include "kinetic/now.h"
 
 enum { SHORT_BITS = 126, WIDE_BITS = NUM_WIDE_BITS - 1, VERTICES = 8 };
@@ -80,7 +80,7 @@ static int common_clock(const cast *c) {
     return clock;
 }
 
-/* Gives all vertices one denominator, and forgets it. That of a parabola is a linear piece's own, squared. */
+/* Gives all vertices one denominator and drops it. That of a parabola is the square of a linear piece's. */
 static void drop_weights(cast *c) {
     const int clock = common_clock(c);
     if (clock < 0) return;

@@ -249,7 +249,7 @@ froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnosti
     return live_settle(k, diag);
 }
 
-/* From now to when the last of the segments of a vertex dies. */
+/* From now to the end of the last life of a segment at the vertex. */
 static void life_of(const froe_kinetic *k, uint32_t vertex, double life[2]) {
     const froe_motion *m = k->now.motion;
     life[0] = life[1] = time_at_tick(k, k->now.tick);
@@ -285,7 +285,7 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
 
 /* --------------------------------------------------------------- statistics -- */
 
-/* How deep the nodes below a place go. */
+/* The height of the tree. */
 static uint32_t height_of(const froe_kinetic *k) {
     uint32_t height = 0, depth = 1, node = node_at(k, ROOT)->child[0], slot = 0;
     if (!node) return 0;

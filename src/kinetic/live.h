@@ -8,8 +8,8 @@
  *                :______:__/__:_____:                 bottom of a cell are not stored, but found from the nodes
  *                   DOWN  bottom                      above.
  *
- * The tree is a function of the order of the segments (their keys) and of where they are; what there is to do when that
- * changes is in surgery.h, and how to know that it does in certificates.h. */
+ * The tree is a function of the order of the segments (their keys) and of where they are. How it is changed when that
+ * changes is in surgery.c, and how such a change is noticed in certificates.c. */
 #ifndef FROE_KINETIC_LIVE_H
 #define FROE_KINETIC_LIVE_H
 #include "base/task.h"
@@ -38,7 +38,7 @@ typedef struct live_node {
     uint8_t slot;            /**< which child of its parent it is: live_slot_of() */
     bool cut;                /**< the subtree has a wall of its own */
     bool half;               /**< the right part of a node that was cut; to be joined again */
-    bool turned;             /**< what that segment was when left and right were last told apart */
+    bool turned;             /**< `turned` of the turner when left and right were last told apart */
 } live_node;
 
 typedef struct live_cell {
@@ -61,9 +61,9 @@ typedef struct live_segment {
     uint32_t pairs; /**< the first pair with a segment in the same line: 2 pair + which of the two it is */
     uint32_t stamp;
     uint32_t crew; /**< stamp of the last event that it takes part in */
-    bool alive;    /**< it has been born and has not died */
-    bool here;     /**< it is among those of which the tree is made: alive, and not just a point */
-    bool bound;    /**< something of it was found to coincide, for as long as plans last, with something of another's */
+    bool alive;    /**< its life has begun and not ended */
+    bool here;     /**< the tree is made of it and others: it is alive and not a single point */
+    bool bound;    /**< a point of it coincides with a point of another segment for as long as the plans last */
     live_end end[2];
 } live_segment;
 
@@ -91,7 +91,7 @@ typedef struct live_cert {
                             too, and `claim` may be about what the borders were when it was made */
 } live_cert;
 
-/** A certificate's place in the queue; its tick is here, too, so that sorting looks at nothing else. */
+/** A certificate's entry in the queue. It holds the tick, too, so that sorting reads nothing else. */
 typedef struct live_turn {
     int64_t tick;
     uint32_t cert;
@@ -124,13 +124,13 @@ typedef struct live_cutting {
     uint8_t slot[2];
 } live_cutting;
 
-/** What a node that is cut keeps behind one of its walls, and what the other wall was. */
+/** What a cut node keeps behind one of its walls, and what its other wall was. */
 typedef struct live_half {
     uint32_t child, other;
     uint8_t side;
 } live_half;
 
-/** Fail ticks of certificates that were dropped since the last surgery began: many come back elsewhere. */
+/** Fail ticks of certificates dropped since the last surgery began: many claims are made again at another node. */
 typedef struct live_recent {
     now_claim claim;
     uint32_t stamp;
@@ -138,7 +138,7 @@ typedef struct live_recent {
 } live_recent;
 enum { RECENT = 1 << 10 };
 
-/** Who is told of events. */
+/** The callback that gets the events. */
 typedef struct live_watcher {
     froe_event_fn *visit;
     void *user;
@@ -152,7 +152,7 @@ typedef struct live_item {
     double slab[2]; /**< of x */
 } live_item;
 
-/** Where something happens: a box, and how far what is there moves in a tick. */
+/** Where something happens: a box, and how far its points move in a tick. */
 typedef struct live_place {
     double low[2], high[2], speed;
 } live_place;
@@ -182,13 +182,13 @@ struct froe_kinetic {
     ARRAY(live_task) tasks;
     ARRAY(live_visit) visits;
     ARRAY(live_cutting) cuttings;
-    ARRAY(uint32_t) ends;  /**< whose walls came or went: 2 segment + end */
+    ARRAY(uint32_t) ends;  /**< ends whose walls came or went: 2 segment + end */
     ARRAY(uint32_t) order; /**< scratch */
     ARRAY(live_item) items;
     ARRAY(live_place) places; /**< where things happen */
     ARRAY(uint32_t) crew;     /**< segments that take part */
     ARRAY(uint32_t) roots;    /**< nodes where surgery is needed */
-    ARRAY(uint32_t) leaving;  /**< 2 segment + 1: whose plan or life changes now; 2 segment: who may come to light */
+    ARRAY(uint32_t) leaving;  /**< 2 segment + 1: its plan or life changes now; 2 segment: it may come into the tree */
     ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */
     ARRAY(live_half) halves;  /**< of nodes that were cut */
     bool told;                /**< a visitor is being told of an event, */
@@ -273,29 +273,29 @@ void live_grow(froe_kinetic *k, const live_cell *cell, size_t first, uint32_t pa
 void live_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]);
 /** The inverse. Sets `broken` where the parts do not fit. */
 void live_join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot);
-/** What lies between the two lines is made anew in the cell of a node. False: somebody comes near who is not of the
- * crew; now he is, and the tree is as it was. */
+/** Makes anew what lies between the two lines in the cell of a node. False: segments that were not participants come
+ * near. They are participants now, and the tree is as it was. */
 bool live_slab(froe_kinetic *k, uint32_t node);
 /** The whole tree, whatever state it is in. */
 void live_restart(froe_kinetic *k);
 
 /* crowd.c */
-/** Nobody, at no place. */
+/** Empties the lists of participants and places. */
 void live_new_crew(froe_kinetic *k);
 bool live_in_crew(const froe_kinetic *k, uint32_t segment);
 void live_join_crew(froe_kinetic *k, uint32_t segment);
-/** Adds whom a certificate is about, and where. False: its points are in one place, and have nothing to do with one
- * another. */
+/** Adds the segments that a certificate is about, and the places of its points. False: the points may be in one place,
+ * although their segments are unrelated. */
 bool live_join_item(froe_kinetic *k, const live_item *item);
 /** Are its points about the same segments, so that they meet in one place? */
 bool live_belong_together(const froe_kinetic *k, const live_item *item);
-/** Has the crew, perhaps, ends in its places that the certificate does not speak of? */
+/** May a participant have an end in one of the places that is not a point of the certificate? */
 bool live_has_loose_ends(froe_kinetic *k, const live_item *item);
-/** Adds those that come near. False: nobody new. */
+/** Adds those segments that come near a place. False: nothing was added. */
 bool live_find_strangers(froe_kinetic *k, const uint32_t *segments, size_t count);
 /** Widens a slab by where two segments meet, or may have met two ticks ago. */
 void live_reach_pair(froe_kinetic *k, double slab[2], uint32_t s, uint32_t t);
-/** Widens a slab by the ends and crossings of the crew that are near. */
+/** Widens a slab by those ends and crossings of the participants that are near the places. */
 void live_reach_crew(froe_kinetic *k, double slab[2]);
 
 /* slab.c */
@@ -313,7 +313,7 @@ bool live_has_end(const froe_kinetic *k, uint32_t segment, uint32_t vertex);
 /* narrow.c */
 typedef enum live_outcome {
     LIVE_DONE,
-    LIVE_STRANGERS, /**< they are of the crew now; the tree is as it was */
+    LIVE_STRANGERS, /**< neighbours were added to the participants; the tree is as it was */
     LIVE_NOT_NARROW /**< nothing was done */
 } live_outcome;
 /** The point of a node passes a wall of its cell, away from the point that the wall belongs to. */
@@ -323,13 +323,13 @@ live_outcome live_pass(froe_kinetic *k, const live_item *item);
 uint32_t live_new_cert(froe_kinetic *k, cert_kind kind, uint32_t owner, int64_t tick, const now_claim *claim);
 void live_drop_cert(froe_kinetic *k, uint32_t cert);
 void live_set_tick(froe_kinetic *k, uint32_t cert, int64_t tick);
-/** When a claim fails that was dropped in this surgery; -1: not known. */
+/** When a claim fails that was dropped in this surgery; -1: unknown. */
 int64_t live_recall(const froe_kinetic *k, const now_claim *claim);
 /** The certificates due at a tick, as k->order. */
 void live_due(froe_kinetic *k, int64_t tick);
 
 /* certificates.c */
-/** A place in the tree: its cell, and what matters above of what was there. */
+/** A place in the tree: its cell, and what the nodes above depend on of what was there. */
 typedef struct live_site {
     uint32_t parent;
     uint8_t slot;
@@ -341,38 +341,38 @@ live_site live_site_of(const froe_kinetic *k, uint32_t node);
 void live_certify(froe_kinetic *k, const live_site *site);
 /** What a certificate says now. */
 now_claim live_claim_of(const froe_kinetic *k, uint32_t cert);
-/** It was due, but holds: when else does it fail? */
+/** For a certificate that was due, but holds: finds when it fails next. */
 void live_rearm(froe_kinetic *k, uint32_t cert);
 /** When a claim fails. */
 int64_t live_fail_tick(froe_kinetic *k, const now_claim *claim);
 /** The names of the walls of a region: CERT_LEFT, CERT_MIDDLE, CERT_RIGHT. */
 void live_borders(const froe_kinetic *k, uint32_t node, const live_cell *cell, cert_kind region, now_name out[2]);
-/** Looks up which end is left, and watches it. */
+/** Looks up which end is on the left, and makes the certificate of that. */
 void live_certify_turn(froe_kinetic *k, uint32_t segment);
 void live_forget_turn(froe_kinetic *k, uint32_t segment);
 void live_forget_ends(froe_kinetic *k, uint32_t segment);
 
 /* turns.c */
-/** Whose direction the walls of a node are named in is a function of these walls. */
+/** Sets the segment in whose direction the walls of a node are named, which is a function of these walls. */
 void live_name_walls(const froe_kinetic *k, uint32_t node);
 /** Two points coincide: the segments that they are about cannot turn without surgery. */
 void live_bind(froe_kinetic *k, now_name p, now_name q);
-/** May the segment have turned, and nothing else has to be done about it? */
+/** May the segment turn without surgery? */
 bool live_turns_freely(const froe_kinetic *k, uint32_t segment);
-/** A region's claim in words that do not change when the segment turns that both borders lie on. */
+/** States a region's claim so that a turn of the segment on which both borders lie does not change it. */
 void live_name_along(const froe_kinetic *k, now_claim *claim);
 /** Makes a region's certificate hold beyond the turns of the segments at its borders, if it does not yet. */
 void live_cover_turns(froe_kinetic *k, uint32_t cert);
 /** When the first of the segments turns that a claim is about points of. */
 int64_t live_first_turn(const froe_kinetic *k, const now_claim *claim);
 /** A node is cut, or one of its walls comes, and what it keeps on `side` stays: when both walls of the node are there
- * again, what hugs the kept one has to be looked at, if the other one is not what it was. */
+ * again, the regions at the kept one have to be certified, if the other one is not what it was. */
 void live_note_half(froe_kinetic *k, uint32_t node, int side);
-/** Looks at all that was noted. */
+/** Certifies the regions at all noted walls. */
 void live_certify_halves(froe_kinetic *k);
 
 /* pairs.c */
-/** Watches segments in one line. */
+/** Makes the certificate of two segments in one line. */
 void live_watch_pair(froe_kinetic *k, uint32_t s, uint32_t t);
 /** When the ends of two such change their order. */
 int64_t live_pair_tick(froe_kinetic *k, const uint32_t segment[2]);
@@ -381,11 +381,11 @@ void live_partners(froe_kinetic *k, uint32_t s);
 void live_forget_pairs(froe_kinetic *k, uint32_t s);
 
 /* change.c */
-/** It takes part from now on, if it has a length, but is not in the tree yet. */
+/** Lets a segment take part from now on, if it has a length, without putting it into the tree. */
 void live_enroll(froe_kinetic *k, uint32_t segment);
-/** It does not any more. */
+/** The inverse. */
 void live_unroll(froe_kinetic *k, uint32_t segment);
-/** It takes part, and is in the tree. */
+/** Lets a segment take part, and puts it into the tree. */
 void live_insert(froe_kinetic *k, uint32_t segment);
 void live_remove(froe_kinetic *k, uint32_t segment);
 /** (Re)sets when the segment appears or goes, and when the flight of its ends changes. */
@@ -395,17 +395,17 @@ void live_schedule(froe_kinetic *k, uint32_t segment);
 /** The same segments in the same order at the same time, made from scratch, as a part of the call under way. */
 froe_status live_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *diag);
 
-/** Has its time come, and not gone? */
+/** Is the present within the life of the segment? */
 bool live_is_there(const froe_kinetic *k, uint32_t segment);
 
 /* call.c */
-/** A call from outside begins: what it is about is up to date, and the tree complete. FROE_E_MEMORY, FROE_E_CANCELLED. */
+/** Begins a public call: brings the state up to date and completes the tree. FROE_E_MEMORY, FROE_E_CANCELLED. */
 froe_status live_begin(froe_kinetic *k, froe_diagnostic *diag);
-/** A call ends, or a part of it: memory that ran out meanwhile may be there now, and then everything is made anew. */
+/** Ends a call or a part of it: where memory ran out, makes everything anew, for which memory may suffice now. */
 froe_status live_settle(froe_kinetic *k, froe_diagnostic *diag);
-/** Something that takes long goes on: is it to? Asks the caller now and then. */
+/** Is a long operation to go on? Asks the caller now and then. */
 bool live_goes_on(froe_kinetic *k);
-/** The same while the tree is made: if it is not to go on, the tree is left incomplete. */
+/** The same while the tree is made: a cancelled call leaves the tree incomplete. */
 static inline void live_poll(froe_kinetic *k) {
     if (!live_goes_on(k)) k->short_of_memory = true;
 }
@@ -413,14 +413,14 @@ static inline void live_poll(froe_kinetic *k) {
 froe_status live_fail(froe_kinetic *k, froe_diagnostic *diag);
 
 /* audit.c */
-/** The first node of each that differs from that of the other, in its certificates, too, if that is asked; LEAF: none.
+/** The first node of each that differs from that of the other, with `certificates` also in these; LEAF: none.
  * FROE_E_MEMORY. */
 froe_status live_compare(const froe_kinetic *k, const froe_kinetic *other, bool certificates, uint32_t found[2]);
 
 /* events.c */
 /** The next tick at which something happens; NOW_NEVER: nothing does. */
 int64_t live_next_tick(const froe_kinetic *k);
-/** Goes to that tick, or to `tick` if nothing happens before. False: the visitor had enough. */
+/** Goes to that tick, or to `tick` if nothing happens before. False: the visitor asked to stop. */
 bool live_step(froe_kinetic *k, int64_t tick, const live_watcher *watcher);
 /** The last odd tick of the window. */
 int64_t live_last_tick(const froe_kinetic *k);

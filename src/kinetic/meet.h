@@ -1,4 +1,4 @@
-/* meet.h: when do two moving segments meet, while no vertex changes its piece?
+/* meet.h: the times at which two moving segments meet, while no vertex changes its piece.
  *
  *     time    a |----====-----=---| b          = they meet: closed intervals, maybe single instants
  *

@@ -1,4 +1,4 @@
-/* motion.h: flight plans from inside: knots, pieces between them, and where a vertex is at a tick.
+/* motion.h: the internal form of flight plans: knots, pieces between them, and where a vertex is at a tick.
  *
  *     tick u  =  the time  begin + u 2^power,   0 <= u <= last_tick <= 2^52
  *
@@ -46,7 +46,7 @@ struct froe_motion {
     int64_t last_tick;       /**< the last in the window */
     int unit, top;           /**< all coordinates are multiples of 2^unit, below 2^top in size */
     int time_unit, time_top; /**< all times, alike */
-    uint64_t edition;        /**< another one when plans have changed, or knots may have moved in memory */
+    uint64_t edition;        /**< changes when plans change or knots may move in memory */
     ARRAY(motion_knot) knots;
     ARRAY(motion_plan) plans; /**< [vertex] */
     ARRAY(motion_object) objects;

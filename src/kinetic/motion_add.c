@@ -1,4 +1,4 @@
-/* motion_add.c: flight plans enter a motion, all of a batch or nothing; and what may be wrong with them.
+/* motion_add.c: flight plans enter a motion, all of a batch or nothing; and the checks of their input.
  *
  * Knots are written behind the published counts; a batch that fails is forgotten. */
 #include "base/floats.h"

@@ -90,7 +90,7 @@ live_cell live_plane(void) {
     return (live_cell){{{0, NAME_NONE}, {0, NAME_NONE}}, FROE_NONE, FROE_NONE};
 }
 
-/* Looks up what it is called only if that is still asked. */
+/* Looks up the name of a wall if it is not known yet. */
 static void take_wall(const froe_kinetic *k, now_name *wall, const live_node *node, int side) {
     if (node->wall[side] != END_NONE && !name_exists(*wall)) *wall = wall_name(k, node->segment, node->wall[side]);
 }

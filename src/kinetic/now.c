@@ -52,7 +52,7 @@ froe_status now_grow(now_state *now) {
     return FROE_OK;
 }
 
-/* They stand still for ever. */
+/* Both points of the segment stand still for ever. */
 uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
     uint32_t segment = (uint32_t)now->segments.count - 1, first = (uint32_t)now->courses.count - 2;
     for (uint32_t i = 0; i < 2; i++) {

@@ -27,13 +27,13 @@ typedef struct now_name {
 /** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2 with s = tick - base. Coefficients of
  * s^2 are kept elsewhere, so that this is a cache line. */
 typedef struct now_course {
-    int64_t base, last; /**< ticks of the piece for which it holds; base > last: not looked at yet */
+    int64_t base, last; /**< ticks of the piece for which it holds; base > last: not looked up yet */
     double x[2], y[2];
     double error;    /**< no coordinate is further off while it holds */
     uint32_t degree; /**< 0, 1 or 2 */
 } now_course;
 
-/** What is asked for less: where the piece is, and the coefficients of s^2. */
+/** What is needed less often: the place of the piece, and the coefficients of s^2. */
 typedef struct now_bend {
     double x, y;
     motion_piece piece;
@@ -56,12 +56,12 @@ typedef struct now_segment {
     bool turned;     /**< end[1] is on the left */
 } now_segment;
 
-/** What decides where doubles do not: integers of 128 bits, of 320, or dyadic numbers (judge.c). */
+/** The numbers that decide where doubles do not: integers of 128 bits, of 320, or dyadic numbers (judge.c). */
 typedef enum now_stage { NOW_SHORT, NOW_WIDE, NOW_DYADIC, NOW_STAGES } now_stage;
 
 typedef struct now_state {
     froe_motion *motion;
-    uint64_t edition; /**< of the motion: courses, bends and memories are of its plans as they were then */
+    uint64_t edition; /**< of the motion when courses, bends and memories were computed */
     int64_t tick;
     double line[2];
     ARRAY(now_course) courses;   /**< [vertex]; the last two are ends of a question */
@@ -71,19 +71,19 @@ typedef struct now_state {
     now_memory *memories;        /**< of crossings, by a hash of their names */
     num_context context;
     now_stage least;             /**< where judging begins; tests begin with each */
-    uint64_t judged[NOW_STAGES]; /**< questions that doubles left open, by who decided them */
-    bool lost;                   /**< somebody asked where parallel lines cross */
-    bool tied; /**< something was asked that is equal at the tick, though not just after it, perhaps */
+    uint64_t judged[NOW_STAGES]; /**< questions that doubles left open, by the stage that decided them */
+    bool lost;                   /**< the crossing of parallel lines was asked for */
+    bool tied;                   /**< a comparison was equal at the tick, and perhaps not just after it */
 } now_state;
 
 froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out);
 void now_free(now_state *now);
 /** Room for all that the motion has by now. */
 froe_status now_grow(now_state *now);
-/** Forgets what it knows of plans, and of where they lead, if the motion has got others since. Whoever is called from
- * outside calls this first. */
+/** Forgets what it has stored about plans, if the motion has got others since. Every public function calls this
+ * first. */
 void now_catch_up(now_state *now);
-/** The segment of a question: from one point to another, which do not move. It takes no part in anything. The points
+/** The segment of a question: from one point to another, which do not move. It is not in the tree. The points
  * are the vertices `end` of the segment that is returned. */
 uint32_t now_ask(now_state *now, const double from[2], const double to[2]);
 static inline bool now_is_question(const now_state *now, uint32_t segment) {
@@ -178,8 +178,8 @@ static inline bool claim_is(const now_claim *c, const now_claim *d) {
 int now_holds(now_state *now, const now_claim *claim);
 /** The first odd tick after which the claim does not hold, or the present one, or after which the lines of a crossing
  * that it is about do not turn as they do now, as they were parallel in between; NOW_NEVER if none comes before the
- * flight of one of its vertices takes another piece. A function of the claim and of what flies: asked again before it
- * comes, it is the same. */
+ * flight of one of its vertices takes another piece. A function of the claim and of the plans: asked again
+ * before that tick, it is the same. */
 int64_t now_first_failure(now_state *now, const now_claim *claim);
 
 /** The polynomials behind a claim about time from now on: > 0 while it holds. In coordinate `axis` for points. */
@@ -193,14 +193,14 @@ bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t sp
 int now_claim_axis(now_state *now, const now_claim *claim);
 
 /* limit.c */
-/** Roughly where a point is; what is nowhere at the tick is where it is just after it. */
+/** Roughly where a point is. A point without a place at the tick is where it is just after it. */
 void now_place_near(now_state *now, now_name p, double out[2]);
 /** Roughly y of a segment where it has the x of a point, which is between its ends. */
 double now_height_near(now_state *now, uint32_t segment, now_name p);
 
 /* along.c */
-/** The segment that two points lie on by their names: crossings with it, and ends of it; FROE_NONE: there is none. Two
- * ends do not tell. */
+/** The segment that two points lie on by their names: crossings with it, and ends of it; FROE_NONE: there is none, or
+ * both are ends. */
 uint32_t now_shared(const now_state *now, now_name p, now_name q);
 /** As now_holds(), now_claim_ball() and now_claim_exact(), of claims NOW_ALONG that hold. */
 int now_along_holds(now_state *now, const now_claim *claim);

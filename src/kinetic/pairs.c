@@ -1,5 +1,5 @@
 /* pairs.c: segments in one line, as cars in one lane. Where two of them overlap only the earlier in order is in the
- * tree; so nothing in the tree would tell when an end of the other comes out, and their ends are watched here. */
+ * tree. The tree does not show when an end of the other comes out, so the order of their ends has certificates. */
 #include "kinetic/live.h"
 
 /* The next pair in a list of those of one segment: 2 pair + which of the two it is. */

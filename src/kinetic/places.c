@@ -6,7 +6,7 @@
 static bool append_limbs(froe_places *p, num_dyadic a, int low, places_part *out) {
     const size_t zeros = a.sign ? (size_t)(a.exponent - low) : 0;
     *out = (places_part){p->limbs.count, (uint32_t)(zeros + a.count), a.sign};
-    if (!a.sign) return true; /* no limbs, and perhaps nowhere to put them */
+    if (!a.sign) return true; /* no limbs, and perhaps no array */
     if (!array_reserve(&p->alloc, &p->limbs, out->count)) return false;
     uint64_t *to = p->limbs.data + p->limbs.count;
     memset(to, 0, zeros * sizeof *to);
@@ -15,7 +15,7 @@ static bool append_limbs(froe_places *p, num_dyadic a, int low, places_part *out
     return true;
 }
 
-/* The last limbs of all three that are no zeros: twos that they have in common are taken out. */
+/* Takes out the powers of two that all three numbers have in common. */
 static void reduce(froe_places *p, places_part part[3]) {
     uint64_t low = 0;
     for (int i = 0; i < 3; i++) low |= part[i].count ? p->limbs.data[part[i].at] : 0;
@@ -92,7 +92,7 @@ static uint64_t take_digits(uint64_t *limbs, size_t *count) {
 size_t froe_whole_text(const froe_whole *number, char *out, size_t size) {
     uint64_t limbs[MOST_LIMBS];
     size_t count = number && number->count <= MOST_LIMBS ? number->count : 0, length = 0;
-    char digits[MOST_LIMBS * 20 + 2]; /* the last first */
+    char digits[MOST_LIMBS * 20 + 2]; /* the least significant first */
     for (size_t i = 0; i < count; i++) limbs[i] = number->limbs[i];
     while (count) {
         uint64_t part = take_digits(limbs, &count);

@@ -1,4 +1,4 @@
-/* places.h: where the ends of a snapshot's objects are, exactly, from inside. */
+/* places.h: where the ends of a snapshot's objects are, exactly: the internal type. */
 #ifndef FROE_KINETIC_PLACES_H
 #define FROE_KINETIC_PLACES_H
 #include "kinetic/poly.h"

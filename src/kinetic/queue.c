@@ -75,7 +75,7 @@ uint32_t live_new_cert(froe_kinetic *k, cert_kind kind, uint32_t owner, int64_t 
     return cert;
 }
 
-/* A place of its own for each pair of names, as long as nobody else takes it. */
+/* The slot for a pair of names, by a hash. Another pair may have overwritten it. */
 static live_recent *recent_at(const froe_kinetic *k, const now_claim *c) {
     uint64_t hash = ((uint64_t)c->p.a << 32 | (uint32_t)c->p.b) * 0x9e3779b97f4a7c15u;
     hash = (hash ^ ((uint64_t)c->q.a << 32 | (uint32_t)c->q.b)) * 0xbf58476d1ce4e5b9u;

@@ -1,8 +1,8 @@
-/* slab.c: between which x all that happens takes place. */
+/* slab.c: the range of x in which an event takes place. */
 #include "kinetic/live.h"
 #include <math.h>
 
-/* Coordinates up to 2^SAFE_TOP: what crowds and slabs are found by, products of two differences, is no infinity. */
+/* Coordinates up to 2^SAFE_TOP: participants and slabs are found by products of two differences, which stay finite. */
 enum { SAFE_TOP = 480 };
 
 bool live_has_end(const froe_kinetic *k, uint32_t segment, uint32_t vertex) {
@@ -50,7 +50,7 @@ bool live_is_one_segment(const froe_kinetic *k, now_name p, now_name q) {
 
 void live_find_slab(froe_kinetic *k, live_item *item) {
     now_name p = item->claim.p, q = item->claim.q, third;
-    if (k->now.motion->top > SAFE_TOP) { /* all together, and the whole tree anew */
+    if (k->now.motion->top > SAFE_TOP) { /* one group, and the whole tree anew */
         item->slab[0] = -(double)INFINITY, item->slab[1] = (double)INFINITY;
         return;
     }

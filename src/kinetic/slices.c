@@ -1,4 +1,4 @@
-/* slices.c: see slices.h. How finely is a matter of speed alone. */
+/* slices.c: see slices.h. The fineness of the slices affects speed alone. */
 #include "kinetic/slices.h"
 #include <float.h>
 
@@ -42,7 +42,7 @@ static bool put_slice(slicing *s, uint32_t object, const motion_piece piece[2], 
     return true;
 }
 
-/* How many times farther than the object is large do its vertices go? */
+/* The way of the vertices divided by the size of the object. */
 static double travel(const slicing *s, const motion_piece piece[2], double from, double to) {
     double way = 0, size = s->spacing, at[2][2];
     for (int i = 0; i < 2; i++) {

@@ -17,7 +17,7 @@ typedef struct picture {
     uint32_t first_rounded; /* id in the motion */
     double *coords;
     uint64_t *tags;
-    froe_places *places; /* NULL: nobody wants them */
+    froe_places *places; /* NULL: not asked for */
 } picture;
 
 static bool picture_new(froe_kinetic *k, bool places, picture *p) {
@@ -102,7 +102,7 @@ static froe_status build_snapshot_tree(const picture *p, froe_tree **tree, froe_
 
 /* ------------------------------------------------------------------- alike -- */
 
-/* Nodes that should be the same; the tree has one for each cut of a live node. Of objects that are equal the tree names
+/* Nodes to compare; the tree has one for each cut of a live node. Of objects that are equal the tree names
  * the first one. */
 typedef struct twins {
     uint32_t live;

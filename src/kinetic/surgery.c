@@ -3,10 +3,10 @@
  *          x1    x2           What happens at an instant changes the partition only near one x, so the tree of
  *     _____:______:_____      a cell is cut in three there, the middle is made from scratch, and the three are
  *     |  A |  T   | B  |      joined again. Cut and join are exact inverses: both walk down the nodes that the line
- *     |    | x o  |    |      crosses. The slab hardly holds more than what crosses it, as both lines are as
- *     |____:______:____|      close to the event as doubles can tell.
+ *     |    | x o  |    |      crosses. The slab holds little besides what crosses it, as both lines are as
+ *     |____:______:____|      close to the event as doubles can be.
  *
- * That this gives the very tree that is made from scratch rests on one fact: a node's segment is the first, in order,
+ * The result is the very tree that is made from scratch, because of one fact: a node's segment is the first, in order,
  * of those that reach into its cell. If the roots of two neighbours differ, the earlier of the two segments does not
  * reach the border between them, so it ends at a wall of its own, and the other tree belongs behind that wall. */
 #include "kinetic/live.h"
@@ -46,7 +46,7 @@ static void split_node(froe_kinetic *k, const live_cutting *c, now_name line) {
         if (side == LEFT ? order > 0 : order < 0) continue;
         uint32_t parent[2] = {c->parent[0], c->parent[1]};
         uint8_t slot[2] = {c->slot[0], c->slot[1]};
-        live_attach(k, parent[1 - side], slot[1 - side], c->a); /* as a whole to the other side */
+        live_attach(k, parent[1 - side], slot[1 - side], c->a); /* it goes to the other side as a whole */
         parent[1 - side] = c->a, slot[1 - side] = (uint8_t)side;
         push_cutting(k, n->child[side], LEAF, parent, slot);
         return;
@@ -132,7 +132,7 @@ void live_join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t
 
 /* -------------------------------------------------------------------- slab -- */
 
-/* Does anybody in the slab, or on its borders, take part who is not of the crew? */
+/* Adds the segments in the slab, and the borders of the cell, that come near a place. True: some were added. */
 static bool has_strangers(froe_kinetic *k, const live_cell *cell) {
     const uint32_t border[2] = {cell->top, cell->bottom};
     bool found = live_find_strangers(k, border, 2);
@@ -164,7 +164,7 @@ bool live_slab(froe_kinetic *k, uint32_t node) {
     return !strangers;
 }
 
-/* Nodes that hang nowhere any more count as free. */
+/* Counts nodes without a parent as free. */
 static void forget_nodes(froe_kinetic *k) {
     for (uint32_t i = FIRST_NODE; i < k->nodes.count; i++)
         if (node_at(k, i)->segment != FROE_NONE) live_free_node(k, i);

@@ -4,8 +4,8 @@
  *      : / :    ->    : \ :        two walls in each cell, and of every wall at a crossing with a later segment, with
  *     -:/--:-        -:--\:-       what is behind it. So walls are named in the direction of a segment, from its
  *      :a  :          :  a:        end 0 to its end 1: two walls of a node in that of the node's own segment, one at
- * a crossing in that of the segment that is crossed. To turn is to turn that direction; a node is told left from right
- * anew when somebody comes by (node_at). What is left and right of the two walls of a node stays there.
+ * a crossing in that of the segment that is crossed. To turn is to turn that direction; left and right of a
+ * node are updated when it is next read (node_at). What is left and right of the two walls of a node stays there.
  *
  * Certificates must not change, either. The order of two points of one segment is told along it (along.c). What hugs a
  * wall of the segment from outside has to keep away from the other wall, too, which is the nearer one afterwards: where
@@ -16,7 +16,7 @@
  * order by its turn. This leaves points without a wall, as they coincide with others for as long as plans last; when
  * some are found, the segments there are bound, and turn as all do in an ordinary partition: by surgery. So do those
  * that share a vertex. That walls of two nodes need names of different directions is from the specification; that
- * certificates need care is ours. */
+ * certificates must cover the turn is not in the paper. */
 #include "kinetic/live.h"
 
 /* ------------------------------------------------------------------- walls -- */
@@ -97,7 +97,7 @@ static int64_t turn_tick(const froe_kinetic *k, uint32_t segment) {
     return cert == CERT_NONE ? NOW_NEVER : k->certs.data[cert].tick;
 }
 
-/* When the first of the segments turns that a name is about. */
+/* When the first of the segments turns that are behind a name. */
 static int64_t first_turn(const froe_kinetic *k, now_name p) {
     int64_t first = NOW_NEVER;
     if (name_is_crossing(p)) {
