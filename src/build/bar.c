@@ -52,7 +52,7 @@ static const froe_option_info options[] = {
     {0},
 };
 
-/* What the cells of all threads have come to. */
+/* Notes on the cells of all threads. */
 typedef struct bar_notes {
     atomic_uint_least32_t unbalanced; /* cells whose points no sequence of cuts has brought down */
     _Atomic double aspect;

@@ -1,4 +1,4 @@
-/* build.c: froe_build: check what is asked for, find the method, let it work. */
+/* build.c: froe_build: checks the request, finds the method and runs it. */
 #include "base/floats.h"
 #include "base/status.h"
 #include "build/options.h"
@@ -71,7 +71,7 @@ static froe_status refuse_method(const char *name, froe_diagnostic *diag) {
 /* Grain takes about 40 us a segment, eight to fifteen times as long as density, for a tenth fewer pieces. */
 enum { SEGMENTS_FOR_GRAIN = 1 << 16 };
 
-/** Grain has the fewest pieces of polygons, and of segments where it has time; queries do not thank it for that. */
+/** Grain has the fewest pieces of polygons, and of segments where these are not too many; queries gain nothing. */
 static bool suits_grain(const froe_scene *scene, uint32_t kinds) {
     const uint32_t point = 1u << FROE_POINT, segment = 1u << FROE_SEGMENT, polygon = 1u << FROE_POLYGON;
     if (scene->dim == 2)
@@ -180,7 +180,7 @@ static froe_status prepare(const froe_build_options *o, const build_method *meth
     return FROE_OK;
 }
 
-/** A caller's decimal comma must neither refuse settings nor get into trees. */
+/** In the C locale: a decimal comma would make settings invalid, or get into trees. */
 static froe_status prepare_in_any_locale(const froe_build_options *o, const build_method *method, bool tuned,
                                          build_job *job) {
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), callers;

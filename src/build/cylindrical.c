@@ -75,7 +75,7 @@ static froe_status grow_cylindrical(build_job *job, const uint32_t *order, uint3
     return status;
 }
 
-/** Each wall, edge and plane on a path is another one. */
+/** A bound on the height: no wall, edge or plane comes twice on a path. */
 static double any_height(const froe_scene *scene) {
     return 3.0 * scene->corner_count + scene->object_count;
 }

@@ -4,7 +4,7 @@
  *     surface    where a line that comes into the bounds of the cell's objects is expected to meet fewest: objects of
  *                a side, times the surface of their bounds (MacDonald and Booth: Heuristics for ray tracing using space
  *                subdivision, 1990; Wald and Havran: On building fast kd-trees for ray tracing, 2006, whose clipped
- *                objects are our fragments). All ends are tried, in one walk over each axis.
+ *                objects are fragments here). All ends are tried, in one walk over each axis.
  *
  * A baseline: nothing bounds how often objects are cut but the limit that split/axial.h sets. */
 #include "base/status.h"

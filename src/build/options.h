@@ -2,8 +2,8 @@
  *
  *     info.options   [ public options .. | end | tuning .. | end ]
  *
- * Tuning is what no user needs: constants that were chosen by measurement, and switches that leave a part of a method
- * out. Tests and benches set it by build_tuned(). It is neither listed nor saved with a tree. */
+ * Tuning is for tests and benches: constants that were chosen by measurement, and switches that leave a part of a
+ * method out. It is set by build_tuned(). It is neither listed nor saved with a tree. */
 #ifndef FROE_BUILD_OPTIONS_H
 #define FROE_BUILD_OPTIONS_H
 #include "build/method.h"

@@ -9,7 +9,7 @@
  *                    partitions for orthogonal rectangles in practice, 1998).
  *
  * Free cuts of the papers run through a facet that crosses its cell. In a cell of disjoint objects such a cut divides
- * nothing; that is what is asked here, so that gaps count, too. */
+ * nothing; that is the condition here, so gaps count, too. */
 #include "base/status.h"
 #include "build/conversion/endpoints.h"
 #include "split/axial.h"
@@ -40,7 +40,7 @@ static int extents(const froe_scene *s, uint32_t object) {
     return count;
 }
 
-/** Segments and polygons are, when they lie in axis-parallel lines and planes. */
+/** Segments and polygons are when they lie in axis-parallel lines and planes; all other kinds are. */
 static bool is_orthogonal(const froe_scene *s) {
     for (uint32_t i = 0; i < s->object_count; i++) {
         froe_kind form = scene_form(s, i);

@@ -11,7 +11,7 @@ void split_axes_free(const froe_allocator *alloc, split_axes *a) {
     array_free(alloc, &a->pairs);
 }
 
-/** Of an image that has left the range of doubles nothing is known. */
+/** An image with an infinite end counts as unbounded on both sides. */
 static void extent(const split_set *set, const split_fragment *f, int axis, double *low, double *high) {
     split_extent(set, f, axis, low, high);
     if (isfinite(*low) && isfinite(*high)) return;

@@ -158,7 +158,7 @@ static froe_status push_child_cells(split_work *work, const split_cell side[2]) 
     return FROE_OK;
 }
 
-/** How a stage that may give cells up gets on: see density.c. */
+/** Tells the children the fragmentation and the barren cuts so far: see density.c. */
 static void note_progress(const split_cell *parent, uint32_t in_cut, split_cell side[2]) {
     float before = split_load(parent) ? (float)split_load(parent) : 1;
     float after = (float)split_load(&side[0]) + (float)split_load(&side[1]) + (float)in_cut;

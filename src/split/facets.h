@@ -1,9 +1,9 @@
-/* facets.h: a cell of polygons laid out for scoring: every corner once, and who has it.
+/* facets.h: a cell of polygons laid out for scoring: every corner once, and the fragments that have it.
  *
  *        1-------2          corners    x[], y[], z[]; the input vertex each is, if it is one
  *       / \  b  /           fragments  a: 0 3 1   b: 1 3 2
  *      / a \   /
- *     0-----\-3             a plane looks at 4 corners, not at 6; in a mesh at a sixth of them
+ *     0-----\-3             a plane is compared with 4 corners, not 6; in a mesh with a sixth of them
  *
  * Coordinates are relative to the middle of the cell and of size at most 1/2, so a score does not depend on
  * where the scene lies, nor, for powers of two, on its scale. Counting is in plain doubles and

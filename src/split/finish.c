@@ -16,7 +16,7 @@ typedef struct row {
     mask sure;         /* for which below and above are the exact answer */
 } row;
 
-/** A cell on its way. */
+/** A cell that is still to be cut. */
 typedef struct part {
     mask set;
     uint64_t path;
@@ -67,7 +67,7 @@ static uint32_t take_column(mask *set) {
     return column;
 }
 
-static uint32_t size(mask set) { /* the plain architecture has no instruction for it */
+static uint32_t size(mask set) { /* baseline x86-64 has no instruction for it */
     set -= set >> 1 & 0x5555555555555555u;
     set = (set & 0x3333333333333333u) + (set >> 2 & 0x3333333333333333u);
     set = (set + (set >> 4)) & 0x0f0f0f0f0f0f0f0fu;
@@ -176,7 +176,7 @@ static row *row_of(finish *f, uint32_t piece, mask set) {
     return r;
 }
 
-/** A piece got halves in columns `one`, where it was, and `other`: they are where it was, unless that is both sides. */
+/** A piece was divided into columns `one`, its own, and `other`: both lie where it lay, unless that is both sides. */
 static void inherit(row *r, uint32_t one, uint32_t other) {
     bool known = r->known & ~(r->below & r->above) & bit(one);
     put_columns(&r->known, bit(one) | bit(other), known);

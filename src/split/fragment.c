@@ -63,7 +63,7 @@ static int known_side(split_set *set, int side) {
     return side;
 }
 
-/** Beyond the filter: a vertex that the plane runs through by its making (equal coordinates are the
+/** Beyond the filter: a vertex that the plane contains by construction (equal coordinates are the
  * same vertex), or any other. */
 static int near_vertex_side(split_set *set, const split_plane *plane, const double *x) {
     int dim = set->scene->dim;
@@ -234,7 +234,7 @@ static int classify_corners(split_set *set, const split_plane *plane, const spli
     return class;
 }
 
-/** Whole segments beside a line, the commonest question of all. */
+/** Whole segments beside a line, the commonest case of all. */
 static int classify_pair(split_set *set, const split_plane *plane, const split_fragment *f) {
     const double *u = split_image(set, f, 0), *v = split_image(set, f, 1);
     int a = filter_beside_line(&plane->plane, u), b = filter_beside_line(&plane->plane, v);

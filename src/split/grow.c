@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Cells of at most max(least, n / share) fragments become tasks, except tiny ones, not worth the trouble. */
+/* Cells of at most max(least, n / share) fragments become tasks, except tiny ones, which do not pay for a task. */
 enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_SHARE = 64, REGROWN = 4 };
 
 typedef struct grow_task {
@@ -63,7 +63,7 @@ static uint8_t leaf_flags(split_verdict verdict) {
     return verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : verdict == SPLIT_CROWDED ? TREE_CROWDED : 0;
 }
 
-/** Cuts the cell and furnishes the rooms of its children. */
+/** Cuts the cell and fills the rooms of its children. */
 static froe_status divide_cell(const split_method *method, split_work *work, const split_cell *cell,
                                const froe_cut *cut, bool guard, bool *useless) {
     froe_status status = cell_cut(work, cell, cut, guard ? TREE_GUARD : 0, useless);
@@ -138,7 +138,7 @@ static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
             status = put_off(g, work, &cell);
         else
             status = grow_cell(g, work, &cell);
-        bool ask = main_part || turn % 64 == 63; /* in tasks, too: one may be all there is */
+        bool ask = main_part || turn % 64 == 63; /* in tasks, too: one task may be nearly the whole build */
         if (ask && !status && !split_go_on(work)) status = FROE_E_CANCELLED;
     }
     return status;
@@ -163,7 +163,7 @@ static froe_status start_workers(grow *g) {
     return status;
 }
 
-/** The root cell: all objects, not yet cut, by home; or as fragments where there is no guard stage. */
+/** The root cell: all objects, not yet cut, in the order of homes.h; or as fragments without a guard stage. */
 static froe_status push_root(grow *g, split_work *work) {
     uint32_t n = g->job->scene->object_count;
     split_cell root = {.path = 1, .guard = FROE_NONE, .growth = 1};

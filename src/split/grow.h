@@ -42,7 +42,7 @@ typedef enum split_verdict {
     SPLIT_REFUSE,      /**< end the whole build with FROE_E_INPUT: the objects work->crossing cross */
     SPLIT_GIVE_UP,     /**< end the whole build with FROE_E_BUDGET */
     SPLIT_MEMORY,      /**< out of memory */
-    SPLIT_CANCELLED    /**< split_go_on() said no */
+    SPLIT_CANCELLED    /**< split_go_on() returned false */
 } split_verdict;
 
 /** One thread's working state; `scratch` is the builder's, one per worker. */
@@ -55,10 +55,10 @@ typedef struct split_work {
     uint32_t crossing[2]; /**< on SPLIT_REFUSE; otherwise FROE_NONE */
     uint32_t deepest;     /**< depth of the deepest cell of the current subtree */
     uint64_t most;        /**< pieces that a subtree grown again may have; 0: the first time, max_fragments counts */
-    bool calling;         /**< on the thread that the caller's call is on, the only one that talks to his callback */
+    bool calling;         /**< on the thread of the caller's call, the only one that calls the callback */
 } split_work;
 
-/** False once the build is cancelled. For methods to ask in loops that one cell may make long. */
+/** False once the build is cancelled. Methods call it in loops that one cell may make long. */
 static inline bool split_go_on(const split_work *work) {
     return work->calling ? base_progress(work->task, work->task->done) : !base_cancelled(work->task);
 }
@@ -68,9 +68,9 @@ typedef struct split_method {
     const void *config;
     /** Names the cut of a cell whose fragments are set->items[first ..]. Deterministic. */
     split_verdict (*choose)(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
-    /** Grows the whole subtree of a cell at once; *done false: no, by cuts. NULL: never. */
+    /** Grows the whole subtree of a cell at once; *done false: the cell is to be cut. NULL: never done. */
     froe_status (*finish)(const void *config, split_work *work, const split_cell *cell, bool *done);
-    /** Furnishes the rooms of the children, positive and negative, of a cell that `cut` has just cut: so far they are
+    /** Fills the rooms of the children, positive and negative, of a cell that `cut` has just cut: so far they are
      * their parent's. NULL: the method uses no rooms. `guard`: it was a SPLIT_CUT_GUARD. */
     void (*divided)(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut, bool guard,
                     split_cell *positive, split_cell *negative);

@@ -1,4 +1,4 @@
-/* refine.c: which cut for this cell? */
+/* refine.c: the cut of a cell, the best of its candidates. */
 #include "split/refine.h"
 #include "base/log2.h"
 #include "base/random.h"

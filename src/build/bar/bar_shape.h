@@ -1,4 +1,4 @@
-/* bar_shape.h: a cell of a BAR tree, as a convex polytope in doubles: how fat is it, and what could be cut off?
+/* bar_shape.h: a cell of a BAR tree, as a convex polytope in doubles: its aspect, and the cuts that keep it fat.
  *
  *        +------+          A cell is what its facets say: lo <= n . x <= hi for each direction, doubles that some cut
  *       /       |          brought, or the root; nothing in it is ever rounded. The polytope is made of them when it

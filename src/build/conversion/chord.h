@@ -1,9 +1,9 @@
-/* chord.h: which of the segments that cross a region from border to border is to be cut along?
+/* chord.h: the segment to cut along, of those that cross a region from border to border.
  *
- * The one that leaves least to the heavier side. Chords that do not cross divide a convex region like the edges of a
- * tree: what is on the lighter side of one is no better than that one. So the search goes on among those on the heavier
- * side, from a random one each time: O(log m) rounds over m fragments, expected, where chords lie in a bounded number
- * of rows, as they do in regions with few sides. Sides are those of middles, in doubles. */
+ * That is the one that leaves least on the heavier side. Chords that do not cross divide a convex region like the
+ * edges of a tree: what is on the lighter side of one is no better than that one. So the search goes on among those
+ * on the heavier side, from a random one each time: O(log m) rounds over m fragments, expected, where chords lie in
+ * a bounded number of rows, as they do in regions with few sides. Sides are those of middles, in doubles. */
 #ifndef FROE_BUILD_CONVERSION_CHORD_H
 #define FROE_BUILD_CONVERSION_CHORD_H
 #include "split/grow.h"

@@ -5,7 +5,7 @@
 #include "split/cell.h"
 #include <string.h>
 
-/** What belongs to a cell, beside what every loop knows of it. */
+/** What the conversion keeps of a cell besides its split_cell. */
 typedef struct convert_cell {
     uint32_t at;      /**< node of the plan; FROE_NONE: a star, or what rounding left over */
     uint32_t corners; /**< of the region, on top of all others when its turn comes; 0: unknown */

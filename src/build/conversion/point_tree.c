@@ -1,4 +1,4 @@
-/* point_tree.c: where endpoints are at home, and where cuts end on others. */
+/* point_tree.c: the lowest containing nodes of endpoints, and where cuts end on others. */
 #include "build/conversion/point_tree.h"
 #include "base/radix.h"
 #include "geom/predicates.h"
@@ -34,7 +34,7 @@ static bool is_leaf(const point_node *node) {
     return node->cut.kind == FROE_CUT_NONE;
 }
 
-/* ------------------------------------------------------------------- homes -- */
+/* -------------------------------------------------- lowest containing nodes -- */
 
 typedef struct walk_step {
     uint32_t node, depth;

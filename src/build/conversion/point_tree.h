@@ -3,8 +3,8 @@
  *     nodes     pairs of children, negative first, after their parents
  *     homes     of each endpoint: the leaf whose open region it lies in, or the inner node whose cut it lies in
  *
- * An endpoint lies in the open region of a node if its home is in the subtree of that node: one comparison, once homes
- * are numbered in the order of a walk.
+ * An endpoint lies in the open region of a node if its leaf or inner node is in the subtree of that node: one
+ * comparison, once nodes are numbered in the order of a walk.
  *
  *        |  h         T-junctions on the cut of h are the ends of cuts below h that end there. They are kept in
  *     ---+            order along h, apart for both sides: what lies on one side of h does not end on the other. */
@@ -26,7 +26,7 @@ typedef struct point_tree {
     const froe_scene *scene; /**< the segments' own: cuts name its vertices */
     ARRAY(point_node) nodes;
     uint32_t height;
-    uint32_t *homes;         /**< by vertex: `enter` of its home; FROE_NONE: no endpoint */
+    uint32_t *homes;         /**< by vertex: `enter` of that node; FROE_NONE: no endpoint */
     uint32_t *starts;        /**< junctions on node v from its side s (0 negative): starts[2 v + s] .. */
     ARRAY(double) junctions; /**< by the coordinate region_along() the cut, ascending */
 } point_tree;
@@ -36,7 +36,7 @@ froe_status point_tree_new(const froe_allocator *alloc, const froe_scene *scene,
 void point_tree_free(point_tree *tree);
 /** Makes a leaf inner; *child: the negative child, *child + 1 the positive one. A normal stays the caller's. */
 froe_status point_tree_split(point_tree *tree, uint32_t node, const froe_cut *cut, uint32_t *child);
-/** Finds homes, exactly, and junctions. O(n height). */
+/** Finds the node of each endpoint, exactly, and junctions. O(n height). */
 froe_status point_tree_finish(point_tree *tree, num_context *context);
 
 /** Does the vertex lie in the open region of the node? Of endpoints of the scene's objects. */

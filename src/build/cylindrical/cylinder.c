@@ -10,13 +10,13 @@
  *                            below
  *
  * So every cell is a trapezoid: left and right of it are walls (which may meet at infinity), below and
- * above edges that span it. In space the trapezoid is what one sees from above: polygons first cut by the vertical
+ * above edges that span it. In space the trapezoid is the view from above: polygons first cut by the vertical
  * planes through their edges, one after the other, until they span the cell, then by their own plane.
  *
  * Walls are sheared (geom/plane.h), so that nothing needs a case of its own: vertical segments, equal x, shared ends.
  * An end on a wall that is there already needs no other. What lies in a line or plane that cuts stays in its list.
- * Source and proofs: the paper's section 2; the cell by cell form and that it is the same tree as theirs are ours:
- * docs/design/cylindrical.md. */
+ * Source and proofs: the paper's section 2. docs/design/cylindrical.md derives the form cell by cell and shows that it
+ * gives the paper's tree. */
 #include "build/cylindrical/cylinder.h"
 #include "split/cell.h"
 #include <string.h>
@@ -194,7 +194,7 @@ static froe_status is_idle(split_work *work, const split_cell *cell, uint32_t ed
     return status;
 }
 
-/** Is there nothing to cut along an edge for? */
+/** Would a cut along the edge, by its number, change nothing? */
 static froe_status is_done(const split_cylinder *c, split_work *work, const split_cell *cell, uint32_t edge,
                            bool *done) {
     *done = is_border(&work->set, cell, edge);
@@ -239,8 +239,7 @@ static bool is_upright(split_set *set, uint32_t object) {
     return !geom_side_vertex(&set->context, &side, scene_point(scene, object, 2));
 }
 
-/** The polygon's plane; or, of an upright one that other polygons have robbed of its edges here, the same by an edge.
- */
+/** The polygon's plane; or, of an upright one whose own edges do not reach into the cell, the same by an edge. */
 static froe_cut polygon_cut(split_set *set, uint32_t object) {
     const froe_scene *scene = set->scene;
     uint32_t edge = scene->starts[object];

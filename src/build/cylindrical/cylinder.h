@@ -1,9 +1,9 @@
-/* cylinder.h: which cut comes next in a cell of a cylindrical partition? */
+/* cylinder.h: the next cut in a cell of a cylindrical partition. */
 #ifndef FROE_BUILD_CYLINDRICAL_CYLINDER_H
 #define FROE_BUILD_CYLINDRICAL_CYLINDER_H
 #include "split/grow.h"
 
-/** Settings, and what the threads find out together. */
+/** Settings, and what all threads note. */
 typedef struct split_cylinder {
     uint32_t leaf;         /**< cells with so many fragments are done */
     uint32_t deepest;      /**< give up at this depth; 0: never */

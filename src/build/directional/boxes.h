@@ -148,7 +148,7 @@ double boxes_bound(const boxes *b, uint32_t n);
 
 /** Is `a`, beside what was found so far on the same axis, walking upwards, the better one? See boxes_sweep.c. */
 bool boxes_better_on_axis(const boxes_cut *a, const boxes_cut *best, bool fewest);
-/** And beside the best of the axes before? */
+/** Is `a` better than the best of the axes before? */
 bool boxes_better(const boxes_cut *a, const boxes_cut *best, bool fewest);
 /** Of what two stages found (`least`: fewest divided; `lemma`: paid for by rooms), is the first one free? */
 bool boxes_free_cut(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
@@ -156,12 +156,12 @@ bool boxes_free_cut(const boxes *b, const boxes_cut *least, const boxes_cut *lem
  * will be taken as it is. Such a cut is the face that divides fewest on its axis, if rooms pay for it: not the best of
  * all cuts that rooms pay for, which no tree finds in logarithmic time. */
 uint32_t boxes_narrow(const boxes *b, uint32_t count, const boxes_cut *least, const boxes_cut *lemma);
-/** And what they found becomes the choice. */
+/** The choice between what both stages found. */
 boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
 /** The cut of a cell by sweeping over its events; not found: it is a leaf. O(events). */
 boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell);
 
-/** Cuts the cell on top, taken off b->cells, until half of its fragments are left, in trees that give and take single
+/** Cuts the cell on top, taken off b->cells, until half of its fragments are left, in trees that add and remove single
  * boxes: the same cuts as sweeps, in time for the smaller side of each. Pushes all cells that result. */
 froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task);
 #endif

@@ -1,4 +1,4 @@
-/* boxes_axis.h: the boxes of one cell on one axis, one by one given and taken, and the best cut among them.
+/* boxes_axis.h: the boxes of one cell on one axis, added and removed one by one, and the best cut among them.
  *
  *     position    0 | 1   2   3   4   5 ... | size + 1      the ends of the boxes when this was made, numbered; 0 and
  *                 border of the cell    border              size + 1 stand for all beyond the borders of the cell
@@ -45,7 +45,7 @@ void boxes_axis_free(const froe_allocator *alloc, boxes_axis *a);
 
 /** Adds (weight > 0) or takes away (weight < 0) what a box divides and pays; alive: bits 0 and 1, its rooms. */
 void boxes_axis_weigh(boxes_axis *a, uint32_t box, unsigned alive, int64_t weight, int64_t trade);
-/** Gives or takes all else that is known of a box. */
+/** Adds (there) or removes a box everywhere but in the slack. */
 void boxes_axis_list(boxes_axis *a, uint32_t box, unsigned alive, bool there);
 /** Forgets a room: 0 before, 1 after. The weights are the caller's. */
 void boxes_axis_forget_room(boxes_axis *a, uint32_t box, int room);

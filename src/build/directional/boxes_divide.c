@@ -77,8 +77,8 @@ static bool deal_fragments(boxes *b, const boxes_cell *cell, const boxes_cut *cu
     return ok;
 }
 
-/** Writes the event as a side sees it; returns 1 if its fragment is there. No branches on that, which nobody could
- * predict: what is not there will be written over. */
+/** Writes the event as a side sees it; returns 1 if its fragment is there. That is unpredictable, so
+ * branch-free: the next event overwrites one whose fragment is not there. */
 static size_t hand_on(const boxes_event *e, const boxes_parts *parts, int side, bool across, boxes_event *to) {
     *to = *e;
     to->fragment = parts->name[side];

@@ -1,4 +1,4 @@
-/* boxes_sweep.c: which cut for a cell of boxes? One walk over the ends on each axis.
+/* boxes_sweep.c: the cut of a cell of boxes, by one walk over the ends on each axis.
  *
  *     divided    ___/---\_____/--\__/-----\___      boxes that x[axis] = c would divide: open intervals
  *     rooms      /---\ /---\ ...                    rooms alive that contain c: closed intervals
@@ -91,8 +91,8 @@ static void start_sweeps(const boxes *b, const boxes_cell *cell, sweep s[FROE_MA
     }
 }
 
-/* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. No branches:
- * ends come in no order that could be predicted. */
+/* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. The kinds of
+ * ends are unpredictable, so branch-free. */
 static const boxes_event *arrive_at_boxes(const boxes_change *changes, sweep *s, const boxes_event *e,
                                           const boxes_event *end, bool *face) {
     unsigned kinds = 0;
@@ -118,7 +118,7 @@ static void leave_boxes(const boxes_change *changes, sweep *s, const boxes_event
     }
 }
 
-/* Counted on both sides of a cut as far as balance goes. */
+/* The balance of a cut at the place of the sweep. */
 static uint32_t smaller(const sweep *s) {
     return s->below < s->above ? s->below : s->above;
 }

@@ -24,7 +24,7 @@ static void enter_support(split_contest *c, uint32_t object) {
     } else if (cut.kind == FROE_CUT_OBJECT) {
         for (uint32_t i = 0; i < (uint32_t)scene->dim; i++) k.id[i] = scene_corner(scene, object, i);
     } else {
-        return; /* a segment askew in space: split_any_support() knows it */
+        return; /* a segment askew in space: left to split_any_support() */
     }
     score_and_enter(c, k);
 }
@@ -70,7 +70,7 @@ static bool turn_about(split_contest *c, const uint32_t *axle, split_candidate *
     return !c->failed && v != FROE_NONE && v != axle[0] && v != axle[last - 1] && split_contest_score(c, out);
 }
 
-/** Exchanges vertices of k, whose last is the best with the others, until none of them can be improved. */
+/** Exchanges vertices of k, whose last is the best for the others, until none of them can be improved. */
 static void improve(split_contest *c, split_candidate *k) {
     uint32_t failures = 0, last = (uint32_t)c->work->set.scene->dim - 1;
     for (uint32_t i = 1; i < c->config->effort.turns && failures < last && !c->failed; i++) {

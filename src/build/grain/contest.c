@@ -45,7 +45,7 @@ static bool verify(split_contest *c, split_candidate *k, split_tally *tally) {
     return true;
 }
 
-/** Nothing is much better than a cut without splits but those due that leaves at most 7/10 on a side. */
+/** Nothing is much better than a cut that makes only unavoidable splits and leaves at most 7/10 on a side. */
 static bool hard_to_beat(split_tally t, double due) {
     uint64_t all = split_tally_all(t), larger = split_tally_larger(t);
     return t.both <= due && (all <= 4 || 10 * larger <= 7 * all);

@@ -1,4 +1,4 @@
-/* crossing.h: which splits are due anyway?
+/* crossing.h: splits that no cut can avoid.
  *
  *      \                    f is to be the cut, and splits both g and h. Wherever two objects cross, one of them has to
  *       g         h         be split, f or g, so that a split of g costs nothing that could be saved. h crosses only

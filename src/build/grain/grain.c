@@ -1,4 +1,4 @@
-/* grain.c: which cut for this cell? */
+/* grain.c: the cut of a cell, found by a contest. */
 #include "build/grain/grain.h"
 #include "base/log2.h"
 #include "build/grain/candidates.h"
@@ -113,7 +113,7 @@ static split_verdict balance_vertices(split_contest *c, froe_cut *cut) {
 
 /* ----------------------------------------------------------------- choice -- */
 
-/** Those that did best on a sample, on all fragments. Where corners lie closer together than doubles tell, a sample is
+/** Scores the best of a sample on all fragments. Where corners lie closer together than doubles tell, a sample is
  * full of cuts that seem to split nothing and split all: if no finalist is worth its splits, supports are, perhaps. */
 static void run_off(split_contest *c) {
     split_candidate last[SPLIT_FINALISTS];
@@ -143,8 +143,8 @@ static double splits_per_bit(const split_contest *c) {
     return gain > 0 ? splits / gain : -1;
 }
 
-/** Where bits turn out dearer than thought, as no cut is without splits, the contest is held once more at their actual
- * price: a step of Dinkelbach's method (1967) towards the fewest splits per bit. */
+/** Where the best cut makes more splits for each bit than the weight assumes, the contest is held once more with that
+ * weight: a step of Dinkelbach's method (1967) towards the fewest splits per bit. */
 static void hold_at_actual_price(split_contest *c) {
     double actual = !c->config->effort.again || c->failed || !c->count ? 0 : splits_per_bit(c);
     if (actual <= DEAR || actual <= c->terms.weight) return;

@@ -23,7 +23,7 @@ typedef struct split_effort {
     bool again;        /**< look again where no cut is without splits */
 } split_effort;
 
-/** What did not go as hoped; several threads add to it. */
+/** Cuts that were not balanced; several threads add to it. */
 typedef struct split_grain_notes {
     atomic_uint unbalanced; /**< fragments of the largest cell that was to be cut with balance and was not */
     atomic_bool medians;    /**< vertices were halved instead of fragments */

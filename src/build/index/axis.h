@@ -7,13 +7,13 @@
  *     -----+-------+----     Where the bound leaves a decision open, the exact predicate decides.
  *
  * Cuts are in general position (tree/packed/packed.h): none contains a corner of the object or an end made by another cut. A
- * cut that would is found out, by a side of 0, and the builder takes another. */
+ * cut that would is detected by a side of 0, and the builder takes another. */
 #ifndef FROE_BUILD_INDEX_AXIS_H
 #define FROE_BUILD_INDEX_AXIS_H
 #include "geom/predicates.h"
 #include "tree/packed/packed.h"
 
-/** What all objects are asked for again and again: their ends, by x, then y, side by side. */
+/** The two ends of an object, by x, then y, side by side because they are read together, often. */
 typedef struct axis_ends {
     double p[2], q[2];
 } axis_ends;

@@ -1,7 +1,7 @@
 /* grid.h: many middle cuts at once.
  *
  *     cut 1 |        Halving the longer side of a box again and again gives a uniform grid, whose lines are the cuts.
- *     +---+---+      So the upper levels of the tree are known before any object is looked at; each object finds its
+ *     +---+---+      So the upper levels of the tree are known before any object is read; each object finds its
  *     | 2 | 2 |      cells by arithmetic and a walk along it, and one counting sort puts the objects of every cell,
  *     +---+---+      and of every node above, into one run:
  *

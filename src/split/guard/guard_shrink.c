@@ -95,7 +95,7 @@ typedef struct heaps {
     bool *peeled; /* [guard] */
 } heaps;
 
-/* Is guard a farther than b on the axis? Equal guards are as good as each other. */
+/* Is guard a farther than b on the axis? Of guards at one place neither is. */
 static bool farther(const heaps *h, uint32_t a, uint32_t b, int axis) {
     const double *x = h->points + (size_t)a * (size_t)h->dim, *y = h->points + (size_t)b * (size_t)h->dim;
     bool above = guard_above(h->corner, h->dim, axis);

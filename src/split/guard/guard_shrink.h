@@ -3,7 +3,7 @@
 #define FROE_SPLIT_GUARD_GUARD_SHRINK_H
 #include "split/guard/guard_work.h"
 
-/** Who knows the guards of the cube in the order of each axis. */
+/** A source of the cube's guards in the order of each axis. */
 typedef struct guard_peeler {
     /** The guard farthest from the corner along an axis that is not peeled yet; NULL: none is left. Of equally
      * far ones the last (corner below) or first (corner above) in lexicographic order of coordinates. */

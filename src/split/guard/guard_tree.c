@@ -1,7 +1,7 @@
 /* guard_tree.c: the guard tree as a whole: root cube, jobs for threads, and their splicing.
  *
  * One worker, the foreman, splits items that are large; the others become jobs. The nodes of a job
- * belong where the foreman stood when he met it:
+ * belong behind the nodes that the foreman has made when it takes the job's item off its stack:
  *
  *     foreman   [ root's split ][ split of A ]  ^  [ split of C ]         ^: job B, job D
  *     tree      [ root's split ][ split of A ][ subtree of B ][ split of C ][ subtree of D ]
@@ -15,7 +15,7 @@ typedef struct job {
     guard_item item;
     guard_cube cube;
     uint32_t place;         /* foreman's nodes before it */
-    uint32_t worker, first; /* who did it; its nodes there, the first stands for the item's own node */
+    uint32_t worker, first; /* the worker that did it; its nodes there, the first stands for the item's own node */
     uint32_t count;         /* nodes, without the first */
     uint32_t final;         /* number of its nodes[1] in the tree */
 } job;
@@ -149,7 +149,7 @@ static froe_status run_job(void *user, unsigned worker, size_t number) {
     return status;
 }
 
-/* The foreman meets a small item. */
+/* A small item becomes a job, which a single thread does at once. */
 static froe_status hand_out(building *b, const guard_item *item, const guard_cube *cube) {
     if (b->plan.task->threads == 1) {
         froe_status status = do_job(b, b->hands, &b->nodes, 0, *item, cube);

@@ -1,4 +1,4 @@
-/* homes.c: where each object's descent ends, then a counting sort of the objects by home.
+/* homes.c: where each object's descent ends, then a counting sort of the objects by that node.
  *
  * As far as the guard tree is an octree, a table tells its node for each cell of the grid of places.h, on all
  * levels. There the bits in which both codes of an object begin alike are its way down. Only below a shrink, or below
@@ -22,7 +22,7 @@ typedef struct descent {
     size_t map_count;
 } descent;
 
-/** Who has to go down by comparisons: up to ABREAST objects, and where they start. */
+/** Objects that have to go down by comparisons, up to ABREAST, and the nodes where they start. */
 typedef struct queue {
     uint32_t object[ABREAST], node[ABREAST];
     size_t count;
@@ -59,7 +59,7 @@ static void fill_map(const descent *d) {
 
 /* ---------------------------------------------------------------- the descent -- */
 
-/** The home of an object, if its codes tell; or a node above it, ASTRAY. */
+/** The lowest containing node of an object, if its codes tell; or a node above it, ASTRAY. */
 static inline uint32_t look_up(const descent *d, const uint32_t code[2]) {
     const guard_grid *grid = &d->places->grid;
     if (code[0] & PLACES_APART) return ASTRAY;
@@ -121,9 +121,9 @@ static froe_status descend_chunk(void *user, unsigned worker, size_t job) {
 
 /* ------------------------------------------------------------------- the sort -- */
 
-/** Slices from the numbers of own homes: children come later than their parent, so two passes do. */
+/** Slices from the numbers of nodes' own objects: children come later than their parent, so two passes do. */
 static void make_slices(const split_guard_node *nodes, const uint32_t *own, split_homes *h) {
-    for (size_t v = h->node_count; v-- > 0;) { /* end: so many homes in the subtree */
+    for (size_t v = h->node_count; v-- > 0;) { /* end: so many objects in the subtree */
         uint32_t child = nodes[v].child;
         h->end[v] = own[v] + (child ? h->end[child] + h->end[child + 1] : 0);
     }
@@ -138,7 +138,7 @@ static void make_slices(const split_guard_node *nodes, const uint32_t *own, spli
     }
 }
 
-/** Counting sort of the objects by home. `own` is zero. */
+/** Counting sort of the objects by lowest containing node. `own` is zero. */
 static void sort_by_home(const split_guard_node *nodes, const uint32_t *home, uint32_t *own, split_homes *h) {
     for (size_t i = 0; i < h->object_count; i++) own[home[i]]++;
     make_slices(nodes, own, h);
@@ -158,7 +158,7 @@ static uint32_t *numbers(const froe_allocator *alloc, size_t count) {
     return base_realloc(alloc, NULL, 0, count * sizeof(uint32_t));
 }
 
-/** Finds the home of each object, given memory for them. */
+/** Finds the lowest containing node of each object, given memory for them. */
 static froe_status descend_to_homes(const froe_allocator *alloc, descent *d) {
     size_t n = d->places->object_count;
     const guard_grid *grid = &d->places->grid;

@@ -1,9 +1,9 @@
 /* homes.h: where in the guard tree each object first meets a cut.
  *
  *            x = 4                 object 7 goes left of x = 4, right of y = 1, and lies across x = 2:
- *           /     \                its home is that node. Above it nobody needs to look at it again.
+ *           /     \                that is its lowest containing node. No node above looks at it again.
  *        y = 1    ...
- *       /     \                    ids:  [ homes of v | homes below left(v) | homes below right(v) ]
+ *       /     \                    ids:  [ own of v | own below left(v) | own below right(v) ]
  *      ...   x = 2   <- 7                 at[v]                                              end[v]
  *
  * In this order the objects that lie wholly in a cell and have been cut by nothing are one slice, so
@@ -15,8 +15,8 @@
 #include "split/guard/guard_tree.h"
 
 typedef struct split_homes {
-    uint32_t *ids;      /**< all objects, by home */
-    uint32_t *at, *end; /**< per guard node: its slice of ids, its own homes first */
+    uint32_t *ids;      /**< all objects, by lowest containing node */
+    uint32_t *at, *end; /**< per guard node: its slice of ids, its own objects first */
     size_t object_count, node_count;
 } split_homes;
 
@@ -25,7 +25,7 @@ froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const
                              const split_guard_tree *guard, split_homes *out);
 void split_homes_free(const froe_allocator *alloc, split_homes *homes);
 
-/** The objects whose home is `node` itself: ids[at[node] ..], so many. */
+/** The objects whose lowest containing node is `node` itself: ids[at[node] ..], so many. */
 static inline uint32_t split_homes_own(const split_homes *homes, const split_guard_tree *guard, uint32_t node) {
     uint32_t child = guard->nodes.data[node].child;
     return (child ? homes->at[child] : homes->end[node]) - homes->at[node];

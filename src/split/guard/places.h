@@ -1,4 +1,4 @@
-/* places.h: where on a grid are the boxes of a scene's objects? Asked once, for guard trees and for homes.
+/* places.h: where on a grid the boxes of a scene's objects lie, found once for guard trees and for homes.h.
  *
  *     +---+---+---+---+      An object is two codes (guard_grid.h): of the cell where its box begins, and of the one
  *     |   |   | ..|...|hi    where it ends. The codes of its other corners are mixed of these, axis by axis, and the
