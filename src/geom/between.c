@@ -67,7 +67,7 @@ static void shuffle(geom_member *members, uint32_t count) {
     }
 }
 
-/* What was on the wrong side once will be so again: it comes first from now on. */
+/* A point that was on the wrong side once is likely to be so again: it is looked at first from now on. */
 static void move_to_front(geom_member *members, uint32_t at) {
     geom_member m = members[at];
     memmove(members + 1, members, at * sizeof m);

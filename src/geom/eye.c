@@ -21,8 +21,6 @@ geom_eye geom_eye_make(bool parallel, const double *at, const double *origin) {
     return eye;
 }
 
-/* --------------------------------------------------------------- who answers -- */
-
 /* ------------------------------------------------------------ side of an eye -- */
 
 static num_dyadic exact_slope(num_arena *arena, const geom_plane *plane, const geom_eye *eye) {

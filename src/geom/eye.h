@@ -11,7 +11,7 @@
  *     parallel, towards d     r(x) = (w_i d_k - w_k d_i, w_j d_k - w_k d_j, d_k),  w = x - origin, d_k the largest of d
  *
  * In both, det(r(p), r(q), r(r)) > 0 where p, q, r turn left as the eye sees them. A picture of all
- * directions around an eye at a point is a sphere: rays behind the eye are as good as any others.
+ * directions around an eye at a point is a sphere: rays behind the eye count like any others.
  *
  * Three kinds of lines occur. EDGE runs through two points: degree 2. CUT is where plane a cuts an object
  * with support s: h(x) = a(E) s(x) - s(E) a(x), the plane of the pencil of s and a through the eye; degree 5. STOP runs

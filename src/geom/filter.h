@@ -17,8 +17,8 @@
 #define FILTER_UP (1 + 0x1p-49)
 #define FILTER_LOST 0x1p-1073 /* more than three products lose by underflow */
 
-/* A power of two that brings a tiny size to about 1; 1 for all others. Products of tiny numbers drown in NUM_BALL_TINY;
- * signs know no scale, so the normal of a plane through tiny differences is lifted first: an exact multiplication. */
+/* A power of two that brings a tiny size to about 1; 1 for all others. Products of tiny numbers are below NUM_BALL_TINY.
+ * Signs do not depend on scale, so the normal of a plane through tiny differences is scaled up first, which is exact. */
 #define FILTER_SMALL 0x1p-250
 static inline double filter_lift(double most) {
     int exponent;
@@ -143,7 +143,7 @@ static inline double filter_greater(double a, double b) {
     return a > b ? a : b;
 }
 
-/* What a square or a sum of squares stands for that may have overflowed: it is at least this. */
+/* A finite lower bound of a square or a sum of squares that may have overflowed. */
 static inline double filter_capped(double square) {
     return square < 0x1p1023 ? square : 0x1p1023;
 }

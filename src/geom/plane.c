@@ -13,8 +13,8 @@ static bool n_is_small(const num_ball *n) {
     return fabs(n[0].x) < FILTER_SMALL && fabs(n[1].x) < FILTER_SMALL && fabs(n[2].x) < FILTER_SMALL;
 }
 
-/* The same plane with all coordinates multiplied by a power of two, so that its points are about 1 apart where they are
- * next to nothing apart. False: not needed, or it would overflow. */
+/* The same plane with all coordinates multiplied by a power of two, so that its points are about 1 apart where their
+ * differences are tiny. False: not needed, or it would overflow. */
 static bool lifted(const geom_plane *plane, geom_plane *out) {
     int points = plane->form == GEOM_POINTS ? plane->dim : 2, dim = plane->form == GEOM_POINTS ? plane->dim : 2;
     double most = 0, largest = 0;

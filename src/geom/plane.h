@@ -1,4 +1,4 @@
-/* plane.h: an oriented hyperplane of R^2 or R^3 that remembers where it comes from.
+/* plane.h: an oriented hyperplane of R^2 or R^3, kept as the input that defines it.
  *
  *     side(x) = sign of  n . (x - o) - c
  *

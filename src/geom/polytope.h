@@ -4,9 +4,9 @@
  *     ----*-----*----     nothing of what is left; if something is left in the end, its two ends are
  *          \   /          corners
  *
- * Corners are named by three planes and never rounded. The set may be flat, a segment, a point or empty. It is cut
- * off by a box, for whoever asks about what is within the box only: so it is bounded. In the plane everything
- * stands upright in space, and the third plane of every corner is z = 0. */
+ * Corners are named by three planes and never rounded. The set may be flat, a segment, a point or empty. A box cuts
+ * it off, since callers need only what is within that box: so it is bounded. In the plane the lines become vertical
+ * planes of space, and the third plane of every corner is z = 0. */
 #ifndef FROE_GEOM_POLYTOPE_H
 #define FROE_GEOM_POLYTOPE_H
 #include "base/array.h"

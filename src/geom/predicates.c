@@ -74,7 +74,7 @@ static int lexicographic(const double *p, const double *q) {
     return p[0] != q[0] ? sign_of(p[0], q[0]) : sign_of(p[1], q[1]);
 }
 
-/* What balls find, they find about planes that are not sheared: their zeros are open questions for planes that are. */
+/* Balls compute without the shear, so their zeros decide nothing about sheared planes. */
 static int unless_zero(int sign, bool sheared) {
     return sheared && sign == 0 ? NUM_UNSURE : sign;
 }
@@ -341,7 +341,7 @@ static bool is_inside(num_context *context, const geom_plane *h, const geom_plan
     froe_predicate_stats before = context->stats;
     bool inside = s->form == GEOM_POINTS && !geom_is_sheared(h);
     for (int i = 0; i < 3 && inside; i++) inside = !plain_vertex(context, h, s->p[i]);
-    context->stats = before; /* these were not asked for */
+    context->stats = before; /* callers did not ask for these */
     return inside;
 }
 

@@ -34,7 +34,7 @@ typedef struct geom_range {
     bool empty;      /**< there is no such point */
     geom_convex set; /**< not for boxes with infinite bounds, nor for dim > 3; without corners: what the facets leave */
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    ARRAY(geom_facet) facets; /**< of SOLID; none is fine */
+    ARRAY(geom_facet) facets; /**< of SOLID; there may be none */
 } geom_range;
 
 void geom_range_free(geom_range *range, const froe_allocator *alloc);

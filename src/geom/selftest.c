@@ -1,13 +1,13 @@
 /* selftest.c: hard cases of the formulas that decide: answers by filters and balls must be right, or "unsure".
  *
- * The selftest of src/num asks for single operations. A compiler may get those right and a formula wrong: clang 14 once
+ * The selftest of src/num tests single operations. A compiler may compile those right and a formula wrong: clang 14 once
  * took error terms apart while it vectorised predicates.c, and error bounds came out too small. Here the functions
- * themselves are asked, as they are compiled where they stand, about points on which they depend to the last bit.
+ * themselves are tested, as they are compiled in place, on points for which every bit of a computation matters.
  *
  * Coordinates are tenths: n times 0.1, rounded. The points lie on common lines and planes but for that rounding. Each
  * case was found by a search among 20,000 such of its formula: with all error bounds taken for 0, the filter and the
- * images that go with it, and then the running errors as well, give one and the same wrong answer. What is right, dyadic
- * numbers said, which other tests compare with exact rationals (GMP). */
+ * images that go with it, and then the running errors as well, give one and the same wrong answer. The right
+ * answers are those of dyadic numbers, which other tests compare with exact rationals (GMP). */
 #include "geom/selftest.h"
 #include "geom/eye.h"
 #include "geom/predicates.h"

@@ -1,4 +1,4 @@
-/* context.h: what a thread needs to ask predicates: an arena, counters, and how
+/* context.h: what a thread needs for predicates: an arena, counters, and how
  * far the filters may be trusted. One per thread; never shared. */
 #ifndef FROE_NUM_CONTEXT_H
 #define FROE_NUM_CONTEXT_H
@@ -48,7 +48,7 @@ void num_stats_add(froe_predicate_stats *sum, const froe_predicate_stats *more);
  * computing with values the compiler cannot see. */
 bool num_machine_trusted(void);
 /** Of these only what a program can change while it runs: the rounding mode, and whether
- * denormals are flushed. ~40 ns where making a denormal number takes help, ~3 ns elsewhere. */
+ * denormals are flushed. ~40 ns where denormal results are slow, ~3 ns elsewhere. */
 bool num_rounding_trusted(void);
 /** For calls with which all use of froe begins: FROE_E_UNSUPPORTED, with a sentence, where the rounding is not to be
  * trusted although froe has set its floating point (base/floats.h). */

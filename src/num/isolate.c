@@ -103,7 +103,7 @@ static double rough_root(const num_ball_poly *p, double low, double high, double
     return s;
 }
 
-/* Guesses the interval of a depth that a simple root is in, and makes sure. False: the guess was wrong. */
+/* Guesses the interval of a depth that a simple root is in, and verifies it. False: the guess was wrong. */
 static bool jump(num_arena *arena, num_isolated *root, int depth) {
     const num_ball around = num_isolated_ball(root);
     const double unit = ldexp(1, -depth), half = ldexp(0.5, -root->depth);

@@ -34,7 +34,7 @@ static double round_whole(uint64_t whole, bool sticky, int unit) {
 }
 
 double num_dyadic_quotient(num_arena *arena, num_dyadic a, num_dyadic b) {
-    if (!b.sign) return NAN; /* only a corrupted tree asks for it */
+    if (!b.sign) return NAN; /* occurs with corrupted trees only */
     if (!a.sign) return 0;
     int sign = a.sign * b.sign, power_a, power_b;
     uint64_t ha = leading(a, &power_a), hb = leading(b, &power_b);

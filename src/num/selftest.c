@@ -14,8 +14,8 @@ bool num_rounding_trusted(void) {
     return (__builtin_ia32_stmxcsr() & 0xe040) == 0;
 }
 #else
-/* Upwards the first sum is larger, downwards and towards zero the second is not. No products of denormals: processors
- * that need help with those are three times as fast so. */
+/* Upwards the first sum is larger, downwards and towards zero the second is not. No products of denormals: on
+ * processors where those are slow, this takes a third of the time. */
 bool num_rounding_trusted(void) {
     volatile double unknown[] = {1, 0x1p-1074, 0x1p-1022};
     double one = unknown[0], denormal = unknown[1], tiny = unknown[2];
@@ -56,7 +56,7 @@ static bool underflows_gradually(void) {
     return denormal > 0 && denormal < smallest && restored == smallest && lifted == 0x1p-74;
 }
 
-/* TwoSum and its like must not be "simplified" by a compiler that believes in algebra. */
+/* TwoSum and its like must not be "simplified" by a compiler that treats doubles as real numbers. */
 static bool keeps_residues(void) {
     volatile double big = 0x1p60, small = 1.5;
     double a = big, b = small, s = a + b, t = s - a, residue = (a - (s - t)) + (b - t);

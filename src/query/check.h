@@ -1,4 +1,4 @@
-/* check.h: is what a caller asks with made of numbers? */
+/* check.h: are the coordinates in a caller's question finite numbers? */
 #ifndef FROE_QUERY_CHECK_H
 #define FROE_QUERY_CHECK_H
 #include "base/status.h"

@@ -4,7 +4,7 @@
  *     reserve      room for all objects and corners, behind the published counts
  *     vertices     corners become vertex ids, a chunk at a time
  *     forms        ids become the corners of each object's form (forms.c)
- *     commit       counts move on: the only step others can see; or the new vertices are forgotten */
+ *     commit       the new counts are published, the only step that readers see; or the new vertices are dropped */
 #include "base/floats.h"
 #include "base/status.h"
 #include "geom/selftest.h"

@@ -1,4 +1,4 @@
-/* mapped.c: a scene over arrays from a file, which may say anything until it has been checked. */
+/* mapped.c: a scene over arrays from a file, which are unvalidated input. */
 #include "base/status.h"
 #include "geom/selftest.h"
 #include "scene/polygon.h"

@@ -76,14 +76,14 @@ static inline geom_body scene_body(const froe_scene *s, uint32_t object) {
     return b;
 }
 
-/** Asks for what scene_body() is made of, before it is needed; for the corners of triangles where all are triangles. */
+/** Prefetches what scene_body() reads, and, where all objects are triangles, the ids of its corners. */
 static inline void scene_ask(const froe_scene *s, uint32_t object) {
     const size_t guess = 3 * (size_t)object < s->corner_count ? 3 * (size_t)object : 0;
     __builtin_prefetch(s->forms + object);
     __builtin_prefetch(s->starts + object);
     __builtin_prefetch(s->corners + guess);
 }
-/** Asks for its points, up to three, once that is there. */
+/** Prefetches its points, up to three, once that is in the cache. */
 static inline void scene_ask_points(const froe_scene *s, uint32_t object) {
     const uint32_t corners = scene_corners(s, object);
     for (uint32_t i = 0; i < corners && i < 3; i++) {
@@ -117,7 +117,7 @@ static inline void scene_bounds_in(const froe_scene *s, int dim, uint32_t object
     for (uint32_t i = 1, n = scene_corners(s, object); i < n; i++) {
         x = scene_point(s, object, i);
         for (int k = 0; k < dim; k++) {
-            lo[k] = x[k] < lo[k] ? x[k] : lo[k]; /* without branches: which end is the lower one is anyone's guess */
+            lo[k] = x[k] < lo[k] ? x[k] : lo[k]; /* which end is the lower one is unpredictable, so branch-free */
             hi[k] = x[k] > hi[k] ? x[k] : hi[k];
         }
     }
@@ -139,7 +139,7 @@ bool scene_equal(const froe_scene *s, uint32_t a, uint32_t b);
 /** For each object the lowest id equal to it (out[o] <= o). O(corners) expected. */
 froe_status scene_originals(const froe_scene *s, const froe_allocator *alloc, uint32_t *out);
 
-/** Everything above said about the arrays, checked on arrays nobody has vouched for: every
+/** Everything above said about the arrays, checked on unvalidated arrays: every
  * index, ring, form and coordinate, and that no two vertices are equal. Bounds are not looked at.
  * FROE_E_FORMAT with the first violation. O(corners) expected. */
 froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag);

@@ -1,11 +1,11 @@
 /* store.h: a scene while it grows.
  *
- *     froe_scene   pointers and counts everybody reads
+ *     froe_scene   pointers and counts that all readers use
  *         ^ scene_publish()
  *     scene_store  the growing arrays behind them, and the table that finds equal vertices
  *
  * A call that adds writes behind the published counts and publishes at its end. A call
- * that fails forgets its new vertices, and nothing was ever to be seen of it. */
+ * that fails drops its new vertices, and readers have seen nothing of it. */
 #ifndef FROE_SCENE_STORE_H
 #define FROE_SCENE_STORE_H
 #include "base/array.h"

@@ -1,8 +1,8 @@
 /* vertices.c: the vertex table: equal coordinates get one id.
  *
  * A large scene misses the cache twice per corner, in the table and in the
- * coordinates; a chunk of points first asks for all the slots, then for all the
- * candidates, and only then looks. */
+ * coordinates; so a chunk of points first prefetches all the slots, then all the
+ * candidates, and then compares. */
 #include "base/random.h"
 #include "scene/store.h"
 #include <string.h>

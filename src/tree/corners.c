@@ -1,8 +1,8 @@
 /* corners.c: pieces as coordinates, for output: every corner is rounded once, from what meets there.
  *
  * Rounding needs a number context. Each tree keeps one to spare, so that the usual caller, one
- * thread, pays nothing for it; a thread that finds it taken makes its own, and without memory
- * for that waits: this call has no way to fail. */
+ * thread, pays nothing for it; a thread that finds it taken makes its own. Without memory
+ * for that it waits, since this call cannot fail. */
 #include "base/floats.h"
 #include "geom/predicates.h"
 #include "geom/selftest.h"

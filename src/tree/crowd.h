@@ -2,7 +2,7 @@
  *
  * Where solids overlap, a cut between two of them runs through many others, and each of these has one more entry
  * from then on. A leaf is crowded when at least half of the pairs of its objects cannot be told apart by any cut: to
- * compare all of them is then no more than twice the work that no partition can spare. In long lists each object is
+ * compare all of them is then at most twice the work that remains with any partition. In long lists each object is
  * compared with the TREE_CROWD_REACH before it. Builder and audit go through the same pairs, and each finds
  * out in its own way which can be told apart. */
 #ifndef FROE_TREE_CROWD_H

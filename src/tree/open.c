@@ -1,11 +1,11 @@
-/* open.c: a saved tree by mapping its file. Nothing in it is believed before it has been checked:
+/* open.c: a saved tree by mapping its file. Nothing in it is used before it has been checked:
  *
  *     header, table      magic, version, sizes, places, checksums     here
  *     scene              scene_mapped()
  *     tree               tree_validate()
  *
- * The mapping is private and read-only. A file that another program shortens while it is mapped
- * takes the pages away (SIGBUS); froe itself only ever replaces files. */
+ * The mapping is private and read-only. If another program shortens the file while it is
+ * mapped, its pages are lost (SIGBUS). froe itself replaces files and never shortens them. */
 #include "base/floats.h"
 #include "base/status.h"
 #include "num/context.h"
@@ -52,7 +52,7 @@ static froe_status map_descriptor(opening *o, int fd) {
 }
 
 static froe_status map_file(opening *o) {
-    int fd = open(o->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe must not keep us waiting */
+    int fd = open(o->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* opening a pipe must not block */
     if (fd < 0) return unreadable(o, errno);
     froe_status status = map_descriptor(o, fd);
     close(fd);

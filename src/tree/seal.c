@@ -75,7 +75,7 @@ static void copy_cut(seal *s, uint32_t source, uint32_t *index) {
 /* Places one node with all it owns; true when its children, a fresh pair, come next. */
 static bool place_node(seal *s, seal_visit *visit) {
     tree_node node;
-    if (visit->source == 0 && s->maps[0][visit->from]) { /* grafted: go on in the other draft */
+    if (visit->source == 0 && s->maps[0][visit->from]) { /* grafted: the walk goes on in the other draft */
         uint32_t source = s->maps[0][visit->from];
         s->maps[0][visit->from] = visit->to;
         *visit = (seal_visit){source, 0, visit->to};

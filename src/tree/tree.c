@@ -1,4 +1,4 @@
-/* tree.c: what a finished tree tells about itself: nodes, cuts, pieces, counts. */
+/* tree.c: nodes, cuts, pieces and counts of a finished tree. */
 #include "base/floats.h"
 #include "tree/file.h"
 #include "tree/packed/table.h"

@@ -168,7 +168,7 @@ froe_status tree_finish(froe_tree *tree);
  * pieces in a leaf), guard_leaves (cells of the guard stage), guard_fragments (over those cells and the stage's own
  * cuts). FROE_E_UNSUPPORTED for other names; FROE_E_MEMORY. */
 froe_status tree_measure(const froe_tree *tree, const char *name, double *out);
-/** Sets anew what is promised under a name, for what a builder finds out while it builds. */
+/** Replaces the promise of a name, for a value that a builder finds while it builds. */
 void tree_promise_anew(froe_tree *tree, const char *name, double promised);
 /** Measures the promises whose builder left that at 0, by tree_measure. FROE_E_MEMORY. */
 froe_status tree_fill_promises(froe_tree *tree);

@@ -1,9 +1,9 @@
-/* validate.c: structure and indices of a tree, before anybody trusts them.
+/* validate.c: structure and indices of a tree, before they are used.
  *
  * The arrays of a sealed tree are packed in depth-first order (tree.h). So one walk that counts
  * what it has seen knows where the next pair, cut, normal, list and ring must begin; comparing
  * with that excludes cycles, sharing, gaps and overlaps at once, and each index is checked
- * where it stands. What the pieces mean is the business of the audit. */
+ * where it stands. The audit checks what the pieces mean. */
 #include "tree/validate.h"
 #include "base/status.h"
 #include "geom/selftest.h"

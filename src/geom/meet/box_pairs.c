@@ -22,7 +22,7 @@ enum {
     AXES = 3,
     SMALL = 64,           /* lists shorter than this are scanned at once */
     LEVELS = 33,          /* of one axis: ranges of 32-bit ranks halve */
-    POLL = 1 << 16,       /* pairs between two looks at the cancel button */
+    POLL = 1 << 16,       /* pairs between two polls for cancellation */
     SLAB_BOXES = 1 << 10, /* low ends in a slab, the work of one job */
     SLABS = 32
 };

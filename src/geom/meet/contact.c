@@ -176,7 +176,7 @@ static bool common_corner(const geom_body *a, const geom_body *b, uint32_t *i, u
     return false;
 }
 
-/* They have this corner in common: and anything else? */
+/* Do they have more in common than this corner? */
 static bool meet_elsewhere(num_context *context, const geom_body *a, const geom_body *b, uint32_t i, uint32_t j) {
     geom_differences cone = {.a = a, .b = b, .star = true, .star_a = i, .star_b = j, .nonzero = true};
     geom_gap gap;

@@ -7,7 +7,7 @@
  *     point, box, ball's centre   S = sum over the axes of (what is outside lo .. hi)^2      degree 2
  *     corner, edge, triangle      S = |v|^2,  |v x e|^2 / |e|^2,  (n v)^2 / n^2    degrees 2, 4 / 2, 6 / 4
  *
- * of a segment, polygon or hull, v from the point to a corner: see gap.h. Infinite images are welcome. */
+ * of a segment, polygon or hull, v from the point to a corner: see gap.h. Images may be infinite. */
 #ifndef FROE_GEOM_MEET_DISTANCE_H
 #define FROE_GEOM_MEET_DISTANCE_H
 #include "geom/body.h"

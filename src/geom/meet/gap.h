@@ -3,8 +3,8 @@
  * The distance of A and B is that of 0 from the hull of all differences a - b of corners. Its point
  * nearest to 0 lies in a simplex of at most dim + 1 of them, which is what is found (Gilbert, Johnson, Keerthi:
  * A fast procedure for computing the distance between complex objects, 1988). A search in plain
- * doubles guesses the simplex; the search in certified numbers starts there and has, as a rule, only to
- * agree; where it cannot tell, exact numbers go on from the same place. Every exact step comes strictly nearer,
+ * doubles guesses the simplex; the search in certified numbers starts there and usually just confirms
+ * the guess; where it cannot tell, exact numbers go on from the same place. Every exact step comes strictly nearer,
  * so the search ends, however degenerate the corners.
  *
  * The same search answers two more questions (see contact.c): is 0 in the hull of some of the

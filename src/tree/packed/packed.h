@@ -93,7 +93,7 @@ static inline void packed_ends(const froe_scene *s, uint32_t object, const doubl
 void packed_write(packed_header *block, const packed_box *box, uint32_t owner, const packed_fragment *fragments,
                   uint32_t count);
 
-/** Pieces of all leaves, as far as the nodes can be believed: any number if they lie. */
+/** Sum of the pieces of all leaves. The nodes may be unvalidated input: then it may be any number. */
 uint32_t packed_count(const froe_tree *t);
 /** Checks what is special of a packed tree whose nodes have been checked (tree/validate.h). */
 froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag);

@@ -109,7 +109,7 @@ typedef struct packed_region {
     double lo[3], hi[3];
 } packed_region;
 
-/* In the plane the root box is a little larger than the scene; in space searches scale by it. */
+/* In the plane the root box holds the scene; in space it is the scene's, since searches scale by it. */
 static bool root_fits_table(const froe_tree *t) {
     const froe_scene *s = t->scene;
     const double *lo = t->meta.root_lo, *hi = t->meta.root_hi;

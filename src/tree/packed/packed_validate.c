@@ -1,8 +1,8 @@
-/* packed_validate.c: blocks of a packed tree, before anybody trusts them.
+/* packed_validate.c: blocks of a packed tree, before they are used.
  *
  * Blocks lie one behind the other in the order of a walk, headers say what follows from the nodes, ids name objects
  * of the scene that a block can hold, and owners repeat the ids with PACKED_START in their order. Units may be
- * anything: they cannot lead a query astray further than to a wrong answer, and those the audit finds. */
+ * anything: wrong ones cause wrong answers only, and the audit finds them. */
 #include "base/status.h"
 #include "tree/packed/space.h"
 #include "tree/walk.h"

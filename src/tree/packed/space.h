@@ -42,7 +42,7 @@ typedef struct space_item {
 static inline const double *space_corner(const froe_scene *s, const space_item *item, uint32_t c) {
     return s->coords + 3 * (size_t)s->corners[item->corner + c];
 }
-/** Asks for the numbers of a triangle's corners, and for these, before they are needed. */
+/** Prefetches the ids of a triangle's corners; once they are in the cache, the corners. */
 static inline void space_ask(const froe_scene *s, const space_item *item) {
     if (item->corner != FROE_NONE) __builtin_prefetch(s->corners + item->corner);
 }

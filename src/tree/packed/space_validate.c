@@ -1,8 +1,8 @@
-/* space_validate.c: blocks of a packed tree of space, before anybody trusts them.
+/* space_validate.c: blocks of a packed tree of space, before they are used.
  *
  * Blocks lie one behind the other in the order of a walk, their headers agree with the nodes, and ids name objects of
- * the scene, triangles first. Units may be anything: they cannot lead a search astray further than to a wrong answer,
- * and those the audit finds. */
+ * the scene, triangles first. Units may be anything: wrong ones cause wrong answers only, and the audit
+ * finds them. */
 #include "base/status.h"
 #include "tree/packed/space.h"
 #include "tree/walk.h"

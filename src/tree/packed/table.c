@@ -82,7 +82,7 @@ static uint32_t first_not_short(double place, uint32_t from, uint32_t to) {
     return first < to ? (uint32_t)first : to;
 }
 
-/* Serves the cells that the cut divides, and puts the others off to its children. */
+/* Fills the cells whose cores the cut divides, and leaves the others to its children. */
 static bool divide_rect(filling *f, const table_rect *r) {
     const tree_node *n = f->tree->nodes + r->node;
     double place = tree_table_place(f->table, n->axis, n->u.value);

@@ -25,7 +25,7 @@ typedef struct wide_node {
     double lo[3];
     uint8_t shift[3]; /**< units of 2^-shift */
     uint8_t count;
-    uint32_t unused; /**< WIDE_NORMAL: together with the bytes before no denormal double, for those who load four */
+    uint32_t unused; /**< WIDE_NORMAL: kernels load four doubles, and with the bytes before this is no denormal */
     uint8_t box[2][3][WIDE_CHILDREN];
     uint32_t child[WIDE_CHILDREN];
 } wide_node;
