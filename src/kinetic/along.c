@@ -1,10 +1,10 @@
 /* along.c: the order of two points along a segment from its end 0. A turn of the segment does not change it.
  *
- *            end 1       With u and v the turns of a line against end 0 and end 1, the line crosses the segment the share
+ *            end 1       With u and v the turns of a line against end 0 and end 1, the line crosses the segment at
  *       b -----o-- -     u / (u - v) of the way from end 0: 0 and 1 for the ends themselves. So of two lines
  *            /               share b - share a = (u_a v_b - u_b v_a) / ((u_a - v_a) (u_b - v_b))
- *     a ----/------      and what is below does not change its sign as long as they cross. For the order of x the
- *       end 0            above would be multiplied by how far the segment goes in x, which is 0 when it turns. */
+ *     a ----/------      and the denominator does not change its sign as long as they cross. For the order of x the
+ *       end 0            numerator would be multiplied by how far the segment goes in x, which is 0 when it turns. */
 #include "kinetic/now.h"
 
 static bool has_end(const now_state *now, uint32_t segment, uint32_t vertex) {
@@ -66,7 +66,7 @@ static void exact_turns(now_state *now, uint32_t segment, now_name p, poly_exact
     }
 }
 
-/* u_p v_q - u_q v_p, whatever the sign of what is below. */
+/* u_p v_q - u_q v_p, whatever the sign of the denominator. */
 static void exact_difference(now_state *now, const now_claim *claim, poly_exact *out) {
     const uint32_t s = now_shared(now, claim->p, claim->q);
     poly_exact p[2], q[2];

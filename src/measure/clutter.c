@@ -1,4 +1,4 @@
-/* clutter.c: how many objects does an empty cube meet? A lower bound on the clutter factor, with the cube.
+/* clutter.c: the largest number of objects that a cube without guards meets: a lower bound on the clutter factor.
  *
  *     +-------x--+          Guards are the corners of bounding boxes. A cube without one inside grows around its centre
  *     |          |          until a guard is in one of its sides; then away from that side, and so on, until guards
@@ -6,8 +6,8 @@
  *     x          |          a free side, and the cube grows by moving the corner where they meet.
  *     +----------+
  *
- * Cubes start at random places near guards and are counted when they are locked; from the best ones others start near
- * by. What a cube meets is decided exactly, for a cube a hair smaller, closed, in place of the open one. */
+ * Cubes start at random places near guards and are counted when they cannot grow any more. From the best ones others
+ * start near by. What a cube meets is decided exactly, for a slightly smaller closed cube in place of the open one. */
 #include "base/floats.h"
 #include "base/random.h"
 #include "base/status.h"
@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BEST = 16, CLIMB = 32 }; /* cubes from which others start; how many, without gain */
+enum { BEST = 16, CLIMB = 32 }; /* cubes from which others start; tries in a row without gain */
 
 typedef struct cube {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -35,7 +35,7 @@ typedef struct survey {
     size_t guard_numbers;
     double *points;      /* of the guards */
     double limit;        /* no side is longer */
-    uint64_t key, draws; /* of random numbers: drawn anew for each place */
+    uint64_t key, draws; /* of random numbers: set anew for each place */
     cube cubes[BEST];    /* the best from different places, best first */
     uint32_t met[BEST];
     uint64_t keys[BEST];
@@ -173,7 +173,7 @@ static void keep_cube(survey *s, const cube *c, uint32_t met) {
     s->keys[at] = s->key;
 }
 
-/* Other cubes near a good one, from places within it: as long as they gain. */
+/* Tries cubes around places within a good one, until CLIMB in a row meet no more objects. */
 static void climb_from(survey *s, cube *best, uint32_t *most) {
     for (int try = 0; try < CLIMB; try++) {
         double centre[FROE_MAX_DIM];

@@ -107,7 +107,7 @@ typedef struct counter {
     uint32_t *out;
 } counter;
 
-/* The corner that stands for window i where upper ends are asked for on the axes in `upper`. A box that begins before
+/* The corner for window i of the product with upper ends on the axes in `upper`. A box that begins before
  * hi and ends up to lo: all that end there, but if lo = hi, not the flat ones at it, which do not begin before. */
 static void corners_below(const counter *c, size_t i, unsigned upper, uint32_t below[]) {
     uint32_t n = c->sample->scene->object_count;
@@ -118,7 +118,7 @@ static void corners_below(const counter *c, size_t i, unsigned upper, uint32_t b
                                   : ends_before(&c->ends[k][0], n, hi[k], 0);
 }
 
-/* Adds or takes away what a product of conditions says. */
+/* Adds or subtracts the counts of one product of conditions. */
 static froe_status add_product(counter *c, unsigned upper) {
     int dim = c->sample->scene->dim;
     size_t count = c->windows->count, products = (size_t)1 << dim;

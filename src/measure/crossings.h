@@ -1,6 +1,6 @@
-/* crossings.h: how many boxes have insides that meet a window? For many windows, in two ways with the same answers.
+/* crossings.h: counts the boxes whose insides meet a window, for many windows, in two ways with the same answers.
  *
- *     search    each window looks into a packed hierarchy: O(log n + what it finds); what people would do
+ *     search    each window searches a packed hierarchy: O(log n + what it finds), the plain method
  *     trees     inclusion and exclusion. On an axis a box meets lo .. hi if it begins before hi, but not if it also
  *               ends up to lo. Of the 2^d products of these each is a number of points below a corner, which range
  *               trees count in O(log^(d - 1) n) however many there are (Tobola and Nechvile, section 5.1)

@@ -1,8 +1,8 @@
 /* defects.c: the defect report: what is odd about a scene, counted exactly.
  *
  * Objects -> distinct, full-dimensional ones -> pairs that may meet oddly -> how each pair
- * touches. Each worker counts for itself; counts add up, the least example pair stays,
- * so threads do not show. */
+ * touches. Each worker has counts of its own. They are added, and the least example pair is kept,
+ * so the report does not depend on the number of threads. */
 #include "base/floats.h"
 #include "base/status.h"
 #include "geom/meet/contact.h"

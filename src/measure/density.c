@@ -1,14 +1,14 @@
 /* density.c: bounds on the density lambda of a scene.
  *
- *          ____             Only balls of exactly the size of an object matter: a ball grown to the next size loses
- *        /      \           nothing. So for each object o of radius r:
+ *          ____             Only balls of exactly the size of an object matter: growing a ball to the
+ *        /      \           next size loses nothing. So for each object o of radius r:
  *       |  o  r  | 2r
  *        \      /             N(o) = objects of at least the size of o within 3 r of its centre
  *          ----
  *                           Every ball of radius r that meets o has its contents in N(o): lambda <= max N(o).
  *
  * For the lower bound balls of radius r are tried around points near the objects with the largest N(o). Distances are
- * compared exactly; sizes are what doubles make of them, so lambda is that of the scene with these sizes. */
+ * compared exactly; sizes are rounded to doubles, so lambda is that of the scene with these sizes. */
 #include "base/floats.h"
 #include "base/random.h"
 #include "geom/meet/distance.h"
@@ -93,7 +93,7 @@ static void random_point(const survey *s, uint32_t object, uint64_t key, double 
     }
 }
 
-/* One of N(o), at random, whatever their order: the one with the least hash. */
+/* One of N(o), at random and independent of their order: the one with the least hash. */
 static uint32_t random_near(const survey *s, uint64_t key) {
     uint32_t chosen = s->near.data[0];
     uint64_t least = UINT64_MAX;

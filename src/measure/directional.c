@@ -1,18 +1,18 @@
 /* directional.c: how many boxes cross the plane of a face near it.
  *
  *              |          |    f           Of box e and its upper face: f crosses the plane of the face within the
- *        ......|==========|..*****....     face widened by some room, so it counts, as long as it keeps out of the
- *              |    e     |  *****         inside of e: as long as it does not cross the face itself.
+ *        ......|==========|..*****....     face widened by some room. So it counts, unless it meets the inside of e,
+ *              |    e     |  *****         that is, unless it crosses the face itself.
  *              |          |  *****
  *
- * (Tobola and Nechvile, definitions 2.2, 3.2 and 4.1, and section 5.1 for one rectangle in place of the union of two:
- * that is what a cell can be at most when no lemma cut is left.) */
+ * (Tobola and Nechvile, definitions 2.2, 3.2 and 4.1, and section 5.1 for one rectangle in place of the union of two.
+ * It bounds the cell when no lemma cut is left.) */
 #include "base/floats.h"
 #include "base/status.h"
 #include "measure/crossings.h"
 #include <math.h>
 
-/* Rooms that a face is widened by. From EVEN on: but little on axis form - EVEN, much on the others. */
+/* Rooms that a face is widened by. From EVEN on: little on axis form - EVEN, much on the others. */
 enum { NONE, SIMPLE, EXTENDED, EVEN };
 
 typedef struct survey {

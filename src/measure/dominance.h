@@ -1,11 +1,11 @@
-/* dominance.h: how many points lie below a corner on all axes? A range tree with fractional cascading.
+/* dominance.h: counts the points below a corner on all axes: a range tree with fractional cascading.
  *
  *     axis 0          node j has the points (j - lowbit j, j] of its list, ascending on the axis: those up to r
  *      |  |  |        fall into the nodes r, r - lowbit r, ... (Fenwick 1994)
  *     axis 1 ...      a node of its own for each of these, and so on
  *      |
- *     last two        one list, ascending on the last axis, split by halves of the axis before it; each entry tells
- *                     how many before it go left, which is where a search goes on in either half
+ *     last two        one list, ascending on the last axis, split by halves of the axis before it; each entry
+ *                     counts those before it that go left, which is where a search goes on in either half
  *
  * Bentley, Multidimensional divide-and-conquer, CACM 1980; Lueker 1978 for the cascading, which saves a logarithm;
  * Chazelle, A functional approach to data structures, SIAM J. Comput. 1988, for counts in place of pointers. */

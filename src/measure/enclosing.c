@@ -1,11 +1,11 @@
 /* enclosing.c: smallest enclosing balls, by exchange of support points.
  *
- *        o-----.         the ball of at most four points of support; the point furthest outside comes in, and the
- *      .   .    o        smallest ball that is held by it and some of the others, and holds them all, is next. It
+ *        o-----.         the ball of at most four points of support; the point furthest outside is added, and the
+ *      .   .    o        next ball is the smallest that is held by it and some of the others, and holds them all. It
  *     o  ball    .  o    grows each time, so this ends (an LP-type problem: Matousek, Sharir and Welzl 1996).
  *
  * Squares of lengths, and products of those, leave the range of doubles long before coordinates do: all differences are
- * taken times a power of 2 that makes the object about as large as 1, and only radii are taken back. */
+ * multiplied by a power of 2 that makes the object about as large as 1, and only radii are scaled back. */
 #include "measure/enclosing.h"
 #include <float.h>
 #include <math.h>
@@ -101,7 +101,7 @@ static bool exchange(int dim, support *s, double scale, measure_ball *ball) {
         if (some.count > dim + 1 || !circumscribe(dim, &some, scale, &b)) continue;
         if (b.radius < least.radius && ball_holds(dim, &b, s, scale)) least = b, best = some;
     }
-    if (!best.count || least.radius <= ball->radius) return false; /* rounding: as near as doubles get */
+    if (!best.count || least.radius <= ball->radius) return false; /* no growth: doubles allow no better ball */
     *s = best;
     *ball = least;
     return true;

@@ -1,4 +1,4 @@
-/* enclosing.h: how large objects are: smallest enclosing balls and diameters, in doubles. */
+/* enclosing.h: sizes of objects: smallest enclosing balls and diameters, in doubles. */
 #ifndef FROE_MEASURE_ENCLOSING_H
 #define FROE_MEASURE_ENCLOSING_H
 #include "scene/scene.h"

@@ -1,4 +1,4 @@
-/* fatness.c: volume over that of the smallest enclosing ball; of polygons in space, area over that of the disc. */
+/* fatness.c: the share of each object in its smallest enclosing ball, or of polygons in space, in its disc. */
 #include "base/floats.h"
 #include "base/status.h"
 #include "geom/selftest.h"

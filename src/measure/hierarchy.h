@@ -1,10 +1,10 @@
-/* hierarchy.h: boxes, each with a size, to be found by where they are and how large they are.
+/* hierarchy.h: boxes, each with a size, to be found by place and size.
  *
  *     level 2              [ all ]                     eight neighbours along a curve make a node (Kamel and Faloutsos
- *     level 1      [ 8 ] [ 8 ] [ 8 ] ...               1993), which knows their common box and their greatest size:
- *     level 0     b b b b b b b b b ...                a search for large boxes does not see the small ones
+ *     level 1      [ 8 ] [ 8 ] [ 8 ] ...               1993), which holds their common box and their greatest size:
+ *     level 0     b b b b b b b b b ...                a search for large boxes skips nodes of small ones
  *
- * For measures of scenes, where building must be quick and any dimension will do. */
+ * For measures of scenes, where building must be quick and all dimensions occur. */
 #ifndef FROE_MEASURE_HIERARCHY_H
 #define FROE_MEASURE_HIERARCHY_H
 #include "base/memory.h"

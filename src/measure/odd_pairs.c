@@ -8,7 +8,7 @@
 
 enum {
     ENOUGH = 32,       /* pairs of boxes for each object: more are worth a sweep */
-    COUNTED = 1 << 10, /* pairs that a worker finds between two looks at what others found */
+    COUNTED = 1 << 10, /* pairs that a worker finds between two updates of the common count */
     LEAST = 64,        /* objects of a sheet */
     VISITORS = 64      /* objects of a job */
 };
@@ -19,7 +19,7 @@ typedef struct counter {
     char apart[60];
 } counter;
 
-/* What lies side by side: a run of `order`, and a search tree of its boxes. */
+/* Objects that lie side by side: a run of `order`, and a search tree of its boxes. */
 typedef struct sheet {
     uint32_t first, end;
     measure_hierarchy boxes;
@@ -37,12 +37,12 @@ typedef struct search {
     counter *counters; /* of each worker */
     /* then */
     base_pair *pairs; /* places in the list, by source polygon; and as many more */
-    uint32_t *order;  /* places in the list: the sheets, one after the other, and what is loose */
+    uint32_t *order;  /* places in the list: the sheets, one after the other, then the loose objects */
     double *lo, *hi;  /* the bounds of these */
     ARRAY(sheet) sheets;
     double *sheet_lo, *sheet_hi;
     measure_hierarchy bounds; /* of the sheets */
-    uint32_t straight;        /* what is loose begins here in `order` */
+    uint32_t straight;        /* the loose objects begin here in `order` */
     ARRAY(measure_touch) touches;
     bool *crooked;
 } search;
@@ -57,7 +57,7 @@ static bool count_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
     return atomic_fetch_add(&s->found, COUNTED) < ENOUGH * (size_t)s->of->count;
 }
 
-/* Are there more pairs of boxes than a sweep costs? Counting them takes a small part of looking at them. */
+/* Are there more pairs of boxes than a sweep costs? Counting them takes a small part of the time of testing them. */
 static froe_status count_boxes(search *s, bool *many) {
     const measure_candidates *of = s->of;
     s->counters = base_calloc(s->alloc, s->task->threads, sizeof *s->counters);
@@ -86,7 +86,7 @@ static int widest(const froe_scene *scene, const uint32_t *objects, uint32_t cou
     return areas[2] > areas[best] ? 2 : best;
 }
 
-/* Sweeps over a run of s->pairs; straight objects come into the order, s->crooked tells of all. `objects` has room. */
+/* Sweeps over a run of s->pairs; straight objects come into the order, s->crooked is set for all. `objects`: room. */
 static froe_status sweep_run(search *s, size_t first, uint32_t count, uint32_t *objects) {
     const froe_scene *scene = s->of->scene;
     for (uint32_t i = 0; i < count; i++) objects[i] = s->of->objects[s->pairs[first + i].value];
@@ -170,7 +170,7 @@ static bool visit_sheet(search *s, unsigned worker, uint32_t visitor, const shee
     return true;
 }
 
-/* What is loose visits all sheets, what is in a sheet visits those before it. */
+/* A loose object visits all sheets, an object of a sheet visits the sheets before it. */
 static bool visit_sheets(search *s, unsigned worker, uint32_t visitor) {
     size_t at = (size_t)visitor * (size_t)s->of->scene->dim;
     measure_search sheets = measure_search_begin(&s->bounds, s->lo + at, s->hi + at, 0);

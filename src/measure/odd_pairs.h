@@ -1,9 +1,9 @@
 /* odd_pairs.h: pairs of objects that may cross, overlap or meet in a T-junction, each once.
  *
  *     few boxes meet     all pairs of boxes that touch
- *     many               triangles of one source polygon, and segments of the plane, are swept first (sheet.h). What
- *                        lies side by side for certain is not looked at pair by pair, but where corners touch edges;
- *                        everything else meets everything in boxes */
+ *     many               triangles of one source polygon, and segments of the plane, are swept first (sheet.h). Objects
+ *                        that certainly lie side by side are paired only where corners touch edges; all others are
+ *                        paired where boxes touch */
 #ifndef FROE_MEASURE_ODD_PAIRS_H
 #define FROE_MEASURE_ODD_PAIRS_H
 #include "geom/meet/box_pairs.h"

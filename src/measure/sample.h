@@ -1,4 +1,4 @@
-/* sample.h: what measures share: which objects are looked at, how values are distributed, and how long it takes. */
+/* sample.h: what measures share: the sample of objects, the distribution of values, and progress. */
 #ifndef FROE_MEASURE_SAMPLE_H
 #define FROE_MEASURE_SAMPLE_H
 #include "base/array.h"
@@ -15,7 +15,7 @@ typedef struct measure_sample {
     ARRAY(double) values[4];
 } measure_sample;
 
-/** Takes the options (NULL: the defaults). FROE_E_ARG, FROE_E_OPTIONS. Free it whatever happens. */
+/** Takes the options (NULL: the defaults). FROE_E_ARG, FROE_E_OPTIONS. Free it in any case. */
 froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_options *options, const void *out,
                                  measure_sample *sample, froe_diagnostic *diag);
 void measure_sample_free(measure_sample *sample);
@@ -24,13 +24,13 @@ typedef struct measure_bounds {
     double *lo, *hi;
     size_t numbers; /**< of each array */
 } measure_bounds;
-/** FROE_E_MEMORY; free them whatever happens. */
+/** FROE_E_MEMORY; free them in any case. */
 froe_status measure_bounds_new(const measure_sample *sample, measure_bounds *out);
 void measure_bounds_free(const measure_sample *sample, measure_bounds *bounds);
 /** Object i of the sample: one at random of each of `count` equal runs of ids. */
 uint32_t measure_sample_object(const measure_sample *sample, uint32_t i);
-/** A number that names an object by its place and extent in the scene: the same in any order and at any scale 2^k, so
- * that random choices that start from it are, too. */
+/** A number that identifies an object by its place and extent in the scene: the same in any order and at any scale 2^k.
+ * So random choices that start from it are the same, too. */
 uint64_t measure_sample_key(const measure_sample *sample, uint32_t object);
 /** Reports progress; false: cancelled. To be called for each object. */
 bool measure_sample_go_on(measure_sample *sample, uint32_t i);

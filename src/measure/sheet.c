@@ -1,4 +1,4 @@
-/* sheet.c: edges, and what lies on their two sides; the events; the sweep, over a splay tree (Sleator and Tarjan:
+/* sheet.c: edges with the objects on their two sides; the events; the sweep, over a splay tree (Sleator and Tarjan:
  * Self-adjusting binary search trees, 1985) of the edges on the line. */
 #include "measure/sheet.h"
 #include "base/radix.h"
@@ -29,7 +29,7 @@ typedef struct sweep {
     measure_sheet *sheet;
     ARRAY(side) sides;
     ARRAY(edge) edges;
-    base_pair *events; /* where edges begin and end, in order: an edge, and its lowest bit tells which end */
+    base_pair *events; /* where edges begin and end, in order: an edge, its lowest bit is the end */
     size_t event_room, event_count;
     uint32_t root;
 } sweep;
@@ -183,7 +183,7 @@ static void link_neighbours(sweep *s, uint32_t low, uint32_t high) {
     s->edges.data[high].neighbour[0] = low;
 }
 
-/* An edge that lies along another one, from here on, does not come in. */
+/* An edge that runs along another one from its start on is not inserted. */
 static void insert(sweep *s, uint32_t number) {
     edge *e = s->edges.data, *new = e + number;
     new->child[0] = new->child[1] = 0;
@@ -236,14 +236,14 @@ static bool condemned(const sweep *s, const edge *e) {
     return true;
 }
 
-/* Which of two that cross is to go? One that nothing is lost with, or else the longer one, which may cross more. */
+/* The edge to remove of two that cross: one of crooked objects alone, or else the longer one, which may cross more. */
 static uint32_t choose(const sweep *s, uint32_t low, uint32_t high) {
     const edge *a = s->edges.data + low, *b = s->edges.data + high;
     if (condemned(s, a) != condemned(s, b)) return condemned(s, a) ? low : high;
     return a->q[0] - a->p[0] > b->q[0] - b->p[0] ? low : high;
 }
 
-/* What lies between neighbours: is it the same for both? */
+/* Condemns the objects between two neighbours if they differ. */
 static void compare_sides(sweep *s, uint32_t low, uint32_t high) {
     uint32_t above = s->edges.data[low].beside[1], below = s->edges.data[high].beside[0];
     if (s->axis < 0 || above == below) return;
@@ -251,7 +251,7 @@ static void compare_sides(sweep *s, uint32_t low, uint32_t high) {
     condemn(s, below);
 }
 
-/* Looks at all that have become neighbours at a point, for now (while edges that begin there are missing) or for good. */
+/* Tests all that are neighbours at a point now, before edges that begin there are in, or for good. */
 static void settle(sweep *s, const edge *point, bool for_good) {
     edge *e = s->edges.data;
     uint32_t low = s->root ? s->root = splay(s, s->root, point) : 0;
@@ -271,7 +271,7 @@ static void settle(sweep *s, const edge *point, bool for_good) {
     }
 }
 
-/* What has a corner at events first .. end touches what lies beside an edge there. */
+/* Notes that objects with a corner at events first .. end touch the objects beside an edge there. */
 static froe_status touch(sweep *s, const edge *on, size_t first, size_t end) {
     for (size_t i = first; i < end; i++) {
         const edge *e = s->edges.data + s->events[i].value / 2;
@@ -285,8 +285,8 @@ static froe_status touch(sweep *s, const edge *on, size_t first, size_t end) {
     return FROE_OK;
 }
 
-/* All that ends or begins at one point. Of edges that only pass, one at most is left before others begin: two would
- * cross there. */
+/* Handles all edges that end or begin at one point. Of edges that only pass, at most one is left before others begin,
+ * since two would cross there. */
 static froe_status pass(sweep *s, size_t first, size_t end) {
     edge *e = s->edges.data, point = {.on = true};
     for (int k = 0; k < 2; k++) point.p[k] = point.q[k] = event_place(s, s->events + first)[k];

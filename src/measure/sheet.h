@@ -1,9 +1,9 @@
-/* sheet.h: segments of the plane, or polygons of space seen along an axis, that lie side by side: which do for certain?
+/* sheet.h: which segments of the plane, or polygons of space seen along an axis, certainly lie side by side.
  *
  *     __       |    ___          A line sweeps over the edges and keeps those that it meets in order (Shamos and Hoey:
- *       \______|___/   high      Geometric intersection problems, 1976). Where two neighbours cross further on, one of
- *          7   |   7             them goes. What lies above the lower of two neighbours must be what lies below the
- *     _________|____             upper one, or both overlap something.
+ *       \______|___/   high      Geometric intersection problems, 1976). Where two neighbours cross further on, one is
+ *          7   |   7             removed. What lies above the lower of two neighbours must be what lies below the
+ *     _________|____             upper one, or both may overlap something.
  *          4   |    \_ low
  *
  * An object is straight if all of its edges stay, and what lies beside them is right everywhere. Insides of straight

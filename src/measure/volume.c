@@ -1,7 +1,7 @@
-/* volume.c: convex hulls, corner by corner: facets that see the next corner go, and new ones join it to their border.
+/* volume.c: convex hulls, corner by corner: new facets from each replace those that see it, up to their border.
  *
- *        x               Signs are exact, so that corners in the plane of a facet, of which real hulls are full, lead
- *       / \              to no contradictions: a facet whose plane holds the corner does not see it.
+ *        x               Signs are exact, so that corners in the plane of a facet, which are common, lead to no
+ *       / \              contradictions: a facet whose plane holds the corner does not see it.
  *      a---b  gone       (Incremental construction; in the plane by wrapping, Jarvis 1973.)
  *     /     \
  */
@@ -116,7 +116,7 @@ static bool add_hull_corner(hull *h, const double *x) {
     return true;
 }
 
-/* A tetrahedron of four corners that are not in one plane; no facets: there is none. */
+/* A tetrahedron of four corners that are not in one plane; none: no facets. */
 static bool begin_hull(hull *h) {
     const uint32_t n = scene_corners(h->scene, h->object);
     const double *p[3] = {hull_corner(h, 0), n > 1 ? hull_corner(h, 1) : NULL, NULL};
