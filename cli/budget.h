@@ -1,4 +1,4 @@
-/* budget.h: how many pieces a command builds before it gives up, so that no scene makes a machine swap. */
+/* budget.h: the most pieces that a command builds, so that no scene makes a machine swap. */
 #ifndef FROE_CLI_BUDGET_H
 #define FROE_CLI_BUDGET_H
 #include "exit.h"

@@ -1,7 +1,7 @@
 /* command.h: what a command is. One file and one line in commands.def make one.
  *
  * An arguments struct begins with a cli_common; `defaults` is such a struct, which
- * the parser's answers overwrite. `run` gets the result and returns an exit code. */
+ * the parser overwrites. `run` gets the result and returns an exit code. */
 #ifndef FROE_CLI_COMMAND_H
 #define FROE_CLI_COMMAND_H
 #include "options.h"

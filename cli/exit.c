@@ -68,7 +68,7 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
     const char *reason = told ? diag->message : froe_status_text(status);
     if (file) reason = without_file(reason, file);
     if (file && quotes(reason, file)) file = NULL;
-    if (status == FROE_E_OPTIONS && stage != CLI_READING) file = NULL; /* the command line's fault, not the file's */
+    if (status == FROE_E_OPTIONS && stage != CLI_READING) file = NULL; /* the command line is wrong, not the file */
     int length = (int)strlen(reason);
     if (length && reason[length - 1] == '.') length--;
     return cli_fail(code, file, "%s%.*s", where, length, reason);

@@ -15,8 +15,8 @@ enum {
     CLI_CANCELLED = 130 /**< Ctrl-C, as shells report it */
 };
 
-/** What was being done when a call failed: the same status can be the input's
- * fault, the command line's or the disk's. */
+/** What was being done when a call failed: the cause of the same status can be the input,
+ * the command line or the disk. */
 typedef enum cli_stage { CLI_READING, CLI_WORKING, CLI_WRITING } cli_stage;
 
 /** Prints "froe: FILE: sentence" on stderr (file may be NULL) and returns `code`. */

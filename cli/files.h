@@ -9,8 +9,8 @@ int cli_write_file(const char *path, const void *bytes, size_t count);
 /** The same, of what a function writes. */
 typedef void cli_write_fn(FILE *out, const void *user);
 int cli_write_text(const char *path, cli_write_fn *fn, const void *user);
-/** A slip of the hand must not cost a file: fails where one of the outputs is one of the inputs, by whatever name, or
- * is named twice. Names may be NULL. Returns 0 or an exit code after saying why. */
+/** Keeps a mistyped command from overwriting its input: fails where one of the outputs is one of the inputs, by
+ * whatever name, or is named twice. Names may be NULL. Returns 0 or an exit code after saying why. */
 int cli_check_outputs(const char *const *inputs, size_t input_count, const char *const *outputs, size_t output_count);
 /** The embedded file of that name, NULL if there is none. */
 const cli_embedded *cli_embedded_named(const char *name);

@@ -1,4 +1,4 @@
-/* help.c: writes what the tables say, wrapped for a terminal or as roff. */
+/* help.c: writes the tables of options, wrapped for a terminal or as roff. */
 #include "help.h"
 #include "exit.h"
 #include "report.h"

@@ -11,7 +11,7 @@ void html_begin(FILE *out, const char *title, const char *style);
 void html_end(FILE *out);
 /** Text with markup escaped. */
 void html_text(FILE *out, const char *text);
-/** A number for reading: thousands parted, reals with four digits; or text. */
+/** A number for reading: thousands set apart, reals with four digits; or text. */
 void html_value(FILE *out, const json_t *value);
 /** A table of name and value; `names` are keys of the report, ended by NULL. */
 void html_pairs(FILE *out, const json_t *report, const char *const *names);

@@ -1,4 +1,4 @@
-/* measure_picture.h: the worst cube or ball of a scene, among the objects around it. */
+/* measure_picture.h: the cube or ball in which a measure is greatest, among the objects around it. */
 #ifndef FROE_CLI_MEASURE_PICTURE_H
 #define FROE_CLI_MEASURE_PICTURE_H
 #include "options.h"

@@ -1,5 +1,5 @@
 /* options.c: the parser of command lines. Numbers are read whole or refused;
- * what is unknown is answered with the nearest known name. */
+ * for an unknown name the message names the nearest known one. */
 #include "options.h"
 #include "exit.h"
 #include <errno.h>

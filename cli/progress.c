@@ -19,7 +19,7 @@ void cli_catch_signals(void) {
     action.sa_handler = on_interrupt;
     action.sa_flags = (int)SA_RESETHAND;
     if (sigaction(SIGINT, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, NULL);
-    action.sa_handler = SIG_IGN; /* a file beyond the allowed size: let write() say so */
+    action.sa_handler = SIG_IGN; /* a file beyond the allowed size: write() fails instead */
     sigaction(SIGXFSZ, &action, NULL);
 }
 

@@ -10,7 +10,7 @@
 
 typedef struct cli_progress {
     const char *what;
-    bool visible; /**< stderr is a terminal and nobody asked for quiet */
+    bool visible; /**< stderr is a terminal, without --quiet */
     int percent;  /**< drawn last; -1: nothing yet */
 } cli_progress;
 

@@ -1,4 +1,4 @@
-/* queries.c: blocks of queries, and what becomes of bad ones. */
+/* queries.c: blocks of queries, and the treatment of bad ones. */
 #include "queries.h"
 #include "exit.h"
 #include "progress.h"

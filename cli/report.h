@@ -1,4 +1,4 @@
-/* report.h: what a command found out, as JSON or as text.
+/* report.h: the results of a command, as JSON or as text.
  *
  * A command fills one JSON object; --json prints it as it is, and otherwise the
  * same object is laid out for reading:
@@ -17,8 +17,8 @@
 #include <stdio.h>
 
 /** Prints and releases `report` (NULL: there was no memory for it). `headline` is
- * a sentence above the text form, or NULL. Whoever asked for the report in
- * `common` gets it instead of its release. Returns 0 or an exit code. */
+ * a sentence above the text form, or NULL. With common->report it is handed
+ * over there instead of released. Returns 0 or an exit code. */
 int cli_report(const cli_common *common, const char *headline, json_t *report);
 
 /** Flushes stdout; an exit code when it did not take everything. */

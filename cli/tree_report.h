@@ -1,4 +1,4 @@
-/* tree_report.h: what there is to say about a tree; shared by build, check and demo. */
+/* tree_report.h: the report on a tree; shared by build, check and demo. */
 #ifndef FROE_CLI_TREE_REPORT_H
 #define FROE_CLI_TREE_REPORT_H
 #include "report.h"

@@ -1,4 +1,4 @@
-/* version.c: what this program is made of, as the build told it. */
+/* version.c: the version, commit and features of this program, set by the build. */
 #include "version.h"
 #include "report.h"
 #include <froe/froe.h>

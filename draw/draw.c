@@ -1,4 +1,4 @@
-/* draw.c: the public calls: options checked, page planned, painted, handed over. */
+/* draw.c: the public calls: options checked, page planned and painted, bytes written. */
 #include "escape.h"
 #include "output.h"
 #include "palette.h"
@@ -141,7 +141,7 @@ static bool has_window(const froe_draw_options *o, int dim) {
     return true;
 }
 
-/* Air around a whole scene, and no window thinner than an eighth. */
+/* Margins around a whole scene, and no window thinner than an eighth. */
 static void frame_scene(draw_picture *picture, const froe_draw_options *o) {
     const froe_scene *scene = froe_tree_scene(picture->page.tree);
     int dim = froe_scene_dim(scene);

@@ -1,4 +1,4 @@
-/* escape.c: names come from files, where anything may be found. */
+/* escape.c: any bytes, as of names from files, made characters of XML. */
 #include "escape.h"
 #include "support/utf8.h"
 #include <stdbool.h>

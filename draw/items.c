@@ -1,10 +1,10 @@
-/* items.c: walks the tree from front to back and puts down what is seen.
+/* items.c: walks the tree from front to back and lists what is seen.
  *
  * At an inner node the side of the eye comes first, then what lies in the cut, then
- * the other side (Fuchs, Kedem, Naylor 1980). A part puts its front faces before its
- * contents and its back faces behind them. Pieces in cuts above all parts
+ * the other side (Fuchs, Kedem, Naylor 1980). A part lists its front faces before its
+ * contents and its back faces after them. Pieces in cuts above all parts
  * move by their own centre, which lies in the cut: the order stays right (draw.h).
- * Only pieces that share a leaf have no cut between them: they are put in the order of
+ * Only pieces that share a leaf have no cut between them: they are listed in the order of
  * their centres, and so are boxes, balls and hulls, which no cut divides. */
 #include "solid.h"
 #include <math.h>

@@ -1,4 +1,4 @@
-/* lettering.h: a single-stroke draughtsman's hand, so that pictures need no font
+/* lettering.h: single-stroke letters, so that pictures need no font
  * of the system and have the same bytes everywhere. */
 #ifndef FROE_DRAW_LETTERING_H
 #define FROE_DRAW_LETTERING_H

@@ -1,5 +1,5 @@
-/* memory.c: the few lines of memory and messages that the pictures need; the
- * core's own are not public. */
+/* memory.c: memory and messages for the pictures; the core's own functions for these are
+ * not public. */
 #include "memory.h"
 #include "support/floats.h"
 #include <stdarg.h>

@@ -25,7 +25,7 @@ void *draw_calloc(const froe_allocator *alloc, size_t count, size_t item);
 void draw_free(const froe_allocator *alloc, void *ptr, size_t size);
 bool draw_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra, size_t item);
 
-/** A call in progress: now and then the caller hears of it and may stop it. */
+/** A call in progress, which reports its progress now and then and stops if the caller wants. */
 typedef struct draw_task {
     froe_progress_fn *progress; /**< may be NULL */
     void *user;
@@ -33,7 +33,7 @@ typedef struct draw_task {
     uint64_t ticks;
     bool cancelled;
 } draw_task;
-/** One step done; false once the caller said stop. */
+/** One step done; false once the caller's function returned false. */
 static inline bool draw_tick(draw_task *task) {
     if (++task->ticks % 16384 || !task->progress || task->cancelled) return !task->cancelled;
     const double share = (double)task->ticks / task->total;

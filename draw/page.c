@@ -1,4 +1,4 @@
-/* page.c: title, legend, scale bar. Everything hangs on one unit, so that a page
+/* page.c: title, legend, scale bar. All lengths are multiples of one unit, so that a page
  * of any size keeps its proportions. */
 #include "page.h"
 #include "lettering.h"

@@ -13,7 +13,7 @@ static void ring_path(cairo_t *cr, const draw_point *p, size_t count) {
     cairo_close_path(cr);
 }
 
-/* A breath of the same colour around each cell closes the seams that antialiasing leaves. */
+/* A thin line of the same colour around each cell closes the seams that antialiasing leaves. */
 static void fill_cells(cairo_t *cr, uint32_t color, double seam) {
     draw_set_color(cr, color, 1);
     cairo_set_line_width(cr, seam);

@@ -1,4 +1,4 @@
-/* palette.c: birch to slate. The depth scale is a quadratic curve in OKLab
+/* palette.c: the colours, pale yellow to slate blue. The depth scale is a quadratic curve in OKLab
  * (B. Ottosson, 2020) from L 0.975 C 0.02 h 90 over L 0.84 C 0.085 h 185 to L 0.54
  * C 0.085 h 245, cut into eight pieces of equal length: equal steps in depth look
  * equal, and lightness alone carries the order, so that it survives colour

@@ -10,7 +10,7 @@ typedef struct draw_picture {
     draw_page page;
     draw_space space;
     bool whole;     /**< no window was asked for */
-    double wide[3]; /**< half extents of the window in drawing coordinates, with some air around a whole scene */
+    double wide[3]; /**< half extents of the window in drawing coordinates, with a margin around a whole scene */
     uint32_t show;
     struct draw_solid *solid; /**< what an exploded view has gathered */
 } draw_picture;

@@ -1,4 +1,4 @@
-/* render.c: the public calls for pictures with hidden surfaces removed: checked, looked at, painted, handed over. */
+/* render.c: the public calls for pictures with hidden surfaces removed: checked, computed, painted, written. */
 #include "render.h"
 #include "support/floats.h"
 #include "support/writer.h"

@@ -1,5 +1,4 @@
-/* shade.c: colours of faces: those of their groups, or one hue per material, lit by a lamp that is fixed to the camera.
- */
+/* shade.c: colours of faces: those of their groups, or one hue per material, lit from beside the camera. */
 #include "render.h"
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +7,7 @@
 /* Muted, of like weight, and apart for the colour-blind; materials take them in the order they come. */
 static const uint32_t hues[] = {0xE9E4D8, 0xB8CBD6, 0xD9B48F, 0xB9C7A0, 0xC9B6CF, 0xE3CF8E, 0xC9A79C, 0xA8C4BE};
 
-/* Steps of light of flat shading: one is at most two of 255, which nobody sees, and neighbours on a smooth surface
+/* Steps of light of flat shading: one is at most two of 255, which is invisible, and neighbours on a smooth surface
  * share a path more often. */
 enum { LIGHTS = 64 };
 
@@ -22,7 +21,7 @@ static uint32_t lit(uint32_t colour, double light) {
     return out;
 }
 
-/* How much the lamp, to the upper left of the camera, lights a polygon: 0 .. 1, from both sides. */
+/* How much the light, to the upper left of the camera, lights a polygon: 0 .. 1, from both sides. */
 static double light_on(const draw_render *r, uint32_t object) {
     const double *p[3];
     double n[3], lamp[3], length = 0, lamp_length = 0, dot = 0;

@@ -1,7 +1,7 @@
-/* solid.c: exploded views: a model of plaster in glass boxes.
+/* solid.c: exploded views: opaque pieces in transparent cells.
  *
- * Items were put down from front to back. Of those smaller than a dot the nearest one
- * a dot is kept, then all are painted from back to front. */
+ * Items are listed from front to back. Of those smaller than a dot the nearest in each
+ * dot is kept, then all are painted from back to front. */
 #include "solid.h"
 #include "paint.h"
 #include "palette.h"

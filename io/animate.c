@@ -24,7 +24,7 @@ static void find_bounds(io_animation *a) {
     double width = a->hi[0] - a->lo[0], height = a->hi[1] - a->lo[1], page = a->options.width - 2 * IO_ANIMATION_MARGIN;
     a->scale = page / fmax(fmax(width, height), 1e-300);
     if (height <= width) a->scale = page / fmax(width, 1e-300);
-    if (!(a->scale > 0) || !isfinite(a->scale)) a->scale = 1; /* nothing, or too much of it */
+    if (!(a->scale > 0) || !isfinite(a->scale)) a->scale = 1; /* no extent, or one beyond doubles */
     a->height = ceil(height * a->scale) + 2 * IO_ANIMATION_MARGIN;
     if (!(a->height > 2 * IO_ANIMATION_MARGIN)) a->height = 2 * IO_ANIMATION_MARGIN + 1;
 }

@@ -1,4 +1,4 @@
-/* animate.h: a motion on its way to a picture: where the page is, and when who is in contact. */
+/* animate.h: a motion on its way to a picture: its scale on the page, and the contacts of each object. */
 #ifndef FROE_IO_ANIMATE_H
 #define FROE_IO_ANIMATE_H
 #include "writer.h"

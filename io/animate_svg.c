@@ -63,7 +63,7 @@ static double next_key(const keys *k, double time) {
     return next;
 }
 
-/* Keys from the window's begin to its end; before its birth and after its death the object waits, unseen. */
+/* Keys from the window's begin to its end; before its birth and after its death the object is invisible. */
 static void put_keys(keys *k) {
     double birth = k->object.birth, death = k->object.death, share = share_of(k->a, birth);
     put_key(k, birth, 0);
@@ -106,7 +106,7 @@ static void put_life(io_writer *w, const io_animation *a, const froe_moving_obje
     put_loop(w, a);
 }
 
-/* Red from the begin of a contact to its end, and a little longer, or nobody would see the short ones. */
+/* Red from the begin of a contact to its end, and a little longer, so that short ones are visible. */
 static void put_contacts(io_writer *w, const io_animation *a, uint32_t object) {
     size_t first = a->starts[object], end = a->starts[object + 1];
     if (first == end) return;

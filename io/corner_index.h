@@ -1,4 +1,4 @@
-/* corner_index.h: corners of a polygon in the plane, marked and unmarked; is a marked one in a triangle?
+/* corner_index.h: corners of a polygon in the plane, marked and unmarked, and a search for marked ones in a triangle.
  *
  *     level 2              [ all ]                     eight neighbours along a curve make a node, which knows the box
  *     level 1      [ 8 ] [ 8 ] [ 8 ] ...               of its corners and how many of them are marked: a search passes

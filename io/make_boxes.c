@@ -154,7 +154,7 @@ void io_make_plates(io_maker *m) {
 }
 
 /* The other way round: uncluttered, since all are cubes, of one size where they are near each other; but across a plane
- * of each large one lies a crowd of about root(n) / 2, on two axes at least. */
+ * of each large one lie about root(n) / 2 others, on two axes at least. */
 void io_make_moons(io_maker *m) {
     size_t crowd = io_root(m->n, 2) / 2 + 1, side = io_root(crowd, 2) + 1, row = io_root(m->n / (2 * crowd), 3) + 1;
     double large = 2 * (double)side;

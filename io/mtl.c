@@ -42,7 +42,7 @@ void io_materials_free(io_sink *sink, io_materials *materials) {
 
 /* --------------------------------------------------------------------- reading -- */
 
-/* The word at the beginning of a line, and then what? NULL: another word. */
+/* What follows the word at the beginning of a line; NULL: the line begins with another. */
 static const char *after(const char *line, const char *word) {
     const size_t length = strlen(word);
     line += strspn(line, " \t");

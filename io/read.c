@@ -1,4 +1,4 @@
-/* read.c: froe_read: looks at a file and hands it to the reader that knows it. */
+/* read.c: froe_read: recognises the format of a file and calls its reader. */
 #include "read.h"
 #include "support/floats.h"
 #include <ctype.h>
@@ -114,7 +114,7 @@ static froe_status check_read_options(const char *path, const froe_read_options 
     return FROE_OK;
 }
 
-/* Layers and attributes are things of maps: a filter must not be ignored in silence. */
+/* Only maps have layers and attributes: a filter of another file is refused, rather than ignored. */
 static froe_status check_filters(const io_source *source, io_reader *reader, froe_diagnostic *diag) {
     const froe_read_options *o = source->options;
     if (reader == io_read_ogr || (!o->layer && !o->where)) return FROE_OK;

@@ -14,7 +14,7 @@ typedef struct io_source {
     const froe_read_options *options;
 } io_source;
 
-/** A reader pours the file into the sink, which it opens with the right dimension, and sets
+/** A reader adds the objects of the file to the sink, which it opens with the right dimension, and sets
  * report.format and report.precision. */
 typedef froe_status io_reader(const io_source *source, io_sink *sink);
 io_reader io_read_csv, io_read_off, io_read_obj, io_read_ply, io_read_assimp, io_read_ogr;

@@ -1,7 +1,7 @@
 /* read_assimp.c: solid models in all the formats assimp knows, as they are in the
  * file: no post-processing step of assimp runs, for those that weld, drop or split do
  * so within tolerances. Its coordinates are single precision; node transforms are
- * multiplied out in double. Nodes are walked with a stack of our own. */
+ * multiplied out in double. Nodes are walked with an explicit stack. */
 #include "mtl.h"
 #include "read.h"
 #include <assimp/GltfMaterial.h>
@@ -121,7 +121,7 @@ static double srgb(double light) {
     return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
 }
 
-/* glTF sees through materials only when they say so. */
+/* In glTF only materials whose alpha mode is BLEND are transparent. */
 static double opacity_of(const struct aiMaterial *material, double alpha) {
     struct aiString blending = {.length = 0};
     float opacity = 1;

@@ -88,7 +88,7 @@ static int role_of(const char *name, bool *beyond) {
     return (sided && corner ? FROE_MAX_DIM : 0) + axis;
 }
 
-/* Counts the roles; settles kind and dimension. False: this header is not ours. */
+/* Counts the roles; settles kind and dimension. False: it is no header of this reader. */
 static bool settle(table *t, bool sided) {
     int count[LEFT_ALONE + 1] = {0}, dim = 0, high = 0;
     for (int i = 0; i < t->columns; ++i) ++count[t->role[i]];

@@ -1,5 +1,5 @@
-/* read_ogr.c: plane maps in all the formats OGR knows. What GDAL has to say goes to
- * a handler of this thread: its first failure becomes the diagnostic. */
+/* read_ogr.c: plane maps in all the formats OGR knows. Messages of GDAL go to
+ * a handler of this thread: the first failure becomes the diagnostic. */
 #include "ogr_shapes.h"
 #include "read.h"
 #include <cpl_conv.h>
@@ -195,7 +195,7 @@ static froe_status add_layers(map *m) {
     if (!status && one) status = filter(m, one);
     m->sink->report.layers = one ? 1 : (uint64_t)layers;
     m->sink->report.layers_left = (uint64_t)layers - m->sink->report.layers;
-    m->heard.failed = false; /* what was said before did not keep the file from opening */
+    m->heard.failed = false; /* earlier failures did not keep the file from opening */
     if (!status) status = one ? add_layer(m, one) : add_all(m);
     if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "cannot be read to its end");
     if (!status) status = io_sink_end_feature(m->sink);
@@ -204,7 +204,7 @@ static froe_status add_layers(map *m) {
 }
 
 static GDALDatasetH open_map(const io_source *source) {
-    /* columns with geometry go by many names */
+    /* columns with geometry have many names */
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
     static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
                                          "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};

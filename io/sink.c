@@ -233,7 +233,7 @@ froe_status io_sink_triangle(io_sink *sink, const double *a, const double *b, co
     return add_to_sink(sink, FROE_POLYGON, corners, 3);
 }
 
-/* The core itself says whether it would take the polygon as it is. */
+/* The core decides whether it takes the polygon as it is. */
 static froe_status polygon_fits(io_sink *sink, const double *corners, size_t count, bool *fits) {
     froe_scene *trial;
     froe_status status = froe_scene_new(sink->dim, &sink->alloc, &trial);

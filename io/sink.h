@@ -1,5 +1,5 @@
-/* sink.h: where readers and generators pour their objects: it gathers them in
- * batches, in order, and hands the batches to froe_scene_add. */
+/* sink.h: the objects of readers and generators, gathered in batches, in order, which
+ * froe_scene_add gets. */
 #ifndef FROE_IO_SINK_H
 #define FROE_IO_SINK_H
 

@@ -1,7 +1,7 @@
 /* arithmetic.h: what the compiler must not do, and must have. Every file of the core includes it.
  *
- * Exactness rests on doubles that are rounded once in each operation, in the order written. What a compiler does not
- * tell beforehand (fused multiply-add by -ffp-contract, clang's -fassociative-math), the selftest of src/num notices. */
+ * Exactness rests on doubles that are rounded once in each operation, in the order written. What no macro of a compiler
+ * tells (fused multiply-add by -ffp-contract, clang's -fassociative-math), the selftest of src/num detects. */
 #ifndef FROE_SUPPORT_ARITHMETIC_H
 #define FROE_SUPPORT_ARITHMETIC_H
 #include <float.h>

@@ -7,7 +7,7 @@
 /** Fills `diag` (unless NULL) with a printf-formatted sentence and returns `status`. */
 froe_status support_fail(froe_diagnostic *diag, froe_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/** The same, naming the culprit. FROE_NONE stands for what does not apply. */
+/** The same, with the place of the fault. FROE_NONE stands for what does not apply. */
 froe_status support_fail_at(froe_diagnostic *diag, froe_status status, uint32_t object, uint32_t corner, uint32_t axis,
                             const char *format, ...) __attribute__((format(printf, 6, 7)));
 /** FROE_E_MEMORY with its standard sentence. */

@@ -1,4 +1,4 @@
-/* utf8.h: which bytes are a character? */
+/* utf8.h: the bytes of a character. */
 #ifndef FROE_SUPPORT_UTF8_H
 #define FROE_SUPPORT_UTF8_H
 #include <stddef.h>

@@ -141,8 +141,8 @@ static int create_beside(struct support_writer_room *room, mode_t mode) {
 
 /* ------------------------------------------------------------------- files -- */
 
-/* Gives a new file the mode of the old one, and its owner and group where that is allowed. Members of a group that the
- * old file had not may do what everybody may. Returns an errno. */
+/* Gives a new file the mode of the old one, and its owner and group where that is allowed. A group that
+ * differs from the old file's gets the rights of others. Returns an errno. */
 static int keep_access(int file, const struct stat *old) {
     struct stat new;
     mode_t mode = old->st_mode & 0777;

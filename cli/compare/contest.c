@@ -60,7 +60,7 @@ json_t *contest_json(const froe_scene *scene, const json_t *rows) {
     return out;
 }
 
-/* Was the method that auto takes tried in vain, though another served? */
+/* Did the method that auto takes fail, and another succeed? */
 static bool has_failed(const json_t *scene, const json_t *choice) {
     const json_t *row =
         field_row(json_object_get(scene, "methods"), json_string_value(json_object_get(choice, "auto")));

@@ -1,4 +1,4 @@
-/* meter.h: an allocator that knows how much memory is in use, and how much was at most. */
+/* meter.h: an allocator that counts the memory in use now and at most. */
 #ifndef FROE_CLI_COMPARE_METER_H
 #define FROE_CLI_COMPARE_METER_H
 #include <froe/froe.h>
@@ -11,6 +11,6 @@ typedef struct meter {
 
 /** malloc, on the meter, which must outlive all that is allocated. */
 froe_allocator meter_allocator(meter *m);
-/** From now on `most` is about what comes. Returns what is in use. */
+/** Lets `most` begin again from what is in use. Returns what is in use. */
 size_t meter_restart(meter *m);
 #endif

@@ -1,4 +1,4 @@
-/* row.c: builds a tree within its budget and looks at it from all sides. */
+/* row.c: builds a tree within its budget and measures it. */
 #include "compare/row.h"
 #include "compare/part.h"
 #include "compare/picture.h"
@@ -17,7 +17,7 @@ typedef struct attempt {
     bool late;
 } attempt;
 
-/* The lesser of both counts: a machine that is busy with other things makes no build late, nor do many threads. */
+/* The lesser of both counts, so that neither other work of the machine nor many threads make a build late. */
 static bool step(void *user, double done) {
     attempt *a = user;
     if (cli_seconds() - a->wall > a->seconds && cli_processor_seconds() - a->processors > a->seconds) a->late = true;

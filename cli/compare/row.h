@@ -1,4 +1,4 @@
-/* row.h: one method on one scene: its tree, what it costs to ask, how it grows; or why there is none. */
+/* row.h: one method on one scene: its tree, the cost of queries, its growth; or the reason why there is none. */
 #ifndef FROE_CLI_COMPARE_ROW_H
 #define FROE_CLI_COMPARE_ROW_H
 #include "compare/meter.h"
@@ -13,7 +13,7 @@ typedef struct compare_plan {
     double pieces;     /**< per object; beyond: given up */
     uint64_t queries;  /**< of each kind */
     uint64_t halvings; /**< parts of the scene built besides: n / 2, n / 4, ... */
-    bool times;        /**< tell what a clock and a meter say */
+    bool times;        /**< report times and memory */
     bool pictures;     /**< draw cells */
 } compare_plan;
 

@@ -110,12 +110,12 @@ static json_t *costs_json(run *r, uint64_t asked, const froe_query_stats *sum, u
                      each * (double)sum->leaves, "tests", each * (double)sum->tests, "found", each * (double)found);
 }
 
-/* Does a kind of query end here: for want of time, or because nobody waits any more? */
+/* Does a kind of query end here: out of time, or interrupted? */
 static bool over(const run *r, double started) {
     return cli_interrupted() || cli_thread_seconds() - started > r->load->seconds;
 }
 
-/* Counts first, then times: those of this thread, which does all the asking, so that what else the machine does counts
+/* Counts first, then times: those of this thread, which runs all queries, so that other work of the machine counts
  * less. */
 static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe_status *status) {
     froe_query_stats sum = {.queries = 0};

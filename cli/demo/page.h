@@ -4,7 +4,7 @@
 #include "demo/scenes.h"
 #include <jansson.h>
 
-/** What came out of one scene. */
+/** The reports of one scene. */
 typedef struct demo_result {
     json_t *report[DEMO_STEPS]; /**< of each step; NULL: the step has none */
     json_t *methods;            /**< array: the reports of the same build by every method */

@@ -68,7 +68,7 @@ FROE_API bool froe_draw_format_of(const char *path, froe_draw_format *format);
 
 #define FROE_DRAW_CLEAR UINT32_MAX /**< background: none, transparent where the format can be */
 
-/** A place to point out: a box in the scene's coordinates, or the ball within it. */
+/** A marked place: a box in the scene's coordinates, or the ball within it. */
 typedef struct froe_draw_mark {
     double lo[3], hi[3];
     bool ball; /**< its centre is that of the box, its radius half the first side */

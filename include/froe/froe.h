@@ -52,13 +52,13 @@ extern "C" {
 
 /* ------------------------------------------------------------------ status -- */
 
-/** What became of a call. Numbers never change meaning; docs/errors.md says for
+/** The outcome of a call. Numbers never change meaning; docs/errors.md says for
  * each what to do about it. */
 typedef enum froe_status {
     FROE_OK = 0,
     FROE_E_ARG = 1,         /**< null pointer, count or dimension out of range */
     FROE_E_OPTIONS = 2,     /**< struct not from _defaults(), unknown method or option, bad value */
-    FROE_E_MEMORY = 3,      /**< the allocator said no */
+    FROE_E_MEMORY = 3,      /**< the allocator returned NULL */
     FROE_E_INPUT = 4,       /**< NaN or infinity, a polygon that is not planar, convex and simple, ... */
     FROE_E_LIMIT = 5,       /**< more than 2^31 - 2 objects, vertices, nodes or pieces */
     FROE_E_BUDGET = 6,      /**< max_fragments would be exceeded */
@@ -167,7 +167,7 @@ typedef struct froe_objects {
 FROE_API froe_objects froe_objects_defaults(void); /**< triangles, none, no groups */
 
 /** Adds a batch: all of it, or on failure none of it. Zero-length segments,
- * zero-area polygons and duplicates are welcome and keep their ids.
+ * zero-area polygons and duplicates are accepted and keep their ids.
  * FROE_E_INPUT: a coordinate is NaN or infinite, lo > hi, a radius is negative, a
  * polygon is not exactly planar, convex and simple. FROE_E_FROZEN: a tree holds
  * the scene. FROE_E_UNSUPPORTED: the kind does not exist in this dimension.
@@ -300,13 +300,13 @@ FROE_API void froe_tree_free(froe_tree *tree);
 
 /** The tree of the same scene by the same method, settings, leaf and seed, once more, but with the first cut given:
  * where plane[0] x[0] + ... = plane[dim], for dim + 1 doubles taken exactly; see froe_visibility_options.section. Of
- * the options those of a method are not looked at; NULL: defaults. There is no guard stage. FROE_E_ARG: a number is not
+ * the options those of a method are ignored; NULL: defaults. There is no guard stage. FROE_E_ARG: a number is not
  * finite, or the normal 0. FROE_E_UNSUPPORTED: above dimension 3, or by a method that takes no first cut (grain,
  * density and autopartition do). Otherwise as froe_build(). */
 FROE_API froe_status froe_tree_section(const froe_tree *tree, const double *plane, const froe_build_options *options,
                                        froe_tree **out, froe_diagnostic *diag);
 
-/** How the exact predicates got their answers (counts of calls). */
+/** How the exact predicates were decided (counts of calls). */
 typedef struct froe_predicate_stats {
     uint64_t calls;      /**< sides asked for */
     uint64_t by_id;      /**< decided by vertex ids or a comparison, without arithmetic */
@@ -316,7 +316,7 @@ typedef struct froe_predicate_stats {
     uint64_t exact_zero; /**< ... of these, exactly on the plane */
 } froe_predicate_stats;
 
-/** One promise of the method, beside what came out. */
+/** One promise of the method, and what was measured. */
 typedef struct froe_promise {
     const char *name;          /**< e.g. "height" */
     double promised, measured; /**< the promise holds when measured <= promised */
@@ -452,7 +452,7 @@ FROE_API froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_opt
 /** Writes the tree with its scene (docs/format.md), atomically: `path` holds the
  * old file or the new one, whole, whatever happens. FROE_E_IO. */
 FROE_API froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag);
-/** Opens a saved tree by mapping the file, which nobody may shorten or write to in
+/** Opens a saved tree by mapping the file, which must not be shortened or written to in
  * place while the tree is open (replacing it, as froe_tree_save does, is fine).
  * Everything is validated first: FROE_E_FORMAT for any file that froe_tree_save could
  * not have written. FROE_E_IO, FROE_E_MEMORY. O(size of the file). */

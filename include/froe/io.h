@@ -6,7 +6,7 @@
  *
  * A companion library (link froe-io) on top of froe.h and kinetic.h alone. Plane maps are read
  * by GDAL's OGR, solid models by assimp, numbers in CSV by froe itself. Nothing is
- * printed: what those libraries have to say ends up in the diagnostic. All
+ * printed: messages of those libraries go into the diagnostic. All
  * functions may be called from several threads at once. */
 #ifndef FROE_IO_H
 #define FROE_IO_H
@@ -54,11 +54,11 @@ typedef struct froe_read_report {
     double seconds;        /**< from call to return, by the wall clock */
 } froe_read_report;
 
-/** Reads a scene. The content of the file decides who reads it, then its extension:
+/** Reads a scene. The content of the file decides which reader is used, then its extension:
  *
  *   CSV by header   points `x,y[,z...]`, boxes `lo_x,lo_y[,...],hi_x,hi_y[,...]`, balls `x,y[,...],r`;
  *                   the axes are called x y z w x5 x6 x7 x8 (or x1 ... x8), columns come in any order,
- *                   a column `tag` (a whole number below 2^64) becomes the tag, others are left alone.
+ *                   a column `tag` (a whole number below 2^64) becomes the tag, others are ignored.
  *                   Decimal numbers become the nearest doubles, whatever the locale.
  *   OFF, OBJ, PLY   dimension 3, double precision (binary PLY: its own). In OBJ each pair of an
  *                   object's (o, g) name and a material is a group, coloured by the MTL beside it.
@@ -143,7 +143,7 @@ typedef struct froe_motion_report {
  * Times are milliseconds since 1970 (ISO 8601), or the numbers of the file as they are. Numbers become the nearest
  * doubles. Interpolation is Linear (also where nothing is said) or Quadratic: the parabolas that continue one another
  * with the same velocity, the first of them through the first three instants; a member `controls` beside
- * `coordinates`, of one geometry less, gives their control points itself. Coordinate systems are not looked at.
+ * `coordinates`, of one geometry less, gives their control points itself. Coordinate systems are ignored.
  * FROE_E_UNSUPPORTED: Discrete, Step and Cubic interpolation, other geometries. FROE_E_FORMAT: no JSON, not of this
  * form. FROE_E_INPUT: times that do not increase, geometries that change their number of points, a window in which
  * nothing is; the message names the feature. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_LIMIT. options, report

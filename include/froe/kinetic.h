@@ -53,7 +53,7 @@ typedef struct froe_moving {
     const size_t *starts;     /**< vertex_count + 1 offsets into times */
     const double *times;      /**< strictly increasing in each plan */
     const double *coords;     /**< x, y for each time */
-    const double *controls;   /**< x, y for each time but each plan's last (not looked at); NULL: all pieces linear */
+    const double *controls;   /**< x, y for each time but each plan's last (ignored); NULL: all pieces linear */
     size_t count;             /**< segments */
     const uint32_t *vertices; /**< 2 a segment; NULL: 0 1, 2 3, 4 5, ... */
     const double *births;     /**< count times at which segments appear; NULL: with the window, as is -INFINITY */
@@ -173,11 +173,11 @@ FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
                                       const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
 FROE_API void froe_kinetic_free(froe_kinetic *kinetic);
-/** Who is asked, from now on, whether to go on; NULL: nobody is. At first it is who was named in the options. All calls that
- * take this partition ask now and then, but for those that take no more than a moment, with the share of the time that
- * has been gone through (advance) or done (snapshot); others say 0. If the answer is no, they return FROE_E_CANCELLED.
- * Whatever was cancelled while it changed the partition, or ran out of memory, has been done as far as the motion is
- * concerned; the partition is made anew by the next call, which therefore may take longer and fail alike. */
+/** Sets the progress function of all later calls that take this partition, in place of that of the options; NULL: none.
+ * They call it now and then, unless they take no more than a moment, with the share of the time that has been gone
+ * through (advance) or done (snapshot), or else with 0. If it returns false, they return FROE_E_CANCELLED. A change that
+ * was cancelled, or ran out of memory, has been made to the motion; the partition is made anew by the next call, which
+ * therefore may take longer and fail in the same way. */
 FROE_API void froe_kinetic_watch(froe_kinetic *kinetic, froe_progress_fn *progress, void *user);
 
 /** What happens at an instant. */
@@ -199,23 +199,23 @@ FROE_API const char *froe_event_name(froe_event_kind kind);
 typedef struct froe_event {
     froe_event_kind kind;
     uint32_t objects[4];   /**< the segments it is about; of several that share a vertex, one */
-    unsigned object_count; /**< may be more than 4 for batches: the others are not told */
+    unsigned object_count; /**< may be more than 4 for batches: the others are not in `objects` */
     int64_t tick;          /**< at which the partition has changed */
     double early, late;    /**< the times of the tick before and of this one, to the nearest double: it happened in
                                 between. froe_kinetic_instant() knows more */
 } froe_event;
 
-/** Told of each event, in the order in which they happen. false: froe_kinetic_advance returns when the tick is done. */
+/** Called for each event, in the order in which they happen. false: froe_kinetic_advance returns when the tick is done. */
 typedef bool froe_event_fn(void *user, const froe_event *event);
 
-/** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; what happens is told to `visit`
- * (may be NULL). FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free it.
- * FROE_E_CANCELLED: `visit` said so, and the partition stands right after the event; or the progress function did, and
- * it stands somewhere in between. Expected polylogarithmic in n for each event, if the motion does not depend on the
+/** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; `visit` (may be NULL) is called
+ * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free it.
+ * FROE_E_CANCELLED: `visit` returned false, and the partition stands right after the event; or the progress function
+ * did, and it stands somewhere in between. Expected polylogarithmic in n for each event, if the motion does not depend on the
  * order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
 FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
                                           froe_diagnostic *diag);
-/** For visitors, while they are told of an event: when it happened, between two doubles that are next to one another or
+/** For visitors, while they are called for an event: when it happened, between two doubles that are next to one another or
  * equal. Of a batch, when one of its certificates failed; of changes of plans, appearances and disappearances, no more
  * than the ticks before and after. Certain: out[0] <= true time <= out[1]. FROE_E_ARG: there is no event. Some 30 us.
  */
@@ -238,8 +238,8 @@ FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object,
 /* Questions about the present. The partition stands just after its tick, and so do the segments that are asked about:
  * where they are at the tick, and an infinitesimal while later. So what touches at the tick alone, because it is about
  * to part or to cross, is told apart as it is afterwards. The points of a question stand still. Only `on` is about the
- * tick itself. Of segments that lie in one line where they overlap, the one that is told of is the first in the order
- * of cuts. Segments without length are not met. Questions use memory of the partition's, so they are for one thread at
+ * tick itself. Of segments that lie in one line where they overlap, the first in the order of cuts
+ * is the answer. Segments without length are not met. Questions use memory of the partition's, so they are for one thread at
  * a time. FROE_E_ARG: a coordinate is NaN or infinite. FROE_E_MEMORY. */
 
 /** Where a point is among the segments. */
@@ -312,11 +312,11 @@ typedef struct froe_snapshot {
 /** The present as an ordinary tree, for all other questions: the segments where they are at the tick itself, not just
  * after it. Its coordinates are doubles, each the nearest to the truth; where that is no double, `rounded` counts it, `alike` tells whether it made a difference to the partition, and
  * `places` keeps the truth. FROE_E_UNSUPPORTED: something would have to be rounded, and that is to be refused; the
- * first object is named. FROE_E_MEMORY, and what froe_build() says. */
+ * first object is named. FROE_E_MEMORY, and the failures of froe_build(). */
 FROE_API froe_status froe_kinetic_snapshot(froe_kinetic *kinetic, const froe_snapshot_options *options,
                                            froe_snapshot *out, froe_diagnostic *diag);
 
-/** Is everything as it should be? Certificates, and each node against a partition made from scratch. FROE_E_INPUT: no;
+/** Checks all certificates, and each node against a partition made from scratch. FROE_E_INPUT: something is wrong;
  * FROE_E_MEMORY. For tests: as expensive as a new one. */
 FROE_API froe_status froe_kinetic_audit(froe_kinetic *kinetic, froe_diagnostic *diag);
 

@@ -1,7 +1,7 @@
 /* measure.h: what a scene is like: how fat, how dense, how cluttered.
  *
  * The sizes that methods promise depend on such properties (de Berg 2000; de Berg and Streppel; Tobola and Nechvile),
- * so these tell which promises are worth something on a scene at hand.
+ * so these tell which promises are strong on a given scene.
  *
  *     froe_measure_options o = froe_measure_defaults();
  *     froe_density density;

@@ -58,7 +58,7 @@ FROE_API froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eye
 
 /* ----------------------------------------------------------------- surface -- */
 
-/** What belongs together in the polygons of a scene in space, whoever looks at it. A patch is a maximal set of
+/** What belongs together in the polygons of a scene in space, for any eye. A patch is a maximal set of
  * polygons of one group that lie in one plane, exactly, and hang together by edges that just two of them use, from
  * their two sides. An edge is a pair of vertices between which at least one polygon has an edge. Polygons without
  * area, segments and points belong to neither. Immutable; the scene may neither grow nor be freed before it. */
@@ -106,7 +106,7 @@ typedef struct froe_visibility_options {
                                       of equal ones the later; NULL: all equal */
     const uint8_t *edges;        /**< per edge, not 0: its intervals are wanted; NULL: all */
     bool crossings;              /**< lines along which polygons pass through each other are wanted */
-    bool hidden_crossings;       /**< and what is hidden of them, which costs a look at all that is hidden */
+    bool hidden_crossings;       /**< and what is hidden of them, at the cost of all that is hidden */
     int section;                 /**< -1 or 1: only what lies on the negative or positive side of the root's cut, or in
                                       it, is there: see froe_tree_section(); 0 (default): all */
     bool cull_back;              /**< polygons whose corners turn right, as the eye sees them, are not there */
@@ -288,8 +288,8 @@ FROE_API froe_picture_options froe_picture_defaults(void);
 
 /** Shapes and lines on a page, in the order in which they are painted. Immutable. */
 typedef struct froe_picture froe_picture;
-/** Looks, orders, and makes shapes. Every sample point of the page shows what a ray through it meets first: each patch
- * comes after all others over whose visible parts it lies; where such demands run in circles a few patches are
+/** Computes visibility, the order, and the shapes. Every sample point of the page shows what a ray through it meets first: each patch
+ * comes after all others over whose visible parts it lies; where such demands form cycles a few patches are
  * clipped to what is visible of them. One sees through `clear` patches, layer by layer.
  * Failures as froe_visibility_new(). */
 FROE_API froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
