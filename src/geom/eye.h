@@ -13,10 +13,10 @@
  * In both, det(r(p), r(q), r(r)) > 0 where p, q, r turn left as the eye sees them. A picture of all
  * directions around an eye at a point is a sphere: rays behind the eye count like any others.
  *
- * Three kinds of lines occur. EDGE runs through two points: degree 2. CUT is where plane a cuts an object
- * with support s: h(x) = a(E) s(x) - s(E) a(x), the plane of the pencil of s and a through the eye; degree 5. STOP runs
- * through the point where plane a cuts an edge uv, which is seen along a(v) r(u) - a(u) r(v), and through the ray e_axis
- * of an axis: it marks that point on any line but those through e_axis. */
+ * Three kinds of lines occur. EDGE runs through two points: degree 2. CUT is where plane a cuts an object with support
+ * s: h(x) = a(E) s(x) - s(E) a(x), the plane of the pencil of s and a through the eye; degree 5. STOP runs through the
+ * point where plane a cuts an edge uv, which is seen along a(v) r(u) - a(u) r(v), and through the ray e_axis of an
+ * axis: it marks that point on any line but those through e_axis. */
 #ifndef FROE_GEOM_EYE_H
 #define FROE_GEOM_EYE_H
 #include "geom/filter.h"

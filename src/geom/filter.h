@@ -17,8 +17,9 @@
 #define FILTER_UP (1 + 0x1p-49)
 #define FILTER_LOST 0x1p-1073 /* more than three products lose by underflow */
 
-/* A power of two that brings a tiny size to about 1; 1 for all others. Products of tiny numbers are below NUM_BALL_TINY.
- * Signs do not depend on scale, so the normal of a plane through tiny differences is scaled up first, which is exact. */
+/* A power of two that brings a tiny size to about 1; 1 for all others. Products of tiny numbers are below
+ * NUM_BALL_TINY. Signs do not depend on scale, so the normal of a plane through tiny differences is scaled up first,
+ * which is exact. */
 #define FILTER_SMALL 0x1p-250
 static inline double filter_lift(double most) {
     int exponent;

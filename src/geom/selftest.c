@@ -1,7 +1,7 @@
 /* selftest.c: hard cases of the formulas that decide: answers by filters and balls must be right, or "unsure".
  *
- * The selftest of src/num tests single operations. A compiler may compile those right and a formula wrong: clang 14 once
- * took error terms apart while it vectorised predicates.c, and error bounds came out too small. Here the functions
+ * The selftest of src/num tests single operations. A compiler may compile those right and a formula wrong: clang 14
+ * once took error terms apart while it vectorised predicates.c, and error bounds came out too small. Here the functions
  * themselves are tested, as they are compiled in place, on points for which every bit of a computation matters.
  *
  * Coordinates are tenths: n times 0.1, rounded. The points lie on common lines and planes but for that rounding. Each

@@ -1,10 +1,10 @@
 /* sheared.h: dyadic numbers with infinitesimals: a[0] + a[1] eps + a[2] eps^2, where eps > 0 is smaller
  * than any positive number.
  *
- * Cylindrical partitions order points by x + eps y, so that points that differ in y alone are ordered, too (the symbolic
- * shear of Edelsbrunner and Muecke's simulation of simplicity, in this one direction). A predicate about such
- * points is a polynomial in eps, and its sign that of the first coefficient that is not 0. At most two
- * sheared planes meet in a predicate, so degree 2 is enough. Coefficients that are 0 cost nothing. */
+ * Cylindrical partitions order points by x + eps y, so that points that differ in y alone are ordered, too (the
+ * symbolic shear of Edelsbrunner and Muecke's simulation of simplicity, in this one direction). A predicate about such
+ * points is a polynomial in eps, and its sign that of the first coefficient that is not 0. At most two sheared planes
+ * meet in a predicate, so degree 2 is enough. Coefficients that are 0 cost nothing. */
 #ifndef FROE_NUM_SHEARED_H
 #define FROE_NUM_SHEARED_H
 #include "num/dyadic.h"

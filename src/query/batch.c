@@ -44,7 +44,7 @@ struct batch {
     int direction;
     froe_hit *hits;    /* the caller's */
     uint32_t *objects; /* the caller's */
-    value_fn *value;   /* NULL: ids are all */
+    value_fn *value;   /* NULL: answers are ids alone */
     size_t count, chunk_count;
     chunk *chunks;
 };
@@ -90,13 +90,13 @@ static froe_status ask_ray_any(const batch *b, froe_query *q, size_t i, froe_dia
                               diag);
 }
 
-/* Room for the answers of a question that left them elsewhere. */
+/* Empties q->found, and makes room in it for answers that are stored elsewhere. */
 static froe_status clear_found(froe_query *q, size_t count, froe_diagnostic *diag) {
     q->found.count = 0;
     return array_reserve(&q->alloc, &q->found, count) ? FROE_OK : base_fail_memory(diag);
 }
 
-/* What can be wrong with point i. */
+/* Checks point i. */
 static froe_status check_point(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
     return query_check_point(point_of(b, b->points, i), q->tree->scene->dim, "A point", diag);
 }
@@ -110,7 +110,7 @@ static froe_status ask_groups_in(const batch *b, froe_query *q, size_t i, const 
     return status;
 }
 
-/* Where there are no borders, no leaf is asked for. */
+/* Without borders no leaf is searched for. */
 static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
     const froe_status status = check_point(b, q, i, diag);
     return status ? status : ask_groups_in(b, q, i, NULL, diag);
@@ -152,7 +152,7 @@ static bool append_answers(const batch *b, const froe_query *q, chunk *c) {
     return true;
 }
 
-/* What can be wrong with ray i. */
+/* Checks ray i. */
 static froe_status check_ray(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
     const double *point = point_of(b, b->points, i);
     if (b->ask == ask_vertical) return query_vertical_check(q, point, b->direction, diag);
@@ -186,7 +186,7 @@ static froe_status answer_flock(const batch *b, froe_query *q, size_t first, siz
     return packed_vertical(q, points, end - first, b->direction, b->objects + first) ? base_fail_memory(diag) : FROE_OK;
 }
 
-/* Leaves of the points of a chunk, which wait for memory together. */
+/* Finds the leaves of the points of a chunk together, so that their cache misses overlap. */
 static froe_status find_leaves(const batch *b, froe_query *q, size_t first, size_t end, query_leaf *leaves,
                                froe_diagnostic *diag) {
     const froe_status status = check_all(b, q, first, end, check_point, diag);
@@ -244,7 +244,7 @@ static froe_status gather_answers(const batch *b, froe_answers *out) {
 
 /* ----------------------------------------------------------------- running -- */
 
-/* What the first bad query said. */
+/* The diagnostic of the first query that failed with this status. */
 static froe_status explain_batch(const batch *b, froe_status status, froe_diagnostic *diag) {
     for (size_t i = 0; i < b->chunk_count; i++)
         if (b->chunks[i].diag.status == status) {

@@ -62,7 +62,7 @@ static void release(query_shared *shared, const froe_allocator *alloc) {
     base_free(alloc, shared, sizeof *shared);
 }
 
-/* Without its forks. */
+/* Frees a context, but not its forks. */
 static void free_alone(froe_query *query) {
     if (!query) return;
     froe_allocator alloc = query->alloc;

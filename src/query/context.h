@@ -1,4 +1,4 @@
-/* context.h: a query context from inside: what one thread asks with, and what all threads share.
+/* context.h: a query context from inside: the data of one thread, and what all threads share.
  *
  *     froe_query ----.          marks, numbers, answers, stacks: its own
  *     froe_query -----+--->  query_shared: tree, and parts prepared at first need

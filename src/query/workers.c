@@ -1,4 +1,4 @@
-/* workers.c: forks for a call, and what became of their statistics. */
+/* workers.c: forks for a call, and the sum of their statistics. */
 #include "query/workers.h"
 #include "base/status.h"
 

@@ -10,11 +10,11 @@ typedef struct query_workers {
     unsigned count;
 } query_workers;
 
-/** For at most `jobs` jobs at a time. FROE_E_OPTIONS, FROE_E_MEMORY; query_workers_give() gives back what was had. */
+/** For at most `jobs` jobs at a time. FROE_E_OPTIONS, FROE_E_MEMORY; query_workers_give() gives back what was taken. */
 froe_status query_workers_take(froe_query *query, const froe_batch_options *options, size_t jobs, query_workers *out,
                                froe_diagnostic *diag);
-/** What is said of options that come from nowhere: FROE_E_OPTIONS. */
+/** The failure for options that froe_batch_defaults() has not made: FROE_E_OPTIONS. */
 froe_status query_workers_refuse(froe_diagnostic *diag);
-/** Adds up what they have counted, and frees the forks. */
+/** Adds the statistics of the forks to the caller's, and frees the forks. */
 void query_workers_give(query_workers *workers);
 #endif

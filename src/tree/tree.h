@@ -122,8 +122,8 @@ typedef struct tree_objects {
 static inline bool tree_is_packed(const froe_tree *t) {
     return t->packed.blocks;
 }
-/** List of a packed leaf: in its block, behind 32 bytes and 8 for each fragment (tree/packed/packed.h); in space behind 64
- * (tree/packed/space.h). */
+/** List of a packed leaf: in its block, behind 32 bytes and 8 for each fragment (tree/packed/packed.h); in space
+ * behind 64 (tree/packed/space.h). */
 static inline tree_objects tree_packed_list(const froe_tree *t, const tree_node *n) {
     size_t count = n->u.list.count, at = (size_t)n->child * 64 + (t->scene->dim == 3 ? 64 : 32 + 8 * count);
     return (tree_objects){.at = (const uint32_t *)(const void *)(t->packed.blocks + at),

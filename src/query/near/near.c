@@ -75,12 +75,12 @@ static bool measure_neighbour(froe_query *q, const geom_body *body, double bound
     return geom_distance_compare_to(&q->numbers, q->near.point, &out->distance, bound) <= 0;
 }
 
-/* An object of a list. */
+/* Takes object i of a list into account. False without memory. */
 static bool look_up(froe_query *q, const tree_objects *list, uint32_t i, size_t k, double bound) {
     const uint32_t object = tree_object(list, i);
     if (query_seen(q, list, i, object)) return true;
     q->stats.tests++;
-    if (!q->near.packed && beyond_limit(q, object)) return true; /* packed trees have looked at more than boxes */
+    if (!q->near.packed && beyond_limit(q, object)) return true; /* packed trees have compared better bounds */
     const geom_body body = scene_body(q->tree->scene, object);
     query_neighbour x = {.square = NAN, .object = object};
     return !measure_neighbour(q, &body, bound, &x) || take_neighbour(q, &x, k);

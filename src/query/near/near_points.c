@@ -56,7 +56,7 @@ static void keep_point(query_near *n, double square, size_t k) {
     if (n->best.count == k && query_near_reach(heap[0]) < n->limit) n->limit = query_near_reach(heap[0]);
 }
 
-/* Forgets candidates that are out by now. */
+/* Drops candidates beyond the limit. */
 static void sift(query_near *n) {
     size_t kept = 0;
     for (size_t i = 0; i < n->candidates.count; i++)
@@ -64,7 +64,7 @@ static void sift(query_near *n) {
     n->candidates.count = kept;
 }
 
-/* Room for one list more: candidates stay within twice k and some, but for ties. */
+/* Room for one list more. Without ties there are little more than 2 k candidates and one list. */
 static bool reserve_neighbours(froe_query *q, size_t k, size_t count) {
     query_near *n = &q->near;
     if (n->candidates.count > 2 * k + 64) sift(n);

@@ -104,7 +104,7 @@ static bool pop_region(query_near *n) {
 
 /* ----------------------------------------------------------------- walking -- */
 
-/* On to the nearer child, unless something nearer waits. False without memory. */
+/* Goes on to the nearer child, unless a waiting node is nearer. False without memory. */
 static bool go_on_to_child(froe_query *q, const query_contents *c, uint32_t child) {
     query_near *n = &q->near;
     query_place near = {bound_of(n, c, child), child}, far = {bound_of(n, c, child + 1), child + 1};
@@ -125,7 +125,7 @@ froe_status query_near_next(froe_query *q, tree_objects *list) {
     query_near *n = &q->near;
     if (n->packed) return space_walk_next(q, &q->space->walk, n->limit, list);
     const query_contents *contents;
-    froe_status status = query_contents_of(q, &contents, NULL); /* they are there */
+    froe_status status = query_contents_of(q, &contents, NULL); /* prepared by query_near_begin() */
     list->count = 0;
     while (!status && (n->at.node != FROE_NONE || pop_region(n))) {
         const tree_node *node = t->nodes + n->at.node;

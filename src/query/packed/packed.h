@@ -48,7 +48,7 @@ froe_status packed_any(froe_query *query, const double *lo, const double *hi);
 /** The first segment above (1) or below (-1) each of `count` points, through it counts: that of lowest id where it
  * meets several at one point; FROE_NONE if there is none. Finite points. FROE_E_MEMORY. */
 froe_status packed_vertical(froe_query *query, const double *points, size_t count, int direction, uint32_t *objects);
-/** All that can be wrong with a point to look up or down from. */
+/** Checks a point to look up or down from. */
 froe_status query_vertical_check(const froe_query *query, const double *point, int direction, froe_diagnostic *diag);
 /** As froe_batch_pairs(). FROE_E_LIMIT, before anything has been told: more pairs than are worth gathering;
  * FROE_E_MEMORY, FROE_E_CANCELLED. */

@@ -6,8 +6,8 @@
  *     |   / \ |__/   |     inside of a cell are seen by the kernel, the rest is decided exactly.
  *     +-------+------+
  *
- * Leaves come in their own order, and runs of them to several threads; callers want pairs by ids: so they are gathered
- * and sorted (pair_lists.h), and told then. Where there are too many for that, nothing is told, and the caller asks
+ * Leaves come in their own order, and runs of them to several threads; callers want pairs by ids: so they are gathered,
+ * sorted (pair_lists.h) and then reported. Where there are too many for that, none is reported, and the caller searches
  * object by object. */
 #include "geom/meet/contact.h"
 #include "query/packed/packed.h"
@@ -16,7 +16,7 @@
 
 enum { PAIRS_EACH = 16, PAIRS_MORE = 1 << 20 }; /* gathered for each object at most, and some more */
 enum { RUN = 512 };                             /* nodes a job */
-enum { ASKED = 256 };                           /* objects whose coordinates are asked for in advance */
+enum { ASKED = 256 };                           /* objects whose coordinates are prefetched together */
 
 typedef struct search {
     query_workers *workers;
@@ -24,7 +24,7 @@ typedef struct search {
     pair_lists lists;
 } search;
 
-/* What is looked at, by one thread. */
+/* The search of one thread. */
 typedef struct pairing {
     search *search;
     unsigned worker;
@@ -110,8 +110,8 @@ static void decide_pair(pairing *p, uint32_t a, uint32_t b) {
     if (c.kind == GEOM_CROSS ? crossing_here(p, u, v) : end_here(p, u, v)) gather_pair(p, a, b, kinds[c.kind]);
 }
 
-/* Asks for coordinates: each of the three loads that lead to them waits for the one before, but not for those of
- * other objects. */
+/* Prefetches coordinates. Three loads lead to those of an object, each waiting for the one before; those of different
+ * objects overlap. */
 static void prefetch_objects(const froe_scene *s, const uint32_t *objects, size_t count) {
     for (size_t i = 0; i < count; i++) __builtin_prefetch(s->starts + objects[i]);
     for (size_t i = 0; i < count; i++) __builtin_prefetch(s->corners + s->starts[objects[i]]);
@@ -121,7 +121,7 @@ static void prefetch_objects(const froe_scene *s, const uint32_t *objects, size_
     }
 }
 
-/* What kernels left open in a leaf. */
+/* Decides the pairs that kernels left open in a leaf. */
 static void decide_open(pairing *p) {
     const uint32_t *open = p->q->packed->candidates.data;
     const size_t count = p->q->packed->candidates.count;
@@ -140,7 +140,7 @@ static void leave_open(pairing *p, uint32_t a, uint32_t b) {
     q->packed->candidates.data[q->packed->candidates.count++] = b;
 }
 
-/* Fragment i with all after it. */
+/* Gathers the pairs of fragment i with those after it. */
 static void pair_row(pairing *p, const uint32_t *ids, uint32_t count, uint32_t i, const packed_row *row) {
     for (uint32_t word = i / PACKED_LANES; word < (count + PACKED_LANES - 1) / PACKED_LANES; word++)
         for (uint32_t bits = row->crossing[word] | row->unsure[word]; bits && !p->status; bits &= bits - 1) {

@@ -186,8 +186,8 @@ static void lift_least(space_walk *w, size_t from) {
     e[w->stack.count - 1] = x;
 }
 
-/* All of a node, and of a leaf as much as one of 24 triangles has; objects have been asked for. (A call
- * of a function that only asks is none to gcc.) */
+/* Prefetches all of a node, or as much of a leaf as one of 24 triangles has; objects have been prefetched before. It is
+ * inlined, since gcc drops calls of functions that only prefetch. */
 __attribute__((always_inline)) static inline void ask_for(const froe_tree *t, uint32_t what) {
     const bool leaf = what & WIDE_LEAF;
     const uint8_t *at = leaf ? t->packed.blocks + (size_t)(what & WIDE_INDEX) * PACKED_BLOCK
@@ -196,7 +196,7 @@ __attribute__((always_inline)) static inline void ask_for(const froe_tree *t, ui
     for (int i = 0; i < (leaf ? 640 : 192); i += 64) __builtin_prefetch(at + i);
 }
 
-/* What is met of a node. */
+/* Pushes the children of a node that may be met. False without memory. */
 static bool push_children(froe_query *q, space_walk *w, uint32_t index, bool ask) {
     const wide_node *n = q->tree->packed.wide->nodes + index;
     const space_kernels *kernels = q->space->kernels;
@@ -241,7 +241,7 @@ static bool push_objects(froe_query *q, space_walk *w, uint32_t block, float key
     return true;
 }
 
-/* Takes what is on top: an object is handed out, of all else what is met takes its place. */
+/* Takes the entry on top: an object is handed out; a node or a leaf is replaced by what may be met of it. */
 static space_step take_space_item(froe_query *q, space_walk *w, bool ask) {
     const uint64_t top = w->stack.data[--w->stack.count];
     const uint32_t what = (uint32_t)top;
@@ -254,7 +254,7 @@ static space_step take_space_item(froe_query *q, space_walk *w, bool ask) {
     return done ? SPACE_ON : SPACE_NO_MEMORY;
 }
 
-/* Takes off what is beyond the limit. */
+/* Drops entries beyond the limit. False: none is left. */
 static bool settle_item(space_walk *w) {
     while (w->stack.count && key_of(w->stack.data[w->stack.count - 1]) > w->limit) w->stack.count--;
     return w->stack.count;

@@ -1,4 +1,4 @@
-/* pair_lists.h: pairs that threads find in any order, told by ids.
+/* pair_lists.h: pairs that threads find in any order, reported in the order of their ids.
  *
  *     thread 0    a < 4096 | a < 8192 | ...     what it finds, parted by the first id
  *     thread 1    a < 4096 | a < 8192 | ...
@@ -46,6 +46,6 @@ void pair_lists_give(pair_lists *lists);
 froe_status pair_lists_add(pair_lists *lists, unsigned thread, uint32_t a, uint32_t b, froe_meeting kind);
 /** Once all have been added. FROE_E_MEMORY, FROE_E_CANCELLED. O(pairs log most of one object). */
 froe_status pair_lists_sort(pair_lists *lists, base_task *task, double span);
-/** By a, then b, until the visitor wants no more. */
+/** Reports the pairs by a, then b, until the visitor returns false. */
 void pair_lists_tell(const pair_lists *lists, froe_pair_fn *fn, void *user);
 #endif

@@ -1,10 +1,10 @@
 /* pairs.c: which objects meet, and how?
  *
- * Objects that touch across a cut need not share a list, so each object in turn is asked for as a closed range,
- * which misses nothing (range_walk.c); of two that meet, the one with the lower id finds the other. How they meet is
+ * Objects that touch across a cut need not share a list, so each object in turn is a closed range of a search,
+ * which misses nothing (range_walk.c); of two that meet, the search of the lower id finds the other. How they meet is
  * then decided exactly (geom/meet/contact.h).
  *
- *     objects    0 .. 63 | 64 .. 127 | ...    jobs, a wave of them at a time, told in order when it is whole */
+ *     objects    0 .. 63 | 64 .. 127 | ...    jobs, a wave of them at a time, reported in order once all are done */
 #include "base/floats.h"
 #include "base/status.h"
 #include "geom/meet/contact.h"
@@ -13,12 +13,12 @@
 #include "query/workers.h"
 #include <string.h>
 
-enum { CHUNK = 64, WAVE = 32 }; /* objects a job; jobs a thread before what they found is told */
+enum { CHUNK = 64, WAVE = 32 }; /* objects a job; jobs a thread in a wave */
 
 /* What a thread needs beside its context. */
 typedef struct desk {
     froe_query *q;
-    ARRAY(double) points;     /* of the object that asks */
+    ARRAY(double) points;     /* of the object as a range */
     ARRAY(signed char) sides; /* for geom_contact_of() */
 } desk;
 
@@ -103,7 +103,7 @@ static froe_status find_partners(void *user, unsigned worker, size_t job) {
     return FROE_OK;
 }
 
-/* Wave after wave is found by all threads, then told in order. */
+/* All threads search a wave; then its pairs are reported in order, and the next wave begins. */
 static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, void *user) {
     const uint64_t jobs = ((uint64_t)objects + CHUNK - 1) / CHUNK;
     for (uint64_t done = 0; done < jobs; done += s->chunk_count) {
@@ -161,7 +161,7 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
         if (status == FROE_E_MEMORY) base_fail_memory(diag);
     }
     query_workers_give(&workers);
-    query->stats.queries = queries + 1; /* and not one for each object that asked */
+    query->stats.queries = queries + 1; /* not one for each object */
     return status;
 }
 

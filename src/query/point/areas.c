@@ -99,7 +99,7 @@ static void frame(const froe_scene *s, double lo[2], double hi[2]) {
     }
 }
 
-/* Cells without a reference of their own take that of the leaf before. */
+/* A leaf whose cell was not visited, being too thin for doubles, takes the reference of the leaf before. */
 static void fill_slots(survey *v) {
     const froe_tree *t = v->q->tree;
     uint32_t last = AREA_FAR;

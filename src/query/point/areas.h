@@ -19,7 +19,7 @@
 #include "query/context.h"
 #include "query/point/leaf.h"
 
-/** What an object is to its group. */
+/** The role of an object in its group. */
 enum {
     AREA_NOTHING, /**< it has no group */
     AREA_MEMBER,  /**< a point or segment: the group has its points */
@@ -60,7 +60,7 @@ typedef struct query_areas {
     query_sets sets;
 } query_areas;
 
-/** Finds out what every object is to its group.
+/** Finds the role of every object in its group.
  *
  * The borders of a group are its segments that share a face with another one: the rings of a polygon, as readers number
  * them. Where no two do, they are all its segments if these close, so that an even number of them ends everywhere;

@@ -14,7 +14,7 @@ typedef struct survey {
     size_t count;
 } survey;
 
-/* Roles as far as an object tells by itself: segments with a group are members for now. */
+/* Roles that follow from the object alone: segments with a group are members for now. */
 static void look_at_objects(survey *v) {
     const froe_scene *s = v->scene;
     for (uint32_t i = 0; i < s->object_count; i++) {
@@ -38,7 +38,7 @@ static void find_rings(survey *v) {
     }
 }
 
-/* Segments of groups without rings are borders until it turns out otherwise. Leaves their ends, by group and vertex. */
+/* Segments of groups without rings are borders for now. Collects their ends, by group and vertex, in v->pairs. */
 static void gather_ends(survey *v) {
     const froe_scene *s = v->scene;
     v->count = 0;

@@ -112,7 +112,7 @@ froe_status query_areas_enter(froe_query *q, const query_areas *areas, const que
     return leaf->on_cut ? touch_borders(q, areas, point) : FROE_OK;
 }
 
-/* Slots, the beginnings of leaves, and what comes behind, in turn: none of them waits for one before. */
+/* Prefetches all slots first, then the beginnings of all leaves: so no load waits for another. */
 void query_areas_ask(const query_areas *areas, const query_leaf *leaves, size_t count) {
     enum { LINE = 64, AHEAD = 384 }; /* bytes */
     if (!areas->borders) return;

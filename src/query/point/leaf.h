@@ -23,7 +23,7 @@ static inline uint32_t query_leaf_place(const froe_tree *t, uint32_t node) {
 /** Finds it, exactly. dim finite doubles. FROE_E_MEMORY. O(log n) for axis-parallel cuts, O(height) below oblique ones
  * and for points on cuts. */
 froe_status query_leaf_find(froe_query *query, const double *point, query_leaf *out);
-/** The same for many points, which in the plane wait for memory together. */
+/** The same for many points; in the plane their cache misses overlap. */
 froe_status query_leaf_find_all(froe_query *query, const double *points, size_t count, query_leaf *leaves);
 
 /** Is a point within the bounds of all objects? */

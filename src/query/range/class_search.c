@@ -92,7 +92,7 @@ static froe_status search(froe_query *q, const query_class *c, froe_query *fork)
     return test_objects(q, c, &list);
 }
 
-/* What a fork has visited was visited for the query. */
+/* Visits of a fork count as visits of the query. */
 static void add_statistics(froe_query *q, froe_query *fork) {
     const froe_query_stats stats = froe_query_statistics(fork);
     q->stats.nodes += stats.nodes;

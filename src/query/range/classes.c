@@ -4,7 +4,8 @@
 #include "base/status.h"
 #include <float.h>
 
-/* A tree that no overlap of boxes makes large, as it does those of `directional`. Leaves hold about what overlaps. */
+/* Overlapping boxes do not make its trees large, as they do those of `directional`. A leaf holds about those boxes that
+ * overlap there. */
 static const char METHOD[] = "kd";
 enum { LEAF = 2 }; /* times 2^dim */
 
@@ -39,7 +40,7 @@ static double step_of_size(double size) {
     return ldexp(1, exponent - 1);
 }
 
-/* Beyond x by a step, and a little further; no further than numbers go. */
+/* Beyond x by a step and a little more, but finite. */
 static double number_beyond(double x, double step, double direction) {
     const double far = nextafter(x + direction * step, direction * INFINITY);
     return fmin(fmax(far, -DBL_MAX), DBL_MAX);

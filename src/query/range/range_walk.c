@@ -303,7 +303,7 @@ static void follow_solid(walk *w, uint32_t node, double *state) {
     }
 }
 
-/* False: the range is nowhere near. */
+/* False: the range is apart from the scene. */
 static bool begin_solid(walk *w, double *state) {
     const froe_scene *s = w->tree->scene;
     const geom_range *range = &w->r->range;

@@ -1,6 +1,6 @@
 /* ray.c: what does a ray meet?
  *
- * Every object in the lists along the ray is asked once, exactly. Of two that are met, the one met first is
+ * Every object in the lists along the ray is tested once, exactly. Of two that are met, the one met first is
  * found by their images, and exactly where these overlap; what the ray can reach only beyond the best
  * so far is not visited. Since rounding keeps the order, all of them are sorted by their rounded parameters, and
  * only where these are equal by the exact ones. */
@@ -54,7 +54,7 @@ double query_ray_latest(const geom_hit *hit) {
     return t >= 0 ? t : (double)INFINITY;
 }
 
-/* How to look at what is met: return false to stop. */
+/* Gets an object that is met; false stops the search. */
 typedef bool met_fn(froe_query *q, const query_met *met);
 
 static bool is_of(const froe_scene *s, uint32_t object, uint32_t kinds) {

@@ -1,7 +1,7 @@
 /* ray.h: rays through a tree.
  *
  *     ray_walk.c    the lists along a ray, nearest first: an iterator
- *     ray.c         what the objects in them make of it: the first one, any, or all in order
+ *     ray.c         the objects in them that it meets: the first one, any, or all in order
  */
 #ifndef FROE_QUERY_RAY_RAY_H
 #define FROE_QUERY_RAY_RAY_H

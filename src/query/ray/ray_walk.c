@@ -107,7 +107,7 @@ froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
 froe_status query_walk_next(froe_query *q, tree_objects *list) {
     const query_planes *planes;
     if (q->ray.packed) return space_walk_next(q, &q->space->walk, q->ray.limit, list);
-    froe_status status = query_planes_of(q, &planes, NULL); /* they are there */
+    froe_status status = query_planes_of(q, &planes, NULL); /* prepared by query_walk_begin() */
     list->count = 0;
     while (!status && q->ray.steps.count) {
         const query_step s = q->ray.steps.data[--q->ray.steps.count];

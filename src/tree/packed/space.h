@@ -13,8 +13,8 @@
  *        |    +--------+   |            box      holds the parts in the cell of all that is listed, up to 2^-20 units
  *     lo +-----------------+  0
  *
- * So any point of an object lies in the box of a leaf that lists it, and a search may go by boxes alone: tree/packed/wide.h.
- */
+ * So any point of an object lies in the box of a leaf that lists it, and a search may go by boxes
+ * alone: tree/packed/wide.h. */
 #ifndef FROE_TREE_PACKED_SPACE_H
 #define FROE_TREE_PACKED_SPACE_H
 #include "tree/packed/packed.h"
