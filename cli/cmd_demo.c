@@ -56,7 +56,7 @@ static int unpack(const char *name) {
 
 enum { LINE = 400, WORDS = 40 };
 
-/* Runs a line as if it stood after "froe", with the demo's own seed, threads and loudness. */
+/* Runs a line as if it stood after "froe", with the demo's own seed, threads and --quiet. */
 static int run_line(const cli_common *common, const char *text, bool loud, json_t **report) {
     char line[LINE], *words[WORDS];
     int count = 0;

@@ -54,7 +54,7 @@ static const char *without_file(const char *reason, const char *file) {
     return strncmp(reason, end, length) == 0 && strncmp(reason + length, ": ", 2) == 0 ? reason + length + 2 : reason;
 }
 
-/* A message that has its file in quotes need not be told which it is. */
+/* Is the file in the message already, in quotes? */
 static bool quotes(const char *reason, const char *file) {
     const char *end = support_short(file), *at = strstr(reason, end);
     return at && at > reason && at[-1] == '\'' && at[strlen(end)] == '\'';

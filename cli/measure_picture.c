@@ -1,4 +1,4 @@
-/* measure_picture.c: the place that a measure is about, in a window three times as wide. */
+/* measure_picture.c: a picture of the cube or ball of a measure, in a window three times as wide. */
 #include "measure_picture.h"
 #include "budget.h"
 #include "progress.h"

@@ -28,7 +28,7 @@ typedef struct painter {
     DRAW_ARRAY(draw_point) points;
 } painter;
 
-/* Ink as the scene is dense: a few hundred strokes stand bold, a million are fine. Of
+/* Width of strokes by their number: a few hundred are bold, a million are fine. Of
  * a scene in space a section meets about the power 2/3. */
 static double weight_for(const draw_page *page, const draw_view *view, size_t count) {
     double met = view->axis < 0 ? (double)count : cbrt((double)count * (double)count);

@@ -120,7 +120,7 @@ static uint32_t next_ear(const ear_set *set, uint32_t from) {
     return NO_EAR;
 }
 
-/* Reflex and straight corners are dull; only these are marked in the index. */
+/* Reflex and straight corners are called dull; only these are marked in the index. */
 static void look_at_turn(outline *o, uint32_t b) {
     bool dull = io_orient(o->xy + 2 * o->before[b], o->xy + 2 * b, o->xy + 2 * o->next[b]) <= 0;
     if (dull != o->dull[b]) io_corner_index_mark(&o->index, b, dull);

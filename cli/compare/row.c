@@ -9,7 +9,7 @@
 
 /* ------------------------------------------------------------------ building -- */
 
-/* A build against two clocks. */
+/* A build limited by two clocks. */
 typedef struct attempt {
     cli_progress bar;
     double seconds;          /* at most */

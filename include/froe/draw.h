@@ -34,7 +34,7 @@
 extern "C" {
 #endif
 
-/** How a tree in space becomes flat. Trees in the plane know FROE_DRAW_FLAT only. */
+/** How a tree in space becomes flat. Trees in the plane have FROE_DRAW_FLAT only. */
 typedef enum froe_draw_style {
     FROE_DRAW_AUTO = 0,     /**< 2D: FLAT; 3D: SECTIONS */
     FROE_DRAW_FLAT = 1,     /**< 2D only: the plane itself */
@@ -79,7 +79,7 @@ typedef struct froe_draw_options {
     froe_draw_style style;       /**< default AUTO */
     uint32_t show;               /**< froe_draw_layer bits; 0 (default): what suits the style */
     double width;                /**< of the page, 16 .. 32000: points in SVG and PDF, pixels in PNG; default 960 */
-    double height;               /**< the same; 0 (default): as the scene asks for, between 1/4 and 2 x width */
+    double height;               /**< the same; 0 (default): by the scene's proportions, between 1/4 and 2 x width */
     double margin;               /**< around everything, in the same unit; negative (default -1): 1/32 of the width */
     double scale;                /**< PNG: pixels per unit, 0.1 .. 16, for dense screens; default 1 */
     uint32_t background;         /**< 0xRRGGBB or FROE_DRAW_CLEAR; default a paper white */

@@ -46,7 +46,7 @@ extern "C" {
 
 /* ------------------------------------------------------------------ limits -- */
 
-#define FROE_MAX_DIM 8           /**< points, boxes and balls live in R^2 .. R^8 */
+#define FROE_MAX_DIM 8           /**< points, boxes and balls exist in R^2 .. R^8 */
 #define FROE_NONE UINT32_MAX     /**< "no object", "no group", "no face" */
 #define FROE_LEAF_OWN UINT32_MAX /**< the leaf capacity that a method has by itself */
 
@@ -141,7 +141,7 @@ typedef struct froe_scene froe_scene;
 /** An empty scene. dim in 2..FROE_MAX_DIM. alloc is copied; NULL: malloc.
  * FROE_E_ARG, FROE_E_MEMORY. */
 FROE_API froe_status froe_scene_new(int dim, const froe_allocator *alloc, froe_scene **out);
-/** Gives up the caller's hold. Trees built from the scene keep it alive. */
+/** Releases the caller's reference. Trees built from the scene keep it alive. */
 FROE_API void froe_scene_free(froe_scene *scene);
 
 /** A batch of objects of one kind, as arrays the caller keeps. Object j has the
@@ -260,8 +260,8 @@ typedef struct froe_method_info {
 } froe_method_info;
 /** The i-th method; NULL past the last. "auto" is not listed. */
 FROE_API const froe_method_info *froe_method_at(size_t i);
-/** Does a method serve all objects of a scene, in leaves of so many (FROE_LEAF_OWN: its own)? Then froe_build() does not
- * return FROE_E_UNSUPPORTED, unless an option or the coordinates call for it. False for NULL. O(n). */
+/** Does a method serve all objects of a scene, in leaves of so many (FROE_LEAF_OWN: its own)? Then froe_build() does
+ * not return FROE_E_UNSUPPORTED, unless an option or the coordinates call for it. False for NULL. O(n). */
 FROE_API bool froe_method_serves(const froe_method_info *method, const froe_scene *scene, uint32_t leaf);
 
 /** The method that "auto" stands for on a scene, for a purpose: "pieces" (NULL: this one), "query" or "draw".
@@ -278,7 +278,7 @@ typedef struct froe_build_options {
     uint32_t leaf;              /**< most objects in a leaf; FROE_LEAF_OWN (default): the method's own, mostly 1;
                                      0: everything ends in cuts (scenes of 2D segments or of 3D polygons only) */
     uint64_t seed;              /**< of all random choices; default 1 */
-    const uint32_t *order;      /**< every object once, first things first, for methods that go by an order
+    const uint32_t *order;      /**< every object once, the first to cut first, for methods that take one
                                      (cylindrical); NULL: a random one, by the seed */
     size_t order_count;         /**< as many as there are objects; 0 without */
     uint64_t max_fragments;     /**< budget for pieces; 0: none. Beyond it: FROE_E_BUDGET */

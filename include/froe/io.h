@@ -1,4 +1,4 @@
-/* io.h: scenes from files, files from trees, and scenes made to measure.
+/* io.h: scenes from files, files from trees, and generated scenes.
  *
  *     froe_scene *scene;  froe_read_report report;  froe_diagnostic diag;
  *     froe_read_options o = froe_read_defaults();

@@ -28,7 +28,7 @@ typedef struct froe_motion froe_motion;
 
 typedef struct froe_motion_options {
     size_t size;       /**< set by froe_motion_defaults() */
-    double begin, end; /**< the window: the time that is looked at, begin < end. No default */
+    double begin, end; /**< the window: the time that is considered, begin < end. No default */
     double tick;       /**< the grid of time that a kinetic structure walks on: a power of 2, at most 2^52 of them in
                             the window. 0 (default): 2^31 to 2^32 ticks in the window */
 } froe_motion_options;
@@ -175,9 +175,9 @@ FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_op
 FROE_API void froe_kinetic_free(froe_kinetic *kinetic);
 /** Sets the progress function of all later calls that take this partition, in place of that of the options; NULL: none.
  * They call it now and then, unless they take no more than a moment, with the share of the time that has been gone
- * through (advance) or done (snapshot), or else with 0. If it returns false, they return FROE_E_CANCELLED. A change that
- * was cancelled, or ran out of memory, has been made to the motion; the partition is made anew by the next call, which
- * therefore may take longer and fail in the same way. */
+ * through (advance) or done (snapshot), or else with 0. If it returns false, they return FROE_E_CANCELLED. A change
+ * that was cancelled, or ran out of memory, has been made to the motion; the partition is made anew by the next call,
+ * which therefore may take longer and fail in the same way. */
 FROE_API void froe_kinetic_watch(froe_kinetic *kinetic, froe_progress_fn *progress, void *user);
 
 /** What happens at an instant. */
@@ -205,20 +205,20 @@ typedef struct froe_event {
                                 between. froe_kinetic_instant() knows more */
 } froe_event;
 
-/** Called for each event, in the order in which they happen. false: froe_kinetic_advance returns when the tick is done. */
+/** Called for each event, in order of time. false: froe_kinetic_advance returns when the tick is done. */
 typedef bool froe_event_fn(void *user, const froe_event *event);
 
 /** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; `visit` (may be NULL) is called
- * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free it.
- * FROE_E_CANCELLED: `visit` returned false, and the partition stands right after the event; or the progress function
- * did, and it stands somewhere in between. Expected polylogarithmic in n for each event, if the motion does not depend on the
- * order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
+ * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free
+ * it. FROE_E_CANCELLED: `visit` returned false, and the partition stands right after the event; or the progress
+ * function did, and it stands somewhere in between. Expected polylogarithmic in n for each event, if the motion does
+ * not depend on the order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
 FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
                                           froe_diagnostic *diag);
-/** For visitors, while they are called for an event: when it happened, between two doubles that are next to one another or
- * equal. Of a batch, when one of its certificates failed; of changes of plans, appearances and disappearances, no more
- * than the ticks before and after. Certain: out[0] <= true time <= out[1]. FROE_E_ARG: there is no event. Some 30 us.
- */
+/** For visitors, while they are called for an event: when it happened, between two doubles that are next to one another
+ * or equal. Of a batch, when one of its certificates failed; of changes of plans, appearances and disappearances, no
+ * more than the ticks before and after. Certain: out[0] <= true time <= out[1]. FROE_E_ARG: there is no event. Some 30
+ * microseconds. */
 FROE_API froe_status froe_kinetic_instant(froe_kinetic *kinetic, double out[2], froe_diagnostic *diag);
 /** The time of the tick at which it stands. */
 FROE_API double froe_kinetic_time(const froe_kinetic *kinetic);
@@ -239,8 +239,8 @@ FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object,
  * where they are at the tick, and an infinitesimal while later. So what touches at the tick alone, because it is about
  * to part or to cross, is told apart as it is afterwards. The points of a question stand still. Only `on` is about the
  * tick itself. Of segments that lie in one line where they overlap, the first in the order of cuts
- * is the answer. Segments without length are not met. Questions use memory of the partition's, so they are for one thread at
- * a time. FROE_E_ARG: a coordinate is NaN or infinite. FROE_E_MEMORY. */
+ * is the answer. Segments without length are not met. Questions use memory of the partition's, so they are for one
+ * thread at a time. FROE_E_ARG: a coordinate is NaN or infinite. FROE_E_MEMORY. */
 
 /** Where a point is among the segments. */
 typedef struct froe_kinetic_place {
@@ -310,9 +310,10 @@ typedef struct froe_snapshot {
 } froe_snapshot;
 
 /** The present as an ordinary tree, for all other questions: the segments where they are at the tick itself, not just
- * after it. Its coordinates are doubles, each the nearest to the truth; where that is no double, `rounded` counts it, `alike` tells whether it made a difference to the partition, and
- * `places` keeps the truth. FROE_E_UNSUPPORTED: something would have to be rounded, and that is to be refused; the
- * first object is named. FROE_E_MEMORY, and the failures of froe_build(). */
+ * after it. Its coordinates are doubles, each the nearest to the truth; where that is no double, `rounded` counts it,
+ * `alike` tells whether it made a difference to the partition, and `places` keeps the truth. FROE_E_UNSUPPORTED:
+ * something would have to be rounded, and that is to be refused; the first object is named. FROE_E_MEMORY, and the
+ * failures of froe_build(). */
 FROE_API froe_status froe_kinetic_snapshot(froe_kinetic *kinetic, const froe_snapshot_options *options,
                                            froe_snapshot *out, froe_diagnostic *diag);
 

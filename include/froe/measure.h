@@ -1,4 +1,4 @@
-/* measure.h: what a scene is like: how fat, how dense, how cluttered.
+/* measure.h: measures of a scene: fatness, density, clutter and directional density.
  *
  * The sizes that methods promise depend on such properties (de Berg 2000; de Berg and Streppel; Tobola and Nechvile),
  * so these tell which promises are strong on a given scene.
@@ -8,7 +8,7 @@
  *     froe_measure_density(scene, &o, &density, NULL);     // density.lower <= lambda <= density.upper
  *
  * Bounds that are called certified hold exactly for the doubles of the scene; distributions are computed in
- * doubles. Where a scene has more objects than `samples`, a random sample of so many is looked at, the same for the
+ * doubles. Where a scene has more objects than `samples`, a random sample of so many is used, the same for the
  * same seed: lower bounds stay certified, upper bounds and distributions are then those of the sample. All functions
  * leave the scene as it is. */
 #ifndef FROE_MEASURE_H

@@ -1,4 +1,4 @@
-/* query.h: questions to a tree: what meets this range?
+/* query.h: queries to a tree: ranges, points, rays, neighbours and pairs.
  *
  *     froe_query *q;
  *     froe_query_new(tree, &q, NULL);                     // one a thread; froe_query_fork() for more
@@ -253,9 +253,9 @@ FROE_API froe_status froe_batch_ray_all(froe_query *query, const double *origins
 /** With distances as values. */
 FROE_API froe_status froe_batch_near(froe_query *query, const double *points, size_t count, size_t k, double bound,
                                      const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
-/** froe_query_pairs() on several threads: the same pairs in the same order, told by the calling thread. On packed trees
- * of the plane (method index) pairs are found leaf by leaf, which is much faster, and told once all are found, which
- * takes up to 24 bytes for each; where they are more than 16 for each object, object by object as on other trees.
+/** froe_query_pairs() on several threads: the same pairs in the same order, visited on the calling thread. On packed
+ * trees of the plane (method index) pairs are found leaf by leaf, which is much faster, and visited once all are found,
+ * which takes up to 24 bytes for each; where they are more than 16 for each object, object by object as on other trees.
  * FROE_E_CANCELLED. */
 FROE_API froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options,
                                       froe_pair_fn *fn, void *fn_user, froe_diagnostic *diag);

@@ -21,7 +21,7 @@ extern "C" {
 /** Where a picture is seen from. Taken exactly, as the doubles given. */
 typedef struct froe_eye {
     double at[3];  /**< a point; of a parallel eye the direction from the scene towards it, of any length but 0.
-                        In the plane at[2] is not looked at */
+                        In the plane at[2] is ignored */
     bool parallel; /**< infinitely far away: parallel projection */
 } froe_eye;
 
@@ -52,7 +52,7 @@ typedef bool froe_order_fn(void *user, size_t piece);
 FROE_API froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const froe_order_options *options,
                                      froe_order_fn *fn, void *user, froe_diagnostic *diag);
 /** The same for `count` eyes at once: pieces[e * froe_tree_piece_count(tree) ..] receives the order of eye e. Each
- * cut is looked at once for 32 eyes, and eyes are shared among threads. Also FROE_E_CANCELLED. */
+ * cut is read once for 32 eyes, and eyes are shared among threads. Also FROE_E_CANCELLED. */
 FROE_API froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t count,
                                       const froe_order_options *options, uint32_t *pieces, froe_diagnostic *diag);
 
@@ -98,10 +98,10 @@ typedef struct froe_visibility_options {
     size_t size;  /**< set by froe_visibility_defaults() */
     froe_eye eye; /**< default: at the origin */
     /** A convex polygon in space, 3 doubles a corner: only what is seen through it counts, before or behind it.
-     * NULL: everything around the eye counts (an eye at a point looks in all directions, as a lamp does). */
+     * NULL: everything around the eye counts (an eye at a point looks in all directions). */
     const double *window;
     size_t window_corners;
-    const uint8_t *clear;        /**< per patch, not 0: one sees through it; NULL: all are opaque */
+    const uint8_t *clear;        /**< per patch, not 0: transparent; NULL: all are opaque */
     const int32_t *priorities;   /**< per patch; where patches overlap in one plane, the one of higher priority is seen,
                                       of equal ones the later; NULL: all equal */
     const uint8_t *edges;        /**< per edge, not 0: its intervals are wanted; NULL: all */
@@ -121,12 +121,12 @@ typedef struct froe_visibility froe_visibility;
 
 /** Finds, exactly, which part of every polygon is visible, and which part of every edge.
  *
- * The pieces of the tree come front to back; those of them that are open are kept and, unless one sees through them,
+ * The pieces of the tree come front to back; those of them that are open are kept and, unless they are transparent,
  * close the part of the picture that they take, which is a BSP of lines of sight (a beam tree). Each line is a plane
  * through the eye and an edge, or through the eye and a cut of the tree across a polygon, and every side is decided
  * from the input doubles. A part of an edge is visible where one of
  * its faces is visible beside it; edges whose faces are all seen edge-on have no visible part. Segments and points of
- * the scene are neither seen nor in the way.
+ * the scene are neither visible nor hide anything.
  *
  * FROE_E_ARG: the eye is none, the surface is not of the tree's scene. FROE_E_OPTIONS. FROE_E_INPUT: the window, as the
  * eye sees it, is not strictly convex. FROE_E_UNSUPPORTED: see froe_tree_order(). FROE_E_MEMORY, FROE_E_CANCELLED. Time
@@ -181,7 +181,7 @@ FROE_API froe_status froe_visibility_regions(const froe_visibility *visibility, 
                                              froe_region_fn *fn, void *user, froe_diagnostic *diag);
 
 typedef struct froe_visibility_report {
-    uint64_t pieces;         /**< of the tree that were looked at before the picture was closed */
+    uint64_t pieces;         /**< of the tree that were visited before the picture was closed */
     uint64_t visible_pieces; /**< convex parts that are visible */
     /** Patches: each is counted once, by the first of these that applies. */
     uint64_t visible_patches;
@@ -264,7 +264,7 @@ typedef struct froe_picture_options {
                                       that antialiasing shows no seams; 0 (default): not at all */
     const uint32_t *styles;    /**< per patch; shapes of one style are put next to each other where the order allows it;
                                     NULL: all of one style */
-    const uint8_t *clear;      /**< per patch, not 0: one sees through it; NULL: all are opaque */
+    const uint8_t *clear;      /**< per patch, not 0: transparent; NULL: all are opaque */
     const int32_t *priorities; /**< see froe_visibility_options */
     int section;               /**< the same */
     bool cull_back;            /**< the same */
@@ -288,10 +288,10 @@ FROE_API froe_picture_options froe_picture_defaults(void);
 
 /** Shapes and lines on a page, in the order in which they are painted. Immutable. */
 typedef struct froe_picture froe_picture;
-/** Computes visibility, the order, and the shapes. Every sample point of the page shows what a ray through it meets first: each patch
- * comes after all others over whose visible parts it lies; where such demands form cycles a few patches are
- * clipped to what is visible of them. One sees through `clear` patches, layer by layer.
- * Failures as froe_visibility_new(). */
+/** Computes visibility, the order, and the shapes. Every sample point of the page shows what a ray through it meets
+ * first: each patch comes after all others over whose visible parts it lies; where such demands form cycles a few
+ * patches are clipped to what is visible of them. `clear` patches are transparent, layer by layer. Failures as
+ * froe_visibility_new(). */
 FROE_API froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
                                       const froe_picture_options *options, froe_picture **out, froe_diagnostic *diag);
 FROE_API void froe_picture_free(froe_picture *picture);
@@ -307,9 +307,9 @@ FROE_API froe_shape froe_picture_shape(const froe_picture *picture, size_t i);
 /** Points of a ring on the page: 2 doubles each, not rounded to anything. */
 FROE_API const double *froe_picture_ring(const froe_picture *picture, size_t ring, size_t *points);
 
-/** Kinds of lines, as bits. An edge gets the first that applies. Where lines of different kinds lie on each other on the
- * page, exactly or as far as it can tell, one is drawn: a visible one before a hidden one, then the first of section,
- * border, silhouette, crossing, object, material, crease and mesh. */
+/** Kinds of lines, as bits. An edge gets the first that applies. Where lines of different kinds lie on each other on
+ * the page, exactly or as far as it can tell, one is drawn: a visible one before a hidden one, then the first of
+ * section, border, silhouette, crossing, object, material, crease and mesh. */
 typedef enum froe_line {
     FROE_LINE_BORDER = 1,     /**< used by one polygon, or by more than two */
     FROE_LINE_SILHOUETTE = 2, /**< between a polygon seen from the front and one seen from behind */

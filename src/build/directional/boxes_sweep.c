@@ -127,7 +127,7 @@ static boxes_cut cut_at(const sweep *s, int axis, double x) {
     return (boxes_cut){true, false, axis, x, s->below, s->above, s->divided};
 }
 
-/* First what can be told from two numbers: hardly any cut is better than all before. */
+/* A quick test of two numbers first: hardly any cut is better than all before. */
 static void consider(const boxes *b, const sweep *s, int axis, double x, bool face, sweep_found *best) {
     uint32_t less = smaller(s);
     if (s->divided <= best->most && face && (less || b->options.faces)) {

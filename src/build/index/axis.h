@@ -6,8 +6,8 @@
  *          p----'  |         in a cut; then one of its coordinates is exact and the other an image with a bound.
  *     -----+-------+----     Where the bound leaves a decision open, the exact predicate decides.
  *
- * Cuts are in general position (tree/packed/packed.h): none contains a corner of the object or an end made by another cut. A
- * cut that would is detected by a side of 0, and the builder takes another. */
+ * Cuts are in general position (tree/packed/packed.h): none contains a corner of the object or an end made by another
+ * cut. A cut that would is detected by a side of 0, and the builder takes another. */
 #ifndef FROE_BUILD_INDEX_AXIS_H
 #define FROE_BUILD_INDEX_AXIS_H
 #include "geom/predicates.h"
