@@ -86,7 +86,8 @@ static int widest(const froe_scene *scene, const uint32_t *objects, uint32_t cou
     return areas[2] > areas[best] ? 2 : best;
 }
 
-/* Sweeps over a run of s->pairs; straight objects come into the order, s->crooked is set for all. `objects`: room. */
+/* Sweeps over a run of s->pairs; straight objects come into the order, s->crooked is set for all. `objects` is scratch.
+ */
 static froe_status sweep_run(search *s, size_t first, uint32_t count, uint32_t *objects) {
     const froe_scene *scene = s->of->scene;
     for (uint32_t i = 0; i < count; i++) objects[i] = s->of->objects[s->pairs[first + i].value];

@@ -106,7 +106,7 @@ static froe_status check_camera(const froe_camera *c, froe_diagnostic *diag) {
     return FROE_OK;
 }
 
-/* The page's axes. An up along the line of view gives way to the first axis that is not. */
+/* The page's axes. An up along the line of view is replaced by the first axis that is not along it. */
 static froe_status set_axes(const froe_camera *c, froe_projection *out, froe_diagnostic *diag) {
     double up[3] = {c->up[0], c->up[1], c->up[2]};
     for (int k = 0; k < 3; k++) out->back[k] = c->eye[k] - c->target[k];
@@ -156,7 +156,7 @@ static bool fit_points_new(const froe_camera *c, const froe_scene *scene, fit_po
     if (!c->section) return true;
     for (uint32_t o = 0; o < scene->object_count; o++) {
         const uint32_t n = scene_corners(scene, o);
-        if (scene_form(scene, o) > FROE_POLYGON) continue; /* has no place in such pictures */
+        if (scene_form(scene, o) > FROE_POLYGON) continue; /* such pictures do not show it */
         for (uint32_t i = 0; i < n; i++)
             if (!keep_edge(&scene->alloc, out, c->section, scene_point(scene, o, i),
                            scene_point(scene, o, i + 1 < n ? i + 1 : 0)))

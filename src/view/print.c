@@ -40,7 +40,7 @@ static void side_of_view(const froe_projection *v, int side, double beyond, doub
     *c = parallel ? limit : 0;
 }
 
-/* Cuts at[from] to one half-space into the other array; *cut: something went away. */
+/* Cuts at[from] to one half-space into the other array; *cut: something was cut off. */
 static bool cut_side(print_press *p, int from, int side, bool *cut) {
     const double *ring = p->at[from].data;
     const size_t count = p->at[from].count / 3;

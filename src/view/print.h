@@ -1,6 +1,6 @@
 /* print.h: polygons on the page, in doubles: projected, and cut to what is before the eye and near the page.
  *
- * Nothing visible is decided with these. They find pairs that may overlap, and become output. Rings are cut one by one
+ * These do not decide what is visible. They find pairs that may overlap, and become output. Rings are cut one by one
  * (Sutherland and Hodgman 1974); where a ring is not convex that leaves doubled lines along the cut, without area. */
 #ifndef FROE_VIEW_PRINT_H
 #define FROE_VIEW_PRINT_H
@@ -22,7 +22,7 @@ typedef struct print_press {
     ARRAY(double) at[2]; /**< 3 a point; cut from one to the other */
 } print_press;
 
-/** How far a page is kept beyond its sides, in its own size: whole faces that leave it are cut there. */
+/** How far beyond the sides of the page whole faces are cut, in sizes of the page. */
 #define PRINT_BEYOND 1.5
 
 void print_free(print_press *press);

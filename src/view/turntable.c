@@ -1,4 +1,4 @@
-/* turntable.c: cameras around a scene, from one distance and at one scale, so that nothing but the scene turns.
+/* turntable.c: cameras around a scene, at one distance and one scale, so that the scene alone appears to turn.
  *
  * Angles come from tan(angle / 4) and doubled angles: the same on every machine. */
 #include "base/floats.h"
@@ -21,7 +21,7 @@ static double length_of(const double *v) {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* How much smaller a picture must be that is centred on the middle of the scene instead of on itself. */
+/* The factor by which a picture shrinks when it is centred on the middle of the scene instead of on its own. */
 static double shrink(const froe_camera *c, const froe_projection *view) {
     double least = 1;
     for (int k = 0; k < 2; k++) {

@@ -1,8 +1,9 @@
-/* arcs.c: whose visible piece lies over what somebody else paints.
+/* arcs.c: finds the visible pieces that lie over parts which other nodes paint.
  *
- * Each node may be painted whole, once, if it comes after every node that paints, behind it, where it is visible: then
- * the last to paint any point is the one that is visible there. A grid on the page finds pairs of a visible piece and a
- * part; separating axes in doubles decide almost all of them, sightlines the rest: parts that touch must not count. */
+ * Each node may be painted whole, once, if it comes after every node that paints behind it where it is visible. Then
+ * the node painted last at any point is the one that is visible there. A grid on the page finds pairs of a visible
+ * piece and a part. Separating axes in doubles decide almost all of them, sightlines the rest: parts that touch must
+ * not count. */
 #include "view/picture/grid.h"
 #include "view/picture/parts.h"
 
@@ -44,7 +45,7 @@ static bool overlap_exactly(finder *f, const view_piece *piece, const paint_part
     } else {
         const bool ok = kind == PART_PIECE ? view_beam_of(f->sights, part->source, &f->ring)
                                            : view_beam_of_object(f->sights, part->source, &f->ring);
-        if (!ok) return true; /* an arc too many does no harm */
+        if (!ok) return true; /* a superfluous arc does no harm */
         b = f->ring.data;
         count = (uint32_t)f->ring.count;
     }
@@ -52,7 +53,7 @@ static bool overlap_exactly(finder *f, const view_piece *piece, const paint_part
            !ring_is_beyond(f->sights, b, count, a, piece->count);
 }
 
-/* Do their interiors overlap? Where rounding could hide that, sightlines tell. */
+/* Do their interiors overlap? Sightlines decide where rounding could hide that. */
 static bool overlap(finder *f, const view_piece *piece, size_t i) {
     const paint_part *part = f->parts->parts.data + i;
     const print_point *ring = f->parts->points.data + part->first;

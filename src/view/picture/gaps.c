@@ -1,8 +1,8 @@
-/* gaps.c: what goes away of a segment because of others.
+/* gaps.c: the gaps that other segments leave in a segment.
  *
- *      |         |              A halo parts a line from a nearer one that crosses it, or behind which it ends; the
+ *      |         |              A halo is a gap in a line at a nearer one that crosses it, or behind which it ends; the
  *   ---  ---   --| -- --        depth between the two must be as much as the gap is wide, or neighbours on a curved
- *      |         |              surface would part each other. Hidden lines of one wall lie behind those of the next:
+ *      |         |              surface would have gaps. Hidden lines of one wall lie behind those of the next:
  *    halo      dashes           drawn twice, their dashes would fill each other's gaps. */
 #include "base/sort.h"
 #include "view/picture/grid.h"
@@ -17,11 +17,11 @@ typedef struct gapper {
     const froe_allocator *alloc;
     const froe_projection *view;
     double halo;    /* width of gaps */
-    double same[2]; /* how near lines count as one: visible ones, hidden ones */
+    double same[2]; /* the distance within which lines count as one: visible ones, hidden ones */
     const view_segments *in;
     view_grid grid;
     uint32_t *stamps; /* per segment: the one + 1 that it was compared with last */
-    ARRAY(gap) gaps;  /* of the one at work */
+    ARRAY(gap) gaps;  /* of the current one */
     ARRAY(uint32_t) order;
     view_segments out;
 } gapper;
@@ -77,14 +77,14 @@ static bool meet(const view_segment *s, const view_segment *t) {
     return false;
 }
 
-/* Does t take something away from s? */
+/* Notes the gap that t leaves in s, if any. */
 static bool compare_lines(gapper *g, uint32_t i, uint32_t j) {
     const view_segment *s = g->in->data + i, *t = g->in->data + j;
     gap x;
     const int weaker = view_strength(t->kind, t->hidden) - view_strength(s->kind, s->hidden);
     for (int wide = 0; wide <= s->hidden && (weaker > 0 || (!weaker && j < i)); wide++)
         if (stretch_near(s, t, g->same[wide], &x) && (x.to - x.from) * length_of(s) >= 8 * g->same[wide] &&
-            !array_push(g->alloc, &g->gaps, x)) /* shorter ones only cross */
+            !array_push(g->alloc, &g->gaps, x)) /* lines with shorter stretches only cross */
             return false;
     if (s->hidden || t->hidden || !(g->halo > 0) || meet(s, t) || !stretch_near(s, t, g->halo, &x)) return true;
     return depth_between(g, s, t, x) < g->halo || array_push(g->alloc, &g->gaps, x);

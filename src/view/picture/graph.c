@@ -1,4 +1,4 @@
-/* graph.c: arcs in both directions, circles, and how they are broken. */
+/* graph.c: arcs in both directions, and the breaking of cycles. */
 #include "view/picture/graph.h"
 #include "base/radix.h"
 #include <string.h>

@@ -1,10 +1,10 @@
-/* graph.h: in which order to paint, given who must come after whom.
+/* graph.h: an order of painting, from the pairs of nodes whose order matters.
  *
  *     arc  a -> b     b is painted after a
  *
- * Where arcs run in circles, some nodes are made late: their outgoing arcs are dropped, because what they stand for
- * will be painted clipped and can then spoil nothing. A small set is looked for (a feedback vertex set of each strongly
- * connected component): again and again the node with the most ways in times ways out. */
+ * Where arcs form cycles, some nodes are made late: their outgoing arcs are dropped, because they will be painted
+ * clipped and then cover nothing visible. A small set is searched (a feedback vertex set of each strongly connected
+ * component): repeatedly the node with the greatest product of arcs in and arcs out. */
 #ifndef FROE_VIEW_PICTURE_GRAPH_H
 #define FROE_VIEW_PICTURE_GRAPH_H
 #include "base/array.h"
@@ -20,18 +20,18 @@ typedef struct view_graph {
     uint32_t arc_count;
     uint8_t *late; /**< per node */
     uint32_t late_count;
-    uint32_t cyclic; /**< nodes in circles at first */
+    uint32_t cyclic; /**< nodes in cycles at first */
 } view_graph;
 
 /** From arcs in any order, repeated or not; `arcs` is reordered. FROE_E_MEMORY. */
 froe_status view_graph_new(const froe_allocator *alloc, uint32_t nodes, graph_arc *arcs, size_t arc_count,
                            view_graph *out);
 void view_graph_free(const froe_allocator *alloc, view_graph *graph);
-/** Makes nodes late until no circle is left; a `fixed` node (NULL: none is) only where all of
- * its circle are. FROE_E_MEMORY. Not recursive (Tarjan 1972 with a stack of its own). */
+/** Makes nodes late until no cycle is left; a `fixed` node (NULL: none is) only where all of
+ * its cycle are. FROE_E_MEMORY. Not recursive (Tarjan 1972 with a stack of its own). */
 froe_status view_graph_break(const froe_allocator *alloc, view_graph *graph, const uint8_t *fixed);
 /** All nodes so that arcs point forward, those from late nodes apart. Stays with one style as long as it can, then
- * takes up that with the most nodes ready; among equals the lowest number. REQUIRES: no circles. FROE_E_MEMORY. */
+ * takes up that with the most nodes ready; among equals the lowest number. REQUIRES: no cycles. FROE_E_MEMORY. */
 froe_status view_graph_sort(const froe_allocator *alloc, const view_graph *graph, const uint32_t *styles,
                             uint32_t style_count, uint32_t *order);
 #endif

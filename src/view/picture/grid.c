@@ -1,4 +1,4 @@
-/* grid.c: counted, then filled. */
+/* grid.c: the entries of each cell are counted first, then filled in. */
 #include "view/picture/grid.h"
 #include <math.h>
 
@@ -18,7 +18,7 @@ static uint32_t cell_at(double x, double size, uint32_t cells) {
 
 view_cells view_grid_cells(const view_grid *g, const print_point *points, size_t count, double beyond) {
     double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
-    if (!count) return (view_cells){1, 1, 0, 0}; /* what is away from the page is in no cell */
+    if (!count) return (view_cells){1, 1, 0, 0}; /* a thing without points is in no cell */
     for (size_t i = 0; i < count; i++) {
         x0 = fmin(x0, points[i].x), x1 = fmax(x1, points[i].x);
         y0 = fmin(y0, points[i].y), y1 = fmax(y1, points[i].y);

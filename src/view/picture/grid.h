@@ -1,7 +1,7 @@
-/* grid.h: which things on the page may be near each other: a uniform grid of cells over the page.
+/* grid.h: a uniform grid of cells over the page, which finds things that may be near each other.
  *
  *      +---+---+---+      Each thing is a ring, or any few points, and is listed in the cells that its bounds meet.
- *      | a | ab| b |      What lies beside the page is listed in the cells at its margin.
+ *      | a | ab| b |      A thing beside the page is listed in the cells at its margin.
  *      +---+---+---+
  *      |   | b | b |
  *      +---+---+---+  */
@@ -24,7 +24,7 @@ typedef struct view_cells {
 
 /** The points of thing i. */
 typedef const print_point *view_points_fn(const void *user, size_t i, size_t *points);
-/** As fine as the number of things asks for, but not so fine that large things fill the memory. FROE_E_MEMORY. */
+/** The number of cells grows with that of the things, unless large things would need too much memory. FROE_E_MEMORY. */
 froe_status view_grid_new(const froe_allocator *alloc, const froe_projection *view, size_t count, view_points_fn *fn,
                           const void *user, view_grid *out);
 void view_grid_free(const froe_allocator *alloc, view_grid *grid);

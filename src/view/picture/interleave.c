@@ -1,13 +1,13 @@
-/* interleave.c: when lines are painted that do not all go on top.
+/* interleave.c: the places of lines in the order of painting, where not all lines go on top.
  *
  *      ____
- *     /   /|      The outer half of a wide line lies on what is beyond its edge. Where that is nearer than the line,
- *  --/---/ |      a line on top of all would spoil it: the line is painted before whatever nearer is visible
+ *     /   /|      The outer half of a wide line lies on faces beyond its edge. Where these are nearer than the line,
+ *  --/---/ |      a line on top of all would cover them: the line is painted before all nearer faces that are visible
  *   /___/  |      within its reach, but after all else that is visible there, its own faces among it.
  *
- * So lines with something nearer by them become nodes of the order graph. Where that closes circles, lines are made
- * late, never what they lie on: a late line goes on top of all, as lines without anything nearer do.
- * All in doubles: what is visible has been decided; this tells half a line's width. */
+ * So lines with something nearer within reach become nodes of the order graph. Where that closes cycles, lines are made
+ * late, never faces: a late line goes on top of all, as lines without anything nearer do. All in doubles: visibility
+ * has been decided before; this affects half a line's width. */
 #include "view/picture/grid.h"
 #include "view/picture/picture.h"
 #include <math.h>
@@ -17,8 +17,8 @@ typedef struct sorter {
     double reach;
     print_ring points;               /* of all visible pieces */
     ARRAY(uint32_t) starts;          /* of each, and their end */
-    uint32_t *stamps;                /* per visible piece: the segment + 1 that looked at it last */
-    ARRAY(uint32_t) nearer, farther; /* nodes in front of the segment at work within its reach, and not in front */
+    uint32_t *stamps;                /* per visible piece: the segment + 1 that was compared with it last */
+    ARRAY(uint32_t) nearer, farther; /* nodes within reach of the current segment: in front of it, and the others */
     ARRAY(uint32_t) lines;           /* segments that are nodes: those of the picture come before */
     view_arcs arcs;
     view_grid grid;
@@ -45,7 +45,7 @@ static bool print_pieces(sorter *s) {
 
 /* --------------------------------------------------------------------- distances -- */
 
-/* A place of the page on or by a segment: the share of the segment, and how far away it is. */
+/* A place of the page on or near a segment: the share of the segment, and the distance. */
 typedef struct meeting {
     print_point at;
     double share, square;
@@ -68,7 +68,7 @@ static void offer(meeting *best, print_point at, print_point on, double share) {
     if (square < best->square) *best = (meeting){at, share, square};
 }
 
-/* What of ab is inside a convex ring, if anything. */
+/* The part of ab inside a convex ring. False: none. */
 static bool clip(const print_point *ring, size_t n, print_point a, print_point b, double share[2]) {
     const double turn = print_area(ring, n) > 0 ? 1 : -1;
     share[0] = 0, share[1] = 1;
@@ -128,7 +128,7 @@ static bool is_nearer(const sorter *s, uint32_t visible, const view_segment *seg
 
 /* ------------------------------------------------------------------------- nodes -- */
 
-/* Takes note of a visible piece if it is within reach. */
+/* Notes a visible piece if it is within reach. */
 static bool note(sorter *s, uint32_t i, uint32_t visible, const view_segment *segment) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     size_t n;

@@ -1,8 +1,8 @@
-/* kinds.c: which edges are lines of the picture.
+/* kinds.c: the edges that are lines of the picture.
  *
  * Edges within a patch never are. An edge between two polygons is a silhouette when the eye is in front of one and
- * behind the other, their corners taken to turn the same way along a surface: exact signs. Angles only sort creases
- * from the rest, in doubles. */
+ * behind the other, their corners taken to turn the same way along a surface: exact signs. Angles, in doubles, only
+ * tell creases from the rest. */
 #include "view/picture/picture.h"
 #include <math.h>
 #include <string.h>

@@ -114,7 +114,7 @@ static outline_detour detour_by(const view_outliner *o, print_point a, print_poi
         2, {{a.x + t * (c.x - a.x), a.y + t * (c.y - a.y)}, {b.x + t * (c.x - b.x), b.y + t * (c.y - b.y)}}};
 }
 
-/* A side where the patch is hidden, and with it what hides it ends, is drawn short; see seams.h. */
+/* A side is drawn short where the patch is hidden and what hides it ends at the same side; see seams.h. */
 static bool trim_detour(view_outliner *o, uint32_t object, print_point a, print_point b, outline_detour *out) {
     print_point c;
     double height;

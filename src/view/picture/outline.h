@@ -1,8 +1,8 @@
 /* outline.h: whole patches as rings on the page, and the underlap that hides seams.
  *
  *        c  later patch B          Two antialiased shapes that share an edge let the background shine through. So the
- *       / \                        patch painted first, A, is drawn a little further: over ab into B's polygon abc. What
- *      /.-.\                       is added lies within B, which is painted over it, or under what is painted over B
+ *       / \                        patch painted first, A, is drawn a little further: over ab into B's polygon abc. The
+ *      /.-.\                       addition lies within B, which is painted over it, or under faces painted over B
  *     a-----b                      anyway: where X is seen in front of B, X comes after B, hence after A.
  *      earlier patch A
  */
@@ -16,13 +16,13 @@ typedef struct outline_side {
     uint32_t next;     /**< side that begins at the same vertex; FROE_NONE */
 } outline_side;
 
-/** What a ring does between the ends of a side: nothing, or it visits one or two points. */
+/** The points of a ring between the ends of a side: none, one or two. */
 typedef struct outline_detour {
     uint32_t count;
     print_point at[2];
 } outline_detour;
 
-/** What the outlines of all patches share. */
+/** The state that the outlines of all patches share. */
 typedef struct view_outliner {
     froe_allocator alloc;
     view_sights *sights;

@@ -1,4 +1,4 @@
-/* overlay.c: items by line of sight, and each line as a row of places between which one item is drawn. */
+/* overlay.c: items by sightline, and each line as a row of places between which one item is drawn. */
 #include "view/picture/overlay.h"
 #include "base/sort.h"
 #include <math.h>
@@ -12,7 +12,7 @@ typedef struct overlay_line {
     bool turned;
 } overlay_line;
 
-/* An item in the direction of the line at work. */
+/* An item in the direction of the current line. */
 typedef struct overlay_member {
     view_end end[2];
     uint32_t place[2];
@@ -31,7 +31,7 @@ typedef struct overlayer {
     view_sights *sights;
     bool depths;
     ARRAY(overlay_line) lines;
-    uint32_t line; /* at work, and what is on it: */
+    uint32_t line; /* the current one, and what is on it: */
     ARRAY(overlay_member) members;
     ARRAY(overlay_place) places;
     overlay_ids drawn, front; /* per part, from a place to the next: the member that is drawn, and the nearest */
@@ -72,7 +72,7 @@ static int by_line(void *user, uint32_t a, uint32_t b) {
     return view_compare_lines(o->sights, x->line, y->line, x->key);
 }
 
-/* The items of a line that is the one at work, or runs the other way. */
+/* Adds the items of a line that equals the current one or its reverse. */
 static bool add_members(overlayer *o, const view_items *items, const overlay_line *l, bool turned) {
     for (uint32_t i = l->first; i < l->end; i++) {
         const view_item *item = items->data + i;
@@ -139,7 +139,7 @@ static uint32_t next_free(uint32_t *next, uint32_t i) {
     return i;
 }
 
-/* One after the other, members take those of their parts that are still free. */
+/* Gives each member in order those of its parts that are still free. */
 static bool paint_line_of_sight(overlayer *o, base_compare_fn *compare, overlay_ids *out) {
     const froe_allocator *alloc = &o->sights->alloc;
     const uint32_t n = (uint32_t)o->places.count;

@@ -1,7 +1,7 @@
 /* overlay.h: lines that lie on each other on the page are drawn once.
  *
- *     o=========o              a   Where polygons touch in edges of different lengths, or one stands behind the
- *          o=========o         b   other, edges have parts of their lines of sight in common. There, the strongest
+ *     o=========o              a   Where polygons touch in edges of different lengths, or one is behind the
+ *          o=========o         b   other, edges have parts of their sightlines in common. There, the strongest
  *     o----|----|----|----o    c   line is drawn: a visible one before a hidden one, then by kind.
  *
  *     aaaaaaaaaabbbbbcccccc        Which lines are one, and in which order ends lie on it, is decided exactly. */
@@ -19,7 +19,7 @@ typedef struct view_item {
 } view_item;
 typedef ARRAY(view_item) view_items;
 
-/** Appends what is drawn of them as segments, which have no more than points in common where they lie on one line.
+/** Appends their drawn parts as segments, which have at most points in common where they lie on one line.
  * `depths`: parts at which different items are nearest to the eye stay apart. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_overlay(view_sights *sights, const view_items *items, bool depths, view_segments *out);
 #endif

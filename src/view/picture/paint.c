@@ -39,7 +39,7 @@ void view_end_shape(froe_picture *picture) {
     picture->report.whole += last->ring_count && last->whole;
 }
 
-/* Ends the ring whose points are those from `first` on; rings of less than three points go away. */
+/* Ends the ring whose points are those from `first` on; rings of less than three points are dropped. */
 static bool end_ring(froe_picture *picture, size_t first) {
     if (picture->points.count - first < 3) {
         picture->points.count = first;
@@ -48,7 +48,7 @@ static bool end_ring(froe_picture *picture, size_t first) {
     return array_push(&picture->alloc, &picture->ring_ends, (uint32_t)picture->points.count);
 }
 
-/* What lies along the sides of the last ring, which begins at `first`; strips come after all rings of a shape. */
+/* Finds seams along the sides of the last ring, which begins at `first`; strips come after all rings of a shape. */
 static bool look_along(view_painter *p, uint32_t node, size_t first) {
     const print_point *ring = p->picture->points.data + first;
     const size_t n = p->picture->points.count - first;
@@ -110,7 +110,7 @@ static bool put_parts_of_piece(view_painter *p, uint32_t number) {
 
 /* ------------------------------------------------------------------------- whole -- */
 
-/* Is nothing painted of a patch but what is visible? */
+/* Are the visible parts of a patch all that is painted of it? */
 static bool is_clipped(const view_painter *p, uint32_t node) {
     return p->graph.late[node] || p->parts.split[p->parts.nodes.data[node].patch] == PARTS_REGION;
 }
@@ -171,7 +171,7 @@ froe_status view_paint_whole(view_painter *p) {
 
 /* ----------------------------------------------------------------------- regions -- */
 
-/* Visible patches by style, which is all that their order is good for. */
+/* Visible patches by style; their order does not matter otherwise. */
 static base_pair *list_by_style(view_painter *p, size_t *count) {
     const froe_visibility *v = p->v;
     const uint32_t patches = v->surface->patch_count;

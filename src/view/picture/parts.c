@@ -1,4 +1,4 @@
-/* parts.c: nodes, and what they paint, on the page. */
+/* parts.c: nodes, and the parts that they paint on the page. */
 #include "view/picture/parts.h"
 
 froe_status view_parts_new(view_parts *p, const froe_visibility *v, const froe_projection *view, uint32_t *places,

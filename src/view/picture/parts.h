@@ -1,8 +1,8 @@
-/* parts.h: what will be painted, before it is known in which order: nodes of the order graph, and the convex parts
+/* parts.h: what will be painted, before its order is known: nodes of the order graph, and the convex parts
  * that each of them paints.
  *
- * A node is a whole patch, painted with all its polygons, or what is visible of one that a section cuts, or of a single
- * piece of the tree: this only where one sees through something and whole patches would form circles. */
+ * A node is a whole patch, painted with all its polygons, or the visible part of one that a section cuts, or of a
+ * single piece of the tree. Pieces are nodes only where something is clear and whole patches would form cycles. */
 #ifndef FROE_VIEW_PICTURE_PARTS_H
 #define FROE_VIEW_PICTURE_PARTS_H
 #include "view/picture/graph.h"
@@ -30,7 +30,7 @@ enum { PART_OBJECT, PART_PIECE, PART_VISIBLE };
 typedef struct view_parts {
     const froe_visibility *v;
     const froe_projection *view;
-    bool clear; /**< one sees through some patches: parts are pieces of the tree, with places */
+    bool clear; /**< some patches are not opaque: parts are pieces of the tree, with places */
     bool cull_back;
     uint32_t *places;        /**< clear: per piece of the tree, its place front to back */
     uint8_t *split;          /**< per patch: PARTS_... */
@@ -55,7 +55,7 @@ bool view_print_visible(view_parts *parts, uint32_t visible, print_ring *out);
 /** Appends the ring of a tree's piece. */
 bool view_print_piece(view_parts *parts, view_sights *sights, uint32_t piece, print_ring *out);
 
-/** Who must come after whom: arcs of the graph, as many as there are. *tests counts pairs that were compared;
+/** Finds the pairs of nodes whose order matters: all arcs of the graph. *tests counts pairs that were compared;
  * FROE_E_BUDGET when they would exceed `most`. Overlaps are decided exactly. */
 typedef ARRAY(graph_arc) view_arcs;
 froe_status view_find_arcs(view_parts *parts, view_sights *sights, uint64_t most, view_arcs *arcs, uint64_t *tests);

@@ -39,7 +39,7 @@ const char *froe_line_name(froe_line kind) {
 
 /* --------------------------------------------------------------------- looking -- */
 
-/* Kinds need to know where the eye is: lines of sight of their own, as those of the visibility are not there yet. */
+/* Kinds depend on the eye. They use sightlines of their own, as those of the visibility do not exist yet. */
 static froe_status find_kinds(const view_painter *p, const froe_tree *tree, const froe_surface *surface, uint8_t *kinds,
                               froe_diagnostic *diag) {
     geom_eye eye;
@@ -84,7 +84,7 @@ static bool sees_through(const froe_picture_options *o, const froe_surface *surf
 
 /* -------------------------------------------------------------------- painting -- */
 
-/* Who is painted after whom, as far as that matters. */
+/* Plans the order in which fills are painted. */
 static froe_status plan_fills(view_painter *p) {
     froe_picture_report *report = &p->picture->report;
     froe_status status = FROE_OK;

@@ -1,4 +1,4 @@
-/* picture.h: shapes and lines in the order in which they are painted, from inside. */
+/* picture.h: shapes and lines in the order in which they are painted: the internal types. */
 #ifndef FROE_VIEW_PICTURE_PICTURE_H
 #define FROE_VIEW_PICTURE_PICTURE_H
 #include "view/picture/outline.h"
@@ -44,7 +44,7 @@ typedef struct view_painter {
     uint32_t *painted;      /**< per place in `order`: shapes there are before it is painted; NULL: not painted whole */
     uint8_t *breaks;        /**< per place in `order`: lines come before it; NULL: all lines are on top */
     view_items items;       /**< stretches of lines, which may lie on each other */
-    view_segments segments; /**< what is drawn of them */
+    view_segments segments; /**< their drawn parts */
     uint32_t *places;       /**< per piece of the tree, when something is clear */
     uint8_t *left_out;      /**< per patch; NULL: none is */
     uint32_t *runs;         /**< per patch, see view_outliner */
@@ -64,7 +64,7 @@ froe_status view_paint_regions(view_painter *painter);
 froe_status view_paint_fragments(view_painter *painter);
 /** Begins a shape; rings that are then added to points and ring_ends belong to it. */
 bool view_begin_shape(froe_picture *picture, uint32_t patch, bool whole);
-/** Ends it; a shape without rings goes away. */
+/** Ends it; a shape without rings is dropped. */
 void view_end_shape(froe_picture *picture);
 
 /** Which edges are lines, and of which kind: 0 none. One byte an edge. */

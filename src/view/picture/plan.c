@@ -1,12 +1,12 @@
-/* plan.c: from who lies over whom to an order.
+/* plan.c: the order in which nodes are painted, from the arcs between them.
  *
- * Where all is opaque, circles are broken by patches that will be painted clipped to what is visible of them: what
- * they would spoil they no longer touch. Where one sees through something, that is no way out: a clipped patch still
- * has to come before what is seen through in front of it. There patches in circles are divided into their pieces, and
- * arcs are found anew; in the end all are pieces, whose order by the tree has no circles, so this ends. */
+ * Where all is opaque, cycles are broken by patches that are painted clipped to their visible parts, so that they cover
+ * nothing else. Where something is clear, that does not suffice: a clipped patch still has to come before the clear
+ * patches in front of it. There patches in cycles are divided into their pieces, and arcs are found anew. This ends
+ * when all are pieces, at the latest, since the order of pieces by the tree has no cycles. */
 #include "view/picture/picture.h"
 
-/* Of patches that a section cuts nothing is painted but what is visible. */
+/* Marks patches that a section cuts, so that only their visible parts are painted. */
 static void cut_by_section(view_painter *p) {
     const froe_visibility *v = p->v;
     const froe_tree *t = v->tree;

@@ -1,4 +1,4 @@
-/* seams.c: visible pieces on the page, and what of them lies along a side. */
+/* seams.c: visible pieces on the page, and their parts along a side. */
 #include "view/picture/seams.h"
 #include "base/sort.h"
 #include <math.h>
@@ -67,7 +67,7 @@ void view_seams_free(view_seams *s) {
 
 /* -------------------------------------------------------------------- clipping -- */
 
-/* What of a convex ring is left of ab, as the eye sees it. */
+/* The part of a convex ring on the left of ab, as the eye sees it. */
 static bool clip_left(const froe_allocator *alloc, const print_ring *in, print_point a, print_point b,
                       print_ring *out) {
     const double dx = b.x - a.x, dy = b.y - a.y;
@@ -147,7 +147,7 @@ static bool any_of_node(const view_seams *s, uint32_t node, const print_point *r
     return false;
 }
 
-/* Painted later than the node, in another path, and nothing shines through it. */
+/* Is it painted later than the node, in another path, and opaque? */
 static bool covers(const view_seams *s, uint32_t visible, uint32_t node) {
     const uint32_t other = s->parts->node_of[visible];
     return s->place[other] > s->place[node] && s->run[other] != s->run[node] &&

@@ -1,18 +1,18 @@
-/* seams.h: what happens along the sides of shapes, so that antialiasing neither lets the background through nor lets
- * what is hidden out.
+/* seams.h: strips and trims along the sides of shapes, so that antialiasing shows neither the background nor hidden
+ * faces.
  *
- * STRIPS. Where A ends and a face B goes on that is painted later, A may be drawn into B: whatever is added at a point
- * whose visible face is painted later than A, that face paints over. So the strip beyond a side of A is cut to the
+ * STRIPS. Where A ends and a face B goes on that is painted later, A may be drawn into B: an addition at a point whose
+ * visible face is painted later than A is covered by that face. So the strip beyond a side of A is cut to the
  * visible pieces of later faces. (Faces that share an edge have it shorter: outline.h.)
  *
  *        A    |////|  B            strip: beyond A's side, within what is visible of B
  *             |////|
  *
  * TRIMS. Where a border of A is hidden, but ends together with what hides it, the two coverages of a pixel compound,
- * and A's colour shows along the outline of the other. There A is drawn short: nothing visible of it may lie in what
- * goes.
+ * and A's colour shows along the outline of the other. There A is drawn short, where nothing visible of it lies in
+ * the part left out.
  *
- *        |::::: A, hidden by B     trim: the dotted part goes
+ *        |::::: A, hidden by B     trim: the dotted part is left out
  *        |::::: B
  */
 #ifndef FROE_VIEW_PICTURE_SEAMS_H
@@ -31,7 +31,7 @@ typedef struct seam_range {
 typedef ARRAY(seam_range) seam_ranges;
 
 typedef struct view_seams {
-    const view_parts *parts; /**< NULL: there is nothing to be done */
+    const view_parts *parts; /**< NULL: seams are not treated */
     const uint8_t *clear;    /**< per patch, or NULL */
     double width;
     uint32_t *place;            /**< per node: when it is painted */

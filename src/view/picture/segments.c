@@ -33,7 +33,7 @@ static bool add_stretch(view_painter *p, uint32_t edge, uint8_t kind, bool hidde
                          view_share_of(s, edge, mark[1]));
 }
 
-/* What of an edge the section has left; *left: anything. */
+/* The part of an edge that the section leaves; *left: there is one. */
 static froe_status cut_to_section(view_sights *s, uint32_t edge, int section, view_mark mark[2], bool *left) {
     const geom_plane plane = tree_plane_at(s->tree, 0);
     int side[2];
@@ -44,7 +44,7 @@ static froe_status cut_to_section(view_sights *s, uint32_t edge, int section, vi
     return view_stop_edge(s, edge, view_line_of_edge(s, edge), &mark[side[1] < 0]);
 }
 
-/* All of an edge that is on the page, as if it were hidden: what is visible of it lies over that. */
+/* Adds all of an edge on the page as hidden: its visible parts are drawn over that. */
 static froe_status add_hidden(view_painter *p, uint32_t edge, uint8_t kind) {
     view_sights *s = p->sights;
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;

@@ -1,7 +1,7 @@
 /* strokes.c: segments of one kind that meet at a vertex become polylines.
  *
  * At a vertex where several could go on, the straightest does. Where a line ends because something begins to hide it, a
- * round cap would stick out over what hides it: such ends are marked. */
+ * round cap would stick out over the hiding face: such ends are marked. */
 #include "view/picture/picture.h"
 #include <math.h>
 
@@ -110,7 +110,7 @@ static bool put_strokes(chainer *c) {
     return true;
 }
 
-/* Those that are painted earlier first, and otherwise as they are. */
+/* Sorts strokes by their places in the order of painting, stably. */
 static bool sort_strokes(chainer *c) {
     froe_picture *picture = c->p->picture;
     const size_t n = picture->strokes.count;

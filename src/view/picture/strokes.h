@@ -4,7 +4,7 @@
 #include "view/print.h"
 
 typedef struct view_segment {
-    uint32_t vertex[2]; /**< what it may be chained by; FROE_NONE: it ends within its line */
+    uint32_t vertex[2]; /**< where it may be chained; FROE_NONE: it ends within its line */
     print_point at[2];
     double near[2]; /**< grows towards the eye, linearly along the segment: 1 / depth, or in parallel - depth */
     uint32_t place; /**< nodes that are painted before it; FROE_NONE: all */
@@ -14,8 +14,8 @@ typedef ARRAY(view_segment) view_segments;
 
 /** Where lines lie on each other, that of the highest strength is drawn: a visible one, then the widest. */
 int view_strength(uint8_t kind, bool hidden);
-/** Takes away what shall not be drawn: what all but lies on a stronger or earlier segment, and, with a halo > 0, of
- * visible ones what comes nearer than that to a visible one that is in front of it by as much or more. FROE_E_MEMORY. */
+/** Removes parts that shall not be drawn: those that nearly lie on a stronger or earlier segment, and, with a halo > 0,
+ * those of visible ones nearer than that to a visible one that is in front by as much or more. FROE_E_MEMORY. */
 froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection *view, double halo,
                               view_segments *segments);
 #endif

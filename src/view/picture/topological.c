@@ -1,7 +1,7 @@
 /* topological.c: Kahn's order (1962), style by style.
  *
  * Nodes that are ready wait in a stack per style, and styles with waiting nodes in a heap by how many wait. The heap's
- * entries are made when a count grows; an entry that tells another count than the style has is old and skipped. */
+ * entries are made when a count grows; an entry whose count is not that of the style is old and skipped. */
 #include "view/picture/graph.h"
 
 typedef struct heap_entry {

@@ -1,7 +1,7 @@
 /* beam.c: rings of pieces (tree/ring.h) become rings of sightlines. */
 #include "view/visibility/beam.h"
 
-/* The ring of a piece: entry i is the side that leaves corner i, an own edge or a cut. */
+/* The ring of a piece: entry i is the side that leaves corner i, an edge of the polygon or a cut. */
 typedef struct outline {
     uint32_t object, count;
     const uint32_t *ring; /* NULL: the whole polygon */

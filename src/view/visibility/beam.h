@@ -1,4 +1,4 @@
-/* beam.h: what the eye sees of one piece of the tree: a beam, and stretches of the edges of its polygon. */
+/* beam.h: one piece of the tree as the eye sees it: a beam, and stretches of the edges of its polygon. */
 #ifndef FROE_VIEW_VISIBILITY_BEAM_H
 #define FROE_VIEW_VISIBILITY_BEAM_H
 #include "view/visibility/screen.h"

@@ -36,7 +36,7 @@ static bool keep_open(void *user, const view_stretch *part) {
     return array_push(&c->sights->alloc, &c->open, *part);
 }
 
-/* What of the open stretches lies inside a piece of the list. */
+/* Appends the parts of the open stretches inside a piece of the list. */
 static bool keep_inside(view_crosser *c, uint32_t piece, view_stretches *out) {
     if (!view_beam_of(c->sights, piece, &c->list_ring)) return false;
     for (size_t i = 0; i < c->open.count; i++) {
@@ -46,7 +46,7 @@ static bool keep_inside(view_crosser *c, uint32_t piece, view_stretches *out) {
     return true;
 }
 
-/* What of the open stretches lies inside the list of a cut, or all where that is the section. */
+/* Appends the parts of the open stretches inside the list of a cut, or all where the cut is the section. */
 static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_stretches *out) {
     view_sights *s = c->sights;
     const tree_objects list = tree_list(s->tree, node);
@@ -72,7 +72,7 @@ froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_r
         if (c->hidden && view_cut_to_window(s, side.edge, &inside) &&
             (!keep_open(c, &inside) || !keep_crossed(c, node, patch, &c->all)))
             return FROE_E_MEMORY;
-        c->open.count = 0; /* first what is open: most is hidden */
+        c->open.count = 0; /* first the open part, as most is hidden */
         const froe_status status =
             view_screen_classify(c->screen, &side, side.edge, ring->data, (uint32_t)ring->count, keep_open, c);
         if (status) return status;
@@ -138,7 +138,7 @@ static froe_status find_stops(view_sights *s, uint32_t object, uint32_t line, vi
         if (side * last < 0 && *count < 2) status = view_stop_edge(s, before, line, &out[(*count)++]);
         last = side;
     }
-    if (reached != 3) *count = 0; /* it is only touched */
+    if (reached != 3) *count = 0; /* the section only touches it */
     return status;
 }
 
@@ -207,7 +207,7 @@ static froe_status join_stretches(view_sights *s, view_stretches *stretches) {
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
-/* What lies between the visible stretches *seen and before `end` in their array; *seen moves on. */
+/* Appends the hidden parts of a stretch, between visible ones from *seen on and before `end`. *seen moves on. */
 static bool put_hidden(froe_visibility *v, const view_stretch *part, const view_stretch **seen,
                        const view_stretch *end) {
     view_sights *s = &v->sights;

@@ -1,8 +1,8 @@
-/* crossings.h: lines along which polygons pass through each other, and what is visible of them.
+/* crossings.h: the lines along which polygons pass through each other, and their visible parts.
  *
- *        __B__                A tree has cut A along the plane of B, and keeps B in the list of that cut. So the line is
- *       /  :  /               the part of A's cut side that lies inside pieces of the list; from the eye these are
- *   A--/---*-/--A             beams, and the side a stretch of a line of sight like any other.
+ *        __B__                A tree has cut A along the plane of B, and keeps B in the list of that cut. So the line
+ *       /  :  /               is the part of A's cut side that lies inside pieces of the list; from the eye these
+ *   A--/---*-/--A             are beams, and the side is a stretch of a sightline like any other.
  *     /____:/ */
 #ifndef FROE_VIEW_VISIBILITY_CROSSINGS_H
 #define FROE_VIEW_VISIBILITY_CROSSINGS_H
@@ -12,14 +12,14 @@ typedef struct view_crosser {
     view_sights *sights;
     view_screen *screen;
     bool section;        /**< sides in the root's cut count, too */
-    bool hidden;         /**< what is not seen is wanted as well */
+    bool hidden;         /**< hidden parts are wanted, too */
     view_stretches seen; /**< found so far, each with the number of its line for an edge */
-    view_stretches all;  /**< seen or not, where hidden ones are wanted */
+    view_stretches all;  /**< visible and hidden, where hidden ones are wanted */
     view_stretches open; /**< of one side */
     view_ring list_ring; /**< of a piece in the cut */
 } view_crosser;
 /** Finds the stretches along which polygons in cuts cross a piece whose beam is `ring`, as far as they are open, and
- * with a section what of its sides lies in that. FROE_E_MEMORY. */
+ * with a section the parts of its sides that lie in that. FROE_E_MEMORY. */
 froe_status view_look_at_crossings(view_crosser *crosser, uint32_t piece, const view_ring *ring);
 /** Appends where the section cuts a polygon that is seen edge-on, to the crossings of the visibility: all of it, since
  * REQUIRES: the eye is on the side of the section that is left out. FROE_E_MEMORY. */

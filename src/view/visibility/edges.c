@@ -28,7 +28,7 @@ static uint32_t *take_numbers(const froe_allocator *alloc, size_t count, bool *o
     return out;
 }
 
-/* Which object has this corner, for ascending corners. */
+/* Lists the object of each corner. */
 static void name_objects(const froe_scene *s, uint32_t *object_of) {
     for (uint32_t o = 0; o < s->object_count; o++)
         for (uint32_t i = s->starts[o]; i < s->starts[o + 1]; i++) object_of[i] = o;

@@ -1,7 +1,7 @@
 /* order.h: the pieces of a tree one after the other, from one eye.
  *
  *              cut
- *       near    |    far          front to back: the side of the eye, then what lies in the cut, then
+ *       near    |    far          front to back: the side of the eye, then the pieces in the cut, then
  *      eye o    |                 the other side; back to front is the same read backwards
  *
  *     view_order order;
@@ -46,10 +46,10 @@ froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag);
 
 froe_status view_order_begin(view_order *order, const froe_tree *tree, const geom_eye *eye, bool front_to_back,
                              const uint32_t *ranks);
-/** Starts again, with what is there. FROE_E_MEMORY. */
+/** Starts again from the root, with the same arrays. FROE_E_MEMORY. */
 froe_status view_order_restart(view_order *order);
 /** False after the last piece, and without memory. */
 bool view_order_next(view_order *order, uint32_t *piece);
-/** Frees everything; FROE_E_MEMORY when it ended for want of it. */
+/** Frees everything; FROE_E_MEMORY when the walk ended for lack of memory. */
 froe_status view_order_end(view_order *order);
 #endif

@@ -1,4 +1,4 @@
-/* patches.c: polygons that hang together in one plane, by union-find over edges. */
+/* patches.c: polygons connected by edges within one plane, by union-find. */
 #include "geom/eye.h"
 #include "geom/predicates.h"
 #include "view/visibility/surface.h"

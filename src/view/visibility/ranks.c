@@ -1,4 +1,4 @@
-/* ranks.c: what lies on top within one plane, and where all pieces stand. */
+/* ranks.c: the order of objects within one plane, and the places of all pieces. */
 #include "view/visibility/order.h"
 #include "view/visibility/visibility.h"
 

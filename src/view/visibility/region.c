@@ -1,4 +1,4 @@
-/* region.c: sides cancel along lines, what is left is chained to rings.
+/* region.c: sides cancel along lines, and the rest is chained to rings.
  *
  * A corner of a piece stands for its point; corners that are the same point of a line are united. Around any point the
  * pieces of a region meet along lines, so that the ends of borders which belong together become one. */

@@ -1,9 +1,9 @@
 /* region.h: the visible region of a patch as rings, from its visible pieces.
  *
  *      +----+--------+          Sides of pieces lie on lines of the picture. On each line, a stretch with a piece of
- *      |    |        |          the patch on both sides is inside the region and goes away; a stretch with a piece on
+ *      |    |        |          the patch on both sides is inside the region and is dropped; a stretch with a piece on
  *      |    +----+---+          one side is border, directed so that the region is on its left. Ends are compared
- *      |    |    |   |          exactly, so what is left fits together: every ring closes.
+ *      |    |    |   |          exactly, so the remaining stretches join: every ring closes.
  *      +----+----+---+
  */
 #ifndef FROE_VIEW_VISIBILITY_REGION_H
@@ -24,7 +24,7 @@ typedef struct region_border {
     uint32_t next;     /**< border that begins at the same point; FROE_NONE */
 } region_border;
 
-/** Rings of one patch at a time, and what it takes to make them. All zero at first. */
+/** Rings of one patch at a time, and the arrays to make them. All zero at first. */
 typedef struct view_region {
     ARRAY(uint32_t) corners; /**< of all rings: numbers in visibility->corners */
     ARRAY(uint32_t) starts;  /**< ring i: corners[starts[i] .. starts[i+1]) */

@@ -196,7 +196,7 @@ bool view_cut_stretch(view_sights *s, uint32_t own, view_way way, view_stretch *
     if (from * to >= 0) return true;
     view_end middle = {.vertex = FROE_NONE, .way = 2 * line + (from < 0)}; /* leaving: edge x line */
     middle.ray = view_meeting(s, 2 * own, middle.way);
-    part->end[turn * from > 0] = middle; /* the end outside moves in */
+    part->end[turn * from > 0] = middle; /* replaces the end outside */
     return true;
 }
 

@@ -2,7 +2,7 @@
  * (Heckbert and Hanrahan 1984; Naylor, "Partitioning tree image representation", 1992).
  *
  *      +-------------+          Its cuts are lines of sight, planes through the eye: a beam is cut as exactly as
- *      |    /\ open  |          any fragment. Faces come front to back; each is cut by the tree, what reaches
+ *      |    /\ open  |          any fragment. Faces come front to back; each is cut by the tree, a part in
  *      |   /  \      |          an open leaf is visible, and an opaque face then covers it there.
  *      |  /####\     |
  *      +-------------+
@@ -17,7 +17,7 @@ typedef struct view_corner {
     filter_vector ray;
     view_way way;    /**< of the side leaving this corner */
     uint32_t vertex; /**< FROE_NONE: a meeting */
-    uint32_t bound;  /**< this side lies on a line of the tree above: nothing has to cut there */
+    uint32_t bound;  /**< this side lies on a line of the tree above: no cut is needed there */
 } view_corner;
 
 enum { VIEW_OPEN = INT32_MAX, VIEW_COVERED = INT32_MAX - 1 }; /* leaves, where children have no number */
@@ -65,7 +65,7 @@ typedef struct view_screen {
     ARRAY(view_pending_stretch) stretches;
 } view_screen;
 
-/** Everything open, or only what is seen through the window of `sights`. */
+/** Everything open, or only what lies in the window of `sights`. */
 froe_status view_screen_new(view_screen *screen, view_sights *sights);
 void view_screen_free(view_screen *screen);
 
@@ -82,7 +82,7 @@ bool view_cut_to_window(view_sights *sights, uint32_t line, view_stretch *part);
 typedef bool view_stretch_fn(void *user, const view_stretch *part);
 /** Sends a stretch of a line `own` beside a face, such as one of its edges, down the tree; `ring` is the face's beam.
  * On a line of the tree it goes to the side where the face is: a line is seen where its face is seen beside it. (The
- * other side says nothing: with the eye in a cut, what lies beyond that cut may not have been looked at.) */
+ * other side does not decide: with the eye in a cut, the part beyond that cut may not have been visited yet.) */
 froe_status view_screen_classify(view_screen *screen, const view_stretch *stretch, uint32_t own,
                                  const view_corner *ring, uint32_t count, view_stretch_fn *fn, void *user);
 #endif

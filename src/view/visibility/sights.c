@@ -1,4 +1,4 @@
-/* sights.c: the table of lines, and sides that need more than images. */
+/* sights.c: the table of sightlines, and the sides that images do not decide. */
 #include "view/visibility/sights.h"
 #include "base/random.h"
 #include "geom/predicates.h"
@@ -6,7 +6,7 @@
 #include "view/visibility/order.h"
 #include <string.h>
 
-/* Relative errors of images of lines: below FINE nothing better is sought, above COARSE nothing is spared. */
+/* Relative errors of images of lines: FINE is good enough, above COARSE exact numbers are used. */
 #define FINE 0x1p-49
 #define COARSE 0x1p-44
 
@@ -53,7 +53,7 @@ int view_facing(view_sights *s, uint32_t object) {
 
 /* ----------------------------------------------------------------------- lines -- */
 
-/* The line as geom knows it; `planes` receives what it refers to. */
+/* The line as a geom_line; `planes` receives the planes that it refers to. */
 static geom_line resolve(view_sights *s, uint32_t line, geom_plane planes[2]) {
     const view_line *l = s->lines.data + line;
     if (l->kind == VIEW_EDGE)

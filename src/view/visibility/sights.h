@@ -1,4 +1,4 @@
-/* sights.h: all lines of one picture, and on which side of them points of the picture lie.
+/* sights.h: the sightlines of one picture, and the sides of them on which points of the picture lie.
  *
  *     EDGE    through an edge of the surface, or a side of the window
  *     CUT     where the cut of a node divides a patch
@@ -85,7 +85,7 @@ static inline filter_vector view_meeting(view_sights *s, view_way a, view_way b)
     return filter_is_fine(&ray, VIEW_COARSE) ? ray : view_meeting_round(s, a, b);
 }
 
-/** The side when the image does not tell it. */
+/** The side when the image does not decide it. */
 int view_side_exactly(view_sights *sights, uint32_t line, uint32_t vertex, view_way a, view_way b);
 /** Side of a line on which a point with that image is: the vertex, or (FROE_NONE) the meeting of a and b. */
 static inline int view_side(view_sights *s, uint32_t line, const filter_vector *ray, uint32_t vertex, view_way a,

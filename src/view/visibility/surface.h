@@ -20,7 +20,7 @@ struct froe_surface {
     uint32_t *vertices;     /**< two an edge, ascending */
     uint32_t *edge_starts;  /**< edge_count + 1 */
     uint32_t *uses;         /**< objects */
-    uint8_t *inside;        /**< per edge: a patch goes on across it; not where it merely lies over itself */
+    uint8_t *inside;        /**< per edge: a patch goes on across it; not where it only overlaps itself */
     uint32_t *patch_of;     /**< per object; FROE_NONE */
     uint32_t *patch_starts; /**< patch_count + 1 */
     uint32_t *members;      /**< objects */

@@ -1,4 +1,4 @@
-/* tally.c: what becomes of every part of the scene, so that no picture leaves anything out without a count. */
+/* tally.c: counts of what is visible and what is not, so that no part of a scene is left out uncounted. */
 #include "geom/predicates.h"
 #include "view/visibility/visibility.h"
 
@@ -13,7 +13,7 @@ static void count_objects(froe_visibility *v) {
     }
 }
 
-/* Has the section taken all of a patch away? */
+/* Does the section leave out all of a patch? */
 static bool is_cut_away(froe_visibility *v, uint32_t patch) {
     const froe_surface *s = v->surface;
     const geom_plane plane = tree_plane_at(v->tree, 0);

@@ -42,7 +42,7 @@ static bool keep_beam(void *user, const view_corner *ring, uint32_t count) {
     return v->corners.count <= INT32_MAX;
 }
 
-/* Before its own face covers anything. */
+/* REQUIRES: the piece does not cover anything yet. */
 static froe_status look_at_edges(looker *k, uint32_t piece) {
     froe_status status = FROE_OK;
     view_stretch stretch;

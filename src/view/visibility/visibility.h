@@ -1,4 +1,4 @@
-/* visibility.h: what one eye sees, from inside. */
+/* visibility.h: what one eye sees: the internal type. */
 #ifndef FROE_VIEW_VISIBILITY_VISIBILITY_H
 #define FROE_VIEW_VISIBILITY_VISIBILITY_H
 #include "base/task.h"
@@ -37,8 +37,8 @@ struct froe_visibility {
 
 typedef ARRAY(view_stretch) view_stretches;
 
-/** The rank of every object within its plane (see froe_visibility_options), object_count + 1 words; also without
- * success to be freed. FROE_E_MEMORY. */
+/** The rank of every object within its plane (see froe_visibility_options), object_count + 1 words; to be
+ * freed after a failure, too. FROE_E_MEMORY. */
 froe_status view_rank_objects(const froe_allocator *alloc, const froe_surface *surface, const int32_t *priorities,
                               uint32_t **ranks);
 /** The place of every piece of the tree, front to back, as in froe_visible. FROE_E_MEMORY. */
