@@ -71,7 +71,7 @@ static inline bool base_floats_are_own(base_floats now) {
 static inline base_floats base_floats_flagged(base_floats floats, base_floats flags) {
     return floats | flags;
 }
-#else /* as C has it: the default is what a program starts with; how another one differs from it, C does not tell */
+#else /* standard C: a program starts with the default, and cannot find out whether another one is equal to it */
 #include <fenv.h>
 typedef fenv_t base_floats;
 static inline base_floats base_floats_now(void) {
@@ -95,7 +95,7 @@ static inline base_floats base_floats_flagged(base_floats floats, base_floats fl
 }
 #endif
 
-/** What to undo, as bits: settings were changed; they were froe's own, and are the caller's meanwhile. */
+/** What to undo, as bits: settings were changed; froe's own were replaced by the caller's for a while. */
 enum { BASE_FLOATS_CHANGED = 1, BASE_FLOATS_LENT = 2 };
 
 unsigned base_floats_change_to_own(void);

@@ -5,10 +5,10 @@
  *         . . /   o o            convex hulls are disjoint (Rockafellar 1970, theorem 11.3)
  *            .
  *
- * Some such plane runs through dim of the points. It is found as in Seidel's linear programming in few
- * dimensions (1991): points enter one by one, and where one lies on the wrong side of the plane found so far, there
- * is a plane through that very point, or none at all. For on the way from the old plane to any right one, turned
- * evenly, the point is passed. So the search goes on among the planes through it, one dimension less. */
+ * Some such plane runs through dim of the points. It is found as in Seidel's linear programming in few dimensions
+ * (1991): points enter one by one, and where one lies on the wrong side of the plane found so far, there is a plane
+ * through that very point, or none at all. For a plane that turns steadily from the old one to any right one passes the
+ * point. So the search goes on among the planes through it, one dimension less. */
 #ifndef FROE_GEOM_BETWEEN_H
 #define FROE_GEOM_BETWEEN_H
 #include "geom/predicates.h"

@@ -19,7 +19,7 @@ typedef struct num_context {
 froe_status num_context_new(const froe_allocator *alloc, num_context *out);
 void num_context_free(num_context *context);
 
-/** Note how an answer was found, and pass it on. */
+/** These count how an answer was found, and return it. */
 static inline int num_by_id(num_context *context, int sign) {
     context->stats.by_id++;
     return sign;

@@ -11,7 +11,7 @@
 #include "num/dyadic.h"
 
 enum {
-    NUM_DEGREE = 4, /* of polynomials that come and go */
+    NUM_DEGREE = 4, /* of polynomials that callers give */
     NUM_COEFFICIENTS = 2 * NUM_DEGREE
 };
 

@@ -1,6 +1,6 @@
 /* cuts.h: the cuts of a tree as queries meet them: an axis and a value, or a plane ready for filters.
  *
- * Queries use planes only to pass by what they need not visit. So an answer "on both sides" is always
+ * Queries use planes only to skip what they need not visit. So an answer "on both sides" is always
  * right, and nothing here needs exact numbers; what an object and a query have in common is decided
  * exactly, by the objects themselves. */
 #ifndef FROE_QUERY_CUTS_H

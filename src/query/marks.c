@@ -1,4 +1,4 @@
-/* marks.c: counting on, and moving from the table to the numbers. */
+/* marks.c: a new query number, and the move from the table to the numbers. */
 #include "query/marks.h"
 #include <string.h>
 

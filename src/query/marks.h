@@ -4,7 +4,7 @@
  *     many     the number of the query that looked at it last, for every object of the scene
  *
  * A query begins with the table and moves to the numbers, which are taken when first needed, when it
- * fills. Entries of older queries are free, so clearing is counting on. */
+ * fills. Entries of older queries are free, so a new query number clears the table. */
 #ifndef FROE_QUERY_MARKS_H
 #define FROE_QUERY_MARKS_H
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* pieces.h: what is worth knowing of a tree's pieces before many queries.
+/* pieces.h: facts about a tree's pieces that are prepared once for many queries.
  *
  * Where all objects are points, their coordinates in the order of the lists:
  *

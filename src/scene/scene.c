@@ -1,4 +1,4 @@
-/* scene.c: life of a scene, and what the public may read of it. */
+/* scene.c: making, holding and freeing scenes, and their public readers. */
 #include "base/floats.h"
 #include "base/status.h"
 #include "num/context.h"

@@ -13,7 +13,7 @@ bool file_machine_fits(void) {
 }
 
 /* Eight lanes of one multiplication and one rotation a word. Each step is a bijection of the
- * lane for a given word and of the word for a given lane, hence the certainty for single words. */
+ * lane for a given word and of the word for a given lane, so a change of one word changes the sum for certain. */
 static void absorb(uint64_t lanes[8], const uint8_t *block) {
     uint64_t words[8];
     memcpy(words, block, sizeof words);

@@ -272,7 +272,7 @@ static bool meets_ball(num_context *context, const geom_ray *ray, const geom_bod
 
 /* ---------------------------------------------------- segments and polygons -- */
 
-/* Both ends are on the line of the ray: a matter of coordinates along one axis. */
+/* Both ends are on the line of the ray: only coordinates along one axis matter. */
 static bool meets_along(num_context *context, const geom_ray *ray, const double *p, const double *q, geom_hit *first) {
     int axis = ray->d[0] != 0 ? 0 : 1;
     bool up = ray->d[axis] > 0, p_first = up ? p[axis] < q[axis] : p[axis] > q[axis];

@@ -16,7 +16,7 @@ typedef struct query_neighbour {
     uint32_t object;
 } query_neighbour;
 
-/** A node that waits. */
+/** A node to be visited later. */
 typedef struct query_place {
     double bound; /**< of its distance */
     uint32_t node;

@@ -2,8 +2,8 @@
  *
  *     jump table -> walk -> [leaf, leaf, slice, leaf ...] -> kernels -> sure answers, unsure ones -> exact predicates
  *
- * Walks compare doubles, so nothing about them is uncertain. Blocks are asked for while the walk goes on and tested
- * after it, so that their cache misses overlap. */
+ * Walks compare doubles, so nothing about them is uncertain. Blocks are prefetched while the walk goes on and
+ * tested after it, so that their cache misses overlap. */
 #ifndef FROE_QUERY_PACKED_PACKED_H
 #define FROE_QUERY_PACKED_PACKED_H
 #include "query/context.h"

@@ -5,7 +5,7 @@
  *     |--'+-|-----|--+  |     does, the window being convex, so nothing is marked or sorted. A cell inside the window
  *     +---|-+-----+--|--+     reports what begins there: of a subtree inside, that is one slice of the owners.
  *     |   +-|-----|--+  |
- *     +-----+-----+-----+     What a kernel leaves unsure is asked again, exactly, in its own cell: reports(). */
+ *     +-----+-----+-----+     What a kernel leaves unsure is decided exactly, in its own cell: reports(). */
 #include "query/packed/packed.h"
 #include "query/segment.h"
 #include "tree/packed/table.h"

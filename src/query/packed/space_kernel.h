@@ -1,7 +1,7 @@
 /* space_kernel.h: sixteen children of a wide node, or objects of a block of space, at a time: beside a ray, a point, a
  * window.
  *
- * A kernel says no only if that is certain; each proves it for the truth behind rounded units (space_kernel.inc). What
+ * A kernel says no only if that is certain for the true coordinates behind the rounded units (space_kernel.inc). What
  * may be met by a ray or near a point comes with a key: no point of it is met earlier, or is nearer. Callers decide
  * the rest exactly. Compiled three times like packed_kernel.h, with the same answers. */
 #ifndef FROE_QUERY_PACKED_SPACE_KERNEL_H

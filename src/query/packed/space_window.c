@@ -1,6 +1,6 @@
 /* space_window.c: windows on packed trees of space.
  *
- * Leaves are gathered first, and their blocks asked for, then tested. What a kernel is sure of is reported, the rest is
+ * Leaves are gathered first and their blocks prefetched, then tested. What a kernel is sure of is reported, the rest is
  * decided exactly; an object that several leaves list is looked at once. */
 #include "query/packed/space.h"
 

@@ -9,11 +9,11 @@
  *
  * Borders may pass through r's and q's line anywhere: it counts as shifted to its right by an infinitesimal amount, so
  * no corner lies on it. References are on no border; each finds its set by the way from the one before, which lies
- * near. Where a cell has no double within it, or its point is in doubt, a reference elsewhere serves, and the way from
- * there is a range that the tree is asked about.
+ * near. Where a cell has no double within it, or its point is in doubt, a reference elsewhere serves, and borders
+ * on the way from there are found by a range query.
  *
- * What a point asks of its leaf lies in one place, each border with its ends, and borders of two areas once. Where the
- * list has none, there is but the number of the set. */
+ * What a point needs of its leaf lies in one place, each border with its ends, and borders of two areas once. Where the
+ * list has none, only the number of the set is stored. */
 #ifndef FROE_QUERY_POINT_AREAS_H
 #define FROE_QUERY_POINT_AREAS_H
 #include "query/context.h"

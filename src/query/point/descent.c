@@ -64,7 +64,7 @@ static bool number_cuts(plan *p) {
 
 /* -------------------------------------------------------------------- cuts -- */
 
-/* A line as floats see it; false: they cannot. */
+/* A line in floats; false: floats cannot hold it. */
 static bool see_line(const query_descent *d, const geom_plane *h, int *major, double *slope, double *c) {
     if (h->form <= GEOM_AT_CROSSING) {
         *major = h->axis;

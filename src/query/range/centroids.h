@@ -30,7 +30,7 @@ typedef struct query_centroids {
     double *boxes; /**< [node]: lo, hi of its region by the axis-parallel cuts above, infinite where none is */
 } query_centroids;
 
-/** Is the tree so deep that they are worth asking? In others plain descent is faster. O(1). */
+/** Is the tree so deep that a search by centroids is faster than plain descent? O(1). */
 bool query_is_deep(const froe_tree *tree);
 /** Prepares them. FROE_E_MEMORY. O(nodes log nodes), once for all forks. */
 froe_status query_centroids_of(froe_query *query, const query_centroids **out, froe_diagnostic *diag);

@@ -1,4 +1,4 @@
-/* class_search.c: a range asked of the classes, one after the other. */
+/* class_search.c: a range is searched for in the classes, one after the other. */
 #include "base/status.h"
 #include "query/point/leaf.h"
 #include "query/range/classes.h"

@@ -1,11 +1,11 @@
 /* jump.h: from a node of the tree down past all cuts that a piece of a range does not meet.
  *
  *     plain    cut after cut
- *     box      where do the bounds of the piece lie? One search by centroids (centroids.h), asked after
- *              PATIENCE cuts passed in a row, about as many as it costs
+ *     box      where do the bounds of the piece lie? One search by centroids (centroids.h), after PATIENCE
+ *              cuts passed in a row, which cost about as much as the search
  *     lca      de Berg (Linear size binary space partitions for uncluttered scenes, 2000), section 3.3: along each
  *              axis both extreme points of the piece are located by centroids; of the lowest common ancestors of each
- *              two, the highest has the first cut that the piece meets (Claim 3.3). Asked at every node that is no leaf
+ *              two, the highest has the first cut that the piece meets (Claim 3.3). Done at every node that is no leaf
  *     auto     box in deep trees, plain in others
  *
  * Box and lca find the same node. An open region that holds points at both ends of the piece's bounds along each axis

@@ -1,4 +1,4 @@
-/* range_meet.c: does an object meet the range? The easy ways first, and in the end exactly. */
+/* range_meet.c: does an object meet the range? By fast tests first, then exactly. */
 #include "geom/meet/meet.h"
 #include "geom/predicates.h"
 #include "query/context.h"
@@ -47,7 +47,7 @@ static bool segment_beside_box(num_context *context, int axis, const double *u, 
     const double p[2] = {u[x], u[y]}, q[2] = {v[x], v[y]};
     const bool rising = (q[0] > p[0]) == (q[1] > p[1]);
     const double a[2] = {lo[x], rising ? hi[y] : lo[y]}, b[2] = {hi[x], rising ? lo[y] : hi[y]};
-    if (p[0] == q[0] || p[1] == q[1]) return false; /* bounds have told */
+    if (p[0] == q[0] || p[1] == q[1]) return false; /* the bounds decide this */
     const geom_plane line = geom_plane_points(2, (const double *const[]){p, q});
     const int side = geom_side_vertex(context, &line, a);
     return side && side == geom_side_vertex(context, &line, b);

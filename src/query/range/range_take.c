@@ -101,7 +101,7 @@ static void normal_of(int dim, const double *p, const double *q, const double *r
     for (int k = 0; k < 3; k++) n[k] = d[(k + 1) % 3] * e[(k + 2) % 3] - d[(k + 2) % 3] * e[(k + 1) % 3];
 }
 
-/* Both ways: which of them is the outer one is not asked. */
+/* Facets in both directions, so that it does not matter which one is the outer one. */
 static bool add_slab(geom_range *r, const froe_allocator *alloc, double n[3]) {
     const double back[3] = {-n[0], -n[1], -n[2]};
     return geom_range_add_facet(r, alloc, n) && geom_range_add_facet(r, alloc, back);

@@ -2,7 +2,7 @@
  *
  *     |   |<--- told --->|   |      No point of the object in the cell may lie outside of the box told, by more than
  *     |   | .----------. |   |      2^-20 units: it must not meet the rest of the cell, which is up to six boxes.
- *     |   | |  object  | |   |      Searches believe this of every box, and of boxes and points that the box told is
+ *     |   | |  object  | |   |      Searches rely on it. Of boxes and points they rely on more: the box told is
  *     |   | '----------' |   |      the object's own, less than a unit and 2^-20 larger on each side.
  *    cell                  cell
  *
