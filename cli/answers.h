@@ -17,7 +17,7 @@ typedef struct cli_answers {
 void cli_answers_whole(cli_answers *out, uint64_t value);
 void cli_answers_real(cli_answers *out, double value); /**< with the digits that reading it back needs */
 void cli_answers_text(cli_answers *out, const char *value);
-void cli_answers_name(cli_answers *out, const char *value); /**< any text, quoted where CSV wants it */
+void cli_answers_name(cli_answers *out, const char *value); /**< any text, quoted where CSV needs it */
 void cli_answers_none(cli_answers *out);                    /**< an empty cell */
 void cli_answers_end(cli_answers *out);
 /** A row "first,second". */

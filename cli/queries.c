@@ -99,7 +99,7 @@ static void add_row(run *r, const double *values) {
     if (!r->grouped) close_query(r);
 }
 
-/* A bad row spoils its query, which is the one being gathered if the row does not even tell that. */
+/* A bad row spoils its query, which is the one being gathered if the row names none. */
 static void add_bad_row(run *r, const double *values) {
     if (r->grouped && is_id(values[0])) open_query(r, (uint64_t)values[0]);
     r->spoilt = r->open;

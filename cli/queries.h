@@ -4,7 +4,7 @@
  *
  * A file may have any length; a block has a few thousand queries, so that a command can hand them to the
  * batch calls of the library. A malformed row or a bad query is named with its line. It ends the run, or with
- * --keep-going is passed over; either way the exit code tells. */
+ * --keep-going is passed over; either way the exit code shows it. */
 #ifndef FROE_CLI_QUERIES_H
 #define FROE_CLI_QUERIES_H
 #include "answers.h"
@@ -41,7 +41,7 @@ typedef struct cli_asked {
     const froe_scene *scene;
     froe_query *query;
     size_t dim;
-    froe_batch_options batch; /**< with the threads that were wished for */
+    froe_batch_options batch; /**< with the threads of the command line */
 } cli_asked;
 
 /** Answers a block. Either all of it, or FROE_E_INPUT with diag->object telling the position of the

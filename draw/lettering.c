@@ -160,7 +160,7 @@ static point middle(point a, point b) {
     return (point){0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
 }
 
-/* A quadratic curve from the current point, as the cubic that Cairo wants. */
+/* A quadratic curve from the current point, as the cubic that Cairo takes. */
 static void quadratic_to(cairo_t *cr, point control, point end) {
     double x, y;
     cairo_get_current_point(cr, &x, &y);

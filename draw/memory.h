@@ -25,7 +25,7 @@ void *draw_calloc(const froe_allocator *alloc, size_t count, size_t item);
 void draw_free(const froe_allocator *alloc, void *ptr, size_t size);
 bool draw_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra, size_t item);
 
-/** A call in progress, which reports its progress now and then and stops if the caller wants. */
+/** A call in progress: it reports its progress now and then, and stops if the caller's function returns false. */
 typedef struct draw_task {
     froe_progress_fn *progress; /**< may be NULL */
     void *user;

@@ -20,7 +20,7 @@ typedef struct draw_page {
  * that take so many text sizes of the width and height. */
 void draw_page_plan(draw_page *page, double aspect, double text_across, double text_down);
 
-/** What the legend tells. */
+/** The contents of the legend. */
 typedef struct draw_legend {
     bool scale_of_depths;
     double lo_depth, hi_depth;

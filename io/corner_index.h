@@ -1,6 +1,6 @@
 /* corner_index.h: corners of a polygon in the plane, marked and unmarked, and a search for marked ones in a triangle.
  *
- *     level 2              [ all ]                     eight neighbours along a curve make a node, which knows the box
+ *     level 2              [ all ]                     eight neighbours along a curve make a node, which has the box
  *     level 1      [ 8 ] [ 8 ] [ 8 ] ...               of its corners and how many of them are marked: a search passes
  *     level 0     p p p p p p p p p ...                over nodes without marks, and over those beside the triangle
  *

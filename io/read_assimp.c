@@ -1,4 +1,4 @@
-/* read_assimp.c: solid models in all the formats assimp knows, as they are in the
+/* read_assimp.c: solid models in all formats of assimp, as they are in the
  * file: no post-processing step of assimp runs, for those that weld, drop or split do
  * so within tolerances. Its coordinates are single precision; node transforms are
  * multiplied out in double. Nodes are walked with an explicit stack. */

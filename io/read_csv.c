@@ -15,7 +15,7 @@ enum { RADIUS = 2 * FROE_MAX_DIM, TAG, GEOMETRY, LEFT_ALONE };
 
 typedef enum header {
     OURS,
-    OTHER,  /* OGR may know */
+    OTHER,  /* left to OGR */
     BEYOND, /* more axes than there can be */
     HALVES  /* ends of boxes, but not both on the same axes */
 } header;

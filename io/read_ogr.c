@@ -1,4 +1,4 @@
-/* read_ogr.c: plane maps in all the formats OGR knows. Messages of GDAL go to
+/* read_ogr.c: plane maps in all formats of OGR. Messages of GDAL go to
  * a handler of this thread: the first failure becomes the diagnostic. */
 #include "ogr_shapes.h"
 #include "read.h"

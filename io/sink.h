@@ -59,7 +59,7 @@ froe_status io_sink_box(io_sink *sink, const double *lo, const double *hi);
 froe_status io_sink_ball(io_sink *sink, const double *centre, double radius);
 froe_status io_sink_triangle(io_sink *sink, const double *a, const double *b, const double *c);
 /** One face of a solid with its corners in order: 1 gives a point, 2 a segment, 3 a triangle, more a
- * polygon or triangles, as `faces` wants it. Counts what was split. */
+ * polygon or triangles, as `faces` says. Counts what was split. */
 froe_status io_sink_face(io_sink *sink, const double *corners, size_t count);
 
 /** Reports progress; FROE_E_CANCELLED. */

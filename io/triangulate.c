@@ -79,7 +79,7 @@ typedef struct outline {
     io_corner_index index;
     ear_set ears;
     uint32_t left;    /* corners not clipped yet */
-    uint32_t clipped; /* corners since all were looked at */
+    uint32_t clipped; /* corners since all were tested */
 } outline;
 
 static bool ear_set_new(const froe_allocator *alloc, uint32_t count, io_buffer *buffer, ear_set *set) {
@@ -145,7 +145,7 @@ static void look_at_all(outline *o, uint32_t from) {
 }
 
 /* The next ear from `from` on; without one (flat, or not simple) `from` itself. Where the polygon is not simple there may
- * be ears that are not known: all corners are looked at again, once enough of them have gone since the last time. */
+ * be ears that are not known: all corners are tested again, once enough of them have gone since the last time. */
 static uint32_t find_ear(outline *o, uint32_t from) {
     for (;;) {
         uint32_t b = next_ear(&o->ears, from);

@@ -4,7 +4,7 @@
 
 #include "common.h"
 
-#define IO_ORIENT_BOUND 4e-16 /**< Shewchuk's bound on what his ccw filter errs by, rounded up */
+#define IO_ORIENT_BOUND 4e-16 /**< Shewchuk's bound on the error of the ccw filter, rounded up */
 
 /** The side of c seen along the line from a to b: 1 left, -1 right, 0 on it. Exact unless a product
  * overflows or underflows. */

@@ -7,7 +7,7 @@
 /** The number `key` of an object; NaN: it has none, or there is no object. */
 double field_number(const json_t *object, const char *key);
 
-/** Does a row tell of a tree, not of why there is none? */
+/** Does a row hold a tree, not the reason why there is none? */
 bool field_is_built(const json_t *row);
 
 /** The first row of a method, NULL if there is none. */

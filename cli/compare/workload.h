@@ -8,7 +8,7 @@ typedef struct workload {
     uint64_t count; /**< queries of each kind */
     uint64_t seed;
     double seconds; /**< a kind that takes longer is cut short */
-    bool times;     /**< tell microseconds */
+    bool times;     /**< report microseconds */
 } workload;
 
 /** Asks points, windows, rays (to dimension 3) and, for each eps, large windows. Returns

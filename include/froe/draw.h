@@ -154,7 +154,7 @@ typedef enum froe_seams {
 /** "underlap", "none", "twice", "stroke"; NULL for other numbers. */
 FROE_API const char *froe_seams_name(froe_seams seams);
 
-/** What SVG tells of where shapes come from. */
+/** What SVG contains of the origin of shapes. */
 typedef enum froe_ids {
     FROE_IDS_NONE = 0,
     FROE_IDS_OBJECT = 1, /**< one path for shapes of one colour and group that follow each other, with data-group */

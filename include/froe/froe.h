@@ -114,7 +114,7 @@ typedef bool froe_progress_fn(void *user, double done);
  * Between these two the calling thread computes as froe does (own) or as it did before (not own): for libraries on
  * top of froe that compute themselves and call functions of their callers, and for programs with settings of their own
  * that make many small calls: setting the processor takes some 0.1 microseconds a call. Returns what
- * froe_floats_end() wants, on the same thread; such pairs may be nested. */
+ * froe_floats_end() takes, on the same thread; such pairs may be nested. */
 FROE_API unsigned froe_floats_begin(bool own);
 FROE_API void froe_floats_end(unsigned began);
 

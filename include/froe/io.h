@@ -183,7 +183,7 @@ typedef struct froe_animation_options {
 } froe_animation_options;
 FROE_API froe_animation_options froe_animation_defaults(void);
 
-/** A motion to look at, objects red while they are in contact: .svg, an animated picture (SMIL; parabolas by chords),
+/** A motion as an animation, objects red while they are in contact: .svg, a picture (SMIL; parabolas by chords),
  * or .html, a page of its own that plays it, with a slider for the time and a list of the contacts. The same bytes on
  * every platform. FROE_E_UNSUPPORTED: another extension. FROE_E_OPTIONS, FROE_E_IO, FROE_E_MEMORY. options may be NULL.
  */

@@ -202,7 +202,7 @@ typedef struct froe_event {
     unsigned object_count; /**< may be more than 4 for batches: the others are not in `objects` */
     int64_t tick;          /**< at which the partition has changed */
     double early, late;    /**< the times of the tick before and of this one, to the nearest double: it happened in
-                                between. froe_kinetic_instant() knows more */
+                                between. froe_kinetic_instant() gives it more closely */
 } froe_event;
 
 /** Called for each event, in order of time. false: froe_kinetic_advance returns when the tick is done. */

@@ -27,7 +27,7 @@ typedef enum froe_counting {
 
 typedef struct froe_measure_options {
     size_t size;      /**< set by froe_measure_defaults() */
-    uint32_t samples; /**< objects, or for clutter cubes, looked at, at most; 0: all objects */
+    uint32_t samples; /**< objects, or for clutter cubes, that are used, at most; 0: all objects */
     uint64_t seed;
     froe_counting counting;
     froe_progress_fn *progress; /**< may be NULL */
@@ -63,8 +63,8 @@ typedef enum froe_size {
 
 /** The density lambda of a scene: the most objects, of at least the size of a ball, that meet a ball. */
 typedef struct froe_density {
-    uint32_t lower, upper;               /**< certified; upper: of the objects looked at (count) */
-    uint64_t count;                      /**< objects looked at */
+    uint32_t lower, upper;               /**< certified; upper: of the objects in the sample (count) */
+    uint64_t count;                      /**< objects in the sample */
     double centre[FROE_MAX_DIM], radius; /**< a ball that meets `lower` objects of at least its size */
     froe_spread load; /**< per object: objects of at least its size within three radii of its centre */
 } froe_density;
@@ -95,7 +95,7 @@ FROE_API froe_status froe_measure_clutter(const froe_scene *scene, const froe_me
  * count. Much: (1 + 2 delta) times the longest side, of the face (extended) or of the box. */
 typedef struct froe_directional {
     double delta;
-    uint64_t count;              /**< boxes looked at */
+    uint64_t count;              /**< boxes in the sample */
     froe_spread simple;          /**< most of all faces, each widened by delta times its own sides */
     froe_spread extended;        /**< most of all faces, each widened by much */
     froe_spread two_directional; /**< most of all faces, widened by much, but on one axis by delta times the side:

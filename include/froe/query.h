@@ -225,7 +225,7 @@ typedef struct froe_batch_options {
 FROE_API froe_batch_options froe_batch_defaults(void);
 
 /** The same questions over arrays, on several threads. options NULL: the defaults. The first bad query ends the
- * call: diag->object tells its position. The tree's allocator must be callable from several threads at once
+ * call: diag->object is its position. The tree's allocator must be callable from several threads at once
  * when there are several. */
 FROE_API froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t count,
                                       const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);

@@ -29,7 +29,7 @@ enum { DIRECTIONS, ASPECT, GUARDS, GROWTH, TUNING, K, STOP };
 enum {
     LONG = 32,        /* objects of a cell that takes long enough to ask whether to go on */
     STAR = 1024,      /* most objects of a cell that may be left when no cut balances its guards */
-    SAMPLE = 1 << 18, /* guards of a cell of objects that are looked at, at most */
+    SAMPLE = 1 << 18, /* guards of a cell of objects that are read, at most */
     PATIENCE = 24,    /* cuts after which such a cell is left: a guard in the tip of a large cell takes some */
     SEQUENCE = 3      /* cuts that bring down a cell's points, at most */
 };
@@ -73,7 +73,7 @@ typedef struct bar {
 
 /* What a thread works with. */
 typedef struct bar_scratch {
-    split_scratch refine; /* first: what refinement knows */
+    split_scratch refine; /* first: what refinement keeps */
     bar_search search;
     bool planned;
     uint32_t count; /* guards of the cell at hand */

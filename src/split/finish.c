@@ -11,7 +11,7 @@ typedef uint64_t mask; /* a set of columns */
 /** The line of a piece that was there at the start, and its row. */
 typedef struct row {
     filter_line line;
-    mask known;        /* pieces that the row tells about */
+    mask known;        /* pieces for which the row is filled */
     mask below, above; /* with an end there, by more than rounding could do */
     mask sure;         /* for which below and above are the exact answer */
 } row;
@@ -158,7 +158,7 @@ static void fill_place(const split_table *t, row *r, uint32_t column) {
     put_columns(&r->sure, bit(column), sure);
 }
 
-/** The row of a piece's line, which knows all pieces of a set then. */
+/** The row of a piece's line, filled for all pieces of a set. */
 static row *row_of(finish *f, uint32_t piece, mask set) {
     split_table *t = f->t;
     row *r = t->rows + t->line[piece];

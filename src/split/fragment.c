@@ -25,7 +25,7 @@ void split_set_free(split_set *set) {
 
 split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut) {
     split_plane out = {.cut = *cut};
-    if (cut->kind == FROE_CUT_AXIS && scene->dim > 3) { /* all that vertex_side() looks at */
+    if (cut->kind == FROE_CUT_AXIS && scene->dim > 3) { /* all that vertex_side() reads */
         out.plane.form = GEOM_AXIS;
         out.plane.axis = cut->axis;
         out.plane.c = cut->value;

@@ -230,7 +230,7 @@ static froe_status grow_task_from(grow *g, split_work *work, grow_task *task, ui
     return status;
 }
 
-/** Levels by which the subtree just grown goes beyond what the method wants. */
+/** Levels by which the subtree just grown goes beyond the height of the method. */
 static uint32_t levels_over(const grow *g, const split_work *work, uint32_t sunk) {
     uint32_t deepest = work->deepest - sunk;
     return g->method->height > 0 && deepest > g->method->height ? (uint32_t)ceil(deepest - g->method->height) : 0;

@@ -13,7 +13,7 @@
 #include "split/fragment.h"
 #include "split/guard/homes.h"
 
-/** What a method knows of a cell besides: bytes of its own, all zero at the root. */
+/** What a method keeps of a cell besides: bytes of its own, all zero at the root. */
 typedef struct split_room {
     uint64_t words[2 * FROE_MAX_DIM + 1];
 } split_room;

@@ -1,4 +1,4 @@
-/* price.h: what a cut costs: the fragments it splits against what it tells about where they are.
+/* price.h: the cost of a cut: the fragments that it splits, less the information that it gains on their places.
  *
  * A cell of m fragments leaves log2 m bits open for each. A cut that leaves A and B fragments on its sides,
  * of which it splits S, and takes the rest out of the search, gains

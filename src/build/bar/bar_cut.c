@@ -6,7 +6,7 @@
 
 enum {
     CUTS = 3,       /* of a sequence, at most */
-    LOOK = 1 << 14, /* points looked at beyond the first cut, at most: a sample */
+    LOOK = 1 << 14, /* points read beyond the first cut, at most: a sample */
     MOVES = 2       /* steps by which a rounded end of an interval is moved inwards */
 };
 

@@ -34,7 +34,7 @@ typedef struct boxes_event {
     uint8_t end;       /**< boxes_end; FLAT: a box without extent on this axis, both of its ends */
 } boxes_event;
 
-/** What a sweep along an axis comes to know at an event: [0] on arriving there, [1] on leaving it behind. The same for
+/** What changes in a sweep along an axis at an event: [0] on arriving there, [1] on leaving it behind. The same for
  * all events of one kind of end, with the same rooms alive on the axis, and as many axes besides on which a room is
  * alive, and both are: these number the changes. So a sweep reads events and a small table. */
 typedef struct boxes_change {

@@ -3,7 +3,7 @@
  * They are scored on what is shown of the cell. Planes through three vertices often pass others so closely that doubles
  * cannot tell on which side, and where they do not run through them, as all around the pole of a sphere in
  * rounded coordinates, each split is real. So no candidate becomes the best before its exact count says so. On a
- * sample, which says little anyway, several of the best are kept to be entered again when all is shown. */
+ * sample, where counts are uncertain, several of the best are kept to be entered again when all is shown. */
 #ifndef FROE_BUILD_GRAIN_CONTEST_H
 #define FROE_BUILD_GRAIN_CONTEST_H
 #include "base/random.h"

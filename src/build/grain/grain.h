@@ -19,7 +19,7 @@ typedef struct split_effort {
     uint32_t supports; /**< supporting planes tried */
     uint32_t starts;   /**< edges from which triples are sought */
     uint32_t turns;    /**< pencils swept from each */
-    uint32_t sample;   /**< fragments looked at, at most */
+    uint32_t sample;   /**< fragments scored, at most */
     bool again;        /**< look again where no cut is without splits */
 } split_effort;
 

@@ -39,7 +39,7 @@ bool guard_strictly_inside(const double *lo, const double *hi, const guard_cube 
 
 /** Levels for a few guards a cell and at most 2^bits_most cells; 1: a grid is not worth while. */
 int guard_grid_levels(uint64_t guards, int dim, int bits_most);
-/** Bytes that guard_grid_make() wants at `room`. */
+/** Bytes that guard_grid_make() needs at `room`. */
 size_t guard_grid_size(int dim, int levels);
 /** levels >= 1. False when slices become so narrow that doubles cannot tell their planes apart. */
 bool guard_grid_make(int dim, int levels, const guard_cube *cube, char *room, guard_grid *out);

@@ -84,7 +84,7 @@ froe_status guard_shrink_nodes(guard_worker *w, const guard_item *item, const gu
     return status;
 }
 
-/* ---- the step: a heap per axis knows the farthest guard */
+/* ---- the step: a heap per axis yields the farthest guard */
 
 typedef struct heaps {
     guard_peeler peeler;

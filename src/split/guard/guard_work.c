@@ -1,7 +1,7 @@
 /* guard_work.c: the loop that builds the guard tree, and the choice of steps.
  *
  * Credit (after Callahan and Kosaraju's phases): an item may move 8 guards for each that it has.
- * Steps spend it, one for each guard they look at; parts of at most half the size get their own.
+ * Steps spend it, one for each guard they read; parts of at most half the size get their own.
  * What has no credit left lies in a deep, lopsided place, and a phase deals with it in
  * O(d m) after sorting, whatever the depth. So all steps together take O(d n log n). */
 #include "split/guard/guard_work.h"

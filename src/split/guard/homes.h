@@ -1,7 +1,7 @@
 /* homes.h: where in the guard tree each object first meets a cut.
  *
  *            x = 4                 object 7 goes left of x = 4, right of y = 1, and lies across x = 2:
- *           /     \                that is its lowest containing node. No node above looks at it again.
+ *           /     \                that is its lowest containing node. Nodes above need not list it.
  *        y = 1    ...
  *       /     \                    ids:  [ own of v | own below left(v) | own below right(v) ]
  *      ...   x = 2   <- 7                 at[v]                                              end[v]
