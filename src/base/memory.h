@@ -9,6 +9,6 @@
 void *base_realloc(const froe_allocator *alloc, void *ptr, size_t old_size, size_t new_size);
 /** Zeroed memory for count items; NULL on overflow or without memory; count 0 gives one byte. */
 void *base_calloc(const froe_allocator *alloc, size_t count, size_t item_size);
-/** size: as it was asked for; 0 of a base_calloc() with count 0. */
+/** size: as it was allocated; 0 of a base_calloc() with count 0. */
 void base_free(const froe_allocator *alloc, void *ptr, size_t size);
 #endif

@@ -1,4 +1,4 @@
-/* sort.h: a stable sort by a comparison that may be expensive, and one in place. Neither recurses nor asks for memory,
+/* sort.h: a stable sort by a comparison that may be expensive, and one in place. Neither recurses nor allocates memory,
  * which the C library's qsort may do. */
 #ifndef FROE_BASE_SORT_H
 #define FROE_BASE_SORT_H

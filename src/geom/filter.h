@@ -70,7 +70,7 @@ static inline num_ball filter_value(const geom_plane *h, const double *x) {
     return filter_sum(h, w, 0);
 }
 
-/* The sign of f(x) in the plane, form POINTS, or NUM_UNSURE: the filter_value that builders ask for most. */
+/* The sign of f(x) in the plane, form POINTS, or NUM_UNSURE: the filter_value that builders use most. */
 static inline int filter_beside_line(const geom_plane *h, const double *x) {
     const double w[2] = {x[0] - h->p[0][0], x[1] - h->p[0][1]};
     num_ball f = filter_sum_in(2, h, w, 0);

@@ -1,5 +1,5 @@
 /* feature.h: the corner, edge or interior of a triangle of space that is nearest to a point (Ericson: Real-time
- * collision detection, 2005, 5.1.5), told by filters. */
+ * collision detection, 2005, 5.1.5), decided by filters. */
 #ifndef FROE_GEOM_MEET_FEATURE_H
 #define FROE_GEOM_MEET_FEATURE_H
 #include "num/ball.h"

@@ -3,8 +3,8 @@
  *       k best so far   k-th  reach
  *     ----.--..---.------.------]---x----x-->     squares of distances, in doubles
  *
- * Coordinates lie side by side (pieces.h). What is beyond the k-th of the squares by more than rounding explains is
- * out. A few more than k are left in the end, and only those are compared exactly.
+ * Coordinates lie side by side (pieces.h). What is beyond the k-th of the squares by more than rounding can cause is
+ * dropped. A few more than k are left in the end, and only those are compared exactly.
  *
  * Depth first, the nearer child before the other (Friedman, Bentley and Finkel: An algorithm for finding best matches
  * in logarithmic expected time, 1977), by the boxes of what is below nodes.

@@ -50,7 +50,7 @@ froe_status packed_any(froe_query *query, const double *lo, const double *hi);
 froe_status packed_vertical(froe_query *query, const double *points, size_t count, int direction, uint32_t *objects);
 /** Checks a point to look up or down from. */
 froe_status query_vertical_check(const froe_query *query, const double *point, int direction, froe_diagnostic *diag);
-/** As froe_batch_pairs(). FROE_E_LIMIT, before anything has been told: more pairs than are worth gathering;
+/** As froe_batch_pairs(). FROE_E_LIMIT, before any pair is reported: more pairs than are worth gathering;
  * FROE_E_MEMORY, FROE_E_CANCELLED. */
 froe_status packed_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user);
 #endif

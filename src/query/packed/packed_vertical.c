@@ -25,7 +25,7 @@ typedef struct climb {
 } climb;
 #define NO_TABLE UINT32_MAX
 
-/* At a leaf: asks for its block. */
+/* At a leaf: prefetches its block. */
 static void arrive_at_block(const froe_tree *t, climb *c, uint32_t block, uint32_t count) {
     const uint8_t *bytes = t->packed.blocks + (size_t)block * PACKED_BLOCK;
     c->block = block;

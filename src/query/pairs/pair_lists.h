@@ -4,7 +4,7 @@
  *     thread 1    a < 4096 | a < 8192 | ...
  *                     |          |
  *                  sorted     sorted            each part by one thread: counted by the first id, then by the second
- *                     `----------'-----> told
+ *                     `----------'-----> reported
  *
  * Each pair is added once, so that their order does not depend on which thread found which pair. */
 #ifndef FROE_QUERY_PAIRS_PAIR_LISTS_H
@@ -23,7 +23,7 @@ typedef struct pair_item {
 /** What one thread has found. */
 typedef struct pair_list {
     ARRAY(pair_item) parts[PAIR_PARTS];
-    uint32_t room; /**< pairs it may add before it asks for more */
+    uint32_t room; /**< pairs it may add before it takes more room */
 } pair_list;
 
 typedef struct pair_lists {

@@ -8,7 +8,7 @@
  *     +--+--+--+--+
  *
  * A cut is two floats: a line a x + b y + c = 0 divided by the greater of |a| and |b|, in units of the scene. Floats
- * tell the side of all points but those within DESCENT_DOUBT of the line; these are told exactly by the cut of the
+ * tell the side of all points but those within DESCENT_DOUBT of the line; these are decided exactly by the cut of the
  * tree. So no answer is wrong, and a doubtful point costs one more look at the tree.
  *
  * Cuts lie where they are needed together: a group is a cut and those below it that most leaves are under (as van
@@ -29,7 +29,7 @@ typedef struct descent_cut {
 #define DESCENT_NODE 0x1fffffffu
 #define DESCENT_BACK 0x80000000u /**< of nodes: the cut's sides are those of the node in reverse */
 
-/** Points this near to a cut are told exactly. A float of 0 .. 1 and c (below 2) are wrong by at most 2^-25 and 2^-24,
+/** Points this near to a cut are decided exactly. A float of 0 .. 1 and c (below 2) are wrong by at most 2^-25 and 2^-24,
  * and so are their products and sums: 2^-22 together, and four times that in all rounding modes. */
 #define DESCENT_DOUBT 0x1p-20f
 

@@ -159,8 +159,8 @@ static bool set_meets(froe_query *q, uint32_t object) {
     return geom_meet(&q->numbers, &object_set, &set);
 }
 
-/* Is a corner of the object within the margin of the range for certain? Of boxes and balls. Where an object of many
- * corners is told so, it need not be known whether it meets the range itself. */
+/* Is a corner of the object within the margin of the range for certain? Of boxes and balls. Then an object of
+ * many corners need not be tested against the range itself. */
 static bool holds_corner(froe_query *q, uint32_t object) {
     const froe_scene *s = q->tree->scene;
     const query_range *r = &q->range;

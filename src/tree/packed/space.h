@@ -78,7 +78,7 @@ static inline bool space_is_triangle(const froe_scene *s, uint32_t object) {
     return s->forms[object] == FROE_POLYGON && scene_corners(s, object) == 3;
 }
 
-/** May coordinates of scenes within these bounds be told in units? */
+/** Can units hold the coordinates of scenes within these bounds? */
 bool space_is_tame(const double *lo, const double *hi);
 /** Triangles among items, which are brought to the front. */
 uint32_t space_sort(space_item *items, uint32_t count);
