@@ -76,7 +76,7 @@ static void exact_difference(now_state *now, const now_claim *claim, poly_exact 
     exact_determinant(&now->context.arena, p, q, out);
 }
 
-/* The claim holds now: that tells the sign. */
+/* REQUIRES: the claim holds now, which determines the sign. */
 void now_along_exact(now_state *now, const now_claim *claim, poly_exact *out) {
     exact_difference(now, claim, out);
     if (exact_sign(out) <= 0) exact_negate(out);

@@ -181,8 +181,8 @@ static bool contact_goes_on(const record *last, const record *next) {
            last->span.end.high == next->span.begin.low;
 }
 
-/* A contact ends no earlier than it begins, so each bound holds for both; where it lasts for an instant, or next to
- * none, the two were found apart. */
+/* A contact ends no earlier than it begins, so each bound holds for both. Where it lasts for an instant, or nearly so,
+ * the enclosures of begin and end overlap. */
 static void tighten(froe_contact *c) {
     if (c->end[0] < c->begin[0]) c->end[0] = c->begin[0];
     if (c->begin[1] > c->end[1]) c->begin[1] = c->end[1];

@@ -5,8 +5,8 @@
  *     -------------o----- s              the hull of its coefficients: if these are surely positive, the claim
  *                +                       holds throughout; if their signs surely change once, there is one root,
  *                      +                 and only the tick behind it is to be found. Otherwise the
- *                                        interval is halved (de Casteljau), and where doubles say nothing any more,
- * Descartes' rule is applied to the exact polynomial. Ticks are judged by predicates, never by polynomials.
+ *                                        interval is halved (de Casteljau), and where doubles do not suffice,
+ * Descartes' rule is applied to the exact polynomial. Ticks are tested by predicates, never by polynomials.
  * Source: Lane and Riesenfeld, "Bounds on a polynomial", BIT 1981; Collins and Akritas, SYMSAC 1976. */
 #include "kinetic/now.h"
 #include <math.h>
@@ -294,7 +294,7 @@ static bool is_nothing(const poly_ball *p) {
     return true;
 }
 
-/* The same of any claim that holds, `last` being the last tick to look at. */
+/* The same of any claim that holds, `last` being the last tick to test. */
 static int64_t first_change(now_state *now, const now_claim *claim, int64_t last) {
     search f = {now, claim, 0, now->tick, last - now->tick, NULL};
     if (f.span < 2) return NOW_NEVER;
@@ -323,9 +323,9 @@ static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last) 
     return first;
 }
 
-/* The polynomial has the sign that the predicates tell only as long as no denominator changes its own. A crossing gets
+/* The polynomial has the sign that the predicates give only as long as no denominator changes its own. A crossing gets
  * to where its lines are parallel from outside of its segments, and the claim is gone by then, if ticks are short. If
- * they are not, it may leave its segments, pass infinity and be back within one; so then the claim is looked at, too.
+ * they are not, it may leave its segments, pass infinity and be back within one. So then the claim is tested, too.
  */
 int64_t now_first_failure(now_state *now, const now_claim *claim) {
     int holds = now_holds(now, claim);

@@ -38,7 +38,7 @@ typedef struct live_node {
     uint8_t slot;            /**< which child of its parent it is: live_slot_of() */
     bool cut;                /**< the subtree has a wall of its own */
     bool half;               /**< the right part of a node that was cut; to be joined again */
-    bool turned;             /**< `turned` of the turner when left and right were last told apart */
+    bool turned;             /**< `turned` of the turner when left and right were last set */
 } live_node;
 
 typedef struct live_cell {
@@ -191,7 +191,7 @@ struct froe_kinetic {
     ARRAY(uint32_t) leaving;  /**< 2 segment + 1: its plan or life changes now; 2 segment: it may come into the tree */
     ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */
     ARRAY(live_half) halves;  /**< of nodes that were cut */
-    bool told;                /**< a visitor is being told of an event, */
+    bool told;                /**< a visitor is in the callback of an event, */
     now_claim told_claim;     /**< about this; no points: appearances and the like */
     live_recent *recent;
     froe_kinetic_stats counts;

@@ -3,14 +3,14 @@
  *     _________________             Only two cells change, those on both sides of the wall at the height of the
  *        :   |     :                point: near, where the certificate was, and far. In one of them the segment s of
  *        :far|near :                the point comes to be, or ends, a little earlier, in the other a little later.
- *        :   | o---:-- s            What else crosses the wall there, the threads, does so before and after: it is
- *        :   |     :                told from below to above by walking down along the wall, and has a new tree, thin
- *     ___:__(q)____:___             as that part of the cell is, by its order and its height alone (a treap).
+ *        :   | o---:-- s            Other segments that cross the wall there, the threads, do so before and after.
+ *        :   |     :                A walk down along the wall lists them from below. Since that part of the cell is
+ *     ___:__(q)____:___             thin, their order and heights alone determine its new tree (a treap).
  *
- * If there is another wall in a thin part, as of a vertex that has the same x for ever, it passes, too, and this is
- * not for here. The far cell is found by going down on the other side of the wall, past what comes before s in order:
- * that is cut by segments that the way to the near cell knows, too, or ends before the wall. What comes later than s is
- * in the far cell. Source: the shaves of the paper's section 2.3; that a thin part is a treap is ours. */
+ * If there is another wall in a thin part, as of a vertex that has the same x for ever, it passes, too, and this case
+ * is refused. The far cell is found by walking down on the other side of the wall, past all segments before s in
+ * order. Each of these is on the way to the near cell, too, or ends before the wall. Segments after s are in the far
+ * cell. Source: the shaves of the paper's section 2.3; that a thin part is a treap is not in the paper. */
 #include "kinetic/live.h"
 #include <string.h>
 
@@ -42,7 +42,7 @@ static int way_past(const froe_kinetic *k, uint32_t near, uint32_t owner, uint32
     return slot >= UP ? slot : -1;
 }
 
-/* From the place at `far` down along the wall. False: not as it should be. */
+/* From the place at `far` down along the wall. False: the tree there is not as described. */
 static bool descend_to_half(const froe_kinetic *k, uint32_t near, uint32_t owner, half *far) {
     uint32_t segment = node_at(k, near)->segment;
     for (;;) {
@@ -67,7 +67,7 @@ static void look_at(const froe_kinetic *k, live_site *site) {
     site->cut = node && node_at(k, node)->cut;
 }
 
-/* 1, -1: p is above, below q; 0: there is no telling. */
+/* 1, -1: p is above, below q; 0: undecided. */
 static int height_order(froe_kinetic *k, now_name p, now_name q) {
     now_spot a = now_spot_of(&k->now, p), b = now_spot_of(&k->now, q);
     double d = a.y - b.y, error = (a.error + b.error) * 2;
@@ -122,7 +122,7 @@ static void push_half_visit(froe_kinetic *k, uint32_t node, unsigned back) {
     if (node && !array_push(&k->alloc, &k->order, 2 * node + back)) k->short_of_memory = true;
 }
 
-/* Lists what crosses a subtree of a half along the wall that is passed, from the bottom up, and stamps what touches
+/* Lists the segments that cross a subtree of a half along the passed wall, from the bottom up, and stamps nodes at
  * that wall. False: something has a wall in the thin part. */
 static bool walk_half(froe_kinetic *k, const half *h, uint32_t node) {
     k->order.count = 0;
@@ -157,7 +157,7 @@ static bool walk_past(froe_kinetic *k, const half *h, uint32_t node) {
     return walk_half(k, h, n->child[DOWN]) && walk_half(k, h, up);
 }
 
-/* What crosses the wall in the far cell, from below; then what else there is in the near one. */
+/* Lists the segments across the wall in the far cell, from below, and then the others in the near one. */
 static bool list_threads(froe_kinetic *k, passing *p) {
     const uint32_t root = root_of(k, &p->far.site);
     const live_node *n = node_at(k, p->node), *r = node_at(k, root);
@@ -174,8 +174,8 @@ static bool list_threads(froe_kinetic *k, passing *p) {
 
 /* -------------------------------------------------------------------- height -- */
 
-/* Others that end where s does: they have no wall there, but go with it. Those that come from the wall cross the thin
- * part in the far cell from now on, the others no more. */
+/* Segments that end at the same vertex as s have no wall there, but move with it. Those that come from the wall cross
+ * the thin part in the far cell from now on, the others no longer. */
 enum { MOST_FAN = 8 };
 
 /* Those that come from the wall, from below. -1: too many, or some in one line, or earlier than s. */
@@ -234,7 +234,7 @@ static void insert_fan(froe_kinetic *k, passing *p, const uint32_t *fan, int cou
     }
 }
 
-/* Makes the thread what will cross the thin part of the far cell, but for s. False: this is not for here. */
+/* Makes the thread the segments that will cross the thin part of the far cell, without s. False: refused. */
 static bool thread_anew(froe_kinetic *k, passing *p, now_name point) {
     if (!is_end(p->wall)) {
         p->below = p->wall == p->near.site.cell.top ? p->thread : 0;

@@ -1,7 +1,7 @@
 /* now.h: where everything is at the tick that a kinetic structure has come to, and just after it.
  *
  *     tick  ----+----+----+----          The structure is right just after each tick that it stands at: what is
- *               u \                      equal at u is told apart by where it is u + an infinitesimal, and if it
+ *               u \                      equal at u is ordered by where it is at u + an infinitesimal. If it
  *                  u+                    is still equal then, it stays so until a flight plan takes another piece.
  *
  * Points go by name: a vertex, where the lines of two segments cross, or a line x = c that does not move. They are

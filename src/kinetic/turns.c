@@ -4,18 +4,18 @@
  *      : / :    ->    : \ :        two walls in each cell, and of every wall at a crossing with a later segment, with
  *     -:/--:-        -:--\:-       what is behind it. So walls are named in the direction of a segment, from its
  *      :a  :          :  a:        end 0 to its end 1: two walls of a node in that of the node's own segment, one at
- * a crossing in that of the segment that is crossed. To turn is to turn that direction; left and right of a
- * node are updated when it is next read (node_at). What is left and right of the two walls of a node stays there.
+ * a crossing in that of the segment that is crossed. A turn reverses that direction. Left and right of a
+ * node are updated when it is next read (node_at). Parts to the left and right of both walls of a node stay there.
  *
- * Certificates must not change, either. The order of two points of one segment is told along it (along.c). What hugs a
- * wall of the segment from outside has to keep away from the other wall, too, which is the nearer one afterwards: where
- * the turn comes before the certificate fails, it covers both.
+ * Certificates must not change, either. Points of one segment are ordered along it (along.c). A region outside of the
+ * segment, at one of its walls, borders on its other wall after the turn. Where the turn comes before the certificate
+ * of the region fails, the certificate covers both walls.
  *
- * When nothing else fails at the tick and nearby, all certificates hold, and with them the tree is right: all that lies
+ * When nothing else fails at the tick and nearby, all certificates hold, and so the tree is right: all that lies
  * between the two walls of a node is ordered by certificates, and only points of the segment itself can change their
- * order by its turn. This leaves points without a wall, as they coincide with others for as long as plans last; when
- * some are found, the segments there are bound, and turn as all do in an ordinary partition: by surgery. So do those
- * that share a vertex. That walls of two nodes need names of different directions is from the specification; that
+ * order by its turn. This does not cover points without a wall, which coincide with others for as long as plans last.
+ * When some are found, their segments are bound: they turn by surgery, as all do in an ordinary partition. So do
+ * segments that share a vertex. That walls of two nodes need names of different directions is from the specification; that
  * certificates must cover the turn is not in the paper. */
 #include "kinetic/live.h"
 

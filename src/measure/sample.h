@@ -11,7 +11,7 @@ typedef struct measure_sample {
     froe_allocator alloc;
     base_task task;
     uint64_t seed;
-    uint32_t count; /**< of objects looked at */
+    uint32_t count; /**< of objects measured */
     ARRAY(double) values[4];
 } measure_sample;
 

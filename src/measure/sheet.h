@@ -9,7 +9,7 @@
  * An object is straight if all of its edges stay, and what lies beside them is right everywhere. Insides of straight
  * objects are disjoint; they meet where edges share ends, or where an end lies within an edge. The latter are reported,
  * so that no other pair of straight objects can cross, overlap or meet in a T-junction: long thin triangles side by
- * side, whose boxes all meet, need not be looked at pair by pair. All decisions are exact. */
+ * side, whose boxes all meet, need not be tested pair by pair. All decisions are exact. */
 #ifndef FROE_MEASURE_SHEET_H
 #define FROE_MEASURE_SHEET_H
 #include "base/array.h"

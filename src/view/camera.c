@@ -231,7 +231,7 @@ static double extent_of(const froe_scene *scene) {
     return ldexp(sqrt(sum), exponent + 1);
 }
 
-/* Extents whose projections on any page neither overflow nor lose bits that are seen: the camera multiplies and divides
+/* Extents whose projections on any page neither overflow nor lose visible bits: the camera multiplies and divides
  * them by sines, by tangents of angles of view and by scales of a page. */
 #define LEAST_EXTENT 0x1p-1000
 #define MOST_EXTENT 0x1p1000

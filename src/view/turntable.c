@@ -31,7 +31,7 @@ static double shrink(const froe_camera *c, const froe_projection *view) {
     return least;
 }
 
-/* One camera turned and fitted: the distance or the scale that it asks for. */
+/* One camera turned and fitted: the distance or the scale that it needs. */
 static froe_status fit(const froe_camera *c, const froe_scene *scene, const double *middle, double *distance,
                        double *scale, froe_diagnostic *diag) {
     froe_projection view;

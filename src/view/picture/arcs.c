@@ -1,4 +1,4 @@
-/* arcs.c: finds the visible pieces that lie over parts which other nodes paint.
+/* arcs.c: finds the pairs of a visible piece and a part under it that another node paints.
  *
  * Each node may be painted whole, once, if it comes after every node that paints behind it where it is visible. Then
  * the node painted last at any point is the one that is visible there. A grid on the page finds pairs of a visible

@@ -60,8 +60,8 @@ void view_graph_free(const froe_allocator *alloc, view_graph *g) {
 
 /* --------------------------------------------------------------------- circles -- */
 
-/* Sets of nodes yet to be searched lie on a stack, one after the other; `set` tells for each node the set it is in, so
- * that a search keeps to its own. Every component of more than one node loses some nodes and is a new set. */
+/* Sets of nodes yet to be searched lie on a stack, one after the other; `set` holds for each node its set, so
+ * that a search stays in its own. Every component of more than one node loses some nodes and is a new set. */
 typedef struct breaker {
     const froe_allocator *alloc;
     view_graph *g;
