@@ -236,7 +236,7 @@ static int place_of_roots(num_arena *arena, const num_isolated *a, const num_iso
 }
 
 int num_isolated_compare(num_arena *arena, num_isolated *a, num_isolated *b) {
-    enum { PATIENCE = 24 }; /* halvings before the exact comparison */
+    enum { PATIENCE = 24 }; /* halvings before the exact test of equality */
     for (int round = 0;; round++) {
         int order = place_of_roots(arena, a, b);
         if (order) return order;

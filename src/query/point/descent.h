@@ -29,8 +29,8 @@ typedef struct descent_cut {
 #define DESCENT_NODE 0x1fffffffu
 #define DESCENT_BACK 0x80000000u /**< of nodes: the cut's sides are those of the node in reverse */
 
-/** Points this near to a cut are decided exactly. A float of 0 .. 1 and c (below 2) are wrong by at most 2^-25 and 2^-24,
- * and so are their products and sums: 2^-22 together, and four times that in all rounding modes. */
+/** Points this near to a cut are decided exactly. A float of 0 .. 1 and c (below 2) are wrong by at most 2^-25 and
+ * 2^-24, and so are their products and sums: 2^-22 together, and four times that in all rounding modes. */
 #define DESCENT_DOUBT 0x1p-20f
 
 typedef struct query_descent {
