@@ -1,4 +1,4 @@
-/* shade.c: colours of faces: those of their groups, or one hue per material, lit from beside the camera. */
+/* shade.c: colours of faces: those of their groups, or one hue per material, lit by a light fixed to the camera. */
 #include "render.h"
 #include <math.h>
 #include <stdlib.h>

@@ -8,8 +8,8 @@
 enum { HUGE_FROM = 4 << 20, HUGE_PAGE = 2 << 20 }; /* bytes from which huge pages are asked for */
 
 /* Large arrays are read at random: pages of 2 MB spare most of the waiting for page tables, and of the faults. The
- * system gives them to memory that begins with one and was never touched, so an array that grows is copied: moved by
- * changing page tables, they would be split. NULL: there are none. */
+ * system gives them to memory that is aligned to one and was never touched. So an array that grows is copied: where it
+ * is moved by changing page tables, the system splits them. NULL: there are none. */
 static void *grow_in_huge_pages(void *ptr, size_t old_size, size_t new_size) {
 #ifdef MADV_HUGEPAGE
     void *grown;

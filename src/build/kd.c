@@ -68,7 +68,7 @@ static void find_widths(const split_work *work, const split_cell *cell, double *
     }
 }
 
-/** The axis to be tried next; width < 0: it has been. */
+/** The axis to be tried next; width < 0: tried already. */
 static int next_axis(const kd *d, const split_cell *cell, const double *width, int dim, int turn) {
     int best = -1;
     if (d->axes == FIRST) return turn;

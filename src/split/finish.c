@@ -326,7 +326,7 @@ static froe_status cut_part(finish *f, const part *p, bool *full) {
     return status;
 }
 
-/** Hands over all parts, the topmost too, as ordinary cells. */
+/** Pushes all parts, the topmost too, as ordinary cells. */
 static froe_status give_back(finish *f, split_work *work) {
     split_set *s = f->set;
     const split_table *t = f->t;
