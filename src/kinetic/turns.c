@@ -15,8 +15,8 @@
  * between the two walls of a node is ordered by certificates, and only points of the segment itself can change their
  * order by its turn. This does not cover points without a wall, which coincide with others for as long as plans last.
  * When some are found, their segments are bound: they turn by surgery, as all do in an ordinary partition. So do
- * segments that share a vertex. That walls of two nodes need names of different directions is from the specification; that
- * certificates must cover the turn is not in the paper. */
+ * segments that share a vertex. That walls of two nodes need names of different directions is from the specification.
+ * That certificates must cover the turn is not in the paper. */
 #include "kinetic/live.h"
 
 /* ------------------------------------------------------------------- walls -- */
