@@ -1,7 +1,7 @@
 /* certificates.c: what proves that a live partition is what it should be.
  *
  *        :  |  :                      regions   the walls left and right of a region keep their order. Only regions
- *     ___:__|__:___ above             without a wall inside have certificates: the others follow
+ *     ___:__|__:___ above             without a wall inside have certificates: these imply the others
  *        :  o----             ends    an end with a wall is below the next segment above and above the next below
  *     ___:_____:___ below     turns   the left end of a segment is left of the right end
  *
