@@ -162,7 +162,7 @@ static int run(const void *given) {
     if (!code) code = write_contacts(&s);
     if (!code) code = animate(&s, s.args->animate);
     if (!code) code = animate(&s, s.args->player);
-    if (!code) code = cli_follow_motion(&s.args->common, &s.args->follow, s.motion, &s.events);
+    if (!code) code = cli_follow_motion(&s.args->common, &s.args->follow, s.args->path, s.motion, &s.events);
     if (!code) code = report(&s);
     json_decref(s.events);
     froe_motion_free(s.motion);

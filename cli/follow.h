@@ -12,7 +12,8 @@ typedef struct cli_follow {
     bool augmented;                     /**< segments turn upright for nothing */
 } cli_follow;
 
-/** Goes through the window, if anything is asked for; *report: what there was, or null. Returns an exit code, after
- * saying why. */
-int cli_follow_motion(const cli_common *common, const cli_follow *asked, froe_motion *motion, json_t **report);
+/** Goes through the window of a motion from a file, if anything is asked for; events are written as they happen.
+ * *report: what there was, or null. Returns an exit code, after saying why. */
+int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,
+                      json_t **report);
 #endif

@@ -298,6 +298,14 @@ static void put_table(const char *title, const json_t *rows, int indent) {
     }
 }
 
+/* Instants are what the motion says, or brackets of what is exact: in full, or two of them would look like one. */
+static bool is_instant(const char *key) {
+    static const char *const keys[] = {"from", "to", "at", "begin_low", "begin_high"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (strcmp(keys[i], key) == 0) return true;
+    return false;
+}
+
 static void put_text(const json_t *object, int indent, int width) { // NOLINT(misc-no-recursion)
     const char *key;
     json_t *member;
@@ -311,6 +319,7 @@ static void put_text(const json_t *object, int indent, int width) { // NOLINT(mi
             put_text(member, indent + 2, width);
         } else {
             cell_text(member, text, sizeof text);
+            if (json_is_real(member) && is_instant(key)) cli_number(text, json_real_value(member));
             printf("%*s%-*s  %s\n", indent, "", width - indent, label, text);
         }
     }

@@ -1,7 +1,17 @@
-/* write_events.c: what happened in a kinetic partition, as a table. */
+/* write_events.c: what happens in a kinetic partition, as a table that is written while it happens. */
 #include "support/floats.h"
 #include "writer.h"
 #include <string.h>
+
+enum { ROOM = 512 }; /* events that wait to be written */
+
+struct froe_event_writer {
+    froe_allocator alloc;
+    io_writer writer;
+    froe_status status; /* the first failure of writing events */
+    size_t count;
+    froe_event events[ROOM];
+};
 
 static void put_event(io_writer *w, const froe_event *e) {
     io_put_number(w, (double)e->tick); /* whole, below 2^53 */
@@ -20,17 +30,58 @@ static void put_event(io_writer *w, const froe_event *e) {
     io_put(w, "\n");
 }
 
-froe_status froe_write_events(const froe_event *events, size_t count, const char *path, froe_diagnostic *diag) {
+/* The locale is the caller's between the calls. */
+static void flush(froe_event_writer *w) {
+    for (size_t i = 0; i < w->count; i++) put_event(&w->writer, w->events + i);
+    w->count = 0;
+}
+
+froe_status froe_event_writer_new(const char *path, const froe_allocator *given, froe_event_writer **out,
+                                  froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!path || (count && !events))
-        return io_fail(diag, FROE_E_ARG, "froe_write_events: events and path must not be NULL");
-    io_extension extension = io_path_extension(path);
-    if (strcmp(extension.text, "csv") != 0)
+    if (!path || !out) return io_fail(diag, FROE_E_ARG, "froe_event_writer_new: path and out must not be NULL");
+    if (strcmp(io_path_extension(path).text, "csv") != 0)
         return io_fail(diag, FROE_E_UNSUPPORTED, "%s: events are written as .csv", io_short(path));
-    io_writer w;
-    froe_status status = io_writer_open(&w, path, diag);
-    if (status) return status;
-    io_put(&w, "tick,early,late,kind,objects,a,b,c,d\n");
-    for (size_t i = 0; i < count; i++) put_event(&w, events + i);
-    return io_writer_close(&w, FROE_OK);
+    const froe_allocator alloc = io_allocator(given);
+    froe_event_writer *w = NULL;
+    support_callback(w = alloc.fn(alloc.user, NULL, 0, sizeof *w));
+    if (!w) return io_fail_memory(diag);
+    *w = (froe_event_writer){.alloc = alloc};
+    const froe_status status = io_writer_open(&w->writer, path, diag);
+    if (status) {
+        support_callback(alloc.fn(alloc.user, w, sizeof *w, 0));
+        return status;
+    }
+    io_locale_leave(&w->writer.locale);
+    io_put(&w->writer, "tick,early,late,kind,objects,a,b,c,d\n");
+    *out = w;
+    return FROE_OK;
+}
+
+bool froe_event_writer_put(froe_event_writer *w, const froe_event *event) {
+    SUPPORT_FLOATS_OWN;
+    if (w->count == ROOM) {
+        if (!io_locale_enter(&w->writer.locale)) {
+            w->status = FROE_E_MEMORY;
+            return false;
+        }
+        flush(w);
+        io_locale_leave(&w->writer.locale);
+    }
+    w->events[w->count++] = *event;
+    return !w->writer.out.error;
+}
+
+froe_status froe_event_writer_close(froe_event_writer *w, froe_status status, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (!w) return status;
+    const froe_allocator alloc = w->alloc;
+    const bool entered = io_locale_enter(&w->writer.locale);
+    w->writer.out.diag = diag;
+    if (!status && (w->status || !entered)) status = io_fail_memory(diag);
+    if (!status) flush(w);
+    if (entered) io_locale_leave(&w->writer.locale);
+    status = support_writer_close(&w->writer.out, status);
+    support_callback(alloc.fn(alloc.user, w, sizeof *w, 0));
+    return status;
 }

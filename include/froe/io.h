@@ -164,11 +164,19 @@ FROE_API froe_status froe_write_motion(const froe_motion *motion, const char *pa
 FROE_API froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *contacts, size_t count,
                                          const char *path, froe_diagnostic *diag);
 
-/** Writes events, in their order, as .csv with the header
+/** Events on their way to a .csv with the header
  *     tick,early,late,kind,objects,a,b,c,d
- * with the number of segments that an event is about, and the first four of them. FROE_E_UNSUPPORTED: another
- * extension. FROE_E_IO, FROE_E_MEMORY. */
-FROE_API froe_status froe_write_events(const froe_event *events, size_t count, const char *path, froe_diagnostic *diag);
+ * with the number of segments that an event is about, and the first four of them. They are written while they happen. */
+typedef struct froe_event_writer froe_event_writer;
+/** Begins a file; froe_event_writer_close() must follow, and `path` last until then. alloc NULL: malloc.
+ * FROE_E_UNSUPPORTED: another extension. FROE_E_IO, FROE_E_MEMORY. */
+FROE_API froe_status froe_event_writer_new(const char *path, const froe_allocator *alloc, froe_event_writer **out,
+                                           froe_diagnostic *diag);
+/** Adds an event. False: something has failed, which froe_event_writer_close() tells, and there is no use in going on. */
+FROE_API bool froe_event_writer_put(froe_event_writer *writer, const froe_event *event);
+/** With FROE_OK: brings the file to its place, whole. Otherwise, or where something has failed, no file is left, and what
+ * was there before stays. Returns `status`, or what has failed: FROE_E_IO, FROE_E_MEMORY. NULL: returns `status`. */
+FROE_API froe_status froe_event_writer_close(froe_event_writer *writer, froe_status status, froe_diagnostic *diag);
 
 /** Writes where the ends of a snapshot's objects are, exactly, as .csv with the header
  *     object,end,x,y,w,rounded

@@ -584,7 +584,10 @@ static void motion_files(floats_run *r, void *user) {
     MUST(r, froe_motion_contacts(motion, NULL, keep_contact, &k, NULL));
     MUST(r, froe_write_contacts(motion, k.contacts, k.count, "floats.csv", NULL));
     floats_note_file(r, "floats.csv");
-    MUST(r, froe_write_events(&event, 1, "floats.csv", NULL));
+    froe_event_writer *events;
+    MUST(r, froe_event_writer_new("floats.csv", &memory, &events, NULL));
+    if (!froe_event_writer_put(events, &event)) fail_msg("an event cannot be written");
+    MUST(r, froe_event_writer_close(events, FROE_OK, NULL));
     floats_note_file(r, "floats.csv");
     MUST(r, froe_animate(motion, k.contacts, k.count, NULL, "floats.svg", NULL));
     floats_note_file(r, "floats.svg");

@@ -269,6 +269,48 @@ static froe_status read_motion_with(void *user, const froe_allocator *alloc) {
     return status;
 }
 
+static froe_status write_some_events(void *user, const froe_allocator *alloc) {
+    const size_t *count = user;
+    froe_event_writer *writer;
+    froe_diagnostic why;
+    froe_status status = froe_event_writer_new("some.csv", alloc, &writer, &why);
+    if (status) return status;
+    froe_event event = {.kind = FROE_EVENT_CONTACT, .tick = 1, .early = 0.1, .late = 0.25, .object_count = 2};
+    for (size_t i = 0; i < *count; i++) {
+        event.objects[0] = (uint32_t)i, event.objects[1] = 7;
+        assert_true(froe_event_writer_put(writer, &event));
+    }
+    return froe_event_writer_close(writer, FROE_OK, &why);
+}
+
+static size_t lines_of(const char *path, char *last, int size) {
+    FILE *file = fopen(path, "r");
+    size_t lines = 0;
+    assert_non_null(file);
+    while (fgets(last, size, file)) lines++;
+    fclose(file);
+    return lines;
+}
+
+static void events_are_a_file_when_all_are_there(void **state) {
+    (void)state;
+    char line[200];
+    for (size_t count = 0; count < 3000; count += 511) {
+        assert_int_equal(write_some_events(&count, NULL), FROE_OK);
+        assert_int_equal(lines_of("some.csv", line, sizeof line), count + 1);
+    }
+    assert_string_equal(line, "1,0.1,0.25,contact,2,2554,7,,\n");
+    froe_event_writer *writer;
+    froe_diagnostic why;
+    assert_int_equal(froe_event_writer_new("some.csv", NULL, &writer, &why), FROE_OK);
+    assert_int_equal(froe_event_writer_close(writer, FROE_E_CANCELLED, &why), FROE_E_CANCELLED);
+    assert_int_equal(lines_of("some.csv", line, sizeof line), 2556); /* what was there before */
+    assert_int_equal(froe_event_writer_new("some.txt", NULL, &writer, &why), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_event_writer_close(NULL, FROE_OK, &why), FROE_OK);
+    size_t few = 3;
+    assert_true(test_memory_each(write_some_events, &few) >= 1);
+}
+
 static void every_allocation_may_fail(void **state) {
     (void)state;
     froe_motion *m = NULL;
@@ -288,6 +330,7 @@ int main(void) {
         cmocka_unit_test(motions_that_the_format_cannot_say_are_refused),
         cmocka_unit_test(pictures_and_tables_refuse_what_they_cannot_show),
         cmocka_unit_test(real_cars_are_read_unrounded),
+        cmocka_unit_test(events_are_a_file_when_all_are_there),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
