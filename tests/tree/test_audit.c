@@ -491,6 +491,53 @@ static void balls_beside_oblique_planes_must_be_listed_where_they_reach(void **s
     }
 }
 
+/* A solid between -2 and 2, of which the tip of the wedge beyond (tip, 0) holds no corner, nor the centre; its legs are
+ * two segments, which give the cuts. */
+static froe_tree *solid_before_wedge(int dim, froe_cut_kind cut, froe_kind kind, double tip, bool listed) {
+    const double legs[2][12] = {{tip, 0, tip + 4, 1, tip + 4, -1, tip + 8, -2},
+                                {tip, 0, 0, tip + 4, 1, 0, tip + 4, -1, 0, tip + 8, -2, 0}};
+    const double boxes[2][6] = {{-2, -2, 2, 2}, {-2, -2, -2, 2, 2, 2}};
+    const double hulls[2][12] = {{2, -2, 2, 2, -2, 0}, {2, -2, -2, 2, 2, -2, 2, 1, 2, -2, 0, 0}};
+    const double centre[3] = {0}, radius = 2;
+    const double *x = kind == FROE_BALL ? centre : kind == FROE_BOX ? boxes[dim - 2] : hulls[dim - 2];
+    const size_t starts[2] = {0, (size_t)dim + 1};
+    const froe_cut cuts[2] = {{.kind = cut, .id = {0, 1}}, {.kind = cut, .id = {cut == FROE_CUT_OBJECT ? 1 : 2, 3}}};
+    const uint32_t splits[2] = {0, 1}; /* leaves: 3: below both legs; 4: the wedge; 2: above the first leg */
+    const entry all[5] = {{0, 0, 0, {0}}, {1, 1, 0, {0}}, {3, 2, 0, {0}}, {4, 2, 0, {0}}, {2, 2, 0, {0}}};
+    const entry without[4] = {all[0], all[1], all[2], all[4]};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_SEGMENT, 2, legs[dim - 2], NULL, NULL), FROE_OK);
+    assert_int_equal(
+        trees_add(scene, kind, 1, x, kind == FROE_BALL ? &radius : NULL, kind == FROE_HULL ? starts : NULL), FROE_OK);
+    froe_tree *tree = hand_made(scene, cuts, splits, 2, listed ? all : without, listed ? 5 : 4, &by_hand);
+    froe_scene_free(scene);
+    return tree;
+}
+
+/* The wedge begins within the solid, where it touches the solid, and beyond. */
+static void solids_beside_cuts_through_vertices_must_be_listed_where_they_reach(void **state) {
+    (void)state;
+    const struct {
+        int dim;
+        froe_cut_kind cut;
+    } cuts[] = {{2, FROE_CUT_OBJECT}, {2, FROE_CUT_VERTICES}, {3, FROE_CUT_EDGE}};
+    const froe_kind kinds[] = {FROE_BOX, FROE_BALL, FROE_HULL};
+    const double tips[] = {1.5, 2 - 0x1p-40, 2, 2.5};
+    for (size_t i = 0; i < sizeof cuts / sizeof *cuts * 12; i++) {
+        const size_t cut = i / 12, kind = i / 4 % 3, tip = i % 4;
+        froe_tree *with = solid_before_wedge(cuts[cut].dim, cuts[cut].cut, kinds[kind], tips[tip], true);
+        froe_tree *without = solid_before_wedge(cuts[cut].dim, cuts[cut].cut, kinds[kind], tips[tip], false);
+        assert_right(with); /* a superset is allowed: no single cut excludes the wedge */
+        if (tips[tip] < 2)
+            assert_wrong(without, "a piece is missing");
+        else
+            assert_right(without);
+        froe_tree_free(with);
+        froe_tree_free(without);
+    }
+}
+
 /* A solid divided by the diagonal y = x, given by a segment: it has a corner on either side, and x = 9 excludes it. */
 static void solids_beside_oblique_cuts_are_enclosed(void **state) {
     (void)state;
@@ -718,6 +765,7 @@ int main(void) {
         cmocka_unit_test(hulls_must_be_listed_in_cells_without_a_corner_of_theirs),
         cmocka_unit_test(balls_beside_oblique_planes_must_be_listed_where_they_reach),
         cmocka_unit_test(solids_beside_oblique_cuts_are_enclosed),
+        cmocka_unit_test(solids_beside_cuts_through_vertices_must_be_listed_where_they_reach),
         cmocka_unit_test(overfull_leaves_are_found),
         cmocka_unit_test(crowds_that_are_none_are_found),
         cmocka_unit_test(separable_boxes_are_found),

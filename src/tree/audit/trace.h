@@ -76,8 +76,8 @@ froe_status trace_object(trace *t, uint32_t object, trace_fn *fn, void *user);
 
 /** The plane of a node's cut; good until the next call. */
 const geom_plane *trace_plane(trace *t, uint32_t node);
-/** Does the object, a solid, meet the open cell of a leaf? *meets is not changed where that is not known: above dimension
- * 3, and where a cut that no doubles name divides the solid. FROE_E_MEMORY. */
+/** Does the object, a solid, certainly meet the open cell of a leaf? *meets is not changed above dimension 3, and where
+ * images of cuts are too rough. FROE_E_MEMORY. */
 froe_status trace_cell_meets(trace *t, uint32_t leaf, bool *meets);
 /** The same as trace_object for boxes, balls and hulls; called by it. */
 froe_status trace_solid_object(trace *t);

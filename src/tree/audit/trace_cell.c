@@ -1,9 +1,12 @@
 /* trace_cell.c: does a solid meet an open cell, in which none of its corners need lie?
  *
- *        /  cut             The cell is an intersection of halfspaces n . x < c, but for cuts that do not divide the
- *     .-/-----.             solid. Axis-parallel cuts and separating planes have n and c as doubles. So that closed
- *     |/ solid|             sets can be compared, every c is moved inwards to the next double: what a solid has in
- *     /-------'----- cut    that margin alone is not asked for. */
+ *        /  cut             The cell is an intersection of open halfspaces n . x < c, but for cuts that do not divide
+ *     .-/-----.             the solid. It is compared as a closed set of halfspaces n' . x <= c' of doubles, each of
+ *     |/ solid|             which lies within the true one as far as the solid's bounding box goes. Where n is given
+ *     /-------'----- cut    as doubles, n' = n and c' is the next double inwards; where a cut runs through vertices,
+ *                           n' is the image of n, and c' is moved by what n' may be wrong. So what is found is there;
+ *                           what a solid has in that margin alone is not asked for. */
+#include "geom/formulas.h"
 #include "geom/meet/meet.h"
 #include "geom/polytope.h"
 #include "scene/convex.h"
@@ -12,8 +15,8 @@
 
 typedef struct trace_cell {
     trace *t;
+    double lo[3], hi[3]; /* the solid's bounding box, within the cuts and walls across an axis */
     ARRAY(double) normals, offsets;
-    bool known; /* has every cut that matters a normal? */
 } trace_cell;
 
 /* The child below which a node lies, or which it is: numbers below the positive child begin with those of its children.
@@ -38,30 +41,52 @@ static bool divides(trace *t, const geom_plane *plane) {
     return reached == 3;
 }
 
-/* The halfspace on one side of a cut. False without memory. */
-static bool add_side(trace_cell *c, const froe_cut *cut, int side) {
-    const froe_allocator *alloc = &c->t->alloc;
-    const int dim = c->t->tree->scene->dim;
-    bool room = true;
-    for (int k = 0; k < dim; k++) {
-        const double n = cut->kind == FROE_CUT_AXIS ? k == cut->axis : cut->normal[k];
-        room = room && array_push(alloc, &c->normals, side < 0 ? n : -n);
+/* A double c' such that n' . x <= c' within the box holds only on that open side of the plane, for the image n' of its
+ * normal (turned outwards). Through points o it is n' . o less the sum of |n - n'| |x - o|. -infinity or no number where
+ * nothing is certain of the image. */
+static double inner_offset(const trace_cell *c, const geom_plane *plane, int side) {
+    num_ball at = {plane->c, plane->c_err};
+    for (int k = 0; k < plane->dim && geom_has_points(plane); k++) {
+        const double o = plane->p[0][k], reach = fmax(fabs(c->lo[k] - o), fabs(c->hi[k] - o)) * NUM_BALL_UP;
+        at = num_ball_add(at, num_ball_mul(num_ball_from(plane->n[k]), num_ball_from(o)));
+        at = num_ball_add(at, num_ball_mul((num_ball){0, plane->n_err}, (num_ball){0, reach}));
     }
-    const double offset = side < 0 ? cut->value : -cut->value;
-    return room && array_push(alloc, &c->offsets, nextafter(offset, -(double)INFINITY));
+    return nextafter(side < 0 ? at.x - at.e : -at.x - at.e, -(double)INFINITY);
+}
+
+/* Keeps what is on one side of a plane. False without memory. */
+static bool keep_side(trace_cell *c, const geom_plane *plane, int side) {
+    const froe_allocator *alloc = &c->t->alloc;
+    const double offset = inner_offset(c, plane, side);
+    const int axis = plane->axis;
+    bool room = true;
+    if (plane->form <= GEOM_AT_CROSSING) {
+        if (side < 0) c->hi[axis] = fmin(c->hi[axis], offset);
+        if (side > 0) c->lo[axis] = fmax(c->lo[axis], -offset);
+        return true;
+    }
+    for (int k = 0; k < plane->dim; k++)
+        room = room && array_push(alloc, &c->normals, side < 0 ? plane->n[k] : -plane->n[k]);
+    return room && array_push(alloc, &c->offsets, offset);
 }
 
 static bool gather_cell_planes(trace_cell *c, uint32_t leaf) {
     const froe_tree *t = c->t->tree;
     bool room = true;
-    for (uint32_t node = 0, next; c->known && room && node != leaf; node = next) {
+    for (uint32_t node = 0, next; room && node != leaf; node = next) {
+        const geom_plane *plane = trace_plane(c->t, node);
         next = step_towards(t, node, leaf);
-        const froe_cut cut = tree_cut_at(t, node);
-        if (!divides(c->t, trace_plane(c->t, node))) continue;
-        c->known = cut.kind == FROE_CUT_AXIS || cut.kind == FROE_CUT_PLANE;
-        if (c->known) room = add_side(c, &cut, next == t->nodes[node].child ? -1 : 1);
+        if (divides(c->t, plane)) room = keep_side(c, plane, next == t->nodes[node].child ? -1 : 1);
     }
     return room;
+}
+
+/* Is the box empty, or a halfspace of which nothing is certain? */
+static bool nothing_certain(const trace_cell *c) {
+    bool nothing = false;
+    for (int k = 0; k < c->t->tree->scene->dim; k++) nothing |= !(c->lo[k] <= c->hi[k]);
+    for (size_t i = 0; i < c->offsets.count; i++) nothing |= !isfinite(c->offsets.data[i]);
+    return nothing;
 }
 
 static froe_status compare(trace_cell *c, bool *meets) {
@@ -69,10 +94,8 @@ static froe_status compare(trace_cell *c, bool *meets) {
     const froe_scene *s = t->tree->scene;
     const geom_convex solid = scene_convex(s, t->object);
     geom_polytope cell = {.error = 0};
-    double lo[3], hi[3];
-    scene_object_bounds(s, t->object, lo, hi);
     const bool made = geom_polytope_make(&t->context, &t->alloc, s->dim, c->normals.data, c->offsets.data,
-                                         c->offsets.count, lo, hi, &cell) &&
+                                         c->offsets.count, c->lo, c->hi, &cell) &&
                       !num_arena_reserve(&t->alloc, &t->context.arena, geom_meet_arena);
     const geom_convex set = geom_polytope_convex(&cell, s->dim);
     if (made) *meets = set.count && geom_meet(&t->context, &solid, &set);
@@ -81,9 +104,11 @@ static froe_status compare(trace_cell *c, bool *meets) {
 }
 
 froe_status trace_cell_meets(trace *t, uint32_t leaf, bool *meets) {
-    trace_cell c = {.t = t, .known = t->tree->scene->dim <= 3};
+    trace_cell c = {.t = t};
+    if (t->tree->scene->dim > 3) return FROE_OK;
+    scene_object_bounds(t->tree->scene, t->object, c.lo, c.hi);
     froe_status status = gather_cell_planes(&c, leaf) ? FROE_OK : FROE_E_MEMORY;
-    if (!status && c.known) status = compare(&c, meets);
+    if (!status && !nothing_certain(&c)) status = compare(&c, meets);
     array_free(&t->alloc, &c.normals);
     array_free(&t->alloc, &c.offsets);
     return status;
