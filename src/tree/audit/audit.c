@@ -162,11 +162,12 @@ static froe_status sort_pieces(audit *a) {
 /* One object being compared with its stored pieces. */
 typedef struct comparison {
     const froe_tree *tree;
-    num_context *context;
+    trace *trace;
+    num_context *context;       /* of the trace */
     const uint32_t *next, *end; /* its pieces not met yet */
     uint32_t object;
     froe_diagnostic *diag;
-    bool failed;
+    bool failed, no_memory;
 } comparison;
 
 /* Notes the violation; false, to stop the trace. */
@@ -219,12 +220,20 @@ static const char *packed_wrong(const comparison *c, const trace_place *place, u
     return packed_refuted(c->context, c->tree, place->node, i, ring);
 }
 
+/* Of a place without a piece; false stops the trace. */
+static bool may_be_left_out(comparison *c, const trace_place *place) {
+    bool must = place->must;
+    c->no_memory = place->unsure && trace_cell_meets(c->trace, place->node, &must) != FROE_OK;
+    if (c->no_memory) return false;
+    return !must || differs(c, place->node, "a piece is missing");
+}
+
 /* In packed trees of space objects may be listed beside the cells they are in; space_refuted() sees to those. */
 static bool find_place(comparison *c, const trace_place *place) {
     tree_objects list = tree_list(c->tree, place->node);
     while (c->next < c->end && *c->next < list.first) c->next++;
     bool listed = c->next < c->end && *c->next - list.first < list.count;
-    return listed || !place->must || differs(c, place->node, "a piece is missing");
+    return listed || may_be_left_out(c, place);
 }
 
 /* All pieces of an object: each right in its leaf, no two in one. */
@@ -245,8 +254,7 @@ static bool compare_place(void *user, const trace_place *place) {
     tree_objects list = tree_list(c->tree, place->node);
     if (tree_is_space(c->tree)) return find_place(c, place);
     if (c->next < c->end && *c->next < list.first) return stray(c);
-    if (c->next == c->end || *c->next - list.first >= list.count)
-        return !place->must || differs(c, place->node, "a piece is missing");
+    if (c->next == c->end || *c->next - list.first >= list.count) return may_be_left_out(c, place);
     const char *why = tree_is_packed(c->tree) ? packed_wrong(c, place, *c->next - list.first)
                       : shape_right(c, c->tree->pieces + *c->next, place) ? NULL
                                                                           : "a piece of the wrong shape";
@@ -257,13 +265,14 @@ static bool compare_place(void *user, const trace_place *place) {
 }
 
 static froe_status check_object(audit *a, unsigned worker, uint32_t object, froe_diagnostic *diag) {
-    comparison c = {.tree = a->tree, .context = &a->traces[worker].context, .object = object, .diag = diag};
+    trace *t = a->traces + worker;
+    comparison c = {.tree = a->tree, .trace = t, .context = &t->context, .object = object, .diag = diag};
     c.next = a->pieces + a->starts[object];
     c.end = a->pieces + a->starts[object + 1];
     bool space = tree_is_space(a->tree);
     if (space && !space_pieces_right(&c)) return FROE_E_AUDIT;
-    froe_status status = trace_object(a->traces + worker, object, compare_place, &c);
-    if (status) return base_fail_memory(diag);
+    froe_status status = trace_object(t, object, compare_place, &c);
+    if (status || c.no_memory) return base_fail_memory(diag);
     if (!c.failed && !space && c.next < c.end) stray(&c);
     return c.failed ? FROE_E_AUDIT : FROE_OK;
 }

@@ -172,7 +172,7 @@ static froe_status divide_trace(trace *t, const geom_plane *plane, trace_part *p
 /* ----------------------------------------------------------------- tracing -- */
 
 static froe_status arrive_in_cell(trace *t, const trace_part *part) {
-    trace_place place = {part->node, true, NULL, part->count};
+    trace_place place = {.node = part->node, .must = true, .count = part->count};
     t->ring.count = 0;
     if (!array_reserve(&t->alloc, &t->ring, part->count)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < part->count; i++) t->ring.data[t->ring.count++] = t->corners.data[part->first + i].edge;

@@ -17,7 +17,8 @@
 /** A place for a piece: a leaf, or an inner node in whose cut it lies. */
 typedef struct trace_place {
     uint32_t node;
-    bool must;            /**< false: allowed only */
+    bool must;            /**< false: allowed only, unless ... */
+    bool unsure;          /**< ... trace_cell_meets() says that it must */
     const uint32_t *ring; /**< the fragment there, as in tree.h; NULL: kinds that are not cut */
     uint32_t count;
 } trace_place;

@@ -157,14 +157,12 @@ static unsigned cut(trace *t, const geom_plane *plane, const trace_solid *at, tr
     }
 }
 
-/* False without memory. */
-static bool arrive_solid(trace *t, const trace_solid *at, bool leaf) {
-    trace_place place = {at->node, at->exact || at->inside, NULL, 0};
+static void arrive_solid(trace *t, const trace_solid *at, bool leaf) {
+    trace_place place = {.node = at->node, .must = at->exact || at->inside};
     const bool ball = leaf && scene_form(t->tree->scene, t->object) == FROE_BALL && at->exact;
     if (ball && !at->inside) place.must = ball_meets(t, at);
-    if (leaf && !ball && !place.must && trace_cell_meets(t, at->node, &place.must)) return false;
+    place.unsure = leaf && !ball && !place.must;
     t->stopped = !t->fn(t->user, &place);
-    return true;
 }
 
 static bool follow_solid(trace *t, trace_solid at) {
@@ -174,11 +172,15 @@ static bool follow_solid(trace *t, trace_solid at) {
         trace_solid child[2];
         if (hull && !array_reserve(&t->alloc, &t->ring, 2 * (size_t)at.count)) return false;
         unsigned reached = cut(t, plane, &at, child);
-        if (!reached) return arrive_solid(t, &at, false);
+        if (!reached) {
+            arrive_solid(t, &at, false);
+            return true;
+        }
         if (reached == 3 && !array_push(&t->alloc, &t->solids, child[1])) return false;
         at = child[reached == 2];
     }
-    return arrive_solid(t, &at, true);
+    arrive_solid(t, &at, true);
+    return true;
 }
 
 static bool begin_solids(trace *t) {
