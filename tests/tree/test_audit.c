@@ -742,6 +742,9 @@ static void any_allocation_may_fail(void **state) {
         assert_true(test_memory_each(auditing, t) > 10);
         froe_tree_free(t);
     }
+    froe_tree *beside = solid_before_wedge(3, FROE_CUT_EDGE, FROE_HULL, 2, false); /* its cell is asked about */
+    assert_true(test_memory_each(auditing, beside) > 10);
+    froe_tree_free(beside);
 }
 
 int main(void) {

@@ -58,13 +58,12 @@ static double inner_offset(const trace_cell *c, const geom_plane *plane, int sid
 static bool keep_side(trace_cell *c, const geom_plane *plane, int side) {
     const froe_allocator *alloc = &c->t->alloc;
     const double offset = inner_offset(c, plane, side);
-    const int axis = plane->axis;
-    bool room = true;
     if (plane->form <= GEOM_AT_CROSSING) {
-        if (side < 0) c->hi[axis] = fmin(c->hi[axis], offset);
-        if (side > 0) c->lo[axis] = fmax(c->lo[axis], -offset);
+        if (side < 0) c->hi[plane->axis] = fmin(c->hi[plane->axis], offset);
+        if (side > 0) c->lo[plane->axis] = fmax(c->lo[plane->axis], -offset);
         return true;
     }
+    bool room = true;
     for (int k = 0; k < plane->dim; k++)
         room = room && array_push(alloc, &c->normals, side < 0 ? plane->n[k] : -plane->n[k]);
     return room && array_push(alloc, &c->offsets, offset);
