@@ -466,22 +466,24 @@ static void hulls_must_be_listed_in_cells_without_a_corner_of_theirs(void **stat
     }
 }
 
-/* A disc around (0, 0) in the cell where x > 1 and x + y > 2, which begins at (1, 1). */
+/* A disc around (0, 0) in the cell where x > 1 and x + y > 2, which begins at (1, 1). A point gives x > 1 as a wall. */
 static void balls_beside_oblique_planes_must_be_listed_where_they_reach(void **state) {
     (void)state;
-    const double centre[2] = {0, 0}, diagonal[2] = {1, 1}, radii[] = {1.25, 1.4375, 3};
-    const froe_cut cuts[2] = {{.kind = FROE_CUT_AXIS, .axis = 0, .value = 1},
-                              {.kind = FROE_CUT_PLANE, .normal = diagonal, .value = 2}};
+    const double centre[2] = {0, 0}, point[2] = {1, -9}, diagonal[2] = {1, 1}, radii[] = {1.25, 1.4375, 3};
+    const froe_cut upright[2] = {{.kind = FROE_CUT_AXIS, .axis = 0, .value = 1}, {.kind = FROE_CUT_VERTEX, .id = {0}}};
     const uint32_t splits[2] = {0, 2};
-    const entry entries[3] = {{1, 0, 0, {0}}, {3, 0, 0, {0}}, {4, 0, 0, {0}}};
-    for (size_t i = 0; i < 3; i++) {
+    const entry entries[4] = {{0, 0, 0, {0}}, {1, 1, 0, {0}}, {3, 1, 0, {0}}, {4, 1, 0, {0}}};
+    for (size_t i = 0; i < 6; i++) {
+        const froe_cut cuts[2] = {upright[i / 3], {.kind = FROE_CUT_PLANE, .normal = diagonal, .value = 2}};
+        const bool must = i % 3;
         froe_scene *scene;
         assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
-        assert_int_equal(trees_add(scene, FROE_BALL, 1, centre, radii + i, NULL), FROE_OK);
-        froe_tree *with = hand_made(scene, cuts, splits, 2, entries, i ? 3 : 2, &by_hand);
-        froe_tree *without = hand_made(scene, cuts, splits, 2, entries, 2, &by_hand);
+        assert_int_equal(trees_add(scene, FROE_POINT, 1, point, NULL, NULL), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_BALL, 1, centre, radii + i % 3, NULL), FROE_OK);
+        froe_tree *with = hand_made(scene, cuts, splits, 2, entries, must ? 4 : 3, &by_hand);
+        froe_tree *without = hand_made(scene, cuts, splits, 2, entries, 3, &by_hand);
         assert_right(with);
-        if (i)
+        if (must)
             assert_wrong(without, "a piece is missing");
         else
             assert_right(without);
