@@ -12,7 +12,7 @@ static bool same_node(const froe_kinetic *k, uint32_t a, const froe_kinetic *l, 
     return true;
 }
 
-/* Does a certificate claim what the same one from scratch does? More than from scratch are allowed: they are implied. */
+/* Does a certificate state what the same one from scratch does? There may be more: they are implied. */
 static bool same_cert(const froe_kinetic *k, uint32_t a, const froe_kinetic *fresh, uint32_t b) {
     if (a == CERT_NONE || b == CERT_NONE) return b == CERT_NONE;
     const now_claim c = live_claim_of(k, a), d = live_claim_of(fresh, b);
