@@ -24,12 +24,12 @@ static bool write_event(void *user, const froe_event *happened) {
 }
 
 /* What a call of the partition ended with; 0 for a writer that has failed, which tells so itself. */
-static int finish(walk *w, froe_status status, const froe_diagnostic *diag) {
+static int finish_following(walk *w, froe_status status, const froe_diagnostic *diag) {
     cli_progress_end(&w->bar);
     return !status || w->stuck ? 0 : cli_fail_status(CLI_WORKING, w->file, status, diag);
 }
 
-static int begin(walk *w, const cli_common *common, froe_motion *motion) {
+static int begin_following(walk *w, const cli_common *common, froe_motion *motion) {
     froe_diagnostic diag;
     froe_kinetic_options o = froe_kinetic_defaults();
     o.seed = common->seed;
@@ -37,13 +37,13 @@ static int begin(walk *w, const cli_common *common, froe_motion *motion) {
     o.progress = cli_progress_step;
     o.user = &w->bar;
     w->bar.what = "building";
-    return finish(w, froe_kinetic_new(motion, &o, NULL, &w->kinetic, &diag), &diag);
+    return finish_following(w, froe_kinetic_new(motion, &o, NULL, &w->kinetic, &diag), &diag);
 }
 
 static int advance(walk *w, double time) {
     froe_diagnostic diag;
     w->bar.what = "following";
-    return finish(w, froe_kinetic_advance(w->kinetic, time, write_event, w, &diag), &diag);
+    return finish_following(w, froe_kinetic_advance(w->kinetic, time, write_event, w, &diag), &diag);
 }
 
 static int snapshot(walk *w, json_t *report) {
@@ -52,7 +52,7 @@ static int snapshot(walk *w, json_t *report) {
     froe_snapshot_options o = froe_snapshot_defaults();
     o.refuse = w->asked->unrounded, o.places = w->asked->places != NULL;
     w->bar.what = "rounding";
-    const int code = finish(w, froe_kinetic_snapshot(w->kinetic, &o, &s, &diag), &diag);
+    const int code = finish_following(w, froe_kinetic_snapshot(w->kinetic, &o, &s, &diag), &diag);
     if (code) return code;
     const char *path = w->asked->tree;
     froe_status status = froe_tree_save(s.tree, path, &diag);
@@ -81,7 +81,7 @@ static void count_events(const walk *w, json_t *report) {
 }
 
 static int go_through(walk *w, const cli_common *common, froe_motion *motion, json_t *report) {
-    int code = begin(w, common, motion);
+    int code = begin_following(w, common, motion);
     if (!code && w->asked->tree) code = advance(w, w->asked->at);
     if (!code && w->asked->tree && !w->stuck) code = snapshot(w, report);
     if (!code && w->writer && !w->stuck) code = advance(w, froe_motion_window(motion).end);

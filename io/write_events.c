@@ -31,7 +31,7 @@ static void put_event(io_writer *w, const froe_event *e) {
 }
 
 /* The locale is the caller's between the calls. */
-static void flush(froe_event_writer *w) {
+static void flush_events(froe_event_writer *w) {
     for (size_t i = 0; i < w->count; i++) put_event(&w->writer, w->events + i);
     w->count = 0;
 }
@@ -65,7 +65,7 @@ bool froe_event_writer_put(froe_event_writer *w, const froe_event *event) {
             w->status = FROE_E_MEMORY;
             return false;
         }
-        flush(w);
+        flush_events(w);
         io_locale_leave(&w->writer.locale);
     }
     w->events[w->count++] = *event;
@@ -79,7 +79,7 @@ froe_status froe_event_writer_close(froe_event_writer *w, froe_status status, fr
     const bool entered = io_locale_enter(&w->writer.locale);
     w->writer.out.diag = diag;
     if (!status && (w->status || !entered)) status = io_fail_memory(diag);
-    if (!status) flush(w);
+    if (!status) flush_events(w);
     if (entered) io_locale_leave(&w->writer.locale);
     status = support_writer_close(&w->writer.out, status);
     support_callback(alloc.fn(alloc.user, w, sizeof *w, 0));

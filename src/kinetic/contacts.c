@@ -274,7 +274,7 @@ froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_o
                                  void *user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const froe_contact_options standard = froe_contact_defaults();
-    if (!motion || !fn) return base_fail(diag, FROE_E_ARG, "no motion, or nobody to tell the contacts to");
+    if (!motion || !fn) return base_fail(diag, FROE_E_ARG, "no motion, or the function that receives contacts is NULL");
     search s = {.m = motion, .o = options ? options : &standard};
     froe_status status = check_contact_search(&s, diag);
     if (status) return status;
