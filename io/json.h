@@ -47,10 +47,12 @@ static inline const io_json *io_json_next(const io_json *value) {
     return value + value->span;
 }
 /** For each value of an array: nothing where it is none. */
+/* NOLINTBEGIN(bugprone-macro-parentheses): a name that is declared takes no parentheses */
 #define IO_JSON_EACH(item, array)                                                                                      \
     for (const io_json *item = io_json_size(array) ? (array) + 1 : NULL,                                               \
                        *item##_end = item ? io_json_next(array) : NULL;                                                \
          item != item##_end; item = io_json_next(item))
+/* NOLINTEND(bugprone-macro-parentheses) */
 /** The last member of an object that has this name; NULL: there is none, or it is no object. */
 const io_json *io_json_get(const io_json *object, const char *name);
 #endif

@@ -9,13 +9,14 @@
 /* What there is in R^d: polygons in space only, no segments and hulls beyond. */
 #define BUILD_KINDS_FLAT (BUILD_KINDS_ALL & ~(1u << FROE_POLYGON))
 #define BUILD_KINDS_HIGH (BUILD_KINDS_FLAT & ~(1u << FROE_SEGMENT | 1u << FROE_HULL))
-#define BUILD_IN(d, dims, kinds)                                                                                       \
-    [d] = (dims) >> (d)&1 ? (kinds) & ((d) == 2 ? BUILD_KINDS_FLAT : (d) == 3 ? BUILD_KINDS_ALL : BUILD_KINDS_HIGH) : 0
+#define BUILD_KINDS_OF(d) ((d) == 2 ? BUILD_KINDS_FLAT : (d) == 3 ? BUILD_KINDS_ALL : BUILD_KINDS_HIGH)
+#define BUILD_IN(d, dims, kinds) (((dims) >> (d)) & 1 ? (kinds)&BUILD_KINDS_OF(d) : 0)
 /** info.kinds of a method that serves the same kinds in all of its dimensions. */
 #define BUILD_SERVES(dims, kinds)                                                                                      \
     {                                                                                                                  \
-        BUILD_IN(2, dims, kinds), BUILD_IN(3, dims, kinds), BUILD_IN(4, dims, kinds), BUILD_IN(5, dims, kinds),        \
-            BUILD_IN(6, dims, kinds), BUILD_IN(7, dims, kinds), BUILD_IN(8, dims, kinds)                               \
+        [2] = BUILD_IN(2, dims, kinds), [3] = BUILD_IN(3, dims, kinds), [4] = BUILD_IN(4, dims, kinds),                \
+        [5] = BUILD_IN(5, dims, kinds), [6] = BUILD_IN(6, dims, kinds), [7] = BUILD_IN(7, dims, kinds),                \
+        [8] = BUILD_IN(8, dims, kinds)                                                                                 \
     }
 
 /** One build in progress. */
