@@ -21,7 +21,7 @@ static void check(const froe_tree *tree, const char *what, uint64_t seed, uint32
 /* By a plane through a vertex, mostly. */
 static void check_section(fuzz_source *r, const froe_tree *tree, const froe_build_options *o, uint64_t seed) {
     const int dim = froe_scene_dim(tree->scene);
-    double plane[4] = {0};
+    double plane[FROE_MAX_DIM + 1] = {0};
     const double *x = extreme_vertex(r, tree->scene);
     for (int k = 0; k < dim; k++) {
         plane[k] = extreme_number(r, tree->scene);

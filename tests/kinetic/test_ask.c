@@ -83,7 +83,7 @@ static void test_against_all(void **state) {
                     froe_kinetic_advance(b.kinetic, fmax(time, froe_kinetic_time(b.kinetic)), NULL, NULL, NULL),
                     FROE_OK);
                 ask(&b, &r, kind.grid);
-                if (!kind.tick) check_snapshot(b.kinetic);
+                if (kind.tick == 0) check_snapshot(b.kinetic);
             }
             assert_int_equal(froe_kinetic_audit(b.kinetic, NULL), FROE_OK);
             sum.rays += b.counts.rays, sum.hits += b.counts.hits, sum.pairs += b.counts.pairs;

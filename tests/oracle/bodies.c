@@ -90,7 +90,7 @@ int exact_shift(int shift, const double *x, size_t count) {
     for (size_t i = 0; i < count; i++) {
         int exponent;
         double mantissa = frexp(x[i], &exponent);
-        if (x[i] == 0) continue;
+        if (x[i] == 0 || !isfinite(x[i])) continue;
         const int bits = 53 - __builtin_ctzll((uint64_t)fabs(ldexp(mantissa, 53)));
         if (bits - exponent > shift) shift = bits - exponent;
     }
