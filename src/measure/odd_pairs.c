@@ -238,8 +238,8 @@ static froe_status search_sheets(search *s) {
 static void free_sheets(search *s) {
     size_t numbers = s->sheets.count * (size_t)s->of->scene->dim;
     for (size_t i = 0; i < s->sheets.count; i++)
-        if (s->sheets.data[i].boxes.count) measure_hierarchy_free(&s->sheets.data[i].boxes);
-    if (s->bounds.count) measure_hierarchy_free(&s->bounds);
+        if (s->sheets.data[i].boxes.ids) measure_hierarchy_free(&s->sheets.data[i].boxes);
+    if (s->bounds.ids) measure_hierarchy_free(&s->bounds);
     base_free(s->alloc, s->sheet_lo, (numbers ? numbers : 1) * sizeof *s->sheet_lo);
     base_free(s->alloc, s->sheet_hi, (numbers ? numbers : 1) * sizeof *s->sheet_hi);
     array_free(s->alloc, &s->sheets);
