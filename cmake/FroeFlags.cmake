@@ -29,7 +29,7 @@ if(FROE_SANITIZE)
   add_link_options(-fsanitize=${FROE_SANITIZE})
 endif()
 if(FROE_COVERAGE)
-  add_compile_options(--coverage -fprofile-update=atomic) # threads that count without it lose counts, down to -1
+  add_compile_options(--coverage)
   add_link_options(--coverage)
 endif()
 if(FROE_FUZZ)
