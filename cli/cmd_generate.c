@@ -31,10 +31,10 @@ static void append_kind(json_t *kinds, const char *name, int dim, const char *ki
 }
 
 static int list_kinds(const generate_args *args) {
-    json_t *kinds = json_array();
     const bool all = args->kind != NULL;
     if (all && strcmp(args->kind, "all") != 0)
         return cli_fail(CLI_USE, NULL, "--list takes no KIND but 'all', not '%s'", args->kind);
+    json_t *kinds = json_array();
     const froe_generator_info *g;
     for (size_t i = 0; (g = froe_generator_at(i)) != NULL; i++)
         if (all || g->usual) append_kind(kinds, g->name, g->dim, froe_kind_name(g->kind), g->summary);
