@@ -2,7 +2,7 @@
 #include "command.h"
 #include "exit.h"
 #include "help.h"
-#include "report.h"
+#include "report/report.h"
 #include <stdlib.h>
 #include <string.h>
 

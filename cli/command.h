@@ -4,7 +4,7 @@
  * the parser overwrites. `run` gets the result and returns an exit code. */
 #ifndef FROE_CLI_COMMAND_H
 #define FROE_CLI_COMMAND_H
-#include "options.h"
+#include "args/options.h"
 #include <jansson.h>
 
 typedef struct cli_command {

@@ -1,7 +1,7 @@
 /* help.c: writes the tables of options, wrapped for a terminal or as roff. */
 #include "help.h"
 #include "exit.h"
-#include "report.h"
+#include "report/report.h"
 #include <ctype.h>
 #include <froe/froe.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 #include "exit.h"
 #include "help.h"
 #include "progress.h"
-#include "report.h"
+#include "report/report.h"
 #include "version.h"
 #include <string.h>
 

@@ -6,7 +6,7 @@
  *     cli_progress_end(&bar); */
 #ifndef FROE_CLI_PROGRESS_H
 #define FROE_CLI_PROGRESS_H
-#include "options.h"
+#include "args/options.h"
 
 typedef struct cli_progress {
     const char *what;

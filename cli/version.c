@@ -1,6 +1,6 @@
 /* version.c: the version, commit and features of this program, set by the build. */
 #include "version.h"
-#include "report.h"
+#include "report/report.h"
 #include <froe/froe.h>
 
 #ifndef FROE_COMMIT

@@ -2,7 +2,7 @@
 #include "compare/page.h"
 #include "compare/figures.h"
 #include "compare/table.h"
-#include "html.h"
+#include "report/html.h"
 #include <string.h>
 
 static const char *const measure_keys[] = {

@@ -1,6 +1,6 @@
 /* picture.c: PNG as base64 (RFC 4648), made by the draw library. */
 #include "compare/picture.h"
-#include "budget.h"
+#include "args/budget.h"
 #include <froe/draw.h>
 #include <stdlib.h>
 #include <string.h>

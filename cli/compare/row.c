@@ -3,7 +3,7 @@
 #include "compare/part.h"
 #include "compare/picture.h"
 #include "progress.h"
-#include "tree_report.h"
+#include "report/tree_report.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,9 +1,9 @@
 /* row.h: one method on one scene: its tree, the cost of queries, its growth; or the reason why there is none. */
 #ifndef FROE_CLI_COMPARE_ROW_H
 #define FROE_CLI_COMPARE_ROW_H
+#include "args/options.h"
 #include "compare/meter.h"
 #include "compare/workload.h"
-#include "options.h"
 
 /** What all rows share. */
 typedef struct compare_plan {

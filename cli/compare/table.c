@@ -1,7 +1,7 @@
 /* table.c: the comparison as a table. */
 #include "compare/table.h"
 #include "compare/field.h"
-#include "report.h"
+#include "report/report.h"
 #include <math.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #include "compare/workload.h"
 #include "compare/part.h"
 #include "progress.h"
-#include "report.h"
+#include "report/report.h"
 #include <math.h>
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
  * but the pictures beside it: no scripts, no fonts, no network. */
 #include "demo/page.h"
 #include "files.h"
-#include "html.h"
+#include "report/html.h"
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,0 +1,24 @@
+/* method.c: names of builders on command lines. */
+#include "args/method.h"
+#include "args/options.h"
+#include "exit.h"
+#include <stdio.h>
+#include <string.h>
+
+int cli_check_method(const char *name, bool may_be_auto) {
+    enum { MOST = 64 };
+    const char *names[MOST];
+    size_t count = 0;
+    char list[400] = "";
+    const froe_method_info *info;
+    if (may_be_auto) names[count++] = "auto";
+    for (size_t i = 0; (info = froe_method_at(i)) != NULL && count < MOST; i++) names[count++] = info->name;
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(names[i], name) == 0) return 0;
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
+    }
+    const char *hint = cli_nearest(name, names, count);
+    if (!hint) return cli_fail(CLI_USE, NULL, "unknown method '%s'; there are %s", name, list);
+    return cli_fail(CLI_USE, NULL, "unknown method '%s', did you mean '%s'? There are %s", name, hint, list);
+}

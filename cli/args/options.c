@@ -1,0 +1,325 @@
+/* options.c: the parser of command lines. Numbers are read whole or refused;
+ * for an unknown name the message names the nearest known one. */
+#include "args/options.h"
+#include "exit.h"
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const cli_option cli_common_options[] = {
+    {"json", 0, CLI_FLAG, offsetof(cli_common, json), .help = "print one JSON object instead of text"},
+    {"quiet", 'q', CLI_FLAG, offsetof(cli_common, quiet), .help = "no progress bar and no text; errors still speak"},
+    {"seed", 0, CLI_WHOLE, offsetof(cli_common, seed), "S", .help = "seed of all random choices (default 1)"},
+    {"threads", 0, CLI_WHOLE, offsetof(cli_common, threads), "T",
+     .help = "threads to use; no answer depends on it (default 0: one per processor)", .max = 1024},
+    {"help", 'h', CLI_FLAG, offsetof(cli_common, help), .help = "print this text"},
+    {0},
+};
+
+/* ------------------------------------------------------------------ hints -- */
+
+enum { NAME_MAX_LENGTH = 31 };
+
+static size_t least(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
+/* Letters to insert, drop, change or swap with a neighbour (optimal string alignment: Damerau's
+ * distance in the table of Wagner and Fischer); long words are far from everything. */
+static size_t distance(const char *a, const char *b) {
+    const size_t rows = strlen(a), columns = strlen(b);
+    if (rows > NAME_MAX_LENGTH || columns > NAME_MAX_LENGTH) return SIZE_MAX;
+    size_t table[NAME_MAX_LENGTH + 1][NAME_MAX_LENGTH + 1];
+    for (size_t i = 0; i <= rows; i++) table[i][0] = i;
+    for (size_t j = 0; j <= columns; j++) table[0][j] = j;
+    for (size_t i = 1; i <= rows; i++)
+        for (size_t j = 1; j <= columns; j++) {
+            const size_t change = table[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            table[i][j] = least(change, least(table[i - 1][j], table[i][j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                table[i][j] = least(table[i][j], table[i - 2][j - 2] + 1);
+        }
+    return table[rows][columns];
+}
+
+const char *cli_nearest(const char *word, const char *const *names, size_t count) {
+    const char *best = NULL;
+    size_t limit = strlen(word) < 4 ? 2 : 3; /* exclusive */
+    for (size_t i = 0; i < count; i++) {
+        const size_t d = distance(word, names[i]);
+        if (d < limit) limit = d, best = names[i];
+    }
+    return best;
+}
+
+/* ---------------------------------------------------------------- look-up -- */
+
+/* An option together with the struct it fills. */
+typedef struct place {
+    const cli_option *option;
+    char *base;
+} place;
+
+static bool is_named(const cli_option *option, const char *name, size_t length) {
+    return option->name && strlen(option->name) == length && memcmp(option->name, name, length) == 0;
+}
+
+static place find_name(const cli_part *parts, void *args, const char *name, size_t length) {
+    for (const cli_part *part = parts; part->title; part++)
+        for (const cli_option *option = part->options; option->type; option++)
+            if (is_named(option, name, length)) return (place){option, (char *)args + part->at};
+    return (place){0};
+}
+
+static place find_letter(const cli_part *parts, void *args, char letter) {
+    for (const cli_part *part = parts; part->title; part++)
+        for (const cli_option *option = part->options; option->type; option++)
+            if (option->letter && option->letter == letter) return (place){option, (char *)args + part->at};
+    return (place){0};
+}
+
+static place find_operand(const cli_part *parts, void *args, int position) {
+    for (const cli_part *part = parts; part->title; part++)
+        for (const cli_option *option = part->options; option->type; option++)
+            if (!option->name && (option->type == CLI_TEXTS || position-- == 0))
+                return (place){option, (char *)args + part->at};
+    return (place){0};
+}
+
+static int refuse_unknown(const cli_part *parts, const char *word) {
+    enum { MOST = 64 };
+    const char *names[MOST];
+    size_t count = 0;
+    for (const cli_part *part = parts; part->title; part++)
+        for (const cli_option *option = part->options; option->type && count < MOST; option++)
+            if (option->name) names[count++] = option->name;
+    char name[NAME_MAX_LENGTH + 1] = "";
+    const char *bare = word + strspn(word, "-");
+    memcpy(name, bare, strcspn(bare, "=") < NAME_MAX_LENGTH ? strcspn(bare, "=") : NAME_MAX_LENGTH);
+    const char *hint = cli_nearest(name, names, count);
+    if (hint) return cli_fail(CLI_USE, NULL, "unknown option '%s'; did you mean --%s?", word, hint);
+    return cli_fail(CLI_USE, NULL, "unknown option '%s'; --help lists what there is", word);
+}
+
+/* ----------------------------------------------------------------- values -- */
+
+static int refuse_value(const cli_option *option, const char *text, const char *wanted) {
+    return cli_fail(CLI_USE, NULL, "%s%s: '%s' is not %s", option->name ? "--" : "",
+                    option->name ? option->name : option->value, text, wanted);
+}
+
+static int set_whole(const cli_option *option, uint64_t *field, const char *text) {
+    const uint64_t max = option->max ? option->max : UINT64_MAX;
+    char *end = NULL;
+    errno = 0;
+    const uint64_t value = strtoumax(text, &end, 10);
+    const bool digits = *text && strspn(text, "0123456789") == strlen(text);
+    if (digits && !errno && !*end && value >= option->min && value <= max) {
+        *field = value;
+        return 0;
+    }
+    char wanted[80];
+    snprintf(wanted, sizeof wanted, "a whole number from %" PRIu64 " to %" PRIu64, option->min, max);
+    return refuse_value(option, text, wanted);
+}
+
+/* Reads a finite number without leading blanks; returns where it ends, or NULL. */
+static const char *read_real(const char *text, double *value) {
+    char *end = NULL;
+    if (!strchr("+-.0123456789", *text)) return NULL;
+    *value = strtod(text, &end);
+    return end != text && isfinite(*value) ? end : NULL;
+}
+
+static int set_real(const cli_option *option, double *field, const char *text) {
+    double value;
+    const char *end = read_real(text, &value);
+    if (!end || *end) return refuse_value(option, text, "a finite number");
+    *field = value;
+    return 0;
+}
+
+static int set_reals(const cli_option *option, cli_reals *field, const char *text) {
+    cli_reals list = {0};
+    const char *at = text;
+    while (list.count < sizeof list.at / sizeof *list.at && (at = read_real(at, &list.at[list.count])) != NULL) {
+        list.count++;
+        if (!*at) {
+            *field = list;
+            return 0;
+        }
+        if (*at++ != ',') break;
+    }
+    return refuse_value(option, text, "a list of numbers parted by commas");
+}
+
+static int set_choice(const cli_option *option, int *field, const char *text) {
+    char wanted[160] = "one of";
+    for (int i = 0; option->choices[i]; i++) {
+        if (strcmp(text, option->choices[i]) == 0) {
+            *field = i;
+            return 0;
+        }
+        const size_t used = strlen(wanted);
+        snprintf(wanted + used, sizeof wanted - used, "%s %s", i ? "," : "", option->choices[i]);
+    }
+    return refuse_value(option, text, wanted);
+}
+
+static int add_word(char **field, const char *text) {
+    const size_t before = *field ? strlen(*field) + 1 : 0, length = strlen(text);
+    char *joined = realloc(*field, before + length + 1);
+    if (!joined) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (before) joined[before - 1] = ' ';
+    memcpy(joined + before, text, length + 1);
+    *field = joined;
+    return 0;
+}
+
+/* Where a file is to be named, nothing is no name; other texts may be empty. */
+static bool names_a_file(const cli_option *option) {
+    static const char *const files[] = {"TREE", "FILE", "CSV", "DIR", "SCENE"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (!strcmp(option->value, files[i])) return true;
+    return false;
+}
+
+static int set_text(const cli_option *option, const char **field, const char *text) {
+    if (!*text && names_a_file(option)) return refuse_value(option, text, "the name of a file");
+    *field = text;
+    return 0;
+}
+
+static int add_text(const cli_option *option, cli_texts *field, const char *text) {
+    const size_t most = sizeof field->at / sizeof *field->at;
+    if (field->count == most) return cli_fail(CLI_USE, NULL, "more than %zu times %s", most, option->value);
+    const int code = set_text(option, &field->at[field->count], text);
+    field->count += !code;
+    return code;
+}
+
+static int set_value(place found, const char *text) {
+    void *field = found.base + found.option->at;
+    switch (found.option->type) {
+    case CLI_TEXT:
+        return set_text(found.option, field, text);
+    case CLI_WORDS:
+        return add_word(field, text);
+    case CLI_WHOLE:
+        return set_whole(found.option, field, text);
+    case CLI_REAL:
+        return set_real(found.option, field, text);
+    case CLI_CHOICE:
+        return set_choice(found.option, field, text);
+    case CLI_REALS:
+        return set_reals(found.option, field, text);
+    case CLI_TEXTS:
+        return add_text(found.option, field, text);
+    case CLI_FLAG:
+    case CLI_END:
+        break;
+    }
+    *(bool *)field = true;
+    return 0;
+}
+
+/* ------------------------------------------------------------------ words -- */
+
+/* The words not read yet. */
+typedef struct reader {
+    const cli_part *parts;
+    void *args;
+    int argc, next, operands;
+    char **argv;
+} reader;
+
+/* Sets `option`, whose value is `attached` or else the next word. */
+static int take_value(reader *r, place found, const char *attached) {
+    const cli_option *option = found.option;
+    if (option->type == CLI_FLAG) {
+        if (attached) return cli_fail(CLI_USE, NULL, "--%s takes no value", option->name);
+        return set_value(found, NULL);
+    }
+    if (!attached && r->next == r->argc)
+        return cli_fail(CLI_USE, NULL, "--%s needs a value: %s", option->name, option->value);
+    return set_value(found, attached ? attached : r->argv[r->next++]);
+}
+
+static int take_long(reader *r, const char *word) {
+    const size_t length = strcspn(word + 2, "=");
+    const place found = find_name(r->parts, r->args, word + 2, length);
+    if (!found.option) return refuse_unknown(r->parts, word);
+    return take_value(r, found, word[2 + length] ? word + 2 + length + 1 : NULL);
+}
+
+static int take_short(reader *r, const char *word) {
+    const place found = find_letter(r->parts, r->args, word[1]);
+    if (!found.option) return refuse_unknown(r->parts, word);
+    return take_value(r, found, word[2] ? word + 2 : NULL);
+}
+
+static int take_operand(reader *r, const char *word) {
+    const place found = find_operand(r->parts, r->args, r->operands++);
+    if (!found.option) return cli_fail(CLI_USE, NULL, "'%s' is one operand too many", word);
+    return set_value(found, word);
+}
+
+static bool is_set(const cli_option *option, const char *base) {
+    const void *field = base + option->at;
+    switch (option->type) {
+    case CLI_TEXT:
+        return *(const char *const *)field != NULL;
+    case CLI_WORDS:
+        return *(char *const *)field != NULL;
+    case CLI_WHOLE:
+        return *(const uint64_t *)field != 0;
+    case CLI_TEXTS:
+        return ((const cli_texts *)field)->count != 0;
+    default:
+        return true;
+    }
+}
+
+static int check_required(const cli_part *parts, void *args) {
+    for (const cli_part *part = parts; part->title; part++)
+        for (const cli_option *option = part->options; option->type; option++) {
+            if (!option->required || is_set(option, (char *)args + part->at)) continue;
+            if (!option->name) return cli_fail(CLI_USE, NULL, "%s is missing; try --help", option->value);
+            if (!option->letter)
+                return cli_fail(CLI_USE, NULL, "--%s %s is missing; try --help", option->name, option->value);
+            return cli_fail(CLI_USE, NULL, "-%c %s is missing; try --help", option->letter, option->value);
+        }
+    return 0;
+}
+
+int cli_parse(const cli_part *parts, int argc, char **argv, void *args) {
+    reader r = {.parts = parts, .args = args, .argc = argc, .argv = argv};
+    bool only_operands = false;
+    while (r.next < argc) {
+        const char *word = argv[r.next++];
+        int code;
+        if (only_operands || word[0] != '-' || !word[1])
+            code = take_operand(&r, word);
+        else if (strcmp(word, "--") == 0)
+            code = 0, only_operands = true;
+        else if (word[1] == '-')
+            code = take_long(&r, word);
+        else
+            code = take_short(&r, word);
+        if (code) return code;
+    }
+    return ((cli_common *)args)->help ? 0 : check_required(parts, args);
+}
+
+void cli_release(const cli_part *parts, void *args) {
+    for (const cli_part *part = parts; part->title; part++)
+        for (const cli_option *option = part->options; option->type; option++)
+            if (option->type == CLI_WORDS) {
+                char **field = (char **)((char *)args + part->at + option->at);
+                free(*field);
+                *field = NULL;
+            }
+}

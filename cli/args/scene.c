@@ -1,0 +1,35 @@
+/* scene.c: options and errors of reading a scene. */
+#include "args/scene.h"
+#include "exit.h"
+#include "progress.h"
+
+static const char *const faces[] = {[FROE_FACES_TRIANGLES] = "triangles", [FROE_FACES_POLYGONS] = "polygons", NULL};
+
+const cli_option cli_scene_options[] = {
+    {NULL, 0, CLI_TEXT, offsetof(cli_scene_args, path), "SCENE", .help = "map, model or CSV file", .required = true},
+    {"layer", 0, CLI_TEXT, offsetof(cli_scene_args, layer), "NAME",
+     .help = "maps: read this layer only (default: all)"},
+    {"where", 0, CLI_TEXT, offsetof(cli_scene_args, where), "FILTER",
+     .help = "maps: read features that pass this filter, as in SQL, e.g. \"height > 3\""},
+    {"faces", 0, CLI_CHOICE, offsetof(cli_scene_args, faces), "KIND",
+     .help = "models: triangles (default), or polygons: exactly planar, convex faces stay whole", .choices = faces},
+    {"boxes", 0, CLI_FLAG, offsetof(cli_scene_args, boxes),
+     .help = "take the bounding box of every feature instead of its shape"},
+    {0},
+};
+
+int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
+    cli_progress bar = cli_progress_begin(common, "reading");
+    froe_read_options options = froe_read_defaults();
+    options.layer = args->layer;
+    options.where = args->where;
+    options.faces = (froe_faces)args->faces;
+    options.boxes = args->boxes;
+    options.alloc = args->alloc;
+    options.progress = cli_progress_step;
+    options.user = &bar;
+    froe_diagnostic diag;
+    const froe_status status = froe_read(args->path, &options, scene, report, &diag);
+    cli_progress_end(&bar);
+    return status ? cli_fail_status(CLI_READING, args->path, status, &diag) : 0;
+}

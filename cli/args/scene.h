@@ -1,0 +1,23 @@
+/* scene.h: reading the SCENE of a command line; shared by all commands that take one. */
+#ifndef FROE_CLI_SCENE_H
+#define FROE_CLI_SCENE_H
+#include "args/options.h"
+#include <froe/froe.h>
+#include <froe/io.h>
+
+typedef struct cli_scene_args {
+    const char *path, *layer, *where;
+    int faces;
+    bool boxes;
+    const froe_allocator *alloc; /**< of the scene; NULL: malloc */
+} cli_scene_args;
+extern const cli_option cli_scene_options[]; /**< the first is SCENE itself */
+/** What SCENE may be, for the `about` of a command. */
+#define CLI_SCENE_ABOUT                                                                                                \
+    "SCENE is a plane map in any format that OGR reads (GeoJSON, TopoJSON, Shapefile, GeoPackage, FlatGeobuf, DXF, "   \
+    "...), a model in any format that assimp reads (glTF, OBJ, STL, PLY, OFF, IFC, FBX, ...), or a CSV of points "     \
+    "(x,y[,z...]), boxes (lo_x,lo_y[,...],hi_x,...) or balls (x,y[,...],r)."
+
+/** Reads the scene with a progress bar. Returns 0, or an exit code after saying why. */
+int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report);
+#endif

@@ -1,0 +1,165 @@
+/* demo.c: froe demo, the main job on real scenes that the program carries.
+ *
+ * The demo runs froe's own commands, the very lines that its page shows, in the
+ * folder of the demo; their reports are printed and become the page's tables. */
+#include "command.h"
+#include "demo/page.h"
+#include "exit.h"
+#include "files.h"
+#include "progress.h"
+#include "report/report.h"
+#include <errno.h>
+#include <froe/froe.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+typedef struct demo_args {
+    cli_common common;
+    const char *output;
+} demo_args;
+
+static const cli_option options[] = {
+    {"output", 'o', CLI_TEXT, offsetof(demo_args, output), "DIR",
+     .help = "folder for pictures, trees and the page (default build/demo)"},
+    {0},
+};
+
+static const cli_part parts[] = {{"Demo", options, 0}, {"Options", cli_common_options, 0}, {0}};
+
+/* ------------------------------------------------------------------ files -- */
+
+static int make_folder(const char *path) {
+    char *prefix = malloc(strlen(path) + 1);
+    if (!prefix) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    strcpy(prefix, path);
+    bool made = true;
+    for (char *c = prefix + 1; made && *c; c++) {
+        if (*c != '/') continue;
+        *c = '\0';
+        made = mkdir(prefix, 0777) == 0 || errno == EEXIST;
+        *c = '/';
+    }
+    made = made && (mkdir(path, 0777) == 0 || errno == EEXIST);
+    free(prefix);
+    return made ? 0 : cli_fail(CLI_RESOURCES, path, "%s", strerror(errno));
+}
+
+static int unpack(const char *name) {
+    const cli_embedded *file = cli_embedded_named(name);
+    if (!file) return cli_fail(CLI_INPUT, name, "this program was built without it");
+    return cli_write_file(name, file->bytes, file->size);
+}
+
+/* --------------------------------------------------------------- commands -- */
+
+enum { LINE = 400, WORDS = 40 };
+
+/* Runs a line as if it stood after "froe", with the demo's own seed, threads and --quiet. */
+static int run_line(const cli_common *common, const char *text, bool loud, json_t **report) {
+    char line[LINE], *words[WORDS];
+    int count = 0;
+    if (snprintf(line, sizeof line, "%s --seed %llu --threads %llu%s", text, (unsigned long long)common->seed,
+                 (unsigned long long)common->threads, loud ? "" : " --quiet") >= LINE)
+        return cli_fail(CLI_USE, NULL, "a line of the demo is too long");
+    for (char *rest = line, *word; count < WORDS && (word = strtok_r(rest, " ", &rest)) != NULL;) words[count++] = word;
+    if (loud) printf("$ froe %s\n", text);
+    const cli_command *command = cli_command_named(words[0]);
+    if (!command) return cli_refuse_command(words[0]);
+    *report = NULL;
+    const int code = cli_run(command, count - 1, words + 1, report);
+    if (loud) putchar('\n');
+    return code;
+}
+
+static bool is_loud(const cli_common *common) {
+    return !common->json && !common->quiet;
+}
+
+static int run_steps(const cli_common *common, const demo_scene *scene, demo_result *result) {
+    for (int i = 0; scene->steps[i].command; i++) {
+        const int code = run_line(common, scene->steps[i].command, is_loud(common), &result->report[i]);
+        if (code) return code;
+    }
+    return 0;
+}
+
+/* The method serves the dimension and the objects of the scene: segments in the plane, polygons in space; and without
+ * being asked to cut them by each other, which in a house of many storeys would take a minute. */
+static bool serves(const froe_method_info *method, int dim) {
+    const froe_kind kind = dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
+    const froe_option_info *o = method->options;
+    while (o && o->name && strcmp(o->name, "crossing") != 0) o++;
+    return (method->kinds[dim] >> kind & 1) && !(dim == 3 && o && o->name);
+}
+
+static int compare_methods(const cli_common *common, const demo_scene *scene, demo_result *result) {
+    result->methods = json_array();
+    const froe_method_info *method;
+    for (size_t i = 0; (method = froe_method_at(i)) != NULL; i++) {
+        if (!serves(method, scene->dim)) continue;
+        char line[LINE];
+        json_t *report;
+        snprintf(line, sizeof line, "build %s --method %s", scene->file, method->name);
+        const int code = run_line(common, line, false, &report);
+        if (code || json_array_append_new(result->methods, report) != 0)
+            return code ? code : cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    }
+    return 0;
+}
+
+static int run_scene(const cli_common *common, const demo_scene *scene, demo_result *result) {
+    int code = unpack(scene->file);
+    if (!code) code = run_steps(common, scene, result);
+    if (!code) code = compare_methods(common, scene, result);
+    return code;
+}
+
+/* -------------------------------------------------------------------- run -- */
+
+enum { SCENES = 8 };
+
+static void release(demo_result *results) {
+    for (int i = 0; i < SCENES; i++) {
+        for (int j = 0; j < DEMO_STEPS; j++) json_decref(results[i].report[j]);
+        json_decref(results[i].methods);
+    }
+}
+
+static int run_scenes(const cli_common *common, demo_result *results) {
+    int code = 0;
+    for (int i = 0; !code && i < SCENES && demo_scenes[i].title; i++)
+        code = run_scene(common, &demo_scenes[i], &results[i]);
+    if (!code) code = demo_write_page("index.html", results);
+    return code;
+}
+
+static int run_demo(const void *given) {
+    const demo_args *args = given;
+    int code = make_folder(args->output);
+    if (code) return code;
+    if (chdir(args->output) != 0) return cli_fail(CLI_RESOURCES, args->output, "%s", strerror(errno));
+    demo_result results[SCENES] = {0};
+    const double start = cli_seconds();
+    code = run_scenes(&args->common, results);
+    release(results);
+    if (code) return code;
+    char index[400];
+    snprintf(index, sizeof index, "%.300s/index.html", args->output);
+    return cli_report(&args->common, NULL,
+                      json_pack("{s:f, s:o}", "seconds", cli_seconds() - start, "index", cli_name_json(index)));
+}
+
+const cli_command cli_command_demo = {
+    .name = "demo",
+    .summary = "run everything on real scenes and show it on one page",
+    .about = "Builds, checks and draws a floor plan, a map whose borders cross, and a house, all carried within the "
+             "program. Writes the scenes, trees and pictures and a page, index.html, that shows them with their "
+             "reports and the commands that made them. Needs no display and no network.",
+    .examples = "froe demo\nfroe demo -o pictures --quiet\n",
+    .parts = parts,
+    .defaults = &(const demo_args){.common = CLI_COMMON_DEFAULTS, .output = "build/demo"},
+    .size = sizeof(demo_args),
+    .run = run_demo,
+};

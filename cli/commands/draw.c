@@ -1,0 +1,215 @@
+/* draw.c: froe draw, a partition as a picture. */
+#include "command.h"
+#include "exit.h"
+#include "files.h"
+#include "progress.h"
+#include "report/tree_report.h"
+#include <froe/draw.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct draw_args {
+    cli_common common;
+    const char *tree, *output, *show, *background, *title, *section;
+    int style, up;
+    double width, height, margin, scale, detail, explode; /**< NaN: the library's default */
+    uint64_t max_depth, explode_depth;                    /**< UINT64_MAX: the library's default */
+    cli_reals window, view;
+    bool no_legend;
+} draw_args;
+
+static const char *const styles[] = {"auto", "flat", "sections", "exploded", NULL};
+static const char *const axes[] = {"x", "y", "z", NULL};
+
+static const cli_option what[] = {
+    {NULL, 0, CLI_TEXT, offsetof(draw_args, tree), "TREE", .help = "a tree that froe build saved", .required = true},
+    {"output", 'o', CLI_TEXT, offsetof(draw_args, output), "FILE", .help = ".svg, .pdf or .png", .required = true},
+    {"show", 0, CLI_TEXT, offsetof(draw_args, show), "LAYERS",
+     .help = "cells, cuts, fragments, objects, parted by commas (default: what suits the style)"},
+    {"style", 0, CLI_CHOICE, offsetof(draw_args, style), "STYLE",
+     .help = "auto (default), flat (plane), sections or exploded (space)", .choices = styles},
+    {"window", 0, CLI_REALS, offsetof(draw_args, window), "LO,HI",
+     .help = "draw this box only: lower corner, then upper, in the scene's coordinates"},
+    {"max-depth", 0, CLI_WHOLE, offsetof(draw_args, max_depth), "D",
+     .help = "draw cells below this depth as one (0: no limit)", .max = UINT32_MAX},
+    {"detail", 0, CLI_REAL, offsetof(draw_args, detail), "SIZE",
+     .help = "draw regions smaller than this on the page as one (default: a pixel; 0: everything)"},
+    {0},
+};
+
+static const cli_option space[] = {
+    {"section", 0, CLI_TEXT, offsetof(draw_args, section), "x=VALUE",
+     .help = "sections: this one, across x, y or z (default: a sheet of three through the middle)"},
+    {"up", 0, CLI_CHOICE, offsetof(draw_args, up), "AXIS",
+     .help = "the axis that points up on the page: x, y (as in glTF) or z (default)", .choices = axes},
+    {"view", 0, CLI_REALS, offsetof(draw_args, view), "X,Y,Z", .help = "exploded: direction from the scene to the eye"},
+    {"explode", 0, CLI_REAL, offsetof(draw_args, explode), "E",
+     .help = "exploded: parts move away from the centre by E times their distance from it (default 0.5)"},
+    {"explode-depth", 0, CLI_WHOLE, offsetof(draw_args, explode_depth), "D",
+     .help = "exploded: parts are the regions at this depth of the tree (default 4)", .max = 32},
+    {0},
+};
+
+static const cli_option page[] = {
+    {"width", 0, CLI_REAL, offsetof(draw_args, width), "W", .help = "of the page, in points or pixels (default 960)"},
+    {"height", 0, CLI_REAL, offsetof(draw_args, height), "H", .help = "of the page (default: as the scene asks for)"},
+    {"margin", 0, CLI_REAL, offsetof(draw_args, margin), "M", .help = "around everything (default: 1/32 of the width)"},
+    {"scale", 0, CLI_REAL, offsetof(draw_args, scale), "S",
+     .help = "PNG: pixels per unit, for dense screens (default 1)"},
+    {"background", 0, CLI_TEXT, offsetof(draw_args, background), "RRGGBB",
+     .help = "colour of the page, or clear for none"},
+    {"title", 0, CLI_TEXT, offsetof(draw_args, title), "TEXT", .help = "one line above the picture"},
+    {"no-legend", 0, CLI_FLAG, offsetof(draw_args, no_legend), .help = "leave out counts and scales"},
+    {0},
+};
+
+static const cli_part parts[] = {
+    {"Picture", what, 0}, {"Trees in space", space, 0}, {"Page", page, 0}, {"Options", cli_common_options, 0}, {0}};
+
+/* One name of a list parted by commas; 0: there is no such layer. */
+static uint32_t layer_bit(const char *name, size_t length) {
+    for (uint32_t bit = 1; bit <= FROE_DRAW_OBJECTS; bit <<= 1) {
+        const char *known = froe_draw_layer_name((froe_draw_layer)bit);
+        if (known && strlen(known) == length && memcmp(known, name, length) == 0) return bit;
+    }
+    return 0;
+}
+
+static int set_show(const char *list, uint32_t *show) {
+    while (list && *list) {
+        const size_t length = strcspn(list, ",");
+        const uint32_t bit = layer_bit(list, length);
+        if (!bit)
+            return cli_fail(CLI_USE, NULL, "--show: '%.*s' is not one of cells, cuts, fragments, objects", (int)length,
+                            list);
+        *show |= bit;
+        list += length + (list[length] == ',');
+    }
+    return 0;
+}
+
+static int set_background(const char *text, uint32_t *background) {
+    if (!text) return 0;
+    if (strcmp(text, "clear") == 0) {
+        *background = FROE_DRAW_CLEAR;
+        return 0;
+    }
+    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
+        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear", text);
+    *background = (uint32_t)strtoul(text, NULL, 16);
+    return 0;
+}
+
+static int set_section(const char *text, froe_draw_options *o) {
+    if (!text) return 0;
+    const char *axis = strchr("xyz", text[0]);
+    char *end = NULL;
+    const double at = text[0] && text[1] == '=' ? strtod(text + 2, &end) : 0;
+    if (!text[0] || !axis || !end || end == text + 2 || *end || !isfinite(at))
+        return cli_fail(CLI_USE, NULL, "--section: '%s' is not like x=1.5", text);
+    o->axis = (int)(axis - "xyz");
+    o->at = at;
+    return 0;
+}
+
+static int set_window(const cli_reals *window, size_t dim, froe_draw_options *o) {
+    if (!window->count) return 0;
+    if (window->count != 2 * dim)
+        return cli_fail(CLI_USE, NULL, "--window: %zu numbers given, but this tree needs %zu", window->count, 2 * dim);
+    for (size_t k = 0; k < dim; k++)
+        if (!(window->at[k] < window->at[dim + k]))
+            return cli_fail(CLI_USE, NULL, "--window: the lower corner, %g on axis %zu, is not below the upper, %g",
+                            window->at[k], k, window->at[dim + k]);
+    memcpy(o->lo, window->at, dim * sizeof(double));
+    memcpy(o->hi, window->at + dim, dim * sizeof(double));
+    return 0;
+}
+
+static int set_view(const cli_reals *view, froe_draw_options *o) {
+    if (!view->count) return 0;
+    if (view->count != 3) return cli_fail(CLI_USE, NULL, "--view: %zu numbers given, 3 needed", view->count);
+    memcpy(o->view, view->at, sizeof o->view);
+    return 0;
+}
+
+static void set_number(double given, double *field) {
+    if (!isnan(given)) *field = given;
+}
+
+static int set_options(const draw_args *args, size_t dim, froe_draw_options *o) {
+    o->style = (froe_draw_style)args->style;
+    o->up = args->up;
+    o->title = args->title;
+    o->legend = !args->no_legend;
+    set_number(args->width, &o->width);
+    set_number(args->height, &o->height);
+    set_number(args->margin, &o->margin);
+    set_number(args->scale, &o->scale);
+    set_number(args->detail, &o->detail);
+    set_number(args->explode, &o->explode);
+    if (args->max_depth != UINT64_MAX) o->max_depth = (uint32_t)args->max_depth;
+    if (args->explode_depth != UINT64_MAX) o->explode_depth = (uint32_t)args->explode_depth;
+    int code = set_show(args->show, &o->show);
+    if (!code) code = set_background(args->background, &o->background);
+    if (!code) code = set_section(args->section, o);
+    if (!code) code = set_window(&args->window, dim, o);
+    if (!code) code = set_view(&args->view, o);
+    return code;
+}
+
+static int draw_tree(const draw_args *args, const froe_tree *tree) {
+    froe_draw_options o = froe_draw_defaults();
+    int code = set_options(args, (size_t)froe_scene_dim(froe_tree_scene(tree)), &o);
+    if (code) return code;
+    cli_progress bar = cli_progress_begin(&args->common, "drawing");
+    o.progress = cli_progress_step;
+    o.user = &bar;
+    froe_diagnostic diag;
+    const froe_status status = froe_draw(tree, args->output, &o, &diag);
+    cli_progress_end(&bar);
+    return status ? cli_fail_status(CLI_WRITING, args->output, status, &diag) : 0;
+}
+
+static int run_draw(const void *given) {
+    const draw_args *args = given;
+    froe_draw_format format;
+    if (!froe_draw_format_of(args->output, &format))
+        return cli_fail(CLI_USE, args->output, "the extension must be .svg, .pdf or .png");
+    froe_tree *tree;
+    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
+    if (!code) code = cli_open_tree(args->tree, &tree);
+    if (code) return code;
+    code = draw_tree(args, tree);
+    if (!code)
+        code = cli_report(
+            &args->common, NULL,
+            json_pack("{s:o, s:o}", "tree", cli_name_json(args->tree), "output", cli_name_json(args->output)));
+    froe_tree_free(tree);
+    return code;
+}
+
+const cli_command cli_command_draw = {
+    .name = "draw",
+    .summary = "draw the partition as SVG, PDF or PNG",
+    .about = "Shows cells coloured by depth (pale near the root), cuts, the fragments into which objects fell, and the "
+             "objects. Trees in the plane are drawn flat; trees in space as plane sections or pulled apart. The same "
+             "tree and options give the same bytes.",
+    .examples = "froe draw floor.froe -o floor.svg\n"
+                "froe draw floor.froe -o corner.png --window 0,0,512,512 --show cells,fragments --scale 2\n"
+                "froe draw house.froe -o house.pdf --style exploded --explode 1 --up y\n"
+                "froe draw house.froe -o cut.svg --section z=1.2\n",
+    .parts = parts,
+    .defaults = &(const draw_args){.common = CLI_COMMON_DEFAULTS,
+                                   .up = 2,
+                                   .width = NAN,
+                                   .height = NAN,
+                                   .margin = NAN,
+                                   .scale = NAN,
+                                   .detail = NAN,
+                                   .explode = NAN,
+                                   .max_depth = UINT64_MAX,
+                                   .explode_depth = UINT64_MAX},
+    .size = sizeof(draw_args),
+    .run = run_draw,
+};

@@ -1,0 +1,80 @@
+/* export.c: froe export, parts of a tree for other programs. */
+#include "command.h"
+#include "exit.h"
+#include "files.h"
+#include "progress.h"
+#include "report/tree_report.h"
+#include <froe/io.h>
+
+typedef struct export_args {
+    cli_common common;
+    const char *tree, *output;
+    int what;
+    cli_reals window;
+} export_args;
+
+static const char *const whats[] = {
+    [FROE_EXPORT_FRAGMENTS] = "fragments", [FROE_EXPORT_CELLS] = "cells", [FROE_EXPORT_CUTS] = "cuts", NULL};
+
+static const cli_option options[] = {
+    {NULL, 0, CLI_TEXT, offsetof(export_args, tree), "TREE", .help = "a tree that froe build saved", .required = true},
+    {"output", 'o', CLI_TEXT, offsetof(export_args, output), "FILE",
+     .help = ".geojson (plane), .obj (space) or .csv (any dimension)", .required = true},
+    {"what", 0, CLI_CHOICE, offsetof(export_args, what), "PART", .help = "fragments (default), cells or cuts",
+     .choices = whats},
+    {"window", 0, CLI_REALS, offsetof(export_args, window), "LO,HI",
+     .help = "clip cells and cuts to this box: lower corner, then upper (default: the scene and a tenth more)"},
+    {0},
+};
+
+static const cli_part parts[] = {{"Export", options, 0}, {"Options", cli_common_options, 0}, {0}};
+
+static int check_window(const export_args *args, const froe_tree *tree) {
+    const size_t dim = (size_t)froe_scene_dim(froe_tree_scene(tree));
+    if (!args->window.count || args->window.count == 2 * dim) return 0;
+    return cli_fail(CLI_USE, NULL, "--window: %zu numbers given, but this tree needs %zu", args->window.count, 2 * dim);
+}
+
+static int export_tree(const export_args *args, const froe_tree *tree) {
+    cli_progress bar = cli_progress_begin(&args->common, "exporting");
+    froe_export_options o = froe_export_defaults();
+    if (args->window.count) {
+        o.lo = args->window.at;
+        o.hi = args->window.at + args->window.count / 2;
+    }
+    o.progress = cli_progress_step;
+    o.user = &bar;
+    froe_diagnostic diag;
+    const froe_status status = froe_export(tree, args->output, (froe_export_what)args->what, &o, &diag);
+    cli_progress_end(&bar);
+    return status ? cli_fail_status(CLI_WRITING, args->output, status, &diag) : 0;
+}
+
+static int run_export(const void *given) {
+    const export_args *args = given;
+    froe_tree *tree;
+    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
+    if (!code) code = cli_open_tree(args->tree, &tree);
+    if (code) return code;
+    code = check_window(args, tree);
+    if (!code) code = export_tree(args, tree);
+    if (!code)
+        code = cli_report(&args->common, NULL,
+                          json_pack("{s:o, s:s, s:o}", "tree", cli_name_json(args->tree), "what", whats[args->what],
+                                    "output", cli_name_json(args->output)));
+    froe_tree_free(tree);
+    return code;
+}
+
+const cli_command cli_command_export = {
+    .name = "export",
+    .summary = "write fragments, cells or cuts for other programs",
+    .about = "Fragments carry object, face, group and tag of what they are pieces of, and the node they lie in. Cells "
+             "are the leaves' regions, cuts the parts of cuts within their regions, both clipped to a box. Coordinates "
+             "are rounded to doubles on output only.",
+    .examples = "froe export floor.froe -o pieces.geojson\nfroe export house.froe -o cells.obj --what cells\n",
+    .parts = parts,
+    .defaults = &(const export_args){.common = CLI_COMMON_DEFAULTS},
+    .size = sizeof(export_args),
+    .run = run_export,
+};

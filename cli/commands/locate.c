@@ -1,0 +1,168 @@
+/* locate.c: froe locate, the objects and groups that points lie in, or what lies above or below them. */
+#include "command.h"
+#include "exit.h"
+#include "queries/queries.h"
+
+typedef struct locate_args {
+    cli_common common;
+    cli_query_args query;
+    bool groups, above, below;
+} locate_args;
+
+static const cli_column columns[] = {{"", true}, {0}};
+
+static const cli_option options[] = {
+    {NULL, 0, CLI_TEXT, offsetof(locate_args, query.tree), "TREE", .help = "a tree that froe build saved",
+     .required = true},
+    {"points", 0, CLI_TEXT, offsetof(locate_args, query.input), "CSV",
+     .help = "the points, x,y[,z...]; - for standard input", .required = true},
+    {"groups", 0, CLI_FLAG, offsetof(locate_args, groups),
+     .help = "the groups each point lies in, with their names, and no objects (plane)"},
+    {"above", 0, CLI_FLAG, offsetof(locate_args, above), .help = "the first segment above each point instead (plane)"},
+    {"below", 0, CLI_FLAG, offsetof(locate_args, below), .help = "the first segment below"},
+    {0},
+};
+
+static const cli_part parts[] = {{"Locate", options, 0},
+                                 {"Queries", cli_query_options, offsetof(locate_args, query)},
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
+
+static void put_group(cli_answers *out, uint32_t group) {
+    if (group == FROE_NONE)
+        cli_answers_none(out);
+    else
+        cli_answers_whole(out, group);
+}
+
+/* Does one of the objects belong to the group? */
+static bool is_told(const froe_scene *scene, const uint32_t *objects, size_t count, uint32_t group) {
+    for (size_t i = 0; i < count; i++)
+        if (froe_scene_object(scene, objects[i]).group == group) return true;
+    return false;
+}
+
+/* "query,object,group": objects with the groups they belong to, then the other groups that the point lies in. */
+static void put_all(const froe_scene *scene, const cli_block *block, const froe_answers *objects,
+                    const froe_answers *groups, cli_answers *out) {
+    for (size_t i = 0; i < block->count; i++) {
+        const uint32_t *found = objects->ids + objects->starts[i];
+        const size_t count = objects->starts[i + 1] - objects->starts[i];
+        for (size_t j = 0; j < count; j++) {
+            cli_answers_whole(out, block->ids[i]);
+            cli_answers_whole(out, found[j]);
+            put_group(out, froe_scene_object(scene, found[j]).group);
+            cli_answers_end(out);
+        }
+        for (size_t j = groups->queries ? groups->starts[i] : 0; groups->queries && j < groups->starts[i + 1]; j++) {
+            if (is_told(scene, found, count, groups->ids[j])) continue;
+            cli_answers_whole(out, block->ids[i]);
+            cli_answers_none(out);
+            put_group(out, groups->ids[j]);
+            cli_answers_end(out);
+        }
+    }
+}
+
+/* "query,group,name" */
+static void put_groups(const froe_scene *scene, const cli_block *block, const froe_answers *groups, cli_answers *out) {
+    for (size_t i = 0; i < block->count; i++)
+        for (size_t j = groups->starts[i]; j < groups->starts[i + 1]; j++) {
+            cli_answers_whole(out, block->ids[i]);
+            cli_answers_whole(out, groups->ids[j]);
+            cli_answers_name(out, froe_scene_group(scene, groups->ids[j]).name);
+            cli_answers_end(out);
+        }
+}
+
+static froe_status answer_point(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                froe_diagnostic *diag) {
+    const locate_args *args = given;
+    const bool areas = asked->dim == 2 && froe_scene_group_count(asked->scene) > 0;
+    froe_answers objects = {0}, groups = {0};
+    froe_status status =
+        froe_batch_locate(asked->query, cli_block_numbers(block), block->count, &asked->batch, &objects, diag);
+    if (!status && areas && !args->query.count)
+        status = froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
+    if (!status && args->query.count) {
+        cli_answers_lists(out, block->ids, &objects, true);
+    } else if (!status) {
+        cli_answers_sort(&objects);
+        put_all(asked->scene, block, &objects, &groups, out);
+    }
+    froe_answers_free(&objects);
+    froe_answers_free(&groups);
+    return status;
+}
+
+static froe_status answer_groups(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                 froe_diagnostic *diag) {
+    const locate_args *args = given;
+    froe_answers groups = {0};
+    const froe_status status =
+        froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
+    if (status) return status;
+    if (args->query.count)
+        cli_answers_lists(out, block->ids, &groups, true);
+    else
+        put_groups(asked->scene, block, &groups, out);
+    froe_answers_free(&groups);
+    return FROE_OK;
+}
+
+/* Above or below. */
+static froe_status answer_vertical(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                   froe_diagnostic *diag) {
+    const locate_args *args = given;
+    uint32_t objects[CLI_BLOCK];
+    const froe_status status = froe_batch_vertical(asked->query, cli_block_numbers(block), block->count,
+                                                   args->above ? 1 : -1, &asked->batch, objects, diag);
+    for (size_t i = 0; !status && i < block->count; i++) {
+        if (args->query.count)
+            cli_answers_pair(out, block->ids[i], objects[i] != FROE_NONE);
+        else if (objects[i] != FROE_NONE)
+            cli_answers_pair(out, block->ids[i], objects[i]);
+    }
+    return status;
+}
+
+static const char *header(const locate_args *args) {
+    if (args->query.count) return "query,count";
+    if (args->groups) return "query,group,name";
+    return args->above || args->below ? "query,object" : "query,object,group";
+}
+
+static int run_locate(const void *given) {
+    const locate_args *args = given;
+    if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above and --below exclude each other");
+    if (args->groups && (args->above || args->below))
+        return cli_fail(CLI_USE, NULL, "--groups excludes --above and --below");
+    const cli_queries queries = {.common = &args->common,
+                                 .args = &args->query,
+                                 .columns = columns,
+                                 .header = header(args),
+                                 .answer = args->above || args->below ? answer_vertical
+                                           : args->groups             ? answer_groups
+                                                                      : answer_point,
+                                 .given = args};
+    return cli_queries_run(&queries);
+}
+
+const cli_command cli_command_locate = {
+    .name = "locate",
+    .summary = "find the objects and groups that points lie in, or what lies above or below them",
+    .about = "Prints one line query,object,group for each object that contains a point, in the order of the points, "
+             "then of the objects; group is the one the object belongs to, empty if there is none. On maps, a line "
+             "with an empty object follows for each other group that the point lies in: a feature of closed rings, "
+             "holes left out. With --groups, only lines query,group,name: which country is this point in? A point on a "
+             "border is in all groups whose border it is; features that are lines contain only their own points. With "
+             "--above or --below, one line query,object for each point that has a segment there. Objects are closed, "
+             "and answers are exact. A query's number is that of its row, from 0.\n\n"
+             "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
+    .examples = "froe locate house.froe --points sensors.csv\nfroe locate map.froe --points towns.csv --groups\n"
+                "froe locate map.froe --points towns.csv --above\n",
+    .parts = parts,
+    .defaults = &(const locate_args){.common = CLI_COMMON_DEFAULTS},
+    .size = sizeof(locate_args),
+    .run = run_locate,
+};

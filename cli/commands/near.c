@@ -1,0 +1,77 @@
+/* near.c: froe near, the objects nearest to points. */
+#include "command.h"
+#include "exit.h"
+#include "queries/queries.h"
+#include <math.h>
+
+typedef struct near_args {
+    cli_common common;
+    cli_query_args query;
+    uint64_t k;
+    double bound;
+} near_args;
+
+static const cli_column columns[] = {{"", true}, {0}};
+
+static const cli_option options[] = {
+    {NULL, 0, CLI_TEXT, offsetof(near_args, query.tree), "TREE", .help = "a tree that froe build saved",
+     .required = true},
+    {"points", 0, CLI_TEXT, offsetof(near_args, query.input), "CSV",
+     .help = "the points, x,y[,z...]; - for standard input", .required = true},
+    {"neighbours", 'k', CLI_WHOLE, offsetof(near_args, k), "K", .help = "how many objects (default 1)",
+     .max = 2147483646},
+    {"within", 0, CLI_REAL, offsetof(near_args, bound), "D", .help = "no object further away (default: no limit)"},
+    {0},
+};
+
+static const cli_part parts[] = {{"Near", options, 0},
+                                 {"Queries", cli_query_options, offsetof(near_args, query)},
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
+
+static froe_status answer_near(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                               froe_diagnostic *diag) {
+    const near_args *args = given;
+    froe_answers answers;
+    const froe_status status = froe_batch_near(asked->query, cli_block_numbers(block), block->count, args->k,
+                                               args->bound, &asked->batch, &answers, diag);
+    if (status) return status;
+    for (size_t i = 0; i < block->count; i++) {
+        const size_t first = answers.starts[i], end = answers.starts[i + 1];
+        if (args->query.count) cli_answers_pair(out, block->ids[i], end - first);
+        for (size_t j = first; j < end && !args->query.count; j++) {
+            cli_answers_whole(out, block->ids[i]);
+            cli_answers_whole(out, answers.ids[j]);
+            cli_answers_real(out, answers.values[j]);
+            cli_answers_end(out);
+        }
+    }
+    froe_answers_free(&answers);
+    return FROE_OK;
+}
+
+static int run_near(const void *given) {
+    const near_args *args = given;
+    if (args->bound < 0) return cli_fail(CLI_USE, NULL, "--within must not be negative");
+    const cli_queries queries = {.common = &args->common,
+                                 .args = &args->query,
+                                 .columns = columns,
+                                 .header = args->query.count ? "query,count" : "query,object,distance",
+                                 .answer = answer_near,
+                                 .given = args};
+    return cli_queries_run(&queries);
+}
+
+const cli_command cli_command_near = {
+    .name = "near",
+    .summary = "find the objects nearest to points",
+    .about = "Prints one line query,object,distance for each of the K objects nearest to a point, nearest first; equal "
+             "distances by object. Distances are compared exactly, and printed as the doubles nearest to them; 0 means "
+             "that the point is in the object. A query's number is that of its row, from 0.\n\n"
+             "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
+    .examples = "froe near map.froe --points towns.csv -k 3\nfroe near house.froe --points lamps.csv --within 0.5\n",
+    .parts = parts,
+    .defaults = &(const near_args){.common = CLI_COMMON_DEFAULTS, .k = 1, .bound = INFINITY},
+    .size = sizeof(near_args),
+    .run = run_near,
+};

@@ -1,0 +1,167 @@
+/* range.c: froe range, the objects that meet boxes, balls and other convex ranges. */
+#include "command.h"
+#include "exit.h"
+#include "queries/queries.h"
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct range_args {
+    cli_common common;
+    cli_query_args query;
+    int shape, walk;
+    double eps;
+} range_args;
+
+static const char *const shapes[] = {[FROE_SHAPE_BOX] = "box",
+                                     [FROE_SHAPE_BALL] = "ball",
+                                     [FROE_SHAPE_SIMPLEX] = "simplex",
+                                     [FROE_SHAPE_CAPSULE] = "capsule",
+                                     [FROE_SHAPE_HALFSPACES] = "halfspaces",
+                                     [FROE_SHAPE_HULL] = "hull",
+                                     [FROE_SHAPE_SEGMENT] = "segment",
+                                     [FROE_SHAPE_RAY] = "ray",
+                                     NULL};
+
+static const char *const walks[] = {[FROE_WALK_AUTO] = "auto", [FROE_WALK_PLAIN] = "plain",     [FROE_WALK_BOX] = "box",
+                                    [FROE_WALK_LCA] = "lca",   [FROE_WALK_CLASSES] = "classes", NULL};
+
+/* The columns of each shape, in the order of froe_range's points. */
+static const cli_column columns[FROE_SHAPE_COUNT][4] = {
+    [FROE_SHAPE_BOX] = {{"lo_", true}, {"hi_", true}},
+    [FROE_SHAPE_BALL] = {{"", true}, {"r", false}},
+    [FROE_SHAPE_SIMPLEX] = {{"query", false}, {"", true}},
+    [FROE_SHAPE_CAPSULE] = {{"a", true}, {"b", true}, {"r", false}},
+    [FROE_SHAPE_HALFSPACES] = {{"query", false}, {"n", true}, {"c", false}},
+    [FROE_SHAPE_HULL] = {{"query", false}, {"", true}},
+    [FROE_SHAPE_SEGMENT] = {{"a", true}, {"b", true}},
+    [FROE_SHAPE_RAY] = {{"o", true}, {"d", true}},
+};
+
+static const cli_option options[] = {
+    {NULL, 0, CLI_TEXT, offsetof(range_args, query.tree), "TREE", .help = "a tree that froe build saved",
+     .required = true},
+    {"queries", 0, CLI_TEXT, offsetof(range_args, query.input), "CSV", .help = "the ranges; - for standard input",
+     .required = true},
+    {"shape", 0, CLI_CHOICE, offsetof(range_args, shape), "SHAPE",
+     .help = "box (default), ball, simplex, capsule, halfspaces, hull, segment or ray", .choices = shapes},
+    {"eps", 0, CLI_REAL, offsetof(range_args, eps), "E",
+     .help = "also allow objects within E times the diameter of the range; faster (default 0: exactly)"},
+    {"walk", 0, CLI_CHOICE, offsetof(range_args, walk), "HOW",
+     .help = "how to search: plain, box, lca, classes or auto (default); answers are the same", .choices = walks},
+    {0},
+};
+
+static const cli_part parts[] = {{"Range", options, 0},
+                                 {"Queries", cli_query_options, offsetof(range_args, query)},
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
+
+/* What a block needs beside the rows. */
+typedef struct ranges {
+    const range_args *args;
+    size_t dim;
+    froe_range *ranges;
+    double *normals, *offsets; /* halfspaces */
+} ranges;
+
+/* ------------------------------------------------------------------- ranges -- */
+
+static void split_halfspaces(ranges *r, const cli_block *block) {
+    for (size_t i = block->starts[0]; i < block->starts[block->count]; i++) {
+        const double *row = block->numbers + i * block->width;
+        memcpy(r->normals + i * r->dim, row, r->dim * sizeof *row);
+        r->offsets[i] = row[r->dim];
+    }
+}
+
+/* Range i of the block. False: it has not as many rows as it must. */
+static bool lay_range(const ranges *r, const cli_block *block, size_t i, froe_range *out) {
+    const size_t first = block->starts[i], rows = block->starts[i + 1] - first;
+    const double *row = block->numbers + first * block->width;
+    *out = froe_range_defaults();
+    out->shape = (froe_range_shape)r->args->shape;
+    out->points = row;
+    out->count = rows;
+    out->eps = r->args->eps;
+    out->walk = (froe_walk)r->args->walk;
+    if (out->shape == FROE_SHAPE_BALL || out->shape == FROE_SHAPE_CAPSULE) out->radius = row[block->width - 1];
+    if (out->shape == FROE_SHAPE_HALFSPACES) {
+        out->points = r->normals + first * r->dim;
+        out->offsets = r->offsets + first;
+    }
+    return out->shape != FROE_SHAPE_SIMPLEX || rows == r->dim + 1;
+}
+
+static bool take_memory(ranges *r, const cli_block *block) {
+    const size_t rows = block->starts[block->count];
+    r->ranges = calloc(block->count, sizeof *r->ranges);
+    r->normals = calloc(rows * r->dim, sizeof *r->normals);
+    r->offsets = calloc(rows, sizeof *r->offsets);
+    return r->ranges && r->normals && r->offsets;
+}
+
+static void give_memory(ranges *r) {
+    free(r->ranges);
+    free(r->normals);
+    free(r->offsets);
+}
+
+/* How many ranges of the block can be asked about. */
+static size_t lay_ranges(ranges *r, const cli_block *block) {
+    if (r->args->shape == FROE_SHAPE_HALFSPACES) split_halfspaces(r, block);
+    for (size_t i = 0; i < block->count; i++)
+        if (!lay_range(r, block, i, &r->ranges[i])) return i;
+    return block->count;
+}
+
+static froe_status answer_range(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+                                froe_diagnostic *diag) {
+    const range_args *args = given;
+    ranges r = {.args = args, .dim = asked->dim};
+    froe_answers answers = {0};
+    froe_status status;
+    if (take_memory(&r, block)) {
+        const size_t count = lay_ranges(&r, block);
+        status = froe_batch_range(asked->query, r.ranges, count, &asked->batch, &answers, diag);
+        if (!status && count < block->count)
+            status = cli_diagnose(diag, FROE_E_INPUT, count, "a simplex has one corner more than there are dimensions");
+    } else {
+        status = cli_diagnose(diag, FROE_E_MEMORY, FROE_NONE, "out of memory");
+    }
+    if (!status) cli_answers_lists(out, block->ids, &answers, args->query.count);
+    froe_answers_free(&answers);
+    give_memory(&r);
+    return status;
+}
+
+static int run_range(const void *given) {
+    const range_args *args = given;
+    if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps must not be negative");
+    const cli_queries queries = {.common = &args->common,
+                                 .args = &args->query,
+                                 .columns = columns[args->shape],
+                                 .header = args->query.count ? "query,count" : "query,object",
+                                 .answer = answer_range,
+                                 .given = args};
+    return cli_queries_run(&queries);
+}
+
+const cli_command cli_command_range = {
+    .name = "range",
+    .summary = "find the objects that meet boxes, balls and other convex ranges",
+    .about =
+        "Prints one line query,object for each object that meets a range, in the order of the ranges, then of the "
+        "objects. Ranges and objects are closed, and answers are exact. A query's number is that of its row, from 0, "
+        "or, where several rows make a range, what its column query says.\n\n"
+        "Columns of the CSV, where x,y is x,y,z in space: box lo_x,lo_y,hi_x,hi_y (inf and -inf are bounds, too); "
+        "ball x,y,r; capsule ax,ay,bx,by,r; segment ax,ay,bx,by; ray ox,oy,dx,dy. Of simplex and hull, query,x,y, "
+        "each row is a corner; of halfspaces, query,nx,ny,c, each row is a halfspace n . x <= c; rows of one query "
+        "follow each other.\n\n"
+        "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
+    .examples = "froe range floor.froe --queries windows.csv\n"
+                "froe range floor.froe --queries discs.csv --shape ball --count\n",
+    .parts = parts,
+    .defaults = &(const range_args){.common = CLI_COMMON_DEFAULTS},
+    .size = sizeof(range_args),
+    .run = run_range,
+};

@@ -1,0 +1,345 @@
+/* render.c: froe render, hidden surfaces removed, exactly. */
+#include "args/budget.h"
+#include "command.h"
+#include "commands/render_options.h"
+#include "exit.h"
+#include "files.h"
+#include "progress.h"
+#include "report/tree_report.h"
+#include <froe/draw.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const directions[] = {"corner", "iso", "front",  "back",     "left",
+                                         "right",  "top", "bottom", "dimetric", NULL};
+static const char *const seams[] = {"underlap", "none", "twice", "stroke", NULL};
+static const char *const hiddens[] = {"none", "dashed", NULL};
+static const char *const over[] = {"top", "interleaved", NULL};
+static const char *const colours[] = {"file", "own", NULL};
+static const char *const ids[] = {"none", "object", "face", NULL};
+static const char *const layers[] = {"none", "object", NULL};
+static const char *const axes[] = {"x", "y", "z", NULL};
+static const char *const paints[] = {"whole", "regions", "fragments", NULL};
+static const char *const presets[] = {"illustration", "technical", "plotter", "web", "print", NULL};
+
+static const cli_option what[] = {
+    {NULL, 0, CLI_TEXT, offsetof(render_args, tree), "TREE",
+     .help = "a tree of polygons in space, built with leaf 1 or 0", .required = true},
+    {"output", 'o', CLI_TEXT, offsetof(render_args, output), "FILE", .help = ".svg, .pdf, .eps or .png",
+     .required = true},
+    {"preset", 0, CLI_CHOICE, offsetof(render_args, preset), "NAME",
+     .help =
+         "what the other options begin with: illustration (default), technical (parallel, lines, hidden ones dashed), "
+         "plotter (visible regions that do not overlap), web (short files), print (millimetres)",
+     .choices = presets},
+    {"size", 0, CLI_TEXT, offsetof(render_args, size), "WxH",
+     .help = "of the page: 1000x1000 (default), or in millimetres, 160x120mm"},
+    {"margin", 0, CLI_REAL, offsetof(render_args, margin), "M",
+     .help = "around the picture (default 1/50 of the width)"},
+    {0},
+};
+
+static const cli_option camera[] = {
+    {"view", 0, CLI_CHOICE, offsetof(render_args, direction), "FROM",
+     .help = "corner (default), iso, dimetric, front, back, left, right, top or bottom", .choices = directions},
+    {"up", 0, CLI_CHOICE, offsetof(render_args, up_axis), "AXIS",
+     .help = "the axis that points up: x, y (as in glTF) or z (default)", .choices = axes},
+    {"eye", 0, CLI_REALS, offsetof(render_args, eye), "X,Y,Z",
+     .help = "look from here, at the middle of the scene or the target; nothing is fitted"},
+    {"target", 0, CLI_REALS, offsetof(render_args, target), "X,Y,Z", .help = "look at this point"},
+    {"parallel", 0, CLI_FLAG, offsetof(render_args, parallel), .help = "parallel instead of perspective projection"},
+    {"fov", 0, CLI_REAL, offsetof(render_args, fov), "DEGREES", .help = "vertical angle of view (default 35)"},
+    {"scale", 0, CLI_TEXT, offsetof(render_args, scale), "S",
+     .help = "parallel: units of the page per unit of the scene; or true to scale on a page in millimetres, 1:50 "
+             "(default: as fits)"},
+    {"unit", 0, CLI_REAL, offsetof(render_args, unit), "METRES",
+     .help = "for --scale 1:50: how long a unit of the scene is (default 1)"},
+    {"section", 0, CLI_REALS, offsetof(render_args, section), "A,B,C,D",
+     .help = "leave out what lies where a x + b y + c z > d, exactly; builds the tree anew for it"},
+    CLI_BUDGET_OPTION(render_args, max_fragments),
+    {"turntable", 0, CLI_WHOLE, offsetof(render_args, turntable), "N",
+     .help = "N pictures from all around; the name of the file says where their number goes, pic-%03d.svg", .min = 1,
+     .max = 100000},
+    {"animate", 0, CLI_FLAG, offsetof(render_args, animate),
+     .help = "all pictures of the turntable in one SVG that moves"},
+    {"seconds", 0, CLI_REAL, offsetof(render_args, seconds), "S", .help = "of a round (default 8)"},
+    {0},
+};
+
+static const cli_option look[] = {
+    {"style", 0, CLI_TEXT, offsetof(render_args, shading), "STYLE",
+     .help = "flat (default), cel, cel:N with N steps, plain, white, or none (lines only)"},
+    {"colours", 0, CLI_CHOICE, offsetof(render_args, colours), "FROM",
+     .help = "file (default): colours and opacity of the materials where the scene has them; or own: froe's, opaque",
+     .choices = colours},
+    {"paint", 0, CLI_CHOICE, offsetof(render_args, paint), "SHAPES",
+     .help = "whole faces (default), visible regions, or fragments of the tree", .choices = paints},
+    {"seams", 0, CLI_CHOICE, offsetof(render_args, seams), "HOW",
+     .help =
+         "against background that shines through between faces: underlap (default; they go under later neighbours), "
+         "twice (all is painted twice), stroke (in their own colour), none",
+     .choices = seams},
+    {"seam-width", 0, CLI_REAL, offsetof(render_args, seam_width), "U", .help = "of underlap and strokes (default 1)"},
+    {"min-area", 0, CLI_REAL, offsetof(render_args, min_area), "A",
+     .help = "leave out faces of which less is visible, in square units of the page (default 0)"},
+    {"lines", 0, CLI_CHOICE, offsetof(render_args, over), "WHERE",
+     .help = "top (default): over all faces; interleaved: under what is nearer", .choices = over},
+    {"line-kinds", 0, CLI_TEXT, offsetof(render_args, lines), "KINDS",
+     .help =
+         "border, silhouette, object, material, crease, crossing, section, mesh, parted by commas; or none (default: "
+         "all but mesh)"},
+    {"line-width", 0, CLI_REAL, offsetof(render_args, line_width), "W",
+     .help = "of borders and silhouettes (default 1)"},
+    {"crease", 0, CLI_REAL, offsetof(render_args, crease), "DEGREES",
+     .help = "angle that makes an edge a line (default 30)"},
+    {"halo", 0, CLI_REAL, offsetof(render_args, halo), "G", .help = "gap in lines before nearer lines (default 0)"},
+    {"hidden", 0, CLI_CHOICE, offsetof(render_args, hidden), "HOW", .help = "hidden lines: none (default) or dashed",
+     .choices = hiddens},
+    {"opacity", 0, CLI_TEXT, offsetof(render_args, opacity), "NAME=A,...", .help = "of a material or group, 0 to 1"},
+    {"priority", 0, CLI_TEXT, offsetof(render_args, priority), "NAME=K,...",
+     .help = "of faces that overlap in one plane the one with the higher K is seen (default 0, then the later)"},
+    {"cull-back", 0, CLI_FLAG, offsetof(render_args, cull_back), .help = "leave out faces seen from behind"},
+    {"background", 0, CLI_TEXT, offsetof(render_args, background), "RRGGBB",
+     .help = "colour of the page (default: clear)"},
+    {0},
+};
+
+static const cli_option file[] = {
+    {"decimals", 0, CLI_WHOLE, offsetof(render_args, decimals), "N", .help = "SVG: digits after the point (default 2)",
+     .max = 6},
+    {"ids", 0, CLI_CHOICE, offsetof(render_args, ids), "WHAT",
+     .help = "SVG: none (default), object (data-group on every path) or face (a path each, with data-object as well)",
+     .choices = ids},
+    {"layers", 0, CLI_CHOICE, offsetof(render_args, layers), "WHAT",
+     .help = "SVG: none (default) or object: a group with data-layer around each run of faces of one object",
+     .choices = layers},
+    {"title", 0, CLI_TEXT, offsetof(render_args, title), "TEXT", .help = "SVG, PDF: title of the picture"},
+    {"desc", 0, CLI_TEXT, offsetof(render_args, description), "TEXT", .help = "SVG: description of the picture"},
+    {"pixels", 0, CLI_REAL, offsetof(render_args, pixels), "S", .help = "PNG: pixels per unit of the page (default 1)"},
+    {0},
+};
+
+static const cli_part parts[] = {{"Picture", what, 0},
+                                 {"Camera", camera, 0},
+                                 {"Look", look, 0},
+                                 {"File", file, 0},
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
+
+/* --------------------------------------------------------------------- rendering -- */
+
+/* What the picture does not show, and why: faces, then objects that are none, then what is too small for the file. */
+static json_t *not_drawn_json(const froe_render_report *r) {
+    const froe_visibility_report *v = &r->picture.visibility;
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "hidden_faces", (json_int_t)v->hidden,
+                     "edge_on_faces", (json_int_t)v->edge_on, "culled_faces", (json_int_t)v->culled, "cut_away_faces",
+                     (json_int_t)v->cut_away, "flat_polygons", (json_int_t)v->flat, "segments", (json_int_t)v->segments,
+                     "points", (json_int_t)v->points, "thin_shapes", (json_int_t)r->thin_shapes, "short_lines",
+                     (json_int_t)r->short_strokes);
+}
+
+static json_t *report_json(const render_args *args, const froe_render_report *r) {
+    const froe_picture_report *p = &r->picture;
+    return json_pack(
+        "{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "tree",
+        cli_name_json(args->tree), "output", cli_name_json(args->output), "paint", froe_paint_name(p->paint),
+        "fragments", (json_int_t)p->visibility.pieces, "visible_fragments", (json_int_t)p->visibility.visible_pieces,
+        "visible_faces", (json_int_t)p->visibility.visible_patches, "arcs", (json_int_t)p->arcs, "late_faces",
+        (json_int_t)p->late, "shapes", (json_int_t)r->shapes, "lines", (json_int_t)r->strokes, "paths",
+        (json_int_t)r->paths, "bytes", (json_int_t)r->bytes, "exact_calls", (json_int_t)p->visibility.predicates.exact,
+        "left_out_faces", (json_int_t)p->left_out, "left_out_area", p->left_out_area, "not_drawn", not_drawn_json(r));
+}
+
+static void put_count(char *text, size_t room, uint64_t count, const char *one, const char *more) {
+    const size_t at = strlen(text);
+    if (count)
+        snprintf(text + at, room - at, "%s%llu %s", at ? ", " : "", (unsigned long long)count, count > 1 ? more : one);
+}
+
+/* Objects of which no picture shows anything. */
+static void warn_of_objects(const render_args *args, const froe_visibility_report *v) {
+    char text[160] = "";
+    put_count(text, sizeof text, v->points, "point", "points");
+    put_count(text, sizeof text, v->segments, "segment", "segments");
+    if (*text)
+        (void)cli_fail(0, args->output, "note: only faces are drawn; these objects of the scene are not: %s", text);
+}
+
+static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {
+    if (r->view.up_axis >= 0 && !args->common.quiet)
+        (void)cli_fail(0, args->output, "note: up lies along the line of view; axis %s points up instead",
+                       axes[r->view.up_axis]);
+    if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
+        (void)cli_fail(0, args->output,
+                       "note: too many faces overlap for an order of whole ones; fragments were painted");
+    warn_of_objects(args, &r->picture.visibility);
+    if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output, "note: nothing is visible from here");
+}
+
+/* The name of frame i: "pic-%03d.svg" has one %d, perhaps with a width; false: it has not. */
+static bool name_frame(const char *pattern, size_t i, char *out, size_t room) {
+    const char *percent = strchr(pattern, '%'), *at = percent;
+    char *end;
+    if (!percent) return false;
+    const bool zeros = at[1] == '0';
+    const long width = strtol(at + 1, &end, 10);
+    if (*end != 'd' || width < 0 || width > 20 || strchr(end, '%')) return false;
+    const int head = (int)(percent - pattern);
+    const int length = zeros ? snprintf(out, room, "%.*s%0*zu%s", head, pattern, (int)width, i, end + 1)
+                             : snprintf(out, room, "%.*s%*zu%s", head, pattern, (int)width, i, end + 1);
+    return length > 0 && (size_t)length < room;
+}
+
+static froe_status render_frames(const render_args *args, const froe_tree *tree, froe_render_options *o,
+                                 const froe_camera *cameras, froe_render_report *report, froe_diagnostic *diag) {
+    const double seconds = isnan(args->seconds) ? 8 : args->seconds;
+    if (args->animate)
+        return froe_render_animation(tree, args->output, o, cameras, args->turntable, seconds, report, diag);
+    froe_status status = FROE_OK;
+    for (size_t i = 0; !status && i < args->turntable; i++) {
+        char path[4096];
+        if (!name_frame(args->output, i, path, sizeof path)) return FROE_E_ARG;
+        o->camera = cameras[i];
+        status = froe_render(tree, path, o, report, diag);
+    }
+    return status;
+}
+
+static froe_status render_turning(const render_args *args, const froe_tree *tree, froe_render_options *o,
+                                  froe_render_report *report, froe_diagnostic *diag) {
+    froe_camera *cameras = calloc(args->turntable, sizeof *cameras);
+    if (!cameras) {
+        snprintf(diag->message, sizeof diag->message, "out of memory");
+        return FROE_E_MEMORY;
+    }
+    froe_status status = froe_camera_turn(&o->camera, froe_tree_scene(tree), args->turntable, cameras, diag);
+    if (!status) status = render_frames(args, tree, o, cameras, report, diag);
+    free(cameras);
+    return status;
+}
+
+static int check_turning(const render_args *args) {
+    char path[4096];
+    if (args->animate && !args->turntable) return cli_fail(CLI_USE, NULL, "--animate needs --turntable");
+    if (args->turntable && (args->eye.count || args->target.count))
+        return cli_fail(CLI_USE, NULL,
+                        "--turntable goes around the middle of the scene: --eye and --target do not apply");
+    if (args->turntable && !args->animate && !name_frame(args->output, 0, path, sizeof path))
+        return cli_fail(CLI_USE, NULL, "--turntable: the file must be called like pic-%%03d.svg, not '%s'",
+                        args->output);
+    return 0;
+}
+
+static int render(const render_args *args, const froe_tree *tree, froe_render_options *o) {
+    froe_diagnostic diag;
+    froe_render_report report;
+    const int code = check_turning(args);
+    if (code) return code;
+    cli_progress bar = cli_progress_begin(&args->common, "looking");
+    o->progress = cli_progress_step;
+    o->user = &bar;
+    const froe_status status = args->turntable ? render_turning(args, tree, o, &report, &diag)
+                                               : froe_render(tree, args->output, o, &report, &diag);
+    cli_progress_end(&bar);
+    if (status == FROE_E_ARG || status == FROE_E_OPTIONS) return cli_fail(CLI_USE, NULL, "%s", diag.message);
+    if (status) return cli_fail_status(CLI_WRITING, args->output, status, &diag);
+    warn(args, o, &report);
+    return cli_report(&args->common, NULL, report_json(args, &report));
+}
+
+static int render_groups(const render_args *args, const froe_tree *tree) {
+    const froe_scene *scene = froe_tree_scene(tree);
+    const size_t groups = froe_scene_group_count(scene);
+    froe_render_options o = froe_render_defaults();
+    double *values = calloc(2 * groups + 1, sizeof *values);
+    int32_t *priorities = calloc(groups + 1, sizeof *priorities);
+    int code =
+        values && priorities ? render_set_options(args, scene, &o) : cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    for (size_t g = 0; !code && g < groups; g++) values[g] = NAN;
+    if (!code) code = render_set_groups("opacity", args->opacity, scene, values);
+    if (!code) code = render_set_groups("priority", args->priority, scene, values + groups);
+    for (size_t g = 0; !code && g < groups; g++) {
+        if (fabs(values[groups + g]) > 1e9)
+            code = cli_fail(CLI_USE, NULL, "--priority: %g is too large", values[groups + g]);
+        priorities[g] = (int32_t)values[groups + g];
+    }
+    if (args->opacity) o.opacity = values;
+    if (args->priority) o.priorities = priorities;
+    if (!code) code = render(args, tree, &o);
+    free(values), free(priorities);
+    return code;
+}
+
+/* The tree once more, cut by the section first. */
+static int cut_section(const render_args *args, froe_tree **tree) {
+    froe_build_options o = froe_build_defaults();
+    froe_diagnostic diag;
+    froe_tree *whole = *tree;
+    if (!args->section.count || froe_scene_dim(froe_tree_scene(whole)) != 3) return 0;
+    if (args->section.count != 4)
+        return cli_fail(CLI_USE, NULL, "--section: %zu numbers given, 4 needed", args->section.count);
+    cli_progress bar = cli_progress_begin(&args->common, "cutting");
+    o.threads = (unsigned)args->common.threads;
+    o.max_fragments = cli_budget(args->max_fragments, froe_tree_scene(whole));
+    o.progress = cli_progress_step;
+    o.user = &bar;
+    const froe_status status = froe_tree_section(whole, args->section.at, &o, tree, &diag);
+    cli_progress_end(&bar);
+    if (status == FROE_E_ARG || status == FROE_E_UNSUPPORTED)
+        return cli_fail(CLI_USE, NULL, "--section: %s", diag.message);
+    if (status) return cli_fail_build(args->tree, args->max_fragments, froe_tree_scene(whole), status, &diag);
+    froe_tree_free(whole);
+    return 0;
+}
+
+static int run_render(const void *given) {
+    const render_args *args = given;
+    froe_tree *tree;
+    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
+    if (!code) code = cli_open_tree(args->tree, &tree);
+    if (code) return code;
+    code = cut_section(args, &tree);
+    if (code) {
+        froe_tree_free(tree);
+        return code;
+    }
+    if (froe_scene_dim(froe_tree_scene(tree)) != 3)
+        code = cli_fail(CLI_USE, args->tree, "a scene in the plane has no hidden surfaces: use froe draw");
+    else
+        code = render_groups(args, tree);
+    froe_tree_free(tree);
+    return code;
+}
+
+const cli_command cli_command_render = {
+    .name = "render",
+    .summary = "exact hidden-surface removal to SVG, PDF, EPS or PNG",
+    .about = "Finds, exactly, which parts of all faces and edges are visible, and paints whole faces in an order that "
+             "shows just these: few shapes, no cracks, nothing sorted by distance. Faces that intersect are cut. The "
+             "same tree and options give the same bytes.",
+    .examples = "froe render house.froe -o house.svg --up y\n"
+                "froe render house.froe -o front.pdf --preset technical --view front --up y --size 160x120mm\n"
+                "froe render house.froe -o turn.svg --up y --turntable 36 --animate\n"
+                "froe render house.froe -o glass.svg --up y --opacity 'Glass=0.3'\n"
+                "froe render house.froe -o room.svg --up y --eye 4,1.6,-3 --target 8,1.2,-6 --fov 70\n",
+    .parts = parts,
+    .defaults = &(const render_args){.common = CLI_COMMON_DEFAULTS,
+                                     .up_axis = 2,
+                                     .hidden = -1,
+                                     .halo = NAN,
+                                     .fov = NAN,
+                                     .unit = NAN,
+                                     .min_area = NAN,
+                                     .seconds = NAN,
+                                     .margin = NAN,
+                                     .seam_width = NAN,
+                                     .line_width = NAN,
+                                     .crease = NAN,
+                                     .pixels = NAN,
+                                     .decimals = UINT64_MAX,
+                                     .max_fragments = CLI_BUDGET_OWN},
+    .size = sizeof(render_args),
+    .run = run_render,
+};

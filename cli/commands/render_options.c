@@ -1,0 +1,207 @@
+/* render_options.c: each part of the command line, checked. */
+#include "commands/render_options.h"
+#include "exit.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void set_number(double given, double *field) {
+    if (!isnan(given)) *field = given;
+}
+
+static void set_preset(int preset, froe_render_options *o) {
+    if (preset == TECHNICAL) {
+        o->shading = FROE_SHADE_NONE;
+        o->camera.parallel = true;
+        o->hidden = true;
+    } else if (preset == PLOTTER) {
+        o->shading = FROE_SHADE_WHITE;
+        o->paint = FROE_PAINT_REGIONS;
+    } else if (preset == WEB) {
+        o->decimals = 1;
+    } else if (preset == PRINT) {
+        o->millimetres = true;
+        o->camera.width = 160, o->camera.height = 120;
+        o->seam_width = o->line_width = 0.2;
+        o->decimals = 3;
+    }
+}
+
+static int set_size(const char *text, froe_render_options *o) {
+    char *end = NULL;
+    if (!text) return 0;
+    o->camera.width = strtod(text, &end);
+    const bool times = end != text && *end == 'x';
+    const char *second = times ? end + 1 : text;
+    if (times) o->camera.height = strtod(second, &end);
+    const bool mm = strcmp(end, "mm") == 0;
+    if (!times || end == second || (*end && !mm))
+        return cli_fail(CLI_USE, NULL, "--size: '%s' is not like 1000x800 or 160x120mm", text);
+    if (mm && !o->millimetres) o->seam_width = o->line_width = 0.2;
+    o->millimetres = mm;
+    return 0;
+}
+
+static int set_point(const char *name, const cli_reals *given, double out[3]) {
+    if (!given->count) return 0;
+    if (given->count != 3) return cli_fail(CLI_USE, NULL, "--%s: %zu numbers given, 3 needed", name, given->count);
+    memcpy(out, given->at, 3 * sizeof *out);
+    return 0;
+}
+
+/* Directions of the views, for z up: right, towards the front (-y), up. */
+static void set_direction(int direction, int up, double eye[3]) {
+    static const double from[][3] = {{3, -5, 2}, {1, -1, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0},
+                                     {1, 0, 0},  {0, 0, 1},  {0, 0, -1}, {1, -4, 2}};
+    const double *d = from[direction];
+    for (int k = 0; k < 3; k++) eye[k] = 0;
+    eye[up] = d[2];
+    eye[(up + 1) % 3] = up == 1 ? -d[1] : d[0]; /* y up: z points at the viewer */
+    eye[(up + 2) % 3] = up == 1 ? d[0] : d[1];
+}
+
+static int set_camera(const render_args *args, const froe_scene *scene, froe_camera *c) {
+    double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
+    froe_scene_bounds(scene, lo, hi);
+    for (int k = 0; k < 3; k++) c->up[k] = k == args->up_axis, c->target[k] = 0;
+    set_direction(args->direction, args->up_axis, c->eye);
+    if (args->eye.count || args->target.count) {
+        for (int k = 0; k < 3; k++) c->target[k] = 0.5 * lo[k] + 0.5 * hi[k];
+        int code = set_point("target", &args->target, c->target);
+        for (int k = 0; k < 3; k++) c->eye[k] += c->target[k];
+        if (!code) code = set_point("eye", &args->eye, c->eye);
+        if (code) return code;
+        c->fit = !args->eye.count;
+    }
+    if (args->section.count) c->section = args->section.at;
+    if (args->parallel || args->direction > 0) c->parallel = true;
+    set_number(args->fov, &c->fov);
+    c->margin = c->width / 50;
+    set_number(args->margin, &c->margin);
+    return 0;
+}
+
+/* S, or 1:50. */
+static int set_scale(const render_args *args, froe_render_options *o) {
+    char *end;
+    if (!args->scale) return 0;
+    double scale = strtod(args->scale, &end);
+    if (end != args->scale && *end == ':') {
+        const char *second = end + 1;
+        const double to = strtod(second, &end);
+        if (end == second || !o->millimetres)
+            return cli_fail(CLI_USE, NULL, "--scale: '%s' needs a page in millimetres, such as --size 160x120mm",
+                            args->scale);
+        scale = scale / to * 1000 * (isnan(args->unit) ? 1 : args->unit);
+    }
+    if (end == args->scale || *end)
+        return cli_fail(CLI_USE, NULL, "--scale: '%s' is not like 2.5 or 1:50", args->scale);
+    if (!(scale > 0) || isinf(scale))
+        return cli_fail(CLI_USE, NULL, "--scale: %s is no scale: it must be more than 0", args->scale);
+    if (!o->camera.parallel)
+        return cli_fail(CLI_USE, NULL, "--scale: perspective has none: add --parallel, or use --fov");
+    o->camera.scale = scale;
+    return 0;
+}
+
+static int set_style(const char *text, froe_render_options *o) {
+    if (!text) return 0;
+    char *end;
+    if (strncmp(text, "cel:", 4) == 0) {
+        o->shading = FROE_SHADE_CEL;
+        o->cel_levels = (unsigned)strtoul(text + 4, &end, 10);
+        return end != text + 4 && !*end ? 0 : cli_fail(CLI_USE, NULL, "--style: '%s' is not like cel:4", text);
+    }
+    for (int s = 0; s < FROE_SHADING_COUNT; s++)
+        if (strcmp(text, froe_shading_name((froe_shading)s)) == 0) {
+            o->shading = (froe_shading)s;
+            return 0;
+        }
+    return cli_fail(CLI_USE, NULL, "--style: '%s' is not one of flat, cel, cel:N, plain, white, none", text);
+}
+
+static uint32_t line_bit(const char *name, size_t length) {
+    for (uint32_t bit = 1; bit < FROE_LINE_END; bit <<= 1) {
+        const char *known = froe_line_name((froe_line)bit);
+        if (known && strlen(known) == length && memcmp(known, name, length) == 0) return bit;
+    }
+    return 0;
+}
+
+static int set_lines(const char *list, uint32_t *lines) {
+    if (!list) return 0;
+    *lines = 0;
+    while (*list && strcmp(list, "none") != 0) {
+        const size_t length = strcspn(list, ",");
+        const uint32_t bit = line_bit(list, length);
+        if (!bit)
+            return cli_fail(CLI_USE, NULL,
+                            "--line-kinds: '%.*s' is not one of border, silhouette, object, material, crease, "
+                            "crossing, section, mesh",
+                            (int)length, list);
+        *lines |= bit;
+        list += length + (list[length] == ',');
+    }
+    return 0;
+}
+
+static int set_background(const char *text, uint32_t *background) {
+    if (!text || strcmp(text, "clear") == 0) return 0;
+    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
+        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear", text);
+    *background = (uint32_t)strtoul(text, NULL, 16);
+    return 0;
+}
+
+int render_set_groups(const char *option, const char *list, const froe_scene *scene, double *values) {
+    const size_t groups = froe_scene_group_count(scene);
+    while (list && *list) {
+        const size_t length = strcspn(list, ",");
+        const char *equals = memchr(list, '=', length);
+        char *end = NULL;
+        const double value = equals ? strtod(equals + 1, &end) : 0;
+        bool any = false;
+        if (!equals || end != list + length || end == equals + 1)
+            return cli_fail(CLI_USE, NULL, "--%s: '%.*s' is not like NAME=1", option, (int)length, list);
+        const size_t name = (size_t)(equals - list);
+        for (uint32_t g = 0; g < groups; g++) {
+            const froe_group group = froe_scene_group(scene, g);
+            const bool same = (strlen(group.name) == name && !memcmp(group.name, list, name)) ||
+                              (strlen(group.material) == name && !memcmp(group.material, list, name));
+            if (same) values[g] = value, any = true;
+        }
+        if (!any)
+            return cli_fail(CLI_USE, NULL, "--%s: no group or material is called '%.*s'", option, (int)name, list);
+        list += length + (list[length] == ',');
+    }
+    return 0;
+}
+
+int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o) {
+    set_preset(args->preset, o);
+    int code = set_size(args->size, o);
+    if (!code) code = set_camera(args, scene, &o->camera);
+    if (!code) code = set_scale(args, o);
+    if (!code) code = set_style(args->shading, o);
+    if (!code) code = set_lines(args->lines, &o->lines);
+    if (!code) code = set_background(args->background, &o->background);
+    if (args->paint) o->paint = (froe_paint)args->paint;
+    set_number(args->seam_width, &o->seam_width);
+    set_number(args->line_width, &o->line_width);
+    set_number(args->crease, &o->crease);
+    set_number(args->halo, &o->halo);
+    set_number(args->pixels, &o->pixels);
+    if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
+    if (args->hidden >= 0) o->hidden = args->hidden > 0;
+    o->cull_back = args->cull_back;
+    o->section = args->section.count ? -1 : 0;
+    o->interleaved = args->over > 0;
+    o->own_colours = args->colours > 0;
+    o->ids = (froe_ids)args->ids;
+    o->layers = args->layers > 0;
+    o->seams = (froe_seams)args->seams;
+    set_number(args->min_area, &o->min_area);
+    o->title = args->title, o->description = args->description;
+    return code;
+}

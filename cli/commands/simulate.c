@@ -1,0 +1,197 @@
+/* simulate.c: froe simulate, what moving objects do. */
+#include "command.h"
+#include "commands/follow.h"
+#include "exit.h"
+#include "files.h"
+#include "progress.h"
+#include "report/report.h"
+#include <froe/io.h>
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct simulate_args {
+    cli_common common;
+    const char *path, *contacts, *animate, *player;
+    double from, to, seconds; /* NaN: the library's default */
+    bool first, apart;
+    cli_follow follow;
+} simulate_args;
+
+static const cli_option options[] = {
+    {NULL, 0, CLI_TEXT, offsetof(simulate_args, path), "MOVING", .help = "moving features (MF-JSON)", .required = true},
+    {"from", 0, CLI_REAL, offsetof(simulate_args, from), "T", .help = "begin here (default: the file's first instant)"},
+    {"to", 0, CLI_REAL, offsetof(simulate_args, to), "T", .help = "end here (default: the file's last instant)"},
+    {"contacts", 0, CLI_TEXT, offsetof(simulate_args, contacts), "FILE",
+     .help = "write all contacts, with their times, as .csv or .json"},
+    {"first", 0, CLI_FLAG, offsetof(simulate_args, first),
+     .help = "only the first contact of all, and those that begin with it"},
+    {"apart", 0, CLI_FLAG, offsetof(simulate_args, apart), .help = "leave out contacts within one feature"},
+    {"events", 0, CLI_TEXT, offsetof(simulate_args, follow.events), "FILE",
+     .help = "follow the partition of the segments, and write what changes it, with the times, as .csv"},
+    {"at", 0, CLI_REAL, offsetof(simulate_args, follow.at), "T", .help = "with --output: the time of the tree"},
+    {"output", 'o', CLI_TEXT, offsetof(simulate_args, follow.tree), "TREE",
+     .help = "save the partition as it is at the time of --at, as a tree for all other commands"},
+    {"places", 0, CLI_TEXT, offsetof(simulate_args, follow.places), "FILE",
+     .help = "with --output: write where the tree's vertices are exactly, as quotients of whole numbers, as .csv"},
+    {"unrounded", 0, CLI_FLAG, offsetof(simulate_args, follow.unrounded),
+     .help = "with --output: fail if a coordinate is no double and would have to be rounded"},
+    {"augmented", 0, CLI_FLAG, offsetof(simulate_args, follow.augmented),
+     .help = "with --events: segments that turn upright cost nothing, however many they cross"},
+    {"animate", 0, CLI_TEXT, offsetof(simulate_args, animate), "FILE", .help = "write an animated picture, .svg"},
+    {"player", 0, CLI_TEXT, offsetof(simulate_args, player), "FILE",
+     .help = "write a page that plays the motion, .html"},
+    {"seconds", 0, CLI_REAL, offsetof(simulate_args, seconds), "S",
+     .help = "picture and page play for S seconds (default 20)"},
+    {0},
+};
+
+static const cli_part parts[] = {{"Simulate", options, 0}, {"Options", cli_common_options, 0}, {0}};
+
+typedef struct simulation {
+    const simulate_args *args;
+    froe_motion *motion;
+    froe_motion_report read;
+    froe_contact *contacts;
+    size_t count, room, instants;
+    froe_contact_statistics statistics;
+    double seconds;
+    bool full;
+    json_t *events;
+} simulation;
+
+static bool keep(void *user, const froe_contact *contact) {
+    simulation *s = user;
+    if (s->count == s->room) {
+        const size_t room = 2 * s->room + 64;
+        froe_contact *more = realloc(s->contacts, room * sizeof *more);
+        s->full = !more;
+        if (!more) return false;
+        s->contacts = more;
+        s->room = room;
+    }
+    s->contacts[s->count++] = *contact;
+    s->instants += contact->instant;
+    return true;
+}
+
+static int read_motion(simulation *s) {
+    froe_diagnostic diag;
+    froe_motion_read_options o = froe_motion_read_defaults();
+    o.from = s->args->from;
+    o.to = s->args->to;
+    const froe_status status = froe_read_motion(s->args->path, &o, &s->motion, &s->read, &diag);
+    return status ? cli_fail_status(CLI_READING, NULL, status, &diag) : 0;
+}
+
+static int find_contacts(simulation *s) {
+    froe_diagnostic diag;
+    cli_progress bar = cli_progress_begin(&s->args->common, "searching");
+    froe_contact_options o = froe_contact_defaults();
+    o.first = s->args->first;
+    o.apart = s->args->apart;
+    o.threads = (unsigned)s->args->common.threads;
+    o.statistics = &s->statistics;
+    o.progress = cli_progress_step;
+    o.user = &bar;
+    const double start = cli_seconds();
+    const froe_status status = froe_motion_contacts(s->motion, &o, keep, s, &diag);
+    s->seconds = cli_seconds() - start;
+    cli_progress_end(&bar);
+    if (s->full) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    return status ? cli_fail_status(CLI_WORKING, s->args->path, status, &diag) : 0;
+}
+
+static int animate(const simulation *s, const char *path) {
+    froe_diagnostic diag;
+    froe_animation_options o = froe_animation_defaults();
+    if (!path) return 0;
+    if (!isnan(s->args->seconds)) o.seconds = s->args->seconds;
+    const froe_status status = froe_animate(s->motion, s->contacts, s->count, &o, path, &diag);
+    return status ? cli_fail_status(CLI_WRITING, path, status, &diag) : 0;
+}
+
+static int write_contacts(const simulation *s) {
+    froe_diagnostic diag;
+    if (!s->args->contacts) return 0;
+    const froe_status status = froe_write_contacts(s->motion, s->contacts, s->count, s->args->contacts, &diag);
+    return status ? cli_fail_status(CLI_WRITING, s->args->contacts, status, &diag) : 0;
+}
+
+static json_t *first_contact(const simulation *s) {
+    if (!s->count) return json_null();
+    const froe_contact *c = s->contacts;
+    return json_pack("{s:I, s:I, s:f, s:f}", "a", (json_int_t)c->a, "b", (json_int_t)c->b, "begin_low", c->begin[0],
+                     "begin_high", c->begin[1]);
+}
+
+static int report(const simulation *s) {
+    const froe_motion_options window = froe_motion_window(s->motion);
+    json_t *all = json_pack(
+        "{s:I, s:I, s:I, s:I, s:I, s:I}", "objects", (json_int_t)froe_motion_object_count(s->motion), "vertices",
+        (json_int_t)froe_motion_vertex_count(s->motion), "features", (json_int_t)s->read.features, "still",
+        (json_int_t)s->read.still, "pieces", (json_int_t)s->read.pieces, "flattened", (json_int_t)s->read.flattened);
+    json_t *found = json_pack("{s:I, s:I, s:o}", "all", (json_int_t)s->count, "instants", (json_int_t)s->instants,
+                              "first", first_contact(s));
+    json_t *work = json_pack("{s:I, s:I, s:I}", "boxes", (json_int_t)s->statistics.boxes, "candidates",
+                             (json_int_t)s->statistics.candidates, "exact", (json_int_t)s->statistics.exact);
+    json_t *seconds = json_pack("{s:f, s:f}", "read", s->read.seconds, "contacts", s->seconds);
+    return cli_report(&s->args->common, NULL,
+                      json_pack("{s:o, s:{s:f, s:f}, s:o, s:o, s:O, s:o, s:o}", "file", cli_name_json(s->args->path),
+                                "window", "from", window.begin, "to", window.end, "motion", all, "contacts", found,
+                                "events", s->events, "work", work, "seconds", seconds));
+}
+
+static int check(const simulate_args *args) {
+    if (!isnan(args->from) && !isnan(args->to) && !(args->from < args->to))
+        return cli_fail(CLI_USE, NULL, "--from must be before --to");
+    if (isnan(args->follow.at) != !args->follow.tree)
+        return cli_fail(CLI_USE, NULL, "--at and --output go together: a time, and a file for its tree");
+    if ((args->follow.places || args->follow.unrounded) && !args->follow.tree)
+        return cli_fail(CLI_USE, NULL, "--places and --unrounded are about the tree of --output");
+    if (!isnan(args->seconds) && !(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds must be above 0");
+    const char *const outputs[] = {args->contacts,      args->animate,     args->player,
+                                   args->follow.events, args->follow.tree, args->follow.places};
+    return cli_check_outputs(&args->path, 1, outputs, sizeof outputs / sizeof *outputs);
+}
+
+static int run(const void *given) {
+    simulation s = {.args = given};
+    int code = check(s.args);
+    if (!code) code = read_motion(&s);
+    if (!code) code = find_contacts(&s);
+    if (!code) code = write_contacts(&s);
+    if (!code) code = animate(&s, s.args->animate);
+    if (!code) code = animate(&s, s.args->player);
+    if (!code) code = cli_follow_motion(&s.args->common, &s.args->follow, s.args->path, s.motion, &s.events);
+    if (!code) code = report(&s);
+    json_decref(s.events);
+    froe_motion_free(s.motion);
+    free(s.contacts);
+    return code;
+}
+
+const cli_command cli_command_simulate = {
+    .name = "simulate",
+    .summary = "find when moving objects meet, and show it",
+    .about =
+        "MOVING is a file of OGC Moving Features JSON: lines, polygons and points whose vertices move straight, or on "
+        "parabolas, from instant to instant. All contacts between its segments are found, the shortest included: "
+        "when they begin and end is known to lie between two doubles that are neighbours or nearly so. Segments that "
+        "share a vertex are not said to meet.\n\n"
+        "With --events or --at, a partition of the plane (that of the method cylindrical) is kept right while they "
+        "move: "
+        "vertices and crossings that pass over one another, contacts, turns, pieces of flight plans and the like are "
+        "its events. A tree is taken at the next odd tick; its coordinates are doubles, and --json tells how many "
+        "vertices had to be rounded, and whether the cuts are those of the exact places all the same. --places writes "
+        "these.\n\n"
+        "Times are those of the file: its numbers, or milliseconds since 1970 for ISO 8601 instants.",
+    .examples = "froe simulate cars.mfjson --contacts contacts.csv\n"
+                "froe simulate cars.mfjson --from 301000 --to 305000 --first --json\n"
+                "froe simulate cars.mfjson --events events.csv --at 304014.4 -o now.froe\n"
+                "froe simulate cars.mfjson --animate cars.svg --player cars.html\n",
+    .parts = parts,
+    .defaults =
+        &(const simulate_args){.common = CLI_COMMON_DEFAULTS, .from = NAN, .to = NAN, .seconds = NAN, .follow.at = NAN},
+    .size = sizeof(simulate_args),
+    .run = run,
+};

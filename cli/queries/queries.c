@@ -1,0 +1,247 @@
+/* queries.c: blocks of queries, and the treatment of bad ones. */
+#include "queries/queries.h"
+#include "exit.h"
+#include "progress.h"
+#include "report/report.h"
+#include "report/tree_report.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const cli_option cli_query_options[] = {
+    {"keep-going", 0, CLI_FLAG, offsetof(cli_query_args, keep_going),
+     .help = "pass over malformed rows and bad queries, after naming them"},
+    {"count", 0, CLI_FLAG, offsetof(cli_query_args, count), .help = "say only how many answers each query has"},
+    {0},
+};
+
+/* A run in progress. Rows of the query being gathered lie behind those of the `count` whole ones. */
+typedef struct run {
+    const cli_queries *q;
+    const cli_asked *asked;
+    cli_rows rows;
+    bool grouped, ended;
+    bool open, spoilt; /* is a query being gathered? was a row of it bad? */
+    bool refused;      /* was anything bad? */
+    int code;          /* why the run ends early */
+    size_t count, gathered, width;
+    size_t starts[CLI_BLOCK + 1];
+    uint64_t ids[CLI_BLOCK + 1], lines[CLI_BLOCK + 1];
+    double *numbers;
+    size_t room; /* for rows */
+    uint64_t answered;
+    cli_answers out;
+} run;
+
+/* -------------------------------------------------------------------- bad -- */
+
+static void refuse(run *r, uint64_t line, const char *reason) {
+    size_t length = strlen(reason);
+    if (length && reason[length - 1] == '.') length--;
+    r->refused = true;
+    cli_fail(CLI_INPUT, r->rows.path, "line %llu: %.*s", (unsigned long long)line, (int)length, reason);
+    if (!r->q->args->keep_going) r->code = CLI_INPUT;
+}
+
+/* ---------------------------------------------------------------- reading -- */
+
+static size_t rows_held(const run *r) {
+    return r->starts[r->count] + r->gathered;
+}
+
+static bool make_room(run *r) {
+    if (rows_held(r) < r->room) return true;
+    const size_t room = 2 * r->room + CLI_BLOCK;
+    double *numbers = realloc(r->numbers, room * r->width * sizeof *numbers);
+    if (!numbers) {
+        r->code = cli_fail(CLI_RESOURCES, NULL, "out of memory");
+        return false;
+    }
+    r->numbers = numbers;
+    r->room = room;
+    return true;
+}
+
+/* The query being gathered is whole. */
+static void close_query(run *r) {
+    if (r->gathered && !r->spoilt) {
+        r->starts[r->count + 1] = rows_held(r);
+        r->count++;
+    }
+    r->gathered = 0;
+    r->open = r->spoilt = false;
+}
+
+/* The query that a row belongs to is the one being gathered, or a new one. */
+static void open_query(run *r, uint64_t id) {
+    if (r->open && r->ids[r->count] == id) return;
+    close_query(r);
+    r->open = true;
+    r->ids[r->count] = id;
+    r->lines[r->count] = r->rows.line;
+}
+
+static bool is_id(double x) {
+    return x >= 0 && x < 0x1p53 && x == floor(x);
+}
+
+static void add_row(run *r, const double *values) {
+    const size_t skip = r->grouped;
+    if (r->grouped && !is_id(values[0])) {
+        refuse(r, r->rows.line, "the column query holds no whole number");
+        r->spoilt = true;
+        return;
+    }
+    open_query(r, r->grouped ? (uint64_t)values[0] : r->rows.row);
+    if (!make_room(r)) return;
+    memcpy(r->numbers + rows_held(r) * r->width, values + skip, r->width * sizeof *values);
+    r->gathered++;
+    if (!r->grouped) close_query(r);
+}
+
+/* A bad row spoils its query, which is the one being gathered if the row names none. */
+static void add_bad_row(run *r, const double *values) {
+    if (r->grouped && is_id(values[0])) open_query(r, (uint64_t)values[0]);
+    r->spoilt = r->open;
+    refuse(r, r->rows.line, r->rows.reason);
+}
+
+/* Reads until the block is full or the file ends. */
+static void read_block(run *r) {
+    double values[CLI_ROW_NUMBERS];
+    while (!r->code && !r->ended && r->count < CLI_BLOCK) {
+        values[0] = NAN;
+        switch (cli_rows_next(&r->rows, values)) {
+        case CLI_ROW_READ:
+            add_row(r, values);
+            break;
+        case CLI_ROW_BAD:
+            add_bad_row(r, values);
+            break;
+        case CLI_ROWS_END:
+            r->ended = true;
+            break;
+        case CLI_ROWS_FAILED:
+            r->code = CLI_INPUT;
+            break;
+        }
+    }
+    if (r->ended) close_query(r);
+}
+
+/* -------------------------------------------------------------- answering -- */
+
+/* The queries first .. first + count of the block. */
+static froe_status answer_rows(run *r, size_t first, size_t count, froe_diagnostic *diag) {
+    const cli_block block = {
+        .count = count, .width = r->width, .starts = r->starts + first, .numbers = r->numbers, .ids = r->ids + first};
+    if (!count) return FROE_OK;
+    const froe_status status = r->q->answer(r->q->given, r->asked, &block, &r->out, diag);
+    if (!status) r->answered += count;
+    return status;
+}
+
+static void answer_block(run *r, size_t count) {
+    size_t first = 0;
+    while (first < count) {
+        froe_diagnostic diag = {0};
+        froe_status status = answer_rows(r, first, count - first, &diag);
+        if (!status) return;
+        size_t bad = diag.object;
+        if (status == FROE_E_INPUT && bad < count - first) {
+            status = answer_rows(r, first, bad, &diag);
+            if (!status) refuse(r, r->lines[first + bad], diag.message);
+            first += bad + 1;
+        }
+        if (status) r->code = cli_fail_status(CLI_WORKING, r->q->args->tree, status, &diag);
+        if (r->code) return;
+    }
+}
+
+/* Moves the query being gathered to the front. */
+static void empty_block(run *r, size_t count) {
+    if (r->gathered)
+        memmove(r->numbers, r->numbers + r->starts[count] * r->width, r->gathered * r->width * sizeof *r->numbers);
+    r->ids[0] = r->ids[count];
+    r->lines[0] = r->lines[count];
+    r->count = 0;
+}
+
+static void work(run *r) {
+    while (!r->ended && !r->code) {
+        read_block(r);
+        const int code = r->code; /* what was read before a bad row is answered all the same */
+        const size_t count = r->count;
+        r->code = 0;
+        answer_block(r, count);
+        if (!r->code) r->code = code;
+        empty_block(r, count);
+        if (!r->code && cli_interrupted()) r->code = cli_fail(CLI_CANCELLED, NULL, "interrupted");
+    }
+}
+
+/* ---------------------------------------------------------------- summary -- */
+
+json_t *cli_statistics_json(froe_query *query) {
+    const froe_query_stats s = query ? froe_query_statistics(query) : (froe_query_stats){0};
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I}", "nodes", (json_int_t)s.nodes, "leaves", (json_int_t)s.leaves,
+                     "tests", (json_int_t)s.tests, "exact", (json_int_t)s.exact, "slices", (json_int_t)s.slices,
+                     "steps", (json_int_t)s.steps);
+}
+
+static int summarise(run *r, double seconds) {
+    return cli_report(r->q->common, NULL,
+                      json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(r->q->args->tree), "queries",
+                                cli_name_json(r->rows.path), "answered", (json_int_t)r->answered, "rows",
+                                (json_int_t)r->out.rows, "seconds", seconds, "visited",
+                                cli_statistics_json(r->asked->query)));
+}
+
+froe_status cli_diagnose(froe_diagnostic *diag, froe_status status, size_t object, const char *message) {
+    *diag = (froe_diagnostic){.status = status, .object = (uint32_t)object, .corner = FROE_NONE, .axis = FROE_NONE};
+    snprintf(diag->message, sizeof diag->message, "%s", message);
+    return status;
+}
+
+static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
+    run *r = calloc(1, sizeof *r);
+    if (!r) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    r->q = queries;
+    r->asked = asked;
+    r->grouped = !strcmp(queries->columns[0].name, "query");
+    const double start = cli_seconds();
+    int code = cli_rows_open(queries->args->input, queries->columns, (int)asked->dim, &r->rows);
+    if (!code) {
+        r->width = r->rows.numbers - r->grouped;
+        r->out.mute = queries->common->json;
+        if (!r->out.mute) printf("%s\n", queries->header);
+        work(r);
+        cli_answers_flush(&r->out);
+        code = r->code ? r->code : r->refused ? CLI_INPUT : 0;
+        if (queries->common->json && !r->code) {
+            const int written = summarise(r, cli_seconds() - start);
+            if (written) code = written;
+        }
+        const int flushed = cli_flush();
+        if (flushed) code = flushed;
+        cli_rows_close(&r->rows);
+    }
+    free(r->numbers);
+    free(r);
+    return code;
+}
+
+int cli_queries_run(const cli_queries *queries) {
+    froe_tree *tree;
+    froe_diagnostic diag;
+    int code = cli_open_tree(queries->args->tree, &tree);
+    if (code) return code;
+    cli_asked asked = {.scene = froe_tree_scene(tree), .batch = froe_batch_defaults()};
+    asked.dim = (size_t)froe_scene_dim(asked.scene);
+    asked.batch.threads = (unsigned)queries->common->threads;
+    const froe_status status = froe_query_new(tree, &asked.query, &diag);
+    code = status ? cli_fail_status(CLI_WORKING, queries->args->tree, status, &diag) : ask_batch(queries, &asked);
+    froe_query_free(asked.query);
+    froe_tree_free(tree);
+    return code;
+}
