@@ -9,11 +9,11 @@
  *                   DOWN  bottom                      above.
  *
  * The tree is a function of the order of the segments (their keys) and of where they are. How it is changed when that
- * changes is in surgery.c, and how such a change is noticed in certificates.c. */
+ * changes is in event/surgery.c, and how such a change is noticed in certificate/certify.c. */
 #ifndef FROE_KINETIC_LIVE_H
 #define FROE_KINETIC_LIVE_H
 #include "base/task.h"
-#include "kinetic/now.h"
+#include "kinetic/now/now.h"
 
 enum { LEFT, RIGHT, UP, DOWN };
 
@@ -234,7 +234,7 @@ static inline bool is_end(uint32_t wall) {
     return wall == END_0 || wall == END_1;
 }
 
-/* nodes.c */
+/* tree/ktree.c */
 /** LEAF: no memory. Linked to its segment, not to a parent. */
 uint32_t live_new_node(froe_kinetic *k, uint32_t segment, const uint32_t wall[2]);
 void live_free_node(froe_kinetic *k, uint32_t node);
@@ -279,7 +279,7 @@ bool live_slab(froe_kinetic *k, uint32_t node);
 /** The whole tree, whatever state it is in. */
 void live_restart(froe_kinetic *k);
 
-/* crowd.c */
+/* event/participants.c */
 /** Empties the lists of participants and places. */
 void live_new_crew(froe_kinetic *k);
 bool live_in_crew(const froe_kinetic *k, uint32_t segment);
@@ -310,7 +310,7 @@ uint32_t live_met_segment(const froe_kinetic *k, now_name p, now_name q);
 bool live_is_one_segment(const froe_kinetic *k, now_name p, now_name q);
 bool live_has_end(const froe_kinetic *k, uint32_t segment, uint32_t vertex);
 
-/* narrow.c */
+/* event/pass.c */
 typedef enum live_outcome {
     LIVE_DONE,
     LIVE_STRANGERS, /**< neighbours were added to the participants; the tree is as it was */
@@ -328,7 +328,7 @@ int64_t live_recall(const froe_kinetic *k, const now_claim *claim);
 /** The certificates due at a tick, as k->order. */
 void live_due(froe_kinetic *k, int64_t tick);
 
-/* certificates.c */
+/* certificate/certify.c */
 /** A place in the tree: its cell, and what the nodes above depend on of what was there. */
 typedef struct live_site {
     uint32_t parent;
@@ -417,7 +417,7 @@ froe_status live_fail(froe_kinetic *k, froe_diagnostic *diag);
  * FROE_E_MEMORY. */
 froe_status live_compare(const froe_kinetic *k, const froe_kinetic *other, bool certificates, uint32_t found[2]);
 
-/* events.c */
+/* event/event.c */
 /** The next tick at which something happens; NOW_NEVER: nothing does. */
 int64_t live_next_tick(const froe_kinetic *k);
 /** Goes to that tick, or to `tick` if nothing happens before. False: the visitor asked to stop. */

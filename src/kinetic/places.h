@@ -1,7 +1,7 @@
 /* places.h: where the ends of a snapshot's objects are, exactly: the internal type. */
 #ifndef FROE_KINETIC_PLACES_H
 #define FROE_KINETIC_PLACES_H
-#include "kinetic/poly.h"
+#include "kinetic/motion/poly.h"
 
 /** A whole number among the limbs. */
 typedef struct places_part {

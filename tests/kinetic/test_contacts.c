@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "kinetic/meet.h"
+#include "kinetic/contact/meet.h"
 #include "motions.h"
 #include "oracle/moving.h"
 #include "support/memory.h"

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "kinetic/motion.h"
+#include "kinetic/motion/motion.h"
 #include "support/fuzz.h"
 #include "support/memory.h"
 #include "support/rational.h"

@@ -1,7 +1,7 @@
 /* truth.h: where vertices are, in whole numbers (GMP), from the plans as they are written. */
 #ifndef FROE_TESTS_KINETIC_TRUTH_H
 #define FROE_TESTS_KINETIC_TRUTH_H
-#include "kinetic/motion.h"
+#include "kinetic/motion/motion.h"
 #include <gmp.h>
 
 enum { TRUTH_NEAR = 6000 /* halvings of a tick: nothing happens before */ };

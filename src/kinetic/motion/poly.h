@@ -3,7 +3,7 @@
  * moving segments cross, and what the order of such points is and on which side of a line they are. */
 #ifndef FROE_KINETIC_POLY_H
 #define FROE_KINETIC_POLY_H
-#include "kinetic/motion.h"
+#include "kinetic/motion/motion.h"
 
 /** Coefficients of the worst: the order of two crossings of segments that fly along parabolas. */
 enum { POLY_TERMS = 11 };

@@ -1,4 +1,4 @@
-/* narrow.c: a point passes a wall that belongs to another point, and nothing else happens.
+/* pass.c: a point passes a wall that belongs to another point, and nothing else happens.
  *
  *     _________________             Only two cells change, those on both sides of the wall at the height of the
  *        :   |     :                point: near, where the certificate was, and far. In one of them the segment s of

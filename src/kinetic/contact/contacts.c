@@ -8,8 +8,8 @@
 #include "base/sort.h"
 #include "base/status.h"
 #include "geom/meet/box_pairs.h"
-#include "kinetic/meet.h"
-#include "kinetic/slices.h"
+#include "kinetic/contact/meet.h"
+#include "kinetic/contact/slices.h"
 
 froe_contact_options froe_contact_defaults(void) {
     return (froe_contact_options){.size = sizeof(froe_contact_options), .from = NAN, .to = NAN};

@@ -1,5 +1,5 @@
 /* slices.c: see slices.h. The fineness of the slices affects speed alone. */
-#include "kinetic/slices.h"
+#include "kinetic/contact/slices.h"
 #include <float.h>
 
 enum {

@@ -1,4 +1,4 @@
-/* crowd.c: finds the segments that take part in an event.
+/* participants.c: finds the segments that take part in an event.
  *
  *        \ |            The participants of an event are first the segments that its certificates name. Neighbours may
  *     ----\o====        be at the same place without walls and certificates of their own, because their vertices lie

@@ -1,4 +1,4 @@
-/* nodes.c: nodes of a live partition, their cells, and lists of segments. */
+/* ktree.c: nodes of a live partition, their cells, and lists of segments. */
 #include "kinetic/live.h"
 
 void live_touch_end(froe_kinetic *k, uint32_t end) {

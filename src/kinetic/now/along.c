@@ -5,7 +5,7 @@
  *            /               share b - share a = (u_a v_b - u_b v_a) / ((u_a - v_a) (u_b - v_b))
  *     a ----/------      and the denominator does not change its sign as long as they cross. For the order of x the
  *       end 0            numerator would be multiplied by how far the segment goes in x, which is 0 when it turns. */
-#include "kinetic/now.h"
+#include "kinetic/now/now.h"
 
 static bool has_end(const now_state *now, uint32_t segment, uint32_t vertex) {
     const uint32_t *end = now->segments.data[segment].end;

@@ -1,5 +1,5 @@
 /* motion.c: a motion from its window to its end, and what can be read from it. See motion.h. */
-#include "kinetic/motion.h"
+#include "kinetic/motion/motion.h"
 #include "base/floats.h"
 #include "base/status.h"
 #include "num/context.h"

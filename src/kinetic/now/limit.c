@@ -1,7 +1,7 @@
 /* limit.c: places for output, in doubles. Most are where a point is at the tick; but two lines may be parallel at the
  * tick and cross just after it, and a segment may be upright then and not just after it. A value that is 0 / 0 at the
  * tick has a limit from after it: the quotient of the first coefficients in time of which the lower one is not 0. */
-#include "kinetic/now.h"
+#include "kinetic/now/now.h"
 #include <math.h>
 
 /* The limit of top / bottom, which is bounded; NaN: 0 / 0 for as long as the pieces last. */

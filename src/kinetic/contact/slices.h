@@ -6,7 +6,7 @@
  *        |__|_/__|_________ t  same for all objects; each slice gets its bounding box */
 #ifndef FROE_KINETIC_SLICES_H
 #define FROE_KINETIC_SLICES_H
-#include "kinetic/motion.h"
+#include "kinetic/motion/motion.h"
 
 typedef struct motion_slice {
     uint32_t object;

@@ -1,4 +1,4 @@
-/* first.c: the first tick after which a claim about moving points is false.
+/* failure.c: the first tick after which a claim about moving points is false.
  *
  *         +                              The claim is a polynomial in time that is positive while it holds. In
  *      o     +                           Bernstein's form over an interval of ticks the polynomial lies within
@@ -8,7 +8,7 @@
  *                                        interval is halved (de Casteljau), and where doubles do not suffice,
  * Descartes' rule is applied to the exact polynomial. Ticks are tested by predicates, never by polynomials.
  * Source: Lane and Riesenfeld, "Bounds on a polynomial", BIT 1981; Collins and Akritas, SYMSAC 1976. */
-#include "kinetic/now.h"
+#include "kinetic/now/now.h"
 #include <math.h>
 
 enum { LEVELS = 56 };

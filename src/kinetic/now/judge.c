@@ -4,7 +4,7 @@
  * Vertices whose pieces last from the same instant to the same instant share their denominator, as most do. Then it is
  * left out, for no order and no side depends on a common scale. The width of results follows from the width of the
  * vertices at this tick; the formulas are those of poly_body.inc. */
-#include "kinetic/now.h"
+#include "kinetic/now/now.h"
 
 enum { SHORT_BITS = 126, WIDE_BITS = NUM_WIDE_BITS - 1, VERTICES = 8 };
 

@@ -1,5 +1,5 @@
 /* now.c: places, order and sides just after a tick: in doubles with error bounds, then exactly. */
-#include "kinetic/now.h"
+#include "kinetic/now/now.h"
 #include "geom/selftest.h"
 #include <math.h>
 

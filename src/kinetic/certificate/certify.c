@@ -1,4 +1,4 @@
-/* certificates.c: what proves that a live partition is what it should be.
+/* certify.c: what proves that a live partition is what it should be.
  *
  *        :  |  :                      regions   the walls left and right of a region keep their order. Only regions
  *     ___:__|__:___ above             without a wall inside have certificates: these imply the others

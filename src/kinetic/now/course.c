@@ -2,7 +2,7 @@
  *
  * Positions are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. So is each
  * coefficient from the true one, times its power of the span: error / span^i bounds what coefficient i is off by. */
-#include "kinetic/now.h"
+#include "kinetic/now/now.h"
 #include <math.h>
 
 /* a / b, b > 0. */

@@ -3,7 +3,7 @@
  * Knots are written behind the published counts; a batch that fails is forgotten. */
 #include "base/floats.h"
 #include "base/status.h"
-#include "kinetic/motion.h"
+#include "kinetic/motion/motion.h"
 #include "scene/scene.h"
 #include <string.h>
 

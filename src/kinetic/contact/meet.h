@@ -8,7 +8,7 @@
  * of coordinates (degree up to 2). So all that happens, happens at roots of these; between two of them signs stay. */
 #ifndef FROE_KINETIC_MEET_H
 #define FROE_KINETIC_MEET_H
-#include "kinetic/motion.h"
+#include "kinetic/motion/motion.h"
 #include "num/isolate.h"
 
 enum { MEET_TURNS = 4, MEET_GAPS = 8, MEET_EVENTS = 4 * NUM_DEGREE };

@@ -1,5 +1,5 @@
 /* poly.c: polynomials in time. */
-#include "kinetic/poly.h"
+#include "kinetic/motion/poly.h"
 
 static num_ball ball_minus(num_ball a) {
     return (num_ball){-a.x, a.e};
@@ -17,7 +17,7 @@ static num_dyadic exact_minus(num_dyadic a) {
 #define ADD(a, b) num_ball_add(a, b)
 #define SUB(a, b) num_ball_sub(a, b)
 #define MUL(a, b) num_ball_mul(a, b)
-#include "kinetic/poly_body.inc"
+#include "kinetic/motion/poly_body.inc"
 
 static num_short short_minus(num_short a) {
     return -a;
@@ -31,7 +31,7 @@ static num_short short_minus(num_short a) {
 #define SUB(a, b) ((a) - (b))
 #define MUL(a, b) ((a) * (b))
 #define SIGN(a) (((a) > 0) - ((a) < 0))
-#include "kinetic/poly_body.inc"
+#include "kinetic/motion/poly_body.inc"
 
 static num_wide wide_minus(num_wide a) {
     return num_wide_sub((num_wide){{0}}, a);
@@ -47,7 +47,7 @@ static num_wide wide_minus(num_wide a) {
 #define SIGN(a) num_wide_sign(a)
 #define FROM(x) num_wide_from(x)
 #define POWER(k) num_wide_power(k)
-#include "kinetic/poly_body.inc"
+#include "kinetic/motion/poly_body.inc"
 
 #define T num_dyadic
 #define POLY poly_exact
@@ -59,7 +59,7 @@ static num_wide wide_minus(num_wide a) {
 #define SIGN(a) (a).sign
 #define FROM(x) num_dyadic_scaled(arena, 1, (uint64_t)(x), 0)
 #define POWER(k) num_dyadic_scaled(arena, 1, 1, k)
-#include "kinetic/poly_body.inc"
+#include "kinetic/motion/poly_body.inc"
 
 void ball_vertex(const froe_motion *m, const motion_piece *piece, int64_t tick, ball_point *out) {
     motion_ball_curve curve;

@@ -1,4 +1,4 @@
-/* events.c: from one instant at which something happens to the next.
+/* event.c: from one instant at which something happens to the next.
  *
  * All certificates that fail at a tick are taken together: those whose slabs overlap form a group. A group is repaired
  * by one surgery, or by several in unrelated cells. Where a group looks like one of the paper's events, the cells are

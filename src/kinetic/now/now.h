@@ -8,7 +8,7 @@
  * ordered by x and then y, as if all vertical lines were slightly inclined (see num/sheared.h): x + eps y. */
 #ifndef FROE_KINETIC_NOW_H
 #define FROE_KINETIC_NOW_H
-#include "kinetic/poly.h"
+#include "kinetic/motion/poly.h"
 #include "num/context.h"
 
 enum {

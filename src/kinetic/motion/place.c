@@ -3,7 +3,7 @@
  * Stack integers count coordinates in units of 2^unit of the whole motion, and times in a unit of the piece, in which
  * its ends, the window's and all ticks are whole. */
 #include "base/floats.h"
-#include "kinetic/motion.h"
+#include "kinetic/motion/motion.h"
 #include <float.h>
 #include <string.h>
 
@@ -16,7 +16,7 @@
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
 #define MUL(a, b) num_dyadic_mul(arena, a, b)
-#include "kinetic/place_body.inc"
+#include "kinetic/motion/place_body.inc"
 
 #define T num_ball
 #define CURVE motion_ball_curve
@@ -27,7 +27,7 @@
 #define ADD(a, b) num_ball_add(a, b)
 #define SUB(a, b) num_ball_sub(a, b)
 #define MUL(a, b) num_ball_mul(a, b)
-#include "kinetic/place_body.inc"
+#include "kinetic/motion/place_body.inc"
 
 /* x / 2^unit, which is whole. */
 static num_short whole_of(double x, int unit) {
@@ -54,7 +54,7 @@ static num_short whole_of(double x, int unit) {
 #define ADD(a, b) ((a) + (b))
 #define SUB(a, b) ((a) - (b))
 #define MUL(a, b) ((a) * (b))
-#include "kinetic/place_body.inc"
+#include "kinetic/motion/place_body.inc"
 
 static num_short whole_ticks(const froe_motion *m, const motion_piece *piece, int64_t ticks) {
     return piece->degree ? (num_short)ticks << (m->power - piece->from->unit) : 0;

@@ -1,6 +1,6 @@
 /* meet.c: see meet.h. Error bounds first: most pairs stay apart for a simple reason. Then exactly: the roots of all
  * turns in their order, and signs at them and between them. */
-#include "kinetic/meet.h"
+#include "kinetic/contact/meet.h"
 
 #define T num_ball
 #define CURVE motion_ball_curve
@@ -9,7 +9,7 @@
 #define ADD(a, b) num_ball_add(a, b)
 #define SUB(a, b) num_ball_sub(a, b)
 #define MUL(a, b) num_ball_mul(a, b)
-#include "kinetic/sides_body.inc"
+#include "kinetic/contact/sides_body.inc"
 
 #define T num_dyadic
 #define CURVE motion_dyadic_curve
@@ -18,7 +18,7 @@
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
 #define MUL(a, b) num_dyadic_mul(arena, a, b)
-#include "kinetic/sides_body.inc"
+#include "kinetic/contact/sides_body.inc"
 
 /* An instant at which a turn (or a gap) vanishes; the bits of those whose isolated root it is. */
 typedef struct event {
