@@ -35,7 +35,7 @@ static void stop(const char *what) {
 static double seconds(const double *guards, const bench_row *row, split_guard_way way, uint64_t *leaves) {
     double best = INFINITY;
     for (int run = 0; run < RUNS; run++) {
-        froe_allocator alloc = base_allocator(NULL);
+        froe_allocator alloc = support_allocator(NULL);
         split_guard_options options = {.dim = row->dim, .k = row->k, .way = way};
         split_guard_tree tree;
         base_task task;

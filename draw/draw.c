@@ -1,11 +1,11 @@
 /* draw.c: the public calls: options checked, page planned and painted, bytes written. */
-#include "escape.h"
 #include "output.h"
 #include "palette.h"
 #include "picture.h"
 #include "support/floats.h"
 #include "support/utf8.h"
 #include "support/writer.h"
+#include "support/xml.h"
 #include <math.h>
 #include <string.h>
 

@@ -10,9 +10,9 @@
 #include <froe/plot.h>
 
 #include "axis.h"
-#include "escape.h"
 #include "memory.h"
 #include "support/floats.h"
+#include "support/xml.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,7 +46,7 @@ static void put_plot_label(plot *p, const char *text) {
 
 static void put_escaped(plot *p, const char *text) {
     char out[8];
-    for (size_t n; (n = draw_escape(&text, out));) put_plot_text(p, out, n);
+    for (size_t n; (n = support_xml_escape(&text, out));) put_plot_text(p, out, n);
 }
 
 /* "12.3" in every locale. */

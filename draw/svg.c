@@ -3,8 +3,8 @@
  * Coordinates are whole numbers of steps of the grid, scaled to the page by a group around everything: no decimal
  * points. Differences are taken between rounded points, so that errors do not add up. All rings turn the same way and
  * fill by the nonzero rule: faces seen from behind and from the front may share a path. */
-#include "escape.h"
 #include "render.h"
+#include "support/xml.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +41,7 @@ static void put_text(svg_writer *w, const char *text) {
 
 static void put_escaped(svg_writer *w, const char *text) {
     char out[8];
-    for (size_t n; (n = draw_escape(&text, out));) put_svg(w, out, n);
+    for (size_t n; (n = support_xml_escape(&text, out));) put_svg(w, out, n);
 }
 
 static void put_number(svg_writer *w, int64_t steps) {

@@ -1,6 +1,8 @@
-/* alloc.c: the caller's allocator, or malloc. */
+/* alloc.c: the caller's allocator, or malloc; sizes that do not overflow, and arrays that grow. */
 #define _DEFAULT_SOURCE 1 /* madvise, posix_memalign */
 #include "support/alloc.h"
+#include "support/array.h"
+#include "support/floats.h"
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -37,4 +39,36 @@ static void *malloc_fn(void *user, void *ptr, size_t old_size, size_t new_size) 
 
 froe_allocator support_allocator(const froe_allocator *alloc) {
     return alloc && alloc->fn ? *alloc : (froe_allocator){malloc_fn, NULL};
+}
+
+void *support_realloc(const froe_allocator *alloc, void *ptr, size_t old_size, size_t new_size) {
+    if (!ptr && !new_size) return NULL;
+    return support_callback(alloc->fn(alloc->user, ptr, old_size, new_size));
+}
+
+void *support_calloc(const froe_allocator *alloc, size_t count, size_t item_size) {
+    size_t size;
+    if (__builtin_mul_overflow(count, item_size, &size)) return NULL;
+    void *ptr = support_realloc(alloc, NULL, 0, size ? size : 1);
+    if (ptr) memset(ptr, 0, size ? size : 1);
+    return ptr;
+}
+
+void support_free(const froe_allocator *alloc, void *ptr, size_t size) {
+    if (ptr)
+        support_callback(
+            alloc->fn(alloc->user, ptr, size ? size : 1, 0)); /* an empty array was one byte: support_calloc() */
+}
+
+bool support_array_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra,
+                        size_t item_size) {
+    size_t need, bytes, room = *capacity + *capacity / 2 + 16;
+    if (__builtin_add_overflow(count, extra, &need)) return false;
+    if (room < need) room = need;
+    if (__builtin_mul_overflow(room, item_size, &bytes)) return false;
+    void *grown = support_realloc(alloc, *data, *capacity * item_size, bytes);
+    if (!grown) return false;
+    *data = grown;
+    *capacity = room;
+    return true;
 }

@@ -1,7 +1,7 @@
 /* fenwick.h: counts at positions 1 .. size, with sums of prefixes and the position of the k-th item (Fenwick 1994). */
 #ifndef FROE_BASE_FENWICK_H
 #define FROE_BASE_FENWICK_H
-#include "base/memory.h"
+#include "support/alloc.h"
 
 typedef struct base_fenwick {
     uint32_t size, total;
@@ -10,10 +10,10 @@ typedef struct base_fenwick {
 
 /** All counts 0. sum == NULL after this: out of memory. */
 static inline base_fenwick base_fenwick_new(const froe_allocator *alloc, uint32_t size) {
-    return (base_fenwick){size, 0, base_calloc(alloc, (size_t)size + 1, sizeof(uint32_t))};
+    return (base_fenwick){size, 0, support_calloc(alloc, (size_t)size + 1, sizeof(uint32_t))};
 }
 static inline void base_fenwick_free(const froe_allocator *alloc, base_fenwick *f) {
-    base_free(alloc, f->sum, ((size_t)f->size + 1) * sizeof(uint32_t));
+    support_free(alloc, f->sum, ((size_t)f->size + 1) * sizeof(uint32_t));
     f->sum = NULL;
 }
 /** `by` is 1 or -1 (as an unsigned number). O(log size), as all that follows. */

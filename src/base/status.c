@@ -1,5 +1,6 @@
 /* status.c: names and clauses of statuses. */
-#include "base/status.h"
+#include "support/arithmetic.h"
+#include <froe/froe.h>
 
 static const char *const names[FROE_STATUS_COUNT] = {
     "FROE_OK",       "FROE_E_ARG",    "FROE_E_OPTIONS",   "FROE_E_MEMORY",      "FROE_E_INPUT",

@@ -13,7 +13,6 @@
  *
  * Where there are no such directions (option directions=0, always beyond space) cells are cubes, and the cuts those
  * of a guard tree (build/bar/cube_cut.h): fat, but not always low. */
-#include "base/status.h"
 #include "build/bar/bar_cut.h"
 #include "build/bar/bar_guards.h"
 #include "build/bar/cube_cut.h"
@@ -21,6 +20,7 @@
 #include "split/axial.h"
 #include "split/finish.h"
 #include "split/guard/guard_grid.h"
+#include "support/fail.h"
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -274,7 +274,7 @@ static void divided(const void *config, const split_work *work, const split_cell
 
 static froe_status scratch_new(const void *config, split_work *work) {
     (void)config;
-    work->scratch = base_calloc(&work->set.alloc, 1, sizeof(bar_scratch));
+    work->scratch = support_calloc(&work->set.alloc, 1, sizeof(bar_scratch));
     return work->scratch ? split_scratch_begin(&work->set.alloc, &((bar_scratch *)work->scratch)->refine)
                          : FROE_E_MEMORY;
 }
@@ -284,7 +284,7 @@ static void scratch_free(split_work *work) {
     if (!s) return;
     split_scratch_end(&work->set.alloc, &s->refine);
     bar_search_free(&work->set.alloc, &s->search);
-    base_free(&work->set.alloc, s, sizeof *s);
+    support_free(&work->set.alloc, s, sizeof *s);
     work->scratch = NULL;
 }
 
@@ -331,10 +331,10 @@ static void find_root(bar *b) {
 static froe_status refuse_directions(build_job *job) {
     const int asked = (int)job->option[DIRECTIONS];
     if (has_keys(job->scene))
-        return base_fail(job->diag, FROE_E_OPTIONS, "option 'directions': there are no %d in dimension %d", asked,
-                         job->scene->dim);
-    return base_fail(job->diag, FROE_E_UNSUPPORTED, "method 'bar' has no directions for coordinates of %g",
-                     largest_coordinate(job->scene));
+        return support_fail(job->diag, FROE_E_OPTIONS, "option 'directions': there are no %d in dimension %d", asked,
+                            job->scene->dim);
+    return support_fail(job->diag, FROE_E_UNSUPPORTED, "method 'bar' has no directions for coordinates of %g",
+                        largest_coordinate(job->scene));
 }
 
 /** What does not depend on objects one by one. */
@@ -365,8 +365,8 @@ static froe_status build_bar(build_job *job, froe_tree **out) {
     const size_t bytes = ((size_t)job->scene->object_count + 1) * sizeof *b.originals;
     froe_status status = prepare_bar(&b);
     if (status) return status;
-    b.originals = base_realloc(&job->alloc, NULL, 0, bytes);
-    if (!b.originals) return base_fail_memory(job->diag);
+    b.originals = support_realloc(&job->alloc, NULL, 0, bytes);
+    if (!b.originals) return support_fail_memory(job->diag);
     status = scene_originals(job->scene, &job->alloc, b.originals);
     split_method method = {.config = &b,
                            .choose = choose_bar_cut,
@@ -376,8 +376,8 @@ static froe_status build_bar(build_job *job, froe_tree **out) {
                            .scratch_new = scratch_new,
                            .scratch_free = scratch_free};
     split_job split = build_split_job(job);
-    status = status ? base_fail_memory(job->diag) : split_grow(&split, &method, out);
-    base_free(&job->alloc, b.originals, bytes);
+    status = status ? support_fail_memory(job->diag) : split_grow(&split, &method, out);
+    support_free(&job->alloc, b.originals, bytes);
     return status;
 }
 

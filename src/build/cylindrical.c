@@ -10,9 +10,9 @@
 #include "base/log2.h"
 #include "base/radix.h"
 #include "base/random.h"
-#include "base/status.h"
 #include "build/cylindrical/cylinder.h"
 #include "build/method.h"
+#include "support/fail.h"
 
 enum { HEIGHT, DRAWS, CROSSING };
 
@@ -38,15 +38,15 @@ typedef struct draw {
 static froe_status draw_new(const build_job *job, draw *d) {
     size_t n = job->scene->object_count;
     if (job->order) return FROE_OK;
-    d->order = base_calloc(&job->alloc, n, sizeof *d->order);
-    d->keys = base_calloc(&job->alloc, 2 * n, sizeof *d->keys);
-    return d->order && d->keys ? FROE_OK : base_fail_memory(job->diag);
+    d->order = support_calloc(&job->alloc, n, sizeof *d->order);
+    d->keys = support_calloc(&job->alloc, 2 * n, sizeof *d->keys);
+    return d->order && d->keys ? FROE_OK : support_fail_memory(job->diag);
 }
 
 static void draw_free(const build_job *job, draw *d) {
     size_t n = job->scene->object_count;
-    base_free(&job->alloc, d->order, n ? n * sizeof *d->order : 1);
-    base_free(&job->alloc, d->keys, n ? 2 * n * sizeof *d->keys : 1);
+    support_free(&job->alloc, d->order, n ? n * sizeof *d->order : 1);
+    support_free(&job->alloc, d->keys, n ? 2 * n * sizeof *d->keys : 1);
 }
 
 /** The order for an attempt. */

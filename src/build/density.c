@@ -16,11 +16,11 @@
  * reaches a limit G keeps the stage below 2 G n fragments, whatever the scene. It also leaves
  * cells of few objects that it cannot thin out any more: the star around a common vertex. */
 #include "base/log2.h"
-#include "base/status.h"
 #include "build/method.h"
 #include "split/finish.h"
 #include "split/guard/guard_tree.h"
 #include "split/refine.h"
+#include "support/fail.h"
 #include <stdatomic.h>
 #include <string.h>
 
@@ -133,9 +133,9 @@ typedef struct guard_stage {
 } guard_stage;
 
 static froe_status explain_guard_stage(const guard_stage *g, froe_status status) {
-    if (status == FROE_E_LIMIT) return base_fail(g->job->diag, status, "more than 2^31 guards or fragments");
-    if (status == FROE_E_CANCELLED) return base_fail_cancelled(g->job->diag);
-    return status ? base_fail_memory(g->job->diag) : FROE_OK;
+    if (status == FROE_E_LIMIT) return support_fail(g->job->diag, status, "more than 2^31 guards or fragments");
+    if (status == FROE_E_CANCELLED) return support_fail_cancelled(g->job->diag);
+    return status ? support_fail_memory(g->job->diag) : FROE_OK;
 }
 
 static froe_status make_tree(guard_stage *g, uint32_t k, double span) {

@@ -12,9 +12,9 @@
  * the cell goes on in trees that pay for the smaller side alone (build/directional/boxes_carve.c): O(N log^2 N) for N fragments
  * however unbalanced. Both choose the same cuts. */
 #include "base/curve.h"
-#include "base/status.h"
 #include "build/directional/boxes.h"
 #include "build/method.h"
+#include "support/fail.h"
 #include <math.h>
 
 enum { BOXES, TRADE, BALANCE, SLACK, TUNING, DELTA, STRUCTURE };
@@ -56,13 +56,13 @@ static froe_status prepare_boxes(build_job *job, boxes *b) {
     uint32_t n = job->scene->object_count;
     boxes_cell root = {.cover = FROE_NONE};
     for (int k = 0; k < b->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
-    uint32_t *objects = base_calloc(&job->alloc, n, sizeof *objects);
-    base_pair *pairs = base_calloc(&job->alloc, 2 * (size_t)n, sizeof *pairs);
+    uint32_t *objects = support_calloc(&job->alloc, n, sizeof *objects);
+    base_pair *pairs = support_calloc(&job->alloc, 2 * (size_t)n, sizeof *pairs);
     if (objects && pairs && n) order_boxes(job->scene, pairs, objects);
     froe_status status = objects && pairs ? FROE_OK : FROE_E_MEMORY;
-    base_free(&job->alloc, pairs, n ? 2 * (size_t)n * sizeof *pairs : 1);
+    support_free(&job->alloc, pairs, n ? 2 * (size_t)n * sizeof *pairs : 1);
     if (!status) status = boxes_open(b, root, objects, n);
-    base_free(&job->alloc, objects, n ? n * sizeof *objects : 1);
+    support_free(&job->alloc, objects, n ? n * sizeof *objects : 1);
     return status;
 }
 
@@ -127,7 +127,8 @@ static froe_status build_directional(build_job *job, froe_tree **out) {
     froe_status status = boxes_new(job->scene, &job->alloc, &how, &b);
     double bound = boxes_bound(&b, n);
     if (!status && n && bound == 0)
-        status = base_fail(job->diag, FROE_E_OPTIONS, "option 'trade': %u is too much in dimension %d", trade, b.dim);
+        status =
+            support_fail(job->diag, FROE_E_OPTIONS, "option 'trade': %u is too much in dimension %d", trade, b.dim);
     else {
         if (!status) status = prepare_boxes(job, &b);
         if (!status) status = do_box_cells(job, &b);

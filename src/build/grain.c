@@ -15,8 +15,8 @@
  * Hence the promise: H, + 3 (log2 v + 1) if there were such medians, + U. */
 #include "build/grain/grain.h"
 #include "base/log2.h"
-#include "base/status.h"
 #include "build/method.h"
+#include "support/fail.h"
 
 enum { EFFORT, HEIGHT, TUNING, PEEL };
 enum { EFFORT_LOG = 2, EFFORT_MIN = 3, LOW = 2 };

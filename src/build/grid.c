@@ -6,9 +6,9 @@
  *     +---+---+---+---      together. Where no line is left, cells are cut along their objects.
  *
  * A baseline: right where objects are small and evenly spread, and nowhere else. */
-#include "base/status.h"
 #include "build/method.h"
 #include "split/axial.h"
+#include "support/fail.h"
 #include <math.h>
 
 enum { GROWTH, TUNING, LOAD };

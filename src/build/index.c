@@ -17,11 +17,11 @@
  * through medians. */
 #include "base/log2.h"
 #include "base/radix.h"
-#include "base/status.h"
 #include "build/index/grid.h"
 #include "build/index/halve.h"
 #include "build/index/space.h"
 #include "geom/selftest.h"
+#include "support/fail.h"
 #include "tree/packed/packer.h"
 #include <float.h>
 #include <math.h>
@@ -355,7 +355,7 @@ static froe_status do_index_cells(index_work *w) {
 static froe_status find_ends(index_work *w) {
     const froe_scene *s = w->job->scene;
     const double *ends[2];
-    w->axis.ends = base_calloc(&w->job->alloc, s->object_count, sizeof *w->axis.ends);
+    w->axis.ends = support_calloc(&w->job->alloc, s->object_count, sizeof *w->axis.ends);
     if (!w->axis.ends) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < s->object_count; i++) {
         packed_ends(s, i, ends);
@@ -388,7 +388,7 @@ static void free_index_work(index_work *w) {
     const froe_allocator *alloc = &w->job->alloc;
     size_t objects = w->job->scene->object_count;
     while (w->grids.count) grid_free(alloc, w->grids.data + --w->grids.count);
-    base_free(alloc, w->axis.ends, (objects ? objects : 1) * sizeof *w->axis.ends);
+    support_free(alloc, w->axis.ends, (objects ? objects : 1) * sizeof *w->axis.ends);
     array_free(alloc, &w->grids);
     array_free(alloc, &w->cells);
     array_free(alloc, &w->items);
@@ -427,7 +427,7 @@ static froe_status build_in_plane(build_job *job, froe_tree **out) {
 static froe_status build_index(build_job *job, froe_tree **out) {
     const froe_scene *s = job->scene;
     if (s->object_count > PACKED_OBJECT)
-        return base_fail(job->diag, FROE_E_LIMIT, "method 'index' serves at most 2^30 objects");
+        return support_fail(job->diag, FROE_E_LIMIT, "method 'index' serves at most 2^30 objects");
     build_promise(job, "fragments", 2 * job->option[GROWTH] * s->object_count, 0);
     froe_status status = s->dim == 3 ? build_in_space(job, job->option[GROWTH], out) : build_in_plane(job, out);
     return split_explain(job->diag, job->max_fragments, status);

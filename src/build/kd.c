@@ -7,9 +7,9 @@
  *                objects are fragments here). All ends are tried, in one walk over each axis.
  *
  * A baseline: nothing bounds how often objects are cut but the limit that split/axial.h sets. */
-#include "base/status.h"
 #include "build/method.h"
 #include "split/axial.h"
+#include "support/fail.h"
 #include <math.h>
 
 enum { COST, GROWTH, TUNING, AXES };

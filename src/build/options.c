@@ -1,6 +1,6 @@
 /* options.c: parsing and printing the settings of a method. */
 #include "build/options.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,9 +61,10 @@ static froe_status refuse_value(const froe_option_info *o, word w, froe_diagnost
         size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", o->choices[i]);
     }
-    if (o->choices) return base_fail(diag, FROE_E_OPTIONS, "option '%.*s': choose one of %s", w.length, w.text, list);
-    return base_fail(diag, FROE_E_OPTIONS, "option '%.*s': a %snumber from %g to %g is needed", w.length, w.text,
-                     o->whole ? "whole " : "", o->lo, o->hi);
+    if (o->choices)
+        return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': choose one of %s", w.length, w.text, list);
+    return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': a %snumber from %g to %g is needed", w.length, w.text,
+                        o->whole ? "whole " : "", o->lo, o->hi);
 }
 
 froe_status options_parse(const build_method *method, const char *settings, bool tuned, double *value,
@@ -78,8 +79,8 @@ froe_status options_parse(const build_method *method, const char *settings, bool
         const froe_option_info *o = find_option(options, w.text, name);
         if (!o && tuned) o = find_option(tuning, w.text, name);
         if (!o)
-            return base_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, (int)name,
-                             w.text);
+            return support_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, (int)name,
+                                w.text);
         if (!equal || !parse_value(o, equal + 1, (size_t)w.length - name - 1, &value[o - options]))
             return refuse_value(o, w, diag);
     }

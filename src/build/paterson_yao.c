@@ -10,9 +10,9 @@
  *
  * Free cuts of the papers run through a facet that crosses its cell. In a cell of disjoint objects such a cut divides
  * nothing; that is the condition here, so gaps count, too. */
-#include "base/status.h"
 #include "build/conversion/endpoints.h"
 #include "split/axial.h"
+#include "support/fail.h"
 #include <math.h>
 
 enum { RULE, GROWTH };
@@ -120,7 +120,7 @@ static froe_status build_paterson_yao(build_job *job, froe_tree **out) {
     int rule = (int)job->option[RULE];
     bool segments = has_segments_alone(job->scene);
     if (rule == SLABS && !segments)
-        return base_fail(job->diag, FROE_E_UNSUPPORTED, "rule=slabs is for segments and points of the plane only");
+        return support_fail(job->diag, FROE_E_UNSUPPORTED, "rule=slabs is for segments and points of the plane only");
     if (rule == AUTO) rule = segments && !is_orthogonal(job->scene) ? SLABS : ORTHOGONAL;
     return rule == SLABS ? build_converted(job, &slabs, out) : build_orthogonal(job, out);
 }

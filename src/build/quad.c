@@ -11,9 +11,9 @@
  *     +-------+---+---+
  *
  * Of planes that separate something, those on an axis are an interval (split/axes.h). */
-#include "base/status.h"
 #include "build/method.h"
 #include "split/axial.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 

@@ -9,8 +9,8 @@
  * planes of space, and the third plane of every corner is z = 0. */
 #ifndef FROE_GEOM_POLYTOPE_H
 #define FROE_GEOM_POLYTOPE_H
-#include "base/array.h"
 #include "geom/convex.h"
+#include "support/array.h"
 
 typedef struct geom_polytope {
     ARRAY(geom_plane) planes;

@@ -12,9 +12,9 @@
  * as in interval constraint propagation (Benhamou and others: Revising hull and box consistency, 1999). */
 #ifndef FROE_GEOM_RANGE_H
 #define FROE_GEOM_RANGE_H
-#include "base/array.h"
 #include "geom/convex.h"
 #include "geom/filter.h"
+#include "support/array.h"
 
 /** n . x <= c for all points of the range; norm >= |n|. */
 typedef struct geom_facet {

@@ -5,15 +5,16 @@
  *   LEFT : __s___: RIGHT     then what is in the far part. The ray is a segment that takes no part, so that it is
  *        :  DOWN :           clipped by the predicates of all others. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "kinetic/live.h"
+#include "support/fail.h"
 #include <math.h>
 
 static froe_status check_question(froe_kinetic *k, const double *at, const double *to, const void *out,
                                   froe_diagnostic *diag) {
-    if (!k || !at || !to || !out) return base_fail(diag, FROE_E_ARG, "a question to a kinetic partition: NULL");
+    if (!k || !at || !to || !out) return support_fail(diag, FROE_E_ARG, "a question to a kinetic partition: NULL");
     for (int i = 0; i < 2; i++)
-        if (!isfinite(at[i]) || !isfinite(to[i])) return base_fail(diag, FROE_E_ARG, "a coordinate is NaN or infinite");
+        if (!isfinite(at[i]) || !isfinite(to[i]))
+            return support_fail(diag, FROE_E_ARG, "a coordinate is NaN or infinite");
     return live_begin(k, diag);
 }
 
@@ -100,7 +101,7 @@ static uint32_t touched(froe_kinetic *k, now_name point) {
 static froe_status status_of_answer(froe_kinetic *k, froe_diagnostic *diag) {
     if (!k->short_of_memory) return FROE_OK;
     k->short_of_memory = false;
-    return base_fail_memory(diag);
+    return support_fail_memory(diag);
 }
 
 froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kinetic_place *out, froe_diagnostic *diag) {
@@ -238,7 +239,7 @@ froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kineti
                                froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     froe_status status = check_question(k, eye, eye, (const void *)&visit, diag);
-    if (!status && !visit) status = base_fail(diag, FROE_E_ARG, "froe_kinetic_order: NULL");
+    if (!status && !visit) status = support_fail(diag, FROE_E_ARG, "froe_kinetic_order: NULL");
     if (status) return status;
     now_name point = end_name(k, now_ask(&k->now, eye, eye), 0);
     live_cell plane = live_plane();

@@ -1,7 +1,7 @@
 /* audit.c: checks a live partition and its certificates against those made from scratch. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "kinetic/live.h"
+#include "support/fail.h"
 
 static bool same_node(const froe_kinetic *k, uint32_t a, const froe_kinetic *l, uint32_t b) {
     const live_node *m = node_at(k, a), *n = node_at(l, b);
@@ -59,11 +59,11 @@ static froe_status tell_difference(const froe_kinetic *k, const froe_kinetic *fr
                                    froe_diagnostic *diag) {
     const live_node *m = node_at(k, node[0]), *n = node_at(fresh, node[1]);
     if (same_node(k, node[0], fresh, node[1]))
-        return base_fail_at(diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
-                            "a node of segment %u has not the certificates that it has from scratch", m->segment);
+        return support_fail_at(diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
+                               "a node of segment %u has not the certificates that it has from scratch", m->segment);
     unsigned has[2] = {0, 0};
     for (unsigned i = 0; i < 4; i++) has[0] |= (m->child[i] != LEAF) << i, has[1] |= (n->child[i] != LEAF) << i;
-    return base_fail_at(
+    return support_fail_at(
         diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
         "a node of segment %u with walls %x %x and children %x is, from scratch, one of segment %u with "
         "walls %x %x and children %x",
@@ -88,8 +88,8 @@ static froe_status audit_ticks(froe_kinetic *k, froe_diagnostic *diag) {
         const int64_t tick = tick_from_scratch(k, i);
         const bool may_be_early = k->options.augmented && c->kind <= CERT_RIGHT;
         if (c->tick > tick || (c->tick < tick && !may_be_early))
-            return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d fails at tick %lld, from scratch at %lld",
-                             c->kind, (long long)c->tick, (long long)tick);
+            return support_fail(diag, FROE_E_INPUT, "a certificate of kind %d fails at tick %lld, from scratch at %lld",
+                                c->kind, (long long)c->tick, (long long)tick);
     }
     return FROE_OK;
 }
@@ -98,17 +98,18 @@ static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
     for (size_t i = 0; i < k->queue.count; i++) {
         const live_cert c = k->certs.data[k->queue.data[i].cert];
         if (c.place != i || c.tick != k->queue.data[i].tick || c.tick < k->queue.data[i ? (i - 1) / 4 : 0].tick)
-            return base_fail(diag, FROE_E_INPUT, "the queue is not in order at place %zu", i);
-        if (c.tick <= k->now.tick) return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d is overdue", c.kind);
+            return support_fail(diag, FROE_E_INPUT, "the queue is not in order at place %zu", i);
+        if (c.tick <= k->now.tick)
+            return support_fail(diag, FROE_E_INPUT, "a certificate of kind %d is overdue", c.kind);
         if (c.kind <= CERT_TURN && now_holds(&k->now, &c.claim) < 0)
-            return base_fail(diag, FROE_E_INPUT, "a certificate of kind %d does not hold", c.kind);
+            return support_fail(diag, FROE_E_INPUT, "a certificate of kind %d does not hold", c.kind);
     }
     return audit_ticks(k, diag);
 }
 
 froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k) return base_fail(diag, FROE_E_ARG, "froe_kinetic_audit: NULL");
+    if (!k) return support_fail(diag, FROE_E_ARG, "froe_kinetic_audit: NULL");
     froe_kinetic *fresh = NULL;
     froe_status status = live_begin(k, diag);
     if (!status) status = live_copy(k, &fresh, diag);
@@ -116,11 +117,11 @@ froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
     uint32_t node[2];
     status = live_compare(k, fresh, true, node);
     if (status)
-        base_fail_memory(diag);
+        support_fail_memory(diag);
     else if (node[0])
         status = tell_difference(k, fresh, node, diag);
     else if (k->node_count != fresh->node_count)
-        status = base_fail(diag, FROE_E_INPUT, "%zu nodes, %zu from scratch", k->node_count, fresh->node_count);
+        status = support_fail(diag, FROE_E_INPUT, "%zu nodes, %zu from scratch", k->node_count, fresh->node_count);
     else
         status = audit_certificates(k, diag);
     froe_kinetic_free(fresh);

@@ -1,7 +1,7 @@
 /* call.c: how a public call begins, goes on and ends. It may be cancelled, and it may run out of memory. Either leaves
  * the tree incomplete, and the next call makes it anew. */
-#include "base/status.h"
 #include "kinetic/live.h"
+#include "support/fail.h"
 
 void froe_kinetic_watch(froe_kinetic *k, froe_progress_fn *progress, void *user) {
     if (!k) return;
@@ -16,8 +16,8 @@ bool live_goes_on(froe_kinetic *k) {
 }
 
 froe_status live_fail(froe_kinetic *k, froe_diagnostic *diag) {
-    if (!base_cancelled(&k->task)) return base_fail_memory(diag);
-    return base_fail_cancelled(diag);
+    if (!base_cancelled(&k->task)) return support_fail_memory(diag);
+    return support_fail_cancelled(diag);
 }
 
 /* Forgets the certificates of ends, too, as they may be about pieces of plans that have ended since. */

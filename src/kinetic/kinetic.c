@@ -1,8 +1,8 @@
 /* kinetic.c: the public calls: a partition is made, time goes on, segments and plans come and go. */
 #include "base/floats.h"
 #include "base/random.h"
-#include "base/status.h"
 #include "kinetic/live.h"
+#include "support/fail.h"
 #include <math.h>
 
 froe_kinetic_options froe_kinetic_defaults(void) {
@@ -20,10 +20,10 @@ const char *froe_event_name(froe_event_kind kind) {
 static froe_status check_order(froe_kinetic *k, size_t n, froe_diagnostic *diag) {
     const uint32_t *order = k->options.order;
     if (order && k->options.epoch)
-        return base_fail(diag, FROE_E_OPTIONS, "a given order cannot be drawn anew in epochs");
+        return support_fail(diag, FROE_E_OPTIONS, "a given order cannot be drawn anew in epochs");
     for (size_t i = 0; order && i < n; i++) {
         if (order[i] >= n || segment_at(k, order[i])->key != UINT64_MAX)
-            return base_fail(diag, FROE_E_OPTIONS, "the order has object %u twice, or there is none", order[i]);
+            return support_fail(diag, FROE_E_OPTIONS, "the order has object %u twice, or there is none", order[i]);
         segment_at(k, order[i])->key = i;
     }
     return FROE_OK;
@@ -56,7 +56,7 @@ bool live_is_there(const froe_kinetic *k, uint32_t segment) {
 
 static froe_status make_tables(froe_kinetic *k) {
     static const live_node none = {.turner = FROE_NONE};
-    k->recent = base_calloc(&k->alloc, RECENT, sizeof *k->recent);
+    k->recent = support_calloc(&k->alloc, RECENT, sizeof *k->recent);
     if (!k->recent || grow_tables(k)) return FROE_E_MEMORY;
     while (k->nodes.count < FIRST_NODE)
         if (!array_push(&k->alloc, &k->nodes, none)) return FROE_E_MEMORY;
@@ -64,13 +64,13 @@ static froe_status make_tables(froe_kinetic *k) {
 }
 
 static froe_status new_at(froe_motion *motion, const froe_allocator *memory, int64_t tick, froe_kinetic **out) {
-    froe_kinetic *k = base_calloc(memory, 1, sizeof *k);
+    froe_kinetic *k = support_calloc(memory, 1, sizeof *k);
     if (!k) return FROE_E_MEMORY;
     k->alloc = *memory;
     k->free_cert = CERT_NONE;
     k->free_pair = FROE_NONE;
     if (now_new(motion, memory, &k->now)) {
-        base_free(memory, k, sizeof *k);
+        support_free(memory, k, sizeof *k);
         return FROE_E_MEMORY;
     }
     k->now.tick = tick;
@@ -84,7 +84,7 @@ static froe_status new_at(froe_motion *motion, const froe_allocator *memory, int
 
 froe_status live_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *diag) {
     froe_kinetic *copy;
-    if (new_at(k->now.motion, &k->alloc, k->now.tick, &copy)) return base_fail_memory(diag);
+    if (new_at(k->now.motion, &k->alloc, k->now.tick, &copy)) return support_fail_memory(diag);
     copy->options = k->options;
     base_task_init(&copy->task, 1, k->options.progress, k->options.user);
     for (uint32_t s = 0; s < k->segments.count; s++) {
@@ -120,12 +120,12 @@ static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
 froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options, const froe_allocator *alloc,
                              froe_kinetic **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!motion || !options || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_new: NULL");
+    if (!motion || !options || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_new: NULL");
     if (options->size != sizeof *options)
-        return base_fail(diag, FROE_E_OPTIONS, "options that do not come from froe_kinetic_defaults()");
-    froe_allocator memory = base_allocator(alloc);
+        return support_fail(diag, FROE_E_OPTIONS, "options that do not come from froe_kinetic_defaults()");
+    froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
-    if (new_at(motion, &memory, 1, &k)) return base_fail_memory(diag);
+    if (new_at(motion, &memory, 1, &k)) return support_fail_memory(diag);
     k->options = *options;
     base_task_init(&k->task, 1, options->progress, options->user);
     froe_status status = start(k, diag);
@@ -160,9 +160,9 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->leaving);
     array_free(&alloc, &k->turning);
     array_free(&alloc, &k->halves);
-    if (k->recent) base_free(&alloc, k->recent, RECENT * sizeof *k->recent);
+    if (k->recent) support_free(&alloc, k->recent, RECENT * sizeof *k->recent);
     now_free(&k->now);
-    base_free(&alloc, k, sizeof *k);
+    support_free(&alloc, k, sizeof *k);
 }
 
 /* --------------------------------------------------------------------- time -- */
@@ -203,10 +203,10 @@ static void end_epoch(froe_kinetic *k) {
 froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *visit, void *user,
                                  froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || !(time <= k->now.motion->end)) return base_fail(diag, FROE_E_ARG, "that time is not in the window");
+    if (!k || !(time <= k->now.motion->end)) return support_fail(diag, FROE_E_ARG, "that time is not in the window");
     int64_t tick = motion_tick_after(k->now.motion, time) | 1, last = live_last_tick(k);
     if (tick > last) tick = last;
-    if (tick < k->now.tick) return base_fail(diag, FROE_E_ARG, "time %g has passed", time);
+    if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "time %g has passed", time);
     const live_watcher watcher = {visit, user};
     const int64_t from = k->now.tick;
     froe_status status = live_begin(k, diag);
@@ -215,7 +215,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
         bool go_on = live_step(k, tick, &watcher);
         status = live_settle(k, diag);
         if (!status) end_epoch(k), status = live_settle(k, diag);
-        if (!go_on && !status) return base_fail(diag, FROE_E_CANCELLED, "stopped by the visitor");
+        if (!go_on && !status) return support_fail(diag, FROE_E_CANCELLED, "stopped by the visitor");
     }
     return status;
 }
@@ -224,9 +224,9 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
 
 froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k) return base_fail(diag, FROE_E_ARG, "froe_kinetic_update: NULL");
+    if (!k) return support_fail(diag, FROE_E_ARG, "froe_kinetic_update: NULL");
     uint32_t first = (uint32_t)k->segments.count;
-    if (grow_tables(k)) return base_fail_memory(diag);
+    if (grow_tables(k)) return support_fail_memory(diag);
     froe_status status = live_begin(k, diag);
     for (uint32_t s = first; s < k->segments.count && !status; s++) {
         segment_at(k, s)->key = random_key(k, s);
@@ -239,7 +239,7 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || object >= k->segments.count) return base_fail(diag, FROE_E_ARG, "there is no object %u", object);
+    if (!k || object >= k->segments.count) return support_fail(diag, FROE_E_ARG, "there is no object %u", object);
     froe_status status = live_begin(k, diag);
     if (status) return status;
     motion_object *o = k->now.motion->objects.data + object;
@@ -263,14 +263,14 @@ static void life_of(const froe_kinetic *k, uint32_t vertex, double life[2]) {
 froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, const double *times,
                                 const double *coords, const double *controls, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || vertex >= k->vertices.count) return base_fail(diag, FROE_E_ARG, "there is no vertex %u", vertex);
+    if (!k || vertex >= k->vertices.count) return support_fail(diag, FROE_E_ARG, "there is no vertex %u", vertex);
     double life[2];
     froe_status status = live_begin(k, diag), settled;
     if (status) return status;
     life_of(k, vertex, life);
     k->leaving.count = 0;
     for (uint32_t e = k->vertices.data[vertex]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-        if (!array_push(&k->alloc, &k->leaving, e / 2)) return base_fail_memory(diag);
+        if (!array_push(&k->alloc, &k->leaving, e / 2)) return support_fail_memory(diag);
     for (size_t i = 0; i < k->leaving.count; i++) live_remove(k, k->leaving.data[i]);
     status = motion_replan(k->now.motion, vertex, count, times, coords, controls, life, diag);
     now_catch_up(&k->now);

@@ -43,7 +43,7 @@ bool places_add(froe_places *p, const exact_point *at, bool rounded) {
 }
 
 froe_places *places_new(const froe_allocator *alloc) {
-    froe_places *p = base_calloc(alloc, 1, sizeof *p);
+    froe_places *p = support_calloc(alloc, 1, sizeof *p);
     if (p) p->alloc = *alloc;
     return p;
 }
@@ -53,7 +53,7 @@ void froe_places_free(froe_places *p) {
     const froe_allocator alloc = p->alloc;
     array_free(&alloc, &p->limbs);
     array_free(&alloc, &p->entries);
-    base_free(&alloc, p, sizeof *p);
+    support_free(&alloc, p, sizeof *p);
 }
 
 size_t froe_places_count(const froe_places *p) {

@@ -1,10 +1,10 @@
 /* snapshot.c: the present of a kinetic partition as an ordinary tree, and where its vertices are exactly. */
 #include "base/floats.h"
 #include "base/sort.h"
-#include "base/status.h"
 #include "kinetic/live.h"
 #include "kinetic/places.h"
 #include "scene/scene.h"
+#include "support/fail.h"
 
 froe_snapshot_options froe_snapshot_defaults(void) {
     return (froe_snapshot_options){.size = sizeof(froe_snapshot_options), .places = true};
@@ -25,19 +25,19 @@ static bool picture_new(froe_kinetic *k, bool places, picture *p) {
     for (uint32_t s = 0; s < k->segments.count; s++) n += segment_at(k, s)->alive;
     *p = (picture){.k = k, .count = n, .first_rounded = FROE_NONE};
     if (places) p->places = places_new(&k->alloc);
-    p->objects = base_calloc(&k->alloc, n + 1, sizeof *p->objects);
-    p->order = base_calloc(&k->alloc, 2 * n + 1, sizeof *p->order);
-    p->coords = base_calloc(&k->alloc, 4 * n + 1, sizeof *p->coords);
-    p->tags = base_calloc(&k->alloc, n + 1, sizeof *p->tags);
+    p->objects = support_calloc(&k->alloc, n + 1, sizeof *p->objects);
+    p->order = support_calloc(&k->alloc, 2 * n + 1, sizeof *p->order);
+    p->coords = support_calloc(&k->alloc, 4 * n + 1, sizeof *p->coords);
+    p->tags = support_calloc(&k->alloc, n + 1, sizeof *p->tags);
     return p->objects && p->order && p->coords && p->tags && (p->places || !places);
 }
 
 static void picture_free(picture *p) {
     const froe_allocator *alloc = &p->k->alloc;
-    base_free(alloc, p->objects, (p->count + 1) * sizeof *p->objects);
-    base_free(alloc, p->order, (2 * p->count + 1) * sizeof *p->order);
-    base_free(alloc, p->coords, (4 * p->count + 1) * sizeof *p->coords);
-    base_free(alloc, p->tags, (p->count + 1) * sizeof *p->tags);
+    support_free(alloc, p->objects, (p->count + 1) * sizeof *p->objects);
+    support_free(alloc, p->order, (2 * p->count + 1) * sizeof *p->order);
+    support_free(alloc, p->coords, (4 * p->count + 1) * sizeof *p->coords);
+    support_free(alloc, p->tags, (p->count + 1) * sizeof *p->tags);
     froe_places_free(p->places);
 }
 
@@ -85,7 +85,7 @@ static bool take_places(picture *p) {
 static froe_status build_snapshot_tree(const picture *p, froe_tree **tree, froe_diagnostic *diag) {
     froe_scene *scene = NULL;
     froe_status status = froe_scene_new(2, &p->k->alloc, &scene);
-    if (status) return base_fail_memory(diag);
+    if (status) return support_fail_memory(diag);
     froe_objects batch = froe_objects_defaults();
     batch.kind = FROE_SEGMENT;
     batch.count = p->count, batch.coords = p->coords, batch.tags = p->tags;
@@ -161,16 +161,16 @@ static froe_status compare_with_tree(const picture *p, const froe_tree *tree, bo
     const froe_allocator *alloc = &p->k->alloc;
     const size_t all = p->k->segments.count;
     comparison c = {.k = p->k, .tree = tree, .scene = froe_tree_scene(tree)};
-    c.index = base_calloc(alloc, all + 1, sizeof *c.index);
-    c.originals = base_calloc(alloc, p->count + 1, sizeof *c.originals);
+    c.index = support_calloc(alloc, all + 1, sizeof *c.index);
+    c.originals = support_calloc(alloc, p->count + 1, sizeof *c.originals);
     c.short_of_memory = !c.index || !c.originals || scene_originals(c.scene, alloc, c.originals);
     for (uint32_t i = 0; i < p->count && !c.short_of_memory; i++) c.index[p->objects[i]] = i;
     if (!c.short_of_memory) push_pair_of_nodes(&c, node_at(p->k, ROOT)->child[0], froe_tree_root(tree));
     *alike = true;
     while (c.stack.count && *alike && !c.short_of_memory) *alike = is_same(&c, c.stack.data[--c.stack.count]);
     array_free(alloc, &c.stack);
-    base_free(alloc, c.index, (all + 1) * sizeof *c.index);
-    base_free(alloc, c.originals, (p->count + 1) * sizeof *c.originals);
+    support_free(alloc, c.index, (all + 1) * sizeof *c.index);
+    support_free(alloc, c.originals, (p->count + 1) * sizeof *c.originals);
     return c.short_of_memory ? FROE_E_MEMORY : FROE_OK;
 }
 
@@ -180,7 +180,7 @@ static froe_status make_snapshot(picture *p, bool refuse, froe_snapshot *out, fr
     take_objects(p);
     if (!take_places(p)) return live_fail(p->k, diag);
     if (refuse && p->rounded)
-        return base_fail_at(
+        return support_fail_at(
             diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
             "segment %u ends where no double is at this tick; vertices that would have to be rounded: %zu",
             p->first_rounded, p->rounded);
@@ -188,7 +188,7 @@ static froe_status make_snapshot(picture *p, bool refuse, froe_snapshot *out, fr
     if (status) return status;
     if (compare_with_tree(p, out->tree, &out->alike)) {
         froe_tree_free(out->tree);
-        return base_fail_memory(diag);
+        return support_fail_memory(diag);
     }
     out->rounded = p->rounded;
     out->places = p->places;
@@ -200,13 +200,13 @@ froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *
                                   froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const froe_snapshot_options standard = froe_snapshot_defaults(), *o = options ? options : &standard;
-    if (!k || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_snapshot: NULL");
-    if (o->size != sizeof *o) return base_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");
+    if (!k || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_snapshot: NULL");
+    if (o->size != sizeof *o) return support_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");
     picture p;
     froe_snapshot made = {0};
     froe_status status = live_begin(k, diag);
     if (status) return status;
-    status = picture_new(k, o->places, &p) ? make_snapshot(&p, o->refuse, &made, diag) : base_fail_memory(diag);
+    status = picture_new(k, o->places, &p) ? make_snapshot(&p, o->refuse, &made, diag) : support_fail_memory(diag);
     if (!status) *out = made;
     picture_free(&p);
     return status;

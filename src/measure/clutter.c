@@ -10,12 +10,12 @@
  * start near by. What a cube meets is decided exactly, for a slightly smaller closed cube in place of the open one. */
 #include "base/floats.h"
 #include "base/random.h"
-#include "base/status.h"
 #include "geom/meet/meet.h"
 #include "geom/selftest.h"
 #include "measure/hierarchy.h"
 #include "measure/sample.h"
 #include "scene/convex.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
@@ -251,7 +251,7 @@ static froe_status begin_clutter(survey *s) {
     if (status) return status;
     if (n * corners > UINT32_MAX / 2) return FROE_E_LIMIT;
     s->guard_numbers = s->bounds.numbers * corners;
-    s->points = base_calloc(alloc, s->guard_numbers, sizeof *s->points);
+    s->points = support_calloc(alloc, s->guard_numbers, sizeof *s->points);
     if (!s->points) return FROE_E_MEMORY;
     for (size_t i = 0; i < n; i++) add_guards(s, i, corners);
     for (int k = 0; k < s->dim && n; k++) s->limit = fmax(s->limit, 3 * (scene->hi[k] - scene->lo[k]));
@@ -265,7 +265,7 @@ static void end_clutter(survey *s) {
     const froe_allocator *alloc = &s->sample.alloc;
     if (s->context.alloc.fn) num_context_free(&s->context);
     measure_bounds_free(&s->sample, &s->bounds);
-    base_free(alloc, s->points, s->guard_numbers ? s->guard_numbers * sizeof *s->points : 1);
+    support_free(alloc, s->points, s->guard_numbers ? s->guard_numbers * sizeof *s->points : 1);
     measure_hierarchy_free(&s->guards);
     measure_hierarchy_free(&s->objects);
 }
@@ -278,7 +278,7 @@ froe_status froe_measure_clutter(const froe_scene *scene, const froe_measure_opt
     if (status) return status;
     s.dim = scene->dim;
     status = begin_clutter(&s);
-    if (status == FROE_E_LIMIT) base_fail(diag, status, "more than 2^31 corners of bounding boxes");
+    if (status == FROE_E_LIMIT) support_fail(diag, status, "more than 2^31 corners of bounding boxes");
     if (!status) status = look_for_clutter(&s, out);
     end_clutter(&s);
     return measure_sample_end(&s.sample, status, diag);

@@ -59,9 +59,9 @@ static froe_status ends_new(const measure_sample *sample, const measure_bounds *
     const froe_allocator *alloc = &sample->alloc;
     uint32_t n = sample->scene->object_count, count = 0;
     size_t dim = (size_t)sample->scene->dim;
-    base_pair *pairs = base_calloc(alloc, 2 * (size_t)n, sizeof *pairs);
-    *out = (ends){base_calloc(alloc, n, sizeof *out->value), base_calloc(alloc, n, sizeof *out->flat),
-                  base_calloc(alloc, n, sizeof *out->rank)};
+    base_pair *pairs = support_calloc(alloc, 2 * (size_t)n, sizeof *pairs);
+    *out = (ends){support_calloc(alloc, n, sizeof *out->value), support_calloc(alloc, n, sizeof *out->flat),
+                  support_calloc(alloc, n, sizeof *out->rank)};
     bool ok = pairs && out->value && out->flat && out->rank;
     const double *lo = bounds->lo + axis, *hi = bounds->hi + axis, *x = upper ? hi : lo;
     for (int flat = 0; flat < 2 && ok; flat++)
@@ -74,15 +74,15 @@ static froe_status ends_new(const measure_sample *sample, const measure_bounds *
         out->flat[r] = lo[i * dim] == hi[i * dim];
         out->rank[i] = r;
     }
-    base_free(alloc, pairs, 2 * (size_t)n * sizeof *pairs);
+    support_free(alloc, pairs, 2 * (size_t)n * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
 static void ends_free(const measure_sample *sample, ends *e) {
     uint32_t n = sample->scene->object_count;
-    base_free(&sample->alloc, e->value, n * sizeof *e->value);
-    base_free(&sample->alloc, e->flat, n * sizeof *e->flat);
-    base_free(&sample->alloc, e->rank, n * sizeof *e->rank);
+    support_free(&sample->alloc, e->value, n * sizeof *e->value);
+    support_free(&sample->alloc, e->flat, n * sizeof *e->flat);
+    support_free(&sample->alloc, e->rank, n * sizeof *e->rank);
 }
 
 /* Ends before x, and of those at x: none (0), of boxes that are not flat (1), all (2). */

@@ -4,11 +4,11 @@
  * touches. Each worker has counts of its own. They are added, and the least example pair is kept,
  * so the report does not depend on the number of threads. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "geom/meet/contact.h"
 #include "geom/selftest.h"
 #include "measure/odd_pairs.h"
 #include "scene/scene.h"
+#include "support/fail.h"
 
 typedef enum oddity { APART, CROSSING, T_JUNCTION, OVERLAP, ODDITIES } oddity;
 
@@ -86,7 +86,7 @@ static bool look_at_pair(void *user, unsigned worker, uint32_t i, uint32_t j) {
 
 static froe_status find_boxes(survey *v) {
     size_t dim = (size_t)v->scene->dim, half = v->count * dim;
-    v->boxes = base_calloc(v->alloc, 2 * half, sizeof *v->boxes);
+    v->boxes = support_calloc(v->alloc, 2 * half, sizeof *v->boxes);
     if (!v->boxes) return FROE_E_MEMORY;
     for (size_t i = 0; i < v->count; i++)
         scene_object_bounds(v->scene, v->objects[i], v->boxes + i * dim, v->boxes + half + i * dim);
@@ -94,12 +94,12 @@ static froe_status find_boxes(survey *v) {
 }
 
 static froe_status make_tallies(survey *v) {
-    v->tallies = base_calloc(v->alloc, v->task.threads, sizeof *v->tallies);
+    v->tallies = support_calloc(v->alloc, v->task.threads, sizeof *v->tallies);
     if (!v->tallies) return FROE_E_MEMORY;
     for (unsigned i = 0; i < v->task.threads; i++) {
         tally *t = v->tallies + i;
         t->ready = geom_context_new(v->alloc, &t->context) == FROE_OK;
-        t->sides = base_calloc(v->alloc, v->side_count, 1);
+        t->sides = support_calloc(v->alloc, v->side_count, 1);
         if (!t->ready || !t->sides) return FROE_E_MEMORY;
     }
     return FROE_OK;
@@ -132,15 +132,15 @@ static uint64_t sum(const survey *v, oddity contact, uint32_t first[2]) {
 static void survey_free(survey *v) {
     for (unsigned i = 0; v->tallies && i < v->task.threads; i++) {
         if (v->tallies[i].ready) num_context_free(&v->tallies[i].context);
-        base_free(v->alloc, v->tallies[i].sides, v->side_count ? v->side_count : 1);
+        support_free(v->alloc, v->tallies[i].sides, v->side_count ? v->side_count : 1);
     }
-    base_free(v->alloc, v->tallies, v->task.threads * sizeof *v->tallies);
-    base_free(v->alloc, v->boxes, 2 * (size_t)v->count * (size_t)v->scene->dim * sizeof *v->boxes);
-    base_free(v->alloc, v->objects, (v->scene->object_count + (size_t)1) * sizeof *v->objects);
+    support_free(v->alloc, v->tallies, v->task.threads * sizeof *v->tallies);
+    support_free(v->alloc, v->boxes, 2 * (size_t)v->count * (size_t)v->scene->dim * sizeof *v->boxes);
+    support_free(v->alloc, v->objects, (v->scene->object_count + (size_t)1) * sizeof *v->objects);
 }
 
 static froe_status run_survey(survey *v, froe_defects *out) {
-    v->objects = base_calloc(v->alloc, v->scene->object_count + (size_t)1, sizeof *v->objects);
+    v->objects = support_calloc(v->alloc, v->scene->object_count + (size_t)1, sizeof *v->objects);
     if (!v->objects) return FROE_E_MEMORY;
     froe_status status = scene_originals(v->scene, v->alloc, v->objects);
     if (status) return status;
@@ -155,15 +155,15 @@ static froe_status run_survey(survey *v, froe_defects *out) {
 froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_progress_fn *progress, void *user,
                                froe_defects *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!scene || !out) return base_fail(diag, FROE_E_ARG, "scene or out is null");
-    if (out->size != sizeof *out) return base_fail(diag, FROE_E_OPTIONS, "out->size must be sizeof(froe_defects)");
+    if (!scene || !out) return support_fail(diag, FROE_E_ARG, "scene or out is null");
+    if (out->size != sizeof *out) return support_fail(diag, FROE_E_OPTIONS, "out->size must be sizeof(froe_defects)");
     survey v = {.scene = scene, .alloc = &scene->alloc};
     froe_defects defects = {.size = sizeof defects};
     base_task_init(&v.task, threads, progress, user);
     froe_status status = run_survey(&v, &defects);
     survey_free(&v);
-    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
-    if (status) return base_fail_memory(diag);
+    if (status == FROE_E_CANCELLED) return support_fail_cancelled(diag);
+    if (status) return support_fail_memory(diag);
     *out = defects;
     return FROE_OK;
 }

@@ -161,8 +161,8 @@ static froe_status begin_density(survey *s) {
     froe_status status = geom_context_new(alloc, &s->context);
     if (!status) status = measure_bounds_new(&s->sample, &s->bounds);
     if (status) return status;
-    s->size = base_calloc(alloc, n, sizeof *s->size);
-    s->keys = base_calloc(alloc, n, sizeof *s->keys);
+    s->size = support_calloc(alloc, n, sizeof *s->size);
+    s->keys = support_calloc(alloc, n, sizeof *s->keys);
     if (!s->size || !s->keys) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         s->keys[i] = measure_sample_key(&s->sample, i);
@@ -176,8 +176,8 @@ static void end_density(survey *s) {
     size_t n = s->sample.scene->object_count;
     if (s->context.alloc.fn) num_context_free(&s->context);
     measure_bounds_free(&s->sample, &s->bounds);
-    base_free(alloc, s->size, n ? n * sizeof *s->size : 1);
-    base_free(alloc, s->keys, n ? n * sizeof *s->keys : 1);
+    support_free(alloc, s->size, n ? n * sizeof *s->size : 1);
+    support_free(alloc, s->keys, n ? n * sizeof *s->keys : 1);
     measure_hierarchy_free(&s->objects);
     array_free(alloc, &s->near);
 }

@@ -8,8 +8,8 @@
  * (Tobola and Nechvile, definitions 2.2, 3.2 and 4.1, and section 5.1 for one rectangle in place of the union of two.
  * It bounds the cell when no lemma cut is left.) */
 #include "base/floats.h"
-#include "base/status.h"
 #include "measure/crossings.h"
+#include "support/fail.h"
 #include <math.h>
 
 /* Rooms that a face is widened by. From EVEN on: little on axis form - EVEN, much on the others. */
@@ -113,14 +113,14 @@ static bool note_box(survey *s, uint32_t i) {
 static froe_status look_for_directional(survey *s, froe_counting counting) {
     measure_windows windows = {&s->bounds, s->sample.count * windows_each(s->sample.scene->dim), window, s};
     froe_status status = measure_bounds_new(&s->sample, &s->bounds);
-    s->counts = base_calloc(&s->sample.alloc, windows.count, sizeof *s->counts);
+    s->counts = support_calloc(&s->sample.alloc, windows.count, sizeof *s->counts);
     if (!status && !s->counts) status = FROE_E_MEMORY;
     if (!status && windows.count)
         status = (counting == FROE_COUNT_TREES ? measure_count_by_trees : measure_count_by_search)(&s->sample, &windows,
                                                                                                    s->counts);
     for (uint32_t i = 0; i < s->sample.count && !status; i++)
         if (!note_box(s, i)) status = FROE_E_MEMORY;
-    base_free(&s->sample.alloc, s->counts, (windows.count ? windows.count : 1) * sizeof *s->counts);
+    support_free(&s->sample.alloc, s->counts, (windows.count ? windows.count : 1) * sizeof *s->counts);
     measure_bounds_free(&s->sample, &s->bounds);
     return status;
 }
@@ -133,7 +133,7 @@ froe_status froe_measure_directional(const froe_scene *scene, double delta, cons
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;
     if (!(delta >= 0) || !isfinite(delta))
-        return base_fail(diag, FROE_E_ARG, "delta = %g: a finite number >= 0 is needed", delta);
+        return support_fail(diag, FROE_E_ARG, "delta = %g: a finite number >= 0 is needed", delta);
     status = look_for_directional(&s, counting);
     if (!status) *out = (froe_directional){.delta = delta, .count = s.sample.count};
     if (!status) status = measure_sample_spread(&s.sample, 0, &out->simple);

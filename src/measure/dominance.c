@@ -126,7 +126,7 @@ froe_status measure_dominance_new(const froe_allocator *alloc, int dim, uint32_t
     size_t dims = (size_t)dim, numbers = (dims + 3) * count;
     *out = (measure_dominance){.alloc = *alloc, .dim = dim};
     maker m = {.d = out, .count = count, .rank = rank};
-    uint32_t *scratch = base_calloc(alloc, numbers, sizeof *scratch);
+    uint32_t *scratch = support_calloc(alloc, numbers, sizeof *scratch);
     if (!scratch) return FROE_E_MEMORY;
     m.spare = scratch + dims * count;
     for (size_t k = 0; k < dims; k++) {
@@ -134,7 +134,7 @@ froe_status measure_dominance_new(const froe_allocator *alloc, int dim, uint32_t
         for (uint32_t i = 0; i < count; i++) m.at[k][rank[k][i]] = i;
     }
     bool ok = make_tree(&m);
-    base_free(alloc, scratch, (numbers ? numbers : 1) * sizeof *scratch);
+    support_free(alloc, scratch, (numbers ? numbers : 1) * sizeof *scratch);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 

@@ -11,7 +11,7 @@
  * Chazelle, A functional approach to data structures, SIAM J. Comput. 1988, for counts in place of pointers. */
 #ifndef FROE_MEASURE_DOMINANCE_H
 #define FROE_MEASURE_DOMINANCE_H
-#include "base/array.h"
+#include "support/array.h"
 
 typedef struct measure_dominance_node {
     size_t keys;    /**< where its ranks on its axis begin, ascending; before the last axis those on that one follow */

@@ -1,10 +1,10 @@
 /* fatness.c: the share of each object in its smallest enclosing ball, or of polygons in space, in its disc. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "geom/selftest.h"
 #include "measure/enclosing.h"
 #include "measure/sample.h"
 #include "measure/volume.h"
+#include "support/fail.h"
 #include <math.h>
 
 enum { FULL, FLAT, SLIVER }; /* lists of values */

@@ -18,7 +18,7 @@ static void bounds(const measure_hierarchy *h, const double *lo, const double *h
 
 static froe_status order(measure_hierarchy *h, const double *lo, const double *hi) {
     double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
-    base_pair *pairs = base_calloc(&h->alloc, 2 * (size_t)h->count, sizeof *pairs);
+    base_pair *pairs = support_calloc(&h->alloc, 2 * (size_t)h->count, sizeof *pairs);
     if (!pairs) return FROE_E_MEMORY;
     bounds(h, lo, hi, from, to);
     for (uint32_t i = 0; i < h->count; i++) {
@@ -27,7 +27,7 @@ static froe_status order(measure_hierarchy *h, const double *lo, const double *h
     }
     base_radix_sort(pairs, pairs + h->count, h->count);
     for (uint32_t i = 0; i < h->count; i++) h->ids[i] = pairs[i].value;
-    base_free(&h->alloc, pairs, 2 * (size_t)h->count * sizeof *pairs);
+    support_free(&h->alloc, pairs, 2 * (size_t)h->count * sizeof *pairs);
     return FROE_OK;
 }
 
@@ -75,10 +75,10 @@ froe_status measure_hierarchy_new(const froe_allocator *alloc, int dim, uint32_t
     *out = (measure_hierarchy){.alloc = *alloc, .dim = dim, .count = count};
     lay_out_hierarchy(out);
     size_t numbers = (size_t)out->entries * (size_t)dim;
-    out->ids = base_calloc(alloc, count, sizeof *out->ids);
-    out->lo = base_calloc(alloc, numbers, sizeof *out->lo);
-    out->hi = base_calloc(alloc, numbers, sizeof *out->hi);
-    out->size = base_calloc(alloc, out->entries, sizeof *out->size);
+    out->ids = support_calloc(alloc, count, sizeof *out->ids);
+    out->lo = support_calloc(alloc, numbers, sizeof *out->lo);
+    out->hi = support_calloc(alloc, numbers, sizeof *out->hi);
+    out->size = support_calloc(alloc, out->entries, sizeof *out->size);
     froe_status status = out->ids && out->lo && out->hi && out->size ? FROE_OK : FROE_E_MEMORY;
     if (!status && count) status = order(out, lo, hi);
     if (status) {
@@ -95,10 +95,10 @@ froe_status measure_hierarchy_new(const froe_allocator *alloc, int dim, uint32_t
 
 void measure_hierarchy_free(measure_hierarchy *h) {
     size_t numbers = (size_t)h->entries * (size_t)h->dim;
-    base_free(&h->alloc, h->ids, h->count ? h->count * sizeof *h->ids : 1);
-    base_free(&h->alloc, h->lo, numbers ? numbers * sizeof *h->lo : 1);
-    base_free(&h->alloc, h->hi, numbers ? numbers * sizeof *h->hi : 1);
-    base_free(&h->alloc, h->size, h->entries ? h->entries * sizeof *h->size : 1);
+    support_free(&h->alloc, h->ids, h->count ? h->count * sizeof *h->ids : 1);
+    support_free(&h->alloc, h->lo, numbers ? numbers * sizeof *h->lo : 1);
+    support_free(&h->alloc, h->hi, numbers ? numbers * sizeof *h->hi : 1);
+    support_free(&h->alloc, h->size, h->entries ? h->entries * sizeof *h->size : 1);
     *h = (measure_hierarchy){.alloc = h->alloc};
 }
 

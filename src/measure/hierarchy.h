@@ -7,7 +7,7 @@
  * For measures of scenes, where building must be quick and all dimensions occur. */
 #ifndef FROE_MEASURE_HIERARCHY_H
 #define FROE_MEASURE_HIERARCHY_H
-#include "base/memory.h"
+#include "support/alloc.h"
 
 enum { MEASURE_FAN = 8, MEASURE_LEVELS = 12 };
 

@@ -60,11 +60,11 @@ static bool count_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
 /* Are there more pairs of boxes than a sweep costs? Counting them takes a small part of the time of testing them. */
 static froe_status count_boxes(search *s, bool *many) {
     const measure_candidates *of = s->of;
-    s->counters = base_calloc(s->alloc, s->task->threads, sizeof *s->counters);
+    s->counters = support_calloc(s->alloc, s->task->threads, sizeof *s->counters);
     if (!s->counters) return FROE_E_MEMORY;
     froe_status status =
         geom_box_pairs(s->alloc, s->task, 0.1, of->scene->dim, of->count, of->lo, of->hi, count_pair, s);
-    base_free(s->alloc, s->counters, s->task->threads * sizeof *s->counters);
+    support_free(s->alloc, s->counters, s->task->threads * sizeof *s->counters);
     *many = status == FROE_E_CANCELLED && !base_cancelled(s->task);
     return *many ? FROE_OK : status;
 }
@@ -117,7 +117,7 @@ static uint64_t source(const search *s, uint32_t place) {
 }
 
 static froe_status sweep_all(search *s) {
-    uint32_t count = s->of->count, *objects = base_calloc(s->alloc, count, sizeof *objects);
+    uint32_t count = s->of->count, *objects = support_calloc(s->alloc, count, sizeof *objects);
     froe_status status = objects ? FROE_OK : FROE_E_MEMORY;
     for (uint32_t i = 0; i < count; i++) s->pairs[i] = (base_pair){source(s, i), i};
     base_radix_sort(s->pairs, s->pairs + count, count);
@@ -128,7 +128,7 @@ static froe_status sweep_all(search *s) {
     }
     for (uint32_t i = 0, at = s->straight; i < count && !status; i++)
         if (s->crooked[i]) s->order[at++] = s->pairs[i].value;
-    base_free(s->alloc, objects, count * sizeof *objects);
+    support_free(s->alloc, objects, count * sizeof *objects);
     return status;
 }
 
@@ -146,8 +146,8 @@ static froe_status make_trees(search *s) {
     int dim = s->of->scene->dim;
     size_t width = (size_t)dim, count = s->sheets.count;
     copy_bounds(s);
-    s->sheet_lo = base_calloc(s->alloc, count * width, sizeof *s->sheet_lo);
-    s->sheet_hi = base_calloc(s->alloc, count * width, sizeof *s->sheet_hi);
+    s->sheet_lo = support_calloc(s->alloc, count * width, sizeof *s->sheet_lo);
+    s->sheet_hi = support_calloc(s->alloc, count * width, sizeof *s->sheet_hi);
     if (!s->sheet_lo || !s->sheet_hi) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) {
         sheet *t = s->sheets.data + i;
@@ -199,7 +199,7 @@ static bool loose_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
 
 static froe_status tell_touches(search *s) {
     size_t count = s->touches.count;
-    base_pair *pairs = base_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
+    base_pair *pairs = support_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
     if (!pairs) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) pairs[i].key = (uint64_t)s->touches.data[i].a << 32 | s->touches.data[i].b;
     base_radix_sort(pairs, pairs + count, count);
@@ -207,18 +207,18 @@ static froe_status tell_touches(search *s) {
     for (size_t i = 0; i < count && go_on; i++)
         if (!i || pairs[i].key != pairs[i - 1].key)
             go_on = s->fn(s->user, 0, (uint32_t)(pairs[i].key >> 32), (uint32_t)pairs[i].key);
-    base_free(s->alloc, pairs, (2 * count + 1) * sizeof *pairs);
+    support_free(s->alloc, pairs, (2 * count + 1) * sizeof *pairs);
     return go_on ? FROE_OK : FROE_E_CANCELLED;
 }
 
 static froe_status search_sheets(search *s) {
     uint32_t count = s->of->count;
     size_t numbers = (size_t)count * (size_t)s->of->scene->dim;
-    s->pairs = base_calloc(s->alloc, 2 * (size_t)count, sizeof *s->pairs);
-    s->order = base_calloc(s->alloc, count, sizeof *s->order);
-    s->lo = base_calloc(s->alloc, numbers, sizeof *s->lo);
-    s->hi = base_calloc(s->alloc, numbers, sizeof *s->hi);
-    s->crooked = base_calloc(s->alloc, count, sizeof *s->crooked);
+    s->pairs = support_calloc(s->alloc, 2 * (size_t)count, sizeof *s->pairs);
+    s->order = support_calloc(s->alloc, count, sizeof *s->order);
+    s->lo = support_calloc(s->alloc, numbers, sizeof *s->lo);
+    s->hi = support_calloc(s->alloc, numbers, sizeof *s->hi);
+    s->crooked = support_calloc(s->alloc, count, sizeof *s->crooked);
     froe_status status = s->pairs && s->order && s->lo && s->hi && s->crooked ? sweep_all(s) : FROE_E_MEMORY;
     if (!status) status = tell_touches(s);
     if (!status) status = make_trees(s);
@@ -227,11 +227,11 @@ static froe_status search_sheets(search *s) {
         status = geom_box_pairs(s->alloc, s->task, 0.25, s->of->scene->dim, count - s->straight, s->lo + first,
                                 s->hi + first, loose_pair, s);
     if (!status) status = base_run(s->task, 0.25, (count + (size_t)VISITORS - 1) / VISITORS, visit_job, s);
-    base_free(s->alloc, s->pairs, 2 * (size_t)count * sizeof *s->pairs);
-    base_free(s->alloc, s->order, count * sizeof *s->order);
-    base_free(s->alloc, s->lo, numbers * sizeof *s->lo);
-    base_free(s->alloc, s->hi, numbers * sizeof *s->hi);
-    base_free(s->alloc, s->crooked, count * sizeof *s->crooked);
+    support_free(s->alloc, s->pairs, 2 * (size_t)count * sizeof *s->pairs);
+    support_free(s->alloc, s->order, count * sizeof *s->order);
+    support_free(s->alloc, s->lo, numbers * sizeof *s->lo);
+    support_free(s->alloc, s->hi, numbers * sizeof *s->hi);
+    support_free(s->alloc, s->crooked, count * sizeof *s->crooked);
     return status;
 }
 
@@ -240,8 +240,8 @@ static void free_sheets(search *s) {
     for (size_t i = 0; i < s->sheets.count; i++)
         if (s->sheets.data[i].boxes.ids) measure_hierarchy_free(&s->sheets.data[i].boxes);
     if (s->bounds.ids) measure_hierarchy_free(&s->bounds);
-    base_free(s->alloc, s->sheet_lo, (numbers ? numbers : 1) * sizeof *s->sheet_lo);
-    base_free(s->alloc, s->sheet_hi, (numbers ? numbers : 1) * sizeof *s->sheet_hi);
+    support_free(s->alloc, s->sheet_lo, (numbers ? numbers : 1) * sizeof *s->sheet_lo);
+    support_free(s->alloc, s->sheet_hi, (numbers ? numbers : 1) * sizeof *s->sheet_hi);
     array_free(s->alloc, &s->sheets);
     array_free(s->alloc, &s->touches);
 }

@@ -2,7 +2,7 @@
 #include "measure/sample.h"
 #include "base/radix.h"
 #include "base/random.h"
-#include "base/status.h"
+#include "support/fail.h"
 
 froe_measure_options froe_measure_defaults(void) {
     return (froe_measure_options){.size = sizeof(froe_measure_options), .samples = 20000, .seed = 1};
@@ -12,10 +12,11 @@ froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_opt
                                  measure_sample *sample, froe_diagnostic *diag) {
     froe_measure_options o = options ? *options : froe_measure_defaults();
     *sample = (measure_sample){.scene = scene, .seed = o.seed};
-    if (!scene || !out) return base_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
-    if (o.size != sizeof o) return base_fail(diag, FROE_E_OPTIONS, "options do not come from froe_measure_defaults()");
+    if (!scene || !out) return support_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
+    if (o.size != sizeof o)
+        return support_fail(diag, FROE_E_OPTIONS, "options do not come from froe_measure_defaults()");
     if (o.counting != FROE_COUNT_SEARCH && o.counting != FROE_COUNT_TREES)
-        return base_fail(diag, FROE_E_OPTIONS, "counting = %d is no way to count", (int)o.counting);
+        return support_fail(diag, FROE_E_OPTIONS, "counting = %d is no way to count", (int)o.counting);
     sample->alloc = scene->alloc;
     sample->count = o.samples && o.samples < scene->object_count ? o.samples : scene->object_count;
     base_task_init(&sample->task, 1, o.progress, o.user);
@@ -30,8 +31,8 @@ froe_status measure_bounds_new(const measure_sample *sample, measure_bounds *out
     const froe_scene *scene = sample->scene;
     size_t dim = (size_t)scene->dim;
     out->numbers = scene->object_count * dim;
-    out->lo = base_calloc(&sample->alloc, out->numbers, sizeof *out->lo);
-    out->hi = base_calloc(&sample->alloc, out->numbers, sizeof *out->hi);
+    out->lo = support_calloc(&sample->alloc, out->numbers, sizeof *out->lo);
+    out->hi = support_calloc(&sample->alloc, out->numbers, sizeof *out->hi);
     if (!out->lo || !out->hi) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < scene->object_count; i++)
         scene_object_bounds(scene, i, out->lo + i * dim, out->hi + i * dim);
@@ -40,8 +41,8 @@ froe_status measure_bounds_new(const measure_sample *sample, measure_bounds *out
 
 void measure_bounds_free(const measure_sample *sample, measure_bounds *bounds) {
     size_t bytes = bounds->numbers ? bounds->numbers * sizeof(double) : 1;
-    base_free(&sample->alloc, bounds->lo, bytes);
-    base_free(&sample->alloc, bounds->hi, bytes);
+    support_free(&sample->alloc, bounds->lo, bytes);
+    support_free(&sample->alloc, bounds->hi, bytes);
     *bounds = (measure_bounds){.numbers = 0};
 }
 
@@ -81,8 +82,8 @@ froe_status measure_sample_spread(measure_sample *sample, int which, froe_spread
     size_t count = sample->values[which].count;
     *out = (froe_spread){.count = count};
     if (!count) return FROE_OK;
-    base_pair *pairs = base_calloc(&sample->alloc, 2 * count, sizeof *pairs);
-    double *sorted = base_calloc(&sample->alloc, count, sizeof *sorted);
+    base_pair *pairs = support_calloc(&sample->alloc, 2 * count, sizeof *pairs);
+    double *sorted = support_calloc(&sample->alloc, count, sizeof *sorted);
     for (size_t i = 0; i < count && pairs; i++) pairs[i] = (base_pair){base_double_key(v[i]), (uint32_t)i};
     if (pairs && sorted) base_radix_sort(pairs, pairs + count, count);
     for (size_t i = 0; i < count && pairs && sorted; i++) sum += sorted[i] = v[pairs[i].value];
@@ -97,14 +98,14 @@ froe_status measure_sample_spread(measure_sample *sample, int which, froe_spread
                              sorted[count - 1],
                              sum / (double)count};
     froe_status status = pairs && sorted ? FROE_OK : FROE_E_MEMORY;
-    base_free(&sample->alloc, pairs, 2 * count * sizeof *pairs);
-    base_free(&sample->alloc, sorted, count * sizeof *sorted);
+    support_free(&sample->alloc, pairs, 2 * count * sizeof *pairs);
+    support_free(&sample->alloc, sorted, count * sizeof *sorted);
     return status;
 }
 
 froe_status measure_sample_end(measure_sample *sample, froe_status status, froe_diagnostic *diag) {
     measure_sample_free(sample);
     if (!status && !base_progress(&sample->task, 1)) status = FROE_E_CANCELLED;
-    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
-    return status == FROE_E_MEMORY ? base_fail_memory(diag) : status;
+    if (status == FROE_E_CANCELLED) return support_fail_cancelled(diag);
+    return status == FROE_E_MEMORY ? support_fail_memory(diag) : status;
 }

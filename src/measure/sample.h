@@ -1,9 +1,9 @@
 /* sample.h: what measures share: the sample of objects, the distribution of values, and progress. */
 #ifndef FROE_MEASURE_SAMPLE_H
 #define FROE_MEASURE_SAMPLE_H
-#include "base/array.h"
 #include "base/task.h"
 #include "scene/scene.h"
+#include "support/array.h"
 #include <froe/measure.h>
 
 typedef struct measure_sample {

@@ -110,7 +110,7 @@ static void claim(sweep *s, edge *e, int which, uint32_t object) {
 /* One edge for all sides between the same vertices. */
 static froe_status join_sides(sweep *s) {
     size_t count = s->sides.count;
-    base_pair *pairs = base_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
+    base_pair *pairs = support_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
     bool room = pairs && array_reserve(s->alloc, &s->edges, count + 1);
     if (room) s->edges.data[s->edges.count++] = (edge){.beside = {FROE_NONE, FROE_NONE}};
     for (size_t i = 0; room && i < count; i++)
@@ -128,7 +128,7 @@ static froe_status join_sides(sweep *s) {
         if (from->below) claim(s, e, 0, from->object);
         if (from->above) claim(s, e, 1, from->object);
     }
-    base_free(s->alloc, pairs, (2 * count + 1) * sizeof *pairs);
+    support_free(s->alloc, pairs, (2 * count + 1) * sizeof *pairs);
     return room ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -140,7 +140,7 @@ static const double *event_place(const sweep *s, const base_pair *event) {
 static froe_status sort_events(sweep *s) {
     s->event_count = 2 * (s->edges.count - 1);
     s->event_room = 2 * s->event_count + 1;
-    s->events = base_calloc(s->alloc, s->event_room, sizeof *s->events);
+    s->events = support_calloc(s->alloc, s->event_room, sizeof *s->events);
     if (!s->events) return FROE_E_MEMORY;
     for (size_t i = 0; i < s->event_count; i++) s->events[i].value = (uint32_t)i + 2;
     for (int k = 2; k--;) {
@@ -330,6 +330,6 @@ froe_status measure_sheet_sweep(num_context *context, base_task *task, const fro
     if (!status) status = sweep_sheet(&s, task);
     array_free(s.alloc, &s.sides);
     array_free(s.alloc, &s.edges);
-    base_free(s.alloc, s.events, s.event_room * sizeof *s.events);
+    support_free(s.alloc, s.events, s.event_room * sizeof *s.events);
     return status;
 }

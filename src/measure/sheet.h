@@ -12,10 +12,10 @@
  * side, whose boxes all meet, need not be tested pair by pair. All decisions are exact. */
 #ifndef FROE_MEASURE_SHEET_H
 #define FROE_MEASURE_SHEET_H
-#include "base/array.h"
 #include "base/task.h"
 #include "num/context.h"
 #include "scene/scene.h"
+#include "support/array.h"
 
 /** Two objects, by their places in the list that the sheet was made of. */
 typedef struct measure_touch {

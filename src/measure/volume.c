@@ -6,8 +6,8 @@
  *     /     \
  */
 #include "measure/volume.h"
-#include "base/array.h"
 #include "geom/predicates.h"
+#include "support/array.h"
 #include <math.h>
 
 typedef struct facet {

@@ -2,7 +2,7 @@
 #include "num/context.h"
 
 froe_status num_context_new(const froe_allocator *alloc, num_context *out) {
-    num_context context = {.alloc = base_allocator(alloc)};
+    num_context context = {.alloc = support_allocator(alloc)};
     froe_status status = num_arena_new(&context.alloc, &context.arena);
     if (status != FROE_OK) return status;
     context.first = num_machine_trusted() ? NUM_FILTER : NUM_EXACT;

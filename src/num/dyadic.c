@@ -27,7 +27,7 @@ __extension__ typedef unsigned __int128 wide;
 const size_t num_arena_bound = 1 << 16;
 
 froe_status num_arena_new(const froe_allocator *alloc, num_arena *out) {
-    uint64_t *limbs = base_realloc(alloc, NULL, 0, num_arena_bound * sizeof *limbs);
+    uint64_t *limbs = support_realloc(alloc, NULL, 0, num_arena_bound * sizeof *limbs);
     if (!limbs) return FROE_E_MEMORY;
     *out = (num_arena){limbs, 0, num_arena_bound, 0};
     return FROE_OK;
@@ -35,15 +35,15 @@ froe_status num_arena_new(const froe_allocator *alloc, num_arena *out) {
 
 froe_status num_arena_reserve(const froe_allocator *alloc, num_arena *arena, size_t limbs) {
     if (arena->capacity >= limbs) return FROE_OK;
-    uint64_t *more = base_realloc(alloc, NULL, 0, limbs * sizeof *more);
+    uint64_t *more = support_realloc(alloc, NULL, 0, limbs * sizeof *more);
     if (!more) return FROE_E_MEMORY;
-    base_free(alloc, arena->limbs, arena->capacity * sizeof *arena->limbs);
+    support_free(alloc, arena->limbs, arena->capacity * sizeof *arena->limbs);
     *arena = (num_arena){more, 0, limbs, arena->high};
     return FROE_OK;
 }
 
 void num_arena_free(const froe_allocator *alloc, num_arena *arena) {
-    base_free(alloc, arena->limbs, arena->capacity * sizeof *arena->limbs);
+    support_free(alloc, arena->limbs, arena->capacity * sizeof *arena->limbs);
     *arena = (num_arena){0};
 }
 

@@ -7,7 +7,7 @@
  * predicate cannot fail (num_arena_new is where memory may run out). */
 #ifndef FROE_NUM_DYADIC_H
 #define FROE_NUM_DYADIC_H
-#include "base/memory.h"
+#include "support/alloc.h"
 
 typedef struct num_arena {
     uint64_t *limbs;

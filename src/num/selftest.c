@@ -2,8 +2,8 @@
  *
  * Every operand is volatile, so that the answers come from the processor at run
  * time and not from the compiler's own arithmetic. */
-#include "base/status.h"
 #include "num/context.h"
+#include "support/fail.h"
 #include <fenv.h>
 #include <float.h>
 #include <math.h>
@@ -65,7 +65,7 @@ static bool keeps_residues(void) {
 
 froe_status num_rounding_check(froe_diagnostic *diag) {
     if (num_rounding_trusted()) return FROE_OK;
-    return base_fail(
+    return support_fail(
         diag, FROE_E_UNSUPPORTED,
         "the processor rounds doubles otherwise than to nearest, or flushes denormal numbers, and cannot be "
         "set to do as froe needs it");

@@ -4,12 +4,12 @@
  *     answers   one after the other, in the order of the queries
  */
 #include "base/floats.h"
-#include "base/status.h"
 #include "query/check.h"
 #include "query/packed/packed.h"
 #include "query/packed/space.h"
 #include "query/point/areas.h"
 #include "query/workers.h"
+#include "support/fail.h"
 #include <string.h>
 
 enum { CHUNK = 256 };
@@ -52,9 +52,9 @@ struct batch {
 void froe_answers_free(froe_answers *answers) {
     if (!answers || !answers->starts) return;
     const size_t ids = answers->starts[answers->queries];
-    base_free(&answers->alloc, answers->ids, (ids ? ids : 1) * sizeof *answers->ids);
-    base_free(&answers->alloc, answers->values, (ids ? ids : 1) * sizeof *answers->values);
-    base_free(&answers->alloc, answers->starts, (answers->queries + 1) * sizeof *answers->starts);
+    support_free(&answers->alloc, answers->ids, (ids ? ids : 1) * sizeof *answers->ids);
+    support_free(&answers->alloc, answers->values, (ids ? ids : 1) * sizeof *answers->values);
+    support_free(&answers->alloc, answers->starts, (answers->queries + 1) * sizeof *answers->starts);
     *answers = (froe_answers){0};
 }
 
@@ -93,7 +93,7 @@ static froe_status ask_ray_any(const batch *b, froe_query *q, size_t i, froe_dia
 /* Empties q->found, and makes room in it for answers that are stored elsewhere. */
 static froe_status clear_found(froe_query *q, size_t count, froe_diagnostic *diag) {
     q->found.count = 0;
-    return array_reserve(&q->alloc, &q->found, count) ? FROE_OK : base_fail_memory(diag);
+    return array_reserve(&q->alloc, &q->found, count) ? FROE_OK : support_fail_memory(diag);
 }
 
 /* Checks point i. */
@@ -183,7 +183,8 @@ static froe_status answer_flock(const batch *b, froe_query *q, size_t first, siz
     if (b->ask != ask_vertical)
         return space_rays(q, points, point_of(b, b->directions, first), end - first, b->limit,
                           b->hits ? b->hits + first : NULL, b->objects ? b->objects + first : NULL, diag);
-    return packed_vertical(q, points, end - first, b->direction, b->objects + first) ? base_fail_memory(diag) : FROE_OK;
+    return packed_vertical(q, points, end - first, b->direction, b->objects + first) ? support_fail_memory(diag)
+                                                                                     : FROE_OK;
 }
 
 /* Finds the leaves of the points of a chunk together, so that their cache misses overlap. */
@@ -191,7 +192,7 @@ static froe_status find_leaves(const batch *b, froe_query *q, size_t first, size
                                froe_diagnostic *diag) {
     const froe_status status = check_all(b, q, first, end, check_point, diag);
     if (status) return status;
-    if (query_leaf_find_all(q, point_of(b, b->points, first), end - first, leaves)) return base_fail_memory(diag);
+    if (query_leaf_find_all(q, point_of(b, b->points, first), end - first, leaves)) return support_fail_memory(diag);
     if (b->areas) query_areas_ask(b->areas, leaves, end - first);
     return FROE_OK;
 }
@@ -206,7 +207,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     froe_status status = b->ask_in ? find_leaves(b, q, first, end, leaves, &c->diag) : FROE_OK;
     for (size_t i = first; i < end && !status; i++) {
         status = b->ask_in ? b->ask_in(b, q, i, leaves + (i - first), &c->diag) : b->ask(b, q, i, &c->diag);
-        if (!status && !append_answers(b, q, c)) status = base_fail_memory(&c->diag);
+        if (!status && !append_answers(b, q, c)) status = support_fail_memory(&c->diag);
         if (status) c->diag.object = (uint32_t)i;
         c->counts[i - first] = (uint32_t)q->found.count;
     }
@@ -220,14 +221,14 @@ static froe_status gather_answers(const batch *b, froe_answers *out) {
     froe_answers answers = {.queries = b->count, .alloc = *alloc};
     size_t total = 0;
     for (size_t i = 0; i < b->chunk_count; i++) total += b->chunks[i].ids.count;
-    answers.starts = base_calloc(alloc, b->count + 1, sizeof *answers.starts);
+    answers.starts = support_calloc(alloc, b->count + 1, sizeof *answers.starts);
     if (!answers.starts) return FROE_E_MEMORY;
-    answers.ids = base_calloc(alloc, total ? total : 1, sizeof *answers.ids);
-    if (b->value) answers.values = base_calloc(alloc, total ? total : 1, sizeof *answers.values);
+    answers.ids = support_calloc(alloc, total ? total : 1, sizeof *answers.ids);
+    if (b->value) answers.values = support_calloc(alloc, total ? total : 1, sizeof *answers.values);
     if (!answers.ids || (b->value && !answers.values)) {
-        base_free(alloc, answers.starts, (b->count + 1) * sizeof *answers.starts);
-        base_free(alloc, answers.ids, (total ? total : 1) * sizeof *answers.ids);
-        base_free(alloc, answers.values, (total ? total : 1) * sizeof *answers.values);
+        support_free(alloc, answers.starts, (b->count + 1) * sizeof *answers.starts);
+        support_free(alloc, answers.ids, (total ? total : 1) * sizeof *answers.ids);
+        support_free(alloc, answers.values, (total ? total : 1) * sizeof *answers.values);
         return FROE_E_MEMORY;
     }
     for (size_t i = 0, at = 0; i < b->chunk_count; i++) {
@@ -251,8 +252,8 @@ static froe_status explain_batch(const batch *b, froe_status status, froe_diagno
             if (diag) *diag = b->chunks[i].diag;
             return status;
         }
-    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
-    return base_fail_memory(diag);
+    if (status == FROE_E_CANCELLED) return support_fail_cancelled(diag);
+    return support_fail_memory(diag);
 }
 
 static froe_status work_through_batch(batch *b, const froe_batch_options *options, froe_answers *out,
@@ -260,30 +261,30 @@ static froe_status work_through_batch(batch *b, const froe_batch_options *option
     froe_status status = query_workers_take(b->query, options, b->chunk_count, &b->workers, diag);
     if (!status && (status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b)))
         explain_batch(b, status, diag);
-    if (!status && out && (status = gather_answers(b, out))) base_fail_memory(diag);
+    if (!status && out && (status = gather_answers(b, out))) support_fail_memory(diag);
     query_workers_give(&b->workers);
     return status;
 }
 
 static froe_status run_batch(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     const froe_allocator *alloc = &b->query->alloc;
-    if (b->count > UINT32_MAX - 1) return base_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
+    if (b->count > UINT32_MAX - 1) return support_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
     b->chunk_count = (b->count + CHUNK - 1) / CHUNK;
-    b->chunks = base_calloc(alloc, b->chunk_count, sizeof *b->chunks);
-    if (!b->chunks) return base_fail_memory(diag);
+    b->chunks = support_calloc(alloc, b->chunk_count, sizeof *b->chunks);
+    if (!b->chunks) return support_fail_memory(diag);
     const froe_status status = work_through_batch(b, options, out, diag);
     for (size_t i = 0; i < b->chunk_count; i++) {
         array_free(alloc, &b->chunks[i].ids);
         array_free(alloc, &b->chunks[i].values);
     }
-    base_free(alloc, b->chunks, b->chunk_count * sizeof *b->chunks);
+    support_free(alloc, b->chunks, b->chunk_count * sizeof *b->chunks);
     return status;
 }
 
 froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t count,
                              const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out || (count && !ranges)) return base_fail(diag, FROE_E_ARG, "froe_batch_range: NULL argument.");
+    if (!query || !out || (count && !ranges)) return support_fail(diag, FROE_E_ARG, "froe_batch_range: NULL argument.");
     batch b = {.query = query, .ask = ask_range, .ranges = ranges, .count = count};
     return run_batch(&b, options, out, diag);
 }
@@ -291,7 +292,8 @@ froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t
 froe_status froe_batch_locate(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
                               froe_answers *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_locate: NULL argument.");
+    if (!query || !out || (count && !points))
+        return support_fail(diag, FROE_E_ARG, "froe_batch_locate: NULL argument.");
     batch b = {.query = query, .ask = ask_locate, .points = points, .count = count};
     if (!tree_is_packed(query->tree)) b.ask_in = ask_locate_in;
     return run_batch(&b, options, out, diag);
@@ -300,7 +302,8 @@ froe_status froe_batch_locate(froe_query *query, const double *points, size_t co
 froe_status froe_batch_groups(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
                               froe_answers *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_groups: NULL argument.");
+    if (!query || !out || (count && !points))
+        return support_fail(diag, FROE_E_ARG, "froe_batch_groups: NULL argument.");
     batch b = {.query = query, .points = points, .count = count};
     const froe_status status = query_groups_prepare(query, &b.areas, diag); /* once for all threads */
     if (status) return status;
@@ -315,7 +318,7 @@ froe_status froe_batch_vertical(froe_query *query, const double *points, size_t 
                                 const froe_batch_options *options, uint32_t *objects, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || (count && (!points || !objects)))
-        return base_fail(diag, FROE_E_ARG, "froe_batch_vertical: NULL argument.");
+        return support_fail(diag, FROE_E_ARG, "froe_batch_vertical: NULL argument.");
     batch b = {.query = query, .ask = ask_vertical, .points = points, .count = count};
     b.direction = direction;
     b.objects = objects;
@@ -327,7 +330,7 @@ static froe_status run_rays(froe_query *query, const double *origins, const doub
                             double t_max, batch *b, const froe_batch_options *options, froe_answers *out,
                             froe_diagnostic *diag) {
     if (!query || (count && (!origins || !directions || (!b->hits && !b->objects && !out))))
-        return base_fail(diag, FROE_E_ARG, "A batch of rays: NULL argument.");
+        return support_fail(diag, FROE_E_ARG, "A batch of rays: NULL argument.");
     b->query = query;
     b->points = origins;
     b->directions = directions;
@@ -356,14 +359,14 @@ froe_status froe_batch_ray_all(froe_query *query, const double *origins, const d
                                froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     batch b = {.ask = ask_ray_all, .value = parameter_of};
-    if (!out) return base_fail(diag, FROE_E_ARG, "froe_batch_ray_all: NULL argument.");
+    if (!out) return support_fail(diag, FROE_E_ARG, "froe_batch_ray_all: NULL argument.");
     return run_rays(query, origins, directions, count, t_max, &b, options, out, diag);
 }
 
 froe_status froe_batch_near(froe_query *query, const double *points, size_t count, size_t k, double bound,
                             const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out || (count && !points)) return base_fail(diag, FROE_E_ARG, "froe_batch_near: NULL argument.");
+    if (!query || !out || (count && !points)) return support_fail(diag, FROE_E_ARG, "froe_batch_near: NULL argument.");
     batch b = {.query = query, .ask = ask_near, .points = points, .count = count, .k = k, .limit = bound};
     b.value = distance_of;
     return run_batch(&b, options, out, diag);

@@ -1,18 +1,18 @@
 /* context.c: making, sharing and freeing query contexts and their parts. */
 #include "query/context.h"
 #include "base/floats.h"
-#include "base/status.h"
 #include "geom/selftest.h"
 #include "query/packed/packed.h"
 #include "query/packed/space.h"
+#include "support/fail.h"
 
 static froe_status take_context(const froe_tree *tree, query_shared *shared, froe_query **out) {
-    froe_query *q = base_calloc(&tree->alloc, 1, sizeof *q);
+    froe_query *q = support_calloc(&tree->alloc, 1, sizeof *q);
     if (!q) return FROE_E_MEMORY;
     q->tree = tree;
     q->alloc = tree->alloc;
     if (geom_context_new(&tree->alloc, &q->numbers)) {
-        base_free(&tree->alloc, q, sizeof *q);
+        support_free(&tree->alloc, q, sizeof *q);
         return FROE_E_MEMORY;
     }
     q->shared = shared;
@@ -21,7 +21,7 @@ static froe_status take_context(const froe_tree *tree, query_shared *shared, fro
                                                 : FROE_OK;
     if (status) {
         num_context_free(&q->numbers);
-        base_free(&tree->alloc, q, sizeof *q);
+        support_free(&tree->alloc, q, sizeof *q);
         return FROE_E_MEMORY;
     }
     query_marks_clear(&q->marks);
@@ -31,12 +31,12 @@ static froe_status take_context(const froe_tree *tree, query_shared *shared, fro
 
 froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !out) return base_fail(diag, FROE_E_ARG, "froe_query_new: NULL argument.");
-    query_shared *shared = base_calloc(&tree->alloc, 1, sizeof *shared);
-    if (!shared) return base_fail_memory(diag);
+    if (!tree || !out) return support_fail(diag, FROE_E_ARG, "froe_query_new: NULL argument.");
+    query_shared *shared = support_calloc(&tree->alloc, 1, sizeof *shared);
+    if (!shared) return support_fail_memory(diag);
     if (take_context(tree, shared, out)) {
-        base_free(&tree->alloc, shared, sizeof *shared);
-        return base_fail_memory(diag);
+        support_free(&tree->alloc, shared, sizeof *shared);
+        return support_fail_memory(diag);
     }
     atomic_init(&shared->holds, 1);
     return FROE_OK;
@@ -44,8 +44,8 @@ froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnos
 
 froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out) return base_fail(diag, FROE_E_ARG, "froe_query_fork: NULL argument.");
-    if (take_context(query->tree, query->shared, out)) return base_fail_memory(diag);
+    if (!query || !out) return support_fail(diag, FROE_E_ARG, "froe_query_fork: NULL argument.");
+    if (take_context(query->tree, query->shared, out)) return support_fail_memory(diag);
     (*out)->numbers.first = query->numbers.first;
     if (query->packed) (*out)->packed->kernels = query->packed->kernels;
     if (query->space) (*out)->space->kernels = query->space->kernels;
@@ -59,7 +59,7 @@ static void release(query_shared *shared, const froe_allocator *alloc) {
         query_part *part = atomic_load(&shared->parts[i]);
         if (part) part->free(alloc, part);
     }
-    base_free(alloc, shared, sizeof *shared);
+    support_free(alloc, shared, sizeof *shared);
 }
 
 /* Frees a context, but not its forks. */
@@ -77,12 +77,12 @@ static void free_alone(froe_query *query) {
     array_free(&alloc, &query->groups.touched);
     space_work_free(query->space, &alloc);
     array_free(&alloc, &query->found);
-    base_free(&alloc, query, sizeof *query);
+    support_free(&alloc, query, sizeof *query);
 }
 
 void query_classes_give(froe_query *q) {
     for (uint32_t i = 0; q->classes.forks && i < q->classes.count; i++) free_alone(q->classes.forks[i]);
-    base_free(&q->alloc, q->classes.forks, q->classes.count * sizeof *q->classes.forks);
+    support_free(&q->alloc, q->classes.forks, q->classes.count * sizeof *q->classes.forks);
     q->classes.forks = NULL;
 }
 

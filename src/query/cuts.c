@@ -1,12 +1,12 @@
 /* cuts.c: planes of all tabled cuts, laid out for filters. */
 #include "query/cuts.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include <string.h>
 
 static void free_planes(const froe_allocator *alloc, query_part *part) {
     query_planes *p = (query_planes *)part;
-    base_free(alloc, p->planes, p->count * sizeof *p->planes);
-    base_free(alloc, p, sizeof *p);
+    support_free(alloc, p->planes, p->count * sizeof *p->planes);
+    support_free(alloc, p, sizeof *p);
 }
 
 /* x[0] = c, where c is known up to c_err only: as (x - (c - k)) - k with a k so large that what is charged
@@ -27,15 +27,15 @@ static query_plane lay_out_plane(const geom_plane *plane) {
 
 static froe_status make_cuts(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
-    query_planes *p = base_calloc(&q->alloc, 1, sizeof *p);
-    if (!p) return base_fail_memory(diag);
+    query_planes *p = support_calloc(&q->alloc, 1, sizeof *p);
+    if (!p) return support_fail_memory(diag);
     p->part.free = free_planes;
     *out = &p->part;
     bool oblique = false;
     for (uint32_t i = 0; i < t->cut_count; i++) oblique |= t->cuts[i].kind != FROE_CUT_AXIS;
     if (!oblique) return FROE_OK;
-    p->planes = base_calloc(&q->alloc, t->cut_count, sizeof *p->planes);
-    if (!p->planes) return base_fail_memory(diag);
+    p->planes = support_calloc(&q->alloc, t->cut_count, sizeof *p->planes);
+    if (!p->planes) return support_fail_memory(diag);
     p->count = t->cut_count;
     for (uint32_t v = 0; v < t->node_count; v++) {
         const tree_node *node = t->nodes + v;

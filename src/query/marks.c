@@ -12,12 +12,12 @@ void query_marks_clear(query_marks *marks) {
 }
 
 void query_marks_free(query_marks *marks, const froe_allocator *alloc) {
-    base_free(alloc, marks->numbers, marks->size * sizeof *marks->numbers);
+    support_free(alloc, marks->numbers, marks->size * sizeof *marks->numbers);
 }
 
 bool query_marks_spread(query_marks *marks, const froe_allocator *alloc, size_t objects) {
     if (!marks->numbers) {
-        marks->numbers = base_calloc(alloc, objects, sizeof *marks->numbers);
+        marks->numbers = support_calloc(alloc, objects, sizeof *marks->numbers);
         if (!marks->numbers) return false;
         marks->size = objects;
     }

@@ -7,7 +7,7 @@
  * fills. Entries of older queries are free, so a new query number clears the table. */
 #ifndef FROE_QUERY_MARKS_H
 #define FROE_QUERY_MARKS_H
-#include "base/memory.h"
+#include "support/alloc.h"
 
 enum { QUERY_FEW = 256, QUERY_FEW_MOST = 128 };
 

@@ -4,8 +4,8 @@
  */
 #ifndef FROE_QUERY_MEMBERS_H
 #define FROE_QUERY_MEMBERS_H
-#include "base/array.h"
 #include "scene/table.h"
+#include "support/array.h"
 
 /** A set: ascending numbers. */
 typedef ARRAY(uint32_t) query_members;

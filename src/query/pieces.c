@@ -1,17 +1,17 @@
 /* pieces.c: see pieces.h. */
 #include "query/pieces.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include <string.h>
 
 static void free_pieces(const froe_allocator *alloc, query_part *part) {
     query_pieces *p = (query_pieces *)part;
-    base_free(alloc, p->points, p->size);
-    base_free(alloc, p, sizeof *p);
+    support_free(alloc, p->points, p->size);
+    support_free(alloc, p, sizeof *p);
 }
 
 static froe_status lay_points(query_pieces *p, const froe_tree *t, const froe_allocator *alloc) {
     const size_t bytes = (size_t)t->scene->dim * sizeof *p->points;
-    p->points = base_calloc(alloc, t->piece_count, bytes);
+    p->points = support_calloc(alloc, t->piece_count, bytes);
     if (!p->points) return FROE_E_MEMORY;
     p->size = t->piece_count * bytes;
     for (uint32_t v = 0; v < t->node_count; v++) {
@@ -26,8 +26,8 @@ static froe_status lay_points(query_pieces *p, const froe_tree *t, const froe_al
 static froe_status make_pieces(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
     const froe_scene *s = t->scene;
-    query_pieces *p = base_calloc(&q->alloc, 1, sizeof *p);
-    if (!p) return base_fail_memory(diag);
+    query_pieces *p = support_calloc(&q->alloc, 1, sizeof *p);
+    if (!p) return support_fail_memory(diag);
     p->part.free = free_pieces;
     *out = &p->part;
     bool points = t->piece_count > 0 && t->piece_count == s->object_count; /* each in one list */
@@ -37,7 +37,7 @@ static froe_status make_pieces(froe_query *q, query_part **out, froe_diagnostic 
         p->flat = p->flat && s->forms[i] < FROE_BOX;
     }
     p->whole = p->flat && t->bound_count <= 1; /* the first is unused */
-    return points && lay_points(p, t, &q->alloc) ? base_fail_memory(diag) : FROE_OK;
+    return points && lay_points(p, t, &q->alloc) ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status query_pieces_of(froe_query *query, const query_pieces **out, froe_diagnostic *diag) {

@@ -1,13 +1,13 @@
 /* workers.c: forks for a call, and the sum of their statistics. */
 #include "query/workers.h"
-#include "base/status.h"
+#include "support/fail.h"
 
 froe_batch_options froe_batch_defaults(void) {
     return (froe_batch_options){.size = sizeof(froe_batch_options)};
 }
 
 froe_status query_workers_refuse(froe_diagnostic *diag) {
-    return base_fail(diag, FROE_E_OPTIONS, "Batch options must come from froe_batch_defaults().");
+    return support_fail(diag, FROE_E_OPTIONS, "Batch options must come from froe_batch_defaults().");
 }
 
 froe_status query_workers_take(froe_query *query, const froe_batch_options *options, size_t jobs, query_workers *out,
@@ -18,11 +18,11 @@ froe_status query_workers_take(froe_query *query, const froe_batch_options *opti
     if (o->size != sizeof *o) return query_workers_refuse(diag);
     base_task_init(&out->task, o->threads, o->progress, o->user);
     if (out->task.threads > jobs) out->task.threads = jobs ? (unsigned)jobs : 1;
-    out->queries = base_calloc(&query->alloc, out->task.threads, sizeof *out->queries);
-    if (!out->queries) return base_fail_memory(diag);
+    out->queries = support_calloc(&query->alloc, out->task.threads, sizeof *out->queries);
+    if (!out->queries) return support_fail_memory(diag);
     out->queries[0] = query;
     for (out->count = 1; out->count < out->task.threads; out->count++)
-        if (froe_query_fork(query, &out->queries[out->count], NULL)) return base_fail_memory(diag);
+        if (froe_query_fork(query, &out->queries[out->count], NULL)) return support_fail_memory(diag);
     return FROE_OK;
 }
 
@@ -43,5 +43,5 @@ void query_workers_give(query_workers *workers) {
         add_statistics(&query->stats, &workers->queries[i]->stats);
         froe_query_free(workers->queries[i]);
     }
-    base_free(&query->alloc, workers->queries, workers->task.threads * sizeof *workers->queries);
+    support_free(&query->alloc, workers->queries, workers->task.threads * sizeof *workers->queries);
 }

@@ -6,9 +6,9 @@
  *     forms        ids become the corners of each object's form (forms.c)
  *     commit       the new counts are published, the only step that readers see; or the new vertices are dropped */
 #include "base/floats.h"
-#include "base/status.h"
 #include "geom/selftest.h"
 #include "scene/forms.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
@@ -22,19 +22,21 @@ froe_objects froe_objects_defaults(void) {
 /* ------------------------------------------------------------------- check -- */
 
 static froe_status check_kind(const froe_scene *s, const froe_objects *b, froe_diagnostic *diag) {
-    if ((unsigned)b->kind >= FROE_KIND_COUNT) return base_fail(diag, FROE_E_ARG, "there is no kind %d", (int)b->kind);
+    if ((unsigned)b->kind >= FROE_KIND_COUNT)
+        return support_fail(diag, FROE_E_ARG, "there is no kind %d", (int)b->kind);
     bool plane_or_space = b->kind == FROE_SEGMENT || b->kind == FROE_HULL;
     if ((plane_or_space && s->dim > 3) || (b->kind == FROE_POLYGON && s->dim != 3))
-        return base_fail(diag, FROE_E_UNSUPPORTED, "there are no %ss in dimension %d", froe_kind_name(b->kind), s->dim);
+        return support_fail(diag, FROE_E_UNSUPPORTED, "there are no %ss in dimension %d", froe_kind_name(b->kind),
+                            s->dim);
     return FROE_OK;
 }
 
 static froe_status check_arrays(const froe_objects *b, froe_diagnostic *diag) {
-    if (b->count && !b->coords) return base_fail(diag, FROE_E_ARG, "coords is null");
+    if (b->count && !b->coords) return support_fail(diag, FROE_E_ARG, "coords is null");
     if (b->starts && b->kind != FROE_POLYGON && b->kind != FROE_HULL)
-        return base_fail(diag, FROE_E_ARG, "starts is for polygons and hulls only");
+        return support_fail(diag, FROE_E_ARG, "starts is for polygons and hulls only");
     if (b->count && (b->kind == FROE_BALL) != (b->radii != NULL))
-        return base_fail(diag, FROE_E_ARG, "balls need radii, and only they have them");
+        return support_fail(diag, FROE_E_ARG, "balls need radii, and only they have them");
     return FROE_OK;
 }
 
@@ -42,21 +44,21 @@ static froe_status check_starts(const froe_objects *b, froe_diagnostic *diag) {
     size_t least = b->kind == FROE_POLYGON ? 3 : 1;
     for (size_t j = 0; b->starts && j < b->count; j++) {
         if (b->starts[j + 1] >= b->starts[j] && b->starts[j + 1] - b->starts[j] >= least) continue;
-        return base_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
-                            "%s %zu needs at least %zu corners: starts go from %zu to %zu", froe_kind_name(b->kind), j,
-                            least, b->starts[j], b->starts[j + 1]);
+        return support_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
+                               "%s %zu needs at least %zu corners: starts go from %zu to %zu", froe_kind_name(b->kind),
+                               j, least, b->starts[j], b->starts[j + 1]);
     }
     return FROE_OK;
 }
 
 static froe_status check_groups(const froe_scene *s, const froe_objects *b, froe_diagnostic *diag) {
     if (b->group != FROE_NONE && b->group >= s->group_count)
-        return base_fail(diag, FROE_E_INPUT, "there is no group %u", b->group);
+        return support_fail(diag, FROE_E_INPUT, "there is no group %u", b->group);
     for (size_t j = 0; b->groups && j < b->count; j++)
         if (b->groups[j] != FROE_NONE && b->groups[j] >= s->group_count)
-            return base_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
-                                "%s %zu belongs to group %u, which does not exist", froe_kind_name(b->kind), j,
-                                b->groups[j]);
+            return support_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
+                                   "%s %zu belongs to group %u, which does not exist", froe_kind_name(b->kind), j,
+                                   b->groups[j]);
     return FROE_OK;
 }
 
@@ -66,23 +68,23 @@ static froe_status check_limits(scene_adding *a) {
     const froe_objects *b = a->batch;
     const froe_scene *s = a->scene;
     if (b->count > SCENE_LIMIT - s->object_count)
-        return base_fail(a->diag, FROE_E_LIMIT, "more than %u objects", SCENE_LIMIT);
+        return support_fail(a->diag, FROE_E_LIMIT, "more than %u objects", SCENE_LIMIT);
     if (b->starts && b->starts[b->count] < b->starts[0])
-        return base_fail(a->diag, FROE_E_INPUT, "starts end before they begin");
+        return support_fail(a->diag, FROE_E_INPUT, "starts end before they begin");
     a->each = b->starts ? 0 : corners_of[b->kind];
     a->first = b->starts ? b->starts[0] : 0;
     a->corners = b->starts ? b->starts[b->count] - a->first : b->count * a->each;
     a->gap = b->kind == FROE_BALL ? b->count : 0;
     if (a->corners + a->gap > SCENE_CORNER_LIMIT - s->corner_count)
-        return base_fail(a->diag, FROE_E_LIMIT, "more than %u corners", SCENE_CORNER_LIMIT);
+        return support_fail(a->diag, FROE_E_LIMIT, "more than %u corners", SCENE_CORNER_LIMIT);
     return FROE_OK;
 }
 
 static froe_status check_adding(scene_adding *a) {
     const froe_objects *b = a->batch;
-    if (!a->scene || !b) return base_fail(a->diag, FROE_E_ARG, "scene or batch is null");
+    if (!a->scene || !b) return support_fail(a->diag, FROE_E_ARG, "scene or batch is null");
     if (b->size != sizeof *b) /* once the struct has grown: its older sizes too, with defaults for what they lack */
-        return base_fail(a->diag, FROE_E_OPTIONS, "the batch does not come from froe_objects_defaults()");
+        return support_fail(a->diag, FROE_E_OPTIONS, "the batch does not come from froe_objects_defaults()");
     froe_status status = scene_growable(a->scene, a->diag);
     if (!status) status = check_kind(a->scene, b, a->diag);
     if (!status) status = check_arrays(b, a->diag);
@@ -105,7 +107,7 @@ static froe_status reserve(scene_adding *a) {
     struct scene_store *store = a->scene->store;
     if (b->kind == FROE_POLYGON && !store->context_ready) {
         froe_status status = geom_context_new(alloc, &store->context);
-        if (status) return base_fail_memory(a->diag);
+        if (status) return support_fail_memory(a->diag);
         store->context_ready = true;
     }
     bool room = array_reserve(alloc, &store->kinds, b->count) && array_reserve(alloc, &store->forms, b->count) &&
@@ -114,7 +116,7 @@ static froe_status reserve(scene_adding *a) {
                 array_reserve(alloc, &store->radii, a->gap) && reserve_optional(a, &store->tags, b->tags) &&
                 reserve_optional(a, &store->faces, b->faces) &&
                 reserve_optional(a, &store->groups, b->groups || b->group != FROE_NONE);
-    return room ? FROE_OK : base_fail_memory(a->diag);
+    return room ? FROE_OK : support_fail_memory(a->diag);
 }
 
 /* ---------------------------------------------------------------- vertices -- */
@@ -123,7 +125,7 @@ static froe_status progress(const scene_adding *a, size_t done, size_t work) {
     const froe_objects *b = a->batch;
     volatile const double share = (double)done / (double)work;
     if (!b->progress || base_callback(b->progress(b->user, share))) return FROE_OK;
-    return base_fail_cancelled(a->diag);
+    return support_fail_cancelled(a->diag);
 }
 
 /** Names the object and the corner of it that a corner of the batch is. */
@@ -137,8 +139,8 @@ static froe_status fail_at_corner(const scene_adding *a, size_t corner, int axis
             hi = middle;
     }
     size_t i = corner - scene_adding_corner(a, lo);
-    return base_fail_at(a->diag, FROE_E_INPUT, (uint32_t)lo, (uint32_t)i, axis < 0 ? FROE_NONE : (uint32_t)axis,
-                        "corner %zu of %s %zu: %s %g", i, froe_kind_name(a->batch->kind), lo, what, value);
+    return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)lo, (uint32_t)i, axis < 0 ? FROE_NONE : (uint32_t)axis,
+                           "corner %zu of %s %zu: %s %g", i, froe_kind_name(a->batch->kind), lo, what, value);
 }
 
 /** Copies a chunk of corners, checked; -0 becomes +0 by adding +0. */
@@ -169,8 +171,8 @@ static froe_status take_vertices(scene_adding *a) {
         froe_status status = gather_points(a, done, count, points);
         if (status) return status;
         status = scene_vertices_add(a->scene, points, count, ids + done);
-        if (status == FROE_E_LIMIT) return base_fail(a->diag, status, "more than %u vertices", SCENE_LIMIT);
-        if (status) return base_fail_memory(a->diag);
+        if (status == FROE_E_LIMIT) return support_fail(a->diag, status, "more than %u vertices", SCENE_LIMIT);
+        if (status) return support_fail_memory(a->diag);
         if (chunks % REPORT_EVERY == 0) status = progress(a, done, a->corners + a->batch->count);
         if (status) return status;
     }

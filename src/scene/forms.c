@@ -1,7 +1,7 @@
 /* forms.c: what an object really is: a zero-length segment is a point, a hull is a set of vertices. */
 #include "scene/forms.h"
-#include "base/status.h"
 #include "scene/polygon.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
@@ -19,8 +19,8 @@ static froe_status box_form(const scene_adding *a, size_t j, const uint32_t *rin
     const double *lo = store_vertex(a, ring[0]), *hi = store_vertex(a, ring[1]);
     for (int k = 0; k < a->scene->dim; k++)
         if (lo[k] > hi[k])
-            return base_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, 1, (uint32_t)k,
-                                "box %zu: its low corner %g is above its high corner %g", j, lo[k], hi[k]);
+            return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, 1, (uint32_t)k,
+                                   "box %zu: its low corner %g is above its high corner %g", j, lo[k], hi[k]);
     return FROE_OK;
 }
 
@@ -28,13 +28,13 @@ static froe_status ball_form(scene_adding *a, size_t j, uint32_t *ring, uint32_t
     struct scene_store *store = a->scene->store;
     double radius = a->batch->radii[j] + 0.0, lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     if (!(radius >= 0 && radius < INFINITY))
-        return base_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE, "ball %zu: its radius is %g", j,
-                            radius);
+        return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE, "ball %zu: its radius is %g",
+                               j, radius);
     scene_ball_bounds(a->scene->dim, store_vertex(a, ring[0]), radius, lo, hi);
     for (int k = 0; k < a->scene->dim; k++) {
         if (isinf(lo[k]) || isinf(hi[k]))
-            return base_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, 0, (uint32_t)k,
-                                "ball %zu reaches beyond the range of doubles", j);
+            return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, 0, (uint32_t)k,
+                                   "ball %zu reaches beyond the range of doubles", j);
         a->lo[k] = fmin(a->lo[k], lo[k]);
         a->hi[k] = fmax(a->hi[k], hi[k]);
     }
@@ -64,9 +64,9 @@ static froe_status polygon_form(scene_adding *a, size_t j, uint32_t *ring, uint3
     if (scene_polygon_form(&store->context, store->coords.data, ring, count, form, &fault)) return FROE_OK;
     const double *x = store_vertex(a, fault.vertex);
     uint32_t corner = corner_of_vertex(a, j, fault.vertex);
-    return base_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, corner, FROE_NONE,
-                        "polygon %zu %s: see its corner %u at (%.17g, %.17g, %.17g)", j, fault.reason, corner, x[0],
-                        x[1], x[2]);
+    return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, corner, FROE_NONE,
+                           "polygon %zu %s: see its corner %u at (%.17g, %.17g, %.17g)", j, fault.reason, corner, x[0],
+                           x[1], x[2]);
 }
 
 /** Restores the heap order below `root` of a heap with the largest on top. */

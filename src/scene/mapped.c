@@ -1,18 +1,18 @@
 /* mapped.c: a scene over arrays from a file, which are unvalidated input. */
-#include "base/status.h"
 #include "geom/selftest.h"
 #include "scene/polygon.h"
 #include "scene/store.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
 static froe_status bad_scene(froe_diagnostic *diag, const char *what) {
-    return base_fail(diag, FROE_E_FORMAT, "the scene of the file is corrupted: %s", what);
+    return support_fail(diag, FROE_E_FORMAT, "the scene of the file is corrupted: %s", what);
 }
 
 static froe_status bad_object(froe_diagnostic *diag, uint32_t object, const char *what) {
-    return base_fail_at(diag, FROE_E_FORMAT, object, FROE_NONE, FROE_NONE,
-                        "the scene of the file is corrupted: %s, object %u", what, object);
+    return support_fail_at(diag, FROE_E_FORMAT, object, FROE_NONE, FROE_NONE,
+                           "the scene of the file is corrupted: %s, object %u", what, object);
 }
 
 /* ---------------------------------------------------------------- vertices -- */
@@ -25,7 +25,7 @@ static bool plain_number(double x) {
 static froe_status check_different(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
     scene_table table = {0};
     size_t bytes = (size_t)s->dim * sizeof(double);
-    froe_status status = scene_table_reserve(alloc, &table, s->vertex_count) ? FROE_OK : base_fail_memory(diag);
+    froe_status status = scene_table_reserve(alloc, &table, s->vertex_count) ? FROE_OK : support_fail_memory(diag);
     for (uint32_t v = 0; !status && v < s->vertex_count; v++) {
         uint32_t tag = scene_vertex_tag(scene_vertex(s, v), s->dim);
         size_t at = scene_table_home(&table, tag);
@@ -124,7 +124,7 @@ static froe_status check_objects(const froe_scene *s, const froe_allocator *allo
     num_context context;
     if (!s->starts || s->starts[0] != 0 || s->starts[s->object_count] != s->corner_count)
         return bad_scene(diag, "the offsets of the corners");
-    if (geom_context_new(alloc, &context)) return base_fail_memory(diag);
+    if (geom_context_new(alloc, &context)) return support_fail_memory(diag);
     froe_status status = FROE_OK;
     for (uint32_t i = 0; !status && i < s->object_count; i++) status = check_object(s, i, &context, diag);
     num_context_free(&context);
@@ -178,11 +178,11 @@ static void compute_bounds(froe_scene *s) {
 
 froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller, froe_scene **out,
                          froe_diagnostic *diag) {
-    froe_allocator alloc = base_allocator(caller);
+    froe_allocator alloc = support_allocator(caller);
     froe_status status = scene_validate(arrays, &alloc, diag);
     if (status) return status;
-    froe_scene *s = base_calloc(&alloc, 1, sizeof *s);
-    if (!s) return base_fail_memory(diag);
+    froe_scene *s = support_calloc(&alloc, 1, sizeof *s);
+    if (!s) return support_fail_memory(diag);
     *s = *arrays;
     s->alloc = alloc;
     s->mapped = true;

@@ -1,8 +1,8 @@
 /* scene.c: making, holding and freeing scenes, and their public readers. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "num/context.h"
 #include "scene/store.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -28,21 +28,21 @@ static void store_free(const froe_allocator *alloc, struct scene_store *store) {
     array_free(alloc, &store->group_table);
     array_free(alloc, &store->text);
     if (store->context_ready) num_context_free(&store->context);
-    base_free(alloc, store, sizeof *store);
+    support_free(alloc, store, sizeof *store);
 }
 
 froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **out) {
     BASE_FLOATS_OWN;
     if (!out || dim < 2 || dim > FROE_MAX_DIM) return FROE_E_ARG;
     if (num_rounding_check(NULL)) return FROE_E_UNSUPPORTED;
-    froe_allocator alloc = base_allocator(caller);
-    froe_scene *s = base_calloc(&alloc, 1, sizeof *s);
+    froe_allocator alloc = support_allocator(caller);
+    froe_scene *s = support_calloc(&alloc, 1, sizeof *s);
     if (!s) return FROE_E_MEMORY;
     s->alloc = alloc;
     s->dim = dim;
     atomic_init(&s->holds, 1);
     for (int k = 0; k < FROE_MAX_DIM; k++) s->lo[k] = INFINITY, s->hi[k] = -INFINITY;
-    s->store = base_calloc(&alloc, 1, sizeof *s->store);
+    s->store = support_calloc(&alloc, 1, sizeof *s->store);
     if (!s->store || !array_push(&alloc, &s->store->starts, 0)) {
         froe_scene_free(s);
         return FROE_E_MEMORY;
@@ -57,7 +57,7 @@ void froe_scene_free(froe_scene *scene) {
     froe_allocator alloc = scene->alloc;
     if (scene->map) munmap(scene->map, scene->map_size);
     if (scene->store) store_free(&alloc, scene->store);
-    base_free(&alloc, scene, sizeof *scene);
+    support_free(&alloc, scene, sizeof *scene);
 }
 
 void scene_hold(froe_scene *scene) {
@@ -66,7 +66,7 @@ void scene_hold(froe_scene *scene) {
 
 froe_status scene_growable(const froe_scene *s, froe_diagnostic *diag) {
     if (s->store && atomic_load_explicit(&s->holds, memory_order_acquire) == 1) return FROE_OK;
-    return base_fail(diag, FROE_E_FROZEN, "a tree holds the scene, which can no longer grow");
+    return support_fail(diag, FROE_E_FROZEN, "a tree holds the scene, which can no longer grow");
 }
 
 void scene_publish(froe_scene *s) {

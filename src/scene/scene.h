@@ -13,9 +13,9 @@
  * memory of `alloc` or inside a mapped tree file (then `mapped`). */
 #ifndef FROE_SCENE_SCENE_H
 #define FROE_SCENE_SCENE_H
-#include "base/array.h"
 #include "geom/body.h"
 #include "geom/plane.h"
+#include "support/array.h"
 #include <stdatomic.h>
 
 typedef struct scene_group {

@@ -8,9 +8,9 @@
  * that fails drops its new vertices, and readers have seen nothing of it. */
 #ifndef FROE_SCENE_STORE_H
 #define FROE_SCENE_STORE_H
-#include "base/array.h"
 #include "scene/scene.h"
 #include "scene/table.h"
+#include "support/array.h"
 
 struct scene_store {
     scene_table table; /**< of the vertices */

@@ -19,7 +19,7 @@ bool scene_table_reserve(const froe_allocator *alloc, scene_table *table, size_t
         size *= 2;
     }
     if (size == table->size) return true;
-    scene_table grown = {.slots = base_calloc(alloc, size, sizeof(scene_slot)), .size = size};
+    scene_table grown = {.slots = support_calloc(alloc, size, sizeof(scene_slot)), .size = size};
     if (!grown.slots) return false;
     move_entries(table, &grown);
     scene_table_free(alloc, table);
@@ -28,7 +28,7 @@ bool scene_table_reserve(const froe_allocator *alloc, scene_table *table, size_t
 }
 
 void scene_table_free(const froe_allocator *alloc, scene_table *table) {
-    base_free(alloc, table->slots, table->size * sizeof(scene_slot));
+    support_free(alloc, table->slots, table->size * sizeof(scene_slot));
     *table = (scene_table){0};
 }
 

@@ -7,7 +7,7 @@
  * (Knuth, TAOCP 3, 6.4, algorithm R): no tombstones, and undoing additions leaves no trace. */
 #ifndef FROE_SCENE_TABLE_H
 #define FROE_SCENE_TABLE_H
-#include "base/memory.h"
+#include "support/alloc.h"
 
 typedef struct scene_slot {
     uint32_t tag, next_id; /**< next_id: id + 1, 0 when free */

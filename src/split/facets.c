@@ -6,7 +6,7 @@
 
 froe_status split_facets_new(const froe_allocator *alloc, const froe_scene *scene, split_facets *out) {
     *out = (split_facets){.place_count = scene->vertex_count, .dim = scene->dim};
-    out->place = base_calloc(alloc, out->place_count, sizeof *out->place);
+    out->place = support_calloc(alloc, out->place_count, sizeof *out->place);
     if (!out->place) return FROE_E_MEMORY;
     memset(out->place, 0xff, out->place_count * sizeof *out->place);
     return FROE_OK;
@@ -21,7 +21,7 @@ void split_facets_free(const froe_allocator *alloc, split_facets *f) {
     array_free(alloc, &f->start);
     array_free(alloc, &f->corner);
     array_free(alloc, &f->vertices);
-    base_free(alloc, f->place, f->place_count ? f->place_count * sizeof *f->place : 1);
+    support_free(alloc, f->place, f->place_count ? f->place_count * sizeof *f->place : 1);
     f->place = NULL;
 }
 

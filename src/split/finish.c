@@ -45,13 +45,13 @@ typedef struct finish {
 } finish;
 
 split_table *split_table_new(const froe_allocator *alloc) {
-    split_table *t = base_calloc(alloc, 1, sizeof *t);
+    split_table *t = support_calloc(alloc, 1, sizeof *t);
     for (uint32_t i = 0; t && i < ROOM; i++) t->bits[i] = (mask)1 << i;
     return t;
 }
 
 void split_table_free(const froe_allocator *alloc, split_table *table) {
-    base_free(alloc, table, sizeof *table);
+    support_free(alloc, table, sizeof *table);
 }
 
 /* -------------------------------------------------------------------- masks -- */

@@ -1,6 +1,6 @@
 /* grow.c: the shared loop, in one thread down to small cells, then one task per small cell. */
-#include "base/status.h"
 #include "split/cell.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
@@ -148,7 +148,7 @@ static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
 
 static froe_status start_workers(grow *g) {
     const split_job *job = g->job;
-    g->workers = base_calloc(&job->alloc, job->task->threads, sizeof *g->workers);
+    g->workers = support_calloc(&job->alloc, job->task->threads, sizeof *g->workers);
     if (!g->workers) return FROE_E_MEMORY;
     froe_status status = FROE_OK;
     for (; g->worker_count < job->task->threads && !status; g->worker_count++) {
@@ -268,7 +268,7 @@ static froe_status do_task(void *user, unsigned worker, size_t index) {
 static froe_status seal(grow *g, froe_tree **out) {
     const froe_allocator *alloc = &g->job->alloc;
     size_t count = g->tasks.count;
-    tree_graft *grafts = base_calloc(alloc, count, sizeof *grafts);
+    tree_graft *grafts = support_calloc(alloc, count, sizeof *grafts);
     if (!grafts) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
     uint64_t guarded = 0;
@@ -277,7 +277,7 @@ static froe_status seal(grow *g, froe_tree **out) {
     if (g->method->note) g->method->note(g->method->config);
     for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
-    base_free(alloc, grafts, (count ? count * sizeof *grafts : 1));
+    support_free(alloc, grafts, (count ? count * sizeof *grafts : 1));
     return status;
 }
 
@@ -289,7 +289,7 @@ static void free_grow(grow *g) {
         split_set_free(&work->set);
         array_free(alloc, &work->cells);
     }
-    base_free(alloc, g->workers, g->job->task->threads * sizeof *g->workers);
+    support_free(alloc, g->workers, g->job->task->threads * sizeof *g->workers);
     for (size_t i = 0; i < g->tasks.count; i++) draft_free(&g->tasks.data[i].draft);
     array_free(alloc, &g->tasks);
     array_free(alloc, &g->store_items);
@@ -302,17 +302,17 @@ static froe_status explain_crossing(const grow *g) {
     const uint32_t *ids = g->workers[0].crossing;
     for (size_t i = g->tasks.count; i-- > 0;)
         if (g->tasks.data[i].crossing[0] != FROE_NONE) ids = g->tasks.data[i].crossing;
-    return base_fail_at(g->job->diag, FROE_E_INPUT, ids[0], FROE_NONE, FROE_NONE,
-                        "crosses object %u; with the setting crossing=split such objects are cut", ids[1]);
+    return support_fail_at(g->job->diag, FROE_E_INPUT, ids[0], FROE_NONE, FROE_NONE,
+                           "crosses object %u; with the setting crossing=split such objects are cut", ids[1]);
 }
 
 froe_status split_explain(froe_diagnostic *diag, uint64_t max_fragments, froe_status status) {
     if (status == FROE_E_BUDGET)
-        return base_fail(diag, status, "more than max_fragments = %llu pieces are needed",
-                         (unsigned long long)max_fragments);
-    if (status == FROE_E_LIMIT) return base_fail(diag, status, "the tree needs more than 2^31 nodes or pieces");
-    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
-    return status ? base_fail_memory(diag) : FROE_OK;
+        return support_fail(diag, status, "more than max_fragments = %llu pieces are needed",
+                            (unsigned long long)max_fragments);
+    if (status == FROE_E_LIMIT) return support_fail(diag, status, "the tree needs more than 2^31 nodes or pieces");
+    if (status == FROE_E_CANCELLED) return support_fail_cancelled(diag);
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status split_grow(const split_job *job, const split_method *method, froe_tree **out) {

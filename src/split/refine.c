@@ -26,14 +26,14 @@ void split_scratch_end(const froe_allocator *alloc, split_scratch *s) {
 
 froe_status split_scratch_new(const void *config, split_work *work) {
     (void)config;
-    work->scratch = base_calloc(&work->set.alloc, 1, sizeof(split_scratch));
+    work->scratch = support_calloc(&work->set.alloc, 1, sizeof(split_scratch));
     return work->scratch ? split_scratch_begin(&work->set.alloc, work->scratch) : FROE_E_MEMORY;
 }
 
 void split_scratch_free(split_work *work) {
     if (!work->scratch) return;
     split_scratch_end(&work->set.alloc, work->scratch);
-    base_free(&work->set.alloc, work->scratch, sizeof(split_scratch));
+    support_free(&work->set.alloc, work->scratch, sizeof(split_scratch));
     work->scratch = NULL;
 }
 

@@ -4,7 +4,7 @@
  * heap for one shape a level and no recursion. Shapes live in units of a power of two that brings
  * the box to size 1, so that no coordinate a double can hold overflows. */
 #include "base/floats.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include "tree/shape.h"
 #include "tree/tree.h"
 #include <math.h>
@@ -133,19 +133,19 @@ static bool walk_cells(cell_walk *w, const double *lo, const double *hi) {
 froe_status froe_tree_cells(const froe_tree *tree, const double *lo, const double *hi, froe_cell_fn *fn, void *user,
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !lo || !hi || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!tree || !lo || !hi || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     cell_walk w = {.tree = tree, .alloc = tree->alloc, .dim = tree->scene->dim, .fn = fn, .user = user};
     double most = 0;
     if (w.dim > 3)
-        return base_fail(diag, FROE_E_UNSUPPORTED, "cells can be made in 2 and 3 dimensions, not in %d", w.dim);
+        return support_fail(diag, FROE_E_UNSUPPORTED, "cells can be made in 2 and 3 dimensions, not in %d", w.dim);
     for (int k = 0; k < w.dim; k++) {
         if (!(lo[k] <= hi[k]) || !isfinite(lo[k]) || !isfinite(hi[k]))
-            return base_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
-                                "the box has no extent on axis %d: lo %g, hi %g", k, lo[k], hi[k]);
+            return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
+                                   "the box has no extent on axis %d: lo %g, hi %g", k, lo[k], hi[k]);
         most = fmax(most, fmax(fabs(lo[k]), fabs(hi[k])));
     }
     frexp(most, &w.exponent);
     bool ok = walk_cells(&w, lo, hi);
     free_walk(&w);
-    return ok ? FROE_OK : base_fail_memory(diag);
+    return ok ? FROE_OK : support_fail_memory(diag);
 }

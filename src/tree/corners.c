@@ -18,11 +18,11 @@ struct tree_spare {
 };
 
 froe_status tree_spare_new(const froe_allocator *alloc, tree_spare **out) {
-    tree_spare *spare = base_calloc(alloc, 1, sizeof *spare);
+    tree_spare *spare = support_calloc(alloc, 1, sizeof *spare);
     if (!spare) return FROE_E_MEMORY;
     froe_status status = geom_context_new(alloc, &spare->context);
     if (status) {
-        base_free(alloc, spare, sizeof *spare);
+        support_free(alloc, spare, sizeof *spare);
         return status;
     }
     atomic_flag_clear(&spare->taken);
@@ -33,7 +33,7 @@ froe_status tree_spare_new(const froe_allocator *alloc, tree_spare **out) {
 void tree_spare_free(const froe_allocator *alloc, tree_spare *spare) {
     if (!spare) return;
     num_context_free(&spare->context);
-    base_free(alloc, spare, sizeof *spare);
+    support_free(alloc, spare, sizeof *spare);
 }
 
 /* The spare context, or `own` filled with a new one. */

@@ -19,7 +19,7 @@ void draft_free(tree_draft *draft) {
 }
 
 froe_status draft_new(const froe_allocator *alloc, int dim, uint32_t outer, tree_draft *out) {
-    tree_draft draft = {.alloc = base_allocator(alloc), .dim = dim, .outer = outer};
+    tree_draft draft = {.alloc = support_allocator(alloc), .dim = dim, .outer = outer};
     if (!array_push(&draft.alloc, &draft.nodes, (tree_node){0}) || !array_push(&draft.alloc, &draft.bounds, 0)) {
         draft_free(&draft);
         return FROE_E_MEMORY;

@@ -7,8 +7,8 @@
  * The mapping is private and read-only. If another program shortens the file while it is
  * mapped, its pages are lost (SIGBUS). froe itself replaces files and never shortens them. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "num/context.h"
+#include "support/fail.h"
 #include "tree/file.h"
 #include "tree/validate.h"
 #include <errno.h>
@@ -29,7 +29,7 @@ typedef struct opening {
 } opening;
 
 static froe_status bad_file(const opening *o, const char *what) {
-    return base_fail(o->diag, FROE_E_FORMAT, "'%s' is no valid tree file: %s", support_short(o->path), what);
+    return support_fail(o->diag, FROE_E_FORMAT, "'%s' is no valid tree file: %s", support_short(o->path), what);
 }
 
 static froe_status unreadable(const opening *o, int error) {
@@ -164,24 +164,24 @@ static froe_status read_all(opening *o, froe_tree *t) {
     if (!status) status = claim_tree(o, t);
     if (!status) status = scene_mapped(&o->scene, &t->alloc, &t->scene, o->diag);
     if (!status) status = tree_validate(t, o->diag);
-    if (!status && tree_finish(t)) status = base_fail_memory(o->diag);
+    if (!status && tree_finish(t)) status = support_fail_memory(o->diag);
     return status;
 }
 
 froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     opening o = {.path = path, .diag = diag};
-    if (!path || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!path || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (!file_machine_fits())
-        return base_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
+        return support_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
     froe_status status = num_rounding_check(diag);
     if (!status) status = map_file(&o);
     if (status) return status;
-    froe_allocator alloc = base_allocator(caller);
-    froe_tree *t = base_calloc(&alloc, 1, sizeof *t);
+    froe_allocator alloc = support_allocator(caller);
+    froe_tree *t = support_calloc(&alloc, 1, sizeof *t);
     if (!t) {
         munmap((void *)(uintptr_t)o.bytes, o.size);
-        return base_fail_memory(diag);
+        return support_fail_memory(diag);
     }
     t->alloc = alloc;
     t->mapped = true;

@@ -1,6 +1,6 @@
 /* save.c: a tree as the bytes of its file: header, section table, sections. */
 #include "base/floats.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include "support/writer.h"
 #include "tree/file.h"
 #include <string.h>
@@ -48,9 +48,9 @@ static void put_tree(support_writer *out, const froe_tree *tree) {
 
 froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !path) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (!file_machine_fits())
-        return base_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
+        return support_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
     support_writer out;
     froe_status status = support_writer_open(&out, path, &tree->alloc, diag);
     if (status) return status;

@@ -135,11 +135,11 @@ static froe_status take_arrays(seal *s) {
 /* One map per draft, all zero; grafted leaves know their graft. */
 static froe_status take_maps(seal *s) {
     const froe_allocator *alloc = &s->tree->alloc;
-    s->maps = base_calloc(alloc, s->graft_count + 1, sizeof *s->maps);
+    s->maps = support_calloc(alloc, s->graft_count + 1, sizeof *s->maps);
     if (!s->maps) return FROE_E_MEMORY;
     s->map_count = s->graft_count + 1;
     for (uint32_t i = 0; i < s->map_count; i++) {
-        s->maps[i] = base_calloc(alloc, source_of(s, i)->nodes.count, sizeof(uint32_t));
+        s->maps[i] = support_calloc(alloc, source_of(s, i)->nodes.count, sizeof(uint32_t));
         if (!s->maps[i]) return FROE_E_MEMORY;
     }
     for (uint32_t i = 0; i < s->graft_count; i++) s->maps[0][s->grafts[i].node] = i + 1;
@@ -149,8 +149,8 @@ static froe_status take_maps(seal *s) {
 static void free_scratch(seal *s) {
     const froe_allocator *alloc = &s->main->alloc;
     for (uint32_t i = 0; i < s->map_count; i++)
-        base_free(alloc, s->maps[i], source_of(s, i)->nodes.count * sizeof(uint32_t));
-    base_free(alloc, s->maps, s->map_count * sizeof *s->maps);
+        support_free(alloc, s->maps[i], source_of(s, i)->nodes.count * sizeof(uint32_t));
+    support_free(alloc, s->maps, s->map_count * sizeof *s->maps);
     array_free(alloc, &s->stack);
 }
 
@@ -186,7 +186,7 @@ static void copy_meta(const tree_meta *from, size_t dim, tree_meta *to) {
 }
 
 froe_status draft_shell(const froe_allocator *alloc, froe_scene *scene, const tree_meta *meta, froe_tree **out) {
-    froe_tree *t = base_calloc(alloc, 1, sizeof *t);
+    froe_tree *t = support_calloc(alloc, 1, sizeof *t);
     if (!t) return FROE_E_MEMORY;
     t->alloc = *alloc;
     t->scene = scene;

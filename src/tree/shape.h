@@ -8,8 +8,8 @@
  * which keeps slivers out of pictures; nothing else depends on it. */
 #ifndef FROE_TREE_SHAPE_H
 #define FROE_TREE_SHAPE_H
-#include "base/array.h"
 #include "geom/plane.h"
+#include "support/array.h"
 
 typedef struct shape {
     ARRAY(double) points;   /* dim a point, in units of 2^exponent of the drawing */

@@ -7,10 +7,10 @@
 #include <string.h>
 
 static void *take_array(const froe_allocator *alloc, size_t count, size_t item_size) {
-    return base_realloc(alloc, NULL, 0, count ? count * item_size : 1);
+    return support_realloc(alloc, NULL, 0, count ? count * item_size : 1);
 }
 static void give_array(const froe_allocator *alloc, void *array, size_t count, size_t item_size) {
-    base_free(alloc, array, count ? count * item_size : 1);
+    support_free(alloc, array, count ? count * item_size : 1);
 }
 
 froe_status tree_take_arrays(froe_tree *t) {
@@ -36,9 +36,9 @@ void froe_tree_free(froe_tree *tree) {
         give_array(&alloc, tree->bounds, tree->bound_count, sizeof *tree->bounds);
         give_array(&alloc, tree->normals, tree->normal_count, sizeof *tree->normals);
         give_array(&alloc, tree->packed.owners, tree->packed.owner_count, sizeof *tree->packed.owners);
-        base_free(&alloc, tree->packed.memory, tree->packed.memory_size);
+        support_free(&alloc, tree->packed.memory, tree->packed.memory_size);
     }
-    base_free(&alloc, tree, sizeof *tree);
+    support_free(&alloc, tree, sizeof *tree);
 }
 
 froe_cut tree_cut_view(const tree_node *n, const tree_cut *cuts, const double *normals) {

@@ -5,8 +5,8 @@
  * with that excludes cycles, sharing, gaps and overlaps at once, and each index is checked
  * where it stands. The audit checks what the pieces mean. */
 #include "tree/validate.h"
-#include "base/status.h"
 #include "geom/selftest.h"
+#include "support/fail.h"
 #include "tree/packed/packed.h"
 #include "tree/walk.h"
 #include <math.h>
@@ -20,12 +20,13 @@ typedef struct check {
 } check;
 
 static froe_status bad_node(const check *c, const char *what) {
-    return base_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, c->walk.node);
+    return support_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, c->walk.node);
 }
 
 static froe_status bad_piece(const check *c, uint32_t object, const char *what) {
-    return base_fail_at(c->diag, FROE_E_FORMAT, object < c->tree->scene->object_count ? object : FROE_NONE, FROE_NONE,
-                        FROE_NONE, "the tree is corrupted: %s, node %u, object %u", what, c->walk.node, object);
+    return support_fail_at(c->diag, FROE_E_FORMAT, object < c->tree->scene->object_count ? object : FROE_NONE,
+                           FROE_NONE, FROE_NONE, "the tree is corrupted: %s, node %u, object %u", what, c->walk.node,
+                           object);
 }
 
 /* -------------------------------------------------------------------- cuts -- */
@@ -160,13 +161,13 @@ static froe_status check_nodes(check *c) {
     c->walk.tree = t;
     bool begun = tree_is_packed(t) ? !t->bound_count : t->bound_count && t->bounds[0] == 0;
     if (tree_is_packed(t)) c->bounds = 0;
-    if (!t->node_count || !begun) return base_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: it has no root");
+    if (!t->node_count || !begun) return support_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: it has no root");
     while (!status && tree_walk_next(&c->walk)) status = check_node(c);
-    if (tree_walk_end(&c->walk)) return base_fail_memory(c->diag);
+    if (tree_walk_end(&c->walk)) return support_fail_memory(c->diag);
     if (status) return status;
     if (c->nodes != t->node_count || c->cuts != t->cut_count || c->pieces != t->piece_count ||
         c->bounds != t->bound_count || c->normals != t->normal_count)
-        return base_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: something that no node uses");
+        return support_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: something that no node uses");
     return FROE_OK;
 }
 
@@ -197,8 +198,8 @@ static bool meta_fits(const froe_tree *t) {
 
 froe_status tree_validate(const froe_tree *tree, froe_diagnostic *diag) {
     check c = {.tree = tree, .diag = diag};
-    if (!meta_fits(tree)) return base_fail(diag, FROE_E_FORMAT, "the tree is corrupted: its description");
-    if (geom_context_new(&tree->alloc, &c.context)) return base_fail_memory(diag);
+    if (!meta_fits(tree)) return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: its description");
+    if (geom_context_new(&tree->alloc, &c.context)) return support_fail_memory(diag);
     froe_status status = check_nodes(&c);
     num_context_free(&c.context);
     if (!status && tree_is_packed(tree)) status = packed_validate(tree, diag);

@@ -4,7 +4,7 @@
  * (Sutherland and Hodgman 1974); where a ring is not convex that leaves doubled lines along the cut, without area. */
 #ifndef FROE_VIEW_PRINT_H
 #define FROE_VIEW_PRINT_H
-#include "base/array.h"
+#include "support/array.h"
 #include "view/camera.h"
 
 typedef struct print_point {

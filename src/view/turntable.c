@@ -2,8 +2,8 @@
  *
  * Angles come from tan(angle / 4) and doubled angles: the same on every machine. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "scene/scene.h"
+#include "support/fail.h"
 #include "view/camera.h"
 #include <math.h>
 
@@ -47,10 +47,11 @@ static froe_status fit(const froe_camera *c, const froe_scene *scene, const doub
 froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene, size_t count, froe_camera *cameras,
                              froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!camera || !scene || !cameras || !count) return base_fail(diag, FROE_E_ARG, "a required argument is NULL or 0");
+    if (!camera || !scene || !cameras || !count)
+        return support_fail(diag, FROE_E_ARG, "a required argument is NULL or 0");
     double middle[3] = {0, 0, 0}, axis[3], way[3], distance = 0, scale = INFINITY;
     const double up = length_of(camera->up);
-    if (!(up > 0) || !isfinite(up)) return base_fail(diag, FROE_E_ARG, "a turntable needs an axis: up is none");
+    if (!(up > 0) || !isfinite(up)) return support_fail(diag, FROE_E_ARG, "a turntable needs an axis: up is none");
     for (int k = 0; k < 3; k++) {
         if (scene->object_count) middle[k] = 0.5 * scene->lo[k] + 0.5 * scene->hi[k];
         axis[k] = camera->up[k] / up;

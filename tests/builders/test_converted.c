@@ -99,7 +99,7 @@ static void plan_by_medians(planned *p, const froe_scene *scene, uint32_t node, 
 }
 
 static void plan_begin(planned *p, const froe_scene *scene) {
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     assert_int_equal(num_context_new(&alloc, &p->context), FROE_OK);
     assert_int_equal(point_tree_new(&alloc, scene, &p->plan), FROE_OK);
 }
@@ -261,7 +261,7 @@ static void the_best_chord_is_found(void **state) {
         }
         froe_scene *scene = NULL;
         froe_objects batch = froe_objects_defaults();
-        froe_allocator alloc = base_allocator(NULL);
+        froe_allocator alloc = support_allocator(NULL);
         split_set set;
         chord_search search = {.items = {0}};
         split_cell cell = {.path = seed, .count = N};

@@ -289,7 +289,7 @@ static void rooms_pay_for_what_is_divided(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
         froe_scene *scene = generate(scenes[k], 500);
-        froe_allocator alloc = base_allocator(NULL);
+        froe_allocator alloc = support_allocator(NULL);
         uint32_t objects[500], n = scene->object_count, lemma = 0, forced = 0;
         boxes_options options = {.delta = 0.5, .trade = 2, .slack = k % 2 ? 0.5 : 0, .balance = k == 2 ? 0.5 : 0};
         boxes b;

@@ -155,7 +155,7 @@ static void compare(const boxes_cut *a, const boxes_cut *b, const char *what) {
 static uint32_t check(const char *kind, size_t n, const boxes_options *options) {
     static oracle o;
     froe_scene *scene = NULL;
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     boxes b;
     boxes_cell root = {.cover = FROE_NONE};
     uint32_t objects[MOST], dividing = 0;

@@ -142,7 +142,7 @@ static froe_status build_from_stage(froe_scene *scene, const build_method *metho
     base_task task;
     base_task_init(&task, 1, NULL, NULL);
     build_job job = {.scene = scene,
-                     .alloc = base_allocator(NULL),
+                     .alloc = support_allocator(NULL),
                      .task = &task,
                      .leaf = 1,
                      .seed = 1,

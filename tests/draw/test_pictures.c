@@ -171,7 +171,7 @@ static froe_tree *two_cuts(double factor) {
     double c[] = {0, 0.5, 1, 0.5, 0.5, 0, 0.5, 0.375};
     const froe_cut cuts[2] = {{.kind = FROE_CUT_OBJECT, .id = {0}}, {.kind = FROE_CUT_OBJECT, .id = {1}}};
     const tree_meta meta = {.method = "hand", .leaf = 0};
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     tree_draft draft;
     froe_tree *tree = NULL;
     uint32_t half, quarter;

@@ -1,9 +1,9 @@
 /* Pairs of touching boxes against comparing all with all, on boxes that like to go wrong. */
-#include "support/memory.h"
+#include "support/alloc.h"
 
-#include "base/memory.h"
 #include "base/random.h"
 #include "geom/meet/box_pairs.h"
+#include "support/memory.h"
 #include <string.h>
 
 enum { MOST = 3000 };
@@ -143,7 +143,7 @@ static void many_boxes_of_awkward_shapes_are_quick(void **state) {
                     *l = i < N / 2 ? c / N : c, *h = i < N / 2 ? (c + 1) / N : c + 1;
             }
         _Atomic uint64_t pairs = 0;
-        froe_allocator alloc = base_allocator(NULL);
+        froe_allocator alloc = support_allocator(NULL);
         base_task task;
         base_task_init(&task, 2, NULL, NULL);
         assert_int_equal(geom_box_pairs(&alloc, &task, 1, 3, N, lo, hi, count_only, &pairs), FROE_OK);

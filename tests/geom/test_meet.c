@@ -71,7 +71,7 @@ static void make_polytope(dice *d, int dim, sample *s) {
     }
     s->polytope = (geom_polytope){0};
     assert_int_equal(num_context_new(NULL, &context), 0);
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     assert_true(geom_polytope_make(&context, &alloc, dim, normals, offsets, count, lo, hi, &s->polytope));
     num_context_free(&context);
     s->set = geom_polytope_convex(&s->polytope, dim);
@@ -130,7 +130,7 @@ static void check(num_context *context, dice *d, int dim, geom_core core_a, geom
     }
     oracle_set_free(&a.oracle);
     oracle_set_free(&b.oracle);
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     geom_polytope_free(&b.polytope, &alloc);
 }
 

@@ -5,12 +5,12 @@
 #include <froe/view.h>
 #include <stdio.h>
 
-void *base_realloc(void);
-void *base_realloc(void) {
+void *support_realloc(void);
+void *support_realloc(void) {
     return NULL;
 }
-int array_grow(int x);
-int array_grow(int x) {
+int support_array_grow(int x);
+int support_array_grow(int x) {
     return x + 1;
 }
 
@@ -24,7 +24,7 @@ int main(void) {
     if (froe_scene_new(2, NULL, &scene) || froe_scene_add(scene, &objects, NULL)) return 1;
     if (froe_scene_object_count(scene) != 2 || froe_scene_vertex_count(scene) != 4) return 2;
     froe_scene_free(scene);
-    if (base_realloc() || array_grow(1) != 2) return 3;
+    if (support_realloc() || support_array_grow(1) != 2) return 3;
     puts(froe_version());
     return 0;
 }

@@ -267,7 +267,7 @@ static void places_are_exact_in_every_representation(void **state) {
     (void)state;
     fuzz_source r = {1};
     num_arena arena;
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     assert_int_equal(num_arena_new(&alloc, &arena), FROE_OK);
     for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
         tally seen = {0, 0, 0};

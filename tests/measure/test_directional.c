@@ -29,7 +29,7 @@ static void shuffle(fuzz_source *random, uint32_t *ranks, uint32_t count) {
 static void check_dominance(int dim, uint32_t count) {
     static uint32_t ranks[FROE_MAX_DIM][POINTS];
     uint32_t *rank[FROE_MAX_DIM], below[FROE_MAX_DIM];
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     fuzz_source random = {count + 1000 * (uint64_t)dim};
     measure_dominance tree;
     for (int k = 0; k < dim; k++) shuffle(&random, rank[k] = ranks[k], count);

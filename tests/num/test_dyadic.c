@@ -157,7 +157,7 @@ static void quotients_know_their_edge_cases(void **state) {
 
 static int setup(void **state) {
     static fixture f;
-    f.alloc = base_allocator(NULL);
+    f.alloc = support_allocator(NULL);
     for (int i = 0; i < NUMBERS; i++) mpq_init(f.p.theirs[i]);
     *state = &f;
     return num_arena_new(&f.alloc, &f.arena) != FROE_OK;

@@ -121,7 +121,7 @@ static void roots_are_isolated_compared_and_asked_exactly(void **state) {
     (void)state;
     fuzz_source r = {3};
     num_arena arena = {0};
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     assert_int_equal(num_arena_reserve(&alloc, &arena, 4 * num_poly_arena(2, NUM_FRACTION_LIMBS)), FROE_OK);
     for (int round = 0; round < 4000; round++) {
         arena.top = 0;
@@ -147,7 +147,7 @@ static void roots_are_isolated_compared_and_asked_exactly(void **state) {
 static void roots_that_are_too_close_are_said_to_be_so(void **state) {
     (void)state;
     num_arena arena = {0};
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     assert_int_equal(num_arena_reserve(&alloc, &arena, num_poly_arena(80, NUM_FRACTION_LIMBS)), FROE_OK);
     for (int power = 1199; power <= 5000; power += 3801) {
         num_poly f = {.degree = 2};

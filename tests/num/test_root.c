@@ -16,7 +16,7 @@ static froe_allocator alloc;
 
 static int setup(void **state) {
     (void)state;
-    alloc = base_allocator(NULL);
+    alloc = support_allocator(NULL);
     return num_arena_new(&alloc, &arena) != FROE_OK;
 }
 

@@ -266,7 +266,7 @@ typedef struct told {
 
 static bool note_pair(void *user, const froe_pair *pair) {
     told *t = user;
-    const froe_allocator alloc = base_allocator(NULL);
+    const froe_allocator alloc = support_allocator(NULL);
     assert_true(array_push(&alloc, &t->pairs, *pair));
     return t->pairs.count < t->most;
 }
@@ -299,7 +299,7 @@ static void pairs_by_force(const froe_scene *s, bool shared, told *out) {
 
 /* Asks on several threads, and expects these pairs in this order. */
 static void expect_pairs(froe_query *query, unsigned threads, bool shared, const told *expected, const char *name) {
-    const froe_allocator alloc = base_allocator(NULL);
+    const froe_allocator alloc = support_allocator(NULL);
     told found = {.most = SIZE_MAX};
     froe_batch_options o = froe_batch_defaults();
     o.threads = threads;
@@ -318,7 +318,7 @@ static void expect_pairs(froe_query *query, unsigned threads, bool shared, const
 
 /* By all kernels: those of brute force, each once, by ids. */
 static uint64_t check_pairs(asking *a, const froe_tree *t, const char *name, bool shared) {
-    const froe_allocator alloc = base_allocator(NULL);
+    const froe_allocator alloc = support_allocator(NULL);
     told expected = {.most = SIZE_MAX};
     pairs_by_force(t->scene, shared, &expected);
     for (size_t k = 0; k < a->kernels; k++)
@@ -344,7 +344,7 @@ static void pairs_are_told_exactly_once(void **state) {
 
 static void a_visitor_stops_the_pairs(void **state) {
     (void)state;
-    const froe_allocator alloc = base_allocator(NULL);
+    const froe_allocator alloc = support_allocator(NULL);
     froe_tree *t = tree_of(kinds + 1, false);
     asking a = asking_of(t);
     told found = {.most = 5};
@@ -358,7 +358,7 @@ static void a_visitor_stops_the_pairs(void **state) {
 /* Scenes of so many nodes that each thread gets several runs of them, against a tree that is not packed. */
 static void pairs_do_not_depend_on_threads(void **state) {
     (void)state;
-    const froe_allocator alloc = base_allocator(NULL);
+    const froe_allocator alloc = support_allocator(NULL);
     const struct {
         uint32_t count;
         double size;
@@ -391,7 +391,7 @@ static bool almost(void *user, double done) {
 
 static void pairs_are_cancelled_before_they_are_told(void **state) {
     (void)state;
-    const froe_allocator alloc = base_allocator(NULL);
+    const froe_allocator alloc = support_allocator(NULL);
     froe_tree *t = tree_of(kinds + 1, false);
     asking a = asking_of(t);
     told found = {.most = SIZE_MAX};

@@ -37,7 +37,7 @@ static num_context context;
 
 static int begin_context(void **state) {
     (void)state;
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     return num_context_new(&alloc, &context) != FROE_OK;
 }
 
@@ -242,7 +242,7 @@ static void use(const froe_scene *s) {
     double lo[8], hi[8];
     uint32_t *originals = malloc(4 * (size_t)s->object_count + 1);
     assert_non_null(originals);
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     assert_int_equal(scene_originals(s, &alloc, originals), FROE_OK);
     for (uint32_t i = 0; i < s->object_count; i++) {
         geom_plane plane;

@@ -250,7 +250,7 @@ static inline void oracle_step(oracle *o, const oracle_cell *cell) {
 /** Checks the tree of these guards. O(guards * height), with little memory beside. */
 static inline void oracle_check(const split_guard_tree *tree, const double *guards, size_t count) {
     oracle o = {.tree = tree, .guards = guards, .dim = tree->dim, .kill = tree->k ? tree->k : 1};
-    o.alloc = base_allocator(NULL);
+    o.alloc = support_allocator(NULL);
     oracle_cell root = {.node = 0};
     memcpy(root.lo, tree->lo, sizeof root.lo);
     memcpy(root.hi, tree->hi, sizeof root.hi);

@@ -27,7 +27,7 @@ static froe_tree *build(froe_scene *scene, uint32_t leaf, const char *settings, 
     const build_method *density = &build_method_density;
     base_task_init(&task, 1, NULL, NULL);
     build_job job = {
-        .scene = scene, .alloc = base_allocator(NULL), .task = &task, .leaf = leaf, .seed = 1, .first = first};
+        .scene = scene, .alloc = support_allocator(NULL), .task = &task, .leaf = leaf, .seed = 1, .first = first};
     job.meta.leaf = leaf;
     assert_int_equal(options_parse(density, settings, true, job.option, NULL), FROE_OK);
     density->resolve(scene, leaf, job.option);

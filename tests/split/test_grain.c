@@ -40,7 +40,7 @@ static watch build_watching(mesh_kind kind, size_t n, void (*look)(watch *, spli
     froe_scene *scene = mesh_new(kind, n);
     base_task task;
     tree_meta meta = {0};
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     watch w = {.grain = {.seed = 5, .effort = {4, 4, 6, 256, false}, .height = 30}, .look = look, .random = {9}};
     w.grain.notes = &w.notes;
     base_task_init(&task, 1, NULL, NULL);
@@ -338,7 +338,7 @@ static uint64_t height_of(froe_scene *scene, bool again) {
                            .height = again ? grain.height : 0};
     base_task task;
     tree_meta meta = {0};
-    split_job job = {.scene = scene, .alloc = base_allocator(NULL), .task = &task, .meta = &meta};
+    split_job job = {.scene = scene, .alloc = support_allocator(NULL), .task = &task, .meta = &meta};
     froe_tree *tree;
     base_task_init(&task, 1, NULL, NULL);
     assert_int_equal(split_grow(&job, &method, &tree), FROE_OK);

@@ -9,7 +9,7 @@
 enum { WAYS = 4 };
 
 static split_guard_tree build(const double *guards, size_t count, split_guard_options options, unsigned threads) {
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     base_task task;
     split_guard_tree tree;
     base_task_init(&task, threads, NULL, NULL);
@@ -19,7 +19,7 @@ static split_guard_tree build(const double *guards, size_t count, split_guard_op
 }
 
 static void discard(split_guard_tree *tree) {
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     split_guard_tree_free(&alloc, tree);
 }
 
@@ -47,7 +47,7 @@ static double *shuffled(const double *guards, size_t count, int dim, uint64_t se
 
 /* The same trees, whatever the order of their arrays, when the second's planes are x * scale + move[axis]. */
 static void assert_alike(const split_guard_tree *a, const split_guard_tree *b, double scale, const double *move) {
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     ARRAY(uint32_t) stack = {0};
     assert_int_equal(a->nodes.count, b->nodes.count);
     assert_int_equal(a->height, b->height);
@@ -421,7 +421,7 @@ static void progress_rises_by_its_span(void **state) {
     (void)state;
     double *guards = scene_new(SCENE_UNIFORM, 1, 60000, 2);
     const split_guard_options options = {.dim = 2, .k = 4};
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     for (unsigned threads = 1; threads <= 2; threads++) {
         double before = 0.25;
         base_task task;
@@ -437,7 +437,7 @@ static void progress_rises_by_its_span(void **state) {
 
 static void too_many_guards_are_refused(void **state) {
     (void)state;
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     base_task task;
     split_guard_tree tree;
     const split_guard_options options = {.dim = 2};
@@ -520,7 +520,7 @@ static void check_homes(const froe_scene *scene, const staged *s) {
 
 /* The tree of a scene is that of its guards written down, and its objects' homes are where comparisons lead. */
 static void check_scene(const froe_scene *scene, split_guard_options options) {
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     base_task task;
     split_guards guards;
     base_task_init(&task, 1, NULL, NULL);

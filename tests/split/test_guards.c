@@ -17,7 +17,7 @@ static froe_scene *new_scene(int dim, froe_kind kind, size_t count, const double
 }
 
 static split_guards guards_of(const froe_scene *scene, const uint32_t *ids, size_t count, unsigned threads) {
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     base_task task;
     split_guards guards;
     base_task_init(&task, threads, NULL, NULL);
@@ -27,7 +27,7 @@ static split_guards guards_of(const froe_scene *scene, const uint32_t *ids, size
 }
 
 static void discard(froe_scene *scene, split_guards *guards) {
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     split_guards_free(&alloc, guards);
     froe_scene_free(scene);
 }
@@ -135,7 +135,7 @@ static void threads_do_not_change_a_guard(void **state) {
     (void)state;
     froe_scene *scene = many_boxes();
     split_guards one = guards_of(scene, NULL, MANY, 1), three = guards_of(scene, NULL, MANY, 3);
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     size_t flat = (MANY + 2) / 3;
     assert_int_equal(one.count, 4 * (MANY - flat) + 2 * flat);
     assert_int_equal(three.count, one.count);

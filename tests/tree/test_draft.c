@@ -244,7 +244,7 @@ static froe_status grow_cells(growing *g) {
 
 static froe_status grow_random(bool oldest_first, bool own_drafts, froe_scene *scene, const froe_allocator *alloc,
                                froe_tree **tree) {
-    growing g = {.alloc = base_allocator(alloc), .oldest_first = oldest_first, .own_drafts = own_drafts};
+    growing g = {.alloc = support_allocator(alloc), .oldest_first = oldest_first, .own_drafts = own_drafts};
     froe_status status = grow_cells(&g);
     if (!status) status = draft_seal(&g.main, g.grafts, g.graft_count, scene, &meta, tree);
     if (g.main.nodes.data) draft_free(&g.main);

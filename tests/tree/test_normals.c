@@ -110,7 +110,7 @@ static void any_allocation_may_fail(void **state) {
 static int begin(void **state) {
     static num_context context;
     static normals m;
-    m = (normals){.context = &context, .alloc = base_allocator(NULL)};
+    m = (normals){.context = &context, .alloc = support_allocator(NULL)};
     *state = &m;
     return num_context_new(NULL, &context);
 }

@@ -28,7 +28,7 @@ static uint32_t switches(const uint32_t *order, const uint32_t *styles, uint32_t
 static uint32_t try_graph(uint32_t nodes, size_t arcs, bool circles, uint64_t seed) {
     graph_arc *list = calloc(arcs + 1, sizeof *list);
     uint32_t *order = calloc(nodes + 1, sizeof *order), *styles = calloc(nodes + 1, sizeof *styles);
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     view_graph g;
     for (size_t i = 0; i < arcs; i++) {
         uint32_t a = trees_random(seed, 2 * i, nodes), b = trees_random(seed, 2 * i + 1, nodes);
@@ -68,7 +68,7 @@ static void circles_are_broken(void **state) {
 /* Two nodes of which each must come after the other cost one; so do many circles through one node. */
 static void few_nodes_break_many_circles(void **state) {
     (void)state;
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     graph_arc two[2] = {{0, 1}, {1, 0}}, star[100];
     view_graph g;
     assert_int_equal(view_graph_new(&alloc, 2, two, 2, &g), FROE_OK);
@@ -94,7 +94,7 @@ static void few_nodes_break_many_circles(void **state) {
 static void long_circles_need_no_deep_stack(void **state) {
     (void)state;
     enum { LONG = 300000 };
-    froe_allocator alloc = base_allocator(NULL);
+    froe_allocator alloc = support_allocator(NULL);
     graph_arc *list = calloc(LONG, sizeof *list);
     view_graph g;
     for (uint32_t i = 0; i < LONG; i++) list[i] = (graph_arc){i, (i + 1) % LONG};

@@ -151,7 +151,7 @@ static bool keep(const page *p, const double *a, const double *b, double share[2
 }
 
 static void find_kinds(const page *p, uint8_t *kinds) {
-    const froe_allocator alloc = base_allocator(NULL);
+    const froe_allocator alloc = support_allocator(NULL);
     geom_eye eye;
     view_sights s;
     assert_int_equal(view_eye_of(p->tree, &p->view.eye, &eye, NULL), FROE_OK);

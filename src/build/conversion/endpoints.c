@@ -2,11 +2,11 @@
  * plan. */
 #include "build/conversion/endpoints.h"
 #include "base/floats.h"
-#include "base/status.h"
 #include "build/conversion/convert.h"
 #include "build/conversion/ham_sandwich.h"
 #include "build/options.h"
 #include "geom/selftest.h"
+#include "support/fail.h"
 #include <string.h>
 
 typedef struct converter {
@@ -58,8 +58,8 @@ static froe_status copy_cuts(converter *c) {
         froe_cut cut = tree_cut_at(c->tree, node);
         if (cut.kind == FROE_CUT_NONE) continue;
         if (cut.kind != FROE_CUT_AXIS && cut.kind != FROE_CUT_PLANE)
-            status = base_fail(c->job->diag, FROE_E_UNSUPPORTED,
-                               "method '%s' cuts points in another way than by planes", c->tree->meta.method);
+            status = support_fail(c->job->diag, FROE_E_UNSUPPORTED,
+                                  "method '%s' cuts points in another way than by planes", c->tree->meta.method);
         if (!status) status = point_tree_split(&c->plan, at, &cut, &child);
         for (uint32_t s = 0; s < 2 && !status; s++)
             if (!array_push(alloc, &stack, c->tree->nodes[node].child + s) || !array_push(alloc, &stack, child + s))
@@ -81,7 +81,7 @@ static froe_status plan_by_method(converter *c, const convert_plan *plan) {
 
 static froe_status make_plan(converter *c, const convert_plan *plan) {
     froe_status status = point_tree_new(&c->job->alloc, c->job->scene, &c->plan);
-    if (status) return base_fail_memory(c->job->diag);
+    if (status) return support_fail_memory(c->job->diag);
     if (plan->method) {
         status = plan_by_method(c, plan);
         if (status) return status;
@@ -113,7 +113,7 @@ static froe_status follow_plan(converter *c, bool prune, froe_tree **out) {
 froe_status build_converted(build_job *job, const convert_plan *plan, froe_tree **out) {
     converter c = {.job = job};
     froe_status status = geom_context_new(&job->alloc, &c.context);
-    if (status) return base_fail_memory(job->diag);
+    if (status) return support_fail_memory(job->diag);
     if (job->first > c.context.first) c.context.first = job->first;
     c.plan.scene = job->scene;
     status = make_plan(&c, plan);

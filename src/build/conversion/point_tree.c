@@ -12,8 +12,8 @@ froe_status point_tree_new(const froe_allocator *alloc, const froe_scene *scene,
 
 void point_tree_free(point_tree *t) {
     size_t vertices = t->scene->vertex_count, nodes = t->nodes.count;
-    base_free(&t->alloc, t->homes, vertices ? vertices * sizeof *t->homes : 1);
-    base_free(&t->alloc, t->starts, (2 * nodes + 1) * sizeof *t->starts);
+    support_free(&t->alloc, t->homes, vertices ? vertices * sizeof *t->homes : 1);
+    support_free(&t->alloc, t->starts, (2 * nodes + 1) * sizeof *t->starts);
     array_free(&t->alloc, &t->junctions);
     array_free(&t->alloc, &t->nodes);
 }
@@ -78,7 +78,7 @@ static uint32_t home_of(const point_tree *t, num_context *context, uint32_t vert
 
 static froe_status find_homes(point_tree *t, num_context *context) {
     const froe_scene *s = t->scene;
-    t->homes = base_calloc(&t->alloc, s->vertex_count, sizeof *t->homes);
+    t->homes = support_calloc(&t->alloc, s->vertex_count, sizeof *t->homes);
     if (!t->homes) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < s->vertex_count; i++) t->homes[i] = FROE_NONE;
     for (uint32_t i = 0; i < s->object_count; i++)
@@ -148,7 +148,7 @@ static bool do_region(region_walk *w, region_step step) {
 /** By node and side, and along each. */
 static froe_status sort_junctions(point_tree *t, const junction_list *found) {
     size_t count = found->count;
-    base_pair *pairs = base_calloc(&t->alloc, 2 * count, sizeof *pairs);
+    base_pair *pairs = support_calloc(&t->alloc, 2 * count, sizeof *pairs);
     bool ok = pairs && array_reserve(&t->alloc, &t->junctions, count);
     for (size_t i = 0; i < count && ok; i++) pairs[i] = (base_pair){base_double_key(found->data[i].at), (uint32_t)i};
     if (ok) base_radix_sort(pairs, pairs + count, count);
@@ -159,14 +159,14 @@ static froe_status sort_junctions(point_tree *t, const junction_list *found) {
         t->starts[pairs[i].key + 1]++;
     }
     for (size_t i = 0; i < 2 * t->nodes.count && ok; i++) t->starts[i + 1] += t->starts[i];
-    base_free(&t->alloc, pairs, count ? 2 * count * sizeof *pairs : 1);
+    support_free(&t->alloc, pairs, count ? 2 * count * sizeof *pairs : 1);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
 static froe_status find_junctions(point_tree *t) {
     region_walk w = {.tree = t};
     region root = {.count = 0};
-    t->starts = base_calloc(&t->alloc, 2 * t->nodes.count + 1, sizeof *t->starts);
+    t->starts = support_calloc(&t->alloc, 2 * t->nodes.count + 1, sizeof *t->starts);
     if (t->scene->object_count) region_around(t->scene->lo, t->scene->hi, FROE_NONE, &root);
     bool ok = t->starts && push_region(&w, 0, &root);
     while (w.steps.count && ok) ok = do_region(&w, w.steps.data[--w.steps.count]);

@@ -10,10 +10,10 @@
  *     ---+            order along h, apart for both sides: what lies on one side of h does not end on the other. */
 #ifndef FROE_BUILD_CONVERSION_POINT_TREE_H
 #define FROE_BUILD_CONVERSION_POINT_TREE_H
-#include "base/array.h"
 #include "build/conversion/region.h"
 #include "num/context.h"
 #include "scene/scene.h"
+#include "support/array.h"
 
 typedef struct point_node {
     froe_cut cut;          /**< kind NONE: a leaf */

@@ -33,7 +33,7 @@ static boxes_change change(boxes_end end, unsigned rooms, int64_t weight, int64_
 }
 
 static bool make_changes(boxes *b) {
-    b->changes = base_calloc(&b->alloc, CHANGES, sizeof *b->changes);
+    b->changes = support_calloc(&b->alloc, CHANGES, sizeof *b->changes);
     for (uint32_t i = 0; i < CHANGES && b->changes; i++) {
         uint32_t some = i / BOXES_SOME, both = i % BOXES_SOME / BOXES_BOTH, rooms = i % BOXES_BOTH / BOXES_ROOMS;
         b->changes[i] = change((boxes_end)(i % BOXES_ROOMS), rooms, b->weight[some][both], b->options.trade);
@@ -54,7 +54,7 @@ froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, cons
 void boxes_free(boxes *b) {
     if (b->draft.nodes.data) draft_free(&b->draft);
     for (int k = 0; k < b->dim; k++) array_free(&b->alloc, &b->events[k]);
-    base_free(&b->alloc, b->changes, CHANGES * sizeof *b->changes);
+    support_free(&b->alloc, b->changes, CHANGES * sizeof *b->changes);
     array_free(&b->alloc, &b->fragments);
     array_free(&b->alloc, &b->cells);
     array_free(&b->alloc, &b->covers);

@@ -17,10 +17,10 @@
  * An event is an end strictly inside the cell; those of rooms only as long as they are alive. */
 #ifndef FROE_BUILD_DIRECTIONAL_BOXES_H
 #define FROE_BUILD_DIRECTIONAL_BOXES_H
-#include "base/array.h"
 #include "base/radix.h"
 #include "base/task.h"
 #include "scene/scene.h"
+#include "support/array.h"
 #include "tree/draft.h"
 
 #define BOXES_MOST (1u << 30) /**< fragments on the stack: far below what node and piece numbers allow */

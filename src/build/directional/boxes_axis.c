@@ -40,18 +40,18 @@ static void order_box_ends(boxes_axis *a, boxes_end end, uint32_t *first, uint32
 
 static bool make_arrays(const froe_allocator *alloc, boxes_axis *a) {
     size_t positions = (size_t)a->size + 4;
-    a->x = base_calloc(alloc, positions, sizeof *a->x);
-    a->faces = base_calloc(alloc, positions, sizeof *a->faces);
-    a->places = base_calloc(alloc, a->count, sizeof *a->places);
+    a->x = support_calloc(alloc, positions, sizeof *a->x);
+    a->faces = support_calloc(alloc, positions, sizeof *a->faces);
+    a->places = support_calloc(alloc, a->count, sizeof *a->places);
     for (int i = 0; i < 2; i++) {
-        a->first[i] = base_calloc(alloc, positions, sizeof *a->first[i]);
-        a->order[i] = base_calloc(alloc, a->count, sizeof *a->order[i]);
+        a->first[i] = support_calloc(alloc, positions, sizeof *a->first[i]);
+        a->order[i] = support_calloc(alloc, a->count, sizeof *a->order[i]);
         a->ends[i] = base_fenwick_new(alloc, a->size + 1);
         if (!a->first[i] || !a->order[i] || !a->ends[i].sum) return false;
     }
-    return a->x && a->faces && a->places && !base_summit_new(alloc, a->size + 2, &a->slack) &&
-           !base_summit_new(alloc, a->size + 2, &a->least) && !base_summit_new(alloc, a->count, &a->reach) &&
-           !base_summit_new(alloc, a->count, &a->before) && !base_summit_new(alloc, a->count, &a->after);
+    return a->x && a->faces && a->places && !base_max_tree_new(alloc, a->size + 2, &a->slack) &&
+           !base_max_tree_new(alloc, a->size + 2, &a->least) && !base_max_tree_new(alloc, a->count, &a->reach) &&
+           !base_max_tree_new(alloc, a->count, &a->before) && !base_max_tree_new(alloc, a->count, &a->after);
 }
 
 froe_status boxes_axis_new(const boxes *b, const boxes_cell *cell, int axis, boxes_axis *out) {
@@ -62,22 +62,22 @@ froe_status boxes_axis_new(const boxes *b, const boxes_cell *cell, int axis, box
     number_places(out, e, events);
     order_box_ends(out, BOXES_LO, out->first[0], out->order[0]);
     order_box_ends(out, BOXES_HI, out->first[1], out->order[1]);
-    base_summit_raise(&out->least, 0, out->size + 2, -NO_FACE);
+    base_max_tree_raise(&out->least, 0, out->size + 2, -NO_FACE);
     return FROE_OK;
 }
 
 void boxes_axis_free(const froe_allocator *alloc, boxes_axis *a) {
     size_t positions = (size_t)a->size + 4, count = a->count;
-    base_free(alloc, a->x, positions * sizeof *a->x);
-    base_free(alloc, a->faces, positions * sizeof *a->faces);
-    base_free(alloc, a->places, count * sizeof *a->places);
+    support_free(alloc, a->x, positions * sizeof *a->x);
+    support_free(alloc, a->faces, positions * sizeof *a->faces);
+    support_free(alloc, a->places, count * sizeof *a->places);
     for (int i = 0; i < 2; i++) {
-        base_free(alloc, a->first[i], positions * sizeof *a->first[i]);
-        base_free(alloc, a->order[i], count * sizeof *a->order[i]);
+        support_free(alloc, a->first[i], positions * sizeof *a->first[i]);
+        support_free(alloc, a->order[i], count * sizeof *a->order[i]);
         base_fenwick_free(alloc, &a->ends[i]);
     }
-    base_summit *trees[] = {&a->slack, &a->least, &a->reach, &a->before, &a->after};
-    for (size_t i = 0; i < sizeof trees / sizeof *trees; i++) base_summit_free(alloc, trees[i]);
+    base_max_tree *trees[] = {&a->slack, &a->least, &a->reach, &a->before, &a->after};
+    for (size_t i = 0; i < sizeof trees / sizeof *trees; i++) base_max_tree_free(alloc, trees[i]);
 }
 
 /* ---------------------------------------------------------- giving and taking -- */
@@ -85,25 +85,25 @@ void boxes_axis_free(const froe_allocator *alloc, boxes_axis *a) {
 void boxes_axis_weigh(boxes_axis *a, uint32_t box, unsigned alive, int64_t weight, int64_t trade) {
     const uint32_t *at = a->places[box].at;
     if (at[BOXES_LO] == at[BOXES_HI]) return;
-    base_summit_raise(&a->slack, at[BOXES_LO] + 1, at[BOXES_HI], -weight);
-    if (alive & 1) base_summit_raise(&a->slack, at[BOXES_BEFORE], at[BOXES_LO] + 1, trade * weight);
-    if (alive & 2) base_summit_raise(&a->slack, at[BOXES_HI], at[BOXES_AFTER] + 1, trade * weight);
+    base_max_tree_raise(&a->slack, at[BOXES_LO] + 1, at[BOXES_HI], -weight);
+    if (alive & 1) base_max_tree_raise(&a->slack, at[BOXES_BEFORE], at[BOXES_LO] + 1, trade * weight);
+    if (alive & 2) base_max_tree_raise(&a->slack, at[BOXES_HI], at[BOXES_AFTER] + 1, trade * weight);
 }
 
 static void list_face(boxes_axis *a, uint32_t at, bool there) {
     if (!at || at > a->size) return;
     bool changes = a->faces[at] == !there;
     a->faces[at] += there ? 1 : UINT32_MAX;
-    if (changes) base_summit_raise(&a->least, at, at + 1, there ? NO_FACE : -NO_FACE);
+    if (changes) base_max_tree_raise(&a->least, at, at + 1, there ? NO_FACE : -NO_FACE);
 }
 
-static void set(base_summit *s, uint32_t at, uint32_t value, bool there) {
-    base_summit_raise(s, at, at + 1, there ? (int64_t)value : -(int64_t)value);
+static void set(base_max_tree *s, uint32_t at, uint32_t value, bool there) {
+    base_max_tree_raise(s, at, at + 1, there ? (int64_t)value : -(int64_t)value);
 }
 
 void boxes_axis_list(boxes_axis *a, uint32_t box, unsigned alive, bool there) {
     const boxes_places *p = a->places + box;
-    base_summit_raise(&a->least, p->at[BOXES_LO] + 1, p->at[BOXES_HI], there ? -1 : 1);
+    base_max_tree_raise(&a->least, p->at[BOXES_LO] + 1, p->at[BOXES_HI], there ? -1 : 1);
     for (int i = 0; i < 2; i++) {
         uint32_t at = p->at[i ? BOXES_HI : BOXES_LO];
         list_face(a, at, there);
@@ -118,7 +118,7 @@ void boxes_axis_list(boxes_axis *a, uint32_t box, unsigned alive, bool there) {
 void boxes_axis_forget_room(boxes_axis *a, uint32_t box, int room) {
     const boxes_places *p = a->places + box;
     if (room)
-        base_summit_raise(&a->after, p->rank[1], p->rank[1] + 1, (int64_t)p->at[BOXES_HI] - p->at[BOXES_AFTER]);
+        base_max_tree_raise(&a->after, p->rank[1], p->rank[1] + 1, (int64_t)p->at[BOXES_HI] - p->at[BOXES_AFTER]);
     else
         set(&a->before, p->rank[0], a->size + 1 - p->at[BOXES_BEFORE], false);
 }
@@ -128,7 +128,7 @@ void boxes_axis_forget_room(boxes_axis *a, uint32_t box, int room) {
 /* The positions searched, the last one where not more boxes lie below than above, and the level to be reached. */
 typedef struct search {
     const boxes_axis *a;
-    const base_summit *in;
+    const base_max_tree *in;
     uint32_t from, end, middle; /* [from, end) is searched; the median side ends before `middle` */
     int64_t level;
 } search;
@@ -146,8 +146,8 @@ static uint32_t beyond_median(const boxes_axis *a, uint32_t from, uint32_t end) 
 }
 
 static bool spot_at(const search *s, int axis, uint32_t at, boxes_spot *out) {
-    if (at == BASE_SUMMIT_NONE) return false;
-    int64_t divided = -base_summit_max(&s->a->least, at, at + 1);
+    if (at == BASE_MAX_TREE_NONE) return false;
+    int64_t divided = -base_max_tree_max(&s->a->least, at, at + 1);
     out->at = at;
     out->cut = (boxes_cut){.found = true,
                            .axis = axis,
@@ -160,20 +160,20 @@ static bool spot_at(const search *s, int axis, uint32_t at, boxes_spot *out) {
 
 /* Up to the median: the best balance is nearest to it, and the first position that has the same number below it. */
 static bool search_below(const search *s, int axis, boxes_spot *out) {
-    uint32_t at = base_summit_last(s->in, s->from, s->middle, s->level);
-    if (at == BASE_SUMMIT_NONE) return false;
+    uint32_t at = base_max_tree_last(s->in, s->from, s->middle, s->level);
+    if (at == BASE_MAX_TREE_NONE) return false;
     uint32_t below = boxes_axis_below(s->a, at), first = below ? base_fenwick_select(&s->a->ends[1], below) : 0;
-    return spot_at(s, axis, base_summit_first(s->in, first > s->from ? first : s->from, at + 1, s->level), out);
+    return spot_at(s, axis, base_max_tree_first(s->in, first > s->from ? first : s->from, at + 1, s->level), out);
 }
 
 /* Beyond it: the last position that has the same number above. */
 static bool search_above(const search *s, int axis, boxes_spot *out) {
-    uint32_t at = base_summit_first(s->in, s->middle, s->end, s->level);
-    if (at == BASE_SUMMIT_NONE) return false;
+    uint32_t at = base_max_tree_first(s->in, s->middle, s->end, s->level);
+    if (at == BASE_MAX_TREE_NONE) return false;
     const base_fenwick *begins = &s->a->ends[0];
     uint32_t above = boxes_axis_above(s->a, at);
     uint32_t last = above ? base_fenwick_select(begins, begins->total - above + 1) : s->end - 1;
-    return spot_at(s, axis, base_summit_last(s->in, at, last < s->end ? last + 1 : s->end, s->level), out);
+    return spot_at(s, axis, base_max_tree_last(s->in, at, last < s->end ? last + 1 : s->end, s->level), out);
 }
 
 static void find_box_spot(const search *s, int axis, bool fewest, boxes_spot *best) {
@@ -184,7 +184,7 @@ static void find_box_spot(const search *s, int axis, bool fewest, boxes_spot *be
 }
 
 /* Positions with so many boxes on both sides, between two others; at least 1. */
-static search around(const boxes_axis *a, const base_summit *in, uint32_t lo, uint32_t hi, uint32_t least) {
+static search around(const boxes_axis *a, const base_max_tree *in, uint32_t lo, uint32_t hi, uint32_t least) {
     const base_fenwick *begins = &a->ends[0];
     uint32_t first = base_fenwick_select(&a->ends[1], least);
     uint32_t last = begins->total >= least ? base_fenwick_select(begins, begins->total - least + 1) : 0;
@@ -196,7 +196,7 @@ static search around(const boxes_axis *a, const base_summit *in, uint32_t lo, ui
 static bool fewest_divided(search *s) {
     s->in = &s->a->least;
     if (s->from >= s->end) return false;
-    s->level = base_summit_max(s->in, s->from, s->end);
+    s->level = base_max_tree_max(s->in, s->from, s->end);
     return s->level > -NO_FACE / 2;
 }
 
@@ -213,5 +213,5 @@ void boxes_axis_narrow(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, 
     search s = around(a, &a->least, lo, hi, least);
     *out = (boxes_spot){.at = 0};
     if (fewest_divided(&s)) find_box_spot(&s, axis, true, out);
-    if (out->cut.found && base_summit_max(&a->slack, out->at, out->at + 1) < 0) out->cut.found = false;
+    if (out->cut.found && base_max_tree_max(&a->slack, out->at, out->at + 1) < 0) out->cut.found = false;
 }

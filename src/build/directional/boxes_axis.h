@@ -13,7 +13,7 @@
 #ifndef FROE_BUILD_DIRECTIONAL_BOXES_AXIS_H
 #define FROE_BUILD_DIRECTIONAL_BOXES_AXIS_H
 #include "base/fenwick.h"
-#include "base/summit.h"
+#include "base/max_tree.h"
 #include "build/directional/boxes.h"
 
 /** Positions of a box, in the order of boxes_end, and its places in the orders by beginning and by end. */
@@ -29,7 +29,7 @@ typedef struct boxes_axis {
     uint32_t *first[2];   /**< [size + 4], by beginning and by end: how many boxes have it before a position */
     uint32_t *order[2];   /**< [count], the boxes in these orders */
     base_fenwick ends[2]; /**< beginnings and ends inside the cell */
-    base_summit slack, least, reach, before, after;
+    base_max_tree slack, least, reach, before, after;
 } boxes_axis;
 
 /** Best cuts on an axis, with their positions. */

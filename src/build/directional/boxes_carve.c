@@ -55,8 +55,8 @@ static void kill_room(carve *c, uint32_t box, int axis, int room) {
 static froe_status begin_carving(carve *c, const boxes_cell *cell) {
     boxes *b = c->b;
     const froe_allocator *alloc = &b->alloc;
-    c->fragments = base_calloc(alloc, c->count, sizeof *c->fragments);
-    c->gone = base_calloc(alloc, c->count, sizeof *c->gone);
+    c->fragments = support_calloc(alloc, c->count, sizeof *c->fragments);
+    c->gone = support_calloc(alloc, c->count, sizeof *c->gone);
     if (!c->fragments || !c->gone) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < c->count; i++) c->fragments[i] = b->fragments.data[cell->first + i];
     for (int k = 0; k < b->dim; k++) {
@@ -71,8 +71,8 @@ static froe_status begin_carving(carve *c, const boxes_cell *cell) {
 static void end_carving(carve *c) {
     const froe_allocator *alloc = &c->b->alloc;
     for (int k = 0; k < c->b->dim; k++) boxes_axis_free(alloc, c->axis + k);
-    base_free(alloc, c->fragments, c->count * sizeof *c->fragments);
-    base_free(alloc, c->gone, c->count * sizeof *c->gone);
+    support_free(alloc, c->fragments, c->count * sizeof *c->fragments);
+    support_free(alloc, c->gone, c->count * sizeof *c->gone);
     array_free(alloc, &c->small);
     array_free(alloc, &c->divided);
     array_free(alloc, &c->changed);
@@ -83,9 +83,9 @@ static void end_carving(carve *c) {
 /* ------------------------------------------------------------------ reading off -- */
 
 /* Boxes in [from, end) of an order (0 by beginning, 1 by end) whose number in `tree` is at least `level`. */
-static bool collect_boxes(const carve *c, const boxes_axis *a, const base_summit *tree, int by, uint32_t from,
+static bool collect_boxes(const carve *c, const boxes_axis *a, const base_max_tree *tree, int by, uint32_t from,
                           uint32_t end, int64_t level, carve_list *out) {
-    for (; (from = base_summit_first(tree, from, end, level)) != BASE_SUMMIT_NONE; from++)
+    for (; (from = base_max_tree_first(tree, from, end, level)) != BASE_MAX_TREE_NONE; from++)
         if (!array_push(&c->b->alloc, out, a->order[by][from])) return false;
     return true;
 }

@@ -21,7 +21,7 @@ typedef struct scratch {
 
 froe_status split_grain_scratch_new(const void *config, split_work *work) {
     (void)config;
-    scratch *s = base_calloc(&work->set.alloc, 1, sizeof *s);
+    scratch *s = support_calloc(&work->set.alloc, 1, sizeof *s);
     if (!s) return FROE_E_MEMORY;
     work->scratch = s;
     split_price_init(&s->price);
@@ -33,7 +33,7 @@ void split_grain_scratch_free(split_work *work) {
     if (!s) return;
     split_facets_free(&work->set.alloc, &s->facets);
     split_sweep_free(&work->set.alloc, &s->sweep);
-    base_free(&work->set.alloc, s, sizeof *s);
+    support_free(&work->set.alloc, s, sizeof *s);
     work->scratch = NULL;
 }
 

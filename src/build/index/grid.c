@@ -83,8 +83,8 @@ static void spread_bits(split_grid *g, int axis) {
 
 static froe_status take_lines(const froe_allocator *alloc, split_grid *g) {
     for (int k = 0; k < 2; k++) {
-        g->lines[k] = base_calloc(alloc, line_count(g, k) + 1, sizeof(double));
-        g->spread[k] = base_calloc(alloc, line_count(g, k), sizeof(uint32_t));
+        g->lines[k] = support_calloc(alloc, line_count(g, k) + 1, sizeof(double));
+        g->spread[k] = support_calloc(alloc, line_count(g, k), sizeof(uint32_t));
         if (!g->lines[k] || !g->spread[k]) return FROE_E_MEMORY;
     }
     return FROE_OK;
@@ -245,7 +245,7 @@ static froe_status sort_ids(dealing *d) {
     split_grid *g = d->grid;
     g->id_room = (size_t)d->source->count + d->records.count;
     if (g->id_room > INT32_MAX) return FROE_E_LIMIT;
-    g->ids = base_calloc(d->alloc, g->id_room, sizeof *g->ids);
+    g->ids = support_calloc(d->alloc, g->id_room, sizeof *g->ids);
     if (!g->ids) return FROE_E_MEMORY;
     count_cells(d);
     fill_cells(d);
@@ -270,8 +270,8 @@ static froe_status attempt(dealing *d, bool *made) {
     if (status) return status;
     *made = lay_lines(g, 0) && lay_lines(g, 1);
     for (int k = 0; k < 2; k++) spread_bits(g, k);
-    g->starts = base_calloc(d->alloc, ((size_t)1 << g->levels) + 1, sizeof *g->starts);
-    g->count = base_calloc(d->alloc, (size_t)2 << g->levels, sizeof *g->count);
+    g->starts = support_calloc(d->alloc, ((size_t)1 << g->levels) + 1, sizeof *g->starts);
+    g->count = support_calloc(d->alloc, (size_t)2 << g->levels, sizeof *g->count);
     if (!g->starts || !g->count) return FROE_E_MEMORY;
     d->bad_axis = 0;
     for (int i = 0; *made && !status && d->bad_axis >= 0; i++) {
@@ -312,7 +312,7 @@ froe_status grid_new(axis_work *work, base_task *task, const froe_allocator *all
     size_t room = levels >= 2 ? source->count : 1;
     froe_status status = FROE_OK;
     *made = false;
-    d.homes = base_calloc(alloc, room, sizeof *d.homes);
+    d.homes = support_calloc(alloc, room, sizeof *d.homes);
     if (!d.homes) return FROE_E_MEMORY;
     while (levels >= 2 && !*made && !status) {
         grid = (split_grid){.box = source->box, .levels = levels};
@@ -320,7 +320,7 @@ froe_status grid_new(axis_work *work, base_task *task, const froe_allocator *all
         levels = fewer_levels(&d);
         if (status || !*made) grid_free(alloc, &grid);
     }
-    base_free(alloc, d.homes, room * sizeof *d.homes);
+    support_free(alloc, d.homes, room * sizeof *d.homes);
     array_free(alloc, &d.crossers);
     array_free(alloc, &d.records);
     if (!status && *made) *out = grid;
@@ -329,11 +329,11 @@ froe_status grid_new(axis_work *work, base_task *task, const froe_allocator *all
 
 void grid_free(const froe_allocator *alloc, split_grid *g) {
     for (int k = 0; k < 2; k++) {
-        base_free(alloc, g->lines[k], (line_count(g, k) + 1) * sizeof(double));
-        base_free(alloc, g->spread[k], line_count(g, k) * sizeof(uint32_t));
+        support_free(alloc, g->lines[k], (line_count(g, k) + 1) * sizeof(double));
+        support_free(alloc, g->spread[k], line_count(g, k) * sizeof(uint32_t));
     }
-    base_free(alloc, g->count, ((size_t)2 << g->levels) * sizeof *g->count);
-    base_free(alloc, g->starts, (((size_t)1 << g->levels) + 1) * sizeof *g->starts);
-    base_free(alloc, g->ids, (g->id_room ? g->id_room : 1) * sizeof *g->ids);
+    support_free(alloc, g->count, ((size_t)2 << g->levels) * sizeof *g->count);
+    support_free(alloc, g->starts, (((size_t)1 << g->levels) + 1) * sizeof *g->starts);
+    support_free(alloc, g->ids, (g->id_room ? g->id_room : 1) * sizeof *g->ids);
     *g = (split_grid){0};
 }

@@ -14,9 +14,9 @@
  * and neither equal coordinates nor nested boxes can spoil the balance. All lists stay sorted
  * along axis 0, where a plain scan ends it. */
 #include "geom/meet/box_pairs.h"
-#include "base/array.h"
 #include "base/radix.h"
-#include "base/status.h"
+#include "support/array.h"
+#include "support/fail.h"
 
 enum {
     AXES = 3,
@@ -87,8 +87,8 @@ static void sort_boxes(search *s, base_pair *pairs, base_pair *spare, box *sorte
 
 static froe_status rank_boxes(search *s, const double *lo, const double *hi) {
     size_t n = s->count, pair_bytes = 4 * n * sizeof(base_pair);
-    box *boxes = base_calloc(s->alloc, n, sizeof *boxes), *sorted = base_calloc(s->alloc, n, sizeof *sorted);
-    base_pair *pairs = base_realloc(s->alloc, NULL, 0, pair_bytes);
+    box *boxes = support_calloc(s->alloc, n, sizeof *boxes), *sorted = support_calloc(s->alloc, n, sizeof *sorted);
+    base_pair *pairs = support_realloc(s->alloc, NULL, 0, pair_bytes);
     bool room = boxes && sorted && pairs;
     if (room) {
         s->boxes = boxes;
@@ -97,10 +97,10 @@ static froe_status rank_boxes(search *s, const double *lo, const double *hi) {
         sort_boxes(s, pairs, pairs + 2 * n, sorted);
         s->boxes = sorted;
     } else {
-        base_free(s->alloc, sorted, n * sizeof *sorted);
+        support_free(s->alloc, sorted, n * sizeof *sorted);
     }
-    base_free(s->alloc, boxes, n * sizeof *boxes);
-    base_free(s->alloc, pairs, pair_bytes);
+    support_free(s->alloc, boxes, n * sizeof *boxes);
+    support_free(s->alloc, pairs, pair_bytes);
     return room ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -266,10 +266,10 @@ froe_status geom_box_pairs(const froe_allocator *alloc, base_task *task, double 
     froe_status status = rank_boxes(&s, lo, hi);
     if (status) return status;
     s.slabs = count / SLAB_BOXES < 1 ? 1 : count / SLAB_BOXES > SLABS ? SLABS : count / SLAB_BOXES;
-    s.workers = base_calloc(alloc, task->threads, sizeof *s.workers);
+    s.workers = support_calloc(alloc, task->threads, sizeof *s.workers);
     status = s.workers ? base_run(task, span, s.slabs, run_slab, &s) : FROE_E_MEMORY;
     for (unsigned i = 0; s.workers && i < task->threads; i++) array_free(alloc, &s.workers[i].arena);
-    base_free(alloc, s.workers, task->threads * sizeof *s.workers);
-    base_free(alloc, s.boxes, count * sizeof *s.boxes);
+    support_free(alloc, s.workers, task->threads * sizeof *s.workers);
+    support_free(alloc, s.boxes, count * sizeof *s.boxes);
     return status;
 }

@@ -6,10 +6,10 @@
  * so spans that end and begin at the instant where two such times meet are one contact. */
 #include "base/floats.h"
 #include "base/sort.h"
-#include "base/status.h"
 #include "geom/meet/box_pairs.h"
 #include "kinetic/contact/meet.h"
 #include "kinetic/contact/slices.h"
+#include "support/fail.h"
 
 froe_contact_options froe_contact_defaults(void) {
     return (froe_contact_options){.size = sizeof(froe_contact_options), .from = NAN, .to = NAN};
@@ -99,7 +99,7 @@ static bool look_at_slices(void *user, unsigned number, uint32_t i, uint32_t j) 
 
 static froe_status find_spans(search *s, froe_diagnostic *diag) {
     unsigned threads = s->task.threads;
-    s->workers = base_calloc(&s->m->alloc, threads, sizeof *s->workers);
+    s->workers = support_calloc(&s->m->alloc, threads, sizeof *s->workers);
     froe_status status = s->workers ? FROE_OK : FROE_E_MEMORY;
     for (unsigned i = 0; i < threads && !status; i++) status = meet_worker_new(s->m, &s->workers[i].meet);
     if (!status)
@@ -108,9 +108,9 @@ static froe_status find_spans(search *s, froe_diagnostic *diag) {
     for (unsigned i = 0; s->workers && i < threads; i++) {
         const worker *w = s->workers + i;
         if (w->status == FROE_E_LIMIT)
-            return base_fail_at(diag, w->status, w->failed[0], FROE_NONE, FROE_NONE,
-                                "segments %u and %u: two things happen too close to be told apart", w->failed[0],
-                                w->failed[1]);
+            return support_fail_at(diag, w->status, w->failed[0], FROE_NONE, FROE_NONE,
+                                   "segments %u and %u: two things happen too close to be told apart", w->failed[0],
+                                   w->failed[1]);
         if (w->status) status = w->status;
     }
     return status;
@@ -141,7 +141,7 @@ static int compare_contacts(void *user, uint32_t i, uint32_t j) {
 
 /* The numbers 0 .. count-1 in order; to be freed as 2 count + 1 numbers. */
 static uint32_t *sorted(search *s, size_t count, base_compare_fn *compare) {
-    uint32_t *order = base_calloc(&s->m->alloc, 2 * count + 1, sizeof *order);
+    uint32_t *order = support_calloc(&s->m->alloc, 2 * count + 1, sizeof *order);
     if (!order) return NULL;
     for (uint32_t i = 0; i < count; i++) order[i] = i;
     base_merge_sort(order, order + count, count, compare, s);
@@ -149,7 +149,7 @@ static uint32_t *sorted(search *s, size_t count, base_compare_fn *compare) {
 }
 
 static void free_order(const search *s, uint32_t *order, size_t count) {
-    base_free(&s->m->alloc, order, (2 * count + 1) * sizeof *order);
+    support_free(&s->m->alloc, order, (2 * count + 1) * sizeof *order);
 }
 
 static froe_status gather_contacts(search *s) {
@@ -210,7 +210,7 @@ static froe_status make_contacts(search *s) {
     froe_status status = gather_contacts(s);
     if (status) return status;
     size_t count = s->records.count;
-    s->contacts = base_calloc(&s->m->alloc, count + 1, sizeof *s->contacts);
+    s->contacts = support_calloc(&s->m->alloc, count + 1, sizeof *s->contacts);
     uint32_t *order = sorted(s, count, compare_records);
     if (s->contacts && order) join_contacts(s, order);
     status = s->contacts && order ? FROE_OK : FROE_E_MEMORY;
@@ -235,12 +235,12 @@ static froe_status tell_contacts(search *s, froe_contact_fn *fn, void *user) {
 
 static froe_status check_contact_search(search *s, froe_diagnostic *diag) {
     const froe_contact_options *o = s->o;
-    if (o->size != sizeof *o) return base_fail(diag, FROE_E_OPTIONS, "options not from froe_contact_defaults()");
+    if (o->size != sizeof *o) return support_fail(diag, FROE_E_OPTIONS, "options not from froe_contact_defaults()");
     s->from = isnan(o->from) ? s->m->begin : o->from;
     s->to = isnan(o->to) ? s->m->end : o->to;
     if (s->from > s->to || s->from < s->m->begin || s->to > s->m->end)
-        return base_fail(diag, FROE_E_OPTIONS, "the time %.17g .. %.17g does not lie in the window %.17g .. %.17g",
-                         s->from, s->to, s->m->begin, s->m->end);
+        return support_fail(diag, FROE_E_OPTIONS, "the time %.17g .. %.17g does not lie in the window %.17g .. %.17g",
+                            s->from, s->to, s->m->begin, s->m->end);
     return FROE_OK;
 }
 
@@ -258,15 +258,15 @@ static void search_free(search *s) {
         meet_worker_free(s->m, &s->workers[i].meet);
         array_free(alloc, &s->workers[i].records);
     }
-    base_free(alloc, s->workers, s->task.threads * sizeof *s->workers);
-    base_free(alloc, s->contacts, (s->records.count + 1) * sizeof *s->contacts);
+    support_free(alloc, s->workers, s->task.threads * sizeof *s->workers);
+    support_free(alloc, s->contacts, (s->records.count + 1) * sizeof *s->contacts);
     array_free(alloc, &s->records);
     motion_slices_free(s->m, &s->slices);
 }
 
 static froe_status explain_contact_search(froe_status status, froe_diagnostic *diag) {
-    if (status == FROE_E_MEMORY) return base_fail_memory(diag);
-    if (status == FROE_E_CANCELLED) return base_fail_cancelled(diag);
+    if (status == FROE_E_MEMORY) return support_fail_memory(diag);
+    if (status == FROE_E_CANCELLED) return support_fail_cancelled(diag);
     return status;
 }
 
@@ -274,13 +274,14 @@ froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_o
                                  void *user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const froe_contact_options standard = froe_contact_defaults();
-    if (!motion || !fn) return base_fail(diag, FROE_E_ARG, "no motion, or the function that receives contacts is NULL");
+    if (!motion || !fn)
+        return support_fail(diag, FROE_E_ARG, "no motion, or the function that receives contacts is NULL");
     search s = {.m = motion, .o = options ? options : &standard};
     froe_status status = check_contact_search(&s, diag);
     if (status) return status;
     base_task_init(&s.task, s.o->threads, s.o->progress, s.o->user);
     status = motion_slices_find(motion, s.from, s.to, &s.slices);
-    if (status == FROE_E_LIMIT) return base_fail(diag, status, "more than 2^31 boxes in the plane and in time");
+    if (status == FROE_E_LIMIT) return support_fail(diag, status, "more than 2^31 boxes in the plane and in time");
     if (!status) status = find_spans(&s, diag);
     if (!status) status = make_contacts(&s);
     if (!status) status = tell_contacts(&s, fn, user);

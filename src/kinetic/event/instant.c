@@ -4,8 +4,8 @@
  *     ---|-------o---------|---- t      is a polynomial in between, so halving with its exact signs closes in on
  *       u-2      : f <= 0  u            a root, until no double is left inside. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "kinetic/live.h"
+#include "support/fail.h"
 #include <math.h>
 
 enum { HALVINGS = 200 };
@@ -67,8 +67,8 @@ static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
 
 froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || !out) return base_fail(diag, FROE_E_ARG, "froe_kinetic_instant: NULL");
-    if (!k->told) return base_fail(diag, FROE_E_ARG, "no event is being reported");
+    if (!k || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_instant: NULL");
+    if (!k->told) return support_fail(diag, FROE_E_ARG, "no event is being reported");
     now_catch_up(&k->now);
     num_arena *arena = &k->now.context.arena;
     arena->top = 0;

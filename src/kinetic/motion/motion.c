@@ -1,8 +1,8 @@
 /* motion.c: a motion from its window to its end, and what can be read from it. See motion.h. */
 #include "kinetic/motion/motion.h"
 #include "base/floats.h"
-#include "base/status.h"
 #include "num/context.h"
+#include "support/fail.h"
 
 enum {
     TICK_BITS = 31, /* by default 2^31 to 2^32 ticks in the window */
@@ -59,39 +59,40 @@ static froe_status set_window(froe_motion *m, const froe_motion_options *o, froe
     int top, power;
     double length = o->end - o->begin;
     if (!isfinite(length) || !(length > 0))
-        return base_fail(diag, FROE_E_INPUT, "the window %g .. %g is empty, endless or not a number", o->begin, o->end);
+        return support_fail(diag, FROE_E_INPUT, "the window %g .. %g is empty, endless or not a number", o->begin,
+                            o->end);
     if (o->tick < 0 || !isfinite(o->tick) || (o->tick > 0 && frexp(o->tick, &power) != 0.5))
-        return base_fail(diag, FROE_E_OPTIONS, "a tick of %g is not a power of 2", o->tick);
+        return support_fail(diag, FROE_E_OPTIONS, "a tick of %g is not a power of 2", o->tick);
     frexp(length, &top); /* length < 2^top */
     m->power = o->tick > 0 ? power - 1 : usual_power(top);
     m->begin = o->begin + 0.0;
     m->end = o->end + 0.0;
     if (top - m->power > MOST_TICK_BITS)
-        return base_fail(diag, FROE_E_OPTIONS, "ticks of %g: more than 2^52 of them in the window", o->tick);
+        return support_fail(diag, FROE_E_OPTIONS, "ticks of %g: more than 2^52 of them in the window", o->tick);
     m->last_tick = motion_tick_before(m, m->end);
-    if (m->last_tick < 1) return base_fail(diag, FROE_E_OPTIONS, "a tick of %g is longer than the window", o->tick);
+    if (m->last_tick < 1) return support_fail(diag, FROE_E_OPTIONS, "a tick of %g is longer than the window", o->tick);
     return FROE_OK;
 }
 
 froe_status froe_motion_new(const froe_motion_options *options, const froe_allocator *alloc, froe_motion **out,
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!options || !out) return base_fail(diag, FROE_E_ARG, "no options, or no place for the motion");
+    if (!options || !out) return support_fail(diag, FROE_E_ARG, "no options, or no place for the motion");
     if (options->size != sizeof *options)
-        return base_fail(diag, FROE_E_OPTIONS, "options not from froe_motion_defaults()");
+        return support_fail(diag, FROE_E_OPTIONS, "options not from froe_motion_defaults()");
     if (num_rounding_check(diag)) return FROE_E_UNSUPPORTED;
-    froe_motion window = {.alloc = base_allocator(alloc), .unit = INT16_MAX, .top = INT16_MIN}; /* nothing yet */
+    froe_motion window = {.alloc = support_allocator(alloc), .unit = INT16_MAX, .top = INT16_MIN}; /* nothing yet */
     window.time_unit = INT16_MAX;
     window.time_top = INT16_MIN;
     froe_status status = set_window(&window, options, diag);
     if (status) return status;
-    froe_motion *m = base_realloc(&window.alloc, NULL, 0, sizeof *m);
-    if (!m) return base_fail_memory(diag);
+    froe_motion *m = support_realloc(&window.alloc, NULL, 0, sizeof *m);
+    if (!m) return support_fail_memory(diag);
     *m = window;
     status = froe_scene_new(2, &m->alloc, &m->names);
     if (status) {
         froe_motion_free(m);
-        return base_fail_memory(diag);
+        return support_fail_memory(diag);
     }
     *out = m;
     return FROE_OK;
@@ -104,7 +105,7 @@ void froe_motion_free(froe_motion *m) {
     array_free(&alloc, &m->plans);
     array_free(&alloc, &m->objects);
     froe_scene_free(m->names);
-    base_free(&alloc, m, sizeof *m);
+    support_free(&alloc, m, sizeof *m);
 }
 
 /* -------------------------------------------------------------------- groups -- */

@@ -11,10 +11,10 @@
  * a quadratic one Bezier's form with the squares; so knots are met exactly from both sides, and nothing is divided. */
 #ifndef FROE_KINETIC_MOTION_H
 #define FROE_KINETIC_MOTION_H
-#include "base/array.h"
 #include "num/ball.h"
 #include "num/dyadic.h"
 #include "num/wide.h"
+#include "support/array.h"
 #include <froe/kinetic.h>
 
 typedef struct motion_knot {

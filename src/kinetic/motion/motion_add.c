@@ -2,9 +2,9 @@
  *
  * Knots are written behind the published counts; a batch that fails is forgotten. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "kinetic/motion/motion.h"
 #include "scene/scene.h"
+#include "support/fail.h"
 #include <string.h>
 
 #define LIMIT 2147483646u /* ids stay below 2^31 - 2 */
@@ -66,8 +66,8 @@ typedef struct plan_input {
 } plan_input;
 
 static froe_status fail_at_knot(adding *a, const plan_input *p, size_t i, const char *what, double value) {
-    return base_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u: %s %zu is %g", p->vertex,
-                        what, i, value);
+    return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u: %s %zu is %g", p->vertex,
+                           what, i, value);
 }
 
 /* One finite number of the plan; -0 becomes +0. */
@@ -88,9 +88,9 @@ static froe_status take_knot(adding *a, const plan_input *p, size_t i, motion_kn
     *knot = (motion_knot){.time = p->times[i] + 0.0, .control = {NAN, NAN}, .bits = 0};
     if (!isfinite(knot->time)) return fail_at_knot(a, p, i, "time", knot->time);
     if (i && !(knot->time > knot[-1].time))
-        return base_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
-                            "vertex %u: time %zu, %.17g, is not after time %zu, %.17g", p->vertex, i, knot->time, i - 1,
-                            knot[-1].time);
+        return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
+                               "vertex %u: time %zu, %.17g, is not after time %zu, %.17g", p->vertex, i, knot->time,
+                               i - 1, knot[-1].time);
     knot->tick = motion_tick_after(a->motion, knot->time);
     take_time(a, knot->time);
     froe_status status = take_number(a, p, i, "x", p->coords[2 * i], &knot->at[0]);
@@ -104,9 +104,9 @@ static froe_status take_knot(adding *a, const plan_input *p, size_t i, motion_kn
 /* Appends the knots of a plan. REQUIRES: room. */
 static froe_status take_plan(adding *a, const plan_input *p, motion_plan *plan) {
     if (!p->count)
-        return base_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u has no flight plan",
-                            p->vertex);
-    if (p->count > LIMIT) return base_fail(a->diag, FROE_E_LIMIT, "vertex %u: more than %u times", p->vertex, LIMIT);
+        return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u has no flight plan",
+                               p->vertex);
+    if (p->count > LIMIT) return support_fail(a->diag, FROE_E_LIMIT, "vertex %u: more than %u times", p->vertex, LIMIT);
     *plan = (motion_plan){a->motion->knots.count + a->knots, (uint32_t)p->count};
     motion_knot *knots = a->motion->knots.data + plan->first;
     for (size_t i = 0; i < p->count; i++) {
@@ -127,32 +127,34 @@ static froe_status check_cover(const adding *a, const motion_plan *plan, uint32_
     double plan_end = late ? first->time : last->time, life_end = late ? birth : death;
     const char *begins = late ? "begins" : "ends", *after = late ? "after" : "before";
     if (object == FROE_NONE)
-        return base_fail_at(a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
-                            "the plan of vertex %u %s at %.17g, %s %.17g", vertex, begins, plan_end, after, life_end);
-    return base_fail_at(a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
-                        "segment %u: the plan of its vertex %u %s at %.17g, %s the segment's time in the window does, "
-                        "at %.17g",
-                        object, vertex, begins, plan_end, after, life_end);
+        return support_fail_at(a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
+                               "the plan of vertex %u %s at %.17g, %s %.17g", vertex, begins, plan_end, after,
+                               life_end);
+    return support_fail_at(
+        a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
+        "segment %u: the plan of its vertex %u %s at %.17g, %s the segment's time in the window does, "
+        "at %.17g",
+        object, vertex, begins, plan_end, after, life_end);
 }
 
 /* --------------------------------------------------------------------- a batch -- */
 
 static froe_status check_batch(const adding *a) {
     const froe_moving *b = a->batch;
-    if (b->size != sizeof *b) return base_fail(a->diag, FROE_E_OPTIONS, "batch not from froe_moving_defaults()");
+    if (b->size != sizeof *b) return support_fail(a->diag, FROE_E_OPTIONS, "batch not from froe_moving_defaults()");
     if ((b->vertex_count && (!b->starts || !b->times || !b->coords)) || (b->count && !b->vertex_count))
-        return base_fail(a->diag, FROE_E_ARG, "segments without flight plans");
+        return support_fail(a->diag, FROE_E_ARG, "segments without flight plans");
     const froe_motion *m = a->motion;
     if (b->vertex_count > LIMIT - m->plans.count || b->count > LIMIT - m->objects.count)
-        return base_fail(a->diag, FROE_E_LIMIT, "more than %u vertices or segments", LIMIT);
+        return support_fail(a->diag, FROE_E_LIMIT, "more than %u vertices or segments", LIMIT);
     for (size_t v = 0; v < b->vertex_count; v++)
         if (b->starts[v] > b->starts[v + 1])
-            return base_fail(a->diag, FROE_E_ARG, "the plan of vertex %zu ends before it starts", v);
+            return support_fail(a->diag, FROE_E_ARG, "the plan of vertex %zu ends before it starts", v);
     for (uint32_t j = 0; j < b->count; j++) {
         uint32_t group = b->groups ? b->groups[j] : b->group;
         if (group != FROE_NONE && group >= m->names->group_count)
-            return base_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE,
-                                "segment %u belongs to group %u, which does not exist", j, group);
+            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE,
+                                   "segment %u belongs to group %u, which does not exist", j, group);
     }
     return FROE_OK;
 }
@@ -164,7 +166,7 @@ static froe_status reserve(const adding *a) {
     m->edition++;
     bool room = array_reserve(&m->alloc, &m->knots, knots) && array_reserve(&m->alloc, &m->plans, b->vertex_count) &&
                 array_reserve(&m->alloc, &m->objects, b->count);
-    return room ? FROE_OK : base_fail_memory(a->diag);
+    return room ? FROE_OK : support_fail_memory(a->diag);
 }
 
 static froe_status take_vertices(adding *a) {
@@ -184,8 +186,8 @@ static froe_status set_life(adding *a, uint32_t j, motion_object *o) {
     const froe_moving *b = a->batch;
     double birth = b->births ? b->births[j] : m->begin, death = b->deaths ? b->deaths[j] : m->end;
     if (!(birth <= death) || birth == (double)INFINITY || death == -(double)INFINITY)
-        return base_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u lives from %g to %g", j, birth,
-                            death);
+        return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u lives from %g to %g", j,
+                               birth, death);
     o->birth = birth > m->begin ? birth + 0.0 : m->begin;
     o->death = death < m->end ? death + 0.0 : m->end;
     take_time(a, o->birth);
@@ -202,8 +204,8 @@ static froe_status take_segment(adding *a, uint32_t j, motion_object *o) {
     for (int k = 0; k < 2 && !status; k++) {
         uint32_t v = b->vertices ? b->vertices[2 * (size_t)j + (size_t)k] : 2 * j + (uint32_t)k;
         if (v >= b->vertex_count)
-            return base_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u: there is no vertex %u", j,
-                                v);
+            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u: there is no vertex %u",
+                                   j, v);
         o->vertices[k] = (uint32_t)m->plans.count + v;
         status = check_cover(a, m->plans.data + o->vertices[k], v, j, o->birth, o->death);
     }
@@ -230,7 +232,7 @@ static void commit(const adding *a) {
 
 froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!motion || !batch) return base_fail(diag, FROE_E_ARG, "no motion or no batch");
+    if (!motion || !batch) return support_fail(diag, FROE_E_ARG, "no motion or no batch");
     adding a = begin_adding(motion, batch, diag);
     froe_status status = check_batch(&a);
     if (!status) status = reserve(&a);
@@ -250,7 +252,7 @@ froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const d
     plan_input input = {count, times, coords, controls, vertex};
     motion_plan plan;
     m->edition++;
-    if (!array_reserve(&m->alloc, &m->knots, count)) return base_fail_memory(diag);
+    if (!array_reserve(&m->alloc, &m->knots, count)) return support_fail_memory(diag);
     froe_status status = take_plan(&a, &input, &plan);
     if (!status) status = check_cover(&a, &plan, vertex, FROE_NONE, life[0], life[1]);
     if (status) return status;

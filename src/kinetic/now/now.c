@@ -7,7 +7,7 @@ froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state 
     now_state now = {.motion = motion};
     froe_status status = geom_context_new(alloc, &now.context);
     if (status) return status;
-    now.memories = base_calloc(&now.context.alloc, NOW_MEMORIES, sizeof *now.memories);
+    now.memories = support_calloc(&now.context.alloc, NOW_MEMORIES, sizeof *now.memories);
     if (!now.memories || num_arena_reserve(&now.context.alloc, &now.context.arena, POLY_LIMBS) || now_grow(&now)) {
         now_free(&now);
         return FROE_E_MEMORY;
@@ -21,7 +21,7 @@ void now_free(now_state *now) {
     array_free(alloc, &now->courses);
     array_free(alloc, &now->bends);
     array_free(alloc, &now->segments);
-    base_free(alloc, now->memories, NOW_MEMORIES * sizeof *now->memories);
+    support_free(alloc, now->memories, NOW_MEMORIES * sizeof *now->memories);
     num_context_free(&now->context);
 }
 

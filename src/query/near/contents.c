@@ -1,13 +1,13 @@
 /* contents.c: regions from the root down, then contents from the leaves up, in the same place. */
 #include "query/near/contents.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
 static void free_contents(const froe_allocator *alloc, query_part *part) {
     query_contents *c = (query_contents *)part;
-    base_free(alloc, c->boxes, c->node_count * 2 * c->dim * sizeof *c->boxes);
-    base_free(alloc, c, sizeof *c);
+    support_free(alloc, c->boxes, c->node_count * 2 * c->dim * sizeof *c->boxes);
+    support_free(alloc, c, sizeof *c);
 }
 
 static double *box_of(query_contents *c, uint32_t node) {
@@ -59,14 +59,14 @@ static void gather_contents(query_contents *c, const froe_tree *t, uint32_t node
 }
 
 static froe_status make_contents(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    query_contents *c = base_calloc(&q->alloc, 1, sizeof *c);
-    if (!c) return base_fail_memory(diag);
+    query_contents *c = support_calloc(&q->alloc, 1, sizeof *c);
+    if (!c) return support_fail_memory(diag);
     c->part.free = free_contents;
     *out = &c->part;
     c->dim = (size_t)q->tree->scene->dim;
     c->node_count = q->tree->node_count;
-    c->boxes = base_calloc(&q->alloc, c->node_count * 2 * c->dim, sizeof *c->boxes);
-    if (!c->boxes) return base_fail_memory(diag);
+    c->boxes = support_calloc(&q->alloc, c->node_count * 2 * c->dim, sizeof *c->boxes);
+    if (!c->boxes) return support_fail_memory(diag);
     lay_regions(c, q->tree);
     for (uint32_t v = q->tree->node_count; v-- > 0;) gather_contents(c, q->tree, v);
     return FROE_OK;

@@ -138,12 +138,12 @@ static bool deliver(froe_query *q) {
 froe_status froe_query_near(froe_query *query, const double *point, size_t k, double bound, froe_neighbours *out,
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_near: NULL argument.");
+    if (!query || !point || !out) return support_fail(diag, FROE_E_ARG, "froe_query_near: NULL argument.");
     query_near *n = &query->near;
     const int dim = query->tree->scene->dim;
     froe_status status = query_check_point(point, dim, "A point", diag);
     if (status) return status;
-    if (!(bound >= 0)) return base_fail(diag, FROE_E_INPUT, "Neighbours are to be within %g.", bound);
+    if (!(bound >= 0)) return support_fail(diag, FROE_E_INPUT, "Neighbours are to be within %g.", bound);
     const uint64_t exact = query->numbers.stats.exact;
     query_begin(query);
     n->found.count = n->order.count = 0;
@@ -154,7 +154,7 @@ froe_status froe_query_near(froe_query *query, const double *point, size_t k, do
     if (k) status = find_points(query, k, bound, &done, diag);
     if (!status && !done) status = find_neighbours(query, k, bound, diag);
     query->stats.exact += query->numbers.stats.exact - exact;
-    if (status == FROE_E_MEMORY || (!status && !deliver(query))) return base_fail_memory(diag);
+    if (status == FROE_E_MEMORY || (!status && !deliver(query))) return support_fail_memory(diag);
     if (!status) *out = (froe_neighbours){n->out.data, n->out.count};
     return status;
 }

@@ -6,8 +6,8 @@
  */
 #ifndef FROE_QUERY_NEAR_NEAR_H
 #define FROE_QUERY_NEAR_NEAR_H
-#include "base/array.h"
 #include "geom/meet/distance.h"
+#include "support/array.h"
 #include <froe/query.h>
 
 typedef struct query_neighbour {

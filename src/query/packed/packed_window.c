@@ -16,11 +16,11 @@ enum { ALL_OPEN = 15, MOST_STARTS = 9 };
 /* ----------------------------------------------------------------- context -- */
 
 froe_status packed_work_new(const froe_tree *t, packed_work **out) {
-    packed_work *work = base_calloc(&t->alloc, 1, sizeof *work);
+    packed_work *work = support_calloc(&t->alloc, 1, sizeof *work);
     if (!work) return FROE_E_MEMORY;
     work->kernels = packed_kernels_at(0);
     work->climb_size = t->report.height + 2;
-    work->climbs = base_calloc(&t->alloc, PACKED_FLIGHT * work->climb_size, sizeof *work->climbs);
+    work->climbs = support_calloc(&t->alloc, PACKED_FLIGHT * work->climb_size, sizeof *work->climbs);
     if (!work->climbs || !array_reserve(&t->alloc, &work->stack, t->report.height + 2)) {
         packed_work_free(work, &t->alloc);
         return FROE_E_MEMORY;
@@ -36,8 +36,8 @@ void packed_work_free(packed_work *work, const froe_allocator *alloc) {
     array_free(alloc, &work->unsure);
     array_free(alloc, &work->candidates);
     array_free(alloc, &work->bits);
-    base_free(alloc, work->climbs, PACKED_FLIGHT * work->climb_size * sizeof *work->climbs);
-    base_free(alloc, work, sizeof *work);
+    support_free(alloc, work->climbs, PACKED_FLIGHT * work->climb_size * sizeof *work->climbs);
+    support_free(alloc, work, sizeof *work);
 }
 
 /* -------------------------------------------------------------------- walk -- */

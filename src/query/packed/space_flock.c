@@ -7,8 +7,8 @@
  * Each ray in turn takes one step of its walk (space_walk.c) and prefetches what its next step needs. The points of an
  * object are prefetched before the object is decided. Answers do not depend on the other rays of the batch: each ray
  * has a walk and a limit of its own. */
-#include "base/status.h"
 #include "query/packed/space.h"
+#include "support/fail.h"
 #include <string.h>
 
 enum { FLIGHT = 12 };
@@ -36,7 +36,7 @@ typedef struct flight {
 void space_flock_free(space_runner *flock, const froe_allocator *alloc) {
     if (!flock) return;
     for (int i = 0; i < FLIGHT; i++) array_free(alloc, &flock[i].walk.stack);
-    base_free(alloc, flock, FLIGHT * sizeof *flock);
+    support_free(alloc, flock, FLIGHT * sizeof *flock);
 }
 
 /* A ray whose numbers single precision cannot hold: the general walk answers it. */
@@ -56,7 +56,7 @@ static froe_status launch_ray(flight *f, space_runner *r, bool *flies) {
         memcpy(r->ray.d, f->directions + 3 * r->at, 3 * sizeof(double));
         r->limit = f->t_max;
         r->best.object = r->pending = FROE_NONE;
-        if (space_walk_ray(f->query, &r->walk, &r->ray, flies)) return base_fail_memory(f->diag);
+        if (space_walk_ray(f->query, &r->walk, &r->ray, flies)) return support_fail_memory(f->diag);
         const froe_status status = *flies ? FROE_OK : go_alone(f, r->at);
         if (status) return status;
     }
@@ -103,7 +103,7 @@ static froe_status fly(flight *f, space_runner *flock) {
     for (; flying < FLIGHT && flies && !status; flying += flies) status = launch_ray(f, flock + flying, &flies);
     for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
         const space_step did = step_ray(f, flock + i);
-        if (did == SPACE_NO_MEMORY) return base_fail_memory(f->diag);
+        if (did == SPACE_NO_MEMORY) return support_fail_memory(f->diag);
         if (did != SPACE_END) continue;
         arrive_with_hit(f, flock + i);
         status = launch_ray(f, flock + i, &flies);
@@ -120,8 +120,8 @@ froe_status space_rays(froe_query *q, const double *origins, const double *direc
                        froe_hit *hits, uint32_t *objects, froe_diagnostic *diag) {
     const uint64_t exact = q->numbers.stats.exact;
     flight f = {q, origins, directions, t_max, hits, objects, count, 0, diag};
-    if (!q->space->flock) q->space->flock = base_calloc(&q->alloc, FLIGHT, sizeof *q->space->flock);
-    if (!q->space->flock) return base_fail_memory(diag);
+    if (!q->space->flock) q->space->flock = support_calloc(&q->alloc, FLIGHT, sizeof *q->space->flock);
+    if (!q->space->flock) return support_fail_memory(diag);
     const froe_status status = fly(&f, q->space->flock);
     q->stats.exact += q->numbers.stats.exact - exact;
     return status;

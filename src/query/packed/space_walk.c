@@ -11,7 +11,7 @@
 enum { MOST_SORTED = 64 };
 
 froe_status space_work_new(const froe_tree *t, space_work **out) {
-    *out = base_calloc(&t->alloc, 1, sizeof **out);
+    *out = support_calloc(&t->alloc, 1, sizeof **out);
     if (!*out) return FROE_E_MEMORY;
     (*out)->kernels = space_kernels_at(0);
     return FROE_OK;
@@ -24,7 +24,7 @@ void space_work_free(space_work *work, const froe_allocator *alloc) {
     array_free(alloc, &work->objects);
     array_free(alloc, &work->others);
     array_free(alloc, &work->keys);
-    base_free(alloc, work, sizeof *work);
+    support_free(alloc, work, sizeof *work);
 }
 
 /* ------------------------------------------------------------------- begin -- */

@@ -11,16 +11,16 @@ froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32
     *out = (pair_lists){.alloc = alloc, .objects = objects, .threads = threads};
     atomic_init(&out->left, most);
     while (objects >> out->shift >= PAIR_PARTS) out->shift++;
-    out->lists = base_calloc(alloc, threads, sizeof *out->lists);
+    out->lists = support_calloc(alloc, threads, sizeof *out->lists);
     return out->lists ? FROE_OK : FROE_E_MEMORY;
 }
 
 void pair_lists_give(pair_lists *l) {
     for (unsigned i = 0; l->lists && i < l->threads; i++)
         for (int part = 0; part < PAIR_PARTS; part++) array_free(l->alloc, &l->lists[i].parts[part]);
-    base_free(l->alloc, l->lists, l->threads * sizeof *l->lists);
-    base_free(l->alloc, l->starts, ((size_t)l->objects + 1) * sizeof *l->starts);
-    base_free(l->alloc, l->sorted, (l->firsts[PAIR_PARTS] + 1) * sizeof *l->sorted);
+    support_free(l->alloc, l->lists, l->threads * sizeof *l->lists);
+    support_free(l->alloc, l->starts, ((size_t)l->objects + 1) * sizeof *l->starts);
+    support_free(l->alloc, l->sorted, (l->firsts[PAIR_PARTS] + 1) * sizeof *l->sorted);
 }
 
 /* Takes room for up to ROOM pairs from what is left for all threads; false: nothing is left. */
@@ -86,8 +86,8 @@ froe_status pair_lists_sort(pair_lists *l, base_task *task, double span) {
         l->firsts[part] = sum;
         for (unsigned t = 0; t < l->threads; t++) sum += l->lists[t].parts[part].count;
     }
-    l->starts = base_calloc(l->alloc, (size_t)l->objects + 1, sizeof *l->starts);
-    l->sorted = base_calloc(l->alloc, sum + 1, sizeof *l->sorted);
+    l->starts = support_calloc(l->alloc, (size_t)l->objects + 1, sizeof *l->starts);
+    l->sorted = support_calloc(l->alloc, sum + 1, sizeof *l->sorted);
     l->firsts[PAIR_PARTS] = sum;
     if (!l->starts || !l->sorted) return FROE_E_MEMORY;
     l->starts[l->objects] = (uint32_t)sum;

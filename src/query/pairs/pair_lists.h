@@ -9,8 +9,8 @@
  * Each pair is added once, so that their order does not depend on which thread found which pair. */
 #ifndef FROE_QUERY_PAIRS_PAIR_LISTS_H
 #define FROE_QUERY_PAIRS_PAIR_LISTS_H
-#include "base/array.h"
 #include "base/task.h"
+#include "support/array.h"
 #include <froe/query.h>
 
 enum { PAIR_PARTS = 256 };

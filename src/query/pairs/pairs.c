@@ -6,11 +6,11 @@
  *
  *     objects    0 .. 63 | 64 .. 127 | ...    jobs, a wave of them at a time, reported in order once all are done */
 #include "base/floats.h"
-#include "base/status.h"
 #include "geom/meet/contact.h"
 #include "query/heap.h"
 #include "query/packed/packed.h"
 #include "query/workers.h"
+#include "support/fail.h"
 #include <string.h>
 
 enum { CHUNK = 64, WAVE = 32 }; /* objects a job; jobs a thread in a wave */
@@ -121,8 +121,8 @@ static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, voi
 static bool take_desks(search *s, const froe_allocator *alloc) {
     const unsigned threads = s->workers->count;
     s->chunk_count = threads > 1 ? (size_t)threads * WAVE : 1;
-    s->desks = base_calloc(alloc, threads, sizeof *s->desks);
-    s->chunks = base_calloc(alloc, s->chunk_count, sizeof *s->chunks);
+    s->desks = support_calloc(alloc, threads, sizeof *s->desks);
+    s->chunks = support_calloc(alloc, s->chunk_count, sizeof *s->chunks);
     for (unsigned i = 0; s->desks && i < threads; i++) s->desks[i].q = s->workers->queries[i];
     return s->desks && s->chunks;
 }
@@ -133,8 +133,8 @@ static void give_desks(search *s, const froe_allocator *alloc) {
         array_free(alloc, &s->desks[i].sides);
     }
     for (size_t i = 0; s->chunks && i < s->chunk_count; i++) array_free(alloc, &s->chunks[i].pairs);
-    base_free(alloc, s->desks, s->workers->count * sizeof *s->desks);
-    base_free(alloc, s->chunks, s->chunk_count * sizeof *s->chunks);
+    support_free(alloc, s->desks, s->workers->count * sizeof *s->desks);
+    support_free(alloc, s->chunks, s->chunk_count * sizeof *s->chunks);
 }
 
 static froe_status find_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
@@ -149,7 +149,7 @@ static froe_status find_pairs(query_workers *workers, bool shared, froe_pair_fn 
 froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options, froe_pair_fn *fn,
                              void *fn_user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !fn) return base_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
+    if (!query || !fn) return support_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
     const size_t jobs = ((size_t)query->tree->scene->object_count + CHUNK - 1) / CHUNK;
     const uint64_t queries = query->stats.queries;
     query_workers workers;
@@ -157,8 +157,8 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
     if (!status) {
         status = query->packed ? packed_pairs(&workers, shared, fn, fn_user) : FROE_E_LIMIT;
         if (status == FROE_E_LIMIT) status = find_pairs(&workers, shared, fn, fn_user);
-        if (status == FROE_E_CANCELLED) base_fail_cancelled(diag);
-        if (status == FROE_E_MEMORY) base_fail_memory(diag);
+        if (status == FROE_E_CANCELLED) support_fail_cancelled(diag);
+        if (status == FROE_E_MEMORY) support_fail_memory(diag);
     }
     query_workers_give(&workers);
     query->stats.queries = queries + 1; /* not one for each object */

@@ -1,8 +1,8 @@
 /* areas.c: references: a point in every cell, and the groups that it lies in. */
 #include "query/point/areas.h"
 #include "base/floats.h"
-#include "base/status.h"
 #include "query/segment.h"
+#include "support/fail.h"
 #include <string.h>
 
 /* -------------------------------------------------------------- references -- */
@@ -116,37 +116,38 @@ static froe_status find_references(froe_query *q, query_areas *areas, froe_diagn
     survey v = {.q = q, .areas = areas};
     double x[2], lo[2], hi[2];
     if (!find_outside(s, x))
-        return base_fail(diag, FROE_E_UNSUPPORTED, "Nothing is outside of a scene that reaches as far as doubles do.");
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "Nothing is outside of a scene that reaches as far as doubles do.");
     areas->place_count = tree_is_packed(q->tree) ? q->tree->packed.block_count : q->tree->node_count;
-    areas->slots = base_calloc(&q->alloc, areas->place_count, sizeof *areas->slots);
-    if (!areas->slots) return base_fail_memory(diag);
+    areas->slots = support_calloc(&q->alloc, areas->place_count, sizeof *areas->slots);
+    if (!areas->slots) return support_fail_memory(diag);
     memset(areas->slots, 0xff, areas->place_count * sizeof *areas->slots);
     q->groups.inside.count = 0;
-    if (!keep_reference(&v, x)) return base_fail_memory(diag);
+    if (!keep_reference(&v, x)) return support_fail_memory(diag);
     frame(s, lo, hi);
     const froe_status status = froe_tree_cells(q->tree, lo, hi, look_at_cell, &v, diag);
-    if (status || v.status) return status ? status : base_fail_memory(diag);
+    if (status || v.status) return status ? status : support_fail_memory(diag);
     fill_slots(&v);
     scene_table_free(&q->alloc, &areas->sets.table);
-    return query_areas_settle(q, areas) ? FROE_OK : base_fail_memory(diag);
+    return query_areas_settle(q, areas) ? FROE_OK : support_fail_memory(diag);
 }
 
 /* ------------------------------------------------------------------ making -- */
 
 static void free_areas(const froe_allocator *alloc, query_part *part) {
     query_areas *a = (query_areas *)part;
-    base_free(alloc, a->roles, a->object_count * sizeof *a->roles);
-    base_free(alloc, a->slots, a->place_count * sizeof *a->slots);
+    support_free(alloc, a->roles, a->object_count * sizeof *a->roles);
+    support_free(alloc, a->slots, a->place_count * sizeof *a->slots);
     array_free(alloc, &a->references);
     array_free(alloc, &a->leaves);
     query_sets_free(&a->sets, alloc);
-    base_free(alloc, a, sizeof *a);
+    support_free(alloc, a, sizeof *a);
 }
 
 static froe_status make_areas(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_query_stats stats = q->stats;
-    query_areas *areas = base_calloc(&q->alloc, 1, sizeof *areas);
-    if (!areas) return base_fail_memory(diag);
+    query_areas *areas = support_calloc(&q->alloc, 1, sizeof *areas);
+    if (!areas) return support_fail_memory(diag);
     areas->part.free = free_areas;
     *out = &areas->part;
     froe_status status = query_areas_assign(q, areas, diag);

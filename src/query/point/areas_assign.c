@@ -1,7 +1,7 @@
 /* areas_assign.c: which segments bound areas? */
 #include "base/radix.h"
-#include "base/status.h"
 #include "query/point/areas.h"
+#include "support/fail.h"
 #include <string.h>
 
 enum { SILENT, RINGED, OPEN }; /* a group: nothing known yet; some of its segments share a face; it consists of lines */
@@ -53,9 +53,9 @@ static void gather_ends(survey *v) {
 static froe_status refuse_open_border(const survey *v, const base_pair *end, froe_diagnostic *diag) {
     const uint32_t group = (uint32_t)(end->key >> 32);
     const double *x = scene_vertex(v->scene, (uint32_t)end->key);
-    return base_fail_at(diag, FROE_E_UNSUPPORTED, end->value, FROE_NONE, FROE_NONE,
-                        "Group %u (%.80s) bounds no area: an odd number of its segments ends at (%.17g, %.17g).", group,
-                        froe_scene_group(v->scene, group).name, x[0], x[1]);
+    return support_fail_at(diag, FROE_E_UNSUPPORTED, end->value, FROE_NONE, FROE_NONE,
+                           "Group %u (%.80s) bounds no area: an odd number of its segments ends at (%.17g, %.17g).",
+                           group, froe_scene_group(v->scene, group).name, x[0], x[1]);
 }
 
 /* Where an odd number of segments ends, borders do not close. */
@@ -86,12 +86,12 @@ froe_status query_areas_assign(froe_query *q, query_areas *areas, froe_diagnosti
     const size_t most = 2 * (size_t)s->object_count;
     survey v = {.scene = s, .areas = areas};
     froe_status status = FROE_E_MEMORY;
-    areas->roles = base_calloc(alloc, s->object_count, sizeof *areas->roles);
-    if (!areas->roles) return base_fail_memory(diag);
+    areas->roles = support_calloc(alloc, s->object_count, sizeof *areas->roles);
+    if (!areas->roles) return support_fail_memory(diag);
     areas->object_count = s->object_count;
-    v.groups = base_calloc(alloc, s->group_count, sizeof *v.groups);
-    v.pairs = base_calloc(alloc, most, sizeof *v.pairs);
-    v.spare = base_calloc(alloc, most, sizeof *v.spare);
+    v.groups = support_calloc(alloc, s->group_count, sizeof *v.groups);
+    v.pairs = support_calloc(alloc, most, sizeof *v.pairs);
+    v.spare = support_calloc(alloc, most, sizeof *v.spare);
     if (v.groups && v.pairs && v.spare) {
         look_at_objects(&v);
         find_rings(&v);
@@ -99,10 +99,10 @@ froe_status query_areas_assign(froe_query *q, query_areas *areas, froe_diagnosti
         status = check_ends(&v, diag);
         settle_areas(&v);
     } else {
-        base_fail_memory(diag);
+        support_fail_memory(diag);
     }
-    base_free(alloc, v.groups, s->group_count * sizeof *v.groups);
-    base_free(alloc, v.pairs, most * sizeof *v.pairs);
-    base_free(alloc, v.spare, most * sizeof *v.spare);
+    support_free(alloc, v.groups, s->group_count * sizeof *v.groups);
+    support_free(alloc, v.pairs, most * sizeof *v.pairs);
+    support_free(alloc, v.spare, most * sizeof *v.spare);
     return status;
 }

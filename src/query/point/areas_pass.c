@@ -1,8 +1,8 @@
 /* areas_pass.c: the way from a reference to a point, and what lies beside it. */
-#include "base/status.h"
 #include "query/heap.h"
 #include "query/point/areas.h"
 #include "query/segment.h"
+#include "support/fail.h"
 #include <string.h>
 
 /* ---------------------------------------------------------------- crossing -- */
@@ -64,7 +64,7 @@ froe_status query_areas_travel(froe_query *q, const query_areas *areas, const do
     for (size_t i = 0; i < q->found.count; i++) {
         query_border s;
         const int role = see(q, areas, q->found.data[i], from, &s);
-        if (role && !pass_border(q, &s, role == AREA_BORDER, from, to)) return base_fail_memory(diag);
+        if (role && !pass_border(q, &s, role == AREA_BORDER, from, to)) return support_fail_memory(diag);
     }
     return FROE_OK;
 }

@@ -1,16 +1,16 @@
 /* descent.c: see descent.h. */
 #include "query/point/descent.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include <math.h>
 
 enum { GROUP = 8, LEAVES_PER_CELL = 16 };
 
 static void free_descent(const froe_allocator *alloc, query_part *part) {
     query_descent *d = (query_descent *)part;
-    base_free(alloc, d->cuts, d->cut_count * sizeof *d->cuts);
-    base_free(alloc, d->nodes, d->cut_count * sizeof *d->nodes);
-    base_free(alloc, d->table, (size_t)d->columns * d->rows * sizeof *d->table);
-    base_free(alloc, d, sizeof *d);
+    support_free(alloc, d->cuts, d->cut_count * sizeof *d->cuts);
+    support_free(alloc, d->nodes, d->cut_count * sizeof *d->nodes);
+    support_free(alloc, d->table, (size_t)d->columns * d->rows * sizeof *d->table);
+    support_free(alloc, d, sizeof *d);
 }
 
 /* ------------------------------------------------------------------- order -- */
@@ -151,11 +151,11 @@ static bool fill_descent(query_descent *d, const froe_tree *t, const froe_alloca
     plan p = {.tree = t, .alloc = alloc, .d = d};
     const uint32_t cuts = t->node_count / 2;
     bool ok = false;
-    d->cuts = base_calloc(alloc, cuts, sizeof *d->cuts);
-    d->nodes = base_calloc(alloc, cuts, sizeof *d->nodes);
-    d->table = base_calloc(alloc, (size_t)d->columns * d->rows, sizeof *d->table);
-    p.weights = base_calloc(alloc, t->node_count, sizeof *p.weights);
-    p.numbers = base_calloc(alloc, t->node_count, sizeof *p.numbers);
+    d->cuts = support_calloc(alloc, cuts, sizeof *d->cuts);
+    d->nodes = support_calloc(alloc, cuts, sizeof *d->nodes);
+    d->table = support_calloc(alloc, (size_t)d->columns * d->rows, sizeof *d->table);
+    p.weights = support_calloc(alloc, t->node_count, sizeof *p.weights);
+    p.numbers = support_calloc(alloc, t->node_count, sizeof *p.numbers);
     if (d->cuts && d->nodes && d->table && p.weights && p.numbers) {
         weigh(&p);
         ok = number_cuts(&p);
@@ -163,19 +163,19 @@ static bool fill_descent(query_descent *d, const froe_tree *t, const froe_alloca
         if (ok) fill_table(d);
     }
     d->cut_count = cuts;
-    base_free(alloc, p.weights, t->node_count * sizeof *p.weights);
-    base_free(alloc, p.numbers, t->node_count * sizeof *p.numbers);
+    support_free(alloc, p.weights, t->node_count * sizeof *p.weights);
+    support_free(alloc, p.numbers, t->node_count * sizeof *p.numbers);
     array_free(alloc, &p.roots);
     return ok;
 }
 
 static froe_status make_descent(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    query_descent *d = base_calloc(&q->alloc, 1, sizeof *d);
-    if (!d) return base_fail_memory(diag);
+    query_descent *d = support_calloc(&q->alloc, 1, sizeof *d);
+    if (!d) return support_fail_memory(diag);
     d->part.free = free_descent;
     *out = &d->part;
     d->there = q->numbers.first == NUM_FILTER && take_units(d, q->tree);
-    return d->there && !fill_descent(d, q->tree, &q->alloc) ? base_fail_memory(diag) : FROE_OK;
+    return d->there && !fill_descent(d, q->tree, &q->alloc) ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status query_descent_of(froe_query *query, const query_descent **out, froe_diagnostic *diag) {

@@ -1,8 +1,8 @@
 /* groups.c: the groups that a point of the plane lies in: those of its leaf, and those on whose borders it is. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "query/check.h"
 #include "query/point/areas.h"
+#include "support/fail.h"
 
 /* Groups of the objects that contain the point. */
 static froe_status add_holders(froe_query *q, const double *point, froe_diagnostic *diag) {
@@ -11,7 +11,7 @@ static froe_status add_holders(froe_query *q, const double *point, froe_diagnost
     for (size_t i = 0; !status && i < q->found.count; i++) {
         const uint32_t group = groups ? groups[q->found.data[i]] : FROE_NONE;
         if (group != FROE_NONE && !query_members_add(&q->groups.touched, &q->alloc, group))
-            return base_fail_memory(diag);
+            return support_fail_memory(diag);
     }
     return status;
 }
@@ -21,7 +21,8 @@ static froe_status gather_groups(froe_query *q, const query_areas *areas, const 
     froe_status status = FROE_OK;
     if (areas->solids || !areas->borders) status = add_holders(q, point, diag);
     for (size_t i = 0; !status && i < q->groups.touched.count; i++)
-        if (!query_members_add(&q->groups.inside, &q->alloc, q->groups.touched.data[i])) return base_fail_memory(diag);
+        if (!query_members_add(&q->groups.inside, &q->alloc, q->groups.touched.data[i]))
+            return support_fail_memory(diag);
     return status;
 }
 
@@ -31,7 +32,7 @@ froe_status query_groups_in(froe_query *q, const query_areas *areas, const doubl
     froe_status status = FROE_OK;
     q->groups.inside.count = q->groups.touched.count = 0;
     if (query_in_scene(q->tree->scene, point)) {
-        if (areas->borders && query_areas_enter(q, areas, leaf, point)) return base_fail_memory(diag);
+        if (areas->borders && query_areas_enter(q, areas, leaf, point)) return support_fail_memory(diag);
         status = gather_groups(q, areas, point, diag);
     }
     q->stats.queries = queries;
@@ -41,7 +42,7 @@ froe_status query_groups_in(froe_query *q, const query_areas *areas, const doubl
 
 froe_status query_groups_prepare(froe_query *query, const query_areas **out, froe_diagnostic *diag) {
     if (query->tree->scene->dim != 2)
-        return base_fail(diag, FROE_E_UNSUPPORTED, "Which groups a point lies in is asked in the plane only.");
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Which groups a point lies in is asked in the plane only.");
     return query_areas_of(query, out, diag);
 }
 
@@ -49,11 +50,11 @@ froe_status froe_query_groups(froe_query *query, const double *point, froe_list 
     BASE_FLOATS_OWN;
     const query_areas *areas;
     query_leaf leaf = {0};
-    if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_groups: NULL argument.");
+    if (!query || !point || !out) return support_fail(diag, FROE_E_ARG, "froe_query_groups: NULL argument.");
     froe_status status = query_groups_prepare(query, &areas, diag);
     if (!status) status = query_check_point(point, 2, "A point", diag);
     if (status) return status;
-    if (areas->borders && query_leaf_find(query, point, &leaf)) return base_fail_memory(diag);
+    if (areas->borders && query_leaf_find(query, point, &leaf)) return support_fail_memory(diag);
     status = query_groups_in(query, areas, point, &leaf, diag);
     if (!status) *out = (froe_list){query->groups.inside.data, query->groups.inside.count};
     return status;

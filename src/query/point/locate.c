@@ -1,11 +1,11 @@
 /* locate.c: the objects that contain a point. Where it is on no cut they are in the list of its leaf: what contains it
  * meets the leaf's open cell. On a cut it is a range of one point, which visits the list there and both sides. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "query/check.h"
 #include "query/context.h"
 #include "query/point/leaf.h"
 #include "query/segment.h"
+#include "support/fail.h"
 #include <string.h>
 
 static bool object_holds(froe_query *q, uint32_t object, const double *x, bool *memory) {
@@ -20,12 +20,12 @@ static froe_status test_list(froe_query *q, const tree_objects *list, const froe
     bool memory = false;
     query_begin(q);
     query_range_of_box(q, point);
-    if (!query_expect(q, list->count)) return base_fail_memory(diag);
+    if (!query_expect(q, list->count)) return support_fail_memory(diag);
     for (uint32_t i = 0; i < list->count; i++) {
         const uint32_t object = tree_object(list, i);
         if (!query_seen(q, list, i, object) && object_holds(q, object, point->points, &memory)) query_found(q, object);
     }
-    return memory ? base_fail_memory(diag) : FROE_OK;
+    return memory ? support_fail_memory(diag) : FROE_OK;
 }
 
 /* A point as a range. */
@@ -58,13 +58,13 @@ froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *di
     if (status) return status;
     if (tree_is_packed(q->tree)) return query_range_ask(q, &s.range, false, diag);
     if (!query_in_scene(q->tree->scene, point)) return test_list(q, &(tree_objects){0}, &s.range, diag);
-    if (query_leaf_find(q, point, &leaf)) return base_fail_memory(diag);
+    if (query_leaf_find(q, point, &leaf)) return support_fail_memory(diag);
     return query_locate_in(q, point, &leaf, diag);
 }
 
 froe_status froe_query_locate(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !point || !out) return base_fail(diag, FROE_E_ARG, "froe_query_locate: NULL argument.");
+    if (!query || !point || !out) return support_fail(diag, FROE_E_ARG, "froe_query_locate: NULL argument.");
     const froe_status status = query_locate(query, point, diag);
     if (!status) *out = query_list(query);
     return status;

@@ -1,12 +1,12 @@
 /* ancestors.c: see ancestors.h. */
 #include "query/range/ancestors.h"
-#include "base/status.h"
+#include "support/fail.h"
 
 static void free_ancestors(const froe_allocator *alloc, query_part *part) {
     query_ancestors *a = (query_ancestors *)part;
-    base_free(alloc, a->of, a->node_count * sizeof *a->of);
-    base_free(alloc, a->above, ((size_t)a->node_count + 1) * sizeof *a->above);
-    base_free(alloc, a, sizeof *a);
+    support_free(alloc, a->of, a->node_count * sizeof *a->of);
+    support_free(alloc, a->above, ((size_t)a->node_count + 1) * sizeof *a->above);
+    support_free(alloc, a, sizeof *a);
 }
 
 /* The place of the highest bit. */
@@ -59,14 +59,14 @@ static void lay_paths(query_ancestors *a, const froe_tree *t) {
 }
 
 static froe_status make_ancestors(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    query_ancestors *a = base_calloc(&q->alloc, 1, sizeof *a);
-    if (!a) return base_fail_memory(diag);
+    query_ancestors *a = support_calloc(&q->alloc, 1, sizeof *a);
+    if (!a) return support_fail_memory(diag);
     a->part.free = free_ancestors;
     *out = &a->part;
     a->node_count = q->tree->node_count;
-    a->of = base_calloc(&q->alloc, a->node_count, sizeof *a->of);
-    a->above = base_calloc(&q->alloc, (size_t)a->node_count + 1, sizeof *a->above);
-    if (!a->of || !a->above) return base_fail_memory(diag);
+    a->of = support_calloc(&q->alloc, a->node_count, sizeof *a->of);
+    a->above = support_calloc(&q->alloc, (size_t)a->node_count + 1, sizeof *a->above);
+    if (!a->of || !a->above) return support_fail_memory(diag);
     number_nodes(a, q->tree);
     lay_paths(a, q->tree);
     return FROE_OK;

@@ -1,6 +1,6 @@
 /* centroids.c: regions of all nodes, and the order in which to ask about them. */
 #include "query/range/centroids.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
@@ -9,9 +9,9 @@ enum { DEEP = 4 };
 
 static void free_centroids(const froe_allocator *alloc, query_part *part) {
     query_centroids *c = (query_centroids *)part;
-    if (c->steps) base_free(alloc, c->steps, c->node_count * sizeof *c->steps);
-    if (c->boxes) base_free(alloc, c->boxes, (size_t)c->node_count * 2 * (size_t)c->dim * sizeof *c->boxes);
-    base_free(alloc, c, sizeof *c);
+    if (c->steps) support_free(alloc, c->steps, c->node_count * sizeof *c->steps);
+    if (c->boxes) support_free(alloc, c->boxes, (size_t)c->node_count * 2 * (size_t)c->dim * sizeof *c->boxes);
+    support_free(alloc, c, sizeof *c);
 }
 
 bool query_is_deep(const froe_tree *t) {
@@ -121,30 +121,30 @@ static froe_status fill_centroids(query_centroids *c, const froe_tree *t) {
     const froe_allocator *alloc = &t->alloc;
     plan p = {.tree = t, .c = c};
     bool ok = false;
-    c->steps = base_calloc(alloc, c->node_count, sizeof *c->steps);
-    c->boxes = base_calloc(alloc, (size_t)c->node_count * 2 * (size_t)c->dim, sizeof *c->boxes);
-    p.sizes = base_calloc(alloc, c->node_count, sizeof *p.sizes);
-    p.parents = base_calloc(alloc, c->node_count, sizeof *p.parents);
-    p.gone = base_calloc(alloc, c->node_count, sizeof *p.gone);
+    c->steps = support_calloc(alloc, c->node_count, sizeof *c->steps);
+    c->boxes = support_calloc(alloc, (size_t)c->node_count * 2 * (size_t)c->dim, sizeof *c->boxes);
+    p.sizes = support_calloc(alloc, c->node_count, sizeof *p.sizes);
+    p.parents = support_calloc(alloc, c->node_count, sizeof *p.parents);
+    p.gone = support_calloc(alloc, c->node_count, sizeof *p.gone);
     if (c->steps && c->boxes && p.sizes && p.parents && p.gone) {
         lay_regions(&p);
         ok = divide_parts(&p);
     }
-    base_free(alloc, p.sizes, c->node_count * sizeof *p.sizes);
-    base_free(alloc, p.parents, c->node_count * sizeof *p.parents);
-    base_free(alloc, p.gone, c->node_count * sizeof *p.gone);
+    support_free(alloc, p.sizes, c->node_count * sizeof *p.sizes);
+    support_free(alloc, p.parents, c->node_count * sizeof *p.parents);
+    support_free(alloc, p.gone, c->node_count * sizeof *p.gone);
     array_free(alloc, &p.parts);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
 static froe_status make_centroids(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    query_centroids *c = base_calloc(&q->alloc, 1, sizeof *c);
-    if (!c) return base_fail_memory(diag);
+    query_centroids *c = support_calloc(&q->alloc, 1, sizeof *c);
+    if (!c) return support_fail_memory(diag);
     c->part.free = free_centroids;
     *out = &c->part;
     c->dim = q->tree->scene->dim;
     c->node_count = q->tree->node_count;
-    return fill_centroids(c, q->tree) ? base_fail_memory(diag) : FROE_OK;
+    return fill_centroids(c, q->tree) ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status query_centroids_of(froe_query *query, const query_centroids **out, froe_diagnostic *diag) {

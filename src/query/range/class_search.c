@@ -1,7 +1,7 @@
 /* class_search.c: a range is searched for in the classes, one after the other. */
-#include "base/status.h"
 #include "query/point/leaf.h"
 #include "query/range/classes.h"
+#include "support/fail.h"
 
 /* The cube around a range. */
 typedef struct cube {
@@ -33,8 +33,8 @@ static cube cube_of(const query_range *r) {
 
 static froe_status take_forks(froe_query *q, const query_classes *p, froe_diagnostic *diag) {
     if (q->classes.forks || !p->count) return FROE_OK;
-    q->classes.forks = base_calloc(&q->alloc, p->count, sizeof *q->classes.forks);
-    if (!q->classes.forks) return base_fail_memory(diag);
+    q->classes.forks = support_calloc(&q->alloc, p->count, sizeof *q->classes.forks);
+    if (!q->classes.forks) return support_fail_memory(diag);
     q->classes.count = p->count;
     for (uint32_t i = 0; i < p->count; i++) {
         const froe_status status = froe_query_fork(p->classes[i].query, q->classes.forks + i, diag);
@@ -107,12 +107,12 @@ froe_status query_classes_search(froe_query *q, froe_diagnostic *diag) {
     if (!status) status = take_forks(q, p, diag);
     if (status) return status;
     if (!p->count || !(around.reach <= p->classes[p->count - 1].step))
-        return query_range_walk(q) ? base_fail_memory(diag) : FROE_OK;
+        return query_range_walk(q) ? support_fail_memory(diag) : FROE_OK;
     for (uint32_t i = 0; i < p->count && !status && !done(q); i++) {
         const query_class *c = p->classes + i;
         const bool small = c->step > 0 && around.reach <= c->step;
         status = small ? locate(q, c, q->classes.forks[i], &around) : search(q, c, q->classes.forks[i]);
         add_statistics(q, q->classes.forks[i]);
     }
-    return status ? base_fail_memory(diag) : FROE_OK;
+    return status ? support_fail_memory(diag) : FROE_OK;
 }

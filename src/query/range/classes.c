@@ -1,7 +1,7 @@
 /* classes.c: a tree of enlarged boxes for the objects of each class. */
 #include "query/range/classes.h"
 #include "base/radix.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include <float.h>
 
 /* Overlapping boxes do not make its trees large, as they do those of `directional`. A leaf holds about those boxes that
@@ -12,14 +12,14 @@ enum { LEAF = 2 }; /* times 2^dim */
 static void free_class(const froe_allocator *alloc, query_class *c) {
     froe_query_free(c->query);
     froe_tree_free(c->tree);
-    base_free(alloc, c->ids, c->count * sizeof *c->ids);
+    support_free(alloc, c->ids, c->count * sizeof *c->ids);
 }
 
 static void free_classes(const froe_allocator *alloc, query_part *part) {
     query_classes *p = (query_classes *)part;
     for (uint32_t i = 0; p->classes && i < p->count; i++) free_class(alloc, p->classes + i);
-    base_free(alloc, p->classes, p->count * sizeof *p->classes);
-    base_free(alloc, p, sizeof *p);
+    support_free(alloc, p->classes, p->count * sizeof *p->classes);
+    support_free(alloc, p, sizeof *p);
 }
 
 /* ----------------------------------------------------------------- classes -- */
@@ -71,7 +71,7 @@ static froe_status build_class(const froe_tree *t, query_class *c, froe_diagnost
     o.leaf = (uint32_t)LEAF << t->scene->dim;
     o.threads = 1;
     froe_status status = froe_scene_new(t->scene->dim, &t->alloc, &boxes);
-    if (status) return base_fail_memory(diag);
+    if (status) return support_fail_memory(diag);
     status = add_boxes(boxes, t->scene, c, diag);
     if (!status) status = froe_build(boxes, &o, &c->tree, diag);
     if (!status) status = froe_query_new(c->tree, &c->query, diag);
@@ -85,8 +85,8 @@ static froe_status build_class(const froe_tree *t, query_class *c, froe_diagnost
 static froe_status fill_class(query_class *c, const froe_tree *t, const base_pair *sorted, uint32_t count, double step,
                               froe_diagnostic *diag) {
     *c = (query_class){.step = step, .count = count};
-    c->ids = base_calloc(&t->alloc, count, sizeof *c->ids);
-    if (!c->ids) return base_fail_memory(diag);
+    c->ids = support_calloc(&t->alloc, count, sizeof *c->ids);
+    if (!c->ids) return support_fail_memory(diag);
     for (uint32_t i = 0; i < count; i++) c->ids[i] = sorted[i].value;
     return build_class(t, c, diag);
 }
@@ -95,8 +95,8 @@ static froe_status add_classes(query_classes *p, const froe_tree *t, const base_
     const uint32_t objects = t->scene->object_count;
     uint32_t count = 0, next = 0, made = 0;
     for (uint32_t i = 0; i < objects; i++) count += !i || sorted[i].key != sorted[i - 1].key;
-    p->classes = base_calloc(&t->alloc, count, sizeof *p->classes);
-    if (!p->classes) return base_fail_memory(diag);
+    p->classes = support_calloc(&t->alloc, count, sizeof *p->classes);
+    if (!p->classes) return support_fail_memory(diag);
     p->count = count;
     froe_status status = FROE_OK;
     for (uint32_t first = 0; first < objects && !status; first = next) {
@@ -110,17 +110,17 @@ static froe_status add_classes(query_classes *p, const froe_tree *t, const base_
 static froe_status make_classes(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
     const size_t objects = t->scene->object_count;
-    query_classes *p = base_calloc(&q->alloc, 1, sizeof *p);
-    if (!p) return base_fail_memory(diag);
+    query_classes *p = support_calloc(&q->alloc, 1, sizeof *p);
+    if (!p) return support_fail_memory(diag);
     p->part.free = free_classes;
     *out = &p->part;
-    base_pair *sorted = base_calloc(&q->alloc, 2 * objects, sizeof *sorted);
-    if (!sorted) return base_fail_memory(diag);
+    base_pair *sorted = support_calloc(&q->alloc, 2 * objects, sizeof *sorted);
+    if (!sorted) return support_fail_memory(diag);
     for (uint32_t i = 0; i < objects; i++)
         sorted[i] = (base_pair){base_double_key(step_of_size(size_of_object(t->scene, i))), i};
     base_radix_sort(sorted, sorted + objects, objects);
     const froe_status status = add_classes(p, t, sorted, diag);
-    base_free(&q->alloc, sorted, (objects ? 2 * objects * sizeof *sorted : 1));
+    support_free(&q->alloc, sorted, (objects ? 2 * objects * sizeof *sorted : 1));
     return status;
 }
 

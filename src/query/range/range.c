@@ -1,9 +1,9 @@
 /* range.c: the public calls: all objects that meet a range, how many, or one of them. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "query/packed/packed.h"
 #include "query/packed/space.h"
 #include "query/range/classes.h"
+#include "support/fail.h"
 
 /* Windows on packed trees have a faster walk of their own, unless another walk is asked for. */
 static bool is_window(const froe_range *range) {
@@ -23,7 +23,7 @@ static froe_status ask_space(froe_query *q, const froe_range *range, bool any, f
     query_begin(q);
     query_range_of_box(q, range);
     status = space_range(q, range->points, range->points + 3, any);
-    return status ? base_fail_memory(diag) : FROE_OK;
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 static froe_status ask_packed(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
@@ -31,7 +31,7 @@ static froe_status ask_packed(froe_query *q, const froe_range *range, bool any, 
     if (status) return status;
     query_begin(q);
     status = any ? packed_any(q, range->points, range->points + 2) : packed_range(q, range->points, range->points + 2);
-    return status ? base_fail_memory(diag) : FROE_OK;
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
@@ -43,12 +43,12 @@ froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, fr
     q->range.any = any;
     if (q->range.walk == FROE_WALK_CLASSES) return query_classes_search(q, diag);
     status = query_range_walk(q);
-    return status ? base_fail_memory(diag) : FROE_OK;
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status froe_query_range(froe_query *query, const froe_range *range, froe_list *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !range || !out) return base_fail(diag, FROE_E_ARG, "froe_query_range: NULL argument.");
+    if (!query || !range || !out) return support_fail(diag, FROE_E_ARG, "froe_query_range: NULL argument.");
     const froe_status status = query_range_ask(query, range, false, diag);
     if (!status) *out = query_list(query);
     return status;
@@ -59,12 +59,12 @@ static froe_status count_packed(froe_query *q, const froe_range *range, uint64_t
     if (status) return status;
     query_begin(q);
     status = packed_count_range(q, range->points, range->points + 2, out);
-    return status ? base_fail_memory(diag) : FROE_OK;
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_t *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !range || !out) return base_fail(diag, FROE_E_ARG, "froe_query_count: NULL argument.");
+    if (!query || !range || !out) return support_fail(diag, FROE_E_ARG, "froe_query_count: NULL argument.");
     if (is_packed_window(query, range)) return count_packed(query, range, out, diag);
     const froe_status status = query_range_ask(query, range, false, diag);
     if (!status) *out = query->found.count;
@@ -73,7 +73,7 @@ froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_
 
 froe_status froe_query_any(froe_query *query, const froe_range *range, uint32_t *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !range || !out) return base_fail(diag, FROE_E_ARG, "froe_query_any: NULL argument.");
+    if (!query || !range || !out) return support_fail(diag, FROE_E_ARG, "froe_query_any: NULL argument.");
     const froe_status status = query_range_ask(query, range, true, diag);
     if (!status) *out = query->found.count ? query->found.data[0] : FROE_NONE;
     return status;

@@ -1,7 +1,7 @@
 /* range_take.c: a caller's range is checked and prepared. */
-#include "base/status.h"
 #include "geom/filter.h"
 #include "query/context.h"
+#include "support/fail.h"
 #include <string.h>
 
 static const char *const names[FROE_SHAPE_COUNT] = {"box",        "ball", "simplex", "capsule",
@@ -58,36 +58,36 @@ static froe_status check_numbers(const froe_range *r, size_t dim, froe_diagnosti
     const size_t count = range_point_count(r, dim);
     for (size_t i = 0; i < count * dim; i++)
         if (!coordinate_fits(r, i, dim))
-            return base_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], r->points[i]);
+            return support_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], r->points[i]);
     for (size_t i = 0; r->shape == FROE_SHAPE_HALFSPACES && i < count; i++)
         if (!isfinite(r->offsets[i]))
-            return base_fail(diag, FROE_E_INPUT, "A halfspace has the offset %g.", r->offsets[i]);
+            return support_fail(diag, FROE_E_INPUT, "A halfspace has the offset %g.", r->offsets[i]);
     for (size_t k = 0; r->shape == FROE_SHAPE_BOX && k < dim; k++)
         if (r->points[k] > r->points[dim + k])
-            return base_fail(diag, FROE_E_INPUT, "A box has lo %g > hi %g on axis %zu.", r->points[k],
-                             r->points[dim + k], k);
+            return support_fail(diag, FROE_E_INPUT, "A box has lo %g > hi %g on axis %zu.", r->points[k],
+                                r->points[dim + k], k);
     if (has_radius(r->shape) && !(r->radius >= 0 && isfinite(r->radius)))
-        return base_fail(diag, FROE_E_INPUT, "A %s has the radius %g.", names[r->shape], r->radius);
-    if (!(r->eps >= 0 && isfinite(r->eps))) return base_fail(diag, FROE_E_INPUT, "A range has eps %g.", r->eps);
+        return support_fail(diag, FROE_E_INPUT, "A %s has the radius %g.", names[r->shape], r->radius);
+    if (!(r->eps >= 0 && isfinite(r->eps))) return support_fail(diag, FROE_E_INPUT, "A range has eps %g.", r->eps);
     size_t zeros = 0;
     while (r->shape == FROE_SHAPE_RAY && zeros < dim && r->points[dim + zeros] == 0) zeros++;
-    if (zeros == dim) return base_fail(diag, FROE_E_INPUT, "A ray has no direction.");
+    if (zeros == dim) return support_fail(diag, FROE_E_INPUT, "A ray has no direction.");
     return FROE_OK;
 }
 
 froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *diag) {
     if (r->size != sizeof *r || (unsigned)r->shape >= FROE_SHAPE_COUNT)
-        return base_fail(diag, FROE_E_OPTIONS, "A range must come from froe_range_defaults() and have a shape.");
+        return support_fail(diag, FROE_E_OPTIONS, "A range must come from froe_range_defaults() and have a shape.");
     if ((unsigned)r->walk >= FROE_WALK_COUNT)
-        return base_fail(diag, FROE_E_OPTIONS, "There is no walk of number %u.", (unsigned)r->walk);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no walk of number %u.", (unsigned)r->walk);
     if (dim > 3 && r->shape != FROE_SHAPE_BOX && r->shape != FROE_SHAPE_BALL)
-        return base_fail(diag, FROE_E_UNSUPPORTED, "There is no %s in %d dimensions.", names[r->shape], dim);
+        return support_fail(diag, FROE_E_UNSUPPORTED, "There is no %s in %d dimensions.", names[r->shape], dim);
     const size_t count = range_point_count(r, (size_t)dim);
     const bool halfspaces = r->shape == FROE_SHAPE_HALFSPACES;
     if ((count && !r->points) || (halfspaces && count && !r->offsets))
-        return base_fail(diag, FROE_E_ARG, "A %s without points.", names[r->shape]);
-    if (!count && !halfspaces) return base_fail(diag, FROE_E_INPUT, "A hull of no points.");
-    if (count > UINT32_MAX / 8) return base_fail(diag, FROE_E_ARG, "A %s of too many points.", names[r->shape]);
+        return support_fail(diag, FROE_E_ARG, "A %s without points.", names[r->shape]);
+    if (!count && !halfspaces) return support_fail(diag, FROE_E_INPUT, "A hull of no points.");
+    if (count > UINT32_MAX / 8) return support_fail(diag, FROE_E_ARG, "A %s of too many points.", names[r->shape]);
     return check_numbers(r, (size_t)dim, diag);
 }
 
@@ -245,11 +245,11 @@ static froe_status measure_halfspaces(froe_query *q, const froe_range *from, fro
     const uint32_t dim = (uint32_t)r->range.dim;
     if (!geom_polytope_make(&q->numbers, &q->alloc, (int)dim, from->points, from->offsets, from->count, lo, hi,
                             &r->polytope))
-        return base_fail_memory(diag);
+        return support_fail_memory(diag);
     for (size_t i = 0; i < r->polytope.corners.count; i++)
         for (int j = 0; j < 3; j++)
             if (r->polytope.corners.data[i].planes[j] < 2 * dim)
-                return base_fail(diag, FROE_E_INPUT, "Halfspaces without a bound have no eps.");
+                return support_fail(diag, FROE_E_INPUT, "Halfspaces without a bound have no eps.");
     r->range.set = geom_polytope_convex(&r->polytope, (int)dim);
     return FROE_OK;
 }
@@ -259,7 +259,7 @@ static froe_status take_margin(froe_query *q, const froe_range *from, froe_diagn
     r->margin = 0;
     if (from->eps == 0) return FROE_OK;
     if (is_unbounded(from, (size_t)r->range.dim))
-        return base_fail(diag, FROE_E_INPUT, "A %s without a bound has no eps.", names[from->shape]);
+        return support_fail(diag, FROE_E_INPUT, "A %s without a bound has no eps.", names[from->shape]);
     if (from->shape == FROE_SHAPE_HALFSPACES) {
         const froe_status status = measure_halfspaces(q, from, diag);
         if (status) return status;
@@ -310,7 +310,7 @@ froe_status query_range_take(froe_query *q, const froe_range *from, froe_diagnos
     status = take_margin(q, from, diag);
     if (status) return status;
     r->range.facets.count = 0;
-    if (q->numbers.first != NUM_EXACT && !add_facets(&r->range, &q->alloc, from)) return base_fail_memory(diag);
+    if (q->numbers.first != NUM_EXACT && !add_facets(&r->range, &q->alloc, from)) return support_fail_memory(diag);
     return FROE_OK;
 }
 

@@ -6,10 +6,10 @@
  * only where these are equal by the exact ones. */
 #include "query/ray/ray.h"
 #include "base/floats.h"
-#include "base/status.h"
 #include "query/check.h"
 #include "query/context.h"
 #include "query/heap.h"
+#include "support/fail.h"
 #include <string.h>
 
 void query_ray_free(query_ray *r, const froe_allocator *alloc) {
@@ -25,10 +25,10 @@ froe_status query_ray_take(froe_query *q, const double *origin, const double *di
     froe_status status = query_check_point(origin, dim, "The origin of a ray", diag);
     if (!status) status = query_check_point(direction, dim, "The direction of a ray", diag);
     if (status) return status;
-    if (!(t_max >= 0)) return base_fail(diag, FROE_E_INPUT, "A ray ends at t = %g.", t_max);
+    if (!(t_max >= 0)) return support_fail(diag, FROE_E_INPUT, "A ray ends at t = %g.", t_max);
     bool goes = false;
     for (int k = 0; k < dim; k++) goes = goes || direction[k] != 0;
-    if (!goes) return base_fail(diag, FROE_E_INPUT, "The direction of a ray is 0.");
+    if (!goes) return support_fail(diag, FROE_E_INPUT, "The direction of a ray is 0.");
     q->ray.ray = (geom_ray){.dim = dim};
     memcpy(q->ray.ray.o, origin, (size_t)dim * sizeof *origin);
     memcpy(q->ray.ray.d, direction, (size_t)dim * sizeof *direction);
@@ -81,7 +81,7 @@ static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *
         }
     }
     q->stats.exact += q->numbers.stats.exact - exact;
-    return status == FROE_E_MEMORY ? base_fail_memory(diag) : status;
+    return status == FROE_E_MEMORY ? support_fail_memory(diag) : status;
 }
 
 /* ------------------------------------------------------------------- first -- */
@@ -103,7 +103,8 @@ froe_status query_ray_first(froe_query *q, double t_max, uint32_t kinds, froe_di
 froe_status froe_query_ray(froe_query *query, const double *origin, const double *direction, double t_max,
                            froe_hit *hit, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !origin || !direction || !hit) return base_fail(diag, FROE_E_ARG, "froe_query_ray: NULL argument.");
+    if (!query || !origin || !direction || !hit)
+        return support_fail(diag, FROE_E_ARG, "froe_query_ray: NULL argument.");
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
     if (!status) status = query_ray_first(query, t_max, UINT32_MAX, diag);
     if (status) return status;
@@ -125,7 +126,7 @@ froe_status froe_query_ray_any(froe_query *query, const double *origin, const do
                                uint32_t *object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !origin || !direction || !object)
-        return base_fail(diag, FROE_E_ARG, "froe_query_ray_any: NULL argument.");
+        return support_fail(diag, FROE_E_ARG, "froe_query_ray_any: NULL argument.");
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
     if (!status) status = for_all(query, t_max, UINT32_MAX, keep_any, diag);
     if (!status) *object = query->ray.met.count ? query->ray.met.data[0].object : FROE_NONE;
@@ -168,11 +169,11 @@ froe_status froe_query_ray_all(froe_query *query, const double *origin, const do
                                froe_hits *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !origin || !direction || !out)
-        return base_fail(diag, FROE_E_ARG, "froe_query_ray_all: NULL argument.");
+        return support_fail(diag, FROE_E_ARG, "froe_query_ray_all: NULL argument.");
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
     if (!status) status = for_all(query, t_max, UINT32_MAX, keep_all, diag);
     if (status) return status;
-    if (sort_hits(query)) return base_fail_memory(diag);
+    if (sort_hits(query)) return support_fail_memory(diag);
     *out = (froe_hits){query->ray.hits.data + query->ray.met.count, query->ray.met.count};
     return FROE_OK;
 }

@@ -5,8 +5,8 @@
  */
 #ifndef FROE_QUERY_RAY_RAY_H
 #define FROE_QUERY_RAY_RAY_H
-#include "base/array.h"
 #include "geom/ray/ray.h"
+#include "support/array.h"
 #include <froe/query.h>
 
 /** A node, or the list of a cut, that waits; the ray is in its closed region for some t in enter .. leave at most. */

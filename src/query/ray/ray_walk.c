@@ -8,10 +8,10 @@
  * Intervals are rounded outwards, and a ray that may be parallel to a cut is on both sides throughout, unless it is
  * further from the cut than it can come within its interval, which ends with the scene: with objects listed where they
  * meet open cells, and regions closed, no object is missed. The stack is as deep as the tree at most. */
-#include "base/status.h"
 #include "query/cuts.h"
 #include "query/packed/space.h"
 #include "query/ray/ray.h"
+#include "support/fail.h"
 
 /* Where the ray crosses a cut, at most; first: the side it comes from. */
 typedef struct crossing {
@@ -96,11 +96,11 @@ static query_step within_scene(const froe_query *q) {
 froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
     const query_planes *planes;
     q->ray.packed = false;
-    if (q->space && space_walk_ray(q, &q->space->walk, &q->ray.ray, &q->ray.packed)) return base_fail_memory(diag);
+    if (q->space && space_walk_ray(q, &q->space->walk, &q->ray.ray, &q->ray.packed)) return support_fail_memory(diag);
     if (q->ray.packed) return FROE_OK;
     froe_status status = query_planes_of(q, &planes, diag);
     q->ray.steps.count = 0;
-    if (!status && !push_step(q, within_scene(q))) status = base_fail_memory(diag);
+    if (!status && !push_step(q, within_scene(q))) status = support_fail_memory(diag);
     return status;
 }
 

@@ -1,28 +1,28 @@
 /* vertical.c: the segment above or below a point of the plane: a vertical ray. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "query/packed/packed.h"
+#include "support/fail.h"
 
 static froe_status ask_packed(froe_query *q, const double *point, int direction, uint32_t *object,
                               froe_diagnostic *diag) {
     const froe_status status = packed_vertical(q, point, 1, direction, object);
-    return status ? base_fail_memory(diag) : FROE_OK;
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status query_vertical_check(const froe_query *query, const double *point, int direction, froe_diagnostic *diag) {
     if (query->tree->scene->dim != 2)
-        return base_fail(diag, FROE_E_UNSUPPORTED, "Above and below are asked in the plane only.");
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Above and below are asked in the plane only.");
     if (direction != 1 && direction != -1)
-        return base_fail(diag, FROE_E_ARG, "The direction %d is neither 1, up, nor -1, down.", direction);
+        return support_fail(diag, FROE_E_ARG, "The direction %d is neither 1, up, nor -1, down.", direction);
     for (int k = 0; k < 2; k++)
-        if (!isfinite(point[k])) return base_fail(diag, FROE_E_INPUT, "A point has %g as a coordinate.", point[k]);
+        if (!isfinite(point[k])) return support_fail(diag, FROE_E_INPUT, "A point has %g as a coordinate.", point[k]);
     return FROE_OK;
 }
 
 froe_status froe_query_vertical(froe_query *query, const double *point, int direction, uint32_t *object,
                                 froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !point || !object) return base_fail(diag, FROE_E_ARG, "froe_query_vertical: NULL argument.");
+    if (!query || !point || !object) return support_fail(diag, FROE_E_ARG, "froe_query_vertical: NULL argument.");
     froe_status status = query_vertical_check(query, point, direction, diag);
     if (status) return status;
     if (query->packed) return ask_packed(query, point, direction, object, diag);

@@ -335,7 +335,7 @@ static froe_status split_scene(bucket *b, double **main, size_t *bytes) {
     status = split_cells(b);
     if (status || !b->items) return status;
     *bytes = b->moved * (size_t)b->dim * sizeof **main;
-    *main = b->to = base_realloc(b->w->plan->alloc, NULL, 0, *bytes);
+    *main = b->to = support_realloc(b->w->plan->alloc, NULL, 0, *bytes);
     return b->to ? move_guards(b) : FROE_E_MEMORY;
 }
 

@@ -82,7 +82,7 @@ static froe_status plant(building *b, const double *guards, size_t count) {
     guard_cube box, root = {.lo = {0}};
     if (count > GUARD_LIMIT) return FROE_E_LIMIT;
     b->bytes = (count ? count : 1) * (size_t)b->plan.dim * sizeof(double);
-    b->main = base_realloc(b->plan.alloc, NULL, 0, b->bytes);
+    b->main = support_realloc(b->plan.alloc, NULL, 0, b->bytes);
     if (!b->main) return FROE_E_MEMORY;
     b->foreman.side[GUARD_MAIN] = b->main;
     b->foreman.input = guards;
@@ -114,8 +114,8 @@ static froe_status plant_scene(building *b, const split_places *places) {
 static bool reserve_room(building *b, hand *h, size_t guards) {
     size_t need = guards * (size_t)b->plan.dim * sizeof(double);
     if (need <= h->capacity) return true;
-    base_free(b->plan.alloc, h->room, h->capacity);
-    h->room = base_realloc(b->plan.alloc, NULL, 0, need);
+    support_free(b->plan.alloc, h->room, h->capacity);
+    h->room = support_realloc(b->plan.alloc, NULL, 0, need);
     h->capacity = h->room ? need : 0;
     return h->room;
 }
@@ -161,7 +161,7 @@ static froe_status hand_out(building *b, const guard_item *item, const guard_cub
 }
 
 static froe_status split_large(building *b, const guard_item *item, const guard_cube *cube) {
-    if (item->side == GUARD_MAIN && !b->spare && !(b->spare = base_realloc(b->plan.alloc, NULL, 0, b->bytes)))
+    if (item->side == GUARD_MAIN && !b->spare && !(b->spare = support_realloc(b->plan.alloc, NULL, 0, b->bytes)))
         return FROE_E_MEMORY;
     b->foreman.side[GUARD_SPARE] = b->spare;
     return guard_step(&b->foreman, item, cube);
@@ -264,7 +264,7 @@ static froe_status finish_guard_tree(building *b) {
 static froe_status build_guard_tree(building *b, double span, const split_places *places, const double *guards,
                                     size_t count) {
     const base_task *task = b->plan.task;
-    b->hands = base_calloc(b->plan.alloc, task->threads, sizeof *b->hands);
+    b->hands = support_calloc(b->plan.alloc, task->threads, sizeof *b->hands);
     if (!b->hands) return FROE_E_MEMORY;
     b->hand_count = task->threads;
     for (unsigned i = 0; i < b->hand_count; i++) b->hands[i].work.plan = &b->plan;
@@ -283,14 +283,14 @@ static void free_building(building *b) {
     for (unsigned i = 0; i < b->hand_count; i++) {
         guard_worker_free(&b->hands[i].work);
         array_free(alloc, &b->hands[i].nodes);
-        base_free(alloc, b->hands[i].room, b->hands[i].capacity);
+        support_free(alloc, b->hands[i].room, b->hands[i].capacity);
     }
-    base_free(alloc, b->hands, b->plan.task->threads * sizeof *b->hands);
+    support_free(alloc, b->hands, b->plan.task->threads * sizeof *b->hands);
     guard_worker_free(&b->foreman);
     array_free(alloc, &b->nodes);
     array_free(alloc, &b->jobs);
-    base_free(alloc, b->main, b->bytes);
-    base_free(alloc, b->spare, b->bytes);
+    support_free(alloc, b->main, b->bytes);
+    support_free(alloc, b->spare, b->bytes);
     split_guards_free(alloc, &b->guards);
 }
 

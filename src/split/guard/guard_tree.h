@@ -15,9 +15,9 @@
  * it is computed. It owns all of space: the cells at the border of the root cube extend to infinity. */
 #ifndef FROE_SPLIT_GUARD_GUARD_TREE_H
 #define FROE_SPLIT_GUARD_GUARD_TREE_H
-#include "base/array.h"
 #include "base/task.h"
 #include "split/guard/places.h"
+#include "support/array.h"
 
 /** How a shrink cuts off what is outside of the inner cube. */
 typedef enum split_form {

@@ -68,11 +68,11 @@ static froe_status collect_guards(const froe_allocator *alloc, base_task *task, 
     for (size_t chunk = 0; chunk < chunks; chunk++) c->starts[chunk + 1] += c->starts[chunk];
     size_t count = c->starts[chunks], size;
     if (__builtin_mul_overflow(count, (size_t)c->scene->dim * sizeof(double), &size)) return FROE_E_MEMORY;
-    c->points = size ? base_realloc(alloc, NULL, 0, size) : NULL;
+    c->points = size ? support_realloc(alloc, NULL, 0, size) : NULL;
     if (size && !c->points) return FROE_E_MEMORY;
     status = base_run(task, 0.5 * span, chunks, write_chunk, c);
     if (status)
-        base_free(alloc, c->points, size);
+        support_free(alloc, c->points, size);
     else
         *out = (split_guards){.dim = c->scene->dim, .count = count, .capacity = count, .points = c->points};
     return status;
@@ -82,14 +82,14 @@ froe_status split_guards_of(const froe_allocator *alloc, base_task *task, double
                             const uint32_t *ids, size_t count, split_guards *out) {
     size_t chunks = (count + CHUNK - 1) / CHUNK;
     collection c = {.scene = scene, .ids = ids, .objects = count};
-    c.starts = base_calloc(alloc, chunks + 1, sizeof *c.starts);
+    c.starts = support_calloc(alloc, chunks + 1, sizeof *c.starts);
     if (!c.starts) return FROE_E_MEMORY;
     froe_status status = collect_guards(alloc, task, span, &c, chunks, out);
-    base_free(alloc, c.starts, (chunks + 1) * sizeof *c.starts);
+    support_free(alloc, c.starts, (chunks + 1) * sizeof *c.starts);
     return status;
 }
 
 void split_guards_free(const froe_allocator *alloc, split_guards *guards) {
-    base_free(alloc, guards->points, guards->capacity * (size_t)guards->dim * sizeof *guards->points);
+    support_free(alloc, guards->points, guards->capacity * (size_t)guards->dim * sizeof *guards->points);
     *guards = (split_guards){.dim = guards->dim};
 }

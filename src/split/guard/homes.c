@@ -147,15 +147,15 @@ static void sort_by_home(const split_guard_node *nodes, const uint32_t *home, ui
 }
 
 void split_homes_free(const froe_allocator *alloc, split_homes *h) {
-    base_free(alloc, h->ids, h->object_count * sizeof *h->ids);
-    base_free(alloc, h->at, h->node_count * sizeof *h->at);
-    base_free(alloc, h->end, h->node_count * sizeof *h->end);
+    support_free(alloc, h->ids, h->object_count * sizeof *h->ids);
+    support_free(alloc, h->at, h->node_count * sizeof *h->at);
+    support_free(alloc, h->end, h->node_count * sizeof *h->end);
     *h = (split_homes){0};
 }
 
 /** Memory for count numbers, not cleared; one at least. */
 static uint32_t *numbers(const froe_allocator *alloc, size_t count) {
-    return base_realloc(alloc, NULL, 0, count * sizeof(uint32_t));
+    return support_realloc(alloc, NULL, 0, count * sizeof(uint32_t));
 }
 
 /** Finds the lowest containing node of each object, given memory for them. */
@@ -169,7 +169,7 @@ static froe_status descend_to_homes(const froe_allocator *alloc, descent *d) {
         fill_map(d);
     }
     froe_status status = base_run(d->task, 0, (n + CHUNK - 1) / CHUNK, descend_chunk, d);
-    base_free(alloc, d->map, d->map_count * sizeof *d->map);
+    support_free(alloc, d->map, d->map_count * sizeof *d->map);
     return status;
 }
 
@@ -181,12 +181,12 @@ froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const
     h.ids = numbers(alloc, n);
     h.at = numbers(alloc, m);
     h.end = numbers(alloc, m);
-    uint32_t *home = numbers(alloc, n), *own = base_calloc(alloc, m, sizeof *own);
+    uint32_t *home = numbers(alloc, n), *own = support_calloc(alloc, m, sizeof *own);
     descent d = {.places = places, .nodes = guard->nodes.data, .task = task, .home = home};
     froe_status status = h.ids && h.at && h.end && home && own ? descend_to_homes(alloc, &d) : FROE_E_MEMORY;
     if (!status) sort_by_home(guard->nodes.data, home, own, &h);
-    base_free(alloc, home, n * sizeof *home);
-    base_free(alloc, own, m * sizeof *own);
+    support_free(alloc, home, n * sizeof *home);
+    support_free(alloc, own, m * sizeof *own);
     if (status)
         split_homes_free(alloc, &h);
     else

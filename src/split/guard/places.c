@@ -48,13 +48,13 @@ static froe_status place_chunk(void *user, unsigned worker, size_t chunk) {
 static froe_status fill_places(const froe_allocator *alloc, base_task *task, int levels, split_places *p) {
     int dim = p->scene->dim;
     p->table_bytes = guard_grid_size(dim, levels);
-    p->tables = base_realloc(alloc, NULL, 0, p->table_bytes);
+    p->tables = support_realloc(alloc, NULL, 0, p->table_bytes);
     if (!p->tables) return FROE_E_MEMORY;
     if (!guard_grid_make(dim, levels, &p->root, p->tables, &p->grid)) {
         p->grid.levels = 0;
         return FROE_OK;
     }
-    p->codes = base_realloc(alloc, NULL, 0, p->object_count * sizeof *p->codes);
+    p->codes = support_realloc(alloc, NULL, 0, p->object_count * sizeof *p->codes);
     if (!p->codes) return FROE_E_MEMORY;
     return base_run(task, 0, (p->object_count + CHUNK - 1) / CHUNK, place_chunk, p);
 }
@@ -80,7 +80,7 @@ froe_status split_places_make(const froe_allocator *alloc, base_task *task, cons
 }
 
 void split_places_free(const froe_allocator *alloc, split_places *p) {
-    if (p->codes) base_free(alloc, p->codes, p->object_count * sizeof *p->codes);
-    base_free(alloc, p->tables, p->table_bytes);
+    if (p->codes) support_free(alloc, p->codes, p->object_count * sizeof *p->codes);
+    support_free(alloc, p->tables, p->table_bytes);
     *p = (split_places){.scene = p->scene};
 }

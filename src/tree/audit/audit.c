@@ -20,8 +20,8 @@
  * The lists are checked object by object on threads; the violation reported is that of the lowest
  * object, whatever the number of threads. O(pieces x height). */
 #include "base/floats.h"
-#include "base/status.h"
 #include "base/task.h"
+#include "support/fail.h"
 #include "tree/audit/inseparable.h"
 #include "tree/audit/trace.h"
 #include "tree/packed/packed_audit.h"
@@ -53,7 +53,7 @@ froe_audit_options froe_audit_defaults(void) {
 }
 
 static froe_status bad_node(const audit *a, uint32_t node, const char *what) {
-    return base_fail(a->diag, FROE_E_AUDIT, "node %u: %s", node, what);
+    return support_fail(a->diag, FROE_E_AUDIT, "node %u: %s", node, what);
 }
 
 /* ---------------------------------------------------------------- structure -- */
@@ -71,9 +71,9 @@ static froe_status check_structure(audit *a) {
 /* Counts once more, level by level instead of along paths: children come after their parents. */
 static froe_status count_again(const audit *a, froe_report *r) {
     const froe_tree *t = a->tree;
-    uint32_t *depth = base_calloc(&a->alloc, t->node_count, sizeof *depth);
+    uint32_t *depth = support_calloc(&a->alloc, t->node_count, sizeof *depth);
     double depths = 0;
-    if (!depth) return base_fail_memory(a->diag);
+    if (!depth) return support_fail_memory(a->diag);
     for (uint32_t i = 0; i < t->node_count; i++) {
         const tree_node *n = t->nodes + i;
         uint32_t count = tree_list(t, i).count;
@@ -91,7 +91,7 @@ static froe_status count_again(const audit *a, froe_report *r) {
         }
     }
     r->mean_depth = r->fragments ? depths / (double)r->fragments : 0;
-    base_free(&a->alloc, depth, t->node_count * sizeof *depth);
+    support_free(&a->alloc, depth, t->node_count * sizeof *depth);
     return FROE_OK;
 }
 
@@ -106,7 +106,7 @@ static froe_status check_report(const audit *a) {
                 r->size == r->nodes + again.fragments && r->height == again.height &&
                 r->mean_depth == again.mean_depth && r->max_leaf == again.max_leaf &&
                 r->inseparable == again.inseparable && r->crowded == again.crowded;
-    return same ? FROE_OK : base_fail(a->diag, FROE_E_AUDIT, "the report does not tell what is in the tree");
+    return same ? FROE_OK : support_fail(a->diag, FROE_E_AUDIT, "the report does not tell what is in the tree");
 }
 
 static froe_status check_guard_stage(const audit *a) {
@@ -128,7 +128,7 @@ static froe_status check_guard_stage(const audit *a) {
 static froe_status check_frame(const audit *a) {
     uint32_t node;
     const char *why;
-    if (packed_frame_refuted(a->tree, &node, &why)) return base_fail_memory(a->diag);
+    if (packed_frame_refuted(a->tree, &node, &why)) return support_fail_memory(a->diag);
     return why ? bad_node(a, node, why) : FROE_OK;
 }
 
@@ -141,16 +141,16 @@ static froe_status place_pieces(audit *a) {
         tree_objects list = tree_list(a->tree, walk.node);
         for (uint32_t i = 0; i < list.count; i++) a->pieces[a->starts[tree_object(&list, i) + 1]++] = list.first + i;
     }
-    return tree_walk_end(&walk) ? base_fail_memory(a->diag) : FROE_OK;
+    return tree_walk_end(&walk) ? support_fail_memory(a->diag) : FROE_OK;
 }
 
 /* Sorts the pieces by object (counting). */
 static froe_status sort_pieces(audit *a) {
     const froe_tree *t = a->tree;
     size_t objects = t->scene->object_count;
-    a->starts = base_calloc(&a->alloc, objects + 2, sizeof *a->starts);
-    a->pieces = base_calloc(&a->alloc, t->piece_count, sizeof *a->pieces);
-    if (!a->starts || !a->pieces) return base_fail_memory(a->diag);
+    a->starts = support_calloc(&a->alloc, objects + 2, sizeof *a->starts);
+    a->pieces = support_calloc(&a->alloc, t->piece_count, sizeof *a->pieces);
+    if (!a->starts || !a->pieces) return support_fail_memory(a->diag);
     for (uint32_t node = 0; node < t->node_count; node++) {
         tree_objects list = tree_list(t, node);
         for (uint32_t i = 0; i < list.count; i++) a->starts[tree_object(&list, i) + 2]++;
@@ -172,8 +172,8 @@ typedef struct comparison {
 
 /* Notes the violation; false, to stop the trace. */
 static bool differs(comparison *c, uint32_t node, const char *what) {
-    base_fail_at(c->diag, FROE_E_AUDIT, c->object, FROE_NONE, FROE_NONE, "object %u, node %u: %s", c->object, node,
-                 what);
+    support_fail_at(c->diag, FROE_E_AUDIT, c->object, FROE_NONE, FROE_NONE, "object %u, node %u: %s", c->object, node,
+                    what);
     c->failed = true;
     return false;
 }
@@ -272,7 +272,7 @@ static froe_status check_object(audit *a, unsigned worker, uint32_t object, froe
     bool space = tree_is_space(a->tree);
     if (space && !space_pieces_right(&c)) return FROE_E_AUDIT;
     froe_status status = trace_object(t, object, compare_place, &c);
-    if (status || c.no_memory) return base_fail_memory(diag);
+    if (status || c.no_memory) return support_fail_memory(diag);
     if (!c.failed && !space && c.next < c.end) stray(&c);
     return c.failed ? FROE_E_AUDIT : FROE_OK;
 }
@@ -293,19 +293,19 @@ static froe_status check_chunk(void *user, unsigned worker, size_t job) {
 static froe_status start_workers(audit *a) {
     unsigned threads = a->task->threads;
     froe_status status = FROE_OK;
-    a->traces = base_calloc(&a->alloc, threads, sizeof *a->traces);
-    a->findings = base_calloc(&a->alloc, threads, sizeof *a->findings);
-    if (!a->traces || !a->findings) return base_fail_memory(a->diag);
+    a->traces = support_calloc(&a->alloc, threads, sizeof *a->traces);
+    a->findings = support_calloc(&a->alloc, threads, sizeof *a->findings);
+    if (!a->traces || !a->findings) return support_fail_memory(a->diag);
     for (unsigned i = 0; i < threads && !status; i++) {
         a->findings[i].job = SIZE_MAX;
         status = trace_new(a->tree, a->exact_only, a->traces + i);
     }
-    return status ? base_fail_memory(a->diag) : FROE_OK;
+    return status ? support_fail_memory(a->diag) : FROE_OK;
 }
 
 static froe_status tell_audit(const audit *a, froe_status status) {
     const finding *first = a->findings;
-    if (status == FROE_E_CANCELLED) return base_fail_cancelled(a->diag);
+    if (status == FROE_E_CANCELLED) return support_fail_cancelled(a->diag);
     for (unsigned i = 1; i < a->task->threads; i++)
         if (a->findings[i].job < first->job) first = a->findings + i;
     if (status && a->diag) *a->diag = first->diag;
@@ -329,14 +329,15 @@ static froe_status check_leaf(audit *a, uint32_t node) {
     bool crowded = t->nodes[node].flags & TREE_CROWDED, flagged = t->nodes[node].flags & TREE_INSEPARABLE;
     const char *name = crowded ? "crowded" : "inseparable", *why = NULL;
     if (list.count <= most && (crowded || flagged))
-        return base_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but not over capacity", node, name);
+        return support_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but not over capacity", node, name);
     if (list.count <= most || (crowded && tree_is_packed(t))) return FROE_OK;
     if (!crowded && !flagged)
-        return base_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", node, list.count, most);
+        return support_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", node, list.count,
+                            most);
     froe_status status =
         (crowded ? crowded_refuted : inseparable_refuted)(&a->traces[0].context, a->task, t, &list, &why);
-    if (status) return base_fail_memory(a->diag);
-    return why ? base_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but %s", node, name, why) : FROE_OK;
+    if (status) return support_fail_memory(a->diag);
+    return why ? support_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but %s", node, name, why) : FROE_OK;
 }
 
 static froe_status check_leaves(audit *a) {
@@ -344,10 +345,10 @@ static froe_status check_leaves(audit *a) {
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < t->node_count && !status; i++) {
         if (i % 65536 == 0) base_progress(a->task, a->task->done);
-        if (base_cancelled(a->task)) return base_fail_cancelled(a->diag);
+        if (base_cancelled(a->task)) return support_fail_cancelled(a->diag);
         if (tree_is_leaf(t->nodes + i)) status = check_leaf(a, i);
     }
-    return status || !base_cancelled(a->task) ? status : base_fail_cancelled(a->diag);
+    return status || !base_cancelled(a->task) ? status : support_fail_cancelled(a->diag);
 }
 
 /* ----------------------------------------------------------------- promises -- */
@@ -355,13 +356,13 @@ static froe_status check_leaves(audit *a) {
 static froe_status check_promise(const audit *a, const tree_promise *p) {
     double again = p->measured;
     froe_status status = tree_measure(a->tree, p->name, &again);
-    if (status == FROE_E_MEMORY) return base_fail_memory(a->diag);
+    if (status == FROE_E_MEMORY) return support_fail_memory(a->diag);
     if (!(p->measured <= p->promised))
-        return base_fail(a->diag, FROE_E_AUDIT, "promise '%s': %.17g at most, measured %.17g", p->name, p->promised,
-                         p->measured);
+        return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': %.17g at most, measured %.17g", p->name, p->promised,
+                            p->measured);
     if (!(again <= p->measured))
-        return base_fail(a->diag, FROE_E_AUDIT, "promise '%s': said to be measured as %.17g, but is %.17g", p->name,
-                         p->measured, again);
+        return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': said to be measured as %.17g, but is %.17g", p->name,
+                            p->measured, again);
     return FROE_OK;
 }
 
@@ -378,19 +379,19 @@ static void clean_up(audit *a) {
     unsigned threads = a->task->threads;
     size_t objects = a->tree->scene->object_count, pieces = a->tree->piece_count;
     for (unsigned i = 0; a->traces && i < threads; i++) trace_free(a->traces + i);
-    base_free(&a->alloc, a->traces, threads * sizeof *a->traces);
-    base_free(&a->alloc, a->findings, threads * sizeof *a->findings);
-    base_free(&a->alloc, a->starts, (objects + 2) * sizeof *a->starts);
-    base_free(&a->alloc, a->pieces, pieces ? pieces * sizeof *a->pieces : 1);
+    support_free(&a->alloc, a->traces, threads * sizeof *a->traces);
+    support_free(&a->alloc, a->findings, threads * sizeof *a->findings);
+    support_free(&a->alloc, a->starts, (objects + 2) * sizeof *a->starts);
+    support_free(&a->alloc, a->pieces, pieces ? pieces * sizeof *a->pieces : 1);
 }
 
 static froe_status check_all(audit *a) {
-    if (!base_progress(a->task, 0)) return base_fail_cancelled(a->diag);
+    if (!base_progress(a->task, 0)) return support_fail_cancelled(a->diag);
     froe_status status = check_structure(a);
     if (!status) status = check_report(a);
     if (!status) status = check_guard_stage(a);
     if (!status && tree_is_packed(a->tree)) status = check_frame(a);
-    if (!status && !base_progress(a->task, 0.1)) return base_fail_cancelled(a->diag);
+    if (!status && !base_progress(a->task, 0.1)) return support_fail_cancelled(a->diag);
     if (!status) status = check_lists(a);
     if (!status) status = check_leaves(a);
     if (!status) status = check_promises(a);
@@ -402,8 +403,8 @@ froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_options *opt
     BASE_FLOATS_OWN;
     froe_audit_options o = options ? *options : froe_audit_defaults();
     base_task task;
-    if (!tree) return base_fail(diag, FROE_E_ARG, "tree must not be NULL");
-    if (o.size != sizeof o) return base_fail(diag, FROE_E_OPTIONS, "options do not come from froe_audit_defaults()");
+    if (!tree) return support_fail(diag, FROE_E_ARG, "tree must not be NULL");
+    if (o.size != sizeof o) return support_fail(diag, FROE_E_OPTIONS, "options do not come from froe_audit_defaults()");
     base_task_init(&task, o.threads, o.progress, o.user);
     audit a = {.tree = tree, .alloc = tree->alloc, .task = &task, .diag = diag, .exact_only = o.exact_only};
     froe_status status = check_all(&a);

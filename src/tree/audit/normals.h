@@ -10,8 +10,8 @@
  * builders look for planes, but the same question. */
 #ifndef FROE_TREE_AUDIT_NORMALS_H
 #define FROE_TREE_AUDIT_NORMALS_H
-#include "base/array.h"
 #include "num/context.h"
+#include "support/array.h"
 
 /** The vector from one point to another. */
 typedef struct normals_vector {

@@ -32,7 +32,7 @@ static void stamp_list(const froe_tree *t, stamps *s, uint32_t node, uint32_t ce
 
 /* The cell of a node: its highest ancestor-or-self outside the guard stage; itself within. */
 static froe_status guard_fragments(const froe_tree *t, double *out) {
-    stamps s = {base_calloc(&t->alloc, t->scene->object_count, sizeof(uint32_t)), 0};
+    stamps s = {support_calloc(&t->alloc, t->scene->object_count, sizeof(uint32_t)), 0};
     tree_walk walk = {.tree = t};
     uint32_t cell = 0;
     size_t depth = SIZE_MAX; /* of the cell's root, while in one */
@@ -45,7 +45,7 @@ static froe_status guard_fragments(const froe_tree *t, double *out) {
         }
         stamp_list(t, &s, walk.node, cell);
     }
-    base_free(&t->alloc, s.cell, t->scene->object_count ? t->scene->object_count * sizeof(uint32_t) : 1);
+    support_free(&t->alloc, s.cell, t->scene->object_count ? t->scene->object_count * sizeof(uint32_t) : 1);
     *out = s.fragments;
     return tree_walk_end(&walk);
 }

@@ -11,7 +11,7 @@ froe_status trace_new(const froe_tree *tree, bool exact_only, trace *out) {
     if (status) return status;
     out->tree = tree;
     if (exact_only) out->context.first = NUM_EXACT;
-    out->planes = base_calloc(&out->alloc, 1, sizeof *out->planes);
+    out->planes = support_calloc(&out->alloc, 1, sizeof *out->planes);
     return out->planes ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -21,7 +21,7 @@ void trace_free(trace *t) {
     array_free(&t->alloc, &t->solids);
     array_free(&t->alloc, &t->sides);
     array_free(&t->alloc, &t->ring);
-    base_free(&t->alloc, t->planes, sizeof *t->planes);
+    support_free(&t->alloc, t->planes, sizeof *t->planes);
     if (t->tree) num_context_free(&t->context);
 }
 

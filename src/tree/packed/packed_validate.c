@@ -3,7 +3,7 @@
  * Blocks lie one behind the other in the order of a walk, headers say what follows from the nodes, ids name objects
  * of the scene that a block can hold, and owners repeat the ids with PACKED_START in their order. Units may be
  * anything: wrong ones cause wrong answers only, and the audit finds them. */
-#include "base/status.h"
+#include "support/fail.h"
 #include "tree/packed/space.h"
 #include "tree/walk.h"
 #include <math.h>
@@ -15,7 +15,7 @@ typedef struct packed_check {
 } packed_check;
 
 static froe_status bad_block(const packed_check *c, uint32_t node, const char *what) {
-    return base_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, node);
+    return support_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, node);
 }
 
 static bool bytes_are_zero(const uint8_t *from, const uint8_t *to) {
@@ -83,9 +83,9 @@ froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
     froe_status status = root_fits(t) && !t->cut_count ? FROE_OK : bad_block(&c, 0, "not a tree that can be packed");
     while (!status && tree_walk_next(&walk))
         if (tree_is_leaf(t->nodes + walk.node)) status = check_block(&c, walk.node);
-    if (tree_walk_end(&walk)) return base_fail_memory(diag);
+    if (tree_walk_end(&walk)) return support_fail_memory(diag);
     if (status) return status;
     if (c.blocks + 1 != t->packed.block_count || c.owners != t->packed.owner_count || !sentinel_fits(&c))
-        return base_fail(diag, FROE_E_FORMAT, "the tree is corrupted: blocks or owners that no leaf uses");
+        return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: blocks or owners that no leaf uses");
     return FROE_OK;
 }

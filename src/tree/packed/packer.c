@@ -13,7 +13,7 @@ static size_t gap(const void *memory) {
 /* Gives the blocks room for `room` of them and the sentinel; what is there moves along. */
 static froe_status resize(tree_packer *p, uint32_t room) {
     size_t size = ((size_t)room + 2) * PACKED_BLOCK, before = p->memory ? gap(p->memory) : 0;
-    uint8_t *memory = base_realloc(&p->alloc, p->memory, p->memory_size, size);
+    uint8_t *memory = support_realloc(&p->alloc, p->memory, p->memory_size, size);
     if (!memory) return FROE_E_MEMORY;
     if (gap(memory) != before) memmove(memory + gap(memory), memory + before, (size_t)p->block_count * PACKED_BLOCK);
     p->memory = memory;
@@ -51,7 +51,7 @@ froe_status packer_new(const froe_allocator *alloc, int dim, uint32_t objects, u
 void packer_free(tree_packer *p) {
     array_free(&p->alloc, &p->nodes);
     array_free(&p->alloc, &p->owners);
-    base_free(&p->alloc, p->memory, p->memory_size);
+    support_free(&p->alloc, p->memory, p->memory_size);
     p->memory = NULL;
 }
 
@@ -108,7 +108,7 @@ froe_status packer_space_leaf(tree_packer *p, uint32_t node, const froe_scene *s
 
 /* An array of exactly its size, one byte for an empty one; it stays as it was where that fails. */
 static froe_status trim_array(const froe_allocator *alloc, void **data, size_t room, size_t count, size_t item_size) {
-    void *trimmed = base_realloc(alloc, *data, room * item_size, count ? count * item_size : 1);
+    void *trimmed = support_realloc(alloc, *data, room * item_size, count ? count * item_size : 1);
     if (!trimmed) return FROE_E_MEMORY;
     *data = trimmed;
     return FROE_OK;

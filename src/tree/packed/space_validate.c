@@ -3,13 +3,13 @@
  * Blocks lie one behind the other in the order of a walk, their headers agree with the nodes, and ids name objects of
  * the scene, triangles first. Units may be anything: wrong ones cause wrong answers only, and the audit
  * finds them. */
-#include "base/status.h"
+#include "support/fail.h"
 #include "tree/packed/space.h"
 #include "tree/walk.h"
 #include <math.h>
 
 static froe_status bad_space_block(froe_diagnostic *diag, uint32_t node, const char *what) {
-    return base_fail(diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, node);
+    return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, node);
 }
 
 static bool range_is_zero(const uint8_t *from, const uint8_t *to) {
@@ -83,10 +83,10 @@ froe_status space_validate(const froe_tree *t, froe_diagnostic *diag) {
         const char *why = tree_is_leaf(n) ? check_block(t, n, &blocks) : NULL;
         if (why) status = bad_space_block(diag, walk.node, why);
     }
-    if (tree_walk_end(&walk)) return base_fail_memory(diag);
+    if (tree_walk_end(&walk)) return support_fail_memory(diag);
     if (status) return status;
     const uint8_t *sentinel = t->packed.blocks + (size_t)blocks * PACKED_BLOCK;
     if (blocks + 1 != t->packed.block_count || !range_is_zero(sentinel, sentinel + PACKED_BLOCK))
-        return base_fail(diag, FROE_E_FORMAT, "the tree is corrupted: blocks that no leaf uses");
+        return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: blocks that no leaf uses");
     return FROE_OK;
 }

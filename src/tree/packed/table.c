@@ -122,10 +122,10 @@ static size_t cell_count(const tree_table *table) {
 static froe_status take_table(filling *f) {
     const froe_allocator *alloc = &f->tree->alloc;
     tree_table *table = f->table;
-    table->entries = base_calloc(alloc, cell_count(table), sizeof *table->entries);
+    table->entries = support_calloc(alloc, cell_count(table), sizeof *table->entries);
     for (int k = 0; k < 2; k++) {
-        table->crooked[k] = base_calloc(alloc, table->cells[k] + 1, 1);
-        f->values[k] = base_calloc(alloc, table->cells[k] + 1, sizeof(double));
+        table->crooked[k] = support_calloc(alloc, table->cells[k] + 1, 1);
+        f->values[k] = support_calloc(alloc, table->cells[k] + 1, sizeof(double));
         for (uint32_t i = 0; f->values[k] && i <= table->cells[k]; i++) f->values[k][i] = NAN;
     }
     return table->entries && table->crooked[0] && table->crooked[1] && f->values[0] && f->values[1] ? FROE_OK
@@ -136,13 +136,13 @@ froe_status tree_table_new(const froe_tree *t, tree_table **out) {
     const froe_allocator *alloc = &t->alloc;
     *out = NULL;
     if (!grid_fits(t)) return FROE_OK;
-    tree_table *table = base_calloc(alloc, 1, sizeof *table);
+    tree_table *table = support_calloc(alloc, 1, sizeof *table);
     if (!table) return FROE_E_MEMORY;
     filling f = {.tree = t, .table = table};
     shape_grid(table, t, bits_for(t));
     froe_status status = take_table(&f);
     if (!status) status = fill_all(&f);
-    for (int k = 0; k < 2; k++) base_free(alloc, f.values[k], (table->cells[k] + 1) * sizeof(double));
+    for (int k = 0; k < 2; k++) support_free(alloc, f.values[k], (table->cells[k] + 1) * sizeof(double));
     if (status)
         tree_table_free(alloc, table);
     else
@@ -152,9 +152,9 @@ froe_status tree_table_new(const froe_tree *t, tree_table **out) {
 
 void tree_table_free(const froe_allocator *alloc, tree_table *table) {
     if (!table) return;
-    base_free(alloc, table->entries, cell_count(table) * sizeof *table->entries);
-    for (int k = 0; k < 2; k++) base_free(alloc, table->crooked[k], table->cells[k] + 1);
-    base_free(alloc, table, sizeof *table);
+    support_free(alloc, table->entries, cell_count(table) * sizeof *table->entries);
+    for (int k = 0; k < 2; k++) support_free(alloc, table->crooked[k], table->cells[k] + 1);
+    support_free(alloc, table, sizeof *table);
 }
 
 uint64_t tree_table_bytes(const tree_table *table) {

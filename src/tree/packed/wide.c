@@ -196,7 +196,7 @@ static bool place_nodes(widening *w) {
     tree_wide *wide = w->wide;
     wide->count = w->nodes.count;
     wide->memory_size = wide->count * sizeof(wide_node) + PACKED_BLOCK;
-    wide->memory = base_calloc(&w->tree->alloc, wide->memory_size, 1);
+    wide->memory = support_calloc(&w->tree->alloc, wide->memory_size, 1);
     if (!wide->memory) return false;
     size_t gap = (PACKED_BLOCK - (uintptr_t)wide->memory % PACKED_BLOCK) % PACKED_BLOCK;
     wide->nodes = (wide_node *)(void *)((uint8_t *)wide->memory + gap);
@@ -226,17 +226,17 @@ static void set_frame(tree_wide *wide, const tree_meta *m) {
 froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
     *out = NULL;
     if (!fits(t)) return FROE_OK;
-    tree_wide *wide = base_calloc(&t->alloc, 1, sizeof *wide);
+    tree_wide *wide = support_calloc(&t->alloc, 1, sizeof *wide);
     if (!wide) return FROE_E_MEMORY;
     widening w = {.tree = t, .wide = wide};
     set_frame(wide, &t->meta);
-    w.boxes = base_calloc(&t->alloc, t->node_count, sizeof *w.boxes);
-    w.forests = base_calloc(&t->alloc, t->node_count, sizeof *w.forests);
+    w.boxes = support_calloc(&t->alloc, t->node_count, sizeof *w.boxes);
+    w.forests = support_calloc(&t->alloc, t->node_count, sizeof *w.forests);
     bool made = w.boxes && w.forests;
     if (made) find_boxes(&w);
     made = made && make_nodes(&w) && place_nodes(&w);
-    base_free(&t->alloc, w.boxes, t->node_count * sizeof *w.boxes);
-    base_free(&t->alloc, w.forests, t->node_count * sizeof *w.forests);
+    support_free(&t->alloc, w.boxes, t->node_count * sizeof *w.boxes);
+    support_free(&t->alloc, w.forests, t->node_count * sizeof *w.forests);
     array_free(&t->alloc, &w.todo);
     array_free(&t->alloc, &w.nodes);
     if (made)
@@ -248,8 +248,8 @@ froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
 
 void tree_wide_free(const froe_allocator *alloc, tree_wide *wide) {
     if (!wide) return;
-    base_free(alloc, wide->memory, wide->memory_size);
-    base_free(alloc, wide, sizeof *wide);
+    support_free(alloc, wide->memory, wide->memory_size);
+    support_free(alloc, wide, sizeof *wide);
 }
 
 uint64_t tree_wide_bytes(const tree_wide *wide) {

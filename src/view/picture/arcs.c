@@ -106,13 +106,13 @@ froe_status view_find_arcs(view_parts *parts, view_sights *sights, uint64_t most
     finder f = {.parts = parts, .sights = sights, .arcs = arcs, .most = most, .tests = tests};
     const size_t part_count = parts->parts.count, node_count = parts->nodes.count;
     arcs->count = 0;
-    f.stamps = base_calloc(alloc, part_count + 1, sizeof *f.stamps);
-    f.known = base_calloc(alloc, node_count + 1, sizeof *f.known);
+    f.stamps = support_calloc(alloc, part_count + 1, sizeof *f.stamps);
+    f.known = support_calloc(alloc, node_count + 1, sizeof *f.known);
     froe_status status = f.stamps && f.known ? FROE_OK : FROE_E_MEMORY;
     if (!status) status = view_grid_new(alloc, parts->view, part_count, arc_points, parts, &f.grid);
     for (uint32_t i = 0; i < parts->v->piece_count && !status; i++) status = compare_piece(&f, i);
-    base_free(alloc, f.stamps, (part_count + 1) * sizeof *f.stamps);
-    base_free(alloc, f.known, (node_count + 1) * sizeof *f.known);
+    support_free(alloc, f.stamps, (part_count + 1) * sizeof *f.stamps);
+    support_free(alloc, f.known, (node_count + 1) * sizeof *f.known);
     view_grid_free(alloc, &f.grid);
     array_free(alloc, &f.piece);
     array_free(alloc, &f.ring);

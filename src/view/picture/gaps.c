@@ -149,12 +149,12 @@ froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection
     const size_t n = segments->count;
     g.same[0] = 2.5e-6 * (view->width + view->height);
     g.same[1] = 20 * g.same[0];
-    g.stamps = base_calloc(alloc, n + 1, sizeof *g.stamps);
+    g.stamps = support_calloc(alloc, n + 1, sizeof *g.stamps);
     froe_status status = g.stamps ? FROE_OK : FROE_E_MEMORY;
     if (!status) status = view_grid_new(alloc, view, n, gap_points, segments, &g.grid);
     for (uint32_t i = 0; !status && i < n; i++)
         if (!compare_all(&g, i) || !put_rest(&g, i)) status = FROE_E_MEMORY;
-    base_free(alloc, g.stamps, (n + 1) * sizeof *g.stamps);
+    support_free(alloc, g.stamps, (n + 1) * sizeof *g.stamps);
     view_grid_free(alloc, &g.grid);
     array_free(alloc, &g.gaps);
     array_free(alloc, &g.order);

@@ -32,16 +32,16 @@ froe_status view_graph_new(const froe_allocator *alloc, uint32_t nodes, graph_ar
                            view_graph *out) {
     *out = (view_graph){.count = nodes};
     if (arc_count > INT32_MAX) return FROE_E_LIMIT;
-    base_pair *pairs = base_calloc(alloc, 2 * arc_count + 1, sizeof *pairs);
+    base_pair *pairs = support_calloc(alloc, 2 * arc_count + 1, sizeof *pairs);
     if (!pairs) return FROE_E_MEMORY;
     const size_t kept = unique(arcs, pairs, arc_count);
-    base_free(alloc, pairs, (2 * arc_count + 1) * sizeof *pairs);
+    support_free(alloc, pairs, (2 * arc_count + 1) * sizeof *pairs);
     out->arc_count = (uint32_t)kept;
-    out->out_starts = base_calloc(alloc, (size_t)nodes + 2, sizeof *out->out_starts);
-    out->in_starts = base_calloc(alloc, (size_t)nodes + 2, sizeof *out->in_starts);
-    out->outs = base_calloc(alloc, kept + 1, sizeof *out->outs);
-    out->ins = base_calloc(alloc, kept + 1, sizeof *out->ins);
-    out->late = base_calloc(alloc, (size_t)nodes + 1, 1);
+    out->out_starts = support_calloc(alloc, (size_t)nodes + 2, sizeof *out->out_starts);
+    out->in_starts = support_calloc(alloc, (size_t)nodes + 2, sizeof *out->in_starts);
+    out->outs = support_calloc(alloc, kept + 1, sizeof *out->outs);
+    out->ins = support_calloc(alloc, kept + 1, sizeof *out->ins);
+    out->late = support_calloc(alloc, (size_t)nodes + 1, 1);
     if (!out->out_starts || !out->in_starts || !out->outs || !out->ins || !out->late) return FROE_E_MEMORY;
     list(arcs, kept, nodes, true, out->out_starts, out->outs);
     list(arcs, kept, nodes, false, out->in_starts, out->ins);
@@ -50,11 +50,11 @@ froe_status view_graph_new(const froe_allocator *alloc, uint32_t nodes, graph_ar
 
 void view_graph_free(const froe_allocator *alloc, view_graph *g) {
     const size_t nodes = g->count, arcs = g->arc_count;
-    base_free(alloc, g->out_starts, (nodes + 2) * sizeof *g->out_starts);
-    base_free(alloc, g->in_starts, (nodes + 2) * sizeof *g->in_starts);
-    base_free(alloc, g->outs, (arcs + 1) * sizeof *g->outs);
-    base_free(alloc, g->ins, (arcs + 1) * sizeof *g->ins);
-    base_free(alloc, g->late, nodes + 1);
+    support_free(alloc, g->out_starts, (nodes + 2) * sizeof *g->out_starts);
+    support_free(alloc, g->in_starts, (nodes + 2) * sizeof *g->in_starts);
+    support_free(alloc, g->outs, (arcs + 1) * sizeof *g->outs);
+    support_free(alloc, g->ins, (arcs + 1) * sizeof *g->ins);
+    support_free(alloc, g->late, nodes + 1);
     *g = (view_graph){0};
 }
 
@@ -136,7 +136,7 @@ static uint64_t degree(const breaker *b, const uint32_t *starts, const uint32_t 
 static bool choose_late(breaker *b, const uint32_t *nodes, size_t count) {
     const view_graph *g = b->g;
     const size_t wanted = 1 + count / 512;
-    base_pair *best = base_calloc(b->alloc, 2 * count, sizeof *best);
+    base_pair *best = support_calloc(b->alloc, 2 * count, sizeof *best);
     if (!best) return false;
     b->set_number++;
     for (size_t i = 0; i < count; i++) b->set[nodes[i]] = b->set_number;
@@ -157,7 +157,7 @@ static bool choose_late(breaker *b, const uint32_t *nodes, size_t count) {
         b->g->late_count++;
         b->set[best[i].value] = 0;
     }
-    base_free(b->alloc, best, 2 * count * sizeof *best);
+    support_free(b->alloc, best, 2 * count * sizeof *best);
     return true;
 }
 
@@ -207,15 +207,15 @@ static bool break_all(breaker *b) {
 froe_status view_graph_break(const froe_allocator *alloc, view_graph *graph, const uint8_t *fixed) {
     const size_t n = (size_t)graph->count + 1;
     breaker b = {.alloc = alloc, .g = graph, .fixed = fixed, .first_round = true};
-    b.set = base_calloc(alloc, n, sizeof *b.set);
-    b.index = base_calloc(alloc, n, sizeof *b.index);
-    b.low = base_calloc(alloc, n, sizeof *b.low);
-    b.on_stack = base_calloc(alloc, n, 1);
+    b.set = support_calloc(alloc, n, sizeof *b.set);
+    b.index = support_calloc(alloc, n, sizeof *b.index);
+    b.low = support_calloc(alloc, n, sizeof *b.low);
+    b.on_stack = support_calloc(alloc, n, 1);
     const bool ok = break_all(&b);
-    base_free(alloc, b.set, n * sizeof *b.set);
-    base_free(alloc, b.index, n * sizeof *b.index);
-    base_free(alloc, b.low, n * sizeof *b.low);
-    base_free(alloc, b.on_stack, n);
+    support_free(alloc, b.set, n * sizeof *b.set);
+    support_free(alloc, b.index, n * sizeof *b.index);
+    support_free(alloc, b.low, n * sizeof *b.low);
+    support_free(alloc, b.on_stack, n);
     array_free(alloc, &b.nodes);
     array_free(alloc, &b.sets);
     array_free(alloc, &b.calls);

@@ -7,7 +7,7 @@
  * component) by taking the node with the greatest product of arcs in and arcs out, repeatedly. */
 #ifndef FROE_VIEW_PICTURE_GRAPH_H
 #define FROE_VIEW_PICTURE_GRAPH_H
-#include "base/array.h"
+#include "support/array.h"
 
 typedef struct graph_arc {
     uint32_t from, to;

@@ -76,8 +76,8 @@ froe_status view_grid_new(const froe_allocator *alloc, const froe_projection *vi
     const filler f = {out, count, fn, user};
     choose_cells(&f, view);
     const size_t cells = (size_t)out->cells * out->cells;
-    out->starts = base_calloc(alloc, cells + 1, sizeof *out->starts);
-    if (out->entry_count < UINT32_MAX) out->entries = base_calloc(alloc, out->entry_count + 1, sizeof *out->entries);
+    out->starts = support_calloc(alloc, cells + 1, sizeof *out->starts);
+    if (out->entry_count < UINT32_MAX) out->entries = support_calloc(alloc, out->entry_count + 1, sizeof *out->entries);
     if (!out->starts || !out->entries) return FROE_E_MEMORY;
     fill_grid(&f, true);
     for (size_t i = 1; i <= cells; i++) out->starts[i] += out->starts[i - 1]; /* ends, which filling lowers to starts */
@@ -86,7 +86,7 @@ froe_status view_grid_new(const froe_allocator *alloc, const froe_projection *vi
 }
 
 void view_grid_free(const froe_allocator *alloc, view_grid *g) {
-    base_free(alloc, g->starts, ((size_t)g->cells * g->cells + 1) * sizeof *g->starts);
-    base_free(alloc, g->entries, (g->entry_count + 1) * sizeof *g->entries);
+    support_free(alloc, g->starts, ((size_t)g->cells * g->cells + 1) * sizeof *g->starts);
+    support_free(alloc, g->entries, (g->entry_count + 1) * sizeof *g->entries);
     *g = (view_grid){0};
 }

@@ -39,7 +39,7 @@ static bool print_pieces(sorter *s) {
         if (!view_print_visible(&s->p->parts, i, &s->points)) return false;
         s->starts.data[s->starts.count++] = (uint32_t)s->points.count;
     }
-    s->stamps = base_calloc(alloc, (size_t)n + 1, sizeof *s->stamps);
+    s->stamps = support_calloc(alloc, (size_t)n + 1, sizeof *s->stamps);
     return s->stamps && !view_grid_new(alloc, s->p->options->view, n, line_points, s, &s->grid);
 }
 
@@ -199,16 +199,16 @@ static froe_status sort(sorter *s, view_graph *g) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     const uint32_t faces = s->p->graph.count, n = faces + (uint32_t)s->lines.count;
     froe_status status = view_graph_new(alloc, n, s->arcs.data, s->arcs.count, g);
-    uint8_t *fixed = base_calloc(alloc, (size_t)n + 1, 1);
-    uint32_t *order = base_calloc(alloc, (size_t)n + 1, sizeof *order);
-    s->p->breaks = base_calloc(alloc, (size_t)faces + 1, 1);
+    uint8_t *fixed = support_calloc(alloc, (size_t)n + 1, 1);
+    uint32_t *order = support_calloc(alloc, (size_t)n + 1, sizeof *order);
+    s->p->breaks = support_calloc(alloc, (size_t)faces + 1, 1);
     if (!status && (!fixed || !order || !s->p->breaks)) status = FROE_E_MEMORY;
     for (uint32_t v = 0; !status && v < faces; v++) fixed[v] = 1;
     if (!status) status = view_graph_break(alloc, g, fixed);
     if (!status) status = view_sort_nodes(s->p, g, order);
     if (!status) take_order(s, g, order);
-    base_free(alloc, fixed, (size_t)n + 1);
-    base_free(alloc, order, ((size_t)n + 1) * sizeof *order);
+    support_free(alloc, fixed, (size_t)n + 1);
+    support_free(alloc, order, ((size_t)n + 1) * sizeof *order);
     return status;
 }
 
@@ -222,7 +222,7 @@ froe_status view_interleave(view_painter *p) {
     const froe_status status = ok ? sort(&s, &g) : FROE_E_MEMORY;
     view_graph_free(alloc, &g);
     view_grid_free(alloc, &s.grid);
-    base_free(alloc, s.stamps, ((size_t)p->v->piece_count + 1) * sizeof *s.stamps);
+    support_free(alloc, s.stamps, ((size_t)p->v->piece_count + 1) * sizeof *s.stamps);
     array_free(alloc, &s.points);
     array_free(alloc, &s.starts);
     array_free(alloc, &s.nearer);

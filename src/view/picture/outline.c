@@ -7,7 +7,7 @@ froe_status view_outliner_new(view_outliner *o, view_sights *sights, const froe_
     const size_t n = (size_t)sights->tree->scene->vertex_count + 1;
     *o = (view_outliner){.alloc = sights->alloc, .sights = sights, .view = view, .cull_back = cull_back};
     o->press = (print_press){.alloc = sights->alloc, .view = view};
-    o->first_side = base_calloc(&o->alloc, n, sizeof *o->first_side);
+    o->first_side = support_calloc(&o->alloc, n, sizeof *o->first_side);
     if (!o->first_side) return FROE_E_MEMORY;
     memset(o->first_side, 0xff, n * sizeof *o->first_side);
     return FROE_OK;
@@ -15,7 +15,7 @@ froe_status view_outliner_new(view_outliner *o, view_sights *sights, const froe_
 
 void view_outliner_free(view_outliner *o) {
     if (!o->sights) return;
-    base_free(&o->alloc, o->first_side, ((size_t)o->sights->tree->scene->vertex_count + 1) * sizeof *o->first_side);
+    support_free(&o->alloc, o->first_side, ((size_t)o->sights->tree->scene->vertex_count + 1) * sizeof *o->first_side);
     array_free(&o->alloc, &o->sides);
     array_free(&o->alloc, &o->starts);
     array_free(&o->alloc, &o->ring);

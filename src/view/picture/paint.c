@@ -5,7 +5,7 @@ froe_status view_leave_out(view_painter *p) {
     const froe_visibility *v = p->v;
     froe_picture_report *report = &p->picture->report;
     print_ring ring = {0};
-    bool ok = (p->left_out = base_calloc(&v->alloc, (size_t)v->surface->patch_count + 1, 1)) != NULL;
+    bool ok = (p->left_out = support_calloc(&v->alloc, (size_t)v->surface->patch_count + 1, 1)) != NULL;
     for (uint32_t patch = 0; ok && patch < v->surface->patch_count; patch++) {
         const uint32_t first = v->patch_starts[patch], end = v->patch_starts[patch + 1];
         double area = 0;
@@ -142,7 +142,7 @@ static bool put_whole_patch(view_painter *p, uint32_t patch, uint32_t node) {
 
 static froe_status begin_outlines(view_painter *p) {
     const froe_status status = view_outliner_new(&p->outliner, p->sights, p->options->view, p->options->cull_back);
-    p->runs = base_calloc(&p->picture->alloc, (size_t)p->v->surface->patch_count + 1, sizeof *p->runs);
+    p->runs = support_calloc(&p->picture->alloc, (size_t)p->v->surface->patch_count + 1, sizeof *p->runs);
     if (status || !p->runs) return FROE_E_MEMORY;
     number_runs(p);
     p->outliner.underlap = p->options->underlap;
@@ -153,7 +153,7 @@ static froe_status begin_outlines(view_painter *p) {
 }
 
 froe_status view_paint_whole(view_painter *p) {
-    p->painted = base_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->painted);
+    p->painted = support_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->painted);
     if (!p->painted || begin_outlines(p)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < p->graph.count; i++) {
         const uint32_t v = p->order[i];
@@ -175,7 +175,7 @@ froe_status view_paint_whole(view_painter *p) {
 static base_pair *list_by_style(view_painter *p, size_t *count) {
     const froe_visibility *v = p->v;
     const uint32_t patches = v->surface->patch_count;
-    base_pair *pairs = base_calloc(&p->picture->alloc, 2 * (size_t)patches + 1, sizeof *pairs);
+    base_pair *pairs = support_calloc(&p->picture->alloc, 2 * (size_t)patches + 1, sizeof *pairs);
     *count = 0;
     for (uint32_t i = 0; pairs && i < patches; i++)
         if (v->patch_starts[i] < v->patch_starts[i + 1] && !is_left_out(p, i))
@@ -189,7 +189,7 @@ froe_status view_paint_regions(view_painter *p) {
     base_pair *pairs = list_by_style(p, &count);
     bool ok = pairs != NULL;
     for (size_t i = 0; ok && i < count; i++) ok = put_region(p, pairs[i].value, FROE_NONE);
-    base_free(&p->picture->alloc, pairs, (2 * (size_t)p->v->surface->patch_count + 1) * sizeof *pairs);
+    support_free(&p->picture->alloc, pairs, (2 * (size_t)p->v->surface->patch_count + 1) * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -220,10 +220,10 @@ static bool put_piece(view_painter *p, uint32_t piece) {
 
 froe_status view_paint_fragments(view_painter *p) {
     const size_t room = 2 * (size_t)p->v->piece_count + 1;
-    base_pair *pairs = base_calloc(&p->picture->alloc, room, sizeof *pairs);
+    base_pair *pairs = support_calloc(&p->picture->alloc, room, sizeof *pairs);
     const size_t count = pairs ? list_pieces(p->v, pairs) : 0;
     bool ok = pairs != NULL;
     for (size_t i = 0; ok && i < count; i++) ok = put_piece(p, pairs[i].value);
-    base_free(&p->picture->alloc, pairs, room * sizeof *pairs);
+    support_free(&p->picture->alloc, pairs, room * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

@@ -6,18 +6,18 @@ froe_status view_parts_new(view_parts *p, const froe_visibility *v, const froe_p
     const uint32_t patches = v->surface->patch_count;
     *p = (view_parts){.v = v, .view = view, .places = places, .clear = places != NULL, .cull_back = cull_back};
     p->press = (print_press){.alloc = v->alloc, .view = view};
-    p->split = base_calloc(&v->alloc, (size_t)patches + 1, 1);
-    p->node_of_patch = base_calloc(&v->alloc, (size_t)patches + 1, sizeof *p->node_of_patch);
-    p->node_of = base_calloc(&v->alloc, (size_t)v->piece_count + 1, sizeof *p->node_of);
+    p->split = support_calloc(&v->alloc, (size_t)patches + 1, 1);
+    p->node_of_patch = support_calloc(&v->alloc, (size_t)patches + 1, sizeof *p->node_of_patch);
+    p->node_of = support_calloc(&v->alloc, (size_t)v->piece_count + 1, sizeof *p->node_of);
     return p->split && p->node_of_patch && p->node_of ? FROE_OK : FROE_E_MEMORY;
 }
 
 void view_parts_free(view_parts *p) {
     if (!p->v) return;
     const froe_allocator *alloc = &p->v->alloc;
-    base_free(alloc, p->split, (size_t)p->v->surface->patch_count + 1);
-    base_free(alloc, p->node_of_patch, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->node_of_patch);
-    base_free(alloc, p->node_of, ((size_t)p->v->piece_count + 1) * sizeof *p->node_of);
+    support_free(alloc, p->split, (size_t)p->v->surface->patch_count + 1);
+    support_free(alloc, p->node_of_patch, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->node_of_patch);
+    support_free(alloc, p->node_of, ((size_t)p->v->piece_count + 1) * sizeof *p->node_of);
     array_free(alloc, &p->nodes);
     array_free(alloc, &p->parts);
     array_free(alloc, &p->kinds);

@@ -1,7 +1,7 @@
 /* picture.c: the public calls for pictures: look, plan, paint. */
 #include "view/picture/picture.h"
 #include "base/floats.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include "view/visibility/order.h"
 #include <math.h>
 
@@ -49,7 +49,7 @@ static froe_status find_kinds(const view_painter *p, const froe_tree *tree, cons
     status = view_sights_new(&sights, tree, surface, &eye, NULL, 0, &p->picture->alloc);
     if (!status) view_line_kinds(&sights, p->options->lines, p->options->crease, kinds);
     view_sights_free(&sights);
-    return status ? base_fail_memory(diag) : FROE_OK;
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 static froe_status look_for_picture(view_painter *p, const froe_tree *tree, const froe_surface *surface,
@@ -91,7 +91,7 @@ static froe_status plan_fills(view_painter *p) {
     report->paint = p->options->paint;
     if (p->options->no_fills) return FROE_OK;
     if (p->options->paint == FROE_PAINT_WHOLE && sees_through(p->options, p->v->surface)) {
-        p->places = base_calloc(&p->picture->alloc, (size_t)p->v->tree->piece_count + 1, sizeof *p->places);
+        p->places = support_calloc(&p->picture->alloc, (size_t)p->v->tree->piece_count + 1, sizeof *p->places);
         status = p->places ? view_find_places(p->v, p->options->priorities, p->places) : FROE_E_MEMORY;
     }
     if (!status) status = view_parts_new(&p->parts, p->v, p->options->view, p->places, p->options->cull_back);
@@ -116,7 +116,7 @@ static froe_status paint_fills(view_painter *p) {
 
 static froe_status note_styles(view_painter *p) {
     froe_picture *picture = p->picture;
-    picture->styles = base_calloc(&picture->alloc, picture->shapes.count + 1, sizeof *picture->styles);
+    picture->styles = support_calloc(&picture->alloc, picture->shapes.count + 1, sizeof *picture->styles);
     if (!picture->styles) return FROE_E_MEMORY;
     for (size_t i = 0; p->options->styles && i < picture->shapes.count; i++)
         picture->styles[i] = p->options->styles[picture->shapes.data[i].patch];
@@ -133,15 +133,15 @@ static void free_painter(view_painter *p) {
     view_graph_free(alloc, &p->graph);
     array_free(alloc, &p->arcs);
     view_region_free(alloc, &p->region);
-    base_free(alloc, p->order, (p->parts.nodes.count + 1) * sizeof *p->order);
-    base_free(alloc, p->breaks, p->parts.nodes.count + 1);
+    support_free(alloc, p->order, (p->parts.nodes.count + 1) * sizeof *p->order);
+    support_free(alloc, p->breaks, p->parts.nodes.count + 1);
     array_free(alloc, &p->items);
     array_free(alloc, &p->segments);
-    base_free(alloc, p->painted, (p->parts.nodes.count + 1) * sizeof *p->painted);
+    support_free(alloc, p->painted, (p->parts.nodes.count + 1) * sizeof *p->painted);
     if (p->v) {
-        base_free(alloc, p->places, ((size_t)p->v->tree->piece_count + 1) * sizeof *p->places);
-        base_free(alloc, p->left_out, (size_t)p->v->surface->patch_count + 1);
-        base_free(alloc, p->runs, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->runs);
+        support_free(alloc, p->places, ((size_t)p->v->tree->piece_count + 1) * sizeof *p->places);
+        support_free(alloc, p->left_out, (size_t)p->v->surface->patch_count + 1);
+        support_free(alloc, p->runs, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->runs);
     }
     view_parts_free(&p->parts);
     froe_visibility_free(p->v);
@@ -149,8 +149,8 @@ static void free_painter(view_painter *p) {
 
 static froe_status make_picture(view_painter *p, const froe_tree *tree, const froe_surface *surface,
                                 froe_diagnostic *diag) {
-    uint8_t *kinds = base_calloc(&p->picture->alloc, (size_t)surface->edge_count + 1, 1);
-    if (!kinds) return base_fail_memory(diag);
+    uint8_t *kinds = support_calloc(&p->picture->alloc, (size_t)surface->edge_count + 1, 1);
+    if (!kinds) return support_fail_memory(diag);
     froe_status status = p->options->lines ? find_kinds(p, tree, surface, kinds, diag) : FROE_OK;
     if (!status) status = look_for_picture(p, tree, surface, kinds, diag);
     if (!status) {
@@ -159,10 +159,10 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
         if (!status) status = paint_fills(p);
         if (!status) status = view_make_strokes(p);
         if (!status) status = note_styles(p);
-        if (status == FROE_E_MEMORY) base_fail_memory(diag);
-        if (status == FROE_E_LIMIT) base_fail(diag, status, "the picture has more than 2^31 points or demands");
+        if (status == FROE_E_MEMORY) support_fail_memory(diag);
+        if (status == FROE_E_LIMIT) support_fail(diag, status, "the picture has more than 2^31 points or demands");
     }
-    base_free(&p->picture->alloc, kinds, (size_t)surface->edge_count + 1);
+    support_free(&p->picture->alloc, kinds, (size_t)surface->edge_count + 1);
     return status;
 }
 
@@ -170,31 +170,32 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
 
 static froe_status check_picture_options(const froe_picture_options *o, froe_diagnostic *diag) {
     if (!o || o->size != sizeof *o)
-        return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_picture_defaults()");
-    if (!o->view) return base_fail(diag, FROE_E_ARG, "there is no view");
+        return support_fail(diag, FROE_E_OPTIONS, "the options are not from froe_picture_defaults()");
+    if (!o->view) return support_fail(diag, FROE_E_ARG, "there is no view");
     if (o->paint < 0 || o->paint >= FROE_PAINT_COUNT)
-        return base_fail(diag, FROE_E_OPTIONS, "no such paint: %d", (int)o->paint);
+        return support_fail(diag, FROE_E_OPTIONS, "no such paint: %d", (int)o->paint);
     if (!(o->underlap >= 0) || !isfinite(o->underlap))
-        return base_fail(diag, FROE_E_OPTIONS, "an underlap of %g is none", o->underlap);
+        return support_fail(diag, FROE_E_OPTIONS, "an underlap of %g is none", o->underlap);
     if (!(o->min_area >= 0) || !isfinite(o->min_area))
-        return base_fail(diag, FROE_E_OPTIONS, "a least area of %g is none", o->min_area);
-    if (!(o->halo >= 0) || !isfinite(o->halo)) return base_fail(diag, FROE_E_OPTIONS, "a halo of %g is none", o->halo);
+        return support_fail(diag, FROE_E_OPTIONS, "a least area of %g is none", o->min_area);
+    if (!(o->halo >= 0) || !isfinite(o->halo))
+        return support_fail(diag, FROE_E_OPTIONS, "a halo of %g is none", o->halo);
     if (!(o->interleave >= 0) || !isfinite(o->interleave))
-        return base_fail(diag, FROE_E_OPTIONS, "lines that reach %g cannot be interleaved", o->interleave);
+        return support_fail(diag, FROE_E_OPTIONS, "lines that reach %g cannot be interleaved", o->interleave);
     if (!(o->crease >= 0 && o->crease <= 180))
-        return base_fail(diag, FROE_E_OPTIONS, "a crease angle of %g degrees is not in 0 .. 180", o->crease);
+        return support_fail(diag, FROE_E_OPTIONS, "a crease angle of %g degrees is not in 0 .. 180", o->crease);
     return FROE_OK;
 }
 
 froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface, const froe_picture_options *options,
                              froe_picture **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !surface || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!tree || !surface || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check_picture_options(options, diag);
     if (status) return status;
-    const froe_allocator alloc = base_allocator(options->alloc);
-    froe_picture *picture = base_calloc(&alloc, 1, sizeof *picture);
-    if (!picture) return base_fail_memory(diag);
+    const froe_allocator alloc = support_allocator(options->alloc);
+    froe_picture *picture = support_calloc(&alloc, 1, sizeof *picture);
+    if (!picture) return support_fail_memory(diag);
     picture->alloc = alloc;
     view_painter p = {.picture = picture, .options = options};
     status = make_picture(&p, tree, surface, diag);
@@ -210,13 +211,13 @@ froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
 void froe_picture_free(froe_picture *p) {
     if (!p) return;
     const froe_allocator alloc = p->alloc;
-    base_free(&alloc, p->styles, (p->shapes.count + 1) * sizeof *p->styles);
+    support_free(&alloc, p->styles, (p->shapes.count + 1) * sizeof *p->styles);
     array_free(&alloc, &p->shapes);
     array_free(&alloc, &p->points);
     array_free(&alloc, &p->ring_ends);
     array_free(&alloc, &p->strokes);
     array_free(&alloc, &p->stroke_points);
-    base_free(&alloc, p, sizeof *p);
+    support_free(&alloc, p, sizeof *p);
 }
 
 /* ---------------------------------------------------------------------- reading -- */

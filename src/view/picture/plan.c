@@ -32,11 +32,11 @@ static froe_status find_graph(view_painter *p) {
     if (!status) status = view_graph_new(alloc, (uint32_t)p->parts.nodes.count, p->arcs.data, p->arcs.count, &p->graph);
     if (status) return status;
     const size_t n = p->parts.nodes.count;
-    uint8_t *fixed = base_calloc(alloc, n + 1, 1);
+    uint8_t *fixed = support_calloc(alloc, n + 1, 1);
     if (!fixed) return FROE_E_MEMORY;
     for (size_t i = 0; i < n; i++) fixed[i] = p->parts.nodes.data[i].piece != FROE_NONE;
     status = view_graph_break(alloc, &p->graph, fixed);
-    base_free(alloc, fixed, n + 1);
+    support_free(alloc, fixed, n + 1);
     report->arcs = p->graph.arc_count;
     if (!report->cyclic) report->cyclic = p->graph.cyclic;
     return status;
@@ -63,13 +63,13 @@ static uint32_t style_of_node(const view_painter *p, uint32_t v, uint32_t lines)
 
 froe_status view_sort_nodes(const view_painter *p, const view_graph *graph, uint32_t *order) {
     const froe_allocator *alloc = &p->picture->alloc;
-    uint32_t lines = 0, *styles = base_calloc(alloc, (size_t)graph->count + 1, sizeof *styles);
+    uint32_t lines = 0, *styles = support_calloc(alloc, (size_t)graph->count + 1, sizeof *styles);
     if (!styles) return FROE_E_MEMORY;
     for (uint32_t v = 0; v < p->parts.nodes.count; v++)
         if (style_of_node(p, v, 0) >= lines) lines = style_of_node(p, v, 0) + 1;
     for (uint32_t v = 0; v < graph->count; v++) styles[v] = style_of_node(p, v, lines);
     const froe_status status = view_graph_sort(alloc, graph, styles, lines + 1, order);
-    base_free(alloc, styles, ((size_t)graph->count + 1) * sizeof *styles);
+    support_free(alloc, styles, ((size_t)graph->count + 1) * sizeof *styles);
     return status;
 }
 
@@ -80,7 +80,7 @@ froe_status view_plan_whole(view_painter *p) {
     while (!status && clear && split_late(p)) status = find_graph(p);
     if (!clear) p->picture->report.late = p->graph.late_count;
     if (status) return status;
-    p->order = base_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->order);
+    p->order = support_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->order);
     if (!p->order) return FROE_E_MEMORY;
     return p->options->interleave > 0 ? view_interleave(p) : view_sort_nodes(p, &p->graph, p->order);
 }

@@ -9,8 +9,8 @@ static bool number_nodes(view_seams *s, const uint32_t *order, const uint8_t *br
     const froe_allocator *alloc = &s->parts->v->alloc;
     const size_t n = s->parts->nodes.count;
     uint32_t run = 0, last = FROE_NONE;
-    s->place = base_calloc(alloc, n + 1, sizeof *s->place);
-    s->run = base_calloc(alloc, n + 1, sizeof *s->run);
+    s->place = support_calloc(alloc, n + 1, sizeof *s->place);
+    s->run = support_calloc(alloc, n + 1, sizeof *s->run);
     if (!s->place || !s->run) return false;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t patch = s->parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
@@ -50,8 +50,8 @@ froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *ord
 void view_seams_free(view_seams *s) {
     if (!s->parts) return;
     const froe_allocator *alloc = &s->parts->v->alloc;
-    base_free(alloc, s->place, (s->parts->nodes.count + 1) * sizeof *s->place);
-    base_free(alloc, s->run, (s->parts->nodes.count + 1) * sizeof *s->run);
+    support_free(alloc, s->place, (s->parts->nodes.count + 1) * sizeof *s->place);
+    support_free(alloc, s->run, (s->parts->nodes.count + 1) * sizeof *s->run);
     view_grid_free(alloc, &s->grid);
     array_free(alloc, &s->points);
     array_free(alloc, &s->pieces);

@@ -90,7 +90,7 @@ static bool number_crossings(view_painter *p) {
     const size_t most = 2 * p->segments.count;
     const double fine = 1e9 / (p->options->view->width + p->options->view->height);
     uint32_t number = p->sights->tree->scene->vertex_count;
-    base_pair *pairs = base_calloc(&p->picture->alloc, 2 * most + 1, sizeof *pairs);
+    base_pair *pairs = support_calloc(&p->picture->alloc, 2 * most + 1, sizeof *pairs);
     size_t n = 0;
     for (uint32_t i = 0; pairs && i < most; i++) {
         const print_point at = p->segments.data[i / 2].at[i % 2];
@@ -103,7 +103,7 @@ static bool number_crossings(view_painter *p) {
         number += i && pairs[i].key != pairs[i - 1].key;
         p->segments.data[pairs[i].value / 2].vertex[pairs[i].value % 2] = number;
     }
-    base_free(&p->picture->alloc, pairs, (2 * most + 1) * sizeof *pairs);
+    support_free(&p->picture->alloc, pairs, (2 * most + 1) * sizeof *pairs);
     return pairs != NULL;
 }
 

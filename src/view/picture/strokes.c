@@ -114,9 +114,9 @@ static bool put_strokes(chainer *c) {
 static bool sort_strokes(chainer *c) {
     froe_picture *picture = c->p->picture;
     const size_t n = picture->strokes.count;
-    base_pair *pairs = base_calloc(c->alloc, 2 * n + 1, sizeof *pairs);
+    base_pair *pairs = support_calloc(c->alloc, 2 * n + 1, sizeof *pairs);
     if (!pairs || !array_reserve(c->alloc, &picture->strokes, n))
-        return base_free(c->alloc, pairs, (2 * n + 1) * sizeof *pairs), false;
+        return support_free(c->alloc, pairs, (2 * n + 1) * sizeof *pairs), false;
     picture_stroke *strokes = picture->strokes.data;
     for (size_t i = 0; i < n; i++) {
         const uint32_t place = strokes[i].place;
@@ -126,7 +126,7 @@ static bool sort_strokes(chainer *c) {
     }
     base_radix_sort(pairs, pairs + n, n);
     for (size_t i = 0; i < n; i++) strokes[i] = strokes[n + pairs[i].value];
-    base_free(c->alloc, pairs, (2 * n + 1) * sizeof *pairs);
+    support_free(c->alloc, pairs, (2 * n + 1) * sizeof *pairs);
     return true;
 }
 

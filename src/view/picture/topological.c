@@ -92,15 +92,15 @@ froe_status view_graph_sort(const froe_allocator *alloc, const view_graph *graph
                             uint32_t style_count, uint32_t *order) {
     const size_t n = (size_t)graph->count + 1, m = (size_t)style_count + 1;
     sorter s = {.alloc = alloc, .g = graph, .styles = styles};
-    s.missing = base_calloc(alloc, n, sizeof *s.missing);
-    s.below = base_calloc(alloc, n, sizeof *s.below);
-    s.top = base_calloc(alloc, m, sizeof *s.top);
-    s.waiting = base_calloc(alloc, m, sizeof *s.waiting);
+    s.missing = support_calloc(alloc, n, sizeof *s.missing);
+    s.below = support_calloc(alloc, n, sizeof *s.below);
+    s.top = support_calloc(alloc, m, sizeof *s.top);
+    s.waiting = support_calloc(alloc, m, sizeof *s.waiting);
     const bool ok = s.missing && s.below && s.top && s.waiting && sort_by_style(&s, order);
-    base_free(alloc, s.missing, n * sizeof *s.missing);
-    base_free(alloc, s.below, n * sizeof *s.below);
-    base_free(alloc, s.top, m * sizeof *s.top);
-    base_free(alloc, s.waiting, m * sizeof *s.waiting);
+    support_free(alloc, s.missing, n * sizeof *s.missing);
+    support_free(alloc, s.below, n * sizeof *s.below);
+    support_free(alloc, s.top, m * sizeof *s.top);
+    support_free(alloc, s.waiting, m * sizeof *s.waiting);
     array_free(alloc, &s.heap);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

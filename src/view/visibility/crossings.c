@@ -192,8 +192,8 @@ static void unite_stretches(view_sights *s, const uint32_t *items, const view_st
 static froe_status join_stretches(view_sights *s, view_stretches *stretches) {
     const size_t n = stretches->count;
     if (n > INT32_MAX) return FROE_E_LIMIT;
-    uint32_t *items = base_calloc(&s->alloc, 2 * n + 1, sizeof *items);
-    view_stretch *copy = base_calloc(&s->alloc, n + 1, sizeof *copy);
+    uint32_t *items = support_calloc(&s->alloc, 2 * n + 1, sizeof *items);
+    view_stretch *copy = support_calloc(&s->alloc, n + 1, sizeof *copy);
     if (items && copy) {
         joiner j = {s, copy};
         if (n) memcpy(copy, stretches->data, n * sizeof *copy);
@@ -202,8 +202,8 @@ static froe_status join_stretches(view_sights *s, view_stretches *stretches) {
         unite_stretches(s, items, copy, stretches);
     }
     const bool ok = items && copy;
-    base_free(&s->alloc, items, (2 * n + 1) * sizeof *items);
-    base_free(&s->alloc, copy, (n + 1) * sizeof *copy);
+    support_free(&s->alloc, items, (2 * n + 1) * sizeof *items);
+    support_free(&s->alloc, copy, (n + 1) * sizeof *copy);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 

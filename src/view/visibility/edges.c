@@ -23,7 +23,7 @@ static uint32_t count_runs(const base_pair *pairs, uint32_t count) {
 }
 
 static uint32_t *take_numbers(const froe_allocator *alloc, size_t count, bool *ok) {
-    uint32_t *out = base_calloc(alloc, count ? count : 1, sizeof *out);
+    uint32_t *out = support_calloc(alloc, count ? count : 1, sizeof *out);
     *ok = *ok && out;
     return out;
 }
@@ -53,7 +53,7 @@ froe_status surface_find_edges(froe_surface *out) {
     const froe_scene *s = out->scene;
     const froe_allocator *alloc = &out->alloc;
     const uint32_t corners = s->object_count ? s->starts[s->object_count] : 0, most = corners ? corners : 1;
-    base_pair *pairs = base_calloc(alloc, 2 * (size_t)most, sizeof *pairs);
+    base_pair *pairs = support_calloc(alloc, 2 * (size_t)most, sizeof *pairs);
     bool ok = pairs != NULL;
     uint32_t *object_of = take_numbers(alloc, most, &ok);
     out->edge_of = take_numbers(alloc, most, &ok);
@@ -70,7 +70,7 @@ froe_status surface_find_edges(froe_surface *out) {
         name_objects(s, object_of);
         fill_edges(out, pairs, object_of);
     }
-    base_free(alloc, object_of, most * sizeof *object_of);
-    base_free(alloc, pairs, 2 * (size_t)most * sizeof *pairs);
+    support_free(alloc, object_of, most * sizeof *object_of);
+    support_free(alloc, pairs, 2 * (size_t)most * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

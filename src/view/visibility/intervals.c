@@ -82,11 +82,11 @@ froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretc
     const uint32_t edges = v->surface->edge_count;
     const size_t n = stretches->count;
     if (n > INT32_MAX) return FROE_E_LIMIT;
-    v->edge_starts = base_calloc(alloc, (size_t)edges + 1, sizeof *v->edge_starts);
+    v->edge_starts = support_calloc(alloc, (size_t)edges + 1, sizeof *v->edge_starts);
     v->interval_room = n + 1;
-    v->intervals = base_calloc(alloc, n + 1, sizeof *v->intervals);
-    v->interval_marks = base_calloc(alloc, 2 * (n + 1), sizeof *v->interval_marks);
-    uint32_t *items = base_calloc(alloc, 2 * n + 1, sizeof *items), *starts = v->edge_starts;
+    v->intervals = support_calloc(alloc, n + 1, sizeof *v->intervals);
+    v->interval_marks = support_calloc(alloc, 2 * (n + 1), sizeof *v->interval_marks);
+    uint32_t *items = support_calloc(alloc, 2 * n + 1, sizeof *items), *starts = v->edge_starts;
     const bool ok = starts && v->intervals && v->interval_marks && items;
     if (ok) distribute(stretches, edges, starts, items);
     for (uint32_t e = 0; ok && e < edges; e++) {
@@ -97,6 +97,6 @@ froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretc
         join_intervals(&j, items + first, count);
     }
     if (ok) starts[edges] = v->interval_count;
-    base_free(alloc, items, (2 * n + 1) * sizeof *items);
+    support_free(alloc, items, (2 * n + 1) * sizeof *items);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

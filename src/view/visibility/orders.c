@@ -1,9 +1,9 @@
 /* orders.c: the public calls for depth orders. Many eyes at once share the work on each cut:
  * first all sides of up to 32 eyes, two bits each in a word per node, then one walk per eye. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "base/task.h"
 #include "geom/selftest.h"
+#include "support/fail.h"
 #include "view/visibility/order.h"
 
 enum { EYES = 32, NODES = 4096 }; /* eyes a word, nodes a job */
@@ -14,10 +14,10 @@ froe_order_options froe_order_defaults(void) {
 
 static froe_status check_orders(const froe_tree *tree, const froe_order_options **options,
                                 const froe_order_options *standard, froe_diagnostic *diag) {
-    if (!tree) return base_fail(diag, FROE_E_ARG, "the tree is NULL");
+    if (!tree) return support_fail(diag, FROE_E_ARG, "the tree is NULL");
     if (!*options) *options = standard;
     if ((*options)->size != sizeof **options)
-        return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_order_defaults()");
+        return support_fail(diag, FROE_E_OPTIONS, "the options are not from froe_order_defaults()");
     return view_order_check(tree, diag);
 }
 
@@ -28,7 +28,7 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
     geom_eye from;
     view_order order;
     uint32_t piece;
-    if (!eye || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!eye || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check_orders(tree, &options, &standard, diag);
     if (!status) status = view_eye_of(tree, eye, &from, diag);
     if (status) return status;
@@ -36,7 +36,7 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
     while (!status && view_order_next(&order, &piece) && base_callback(fn(user, piece))) {
     }
     status = view_order_end(&order) ? FROE_E_MEMORY : status;
-    return status ? base_fail_memory(diag) : FROE_OK;
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 /* ------------------------------------------------------------------ many eyes -- */
@@ -90,29 +90,29 @@ static froe_status run_batches(batch *b, base_task *task, const froe_eye *eyes, 
         if (!status) status = base_run(task, 0.7 * share, b->count, order_of_eye, b);
         b->pieces += b->count * b->tree->piece_count;
     }
-    return status == FROE_E_MEMORY ? base_fail_memory(diag) : status ? base_fail_cancelled(diag) : FROE_OK;
+    return status == FROE_E_MEMORY ? support_fail_memory(diag) : status ? support_fail_cancelled(diag) : FROE_OK;
 }
 
 froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t count,
                              const froe_order_options *options, uint32_t *pieces, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const froe_order_options standard = froe_order_defaults();
-    if (count && (!eyes || !pieces)) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (count && (!eyes || !pieces)) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check_orders(tree, &options, &standard, diag);
     if (status) return status;
     base_task task;
     base_task_init(&task, options->threads, options->progress, options->user);
     batch b = {.tree = tree, .options = options, .pieces = pieces};
-    b.sides = base_calloc(&tree->alloc, tree->node_count, sizeof *b.sides);
-    b.contexts = base_calloc(&tree->alloc, task.threads, sizeof *b.contexts);
+    b.sides = support_calloc(&tree->alloc, tree->node_count, sizeof *b.sides);
+    b.contexts = support_calloc(&tree->alloc, task.threads, sizeof *b.contexts);
     for (unsigned i = 0; b.contexts && i < task.threads && !status; i++)
         status = geom_context_new(&tree->alloc, b.contexts + i);
     if (!b.sides || !b.contexts || status)
-        status = base_fail_memory(diag);
+        status = support_fail_memory(diag);
     else
         status = run_batches(&b, &task, eyes, count, diag);
     for (unsigned i = 0; b.contexts && i < task.threads; i++) num_context_free(b.contexts + i);
-    base_free(&tree->alloc, b.contexts, task.threads * sizeof *b.contexts);
-    base_free(&tree->alloc, b.sides, tree->node_count * sizeof *b.sides);
+    support_free(&tree->alloc, b.contexts, task.threads * sizeof *b.contexts);
+    support_free(&tree->alloc, b.sides, tree->node_count * sizeof *b.sides);
     return status;
 }

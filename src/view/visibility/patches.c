@@ -95,12 +95,12 @@ static void find_straight(froe_surface *s, num_context *context) {
 
 froe_status surface_find_patches(froe_surface *s, num_context *context) {
     const size_t n = s->scene->object_count, corners = n ? s->scene->starts[n] : 0;
-    uint32_t *parent = base_calloc(&s->alloc, n + 1, sizeof *parent);
-    s->patch_of = base_calloc(&s->alloc, n + 1, sizeof *s->patch_of);
-    s->patch_starts = base_calloc(&s->alloc, n + 2, sizeof *s->patch_starts);
-    s->members = base_calloc(&s->alloc, n + 1, sizeof *s->members);
-    s->straight = base_calloc(&s->alloc, corners + 1, sizeof *s->straight);
-    s->inside = base_calloc(&s->alloc, (size_t)s->edge_count + 1, sizeof *s->inside);
+    uint32_t *parent = support_calloc(&s->alloc, n + 1, sizeof *parent);
+    s->patch_of = support_calloc(&s->alloc, n + 1, sizeof *s->patch_of);
+    s->patch_starts = support_calloc(&s->alloc, n + 2, sizeof *s->patch_starts);
+    s->members = support_calloc(&s->alloc, n + 1, sizeof *s->members);
+    s->straight = support_calloc(&s->alloc, corners + 1, sizeof *s->straight);
+    s->inside = support_calloc(&s->alloc, (size_t)s->edge_count + 1, sizeof *s->inside);
     const bool ok = parent && s->patch_of && s->patch_starts && s->members && s->straight && s->inside;
     if (ok) {
         for (uint32_t o = 0; o < n; o++) parent[o] = o;
@@ -108,6 +108,6 @@ froe_status surface_find_patches(froe_surface *s, num_context *context) {
         number(s, parent);
         find_straight(s, context);
     }
-    base_free(&s->alloc, parent, (n + 1) * sizeof *parent);
+    support_free(&s->alloc, parent, (n + 1) * sizeof *parent);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

@@ -1,7 +1,7 @@
 /* regions.c: the public call for visible regions. */
 #include "base/floats.h"
-#include "base/status.h"
 #include "geom/selftest.h"
+#include "support/fail.h"
 #include "view/visibility/region.h"
 
 typedef struct giver {
@@ -30,9 +30,9 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
     BASE_FLOATS_OWN;
     giver g = {.coords = {0}};
     bool go_on = true;
-    if (!v || !fn) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!v || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     view_sights sights = v->sights; /* with a number context of its own: the rest is only read */
-    if (geom_context_new(&v->alloc, &sights.context)) return base_fail_memory(diag);
+    if (geom_context_new(&v->alloc, &sights.context)) return support_fail_memory(diag);
     bool ok = true;
     for (uint32_t p = first; ok && go_on && p < v->surface->patch_count && p - first < count; p++) {
         if (v->patch_starts[p] == v->patch_starts[p + 1]) continue;
@@ -42,5 +42,5 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
     array_free(&v->alloc, &g.coords);
     array_free(&v->alloc, &g.starts);
     num_context_free(&sights.context);
-    return ok ? FROE_OK : base_fail_memory(diag);
+    return ok ? FROE_OK : support_fail_memory(diag);
 }

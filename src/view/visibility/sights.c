@@ -24,9 +24,9 @@ froe_status view_sights_new(view_sights *s, const froe_tree *tree, const froe_su
     froe_status status = geom_context_new(alloc, &s->context);
     if (status) return status;
     const uint32_t objects = tree->scene->object_count, points = sight_point_count(s);
-    s->rays = base_calloc(alloc, (size_t)points + 1, sizeof *s->rays);
-    s->eye_sides = base_calloc(alloc, (size_t)objects + 1, sizeof *s->eye_sides);
-    s->of_edge = base_calloc(alloc, (size_t)surface->edge_count + 1, sizeof *s->of_edge);
+    s->rays = support_calloc(alloc, (size_t)points + 1, sizeof *s->rays);
+    s->eye_sides = support_calloc(alloc, (size_t)objects + 1, sizeof *s->eye_sides);
+    s->of_edge = support_calloc(alloc, (size_t)surface->edge_count + 1, sizeof *s->of_edge);
     if (!s->rays || !s->eye_sides || !s->of_edge) return FROE_E_MEMORY;
     memset(s->eye_sides, 2, objects);
     for (uint32_t i = 0; i < points; i++) s->rays[i] = geom_ray_image(eye, view_vertex(s, i));
@@ -34,9 +34,9 @@ froe_status view_sights_new(view_sights *s, const froe_tree *tree, const froe_su
 }
 
 void view_sights_free(view_sights *s) {
-    if (s->rays) base_free(&s->alloc, s->rays, ((size_t)sight_point_count(s) + 1) * sizeof *s->rays);
-    if (s->eye_sides) base_free(&s->alloc, s->eye_sides, (size_t)s->tree->scene->object_count + 1);
-    if (s->of_edge) base_free(&s->alloc, s->of_edge, ((size_t)s->surface->edge_count + 1) * sizeof *s->of_edge);
+    if (s->rays) support_free(&s->alloc, s->rays, ((size_t)sight_point_count(s) + 1) * sizeof *s->rays);
+    if (s->eye_sides) support_free(&s->alloc, s->eye_sides, (size_t)s->tree->scene->object_count + 1);
+    if (s->of_edge) support_free(&s->alloc, s->of_edge, ((size_t)s->surface->edge_count + 1) * sizeof *s->of_edge);
     array_free(&s->alloc, &s->lines);
     scene_table_free(&s->alloc, &s->made);
     num_context_free(&s->context);

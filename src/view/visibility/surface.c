@@ -1,11 +1,11 @@
 /* surface.c: the public calls for patches and edges. */
 #include "view/visibility/surface.h"
 #include "base/floats.h"
-#include "base/status.h"
 #include "geom/selftest.h"
+#include "support/fail.h"
 
 static void free_words(const froe_surface *s, uint32_t *words, size_t count) {
-    base_free(&s->alloc, words, (count ? count : 1) * sizeof *words);
+    support_free(&s->alloc, words, (count ? count : 1) * sizeof *words);
 }
 
 void froe_surface_free(froe_surface *s) {
@@ -16,12 +16,12 @@ void froe_surface_free(froe_surface *s) {
     free_words(s, s->vertices, 2 * (size_t)s->edge_count);
     free_words(s, s->edge_starts, (size_t)s->edge_count + 1);
     free_words(s, s->uses, s->use_count);
-    base_free(&alloc, s->inside, (size_t)s->edge_count + 1);
+    support_free(&alloc, s->inside, (size_t)s->edge_count + 1);
     free_words(s, s->patch_of, n + 1);
     free_words(s, s->patch_starts, n + 2);
     free_words(s, s->members, n + 1);
-    base_free(&alloc, s->straight, corners + 1);
-    base_free(&alloc, s, sizeof *s);
+    support_free(&alloc, s->straight, corners + 1);
+    support_free(&alloc, s, sizeof *s);
 }
 
 static froe_status fill_surface(froe_surface *s) {
@@ -37,17 +37,17 @@ static froe_status fill_surface(froe_surface *s) {
 froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *alloc, froe_surface **out,
                              froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!scene || !out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!scene || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (scene->dim != 3)
-        return base_fail(diag, FROE_E_UNSUPPORTED, "surfaces are in 3 dimensions, this scene has %d", scene->dim);
-    const froe_allocator own = base_allocator(alloc);
-    froe_surface *s = base_calloc(&own, 1, sizeof *s);
-    if (!s) return base_fail_memory(diag);
+        return support_fail(diag, FROE_E_UNSUPPORTED, "surfaces are in 3 dimensions, this scene has %d", scene->dim);
+    const froe_allocator own = support_allocator(alloc);
+    froe_surface *s = support_calloc(&own, 1, sizeof *s);
+    if (!s) return support_fail_memory(diag);
     s->alloc = own;
     s->scene = scene;
     if (fill_surface(s)) {
         froe_surface_free(s);
-        return base_fail_memory(diag);
+        return support_fail_memory(diag);
     }
     *out = s;
     return FROE_OK;

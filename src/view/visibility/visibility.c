@@ -1,6 +1,6 @@
 /* visibility.c: pieces front to back, each sent down the beam tree. */
 #include "base/floats.h"
-#include "base/status.h"
+#include "support/fail.h"
 #include "view/visibility/crossings.h"
 #include "view/visibility/order.h"
 #include <math.h>
@@ -106,10 +106,10 @@ static froe_status look_at_all(looker *k) {
 static froe_status sort_pieces(looker *k) {
     froe_visibility *v = k->v;
     const uint32_t patches = v->surface->patch_count, n = (uint32_t)k->pieces.count;
-    uint32_t *starts = base_calloc(&v->alloc, (size_t)patches + 1, sizeof *starts);
+    uint32_t *starts = support_calloc(&v->alloc, (size_t)patches + 1, sizeof *starts);
     v->patch_starts = starts;
     v->piece_count = n;
-    v->pieces = base_calloc(&v->alloc, (size_t)n + 1, sizeof *v->pieces);
+    v->pieces = support_calloc(&v->alloc, (size_t)n + 1, sizeof *v->pieces);
     if (!starts || !v->pieces) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) starts[k->pieces.data[i].patch + 1]++;
     for (uint32_t p = 0; p < patches; p++) starts[p + 1] += starts[p];
@@ -149,7 +149,7 @@ static froe_status look_from_eye(looker *k, const geom_eye *eye) {
     array_free(&v->alloc, &k->stretches);
     view_crosser_free(&k->crosser);
     array_free(&v->alloc, &k->pieces);
-    base_free(&v->alloc, k->ranks, ((size_t)v->surface->scene->object_count + 1) * sizeof *k->ranks);
+    support_free(&v->alloc, k->ranks, ((size_t)v->surface->scene->object_count + 1) * sizeof *k->ranks);
     return status;
 }
 
@@ -157,21 +157,21 @@ static froe_status look_from_eye(looker *k, const geom_eye *eye) {
 
 static froe_status check_visibility_options(const froe_tree *tree, const froe_surface *surface,
                                             const froe_visibility_options *o, froe_diagnostic *diag) {
-    if (!tree || !surface) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!tree || !surface) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (!o || o->size != sizeof *o)
-        return base_fail(diag, FROE_E_OPTIONS, "the options are not from froe_visibility_defaults()");
-    if (surface->scene != tree->scene) return base_fail(diag, FROE_E_ARG, "the surface is not of the tree's scene");
+        return support_fail(diag, FROE_E_OPTIONS, "the options are not from froe_visibility_defaults()");
+    if (surface->scene != tree->scene) return support_fail(diag, FROE_E_ARG, "the surface is not of the tree's scene");
     if (o->section < -1 || o->section > 1)
-        return base_fail(diag, FROE_E_OPTIONS, "a section is -1, 0 or 1, not %d", o->section);
+        return support_fail(diag, FROE_E_OPTIONS, "a section is -1, 0 or 1, not %d", o->section);
     if (o->section && tree_is_leaf(tree->nodes))
-        return base_fail(diag, FROE_E_OPTIONS, "a tree of a single leaf has no cut to be its section");
+        return support_fail(diag, FROE_E_OPTIONS, "a tree of a single leaf has no cut to be its section");
     if (o->window && (o->window_corners < 3 || o->window_corners > FROE_WINDOW_MOST))
-        return base_fail(diag, FROE_E_OPTIONS, "a window has 3 to %d corners, not %zu", FROE_WINDOW_MOST,
-                         o->window_corners);
+        return support_fail(diag, FROE_E_OPTIONS, "a window has 3 to %d corners, not %zu", FROE_WINDOW_MOST,
+                            o->window_corners);
     for (size_t i = 0; o->window && i < 3 * o->window_corners; i++)
         if (!isfinite(o->window[i]))
-            return base_fail_at(diag, FROE_E_OPTIONS, FROE_NONE, (uint32_t)(i / 3), (uint32_t)(i % 3),
-                                "corner %zu of the window is not finite", i / 3);
+            return support_fail_at(diag, FROE_E_OPTIONS, FROE_NONE, (uint32_t)(i / 3), (uint32_t)(i % 3),
+                                   "corner %zu of the window is not finite", i / 3);
     return view_order_check(tree, diag);
 }
 
@@ -180,13 +180,13 @@ static froe_status failure(froe_status status, froe_diagnostic *diag) {
     case FROE_OK:
         return FROE_OK;
     case FROE_E_MEMORY:
-        return base_fail_memory(diag);
+        return support_fail_memory(diag);
     case FROE_E_INPUT:
-        return base_fail(diag, status, "the window, as the eye sees it, is not strictly convex");
+        return support_fail(diag, status, "the window, as the eye sees it, is not strictly convex");
     case FROE_E_CANCELLED:
-        return base_fail_cancelled(diag);
+        return support_fail_cancelled(diag);
     default:
-        return base_fail(diag, status, "more than 2^31 lines, corners or intervals are visible");
+        return support_fail(diag, status, "more than 2^31 lines, corners or intervals are visible");
     }
 }
 
@@ -194,13 +194,13 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
                                 const froe_visibility_options *options, froe_visibility **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     geom_eye eye;
-    if (!out) return base_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check_visibility_options(tree, surface, options, diag);
     if (!status) status = view_eye_of(tree, &options->eye, &eye, diag);
     if (status) return status;
-    const froe_allocator alloc = base_allocator(options->alloc);
-    froe_visibility *v = base_calloc(&alloc, 1, sizeof *v);
-    if (!v) return base_fail_memory(diag);
+    const froe_allocator alloc = support_allocator(options->alloc);
+    froe_visibility *v = support_calloc(&alloc, 1, sizeof *v);
+    if (!v) return support_fail_memory(diag);
     v->alloc = alloc;
     v->tree = tree;
     v->surface = surface;
@@ -220,15 +220,15 @@ void froe_visibility_free(froe_visibility *v) {
     if (!v) return;
     const froe_allocator alloc = v->alloc;
     if (v->sights.surface) view_sights_free(&v->sights);
-    if (v->pieces) base_free(&alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
+    if (v->pieces) support_free(&alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
     array_free(&alloc, &v->corners);
-    base_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);
-    base_free(&alloc, v->intervals, v->interval_room * sizeof *v->intervals);
-    base_free(&alloc, v->interval_marks, 2 * v->interval_room * sizeof *v->interval_marks);
+    support_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);
+    support_free(&alloc, v->intervals, v->interval_room * sizeof *v->intervals);
+    support_free(&alloc, v->interval_marks, 2 * v->interval_room * sizeof *v->interval_marks);
     array_free(&alloc, &v->crossings);
     array_free(&alloc, &v->crossing_runs);
-    base_free(&alloc, v->edge_starts, ((size_t)v->surface->edge_count + 1) * sizeof *v->edge_starts);
-    base_free(&alloc, v, sizeof *v);
+    support_free(&alloc, v->edge_starts, ((size_t)v->surface->edge_count + 1) * sizeof *v->edge_starts);
+    support_free(&alloc, v, sizeof *v);
 }
 
 /* --------------------------------------------------------------------- reading -- */

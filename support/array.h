@@ -5,9 +5,9 @@
  *     array_free(alloc, &ids);
  *
  * Growth is by half, so n pushes cost O(n). A failed call leaves the array as it was. */
-#ifndef FROE_BASE_ARRAY_H
-#define FROE_BASE_ARRAY_H
-#include "base/memory.h"
+#ifndef FROE_SUPPORT_ARRAY_H
+#define FROE_SUPPORT_ARRAY_H
+#include "support/alloc.h"
 
 #define ARRAY(T)                                                                                                       \
     struct {                                                                                                           \
@@ -18,12 +18,13 @@
 /** Room for `extra` more items. */
 #define array_reserve(alloc, a, extra)                                                                                 \
     ((a)->capacity - (a)->count >= (size_t)(extra) ||                                                                  \
-     array_grow((alloc), (void **)&(a)->data, &(a)->capacity, (a)->count, (size_t)(extra), sizeof *(a)->data))
+     support_array_grow((alloc), (void **)&(a)->data, &(a)->capacity, (a)->count, (size_t)(extra), sizeof *(a)->data))
 /** Appends a copy of `item`. */
 #define array_push(alloc, a, ...) (array_reserve((alloc), (a), 1) && ((a)->data[(a)->count++] = __VA_ARGS__, true))
 #define array_free(alloc, a)                                                                                           \
-    (base_free((alloc), (a)->data, (a)->capacity * sizeof *(a)->data), (a)->data = NULL, (a)->count = (a)->capacity = 0)
+    (support_free((alloc), (a)->data, (a)->capacity * sizeof *(a)->data), (a)->data = NULL,                            \
+     (a)->count = (a)->capacity = 0)
 
-bool array_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra,
-                size_t item_size);
+bool support_array_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra,
+                        size_t item_size);
 #endif

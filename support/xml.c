@@ -1,5 +1,5 @@
-/* escape.c: any bytes, as of names from files, made characters of XML. */
-#include "escape.h"
+/* xml.c: any bytes, as of names from files, made characters of XML. */
+#include "support/xml.h"
 #include "support/utf8.h"
 #include <stdbool.h>
 #include <string.h>
@@ -24,7 +24,7 @@ static const char *entity_of(char c) {
     }
 }
 
-size_t draw_escape(const char **text, char out[8]) {
+size_t support_xml_escape(const char **text, char out[8]) {
     const char *at = *text;
     if (!*at) return 0;
     size_t n = support_utf8_length(at);
