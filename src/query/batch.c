@@ -12,14 +12,14 @@
 #include "support/fail.h"
 #include <string.h>
 
-enum { CHUNK = 256 };
+enum { QUERIES_PER_CHUNK = 256 };
 
-typedef struct chunk {
+typedef struct batch_chunk {
     ARRAY(uint32_t) ids;
     ARRAY(double) values;
-    uint32_t counts[CHUNK];
+    uint32_t counts[QUERIES_PER_CHUNK];
     froe_diagnostic diag;
-} chunk;
+} batch_chunk;
 
 typedef struct batch batch;
 /** Asks question i. Objects found are left in q->found, unless they go to the caller's array. */
@@ -46,7 +46,7 @@ struct batch {
     uint32_t *objects; /* the caller's */
     value_fn *value;   /* NULL: answers are ids alone */
     size_t count, chunk_count;
-    chunk *chunks;
+    batch_chunk *chunks;
 };
 
 void froe_answers_free(froe_answers *answers) {
@@ -142,7 +142,7 @@ static double distance_of(const froe_query *q, size_t i) {
 }
 
 /* Appends what a query found to its chunk. */
-static bool append_answers(const batch *b, const froe_query *q, chunk *c) {
+static bool append_answers(const batch *b, const froe_query *q, batch_chunk *c) {
     const size_t count = q->found.count;
     if (!array_reserve(&q->alloc, &c->ids, count)) return false;
     if (b->value && !array_reserve(&q->alloc, &c->values, count)) return false;
@@ -170,13 +170,7 @@ static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t
     return FROE_OK;
 }
 
-/* Can the rays of a chunk be answered all at once, on a packed tree? One computes while others wait for memory. */
-static bool flies(const batch *b, const froe_query *q) {
-    if (b->ask == ask_vertical) return q->packed;
-    return (b->ask == ask_ray || b->ask == ask_ray_any) && q->space && q->tree->packed.wide;
-}
-
-static froe_status answer_flock(const batch *b, froe_query *q, size_t first, size_t end, froe_diagnostic *diag) {
+static froe_status answer_rays(const batch *b, froe_query *q, size_t first, size_t end, froe_diagnostic *diag) {
     const froe_status status = check_all(b, q, first, end, check_ray, diag);
     if (status) return status;
     const double *points = point_of(b, b->points, first);
@@ -187,24 +181,24 @@ static froe_status answer_flock(const batch *b, froe_query *q, size_t first, siz
                                                                                      : FROE_OK;
 }
 
-/* Finds the leaves of the points of a chunk together, so that their cache misses overlap. */
-static froe_status find_leaves(const batch *b, froe_query *q, size_t first, size_t end, query_leaf *leaves,
-                               froe_diagnostic *diag) {
-    const froe_status status = check_all(b, q, first, end, check_point, diag);
-    if (status) return status;
-    if (query_leaf_find_all(q, point_of(b, b->points, first), end - first, leaves)) return support_fail_memory(diag);
-    if (b->areas) query_areas_ask(b->areas, leaves, end - first);
-    return FROE_OK;
-}
-
 static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     const batch *b = user;
     froe_query *q = b->workers.queries[worker];
-    chunk *c = b->chunks + job;
-    const size_t first = job * CHUNK, end = first + CHUNK < b->count ? first + CHUNK : b->count;
-    query_leaf leaves[CHUNK];
-    if (flies(b, q)) return answer_flock(b, q, first, end, &c->diag);
-    froe_status status = b->ask_in ? find_leaves(b, q, first, end, leaves, &c->diag) : FROE_OK;
+    batch_chunk *c = b->chunks + job;
+    const size_t first = job * QUERIES_PER_CHUNK, left = b->count - first;
+    const size_t end = first + (left < QUERIES_PER_CHUNK ? left : QUERIES_PER_CHUNK);
+    query_leaf leaves[QUERIES_PER_CHUNK];
+    froe_status status = FROE_OK;
+    /* On a packed tree rays are answered all at once: one computes while others wait for memory. */
+    const bool in_space = (b->ask == ask_ray || b->ask == ask_ray_any) && q->space && q->tree->packed.wide;
+    if (in_space || (b->ask == ask_vertical && q->packed)) return answer_rays(b, q, first, end, &c->diag);
+    if (b->ask_in) { /* the leaves of all points are found together, so that their cache misses overlap */
+        status = check_all(b, q, first, end, check_point, &c->diag);
+        if (status) return status;
+        if (query_leaf_find_all(q, point_of(b, b->points, first), end - first, leaves))
+            return support_fail_memory(&c->diag);
+        if (b->areas) query_areas_ask(b->areas, leaves, end - first);
+    }
     for (size_t i = first; i < end && !status; i++) {
         status = b->ask_in ? b->ask_in(b, q, i, leaves + (i - first), &c->diag) : b->ask(b, q, i, &c->diag);
         if (!status && !append_answers(b, q, c)) status = support_fail_memory(&c->diag);
@@ -232,13 +226,13 @@ static froe_status gather_answers(const batch *b, froe_answers *out) {
         return FROE_E_MEMORY;
     }
     for (size_t i = 0, at = 0; i < b->chunk_count; i++) {
-        const chunk *c = b->chunks + i;
+        const batch_chunk *c = b->chunks + i;
         if (c->ids.count) memcpy(answers.ids + at, c->ids.data, c->ids.count * sizeof *answers.ids);
         if (c->values.count) memcpy(answers.values + at, c->values.data, c->values.count * sizeof *answers.values);
         at += c->ids.count;
     }
     for (size_t i = 0; i < b->count; i++)
-        answers.starts[i + 1] = answers.starts[i] + b->chunks[i / CHUNK].counts[i % CHUNK];
+        answers.starts[i + 1] = answers.starts[i] + b->chunks[i / QUERIES_PER_CHUNK].counts[i % QUERIES_PER_CHUNK];
     *out = answers;
     return FROE_OK;
 }
@@ -256,23 +250,17 @@ static froe_status explain_batch(const batch *b, froe_status status, froe_diagno
     return support_fail_memory(diag);
 }
 
-static froe_status work_through_batch(batch *b, const froe_batch_options *options, froe_answers *out,
-                                      froe_diagnostic *diag) {
+static froe_status run_batch(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+    const froe_allocator *alloc = &b->query->alloc;
+    if (b->count > UINT32_MAX - 1) return support_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
+    b->chunk_count = (b->count + QUERIES_PER_CHUNK - 1) / QUERIES_PER_CHUNK;
+    b->chunks = support_calloc(alloc, b->chunk_count, sizeof *b->chunks);
+    if (!b->chunks) return support_fail_memory(diag);
     froe_status status = query_workers_take(b->query, options, b->chunk_count, &b->workers, diag);
     if (!status && (status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b)))
         explain_batch(b, status, diag);
     if (!status && out && (status = gather_answers(b, out))) support_fail_memory(diag);
     query_workers_give(&b->workers);
-    return status;
-}
-
-static froe_status run_batch(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
-    const froe_allocator *alloc = &b->query->alloc;
-    if (b->count > UINT32_MAX - 1) return support_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
-    b->chunk_count = (b->count + CHUNK - 1) / CHUNK;
-    b->chunks = support_calloc(alloc, b->chunk_count, sizeof *b->chunks);
-    if (!b->chunks) return support_fail_memory(diag);
-    const froe_status status = work_through_batch(b, options, out, diag);
     for (size_t i = 0; i < b->chunk_count; i++) {
         array_free(alloc, &b->chunks[i].ids);
         array_free(alloc, &b->chunks[i].values);

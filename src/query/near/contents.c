@@ -14,22 +14,6 @@ static double *box_of(query_contents *c, uint32_t node) {
     return c->boxes + node * 2 * c->dim;
 }
 
-/* Closed regions by the axis-parallel cuts above; parents come first. */
-static void lay_regions(query_contents *c, const froe_tree *t) {
-    const size_t dim = c->dim, bytes = 2 * dim * sizeof *c->boxes;
-    for (size_t k = 0; k < dim; k++) c->boxes[k] = -INFINITY, c->boxes[dim + k] = INFINITY;
-    for (uint32_t v = 0; v < c->node_count; v++) {
-        if (tree_is_leaf(t->nodes + v)) continue;
-        const uint32_t child = t->nodes[v].child;
-        const froe_cut cut = tree_cut_at(t, v);
-        memcpy(box_of(c, child), box_of(c, v), bytes);
-        memcpy(box_of(c, child + 1), box_of(c, v), bytes);
-        if (cut.kind != FROE_CUT_AXIS) continue;
-        box_of(c, child)[dim + (size_t)cut.axis] = cut.value;
-        box_of(c, child + 1)[cut.axis] = cut.value;
-    }
-}
-
 static void add_box(size_t dim, double *to, const double *lo, const double *hi) {
     for (size_t k = 0; k < dim; k++) {
         if (lo[k] < to[k]) to[k] = lo[k];
@@ -67,8 +51,21 @@ static froe_status make_contents(froe_query *q, query_part **out, froe_diagnosti
     c->node_count = q->tree->node_count;
     c->boxes = support_calloc(&q->alloc, c->node_count * 2 * c->dim, sizeof *c->boxes);
     if (!c->boxes) return support_fail_memory(diag);
-    lay_regions(c, q->tree);
-    for (uint32_t v = q->tree->node_count; v-- > 0;) gather_contents(c, q->tree, v);
+    /* Closed regions by the axis-parallel cuts above; parents come first. */
+    const froe_tree *t = q->tree;
+    const size_t dim = c->dim, bytes = 2 * dim * sizeof *c->boxes;
+    for (size_t k = 0; k < dim; k++) c->boxes[k] = -INFINITY, c->boxes[dim + k] = INFINITY;
+    for (uint32_t v = 0; v < c->node_count; v++) {
+        if (tree_is_leaf(t->nodes + v)) continue;
+        const uint32_t child = t->nodes[v].child;
+        const froe_cut cut = tree_cut_at(t, v);
+        memcpy(box_of(c, child), box_of(c, v), bytes);
+        memcpy(box_of(c, child + 1), box_of(c, v), bytes);
+        if (cut.kind != FROE_CUT_AXIS) continue;
+        box_of(c, child)[dim + (size_t)cut.axis] = cut.value;
+        box_of(c, child + 1)[cut.axis] = cut.value;
+    }
+    for (uint32_t v = t->node_count; v-- > 0;) gather_contents(c, t, v);
     return FROE_OK;
 }
 

@@ -32,18 +32,6 @@ static bool further(void *user, uint32_t a, uint32_t b) {
     return order ? order > 0 : x->object > y->object;
 }
 
-/* Lowers the limit to the distance of the worst neighbour. Its image says little where squares leave the range of
- * doubles. */
-static void lower_limit(froe_query *q) {
-    const geom_distance *d = &q->near.found.data[q->near.order.data[0]].distance;
-    const num_ball image = geom_distance_image(d);
-    double most = image.x + image.e;
-    if (!(image.e <= 0x1p-20 * image.x))
-        most = geom_distance_round(&q->numbers, q->near.point, d) * (1 + 0x1p-51) + 0x1p-1074;
-    const double limit = query_near_square(&q->near, most);
-    if (limit < q->near.limit) q->near.limit = limit;
-}
-
 /* Takes a neighbour among the k best, in place of the worst if there are k. False: no memory. */
 static bool take_neighbour(froe_query *q, const query_neighbour *x, size_t k) {
     query_near *n = &q->near;
@@ -58,15 +46,17 @@ static bool take_neighbour(froe_query *q, const query_neighbour *x, size_t k) {
         n->found.data[n->order.data[0]] = *x;
         query_heap_sink(n->order.data, n->order.count, 0, further, q);
     }
-    if (n->order.count == k) lower_limit(q);
+    if (n->order.count < k) return true;
+    /* Lowers the limit to the distance of the worst neighbour. Its image says little where squares leave the range of
+     * doubles. */
+    const geom_distance *d = &n->found.data[n->order.data[0]].distance;
+    const num_ball image = geom_distance_image(d);
+    double most = image.x + image.e;
+    if (!(image.e <= 0x1p-20 * image.x))
+        most = geom_distance_round(&q->numbers, n->point, d) * (1 + 0x1p-51) + 0x1p-1074;
+    const double limit = query_near_square(n, most);
+    if (limit < n->limit) n->limit = limit;
     return true;
-}
-
-static bool beyond_limit(froe_query *q, uint32_t object) {
-    const froe_scene *s = q->tree->scene;
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    scene_object_bounds(s, object, lo, hi);
-    return query_near_box(&q->near, s->dim, lo, hi) > q->near.limit;
 }
 
 /* False: it is beyond the bound. */
@@ -77,11 +67,16 @@ static bool measure_neighbour(froe_query *q, const geom_body *body, double bound
 
 /* Takes object i of a list into account. False without memory. */
 static bool look_up(froe_query *q, const tree_objects *list, uint32_t i, size_t k, double bound) {
+    const froe_scene *s = q->tree->scene;
     const uint32_t object = tree_object(list, i);
     if (query_seen(q, list, i, object)) return true;
     q->stats.tests++;
-    if (!q->near.packed && beyond_limit(q, object)) return true; /* packed trees have compared better bounds */
-    const geom_body body = scene_body(q->tree->scene, object);
+    if (!q->near.packed) { /* packed trees have compared better bounds */
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        scene_object_bounds(s, object, lo, hi);
+        if (query_near_box(&q->near, s->dim, lo, hi) > q->near.limit) return true;
+    }
+    const geom_body body = scene_body(s, object);
     query_neighbour x = {.square = NAN, .object = object};
     return !measure_neighbour(q, &body, bound, &x) || take_neighbour(q, &x, k);
 }
@@ -122,19 +117,6 @@ static froe_status find_points(froe_query *q, size_t k, double bound, bool *done
     return FROE_OK;
 }
 
-/* Distances as doubles. */
-static bool deliver(froe_query *q) {
-    query_near *n = &q->near;
-    n->out.count = 0;
-    if (!array_reserve(&q->alloc, &n->out, n->order.count)) return false;
-    for (size_t i = 0; i < n->order.count; i++) {
-        const query_neighbour *x = n->found.data + n->order.data[i];
-        const double distance = geom_distance_round(&q->numbers, n->point, &x->distance);
-        n->out.data[n->out.count++] = (froe_neighbour){x->object, distance};
-    }
-    return true;
-}
-
 froe_status froe_query_near(froe_query *query, const double *point, size_t k, double bound, froe_neighbours *out,
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -154,7 +136,14 @@ froe_status froe_query_near(froe_query *query, const double *point, size_t k, do
     if (k) status = find_points(query, k, bound, &done, diag);
     if (!status && !done) status = find_neighbours(query, k, bound, diag);
     query->stats.exact += query->numbers.stats.exact - exact;
-    if (status == FROE_E_MEMORY || (!status && !deliver(query))) return support_fail_memory(diag);
-    if (!status) *out = (froe_neighbours){n->out.data, n->out.count};
-    return status;
+    n->out.count = 0;
+    if (!status && !array_reserve(&query->alloc, &n->out, n->order.count)) status = FROE_E_MEMORY;
+    if (status) return status == FROE_E_MEMORY ? support_fail_memory(diag) : status;
+    for (size_t i = 0; i < n->order.count; i++) {
+        const query_neighbour *x = n->found.data + n->order.data[i];
+        const double distance = geom_distance_round(&query->numbers, n->point, &x->distance);
+        n->out.data[n->out.count++] = (froe_neighbour){x->object, distance};
+    }
+    *out = (froe_neighbours){n->out.data, n->out.count};
+    return FROE_OK;
 }

@@ -64,18 +64,14 @@ static void sift(query_near *n) {
     n->candidates.count = kept;
 }
 
-/* Room for one list more. Without ties there are little more than 2 k candidates and one list. */
-static bool reserve_neighbours(froe_query *q, size_t k, size_t count) {
-    query_near *n = &q->near;
-    if (n->candidates.count > 2 * k + 64) sift(n);
-    return array_reserve(&q->alloc, &n->candidates, count) && array_reserve(&q->alloc, &n->best, count < k ? count : k);
-}
-
 static bool scan(froe_query *q, const query_pieces *pieces, const tree_objects *list, size_t k) {
     query_near *n = &q->near;
     const size_t dim = (size_t)q->tree->scene->dim;
     const double *at = pieces->points + list->first * dim;
-    if (!reserve_neighbours(q, k, list->count)) return false;
+    const size_t room = list->count < k ? list->count : k;
+    if (n->candidates.count > 2 * k + 64) sift(n); /* without ties there are little more than 2 k and one list */
+    if (!array_reserve(&q->alloc, &n->candidates, list->count) || !array_reserve(&q->alloc, &n->best, room))
+        return false;
     for (uint32_t i = 0; i < list->count; i++, at += dim) {
         double square = 0;
         for (size_t j = 0; j < dim; j++) square += square_of(at[j] * n->scale - n->scaled[j]);
@@ -117,16 +113,6 @@ static bool descend_nearer_child(froe_query *q, const query_contents *c, const q
     }
 }
 
-static bool walk_points(froe_query *q, const query_contents *c, const query_pieces *pieces, size_t k) {
-    query_near *n = &q->near;
-    bool memory = wait(q, 0, box_square(n, c, 0));
-    while (memory && n->places.count) {
-        const query_place at = n->places.data[--n->places.count];
-        if (at.bound <= n->limit) memory = descend_nearer_child(q, c, pieces, at.node, k);
-    }
-    return memory;
-}
-
 froe_status query_near_points(froe_query *q, size_t k, double bound, bool *done, froe_diagnostic *diag) {
     const query_contents *contents;
     const query_pieces *pieces;
@@ -140,7 +126,12 @@ froe_status query_near_points(froe_query *q, size_t k, double bound, bool *done,
     n->scale = query_near_scale(q->tree->scene, n->point);
     n->limit = bound < INFINITY ? query_near_reach(query_near_square(n, bound)) : (double)INFINITY;
     for (size_t i = 0; i < contents->dim; i++) n->scaled[i] = n->point[i] * n->scale;
-    if (!walk_points(q, contents, pieces, k)) return FROE_E_MEMORY;
+    bool memory = wait(q, 0, box_square(n, contents, 0));
+    while (memory && n->places.count) {
+        const query_place at = n->places.data[--n->places.count];
+        if (at.bound <= n->limit) memory = descend_nearer_child(q, contents, pieces, at.node, k);
+    }
+    if (!memory) return FROE_E_MEMORY;
     sift(n);
     return FROE_OK;
 }

@@ -23,19 +23,16 @@ void pair_lists_give(pair_lists *l) {
     support_free(l->alloc, l->sorted, (l->firsts[PAIR_PARTS] + 1) * sizeof *l->sorted);
 }
 
-/* Takes room for up to ROOM pairs from what is left for all threads; false: nothing is left. */
-static bool ask_room(pair_lists *l, pair_list *list) {
-    unsigned left = atomic_load(&l->left), taken;
-    do taken = left < ROOM ? left : ROOM;
-    while (taken && !atomic_compare_exchange_weak(&l->left, &left, left - taken));
-    list->room = taken;
-    return taken > 0;
-}
-
 froe_status pair_lists_add(pair_lists *l, unsigned thread, uint32_t a, uint32_t b, froe_meeting kind) {
     pair_list *list = l->lists + thread;
     const pair_item item = {a < b ? a : b, (a < b ? b : a) | (uint32_t)kind << PAIR_KIND};
-    if (!list->room && !ask_room(l, list)) return FROE_E_LIMIT;
+    if (!list->room) { /* takes room for up to ROOM pairs from what is left for all threads */
+        unsigned left = atomic_load(&l->left), taken;
+        do taken = left < ROOM ? left : ROOM;
+        while (taken && !atomic_compare_exchange_weak(&l->left, &left, left - taken));
+        list->room = taken;
+        if (!taken) return FROE_E_LIMIT;
+    }
     if (!array_push(l->alloc, &list->parts[item.a >> l->shift], item)) return FROE_E_MEMORY;
     list->room--;
     return FROE_OK;
@@ -48,31 +45,23 @@ static bool pair_is_later(void *user, uint32_t i, uint32_t j) {
     return (i & PAIR_OBJECT) > (j & PAIR_OBJECT);
 }
 
-/* Counts the pairs of each first id of a part; starts[id] is then where those of the next id begin. */
-static void count_firsts(const pair_lists *l, size_t part, uint32_t from, uint32_t to) {
-    for (unsigned t = 0; t < l->threads; t++)
-        for (size_t i = 0; i < l->lists[t].parts[part].count; i++) l->starts[l->lists[t].parts[part].data[i].a]++;
-    uint32_t sum = (uint32_t)l->firsts[part];
-    for (uint32_t id = from; id < to; id++) l->starts[id] = sum += l->starts[id];
-}
-
-/* Puts the pairs of a part in their places, the last first: then starts[id] is where the pairs of id begin. */
-static void put_seconds(const pair_lists *l, size_t part) {
-    for (unsigned t = 0; t < l->threads; t++)
-        for (size_t i = 0; i < l->lists[t].parts[part].count; i++) {
-            const pair_item item = l->lists[t].parts[part].data[i];
-            l->sorted[--l->starts[item.a]] = item.b;
-        }
-}
-
 static froe_status sort_part(void *user, unsigned worker, size_t part) {
     const pair_lists *l = user;
     const uint64_t next = (uint64_t)(part + 1) << l->shift;
     const uint32_t from = (uint32_t)part << l->shift, to = next < l->objects ? (uint32_t)next : l->objects;
     (void)worker;
     if (from >= to) return FROE_OK;
-    count_firsts(l, part, from, to);
-    put_seconds(l, part);
+    /* Counts the pairs of each first id; starts[id] is then where those of the next id begin. */
+    for (unsigned t = 0; t < l->threads; t++)
+        for (size_t i = 0; i < l->lists[t].parts[part].count; i++) l->starts[l->lists[t].parts[part].data[i].a]++;
+    uint32_t sum = (uint32_t)l->firsts[part];
+    for (uint32_t id = from; id < to; id++) l->starts[id] = sum += l->starts[id];
+    /* Puts the pairs in their places, the last first: then starts[id] is where the pairs of id begin. */
+    for (unsigned t = 0; t < l->threads; t++)
+        for (size_t i = 0; i < l->lists[t].parts[part].count; i++) {
+            const pair_item item = l->lists[t].parts[part].data[i];
+            l->sorted[--l->starts[item.a]] = item.b;
+        }
     for (uint32_t id = from; id < to; id++) {
         const size_t end = id + 1 < to ? l->starts[id + 1] : l->firsts[part + 1];
         query_heap_sort(l->sorted + l->starts[id], end - l->starts[id], pair_is_later, NULL);

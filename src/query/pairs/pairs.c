@@ -22,18 +22,16 @@ typedef struct desk {
     ARRAY(signed char) sides; /* for geom_contact_of() */
 } desk;
 
-typedef struct chunk {
-    ARRAY(froe_pair) pairs;
-} chunk;
+typedef ARRAY(froe_pair) object_pairs;
 
-typedef struct search {
+typedef struct pair_search {
     query_workers *workers;
     bool shared;
-    desk *desks;        /* [thread] */
-    chunk *chunks;      /* of a wave */
-    size_t chunk_count; /* most of a wave */
-    uint32_t first;     /* object of the wave */
-} search;
+    desk *desks;          /* [thread] */
+    object_pairs *chunks; /* of a wave */
+    size_t chunk_count;   /* most of a wave */
+    uint32_t first;       /* object of the wave */
+} pair_search;
 
 /* An object as a range. False without memory. */
 static bool take_body(desk *d, const geom_body *b, froe_range *range) {
@@ -58,17 +56,8 @@ static bool greater(void *user, uint32_t a, uint32_t b) {
     return a > b;
 }
 
-/* Keeps what was found with an id above that of the object, in order. */
-static void keep_later(froe_query *q, uint32_t object) {
-    size_t kept = 0;
-    for (size_t i = 0; i < q->found.count; i++)
-        if (q->found.data[i] > object) q->found.data[kept++] = q->found.data[i];
-    q->found.count = kept;
-    query_heap_sort(q->found.data, kept, greater, NULL);
-}
-
 /* Adds the pairs of an object with those found. False without memory. */
-static bool add_pairs(desk *d, uint32_t object, const geom_body *a, bool shared, chunk *out) {
+static bool add_pairs(desk *d, uint32_t object, const geom_body *a, bool shared, object_pairs *out) {
     static const froe_meeting kinds[GEOM_CONTACTS] = {
         [GEOM_CROSS] = FROE_MEET_CROSS, [GEOM_TOUCH] = FROE_MEET_TOUCH, [GEOM_OVERLAP] = FROE_MEET_OVERLAP};
     froe_query *q = d->q;
@@ -78,33 +67,38 @@ static bool add_pairs(desk *d, uint32_t object, const geom_body *a, bool shared,
         if (!array_reserve(&q->alloc, &d->sides, (size_t)a->count + b.count)) return false;
         const geom_contact c = geom_contact_of(&q->numbers, a, &b, d->sides.data);
         if (!shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) continue;
-        if (!array_push(&q->alloc, &out->pairs, (froe_pair){object, q->found.data[i], kinds[c.kind]})) return false;
+        if (!array_push(&q->alloc, out, (froe_pair){object, q->found.data[i], kinds[c.kind]})) return false;
     }
     return true;
 }
 
 /* Finds the pairs of some objects with later ones. */
 static froe_status find_partners(void *user, unsigned worker, size_t job) {
-    search *s = user;
+    pair_search *s = user;
     desk *d = s->desks + worker;
-    chunk *out = s->chunks + job;
+    object_pairs *out = s->chunks + job;
     const froe_scene *scene = d->q->tree->scene;
     const uint32_t first = s->first + (uint32_t)job * CHUNK, left = scene->object_count - first;
-    out->pairs.count = 0;
+    out->count = 0;
     for (uint32_t i = first; i < first + (left < CHUNK ? left : CHUNK); i++) {
         const geom_body body = scene_body(scene, i);
         froe_range range;
         if (!take_body(d, &body, &range)) return FROE_E_MEMORY;
         const froe_status status = query_range_ask(d->q, &range, false, NULL);
         if (status) return status;
-        keep_later(d->q, i);
+        /* Keeps what was found with an id above that of the object, in order. */
+        size_t kept = 0;
+        for (size_t n = 0; n < d->q->found.count; n++)
+            if (d->q->found.data[n] > i) d->q->found.data[kept++] = d->q->found.data[n];
+        d->q->found.count = kept;
+        query_heap_sort(d->q->found.data, kept, greater, NULL);
         if (!add_pairs(d, i, &body, s->shared, out)) return FROE_E_MEMORY;
     }
     return FROE_OK;
 }
 
 /* All threads search a wave; then its pairs are reported in order, and the next wave begins. */
-static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, void *user) {
+static froe_status search_all(pair_search *s, uint32_t objects, froe_pair_fn *fn, void *user) {
     const uint64_t jobs = ((uint64_t)objects + CHUNK - 1) / CHUNK;
     for (uint64_t done = 0; done < jobs; done += s->chunk_count) {
         const size_t count = jobs - done < s->chunk_count ? (size_t)(jobs - done) : s->chunk_count;
@@ -112,37 +106,29 @@ static froe_status search_all(search *s, uint32_t objects, froe_pair_fn *fn, voi
         const froe_status status = base_run(&s->workers->task, (double)count / (double)jobs, count, find_partners, s);
         if (status) return status;
         for (size_t i = 0; i < count; i++)
-            for (size_t n = 0; n < s->chunks[i].pairs.count; n++)
-                if (!base_callback(fn(user, s->chunks[i].pairs.data + n))) return FROE_OK;
+            for (size_t n = 0; n < s->chunks[i].count; n++)
+                if (!base_callback(fn(user, s->chunks[i].data + n))) return FROE_OK;
     }
     return FROE_OK;
 }
 
-static bool take_desks(search *s, const froe_allocator *alloc) {
-    const unsigned threads = s->workers->count;
-    s->chunk_count = threads > 1 ? (size_t)threads * WAVE : 1;
-    s->desks = support_calloc(alloc, threads, sizeof *s->desks);
-    s->chunks = support_calloc(alloc, s->chunk_count, sizeof *s->chunks);
-    for (unsigned i = 0; s->desks && i < threads; i++) s->desks[i].q = s->workers->queries[i];
-    return s->desks && s->chunks;
-}
-
-static void give_desks(search *s, const froe_allocator *alloc) {
-    for (unsigned i = 0; s->desks && i < s->workers->count; i++) {
-        array_free(alloc, &s->desks[i].points);
-        array_free(alloc, &s->desks[i].sides);
-    }
-    for (size_t i = 0; s->chunks && i < s->chunk_count; i++) array_free(alloc, &s->chunks[i].pairs);
-    support_free(alloc, s->desks, s->workers->count * sizeof *s->desks);
-    support_free(alloc, s->chunks, s->chunk_count * sizeof *s->chunks);
-}
-
 static froe_status find_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
     const froe_query *query = workers->queries[0];
-    search s = {.workers = workers, .shared = shared};
-    const froe_status status =
-        take_desks(&s, &query->alloc) ? search_all(&s, query->tree->scene->object_count, fn, user) : FROE_E_MEMORY;
-    give_desks(&s, &query->alloc);
+    const froe_allocator *alloc = &query->alloc;
+    const unsigned threads = workers->count;
+    pair_search s = {.workers = workers, .shared = shared, .chunk_count = threads > 1 ? (size_t)threads * WAVE : 1};
+    froe_status status = FROE_E_MEMORY;
+    s.desks = support_calloc(alloc, threads, sizeof *s.desks);
+    s.chunks = support_calloc(alloc, s.chunk_count, sizeof *s.chunks);
+    for (unsigned i = 0; s.desks && i < threads; i++) s.desks[i].q = workers->queries[i];
+    if (s.desks && s.chunks) status = search_all(&s, query->tree->scene->object_count, fn, user);
+    for (unsigned i = 0; s.desks && i < threads; i++) {
+        array_free(alloc, &s.desks[i].points);
+        array_free(alloc, &s.desks[i].sides);
+    }
+    for (size_t i = 0; s.chunks && i < s.chunk_count; i++) array_free(alloc, &s.chunks[i]);
+    support_free(alloc, s.desks, threads * sizeof *s.desks);
+    support_free(alloc, s.chunks, s.chunk_count * sizeof *s.chunks);
     return status;
 }
 

@@ -7,30 +7,21 @@
 
 /* -------------------------------------------------------------- references -- */
 
-typedef struct survey {
+typedef struct reference_search {
     froe_query *q;
     query_areas *areas;
     froe_status status;
-} survey;
+} reference_search;
 
-static bool keep_reference(survey *v, const double *at) {
+static bool keep_reference(reference_search *v, const double *at) {
     query_reference r = {.at = {at[0], at[1]}};
     const froe_allocator *alloc = &v->q->alloc;
     return query_sets_keep(&v->areas->sets, alloc, &v->q->groups.inside, &r.set) &&
            array_push(alloc, &v->areas->references, r);
 }
 
-/* A mean of the corners of a cell, with other weights at every try. */
-static void mean(const froe_cell *cell, uint32_t try, double x[2]) {
-    double sum = 0;
-    for (size_t i = 0; i < cell->corners; i++) sum += 1 + (double)(try * (i + 1) % 7);
-    x[0] = x[1] = 0;
-    for (size_t i = 0; i < cell->corners; i++)
-        for (int k = 0; k < 2; k++) x[k] += cell->coords[2 * i + (size_t)k] * ((1 + (double)(try * (i + 1) % 7)) / sum);
-}
-
 /* Is the point within the cell of a node, and on no border? */
-static bool serves(survey *v, uint32_t node, const double *x) {
+static bool serves(reference_search *v, uint32_t node, const double *x) {
     const froe_scene *s = v->q->tree->scene;
     const tree_objects list = tree_list(v->q->tree, node);
     query_leaf leaf;
@@ -46,21 +37,26 @@ static bool serves(survey *v, uint32_t node, const double *x) {
     return true;
 }
 
-static uint32_t last_of(const survey *v) {
+static uint32_t last_of(const reference_search *v) {
     return (uint32_t)v->areas->references.count - 1;
 }
 
 static bool look_at_cell(void *user, const froe_cell *cell) {
     BASE_FLOATS_OWN;
     enum { TRIES = 4 };
-    survey *v = user;
+    reference_search *v = user;
     query_areas *areas = v->areas;
     if (!cell->leaf) return true;
     const uint32_t node = cell->node.id1 - 1, place = query_leaf_place(v->q->tree, node);
     double x[2];
     bool found = false;
     for (uint32_t try = 0; try < TRIES && !found && !v->status; try++) {
-        mean(cell, try, x);
+        /* A mean of the corners of the cell, with other weights at every try. */
+        double sum = 0;
+        for (size_t i = 0; i < cell->corners; i++) sum += 1 + (double)(try * (i + 1) % 7);
+        x[0] = x[1] = 0;
+        for (size_t i = 0; i < cell->corners; i++)
+            for (size_t k = 0; k < 2; k++) x[k] += cell->coords[2 * i + k] * ((1 + (double)(try * (i + 1) % 7)) / sum);
         found = serves(v, node, x);
     }
     areas->slots[place] = last_of(v) | AREA_FAR;
@@ -71,23 +67,28 @@ static bool look_at_cell(void *user, const froe_cell *cell) {
     return !v->status;
 }
 
-/* A point in no group, outside of everything. False: the scene reaches as far as doubles do. */
-static bool find_outside(const froe_scene *s, double x[2]) {
-    x[0] = nextafter(s->lo[0], -INFINITY);
-    x[1] = s->lo[1];
-    if (isfinite(x[0])) return true;
-    x[0] = nextafter(s->hi[0], INFINITY);
-    if (isfinite(x[0])) return true;
-    x[0] = s->lo[0];
-    x[1] = nextafter(s->lo[1], -INFINITY);
-    if (isfinite(x[1])) return true;
-    x[1] = nextafter(s->hi[1], INFINITY);
-    return isfinite(x[1]);
-}
-
-/* A box around the scene, with a margin of an eighth of its size and more. */
-static void frame(const froe_scene *s, double lo[2], double hi[2]) {
-    double most = 0, size = 0;
+static froe_status find_references(froe_query *q, query_areas *areas, froe_diagnostic *diag) {
+    const froe_tree *t = q->tree;
+    const froe_scene *s = t->scene;
+    reference_search v = {.q = q, .areas = areas};
+    double lo[2], hi[2], most = 0, size = 0;
+    /* The first reference is outside of everything, in no group. */
+    const double beyond[4][2] = {{nextafter(s->lo[0], -INFINITY), s->lo[1]},
+                                 {nextafter(s->hi[0], INFINITY), s->lo[1]},
+                                 {s->lo[0], nextafter(s->lo[1], -INFINITY)},
+                                 {s->lo[0], nextafter(s->hi[1], INFINITY)}};
+    int side = 0;
+    while (side < 4 && !isfinite(beyond[side][side / 2])) side++;
+    if (side == 4)
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "Nothing is outside of a scene that reaches as far as doubles do.");
+    areas->place_count = tree_is_packed(t) ? t->packed.block_count : t->node_count;
+    areas->slots = support_calloc(&q->alloc, areas->place_count, sizeof *areas->slots);
+    if (!areas->slots) return support_fail_memory(diag);
+    memset(areas->slots, 0xff, areas->place_count * sizeof *areas->slots);
+    q->groups.inside.count = 0;
+    if (!keep_reference(&v, beyond[side])) return support_fail_memory(diag);
+    /* Cells are cut off by a box around the scene, with a margin of an eighth of its size and more. */
     for (int k = 0; k < 2; k++) {
         size = fmax(size, s->hi[k] / 4 - s->lo[k] / 4);
         most = fmax(most, fmax(fabs(s->lo[k]), fabs(s->hi[k])));
@@ -97,37 +98,16 @@ static void frame(const froe_scene *s, double lo[2], double hi[2]) {
         lo[k] = fmax(s->lo[k] - margin, -limit);
         hi[k] = fmin(s->hi[k] + margin, limit);
     }
-}
-
-/* A leaf whose cell was not visited, being too thin for doubles, takes the reference of the leaf before. */
-static void fill_slots(survey *v) {
-    const froe_tree *t = v->q->tree;
+    const froe_status status = froe_tree_cells(t, lo, hi, look_at_cell, &v, diag);
+    if (status || v.status) return status ? status : support_fail_memory(diag);
+    /* A leaf whose cell was not visited, being too thin for doubles, takes the reference of the leaf before. */
     uint32_t last = AREA_FAR;
     for (uint32_t i = 0; i < t->node_count; i++) {
         if (!tree_is_leaf(t->nodes + i)) continue;
-        uint32_t *slot = v->areas->slots + query_leaf_place(t, i);
+        uint32_t *slot = areas->slots + query_leaf_place(t, i);
         if (*slot == FROE_NONE) *slot = last;
         last = *slot | AREA_FAR;
     }
-}
-
-static froe_status find_references(froe_query *q, query_areas *areas, froe_diagnostic *diag) {
-    const froe_scene *s = q->tree->scene;
-    survey v = {.q = q, .areas = areas};
-    double x[2], lo[2], hi[2];
-    if (!find_outside(s, x))
-        return support_fail(diag, FROE_E_UNSUPPORTED,
-                            "Nothing is outside of a scene that reaches as far as doubles do.");
-    areas->place_count = tree_is_packed(q->tree) ? q->tree->packed.block_count : q->tree->node_count;
-    areas->slots = support_calloc(&q->alloc, areas->place_count, sizeof *areas->slots);
-    if (!areas->slots) return support_fail_memory(diag);
-    memset(areas->slots, 0xff, areas->place_count * sizeof *areas->slots);
-    q->groups.inside.count = 0;
-    if (!keep_reference(&v, x)) return support_fail_memory(diag);
-    frame(s, lo, hi);
-    const froe_status status = froe_tree_cells(q->tree, lo, hi, look_at_cell, &v, diag);
-    if (status || v.status) return status ? status : support_fail_memory(diag);
-    fill_slots(&v);
     scene_table_free(&q->alloc, &areas->sets.table);
     return query_areas_settle(q, areas) ? FROE_OK : support_fail_memory(diag);
 }

@@ -71,20 +71,6 @@ froe_status query_areas_travel(froe_query *q, const query_areas *areas, const do
 
 /* ---------------------------------------------------------------- entering -- */
 
-static const query_area_leaf *leaf_at(const query_areas *areas, uint32_t slot) {
-    return (const query_area_leaf *)(const void *)(areas->leaves.data + slot);
-}
-
-static bool pass_leaf(froe_query *q, const query_area_leaf *leaf, const double *to) {
-    const query_border *s = (const query_border *)(const void *)(leaf + 1);
-    const uint32_t count = leaf->borders + leaf->others;
-    const double *from = leaf->from.at;
-    q->stats.tests += count;
-    for (uint32_t i = 0; i < count; i++)
-        if (bounds_meet(from, to, s[i].u, s[i].v) && !pass_border(q, s + i, i < leaf->borders, from, to)) return false;
-    return true;
-}
-
 /* What a point on the border of a cell lies on may be listed elsewhere. Other borders are crossed within the cell. */
 static froe_status touch_borders(froe_query *q, const query_areas *areas, const double *point) {
     const double ends[4] = {point[0], point[1], point[0], point[1]};
@@ -103,12 +89,21 @@ static froe_status touch_borders(froe_query *q, const query_areas *areas, const 
 
 froe_status query_areas_enter(froe_query *q, const query_areas *areas, const query_leaf *leaf, const double *point) {
     const uint32_t slot = areas->slots[leaf->place], number = slot & AREA_NUMBER;
-    const query_area_leaf *there = slot & (AREA_FAR | AREA_SET) ? NULL : leaf_at(areas, number);
+    const query_area_leaf *there =
+        slot & (AREA_FAR | AREA_SET) ? NULL : (const query_area_leaf *)(const void *)(areas->leaves.data + number);
     const query_reference *far = slot & AREA_FAR ? areas->references.data + number : NULL;
     const uint32_t set = there ? there->from.set : far ? far->set : number;
     if (!query_sets_copy(&areas->sets, &q->alloc, set, &q->groups.inside)) return FROE_E_MEMORY;
     if (far) return query_areas_travel(q, areas, far->at, point, NULL);
-    if (there && !pass_leaf(q, there, point)) return FROE_E_MEMORY;
+    if (there) {
+        const query_border *s = (const query_border *)(const void *)(there + 1);
+        const uint32_t count = there->borders + there->others;
+        const double *from = there->from.at;
+        q->stats.tests += count;
+        for (uint32_t i = 0; i < count; i++)
+            if (bounds_meet(from, point, s[i].u, s[i].v) && !pass_border(q, s + i, i < there->borders, from, point))
+                return FROE_E_MEMORY;
+    }
     return leaf->on_cut ? touch_borders(q, areas, point) : FROE_OK;
 }
 
@@ -203,30 +198,25 @@ static bool settle_near(settling *w, const tree_objects *list, query_reference f
     return start <= AREA_NUMBER;
 }
 
-static bool settle_far(settling *w, uint32_t *slot) {
-    const uint32_t number = *slot & ~AREA_FAR;
-    if (number != w->last && !array_push(&w->q->alloc, &w->far, w->areas->references.data[number])) return false;
-    w->last = number;
-    *slot = (uint32_t)(w->far.count - 1) | AREA_FAR;
-    return w->far.count <= AREA_NUMBER;
-}
-
-static bool settle_all(settling *w) {
-    const froe_tree *t = w->q->tree;
-    for (uint32_t i = 0; i < t->node_count; i++) {
-        if (!tree_is_leaf(t->nodes + i)) continue;
-        uint32_t *slot = w->areas->slots + query_leaf_place(t, i);
-        const tree_objects list = tree_list(t, i);
-        if (!(*slot & AREA_FAR ? settle_far(w, slot) : settle_near(w, &list, w->areas->references.data[*slot], slot)))
-            return false;
-    }
-    return true;
-}
-
 bool query_areas_settle(froe_query *q, query_areas *areas) {
     const froe_allocator *alloc = &q->alloc;
+    const froe_tree *t = q->tree;
     settling w = {.q = q, .areas = areas, .last = FROE_NONE};
-    const bool ok = settle_all(&w);
+    bool ok = true;
+    for (uint32_t i = 0; i < t->node_count && ok; i++) {
+        if (!tree_is_leaf(t->nodes + i)) continue;
+        uint32_t *slot = areas->slots + query_leaf_place(t, i);
+        const tree_objects list = tree_list(t, i);
+        const uint32_t number = *slot & ~AREA_FAR;
+        if (number == *slot) {
+            ok = settle_near(&w, &list, areas->references.data[number], slot);
+            continue;
+        }
+        ok = number == w.last || array_push(alloc, &w.far, areas->references.data[number]);
+        w.last = number;
+        *slot = (uint32_t)(w.far.count - 1) | AREA_FAR;
+        ok = ok && w.far.count <= AREA_NUMBER;
+    }
     array_free(alloc, &areas->references);
     areas->references.data = w.far.data;
     areas->references.count = w.far.count;

@@ -3,7 +3,7 @@
 #include "support/fail.h"
 #include <math.h>
 
-enum { GROUP = 8, LEAVES_PER_CELL = 16 };
+enum { CUTS_PER_GROUP = 8, LEAVES_PER_CELL = 16 };
 
 static void free_descent(const froe_allocator *alloc, query_part *part) {
     query_descent *d = (query_descent *)part;
@@ -15,51 +15,39 @@ static void free_descent(const froe_allocator *alloc, query_part *part) {
 
 /* ------------------------------------------------------------------- order -- */
 
-typedef struct plan {
+typedef struct descent_plan {
     const froe_tree *tree;
     const froe_allocator *alloc;
     query_descent *d;
     uint32_t *weights; /* [node]: leaves below */
     uint32_t *numbers; /* [node]: of its cut */
     ARRAY(uint32_t) roots;
-} plan;
+} descent_plan;
 
-static void weigh(plan *p) {
+/* Numbers cuts in groups, the heaviest first in each; the roots of others below a group wait. */
+static bool number_cuts(descent_plan *p) {
     const tree_node *nodes = p->tree->nodes;
     for (uint32_t v = p->tree->node_count; v-- > 0;) /* children come after their parents */
         p->weights[v] = tree_is_leaf(nodes + v) ? 1 : p->weights[nodes[v].child] + p->weights[nodes[v].child + 1];
-}
-
-/* The heaviest of some nodes, which is taken from them. */
-static uint32_t take_heaviest(const plan *p, uint32_t *open, size_t *count) {
-    size_t best = 0;
-    for (size_t i = 1; i < *count; i++)
-        if (p->weights[open[i]] > p->weights[open[best]]) best = i;
-    const uint32_t node = open[best];
-    open[best] = open[--*count];
-    return node;
-}
-
-/* Numbers a group of cuts; the roots of others below it wait. */
-static bool number_group(plan *p, uint32_t root) {
-    uint32_t open[GROUP + 1] = {root};
-    size_t count = 1;
-    for (int taken = 0; taken < GROUP && count; taken++) {
-        const uint32_t node = take_heaviest(p, open, &count), child = p->tree->nodes[node].child;
-        p->numbers[node] = p->d->cut_count;
-        p->d->nodes[p->d->cut_count++] = node;
-        for (uint32_t side = 0; side < 2; side++)
-            if (!tree_is_leaf(p->tree->nodes + child + side)) open[count++] = child + side;
+    if (!array_push(p->alloc, &p->roots, 0)) return false;
+    while (p->roots.count) {
+        uint32_t open[CUTS_PER_GROUP + 1] = {p->roots.data[--p->roots.count]};
+        size_t count = 1;
+        for (int taken = 0; taken < CUTS_PER_GROUP && count; taken++) {
+            size_t best = 0;
+            for (size_t i = 1; i < count; i++)
+                if (p->weights[open[i]] > p->weights[open[best]]) best = i;
+            const uint32_t node = open[best], child = nodes[node].child;
+            open[best] = open[--count];
+            p->numbers[node] = p->d->cut_count;
+            p->d->nodes[p->d->cut_count++] = node;
+            for (uint32_t side = 0; side < 2; side++)
+                if (!tree_is_leaf(nodes + child + side)) open[count++] = child + side;
+        }
+        if (!array_reserve(p->alloc, &p->roots, count)) return false;
+        for (size_t i = 0; i < count; i++) p->roots.data[p->roots.count++] = open[i];
     }
-    if (!array_reserve(p->alloc, &p->roots, count)) return false;
-    for (size_t i = 0; i < count; i++) p->roots.data[p->roots.count++] = open[i];
     return true;
-}
-
-static bool number_cuts(plan *p) {
-    bool ok = array_push(p->alloc, &p->roots, 0);
-    while (ok && p->roots.count) ok = number_group(p, p->roots.data[--p->roots.count]);
-    return ok;
 }
 
 /* -------------------------------------------------------------------- cuts -- */
@@ -84,13 +72,7 @@ static bool see_line(const query_descent *d, const geom_plane *h, int *major, do
     return h->n_err <= fabs(n) * 0x1p-40 && size <= 0x1p10 && fabs(*c) <= 2;
 }
 
-static uint32_t place_of_node(const plan *p, uint32_t node) {
-    const tree_node *n = p->tree->nodes + node;
-    if (!tree_is_leaf(n)) return p->numbers[node];
-    return node | DESCENT_LEAF | (n->u.list.count ? 0 : DESCENT_EMPTY);
-}
-
-static void lay_cut(plan *p, uint32_t number) {
+static void lay_cut(descent_plan *p, uint32_t number) {
     const uint32_t node = p->d->nodes[number], child = p->tree->nodes[node].child;
     const geom_plane h = tree_plane_at(p->tree, node);
     int major;
@@ -98,7 +80,11 @@ static void lay_cut(plan *p, uint32_t number) {
     const bool seen = see_line(p->d, &h, &major, &slope, &c), back = seen && h.n[major] < 0;
     descent_cut *cut = p->d->cuts + number;
     *cut = (descent_cut){.slope = seen ? (float)slope : 0, .c = seen ? (float)c : NAN};
-    for (uint32_t side = 0; side < 2; side++) cut->next[side ^ back] = place_of_node(p, child + side);
+    for (uint32_t side = 0; side < 2; side++) {
+        const tree_node *n = p->tree->nodes + child + side;
+        const uint32_t leaf = (child + side) | DESCENT_LEAF | (n->u.list.count ? 0 : DESCENT_EMPTY);
+        cut->next[side ^ back] = tree_is_leaf(n) ? leaf : p->numbers[child + side];
+    }
     if (seen && major) cut->next[0] |= DESCENT_STEEP;
     if (back) p->d->nodes[number] |= DESCENT_BACK;
 }
@@ -148,7 +134,7 @@ static bool take_units(query_descent *d, const froe_tree *t) {
 }
 
 static bool fill_descent(query_descent *d, const froe_tree *t, const froe_allocator *alloc) {
-    plan p = {.tree = t, .alloc = alloc, .d = d};
+    descent_plan p = {.tree = t, .alloc = alloc, .d = d};
     const uint32_t cuts = t->node_count / 2;
     bool ok = false;
     d->cuts = support_calloc(alloc, cuts, sizeof *d->cuts);
@@ -157,7 +143,6 @@ static bool fill_descent(query_descent *d, const froe_tree *t, const froe_alloca
     p.weights = support_calloc(alloc, t->node_count, sizeof *p.weights);
     p.numbers = support_calloc(alloc, t->node_count, sizeof *p.numbers);
     if (d->cuts && d->nodes && d->table && p.weights && p.numbers) {
-        weigh(&p);
         ok = number_cuts(&p);
         for (uint32_t i = 0; ok && i < cuts; i++) lay_cut(&p, i);
         if (ok) fill_table(d);

@@ -16,16 +16,6 @@ static froe_status add_holders(froe_query *q, const double *point, froe_diagnost
     return status;
 }
 
-/* The groups on whose borders the point is join those that it is inside of. */
-static froe_status gather_groups(froe_query *q, const query_areas *areas, const double *point, froe_diagnostic *diag) {
-    froe_status status = FROE_OK;
-    if (areas->solids || !areas->borders) status = add_holders(q, point, diag);
-    for (size_t i = 0; !status && i < q->groups.touched.count; i++)
-        if (!query_members_add(&q->groups.inside, &q->alloc, q->groups.touched.data[i]))
-            return support_fail_memory(diag);
-    return status;
-}
-
 froe_status query_groups_in(froe_query *q, const query_areas *areas, const double *point, const query_leaf *leaf,
                             froe_diagnostic *diag) {
     const uint64_t queries = q->stats.queries + 1, exact = q->numbers.stats.exact;
@@ -33,8 +23,12 @@ froe_status query_groups_in(froe_query *q, const query_areas *areas, const doubl
     q->groups.inside.count = q->groups.touched.count = 0;
     if (query_in_scene(q->tree->scene, point)) {
         if (areas->borders && query_areas_enter(q, areas, leaf, point)) return support_fail_memory(diag);
-        status = gather_groups(q, areas, point, diag);
+        if (areas->solids || !areas->borders) status = add_holders(q, point, diag);
     }
+    /* The groups on whose borders the point is join those that it is inside of. */
+    for (size_t i = 0; !status && i < q->groups.touched.count; i++)
+        if (!query_members_add(&q->groups.inside, &q->alloc, q->groups.touched.data[i]))
+            return support_fail_memory(diag);
     q->stats.queries = queries;
     q->stats.exact += q->numbers.stats.exact - exact;
     return status;

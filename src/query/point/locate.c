@@ -29,12 +29,12 @@ static froe_status test_list(froe_query *q, const tree_objects *list, const froe
 }
 
 /* A point as a range. */
-typedef struct spot {
+typedef struct point_range {
     froe_range range;
     double ends[2 * FROE_MAX_DIM];
-} spot;
+} point_range;
 
-static froe_status take_point(const froe_query *q, const double *point, spot *out, froe_diagnostic *diag) {
+static froe_status take_point(const froe_query *q, const double *point, point_range *out, froe_diagnostic *diag) {
     const size_t dim = (size_t)q->tree->scene->dim;
     out->range = froe_range_defaults();
     out->range.points = out->ends;
@@ -43,7 +43,7 @@ static froe_status take_point(const froe_query *q, const double *point, spot *ou
 }
 
 froe_status query_locate_in(froe_query *q, const double *point, const query_leaf *leaf, froe_diagnostic *diag) {
-    spot s;
+    point_range s;
     const froe_status status = take_point(q, point, &s, diag);
     if (status) return status;
     if (leaf->on_cut) return query_range_ask(q, &s.range, false, diag);
@@ -53,7 +53,7 @@ froe_status query_locate_in(froe_query *q, const double *point, const query_leaf
 
 froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *diag) {
     query_leaf leaf;
-    spot s;
+    point_range s;
     const froe_status status = take_point(q, point, &s, diag);
     if (status) return status;
     if (tree_is_packed(q->tree)) return query_range_ask(q, &s.range, false, diag);

@@ -25,7 +25,7 @@ static uint32_t roundest(uint32_t first, uint32_t last) {
     return last >> place << place;
 }
 
-/* Sizes of subtrees are in `order` until a node gets its number, parents first. */
+/* Numbers nodes and paths, and links paths with those above. Sizes of subtrees are in `order` until a node gets its number, parents first. */
 static void number_nodes(query_ancestors *a, const froe_tree *t) {
     query_ancestor *of = a->of;
     for (uint32_t v = t->node_count; v-- > 0;) {
@@ -44,10 +44,6 @@ static void number_nodes(query_ancestors *a, const froe_tree *t) {
             before += size;
         }
     }
-}
-
-static void lay_paths(query_ancestors *a, const froe_tree *t) {
-    query_ancestor *of = a->of;
     of[0].ascending = of[0].path & -of[0].path;
     for (uint32_t v = 0; v < t->node_count; v++) {
         if (tree_is_leaf(t->nodes + v)) continue;
@@ -68,7 +64,6 @@ static froe_status make_ancestors(froe_query *q, query_part **out, froe_diagnost
     a->above = support_calloc(&q->alloc, (size_t)a->node_count + 1, sizeof *a->above);
     if (!a->of || !a->above) return support_fail_memory(diag);
     number_nodes(a, q->tree);
-    lay_paths(a, q->tree);
     return FROE_OK;
 }
 

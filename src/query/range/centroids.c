@@ -22,37 +22,29 @@ bool query_is_deep(const froe_tree *t) {
 
 /* ------------------------------------------------------------------ regions -- */
 
-/* An inner node with an axis-parallel cut? */
-static bool axis_cut(const froe_tree *t, uint32_t node, int *axis, double *value) {
-    const froe_cut cut = tree_cut_at(t, node);
-    *axis = cut.axis;
-    *value = cut.value;
-    return cut.kind == FROE_CUT_AXIS;
-}
-
 /* Sizes of the subtrees among axis-parallel cuts, 0 below oblique ones; parents; regions. */
-typedef struct plan {
+typedef struct centroid_plan {
     const froe_tree *tree;
     query_centroids *c;
     uint32_t *sizes, *parents;
     bool *gone;            /* is the subtree no longer part of what is left above it? */
     ARRAY(uint64_t) parts; /* a root, and where the step that divides it goes: 2 step + side, or none */
-} plan;
+} centroid_plan;
 
-static void lay_regions(plan *p) {
+static void lay_regions(centroid_plan *p) {
     const froe_tree *t = p->tree;
     const size_t dim = (size_t)p->c->dim, width = 2 * dim;
     for (size_t k = 0; k < width; k++) p->c->boxes[k] = k < dim ? -INFINITY : INFINITY;
     p->sizes[0] = 1;
     for (uint32_t v = 0; v < t->node_count; v++) { /* parents come first */
-        int axis;
-        double value;
-        if (!p->sizes[v] || !axis_cut(t, v, &axis, &value)) continue;
+        if (!p->sizes[v]) continue;
+        const froe_cut cut = tree_cut_at(t, v);
+        if (cut.kind != FROE_CUT_AXIS) continue;
         for (uint32_t side = 0; side < 2; side++) {
             const uint32_t child = t->nodes[v].child + side;
             double *box = p->c->boxes + child * width;
             memcpy(box, p->c->boxes + v * width, width * sizeof *box);
-            box[side ? (size_t)axis : dim + (size_t)axis] = value;
+            box[side ? (size_t)cut.axis : dim + (size_t)cut.axis] = cut.value;
             p->parents[child] = v;
             p->sizes[child] = 1;
         }
@@ -64,40 +56,26 @@ static void lay_regions(plan *p) {
 /* ---------------------------------------------------------------- centroids -- */
 
 /* Of two children that are left the heavier; FROE_NONE if none is. */
-static uint32_t heavier(const plan *p, uint32_t node) {
+static uint32_t heavier(const centroid_plan *p, uint32_t node) {
     const uint32_t child = p->tree->nodes[node].child;
     if (tree_is_leaf(p->tree->nodes + node) || !p->sizes[child]) return FROE_NONE;
     const uint32_t left = p->gone[child] ? 0 : p->sizes[child], right = p->gone[child + 1] ? 0 : p->sizes[child + 1];
     return !left && !right ? FROE_NONE : child + (right > left);
 }
 
-static uint32_t find_centroid(const plan *p, uint32_t root) {
-    uint32_t v = heavier(p, root), next;
-    while ((uint64_t)p->sizes[v] * 3 > (uint64_t)p->sizes[root] * 2 && (next = heavier(p, v)) != FROE_NONE) v = next;
-    return v;
-}
-
-/* Takes the subtree of v out of the part that begins at root. */
-static void take_out(plan *p, uint32_t v, uint32_t root) {
-    p->gone[v] = true;
-    for (uint32_t u = v; u != root;) {
-        u = p->parents[u];
-        p->sizes[u] -= p->sizes[v];
-    }
-}
-
-static void link_to(plan *p, uint64_t from, uint32_t to) {
+static void link_to(centroid_plan *p, uint64_t from, uint32_t to) {
     if (from == UINT64_MAX)
         p->c->root = to;
     else
         p->c->steps[from / 2].next[from % 2] = to;
 }
 
-static bool push_part(plan *p, uint32_t root, uint64_t from) {
+static bool push_part(centroid_plan *p, uint32_t root, uint64_t from) {
     return array_push(&p->tree->alloc, &p->parts, root) && array_push(&p->tree->alloc, &p->parts, from);
 }
 
-static bool divide_parts(plan *p) {
+/* Divides each part at its centroid into the subtree there and the rest, until all are single nodes. */
+static bool divide_parts(centroid_plan *p) {
     bool ok = push_part(p, 0, UINT64_MAX);
     while (ok && p->parts.count) {
         const uint64_t from = p->parts.data[--p->parts.count];
@@ -106,10 +84,17 @@ static bool divide_parts(plan *p) {
             link_to(p, from, root | CENTROID_END);
             continue;
         }
-        const uint32_t v = find_centroid(p, root), step = p->c->count++;
+        uint32_t v = heavier(p, root), next;
+        while ((uint64_t)p->sizes[v] * 3 > (uint64_t)p->sizes[root] * 2 && (next = heavier(p, v)) != FROE_NONE)
+            v = next;
+        const uint32_t step = p->c->count++;
         p->c->steps[step].node = v;
         link_to(p, from, step);
-        take_out(p, v, root);
+        p->gone[v] = true; /* the subtree of v is no longer part of what begins at root */
+        for (uint32_t u = v; u != root;) {
+            u = p->parents[u];
+            p->sizes[u] -= p->sizes[v];
+        }
         ok = push_part(p, root, 2 * (uint64_t)step) && push_part(p, v, 2 * (uint64_t)step + 1);
     }
     return ok;
@@ -119,7 +104,7 @@ static bool divide_parts(plan *p) {
 
 static froe_status fill_centroids(query_centroids *c, const froe_tree *t) {
     const froe_allocator *alloc = &t->alloc;
-    plan p = {.tree = t, .c = c};
+    centroid_plan p = {.tree = t, .c = c};
     bool ok = false;
     c->steps = support_calloc(alloc, c->node_count, sizeof *c->steps);
     c->boxes = support_calloc(alloc, (size_t)c->node_count * 2 * (size_t)c->dim, sizeof *c->boxes);

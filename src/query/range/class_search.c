@@ -4,9 +4,9 @@
 #include "support/fail.h"
 
 /* The cube around a range. */
-typedef struct cube {
+typedef struct range_cube {
     double centre[FROE_MAX_DIM], reach;
-} cube;
+} range_cube;
 
 /* a - b, rounded up. */
 static double difference_above(double a, double b) {
@@ -15,9 +15,9 @@ static double difference_above(double a, double b) {
 }
 
 /* Infinite for ranges without known bounds, halfspaces among them. */
-static cube cube_of(const query_range *r) {
+static range_cube cube_of(const query_range *r) {
     const geom_range *range = &r->range;
-    cube c = {.reach = r->shape == FROE_SHAPE_BALL ? r->from->radius : 0};
+    range_cube c = {.reach = r->shape == FROE_SHAPE_BALL ? r->from->radius : 0};
     for (int k = 0; k < range->dim; k++) {
         const double lo = range->lo[k], hi = range->hi[k];
         c.centre[k] = r->shape == FROE_SHAPE_BALL ? r->from->points[k] : 0.5 * lo + 0.5 * hi;
@@ -62,7 +62,7 @@ static froe_status test_objects(froe_query *q, const query_class *c, const tree_
 }
 
 /* One point location. */
-static froe_status locate(froe_query *q, const query_class *c, froe_query *fork, const cube *around) {
+static froe_status locate(froe_query *q, const query_class *c, froe_query *fork, const range_cube *around) {
     query_leaf leaf;
     const froe_scene *s = c->tree->scene;
     for (int k = 0; k < s->dim; k++)
@@ -92,17 +92,9 @@ static froe_status search(froe_query *q, const query_class *c, froe_query *fork)
     return test_objects(q, c, &list);
 }
 
-/* Visits of a fork count as visits of the query. */
-static void add_statistics(froe_query *q, froe_query *fork) {
-    const froe_query_stats stats = froe_query_statistics(fork);
-    q->stats.nodes += stats.nodes;
-    q->stats.leaves += stats.leaves;
-    q->stats.steps += stats.steps;
-}
-
 froe_status query_classes_search(froe_query *q, froe_diagnostic *diag) {
     const query_classes *p;
-    const cube around = cube_of(&q->range);
+    const range_cube around = cube_of(&q->range);
     froe_status status = query_classes_of(q, &p, diag);
     if (!status) status = take_forks(q, p, diag);
     if (status) return status;
@@ -112,7 +104,10 @@ froe_status query_classes_search(froe_query *q, froe_diagnostic *diag) {
         const query_class *c = p->classes + i;
         const bool small = c->step > 0 && around.reach <= c->step;
         status = small ? locate(q, c, q->classes.forks[i], &around) : search(q, c, q->classes.forks[i]);
-        add_statistics(q, q->classes.forks[i]);
+        const froe_query_stats stats = froe_query_statistics(q->classes.forks[i]);
+        q->stats.nodes += stats.nodes; /* visits of a fork count as visits of the query */
+        q->stats.leaves += stats.leaves;
+        q->stats.steps += stats.steps;
     }
     return status ? support_fail_memory(diag) : FROE_OK;
 }

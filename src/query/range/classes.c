@@ -7,17 +7,16 @@
 /* Overlapping boxes do not make its trees large, as they do those of `directional`. A leaf holds about those boxes that
  * overlap there. */
 static const char METHOD[] = "kd";
-enum { LEAF = 2 }; /* times 2^dim */
-
-static void free_class(const froe_allocator *alloc, query_class *c) {
-    froe_query_free(c->query);
-    froe_tree_free(c->tree);
-    support_free(alloc, c->ids, c->count * sizeof *c->ids);
-}
+enum { BOXES_PER_LEAF = 2 }; /* times 2^dim */
 
 static void free_classes(const froe_allocator *alloc, query_part *part) {
     query_classes *p = (query_classes *)part;
-    for (uint32_t i = 0; p->classes && i < p->count; i++) free_class(alloc, p->classes + i);
+    for (uint32_t i = 0; p->classes && i < p->count; i++) {
+        query_class *c = p->classes + i;
+        froe_query_free(c->query);
+        froe_tree_free(c->tree);
+        support_free(alloc, c->ids, c->count * sizeof *c->ids);
+    }
     support_free(alloc, p->classes, p->count * sizeof *p->classes);
     support_free(alloc, p, sizeof *p);
 }
@@ -64,11 +63,17 @@ static froe_status add_boxes(froe_scene *boxes, const froe_scene *s, const query
     return status;
 }
 
-static froe_status build_class(const froe_tree *t, query_class *c, froe_diagnostic *diag) {
+/* A class of the objects first .. first + count, and the tree of their boxes. */
+static froe_status fill_class(query_class *c, const froe_tree *t, const base_pair *sorted, uint32_t count, double step,
+                              froe_diagnostic *diag) {
     froe_scene *boxes = NULL;
     froe_build_options o = froe_build_defaults();
+    *c = (query_class){.step = step, .count = count};
+    c->ids = support_calloc(&t->alloc, count, sizeof *c->ids);
+    if (!c->ids) return support_fail_memory(diag);
+    for (uint32_t i = 0; i < count; i++) c->ids[i] = sorted[i].value;
     o.method = METHOD;
-    o.leaf = (uint32_t)LEAF << t->scene->dim;
+    o.leaf = (uint32_t)BOXES_PER_LEAF << t->scene->dim;
     o.threads = 1;
     froe_status status = froe_scene_new(t->scene->dim, &t->alloc, &boxes);
     if (status) return support_fail_memory(diag);
@@ -77,18 +82,6 @@ static froe_status build_class(const froe_tree *t, query_class *c, froe_diagnost
     if (!status) status = froe_query_new(c->tree, &c->query, diag);
     froe_scene_free(boxes);
     return status;
-}
-
-/* ------------------------------------------------------------------ making -- */
-
-/* A class of the objects first .. first + count. */
-static froe_status fill_class(query_class *c, const froe_tree *t, const base_pair *sorted, uint32_t count, double step,
-                              froe_diagnostic *diag) {
-    *c = (query_class){.step = step, .count = count};
-    c->ids = support_calloc(&t->alloc, count, sizeof *c->ids);
-    if (!c->ids) return support_fail_memory(diag);
-    for (uint32_t i = 0; i < count; i++) c->ids[i] = sorted[i].value;
-    return build_class(t, c, diag);
 }
 
 static froe_status add_classes(query_classes *p, const froe_tree *t, const base_pair *sorted, froe_diagnostic *diag) {

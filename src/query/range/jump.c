@@ -13,18 +13,15 @@ froe_status query_jump_prepare(froe_query *query, froe_walk walk, query_jump *ou
     return status;
 }
 
-/* A number between two, which halves of the least ones would miss. */
-static double middle_of(double lo, double hi) {
-    const double middle = 0.5 * lo + 0.5 * hi;
-    return middle < lo || middle > hi ? lo : middle;
-}
-
 /* The highest of the lowest common ancestors of both ends along each axis. All of them are in the subtree of one. */
 static uint32_t highest_cut(const query_jump *j, const double *lo, const double *hi) {
     const int dim = j->centroids->dim;
     double x[FROE_MAX_DIM];
     uint32_t highest = FROE_NONE;
-    for (int k = 0; k < dim; k++) x[k] = middle_of(lo[k], hi[k]);
+    for (int k = 0; k < dim; k++) { /* a number between two, which halves of the least ones would miss */
+        x[k] = 0.5 * lo[k] + 0.5 * hi[k];
+        if (x[k] < lo[k] || x[k] > hi[k]) x[k] = lo[k];
+    }
     for (int k = 0; k < dim; k++) {
         const double middle = x[k];
         x[k] = lo[k];

@@ -13,32 +13,17 @@ static bool is_window(const froe_range *range) {
 static bool is_packed_window(const froe_query *q, const froe_range *range) {
     return q->packed && is_window(range);
 }
-static bool is_space_window(const froe_query *q, const froe_range *range) {
-    return q->space && q->tree->packed.wide && is_window(range);
-}
-
-static froe_status ask_space(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
-    froe_status status = query_range_check(range, 3, diag);
-    if (status) return status;
-    query_begin(q);
-    query_range_of_box(q, range);
-    status = space_range(q, range->points, range->points + 3, any);
-    return status ? support_fail_memory(diag) : FROE_OK;
-}
-
-static froe_status ask_packed(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
-    froe_status status = query_range_check(range, 2, diag);
-    if (status) return status;
-    query_begin(q);
-    status = any ? packed_any(q, range->points, range->points + 2) : packed_range(q, range->points, range->points + 2);
-    return status ? support_fail_memory(diag) : FROE_OK;
-}
-
 froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
-    if (is_packed_window(q, range)) return ask_packed(q, range, any, diag);
-    if (is_space_window(q, range)) return ask_space(q, range, any, diag);
-    froe_status status = query_range_take(q, range, diag);
+    const int dim = is_packed_window(q, range) ? 2 : q->space && q->tree->packed.wide && is_window(range) ? 3 : 0;
+    froe_status status = dim ? query_range_check(range, dim, diag) : query_range_take(q, range, diag);
     if (status) return status;
+    if (dim) { /* a window on a packed tree */
+        const double *lo = range->points, *hi = lo + dim;
+        query_begin(q);
+        if (dim == 3) query_range_of_box(q, range);
+        status = dim == 3 ? space_range(q, lo, hi, any) : any ? packed_any(q, lo, hi) : packed_range(q, lo, hi);
+        return status ? support_fail_memory(diag) : FROE_OK;
+    }
     query_begin(q);
     q->range.any = any;
     if (q->range.walk == FROE_WALK_CLASSES) return query_classes_search(q, diag);
@@ -54,21 +39,19 @@ froe_status froe_query_range(froe_query *query, const froe_range *range, froe_li
     return status;
 }
 
-static froe_status count_packed(froe_query *q, const froe_range *range, uint64_t *out, froe_diagnostic *diag) {
-    froe_status status = query_range_check(range, 2, diag);
-    if (status) return status;
-    query_begin(q);
-    status = packed_count_range(q, range->points, range->points + 2, out);
-    return status ? support_fail_memory(diag) : FROE_OK;
-}
-
 froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_t *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !range || !out) return support_fail(diag, FROE_E_ARG, "froe_query_count: NULL argument.");
-    if (is_packed_window(query, range)) return count_packed(query, range, out, diag);
-    const froe_status status = query_range_ask(query, range, false, diag);
-    if (!status) *out = query->found.count;
-    return status;
+    if (!is_packed_window(query, range)) {
+        const froe_status status = query_range_ask(query, range, false, diag);
+        if (!status) *out = query->found.count;
+        return status;
+    }
+    froe_status status = query_range_check(range, 2, diag);
+    if (status) return status;
+    query_begin(query);
+    status = packed_count_range(query, range->points, range->points + 2, out);
+    return status ? support_fail_memory(diag) : FROE_OK;
 }
 
 froe_status froe_query_any(froe_query *query, const froe_range *range, uint32_t *out, froe_diagnostic *diag) {

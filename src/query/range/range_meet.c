@@ -8,24 +8,6 @@
 
 /* ------------------------------------------------------------------- boxes -- */
 
-/* An object that is a box grown by a radius: false if it is none. */
-static bool as_box(const froe_scene *s, uint32_t object, const double **lo, const double **hi, double *radius) {
-    *lo = *hi = scene_point(s, object, 0);
-    *radius = 0;
-    switch (scene_form(s, object)) {
-    case FROE_POINT:
-        return true;
-    case FROE_BALL:
-        *radius = scene_radius(s, object);
-        return true;
-    case FROE_BOX:
-        *hi = scene_point(s, object, 1);
-        return true;
-    default:
-        return false;
-    }
-}
-
 static bool in_box(const double *x, const double *lo, const double *hi, int dim) {
     for (int k = 0; k < dim; k++)
         if (x[k] < lo[k] || x[k] > hi[k]) return false;
@@ -53,22 +35,6 @@ static bool segment_beside_box(num_context *context, int axis, const double *u, 
     return side && side == geom_side_vertex(context, &line, b);
 }
 
-/* A segment and a box whose bounds meet. */
-static bool box_meets_segment(num_context *context, int dim, const double *lo, const double *hi, const double *u,
-                              const double *v) {
-    if (in_box(u, lo, hi, dim) || in_box(v, lo, hi, dim)) return true;
-    if (dim == 2) return !segment_beside_box(context, -1, u, v, lo, hi);
-    for (int axis = 0; axis < 3; axis++)
-        if (segment_beside_box(context, axis, u, v, lo, hi)) return false;
-    return true;
-}
-
-static bool box_meets_corner(const froe_scene *s, uint32_t object, const double *lo, const double *hi) {
-    for (uint32_t i = 0, n = scene_corners(s, object); i < n; i++)
-        if (in_box(scene_point(s, object, i), lo, hi, s->dim)) return true;
-    return false;
-}
-
 /* Only what lies within the bounds of the object counts, so that no bound is infinite. */
 static bool box_meets(froe_query *q, const double *lo, const double *hi, uint32_t object) {
     const froe_scene *s = q->tree->scene;
@@ -79,10 +45,16 @@ static bool box_meets(froe_query *q, const double *lo, const double *hi, uint32_
         ends[k] = lo[k] > a[k] ? lo[k] : a[k];
         ends[s->dim + k] = hi[k] < b[k] ? hi[k] : b[k];
     }
-    if (scene_form(s, object) == FROE_SEGMENT)
-        return box_meets_segment(&q->numbers, s->dim, ends, ends + s->dim, scene_point(s, object, 0),
-                                 scene_point(s, object, 1));
-    if (box_meets_corner(s, object, lo, hi)) return true;
+    if (scene_form(s, object) == FROE_SEGMENT) { /* its bounds meet the box */
+        const double *u = scene_point(s, object, 0), *v = scene_point(s, object, 1), *far = ends + s->dim;
+        if (in_box(u, ends, far, s->dim) || in_box(v, ends, far, s->dim)) return true;
+        if (s->dim == 2) return !segment_beside_box(&q->numbers, -1, u, v, ends, far);
+        for (int axis = 0; axis < 3; axis++)
+            if (segment_beside_box(&q->numbers, axis, u, v, ends, far)) return false;
+        return true;
+    }
+    for (uint32_t i = 0, n = scene_corners(s, object); i < n; i++)
+        if (in_box(scene_point(s, object, i), lo, hi, s->dim)) return true;
     const geom_convex box = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = ends};
     const geom_convex set = scene_convex(s, object);
     return geom_meet(&q->numbers, &set, &box);
@@ -110,24 +82,20 @@ static int halfspaces_meet_corners(num_context *context, const froe_range *from,
     return in_all ? 1 : NUM_UNSURE;
 }
 
-/* The corners of the halfspaces within the bounds of the scene, when they are needed first. */
-static bool make_polytope(froe_query *q) {
+static bool halfspaces_meet(froe_query *q, uint32_t object, bool *memory) {
     query_range *r = &q->range;
     const froe_scene *s = q->tree->scene;
-    if (r->polytope_made) return true;
-    r->polytope_made = geom_polytope_make(&q->numbers, &q->alloc, s->dim, r->from->points, r->from->offsets,
-                                          r->from->count, s->lo, s->hi, &r->polytope) &&
-                       !num_arena_reserve(&q->alloc, &q->numbers.arena, geom_meet_arena);
-    r->range.set = geom_polytope_convex(&r->polytope, s->dim);
-    return r->polytope_made;
-}
-
-static bool halfspaces_meet(froe_query *q, uint32_t object, bool *memory) {
-    const geom_convex set = scene_convex(q->tree->scene, object);
-    const int known = halfspaces_meet_corners(&q->numbers, q->range.from, &set);
+    const geom_convex set = scene_convex(s, object);
+    const int known = halfspaces_meet_corners(&q->numbers, r->from, &set);
     if (known != NUM_UNSURE) return known;
-    if (!make_polytope(q)) return *memory = true, false;
-    return q->range.range.set.count && geom_meet(&q->numbers, &set, &q->range.range.set);
+    if (!r->polytope_made) { /* the corners of the halfspaces within the bounds of the scene, when first needed */
+        r->polytope_made = geom_polytope_make(&q->numbers, &q->alloc, s->dim, r->from->points, r->from->offsets,
+                                              r->from->count, s->lo, s->hi, &r->polytope) &&
+                           !num_arena_reserve(&q->alloc, &q->numbers.arena, geom_meet_arena);
+        r->range.set = geom_polytope_convex(&r->polytope, s->dim);
+    }
+    if (!r->polytope_made) return *memory = true, false;
+    return r->range.set.count && geom_meet(&q->numbers, &set, &r->range.set);
 }
 
 /* -------------------------------------------------------------------- rays -- */
@@ -172,31 +140,29 @@ static bool holds_corner(froe_query *q, uint32_t object) {
     return false;
 }
 
-/* A ball and an object of corners. */
-static bool ball_meets(froe_query *q, uint32_t object) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    scene_object_bounds(q->tree->scene, object, lo, hi);
-    return !geom_range_misses(&q->range.range, lo, hi) && set_meets(q, object);
-}
-
 static bool decide_object(froe_query *q, uint32_t object, bool *memory) {
     const froe_scene *s = q->tree->scene;
     const froe_range *from = q->range.from;
-    const double *lo, *hi;
-    double radius;
-    const bool boxlike = as_box(s, object, &lo, &hi, &radius);
+    const froe_kind form = scene_form(s, object);
+    /* Points, balls and boxes are boxes lo, hi, grown by a radius. */
+    const bool boxlike = form == FROE_POINT || form == FROE_BALL || form == FROE_BOX;
+    const double *lo = scene_point(s, object, 0), *hi = form == FROE_BOX ? scene_point(s, object, 1) : lo;
+    const double radius = form == FROE_BALL ? scene_radius(s, object) : 0;
     if (!boxlike && holds_corner(q, object)) return true;
     switch (from->shape) {
     case FROE_SHAPE_BOX:
         if (boxlike)
             return geom_meet_boxes(&q->numbers, s->dim, lo, hi, radius, from->points, from->points + s->dim, 0);
         return box_meets(q, from->points, from->points + s->dim, object);
-    case FROE_SHAPE_BALL:
+    case FROE_SHAPE_BALL: {
+        double least[FROE_MAX_DIM], most[FROE_MAX_DIM];
         if (boxlike)
             return geom_meet_boxes(&q->numbers, s->dim, lo, hi, radius, from->points, from->points, from->radius);
-        return ball_meets(q, object);
+        scene_object_bounds(s, object, least, most);
+        return !geom_range_misses(&q->range.range, least, most) && set_meets(q, object);
+    }
     case FROE_SHAPE_SEGMENT:
-        if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return set_meets(q, object);
+        if (s->dim != 2 || form != FROE_SEGMENT) return set_meets(q, object);
         return query_segments_meet(&q->numbers, from->points, from->points + 2, scene_point(s, object, 0),
                                    scene_point(s, object, 1));
     case FROE_SHAPE_HALFSPACES:

@@ -47,18 +47,14 @@ static bool has_radius(froe_range_shape shape) {
     return shape == FROE_SHAPE_BALL || shape == FROE_SHAPE_CAPSULE;
 }
 
-/* Coordinate i; boxes may be unbounded. */
-static bool coordinate_fits(const froe_range *r, size_t i, size_t dim) {
-    const double x = r->points[i];
-    if (isfinite(x)) return true;
-    return r->shape == FROE_SHAPE_BOX && (i < dim ? x == -INFINITY : x == INFINITY);
-}
-
 static froe_status check_numbers(const froe_range *r, size_t dim, froe_diagnostic *diag) {
     const size_t count = range_point_count(r, dim);
-    for (size_t i = 0; i < count * dim; i++)
-        if (!coordinate_fits(r, i, dim))
-            return support_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], r->points[i]);
+    for (size_t i = 0; i < count * dim; i++) {
+        const double x = r->points[i];
+        const bool no_bound = r->shape == FROE_SHAPE_BOX && (i < dim ? x == -INFINITY : x == INFINITY);
+        if (!isfinite(x) && !no_bound)
+            return support_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], x);
+    }
     for (size_t i = 0; r->shape == FROE_SHAPE_HALFSPACES && i < count; i++)
         if (!isfinite(r->offsets[i]))
             return support_fail(diag, FROE_E_INPUT, "A halfspace has the offset %g.", r->offsets[i]);
@@ -107,72 +103,49 @@ static bool add_slab(geom_range *r, const froe_allocator *alloc, double n[3]) {
     return geom_range_add_facet(r, alloc, n) && geom_range_add_facet(r, alloc, back);
 }
 
-/* Each side of a simplex. */
-static bool add_simplex_facets(geom_range *r, const froe_allocator *alloc) {
-    const uint32_t count = r->set.count;
-    bool ok = true;
-    for (uint32_t i = 0; i < count && ok; i++) {
-        double n[3];
-        const double *p[3];
-        for (uint32_t j = 0; j < 3; j++) p[j] = geom_convex_point(&r->set, (i + j) % count);
-        normal_of(r->dim, p[0], p[1], p[2], n);
-        ok = add_slab(r, alloc, n);
-    }
-    return ok;
-}
-
-/* Across the axis of a capsule. */
-static bool add_capsule_facets(geom_range *r, const froe_allocator *alloc) {
-    const double *p = geom_convex_point(&r->set, 0), *q = geom_convex_point(&r->set, 1);
-    bool ok = true;
-    for (int axis = r->dim == 2 ? 2 : 0; axis < 3 && ok; axis++) {
-        double n[3], up[3] = {0};
-        for (int k = 0; k < r->dim; k++) up[k] = p[k];
-        if (axis < r->dim) up[axis] += fabs(q[axis] - p[axis]) + 1;
-        normal_of(r->dim, p, q, up, n);
-        ok = add_slab(r, alloc, n);
-    }
-    return ok;
-}
-
-/* In the directions between the axes. */
-static bool add_hull_facets(geom_range *r, const froe_allocator *alloc) {
-    bool ok = true;
-    for (int i = 0; i < 27 && ok; i++) {
-        const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
-        double n[3] = {x, y, z};
-        int axes = (n[0] != 0) + (n[1] != 0) + (n[2] != 0);
-        if (axes > 1 && (r->dim == 3 || n[2] == 0)) ok = geom_range_add_facet(r, alloc, n);
-    }
-    return ok;
-}
-
-static bool add_halfspaces(geom_range *r, const froe_allocator *alloc, const froe_range *from) {
-    if (!array_reserve(alloc, &r->facets, from->count)) return false;
-    for (size_t i = 0; i < from->count; i++) {
-        geom_facet f = {.c = from->offsets[i]};
-        double square = 0;
-        for (int k = 0; k < r->dim; k++) {
-            f.n[k] = from->points[i * (size_t)r->dim + (size_t)k];
-            square += f.n[k] * f.n[k];
-        }
-        f.norm = sqrt(square) * (1 + 0x1p-48);
-        r->facets.data[r->facets.count++] = f;
-    }
-    return true;
-}
-
 static bool add_facets(geom_range *r, const froe_allocator *alloc, const froe_range *from) {
+    const double *p[3];
+    double n[3];
+    bool ok = true;
     r->facets.count = 0;
     switch (from->shape) {
-    case FROE_SHAPE_SIMPLEX:
-        return add_simplex_facets(r, alloc);
-    case FROE_SHAPE_CAPSULE:
-        return add_capsule_facets(r, alloc);
-    case FROE_SHAPE_HULL:
-        return add_hull_facets(r, alloc);
+    case FROE_SHAPE_SIMPLEX: /* each side */
+        for (uint32_t i = 0; i < r->set.count && ok; i++) {
+            for (uint32_t j = 0; j < 3; j++) p[j] = geom_convex_point(&r->set, (i + j) % r->set.count);
+            normal_of(r->dim, p[0], p[1], p[2], n);
+            ok = add_slab(r, alloc, n);
+        }
+        return ok;
+    case FROE_SHAPE_CAPSULE: /* across the axis */
+        for (int i = 0; i < 2; i++) p[i] = geom_convex_point(&r->set, (uint32_t)i);
+        for (int axis = r->dim == 2 ? 2 : 0; axis < 3 && ok; axis++) {
+            double up[3] = {0};
+            for (int k = 0; k < r->dim; k++) up[k] = p[0][k];
+            if (axis < r->dim) up[axis] += fabs(p[1][axis] - p[0][axis]) + 1;
+            normal_of(r->dim, p[0], p[1], up, n);
+            ok = add_slab(r, alloc, n);
+        }
+        return ok;
+    case FROE_SHAPE_HULL: /* in the directions between the axes */
+        for (int i = 0; i < 27 && ok; i++) {
+            n[0] = i % 3 - 1, n[1] = i / 3 % 3 - 1, n[2] = i / 9 - 1;
+            const int axes = (n[0] != 0) + (n[1] != 0) + (n[2] != 0);
+            if (axes > 1 && (r->dim == 3 || n[2] == 0)) ok = geom_range_add_facet(r, alloc, n);
+        }
+        return ok;
     case FROE_SHAPE_HALFSPACES:
-        return add_halfspaces(r, alloc, from);
+        if (!array_reserve(alloc, &r->facets, from->count)) return false;
+        for (size_t i = 0; i < from->count; i++) {
+            geom_facet f = {.c = from->offsets[i]};
+            double square = 0;
+            for (int k = 0; k < r->dim; k++) {
+                f.n[k] = from->points[i * (size_t)r->dim + (size_t)k];
+                square += f.n[k] * f.n[k];
+            }
+            f.norm = sqrt(square) * (1 + 0x1p-48);
+            r->facets.data[r->facets.count++] = f;
+        }
+        return true;
     default:
         return true;
     }
@@ -213,29 +186,17 @@ static double spread_of_points(size_t dim, const double *points, size_t count) {
     return most > 0x1p-900 ? sqrt(most) : 0; /* squares that are not denormal; what is shorter has no margin */
 }
 
-/* A lower bound of it: the greatest extent along an axis. */
-static double extent(const geom_range *r) {
-    double most = 0;
-    for (int k = 0; k < r->dim; k++) most = filter_greater(most, r->hi[k] - r->lo[k]);
-    return most;
-}
-
 /* A lower bound of the diameter; of halfspaces that of their corners. */
 static double diameter(const geom_range *r, const froe_range *from) {
     const size_t dim = (size_t)r->dim;
     const size_t count = from->shape == FROE_SHAPE_HALFSPACES ? r->set.count : range_point_count(from, dim);
     const double *points = from->shape == FROE_SHAPE_HALFSPACES ? r->set.coords : from->points;
-    const double most = count <= FEW_POINTS ? spread_of_points(dim, points, count) : extent(r);
+    double most = 0;
+    for (int k = 0; k < r->dim && count > FEW_POINTS; k++) most = filter_greater(most, r->hi[k] - r->lo[k]);
+    if (count <= FEW_POINTS) most = spread_of_points(dim, points, count);
     const double radius = has_radius(from->shape) ? from->radius : 0;
     const double size = (most - 4 * r->set.error) * (1 - 0x1p-45) + 2 * radius;
     return size > 0x1p-500 ? size * (1 - 0x1p-45) : 0;
-}
-
-static bool is_unbounded(const froe_range *from, size_t dim) {
-    if (from->shape == FROE_SHAPE_RAY) return true;
-    for (size_t i = 0; from->shape == FROE_SHAPE_BOX && i < 2 * dim; i++)
-        if (!isfinite(from->points[i])) return true;
-    return false;
 }
 
 /* Halfspaces within a box that holds all numbers: which of its planes makes a corner bounds what they do not. */
@@ -258,8 +219,10 @@ static froe_status take_margin(froe_query *q, const froe_range *from, froe_diagn
     query_range *r = &q->range;
     r->margin = 0;
     if (from->eps == 0) return FROE_OK;
-    if (is_unbounded(from, (size_t)r->range.dim))
-        return support_fail(diag, FROE_E_INPUT, "A %s without a bound has no eps.", names[from->shape]);
+    bool unbounded = from->shape == FROE_SHAPE_RAY;
+    for (size_t i = 0; from->shape == FROE_SHAPE_BOX && i < 2 * (size_t)r->range.dim; i++)
+        unbounded |= !isfinite(from->points[i]);
+    if (unbounded) return support_fail(diag, FROE_E_INPUT, "A %s without a bound has no eps.", names[from->shape]);
     if (from->shape == FROE_SHAPE_HALFSPACES) {
         const froe_status status = measure_halfspaces(q, from, diag);
         if (status) return status;
@@ -271,30 +234,12 @@ static froe_status take_margin(froe_query *q, const froe_range *from, froe_diagn
 
 /* ------------------------------------------------------------------ taking -- */
 
-static geom_range_kind kind_of(froe_range_shape shape) {
-    switch (shape) {
-    case FROE_SHAPE_BOX:
-        return GEOM_RANGE_BOX;
-    case FROE_SHAPE_BALL:
-        return GEOM_RANGE_BALL;
-    case FROE_SHAPE_SEGMENT:
-    case FROE_SHAPE_RAY:
-        return GEOM_RANGE_THIN;
-    default:
-        return GEOM_RANGE_SOLID;
-    }
-}
-
-static geom_convex set_of(const froe_range *from, int dim) {
-    geom_convex set = {.dim = dim, .coords = from->points, .count = (uint32_t)range_point_count(from, (size_t)dim)};
-    if (has_radius(from->shape)) set.radius = from->radius;
-    if (from->shape == FROE_SHAPE_RAY) set.core = GEOM_CORE_RAY;
-    if (from->shape == FROE_SHAPE_BOX) set.core = GEOM_CORE_BOX, set.count = 1u << dim;
-    if (from->shape == FROE_SHAPE_HALFSPACES) set.count = 0;
-    return set;
-}
-
 froe_status query_range_take(froe_query *q, const froe_range *from, froe_diagnostic *diag) {
+    static const geom_range_kind kinds[FROE_SHAPE_COUNT] = {
+        [FROE_SHAPE_BOX] = GEOM_RANGE_BOX,          [FROE_SHAPE_BALL] = GEOM_RANGE_BALL,
+        [FROE_SHAPE_SIMPLEX] = GEOM_RANGE_SOLID,    [FROE_SHAPE_CAPSULE] = GEOM_RANGE_SOLID,
+        [FROE_SHAPE_HALFSPACES] = GEOM_RANGE_SOLID, [FROE_SHAPE_HULL] = GEOM_RANGE_SOLID,
+        [FROE_SHAPE_SEGMENT] = GEOM_RANGE_THIN,     [FROE_SHAPE_RAY] = GEOM_RANGE_THIN};
     query_range *r = &q->range;
     const int dim = q->tree->scene->dim;
     froe_status status = query_range_check(from, dim, diag);
@@ -303,9 +248,14 @@ froe_status query_range_take(froe_query *q, const froe_range *from, froe_diagnos
     r->shape = from->shape;
     r->walk = from->walk;
     r->polytope_made = false;
-    r->range.kind = kind_of(from->shape);
+    r->range.kind = kinds[from->shape];
     r->range.dim = dim;
-    r->range.set = set_of(from, dim);
+    geom_convex *set = &r->range.set;
+    *set = (geom_convex){.dim = dim, .coords = from->points, .count = (uint32_t)range_point_count(from, (size_t)dim)};
+    if (has_radius(from->shape)) set->radius = from->radius;
+    if (from->shape == FROE_SHAPE_RAY) set->core = GEOM_CORE_RAY;
+    if (from->shape == FROE_SHAPE_BOX) set->core = GEOM_CORE_BOX, set->count = 1u << dim;
+    if (from->shape == FROE_SHAPE_HALFSPACES) set->count = 0;
     take_bounds(&r->range, from);
     status = take_margin(q, from, diag);
     if (status) return status;

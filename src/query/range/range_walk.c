@@ -15,7 +15,7 @@
 #include "tree/packed/space.h"
 #include <string.h>
 
-typedef struct walk {
+typedef struct range_walk {
     froe_query *q;
     const froe_tree *tree;
     const query_planes *planes;
@@ -26,37 +26,36 @@ typedef struct walk {
     bool points;  /* are leaves tested by coordinates? */
     size_t width; /* doubles of a waiting node */
     bool memory;  /* ran out */
-} walk;
+} range_walk;
 
-static bool done(const walk *w) {
+static bool done(const range_walk *w) {
     return w->memory || (w->r->any && w->q->found.count);
 }
 
 /* ------------------------------------------------------------------- lists -- */
 
-/* Reports those objects of a list that meet the range. */
-static void test_list(walk *w, const tree_objects *list) {
+/* Reports those objects that meet the range, of the list of a leaf, or of a cut that the range may touch. */
+static void visit_list(range_walk *w, uint32_t node) {
+    const tree_objects list = tree_list(w->tree, node);
     froe_query *q = w->q;
-    if (!query_expect(q, list->count)) w->memory = true;
-    for (uint32_t i = 0; i < list->count && !w->memory; i++) {
-        const uint32_t object = tree_object(list, i);
-        if (query_seen(q, list, i, object)) continue;
-        if (query_range_meets(q, object, &w->memory)) query_found(q, object);
-        if (w->r->any && q->found.count) return;
+    if (!w->points) {
+        if (!query_expect(q, list.count)) w->memory = true;
+        for (uint32_t i = 0; i < list.count && !w->memory; i++) {
+            const uint32_t object = tree_object(&list, i);
+            if (query_seen(q, &list, i, object)) continue;
+            if (query_range_meets(q, object, &w->memory)) query_found(q, object);
+            if (w->r->any && q->found.count) return;
+        }
+        return;
     }
-}
-
-/* The same for a list of points, each of which is in no other list. Which of them are in the range is unpredictable, so
- * the loop is branch-free. */
-static void test_points(walk *w, const tree_objects *list) {
-    froe_query *q = w->q;
-    const double *x = w->pieces->points + (size_t)list->first * (size_t)w->dim;
-    if (!array_reserve(&q->alloc, &q->found, list->count)) {
+    /* Each point is in no other list. Which of them are in the range is unpredictable, so the loop is branch-free. */
+    const double *x = w->pieces->points + (size_t)list.first * (size_t)w->dim;
+    if (!array_reserve(&q->alloc, &q->found, list.count)) {
         w->memory = true;
         return;
     }
-    for (uint32_t i = 0; i < list->count; i++, x += w->dim) {
-        const uint32_t object = tree_object(list, i);
+    for (uint32_t i = 0; i < list.count; i++, x += w->dim) {
+        const uint32_t object = tree_object(&list, i);
         int has = geom_range_has(&w->r->range, x);
         if (has == NUM_UNSURE)
             has = query_range_meets(q, object, &w->memory);
@@ -68,7 +67,7 @@ static void test_points(walk *w, const tree_objects *list) {
 }
 
 /* Takes all of a list whose objects are where they are listed. */
-static void take_flat(walk *w, const tree_objects *list) {
+static void take_flat(range_walk *w, const tree_objects *list) {
     froe_query *q = w->q;
     const bool whole = w->pieces->whole;
     if (!(whole ? array_reserve(&q->alloc, &q->found, list->count) : query_expect(q, list->count))) {
@@ -86,7 +85,7 @@ static void take_flat(walk *w, const tree_objects *list) {
 
 /* Of a list whose region is in the range: only solids, and whatever packed trees of space hold, may be listed where
  * they are not. */
-static void take_list(walk *w, const tree_objects *list) {
+static void take_list(range_walk *w, const tree_objects *list) {
     froe_query *q = w->q;
     if (!query_expect(q, list->count)) w->memory = true;
     for (uint32_t i = 0; i < list->count && !w->memory; i++) {
@@ -98,18 +97,8 @@ static void take_list(walk *w, const tree_objects *list) {
     }
 }
 
-/* Where the lists of a subtree begin. */
-static uint32_t slice_begin(const froe_tree *t, uint32_t node) {
-    while (t->nodes[node].type == TREE_PLAIN) node = t->nodes[node].child;
-    return t->nodes[node].type == TREE_LEAF ? t->nodes[node].u.list.first : t->cuts[t->nodes[node].u.cut].first;
-}
-static uint32_t slice_end(const froe_tree *t, uint32_t node) {
-    while (t->nodes[node].type != TREE_LEAF) node = t->nodes[node].child + 1;
-    return t->nodes[node].u.list.first + t->nodes[node].u.list.count;
-}
-
 /* Where lists lie in blocks: leaf after leaf. */
-static void take_blocks(walk *w, uint32_t node) {
+static void take_blocks(range_walk *w, uint32_t node) {
     query_range *r = w->r;
     const size_t base = r->nodes.count;
     w->memory |= !array_push(&w->q->alloc, &r->nodes, node);
@@ -126,29 +115,29 @@ static void take_blocks(walk *w, uint32_t node) {
     }
 }
 
-static void take_slice(walk *w, uint32_t node) {
+static void take_slice(range_walk *w, uint32_t node) {
+    const froe_tree *t = w->tree;
     w->q->stats.slices++;
-    if (tree_is_packed(w->tree)) {
+    if (tree_is_packed(t)) {
         take_blocks(w, node);
         return;
     }
-    const uint32_t first = slice_begin(w->tree, node), end = slice_end(w->tree, node);
+    /* The lists of a subtree lie between that of its first cut or leaf and that of its last leaf. */
+    uint32_t left = node, right = node;
+    while (t->nodes[left].type == TREE_PLAIN) left = t->nodes[left].child;
+    while (t->nodes[right].type != TREE_LEAF) right = t->nodes[right].child + 1;
+    const tree_node *from = t->nodes + left, *last = t->nodes + right;
+    const uint32_t first = from->type == TREE_LEAF ? from->u.list.first : t->cuts[from->u.cut].first;
     tree_objects list = {.stride = sizeof(tree_piece) / sizeof(uint32_t), .mask = UINT32_MAX};
     list.first = first;
-    list.count = end - first;
-    if (list.count) list.at = &w->tree->pieces[first].object;
+    list.count = last->u.list.first + last->u.list.count - first;
+    if (list.count) list.at = &t->pieces[first].object;
     w->pieces->flat ? take_flat(w, &list) : take_list(w, &list);
-}
-
-/* The list of a leaf, or of a cut that the range may touch. */
-static void visit_list(walk *w, uint32_t node) {
-    const tree_objects list = tree_list(w->tree, node);
-    w->points ? test_points(w, &list) : test_list(w, &list);
 }
 
 /* ------------------------------------------------------------------- stack -- */
 
-static void push_state(walk *w, uint32_t node, const double *state) {
+static void push_state(range_walk *w, uint32_t node, const double *state) {
     query_range *r = w->r;
     if (!array_push(&w->q->alloc, &r->nodes, node) || !array_reserve(&w->q->alloc, &r->boxes, w->width)) {
         w->memory = true;
@@ -158,32 +147,25 @@ static void push_state(walk *w, uint32_t node, const double *state) {
     r->boxes.count += w->width;
 }
 
-static uint32_t pop_state(walk *w, double *state) {
-    query_range *r = w->r;
-    r->boxes.count -= w->width;
-    memcpy(state, r->boxes.data + r->boxes.count, w->width * sizeof *state);
-    return r->nodes.data[--r->nodes.count];
-}
-
 /* ------------------------------------------------------------------ solids -- */
 
 enum { BOX = 2 * FROE_MAX_DIM };
 
 /* The parts of a waiting node's state. */
-typedef struct place {
+typedef struct solid_state {
     double *lo, *hi;           /* bounds of the region */
     double *part_lo, *part_hi; /* bounds of the range within; for boxes and balls those of the region */
-} place;
+} solid_state;
 
-static place place_in_range(const walk *w, double *state) {
+static solid_state solid_state_of(const range_walk *w, double *state) {
     const size_t dim = (size_t)w->dim, part = w->width > 2 * dim ? 2 * dim : 0;
-    return (place){state, state + dim, state + part, state + part + dim};
+    return (solid_state){state, state + dim, state + part, state + part + dim};
 }
 
-/* Cuts the state of a region down to side 0 or 1 of a cut. False: the range is not there. */
-static bool go_beside_axis(const walk *w, const query_cut *cut, int side, double *state) {
+/* As go_beside(), of a cut that is parallel to an axis. */
+static bool go_beside_axis(const range_walk *w, const query_cut *cut, int side, double *state) {
     const geom_range *range = &w->r->range;
-    const place p = place_in_range(w, state);
+    const solid_state p = solid_state_of(w, state);
     (side ? p.lo : p.hi)[cut->axis] = cut->value;
     switch (range->kind) {
     case GEOM_RANGE_BOX:
@@ -213,24 +195,22 @@ static double plane_bound(const query_plane *h, int side, int dim, const double 
     return (side ? -(h->c + shift) : h->c + shift) + error;
 }
 
-/* Is the ball certainly on the other side of the plane? */
-static bool ball_is_beyond(const walk *w, const query_plane *h, int side) {
-    const geom_range *range = &w->r->range;
-    double x[3] = {0}, error;
-    for (int k = 0; k < w->dim; k++) x[k] = range->set.coords[k];
-    const double value = query_plane_value(h, x, &error);
-    const double reach =
-        range->set.radius * (filter_length(h->n) + 2 * h->n_err) * (1 + 0x1p-45) + error + NUM_BALL_TINY;
-    return (side ? -value : value) > reach;
-}
-
-static bool go_beside_plane(const walk *w, const query_cut *cut, int side, double *state) {
+/* Cuts the state of a region down to side 0 or 1 of a cut. False: the range is not there. */
+static bool go_beside(const range_walk *w, const query_cut *cut, int side, double *state) {
+    if (cut->axis >= 0) return go_beside_axis(w, cut, side, state);
     const geom_range *range = &w->r->range;
     const query_plane *h = cut->plane;
-    const place p = place_in_range(w, state);
+    const solid_state p = solid_state_of(w, state);
     double n[3];
     for (int k = 0; k < 3; k++) n[k] = side ? -h->n[k] : h->n[k];
-    if (range->kind == GEOM_RANGE_BALL && ball_is_beyond(w, h, side)) return false;
+    if (range->kind == GEOM_RANGE_BALL) { /* is it certainly on the other side? */
+        double x[3] = {0}, error;
+        for (int k = 0; k < w->dim; k++) x[k] = range->set.coords[k];
+        const double value = query_plane_value(h, x, &error);
+        const double reach =
+            range->set.radius * (filter_length(h->n) + 2 * h->n_err) * (1 + 0x1p-45) + error + NUM_BALL_TINY;
+        if ((side ? -value : value) > reach) return false;
+    }
     if (!geom_shrink_box(n, plane_bound(h, side, w->dim, p.lo, p.hi), w->dim, p.lo, p.hi)) return false;
     switch (range->kind) {
     case GEOM_RANGE_BOX: {
@@ -249,14 +229,10 @@ static bool go_beside_plane(const walk *w, const query_cut *cut, int side, doubl
     }
 }
 
-static bool go_beside(const walk *w, const query_cut *cut, int side, double *state) {
-    return cut->axis >= 0 ? go_beside_axis(w, cut, side, state) : go_beside_plane(w, cut, side, state);
-}
-
 /* The node where the range meets the next cut, below this one, which becomes the region of the state. */
-static uint32_t jump(const walk *w, uint32_t node, double *state) {
+static uint32_t jump(const range_walk *w, uint32_t node, double *state) {
     const geom_range *range = &w->r->range;
-    const place p = place_in_range(w, state);
+    const solid_state p = solid_state_of(w, state);
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     for (int k = 0; k < w->dim; k++) {
         lo[k] = filter_greater(p.part_lo[k], range->lo[k]);
@@ -273,12 +249,12 @@ static uint32_t jump(const walk *w, uint32_t node, double *state) {
 }
 
 /* Goes down from a node to the first leaf, or to nothing; leaves what is beside for later. */
-static void follow_solid(walk *w, uint32_t node, double *state) {
+static void follow_solid(range_walk *w, uint32_t node, double *state) {
     double other[2 * BOX];
     for (int passed = 0; !done(w); passed++) {
         if (query_jump_is_due(&w->jump, passed)) node = jump(w, node, state);
         const tree_node *n = w->tree->nodes + node;
-        const place p = place_in_range(w, state);
+        const solid_state p = solid_state_of(w, state);
         w->q->stats.nodes++;
         if (geom_range_holds(&w->q->numbers, &w->r->range, w->r->margin, p.lo, p.hi)) {
             take_slice(w, node);
@@ -303,34 +279,16 @@ static void follow_solid(walk *w, uint32_t node, double *state) {
     }
 }
 
-/* False: the range is apart from the scene. */
-static bool begin_solid(walk *w, double *state) {
-    const froe_scene *s = w->tree->scene;
-    const geom_range *range = &w->r->range;
-    const size_t dim = (size_t)w->dim;
-    w->width = range->kind == GEOM_RANGE_SOLID ? 4 * dim : 2 * dim;
-    const place p = place_in_range(w, state);
-    memcpy(p.lo, s->lo, dim * sizeof *state);
-    memcpy(p.hi, s->hi, dim * sizeof *state);
-    for (size_t k = 0; k < dim; k++)
-        if (range->lo[k] > s->hi[k] || range->hi[k] < s->lo[k]) return false;
-    if (range->kind != GEOM_RANGE_SOLID) return true;
-    for (size_t k = 0; k < dim; k++) {
-        p.part_lo[k] = filter_greater(s->lo[k], range->lo[k]);
-        p.part_hi[k] = s->hi[k] < range->hi[k] ? s->hi[k] : range->hi[k];
-    }
-    return geom_range_shrink(range, p.part_lo, p.part_hi);
-}
-
 /* ------------------------------------------------------------- thin ranges -- */
 
-/* Where on the range lies the cut? False: nowhere for certain, and then the sides that the range reaches
- * for t[0] <= t <= t[1] are known; true: at *at, up to *error. */
-static bool find_crossing(const walk *w, const query_cut *cut, const double *t, double *at, double *error,
-                          unsigned *sides, bool *rising) {
+/* The sides of a cut that the range reaches for t[0] <= t <= t[1], which is divided for both. */
+static unsigned divide_interval(const range_walk *w, const query_cut *cut, const double *t, double below[2],
+                                double above[2]) {
     const geom_convex *set = &w->r->range.set;
     const double *o = geom_convex_point(set, 0), *e = geom_convex_point(set, 1);
     num_ball value, slope;
+    memcpy(below, t, 2 * sizeof *t);
+    memcpy(above, t, 2 * sizeof *t);
     if (cut->axis >= 0) {
         const double d = set->core == GEOM_CORE_RAY ? e[cut->axis] : e[cut->axis] - o[cut->axis];
         value = filter_difference(o[cut->axis], cut->value);
@@ -344,38 +302,27 @@ static bool find_crossing(const walk *w, const query_cut *cut, const double *t, 
     }
     if (fabs(slope.x) > slope.e) {
         const num_ball crossing = filter_div(value, slope);
-        *rising = slope.x > 0;
-        *at = -crossing.x;
-        *error = crossing.e;
-        if (isfinite(*at) && isfinite(*error)) return true;
+        const double at = -crossing.x;
+        if (isfinite(at) && isfinite(crossing.e)) {
+            const bool rising = slope.x > 0;
+            double *first = rising ? below : above, *last = rising ? above : below;
+            const double late = nextafter(at + crossing.e, INFINITY), early = nextafter(at - crossing.e, -INFINITY);
+            if (late < t[0]) return rising ? 2 : 1;
+            if (early > t[1]) return rising ? 1 : 2;
+            if (late < t[1]) first[1] = late;
+            if (early > t[0]) last[0] = early;
+            return 3;
+        }
     }
+    /* Nothing is known of where the cut lies on the range. */
     const double most = slope.x == 0 && slope.e == 0 ? 0 : (fabs(slope.x) + slope.e) * t[1] * (1 + 0x1p-45);
     const double reach = (value.e + most) * FILTER_UP;
-    *sides = value.x > reach ? 2 : value.x < -reach ? 1 : 3; /* on both for a NaN */
-    return false;
-}
-
-/* The sides of a cut that the range reaches within the interval, which is divided for both. */
-static unsigned divide_interval(const walk *w, const query_cut *cut, const double *t, double below[2],
-                                double above[2]) {
-    double at, error;
-    unsigned sides;
-    bool rising;
-    memcpy(below, t, 2 * sizeof *t);
-    memcpy(above, t, 2 * sizeof *t);
-    if (!find_crossing(w, cut, t, &at, &error, &sides, &rising)) return sides;
-    double *first = rising ? below : above, *last = rising ? above : below;
-    const double late = nextafter(at + error, INFINITY), early = nextafter(at - error, -INFINITY);
-    if (late < t[0]) return rising ? 2 : 1;
-    if (early > t[1]) return rising ? 1 : 2;
-    if (late < t[1]) first[1] = late;
-    if (early > t[0]) last[0] = early;
-    return 3;
+    return value.x > reach ? 2 : value.x < -reach ? 1 : 3; /* on both for a NaN */
 }
 
 /* The same for the part of a thin range with parameters in an interval: its bounds, rounded outwards. An infinite
  * parameter is in no region. */
-static uint32_t jump_thin(const walk *w, uint32_t node, const double *t) {
+static uint32_t jump_thin(const range_walk *w, uint32_t node, const double *t) {
     const geom_convex *set = &w->r->range.set;
     const double *o = geom_convex_point(set, 0), *e = geom_convex_point(set, 1);
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -390,7 +337,7 @@ static uint32_t jump_thin(const walk *w, uint32_t node, const double *t) {
     return query_jump_below(&w->jump, node, lo, hi);
 }
 
-static void follow_thin(walk *w, uint32_t node, double *t) {
+static void follow_thin(range_walk *w, uint32_t node, double *t) {
     for (int passed = 0; !done(w); passed++) {
         if (query_jump_is_due(&w->jump, passed)) node = jump_thin(w, node, t);
         const tree_node *n = w->tree->nodes + node;
@@ -415,16 +362,33 @@ static void follow_thin(walk *w, uint32_t node, double *t) {
 
 /* -------------------------------------------------------------------- walk -- */
 
-static bool begin_walk(walk *w, double *state) {
-    if (w->r->range.kind != GEOM_RANGE_THIN) return begin_solid(w, state);
-    w->width = 2;
-    state[0] = 0;
-    state[1] = w->r->shape == FROE_SHAPE_RAY ? INFINITY : 1;
-    return true;
+/* The state of the root. False: the range is apart from the scene. */
+static bool begin_walk(range_walk *w, double *state) {
+    const froe_scene *s = w->tree->scene;
+    const geom_range *range = &w->r->range;
+    const size_t dim = (size_t)w->dim;
+    if (range->kind == GEOM_RANGE_THIN) {
+        w->width = 2;
+        state[0] = 0;
+        state[1] = w->r->shape == FROE_SHAPE_RAY ? INFINITY : 1;
+        return true;
+    }
+    w->width = range->kind == GEOM_RANGE_SOLID ? 4 * dim : 2 * dim;
+    const solid_state p = solid_state_of(w, state);
+    memcpy(p.lo, s->lo, dim * sizeof *state);
+    memcpy(p.hi, s->hi, dim * sizeof *state);
+    for (size_t k = 0; k < dim; k++)
+        if (range->lo[k] > s->hi[k] || range->hi[k] < s->lo[k]) return false;
+    if (range->kind != GEOM_RANGE_SOLID) return true;
+    for (size_t k = 0; k < dim; k++) {
+        p.part_lo[k] = filter_greater(s->lo[k], range->lo[k]);
+        p.part_hi[k] = s->hi[k] < range->hi[k] ? s->hi[k] : range->hi[k];
+    }
+    return geom_range_shrink(range, p.part_lo, p.part_hi);
 }
 
 froe_status query_range_walk(froe_query *q) {
-    walk w = {.q = q, .tree = q->tree, .r = &q->range, .dim = q->tree->scene->dim};
+    range_walk w = {.q = q, .tree = q->tree, .r = &q->range, .dim = q->tree->scene->dim};
     double state[2 * BOX];
     froe_status status = query_planes_of(q, &w.planes, NULL);
     if (!status) status = query_jump_prepare(q, q->range.walk, &w.jump);
@@ -435,7 +399,9 @@ froe_status query_range_walk(froe_query *q) {
     if (!q->tree->scene->object_count || !begin_walk(&w, state)) return FROE_OK;
     push_state(&w, 0, state);
     while (!done(&w) && q->range.nodes.count) {
-        const uint32_t node = pop_state(&w, state);
+        const uint32_t node = q->range.nodes.data[--q->range.nodes.count];
+        q->range.boxes.count -= w.width;
+        memcpy(state, q->range.boxes.data + q->range.boxes.count, w.width * sizeof *state);
         if (w.r->range.kind == GEOM_RANGE_THIN)
             follow_thin(&w, node, state);
         else

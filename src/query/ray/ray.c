@@ -54,15 +54,10 @@ double query_ray_latest(const geom_hit *hit) {
     return t >= 0 ? t : (double)INFINITY;
 }
 
-/* Gets an object that is met; false stops the search. */
-typedef bool met_fn(froe_query *q, const query_met *met);
+typedef enum ray_wanted { RAY_FIRST, RAY_ANY, RAY_ALL } ray_wanted;
 
-static bool is_of(const froe_scene *s, uint32_t object, uint32_t kinds) {
-    return kinds == UINT32_MAX || kinds >> s->kinds[object] & 1;
-}
-
-/* Hands all objects met, each once, to a function. */
-static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *fn, froe_diagnostic *diag) {
+/* Puts into q->ray.met what the ray meets: the first object, any, or all, each once. */
+static froe_status gather_met(froe_query *q, double t_max, uint32_t kinds, ray_wanted wanted, froe_diagnostic *diag) {
     const uint64_t exact = q->numbers.stats.exact;
     tree_objects list;
     query_met met;
@@ -74,10 +69,20 @@ static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *
         if (!query_expect(q, list.count)) status = FROE_E_MEMORY;
         for (uint32_t i = 0; i < list.count && more && !status; i++) {
             const uint32_t object = tree_object(&list, i);
-            if (!is_of(q->tree->scene, object, kinds) || query_seen(q, &list, i, object)) continue;
+            const bool asked = kinds == UINT32_MAX || kinds >> q->tree->scene->kinds[object] & 1;
+            if (!asked || query_seen(q, &list, i, object)) continue;
             if (!query_ray_meets(q, &q->ray.ray, object, t_max, &met)) continue;
             if (!array_reserve(&q->alloc, &q->ray.met, 1)) status = FROE_E_MEMORY;
-            if (!status) more = fn(q, &met);
+            if (status) continue;
+            if (wanted != RAY_FIRST) {
+                q->ray.met.data[q->ray.met.count++] = met;
+                more = wanted == RAY_ALL;
+            } else if (!q->ray.met.count || query_ray_nearer(q, &q->ray.ray, &met, q->ray.met.data)) {
+                q->ray.met.data[0] = met;
+                q->ray.met.count = 1;
+                const double limit = query_ray_latest(&met.hit);
+                if (limit < q->ray.limit) q->ray.limit = limit;
+            }
         }
     }
     q->stats.exact += q->numbers.stats.exact - exact;
@@ -86,18 +91,8 @@ static froe_status for_all(froe_query *q, double t_max, uint32_t kinds, met_fn *
 
 /* ------------------------------------------------------------------- first -- */
 
-static bool keep_first(froe_query *q, const query_met *met) {
-    query_met *best = q->ray.met.data;
-    if (q->ray.met.count && !query_ray_nearer(q, &q->ray.ray, met, best)) return true;
-    *best = *met;
-    q->ray.met.count = 1;
-    const double limit = query_ray_latest(&best->hit);
-    if (limit < q->ray.limit) q->ray.limit = limit;
-    return true;
-}
-
 froe_status query_ray_first(froe_query *q, double t_max, uint32_t kinds, froe_diagnostic *diag) {
-    return for_all(q, t_max, kinds, keep_first, diag);
+    return gather_met(q, t_max, kinds, RAY_FIRST, diag);
 }
 
 froe_status froe_query_ray(froe_query *query, const double *origin, const double *direction, double t_max,
@@ -115,12 +110,7 @@ froe_status froe_query_ray(froe_query *query, const double *origin, const double
     return FROE_OK;
 }
 
-/* --------------------------------------------------------------------- any -- */
-
-static bool keep_any(froe_query *q, const query_met *met) {
-    q->ray.met.data[q->ray.met.count++] = *met;
-    return false;
-}
+/* ------------------------------------------------------------- any and all -- */
 
 froe_status froe_query_ray_any(froe_query *query, const double *origin, const double *direction, double t_max,
                                uint32_t *object, froe_diagnostic *diag) {
@@ -128,16 +118,9 @@ froe_status froe_query_ray_any(froe_query *query, const double *origin, const do
     if (!query || !origin || !direction || !object)
         return support_fail(diag, FROE_E_ARG, "froe_query_ray_any: NULL argument.");
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
-    if (!status) status = for_all(query, t_max, UINT32_MAX, keep_any, diag);
+    if (!status) status = gather_met(query, t_max, UINT32_MAX, RAY_ANY, diag);
     if (!status) *object = query->ray.met.count ? query->ray.met.data[0].object : FROE_NONE;
     return status;
-}
-
-/* --------------------------------------------------------------------- all -- */
-
-static bool keep_all(froe_query *q, const query_met *met) {
-    q->ray.met.data[q->ray.met.count++] = *met;
-    return true;
 }
 
 static bool hit_is_later(void *user, uint32_t a, uint32_t b) {
@@ -148,32 +131,27 @@ static bool hit_is_later(void *user, uint32_t a, uint32_t b) {
     return order ? order > 0 : s->object > t->object;
 }
 
-/* Fills the hits in the order met, then sorts their numbers; the first half of `hits` is scratch. */
-static froe_status sort_hits(froe_query *q) {
-    query_ray *r = &q->ray;
-    const size_t count = r->met.count;
-    r->hits.count = r->order.count = 0;
-    if (!array_reserve(&q->alloc, &r->hits, 2 * count) || !array_reserve(&q->alloc, &r->order, count))
-        return FROE_E_MEMORY;
-    for (size_t i = 0; i < count; i++) {
-        const double t = geom_hit_round(&q->numbers, &r->ray, &r->met.data[i].hit);
-        r->hits.data[i] = (froe_hit){r->met.data[i].object, t};
-        r->order.data[i] = (uint32_t)i;
-    }
-    query_heap_sort(r->order.data, count, hit_is_later, q);
-    for (size_t i = 0; i < count; i++) r->hits.data[count + i] = r->hits.data[r->order.data[i]];
-    return FROE_OK;
-}
-
 froe_status froe_query_ray_all(froe_query *query, const double *origin, const double *direction, double t_max,
                                froe_hits *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !origin || !direction || !out)
         return support_fail(diag, FROE_E_ARG, "froe_query_ray_all: NULL argument.");
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
-    if (!status) status = for_all(query, t_max, UINT32_MAX, keep_all, diag);
+    if (!status) status = gather_met(query, t_max, UINT32_MAX, RAY_ALL, diag);
     if (status) return status;
-    if (sort_hits(query)) return support_fail_memory(diag);
-    *out = (froe_hits){query->ray.hits.data + query->ray.met.count, query->ray.met.count};
+    /* The hits in the order met, whose numbers are sorted; the first half of `hits` is scratch. */
+    query_ray *r = &query->ray;
+    const size_t count = r->met.count;
+    r->hits.count = r->order.count = 0;
+    if (!array_reserve(&query->alloc, &r->hits, 2 * count) || !array_reserve(&query->alloc, &r->order, count))
+        return support_fail_memory(diag);
+    for (size_t i = 0; i < count; i++) {
+        const double t = geom_hit_round(&query->numbers, &r->ray, &r->met.data[i].hit);
+        r->hits.data[i] = (froe_hit){r->met.data[i].object, t};
+        r->order.data[i] = (uint32_t)i;
+    }
+    query_heap_sort(r->order.data, count, hit_is_later, query);
+    for (size_t i = 0; i < count; i++) r->hits.data[count + i] = r->hits.data[r->order.data[i]];
+    *out = (froe_hits){r->hits.data + count, count};
     return FROE_OK;
 }

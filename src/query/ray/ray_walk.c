@@ -20,13 +20,6 @@ typedef struct crossing {
     bool both; /* in or beside the cut all the way */
 } crossing;
 
-/* Of -value / slope, each within its error. Not finite: anywhere. */
-static crossing crossing_of(double value, double value_error, double slope, double slope_error) {
-    num_ball t = filter_div((num_ball){-value, value_error}, (num_ball){slope, slope_error});
-    if (!(t.e < INFINITY) || !isfinite(t.x)) return (crossing){.both = true};
-    return (crossing){t.x - t.e * (1 + 0x1p-50), t.x + t.e * (1 + 0x1p-50), slope < 0, false};
-}
-
 /* On the side where the origin is throughout. */
 static crossing crossing_at(double value) {
     const double side = value < 0 ? INFINITY : -(double)INFINITY;
@@ -46,9 +39,11 @@ static crossing cross_plane(const geom_ray *ray, const query_plane *plane, doubl
     double value_error, slope_error;
     const double value = query_plane_value(plane, ray->o, &value_error);
     const double slope = query_plane_slope(plane, ray->d, &slope_error);
-    const crossing c = crossing_of(value, value_error, slope, slope_error);
+    const num_ball t = filter_div((num_ball){-value, value_error}, (num_ball){slope, slope_error});
+    if (t.e < INFINITY && isfinite(t.x))
+        return (crossing){t.x - t.e * (1 + 0x1p-50), t.x + t.e * (1 + 0x1p-50), slope < 0, false};
     const double reach = value_error + (fabs(slope) + slope_error) * leave;
-    return c.both && fabs(value) > reach * (1 + 0x1p-50) ? crossing_at(value) : c;
+    return fabs(value) > reach * (1 + 0x1p-50) ? crossing_at(value) : (crossing){.both = true};
 }
 
 static bool push_step(froe_query *q, query_step step) {
@@ -74,8 +69,13 @@ static bool divide_step(froe_query *q, const query_planes *planes, const query_s
     return push_step(q, second) && (!listed || push_step(q, list)) && push_step(q, first);
 }
 
-/* The part of the ray that may be within the bounds of the scene. */
-static query_step within_scene(const froe_query *q) {
+froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
+    const query_planes *planes;
+    q->ray.packed = false;
+    if (q->space && space_walk_ray(q, &q->space->walk, &q->ray.ray, &q->ray.packed)) return support_fail_memory(diag);
+    if (q->ray.packed) return FROE_OK;
+    froe_status status = query_planes_of(q, &planes, diag);
+    /* The part of the ray that may be within the bounds of the scene. */
     const froe_scene *s = q->tree->scene;
     const geom_ray *ray = &q->ray.ray;
     query_step root = {0, false, 0, INFINITY};
@@ -90,17 +90,8 @@ static query_step within_scene(const froe_query *q) {
         if (!in.both && in.lo > root.enter) root.enter = in.lo;
         if (!out.both && out.hi < root.leave) root.leave = out.hi;
     }
-    return root;
-}
-
-froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
-    const query_planes *planes;
-    q->ray.packed = false;
-    if (q->space && space_walk_ray(q, &q->space->walk, &q->ray.ray, &q->ray.packed)) return support_fail_memory(diag);
-    if (q->ray.packed) return FROE_OK;
-    froe_status status = query_planes_of(q, &planes, diag);
     q->ray.steps.count = 0;
-    if (!status && !push_step(q, within_scene(q))) status = support_fail_memory(diag);
+    if (!status && !push_step(q, root)) status = support_fail_memory(diag);
     return status;
 }
 

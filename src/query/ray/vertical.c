@@ -3,12 +3,6 @@
 #include "query/packed/packed.h"
 #include "support/fail.h"
 
-static froe_status ask_packed(froe_query *q, const double *point, int direction, uint32_t *object,
-                              froe_diagnostic *diag) {
-    const froe_status status = packed_vertical(q, point, 1, direction, object);
-    return status ? support_fail_memory(diag) : FROE_OK;
-}
-
 froe_status query_vertical_check(const froe_query *query, const double *point, int direction, froe_diagnostic *diag) {
     if (query->tree->scene->dim != 2)
         return support_fail(diag, FROE_E_UNSUPPORTED, "Above and below are asked in the plane only.");
@@ -25,7 +19,7 @@ froe_status froe_query_vertical(froe_query *query, const double *point, int dire
     if (!query || !point || !object) return support_fail(diag, FROE_E_ARG, "froe_query_vertical: NULL argument.");
     froe_status status = query_vertical_check(query, point, direction, diag);
     if (status) return status;
-    if (query->packed) return ask_packed(query, point, direction, object, diag);
+    if (query->packed) return packed_vertical(query, point, 1, direction, object) ? support_fail_memory(diag) : FROE_OK;
     status = query_ray_take(query, point, (const double[]){0, direction}, INFINITY, diag);
     if (!status) status = query_ray_first(query, INFINITY, 1u << FROE_SEGMENT, diag);
     if (!status) *object = query->ray.met.count ? query->ray.met.data[0].object : FROE_NONE;
