@@ -9,17 +9,14 @@ static void free_planes(const froe_allocator *alloc, query_part *part) {
     support_free(alloc, p, sizeof *p);
 }
 
-/* x[0] = c, where c is known up to c_err only: as (x - (c - k)) - k with a k so large that what is charged
- * for its rounding covers the error. */
-static query_plane lay_out_wall(const geom_plane *plane) {
-    double k = plane->c_err / (4 * FILTER_U) + fabs(plane->c) / 2;
-    query_plane out = {.n = {1}, .o = {plane->c - k}, .c = k, .n_err = k < 0x1p1000 ? 0 : INFINITY};
-    return out;
-}
-
 static query_plane lay_out_plane(const geom_plane *plane) {
     query_plane out = {.c = plane->c, .n_err = plane->n_err};
-    if (plane->form == GEOM_AT_CROSSING) return lay_out_wall(plane);
+    if (plane->form == GEOM_AT_CROSSING) {
+        /* x[0] = c, where c is known up to c_err only: as (x - (c - k)) - k with a k so large that what is charged for
+         * its rounding covers the error. */
+        const double k = plane->c_err / (4 * FILTER_U) + fabs(plane->c) / 2;
+        return (query_plane){.n = {1}, .o = {plane->c - k}, .c = k, .n_err = k < 0x1p1000 ? 0 : INFINITY};
+    }
     memcpy(out.n, plane->n, sizeof out.n);
     if (plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL) memcpy(out.o, plane->p[0], sizeof out.o);
     return out;

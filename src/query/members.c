@@ -50,12 +50,6 @@ static bool is_equal(const query_sets *sets, uint32_t kept, const query_members 
     return count == set->count && !(count && memcmp(sets->numbers.data + first, set->data, count * sizeof *set->data));
 }
 
-static uint32_t tag_of(const query_members *set) {
-    uint64_t sum = set->count;
-    for (size_t i = 0; i < set->count; i++) sum = base_mix(sum + set->data[i]);
-    return (uint32_t)(sum >> 32);
-}
-
 static bool keep_anew(query_sets *sets, const froe_allocator *alloc, const query_members *set) {
     if (set->count > UINT32_MAX - sets->numbers.count) return false;
     if (!array_reserve(alloc, &sets->numbers, set->count) || !array_reserve(alloc, &sets->starts, 2)) return false;
@@ -67,7 +61,9 @@ static bool keep_anew(query_sets *sets, const froe_allocator *alloc, const query
 }
 
 bool query_sets_keep(query_sets *sets, const froe_allocator *alloc, const query_members *set, uint32_t *out) {
-    const uint32_t tag = tag_of(set);
+    uint64_t sum = set->count;
+    for (size_t i = 0; i < set->count; i++) sum = base_mix(sum + set->data[i]);
+    const uint32_t tag = (uint32_t)(sum >> 32);
     if (!scene_table_reserve(alloc, &sets->table, 1)) return false;
     size_t at = scene_table_home(&sets->table, tag);
     *out = scene_table_find(&sets->table, tag, &at);

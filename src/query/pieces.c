@@ -9,20 +9,6 @@ static void free_pieces(const froe_allocator *alloc, query_part *part) {
     support_free(alloc, p, sizeof *p);
 }
 
-static froe_status lay_points(query_pieces *p, const froe_tree *t, const froe_allocator *alloc) {
-    const size_t bytes = (size_t)t->scene->dim * sizeof *p->points;
-    p->points = support_calloc(alloc, t->piece_count, bytes);
-    if (!p->points) return FROE_E_MEMORY;
-    p->size = t->piece_count * bytes;
-    for (uint32_t v = 0; v < t->node_count; v++) {
-        const tree_objects list = tree_list(t, v);
-        for (uint32_t i = 0; i < list.count; i++)
-            memcpy(p->points + (size_t)(list.first + i) * (size_t)t->scene->dim,
-                   scene_point(t->scene, tree_object(&list, i), 0), bytes);
-    }
-    return FROE_OK;
-}
-
 static froe_status make_pieces(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
     const froe_scene *s = t->scene;
@@ -37,7 +23,18 @@ static froe_status make_pieces(froe_query *q, query_part **out, froe_diagnostic 
         p->flat = p->flat && s->forms[i] < FROE_BOX;
     }
     p->whole = p->flat && t->bound_count <= 1; /* the first is unused */
-    return points && lay_points(p, t, &q->alloc) ? support_fail_memory(diag) : FROE_OK;
+    if (!points) return FROE_OK;
+    const size_t bytes = (size_t)s->dim * sizeof *p->points;
+    p->points = support_calloc(&q->alloc, t->piece_count, bytes);
+    if (!p->points) return support_fail_memory(diag);
+    p->size = t->piece_count * bytes;
+    for (uint32_t v = 0; v < t->node_count; v++) {
+        const tree_objects list = tree_list(t, v);
+        for (uint32_t i = 0; i < list.count; i++)
+            memcpy(p->points + (size_t)(list.first + i) * (size_t)s->dim, scene_point(s, tree_object(&list, i), 0),
+                   bytes);
+    }
+    return FROE_OK;
 }
 
 froe_status query_pieces_of(froe_query *query, const query_pieces **out, froe_diagnostic *diag) {

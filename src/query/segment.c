@@ -54,14 +54,6 @@ bool query_segments_meet(num_context *numbers, const double *a, const double *b,
 
 /* ------------------------------------------------------------------ heights -- */
 
-static bool upright_height(const double *u, const double *v, const double *point, int direction, query_height *out) {
-    double low = u[1], high = v[1], y = point[1];
-    if (direction > 0 ? high < y : low > y) return false;
-    *out = (query_height){.known = true, .x = point[0]};
-    out->y = direction > 0 ? (low > y ? low : y) : high < y ? high : y;
-    return true;
-}
-
 static bool known_height(double x, double y, const double *point, int direction, query_height *out) {
     *out = (query_height){.known = true, .x = x, .y = y};
     return direction > 0 ? y >= point[1] : y <= point[1];
@@ -71,7 +63,13 @@ bool query_height_at(num_context *numbers, const double *u, const double *v, con
                      query_height *out) {
     double x = point[0];
     if (!(u[0] <= x && x <= v[0])) return false;
-    if (u[0] == v[0]) return upright_height(u, v, point, direction, out);
+    if (u[0] == v[0]) { /* upright */
+        const double low = u[1], high = v[1], y = point[1];
+        if (direction > 0 ? high < y : low > y) return false;
+        *out = (query_height){.known = true, .x = x};
+        out->y = direction > 0 ? (low > y ? low : y) : high < y ? high : y;
+        return true;
+    }
     if (x == u[0] || u[1] == v[1]) return known_height(x, u[1], point, direction, out);
     if (x == v[0]) return known_height(x, v[1], point, direction, out);
     int turn = query_turn(numbers, u, v, point); /* left is above */

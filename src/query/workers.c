@@ -26,21 +26,18 @@ froe_status query_workers_take(froe_query *query, const froe_batch_options *opti
     return FROE_OK;
 }
 
-static void add_statistics(froe_query_stats *sum, const froe_query_stats *more) {
-    sum->queries += more->queries;
-    sum->nodes += more->nodes;
-    sum->leaves += more->leaves;
-    sum->steps += more->steps;
-    sum->tests += more->tests;
-    sum->exact += more->exact;
-    sum->slices += more->slices;
-}
-
 void query_workers_give(query_workers *workers) {
     if (!workers->queries) return;
     froe_query *query = workers->queries[0];
     for (unsigned i = 1; i < workers->count; i++) {
-        add_statistics(&query->stats, &workers->queries[i]->stats);
+        const froe_query_stats *more = &workers->queries[i]->stats;
+        query->stats.queries += more->queries;
+        query->stats.nodes += more->nodes;
+        query->stats.leaves += more->leaves;
+        query->stats.steps += more->steps;
+        query->stats.tests += more->tests;
+        query->stats.exact += more->exact;
+        query->stats.slices += more->slices;
         froe_query_free(workers->queries[i]);
     }
     support_free(&query->alloc, workers->queries, workers->task.threads * sizeof *workers->queries);

@@ -15,18 +15,18 @@
 #include "query/segment.h"
 
 enum { PAIRS_EACH = 16, PAIRS_MORE = 1 << 20 }; /* gathered for each object at most, and some more */
-enum { RUN = 512 };                             /* nodes a job */
-enum { ASKED = 256 };                           /* objects whose coordinates are prefetched together */
+enum { NODES_PER_JOB = 512 };                   /* nodes a job */
+enum { OBJECTS_AHEAD = 256 };                   /* objects whose coordinates are prefetched together */
 
-typedef struct search {
+typedef struct packed_search {
     query_workers *workers;
     bool shared;
     pair_lists lists;
-} search;
+} packed_search;
 
 /* The search of one thread. */
 typedef struct pairing {
-    search *search;
+    packed_search *search;
     unsigned worker;
     froe_query *q;
     packed_box cell;
@@ -110,23 +110,22 @@ static void decide_pair(pairing *p, uint32_t a, uint32_t b) {
     if (c.kind == GEOM_CROSS ? crossing_here(p, u, v) : end_here(p, u, v)) gather_pair(p, a, b, kinds[c.kind]);
 }
 
-/* Prefetches coordinates. Three loads lead to those of an object, each waiting for the one before; those of different
- * objects overlap. */
-static void prefetch_objects(const froe_scene *s, const uint32_t *objects, size_t count) {
-    for (size_t i = 0; i < count; i++) __builtin_prefetch(s->starts + objects[i]);
-    for (size_t i = 0; i < count; i++) __builtin_prefetch(s->corners + s->starts[objects[i]]);
-    for (size_t i = 0; i < count; i++) {
-        __builtin_prefetch(scene_point(s, objects[i], 0));
-        __builtin_prefetch(scene_point(s, objects[i], scene_corners(s, objects[i]) - 1));
-    }
-}
-
-/* Decides the pairs that kernels left open in a leaf. */
+/* Decides the pairs that kernels left open in a leaf. The coordinates of some objects are prefetched together: three
+ * loads lead to those of an object, each waiting for the one before; those of different objects overlap. */
 static void decide_open(pairing *p) {
+    const froe_scene *s = p->q->tree->scene;
     const uint32_t *open = p->q->packed->candidates.data;
     const size_t count = p->q->packed->candidates.count;
     for (size_t i = 0; i < count && !p->status; i += 2) {
-        if (i % ASKED == 0) prefetch_objects(p->q->tree->scene, open + i, count - i < ASKED ? count - i : ASKED);
+        if (i % OBJECTS_AHEAD == 0) {
+            const size_t end = count - i < OBJECTS_AHEAD ? count : i + OBJECTS_AHEAD;
+            for (size_t j = i; j < end; j++) __builtin_prefetch(s->starts + open[j]);
+            for (size_t j = i; j < end; j++) __builtin_prefetch(s->corners + s->starts[open[j]]);
+            for (size_t j = i; j < end; j++) {
+                __builtin_prefetch(scene_point(s, open[j], 0));
+                __builtin_prefetch(scene_point(s, open[j], scene_corners(s, open[j]) - 1));
+            }
+        }
         decide_pair(p, open[i], open[i + 1]);
     }
     p->q->packed->candidates.count = 0;
@@ -138,18 +137,6 @@ static void leave_open(pairing *p, uint32_t a, uint32_t b) {
     if (p->status) return;
     q->packed->candidates.data[q->packed->candidates.count++] = a;
     q->packed->candidates.data[q->packed->candidates.count++] = b;
-}
-
-/* Gathers the pairs of fragment i with those after it. */
-static void pair_row(pairing *p, const uint32_t *ids, uint32_t count, uint32_t i, const packed_row *row) {
-    for (uint32_t word = i / PACKED_LANES; word < (count + PACKED_LANES - 1) / PACKED_LANES; word++)
-        for (uint32_t bits = row->crossing[word] | row->unsure[word]; bits && !p->status; bits &= bits - 1) {
-            uint32_t bit = (uint32_t)__builtin_ctz(bits), j = word * PACKED_LANES + bit;
-            if (row->crossing[word] >> bit & 1)
-                gather_pair(p, ids[i] & PACKED_OBJECT, ids[j] & PACKED_OBJECT, FROE_MEET_CROSS);
-            else
-                leave_open(p, ids[i] & PACKED_OBJECT, ids[j] & PACKED_OBJECT);
-        }
 }
 
 static void pair_leaf(pairing *p, const tree_node *leaf) {
@@ -165,16 +152,25 @@ static void pair_leaf(pairing *p, const tree_node *leaf) {
     for (uint32_t i = 0; i + 1 < count && !p->status; i++) {
         q->packed->kernels->pairs(block, count, i, &row);
         q->stats.tests += count - i - 1;
-        pair_row(p, ids, count, i, &row);
+        for (uint32_t word = i / PACKED_LANES; word < words; word++)
+            for (uint32_t bits = row.crossing[word] | row.unsure[word]; bits && !p->status; bits &= bits - 1) {
+                const uint32_t bit = (uint32_t)__builtin_ctz(bits), j = word * PACKED_LANES + bit;
+                const uint32_t a = ids[i] & PACKED_OBJECT, b = ids[j] & PACKED_OBJECT;
+                if (row.crossing[word] >> bit & 1)
+                    gather_pair(p, a, b, FROE_MEET_CROSS);
+                else
+                    leave_open(p, a, b);
+            }
     }
     decide_open(p);
 }
 
 static froe_status pair_run(void *user, unsigned worker, size_t job) {
-    search *s = user;
+    packed_search *s = user;
     pairing p = {.search = s, .worker = worker, .q = s->workers->queries[worker]};
     const froe_tree *t = p.q->tree;
-    const uint32_t from = (uint32_t)job * RUN, to = t->node_count - from < RUN ? t->node_count : from + RUN;
+    const uint32_t from = (uint32_t)job * NODES_PER_JOB,
+                   to = t->node_count - from < NODES_PER_JOB ? t->node_count : from + NODES_PER_JOB;
     p.q->stats.nodes += to - from;
     for (uint32_t i = from; i < to && !p.status; i++)
         if (tree_is_leaf(t->nodes + i) && t->nodes[i].u.list.count > 1) pair_leaf(&p, t->nodes + i);
@@ -183,22 +179,18 @@ static froe_status pair_run(void *user, unsigned worker, size_t job) {
 
 /* -------------------------------------------------------------------- whole -- */
 
-static froe_status search_all(search *s, const froe_tree *t, froe_pair_fn *fn, void *user) {
-    base_task *task = &s->workers->task;
-    froe_status status = base_run(task, 0.8, ((size_t)t->node_count + RUN - 1) / RUN, pair_run, s);
-    if (!status) status = pair_lists_sort(&s->lists, task, 0.2);
-    if (!status) pair_lists_tell(&s->lists, fn, user);
-    return status;
-}
-
 froe_status packed_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
     const froe_query *q = workers->queries[0];
     const uint32_t objects = q->tree->scene->object_count;
     const uint64_t most = (uint64_t)objects * PAIRS_EACH + PAIRS_MORE;
-    search s = {.workers = workers, .shared = shared};
+    packed_search s = {.workers = workers, .shared = shared};
     froe_status status =
         pair_lists_take(&s.lists, &q->alloc, objects, workers->count, most < UINT32_MAX ? (uint32_t)most : UINT32_MAX);
-    if (!status) status = search_all(&s, q->tree, fn, user);
+    base_task *task = &workers->task;
+    const size_t jobs = ((size_t)q->tree->node_count + NODES_PER_JOB - 1) / NODES_PER_JOB;
+    if (!status) status = base_run(task, 0.8, jobs, pair_run, &s);
+    if (!status) status = pair_lists_sort(&s.lists, task, 0.2);
+    if (!status) pair_lists_tell(&s.lists, fn, user);
     pair_lists_give(&s.lists);
     return status;
 }

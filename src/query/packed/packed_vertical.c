@@ -60,20 +60,15 @@ static void begin_at_root(const froe_tree *t, climb *c, int direction) {
     descend_from(t, c, direction, 0);
 }
 
-/* Is the point in the core of a column, so that the column is the ray's? */
-static bool find_column(const tree_table *table, climb *c) {
-    double place = table ? tree_table_place(table, 0, c->point[0]) : 0;
-    if (!table || !(place >= 0 && place < table->cells[0])) return false;
-    c->column = (uint32_t)place;
-    return place >= c->column + TABLE_HAIR && place <= c->column + 1 - TABLE_HAIR;
-}
-
-/* Finds the first leaf of a ray. */
+/* Finds the first leaf of a ray: by the column of the table in whose core its point is, if any. */
 static void begin_climb(const froe_tree *t, climb *c, int direction) {
     const tree_table *table = t->packed.table;
+    const double place = table ? tree_table_place(table, 0, c->point[0]) : 0;
     uint32_t from, to;
     c->waiting = 0;
-    if (!find_column(table, c)) {
+    c->column = NO_TABLE;
+    if (table && place >= 0 && place < table->cells[0]) c->column = (uint32_t)place;
+    if (c->column == NO_TABLE || !(place >= c->column + TABLE_HAIR && place <= c->column + 1 - TABLE_HAIR)) {
         begin_at_root(t, c, direction);
         return;
     }
@@ -107,14 +102,6 @@ static bool go_on_climbing(const froe_tree *t, climb *c, int direction) {
 
 /* ------------------------------------------------------------------- leaves -- */
 
-/* Is a place beyond the far side of its cell? Then it is not in this leaf that the ray meets it. */
-static bool is_beyond_height(froe_query *q, const packed_header *block, const query_height *at, int direction) {
-    packed_box cell;
-    packed_cell(q->tree, block, &cell);
-    query_height side = {.known = true, .x = at->x, .y = direction > 0 ? cell.hi[1] : cell.lo[1]};
-    return query_height_compare(&q->numbers, at, &side) * direction > 0;
-}
-
 /* The candidate that is met first, exactly. */
 static uint32_t first_of(froe_query *q, const packed_header *block, const packed_heights *h, const double *point,
                          int direction) {
@@ -131,7 +118,12 @@ static uint32_t first_of(froe_query *q, const packed_header *block, const packed
         best = here;
         object = h->candidates[i];
     }
-    return object != FROE_NONE && is_beyond_height(q, block, &best, direction) ? FROE_NONE : object;
+    if (object == FROE_NONE) return FROE_NONE;
+    /* Beyond the far side of its cell, it is not in this leaf that the ray meets it. */
+    packed_box cell;
+    packed_cell(q->tree, block, &cell);
+    const query_height side = {.known = true, .x = best.x, .y = direction > 0 ? cell.hi[1] : cell.lo[1]};
+    return query_height_compare(&q->numbers, &best, &side) * direction > 0 ? FROE_NONE : object;
 }
 
 static uint32_t test(froe_query *q, uint32_t block, uint32_t count, const double *point, int direction) {
@@ -148,55 +140,37 @@ static uint32_t test(froe_query *q, uint32_t block, uint32_t count, const double
 
 /* -------------------------------------------------------------------- whole -- */
 
-/* Can the ray meet anything? */
-static bool aims_at_scene(const froe_tree *t, const double *point, int direction) {
-    const tree_meta *m = &t->meta;
-    bool beside = point[0] < m->root_lo[0] || point[0] > m->root_hi[0];
-    return !beside && (direction > 0 ? point[1] <= m->root_hi[1] : point[1] >= m->root_lo[1]);
-}
-
-/* Prefetches the entry of a point that begins soon. */
-static void ask_for_entry(const tree_table *table, const double *point) {
-    double column = tree_table_place(table, 0, point[0]), row = tree_table_place(table, 1, point[1]);
-    if (column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])
-        __builtin_prefetch(table->entries + (size_t)column * table->cells[1] + (size_t)row);
-}
-
 /* Begins the next of the points that can have an answer. */
 static size_t launch_climbs(froe_query *q, const double *points, size_t count, size_t next, int direction,
                             uint32_t *objects, climb *c, bool *flies) {
+    const tree_meta *m = &q->tree->meta;
+    const tree_table *table = q->tree->packed.table;
     *flies = false;
     for (; next < count && !*flies; next++) {
+        const double *x = points + 2 * next;
+        const bool beside = x[0] < m->root_lo[0] || x[0] > m->root_hi[0];
         objects[next] = FROE_NONE;
-        if (!aims_at_scene(q->tree, points + 2 * next, direction)) continue;
-        c->point = points + 2 * next;
+        if (beside || !(direction > 0 ? x[1] <= m->root_hi[1] : x[1] >= m->root_lo[1])) continue;
+        c->point = x;
         c->object = objects + next;
         c->nodes = 0;
-        if (next + PACKED_FLIGHT < count && q->tree->packed.table)
-            ask_for_entry(q->tree->packed.table, c->point + 2 * PACKED_FLIGHT);
+        if (next + PACKED_FLIGHT < count && table) { /* prefetches the entry of a point that begins soon */
+            const double *ahead = x + 2 * PACKED_FLIGHT;
+            const double column = tree_table_place(table, 0, ahead[0]), row = tree_table_place(table, 1, ahead[1]);
+            if (column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])
+                __builtin_prefetch(table->entries + (size_t)column * table->cells[1] + (size_t)row);
+        }
         begin_climb(q->tree, c, direction);
         *flies = true;
     }
     return next;
 }
 
-/* Answers one ray alone: it prefetches the block after next while it waits for the next. */
-static uint32_t climb_alone(froe_query *q, climb *c, int direction) {
-    for (;;) {
-        uint32_t block = c->block, count = c->count;
-        bool more = go_on_climbing(q->tree, c, direction);
-        uint32_t object = test(q, block, count, c->point, direction);
-        if (object == FROE_NONE && more) continue;
-        q->stats.nodes += c->nodes;
-        return object;
-    }
-}
-
 /* Answers a batch: the next ray takes the place of one that is answered; where none is left, the last one does. */
-static void fly(froe_query *q, climb *flock, size_t flying, const double *points, size_t count, size_t next,
-                int direction, uint32_t *objects) {
+static void answer_climbs(froe_query *q, climb *batch, size_t flying, const double *points, size_t count, size_t next,
+                          int direction, uint32_t *objects) {
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
-        climb *c = flock + i;
+        climb *c = batch + i;
         uint32_t object = test(q, c->block, c->count, c->point, direction), *stack = c->stack;
         bool flies;
         if (object == FROE_NONE && go_on_climbing(q->tree, c, direction)) continue;
@@ -204,26 +178,30 @@ static void fly(froe_query *q, climb *flock, size_t flying, const double *points
         q->stats.nodes += c->nodes;
         next = launch_climbs(q, points, count, next, direction, objects, c, &flies);
         if (flies) continue;
-        *c = flock[--flying];
-        flock[flying].stack = stack;
+        *c = batch[--flying];
+        batch[flying].stack = stack;
         if (i == flying) i = 0;
     }
 }
 
 froe_status packed_vertical(froe_query *q, const double *points, size_t count, int direction, uint32_t *objects) {
     packed_work *work = q->packed;
-    climb flock[PACKED_FLIGHT];
+    climb batch[PACKED_FLIGHT];
     size_t next = 0, flying = 0;
     q->stats.queries += count;
     work->candidates.count = 0;
     if (!array_reserve(&q->alloc, &work->candidates, q->tree->report.max_leaf + PACKED_LANES)) return FROE_E_MEMORY;
     for (bool flies = true; flying < PACKED_FLIGHT && flies; flying += flies) {
-        flock[flying].stack = work->climbs + flying * work->climb_size;
-        next = launch_climbs(q, points, count, next, direction, objects, flock + flying, &flies);
+        batch[flying].stack = work->climbs + flying * work->climb_size;
+        next = launch_climbs(q, points, count, next, direction, objects, batch + flying, &flies);
     }
-    if (count == 1 && flying)
-        *objects = climb_alone(q, flock, direction);
-    else
-        fly(q, flock, flying, points, count, next, direction, objects);
+    for (bool more = true; count == 1 && flying && more && *objects == FROE_NONE;) {
+        /* One ray alone prefetches the block after next while it waits for the next. */
+        const uint32_t block = batch->block, in_block = batch->count;
+        more = go_on_climbing(q->tree, batch, direction);
+        *objects = test(q, block, in_block, batch->point, direction);
+        if (*objects != FROE_NONE || !more) q->stats.nodes += batch->nodes;
+    }
+    if (count > 1) answer_climbs(q, batch, flying, points, count, next, direction, objects);
     return FROE_OK;
 }

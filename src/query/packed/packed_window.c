@@ -42,10 +42,6 @@ void packed_work_free(packed_work *work, const froe_allocator *alloc) {
 
 /* -------------------------------------------------------------------- walk -- */
 
-static void prefetch_block(const uint8_t *block, uint32_t count) {
-    for (uint32_t at = 0; at < 32 + 12 * count; at += 64) __builtin_prefetch(block + at);
-}
-
 static const packed_header *block_at(const froe_tree *t, uint32_t block) {
     return (const packed_header *)(const void *)(t->packed.blocks + (size_t)block * PACKED_BLOCK);
 }
@@ -64,7 +60,8 @@ static packed_visit slice_of(const froe_tree *t, uint32_t node) {
 static bool visit_leaf(froe_query *q, uint32_t block, uint32_t count) {
     const packed_visit visit = {block, 0, count};
     if (!count) return true;
-    prefetch_block(q->tree->packed.blocks + (size_t)block * PACKED_BLOCK, count);
+    const uint8_t *bytes = q->tree->packed.blocks + (size_t)block * PACKED_BLOCK;
+    for (uint32_t at = 0; at < 32 + 12 * count; at += 64) __builtin_prefetch(bytes + at);
     return array_push(&q->alloc, &q->packed->visits, visit);
 }
 
@@ -114,25 +111,19 @@ static uint32_t find_starts(const tree_table *table, const packed_window *w, tre
     return ragged && count > 1 ? 0 : count;
 }
 
-/* Sides of the window that are beyond the root box are not open. */
-static uint32_t open_at_root(const froe_tree *t, const packed_window *w) {
-    uint32_t open = 0;
-    for (int k = 0; k < 2; k++) {
-        if (w->lo[k] > t->meta.root_lo[k]) open |= 1u << (2 * k);
-        if (w->hi[k] < t->meta.root_hi[k]) open |= 2u << (2 * k);
-    }
-    return open;
-}
-
 /* Fills visits. */
 static froe_status collect(froe_query *q, const packed_window *w) {
     tree_entry starts[MOST_STARTS];
-    uint32_t count;
+    const tree_meta *m = &q->tree->meta;
+    uint32_t count, open = 0;
     q->packed->visits.count = q->packed->unsure.count = 0;
-    for (int k = 0; k < 2; k++)
-        if (w->lo[k] > q->tree->meta.root_hi[k] || w->hi[k] < q->tree->meta.root_lo[k]) return FROE_OK;
+    for (int k = 0; k < 2; k++) { /* sides of the window that are beyond the root box are not open */
+        if (w->lo[k] > m->root_hi[k] || w->hi[k] < m->root_lo[k]) return FROE_OK;
+        if (w->lo[k] > m->root_lo[k]) open |= 1u << (2 * k);
+        if (w->hi[k] < m->root_hi[k]) open |= 2u << (2 * k);
+    }
     count = find_starts(q->tree->packed.table, w, starts);
-    if (!count) return walk_window(q, w, 0, open_at_root(q->tree, w)) ? FROE_OK : FROE_E_MEMORY;
+    if (!count) return walk_window(q, w, 0, open) ? FROE_OK : FROE_E_MEMORY;
     for (uint32_t i = 0; i < count; i++) {
         bool leaf = starts[i].kind & TABLE_LEAF;
         if (!(leaf ? visit_leaf(q, starts[i].at, starts[i].kind & ~TABLE_LEAF)
@@ -143,15 +134,6 @@ static froe_status collect(froe_query *q, const packed_window *w) {
 }
 
 /* ------------------------------------------------------------------ answers -- */
-
-static packed_box common(const packed_box *a, const packed_box *b) {
-    packed_box c;
-    for (int k = 0; k < 2; k++) {
-        c.lo[k] = a->lo[k] > b->lo[k] ? a->lo[k] : b->lo[k];
-        c.hi[k] = a->hi[k] < b->hi[k] ? a->hi[k] : b->hi[k];
-    }
-    return c;
-}
 
 static bool ends_meet_box(froe_query *q, const double *const ends[2], const packed_box *box) {
     return query_segment_meets_box(&q->numbers, ends[0], ends[1], box->lo, box->hi);
@@ -167,7 +149,12 @@ static bool reports(froe_query *q, const packed_unsure *u, const packed_window *
     packed_ends(q->tree->scene, u->id & PACKED_OBJECT, ends);
     if (packed_is_whole(u->id)) return ends_meet_box(q, ends, w);
     packed_cell(q->tree, u->block, &cell);
-    packed_box part = common(&cell, w), left = part, level = part;
+    packed_box part;
+    for (int k = 0; k < 2; k++) {
+        part.lo[k] = cell.lo[k] > w->lo[k] ? cell.lo[k] : w->lo[k];
+        part.hi[k] = cell.hi[k] < w->hi[k] ? cell.hi[k] : w->hi[k];
+    }
+    packed_box left = part, level = part;
     if (!ends_meet_box(q, ends, &part)) return false;
     if (u->id & PACKED_START) return true;
     left.hi[0] = cell.lo[0];

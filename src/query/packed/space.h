@@ -29,7 +29,7 @@ typedef struct space_runner space_runner; /* space_flock.c */
 typedef struct space_work {
     const space_kernels *kernels;
     space_walk walk;
-    space_runner *flock;             /**< NULL until a batch of rays comes */
+    space_runner *batch;             /**< NULL until a batch of rays comes */
     ARRAY(uint32_t) objects, others; /**< from kernels */
     ARRAY(float) keys;
 } space_work;
@@ -54,7 +54,7 @@ space_step space_walk_step(froe_query *query, space_walk *walk, double limit);
  * froe_query_ray_any(), for query->tree->packed.wide. FROE_E_MEMORY. */
 froe_status space_rays(froe_query *query, const double *origins, const double *directions, size_t count, double t_max,
                        froe_hit *hits, uint32_t *objects, froe_diagnostic *diag);
-void space_flock_free(space_runner *flock, const froe_allocator *alloc);
+void space_batch_free(space_runner *batch, const froe_allocator *alloc);
 
 /** Objects that meet a closed box, or, with `any`, some of them if there are any: they are query->found. The caller
  * has begun the query and called query_range_of_box(). FROE_E_MEMORY. */

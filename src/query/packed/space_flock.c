@@ -11,7 +11,7 @@
 #include "support/fail.h"
 #include <string.h>
 
-enum { FLIGHT = 12 };
+enum { RAYS_AT_ONCE = 12 };
 
 /** A ray in progress. */
 struct space_runner {
@@ -23,7 +23,7 @@ struct space_runner {
     size_t at;        /* of the ray among all */
 };
 
-typedef struct flight {
+typedef struct ray_batch {
     froe_query *query;
     const double *origins, *directions;
     double t_max;
@@ -31,23 +31,16 @@ typedef struct flight {
     uint32_t *objects;
     size_t count, next;
     froe_diagnostic *diag;
-} flight;
+} ray_batch;
 
-void space_flock_free(space_runner *flock, const froe_allocator *alloc) {
-    if (!flock) return;
-    for (int i = 0; i < FLIGHT; i++) array_free(alloc, &flock[i].walk.stack);
-    support_free(alloc, flock, FLIGHT * sizeof *flock);
-}
-
-/* A ray whose numbers single precision cannot hold: the general walk answers it. */
-static froe_status go_alone(flight *f, size_t i) {
-    const double *origin = f->origins + 3 * i, *direction = f->directions + 3 * i;
-    if (f->hits) return froe_query_ray(f->query, origin, direction, f->t_max, f->hits + i, f->diag);
-    return froe_query_ray_any(f->query, origin, direction, f->t_max, f->objects + i, f->diag);
+void space_batch_free(space_runner *running, const froe_allocator *alloc) {
+    if (!running) return;
+    for (int i = 0; i < RAYS_AT_ONCE; i++) array_free(alloc, &running[i].walk.stack);
+    support_free(alloc, running, RAYS_AT_ONCE * sizeof *running);
 }
 
 /* Begins the next ray; *flies false: none is left. */
-static froe_status launch_ray(flight *f, space_runner *r, bool *flies) {
+static froe_status launch_ray(ray_batch *f, space_runner *r, bool *flies) {
     *flies = false;
     while (f->next < f->count && !*flies) {
         r->at = f->next++;
@@ -57,37 +50,29 @@ static froe_status launch_ray(flight *f, space_runner *r, bool *flies) {
         r->limit = f->t_max;
         r->best.object = r->pending = FROE_NONE;
         if (space_walk_ray(f->query, &r->walk, &r->ray, flies)) return support_fail_memory(f->diag);
-        const froe_status status = *flies ? FROE_OK : go_alone(f, r->at);
+        if (*flies) break;
+        /* A ray whose numbers single precision cannot hold: the general walk answers it. */
+        const double *o = r->ray.o, *d = r->ray.d;
+        const froe_status status = f->hits ? froe_query_ray(f->query, o, d, f->t_max, f->hits + r->at, f->diag)
+                                           : froe_query_ray_any(f->query, o, d, f->t_max, f->objects + r->at, f->diag);
         if (status) return status;
     }
     f->query->stats.queries += *flies;
     return FROE_OK;
 }
 
-static void arrive_with_hit(const flight *f, const space_runner *r) {
-    const bool meets = r->best.object != FROE_NONE;
-    if (f->objects) f->objects[r->at] = r->best.object;
-    if (!f->hits) return;
-    f->hits[r->at] = (froe_hit){.object = r->best.object};
-    if (meets) f->hits[r->at].t = geom_hit_round(&f->query->numbers, &r->ray, &r->best.hit);
-}
-
-/* Decides the pending object exactly. False: the answer of the ray is known. */
-static bool decide_hit(const flight *f, space_runner *r) {
-    query_met met;
+/* Decides the object that is pending exactly, then takes a step. SPACE_END: the ray is answered. */
+static space_step step_ray(const ray_batch *f, space_runner *r) {
     const uint32_t object = r->pending;
+    query_met met;
     r->pending = FROE_NONE;
-    if (object == r->best.object || !query_ray_meets(f->query, &r->ray, object, f->t_max, &met)) return true;
-    if (r->best.object != FROE_NONE && !query_ray_nearer(f->query, &r->ray, &met, &r->best)) return true;
-    r->best = met;
-    const double limit = query_ray_latest(&met.hit);
-    if (limit < r->limit) r->limit = limit;
-    return f->hits;
-}
-
-/* SPACE_END: the ray is answered. */
-static space_step step_ray(const flight *f, space_runner *r) {
-    if (r->pending != FROE_NONE && !decide_hit(f, r)) return SPACE_END;
+    if (object != FROE_NONE && object != r->best.object && query_ray_meets(f->query, &r->ray, object, f->t_max, &met) &&
+        (r->best.object == FROE_NONE || query_ray_nearer(f->query, &r->ray, &met, &r->best))) {
+        r->best = met;
+        const double limit = query_ray_latest(&met.hit);
+        if (limit < r->limit) r->limit = limit;
+        if (!f->hits) return SPACE_END;
+    }
     const space_step did = space_walk_step(f->query, &r->walk, r->limit);
     if (did != SPACE_OBJECT) return did;
     r->pending = r->walk.object;
@@ -96,21 +81,25 @@ static space_step step_ray(const flight *f, space_runner *r) {
 }
 
 /* The next ray takes the place of one that is answered; where none is left, the last ray of the batch does. */
-static froe_status fly(flight *f, space_runner *flock) {
+static froe_status answer_batch(ray_batch *f, space_runner *running) {
     size_t flying = 0;
     bool flies = true;
     froe_status status = FROE_OK;
-    for (; flying < FLIGHT && flies && !status; flying += flies) status = launch_ray(f, flock + flying, &flies);
+    for (; flying < RAYS_AT_ONCE && flies && !status; flying += flies) status = launch_ray(f, running + flying, &flies);
     for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
-        const space_step did = step_ray(f, flock + i);
+        const space_step did = step_ray(f, running + i);
         if (did == SPACE_NO_MEMORY) return support_fail_memory(f->diag);
         if (did != SPACE_END) continue;
-        arrive_with_hit(f, flock + i);
-        status = launch_ray(f, flock + i, &flies);
+        const space_runner *r = running + i;
+        if (f->objects) f->objects[r->at] = r->best.object;
+        if (f->hits) f->hits[r->at] = (froe_hit){.object = r->best.object};
+        if (f->hits && r->best.object != FROE_NONE)
+            f->hits[r->at].t = geom_hit_round(&f->query->numbers, &r->ray, &r->best.hit);
+        status = launch_ray(f, running + i, &flies);
         if (flies || status) continue;
-        const space_runner gone = flock[i];
-        flock[i] = flock[--flying];
-        flock[flying] = gone;
+        const space_runner gone = running[i];
+        running[i] = running[--flying];
+        running[flying] = gone;
         if (i == flying) i = 0;
     }
     return status;
@@ -119,10 +108,10 @@ static froe_status fly(flight *f, space_runner *flock) {
 froe_status space_rays(froe_query *q, const double *origins, const double *directions, size_t count, double t_max,
                        froe_hit *hits, uint32_t *objects, froe_diagnostic *diag) {
     const uint64_t exact = q->numbers.stats.exact;
-    flight f = {q, origins, directions, t_max, hits, objects, count, 0, diag};
-    if (!q->space->flock) q->space->flock = support_calloc(&q->alloc, FLIGHT, sizeof *q->space->flock);
-    if (!q->space->flock) return support_fail_memory(diag);
-    const froe_status status = fly(&f, q->space->flock);
+    ray_batch f = {q, origins, directions, t_max, hits, objects, count, 0, diag};
+    if (!q->space->batch) q->space->batch = support_calloc(&q->alloc, RAYS_AT_ONCE, sizeof *q->space->batch);
+    if (!q->space->batch) return support_fail_memory(diag);
+    const froe_status status = answer_batch(&f, q->space->batch);
     q->stats.exact += q->numbers.stats.exact - exact;
     return status;
 }

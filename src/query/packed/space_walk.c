@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#define OBJECT 0x40000000u
+#define SPACE_ITEM_OBJECT 0x40000000u
 enum { MOST_SORTED = 64 };
 
 froe_status space_work_new(const froe_tree *t, space_work **out) {
@@ -19,7 +19,7 @@ froe_status space_work_new(const froe_tree *t, space_work **out) {
 
 void space_work_free(space_work *work, const froe_allocator *alloc) {
     if (!work) return;
-    space_flock_free(work->flock, alloc);
+    space_batch_free(work->batch, alloc);
     array_free(alloc, &work->walk.stack);
     array_free(alloc, &work->objects);
     array_free(alloc, &work->others);
@@ -37,49 +37,26 @@ static froe_status begin_space_walk(froe_query *q, space_walk *w, bool near, boo
     return !meets || array_push(&q->alloc, &w->stack, 0) ? FROE_OK : FROE_E_MEMORY;
 }
 
-/* Rounding of o', of planes and of their difference costs 2^-51 of their sizes; where the ray hardly moves along an
- * axis, it is taken to move by 2^-60, which is nothing beside 2^-37. */
-static bool frame_axis(space_ray *r, int k) {
-    bool slow = fabs(r->d[k]) < 0x1p-60;
-    r->inverse[k] = slow ? copysign(0x1p60, r->d[k]) : 1 / r->d[k];
-    r->slack[k] = fabs(r->inverse[k]) * (0x1p-48 * (fabs(r->o[k]) + 1) + (slow ? 0x1p-37 : 0));
-    r->up[k] = r->inverse[k] > 0;
-    return fabs(r->o[k]) <= 0x1p20;
-}
-
-static void order_axes(space_ray *r) {
-    int last = fabs(r->d[1]) > fabs(r->d[0]) ? 1 : 0;
-    if (fabs(r->d[2]) > fabs(r->d[last])) last = 2;
-    r->axis[0] = last == 0;
-    r->axis[1] = 2 - (last == 2);
-    r->axis[2] = last;
-    r->largest = r->d[last];
-    for (int i = 0; i < 2; i++) r->shear[i] = (float)(r->d[r->axis[i]] / r->largest);
-}
-
-/* False: it misses the scene. */
-static bool find_start(space_ray *r, const tree_meta *m) {
+/* Finds where the ray comes to the scene; from there on planes are at most |entry| + 1/2 away. False: it misses the
+ * scene. */
+static bool enter_scene(space_ray *r, const tree_meta *m) {
     double enter = 0, leave = INFINITY;
     for (int k = 0; k < 3; k++) {
-        double a = (m->root_lo[k] - r->wide->middle[k]) * r->wide->scale;
-        double b = (m->root_hi[k] - r->wide->middle[k]) * r->wide->scale;
-        double s = (a - r->o[k]) * r->inverse[k], t = (b - r->o[k]) * r->inverse[k];
-        double first = (s < t ? s : t) - r->slack[k], last = (s < t ? t : s) + r->slack[k];
+        const double a = (m->root_lo[k] - r->wide->middle[k]) * r->wide->scale;
+        const double b = (m->root_hi[k] - r->wide->middle[k]) * r->wide->scale;
+        const double s = (a - r->o[k]) * r->inverse[k], t = (b - r->o[k]) * r->inverse[k];
+        const double first = (s < t ? s : t) - r->slack[k], last = (s < t ? t : s) + r->slack[k];
         enter = first > enter ? first : enter;
         leave = last < leave ? last : leave;
     }
     r->start = enter;
-    return enter <= leave;
-}
-
-/* From there on planes are at most |entry| + 1/2 away. */
-static void enter_scene(space_ray *r) {
     for (int k = 0; k < 3; k++) {
         r->slack[k] += 0x1p-50 * r->start;
         r->entry[k] = r->o[k] + r->start * r->d[k];
         r->step[k] = (float)r->inverse[k];
         r->rest[k] = (float)(r->slack[k] + 0x1p-21 * fabs(r->inverse[k]) * (fabs(r->entry[k]) + 0.5)) * (1 + 0x1p-20f);
     }
+    return enter <= leave;
 }
 
 /* The least one above x > 0, if neither is denormal. */
@@ -100,16 +77,27 @@ froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, bo
     const double size = power_of_2(most);
     *begun = wide && size > 0x1p-300 && size < 0x1p300;
     r->wide = wide;
+    /* Rounding of o', of planes and of their difference costs 2^-51 of their sizes; where the ray hardly moves along an
+     * axis, it is taken to move by 2^-60, which is nothing beside 2^-37. */
     for (int k = 0; *begun && k < 3; k++) {
         r->d[k] = ray->d[k] / size;
         r->o[k] = (ray->o[k] - wide->middle[k]) * wide->scale;
-        *begun = frame_axis(r, k);
+        const bool slow = fabs(r->d[k]) < 0x1p-60;
+        r->inverse[k] = slow ? copysign(0x1p60, r->d[k]) : 1 / r->d[k];
+        r->slack[k] = fabs(r->inverse[k]) * (0x1p-48 * (fabs(r->o[k]) + 1) + (slow ? 0x1p-37 : 0));
+        r->up[k] = r->inverse[k] > 0;
+        *begun = fabs(r->o[k]) <= 0x1p20;
     }
     if (!*begun) return FROE_OK;
-    order_axes(r);
+    int last = fabs(r->d[1]) > fabs(r->d[0]) ? 1 : 0;
+    if (fabs(r->d[2]) > fabs(r->d[last])) last = 2;
+    r->axis[0] = last == 0;
+    r->axis[1] = 2 - (last == 2);
+    r->axis[2] = last;
+    r->largest = r->d[last];
+    for (int i = 0; i < 2; i++) r->shear[i] = (float)(r->d[r->axis[i]] / r->largest);
     w->per = wide->scale * size;
-    const bool meets = find_start(r, &q->tree->meta);
-    enter_scene(r);
+    const bool meets = enter_scene(r, &q->tree->meta);
     return begin_space_walk(q, w, false, meets);
 }
 
@@ -130,21 +118,18 @@ froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {
 
 /* -------------------------------------------------------------------- limit -- */
 
-/* Rounded up. */
-static float limit_of(const space_walk *w, double limit) {
-    double x = limit * w->per, start = w->near ? 0 : w->ray.start;
-    x = x + 0x1p-20 * fabs(x - start) + 0x1p-50 * start - start;
-    if (x < 0) return -1;
-    return x < FLT_MAX ? (float)(x * (1 + 0x1p-22)) + FLT_MIN : (float)INFINITY;
-}
-
 static void lower_limit(space_walk *w, float limit) {
     if (limit < w->limit) w->limit = limit;
 }
 
-/* The caller's limit may have fallen. */
+/* The caller's limit may have fallen; for keys it is rounded up. */
 static void update_limit(space_walk *w, double limit) {
-    if (limit != w->told) w->told = limit, lower_limit(w, limit_of(w, limit));
+    if (limit == w->told) return;
+    const double start = w->near ? 0 : w->ray.start;
+    double x = limit * w->per;
+    w->told = limit;
+    x = x + 0x1p-20 * fabs(x - start) + 0x1p-50 * start - start;
+    lower_limit(w, x < 0 ? -1 : x < FLT_MAX ? (float)(x * (1 + 0x1p-22)) + FLT_MIN : (float)INFINITY);
 }
 
 /* -------------------------------------------------------------------- stack -- */
@@ -174,25 +159,13 @@ static void sort_top(space_walk *w, size_t from) {
     }
 }
 
-/* The least of the last entries on top; of few that wait the others need no order, as the first leaf lowers the limit.
- */
-static void lift_least(space_walk *w, size_t from) {
-    uint64_t *e = w->stack.data;
-    size_t least = from;
-    if (w->stack.count <= from) return;
-    for (size_t i = from + 1; i < w->stack.count; i++) least = e[i] < e[least] ? i : least;
-    const uint64_t x = e[least];
-    e[least] = e[w->stack.count - 1];
-    e[w->stack.count - 1] = x;
-}
-
 /* Prefetches all of a node, or as much of a leaf as one of 24 triangles has; objects have been prefetched before. It is
  * inlined, since gcc drops calls of functions that only prefetch. */
 __attribute__((always_inline)) static inline void ask_for(const froe_tree *t, uint32_t what) {
     const bool leaf = what & WIDE_LEAF;
     const uint8_t *at = leaf ? t->packed.blocks + (size_t)(what & WIDE_INDEX) * PACKED_BLOCK
                              : (const uint8_t *)(t->packed.wide->nodes + what);
-    if (!leaf && what & OBJECT) return;
+    if (!leaf && what & SPACE_ITEM_OBJECT) return;
     for (int i = 0; i < (leaf ? 640 : 192); i += 64) __builtin_prefetch(at + i);
 }
 
@@ -211,10 +184,17 @@ static bool push_children(froe_query *q, space_walk *w, uint32_t index, bool ask
         if (ask) ask_for(q->tree, n->child[i]);
         w->stack.data[w->stack.count++] = entry(keys[i], n->child[i]);
     }
-    if (w->near)
-        lift_least(w, from);
-    else
+    if (!w->near || w->stack.count <= from) {
         sort_top(w, from);
+        return true;
+    }
+    /* The least on top; of few that wait the others need no order, as the first leaf lowers the limit. */
+    uint64_t *e = w->stack.data, *top = e + w->stack.count - 1;
+    size_t least = from;
+    for (size_t i = from + 1; i < w->stack.count; i++) least = e[i] < e[least] ? i : least;
+    const uint64_t x = e[least];
+    e[least] = *top;
+    *top = x;
     return true;
 }
 
@@ -235,7 +215,7 @@ static bool push_objects(froe_query *q, space_walk *w, uint32_t block, float key
     for (size_t i = 0; i < found.count; i++)
         if (found.keys[i] <= w->limit) {
             scene_ask(q->tree->scene, found.objects[i]);
-            w->stack.data[w->stack.count++] = entry(found.keys[i], OBJECT | found.objects[i]);
+            w->stack.data[w->stack.count++] = entry(found.keys[i], SPACE_ITEM_OBJECT | found.objects[i]);
         }
     sort_top(w, from);
     return true;
@@ -245,7 +225,7 @@ static bool push_objects(froe_query *q, space_walk *w, uint32_t block, float key
 static space_step take_space_item(froe_query *q, space_walk *w, bool ask) {
     const uint64_t top = w->stack.data[--w->stack.count];
     const uint32_t what = (uint32_t)top;
-    if (what & OBJECT && !(what & WIDE_LEAF)) {
+    if (what & SPACE_ITEM_OBJECT && !(what & WIDE_LEAF)) {
         w->object = what & WIDE_INDEX;
         return SPACE_OBJECT;
     }

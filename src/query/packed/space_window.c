@@ -4,10 +4,6 @@
  * decided exactly; an object that several leaves list is looked at once. */
 #include "query/packed/space.h"
 
-static void prefetch_space_block(const uint8_t *block) {
-    for (int at = 0; at < 512; at += 64) __builtin_prefetch(block + at);
-}
-
 /* Leaves whose boxes the window may meet: their blocks become `others`. */
 static bool gather_in_window(froe_query *q, const space_window *window) {
     space_work *w = q->space;
@@ -23,7 +19,8 @@ static bool gather_in_window(froe_query *q, const space_window *window) {
         for (uint32_t bits = w->kernels->window_node(n, window); bits; bits &= bits - 1) {
             const uint32_t child = n->child[__builtin_ctz(bits)];
             if (child & WIDE_LEAF) {
-                prefetch_space_block(q->tree->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK);
+                const uint8_t *block = q->tree->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK;
+                for (int at = 0; at < 512; at += 64) __builtin_prefetch(block + at);
                 w->others.data[w->others.count++] = child & WIDE_INDEX;
             } else {
                 __builtin_prefetch(wide->nodes + child);

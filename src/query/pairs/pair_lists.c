@@ -3,7 +3,7 @@
 #include "base/floats.h"
 #include "query/heap.h"
 
-enum { ROOM = 1024 }; /* pairs that a thread takes from the common stock at a time */
+enum { PAIRS_AT_ONCE = 1024 }; /* pairs that a thread takes from the common stock at a time */
 #define PAIR_OBJECT ((1u << PAIR_KIND) - 1)
 
 froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32_t objects, unsigned threads,
@@ -26,9 +26,9 @@ void pair_lists_give(pair_lists *l) {
 froe_status pair_lists_add(pair_lists *l, unsigned thread, uint32_t a, uint32_t b, froe_meeting kind) {
     pair_list *list = l->lists + thread;
     const pair_item item = {a < b ? a : b, (a < b ? b : a) | (uint32_t)kind << PAIR_KIND};
-    if (!list->room) { /* takes room for up to ROOM pairs from what is left for all threads */
+    if (!list->room) { /* takes room for up to PAIRS_AT_ONCE pairs from what is left for all threads */
         unsigned left = atomic_load(&l->left), taken;
-        do taken = left < ROOM ? left : ROOM;
+        do taken = left < PAIRS_AT_ONCE ? left : PAIRS_AT_ONCE;
         while (taken && !atomic_compare_exchange_weak(&l->left, &left, left - taken));
         list->room = taken;
         if (!taken) return FROE_E_LIMIT;

@@ -13,7 +13,7 @@
 #include "support/fail.h"
 #include <string.h>
 
-enum { CHUNK = 64, WAVE = 32 }; /* objects a job; jobs a thread in a wave */
+enum { OBJECTS_PER_JOB = 64, JOBS_PER_WAVE = 32 }; /* objects a job; jobs a thread in a wave */
 
 /* What a thread needs beside its context. */
 typedef struct desk {
@@ -78,9 +78,9 @@ static froe_status find_partners(void *user, unsigned worker, size_t job) {
     desk *d = s->desks + worker;
     object_pairs *out = s->chunks + job;
     const froe_scene *scene = d->q->tree->scene;
-    const uint32_t first = s->first + (uint32_t)job * CHUNK, left = scene->object_count - first;
+    const uint32_t first = s->first + (uint32_t)job * OBJECTS_PER_JOB, left = scene->object_count - first;
     out->count = 0;
-    for (uint32_t i = first; i < first + (left < CHUNK ? left : CHUNK); i++) {
+    for (uint32_t i = first; i < first + (left < OBJECTS_PER_JOB ? left : OBJECTS_PER_JOB); i++) {
         const geom_body body = scene_body(scene, i);
         froe_range range;
         if (!take_body(d, &body, &range)) return FROE_E_MEMORY;
@@ -99,10 +99,10 @@ static froe_status find_partners(void *user, unsigned worker, size_t job) {
 
 /* All threads search a wave; then its pairs are reported in order, and the next wave begins. */
 static froe_status search_all(pair_search *s, uint32_t objects, froe_pair_fn *fn, void *user) {
-    const uint64_t jobs = ((uint64_t)objects + CHUNK - 1) / CHUNK;
+    const uint64_t jobs = ((uint64_t)objects + OBJECTS_PER_JOB - 1) / OBJECTS_PER_JOB;
     for (uint64_t done = 0; done < jobs; done += s->chunk_count) {
         const size_t count = jobs - done < s->chunk_count ? (size_t)(jobs - done) : s->chunk_count;
-        s->first = (uint32_t)done * CHUNK;
+        s->first = (uint32_t)done * OBJECTS_PER_JOB;
         const froe_status status = base_run(&s->workers->task, (double)count / (double)jobs, count, find_partners, s);
         if (status) return status;
         for (size_t i = 0; i < count; i++)
@@ -116,7 +116,8 @@ static froe_status find_pairs(query_workers *workers, bool shared, froe_pair_fn 
     const froe_query *query = workers->queries[0];
     const froe_allocator *alloc = &query->alloc;
     const unsigned threads = workers->count;
-    pair_search s = {.workers = workers, .shared = shared, .chunk_count = threads > 1 ? (size_t)threads * WAVE : 1};
+    pair_search s = {
+        .workers = workers, .shared = shared, .chunk_count = threads > 1 ? (size_t)threads * JOBS_PER_WAVE : 1};
     froe_status status = FROE_E_MEMORY;
     s.desks = support_calloc(alloc, threads, sizeof *s.desks);
     s.chunks = support_calloc(alloc, s.chunk_count, sizeof *s.chunks);
@@ -136,7 +137,7 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
                              void *fn_user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !fn) return support_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
-    const size_t jobs = ((size_t)query->tree->scene->object_count + CHUNK - 1) / CHUNK;
+    const size_t jobs = ((size_t)query->tree->scene->object_count + OBJECTS_PER_JOB - 1) / OBJECTS_PER_JOB;
     const uint64_t queries = query->stats.queries;
     query_workers workers;
     froe_status status = query_workers_take(query, options, jobs, &workers, diag);

@@ -57,24 +57,17 @@ static query_leaf go_down(froe_query *q, const query_planes *planes, uint32_t no
     return (query_leaf){.place = query_leaf_place(q->tree, node), .on_cut = on_cut};
 }
 
-/* ------------------------------------------------------------------- table -- */
-
-/* The entry of the jump table of a packed tree for a point in the core of a cell. */
-static bool find_entry(const tree_table *table, const double *x, tree_entry *out) {
+/* In a packed tree, by the entry of its jump table for a point in the core of a cell. */
+static query_leaf find_packed(froe_query *q, const query_planes *planes, const double *x) {
+    const tree_table *table = q->tree->packed.table;
     uint32_t cell[2];
     for (int k = 0; k < 2; k++) {
-        const double place = tree_table_place(table, k, x[k]);
-        if (!(place >= 0 && place < table->cells[k])) return false;
+        const double place = table ? tree_table_place(table, k, x[k]) : -1;
+        if (!(place >= 0 && place < table->cells[k])) return go_down(q, planes, 0, x);
         cell[k] = (uint32_t)place;
-        if (place < cell[k] + TABLE_HAIR || place > cell[k] + 1 - TABLE_HAIR) return false;
+        if (place < cell[k] + TABLE_HAIR || place > cell[k] + 1 - TABLE_HAIR) return go_down(q, planes, 0, x);
     }
-    *out = tree_table_at(table, cell[0], cell[1]);
-    return true;
-}
-
-static query_leaf find_packed(froe_query *q, const query_planes *planes, const double *x) {
-    tree_entry entry;
-    if (!q->tree->packed.table || !find_entry(q->tree->packed.table, x, &entry)) return go_down(q, planes, 0, x);
+    const tree_entry entry = tree_table_at(table, cell[0], cell[1]);
     return entry.kind & TABLE_LEAF ? (query_leaf){.place = entry.at} : go_down(q, planes, entry.at, x);
 }
 
@@ -106,9 +99,9 @@ static query_leaf find_by_tree(froe_query *q, const ways *w, const double *x) {
 /* ----------------------------------------------------------------- descent -- */
 
 enum {
-    FLIGHT = 16,  /* points that go down in turns */
-    AHEAD = 8,    /* points whose table entries are prefetched before their turn */
-    PATIENCE = 32 /* cuts in deep trees before the search by centroids: about its cost */
+    POINTS_AT_ONCE = 16, /* points that go down in turns */
+    POINTS_AHEAD = 8,    /* points whose table entries are prefetched before their turn */
+    MOST_FLOAT_CUTS = 32 /* cuts in deep trees before the search by centroids: about its cost */
 };
 
 /** A point in progress, and its number. */
@@ -135,9 +128,10 @@ static void pass_cut(froe_query *q, const query_descent *d, flyer *f, const doub
     f->p.next = query_descent_next(cut, right);
 }
 
-/* Has the point come to its leaf, or passed PATIENCE cuts? Centroids say nothing of oblique cuts. */
+/* Has the point come to its leaf, or passed MOST_FLOAT_CUTS cuts? Centroids say nothing of oblique cuts. */
 static bool has_come(const ways *w, const flyer *f) {
-    return f->p.next & DESCENT_LEAF || (f->steps >= PATIENCE && w->centroids && !(w->centroids->root & CENTROID_END));
+    return f->p.next & DESCENT_LEAF ||
+           (f->steps >= MOST_FLOAT_CUTS && w->centroids && !(w->centroids->root & CENTROID_END));
 }
 
 static query_leaf arrive_at_leaf(froe_query *q, const ways *w, const flyer *f, const double *x) {
@@ -150,7 +144,7 @@ static size_t launch_points(froe_query *q, const ways *w, const double *points, 
                             query_leaf *leaves, bool *flies) {
     for (*flies = false; next < count && !*flies; next++) {
         *f = (flyer){.number = next};
-        if (next + AHEAD < count) query_descent_ask(w->descent, points + 2 * (next + AHEAD));
+        if (next + POINTS_AHEAD < count) query_descent_ask(w->descent, points + 2 * (next + POINTS_AHEAD));
         *flies = query_descent_begin(w->descent, points + 2 * next, &f->p);
         if (!*flies) leaves[next] = find_by_tree(q, w, points + 2 * next);
     }
@@ -158,13 +152,13 @@ static size_t launch_points(froe_query *q, const ways *w, const double *points, 
 }
 
 /* Each point in turn passes a cut and prefetches its next one, which is in the cache at its next turn. */
-static void find_flock(froe_query *q, const ways *w, const double *points, size_t count, query_leaf *leaves) {
-    flyer flock[FLIGHT];
+static void find_batch(froe_query *q, const ways *w, const double *points, size_t count, query_leaf *leaves) {
+    flyer batch[POINTS_AT_ONCE];
     size_t next = 0, flying = 0;
-    for (bool flies = true; flying < FLIGHT && flies; flying += flies)
-        next = launch_points(q, w, points, count, next, flock + flying, leaves, &flies);
+    for (bool flies = true; flying < POINTS_AT_ONCE && flies; flying += flies)
+        next = launch_points(q, w, points, count, next, batch + flying, leaves, &flies);
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
-        flyer *f = flock + i;
+        flyer *f = batch + i;
         const double *x = points + 2 * f->number;
         bool flies;
         if (!has_come(w, f)) {
@@ -174,7 +168,7 @@ static void find_flock(froe_query *q, const ways *w, const double *points, size_
         }
         leaves[f->number] = arrive_at_leaf(q, w, f, x);
         next = launch_points(q, w, points, count, next, f, leaves, &flies);
-        if (!flies) *f = flock[--flying];
+        if (!flies) *f = batch[--flying];
         if (i == flying) i = 0;
     }
 }
@@ -203,7 +197,7 @@ froe_status query_leaf_find_all(froe_query *q, const double *points, size_t coun
     if (status) return status;
     q->stats.leaves += count;
     if (w.descends)
-        find_flock(q, &w, points, count, leaves);
+        find_batch(q, &w, points, count, leaves);
     else
         for (size_t i = 0; i < count; i++) leaves[i] = find_by_tree(q, &w, points + i * dim);
     return FROE_OK;
