@@ -223,20 +223,20 @@ static uint32_t first_by_force(const froe_scene *s, const double *point, int dir
 
 enum { POINTS = 150 };
 
-/* All at once, as a flock, and one by one. */
+/* All at once, as a batch, and one by one. */
 static void ask_vertical(asking *a, const froe_tree *t, const char *name) {
     double points[2 * POINTS];
-    uint32_t flock[POINTS], alone;
+    uint32_t batch[POINTS], alone;
     for (uint64_t i = 0; i < 2 * POINTS; i++) points[i] = odd_number(t, (int)(i % 2), 7000 + i);
     for (int direction = -1; direction <= 1; direction += 2) {
         for (size_t k = 0; k < a->kernels; k++) {
-            assert_int_equal(packed_vertical(a->q[k], points, POINTS, direction, flock), FROE_OK);
+            assert_int_equal(packed_vertical(a->q[k], points, POINTS, direction, batch), FROE_OK);
             for (size_t i = 0; i < POINTS; i++) {
                 assert_int_equal(packed_vertical(a->q[k], points + 2 * i, 1, direction, &alone), FROE_OK);
                 uint32_t expected = k ? alone : first_by_force(t->scene, points + 2 * i, direction);
-                if (alone != expected || flock[i] != alone)
-                    fail_msg("%s, point %zu (%.17g %.17g), direction %d: %u alone, %u in a flock, for %u", name, i,
-                             points[2 * i], points[2 * i + 1], direction, alone, flock[i], expected);
+                if (alone != expected || batch[i] != alone)
+                    fail_msg("%s, point %zu (%.17g %.17g), direction %d: %u alone, %u in a batch, for %u", name, i,
+                             points[2 * i], points[2 * i + 1], direction, alone, batch[i], expected);
             }
         }
         a->decisions += (uint64_t)POINTS * t->scene->object_count;

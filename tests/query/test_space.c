@@ -179,7 +179,7 @@ static void every_kernel_gives_the_answers_of_general_trees(void **state) {
     }
 }
 
-/* -------------------------------------------------------------------- flocks -- */
+/* -------------------------------------------------------------------- batches -- */
 
 enum { RAYS = 700 };
 
@@ -196,7 +196,7 @@ static void answer_one_by_one(froe_query *q, rays *r, double t_max) {
     }
 }
 
-static void check_flock(froe_query *q, const rays *r, double t_max, size_t count, const char *name) {
+static void check_batch(froe_query *q, const rays *r, double t_max, size_t count, const char *name) {
     static froe_hit hits[RAYS];
     static uint32_t any[RAYS];
     for (unsigned threads = 1; threads <= 3; threads += 2) {
@@ -211,7 +211,7 @@ static void check_flock(froe_query *q, const rays *r, double t_max, size_t count
     }
 }
 
-static void flocks_answer_as_rays_alone(void **state) {
+static void batches_answer_as_rays_alone(void **state) {
     rays *r = malloc(sizeof *r);
     (void)state;
     for (int i = 0; i < KINDS; i++) {
@@ -224,8 +224,8 @@ static void flocks_answer_as_rays_alone(void **state) {
             for (int far = 0; far < 2; far++) {
                 const double t_max = far ? (double)INFINITY : 0.25;
                 answer_one_by_one(q, r, t_max);
-                check_flock(q, r, t_max, RAYS, kinds[i].name);
-                check_flock(q, r, t_max, 1 + (size_t)i, kinds[i].name);
+                check_batch(q, r, t_max, RAYS, kinds[i].name);
+                check_batch(q, r, t_max, 1 + (size_t)i, kinds[i].name);
             }
             froe_query_free(q);
         }
@@ -235,7 +235,7 @@ static void flocks_answer_as_rays_alone(void **state) {
 }
 
 /* The first bad one ends the call, wherever it is. */
-static void flocks_refuse_bad_rays(void **state) {
+static void batches_refuse_bad_rays(void **state) {
     froe_tree *tree = tree_of(kinds);
     froe_query *q;
     rays *r = malloc(sizeof *r);
@@ -436,8 +436,8 @@ static void boxes_are_boxes_after_balls(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kernel_gives_the_answers_of_general_trees),
-        cmocka_unit_test(flocks_answer_as_rays_alone),
-        cmocka_unit_test(flocks_refuse_bad_rays),
+        cmocka_unit_test(batches_answer_as_rays_alone),
+        cmocka_unit_test(batches_refuse_bad_rays),
         cmocka_unit_test(kernels_agree),
         cmocka_unit_test(damaged_blocks_are_noticed),
         cmocka_unit_test(boxes_larger_than_their_objects_are_found),

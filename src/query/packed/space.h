@@ -23,7 +23,7 @@ typedef struct space_walk {
     ARRAY(uint64_t) stack;
 } space_walk;
 
-typedef struct space_runner space_runner; /* space_flock.c */
+typedef struct space_runner space_runner; /* space_rays.c */
 
 /** What a context has for packed trees of space. */
 typedef struct space_work {

@@ -1,4 +1,4 @@
-/* space_flock.c: rays in batches: while one waits for memory, others go on.
+/* space_rays.c: rays in batches: while one waits for memory, others go on.
  *
  *     ray 0   [node] ........ [node] ........ [leaf] ........ [object] ........ [decided]
  *     ray 1     [node] ........ [leaf] ........ [node] ........ [leaf] ........ [node]
