@@ -23,21 +23,14 @@ function(froe_fuzzed name)
 endfunction()
 
 froe_fuzzed(core)
+froe_fuzzed(input)
 target_sources(froe_fuzzed_core PRIVATE $<TARGET_OBJECTS:froe_support>)
-set(fuzzed froe_fuzzed_core)
-if(FROE_HAS_IO)
-  froe_fuzzed(io_core)
-  target_link_libraries(froe_fuzzed_io_core PUBLIC froe_fuzzed_core)
-  set(fuzzed froe_fuzzed_io_core)
-endif()
+target_link_libraries(froe_fuzzed_core PUBLIC froe_fuzzed_input)
+target_link_libraries(froe_fuzzed_input PUBLIC froe_fuzzed_core)
 
 add_executable(fuzz_seeds fuzz/seeds.c tests/support/samples.c)
 target_include_directories(fuzz_seeds PRIVATE src tests ${PROJECT_SOURCE_DIR})
-if(FROE_HAS_IO)
-  target_compile_definitions(fuzz_seeds PRIVATE FUZZ_IO)
-  target_link_libraries(fuzz_seeds PRIVATE froe_io_core)
-endif()
-target_link_libraries(fuzz_seeds PRIVATE froe_core froe_support) # the objects themselves: small trees need internal settings
+target_link_libraries(fuzz_seeds PRIVATE froe_core froe_input froe_support) # the objects themselves: small trees need internal settings
 set(seeds ${PROJECT_BINARY_DIR}/fuzz/seeds)
 add_custom_command(OUTPUT ${seeds}.made
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${seeds}
@@ -46,18 +39,13 @@ add_custom_command(OUTPUT ${seeds}.made
   DEPENDS fuzz_seeds VERBATIM COMMENT "Seeds for the fuzzers")
 add_custom_target(seeds ALL DEPENDS ${seeds}.made)
 
-# froe_fuzzer(NAME FLOOR PARTS...): the parts are those that it needs.
+# froe_fuzzer(NAME FLOOR)
 function(froe_fuzzer name floor)
-  foreach(part ${ARGN})
-    if(NOT FROE_HAS_${part})
-      return()
-    endif()
-  endforeach()
   set(target fuzz_${name})
   add_executable(${target} fuzz/fuzz_${name}.c fuzz/support.c fuzz/ask.c fuzz/look.c)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
   target_include_directories(${target} PRIVATE src tests ${PROJECT_SOURCE_DIR})
-  target_link_libraries(${target} PRIVATE ${fuzzed})
+  target_link_libraries(${target} PRIVATE froe_fuzzed_core)
   if(FROE_FUZZ)
     target_link_options(${target} PRIVATE -fsanitize=fuzzer)
   else()
@@ -68,8 +56,8 @@ endfunction()
 
 froe_fuzzer(open 6500)
 froe_fuzzer(scene 6400)
-froe_fuzzer(read 900 IO)
-froe_fuzzer(motion 850 IO)
+froe_fuzzer(read 900)
+froe_fuzzer(motion 850)
 
 # Beside an oracle, which needs GMP.
 find_package(PkgConfig)

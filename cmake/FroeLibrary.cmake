@@ -20,7 +20,10 @@ if(CMAKE_OBJCOPY AND NOT APPLE AND NOT FROE_SANITIZE AND NOT FROE_COVERAGE AND N
 endif()
 
 function(froe_archive_objects out core)
-  set(objects $<TARGET_OBJECTS:${core}> $<TARGET_OBJECTS:froe_support>)
+  set(objects "")
+  foreach(part ${core} ${ARGN})
+    list(APPEND objects $<TARGET_OBJECTS:${part}>)
+  endforeach()
   if(NOT FROE_LOCALIZE)
     set(${out} ${objects} PARENT_SCOPE)
     return()
@@ -30,18 +33,22 @@ function(froe_archive_objects out core)
     OUTPUT ${object}
     COMMAND ${CMAKE_LINKER} -r -o ${object} ${objects}
     COMMAND ${CMAKE_OBJCOPY} --localize-hidden ${object}
-    DEPENDS ${core} froe_support ${objects}
+    DEPENDS ${core} ${ARGN} ${objects}
     COMMAND_EXPAND_LISTS VERBATIM
     COMMENT "Hiding the internal symbols of ${core}")
   set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
   set(${out} ${object} PARENT_SCOPE)
 endfunction()
 
-# froe_libraries(NAME FILE [NEEDS...]): from the objects NAME_core the targets NAME (shared) and
-# NAME_static, called libFILE, that link to the shared or static NEEDS.
+# froe_libraries(NAME FILE [NEEDS...] [WITH OBJECTS...]): from the objects NAME_core, froe_support and OBJECTS the targets
+# NAME (shared) and NAME_static, called libFILE, that link to the shared or static NEEDS.
 function(froe_libraries name file)
-  add_library(${name} SHARED $<TARGET_OBJECTS:${name}_core> $<TARGET_OBJECTS:froe_support>)
-  froe_archive_objects(objects ${name}_core)
+  cmake_parse_arguments(PARSE_ARGV 2 own "" "" "WITH")
+  add_library(${name} SHARED)
+  foreach(part ${name}_core froe_support ${own_WITH})
+    target_sources(${name} PRIVATE $<TARGET_OBJECTS:${part}>)
+  endforeach()
+  froe_archive_objects(objects ${name}_core froe_support ${own_WITH})
   add_library(${name}_static STATIC ${objects})
   set_target_properties(${name} ${name}_static PROPERTIES OUTPUT_NAME ${file} LINKER_LANGUAGE C)
   if(FROE_LOCALIZE) # a part that calls what another part hides must not link
@@ -54,7 +61,7 @@ function(froe_libraries name file)
   list(REMOVE_ITEM libraries froe_public)
   target_link_libraries(${name} PRIVATE ${libraries})
   target_link_libraries(${name}_static PRIVATE ${libraries})
-  foreach(need ${ARGN})
+  foreach(need ${own_UNPARSED_ARGUMENTS})
     target_link_libraries(${name} PUBLIC ${need})
     target_link_libraries(${name}_static PUBLIC ${need}_static)
   endforeach()

@@ -42,7 +42,7 @@ function(froe_test area name)
 endfunction()
 
 # The core and the parts with everything visible, and what tests share: oracles, failing allocators.
-add_library(froe_white STATIC $<TARGET_OBJECTS:froe_core> $<TARGET_OBJECTS:froe_support>)
+add_library(froe_white STATIC $<TARGET_OBJECTS:froe_core> $<TARGET_OBJECTS:froe_support> $<TARGET_OBJECTS:froe_input>)
 foreach(part io draw)
   if(TARGET froe_${part}_core)
     add_library(froe_${part}_white STATIC $<TARGET_OBJECTS:froe_${part}_core>)

@@ -1,7 +1,7 @@
 /* fuzz_motion.c: any text as moving features (MF-JSON). What can be read has contacts that are told in order and lie in
  * the window, or too close to one another to be told apart. */
 #include "support.h"
-#include <froe/io.h>
+#include <froe/formats.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

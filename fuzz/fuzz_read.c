@@ -2,7 +2,7 @@
  * GDAL and assimp parse, their own fuzzers see to.) A header is put before the bytes, so that
  * they reach the right reader. */
 #include "support.h"
-#include <froe/io.h>
+#include <froe/formats.h>
 #include <stdio.h>
 
 static const struct {
@@ -23,7 +23,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     froe_scene *scene;
     froe_read_report report;
     froe_diagnostic why;
-    if (froe_read(path, &options, &scene, &report, &why) == FROE_OK) froe_scene_free(scene);
+    if (froe_read_own(path, &options, &scene, &report, &why) == FROE_OK) froe_scene_free(scene);
     remove(path);
     return 0;
 }

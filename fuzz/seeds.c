@@ -3,14 +3,12 @@
  *     seeds FOLDER     writes FOLDER/open, FOLDER/scene and, with io, FOLDER/read and FOLDER/motion */
 #include "base/random.h"
 #include "support/samples.h"
+#include <froe/formats.h>
 #include <froe/kinetic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#ifdef FUZZ_IO
-#include <froe/io.h>
-#endif
 
 enum { QUESTIONS = 400, PROGRAMS = 48 };
 
@@ -79,7 +77,6 @@ static void save_programs(output *out) {
 
 /* ------------------------------------------------------------------- files -- */
 
-#ifdef FUZZ_IO
 /* A file without the header that fuzz_read puts before it, after the number of that header. */
 static void save_read(output *out, const char *name, uint8_t form, const char *rest, size_t size) {
     put(path_of(out, "read", name), "wb", &form, 1);
@@ -132,7 +129,6 @@ static void save_motions(output *out) {
         froe_motion_free(motion);
     }
 }
-#endif
 
 int main(int argc, char **argv) {
     if (argc != 2) {
@@ -144,9 +140,7 @@ int main(int argc, char **argv) {
     samples_each(save_tree, &out);
     truncate_tree(&out);
     save_programs(&out);
-#ifdef FUZZ_IO
     save_files(&out);
     save_motions(&out);
-#endif
     return 0;
 }

@@ -1,28 +1,29 @@
 /* ogr_shapes.c: a geometry's parts are visited in order with an explicit stack. */
 #include "ogr_shapes.h"
-#include "triangulate.h"
+#include "formats/input/triangulate.h"
 
 void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes) {
-    io_buffer_free(alloc, &shapes->stack);
-    io_buffer_free(alloc, &shapes->points);
+    formats_buffer_free(alloc, &shapes->stack);
+    formats_buffer_free(alloc, &shapes->points);
 }
 
-static froe_status shapes_out_of_memory(io_sink *sink) {
-    return io_sink_fail(sink, FROE_E_MEMORY, "out of memory");
+static froe_status shapes_out_of_memory(formats_sink *sink) {
+    return formats_sink_fail(sink, FROE_E_MEMORY, "out of memory");
 }
 
 /* The vertices of a line or ring as xy pairs. */
-static froe_status load_points(io_sink *sink, io_shapes *shapes, OGRGeometryH line, size_t *count) {
+static froe_status load_points(formats_sink *sink, io_shapes *shapes, OGRGeometryH line, size_t *count) {
     int n = OGR_G_GetPointCount(line);
     *count = n > 0 ? (size_t)n : 0;
     shapes->points.size = 0;
-    double *xy = io_buffer_add(&sink->alloc, &shapes->points, (*count + 1) * 2 * sizeof *xy);
+    double *xy = formats_buffer_add(&sink->alloc, &shapes->points, (*count + 1) * 2 * sizeof *xy);
     if (!xy) return shapes_out_of_memory(sink);
     if (*count) OGR_G_GetPoints(line, xy, 2 * sizeof *xy, xy + 1, 2 * sizeof *xy, NULL, 0);
     return FROE_OK;
 }
 
-typedef froe_status part_fn(void *user, io_sink *sink, io_shapes *shapes, OGRGeometryH part, OGRwkbGeometryType type);
+typedef froe_status part_fn(void *user, formats_sink *sink, io_shapes *shapes, OGRGeometryH part,
+                            OGRwkbGeometryType type);
 
 static bool is_collection(OGRwkbGeometryType type) {
     return type == wkbGeometryCollection || type == wkbMultiPoint || type == wkbMultiLineString ||
@@ -30,10 +31,10 @@ static bool is_collection(OGRwkbGeometryType type) {
 }
 
 /* Calls fn for every part that is no collection, in order. */
-static froe_status each_part(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry, part_fn *fn, void *user) {
+static froe_status each_part(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry, part_fn *fn, void *user) {
     const froe_allocator *alloc = &sink->alloc;
     shapes->stack.size = 0;
-    if (!io_buffer_put(alloc, &shapes->stack, &geometry, sizeof geometry)) return shapes_out_of_memory(sink);
+    if (!formats_buffer_put(alloc, &shapes->stack, &geometry, sizeof geometry)) return shapes_out_of_memory(sink);
     froe_status status = FROE_OK;
     while (shapes->stack.size && !status) {
         shapes->stack.size -= sizeof(OGRGeometryH);
@@ -45,7 +46,7 @@ static froe_status each_part(io_sink *sink, io_shapes *shapes, OGRGeometryH geom
         }
         for (int i = OGR_G_GetGeometryCount(part); i-- > 0;) {
             OGRGeometryH child = OGR_G_GetGeometryRef(part, i);
-            if (!io_buffer_put(alloc, &shapes->stack, &child, sizeof child)) return shapes_out_of_memory(sink);
+            if (!formats_buffer_put(alloc, &shapes->stack, &child, sizeof child)) return shapes_out_of_memory(sink);
         }
     }
     return status;
@@ -53,7 +54,7 @@ static froe_status each_part(io_sink *sink, io_shapes *shapes, OGRGeometryH geom
 
 /* ----------------------------------------------------------------- sides -- */
 
-static froe_status part_sides(void *user, io_sink *sink, io_shapes *shapes, OGRGeometryH part,
+static froe_status part_sides(void *user, formats_sink *sink, io_shapes *shapes, OGRGeometryH part,
                               OGRwkbGeometryType type) {
     io_sides *sides = user;
     if (type != wkbPolygon && type != wkbTriangle) return FROE_OK;
@@ -65,7 +66,7 @@ static froe_status part_sides(void *user, io_sink *sink, io_shapes *shapes, OGRG
         if (!count) continue;
         const double *xy = shapes->points.data;
         while (count > 1 && xy[0] == xy[2 * count - 2] && xy[1] == xy[2 * count - 1]) --count;
-        int side = io_ring_side(xy, count);
+        int side = formats_ring_side(xy, count);
         if (i) side = -side; /* a hole has the interior outside */
         sides->polygons = true;
         sides->left = sides->left && side > 0;
@@ -74,7 +75,7 @@ static froe_status part_sides(void *user, io_sink *sink, io_shapes *shapes, OGRG
     return FROE_OK;
 }
 
-froe_status io_shapes_sides(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry, io_sides *sides) {
+froe_status io_shapes_sides(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry, io_sides *sides) {
     *sides = (io_sides){.left = true, .right = true};
     froe_status status = each_part(sink, shapes, geometry, part_sides, sides);
     if (!sides->polygons) sides->left = sides->right = false;
@@ -83,7 +84,7 @@ froe_status io_shapes_sides(io_sink *sink, io_shapes *shapes, OGRGeometryH geome
 
 /* --------------------------------------------------------------- objects -- */
 
-static froe_status add_line(io_sink *sink, io_shapes *shapes, OGRGeometryH line, bool ring) {
+static froe_status add_line(formats_sink *sink, io_shapes *shapes, OGRGeometryH line, bool ring) {
     size_t count;
     froe_status status = load_points(sink, shapes, line, &count);
     if (status) return status;
@@ -95,25 +96,26 @@ static froe_status add_line(io_sink *sink, io_shapes *shapes, OGRGeometryH line,
         ++count;
         ++sink->report.closed;
     }
-    for (size_t i = 0; i + 1 < count && !status; ++i) status = io_sink_segment(sink, xy + 2 * i, xy + 2 * i + 2);
+    for (size_t i = 0; i + 1 < count && !status; ++i) status = formats_sink_segment(sink, xy + 2 * i, xy + 2 * i + 2);
     return status;
 }
 
-static froe_status add_polygon(io_sink *sink, io_shapes *shapes, OGRGeometryH polygon) {
+static froe_status add_polygon(formats_sink *sink, io_shapes *shapes, OGRGeometryH polygon) {
     int rings = OGR_G_GetGeometryCount(polygon);
     froe_status status = FROE_OK;
-    io_sink_new_face(sink);
+    formats_sink_new_face(sink);
     for (int i = 0; i < rings && !status; ++i) status = add_line(sink, shapes, OGR_G_GetGeometryRef(polygon, i), true);
     sink->face = FROE_NONE;
     return status;
 }
 
-static froe_status add_ogr_point(io_sink *sink, OGRGeometryH point) {
+static froe_status add_ogr_point(formats_sink *sink, OGRGeometryH point) {
     double p[2] = {OGR_G_GetX(point, 0), OGR_G_GetY(point, 0)};
-    return io_sink_point(sink, p);
+    return formats_sink_point(sink, p);
 }
 
-static froe_status add_part(void *user, io_sink *sink, io_shapes *shapes, OGRGeometryH part, OGRwkbGeometryType type) {
+static froe_status add_part(void *user, formats_sink *sink, io_shapes *shapes, OGRGeometryH part,
+                            OGRwkbGeometryType type) {
     (void)user;
     if (OGR_G_IsEmpty(part)) return ++sink->report.skipped, FROE_OK;
     switch (type) {
@@ -129,6 +131,6 @@ static froe_status add_part(void *user, io_sink *sink, io_shapes *shapes, OGRGeo
     }
 }
 
-froe_status io_shapes_add(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry) {
+froe_status io_shapes_add(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry) {
     return each_part(sink, shapes, geometry, add_part, NULL);
 }

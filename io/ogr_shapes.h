@@ -2,13 +2,13 @@
 #ifndef FROE_IO_OGR_SHAPES_H
 #define FROE_IO_OGR_SHAPES_H
 
-#include "sink.h"
+#include "formats/input/sink.h"
 #include <ogr_api.h>
 
 /** Scratch memory, kept from feature to feature. */
 typedef struct io_shapes {
-    io_buffer stack;  /**< of OGRGeometryH */
-    io_buffer points; /**< xy doubles */
+    formats_buffer stack;  /**< of OGRGeometryH */
+    formats_buffer points; /**< xy doubles */
 } io_shapes;
 void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes);
 
@@ -17,9 +17,9 @@ typedef struct io_sides {
     bool polygons;    /**< it has rings */
     bool left, right; /**< the interior is on this side of every ring; both false: it differs, or no rings */
 } io_sides;
-froe_status io_shapes_sides(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry, io_sides *sides);
+froe_status io_shapes_sides(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry, io_sides *sides);
 
 /** Adds all points and segments of a geometry without curves, in order. */
-froe_status io_shapes_add(io_sink *sink, io_shapes *shapes, OGRGeometryH geometry);
+froe_status io_shapes_add(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry);
 
 #endif

@@ -2,8 +2,8 @@
  * file: no post-processing step of assimp runs, for those that weld, drop or split do
  * so within tolerances. Its coordinates are single precision; node transforms are
  * multiplied out in double. Nodes are walked with an explicit stack. */
-#include "mtl.h"
-#include "read.h"
+#include "formats/input/colour.h"
+#include "readers.h"
 #include <assimp/GltfMaterial.h>
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>
@@ -20,7 +20,7 @@
  * lock, the library's only global, is held from an import until its text is copied. */
 static pthread_mutex_t import_lock = PTHREAD_MUTEX_INITIALIZER;
 
-bool io_assimp_recognise(const io_source *source) {
+bool io_assimp_recognise(const formats_source *source) {
     /* what OGR reads too, and better, or what other programs mean by the extension */
     static const char *const left_to_ogr[] = {"dxf", "xml", "json", "csv", "txt", "prj", "raw", "gml", "kml", "svg"};
     if (!strncmp(source->head, "glTF", 4) || !strncmp(source->head, "ISO-10303-21", 12)) return true;
@@ -42,21 +42,21 @@ typedef struct visit {
 
 typedef struct walk {
     const struct aiScene *scene;
-    io_sink *sink;
-    io_buffer stack;     /* of visit */
-    io_buffer points;    /* transformed vertices of a mesh, doubles */
-    io_buffer corners;   /* of a face, doubles */
-    io_buffer materials; /* of the current node: pairs material, group (uint32_t) */
+    formats_sink *sink;
+    formats_buffer stack;     /* of visit */
+    formats_buffer points;    /* transformed vertices of a mesh, doubles */
+    formats_buffer corners;   /* of a face, doubles */
+    formats_buffer materials; /* of the current node: pairs material, group (uint32_t) */
     uint64_t faces, faces_done;
     bool linear; /* colours are shares of light (glTF), not of sRGB */
 } walk;
 
 static froe_status assimp_out_of_memory(walk *w) {
-    return io_fail(w->sink->diag, FROE_E_MEMORY, "%s: out of memory", io_short(w->sink->path));
+    return support_fail(w->sink->diag, FROE_E_MEMORY, "%s: out of memory", support_short(w->sink->path));
 }
 
 static froe_status corrupt(walk *w, const char *what) {
-    return io_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", io_short(w->sink->path), what);
+    return support_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(w->sink->path), what);
 }
 
 static void multiply(const double *parent, const struct aiMatrix4x4 *m, double *out) {
@@ -69,7 +69,7 @@ static void multiply(const double *parent, const struct aiMatrix4x4 *m, double *
 
 static froe_status transform(walk *w, const struct aiMesh *mesh, const double *m) {
     w->points.size = 0;
-    double *to = io_buffer_add(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3 * sizeof *to);
+    double *to = formats_buffer_add(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3 * sizeof *to);
     if (!to) return assimp_out_of_memory(w);
     for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
         const double p[3] = {mesh->mVertices[i].x, mesh->mVertices[i].y, mesh->mVertices[i].z};
@@ -85,18 +85,18 @@ static froe_status add_face(walk *w, const struct aiMesh *mesh, const struct aiF
     for (unsigned i = 0; i < face->mNumIndices; ++i) {
         unsigned at = face->mIndices[i];
         if (at >= mesh->mNumVertices) return corrupt(w, "a face names a vertex that does not exist");
-        if (!io_buffer_put(&w->sink->alloc, &w->corners, points + 3 * (size_t)at, 3 * sizeof *points))
+        if (!formats_buffer_put(&w->sink->alloc, &w->corners, points + 3 * (size_t)at, 3 * sizeof *points))
             return assimp_out_of_memory(w);
     }
     if (!face->mNumIndices) return ++w->sink->report.skipped, FROE_OK;
-    return io_sink_face(w->sink, w->corners.data, face->mNumIndices);
+    return formats_sink_face(w->sink, w->corners.data, face->mNumIndices);
 }
 
 static froe_status report_assimp(walk *w) {
     enum { FACES_PER_REPORT = 8192 };
     if (w->faces_done++ % FACES_PER_REPORT) return FROE_OK;
     double half = w->faces ? 0.5 * (double)w->faces_done / (double)w->faces : 0.5;
-    return io_sink_progress(w->sink, 0.5 + half); /* the import itself was the first half */
+    return formats_sink_progress(w->sink, 0.5 + half); /* the import itself was the first half */
 }
 
 /* A mesh without faces is a cloud of points. */
@@ -104,7 +104,7 @@ static froe_status add_cloud(walk *w, const struct aiMesh *mesh) {
     froe_status status = FROE_OK;
     const double *points = w->points.data;
     for (unsigned i = 0; i < mesh->mNumVertices && !status; ++i) {
-        status = io_sink_point(w->sink, points + 3 * (size_t)i);
+        status = formats_sink_point(w->sink, points + 3 * (size_t)i);
         if (!status) status = report_assimp(w);
     }
     return status;
@@ -146,7 +146,7 @@ static uint32_t material_colour(walk *w, unsigned index) {
         return 0;
     double rgba[4] = {c.r, c.g, c.b, opacity_of(material, c.a)};
     for (int k = 0; w->linear && k < 3; k++) rgba[k] = srgb(rgba[k]);
-    return io_colour(rgba);
+    return formats_colour(rgba);
 }
 
 /* One group for each node and name of a material, or with `boxes` for each node. */
@@ -159,10 +159,10 @@ static froe_status enter_node_group(walk *w, const struct aiNode *node, unsigned
         if (same) return w->sink->group = known[i + 1], FROE_OK;
     }
     froe_group group = {.name = node->mName.data, .material = name.data, .colour = material_colour(w, material)};
-    froe_status status = io_sink_group(w->sink, &group);
+    froe_status status = formats_sink_group(w->sink, &group);
     if (status) return status;
     uint32_t pair[2] = {material, w->sink->group};
-    return io_buffer_put(&w->sink->alloc, &w->materials, pair, sizeof pair) ? FROE_OK : assimp_out_of_memory(w);
+    return formats_buffer_put(&w->sink->alloc, &w->materials, pair, sizeof pair) ? FROE_OK : assimp_out_of_memory(w);
 }
 
 static froe_status add_mesh(walk *w, const struct aiNode *node, unsigned index, const double *m) {
@@ -181,7 +181,7 @@ static froe_status add_mesh(walk *w, const struct aiNode *node, unsigned index, 
 
 static froe_status add_node(walk *w, const struct aiNode *node, const double *m) {
     if (!node->mNumMeshes) return FROE_OK;
-    froe_status status = io_sink_feature(w->sink, w->sink->report.features);
+    froe_status status = formats_sink_feature(w->sink, w->sink->report.features);
     w->sink->inside = node->mName.data;
     w->materials.size = 0;
     for (unsigned i = 0; i < node->mNumMeshes && !status; ++i) status = add_mesh(w, node, node->mMeshes[i], m);
@@ -191,7 +191,7 @@ static froe_status add_node(walk *w, const struct aiNode *node, const double *m)
 static froe_status push(walk *w, const struct aiNode *node, const double *parent) {
     visit next = {.node = node};
     memcpy(next.parent, parent, sizeof next.parent);
-    return io_buffer_put(&w->sink->alloc, &w->stack, &next, sizeof next) ? FROE_OK : assimp_out_of_memory(w);
+    return formats_buffer_put(&w->sink->alloc, &w->stack, &next, sizeof next) ? FROE_OK : assimp_out_of_memory(w);
 }
 
 static froe_status walk_nodes(walk *w) {
@@ -219,7 +219,7 @@ static uint64_t count_faces(const struct aiScene *scene) {
 }
 
 /* "glTF2 Importer" becomes "glTF2 (assimp)". */
-static void set_format(const io_source *source, io_sink *sink, const struct aiScene *scene) {
+static void set_format(const formats_source *source, formats_sink *sink, const struct aiScene *scene) {
     char format[48];
     snprintf(format, sizeof format, "%s", source->extension.text);
     for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
@@ -229,22 +229,22 @@ static void set_format(const io_source *source, io_sink *sink, const struct aiSc
     }
     char *suffix = strstr(format, " Importer");
     if (suffix) *suffix = '\0';
-    io_report_format(sink, "float32", "%s (assimp)", format);
+    formats_report_format(sink, "float32", "%s (assimp)", format);
 }
 
 /* assimp reports the exception that ended an import by its text alone. */
-static froe_status refuse_import(const io_source *source, io_sink *sink) {
+static froe_status refuse_import(const formats_source *source, formats_sink *sink) {
     char reason[160];
     const char *said = aiGetErrorString();
     snprintf(reason, sizeof reason, "%.150s", strstr(said, source->path) ? "" : said);
     reason[strcspn(reason, "\r\n")] = '\0';
     if (strstr(reason, "bad_alloc"))
-        return io_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory", io_short(source->path));
-    return io_fail(sink->diag, FROE_E_FORMAT, "%s: %s", io_short(source->path),
-                   *reason ? reason : "is of no type that can be read");
+        return support_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory", support_short(source->path));
+    return support_fail(sink->diag, FROE_E_FORMAT, "%s: %s", support_short(source->path),
+                        *reason ? reason : "is of no type that can be read");
 }
 
-static froe_status import(const io_source *source, io_sink *sink, const struct aiScene **scene) {
+static froe_status import(const formats_source *source, formats_sink *sink, const struct aiScene **scene) {
     pthread_mutex_lock(&import_lock);
     *scene = aiImportFile(source->path, 0);
     froe_status status = *scene ? FROE_OK : refuse_import(source, sink);
@@ -252,9 +252,9 @@ static froe_status import(const io_source *source, io_sink *sink, const struct a
     return status;
 }
 
-froe_status io_read_assimp(const io_source *source, io_sink *sink) {
-    froe_status status = io_sink_open(sink, 3);
-    if (!status) status = io_sink_progress(sink, 0);
+froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
+    froe_status status = formats_sink_open(sink, 3);
+    if (!status) status = formats_sink_progress(sink, 0);
     const struct aiScene *scene;
     if (!status) status = import(source, sink, &scene);
     if (status) return status;
@@ -264,10 +264,10 @@ froe_status io_read_assimp(const io_source *source, io_sink *sink) {
     sink->unit = "face";
     sink->report.layers = 1;
     status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "has no nodes");
-    if (!status) status = io_sink_end_feature(sink);
+    if (!status) status = formats_sink_end_feature(sink);
     sink->inside = NULL; /* it belongs to assimp's scene */
-    io_buffer *buffers[] = {&w.stack, &w.points, &w.corners, &w.materials};
-    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) io_buffer_free(&sink->alloc, buffers[i]);
+    formats_buffer *buffers[] = {&w.stack, &w.points, &w.corners, &w.materials};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) formats_buffer_free(&sink->alloc, buffers[i]);
     aiReleaseImport(scene);
     return status;
 }

@@ -1,7 +1,8 @@
 /* read_ogr.c: plane maps in all formats of OGR. Messages of GDAL go to
  * a handler of this thread: the first failure becomes the diagnostic. */
+#include "formats/input/csv_header.h"
 #include "ogr_shapes.h"
-#include "read.h"
+#include "readers.h"
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
@@ -40,8 +41,8 @@ static void register_once(void) {
 /* -------------------------------------------------------------- features -- */
 
 typedef struct map {
-    const io_source *source;
-    io_sink *sink;
+    const formats_source *source;
+    formats_sink *sink;
     heard heard;
     GDALDatasetH data;
     io_shapes shapes;
@@ -52,14 +53,14 @@ typedef struct map {
 } map;
 
 static froe_status map_fail(map *m, froe_status status, const char *otherwise) {
-    return io_fail(m->sink->diag, status, "%s: %s", io_short(m->source->path),
-                   m->heard.failed && *m->heard.text ? m->heard.text : otherwise);
+    return support_fail(m->sink->diag, status, "%s: %s", support_short(m->source->path),
+                        m->heard.failed && *m->heard.text ? m->heard.text : otherwise);
 }
 
 static int find_field(OGRFeatureDefnH fields, const char *const *names) {
     for (; *names; ++names)
         for (int i = 0; i < OGR_FD_GetFieldCount(fields); ++i)
-            if (io_equal_nocase(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(fields, i)), *names)) return i;
+            if (formats_equal_nocase(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(fields, i)), *names)) return i;
     return -1;
 }
 
@@ -90,7 +91,7 @@ static froe_status enter_group(map *m, OGRFeatureH feature, const io_sides *side
     froe_group group = {.name = name, .material = *material ? material : m->layer_name};
     group.left = sides->left ? name : NULL;
     group.right = sides->right ? name : NULL;
-    return io_sink_group(m->sink, &group);
+    return formats_sink_group(m->sink, &group);
 }
 
 /* The feature's geometry without curves; *own when the caller must destroy it. */
@@ -103,16 +104,16 @@ static OGRGeometryH linear(map *m, OGRFeatureH feature, bool *own) {
 }
 
 static froe_status add_feature(map *m, OGRFeatureH feature) {
-    io_sink *sink = m->sink;
+    formats_sink *sink = m->sink;
     GIntBig id = OGR_F_GetFID(feature);
-    froe_status status = io_sink_feature(sink, (uint64_t)id);
+    froe_status status = formats_sink_feature(sink, (uint64_t)id);
     if (status) return status;
     sink->tagged = id >= 0;
     sink->tag = (uint64_t)id;
     bool own;
     OGRGeometryH geometry = linear(m, feature, &own);
     if (!geometry)
-        return own ? io_sink_fail(sink, FROE_E_FORMAT, "its curves cannot be linearised")
+        return own ? formats_sink_fail(sink, FROE_E_FORMAT, "its curves cannot be linearised")
                    : (++sink->report.no_geometry, FROE_OK);
     sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
     io_sides sides;
@@ -125,7 +126,7 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
 
 static froe_status report_ogr(map *m, double done) {
     enum { FEATURES_PER_REPORT = 256 };
-    return m->features_done++ % FEATURES_PER_REPORT ? FROE_OK : io_sink_progress(m->sink, done);
+    return m->features_done++ % FEATURES_PER_REPORT ? FROE_OK : formats_sink_progress(m->sink, done);
 }
 
 /* All layers. A file like OSM, that knows the layer of a feature only when it has
@@ -171,8 +172,8 @@ static froe_status no_layer(map *m, const char *wanted) {
         int wrote = snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", name);
         used += wrote > 0 ? (size_t)wrote : 0;
     }
-    return io_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: has no layer '%.40s'; it has: %s", io_short(m->source->path),
-                   wanted, names);
+    return support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: has no layer '%.40s'; it has: %s",
+                        support_short(m->source->path), wanted, names);
 }
 
 static froe_status filter(map *m, OGRLayerH layer) {
@@ -198,32 +199,32 @@ static froe_status add_layers(map *m) {
     m->heard.failed = false; /* earlier failures did not keep the file from opening */
     if (!status) status = one ? add_layer(m, one) : add_all(m);
     if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "cannot be read to its end");
-    if (!status) status = io_sink_end_feature(m->sink);
+    if (!status) status = formats_sink_end_feature(m->sink);
     m->sink->inside = NULL;
     return status;
 }
 
-static GDALDatasetH open_map(const io_source *source) {
+static GDALDatasetH open_map(const formats_source *source) {
     /* columns with geometry have many names */
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
     static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
                                          "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
     bool is_csv = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
     return GDALOpenEx(source->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
-                      is_csv ? io_csv_has_geometry(source) ? wkt : places : NULL, NULL);
+                      is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
 }
 
-froe_status io_read_ogr(const io_source *source, io_sink *sink) {
+froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     map m = {.source = source, .sink = sink, .heard.path = source->path};
     sink->unit = "feature";
-    froe_status status = io_sink_open(sink, 2);
+    froe_status status = formats_sink_open(sink, 2);
     if (status) return status;
     CPLPushErrorHandlerEx(hear, &m.heard);
     register_once();
     m.data = open_map(source);
     if (!m.data) status = map_fail(&m, FROE_E_FORMAT, "is of no type that can be read");
     if (!status) {
-        io_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
+        formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
         status = add_layers(&m);
     }
     if (m.data) GDALClose(m.data);

@@ -1,67 +1,25 @@
-/* io.h: scenes from files, files from trees, and generated scenes.
+/* io.h: scenes from files of every format.
  *
  *     froe_scene *scene;  froe_read_report report;  froe_diagnostic diag;
  *     froe_read_options o = froe_read_defaults();
  *     if (froe_read("floor.geojson", &o, &scene, &report, &diag)) puts(diag.message);
  *
- * A companion library (link froe-io) on top of froe.h and kinetic.h alone. Plane maps are read
- * by GDAL's OGR, solid models by assimp, numbers in CSV by froe itself. Nothing is
+ * A companion library (link froe-io) on top of froe/formats.h. Plane maps are read by GDAL's OGR, solid models by assimp,
+ * numbers in CSV, OFF, OBJ and PLY by the core. Nothing is
  * printed: messages of those libraries go into the diagnostic. All
  * functions may be called from several threads at once. */
 #ifndef FROE_IO_H
 #define FROE_IO_H
 
-#include <froe/kinetic.h>
+#include <froe/formats.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* -------------------------------------------------------------------- read -- */
-
-/** What becomes of the faces of a solid model. */
-typedef enum froe_faces {
-    FROE_FACES_TRIANGLES = 0, /**< every polygon is triangulated */
-    FROE_FACES_POLYGONS = 1   /**< exactly planar, convex and simple polygons stay whole; others are triangulated */
-} froe_faces;
-
-typedef struct froe_read_options {
-    size_t size;                 /**< set by froe_read_defaults() */
-    const char *layer;           /**< OGR: read this layer only; NULL: all, or of a topology (TopoJSON) the first */
-    const char *where;           /**< OGR: attribute filter, as in SQL's WHERE; NULL: none */
-    froe_faces faces;            /**< solid models: default FROE_FACES_TRIANGLES */
-    bool boxes;                  /**< the bounding box of every feature (or row, or node) instead of its shape */
-    froe_progress_fn *progress;  /**< may be NULL; false cancels */
-    void *user;                  /**< for progress */
-    const froe_allocator *alloc; /**< of the scene and of the reader's own arrays; NULL: malloc */
-} froe_read_options;
-FROE_API froe_read_options froe_read_defaults(void); /**< all layers, triangles, shapes */
-
-/** How a file was read: nothing is done to a scene that is not counted here. */
-typedef struct froe_read_report {
-    char format[64];      /**< e.g. "GeoJSON", "CSV boxes", "glTF2 (assimp)" */
-    char precision[16];   /**< of the reader's coordinates: "float64" or "float32" */
-    uint64_t layers;      /**< layers read; 1 for files without layers */
-    uint64_t layers_left; /**< layers not read */
-    uint64_t features;    /**< features, rows, or nodes or named objects with faces */
-    uint64_t groups;
-    uint64_t linearised;   /**< curves replaced by chords (OGR's default step, 4 degrees) */
-    uint64_t flattened;    /**< features whose z was left out of a plane map */
-    uint64_t triangulated; /**< polygons of more than 3 corners that were split into triangles */
-    uint64_t closed;       /**< polygon rings without their last edge, which was added */
-    uint64_t skipped;      /**< geometries without extent to read: of no known sort, empty, lines of one point */
-    uint64_t no_geometry;  /**< features that have none */
-    double seconds;        /**< from call to return, by the wall clock */
-} froe_read_report;
-
 /** Reads a scene. The content of the file decides which reader is used, then its extension:
  *
- *   CSV by header   points `x,y[,z...]`, boxes `lo_x,lo_y[,...],hi_x,hi_y[,...]`, balls `x,y[,...],r`;
- *                   the axes are called x y z w x5 x6 x7 x8 (or x1 ... x8), columns come in any order,
- *                   a column `tag` (a whole number below 2^64) becomes the tag, others are ignored.
- *                   Decimal numbers become the nearest doubles, whatever the locale.
- *   OFF, OBJ, PLY   dimension 3, double precision (binary PLY: its own). In OBJ each pair of an
- *                   object's (o, g) name and a material is a group, coloured by the MTL beside it.
+ *   CSV by header, OFF, OBJ, PLY   as froe_read_own() does
  *
  *   assimp          glTF, STL, IFC, FBX, ...: dimension 3, single precision; node transforms are
  *                   applied in double; each pair of a node and a material of its faces is a group,
@@ -86,149 +44,6 @@ typedef struct froe_read_report {
  * features, more than 8 axes. FROE_E_MEMORY, FROE_E_CANCELLED, FROE_E_LIMIT. */
 FROE_API froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out,
                                froe_read_report *report, froe_diagnostic *diag);
-
-/* ------------------------------------------------------------------- write -- */
-
-/** Writes a scene so that froe_read gives it back, exactly: .geojson or .json (points, segments and
- * boxes in the plane), .csv (points, boxes or balls, one kind), .off or .obj (polygons,
- * segments and points in space). Numbers have the digits that give the same doubles again. GeoJSON and
- * OBJ keep the names of groups, CSV keeps tags. Atomic: `path` holds the old file or the new one, whole.
- * FROE_E_UNSUPPORTED: this kind, dimension or extension does not go together. FROE_E_IO. */
-FROE_API froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_diagnostic *diag);
-
-typedef enum froe_export_what {
-    FROE_EXPORT_FRAGMENTS = 0, /**< every piece, with object, face, group, name, tag and node */
-    FROE_EXPORT_CELLS = 1,     /**< every leaf's region, with node, depth and number of pieces */
-    FROE_EXPORT_CUTS = 2       /**< every cut within its region, with node, depth and number of pieces in it */
-} froe_export_what;
-
-typedef struct froe_export_options {
-    size_t size;                /**< set by froe_export_defaults() */
-    const double *lo, *hi;      /**< cells and cuts are clipped to this box, dim doubles each;
-                                     NULL: the scene's bounds and a tenth more on every side */
-    froe_progress_fn *progress; /**< may be NULL */
-    void *user;                 /**< for progress */
-} froe_export_options;
-FROE_API froe_export_options froe_export_defaults(void);
-
-/** Writes a part of a tree for other programs, by extension: .geojson or .json (dimension 2), .obj
- * (dimension 3), .csv (any; geometry as WKT in dimensions 2 and 3). Atomic, streaming: memory does not
- * grow with the tree. options may be NULL. FROE_E_UNSUPPORTED: extension and dimension do not go
- * together. FROE_E_IO: cannot be written, disk full. FROE_E_CANCELLED. */
-FROE_API froe_status froe_export(const froe_tree *tree, const char *path, froe_export_what what,
-                                 const froe_export_options *options, froe_diagnostic *diag);
-
-/* ------------------------------------------------------------------ motion -- */
-
-typedef struct froe_motion_read_options {
-    size_t size;                 /**< set by froe_motion_read_defaults() */
-    double from, to;             /**< the window; NaN (default): the first and the last instant in the file */
-    const froe_allocator *alloc; /**< of the motion and of the reader's own arrays; NULL: malloc */
-} froe_motion_read_options;
-FROE_API froe_motion_read_options froe_motion_read_defaults(void);
-
-typedef struct froe_motion_report {
-    uint64_t features;  /**< with a motion */
-    uint64_t still;     /**< without one: left out */
-    uint64_t pieces;    /**< of flight plans: times between two instants */
-    uint64_t flattened; /**< features whose z was left out */
-    double seconds;     /**< from call to return, by the wall clock */
-} froe_motion_report;
-
-/** Reads OGC Moving Features JSON (19-045r3): MovingPoint, MovingLineString, MovingPolygon and collections of them
- * (prisms), in a Feature or a FeatureCollection. Lines and rings become one segment per pair of neighbours, which
- * share vertices; a point becomes a segment without length. Each feature is a group, named by the first of name, title,
- * label and id among its properties, or its id, or its first property that is a text; the tag is its number, from 0.
- * Its segments live from its first instant to its last.
- * Times are milliseconds since 1970 (ISO 8601), or the numbers of the file as they are. Numbers become the nearest
- * doubles. Interpolation is Linear (also where nothing is said) or Quadratic: the parabolas that continue one another
- * with the same velocity, the first of them through the first three instants; a member `controls` beside
- * `coordinates`, of one geometry less, gives their control points itself. Coordinate systems are ignored.
- * FROE_E_UNSUPPORTED: Discrete, Step and Cubic interpolation, other geometries. FROE_E_FORMAT: no JSON, not of this
- * form. FROE_E_INPUT: times that do not increase, geometries that change their number of points, a window in which
- * nothing is; the message names the feature. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_LIMIT. options, report
- * and diag may be NULL. */
-FROE_API froe_status froe_read_motion(const char *path, const froe_motion_read_options *options, froe_motion **out,
-                                      froe_motion_report *report, froe_diagnostic *diag);
-
-/** Writes a motion as MF-JSON so that froe_read_motion() gives it back: objects that follow one another with a common
- * vertex in one group become one line or polygon. Numbers have the digits that give the same doubles again.
- * FROE_E_UNSUPPORTED: the vertices of one feature have different instants, or its segments do not live as long as
- * its plans. FROE_E_IO, FROE_E_MEMORY. */
-FROE_API froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_diagnostic *diag);
-
-/** Writes contacts, in their order, as a table: .csv with the header
- *     a,b,begin_low,begin_high,end_low,end_high,instant,since_start,to_stop,a_name,b_name
- * (0 and 1 for no and yes, names of groups), or .json, an array of objects with the same members. FROE_E_UNSUPPORTED:
- * another extension. FROE_E_IO, FROE_E_MEMORY. */
-FROE_API froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *contacts, size_t count,
-                                         const char *path, froe_diagnostic *diag);
-
-/** Events on their way to a .csv with the header
- *     tick,early,late,kind,objects,a,b,c,d
- * with the number of segments that an event is about, and the first four of them. They are written while they happen. */
-typedef struct froe_event_writer froe_event_writer;
-/** Begins a file; froe_event_writer_close() must follow, and `path` last until then. alloc NULL: malloc.
- * FROE_E_UNSUPPORTED: another extension. FROE_E_IO, FROE_E_MEMORY. */
-FROE_API froe_status froe_event_writer_new(const char *path, const froe_allocator *alloc, froe_event_writer **out,
-                                           froe_diagnostic *diag);
-/** Adds an event. False: something has failed, which froe_event_writer_close() tells, and there is no use in going on. */
-FROE_API bool froe_event_writer_put(froe_event_writer *writer, const froe_event *event);
-/** With FROE_OK: brings the file to its place, whole. Otherwise, or where something has failed, no file is left, and what
- * was there before stays. Returns `status`, or what has failed: FROE_E_IO, FROE_E_MEMORY. NULL: returns `status`. */
-FROE_API froe_status froe_event_writer_close(froe_event_writer *writer, froe_status status, froe_diagnostic *diag);
-
-/** Writes where the ends of a snapshot's objects are, exactly, as .csv with the header
- *     object,end,x,y,w,rounded
- * in whole numbers of as many digits as it takes: the place is (x / w, y / w). FROE_E_UNSUPPORTED: another
- * extension. FROE_E_IO, FROE_E_MEMORY. */
-FROE_API froe_status froe_write_places(const froe_places *places, const char *path, froe_diagnostic *diag);
-
-typedef struct froe_animation_options {
-    size_t size;    /**< set by froe_animation_defaults() */
-    double width;   /**< of the picture, in pixels; default 960 */
-    double seconds; /**< that the whole window takes to play; default 20 */
-} froe_animation_options;
-FROE_API froe_animation_options froe_animation_defaults(void);
-
-/** A motion as an animation, objects red while they are in contact: .svg, a picture (SMIL; parabolas by chords),
- * or .html, a page of its own that plays it, with a slider for the time and a list of the contacts. The same bytes on
- * every platform. FROE_E_UNSUPPORTED: another extension. FROE_E_OPTIONS, FROE_E_IO, FROE_E_MEMORY. options may be NULL.
- */
-FROE_API froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
-                                  const froe_animation_options *options, const char *path, froe_diagnostic *diag);
-
-/* ---------------------------------------------------------------- generate -- */
-
-/** A kind of made-up scene. */
-typedef struct froe_generator_info {
-    const char *name;    /**< e.g. "segments" */
-    int dim;             /**< of the scene */
-    froe_kind kind;      /**< of its objects */
-    const char *summary; /**< one line */
-    bool usual;          /**< what users ask for; the others are for tests and benches */
-} froe_generator_info;
-/** The i-th kind; NULL past the last. */
-FROE_API const froe_generator_info *froe_generator_at(size_t i);
-
-/** A made-up scene of about n objects (exactly n where the kind allows it, never fewer than one unit
- * of the kind). A pure function of kind, n and seed: coordinates come from + - * / sqrt and an integer
- * hash, so that the scene is the same, bit for bit, on every platform. alloc NULL: malloc.
- * FROE_E_ARG: n is 0. FROE_E_OPTIONS: no such kind. FROE_E_LIMIT, FROE_E_MEMORY. */
-FROE_API froe_status froe_generate(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc,
-                                   froe_scene **out, froe_diagnostic *diag);
-
-/** A kind of made-up motion. */
-typedef struct froe_motion_generator_info {
-    const char *name;    /**< e.g. "moving" */
-    const char *summary; /**< one line */
-    bool usual;          /**< as of froe_generator_info */
-} froe_motion_generator_info;
-/** The i-th kind; NULL past the last. */
-FROE_API const froe_motion_generator_info *froe_motion_generator_at(size_t i);
-/** About n moving segments, in the window 0 .. 60; else as froe_generate(). */
-FROE_API froe_status froe_generate_motion(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc,
-                                          froe_motion **out, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

@@ -516,7 +516,8 @@ static void read_again(floats_run *r, const char *path, froe_faces faces) {
     o.alloc = &memory;
     o.progress = floats_progress;
     o.user = r;
-    MUST(r, froe_read(path, &o, &scene, NULL, NULL));
+    MUST(r,
+         froe_reads_own(path) ? froe_read_own(path, &o, &scene, NULL, NULL) : froe_read(path, &o, &scene, NULL, NULL));
     for (uint32_t v = 0; v < froe_scene_vertex_count(scene); v++)
         floats_note(r, froe_scene_vertex(scene, v), 8 * (size_t)froe_scene_dim(scene));
     froe_scene_free(scene);

@@ -1,5 +1,6 @@
 /* consumer.c: a user's program. It has functions that are called as internal ones of
  * the library are; the library must neither see them nor clash with them. */
+#include <froe/formats.h>
 #include <froe/froe.h>
 #include <froe/query.h>
 #include <froe/view.h>
@@ -24,6 +25,11 @@ int main(void) {
     if (froe_scene_new(2, NULL, &scene) || froe_scene_add(scene, &objects, NULL)) return 1;
     if (froe_scene_object_count(scene) != 2 || froe_scene_vertex_count(scene) != 4) return 2;
     froe_scene_free(scene);
+    FILE *file = fopen("consumer.csv", "w"); /* a file is read without any other library */
+    if (!file || fputs("x,y\n1,2\n3,4\n", file) < 0 || fclose(file)) return 4;
+    if (froe_read_own("consumer.csv", NULL, &scene, NULL, NULL) || froe_scene_object_count(scene) != 2) return 5;
+    froe_scene_free(scene);
+    remove("consumer.csv");
     if (support_realloc() || support_array_grow(1) != 2) return 3;
     puts(froe_version());
     return 0;

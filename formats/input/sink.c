@@ -1,0 +1,284 @@
+/* sink.c: batches on their way into a scene. */
+#include "formats/input/sink.h"
+#include "formats/input/triangulate.h"
+#include "support/floats.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { BATCH_OBJECTS = 65536, BATCH_BYTES = 8 << 20 };
+
+froe_status formats_sink_open(formats_sink *sink, int dim) {
+    sink->dim = dim;
+    sink->group = sink->face = FROE_NONE;
+    froe_status status = froe_scene_new(dim, &sink->alloc, &sink->scene);
+    return status ? support_fail(sink->diag, status, "%s: no scene of dimension %d can be made",
+                                 support_short(sink->path), dim)
+                  : FROE_OK;
+}
+
+void formats_sink_free(formats_sink *sink) {
+    formats_buffer *buffers[] = {&sink->coords,       &sink->radii,  &sink->starts,
+                                 &sink->object_faces, &sink->groups, &sink->tags};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) formats_buffer_free(&sink->alloc, buffers[i]);
+    froe_scene_free(sink->scene);
+    sink->scene = NULL;
+}
+
+froe_status formats_sink_fail(formats_sink *sink, froe_status status, const char *format, ...) {
+    char reason[160], inside[72] = "";
+    va_list args;
+    va_start(args, format);
+    vsnprintf(reason, sizeof reason, format, args);
+    va_end(args);
+    if (sink->inside && *sink->inside) snprintf(inside, sizeof inside, " of '%.60s'", sink->inside);
+    support_fail(sink->diag, status, "%s: %s %llu%s: %s", support_short(sink->path), sink->unit ? sink->unit : "object",
+                 (unsigned long long)sink->number, inside, reason);
+    if (sink->diag) sink->diag->object = sink->total < FROE_NONE ? (uint32_t)sink->total : FROE_NONE;
+    return status;
+}
+
+froe_status formats_sink_progress(formats_sink *sink, double done) {
+    volatile const double share = done < 1 ? done : 1;
+    if (!sink->progress || support_callback(sink->progress(sink->user, share))) return FROE_OK;
+    return support_fail(sink->diag, FROE_E_CANCELLED, "%s: cancelled", support_short(sink->path));
+}
+
+/* ------------------------------------------------------------- the batch -- */
+
+static void forget_batch(formats_sink *sink) {
+    sink->coords.size = sink->radii.size = sink->starts.size = 0;
+    sink->object_faces.size = sink->groups.size = sink->tags.size = 0;
+    sink->count = 0;
+}
+
+static froe_status flush(formats_sink *sink) {
+    if (!sink->count) return FROE_OK;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = sink->kind;
+    batch.count = sink->count;
+    batch.coords = sink->coords.data;
+    batch.starts = sink->kind == FROE_POLYGON ? sink->starts.data : NULL;
+    batch.radii = sink->kind == FROE_BALL ? sink->radii.data : NULL;
+    batch.tags = sink->tags.data;
+    batch.faces = sink->object_faces.data;
+    batch.groups = sink->groups.data;
+    froe_diagnostic why = {.message = ""};
+    froe_status status = froe_scene_add(sink->scene, &batch, &why);
+    if (status) {
+        size_t first = sink->total - sink->count;
+        support_fail(sink->diag, status, "%s: %s (objects from %zu)", support_short(sink->path), why.message, first);
+        if (sink->diag) sink->diag->object = why.object, sink->diag->corner = why.corner, sink->diag->axis = why.axis;
+        return status;
+    }
+    forget_batch(sink);
+    return FROE_OK;
+}
+
+static froe_status sink_out_of_memory(formats_sink *sink) {
+    return support_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory after %zu objects", support_short(sink->path),
+                        sink->total);
+}
+
+static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
+    bool full = sink->count == BATCH_OBJECTS || sink->coords.size > BATCH_BYTES;
+    if (full || (sink->count && kind != sink->kind)) {
+        froe_status status = flush(sink);
+        if (status) return status;
+    }
+    if (sink->total >= FROE_NONE - 1) return formats_sink_fail(sink, FROE_E_LIMIT, "more than 2^32 - 2 objects");
+    const froe_allocator *alloc = &sink->alloc;
+    sink->kind = kind;
+    uint32_t id = (uint32_t)sink->total, face = sink->face == FROE_NONE ? id : sink->face;
+    uint64_t tag = sink->tagged ? sink->tag : id;
+    size_t point_bytes = (size_t)sink->dim * sizeof(double), start = sink->coords.size / point_bytes;
+    if (kind == FROE_POLYGON) {
+        if (!sink->count && !formats_buffer_put(alloc, &sink->starts, &start, sizeof start))
+            return sink_out_of_memory(sink);
+        size_t end = start + corners;
+        if (!formats_buffer_put(alloc, &sink->starts, &end, sizeof end)) return sink_out_of_memory(sink);
+    }
+    if (!formats_buffer_put(alloc, &sink->coords, coords, corners * point_bytes) ||
+        !formats_buffer_put(alloc, &sink->object_faces, &face, sizeof face) ||
+        !formats_buffer_put(alloc, &sink->groups, &sink->group, sizeof sink->group) ||
+        !formats_buffer_put(alloc, &sink->tags, &tag, sizeof tag))
+        return sink_out_of_memory(sink);
+    ++sink->count;
+    ++sink->total;
+    return FROE_OK;
+}
+
+froe_status formats_sink_take(formats_sink *sink, froe_scene **scene) {
+    froe_status status = formats_sink_end_feature(sink);
+    if (!status) status = flush(sink);
+    if (status) return status;
+    *scene = sink->scene;
+    sink->scene = NULL;
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------ features, groups -- */
+
+froe_status formats_sink_feature(formats_sink *sink, uint64_t number) {
+    froe_status status = formats_sink_end_feature(sink);
+    sink->number = number;
+    sink->group = sink->face = FROE_NONE;
+    ++sink->report.features;
+    return status;
+}
+
+froe_status formats_sink_end_feature(formats_sink *sink) {
+    if (!sink->bounded) return FROE_OK;
+    double corners[2 * FROE_MAX_DIM];
+    memcpy(corners, sink->lo, (size_t)sink->dim * sizeof(double));
+    memcpy(corners + sink->dim, sink->hi, (size_t)sink->dim * sizeof(double));
+    sink->bounded = false;
+    sink->face = FROE_NONE;
+    return put_in_sink(sink, FROE_BOX, corners, 2);
+}
+
+froe_status formats_sink_group(formats_sink *sink, const froe_group *group) {
+    froe_status status = froe_scene_add_group(sink->scene, group, &sink->group);
+    if (status == FROE_E_MEMORY) return sink_out_of_memory(sink);
+    if (status)
+        return formats_sink_fail(sink, status, "its group '%.60s' cannot be added", group->name ? group->name : "");
+    ++sink->report.groups;
+    return FROE_OK;
+}
+
+void formats_sink_new_face(formats_sink *sink) {
+    sink->face = sink->total < FROE_NONE ? (uint32_t)sink->total : FROE_NONE;
+}
+
+/* --------------------------------------------------------------- objects -- */
+
+static const char *axis_name(int axis) {
+    static const char *const names[FROE_MAX_DIM] = {"x", "y", "z", "w", "x5", "x6", "x7", "x8"};
+    return names[axis];
+}
+
+static froe_status finite(formats_sink *sink, const double *coords, size_t corners) {
+    size_t count = corners * (size_t)sink->dim;
+    for (size_t i = 0; i < count; ++i) {
+        if (isfinite(coords[i])) continue;
+        int axis = (int)(i % (size_t)sink->dim);
+        size_t corner = i / (size_t)sink->dim;
+        froe_status status = formats_sink_fail(sink, FROE_E_INPUT, "%s of corner %zu of the object is %s",
+                                               axis_name(axis), corner, isnan(coords[i]) ? "not a number" : "infinite");
+        if (sink->diag) sink->diag->corner = (uint32_t)corner, sink->diag->axis = (uint32_t)axis;
+        return status;
+    }
+    return FROE_OK;
+}
+
+static void extend(formats_sink *sink, const double *p) {
+    for (int k = 0; k < sink->dim; ++k) {
+        if (!sink->bounded || p[k] < sink->lo[k]) sink->lo[k] = p[k];
+        if (!sink->bounded || p[k] > sink->hi[k]) sink->hi[k] = p[k];
+    }
+    sink->bounded = true;
+}
+
+/* Checks; then adds the object, or with `boxes` only widens the feature's box. */
+static froe_status add_to_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
+    froe_status status = finite(sink, coords, corners);
+    if (status) return status;
+    if (!sink->boxes) return put_in_sink(sink, kind, coords, corners);
+    for (size_t i = 0; i < corners; ++i) extend(sink, coords + i * (size_t)sink->dim);
+    return FROE_OK;
+}
+
+froe_status formats_sink_point(formats_sink *sink, const double *p) {
+    return add_to_sink(sink, FROE_POINT, p, 1);
+}
+
+static froe_status add_pair(formats_sink *sink, froe_kind kind, const double *a, const double *b) {
+    double corners[2 * FROE_MAX_DIM];
+    memcpy(corners, a, (size_t)sink->dim * sizeof(double));
+    memcpy(corners + sink->dim, b, (size_t)sink->dim * sizeof(double));
+    return add_to_sink(sink, kind, corners, 2);
+}
+
+froe_status formats_sink_segment(formats_sink *sink, const double *a, const double *b) {
+    return add_pair(sink, FROE_SEGMENT, a, b);
+}
+
+froe_status formats_sink_box(formats_sink *sink, const double *lo, const double *hi) {
+    for (int k = 0; k < sink->dim; ++k)
+        if (lo[k] > hi[k])
+            return formats_sink_fail(sink, FROE_E_INPUT, "lo_%s = %.17g is above hi_%s = %.17g", axis_name(k), lo[k],
+                                     axis_name(k), hi[k]);
+    return add_pair(sink, FROE_BOX, lo, hi);
+}
+
+froe_status formats_sink_ball(formats_sink *sink, const double *centre, double radius) {
+    froe_status status = finite(sink, centre, 1);
+    if (status) return status;
+    if (!(radius >= 0) || !isfinite(radius))
+        return formats_sink_fail(sink, FROE_E_INPUT, "the radius is %.17g; it must be 0 or positive, and finite",
+                                 radius);
+    if (sink->boxes) { /* one unit in the last place outwards, so that the box contains the ball */
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        for (int k = 0; k < sink->dim; ++k) {
+            lo[k] = radius > 0 ? nextafter(centre[k] - radius, -INFINITY) : centre[k];
+            hi[k] = radius > 0 ? nextafter(centre[k] + radius, INFINITY) : centre[k];
+        }
+        return add_pair(sink, FROE_BOX, lo, hi);
+    }
+    status = put_in_sink(sink, FROE_BALL, centre, 1);
+    if (!status && !formats_buffer_put(&sink->alloc, &sink->radii, &radius, sizeof radius))
+        return sink_out_of_memory(sink);
+    return status;
+}
+
+froe_status formats_sink_triangle(formats_sink *sink, const double *a, const double *b, const double *c) {
+    double corners[3 * FROE_MAX_DIM];
+    const double *from[3] = {a, b, c};
+    for (int i = 0; i < 3; ++i) memcpy(corners + i * sink->dim, from[i], (size_t)sink->dim * sizeof(double));
+    return add_to_sink(sink, FROE_POLYGON, corners, 3);
+}
+
+/* The core decides whether it takes the polygon as it is. */
+static froe_status polygon_fits(formats_sink *sink, const double *corners, size_t count, bool *fits) {
+    froe_scene *trial;
+    froe_status status = froe_scene_new(sink->dim, &sink->alloc, &trial);
+    if (status) return sink_out_of_memory(sink);
+    size_t starts[2] = {0, count};
+    froe_objects one = froe_objects_defaults();
+    one.kind = FROE_POLYGON;
+    one.count = 1;
+    one.coords = corners;
+    one.starts = starts;
+    status = froe_scene_add(trial, &one, NULL);
+    froe_scene_free(trial);
+    *fits = !status;
+    if (status == FROE_E_MEMORY) return sink_out_of_memory(sink);
+    return FROE_OK;
+}
+
+static froe_status split(formats_sink *sink, const double *corners, size_t count) {
+    formats_buffer triangles = {0};
+    froe_status status = FROE_OK;
+    if (!formats_triangulate(&sink->alloc, corners, count, &triangles)) status = sink_out_of_memory(sink);
+    const uint32_t *at = triangles.data;
+    for (size_t i = 0; !status && i < triangles.size / sizeof *at; i += 3)
+        status = formats_sink_triangle(sink, corners + 3 * at[i], corners + 3 * at[i + 1], corners + 3 * at[i + 2]);
+    formats_buffer_free(&sink->alloc, &triangles);
+    ++sink->report.triangulated;
+    return status;
+}
+
+froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t count) {
+    if (count == 1) return formats_sink_point(sink, corners);
+    if (count == 2) return formats_sink_segment(sink, corners, corners + 3);
+    if (count == 3 || sink->boxes) return add_to_sink(sink, FROE_POLYGON, corners, count);
+    froe_status status = finite(sink, corners, count);
+    bool whole = false;
+    if (!status && sink->faces == FROE_FACES_POLYGONS) status = polygon_fits(sink, corners, count, &whole);
+    if (status) return status;
+    formats_sink_new_face(sink);
+    status = whole ? put_in_sink(sink, FROE_POLYGON, corners, count) : split(sink, corners, count);
+    sink->face = FROE_NONE;
+    return status;
+}

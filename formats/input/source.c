@@ -1,0 +1,141 @@
+/* source.c: from a path to a scene, by the reader that is chosen by the first bytes of the file. */
+#include "formats/input/source.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Reads until the buffer is full or the file ends; -1 with errno on failure. */
+static ssize_t read_fully(int file, char *to, size_t size) {
+    size_t done = 0;
+    while (done < size) {
+        ssize_t got = read(file, to + done, size - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return -1;
+        if (!got) break;
+        done += (size_t)got;
+    }
+    return (ssize_t)done;
+}
+
+froe_status formats_source_open(const char *path, formats_source *source, froe_diagnostic *diag) {
+    *source = (formats_source){.path = path};
+    const char *name = support_short(path);
+    struct stat about;
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) return formats_fail_file(diag, path, errno);
+    ssize_t got = -1;
+    int error = fstat(file, &about) ? errno : 0;
+    bool regular = !error && S_ISREG(about.st_mode), directory = !error && S_ISDIR(about.st_mode);
+    if (regular) {
+        got = read_fully(file, source->head, sizeof source->head - 1);
+        if (got < 0) error = errno;
+    }
+    close(file);
+    if (error) return formats_fail_file(diag, path, error);
+    if (!regular)
+        return support_fail(diag, FROE_E_IO, "%s: is %s, not a file", name, directory ? "a directory" : "a device");
+    if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: is empty", name);
+    source->head_size = (size_t)got;
+    source->head[got] = '\0';
+    source->size = (uint64_t)about.st_size;
+    source->extension = formats_path_extension(path);
+    return FROE_OK;
+}
+
+bool formats_is_moving(const formats_source *source) {
+    return !strcmp(source->extension.text, "mfjson") ||
+           (strchr(source->head, '{') &&
+            (strstr(source->head, "\"temporalGeometry\"") || strstr(source->head, "\"MovingLineString\"")));
+}
+
+froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_buffer *text) {
+    char *to = source->size < SIZE_MAX ? formats_buffer_add(&sink->alloc, text, (size_t)source->size + 1) : NULL;
+    if (!to)
+        return support_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory for the text", support_short(source->path));
+    int file = open(source->path, O_RDONLY | O_CLOEXEC);
+    ssize_t got = file < 0 ? -1 : read_fully(file, to, (size_t)source->size);
+    int error = errno;
+    if (file >= 0) close(file);
+    if (got < 0) return formats_fail_file(sink->diag, source->path, error);
+    to[got] = '\0';
+    text->size = (size_t)got;
+    if (!binary && memchr(to, '\0', (size_t)got))
+        return support_fail(sink->diag, FROE_E_FORMAT, "%s: is not text: byte %zu is zero", support_short(source->path),
+                            strlen(to));
+    return FROE_OK;
+}
+
+void formats_report_format(formats_sink *sink, const char *precision, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    vsnprintf(sink->report.format, sizeof sink->report.format, format, args);
+    va_end(args);
+    snprintf(sink->report.precision, sizeof sink->report.precision, "%s", precision);
+}
+
+/* Fills the sink and takes the scene from it. Only maps have layers and attributes: a filter of another file is
+ * refused, rather than ignored. */
+static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, const formats_source *source,
+                              formats_sink *sink, froe_scene **out) {
+    const char *name = support_short(source->path);
+    const froe_read_options *o = source->options;
+    if (formats_is_moving(source))
+        return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: holds moving features, which are no scene at rest",
+                            name);
+    formats_reader *reader = choose(source);
+    if (!reader) return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: is neither CSV nor OFF, OBJ or PLY", name);
+    if (reader != maps && (o->layer || o->where))
+        return support_fail(sink->diag, FROE_E_OPTIONS, "%s: is not a map: it has no %s", name,
+                            o->layer ? "layers" : "attributes to filter by");
+    froe_status status = reader(source, sink);
+    if (!status) status = formats_sink_end_feature(sink);
+    if (!status && !sink->total)
+        status = support_fail(sink->diag, FROE_E_INPUT,
+                              "%s: holds no objects (%llu features without geometry, %llu skipped)%s", name,
+                              (unsigned long long)sink->report.no_geometry, (unsigned long long)sink->report.skipped,
+                              reader == maps && !strcmp(source->extension.text, "csv")
+                                  ? "; a CSV begins with a line like x,y or x,y,r or lo_x,lo_y,hi_x,hi_y"
+                                  : "");
+    if (!status) status = formats_sink_progress(sink, 1);
+    return status ? status : formats_sink_take(sink, out);
+}
+
+froe_status formats_check_reading(const char *name, const char *path, const froe_read_options *options,
+                                  froe_scene **out, froe_diagnostic *diag) {
+    if (!path || !out) return support_fail(diag, FROE_E_ARG, "%s: path and out must not be NULL", name);
+    if (options && options->size != sizeof *options)
+        return support_fail(diag, FROE_E_OPTIONS, "%s: the options do not come from froe_read_defaults()", name);
+    if (options && options->faces != FROE_FACES_TRIANGLES && options->faces != FROE_FACES_POLYGONS)
+        return support_fail(diag, FROE_E_OPTIONS, "%s: faces are triangles or polygons, not %d", name,
+                            (int)options->faces);
+    return FROE_OK;
+}
+
+froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const char *path,
+                         const froe_read_options *options, froe_scene **out, froe_read_report *report,
+                         froe_diagnostic *diag) {
+    double start = formats_seconds();
+    const froe_read_options defaults = froe_read_defaults(), *o = options ? options : &defaults;
+    formats_sink sink = {.alloc = support_allocator(o->alloc),
+                         .diag = diag,
+                         .path = path,
+                         .faces = o->faces,
+                         .boxes = o->boxes,
+                         .progress = o->progress,
+                         .user = o->user};
+    formats_locale locale;
+    if (!formats_locale_enter(&locale)) return support_fail_memory(diag);
+    formats_source source;
+    froe_status status = formats_source_open(path, &source, diag);
+    source.options = o;
+    if (!status) status = fill_scene(choose, maps, &source, &sink, out);
+    formats_sink_free(&sink);
+    formats_locale_leave(&locale);
+    sink.report.seconds = formats_seconds() - start;
+    if (!status && report) *report = sink.report;
+    return status;
+}

@@ -1,0 +1,44 @@
+/* source.h: a file about to be read, and how a reader is chosen and run. */
+#ifndef FROE_FORMATS_SOURCE_H
+#define FROE_FORMATS_SOURCE_H
+
+#include "formats/input/sink.h"
+
+/** What is known of a file before a reader is chosen. */
+typedef struct formats_source {
+    const char *path;
+    formats_extension extension;
+    uint64_t size; /**< bytes */
+    char head[4096 + 1];
+    size_t head_size; /**< bytes of the file's beginning in `head`, which ends with a NUL */
+    const froe_read_options *options;
+} formats_source;
+
+/** Opens the file just long enough to know its size and its first bytes. FROE_E_IO; FROE_E_FORMAT: it is empty. */
+froe_status formats_source_open(const char *path, formats_source *source, froe_diagnostic *diag);
+/** Is it of moving features, by its extension or its content? */
+bool formats_is_moving(const formats_source *source);
+
+/** A reader adds the objects of the file to the sink, which it opens with the right dimension, and sets
+ * report.format and report.precision. */
+typedef froe_status formats_reader(const formats_source *source, formats_sink *sink);
+
+/** NULL: there is no reader for this file. */
+typedef formats_reader *formats_choose_fn(const formats_source *source);
+
+/** Does the public function `name` accept these arguments? FROE_E_ARG, FROE_E_OPTIONS. */
+froe_status formats_check_reading(const char *name, const char *path, const froe_read_options *options,
+                                  froe_scene **out, froe_diagnostic *diag);
+/** As froe_read(), with the readers that `choose` has, and arguments that were accepted. `maps` is the one whose files
+ * have layers and attributes, or NULL. */
+froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const char *path,
+                         const froe_read_options *options, froe_scene **out, froe_read_report *report,
+                         froe_diagnostic *diag);
+
+/** The whole file and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text holds a NUL. */
+froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_buffer *text);
+
+void formats_report_format(formats_sink *sink, const char *precision, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif

@@ -1,0 +1,101 @@
+/* animate.c: froe_animate: from a motion to a page; see animate.h. */
+#include "formats/motion/animate.h"
+#include "support/floats.h"
+#include <math.h>
+#include <string.h>
+
+froe_animation_options froe_animation_defaults(void) {
+    return (froe_animation_options){.size = sizeof(froe_animation_options), .width = 960, .seconds = 20};
+}
+
+/* The hull of all knots and control points holds everything. */
+static void find_bounds(formats_animation *a) {
+    for (int k = 0; k < 2; k++) a->lo[k] = (double)INFINITY, a->hi[k] = -(double)INFINITY;
+    for (uint32_t v = 0; v < froe_motion_vertex_count(a->motion); v++)
+        for (size_t i = 0; i < froe_motion_knot_count(a->motion, v); i++) {
+            froe_moving_knot knot = froe_motion_knot(a->motion, v, i);
+            for (int k = 0; k < 2; k++) {
+                if (!isnan(knot.control[k])) a->lo[k] = fmin(a->lo[k], knot.control[k]);
+                if (!isnan(knot.control[k])) a->hi[k] = fmax(a->hi[k], knot.control[k]);
+                a->lo[k] = fmin(a->lo[k], knot.at[k]);
+                a->hi[k] = fmax(a->hi[k], knot.at[k]);
+            }
+        }
+    double width = a->hi[0] - a->lo[0], height = a->hi[1] - a->lo[1],
+           page = a->options.width - 2 * FORMATS_ANIMATION_MARGIN;
+    a->scale = page / fmax(fmax(width, height), 1e-300);
+    if (height <= width) a->scale = page / fmax(width, 1e-300);
+    if (!(a->scale > 0) || !isfinite(a->scale)) a->scale = 1; /* no extent, or one beyond doubles */
+    a->height = ceil(height * a->scale) + 2 * FORMATS_ANIMATION_MARGIN;
+    if (!(a->height > 2 * FORMATS_ANIMATION_MARGIN)) a->height = 2 * FORMATS_ANIMATION_MARGIN + 1;
+}
+
+/* Deals the contacts to their objects. */
+static void deal(formats_animation *a) {
+    size_t objects = froe_motion_object_count(a->motion);
+    for (size_t i = 0; i < a->count; i++) {
+        a->starts[a->contacts[i].a + 1]++;
+        a->starts[a->contacts[i].b + 1]++;
+    }
+    for (size_t o = 0; o < objects; o++) a->starts[o + 1] += a->starts[o];
+    for (size_t i = a->count; i--;) { /* from behind: starts end where they begin */
+        a->touched[--a->starts[a->contacts[i].a + 1]] = (uint32_t)i;
+        a->touched[--a->starts[a->contacts[i].b + 1]] = (uint32_t)i;
+    }
+    memmove(a->starts, a->starts + 1, objects * sizeof *a->starts);
+    a->starts[objects] = 2 * a->count;
+}
+
+static froe_status check_animation(const formats_animation *a, froe_diagnostic *diag) {
+    if (a->options.size != sizeof a->options || !(a->options.width > 4 * FORMATS_ANIMATION_MARGIN) ||
+        !isfinite(a->options.width) || !(a->options.seconds > 0) || !isfinite(a->options.seconds))
+        return support_fail(diag, FROE_E_OPTIONS,
+                            "froe_animate: options not from froe_animation_defaults(), or a width "
+                            "below 64, or no time");
+    size_t objects = froe_motion_object_count(a->motion);
+    for (size_t i = 0; i < a->count; i++)
+        if (a->contacts[i].a >= objects || a->contacts[i].b >= objects)
+            return support_fail(diag, FROE_E_ARG, "froe_animate: contact %zu is of objects that are not there", i);
+    return FROE_OK;
+}
+
+static froe_status write_file(formats_animation *a, formats_animation_writer *put, const char *path,
+                              froe_diagnostic *diag) {
+    formats_writer w;
+    froe_status status = formats_writer_open(&w, path, diag);
+    if (status) return status;
+    find_bounds(a);
+    deal(a);
+    put(&w, a);
+    return formats_writer_close(&w, FROE_OK);
+}
+
+froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
+                         const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (!motion || !path || (count && !contacts))
+        return support_fail(diag, FROE_E_ARG, "froe_animate: motion, contacts and path must not be NULL");
+    formats_animation a = {.motion = motion, .contacts = contacts, .count = count};
+    a.options = options ? *options : froe_animation_defaults();
+    a.begin = froe_motion_window(motion).begin;
+    a.end = froe_motion_window(motion).end;
+    froe_status status = check_animation(&a, diag);
+    if (status) return status;
+    formats_extension extension = formats_path_extension(path);
+    bool svg = strcmp(extension.text, "svg") == 0;
+    if (!svg && strcmp(extension.text, "html") != 0)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: motions are shown as .svg or .html", support_short(path));
+    froe_allocator alloc = support_allocator(NULL);
+    formats_buffer starts = {0}, touched = {0};
+    size_t objects = froe_motion_object_count(motion);
+    a.starts = formats_buffer_add(&alloc, &starts, (objects + 2) * sizeof *a.starts);
+    a.touched = formats_buffer_add(&alloc, &touched, 2 * count * sizeof *a.touched);
+    status = a.starts && a.touched ? FROE_OK : support_fail_memory(diag);
+    if (!status) {
+        memset(a.starts, 0, (objects + 2) * sizeof *a.starts);
+        status = write_file(&a, svg ? formats_animate_svg : formats_animate_page, path, diag);
+    }
+    formats_buffer_free(&alloc, &starts);
+    formats_buffer_free(&alloc, &touched);
+    return status;
+}

@@ -1,0 +1,220 @@
+/* json.c: reading a JSON text (RFC 8259). A container that is not yet closed keeps in its `span` which one it lies in. */
+#include "formats/motion/json.h"
+#include "support/utf8.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct parser {
+    const froe_allocator *alloc;
+    formats_buffer *values;
+    char *at, *end;
+    size_t open; /* the innermost container that is not closed, counted from 1; 0: there is none */
+    size_t line;
+    formats_json_error *error;
+} parser;
+
+static froe_status expected(const parser *p, const char *what) {
+    int near = (int)strcspn(p->at, " \t\r\n,:[]{}");
+    p->error->line = p->line;
+    if (p->at == p->end)
+        snprintf(p->error->reason, sizeof p->error->reason, "%s expected near end of file", what);
+    else
+        snprintf(p->error->reason, sizeof p->error->reason, "%s expected near '%.*s'", what,
+                 near > 30 ? 30
+                 : near    ? near
+                           : 1,
+                 p->at);
+    return FROE_E_FORMAT;
+}
+
+static formats_json *value_at(const parser *p, size_t index) {
+    return (formats_json *)p->values->data + index;
+}
+
+static size_t count_values(const parser *p) {
+    return p->values->size / sizeof(formats_json);
+}
+
+static void skip_blanks(parser *p) {
+    for (; *p->at == ' ' || *p->at == '\t' || *p->at == '\r' || *p->at == '\n'; p->at++) p->line += *p->at == '\n';
+}
+
+static bool take_byte(parser *p, char byte) {
+    if (*p->at != byte || p->at == p->end) return false;
+    p->at++;
+    return true;
+}
+
+static froe_status put_value(parser *p, formats_json_kind kind, const char *text, double number) {
+    const formats_json value = {.kind = kind, .span = 1, .number = number, .text = text};
+    return formats_buffer_put(p->alloc, p->values, &value, sizeof value) ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* ----------------------------------------------------------------- scalars -- */
+
+static froe_status read_name(parser *p) {
+    static const char *const names[] = {"null", "true", "false"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        size_t length = strlen(names[i]);
+        if (strncmp(p->at, names[i], length) != 0) continue;
+        p->at += length;
+        return put_value(p, FORMATS_JSON_NAME, p->at - length, 0);
+    }
+    return expected(p, "a value");
+}
+
+static bool skip_digits(char **at) {
+    size_t digits = strspn(*at, "0123456789");
+    *at += digits;
+    return digits > 0;
+}
+
+static froe_status read_json_number(parser *p) {
+    char *begin = p->at, *at = begin + (*begin == '-');
+    bool right = *at == '0' ? at++, true : skip_digits(&at);
+    if (right && *at == '.') {
+        at++;
+        right = skip_digits(&at);
+    }
+    if (right && (*at == 'e' || *at == 'E')) {
+        at += at[1] == '+' || at[1] == '-' ? 2 : 1;
+        right = skip_digits(&at);
+    }
+    if (!right) return expected(p, "a number");
+    double number = strtod(begin, NULL);
+    if (isinf(number)) return expected(p, "a smaller number");
+    p->at = at;
+    return put_value(p, FORMATS_JSON_NUMBER, begin, number);
+}
+
+/* The four hexadecimal digits of \uXXXX; -1: they are none. */
+static int code_unit(const char *digits) {
+    char text[5] = {0};
+    if (strspn(digits, "0123456789abcdefABCDEF") < 4) return -1;
+    memcpy(text, digits, 4);
+    return (int)strtol(text, NULL, 16);
+}
+
+/* The code point of an escape that begins at `*at`, behind its backslash; surrogates are one in a pair. 0: it is none,
+ * or one that no string can hold. */
+static uint32_t read_code_point(char **at) {
+    int high = code_unit(*at + 1), low;
+    if (high < 0 || (high & 0xfc00) == 0xdc00) return 0;
+    *at += 5;
+    if ((high & 0xfc00) != 0xd800) return (uint32_t)high;
+    if ((*at)[0] != '\\' || (*at)[1] != 'u' || (low = code_unit(*at + 2)) < 0 || (low & 0xfc00) != 0xdc00) return 0;
+    *at += 6;
+    return 0x10000 + ((uint32_t)(high & 0x3ff) << 10 | (uint32_t)(low & 0x3ff));
+}
+
+static char *put_code_point(char *to, uint32_t c) {
+    if (c < 0x80) return *to = (char)c, to + 1;
+    int more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+    static const uint8_t first[] = {0, 0xc0, 0xe0, 0xf0};
+    *to++ = (char)(first[more] | c >> 6 * more);
+    while (more--) *to++ = (char)(0x80 | (c >> 6 * more & 0x3f));
+    return to;
+}
+
+/* Behind the backslash. False: there is no such escape. */
+static bool decode_escape(char **at, char **to) {
+    static const char from[] = "\"\\/bfnrt", into[] = "\"\\/\b\f\n\r\t";
+    if (**at == 'u') {
+        uint32_t c = read_code_point(at);
+        if (c) *to = put_code_point(*to, c);
+        return c != 0;
+    }
+    const char *known = **at ? strchr(from, **at) : NULL;
+    if (known) *(*to)++ = into[known - from], ++*at;
+    return known != NULL;
+}
+
+/* What a string stands for is never longer than it: it is decoded where it lies. */
+static froe_status read_string(parser *p) {
+    char *begin = p->at + 1, *to = begin;
+    for (p->at = begin; *p->at != '"';) {
+        size_t length = support_utf8_length(p->at);
+        if (p->at == p->end || (unsigned char)*p->at < 0x20) return expected(p, "the end of a string");
+        if (!length) return expected(p, "UTF-8");
+        if (*p->at == '\\') {
+            char *escape = p->at++;
+            if (!decode_escape(&p->at, &to)) return p->at = escape, expected(p, "a character");
+        } else {
+            memmove(to, p->at, length);
+            to += length, p->at += length;
+        }
+    }
+    p->at++;
+    *to = '\0';
+    return put_value(p, FORMATS_JSON_STRING, begin, 0);
+}
+
+/* -------------------------------------------------------------- containers -- */
+
+/* A value, or the beginning of a container. */
+static froe_status read_value(parser *p) {
+    skip_blanks(p);
+    if (*p->at == '"') return read_string(p);
+    if (*p->at == '-' || (*p->at >= '0' && *p->at <= '9')) return read_json_number(p);
+    if (*p->at != '[' && *p->at != '{') return read_name(p);
+    froe_status status = put_value(p, *p->at == '[' ? FORMATS_JSON_ARRAY : FORMATS_JSON_OBJECT, p->at, 0);
+    if (status) return status;
+    value_at(p, count_values(p) - 1)->span = p->open;
+    p->open = count_values(p);
+    p->at++;
+    return FROE_OK;
+}
+
+static froe_status read_key(parser *p) {
+    formats_json *object = value_at(p, p->open - 1);
+    skip_blanks(p);
+    if (*p->at != '"') return expected(p, object->count ? "string" : "string or '}'");
+    froe_status status = read_string(p);
+    skip_blanks(p);
+    if (!status && !take_byte(p, ':')) status = expected(p, "':'");
+    return status;
+}
+
+/* Goes on behind a value, or behind the beginning of a container: closes what ends there. True: another value follows. */
+static bool goes_on(parser *p, bool begun, froe_status *status) {
+    while (p->open) {
+        formats_json *container = value_at(p, p->open - 1);
+        const char *close = container->kind == FORMATS_JSON_ARRAY ? "']'" : "'}'";
+        container->count += !begun;
+        skip_blanks(p);
+        if (!take_byte(p, close[1])) {
+            if (!begun && !take_byte(p, ',')) *status = expected(p, close);
+            return !*status;
+        }
+        size_t outer = container->span;
+        container->span = count_values(p) - (p->open - 1);
+        p->open = outer;
+        begun = false;
+    }
+    return false;
+}
+
+froe_status formats_json_read(const froe_allocator *alloc, char *text, size_t length, formats_buffer *values,
+                              formats_json_error *error) {
+    parser p = {.alloc = alloc, .values = values, .at = text, .end = text + length, .line = 1, .error = error};
+    froe_status status = FROE_OK;
+    bool more = true;
+    while (more && !status) {
+        size_t outer = p.open;
+        if (p.open && value_at(&p, p.open - 1)->kind == FORMATS_JSON_OBJECT) status = read_key(&p);
+        if (!status) status = read_value(&p);
+        if (!status) more = goes_on(&p, p.open != outer, &status);
+    }
+    skip_blanks(&p);
+    return !status && p.at != p.end ? expected(&p, "end of file") : status;
+}
+
+const formats_json *formats_json_get(const formats_json *object, const char *name) {
+    if (!formats_json_is(object, FORMATS_JSON_OBJECT)) return NULL;
+    const formats_json *found = NULL, *member = object + 1;
+    for (size_t i = 0; i < object->count; i++, member = formats_json_next(member + 1))
+        if (!strcmp(member->text, name)) found = member + 1;
+    return found;
+}

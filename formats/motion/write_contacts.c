@@ -1,0 +1,81 @@
+/* write_contacts.c: contacts as a table, CSV or JSON: one list of columns for both. */
+#include "formats/write/writer.h"
+#include "support/floats.h"
+#include <string.h>
+
+typedef enum column_type { WHOLE, NUMBER, NAME } column_type;
+
+static const struct {
+    const char *name;
+    column_type type;
+} columns[] = {
+    {"a", WHOLE},        {"b", WHOLE},         {"begin_low", NUMBER}, {"begin_high", NUMBER},
+    {"end_low", NUMBER}, {"end_high", NUMBER}, {"instant", WHOLE},    {"since_start", WHOLE},
+    {"to_stop", WHOLE},  {"a_name", NAME},     {"b_name", NAME},
+};
+enum { COLUMNS = sizeof columns / sizeof *columns };
+
+static uint64_t whole_of(const froe_contact *c, int column) {
+    const uint64_t values[] = {c->a, c->b, 0, 0, 0, 0, c->instant, c->since_start, c->to_stop};
+    return values[column];
+}
+
+static double number_of(const froe_contact *c, int column) {
+    const double values[] = {c->begin[0], c->begin[1], c->end[0], c->end[1]};
+    return values[column - 2];
+}
+
+static const char *name_of_object(const froe_motion *m, const froe_contact *c, int column) {
+    uint32_t group = froe_motion_object(m, column == COLUMNS - 1 ? c->b : c->a).group;
+    return group == FROE_NONE ? "" : froe_motion_group(m, group).name;
+}
+
+static void put_contact_cell(formats_writer *w, const froe_motion *m, const froe_contact *c, int column, bool json) {
+    if (columns[column].type == WHOLE)
+        formats_put_whole(w, whole_of(c, column));
+    else if (columns[column].type == NUMBER)
+        formats_put_number(w, number_of(c, column));
+    else if (json)
+        formats_put_json(w, name_of_object(m, c, column));
+    else
+        formats_put_csv(w, name_of_object(m, c, column));
+}
+
+static void put_csv(formats_writer *w, const froe_motion *m, const froe_contact *contacts, size_t count) {
+    for (int k = 0; k < COLUMNS; k++) formats_put(w, k ? "," : ""), formats_put(w, columns[k].name);
+    formats_put(w, "\n");
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < COLUMNS; k++) formats_put(w, k ? "," : ""), put_contact_cell(w, m, contacts + i, k, false);
+        formats_put(w, "\n");
+    }
+}
+
+static void put_json(formats_writer *w, const froe_motion *m, const froe_contact *contacts, size_t count) {
+    formats_put(w, "[");
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < COLUMNS; k++) {
+            formats_put(w, k ? ", " : i ? ",\n {" : "\n {");
+            formats_put_json(w, columns[k].name);
+            formats_put(w, ": ");
+            put_contact_cell(w, m, contacts + i, k, true);
+        }
+        formats_put(w, "}");
+    }
+    formats_put(w, "\n]\n");
+}
+
+froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *contacts, size_t count, const char *path,
+                                froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (!motion || !path || (count && !contacts))
+        return support_fail(diag, FROE_E_ARG, "froe_write_contacts: motion, contacts and path must not be NULL");
+    formats_extension extension = formats_path_extension(path);
+    bool json = strcmp(extension.text, "json") == 0;
+    if (!json && strcmp(extension.text, "csv") != 0)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: contacts are written as .csv or .json", support_short(path));
+    formats_writer w;
+    froe_status status = formats_writer_open(&w, path, diag);
+    if (status) return status;
+    (json ? put_json : put_csv)(&w, motion, contacts, count);
+    return formats_writer_close(&w, FROE_OK);
+}

@@ -1,0 +1,280 @@
+/* ply.c: the Polygon File Format (Turk 1994), as text and binary of either byte
+ * order, in the precision of the file: elements `vertex` (x, y, z), `face` (a list of
+ * indices) and `edge` (vertex1, vertex2). Without faces and edges the vertices are points.
+ *
+ *     ply / format ascii 1.0 / element vertex 3 / property double x ... / end_header / data */
+#include "formats/read/readers.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_PROPERTIES = 64, WORD_ROOM = 32 };
+
+typedef enum ply_type { NO_TYPE, INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64 } ply_type;
+typedef enum ply_role { LEFT_ALONE, X, Y, Z, INDICES, FIRST, SECOND } ply_role;
+
+typedef struct property {
+    ply_type count, type; /* count: of a list; NO_TYPE otherwise */
+    ply_role role;
+} property;
+
+typedef struct element {
+    enum { OTHER, VERTEX, FACE, EDGE } kind;
+    uint64_t count;
+    int properties;
+    property property[MOST_PROPERTIES];
+} element;
+
+typedef struct ply {
+    formats_sink *sink;
+    const char *at, *end;
+    bool text, big; /* big: the most significant byte comes first */
+    bool doubles;   /* x, y and z are doubles */
+    formats_buffer elements, points, corners, indices;
+    uint64_t done, all; /* items of all elements */
+    bool shapes;        /* there are faces or edges */
+} ply;
+
+static froe_status broken(ply *p, const char *what) {
+    return support_fail(p->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(p->sink->path), what);
+}
+
+static froe_status out_of_memory(ply *p) {
+    return support_fail(p->sink->diag, FROE_E_MEMORY, "%s: out of memory", support_short(p->sink->path));
+}
+
+/* ---------------------------------------------------------------- header -- */
+
+/* The next word of the line, cut to its room; empty at the end of the line. */
+static const char *next_word(ply *p, char *word) {
+    p->at += strspn(p->at, " \t");
+    size_t length = strcspn(p->at, " \t\r\n"), kept = length < WORD_ROOM ? length : WORD_ROOM - 1;
+    memcpy(word, p->at, kept);
+    word[kept] = '\0';
+    p->at += length;
+    return word;
+}
+
+/* To the next line; false at the end of the file, or of its text: a zero byte. */
+static bool next_line(ply *p) {
+    p->at += strcspn(p->at, "\r\n");
+    if (!*p->at) return false;
+    if (*p->at == '\r') ++p->at;
+    if (*p->at == '\n') ++p->at;
+    return p->at < p->end;
+}
+
+static ply_type type_of(const char *name) {
+    static const char *const names[] = {"",       "char",  "uchar",  "short",   "ushort", "int",
+                                        "uint",   "float", "double", "int8",    "uint8",  "int16",
+                                        "uint16", "int32", "uint32", "float32", "float64"};
+    for (int i = 1; i < (int)(sizeof names / sizeof *names); ++i)
+        if (!strcmp(names[i], name)) return (ply_type)(i > FLOAT64 ? i - FLOAT64 : i);
+    return NO_TYPE;
+}
+
+static ply_role role_of(const element *e, const char *name, bool list) {
+    if (e->kind == VERTEX && !list && name[0] >= 'x' && name[0] <= 'z' && !name[1])
+        return (ply_role)(X + name[0] - 'x');
+    if (e->kind == FACE && list && (!strcmp(name, "vertex_indices") || !strcmp(name, "vertex_index"))) return INDICES;
+    if (e->kind == EDGE && !list && !strcmp(name, "vertex1")) return FIRST;
+    return e->kind == EDGE && !list && !strcmp(name, "vertex2") ? SECOND : LEFT_ALONE;
+}
+
+static froe_status read_property(ply *p) {
+    char word[WORD_ROOM];
+    if (!p->elements.size) return broken(p, "a property belongs to no element");
+    element *e = (element *)p->elements.data + p->elements.size / sizeof *e - 1;
+    if (e->properties == MOST_PROPERTIES) return broken(p, "an element has more than 64 properties");
+    property *to = &e->property[e->properties++];
+    *to = (property){.count = NO_TYPE};
+    bool list = !strcmp(next_word(p, word), "list");
+    if (list) {
+        to->count = type_of(next_word(p, word));
+        next_word(p, word);
+    }
+    to->type = type_of(word);
+    if (to->type == NO_TYPE || (list && (to->count == NO_TYPE || to->count >= FLOAT32)))
+        return broken(p, "a property is of unknown type");
+    to->role = role_of(e, next_word(p, word), list);
+    if (to->role >= X && to->role <= Z) p->doubles = to->type == FLOAT64;
+    return FROE_OK;
+}
+
+static froe_status read_element(ply *p) {
+    char word[WORD_ROOM], *end;
+    next_word(p, word);
+    element *e = formats_buffer_add(&p->sink->alloc, &p->elements, sizeof *e);
+    if (!e) return out_of_memory(p);
+    memset(e, 0, sizeof *e);
+    e->kind = !strcmp(word, "vertex") ? VERTEX : !strcmp(word, "face") ? FACE : !strcmp(word, "edge") ? EDGE : OTHER;
+    next_word(p, word);
+    e->count = strtoull(word, &end, 10);
+    if (*word < '0' || *word > '9' || *end) return broken(p, "an element has no count");
+    if (e->count > (uint64_t)(p->end - p->at)) return broken(p, "the file is shorter than its counts say");
+    p->shapes = p->shapes || ((e->kind == FACE || e->kind == EDGE) && e->count);
+    p->all += e->count;
+    return FROE_OK;
+}
+
+static froe_status read_format(ply *p) {
+    char word[WORD_ROOM];
+    next_word(p, word);
+    p->text = !strcmp(word, "ascii");
+    p->big = !strcmp(word, "binary_big_endian");
+    if (p->text || p->big || !strcmp(word, "binary_little_endian")) return FROE_OK;
+    return broken(p, "its format is neither ascii nor binary");
+}
+
+static froe_status read_ply_header(ply *p) {
+    froe_status status = FROE_OK;
+    bool formatted = false;
+    char word[WORD_ROOM];
+    while (!status) {
+        if (!next_line(p)) return broken(p, "the header has no end");
+        next_word(p, word);
+        if (!strcmp(word, "end_header")) break;
+        if (!strcmp(word, "format")) {
+            status = read_format(p);
+            formatted = true;
+        } else if (!strcmp(word, "element")) {
+            status = read_element(p);
+        } else if (!strcmp(word, "property")) {
+            status = read_property(p);
+        }
+    }
+    next_line(p); /* data begins behind the line, even when it is empty */
+    return status || formatted ? status : broken(p, "the header names no format");
+}
+
+/* ------------------------------------------------------------------ data -- */
+
+static size_t size_of(ply_type type) {
+    static const unsigned char sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
+    return sizes[type];
+}
+
+static double decode(ply_type type, uint64_t bits) {
+    float single;
+    double whole;
+    uint32_t low = (uint32_t)bits;
+    switch (type) {
+    case INT8:
+        return (int8_t)bits;
+    case INT16:
+        return (int16_t)bits;
+    case INT32:
+        return (int32_t)bits;
+    case FLOAT32:
+        memcpy(&single, &low, sizeof single);
+        return (double)single;
+    case FLOAT64:
+        memcpy(&whole, &bits, sizeof whole);
+        return whole;
+    default:
+        return (double)bits;
+    }
+}
+
+static bool read_number(ply *p, ply_type type, double *value) {
+    if (p->text) {
+        char *end;
+        *value = strtod(p->at, &end);
+        bool found = end != p->at;
+        p->at = end;
+        return found;
+    }
+    size_t size = size_of(type);
+    if ((size_t)(p->end - p->at) < size) return false;
+    uint64_t bits = 0;
+    for (size_t i = 0; i < size; ++i) bits = bits << 8 | (unsigned char)p->at[p->big ? i : size - 1 - i];
+    p->at += size;
+    *value = decode(type, bits);
+    return true;
+}
+
+/* Numbers of one item, by role; of its indices all. */
+static froe_status read_item(ply *p, const element *e, double *by_role) {
+    p->indices.size = 0;
+    for (int i = 0; i < e->properties; ++i) {
+        const property *to = &e->property[i];
+        double count = 1, value;
+        if (to->count && !read_number(p, to->count, &count)) return broken(p, "the data end too early");
+        if (!(count >= 0) || count > (double)(p->end - p->at)) return broken(p, "a list is longer than the file");
+        for (double k = 0; k < count; ++k) {
+            if (!read_number(p, to->type, &value)) return broken(p, "the data end too early, or hold no number");
+            by_role[to->role] = value;
+            if (to->role == INDICES && !formats_buffer_put(&p->sink->alloc, &p->indices, &value, sizeof value))
+                return out_of_memory(p);
+        }
+    }
+    return FROE_OK;
+}
+
+static froe_status add_corner(ply *p, double index) {
+    size_t points = p->points.size / (3 * sizeof(double));
+    if (!(index >= 0 && index < (double)points) || index != (double)(uint64_t)index)
+        return broken(p, "a face or edge names a vertex that does not exist (or comes later)");
+    const double *at = (const double *)p->points.data + 3 * (size_t)index;
+    return formats_buffer_put(&p->sink->alloc, &p->corners, at, 3 * sizeof *at) ? FROE_OK : out_of_memory(p);
+}
+
+static froe_status add_shape(ply *p, const element *e, const double *by_role) {
+    froe_status status = FROE_OK;
+    const double *at = p->indices.data;
+    p->corners.size = 0;
+    if (e->kind == EDGE) {
+        status = add_corner(p, by_role[FIRST]);
+        if (!status) status = add_corner(p, by_role[SECOND]);
+    } else {
+        for (size_t i = 0; i < p->indices.size / sizeof *at && !status; ++i) status = add_corner(p, at[i]);
+    }
+    if (status) return status;
+    if (!p->corners.size) return ++p->sink->report.skipped, FROE_OK;
+    return formats_sink_face(p->sink, p->corners.data, p->corners.size / (3 * sizeof(double)));
+}
+
+static froe_status add_item(ply *p, const element *e, const double *by_role) {
+    if (e->kind == FACE || e->kind == EDGE) return add_shape(p, e, by_role);
+    if (e->kind != VERTEX) return FROE_OK;
+    if (!p->shapes) return formats_sink_point(p->sink, by_role + X);
+    return formats_buffer_put(&p->sink->alloc, &p->points, by_role + X, 3 * sizeof *by_role) ? FROE_OK
+                                                                                             : out_of_memory(p);
+}
+
+static froe_status read_data(ply *p) {
+    enum { ITEMS_PER_REPORT = 8192 };
+    froe_status status = FROE_OK;
+    const element *elements = p->elements.data;
+    for (size_t k = 0; k < p->elements.size / sizeof *elements; ++k) {
+        const element *e = &elements[k];
+        for (uint64_t i = 0; i < e->count && !status; ++i) {
+            double by_role[SECOND + 1] = {0};
+            p->sink->number = i;
+            status = read_item(p, e, by_role);
+            if (!status) status = add_item(p, e, by_role);
+            if (!status && p->done++ % ITEMS_PER_REPORT == 0)
+                status = formats_sink_progress(p->sink, (double)p->done / (double)p->all);
+        }
+    }
+    return status;
+}
+
+froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
+    formats_buffer file = {0};
+    ply p = {.sink = sink};
+    froe_status status = formats_load(source, sink, true, &file);
+    p.at = file.data;
+    p.end = p.at + file.size;
+    if (!status && strncmp(p.at, "ply", 3) != 0) status = broken(&p, "does not begin like PLY");
+    if (!status) status = read_ply_header(&p);
+    if (!status) status = formats_sink_open(sink, 3);
+    formats_report_format(sink, p.text || p.doubles ? "float64" : "float32", "PLY");
+    sink->report.layers = 1;
+    if (!status) status = formats_sink_feature(sink, 0);
+    sink->unit = p.shapes ? "face" : "vertex";
+    if (!status) status = read_data(&p);
+    formats_buffer *buffers[] = {&file, &p.elements, &p.points, &p.corners, &p.indices};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) formats_buffer_free(&sink->alloc, buffers[i]);
+    return status;
+}

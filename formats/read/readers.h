@@ -1,0 +1,9 @@
+/* readers.h: the readers that need no library. */
+#ifndef FROE_FORMATS_READERS_H
+#define FROE_FORMATS_READERS_H
+
+#include "formats/input/source.h"
+
+formats_reader formats_read_csv, formats_read_off, formats_read_obj, formats_read_ply;
+
+#endif

@@ -1,0 +1,176 @@
+/* shapes.c: GeoJSON (RFC 7946, without its axis: froe's plane is no globe), Wavefront
+ * OBJ, and CSV with well-known text (OGC Simple Features). */
+#include "formats/write/shapes.h"
+#include <string.h>
+
+static void put_attribute(formats_writer *w, const formats_attribute *a,
+                          void (*put_text)(formats_writer *, const char *)) {
+    if (a->text) {
+        put_text(w, a->text);
+    } else {
+        formats_put_whole(w, a->number);
+    }
+}
+
+/* --------------------------------------------------------------- GeoJSON -- */
+
+static void geojson_positions(formats_writer *w, const formats_shape *s) {
+    for (size_t i = 0; i < s->corners; ++i) {
+        formats_put(w, i ? ",[" : "[");
+        formats_put_point(w, s->coords + i * (size_t)s->dim, s->dim, ",");
+        formats_put(w, "]");
+    }
+}
+
+static void geojson_geometry(formats_writer *w, const formats_shape *s) {
+    static const char *const types[] = {"MultiPoint", "LineString", "Polygon", "Polygon"};
+    bool point = s->sort == FORMATS_POINTS && s->corners == 1, polygon = s->sort == FORMATS_POLYGON;
+    formats_put(w, "{\"type\":");
+    formats_put_json(w, point ? "Point" : types[s->sort]);
+    formats_put(w, ",\"coordinates\":");
+    formats_put(w, point ? "" : polygon ? "[[" : "[");
+    geojson_positions(w, s);
+    if (polygon) {
+        formats_put(w, ",[");
+        formats_put_point(w, s->coords, s->dim, ",");
+        formats_put(w, "]]");
+    }
+    formats_put(w, point ? "}" : "]}");
+}
+
+static void geojson_begin(formats_writer *w, const formats_shape *like) {
+    (void)like;
+    formats_put(w, "{\"type\":\"FeatureCollection\",\"features\":[");
+}
+
+static void geojson_shape(formats_writer *w, const formats_shape *s, bool first) {
+    formats_put(w, first ? "\n" : ",\n");
+    formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
+    for (int i = 0; i < s->attribute_count; ++i) {
+        formats_put(w, i ? "," : "");
+        formats_put_json(w, s->attributes[i].name);
+        formats_put(w, ":");
+        if (s->attributes[i].missing) {
+            formats_put(w, "null");
+        } else {
+            put_attribute(w, &s->attributes[i], formats_put_json);
+        }
+    }
+    formats_put(w, "},\"geometry\":");
+    geojson_geometry(w, s);
+    formats_put(w, "}");
+}
+
+static void geojson_end(formats_writer *w) {
+    formats_put(w, "\n]}\n");
+}
+
+/* ------------------------------------------------------------------- OBJ -- */
+
+/* Corners count backwards from the last vertex, so that nothing needs to be remembered. */
+static void obj_element(formats_writer *w, const char *word, size_t first, size_t end, size_t corners) {
+    formats_put(w, word);
+    for (size_t i = first; i < end; ++i) {
+        formats_put(w, " -");
+        formats_put_whole(w, corners - i);
+    }
+    formats_put(w, "\n");
+}
+
+static void obj_begin(formats_writer *w, const formats_shape *like) {
+    (void)like;
+    formats_put(w, "# written by froe; group names carry the attributes\n");
+}
+
+static void obj_shape(formats_writer *w, const formats_shape *s, bool first) {
+    (void)first;
+    formats_put(w, "g");
+    for (int i = 0; i < s->attribute_count; ++i) {
+        if (s->attributes[i].missing) continue;
+        formats_put(w, " ");
+        formats_put_word(w, s->attributes[i].name);
+        formats_put(w, "=");
+        put_attribute(w, &s->attributes[i], formats_put_word);
+    }
+    formats_put(w, "\n");
+    for (size_t i = 0; i < s->corners; ++i) {
+        formats_put(w, "v ");
+        formats_put_point(w, s->coords + i * (size_t)s->dim, s->dim, " ");
+        formats_put(w, "\n");
+    }
+    static const char *const words[] = {"p", "l", "f", "f"};
+    size_t whole[2] = {0, s->corners};
+    const size_t *starts = s->sort == FORMATS_SURFACE ? s->starts : whole;
+    size_t faces = s->sort == FORMATS_SURFACE ? s->faces : 1;
+    for (size_t f = 0; f < faces; ++f) obj_element(w, words[s->sort], starts[f], starts[f + 1], s->corners);
+}
+
+static void obj_end(formats_writer *w) {
+    (void)w;
+}
+
+/* ------------------------------------------------------------------- CSV -- */
+
+static void wkt_run(formats_writer *w, const formats_shape *s, size_t first, size_t end, bool close) {
+    formats_put(w, "(");
+    for (size_t i = first; i < end; ++i) {
+        if (i > first) formats_put(w, ",");
+        formats_put_point(w, s->coords + i * (size_t)s->dim, s->dim, " ");
+    }
+    if (close) {
+        formats_put(w, ",");
+        formats_put_point(w, s->coords + first * (size_t)s->dim, s->dim, " ");
+    }
+    formats_put(w, ")");
+}
+
+static void wkt(formats_writer *w, const formats_shape *s) {
+    static const char *const types[] = {"MULTIPOINT", "LINESTRING", "POLYGON", "POLYHEDRALSURFACE"};
+    formats_put(w, s->sort == FORMATS_POINTS && s->corners == 1 ? "POINT" : types[s->sort]);
+    formats_put(w, s->dim == 3 ? " Z " : " ");
+    if (s->sort == FORMATS_POLYGON) formats_put(w, "(");
+    if (s->sort != FORMATS_SURFACE) wkt_run(w, s, 0, s->corners, s->sort == FORMATS_POLYGON);
+    if (s->sort == FORMATS_POLYGON) formats_put(w, ")");
+    for (size_t f = 0; s->sort == FORMATS_SURFACE && f < s->faces; ++f) {
+        formats_put(w, f ? ",(" : "((");
+        wkt_run(w, s, s->starts[f], s->starts[f + 1], true);
+        formats_put(w, f + 1 < s->faces ? ")" : "))");
+    }
+}
+
+static void csv_begin(formats_writer *w, const formats_shape *like) {
+    for (int i = 0; i < like->attribute_count; ++i) {
+        formats_put_csv(w, like->attributes[i].name);
+        formats_put(w, ",");
+    }
+    formats_put(w, like->dim <= 3 ? "WKT\n" : "corners\n");
+}
+
+static void csv_shape(formats_writer *w, const formats_shape *s, bool first) {
+    (void)first;
+    for (int i = 0; i < s->attribute_count; ++i) {
+        if (!s->attributes[i].missing) put_attribute(w, &s->attributes[i], formats_put_csv);
+        formats_put(w, ",");
+    }
+    formats_put(w, "\"");
+    if (s->dim <= 3) {
+        wkt(w, s);
+    } else {
+        wkt_run(w, s, 0, s->corners, false);
+    }
+    formats_put(w, "\"\n");
+}
+
+static void csv_end(formats_writer *w) {
+    (void)w;
+}
+
+const formats_format *formats_format_of(const char *path) {
+    static const formats_format geojson = {"GeoJSON", 2, 2, geojson_begin, geojson_shape, geojson_end};
+    static const formats_format obj = {"OBJ", 3, 3, obj_begin, obj_shape, obj_end};
+    static const formats_format csv = {"CSV", 2, FROE_MAX_DIM, csv_begin, csv_shape, csv_end};
+    formats_extension extension = formats_path_extension(path);
+    if (!strcmp(extension.text, "geojson") || !strcmp(extension.text, "json")) return &geojson;
+    if (!strcmp(extension.text, "obj")) return &obj;
+    return strcmp(extension.text, "csv") ? NULL : &csv;
+}

@@ -1,0 +1,87 @@
+/* writer.c: text files, numbers and quotes. */
+#include "formats/write/writer.h"
+#include "support/utf8.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+froe_status formats_writer_open(formats_writer *w, const char *path, froe_diagnostic *diag) {
+    if (!formats_locale_enter(&w->locale)) return support_fail_memory(diag);
+    froe_status status = support_writer_open(&w->out, path, NULL, diag);
+    if (status) formats_locale_leave(&w->locale);
+    return status;
+}
+
+froe_status formats_writer_close(formats_writer *w, froe_status status) {
+    formats_locale_leave(&w->locale);
+    return support_writer_close(&w->out, status);
+}
+
+/* ------------------------------------------------------------------ text -- */
+
+void formats_put(formats_writer *w, const char *text) {
+    support_writer_put(&w->out, text, strlen(text));
+}
+
+static void put_byte(formats_writer *w, char byte) {
+    support_writer_put(&w->out, &byte, 1);
+}
+
+void formats_put_number(formats_writer *w, double value) {
+    char text[40];
+    if (fabs(value) < 1e15 && value == (double)(int64_t)value) {
+        snprintf(text, sizeof text, "%lld", (long long)value);
+    } else {
+        snprintf(text, sizeof text, "%.15g", value); /* 0.1 stays 0.1; what has more digits gets all 17 */
+        if (strtod(text, NULL) != value) snprintf(text, sizeof text, "%.17g", value);
+    }
+    formats_put(w, text);
+}
+
+void formats_put_whole(formats_writer *w, uint64_t value) {
+    char text[24];
+    snprintf(text, sizeof text, "%llu", (unsigned long long)value);
+    formats_put(w, text);
+}
+
+void formats_put_point(formats_writer *w, const double *p, int dim, const char *separator) {
+    for (int k = 0; k < dim; ++k) {
+        if (k) formats_put(w, separator);
+        formats_put_number(w, p[k]);
+    }
+}
+
+void formats_put_json(formats_writer *w, const char *text) {
+    const unsigned char *c = (const unsigned char *)text;
+    put_byte(w, '"');
+    while (*c) {
+        size_t length = support_utf8_length((const char *)c);
+        if (!length) {
+            formats_put(w, "\\ufffd");
+        } else if (*c < 0x20 || *c == 0x7f) {
+            char escaped[8];
+            snprintf(escaped, sizeof escaped, "\\u%04x", *c);
+            formats_put(w, escaped);
+        } else {
+            if (*c == '"' || *c == '\\') put_byte(w, '\\');
+            support_writer_put(&w->out, c, length);
+        }
+        c += length ? length : 1;
+    }
+    put_byte(w, '"');
+}
+
+void formats_put_csv(formats_writer *w, const char *text) {
+    if (!strpbrk(text, ",\"\r\n")) return formats_put(w, text);
+    put_byte(w, '"');
+    for (; *text; ++text) {
+        if (*text == '"') put_byte(w, '"');
+        put_byte(w, *text);
+    }
+    put_byte(w, '"');
+}
+
+void formats_put_word(formats_writer *w, const char *text) {
+    for (; *text; ++text) put_byte(w, (unsigned char)*text <= ' ' || *text == 0x7f ? '_' : *text);
+}

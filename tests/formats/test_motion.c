@@ -1,0 +1,337 @@
+/* test_motion.c: Moving Features JSON: what is read, what is refused and how, and that writing loses nothing. */
+#include "support/memory.h"
+#include "support/scenes.h"
+
+#include "formats/motion/datetime.h"
+#include <math.h>
+#include <string.h>
+
+#define LINE(times, coordinates, more)                                                                                 \
+    "{\"type\":\"Feature\",\"properties\":{\"name\":\"n\"},\"temporalGeometry\":{\"type\":\"MovingLineString\","       \
+    "\"datetimes\":" times ",\"coordinates\":" coordinates more "}}"
+
+static void put(const char *path, const char *text) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static froe_motion *read_text(const char *text, froe_motion_report *report) {
+    froe_motion *m = NULL;
+    froe_diagnostic diag;
+    put("scene.mfjson", text);
+    froe_status status = froe_read_motion("scene.mfjson", NULL, &m, report, &diag);
+    if (status) print_error("%s\n", diag.message);
+    assert_int_equal(status, FROE_OK);
+    return m;
+}
+
+static void assert_refused(const char *text, froe_status status, const char *message) {
+    froe_motion *m = NULL;
+    froe_diagnostic diag;
+    put("bad.mfjson", text);
+    assert_int_equal(froe_read_motion("bad.mfjson", NULL, &m, NULL, &diag), status);
+    assert_string_equal(diag.message, message);
+    assert_null(m);
+}
+
+/* ------------------------------------------------------------------ instants -- */
+
+static void instants_are_milliseconds_since_1970(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        double value;
+    } good[] = {
+        {"1970-01-01", 0},
+        {"1970-01-01T00:00:01Z", 1000},
+        {"2000-02-29T12:34:56Z", 951827696000},
+        {"2000-03-01T00:00:00+01:00", 951865200000},
+        {"2000-02-29T18:30:00-0430", 951865200000},
+        {"2024-12-31T24:00:00Z", 1735689600000},
+        {"1969-12-31T23:59:59.5Z", -500},
+        {"2020-01-01T00:00:00.1234", 1577836800123.4},
+        {"0001-01-01T00:00:00Z", -62135596800000},
+    };
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        double value = NAN;
+        assert_true(formats_datetime(good[i].text, &value));
+        assert_true(value == good[i].value);
+    }
+    static const char *const bad[] = {"",
+                                      "2000",
+                                      "2001-02-29",
+                                      "2000-13-01",
+                                      "2000-00-01",
+                                      "2000-01-01T",
+                                      "2000-01-01T25:00:00Z",
+                                      "2000-01-01T00:61:00Z",
+                                      "2000-01-01T00:00:00Zx",
+                                      "2000-01-01 00:00:00+x"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        double value;
+        assert_false(formats_datetime(bad[i], &value));
+    }
+}
+
+/* -------------------------------------------------------------------- reading -- */
+
+static void lines_rings_and_points_become_segments(void **state) {
+    (void)state;
+    froe_motion_report report;
+    froe_motion *m = read_text(
+        "{\"type\":\"FeatureCollection\",\"crs\":{},\"features\":["
+        "{\"type\":\"Feature\",\"id\":\"a\",\"temporalGeometry\":{\"type\":\"MovingPolygon\",\"datetimes\":[0,10],"
+        "\"coordinates\":[[[[0,0],[1,0],[0,1],[0,0]]],[[[5,0],[6,0],[5,1],[5,0]]]]}},"
+        "{\"type\":\"Feature\",\"properties\":{\"kind\":\"car\"},\"temporalGeometry\":{\"prisms\":["
+        "{\"type\":\"MovingPoint\",\"datetimes\":[0,5,10],\"coordinates\":[[0.1,7,3],[1,7,3],[2,8,3]]},"
+        "{\"type\":\"MovingLineString\",\"datetimes\":[2,8],\"interpolation\":\"Linear\","
+        "\"coordinates\":[[[0,9],[1,9],[2,9]],[[0,8],[1,8],[2,8]]]}]}},"
+        "{\"type\":\"Feature\",\"geometry\":null}]}",
+        &report);
+    assert_int_equal(froe_motion_object_count(m), 3 + 1 + 2);
+    assert_int_equal(froe_motion_vertex_count(m), 3 + 1 + 3);
+    assert_true(report.features == 2 && report.still == 1 && report.flattened == 1 && report.pieces == 3 + 2 + 3);
+    froe_moving_object o = froe_motion_object(m, 2);
+    assert_true(o.vertices[0] == 2 && o.vertices[1] == 0 && o.birth == 0 && o.death == 10);
+    assert_string_equal(froe_motion_group(m, o.group).name, "a");
+    o = froe_motion_object(m, 3);
+    assert_true(o.vertices[0] == 3 && o.vertices[1] == 3 && o.tag == 1);
+    assert_string_equal(froe_motion_group(m, o.group).name, "car");
+    assert_true(froe_motion_knot(m, 3, 0).at[0] == 0.1);
+    o = froe_motion_object(m, 5);
+    assert_true(o.vertices[0] == 5 && o.vertices[1] == 6 && o.birth == 2 && o.death == 8);
+    assert_true(froe_motion_window(m).begin == 0 && froe_motion_window(m).end == 10);
+    froe_motion_free(m);
+}
+
+/* Three instants on the parabola y = x^2 give its control points; what follows has the same velocity. */
+static void quadratic_interpolation_continues_its_velocity(void **state) {
+    (void)state;
+    froe_motion *m = read_text(LINE("[0,1,2,4]", "[[[0,0],[9,9]],[[1,1],[9,9]],[[2,4],[9,9]],[[4,4],[9,9]]]",
+                                    ",\"interpolation\":\"Quadratic\""),
+                               NULL);
+    const double expected[3][2] = {{0.5, 0}, {1.5, 2}, {3, 8}};
+    for (size_t i = 0; i < 3; i++)
+        for (size_t k = 0; k < 2; k++) assert_true(froe_motion_knot(m, 0, i).control[k] == expected[i][k]);
+    assert_true(froe_motion_knot(m, 1, 1).control[0] == 9);
+    froe_motion_free(m);
+    m = read_text(LINE("[0,4]", "[[[0,0],[9,9]],[[1,1],[9,9]]]",
+                       ",\"interpolation\":\"Quadratic\",\"controls\":[[[0.1,7],[8,8]]]"),
+                  NULL);
+    assert_true(froe_motion_knot(m, 0, 0).control[0] == 0.1 && froe_motion_knot(m, 1, 0).control[1] == 8);
+    froe_motion_free(m);
+}
+
+static void what_is_wrong_is_said_with_the_feature(void **state) {
+    (void)state;
+    assert_refused("{", FROE_E_FORMAT, "bad.mfjson: line 1: string or '}' expected near end of file");
+    assert_refused("{}", FROE_E_FORMAT, "bad.mfjson: is neither a Feature nor a FeatureCollection");
+    assert_refused("{\"features\":[]}", FROE_E_INPUT, "bad.mfjson: nothing moves in it");
+    assert_refused(LINE("[]", "[]", ""), FROE_E_FORMAT, "bad.mfjson: feature 0: datetimes are missing");
+    assert_refused(LINE("[0,\"noon\"]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: datetime 1 is neither a number nor an ISO 8601 instant");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]]]", ""), FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: 1 geometries for 2 instants");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1],[2,2]]]", ""), FROE_E_INPUT,
+                   "bad.mfjson: feature 0: at instant 1 it has not as many points as at instant 0");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,\"x\"]],[[0,0],[1,1]]]", ""), FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: at instant 0 a coordinate is no number");
+    assert_refused(LINE("[0,2,2]", "[[[0,0],[1,1]],[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_INPUT,
+                   "bad.mfjson: feature 0: vertex 0: time 2, 2, is not after time 1, 2");
+    assert_refused(LINE("[2,2]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_INPUT,
+                   "bad.mfjson: all of it is at one instant, 2");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Step\""), FROE_E_UNSUPPORTED,
+                   "bad.mfjson: feature 0: interpolation 'Step': froe knows Linear and Quadratic motion");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Quadratic\""), FROE_E_INPUT,
+                   "bad.mfjson: feature 0: quadratic interpolation needs three instants");
+    assert_refused("{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPolygon\",\"datetimes\":[0,1],"
+                   "\"coordinates\":[[[[0,0],[1,1],[2,0]]],[]]}}",
+                   FROE_E_INPUT,
+                   "bad.mfjson: feature 0: at instant 0 a ring is not closed, or has less than three corners");
+    assert_refused("{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingSolid\"}}", FROE_E_UNSUPPORTED,
+                   "bad.mfjson: feature 0: geometry of the type 'MovingSolid'");
+    froe_motion *m = NULL;
+    froe_diagnostic diag;
+    assert_int_equal(froe_read_motion("missing.mfjson", NULL, &m, NULL, &diag), FROE_E_IO);
+    froe_motion_read_options o = froe_motion_read_defaults();
+    put("late.mfjson", LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""));
+    o.from = 5;
+    o.to = 6;
+    assert_int_equal(froe_read_motion("late.mfjson", &o, &m, NULL, &diag), FROE_E_INPUT);
+    assert_string_equal(diag.message, "late.mfjson: nothing is there from 5 to 6: all is from 0 to 1");
+}
+
+/* -------------------------------------------------------------------- writing -- */
+
+static void assert_same_motion(const froe_motion *a, const froe_motion *b) {
+    assert_int_equal(froe_motion_object_count(a), froe_motion_object_count(b));
+    for (uint32_t i = 0; i < froe_motion_object_count(a); i++) {
+        froe_moving_object p = froe_motion_object(a, i), q = froe_motion_object(b, i);
+        assert_true(p.birth == q.birth && p.death == q.death);
+        for (int k = 0; k < 2; k++) {
+            size_t knots = froe_motion_knot_count(a, p.vertices[k]);
+            assert_int_equal(knots, froe_motion_knot_count(b, q.vertices[k]));
+            for (size_t j = 0; j < knots; j++) {
+                froe_moving_knot x = froe_motion_knot(a, p.vertices[k], j), y = froe_motion_knot(b, q.vertices[k], j);
+                assert_true(x.time == y.time && x.at[0] == y.at[0] && x.at[1] == y.at[1]);
+                if (!isnan(x.control[0])) assert_memory_equal(x.control, y.control, sizeof x.control);
+            }
+        }
+    }
+}
+
+static void every_kind_of_motion_survives_a_file(void **state) {
+    (void)state;
+    const froe_motion_generator_info *g;
+    for (size_t i = 0; (g = froe_motion_generator_at(i)) != NULL; i++) {
+        froe_motion *made = NULL, *again = NULL, *read = NULL;
+        assert_int_equal(froe_generate_motion(g->name, 40, 7, NULL, &made, NULL), FROE_OK);
+        assert_int_equal(froe_generate_motion(g->name, 40, 7, NULL, &again, NULL), FROE_OK);
+        assert_same_motion(made, again);
+        assert_in_range(froe_motion_object_count(made), 40, 45);
+        assert_int_equal(froe_write_motion(made, "made.mfjson", NULL), FROE_OK);
+        assert_int_equal(froe_read_motion("made.mfjson", NULL, &read, NULL, NULL), FROE_OK);
+        assert_same_motion(made, read);
+        assert_int_equal(froe_motion_vertex_count(made), froe_motion_vertex_count(read));
+        froe_motion_free(made);
+        froe_motion_free(again);
+        froe_motion_free(read);
+    }
+    froe_motion *m = NULL;
+    assert_int_equal(froe_generate_motion("walking", 40, 7, NULL, &m, NULL), FROE_E_OPTIONS);
+    assert_int_equal(froe_generate_motion("moving", 0, 7, NULL, &m, NULL), FROE_E_ARG);
+}
+
+static void motions_that_the_format_cannot_say_are_refused(void **state) {
+    (void)state;
+    froe_motion_options w = froe_motion_defaults();
+    w.begin = 0;
+    w.end = 2;
+    froe_motion *m = NULL;
+    froe_diagnostic diag;
+    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 2;
+    b.count = 1;
+    b.starts = (const size_t[]){0, 2, 5};
+    b.times = (const double[]){0, 2, 0, 1, 2};
+    b.coords = (const double[]){0, 0, 1, 1, 2, 2, 3, 3, 4, 4};
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+    assert_int_equal(froe_write_motion(m, "never.mfjson", &diag), FROE_E_UNSUPPORTED);
+    assert_string_equal(diag.message, "segment 0: the instants of its vertices are not the same, or not those of its "
+                                      "life: MF-JSON cannot say that");
+    froe_motion_free(m);
+}
+
+static void pictures_and_tables_refuse_what_they_cannot_show(void **state) {
+    (void)state;
+    froe_motion *m = NULL;
+    froe_diagnostic diag;
+    assert_int_equal(froe_generate_motion("moving", 3, 1, NULL, &m, NULL), FROE_OK);
+    const froe_contact strange = {.a = 1, .b = 7};
+    froe_animation_options o = froe_animation_defaults();
+    assert_int_equal(froe_animate(m, NULL, 0, NULL, "a.svg", NULL), FROE_OK);
+    assert_int_equal(froe_animate(m, NULL, 0, &o, "a.html", NULL), FROE_OK);
+    assert_int_equal(froe_animate(m, NULL, 1, &o, "a.html", NULL), FROE_E_ARG);
+    assert_int_equal(froe_animate(m, &strange, 1, &o, "a.html", &diag), FROE_E_ARG);
+    assert_string_equal(diag.message, "froe_animate: contact 0 is of objects that are not there");
+    assert_int_equal(froe_animate(m, NULL, 0, &o, "a.png", NULL), FROE_E_UNSUPPORTED);
+    o.seconds = NAN;
+    assert_int_equal(froe_animate(m, NULL, 0, &o, "a.svg", NULL), FROE_E_OPTIONS);
+    assert_int_equal(froe_write_contacts(m, NULL, 0, "a.csv", NULL), FROE_OK);
+    assert_int_equal(froe_write_contacts(m, NULL, 0, "a.txt", NULL), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_write_contacts(m, NULL, 1, "a.csv", NULL), FROE_E_ARG);
+    froe_motion_free(m);
+}
+
+static void real_cars_are_read_unrounded(void **state) {
+    (void)state;
+    froe_motion *m = NULL;
+    froe_motion_report report;
+    assert_int_equal(froe_read_motion(FROE_TEST_DATA "/cars-bologna.mfjson", NULL, &m, &report, NULL), FROE_OK);
+    assert_int_equal(froe_motion_object_count(m), 548);
+    assert_int_equal(report.pieces, 2 * 15012);
+    assert_true(froe_motion_window(m).begin == 300000 && froe_motion_window(m).end == 330000);
+    froe_moving_knot k = froe_motion_knot(m, 1, 1);
+    assert_true(k.time == 301000 && k.at[0] == 695.607 && k.at[1] == 975.696);
+    assert_string_equal(froe_motion_group(m, froe_motion_object(m, 0).group).name, "Audinot_12_1");
+    froe_motion_free(m);
+}
+
+static froe_status read_motion_with(void *user, const froe_allocator *alloc) {
+    froe_motion_read_options o = froe_motion_read_defaults();
+    o.alloc = alloc;
+    froe_motion *m = NULL;
+    froe_status status = froe_read_motion(user, &o, &m, NULL, NULL);
+    froe_motion_free(m);
+    return status;
+}
+
+static froe_status write_some_events(void *user, const froe_allocator *alloc) {
+    const size_t *count = user;
+    froe_event_writer *writer;
+    froe_diagnostic why;
+    froe_status status = froe_event_writer_new("some.csv", alloc, &writer, &why);
+    if (status) return status;
+    froe_event event = {.kind = FROE_EVENT_CONTACT, .tick = 1, .early = 0.1, .late = 0.25, .object_count = 2};
+    for (size_t i = 0; i < *count; i++) {
+        event.objects[0] = (uint32_t)i, event.objects[1] = 7;
+        assert_true(froe_event_writer_put(writer, &event));
+    }
+    return froe_event_writer_close(writer, FROE_OK, &why);
+}
+
+static size_t lines_of(const char *path, char *last, int size) {
+    FILE *file = fopen(path, "r");
+    size_t lines = 0;
+    assert_non_null(file);
+    while (fgets(last, size, file)) lines++;
+    fclose(file);
+    return lines;
+}
+
+static void events_are_a_file_when_all_are_there(void **state) {
+    (void)state;
+    char line[200];
+    for (size_t count = 0; count < 3000; count += 511) {
+        assert_int_equal(write_some_events(&count, NULL), FROE_OK);
+        assert_int_equal(lines_of("some.csv", line, sizeof line), count + 1);
+    }
+    assert_string_equal(line, "1,0.1,0.25,contact,2,2554,7,,\n");
+    froe_event_writer *writer;
+    froe_diagnostic why;
+    assert_int_equal(froe_event_writer_new("some.csv", NULL, &writer, &why), FROE_OK);
+    assert_int_equal(froe_event_writer_close(writer, FROE_E_CANCELLED, &why), FROE_E_CANCELLED);
+    assert_int_equal(lines_of("some.csv", line, sizeof line), 2556); /* what was there before */
+    assert_int_equal(froe_event_writer_new("some.txt", NULL, &writer, &why), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_event_writer_close(NULL, FROE_OK, &why), FROE_OK);
+    size_t few = 3;
+    assert_true(test_memory_each(write_some_events, &few) >= 1);
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    froe_motion *m = NULL;
+    assert_int_equal(froe_generate_motion("moving-spin", 3, 1, NULL, &m, NULL), FROE_OK);
+    assert_int_equal(froe_write_motion(m, "few.mfjson", NULL), FROE_OK);
+    froe_motion_free(m);
+    assert_true(test_memory_each(read_motion_with, (char[]){"few.mfjson"}) > 10);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(instants_are_milliseconds_since_1970),
+        cmocka_unit_test(lines_rings_and_points_become_segments),
+        cmocka_unit_test(quadratic_interpolation_continues_its_velocity),
+        cmocka_unit_test(what_is_wrong_is_said_with_the_feature),
+        cmocka_unit_test(every_kind_of_motion_survives_a_file),
+        cmocka_unit_test(motions_that_the_format_cannot_say_are_refused),
+        cmocka_unit_test(pictures_and_tables_refuse_what_they_cannot_show),
+        cmocka_unit_test(real_cars_are_read_unrounded),
+        cmocka_unit_test(events_are_a_file_when_all_are_there),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

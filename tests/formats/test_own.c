@@ -1,0 +1,77 @@
+/* Scenes from files by the core alone: froe_read_own() and froe_reads_own(). */
+#include "support/scenes.h"
+
+static void each_format_that_needs_no_library_is_read(void **state) {
+    (void)state;
+    static const struct {
+        const char *path, *text, *format;
+        int dim;
+        size_t objects;
+    } files[] = {
+        {"own.csv", "x,y,r\n0,1,2\n3,4,5\n", "CSV balls", 2, 2},
+        {"own.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nl 3 4\n", "OBJ", 3, 3},
+        {"own.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1},
+        {"own.ply",
+         "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+         "PLY", 3, 1},
+        {"own", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1}, /* by its content */
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        froe_read_report report;
+        write_text(files[i].path, files[i].text);
+        assert_true(froe_reads_own(files[i].path));
+        froe_scene *scene = read_scene(files[i].path, &report);
+        assert_string_equal(report.format, files[i].format);
+        assert_int_equal(froe_scene_dim(scene), files[i].dim);
+        assert_int_equal(froe_scene_object_count(scene), files[i].objects);
+        froe_scene_free(scene);
+    }
+}
+
+static void other_formats_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *path, *text, *words;
+    } files[] = {
+        {"other.geojson", "{\"type\":\"FeatureCollection\",\"features\":[]}", "is neither CSV nor OFF, OBJ or PLY"},
+        {"wkt.csv", "name,WKT\na,POINT (1 2)\n", "is neither CSV nor OFF, OBJ or PLY"},
+        {"other.stl", "solid a\nendsolid a\n", "is neither CSV nor OFF, OBJ or PLY"},
+        {"other.mfjson", "{}", "holds moving features"},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        write_text(files[i].path, files[i].text);
+        assert_false(froe_reads_own(files[i].path));
+        refuse(files[i].path, FROE_E_UNSUPPORTED, files[i].words);
+    }
+}
+
+static void what_cannot_be_read_is_refused(void **state) {
+    (void)state;
+    assert_false(froe_reads_own(NULL));
+    assert_false(froe_reads_own("nowhere.csv"));
+    assert_false(froe_reads_own("."));
+    refuse("nowhere.csv", FROE_E_IO, "No such file");
+    refuse(".", FROE_E_IO, "is a directory, not a file");
+    write_text("empty.csv", "");
+    assert_false(froe_reads_own("empty.csv"));
+    refuse("empty.csv", FROE_E_FORMAT, "is empty");
+    write_text("layer.csv", "x,y\n1,2\n");
+    froe_read_options options = froe_read_defaults();
+    options.layer = "roads";
+    refuse_with("layer.csv", &options, FROE_E_OPTIONS, "is not a map: it has no layers");
+    options.size = 1;
+    refuse_with("layer.csv", &options, FROE_E_OPTIONS, "froe_read_own: the options do not come");
+    froe_diagnostic why;
+    assert_int_equal(froe_read_own("layer.csv", NULL, NULL, NULL, &why), FROE_E_ARG);
+    assert_non_null(strstr(why.message, "froe_read_own: path and out"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_format_that_needs_no_library_is_read),
+        cmocka_unit_test(other_formats_are_refused),
+        cmocka_unit_test(what_cannot_be_read_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
