@@ -141,44 +141,26 @@ static bool keep_fit_point(const froe_allocator *alloc, fit_points *points, cons
     return true;
 }
 
-/* What the section leaves of an edge of a polygon. */
-static bool keep_edge(const froe_allocator *alloc, fit_points *points, const double *plane, const double *a,
-                      const double *b) {
-    const double at_a = dot(plane, a) - plane[3], at_b = dot(plane, b) - plane[3];
-    double x[3];
-    if (at_a <= 0 && !keep_fit_point(alloc, points, a)) return false;
-    if ((at_a <= 0) == (at_b <= 0)) return true;
-    for (int k = 0; k < 3; k++) x[k] = a[k] + at_a / (at_a - at_b) * (b[k] - a[k]);
-    return keep_fit_point(alloc, points, x);
-}
-
 static bool fit_points_new(const froe_camera *c, const froe_scene *scene, fit_points *out) {
+    const froe_allocator *alloc = &scene->alloc;
     *out = (fit_points){.at = scene->coords, .count = scene->vertex_count};
     if (!c->section) return true;
     for (uint32_t o = 0; o < scene->object_count; o++) {
         const uint32_t n = scene_corners(scene, o);
         if (scene_form(scene, o) > FROE_POLYGON) continue; /* such pictures do not show it */
-        for (uint32_t i = 0; i < n; i++)
-            if (!keep_edge(&scene->alloc, out, c->section, scene_point(scene, o, i),
-                           scene_point(scene, o, i + 1 < n ? i + 1 : 0)))
-                return false;
+        for (uint32_t i = 0; i < n; i++) {                 /* what the section leaves of an edge */
+            const double *a = scene_point(scene, o, i), *b = scene_point(scene, o, i + 1 < n ? i + 1 : 0);
+            const double at_a = dot(c->section, a) - c->section[3], at_b = dot(c->section, b) - c->section[3];
+            double x[3];
+            if (at_a <= 0 && !keep_fit_point(alloc, out, a)) return false;
+            if ((at_a <= 0) == (at_b <= 0)) continue;
+            for (int k = 0; k < 3; k++) x[k] = a[k] + at_a / (at_a - at_b) * (b[k] - a[k]);
+            if (!keep_fit_point(alloc, out, x)) return false;
+        }
     }
     out->at = out->own.data;
     out->count = out->own.count / 3;
     return true;
-}
-
-/* Bounds of all points on the page; false when one is not before the eye, or there is none. */
-static bool page_bounds(const froe_projection *view, const fit_points *points, double lo[2], double hi[2]) {
-    for (size_t i = 0; i < points->count; i++) {
-        double page[2];
-        if (!froe_project(view, points->at + 3 * i, page)) return false;
-        for (int k = 0; k < 2; k++) {
-            lo[k] = i ? fmin(lo[k], page[k]) : page[k];
-            hi[k] = i ? fmax(hi[k], page[k]) : page[k];
-        }
-    }
-    return points->count > 0;
 }
 
 /* The distance from which the angle of view takes in every point. */
@@ -203,8 +185,16 @@ static froe_status fill_page(const froe_camera *c, const fit_points *points, fro
     double lo[2], hi[2];
     out->scale = c->parallel && c->scale > 0 ? c->scale : 1;
     out->centre[0] = out->centre[1] = 0;
-    if (!page_bounds(out, points, lo, hi))
-        return support_fail(diag, FROE_E_INPUT, "there is nothing before the eye to fit");
+    bool before = points->count > 0; /* all points before the eye, and there is one? */
+    for (size_t i = 0; i < points->count && before; i++) {
+        double page[2];
+        before = froe_project(out, points->at + 3 * i, page);
+        for (int k = 0; k < 2 && before; k++) {
+            lo[k] = i ? fmin(lo[k], page[k]) : page[k];
+            hi[k] = i ? fmax(hi[k], page[k]) : page[k];
+        }
+    }
+    if (!before) return support_fail(diag, FROE_E_INPUT, "there is nothing before the eye to fit");
     if (!(c->parallel && c->scale > 0)) {
         const double x = hi[0] - lo[0], y = hi[1] - lo[1], room_x = c->width - 2 * c->margin,
                      room_y = c->height - 2 * c->margin;
@@ -237,14 +227,6 @@ static double extent_of(const froe_scene *scene) {
 #define LEAST_EXTENT 0x1p-1000
 #define MOST_EXTENT 0x1p1000
 
-static froe_status check_extent(double extent, froe_diagnostic *diag) {
-    if (extent >= LEAST_EXTENT && extent <= MOST_EXTENT) return FROE_OK;
-    return support_fail(diag, FROE_E_UNSUPPORTED,
-                        "The scene extends over %g, and cameras look at scenes of 2^-1000 to 2^1000 only: multiply its "
-                        "coordinates by a power of two.",
-                        extent);
-}
-
 /* The corners of the page, in space, at the distance of the scene. */
 static void set_view_window(froe_projection *out, double distance) {
     for (int i = 0; i < 4; i++) {
@@ -264,8 +246,12 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
     froe_status status = set_axes(camera, &view, diag);
     if (status) return status;
     const double extent = extent_of(scene);
-    status = check_extent(extent, diag);
-    if (status) return status;
+    if (!(extent >= LEAST_EXTENT && extent <= MOST_EXTENT))
+        return support_fail(
+            diag, FROE_E_UNSUPPORTED,
+            "The scene extends over %g, and cameras look at scenes of 2^-1000 to 2^1000 only: multiply its "
+            "coordinates by a power of two.",
+            extent);
     double distance = extent;
     for (int k = 0; k < 3; k++) {
         const double middle = scene->object_count ? 0.5 * scene->lo[k] + 0.5 * scene->hi[k] : 0;

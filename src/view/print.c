@@ -61,20 +61,17 @@ static bool cut_side(print_press *p, int from, int side, bool *cut) {
     return true;
 }
 
-static bool needs_cut(const print_press *p, int side) {
-    double n[3], c;
-    side_of_view(p->view, side, PRINT_BEYOND, n, &c);
-    for (size_t i = 0; i < p->at[0].count; i += 3) {
-        const double *a = p->at[0].data + i;
-        if (!(n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c >= 0)) return true;
-    }
-    return false;
-}
-
 bool print_end(print_press *press, print_ring *out, bool *cut) {
     *cut = false;
     for (int side = 0; side < 5; side++) {
-        if (!needs_cut(press, side)) continue;
+        double n[3], c;
+        bool needed = false;
+        side_of_view(press->view, side, PRINT_BEYOND, n, &c);
+        for (size_t i = 0; i < press->at[0].count && !needed; i += 3) {
+            const double *a = press->at[0].data + i;
+            needed = !(n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c >= 0);
+        }
+        if (!needed) continue;
         if (!cut_side(press, 0, side, cut)) return false;
         const __typeof__(press->at[0]) swap = press->at[0];
         press->at[0] = press->at[1];

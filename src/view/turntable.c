@@ -21,26 +21,20 @@ static double length_of(const double *v) {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* The factor by which a picture shrinks when it is centred on the middle of the scene instead of on its own. */
-static double shrink(const froe_camera *c, const froe_projection *view) {
-    double least = 1;
-    for (int k = 0; k < 2; k++) {
-        const double size = k ? c->height : c->width, half = 0.5 * size - c->margin;
-        least = fmin(least, half / (half + fabs(view->centre[k] - 0.5 * size)));
-    }
-    return least;
-}
-
 /* One camera turned and fitted: the distance or the scale that it needs. */
 static froe_status fit(const froe_camera *c, const froe_scene *scene, const double *middle, double *distance,
                        double *scale, froe_diagnostic *diag) {
     froe_projection view;
     const froe_status status = froe_camera_place(c, scene, &view, diag);
     if (status) return status;
-    double way[3];
+    double way[3], shrink = 1; /* the factor by which a picture shrinks when centred on the middle of the scene */
+    for (int k = 0; k < 2; k++) {
+        const double size = k ? c->height : c->width, half = 0.5 * size - c->margin;
+        shrink = fmin(shrink, half / (half + fabs(view.centre[k] - 0.5 * size)));
+    }
     for (int k = 0; k < 3; k++) way[k] = view.origin[k] - middle[k];
     *distance = fmax(*distance, length_of(way));
-    *scale = fmin(*scale, c->scale > 0 ? c->scale : view.scale * shrink(c, &view));
+    *scale = fmin(*scale, c->scale > 0 ? c->scale : view.scale * shrink);
     return FROE_OK;
 }
 

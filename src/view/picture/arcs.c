@@ -53,16 +53,6 @@ static bool overlap_exactly(finder *f, const view_piece *piece, const paint_part
            !ring_is_beyond(f->sights, b, count, a, piece->count);
 }
 
-/* Do their interiors overlap? Sightlines decide where rounding could hide that. */
-static bool overlap(finder *f, const view_piece *piece, size_t i) {
-    const paint_part *part = f->parts->parts.data + i;
-    const print_point *ring = f->parts->points.data + part->first;
-    const double unsure = 1e-9 * (f->parts->view->width + f->parts->view->height);
-    if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, -unsure)) return false;
-    if (print_overlap(f->piece.data, f->piece.count, ring, part->count, unsure)) return true;
-    return overlap_exactly(f, piece, part, f->parts->kinds.data[i]);
-}
-
 /* ------------------------------------------------------------------------- arcs -- */
 
 static froe_status compare_visible(finder *f, uint32_t visible, uint32_t i) {
@@ -74,7 +64,13 @@ static froe_status compare_visible(finder *f, uint32_t visible, uint32_t i) {
     if (part->node == node || f->known[part->node] == node + 1) return FROE_OK;
     if (f->parts->clear && part->place <= piece->place) return FROE_OK;
     if (++*f->tests > f->most) return FROE_E_BUDGET;
-    if (!overlap(f, piece, i)) return FROE_OK;
+    /* Do their interiors overlap? Sightlines decide where rounding could hide that. */
+    const print_point *ring = f->parts->points.data + part->first;
+    const double unsure = 1e-9 * (f->parts->view->width + f->parts->view->height);
+    if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, -unsure)) return FROE_OK;
+    if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, unsure) &&
+        !overlap_exactly(f, piece, part, f->parts->kinds.data[i]))
+        return FROE_OK;
     f->known[part->node] = node + 1;
     return array_push(&f->parts->v->alloc, f->arcs, (graph_arc){part->node, node}) ? FROE_OK : FROE_E_MEMORY;
 }

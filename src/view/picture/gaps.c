@@ -71,12 +71,6 @@ static double length_of(const view_segment *s) {
     return sqrt(x * x + y * y);
 }
 
-static bool meet(const view_segment *s, const view_segment *t) {
-    for (int e = 0; e < 4; e++)
-        if (s->vertex[e / 2] != FROE_NONE && s->vertex[e / 2] == t->vertex[e % 2]) return true;
-    return false;
-}
-
 /* Notes the gap that t leaves in s, if any. */
 static bool compare_lines(gapper *g, uint32_t i, uint32_t j) {
     const view_segment *s = g->in->data + i, *t = g->in->data + j;
@@ -86,7 +80,9 @@ static bool compare_lines(gapper *g, uint32_t i, uint32_t j) {
         if (stretch_near(s, t, g->same[wide], &x) && (x.to - x.from) * length_of(s) >= 8 * g->same[wide] &&
             !array_push(g->alloc, &g->gaps, x)) /* lines with shorter stretches only cross */
             return false;
-    if (s->hidden || t->hidden || !(g->halo > 0) || meet(s, t) || !stretch_near(s, t, g->halo, &x)) return true;
+    for (int e = 0; e < 4; e++) /* lines that meet leave no gap in each other */
+        if (s->vertex[e / 2] != FROE_NONE && s->vertex[e / 2] == t->vertex[e % 2]) return true;
+    if (s->hidden || t->hidden || !(g->halo > 0) || !stretch_near(s, t, g->halo, &x)) return true;
     return depth_between(g, s, t, x) < g->halo || array_push(g->alloc, &g->gaps, x);
 }
 

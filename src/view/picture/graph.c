@@ -5,17 +5,6 @@
 
 /* ------------------------------------------------------------------------- arcs -- */
 
-/* Sorts by (from, to), drops repetitions; the rest is in place. */
-static size_t unique(graph_arc *arcs, base_pair *pairs, size_t count) {
-    size_t kept = 0;
-    for (size_t i = 0; i < count; i++) pairs[i] = (base_pair){(uint64_t)arcs[i].from << 32 | arcs[i].to, 0};
-    base_radix_sort(pairs, pairs + count, count);
-    for (size_t i = 0; i < count; i++)
-        if (i == 0 || pairs[i].key != pairs[i - 1].key)
-            arcs[kept++] = (graph_arc){(uint32_t)(pairs[i].key >> 32), (uint32_t)pairs[i].key};
-    return kept;
-}
-
 /* Lists one end of the arcs by the other; stable, so that lists ascend. */
 static void list(const graph_arc *arcs, size_t count, uint32_t nodes, bool by_from, uint32_t *starts, uint32_t *ends) {
     for (size_t i = 0; i < count; i++) starts[(by_from ? arcs[i].from : arcs[i].to) + 1]++;
@@ -34,7 +23,12 @@ froe_status view_graph_new(const froe_allocator *alloc, uint32_t nodes, graph_ar
     if (arc_count > INT32_MAX) return FROE_E_LIMIT;
     base_pair *pairs = support_calloc(alloc, 2 * arc_count + 1, sizeof *pairs);
     if (!pairs) return FROE_E_MEMORY;
-    const size_t kept = unique(arcs, pairs, arc_count);
+    size_t kept = 0; /* arcs sorted by (from, to), without repetitions */
+    for (size_t i = 0; i < arc_count; i++) pairs[i] = (base_pair){(uint64_t)arcs[i].from << 32 | arcs[i].to, 0};
+    base_radix_sort(pairs, pairs + arc_count, arc_count);
+    for (size_t i = 0; i < arc_count; i++)
+        if (i == 0 || pairs[i].key != pairs[i - 1].key)
+            arcs[kept++] = (graph_arc){(uint32_t)(pairs[i].key >> 32), (uint32_t)pairs[i].key};
     support_free(alloc, pairs, (2 * arc_count + 1) * sizeof *pairs);
     out->arc_count = (uint32_t)kept;
     out->out_starts = support_calloc(alloc, (size_t)nodes + 2, sizeof *out->out_starts);
@@ -61,7 +55,7 @@ void view_graph_free(const froe_allocator *alloc, view_graph *g) {
 /* --------------------------------------------------------------------- circles -- */
 
 /* Sets of nodes yet to be searched lie on a stack, one after the other; `set` holds for each node its set, so
- * that a search stays in its own. Every component of more than one node loses some nodes and is a new set. */
+ * that a search_components stays in its own. Every component of more than one node loses some nodes and is a new set. */
 typedef struct breaker {
     const froe_allocator *alloc;
     view_graph *g;
@@ -84,24 +78,8 @@ static bool enter_vertex(breaker *b, uint32_t v) {
     return array_push(b->alloc, &b->stack, v) && array_push(b->alloc, &b->calls, (base_pair){b->g->out_starts[v], v});
 }
 
-/* Pops the component of v; one of several nodes is kept. */
-static bool leave_vertex(breaker *b, uint32_t v) {
-    size_t first = b->stack.count;
-    do b->on_stack[b->stack.data[--first]] = 0;
-    while (b->stack.data[first] != v);
-    const size_t size = b->stack.count - first;
-    bool ok = true;
-    if (size > 1) {
-        ok = array_push(b->alloc, &b->found_starts, (uint32_t)b->found.count) &&
-             array_reserve(b->alloc, &b->found, size);
-        for (size_t i = first; ok && i < b->stack.count; i++) b->found.data[b->found.count++] = b->stack.data[i];
-    }
-    b->stack.count = first;
-    return ok;
-}
-
-/* All components that v reaches within its set. */
-static bool search(breaker *b, uint32_t root) {
+/* All components that v reaches within its set; those of several nodes are kept. */
+static bool search_components(breaker *b, uint32_t root) {
     if (!enter_vertex(b, root)) return false;
     while (b->calls.count) {
         base_pair *top = b->calls.data + b->calls.count - 1;
@@ -121,7 +99,16 @@ static bool search(breaker *b, uint32_t root) {
             const uint32_t u = b->calls.data[b->calls.count - 1].value;
             if (b->low[v] < b->low[u]) b->low[u] = b->low[v];
         }
-        if (b->low[v] == b->index[v] && !leave_vertex(b, v)) return false;
+        if (b->low[v] != b->index[v]) continue;
+        size_t first = b->stack.count; /* the component of v is on top of the stack */
+        do b->on_stack[b->stack.data[--first]] = 0;
+        while (b->stack.data[first] != v);
+        const size_t size = b->stack.count - first;
+        if (size > 1 && (!array_push(b->alloc, &b->found_starts, (uint32_t)b->found.count) ||
+                         !array_reserve(b->alloc, &b->found, size)))
+            return false;
+        for (size_t i = first; size > 1 && i < b->stack.count; i++) b->found.data[b->found.count++] = b->stack.data[i];
+        b->stack.count = first;
     }
     return true;
 }
@@ -132,7 +119,7 @@ static uint64_t degree(const breaker *b, const uint32_t *starts, const uint32_t 
     return count;
 }
 
-/* Makes the best nodes of a component late: one, and of large components some more, since each round costs a search. */
+/* Makes the best nodes of a component late: one, and of large components some more, since each round costs a search_components. */
 static bool choose_late(breaker *b, const uint32_t *nodes, size_t count) {
     const view_graph *g = b->g;
     const size_t wanted = 1 + count / 512;
@@ -161,15 +148,6 @@ static bool choose_late(breaker *b, const uint32_t *nodes, size_t count) {
     return true;
 }
 
-/* The rest of a component becomes a set to be searched. */
-static bool push_rest(breaker *b, const uint32_t *nodes, size_t count) {
-    if (!array_push(b->alloc, &b->sets, (uint32_t)b->nodes.count) || !array_reserve(b->alloc, &b->nodes, count))
-        return false;
-    for (size_t i = 0; i < count; i++)
-        if (!b->g->late[nodes[i]]) b->nodes.data[b->nodes.count++] = nodes[i];
-    return true;
-}
-
 /* Takes the topmost set: finds its components, and leaves those of several nodes, less the late ones, to be searched.
  */
 static bool break_set(breaker *b) {
@@ -181,7 +159,7 @@ static bool break_set(breaker *b) {
         b->index[b->nodes.data[i]] = 0;
     }
     for (size_t i = first; i < end; i++)
-        if (!b->index[b->nodes.data[i]] && !search(b, b->nodes.data[i])) return false;
+        if (!b->index[b->nodes.data[i]] && !search_components(b, b->nodes.data[i])) return false;
     b->nodes.count = first;
     if (b->first_round) b->g->cyclic = (uint32_t)b->found.count;
     b->first_round = false;
@@ -189,18 +167,12 @@ static bool break_set(breaker *b) {
     for (size_t c = 0; c + 1 < b->found_starts.count; c++) {
         const uint32_t *nodes = b->found.data + b->found_starts.data[c];
         const size_t count = b->found_starts.data[c + 1] - b->found_starts.data[c];
-        if (!choose_late(b, nodes, count) || !push_rest(b, nodes, count)) return false;
+        if (!choose_late(b, nodes, count) || !array_push(b->alloc, &b->sets, (uint32_t)b->nodes.count) ||
+            !array_reserve(b->alloc, &b->nodes, count))
+            return false;
+        for (size_t i = 0; i < count; i++) /* the rest of the component becomes a set to be searched */
+            if (!b->g->late[nodes[i]]) b->nodes.data[b->nodes.count++] = nodes[i];
     }
-    return true;
-}
-
-static bool break_all(breaker *b) {
-    const uint32_t n = b->g->count;
-    if (!b->set || !b->index || !b->low || !b->on_stack) return false;
-    if (!array_push(b->alloc, &b->sets, 0) || !array_reserve(b->alloc, &b->nodes, n)) return false;
-    for (uint32_t v = 0; v < n; v++) b->nodes.data[b->nodes.count++] = v;
-    while (b->sets.count)
-        if (!break_set(b)) return false;
     return true;
 }
 
@@ -211,7 +183,10 @@ froe_status view_graph_break(const froe_allocator *alloc, view_graph *graph, con
     b.index = support_calloc(alloc, n, sizeof *b.index);
     b.low = support_calloc(alloc, n, sizeof *b.low);
     b.on_stack = support_calloc(alloc, n, 1);
-    const bool ok = break_all(&b);
+    bool ok = b.set && b.index && b.low && b.on_stack && array_push(alloc, &b.sets, 0) &&
+              array_reserve(alloc, &b.nodes, graph->count);
+    for (uint32_t v = 0; ok && v < graph->count; v++) b.nodes.data[b.nodes.count++] = v;
+    while (ok && b.sets.count) ok = break_set(&b);
     support_free(alloc, b.set, n * sizeof *b.set);
     support_free(alloc, b.index, n * sizeof *b.index);
     support_free(alloc, b.low, n * sizeof *b.low);

@@ -35,15 +35,6 @@ static view_cells cells_of(const filler *f, size_t i) {
     return view_grid_cells(f->grid, points, n, 0);
 }
 
-static uint64_t entries_for(const filler *f) {
-    uint64_t total = 0;
-    for (size_t i = 0; i < f->count; i++) {
-        const view_cells c = cells_of(f, i);
-        total += (uint64_t)(c.x1 - c.x0 + 1) * (c.y1 - c.y0 + 1);
-    }
-    return total;
-}
-
 static void choose_cells(const filler *f, const froe_projection *view) {
     const double wanted = sqrt((double)f->count);
     uint32_t cells = wanted < CELLS_LEAST ? CELLS_LEAST : wanted > CELLS_MOST ? CELLS_MOST : (uint32_t)wanted;
@@ -51,7 +42,11 @@ static void choose_cells(const filler *f, const froe_projection *view) {
         f->grid->cells = cells;
         f->grid->wide = view->width / cells;
         f->grid->high = view->height / cells;
-        f->grid->entry_count = entries_for(f);
+        f->grid->entry_count = 0;
+        for (size_t i = 0; i < f->count; i++) {
+            const view_cells c = cells_of(f, i);
+            f->grid->entry_count += (uint64_t)(c.x1 - c.x0 + 1) * (c.y1 - c.y0 + 1);
+        }
         if (cells <= CELLS_LEAST || f->grid->entry_count <= ENTRIES_A_THING * (uint64_t)f->count) return;
     }
 }

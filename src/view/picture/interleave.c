@@ -12,7 +12,7 @@
 #include "view/picture/picture.h"
 #include <math.h>
 
-typedef struct sorter {
+typedef struct line_sorter {
     view_painter *p;
     double reach;
     print_ring points;               /* of all visible pieces */
@@ -22,15 +22,15 @@ typedef struct sorter {
     ARRAY(uint32_t) lines;           /* segments that are nodes: those of the picture come before */
     view_arcs arcs;
     view_grid grid;
-} sorter;
+} line_sorter;
 
 static const print_point *line_points(const void *user, size_t i, size_t *points) {
-    const sorter *s = user;
+    const line_sorter *s = user;
     *points = s->starts.data[i + 1] - s->starts.data[i];
     return s->points.data + s->starts.data[i];
 }
 
-static bool print_pieces(sorter *s) {
+static bool print_pieces(line_sorter *s) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     const uint32_t n = s->p->v->piece_count;
     if (!array_reserve(alloc, &s->starts, (size_t)n + 1)) return false;
@@ -46,10 +46,10 @@ static bool print_pieces(sorter *s) {
 /* --------------------------------------------------------------------- distances -- */
 
 /* A place of the page on or near a segment: the share of the segment, and the distance. */
-typedef struct meeting {
+typedef struct near_place {
     print_point at;
     double share, square;
-} meeting;
+} near_place;
 
 /* The point of ab nearest to q, as its share. */
 static double share_along(print_point a, print_point b, print_point q) {
@@ -63,9 +63,9 @@ static print_point point_at(print_point a, print_point b, double t) {
 }
 
 /* Keeps the meeting of `at`, a point of the piece, with a share of the segment if it is the nearest. */
-static void offer(meeting *best, print_point at, print_point on, double share) {
+static void offer(near_place *best, print_point at, print_point on, double share) {
     const double x = at.x - on.x, y = at.y - on.y, square = x * x + y * y;
-    if (square < best->square) *best = (meeting){at, share, square};
+    if (square < best->square) *best = (near_place){at, share, square};
 }
 
 /* The part of ab inside a convex ring. False: none. */
@@ -84,12 +84,12 @@ static bool clip(const print_point *ring, size_t n, print_point a, print_point b
 }
 
 /* Where a segment and a convex ring are nearest to each other. */
-static meeting nearest(const print_point *ring, size_t n, print_point a, print_point b) {
+static near_place nearest(const print_point *ring, size_t n, print_point a, print_point b) {
     double share[2];
-    meeting best = {.square = INFINITY};
+    near_place best = {.square = INFINITY};
     if (clip(ring, n, a, b, share)) {
         const double middle = 0.5 * (share[0] + share[1]);
-        return (meeting){point_at(a, b, middle), middle, 0};
+        return (near_place){point_at(a, b, middle), middle, 0};
     }
     for (size_t i = 0; i < n; i++) {
         const print_point p = ring[i], q = ring[i + 1 < n ? i + 1 : 0];
@@ -118,18 +118,10 @@ static double near_at(const view_painter *p, uint32_t object, print_point page) 
     return (n[0] * x + n[1] * y + n[2]) / k;
 }
 
-/* In front of a segment by more than a line is wide: less is what neighbours on a curved surface are. */
-static bool is_nearer(const sorter *s, uint32_t visible, const view_segment *segment, const meeting *m) {
-    const froe_projection *view = s->p->options->view;
-    const double own = segment->near[0] + m->share * (segment->near[1] - segment->near[0]);
-    const double wide = 2 * s->reach / view->scale * (view->eye.parallel ? 1 : own);
-    return near_at(s->p, s->p->v->pieces[visible].object, m->at) > own + wide;
-}
-
 /* ------------------------------------------------------------------------- nodes -- */
 
 /* Notes a visible piece if it is within reach. */
-static bool note(sorter *s, uint32_t i, uint32_t visible, const view_segment *segment) {
+static bool note(line_sorter *s, uint32_t i, uint32_t visible, const view_segment *segment) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     size_t n;
     const print_point *ring = line_points(s, visible, &n);
@@ -137,13 +129,17 @@ static bool note(sorter *s, uint32_t i, uint32_t visible, const view_segment *se
     if (s->stamps[visible] == i + 1) return true;
     s->stamps[visible] = i + 1;
     if (n < 3) return true;
-    const meeting m = nearest(ring, n, segment->at[0], segment->at[1]);
+    const near_place m = nearest(ring, n, segment->at[0], segment->at[1]);
     if (m.square > s->reach * s->reach) return true;
-    return is_nearer(s, visible, segment, &m) ? array_push(alloc, &s->nearer, node)
-                                              : array_push(alloc, &s->farther, node);
+    /* In front of the segment by more than a line is wide: less is what neighbours on a curved surface are. */
+    const froe_projection *view = s->p->options->view;
+    const double own = segment->near[0] + m.share * (segment->near[1] - segment->near[0]);
+    const double wide = 2 * s->reach / view->scale * (view->eye.parallel ? 1 : own);
+    const bool nearer = near_at(s->p, s->p->v->pieces[visible].object, m.at) > own + wide;
+    return nearer ? array_push(alloc, &s->nearer, node) : array_push(alloc, &s->farther, node);
 }
 
-static bool look_around(sorter *s, uint32_t i) {
+static bool look_around(line_sorter *s, uint32_t i) {
     const view_segment *segment = s->p->segments.data + i;
     const view_cells r = view_grid_cells(&s->grid, segment->at, 2, s->reach);
     s->nearer.count = s->farther.count = 0;
@@ -156,7 +152,7 @@ static bool look_around(sorter *s, uint32_t i) {
     return true;
 }
 
-static bool add_interleaved_line(sorter *s, uint32_t i) {
+static bool add_interleaved_line(line_sorter *s, uint32_t i) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     const uint32_t own = s->p->graph.count + (uint32_t)s->lines.count;
     if (s->p->segments.data[i].hidden) return true;
@@ -169,33 +165,9 @@ static bool add_interleaved_line(sorter *s, uint32_t i) {
     return array_push(alloc, &s->lines, i);
 }
 
-/* The arcs of the picture that still count. */
-static bool add_arcs(sorter *s) {
-    const view_graph *g = &s->p->graph;
-    for (uint32_t v = 0; v < g->count; v++)
-        for (uint32_t e = g->out_starts[v]; e < g->out_starts[v + 1] && !g->late[v]; e++)
-            if (!array_push(&s->p->picture->alloc, &s->arcs, (graph_arc){v, g->outs[e]})) return false;
-    return true;
-}
-
 /* ------------------------------------------------------------------------- order -- */
 
-/* Parts an order of all nodes into that of the picture's and the places of lines in it. */
-static void take_order(sorter *s, const view_graph *g, const uint32_t *order) {
-    view_painter *p = s->p;
-    uint32_t place = 0;
-    for (uint32_t i = 0; i < g->count; i++) {
-        const uint32_t v = order[i];
-        if (v < p->graph.count) {
-            p->order[place++] = v;
-        } else if (!g->late[v] && place < p->graph.count) {
-            p->segments.data[s->lines.data[v - p->graph.count]].place = place;
-            p->breaks[place] = 1;
-        }
-    }
-}
-
-static froe_status sort(sorter *s, view_graph *g) {
+static froe_status sort(line_sorter *s, view_graph *g) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     const uint32_t faces = s->p->graph.count, n = faces + (uint32_t)s->lines.count;
     froe_status status = view_graph_new(alloc, n, s->arcs.data, s->arcs.count, g);
@@ -206,7 +178,18 @@ static froe_status sort(sorter *s, view_graph *g) {
     for (uint32_t v = 0; !status && v < faces; v++) fixed[v] = 1;
     if (!status) status = view_graph_break(alloc, g, fixed);
     if (!status) status = view_sort_nodes(s->p, g, order);
-    if (!status) take_order(s, g, order);
+    /* Parts the order of all nodes into that of the picture's and the places of lines in it. */
+    view_painter *p = s->p;
+    uint32_t place = 0;
+    for (uint32_t i = 0; !status && i < g->count; i++) {
+        const uint32_t v = order[i];
+        if (v < faces) {
+            p->order[place++] = v;
+        } else if (!g->late[v] && place < faces) {
+            p->segments.data[s->lines.data[v - faces]].place = place;
+            p->breaks[place] = 1;
+        }
+    }
     support_free(alloc, fixed, (size_t)n + 1);
     support_free(alloc, order, ((size_t)n + 1) * sizeof *order);
     return status;
@@ -214,11 +197,14 @@ static froe_status sort(sorter *s, view_graph *g) {
 
 froe_status view_interleave(view_painter *p) {
     const froe_allocator *alloc = &p->picture->alloc;
-    sorter s = {.p = p, .reach = p->options->interleave};
+    line_sorter s = {.p = p, .reach = p->options->interleave};
     view_graph g = {0};
     bool ok = print_pieces(&s);
     for (uint32_t i = 0; ok && i < p->segments.count; i++) ok = add_interleaved_line(&s, i);
-    ok = ok && add_arcs(&s);
+    const view_graph *faces = &p->graph; /* whose arcs still count */
+    for (uint32_t v = 0; v < faces->count; v++)
+        for (uint32_t e = faces->out_starts[v]; ok && e < faces->out_starts[v + 1] && !faces->late[v]; e++)
+            ok = array_push(alloc, &s.arcs, (graph_arc){v, faces->outs[e]});
     const froe_status status = ok ? sort(&s, &g) : FROE_E_MEMORY;
     view_graph_free(alloc, &g);
     view_grid_free(alloc, &s.grid);

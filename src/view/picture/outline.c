@@ -25,24 +25,9 @@ void view_outliner_free(view_outliner *o) {
 
 /* ------------------------------------------------------------------------ sides -- */
 
-/* The polygon with which the patch goes on across an edge; FROE_NONE. */
-static uint32_t across(const froe_surface *s, uint32_t edge, uint32_t object) {
-    const uint32_t *use = s->uses + s->edge_starts[edge];
-    return !s->inside[edge] ? FROE_NONE : use[0] == object ? use[1] : use[0];
-}
-
 static bool is_drawn(const view_outliner *o, uint32_t object) {
     const int facing = view_facing(o->sights, object);
     return facing > 0 || (facing < 0 && !o->cull_back);
-}
-
-static bool add_outline_side(view_outliner *o, uint32_t edge, uint32_t object, uint32_t from, uint32_t to) {
-    const uint32_t side = (uint32_t)o->sides.count;
-    if (!array_push(&o->alloc, &o->sides, (outline_side){edge, to, object, o->first_side[from]}) ||
-        !array_push(&o->alloc, &o->starts, from))
-        return false;
-    o->first_side[from] = side;
-    return true;
 }
 
 /* The sides of one polygon, as they turn left; not those across which the patch goes on. */
@@ -51,10 +36,14 @@ static bool add_sides(view_outliner *o, uint32_t object) {
     const froe_scene *scene = s->scene;
     const bool front = view_facing(o->sights, object) > 0;
     for (uint32_t i = 0, n = scene_corners(scene, object); i < n; i++) {
-        const uint32_t edge = s->edge_of[scene->starts[object] + i], other = across(s, edge, object);
+        const uint32_t edge = s->edge_of[scene->starts[object] + i], *use = s->uses + s->edge_starts[edge];
         const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
-        if (other != FROE_NONE && is_drawn(o, other)) continue;
-        if (!add_outline_side(o, edge, object, front ? a : b, front ? b : a)) return false;
+        const uint32_t from = front ? a : b, to = front ? b : a, side = (uint32_t)o->sides.count;
+        if (s->inside[edge] && is_drawn(o, use[0] == object ? use[1] : use[0])) continue;
+        if (!array_push(&o->alloc, &o->sides, (outline_side){edge, to, object, o->first_side[from]}) ||
+            !array_push(&o->alloc, &o->starts, from))
+            return false;
+        o->first_side[from] = side;
     }
     return true;
 }
@@ -114,19 +103,6 @@ static outline_detour detour_by(const view_outliner *o, print_point a, print_poi
         2, {{a.x + t * (c.x - a.x), a.y + t * (c.y - a.y)}, {b.x + t * (c.x - b.x), b.y + t * (c.y - b.y)}}};
 }
 
-/* A side is drawn short where the patch is hidden and what hides it ends at the same side; see seams.h. */
-static bool trim_detour(view_outliner *o, uint32_t object, print_point a, print_point b, outline_detour *out) {
-    print_point c;
-    double height;
-    bool hidden;
-    if (!apex(o, object, b, a, &c, &height)) return true;
-    const outline_detour d = detour_by(o, a, b, c, height);
-    const print_point ring[4] = {a, b, d.at[d.count - 1], d.at[0]};
-    if (!view_seams_hidden(o->seams, o->node, ring, 2 + d.count, &hidden)) return false;
-    if (hidden) *out = d;
-    return true;
-}
-
 static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline_detour *out) {
     const outline_side *s = o->sides.data + side;
     const uint32_t object = under(o, patch, s->edge);
@@ -140,7 +116,15 @@ static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline
         return true;
     }
     if (!o->seams) return true;
-    return view_seams_look(o->seams, o->node, a, b, &bare) && (!bare || trim_detour(o, s->object, a, b, out));
+    if (!view_seams_look(o->seams, o->node, a, b, &bare)) return false;
+    if (!bare || !apex(o, s->object, b, a, &c, &height)) return true;
+    /* The side is drawn short where the patch is hidden and what hides it ends at the same side; see seams.h. */
+    const outline_detour d = detour_by(o, a, b, c, height);
+    const print_point ring[4] = {a, b, d.at[d.count - 1], d.at[0]};
+    bool hidden;
+    if (!view_seams_hidden(o->seams, o->node, ring, 2 + d.count, &hidden)) return false;
+    if (hidden) *out = d;
+    return true;
 }
 
 /* ------------------------------------------------------------------------ rings -- */
@@ -157,14 +141,6 @@ static bool take_ring(view_outliner *o, uint32_t side) {
     return true;
 }
 
-/* Is any vertex of the ring out of sight, or so far away that the ring must be cut? Then it goes through the press. */
-static bool press_ring(view_outliner *o, print_ring *points, bool *cut) {
-    print_begin(&o->press);
-    for (size_t i = 0; i < o->ring.count; i++)
-        if (!print_add(&o->press, view_vertex(o->sights, o->starts.data[o->ring.data[i]]))) return false;
-    return print_end(&o->press, points, cut);
-}
-
 /* Strips along the sides of a ring as it is printed. */
 static bool look_along(view_outliner *o, const print_point *ring, size_t count) {
     bool bare;
@@ -173,13 +149,23 @@ static bool look_along(view_outliner *o, const print_point *ring, size_t count) 
     return true;
 }
 
-static bool put_sides(view_outliner *o, uint32_t patch, print_ring *points) {
-    const size_t n = o->ring.count;
-    o->detours.count = 0;
-    if (!array_reserve(&o->alloc, &o->detours, n) || !array_reserve(&o->alloc, points, 3 * n)) return false;
+/* Appends the ring: with its detours, or cut where a vertex is out of sight or too far away. */
+static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
+    const size_t first = points->count, n = o->ring.count;
+    bool cut;
+    print_begin(&o->press);
     for (size_t i = 0; i < n; i++)
-        if (!find_detour(o, patch, o->ring.data[i], &o->detours.data[i])) return false;
-    for (size_t i = 0; i < n; i++) {
+        if (!print_add(&o->press, view_vertex(o->sights, o->starts.data[o->ring.data[i]]))) return false;
+    if (!print_end(&o->press, points, &cut)) return false;
+    if (cut && !look_along(o, points->data + first, points->count - first)) return false;
+    if (!cut) {
+        points->count = first;
+        o->detours.count = 0;
+        if (!array_reserve(&o->alloc, &o->detours, n) || !array_reserve(&o->alloc, points, 3 * n)) return false;
+        for (size_t i = 0; i < n; i++)
+            if (!find_detour(o, patch, o->ring.data[i], &o->detours.data[i])) return false;
+    }
+    for (size_t i = 0; i < n && !cut; i++) {
         const size_t j = i ? i - 1 : n - 1;
         const uint32_t side = o->ring.data[i], before = o->ring.data[j], a = o->starts.data[side];
         const outline_detour *d = o->detours.data + i;
@@ -188,32 +174,11 @@ static bool put_sides(view_outliner *o, uint32_t patch, print_ring *points) {
         points->data[points->count++] = page_of(o, a);
         for (uint32_t k = 0; k < d->count; k++) points->data[points->count++] = d->at[k];
     }
-    return true;
-}
-
-static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
-    const size_t first = points->count;
-    bool cut;
-    if (!press_ring(o, points, &cut)) return false;
-    if (cut) {
-        if (!look_along(o, points->data + first, points->count - first)) return false;
-    } else {
-        points->count = first;
-        if (!put_sides(o, patch, points)) return false;
-    }
     if (points->count - first < 3) {
         points->count = first;
         return true;
     }
     return array_push(&o->alloc, ends, (uint32_t)points->count);
-}
-
-static bool put_rings(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
-    for (uint32_t i = 0; i < o->sides.count; i++) {
-        if (!take_ring(o, i)) return false;
-        if (o->ring.count > 2 && !put_ring(o, patch, points, ends)) return false;
-    }
-    return true;
 }
 
 bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
@@ -222,7 +187,8 @@ bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, print_en
     o->sides.count = o->starts.count = 0;
     for (uint32_t m = s->patch_starts[patch]; ok && m < s->patch_starts[patch + 1]; m++)
         ok = !is_drawn(o, s->members[m]) || add_sides(o, s->members[m]);
-    ok = ok && put_rings(o, patch, points, ends);
+    for (uint32_t i = 0; ok && i < o->sides.count; i++)
+        ok = take_ring(o, i) && (o->ring.count < 3 || put_ring(o, patch, points, ends));
     for (size_t i = 0; i < o->starts.count; i++) o->first_side[o->starts.data[i]] = FROE_NONE;
     return ok;
 }

@@ -51,19 +51,6 @@ static bool sort(overlayer *o, overlay_ids *ids, size_t count, base_compare_fn *
 
 /* ------------------------------------------------------------------------ lines -- */
 
-static bool list_lines(overlayer *o, const view_items *items) {
-    for (uint32_t i = 0; i < items->count; i++) {
-        overlay_line next = {.line = items->data[i].run.line, .first = i, .end = i + 1};
-        overlay_line *last = o->lines.count ? o->lines.data + o->lines.count - 1 : NULL;
-        if (last && last->line == next.line)
-            last->end = i + 1;
-        else if (view_line_key(o->sights, next.line, next.key, &next.turned) &&
-                 !array_push(&o->sights->alloc, &o->lines, next))
-            return false;
-    }
-    return true;
-}
-
 static int by_line(void *user, uint32_t a, uint32_t b) {
     const overlayer *o = user;
     const overlay_line *x = o->lines.data + a, *y = o->lines.data + b;
@@ -160,38 +147,30 @@ static bool paint_line_of_sight(overlayer *o, base_compare_fn *compare, overlay_
 
 /* -------------------------------------------------------------------- segments -- */
 
-/* Does what is drawn go on unchanged beyond part i? */
-static bool line_goes_on(const overlayer *o, uint32_t i) {
-    const uint32_t here = o->drawn.data[i], beyond = o->drawn.data[i + 1];
-    if (beyond == FROE_NONE) return false;
-    const overlay_member *x = o->members.data + here, *y = o->members.data + beyond;
-    return x->kind == y->kind && x->hidden == y->hidden && (!o->depths || o->front.data[i] == o->front.data[i + 1]);
-}
-
 static double near_at(const overlay_member *m, print_point at) {
     const double dx = m->at[1].x - m->at[0].x, dy = m->at[1].y - m->at[0].y, square = dx * dx + dy * dy;
     const double t = square > 0 ? ((at.x - m->at[0].x) * dx + (at.y - m->at[0].y) * dy) / square : 0;
     return m->near[0] + t * (m->near[1] - m->near[0]);
 }
 
-/* The vertex of a segment where a part of it ends: that of the member itself, if it ends there. */
-static uint32_t vertex_at(const overlayer *o, uint32_t part, int e) {
-    const overlay_member *m = o->members.data + o->drawn.data[part];
-    const uint32_t place = part + (uint32_t)e;
-    return m->place[e] == place && m->end[e].vertex != FROE_NONE ? m->end[e].vertex : o->places.data[place].vertex;
-}
-
 static bool put_segments(overlayer *o, view_segments *out) {
     for (uint32_t i = 0, first; i + 1 < o->places.count; i++) {
         if (o->drawn.data[i] == FROE_NONE) continue;
-        for (first = i; i + 2 < o->places.count && line_goes_on(o, i);) i++;
+        for (first = i; i + 2 < o->places.count; i++) { /* as long as what is drawn goes on unchanged */
+            const uint32_t here = o->drawn.data[i], beyond = o->drawn.data[i + 1];
+            if (beyond == FROE_NONE || (o->depths && o->front.data[i] != o->front.data[i + 1])) break;
+            const overlay_member *x = o->members.data + here, *y = o->members.data + beyond;
+            if (x->kind != y->kind || x->hidden != y->hidden) break;
+        }
         const overlay_member *m = o->members.data + o->drawn.data[first],
                              *nearest = o->members.data + o->front.data[first];
         view_segment s = {.kind = m->kind, .hidden = m->hidden, .place = FROE_NONE};
         for (int e = 0; e < 2; e++) {
-            const uint32_t part = e ? i : first;
-            s.vertex[e] = vertex_at(o, part, e);
-            s.at[e] = o->places.data[part + (uint32_t)e].at;
+            const uint32_t part = e ? i : first, place = part + (uint32_t)e;
+            const overlay_member *x = o->members.data + o->drawn.data[part];
+            const bool own = x->place[e] == place && x->end[e].vertex != FROE_NONE; /* it ends there itself */
+            s.vertex[e] = own ? x->end[e].vertex : o->places.data[place].vertex;
+            s.at[e] = o->places.data[place].at;
             s.near[e] = near_at(nearest, s.at[e]);
         }
         if (!array_push(&o->sights->alloc, out, s)) return false;
@@ -214,25 +193,29 @@ static bool overlay_line_at(overlayer *o, const view_items *items, const uint32_
            paint_line_of_sight(o, by_nearness, &o->front) && put_segments(o, out);
 }
 
-static void free_overlayer(overlayer *o) {
-    const froe_allocator *alloc = &o->sights->alloc;
-    overlay_ids *const ids[] = {&o->drawn, &o->front, &o->next, &o->order, &o->ends, &o->spare};
-    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) array_free(alloc, ids[i]);
-    array_free(alloc, &o->lines);
-    array_free(alloc, &o->members);
-    array_free(alloc, &o->places);
-}
-
 froe_status view_overlay(view_sights *sights, const view_items *items, bool depths, view_segments *out) {
     overlayer o = {.sights = sights, .depths = depths};
     overlay_ids lines = {0};
     if (items->count > INT32_MAX) return FROE_E_LIMIT;
-    bool ok = list_lines(&o, items) && sort(&o, &lines, o.lines.count, by_line);
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < items->count; i++) {
+        overlay_line next = {.line = items->data[i].run.line, .first = i, .end = i + 1};
+        overlay_line *last = o.lines.count ? o.lines.data + o.lines.count - 1 : NULL;
+        if (last && last->line == next.line)
+            last->end = i + 1;
+        else if (view_line_key(sights, next.line, next.key, &next.turned))
+            ok = array_push(&sights->alloc, &o.lines, next);
+    }
+    ok = ok && sort(&o, &lines, o.lines.count, by_line);
     for (size_t i = 0, end; ok && i < lines.count; i = end) {
         for (end = i + 1; end < lines.count && !by_line(&o, lines.data[i], lines.data[end]);) end++;
         ok = overlay_line_at(&o, items, lines.data + i, end - i, out);
     }
-    free_overlayer(&o);
+    overlay_ids *const ids[] = {&o.drawn, &o.front, &o.next, &o.order, &o.ends, &o.spare};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) array_free(&sights->alloc, ids[i]);
+    array_free(&sights->alloc, &o.lines);
+    array_free(&sights->alloc, &o.members);
+    array_free(&sights->alloc, &o.places);
     array_free(&sights->alloc, &lines);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

@@ -115,20 +115,6 @@ static bool is_clipped(const view_painter *p, uint32_t node) {
     return p->graph.late[node] || p->parts.split[p->parts.nodes.data[node].patch] == PARTS_REGION;
 }
 
-/* Runs of patches of one style without lines between; patches painted whole and opaque get the number of theirs. */
-static void number_runs(view_painter *p) {
-    uint32_t run = 0, last = FROE_NONE;
-    for (uint32_t i = 0; i < p->v->surface->patch_count; i++) p->runs[i] = FROE_NONE;
-    for (uint32_t i = 0; i < p->graph.count; i++) {
-        const uint32_t v = p->order[i];
-        const paint_node *node = p->parts.nodes.data + v;
-        const uint32_t style = p->options->styles ? p->options->styles[node->patch] : 0;
-        run += style != last || (p->breaks && p->breaks[i]);
-        last = style;
-        if (node->piece == FROE_NONE && !is_clipped(p, v) && !is_clear(p, node->patch)) p->runs[node->patch] = run;
-    }
-}
-
 static bool put_whole_patch(view_painter *p, uint32_t patch, uint32_t node) {
     froe_picture *picture = p->picture;
     p->outliner.node = node;
@@ -144,7 +130,17 @@ static froe_status begin_outlines(view_painter *p) {
     const froe_status status = view_outliner_new(&p->outliner, p->sights, p->options->view, p->options->cull_back);
     p->runs = support_calloc(&p->picture->alloc, (size_t)p->v->surface->patch_count + 1, sizeof *p->runs);
     if (status || !p->runs) return FROE_E_MEMORY;
-    number_runs(p);
+    /* Runs of patches of one style without lines between; patches painted whole and opaque get the number of theirs. */
+    uint32_t run = 0, last = FROE_NONE;
+    for (uint32_t i = 0; i < p->v->surface->patch_count; i++) p->runs[i] = FROE_NONE;
+    for (uint32_t i = 0; i < p->graph.count; i++) {
+        const uint32_t v = p->order[i];
+        const paint_node *node = p->parts.nodes.data + v;
+        const uint32_t style = p->options->styles ? p->options->styles[node->patch] : 0;
+        run += style != last || (p->breaks && p->breaks[i]);
+        last = style;
+        if (node->piece == FROE_NONE && !is_clipped(p, v) && !is_clear(p, node->patch)) p->runs[node->patch] = run;
+    }
     p->outliner.underlap = p->options->underlap;
     p->outliner.runs = p->runs;
     if (!(p->options->underlap > 0)) return FROE_OK;
@@ -171,59 +167,41 @@ froe_status view_paint_whole(view_painter *p) {
 
 /* ----------------------------------------------------------------------- regions -- */
 
-/* Visible patches by style; their order does not matter otherwise. */
-static base_pair *list_by_style(view_painter *p, size_t *count) {
+froe_status view_paint_regions(view_painter *p) {
     const froe_visibility *v = p->v;
     const uint32_t patches = v->surface->patch_count;
     base_pair *pairs = support_calloc(&p->picture->alloc, 2 * (size_t)patches + 1, sizeof *pairs);
-    *count = 0;
-    for (uint32_t i = 0; pairs && i < patches; i++)
-        if (v->patch_starts[i] < v->patch_starts[i + 1] && !is_left_out(p, i))
-            pairs[(*count)++] = (base_pair){p->options->styles ? p->options->styles[i] : 0, i};
-    if (pairs) base_radix_sort(pairs, pairs + *count, *count);
-    return pairs;
-}
-
-froe_status view_paint_regions(view_painter *p) {
-    size_t count;
-    base_pair *pairs = list_by_style(p, &count);
+    size_t count = 0;
     bool ok = pairs != NULL;
+    /* Visible patches by style; their order does not matter otherwise. */
+    for (uint32_t i = 0; ok && i < patches; i++)
+        if (v->patch_starts[i] < v->patch_starts[i + 1] && !is_left_out(p, i))
+            pairs[count++] = (base_pair){p->options->styles ? p->options->styles[i] : 0, i};
+    if (ok) base_radix_sort(pairs, pairs + count, count);
     for (size_t i = 0; ok && i < count; i++) ok = put_region(p, pairs[i].value, FROE_NONE);
-    support_free(&p->picture->alloc, pairs, (2 * (size_t)p->v->surface->patch_count + 1) * sizeof *pairs);
+    support_free(&p->picture->alloc, pairs, (2 * (size_t)patches + 1) * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
 /* --------------------------------------------------------------------- fragments -- */
 
-/* Pieces of the tree with a visible part, farthest first, each once. */
-static size_t list_pieces(const froe_visibility *v, base_pair *pairs) {
-    for (uint32_t i = 0; i < v->piece_count; i++)
-        pairs[i] = (base_pair){UINT32_MAX - v->pieces[i].place, v->pieces[i].piece};
-    base_radix_sort(pairs, pairs + v->piece_count, v->piece_count);
-    size_t count = 0;
-    for (uint32_t i = 0; i < v->piece_count; i++)
-        if (i == 0 || pairs[i].key != pairs[i - 1].key) pairs[count++] = pairs[i];
-    return count;
-}
-
-static bool put_piece(view_painter *p, uint32_t piece) {
-    froe_picture *picture = p->picture;
-    const size_t first = picture->points.count;
-    const uint32_t patch = p->v->surface->patch_of[p->v->tree->pieces[piece].object];
-    if (is_left_out(p, patch)) return true;
-    if (!view_begin_shape(picture, patch, false) || !view_print_piece(&p->parts, p->sights, piece, &picture->points) ||
-        !end_ring(picture, first))
-        return false;
-    view_end_shape(picture);
-    return true;
-}
-
 froe_status view_paint_fragments(view_painter *p) {
-    const size_t room = 2 * (size_t)p->v->piece_count + 1;
-    base_pair *pairs = support_calloc(&p->picture->alloc, room, sizeof *pairs);
-    const size_t count = pairs ? list_pieces(p->v, pairs) : 0;
+    const froe_visibility *v = p->v;
+    froe_picture *picture = p->picture;
+    const size_t n = v->piece_count;
+    base_pair *pairs = support_calloc(&picture->alloc, 2 * n + 1, sizeof *pairs);
     bool ok = pairs != NULL;
-    for (size_t i = 0; ok && i < count; i++) ok = put_piece(p, pairs[i].value);
-    support_free(&p->picture->alloc, pairs, room * sizeof *pairs);
+    /* Pieces of the tree with a visible part, farthest first, each once. */
+    for (size_t i = 0; ok && i < n; i++) pairs[i] = (base_pair){UINT32_MAX - v->pieces[i].place, v->pieces[i].piece};
+    if (ok) base_radix_sort(pairs, pairs + n, n);
+    for (size_t i = 0; ok && i < n; i++) {
+        const size_t first = picture->points.count;
+        const uint32_t piece = pairs[i].value, patch = v->surface->patch_of[v->tree->pieces[piece].object];
+        if ((i && pairs[i].key == pairs[i - 1].key) || is_left_out(p, patch)) continue;
+        ok = view_begin_shape(picture, patch, false) &&
+             view_print_piece(&p->parts, p->sights, piece, &picture->points) && end_ring(picture, first);
+        if (ok) view_end_shape(picture);
+    }
+    support_free(&picture->alloc, pairs, (2 * n + 1) * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

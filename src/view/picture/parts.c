@@ -99,37 +99,27 @@ static bool add_nodes(view_parts *p, uint32_t patch) {
     return true;
 }
 
-static bool add_parts_of_patch(view_parts *p, view_sights *sights, uint32_t patch) {
-    const froe_surface *s = p->v->surface;
-    const froe_visibility *v = p->v;
-    for (uint32_t i = v->patch_starts[patch]; p->split[patch] && i < v->patch_starts[patch + 1]; i++)
-        if (!add_part(p, sights, p->node_of[i], PART_VISIBLE, i, v->pieces[i].place)) return false;
-    for (uint32_t m = s->patch_starts[patch]; !p->clear && !p->split[patch] && m < s->patch_starts[patch + 1]; m++)
-        if (is_drawn(p, sights, s->members[m]) &&
-            !add_part(p, sights, p->node_of_patch[patch], PART_OBJECT, s->members[m], 0))
-            return false;
-    return true;
-}
-
-/* All pieces of the tree that whole patches paint. */
-static bool add_pieces(view_parts *p, view_sights *sights) {
-    const froe_tree *t = p->v->tree;
-    for (uint32_t i = 0; i < t->piece_count; i++) {
-        const uint32_t object = t->pieces[i].object, patch = p->v->surface->patch_of[object];
-        if (patch == FROE_NONE || p->node_of_patch[patch] == FROE_NONE || p->split[patch]) continue;
-        if (is_drawn(p, sights, object) && !add_part(p, sights, p->node_of_patch[patch], PART_PIECE, i, p->places[i]))
-            return false;
-    }
-    return true;
-}
-
 froe_status view_parts_make(view_parts *p, view_sights *sights) {
     const froe_visibility *v = p->v;
+    const froe_surface *s = v->surface;
+    const froe_tree *t = v->tree;
     p->nodes.count = p->parts.count = p->kinds.count = p->points.count = 0;
-    for (uint32_t patch = 0; patch < v->surface->patch_count; patch++) {
+    for (uint32_t patch = 0; patch < s->patch_count; patch++) {
         p->node_of_patch[patch] = FROE_NONE;
         if (v->patch_starts[patch] == v->patch_starts[patch + 1]) continue;
-        if (!add_nodes(p, patch) || !add_parts_of_patch(p, sights, patch)) return FROE_E_MEMORY;
+        if (!add_nodes(p, patch)) return FROE_E_MEMORY;
+        for (uint32_t i = v->patch_starts[patch]; p->split[patch] && i < v->patch_starts[patch + 1]; i++)
+            if (!add_part(p, sights, p->node_of[i], PART_VISIBLE, i, v->pieces[i].place)) return FROE_E_MEMORY;
+        for (uint32_t m = s->patch_starts[patch]; !p->clear && !p->split[patch] && m < s->patch_starts[patch + 1]; m++)
+            if (is_drawn(p, sights, s->members[m]) &&
+                !add_part(p, sights, p->node_of_patch[patch], PART_OBJECT, s->members[m], 0))
+                return FROE_E_MEMORY;
     }
-    return !p->clear || add_pieces(p, sights) ? FROE_OK : FROE_E_MEMORY;
+    for (uint32_t i = 0; p->clear && i < t->piece_count; i++) { /* all pieces of the tree that whole patches paint */
+        const uint32_t object = t->pieces[i].object, patch = s->patch_of[object];
+        if (patch == FROE_NONE || p->node_of_patch[patch] == FROE_NONE || p->split[patch]) continue;
+        if (is_drawn(p, sights, object) && !add_part(p, sights, p->node_of_patch[patch], PART_PIECE, i, p->places[i]))
+            return FROE_E_MEMORY;
+    }
+    return FROE_OK;
 }

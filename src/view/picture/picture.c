@@ -76,12 +76,6 @@ static froe_status look_for_picture(view_painter *p, const froe_tree *tree, cons
     return FROE_OK;
 }
 
-static bool sees_through(const froe_picture_options *o, const froe_surface *surface) {
-    for (uint32_t i = 0; o->clear && i < surface->patch_count; i++)
-        if (o->clear[i]) return true;
-    return false;
-}
-
 /* -------------------------------------------------------------------- painting -- */
 
 /* Plans the order in which fills are painted. */
@@ -90,7 +84,10 @@ static froe_status plan_fills(view_painter *p) {
     froe_status status = FROE_OK;
     report->paint = p->options->paint;
     if (p->options->no_fills) return FROE_OK;
-    if (p->options->paint == FROE_PAINT_WHOLE && sees_through(p->options, p->v->surface)) {
+    bool clear = false;
+    for (uint32_t i = 0; p->options->clear && i < p->v->surface->patch_count; i++)
+        clear = clear || p->options->clear[i];
+    if (p->options->paint == FROE_PAINT_WHOLE && clear) {
         p->places = support_calloc(&p->picture->alloc, (size_t)p->v->tree->piece_count + 1, sizeof *p->places);
         status = p->places ? view_find_places(p->v, p->options->priorities, p->places) : FROE_E_MEMORY;
     }
@@ -104,26 +101,6 @@ static froe_status plan_fills(view_painter *p) {
     }
     if (!status && p->options->min_area > 0) status = view_leave_out(p);
     return status;
-}
-
-static froe_status paint_fills(view_painter *p) {
-    const froe_picture_report *report = &p->picture->report;
-    if (p->options->no_fills) return FROE_OK;
-    return report->paint == FROE_PAINT_WHOLE     ? view_paint_whole(p)
-           : report->paint == FROE_PAINT_REGIONS ? view_paint_regions(p)
-                                                 : view_paint_fragments(p);
-}
-
-static froe_status note_styles(view_painter *p) {
-    froe_picture *picture = p->picture;
-    picture->styles = support_calloc(&picture->alloc, picture->shapes.count + 1, sizeof *picture->styles);
-    if (!picture->styles) return FROE_E_MEMORY;
-    for (size_t i = 0; p->options->styles && i < picture->shapes.count; i++)
-        picture->styles[i] = p->options->styles[picture->shapes.data[i].patch];
-    picture->report.shapes = picture->shapes.count;
-    picture->report.points = picture->points.count;
-    picture->report.strokes = picture->strokes.count;
-    return FROE_OK;
 }
 
 static void free_painter(view_painter *p) {
@@ -156,9 +133,21 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
     if (!status) {
         if (p->options->lines) status = view_make_segments(p, kinds);
         if (!status) status = plan_fills(p);
-        if (!status) status = paint_fills(p);
+        const froe_paint paint = p->picture->report.paint;
+        if (!status && !p->options->no_fills)
+            status = paint == FROE_PAINT_WHOLE     ? view_paint_whole(p)
+                     : paint == FROE_PAINT_REGIONS ? view_paint_regions(p)
+                                                   : view_paint_fragments(p);
         if (!status) status = view_make_strokes(p);
-        if (!status) status = note_styles(p);
+        froe_picture *picture = p->picture;
+        const size_t shapes = picture->shapes.count;
+        if (!status && !(picture->styles = support_calloc(&picture->alloc, shapes + 1, sizeof *picture->styles)))
+            status = FROE_E_MEMORY;
+        for (size_t i = 0; !status && p->options->styles && i < shapes; i++)
+            picture->styles[i] = p->options->styles[picture->shapes.data[i].patch];
+        picture->report.shapes = shapes;
+        picture->report.points = picture->points.count;
+        picture->report.strokes = picture->strokes.count;
         if (status == FROE_E_MEMORY) support_fail_memory(diag);
         if (status == FROE_E_LIMIT) support_fail(diag, status, "the picture has more than 2^31 points or demands");
     }

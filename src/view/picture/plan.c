@@ -6,29 +6,14 @@
  * when all are pieces, at the latest, since the order of pieces by the tree has no cycles. */
 #include "view/picture/picture.h"
 
-/* Marks patches that a section cuts, so that only their visible parts are painted. */
-static void cut_by_section(view_painter *p) {
-    const froe_visibility *v = p->v;
-    const froe_tree *t = v->tree;
-    const uint32_t middle = v->section ? tree_first_piece(t, t->nodes->child + 1) : 0;
-    const uint32_t from = v->section < 0 ? middle : tree_first_piece(t, t->nodes->child);
-    for (uint32_t i = from; v->section && i < (v->section < 0 ? t->piece_count : middle); i++) {
-        const uint32_t patch = v->surface->patch_of[t->pieces[i].object];
-        if (patch != FROE_NONE) p->parts.split[patch] = PARTS_REGION;
-    }
-}
-
-static uint64_t most_pairs(const view_painter *p) {
-    const uint64_t given = p->options->max_graph, own = 1000 * (uint64_t)p->v->piece_count;
-    return given ? given : own > 50000000 ? own : 50000000;
-}
-
 static froe_status find_graph(view_painter *p) {
     const froe_allocator *alloc = &p->picture->alloc;
     froe_picture_report *report = &p->picture->report;
+    const uint64_t given = p->options->max_graph, own = 1000 * (uint64_t)p->v->piece_count;
+    const uint64_t most = given ? given : own > 50000000 ? own : 50000000; /* pairs to be compared */
     view_graph_free(alloc, &p->graph);
     froe_status status = view_parts_make(&p->parts, p->sights);
-    if (!status) status = view_find_arcs(&p->parts, p->sights, most_pairs(p), &p->arcs, &report->tests);
+    if (!status) status = view_find_arcs(&p->parts, p->sights, most, &p->arcs, &report->tests);
     if (!status) status = view_graph_new(alloc, (uint32_t)p->parts.nodes.count, p->arcs.data, p->arcs.count, &p->graph);
     if (status) return status;
     const size_t n = p->parts.nodes.count;
@@ -75,7 +60,14 @@ froe_status view_sort_nodes(const view_painter *p, const view_graph *graph, uint
 
 froe_status view_plan_whole(view_painter *p) {
     const bool clear = p->places != NULL;
-    cut_by_section(p);
+    const froe_visibility *v = p->v;
+    const froe_tree *t = v->tree;
+    const uint32_t middle = v->section ? tree_first_piece(t, t->nodes->child + 1) : 0;
+    const uint32_t from = v->section < 0 ? middle : tree_first_piece(t, t->nodes->child);
+    for (uint32_t i = from; v->section && i < (v->section < 0 ? t->piece_count : middle); i++) {
+        const uint32_t patch = v->surface->patch_of[t->pieces[i].object]; /* may be cut by the section: */
+        if (patch != FROE_NONE) p->parts.split[patch] = PARTS_REGION;     /* only its visible parts are painted */
+    }
     froe_status status = find_graph(p);
     while (!status && clear && split_late(p)) status = find_graph(p);
     if (!clear) p->picture->report.late = p->graph.late_count;

@@ -5,35 +5,6 @@
 
 /* ----------------------------------------------------------------- begin, end -- */
 
-static bool number_nodes(view_seams *s, const uint32_t *order, const uint8_t *breaks, const uint32_t *styles) {
-    const froe_allocator *alloc = &s->parts->v->alloc;
-    const size_t n = s->parts->nodes.count;
-    uint32_t run = 0, last = FROE_NONE;
-    s->place = support_calloc(alloc, n + 1, sizeof *s->place);
-    s->run = support_calloc(alloc, n + 1, sizeof *s->run);
-    if (!s->place || !s->run) return false;
-    for (uint32_t i = 0; i < n; i++) {
-        const uint32_t patch = s->parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
-        run += style != last || (breaks && breaks[i]);
-        last = style;
-        s->place[order[i]] = i;
-        s->run[order[i]] = run;
-    }
-    return true;
-}
-
-static bool print_pieces(view_seams *s, view_parts *parts) {
-    const froe_allocator *alloc = &parts->v->alloc;
-    if (!array_reserve(alloc, &s->pieces, parts->v->piece_count)) return false;
-    for (uint32_t i = 0; i < parts->v->piece_count; i++) {
-        seam_span span = {.first = s->points.count};
-        if (!view_print_visible(parts, i, &s->points)) return false;
-        span.count = s->points.count - span.first;
-        s->pieces.data[s->pieces.count++] = span;
-    }
-    return true;
-}
-
 static const print_point *seam_points(const void *user, size_t i, size_t *points) {
     const view_seams *s = user;
     *points = s->pieces.data[i].count;
@@ -42,9 +13,27 @@ static const print_point *seam_points(const void *user, size_t i, size_t *points
 
 froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
                            const uint32_t *styles, const uint8_t *clear, double width) {
+    const froe_allocator *alloc = &parts->v->alloc;
+    const size_t n = parts->nodes.count;
+    uint32_t run = 0, last = FROE_NONE;
     *s = (view_seams){.parts = parts, .clear = clear, .width = width};
-    if (!number_nodes(s, order, breaks, styles) || !print_pieces(s, parts)) return FROE_E_MEMORY;
-    return view_grid_new(&parts->v->alloc, parts->view, s->pieces.count, seam_points, s, &s->grid);
+    s->place = support_calloc(alloc, n + 1, sizeof *s->place);
+    s->run = support_calloc(alloc, n + 1, sizeof *s->run);
+    if (!s->place || !s->run || !array_reserve(alloc, &s->pieces, parts->v->piece_count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t patch = parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
+        run += style != last || (breaks && breaks[i]);
+        last = style;
+        s->place[order[i]] = i;
+        s->run[order[i]] = run;
+    }
+    for (uint32_t i = 0; i < parts->v->piece_count; i++) {
+        seam_span span = {.first = s->points.count};
+        if (!view_print_visible(parts, i, &s->points)) return FROE_E_MEMORY;
+        span.count = s->points.count - span.first;
+        s->pieces.data[s->pieces.count++] = span;
+    }
+    return view_grid_new(alloc, parts->view, s->pieces.count, seam_points, s, &s->grid);
 }
 
 void view_seams_free(view_seams *s) {
@@ -96,13 +85,6 @@ static bool clip_piece(view_seams *s, uint32_t visible, const print_point ring[4
     return true;
 }
 
-static bool put_extra(view_seams *s, const print_point *ring, size_t count) {
-    const froe_allocator *alloc = &s->parts->v->alloc;
-    if (!array_reserve(alloc, &s->extra, count)) return false;
-    for (size_t i = 0; i < count; i++) s->extra.data[s->extra.count++] = ring[i];
-    return array_push(alloc, &s->extra_ends, (uint32_t)s->extra.count);
-}
-
 /* -------------------------------------------------------------------- looking -- */
 
 /* A strip of some width on the right of ab (on its left: negative), turning left. */
@@ -152,17 +134,6 @@ static bool covers(const view_seams *s, uint32_t visible, uint32_t node) {
     const uint32_t other = s->parts->node_of[visible];
     return s->place[other] > s->place[node] && s->run[other] != s->run[node] &&
            !(s->clear && s->clear[s->parts->v->pieces[visible].patch]);
-}
-
-/* Does something that is painted later end at a side: visible inside, but not beyond? */
-static bool ends_with(const view_seams *s, uint32_t node, const print_point inner[4], const print_point outer[4]) {
-    for (size_t i = 0; i < s->near.count; i++) {
-        const uint32_t visible = s->near.data[i];
-        if (covers(s, visible, node) && ring_meets_visible(s, visible, inner, 4) &&
-            !any_of_node(s, s->parts->node_of[visible], outer, 4))
-            return true;
-    }
-    return false;
 }
 
 /* ---------------------------------------------------------------------- strips -- */
@@ -223,12 +194,17 @@ static bool is_covered(view_seams *s, uint32_t node, const print_point ring[4], 
 static bool put_strip(view_seams *s, uint32_t node, print_point a, print_point b, double from, double to) {
     const double dx = b.x - a.x, dy = b.y - a.y, length = sqrt(dx * dx + dy * dy);
     const print_point u = {a.x + from * dx, a.y + from * dy}, v = {a.x + to * dx, a.y + to * dy};
+    const froe_allocator *alloc = &s->parts->v->alloc;
     bool all = (to - from) * length < s->width; /* too short to be seen */
     for (double width = s->width; !all && width > 0.2 * s->width; width *= 0.5) {
         const double w = width / length, x = dx * w, y = dy * w;
         const print_point strip[4] = {
             v, u, {u.x - y + 0.4 * x, u.y + x + 0.4 * y}, {v.x - y - 0.4 * x, v.y + x - 0.4 * y}};
-        if (!is_covered(s, node, strip, &all) || (all && !put_extra(s, strip, 4))) return false;
+        if (!is_covered(s, node, strip, &all)) return false;
+        if (!all) continue;
+        if (!array_reserve(alloc, &s->extra, 4)) return false;
+        for (int i = 0; i < 4; i++) s->extra.data[s->extra.count++] = strip[i];
+        if (!array_push(alloc, &s->extra_ends, (uint32_t)s->extra.count)) return false;
     }
     return true;
 }
@@ -267,7 +243,12 @@ bool view_seams_look(view_seams *s, uint32_t node, print_point a, print_point b,
     if (!list_near(s, both, 8)) return false;
     if (any_of_node(s, node, inner, 4)) return put_strips(s, node, a, b);
     make_strip(a, b, 0.5 * s->width, outer);
-    *bare = ends_with(s, node, inner, outer);
+    /* Does something that is painted later end at the side: visible inside, but not beyond? */
+    for (size_t i = 0; i < s->near.count && !*bare; i++) {
+        const uint32_t visible = s->near.data[i];
+        *bare = covers(s, visible, node) && ring_meets_visible(s, visible, inner, 4) &&
+                !any_of_node(s, s->parts->node_of[visible], outer, 4);
+    }
     return true;
 }
 

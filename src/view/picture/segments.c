@@ -4,24 +4,23 @@
 #include "view/picture/picture.h"
 #include <math.h>
 
-static void set_end(const view_painter *p, view_item *item, int e, const double *u, const double *v, double t) {
-    const froe_projection *view = p->options->view;
-    double x[3], at[3], page[2];
-    for (int k = 0; k < 3; k++) x[k] = t == 1 ? v[k] : u[k] + t * (v[k] - u[k]);
-    view_camera_point(view, x, at);
-    view_camera_page(view, at, page);
-    item->at[e] = (print_point){page[0], page[1]};
-    item->near[e] = view->eye.parallel ? -at[2] : 1 / at[2];
-}
-
 /* Far enough beyond the page that no rounding matters: what is visible, or hidden, has been cut to it exactly. */
 #define BEYOND 1e-6
 
 /* A stretch of the segment from a to b, between two shares, unless it is too near to the eye. */
 static bool add_view_item(view_painter *p, view_item *item, const double *a, const double *b, double from, double to) {
+    const froe_projection *view = p->options->view;
     double share[2] = {from, to};
-    if (!print_clip_segment(p->options->view, a, b, BEYOND, share)) return true;
-    for (int e = 0; e < 2; e++) set_end(p, item, e, a, b, share[e]);
+    if (!print_clip_segment(view, a, b, BEYOND, share)) return true;
+    for (int e = 0; e < 2; e++) {
+        const double t = share[e];
+        double x[3], at[3], page[2];
+        for (int k = 0; k < 3; k++) x[k] = t == 1 ? b[k] : a[k] + t * (b[k] - a[k]);
+        view_camera_point(view, x, at);
+        view_camera_page(view, at, page);
+        item->at[e] = (print_point){page[0], page[1]};
+        item->near[e] = view->eye.parallel ? -at[2] : 1 / at[2];
+    }
     return array_push(&p->picture->alloc, &p->items, *item);
 }
 
@@ -61,29 +60,7 @@ static froe_status add_hidden(view_painter *p, uint32_t edge, uint8_t kind) {
     return add_stretch(p, edge, kind, true, mark) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status add_edge(view_painter *p, uint32_t edge, uint8_t kind) {
-    const uint32_t *starts = p->v->edge_starts + edge;
-    for (uint32_t i = starts[0]; i < starts[1]; i++)
-        if (!add_stretch(p, edge, kind, false, p->v->interval_marks + 2 * (size_t)i)) return FROE_E_MEMORY;
-    return p->options->hidden ? add_hidden(p, edge, kind) : FROE_OK;
-}
-
-static bool add_crossings(view_painter *p) {
-    size_t count;
-    const froe_crossing *x = froe_visibility_crossings(p->v, &count);
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t kind = x[i].section ? FROE_LINE_SECTION : FROE_LINE_CROSSING;
-        view_item item = {.run = p->v->crossing_runs.data[i], .kind = (uint8_t)kind, .hidden = x[i].hidden};
-        if (p->options->lines & kind && !add_view_item(p, &item, x[i].from, x[i].to, 0, 1)) return false;
-    }
-    return true;
-}
-
 /* ----------------------------------------------------------------------- chains -- */
-
-static bool is_crossing(const view_segment *s) {
-    return s->kind == FROE_LINE_CROSSING || s->kind == FROE_LINE_SECTION;
-}
 
 /* Ends of crossings at one place of the page get one number, above those of vertices. */
 static bool number_crossings(view_painter *p) {
@@ -96,7 +73,8 @@ static bool number_crossings(view_painter *p) {
         const print_point at = p->segments.data[i / 2].at[i % 2];
         const uint64_t x = (uint64_t)(int64_t)floor(at.x * fine + 0.5) & UINT32_MAX,
                        y = (uint64_t)(int64_t)floor(at.y * fine + 0.5) & UINT32_MAX;
-        if (is_crossing(p->segments.data + i / 2)) pairs[n++] = (base_pair){x << 32 | y, i};
+        const uint8_t kind = p->segments.data[i / 2].kind;
+        if (kind == FROE_LINE_CROSSING || kind == FROE_LINE_SECTION) pairs[n++] = (base_pair){x << 32 | y, i};
     }
     if (pairs) base_radix_sort(pairs, pairs + n, n);
     for (size_t i = 0; pairs && i < n; i++) {
@@ -109,10 +87,20 @@ static bool number_crossings(view_painter *p) {
 
 froe_status view_make_segments(view_painter *p, const uint8_t *kinds) {
     const froe_picture_options *o = p->options;
+    const uint32_t *starts = p->v->edge_starts;
     froe_status status = FROE_OK;
-    for (uint32_t e = 0; !status && e < p->sights->surface->edge_count; e++)
-        if (kinds[e]) status = add_edge(p, e, kinds[e]);
-    if (!status && !add_crossings(p)) status = FROE_E_MEMORY;
+    for (uint32_t e = 0; !status && e < p->sights->surface->edge_count; e++) {
+        for (uint32_t i = starts[e]; !status && kinds[e] && i < starts[e + 1]; i++)
+            if (!add_stretch(p, e, kinds[e], false, p->v->interval_marks + 2 * (size_t)i)) status = FROE_E_MEMORY;
+        if (!status && kinds[e] && o->hidden) status = add_hidden(p, e, kinds[e]);
+    }
+    size_t count;
+    const froe_crossing *x = froe_visibility_crossings(p->v, &count);
+    for (size_t i = 0; !status && i < count; i++) {
+        const uint32_t kind = x[i].section ? FROE_LINE_SECTION : FROE_LINE_CROSSING;
+        view_item item = {.run = p->v->crossing_runs.data[i], .kind = (uint8_t)kind, .hidden = x[i].hidden};
+        if (o->lines & kind && !add_view_item(p, &item, x[i].from, x[i].to, 0, 1)) status = FROE_E_MEMORY;
+    }
     if (!status) status = view_overlay(p->sights, &p->items, o->halo > 0 || o->interleave > 0, &p->segments);
     if (!status && !number_crossings(p)) status = FROE_E_MEMORY;
     if (!status) status = view_cut_segments(&p->picture->alloc, o->view, o->halo, &p->segments);

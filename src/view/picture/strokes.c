@@ -17,20 +17,6 @@ static uint32_t class_of(const view_segment *s) {
     return (s->hidden ? 0u : (uint32_t)FROE_LINE_END) + s->kind;
 }
 
-static bool list_ends(chainer *c) {
-    const size_t n = c->p->segments.count;
-    if (!array_reserve(c->alloc, &c->ends, 4 * n)) return false;
-    c->end_count = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        const view_segment *s = c->p->segments.data + i;
-        for (uint32_t e = 0; e < 2; e++)
-            if (s->vertex[e] != FROE_NONE)
-                c->ends.data[c->end_count++] = (base_pair){(uint64_t)class_of(s) << 32 | s->vertex[e], 2 * i + e};
-    }
-    base_radix_sort(c->ends.data, c->ends.data + c->end_count, c->end_count);
-    return true;
-}
-
 /* -------------------------------------------------------------------- polylines -- */
 
 static size_t first_end(const chainer *c, uint64_t key) {
@@ -98,18 +84,6 @@ static bool put_stroke(chainer *c, uint32_t i) {
     return array_push(c->alloc, &picture->strokes, stroke);
 }
 
-/* Hidden lines first, then by kind. */
-static bool put_strokes(chainer *c) {
-    for (int hidden = 1; hidden >= 0; hidden--)
-        for (uint32_t kind = FROE_LINE_END >> 1; kind; kind >>= 1)
-            for (uint32_t i = 0; i < c->p->segments.count; i++) {
-                const view_segment *s = c->p->segments.data + i;
-                if (s->used || s->kind != kind || s->hidden != hidden) continue;
-                if (!put_stroke(c, i)) return false;
-            }
-    return true;
-}
-
 /* Sorts strokes by their places in the order of painting, stably. */
 static bool sort_strokes(chainer *c) {
     froe_picture *picture = c->p->picture;
@@ -132,7 +106,22 @@ static bool sort_strokes(chainer *c) {
 
 froe_status view_make_strokes(view_painter *painter) {
     chainer c = {.p = painter, .alloc = &painter->picture->alloc};
-    const bool ok = list_ends(&c) && put_strokes(&c) && sort_strokes(&c);
+    const size_t n = painter->segments.count;
+    bool ok = array_reserve(c.alloc, &c.ends, 4 * n);
+    for (uint32_t i = 0; ok && i < n; i++) {
+        const view_segment *s = painter->segments.data + i;
+        for (uint32_t e = 0; e < 2; e++)
+            if (s->vertex[e] != FROE_NONE)
+                c.ends.data[c.end_count++] = (base_pair){(uint64_t)class_of(s) << 32 | s->vertex[e], 2 * i + e};
+    }
+    if (ok) base_radix_sort(c.ends.data, c.ends.data + c.end_count, c.end_count);
+    for (int hidden = 1; hidden >= 0; hidden--) /* hidden lines first, then by kind */
+        for (uint32_t kind = FROE_LINE_END >> 1; kind; kind >>= 1)
+            for (uint32_t i = 0; ok && i < n; i++) {
+                const view_segment *s = painter->segments.data + i;
+                if (!s->used && s->kind == kind && s->hidden == hidden) ok = put_stroke(&c, i);
+            }
+    ok = ok && sort_strokes(&c);
     array_free(c.alloc, &c.ends);
     array_free(c.alloc, &c.forth);
     array_free(c.alloc, &c.back);

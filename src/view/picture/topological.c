@@ -8,7 +8,7 @@ typedef struct heap_entry {
     uint32_t waiting, style;
 } heap_entry;
 
-typedef struct sorter {
+typedef struct style_sorter {
     const froe_allocator *alloc;
     const view_graph *g;
     const uint32_t *styles;  /* NULL: all 0 */
@@ -16,18 +16,14 @@ typedef struct sorter {
     uint32_t *below;         /* per node: the one below it in its stack */
     uint32_t *top, *waiting; /* per style */
     ARRAY(heap_entry) heap;
-} sorter;
-
-static uint32_t style_of_vertex(const sorter *s, uint32_t v) {
-    return s->styles ? s->styles[v] : 0;
-}
+} style_sorter;
 
 /* More waiting first, then the lower style. */
 static bool before(heap_entry a, heap_entry b) {
     return a.waiting != b.waiting ? a.waiting > b.waiting : a.style < b.style;
 }
 
-static bool push_style(sorter *s, uint32_t style) {
+static bool push_style(style_sorter *s, uint32_t style) {
     if (!array_push(s->alloc, &s->heap, (heap_entry){s->waiting[style], style})) return false;
     heap_entry *h = s->heap.data;
     for (size_t i = s->heap.count - 1; i && before(h[i], h[(i - 1) / 2]); i = (i - 1) / 2) {
@@ -38,7 +34,7 @@ static bool push_style(sorter *s, uint32_t style) {
     return true;
 }
 
-static heap_entry pop_style(sorter *s) {
+static heap_entry pop_style(style_sorter *s) {
     heap_entry *h = s->heap.data, first = h[0], last = h[--s->heap.count];
     size_t i = 0;
     for (size_t child; (child = 2 * i + 1) < s->heap.count; i = child) {
@@ -50,8 +46,8 @@ static heap_entry pop_style(sorter *s) {
     return first;
 }
 
-static bool make_ready(sorter *s, uint32_t v) {
-    const uint32_t style = style_of_vertex(s, v);
+static bool make_ready(style_sorter *s, uint32_t v) {
+    const uint32_t style = s->styles ? s->styles[v] : 0;
     s->below[v] = s->top[style];
     s->top[style] = v;
     s->waiting[style]++;
@@ -59,7 +55,7 @@ static bool make_ready(sorter *s, uint32_t v) {
 }
 
 /* The style to go on with: `now` while anything of it waits. */
-static uint32_t next_style(sorter *s, uint32_t now) {
+static uint32_t next_style(style_sorter *s, uint32_t now) {
     if (now != UINT32_MAX && s->waiting[now]) return now;
     for (;;) {
         const heap_entry e = pop_style(s);
@@ -68,7 +64,7 @@ static uint32_t next_style(sorter *s, uint32_t now) {
     }
 }
 
-static bool sort_by_style(sorter *s, uint32_t *order) {
+static bool sort_by_style(style_sorter *s, uint32_t *order) {
     const view_graph *g = s->g;
     for (uint32_t i = 0; i < g->arc_count; i++) s->missing[g->outs[i]]++;
     for (uint32_t v = 0; v < g->count; v++)
@@ -91,7 +87,7 @@ static bool sort_by_style(sorter *s, uint32_t *order) {
 froe_status view_graph_sort(const froe_allocator *alloc, const view_graph *graph, const uint32_t *styles,
                             uint32_t style_count, uint32_t *order) {
     const size_t n = (size_t)graph->count + 1, m = (size_t)style_count + 1;
-    sorter s = {.alloc = alloc, .g = graph, .styles = styles};
+    style_sorter s = {.alloc = alloc, .g = graph, .styles = styles};
     s.missing = support_calloc(alloc, n, sizeof *s.missing);
     s.below = support_calloc(alloc, n, sizeof *s.below);
     s.top = support_calloc(alloc, m, sizeof *s.top);

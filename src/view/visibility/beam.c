@@ -2,18 +2,18 @@
 #include "view/visibility/beam.h"
 
 /* The ring of a piece: entry i is the side that leaves corner i, an edge of the polygon or a cut. */
-typedef struct outline {
+typedef struct piece_ring {
     uint32_t object, count;
     const uint32_t *ring; /* NULL: the whole polygon */
-} outline;
+} piece_ring;
 
-static outline outline_of(const froe_tree *t, uint32_t piece) {
+static piece_ring ring_of_piece(const froe_tree *t, uint32_t piece) {
     const tree_piece *p = t->pieces + piece;
-    if (!p->ring) return (outline){p->object, scene_corners(t->scene, p->object), NULL};
-    return (outline){p->object, t->bounds[p->ring], t->bounds + p->ring + 1};
+    if (!p->ring) return (piece_ring){p->object, scene_corners(t->scene, p->object), NULL};
+    return (piece_ring){p->object, t->bounds[p->ring], t->bounds + p->ring + 1};
 }
 
-static uint32_t entry(const outline *o, uint32_t i) {
+static uint32_t entry(const piece_ring *o, uint32_t i) {
     return o->ring ? o->ring[i] : i;
 }
 
@@ -39,20 +39,16 @@ static view_way way_of(view_sights *s, uint32_t piece, uint32_t object, uint32_t
     return line == FROE_NONE ? FROE_NONE : 2 * line + (positive == in_front);
 }
 
-static bool is_straight_at(const view_sights *s, uint32_t object, uint32_t before, uint32_t after) {
-    return !((before | after) & TREE_EDGE_CUT) && s->surface->straight[s->tree->scene->starts[object] + after];
-}
-
-/* Corners in the order of turning left; a corner lies between entries i - 1 and i of the outline. */
-static bool make_ring(view_sights *s, uint32_t piece, const outline *o, view_ring *ring) {
+/* Corners in the order of turning left; a corner lies between entries i - 1 and i of the ring. */
+static bool make_ring(view_sights *s, uint32_t piece, const piece_ring *o, view_ring *ring) {
     const int facing = view_facing(s, o->object);
     ring->count = 0;
     if (!array_reserve(&s->alloc, ring, o->count)) return false;
     for (uint32_t j = 0; j < o->count; j++) {
         const uint32_t i = facing > 0 ? j : o->count - 1 - j, i_before = i ? i - 1 : o->count - 1;
         const uint32_t before = entry(o, i_before), after = entry(o, i);
-        if (is_straight_at(s, o->object, before, after)) continue;
         const bool own = !((before | after) & TREE_EDGE_CUT);
+        if (own && s->surface->straight[s->tree->scene->starts[o->object] + after]) continue;
         view_corner k = {.vertex = own ? scene_corner(s->tree->scene, o->object, after) : FROE_NONE};
         k.way = way_of(s, piece, o->object, facing > 0 ? after : before, facing);
         if (k.way == FROE_NONE) return false;
@@ -67,25 +63,30 @@ static bool make_ring(view_sights *s, uint32_t piece, const outline *o, view_rin
 }
 
 bool view_beam_of(view_sights *s, uint32_t piece, view_ring *ring) {
-    const outline o = outline_of(s->tree, piece);
+    const piece_ring o = ring_of_piece(s->tree, piece);
     return make_ring(s, piece, &o, ring);
 }
 
 bool view_beam_of_object(view_sights *s, uint32_t object, view_ring *ring) {
-    const outline o = {object, scene_corners(s->tree->scene, object), NULL};
+    const piece_ring o = {object, scene_corners(s->tree->scene, object), NULL};
     return make_ring(s, 0, &o, ring);
 }
 
 /* ------------------------------------------------------------------ stretches -- */
 
 uint32_t view_side_count(const view_sights *s, uint32_t piece) {
-    return outline_of(s->tree, piece).count;
+    return ring_of_piece(s->tree, piece).count;
 }
 
-/* Where the cut of a node ends a stretch: its lower vertex is on the positive side of the way. */
-static bool end_at_cut(view_sights *s, uint32_t object, uint32_t edge, uint32_t node, view_end *out) {
-    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge, own = view_line_of_edge(s, edge);
-    const uint32_t line = view_line_of_cut(s, s->surface->patch_of[object], node);
+/* The end of a stretch of an edge: a vertex, or where the cut of a node ends it. The cut's way then has the edge's lower
+ * vertex on its positive side. */
+static bool set_end(view_sights *s, uint32_t object, uint32_t edge, uint32_t neighbour, uint32_t vertex,
+                    view_end *out) {
+    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
+    *out = (view_end){.ray = s->rays[vertex], .vertex = vertex};
+    if (!(neighbour & TREE_EDGE_CUT)) return true;
+    const uint32_t own = view_line_of_edge(s, edge);
+    const uint32_t line = view_line_of_cut(s, s->surface->patch_of[object], neighbour & ~TREE_EDGE_CUT);
     if (own == FROE_NONE || line == FROE_NONE) return false;
     int side = view_side(s, line, &s->rays[v[0]], v[0], 0, 0);
     if (!side) side = -view_side(s, line, &s->rays[v[1]], v[1], 0, 0);
@@ -95,15 +96,8 @@ static bool end_at_cut(view_sights *s, uint32_t object, uint32_t edge, uint32_t 
     return true;
 }
 
-static bool set_end(view_sights *s, uint32_t object, uint32_t edge, uint32_t neighbour, uint32_t vertex,
-                    view_end *out) {
-    if (neighbour & TREE_EDGE_CUT) return end_at_cut(s, object, edge, neighbour & ~TREE_EDGE_CUT, out);
-    *out = (view_end){.ray = s->rays[vertex], .vertex = vertex};
-    return true;
-}
-
 bool view_stretch_of(view_sights *s, uint32_t piece, uint32_t i, view_stretch *out, froe_status *status) {
-    const outline o = outline_of(s->tree, piece);
+    const piece_ring o = ring_of_piece(s->tree, piece);
     const uint32_t side = entry(&o, i);
     if (side & TREE_EDGE_CUT) return false;
     const uint32_t n = scene_corners(s->tree->scene, o.object), edge = edge_of(s, o.object, side);

@@ -18,19 +18,6 @@ static view_stretch stretch_of(const view_ring *ring, uint32_t i) {
     return s;
 }
 
-/* Cuts a stretch to the inside of a beam; false when nothing is left, or it runs along the border. */
-static bool cut_to_beam(view_sights *s, const view_ring *beam, view_stretch *part) {
-    bool left = true;
-    for (size_t i = 0; left && i < beam->count; i++) left = view_cut_stretch(s, part->edge, beam->data[i].way, part);
-    return left;
-}
-
-/* The node whose cut makes side `way` of a piece; FROE_NONE: no cut does. */
-static uint32_t node_of(const view_sights *s, view_way way) {
-    const view_line *l = s->lines.data + (way >> 1);
-    return l->kind == VIEW_CUT ? l->b : FROE_NONE;
-}
-
 static bool keep_open(void *user, const view_stretch *part) {
     view_crosser *c = user;
     return array_push(&c->sights->alloc, &c->open, *part);
@@ -41,7 +28,10 @@ static bool keep_inside(view_crosser *c, uint32_t piece, view_stretches *out) {
     if (!view_beam_of(c->sights, piece, &c->list_ring)) return false;
     for (size_t i = 0; i < c->open.count; i++) {
         view_stretch part = c->open.data[i];
-        if (cut_to_beam(c->sights, &c->list_ring, &part) && !array_push(&c->sights->alloc, out, part)) return false;
+        bool left = true; /* unless it runs along the border */
+        for (size_t k = 0; left && k < c->list_ring.count; k++)
+            left = view_cut_stretch(c->sights, part.edge, c->list_ring.data[k].way, &part);
+        if (left && !array_push(&c->sights->alloc, out, part)) return false;
     }
     return true;
 }
@@ -64,7 +54,8 @@ froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_r
     view_sights *s = c->sights;
     const uint32_t patch = s->surface->patch_of[s->tree->pieces[piece].object];
     for (uint32_t i = 0; i < ring->count; i++) {
-        const uint32_t node = node_of(s, ring->data[i].way);
+        const view_line *l = s->lines.data + (ring->data[i].way >> 1);
+        const uint32_t node = l->kind == VIEW_CUT ? l->b : FROE_NONE; /* whose cut makes this side */
         if (node == FROE_NONE || (!tree_list(s->tree, node).count && !(node == 0 && c->section))) continue;
         const view_stretch side = stretch_of(ring, i);
         view_stretch inside = side;
@@ -114,14 +105,6 @@ static crossing_line line_of_crossing(const froe_visibility *v, uint32_t line, b
 
 /* -------------------------------------------------------------- along the section -- */
 
-/* An edge of a polygon seen edge-on that is seen as a line: all of them lie on one. */
-static uint32_t edge_in_sight(view_sights *s, uint32_t object) {
-    const uint32_t *edges = s->surface->edge_of + s->tree->scene->starts[object];
-    uint32_t i = 0;
-    while (view_is_point(s, edges[i])) i++;
-    return edges[i];
-}
-
 /* The two points of its border in which the section parts a polygon, on a line; *count: how many were found. */
 static froe_status find_stops(view_sights *s, uint32_t object, uint32_t line, view_mark out[2], int *count) {
     const froe_scene *scene = s->tree->scene;
@@ -144,9 +127,11 @@ static froe_status find_stops(view_sights *s, uint32_t object, uint32_t line, vi
 
 froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
     view_sights *s = &v->sights;
-    const uint32_t line = view_line_of_edge(s, edge_in_sight(s, object));
+    const uint32_t *edges = s->surface->edge_of + s->tree->scene->starts[object];
     view_mark mark[2];
     int count;
+    while (view_is_point(s, *edges)) edges++; /* all that are seen as lines lie on one */
+    const uint32_t line = view_line_of_edge(s, *edges);
     if (line == FROE_NONE) return FROE_E_MEMORY;
     const froe_status status = find_stops(s, object, line, mark, &count);
     if (status || count < 2) return status;
@@ -162,44 +147,39 @@ froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
 
 /* ---------------------------------------------------------------------- joining -- */
 
-typedef struct joiner {
+typedef struct stretch_joiner {
     view_sights *sights;
     const view_stretch *stretches;
-} joiner;
+} stretch_joiner;
 
 static int by_line(void *user, uint32_t a, uint32_t b) {
-    const joiner *j = user;
+    const stretch_joiner *j = user;
     const view_stretch *x = j->stretches + a, *y = j->stretches + b;
     if (x->edge != y->edge) return x->edge < y->edge ? -1 : 1;
     return view_compare_along(j->sights, x->edge, &x->end[0], &y->end[0]);
 }
 
-/* Unites the stretches of each line; what is left is in order and disjoint. */
-static void unite_stretches(view_sights *s, const uint32_t *items, const view_stretch *stretches, view_stretches *out) {
-    for (size_t i = 0; i < out->count; i++) out->data[i] = stretches[items[i]];
-    size_t kept = 0;
-    for (size_t i = 0; i < out->count; i++) {
-        const view_stretch next = out->data[i];
-        view_stretch *last = kept ? out->data + kept - 1 : NULL;
-        if (!last || last->edge != next.edge || view_compare_along(s, next.edge, &next.end[0], &last->end[1]) > 0)
-            out->data[kept++] = next;
-        else if (view_compare_along(s, next.edge, &next.end[1], &last->end[1]) > 0)
-            last->end[1] = next.end[1];
-    }
-    out->count = kept;
-}
-
+/* Sorts the stretches of each line and unites those that touch or overlap. */
 static froe_status join_stretches(view_sights *s, view_stretches *stretches) {
     const size_t n = stretches->count;
     if (n > INT32_MAX) return FROE_E_LIMIT;
     uint32_t *items = support_calloc(&s->alloc, 2 * n + 1, sizeof *items);
     view_stretch *copy = support_calloc(&s->alloc, n + 1, sizeof *copy);
     if (items && copy) {
-        joiner j = {s, copy};
+        stretch_joiner j = {s, copy};
         if (n) memcpy(copy, stretches->data, n * sizeof *copy);
         for (uint32_t i = 0; i < n; i++) items[i] = i;
         base_merge_sort(items, items + n, n, by_line, &j);
-        unite_stretches(s, items, copy, stretches);
+        size_t kept = 0; /* what is left is in order and disjoint */
+        for (size_t i = 0; i < n; i++) {
+            const view_stretch next = copy[items[i]];
+            view_stretch *last = kept ? stretches->data + kept - 1 : NULL;
+            if (!last || last->edge != next.edge || view_compare_along(s, next.edge, &next.end[0], &last->end[1]) > 0)
+                stretches->data[kept++] = next;
+            else if (view_compare_along(s, next.edge, &next.end[1], &last->end[1]) > 0)
+                last->end[1] = next.end[1];
+        }
+        stretches->count = kept;
     }
     const bool ok = items && copy;
     support_free(&s->alloc, items, (2 * n + 1) * sizeof *items);

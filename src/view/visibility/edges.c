@@ -16,22 +16,10 @@ static uint32_t list_pairs(const froe_scene *s, base_pair *pairs) {
     return count;
 }
 
-static uint32_t count_runs(const base_pair *pairs, uint32_t count) {
-    uint32_t runs = 0;
-    for (uint32_t i = 0; i < count; i++) runs += i == 0 || pairs[i].key != pairs[i - 1].key;
-    return runs;
-}
-
 static uint32_t *take_numbers(const froe_allocator *alloc, size_t count, bool *ok) {
     uint32_t *out = support_calloc(alloc, count ? count : 1, sizeof *out);
     *ok = *ok && out;
     return out;
-}
-
-/* Lists the object of each corner. */
-static void name_objects(const froe_scene *s, uint32_t *object_of) {
-    for (uint32_t o = 0; o < s->object_count; o++)
-        for (uint32_t i = s->starts[o]; i < s->starts[o + 1]; i++) object_of[i] = o;
 }
 
 static void fill_edges(froe_surface *out, const base_pair *pairs, const uint32_t *object_of) {
@@ -60,14 +48,15 @@ froe_status surface_find_edges(froe_surface *out) {
     if (ok) {
         out->use_count = list_pairs(s, pairs);
         base_radix_sort(pairs, pairs + most, out->use_count);
-        out->edge_count = count_runs(pairs, out->use_count);
+        for (uint32_t i = 0; i < out->use_count; i++) out->edge_count += !i || pairs[i].key != pairs[i - 1].key;
     }
     out->vertices = take_numbers(alloc, 2 * (size_t)out->edge_count, &ok);
     out->edge_starts = take_numbers(alloc, (size_t)out->edge_count + 1, &ok);
     out->uses = take_numbers(alloc, out->use_count, &ok);
     if (ok) {
         for (uint32_t i = 0; i < corners; i++) out->edge_of[i] = FROE_NONE;
-        name_objects(s, object_of);
+        for (uint32_t o = 0; o < s->object_count; o++)
+            for (uint32_t i = s->starts[o]; i < s->starts[o + 1]; i++) object_of[i] = o;
         fill_edges(out, pairs, object_of);
     }
     support_free(alloc, object_of, most * sizeof *object_of);

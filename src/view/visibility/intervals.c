@@ -38,19 +38,19 @@ double view_share_of(view_sights *s, uint32_t edge, view_mark mark) {
 
 /* ---------------------------------------------------------------------- joining -- */
 
-typedef struct joiner {
+typedef struct interval_joiner {
     froe_visibility *v;
     const view_stretch *stretches;
     uint32_t edge, line;
-} joiner;
+} interval_joiner;
 
 static int by_interval_start(void *user, uint32_t a, uint32_t b) {
-    joiner *j = user;
+    interval_joiner *j = user;
     return view_compare_ends(&j->v->sights, j->line, &j->stretches[a].end[0], &j->stretches[b].end[0]);
 }
 
 /* Appends the union of the sorted stretches of one edge; rounding keeps the order. */
-static void join_intervals(joiner *j, const uint32_t *items, uint32_t count) {
+static void join_intervals(interval_joiner *j, const uint32_t *items, uint32_t count) {
     froe_visibility *v = j->v;
     double last = 0;
     for (uint32_t i = 0; i < count;) {
@@ -68,15 +68,6 @@ static void join_intervals(joiner *j, const uint32_t *items, uint32_t count) {
     }
 }
 
-/* items[starts[e] .. starts[e+1]) become the stretches of edge e. */
-static void distribute(const view_stretches *stretches, uint32_t edges, uint32_t *starts, uint32_t *items) {
-    for (size_t i = 0; i < stretches->count; i++) starts[stretches->data[i].edge + 1]++;
-    for (uint32_t e = 0; e < edges; e++) starts[e + 1] += starts[e];
-    for (size_t i = stretches->count; i-- > 0;) items[--starts[stretches->data[i].edge + 1]] = (uint32_t)i;
-    for (uint32_t e = 0; e < edges; e++) starts[e] = starts[e + 1]; /* ends were lowered to the starts */
-    starts[edges] = (uint32_t)stretches->count;
-}
-
 froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches) {
     const froe_allocator *alloc = &v->alloc;
     const uint32_t edges = v->surface->edge_count;
@@ -88,10 +79,15 @@ froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretc
     v->interval_marks = support_calloc(alloc, 2 * (n + 1), sizeof *v->interval_marks);
     uint32_t *items = support_calloc(alloc, 2 * n + 1, sizeof *items), *starts = v->edge_starts;
     const bool ok = starts && v->intervals && v->interval_marks && items;
-    if (ok) distribute(stretches, edges, starts, items);
+    /* items[starts[e] .. starts[e+1]) become the stretches of edge e. */
+    for (size_t i = 0; ok && i < n; i++) starts[stretches->data[i].edge + 1]++;
+    for (uint32_t e = 0; ok && e < edges; e++) starts[e + 1] += starts[e];
+    for (size_t i = n; ok && i-- > 0;) items[--starts[stretches->data[i].edge + 1]] = (uint32_t)i;
+    for (uint32_t e = 0; ok && e < edges; e++) starts[e] = starts[e + 1]; /* ends were lowered to the starts */
+    if (ok) starts[edges] = (uint32_t)n;
     for (uint32_t e = 0; ok && e < edges; e++) {
         const uint32_t count = starts[e + 1] - starts[e], first = starts[e];
-        joiner j = {v, stretches->data, e, count ? view_line_of_edge(&v->sights, e) : FROE_NONE};
+        interval_joiner j = {v, stretches->data, e, count ? view_line_of_edge(&v->sights, e) : FROE_NONE};
         starts[e] = v->interval_count;
         base_merge_sort(items + first, items + n, count, by_interval_start, &j);
         join_intervals(&j, items + first, count);

@@ -30,11 +30,6 @@ froe_status view_order_end(view_order *order) {
 
 /* ---------------------------------------------------------------------- lists -- */
 
-static uint32_t rank_of(const view_order *order, uint32_t object) {
-    const froe_scene *scene = order->tree->scene;
-    return order->ranks ? order->ranks[object] : scene->faces ? scene->faces[object] : object;
-}
-
 /* Makes a list ready to be handed out; its last entry is in front of the others when back to front. */
 static bool begin_list(view_order *order, tree_objects list) {
     order->list.count = 0;
@@ -44,14 +39,14 @@ static bool begin_list(view_order *order, tree_objects list) {
     order->list_end = list.count;
     for (uint32_t i = 0; i < list.count; i++) pairs[i].value = list.first + i;
     if (list.count < 2) return true;
-    for (uint32_t i = 0; i < list.count; i++) pairs[i].key = rank_of(order, tree_object(&list, i));
+    const froe_scene *scene = order->tree->scene;
+    const uint32_t *ranks = order->ranks ? order->ranks : scene->faces;
+    for (uint32_t i = 0; i < list.count; i++) {
+        const uint32_t object = tree_object(&list, i);
+        pairs[i].key = ranks ? ranks[object] : object;
+    }
     base_radix_sort(pairs, pairs + list.count, list.count);
     return true;
-}
-
-static uint32_t next_of_list(view_order *order) {
-    size_t i = order->list_at++;
-    return order->list.data[order->front_to_back ? order->list_end - 1 - i : i].value;
 }
 
 /* ----------------------------------------------------------------------- walk -- */
@@ -86,11 +81,6 @@ int view_side_of_eye(num_context *context, const froe_tree *tree, uint32_t node,
     return geom_side_of_eye(context, &plane, eye);
 }
 
-static int side_at(view_order *order, uint32_t node) {
-    if (order->sides) return (int)(order->sides[node] >> order->shift & 3) - 1;
-    return view_side_of_eye(&order->context, order->tree, node, &order->eye);
-}
-
 static bool push_child(view_order *order, uint32_t node, uint32_t child) {
     const bool away = node == 0 && order->section && child != order->tree->nodes->child + (order->section > 0);
     return away || array_push(&order->tree->alloc, &order->visits, (view_visit){child, false});
@@ -100,7 +90,9 @@ static bool push_child(view_order *order, uint32_t node, uint32_t child) {
 static bool push_node(view_order *order, uint32_t node) {
     const froe_allocator *alloc = &order->tree->alloc;
     const tree_node *n = order->tree->nodes + node;
-    uint32_t near = n->child + (side_at(order, node) >= 0), far = 2 * n->child + 1 - near;
+    const int side = order->sides ? (int)(order->sides[node] >> order->shift & 3) - 1
+                                  : view_side_of_eye(&order->context, order->tree, node, &order->eye);
+    uint32_t near = n->child + (side >= 0), far = 2 * n->child + 1 - near;
     uint32_t first = order->front_to_back ? near : far, last = order->front_to_back ? far : near;
     if (!push_child(order, node, last)) return false;
     if (n->type == TREE_TABLED && order->tree->cuts[n->u.cut].count &&
@@ -109,20 +101,17 @@ static bool push_node(view_order *order, uint32_t node) {
     return push_child(order, node, first);
 }
 
-static bool visit_in_order(view_order *order) {
-    view_visit at = order->visits.data[--order->visits.count];
-    if (!at.list && !tree_is_leaf(order->tree->nodes + at.node)) return push_node(order, at.node);
-    return begin_list(order, tree_list(order->tree, at.node));
-}
-
 bool view_order_next(view_order *order, uint32_t *piece) {
     while (order->list_at == order->list_end) {
         if (!order->visits.count) return false;
-        if (visit_in_order(order)) continue;
+        const view_visit at = order->visits.data[--order->visits.count];
+        const bool inner = !at.list && !tree_is_leaf(order->tree->nodes + at.node);
+        if (inner ? push_node(order, at.node) : begin_list(order, tree_list(order->tree, at.node))) continue;
         order->status = FROE_E_MEMORY;
         return false;
     }
-    *piece = next_of_list(order);
+    const size_t i = order->list_at++;
+    *piece = order->list.data[order->front_to_back ? order->list_end - 1 - i : i].value;
     return true;
 }
 
@@ -144,18 +133,6 @@ froe_status view_eye_of(const froe_tree *tree, const froe_eye *eye, geom_eye *ou
     return FROE_OK;
 }
 
-static froe_status check_kinds(const froe_scene *scene, froe_diagnostic *diag) {
-    if (scene->dim > 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "depth orders exist in 2 and 3 dimensions, not in %d",
-                            scene->dim);
-    for (uint32_t i = 0; i < scene->object_count; i++)
-        if (scene_form(scene, i) > FROE_POLYGON)
-            return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
-                                   "object %u is a %s, which no cut divides: its place in a depth order is not known",
-                                   i, froe_kind_name(scene_form(scene, i)));
-    return FROE_OK;
-}
-
 /* Do all these pieces lie in the hyperplane of the first that has one? */
 static bool in_one_plane(num_context *context, const froe_scene *scene, const tree_objects *list) {
     geom_plane plane;
@@ -173,9 +150,17 @@ static bool in_one_plane(num_context *context, const froe_scene *scene, const tr
 }
 
 froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
+    const froe_scene *scene = tree->scene;
     num_context context;
-    froe_status status = check_kinds(tree->scene, diag);
-    if (status) return status;
+    froe_status status = FROE_OK;
+    if (scene->dim > 3)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "depth orders exist in 2 and 3 dimensions, not in %d",
+                            scene->dim);
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (scene_form(scene, i) > FROE_POLYGON)
+            return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
+                                   "object %u is a %s, which no cut divides: its place in a depth order is not known",
+                                   i, froe_kind_name(scene_form(scene, i)));
     if (tree_is_space(tree))
         return support_fail(diag, FROE_E_UNSUPPORTED,
                             "a tree of method '%s' lists whole objects, which are in no depth order: build another one",

@@ -6,7 +6,7 @@
 #include "support/fail.h"
 #include "view/visibility/order.h"
 
-enum { EYES = 32, NODES = 4096 }; /* eyes a word, nodes a job */
+enum { EYES_PER_WORD = 32, NODES_PER_JOB = 4096 }; /* eyes a word, nodes a job */
 
 froe_order_options froe_order_defaults(void) {
     return (froe_order_options){.size = sizeof(froe_order_options)};
@@ -41,21 +41,21 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
 
 /* ------------------------------------------------------------------ many eyes -- */
 
-typedef struct batch {
+typedef struct eye_batch {
     const froe_tree *tree;
     const froe_order_options *options;
     const geom_eye *eyes;
-    size_t count; /* at most EYES */
+    size_t count; /* at most EYES_PER_WORD */
     uint64_t *sides;
     uint32_t *pieces;
     num_context *contexts; /* one a worker */
-} batch;
+} eye_batch;
 
 static froe_status sides_of_nodes(void *user, unsigned worker, size_t job) {
-    batch *b = user;
-    uint32_t end =
-        (uint32_t)(job + 1) * NODES < b->tree->node_count ? (uint32_t)(job + 1) * NODES : b->tree->node_count;
-    for (uint32_t node = (uint32_t)job * NODES; node < end; node++) {
+    eye_batch *b = user;
+    uint32_t end = (uint32_t)(job + 1) * NODES_PER_JOB < b->tree->node_count ? (uint32_t)(job + 1) * NODES_PER_JOB
+                                                                             : b->tree->node_count;
+    for (uint32_t node = (uint32_t)job * NODES_PER_JOB; node < end; node++) {
         b->sides[node] = 0;
         if (tree_is_leaf(b->tree->nodes + node)) continue;
         for (size_t e = 0; e < b->count; e++)
@@ -66,7 +66,7 @@ static froe_status sides_of_nodes(void *user, unsigned worker, size_t job) {
 }
 
 static froe_status order_of_eye(void *user, unsigned worker, size_t job) {
-    batch *b = user;
+    eye_batch *b = user;
     view_order order;
     uint32_t *out = b->pieces + job * b->tree->piece_count;
     (void)worker;
@@ -77,16 +77,18 @@ static froe_status order_of_eye(void *user, unsigned worker, size_t job) {
     return view_order_end(&order) ? FROE_E_MEMORY : status;
 }
 
-static froe_status run_batches(batch *b, base_task *task, const froe_eye *eyes, size_t count, froe_diagnostic *diag) {
-    geom_eye from[EYES];
+static froe_status run_batches(eye_batch *b, base_task *task, const froe_eye *eyes, size_t count,
+                               froe_diagnostic *diag) {
+    geom_eye from[EYES_PER_WORD];
     froe_status status = FROE_OK;
     b->eyes = from;
-    for (size_t i = 0; i < count && !status; i += EYES) {
-        b->count = count - i < EYES ? count - i : EYES;
+    for (size_t i = 0; i < count && !status; i += EYES_PER_WORD) {
+        b->count = count - i < EYES_PER_WORD ? count - i : EYES_PER_WORD;
         for (size_t e = 0; e < b->count && !status; e++) status = view_eye_of(b->tree, eyes + i + e, from + e, diag);
         if (status) return status;
         double share = (double)b->count / (double)count;
-        status = base_run(task, 0.3 * share, (b->tree->node_count + NODES - 1) / NODES, sides_of_nodes, b);
+        status =
+            base_run(task, 0.3 * share, (b->tree->node_count + NODES_PER_JOB - 1) / NODES_PER_JOB, sides_of_nodes, b);
         if (!status) status = base_run(task, 0.7 * share, b->count, order_of_eye, b);
         b->pieces += b->count * b->tree->piece_count;
     }
@@ -102,7 +104,7 @@ froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t
     if (status) return status;
     base_task task;
     base_task_init(&task, options->threads, options->progress, options->user);
-    batch b = {.tree = tree, .options = options, .pieces = pieces};
+    eye_batch b = {.tree = tree, .options = options, .pieces = pieces};
     b.sides = support_calloc(&tree->alloc, tree->node_count, sizeof *b.sides);
     b.contexts = support_calloc(&tree->alloc, task.threads, sizeof *b.contexts);
     for (unsigned i = 0; b.contexts && i < task.threads && !status; i++)

@@ -8,15 +8,6 @@ static uint32_t find_patch_root(uint32_t *parent, uint32_t i) {
     return i;
 }
 
-/* The lower number stays the root, so that a patch is named by its first object. */
-static void unite_patches(uint32_t *parent, uint32_t a, uint32_t b) {
-    a = find_patch_root(parent, a), b = find_patch_root(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
-
 /* Do two polygons of one plane turn the same way, seen from the same side? */
 static bool same_turn(num_context *context, const geom_plane *a, const geom_plane *b) {
     for (int k = 0; k < 3; k++) {
@@ -28,18 +19,13 @@ static bool same_turn(num_context *context, const geom_plane *a, const geom_plan
     return false;
 }
 
-static bool in_plane(num_context *context, const froe_scene *s, const geom_plane *plane, uint32_t object) {
-    for (uint32_t i = 0; i < scene_corners(s, object); i++)
-        if (geom_side_vertex(context, plane, scene_point(s, object, i)) != 0) return false;
-    return true;
-}
-
 /* One plane, and the two sides of the edge: then each is left of the edge as it runs, so they run in opposite ways
  * if they turn the same way. */
 static bool continues(const froe_surface *s, num_context *context, uint32_t edge, uint32_t a, uint32_t b) {
     geom_plane plane, other;
     scene_support(s->scene, a, &plane);
-    if (!in_plane(context, s->scene, &plane, b)) return false;
+    for (uint32_t i = 0; i < scene_corners(s->scene, b); i++)
+        if (geom_side_vertex(context, &plane, scene_point(s->scene, b, i)) != 0) return false;
     scene_support(s->scene, b, &other);
     return same_turn(context, &plane, &other) == (surface_ascends(s, a, edge) != surface_ascends(s, b, edge));
 }
@@ -54,7 +40,10 @@ static void unite_neighbours(froe_surface *s, num_context *context, uint32_t *pa
         if (s->edge_starts[e + 1] - s->edge_starts[e] != 2 || use[0] == use[1]) continue;
         s->inside[e] =
             group_of(s->scene, use[0]) == group_of(s->scene, use[1]) && continues(s, context, e, use[0], use[1]);
-        if (s->inside[e]) unite_patches(parent, use[0], use[1]);
+        if (!s->inside[e]) continue;
+        /* The lower number stays the root, so that a patch is named by its first object. */
+        const uint32_t a = find_patch_root(parent, use[0]), b = find_patch_root(parent, use[1]);
+        parent[a < b ? b : a] = a < b ? a : b;
     }
 }
 

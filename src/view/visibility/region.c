@@ -5,23 +5,18 @@
 #include "view/visibility/region.h"
 #include "base/sort.h"
 
-typedef struct maker {
+typedef struct region_maker {
     view_region *r;
     const froe_visibility *v;
     view_sights *sights;
     const froe_allocator *alloc;
-} maker;
+} region_maker;
 
 /* ------------------------------------------------------------------------ points -- */
 
 static uint32_t find_point_root(uint32_t *point, uint32_t i) {
     while (point[i] != i) i = point[i] = point[point[i]];
     return i;
-}
-
-static void unite_points(uint32_t *point, uint32_t a, uint32_t b) {
-    a = find_point_root(point, a), b = find_point_root(point, b);
-    point[a > b ? a : b] = a > b ? b : a;
 }
 
 /* ------------------------------------------------------------------------- sides -- */
@@ -39,7 +34,7 @@ static region_side side_of_ring(const view_corner *ring, uint32_t count, uint32_
     return s;
 }
 
-static bool list_sides(maker *m, uint32_t patch) {
+static bool list_sides(region_maker *m, uint32_t patch) {
     const froe_visibility *v = m->v;
     view_region *r = m->r;
     size_t total = 0;
@@ -68,7 +63,7 @@ static bool list_sides(maker *m, uint32_t patch) {
 /* ------------------------------------------------------------------ along a line -- */
 
 static int compare_ends(void *user, uint32_t a, uint32_t b) {
-    maker *m = user;
+    region_maker *m = user;
     const region_side *s = m->r->sides.data + (a >> 1), *t = m->r->sides.data + (b >> 1);
     const uint32_t p = s->end[a & 1], q = t->end[b & 1];
     if (find_point_root(m->r->point.data, p) == find_point_root(m->r->point.data, q)) return 0;
@@ -80,12 +75,8 @@ static int compare_ends(void *user, uint32_t a, uint32_t b) {
     return n & 1 ? side : -side;
 }
 
-static bool put_border(maker *m, uint32_t from, uint32_t to) {
-    return array_push(m->alloc, &m->r->borders, (region_border){from, to, FROE_NONE});
-}
-
 /* Sorted ends of all sides on a line: between two points there is border where pieces are on one side only. */
-static bool sweep(maker *m, const uint32_t *ends, uint32_t count) {
+static bool sweep(region_maker *m, const uint32_t *ends, uint32_t count) {
     int active[2] = {0, 0}, state = 0;
     uint32_t since = 0;
     for (uint32_t i = 0; i < count;) {
@@ -93,20 +84,23 @@ static bool sweep(maker *m, const uint32_t *ends, uint32_t count) {
         uint32_t j = i;
         for (; j < count && (j == i || compare_ends(m, ends[j - 1], ends[j]) == 0); j++) {
             const region_side *s = m->r->sides.data + (ends[j] >> 1);
-            unite_points(m->r->point.data, here, s->end[ends[j] & 1]);
+            uint32_t *point = m->r->point.data;
+            const uint32_t a = find_point_root(point, here), b = find_point_root(point, s->end[ends[j] & 1]);
+            point[a > b ? a : b] = a > b ? b : a;
             active[s->turned] += ends[j] & 1 ? -1 : 1;
         }
         i = j;
         const int now = (active[0] > 0) - (active[1] > 0);
         if (now == state) continue;
-        if (state && !put_border(m, state > 0 ? since : here, state > 0 ? here : since)) return false;
+        const region_border border = {state > 0 ? since : here, state > 0 ? here : since, FROE_NONE};
+        if (state && !array_push(m->alloc, &m->r->borders, border)) return false;
         state = now;
         since = here;
     }
     return true;
 }
 
-static bool sweep_lines(maker *m) {
+static bool sweep_lines(region_maker *m) {
     view_region *r = m->r;
     const uint32_t total = (uint32_t)r->sides.count;
     r->borders.count = 0;
@@ -126,13 +120,13 @@ static bool sweep_lines(maker *m) {
 
 /* ------------------------------------------------------------------------- rings -- */
 
-static uint32_t take_border(maker *m, uint32_t corner) {
+static uint32_t take_border(region_maker *m, uint32_t corner) {
     uint32_t *first = m->r->first_border.data + find_point_root(m->r->point.data, corner), border = *first;
     if (border != FROE_NONE) *first = m->r->borders.data[border].next;
     return border;
 }
 
-static bool chain(maker *m) {
+static bool chain(region_maker *m) {
     view_region *r = m->r;
     for (uint32_t b = 0; b < r->borders.count; b++) {
         uint32_t *first = r->first_border.data + find_point_root(r->point.data, r->borders.data[b].from);
@@ -155,7 +149,7 @@ static bool chain(maker *m) {
 }
 
 froe_status view_region_make(view_region *region, const froe_visibility *v, view_sights *sights, uint32_t patch) {
-    maker m = {region, v, sights, &v->alloc};
+    region_maker m = {region, v, sights, &v->alloc};
     return list_sides(&m, patch) && sweep_lines(&m) && chain(&m) ? FROE_OK : FROE_E_MEMORY;
 }
 

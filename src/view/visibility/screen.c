@@ -2,10 +2,10 @@
 #include "view/visibility/screen.h"
 #include <string.h>
 
-enum { ROOT = UINT32_MAX }; /* slot: 2 * node + child, or this */
+enum { ROOT_SLOT = UINT32_MAX }; /* slot: 2 * node + child, or this */
 
 static void set_child(view_screen *s, uint32_t slot, uint32_t child) {
-    if (slot == ROOT)
+    if (slot == ROOT_SLOT)
         s->root = child;
     else
         s->nodes.data[slot >> 1].child[slot & 1] = child;
@@ -25,39 +25,27 @@ static uint32_t put_node(view_screen *s, uint32_t slot, view_way way, uint32_t i
 
 /* --------------------------------------------------------------------- window -- */
 
-/* The turn of a convex window as the eye sees it: 1 left, -1 right, 0: it is not strictly convex there. */
-static int window_turn(view_screen *s, const uint32_t *lines) {
-    view_sights *sights = s->sights;
+froe_status view_screen_new(view_screen *s, view_sights *sights) {
     const uint32_t n = sights->window_count, first = sights->tree->scene->vertex_count;
+    uint32_t lines[FROE_WINDOW_MOST], slot = ROOT_SLOT;
     int turn = 0;
+    *s = (view_screen){.sights = sights, .root = VIEW_OPEN, .open = 1};
+    for (uint32_t i = 0; i < n; i++)
+        if ((lines[i] = view_line_of_window(sights, i)) == FROE_NONE) return FROE_E_MEMORY;
+    /* The turn of the window as the eye sees it: 1 left, -1 right. It must be strictly convex. */
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 2; j < n; j++) {
             const uint32_t v = first + (i + j) % n;
             const int side = view_side(sights, lines[i], &sights->rays[v], v, 0, 0);
-            if (side == 0 || (turn && side != turn)) return 0;
+            if (side == 0 || (turn && side != turn)) return FROE_E_INPUT;
             turn = side;
         }
-    return turn;
-}
-
-static froe_status close_window(view_screen *s) {
-    view_sights *sights = s->sights;
-    uint32_t lines[FROE_WINDOW_MOST], slot = ROOT;
-    for (uint32_t i = 0; i < sights->window_count; i++)
-        if ((lines[i] = view_line_of_window(sights, i)) == FROE_NONE) return FROE_E_MEMORY;
-    const int turn = window_turn(s, lines);
-    if (!turn) return FROE_E_INPUT;
-    for (uint32_t i = 0; i < sights->window_count; i++) {
+    for (uint32_t i = 0; i < n; i++) {
         sights->window_ways[i] = 2 * lines[i] + (turn < 0);
         slot = put_node(s, slot, sights->window_ways[i], VIEW_OPEN, VIEW_COVERED);
         if (slot == FROE_NONE) return FROE_E_MEMORY;
     }
     return FROE_OK;
-}
-
-froe_status view_screen_new(view_screen *s, view_sights *sights) {
-    *s = (view_screen){.sights = sights, .root = VIEW_OPEN, .open = 1};
-    return sights->window_count ? close_window(s) : FROE_OK;
 }
 
 void view_screen_free(view_screen *s) {
@@ -83,12 +71,6 @@ static unsigned find_sides(view_screen *s, uint32_t line, const view_corner *rin
         before = ring[i].way;
     }
     return reached;
-}
-
-/* A beam on one side of a line may have a side on it. */
-static void mark_bound(view_screen *s, view_corner *ring, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++)
-        if (!s->sides.data[i] && !s->sides.data[i + 1 < count ? i + 1 : 0]) ring[i].bound = 1;
 }
 
 static void put_corner(view_screen *s, const view_corner *corner, view_way way, uint32_t bound) {
@@ -160,7 +142,8 @@ static bool send(view_screen *s, bool covers, view_beam_fn *fn, void *user) {
         const view_screen_node *n = s->nodes.data + node;
         const unsigned reached = find_sides(s, n->line, ring, count);
         if (reached == 3) return divide_beam(s, node, top.first, count);
-        mark_bound(s, ring, count);
+        for (uint32_t i = 0; i < count; i++) /* a beam on one side of a line may have a side on it */
+            if (!s->sides.data[i] && !s->sides.data[i + 1 < count ? i + 1 : 0]) ring[i].bound = 1;
         slot = 2 * node + (reached == 2);
         node = n->child[reached == 2];
     }
@@ -176,7 +159,7 @@ froe_status view_screen_insert(view_screen *s, const view_corner *ring, uint32_t
     if (!array_reserve(alloc, &s->corners, count) || !array_reserve(alloc, &s->beams, 1)) return FROE_E_MEMORY;
     memcpy(s->corners.data, ring, count * sizeof *ring);
     s->corners.count = count;
-    s->beams.data[s->beams.count++] = (view_pending){s->root, ROOT, 0, count};
+    s->beams.data[s->beams.count++] = (view_pending){s->root, ROOT_SLOT, 0, count};
     while (s->beams.count)
         if (!send(s, covers, fn, user)) return FROE_E_MEMORY;
     return FROE_OK;
@@ -212,20 +195,16 @@ static bool push_stretch(view_screen *s, uint32_t node, const view_stretch *part
     return true;
 }
 
-/* The side of a line through one of its sides on which a beam is. */
-static int side_of_beam(view_screen *s, uint32_t line, const view_corner *ring, uint32_t count) {
-    int side = 0;
-    for (uint32_t i = 0; i < count && !side; i++)
-        side = view_side(s->sights, line, &ring[i].ray, ring[i].vertex, ring[i ? i - 1 : count - 1].way, ring[i].way);
-    return side;
-}
-
 static bool pass_stretch(view_screen *s, const view_screen_node *n, uint32_t own, const view_stretch *part,
                          const view_corner *ring, uint32_t count) {
     const int from = side_of_end(s->sights, n->line, &part->end[0], own),
               to = side_of_end(s->sights, n->line, &part->end[1], own);
     if (from * to >= 0) {
-        const int side = from ? from : to ? to : side_of_beam(s, n->line, ring, count);
+        int side = from ? from : to;
+        for (uint32_t i = 0; i < count && !side; i++) { /* on the line: the side on which the beam is */
+            const view_way before = ring[i ? i - 1 : count - 1].way;
+            side = view_side(s->sights, n->line, &ring[i].ray, ring[i].vertex, before, ring[i].way);
+        }
         return push_stretch(s, n->child[side > 0], part);
     }
     view_end middle = {.vertex = FROE_NONE, .way = 2 * n->line + (from < 0)}; /* leaving: edge x line */

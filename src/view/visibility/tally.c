@@ -2,17 +2,6 @@
 #include "geom/predicates.h"
 #include "view/visibility/visibility.h"
 
-static void count_objects(froe_visibility *v) {
-    const froe_scene *s = v->surface->scene;
-    for (uint32_t o = 0; o < s->object_count; o++) {
-        if (v->surface->patch_of[o] != FROE_NONE) continue;
-        const froe_kind kind = froe_scene_object(s, o).kind;
-        v->report.flat += kind == FROE_POLYGON;
-        v->report.segments += kind == FROE_SEGMENT;
-        v->report.points += kind == FROE_POINT;
-    }
-}
-
 /* Does the section leave out all of a patch? */
 static bool is_cut_away(froe_visibility *v, uint32_t patch) {
     const froe_surface *s = v->surface;
@@ -29,7 +18,14 @@ static bool is_cut_away(froe_visibility *v, uint32_t patch) {
 }
 
 void view_tally(froe_visibility *v, bool cull_back) {
-    count_objects(v);
+    const froe_scene *s = v->surface->scene;
+    for (uint32_t o = 0; o < s->object_count; o++) {
+        if (v->surface->patch_of[o] != FROE_NONE) continue;
+        const froe_kind kind = froe_scene_object(s, o).kind;
+        v->report.flat += kind == FROE_POLYGON;
+        v->report.segments += kind == FROE_SEGMENT;
+        v->report.points += kind == FROE_POINT;
+    }
     for (uint32_t p = 0; p < v->surface->patch_count; p++) {
         const int facing = view_facing(&v->sights, surface_first(v->surface, p));
         if (v->patch_starts[p] < v->patch_starts[p + 1])

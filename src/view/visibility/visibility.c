@@ -42,44 +42,29 @@ static bool keep_beam(void *user, const view_corner *ring, uint32_t count) {
     return v->corners.count <= INT32_MAX;
 }
 
-/* REQUIRES: the piece does not cover anything yet. */
-static froe_status look_at_edges(looker *k, uint32_t piece) {
-    froe_status status = FROE_OK;
-    view_stretch stretch;
-    for (uint32_t i = 0, n = view_side_count(&k->v->sights, piece); i < n && !status; i++) {
-        const bool part = view_stretch_of(&k->v->sights, piece, i, &stretch, &status);
-        if (!part || (k->options->edges && !k->options->edges[stretch.edge])) continue;
-        status = view_screen_classify(&k->screen, &stretch, view_line_of_edge(&k->v->sights, stretch.edge),
-                                      k->ring.data, (uint32_t)k->ring.count, keep_stretch, k);
-    }
-    if (!status && k->options->crossings) status = view_look_at_crossings(&k->crosser, piece, &k->ring);
-    return status;
-}
-
 static froe_status look_at(looker *k, uint32_t piece, uint32_t place) {
     froe_visibility *v = k->v;
+    const froe_visibility_options *o = k->options;
     const uint32_t object = v->tree->pieces[piece].object, patch = v->surface->patch_of[object];
     if (patch == FROE_NONE) return FROE_OK;
     const int facing = view_facing(&v->sights, object);
-    if (!facing || (k->options->cull_back && facing < 0)) return FROE_OK;
+    if (!facing || (o->cull_back && facing < 0)) return FROE_OK;
     if (!view_beam_of(&v->sights, piece, &k->ring)) return FROE_E_MEMORY;
-    const froe_status status = look_at_edges(k, piece);
+    /* Edges and crossings first: the piece must not cover anything yet. */
+    const uint32_t corners = (uint32_t)k->ring.count;
+    froe_status status = FROE_OK;
+    view_stretch stretch;
+    for (uint32_t i = 0, n = view_side_count(&v->sights, piece); i < n && !status; i++) {
+        const bool part = view_stretch_of(&v->sights, piece, i, &stretch, &status);
+        if (!part || (o->edges && !o->edges[stretch.edge])) continue;
+        const uint32_t line = view_line_of_edge(&v->sights, stretch.edge);
+        status = view_screen_classify(&k->screen, &stretch, line, k->ring.data, corners, keep_stretch, k);
+    }
+    if (!status && o->crossings) status = view_look_at_crossings(&k->crosser, piece, &k->ring);
     if (status) return status;
     k->now = (view_piece){.patch = patch, .object = object, .piece = piece, .place = place};
-    const bool opaque = !k->options->clear || !k->options->clear[patch];
-    return view_screen_insert(&k->screen, k->ring.data, (uint32_t)k->ring.count, opaque, keep_beam, k);
-}
-
-/* Polygons seen edge-on show where the section cuts them, if nothing can be in front of that. */
-static froe_status look_along_section(looker *k) {
-    froe_visibility *v = k->v;
-    froe_status status = FROE_OK;
-    if (!v->section || !k->options->crossings ||
-        view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) != -v->section)
-        return FROE_OK;
-    for (uint32_t o = 0; o < v->surface->scene->object_count && !status; o++)
-        if (v->surface->patch_of[o] != FROE_NONE && !view_facing(&v->sights, o)) status = view_look_along_section(v, o);
-    return status;
+    const bool opaque = !o->clear || !o->clear[patch];
+    return view_screen_insert(&k->screen, k->ring.data, corners, opaque, keep_beam, k);
 }
 
 static froe_status look_at_all(looker *k) {
@@ -119,16 +104,6 @@ static froe_status sort_pieces(looker *k) {
     return FROE_OK;
 }
 
-static void note_counts(froe_visibility *v, const view_screen *screen) {
-    v->report.visible_pieces = v->piece_count;
-    v->report.intervals = v->interval_count;
-    v->report.screen_nodes = screen->nodes.count;
-    v->report.lines = v->sights.lines.count;
-    v->report.predicates = v->sights.context.stats;
-    v->report.predicates.calls = v->report.predicates.by_id + v->report.predicates.filtered +
-                                 v->report.predicates.refined + v->report.predicates.exact;
-}
-
 static froe_status look_from_eye(looker *k, const geom_eye *eye) {
     froe_visibility *v = k->v;
     froe_status status = view_sights_new(&v->sights, v->tree, v->surface, eye, k->options->window,
@@ -138,12 +113,24 @@ static froe_status look_from_eye(looker *k, const geom_eye *eye) {
         .sights = &v->sights, .screen = &k->screen, .section = v->section != 0, .hidden = k->options->hidden_crossings};
     if (!status) status = view_rank_objects(&v->alloc, v->surface, k->options->priorities, &k->ranks);
     if (!status) status = look_at_all(k);
-    if (!status) status = look_along_section(k);
+    /* Polygons seen edge-on show where the section cuts them, if nothing can be in front of that. */
+    const bool along = !status && v->section && k->options->crossings &&
+                       view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) == -v->section;
+    for (uint32_t o = 0; along && o < v->surface->scene->object_count && !status; o++)
+        if (v->surface->patch_of[o] != FROE_NONE && !view_facing(&v->sights, o)) status = view_look_along_section(v, o);
     if (!status) status = sort_pieces(k);
     if (!status) status = view_join_intervals(v, &k->stretches);
     if (!status) status = view_join_crossings(v, &k->crosser);
     if (!status) view_tally(v, k->options->cull_back);
-    if (!status) note_counts(v, &k->screen);
+    if (!status) {
+        froe_predicate_stats *predicates = &v->report.predicates;
+        v->report.visible_pieces = v->piece_count;
+        v->report.intervals = v->interval_count;
+        v->report.screen_nodes = k->screen.nodes.count;
+        v->report.lines = v->sights.lines.count;
+        *predicates = v->sights.context.stats;
+        predicates->calls = predicates->by_id + predicates->filtered + predicates->refined + predicates->exact;
+    }
     view_screen_free(&k->screen);
     array_free(&v->alloc, &k->ring);
     array_free(&v->alloc, &k->stretches);
@@ -175,21 +162,6 @@ static froe_status check_visibility_options(const froe_tree *tree, const froe_su
     return view_order_check(tree, diag);
 }
 
-static froe_status failure(froe_status status, froe_diagnostic *diag) {
-    switch (status) {
-    case FROE_OK:
-        return FROE_OK;
-    case FROE_E_MEMORY:
-        return support_fail_memory(diag);
-    case FROE_E_INPUT:
-        return support_fail(diag, status, "the window, as the eye sees it, is not strictly convex");
-    case FROE_E_CANCELLED:
-        return support_fail_cancelled(diag);
-    default:
-        return support_fail(diag, status, "more than 2^31 lines, corners or intervals are visible");
-    }
-}
-
 froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surface,
                                 const froe_visibility_options *options, froe_visibility **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -208,12 +180,21 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     looker k = {.v = v, .options = options};
     base_task_init(&k.task, 1, options->progress, options->user);
     status = look_from_eye(&k, &eye);
-    if (status) {
-        froe_visibility_free(v);
-        return failure(status, diag);
+    if (!status) {
+        *out = v;
+        return FROE_OK;
     }
-    *out = v;
-    return FROE_OK;
+    froe_visibility_free(v);
+    switch (status) {
+    case FROE_E_MEMORY:
+        return support_fail_memory(diag);
+    case FROE_E_INPUT:
+        return support_fail(diag, status, "the window, as the eye sees it, is not strictly convex");
+    case FROE_E_CANCELLED:
+        return support_fail_cancelled(diag);
+    default:
+        return support_fail(diag, status, "more than 2^31 lines, corners or intervals are visible");
+    }
 }
 
 void froe_visibility_free(froe_visibility *v) {
