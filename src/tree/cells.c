@@ -30,19 +30,6 @@ typedef struct cell_walk {
     bool stopped;
 } cell_walk;
 
-static void free_walk(cell_walk *w) {
-    array_free(&w->alloc, &w->pending);
-    shape_free(&w->alloc, &w->packed);
-    shape_free(&w->alloc, &w->now);
-    shape_free(&w->alloc, &w->part[0]);
-    shape_free(&w->alloc, &w->part[1]);
-    shape_free(&w->alloc, &w->cut);
-    shape_scratch_free(&w->alloc, &w->scratch);
-    array_free(&w->alloc, &w->coords);
-    array_free(&w->alloc, &w->cut_coords);
-    array_free(&w->alloc, &w->starts);
-}
-
 static bool push_cell_shape(cell_walk *w, uint32_t node, uint32_t depth, const shape *s) {
     cell_pending item = {node, depth, s->points.count, s->loops.count, s->starts.count};
     shape *to = &w->packed;
@@ -58,21 +45,8 @@ static bool push_cell_shape(cell_walk *w, uint32_t node, uint32_t depth, const s
     return true;
 }
 
-static bool pop_cell_shape(cell_walk *w, cell_pending *item) {
-    shape *from = &w->packed, top;
-    *item = w->pending.data[--w->pending.count];
-    memset(&top, 0, sizeof top);
-    from->points.count -= top.points.count = item->points;
-    from->loops.count -= top.loops.count = item->loops;
-    from->starts.count -= top.starts.count = item->starts;
-    top.points.data = from->points.data + from->points.count;
-    top.loops.data = from->loops.data + from->loops.count;
-    top.starts.data = from->starts.data + from->starts.count;
-    return shape_copy(&w->alloc, &top, &w->now);
-}
-
-/* Shapes as the visitor sees them: corner by corner, in the scene's units. */
-static bool show_corners(cell_walk *w) {
+/* Shows a cell as the visitor sees it: corner by corner, in the scene's units. */
+static bool show(cell_walk *w, const cell_pending *at) {
     const shape *s = &w->now;
     size_t dim = (size_t)w->dim;
     w->coords.count = w->starts.count = w->cut_coords.count = 0;
@@ -86,11 +60,6 @@ static bool show_corners(cell_walk *w) {
     for (size_t i = 0; i < s->starts.count; i++) w->starts.data[w->starts.count++] = s->starts.data[i];
     for (size_t i = 0; i < w->cut.points.count; i++)
         w->cut_coords.data[w->cut_coords.count++] = ldexp(w->cut.points.data[i], w->exponent);
-    return true;
-}
-
-static bool show(cell_walk *w, const cell_pending *at) {
-    if (!show_corners(w)) return false;
     froe_cell cell = {.node = {at->node + 1}, .depth = at->depth};
     cell.leaf = tree_is_leaf(w->tree->nodes + at->node);
     cell.coords = w->coords.data;
@@ -103,10 +72,20 @@ static bool show(cell_walk *w, const cell_pending *at) {
     return true;
 }
 
-/* Shows one node and leaves its children pending, the negative one on top. */
-static bool visit_cell(cell_walk *w, const cell_pending *at) {
+/* Takes the node on top, shows it and leaves its children pending, the negative one on top. */
+static bool visit_cell(cell_walk *w) {
+    const cell_pending pending = w->pending.data[--w->pending.count], *at = &pending;
     const tree_node *n = w->tree->nodes + at->node;
+    shape *from = &w->packed, top;
     unsigned reached;
+    memset(&top, 0, sizeof top);
+    from->points.count -= top.points.count = at->points;
+    from->loops.count -= top.loops.count = at->loops;
+    from->starts.count -= top.starts.count = at->starts;
+    top.points.data = from->points.data + from->points.count;
+    top.loops.data = from->loops.data + from->loops.count;
+    top.starts.data = from->starts.data + from->starts.count;
+    if (!shape_copy(&w->alloc, &top, &w->now)) return false;
     w->cut.points.count = 0;
     if (tree_is_leaf(n)) return show(w, at);
     geom_plane exact = tree_plane_at(w->tree, at->node);
@@ -119,15 +98,6 @@ static bool visit_cell(cell_walk *w, const cell_pending *at) {
     if (!show(w, at)) return false;
     if (reached != 1 && !push_cell_shape(w, n->child + 1, at->depth + 1, both ? &w->part[1] : &w->now)) return false;
     return reached == 2 || push_cell_shape(w, n->child, at->depth + 1, both ? &w->part[0] : &w->now);
-}
-
-static bool walk_cells(cell_walk *w, const double *lo, const double *hi) {
-    if (!shape_box(&w->alloc, w->dim, lo, hi, w->exponent, &w->now) || !push_cell_shape(w, 0, 0, &w->now)) return false;
-    while (w->pending.count && !w->stopped) {
-        cell_pending at;
-        if (!pop_cell_shape(w, &at) || !visit_cell(w, &at)) return false;
-    }
-    return true;
 }
 
 froe_status froe_tree_cells(const froe_tree *tree, const double *lo, const double *hi, froe_cell_fn *fn, void *user,
@@ -145,7 +115,17 @@ froe_status froe_tree_cells(const froe_tree *tree, const double *lo, const doubl
         most = fmax(most, fmax(fabs(lo[k]), fabs(hi[k])));
     }
     frexp(most, &w.exponent);
-    bool ok = walk_cells(&w, lo, hi);
-    free_walk(&w);
+    bool ok = shape_box(&w.alloc, w.dim, lo, hi, w.exponent, &w.now) && push_cell_shape(&w, 0, 0, &w.now);
+    while (ok && w.pending.count && !w.stopped) ok = visit_cell(&w);
+    array_free(&w.alloc, &w.pending);
+    shape_free(&w.alloc, &w.packed);
+    shape_free(&w.alloc, &w.now);
+    shape_free(&w.alloc, &w.part[0]);
+    shape_free(&w.alloc, &w.part[1]);
+    shape_free(&w.alloc, &w.cut);
+    shape_scratch_free(&w.alloc, &w.scratch);
+    array_free(&w.alloc, &w.coords);
+    array_free(&w.alloc, &w.cut_coords);
+    array_free(&w.alloc, &w.starts);
     return ok ? FROE_OK : support_fail_memory(diag);
 }

@@ -36,66 +36,27 @@ void tree_spare_free(const froe_allocator *alloc, tree_spare *spare) {
     support_free(alloc, spare, sizeof *spare);
 }
 
-/* The spare context, or `own` filled with a new one. */
-static num_context *borrow(const froe_tree *t, num_context *own) {
-    if (!atomic_flag_test_and_set(&t->spare->taken)) return &t->spare->context;
-    if (geom_context_new(&t->alloc, own) == FROE_OK) return own;
-    while (atomic_flag_test_and_set(&t->spare->taken)) sched_yield();
-    return &t->spare->context;
-}
-
-static void give_back(const froe_tree *t, num_context *context) {
-    if (context == &t->spare->context)
-        atomic_flag_clear(&t->spare->taken);
-    else
-        num_context_free(context);
-}
-
-static void round_point(num_context *context, const froe_tree *t, uint32_t object, const ring_point *p, double *out) {
-    if (p->kind == RING_VERTEX) {
-        memcpy(out, p->x, (size_t)t->scene->dim * sizeof *out);
-        return;
-    }
-    geom_plane a = tree_plane_at(t, p->a), b, s;
-    if (p->kind == RING_CROSSING) {
-        geom_round_crossing(context, p->u, p->v, &a, out);
-        return;
-    }
-    b = tree_plane_at(t, p->b);
-    scene_support(t->scene, object, &s);
-    geom_round_corner(context, &s, &a, &b, out);
-}
-
-static void whole_corners(const froe_tree *t, uint32_t object, size_t count, double *coords, froe_node *made) {
-    size_t dim = (size_t)t->scene->dim;
-    for (uint32_t i = 0; i < count; i++) {
-        memcpy(coords + i * dim, scene_point(t->scene, object, i), dim * sizeof *coords);
-        if (made) made[i] = (froe_node){0};
-    }
-}
-
 /* `length` entries make the ring; the first `count` corners are wanted. */
 static void ring_corners(num_context *context, const froe_tree *t, uint32_t object, const uint32_t *ring,
                          uint32_t length, size_t count, double *coords, froe_node *made) {
     size_t dim = (size_t)t->scene->dim;
     for (uint32_t i = 0; i < count; i++) {
-        ring_point p = ring_point_at(t->scene, object, ring, length, i);
-        round_point(context, t, object, &p, coords + i * dim);
+        const ring_point p = ring_point_at(t->scene, object, ring, length, i);
+        double *out = coords + i * dim;
+        if (p.kind == RING_VERTEX) {
+            memcpy(out, p.x, dim * sizeof *out);
+        } else {
+            geom_plane a = tree_plane_at(t, p.a), b, s;
+            if (p.kind == RING_CROSSING) {
+                geom_round_crossing(context, p.u, p.v, &a, out);
+            } else {
+                b = tree_plane_at(t, p.b);
+                scene_support(t->scene, object, &s);
+                geom_round_corner(context, &s, &a, &b, out);
+            }
+        }
         if (made) made[i].id1 = ring[i] & TREE_EDGE_CUT ? (ring[i] & ~TREE_EDGE_CUT) + 1 : 0;
     }
-}
-
-static void fragment_corners(const froe_tree *t, uint32_t piece, size_t count, double *coords, froe_node *made) {
-    num_context own, *context = borrow(t, &own);
-    if (tree_is_packed(t)) {
-        uint32_t leaf = packed_leaf(t, piece), object = packed_id(t, piece) & PACKED_OBJECT, ring[2];
-        packed_ring(t, context, leaf, object, ring);
-        ring_corners(context, t, object, ring, 2, count, coords, made);
-    } else {
-        const uint32_t *ring = t->bounds + t->pieces[piece].ring;
-        ring_corners(context, t, t->pieces[piece].object, ring + 1, ring[0], count, coords, made);
-    }
-    give_back(t, context);
 }
 
 size_t froe_tree_piece_corners(const froe_tree *tree, size_t piece, double *coords, froe_node *made, size_t capacity) {
@@ -103,9 +64,30 @@ size_t froe_tree_piece_corners(const froe_tree *tree, size_t piece, double *coor
     if (piece >= tree->piece_count) return 0;
     froe_piece p = froe_tree_piece(tree, piece);
     size_t count = p.corners < capacity ? p.corners : capacity;
-    if (p.whole)
-        whole_corners(tree, p.object, count, coords, made);
+    size_t dim = (size_t)tree->scene->dim;
+    for (uint32_t i = 0; p.whole && i < count; i++) {
+        memcpy(coords + i * dim, scene_point(tree->scene, p.object, i), dim * sizeof *coords);
+        if (made) made[i] = (froe_node){0};
+    }
+    if (p.whole) return p.corners;
+    num_context own, *context = &tree->spare->context;
+    if (atomic_flag_test_and_set(&tree->spare->taken)) {
+        if (geom_context_new(&tree->alloc, &own) == FROE_OK)
+            context = &own;
+        else
+            while (atomic_flag_test_and_set(&tree->spare->taken)) sched_yield();
+    }
+    if (tree_is_packed(tree)) {
+        uint32_t leaf = packed_leaf(tree, (uint32_t)piece), ring[2];
+        packed_ring(tree, context, leaf, p.object, ring);
+        ring_corners(context, tree, p.object, ring, 2, count, coords, made);
+    } else {
+        const uint32_t *ring = tree->bounds + tree->pieces[piece].ring;
+        ring_corners(context, tree, p.object, ring + 1, ring[0], count, coords, made);
+    }
+    if (context == &own)
+        num_context_free(&own);
     else
-        fragment_corners(tree, (uint32_t)piece, count, coords, made);
+        atomic_flag_clear(&tree->spare->taken);
     return p.corners;
 }

@@ -78,25 +78,15 @@ void draft_leaf(tree_draft *draft, uint32_t node, uint8_t flags) {
     draft->nodes.data[node] = (tree_node){.type = TREE_LEAF, .flags = flags};
 }
 
-/* A plain node is about to get an in-cut list: its cut moves to the table. */
-static froe_status move_to_table(tree_draft *draft, tree_node *node) {
-    froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = node->axis, .value = node->u.value};
-    uint32_t index;
-    froe_status status = table_cut(draft, &cut, &index);
-    if (status) return status;
-    node->type = TREE_TABLED;
-    node->axis = 0;
-    node->u.value = 0;
-    node->u.cut = index;
-    return FROE_OK;
-}
-
 froe_status draft_list(tree_draft *draft, uint32_t node) {
     tree_node *n = draft->nodes.data + node;
     uint32_t first = (uint32_t)draft->pieces.count;
-    if (n->type == TREE_PLAIN) {
-        froe_status status = move_to_table(draft, n);
+    if (n->type == TREE_PLAIN) { /* a plain node has no list: its cut moves to the table */
+        froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = n->axis, .value = n->u.value};
+        uint32_t index;
+        froe_status status = table_cut(draft, &cut, &index);
         if (status) return status;
+        *n = (tree_node){.u.cut = index, .child = n->child, .type = TREE_TABLED, .flags = n->flags};
     }
     if (n->type == TREE_LEAF)
         n->u.list.first = first;

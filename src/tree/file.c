@@ -43,7 +43,9 @@ typedef struct part {
     uint32_t item_size;
 } part;
 
-static part tree_part(const froe_tree *t, file_id id) {
+static part array_of(const froe_tree *t, file_id id) {
+    const froe_scene *s = t->scene;
+    const uint64_t objects = s->object_count;
     switch (id) {
     case FILE_META:
         return (part){&t->meta, 1, sizeof t->meta};
@@ -55,18 +57,8 @@ static part tree_part(const froe_tree *t, file_id id) {
         return (part){t->pieces, tree_is_packed(t) ? 0 : t->piece_count, sizeof *t->pieces};
     case FILE_BOUNDS:
         return (part){t->bounds, t->bound_count, sizeof *t->bounds};
-    case FILE_BLOCKS:
-        return (part){t->packed.blocks, t->packed.block_count, PACKED_BLOCK};
-    case FILE_OWNERS:
-        return (part){t->packed.owners, t->packed.owner_count, sizeof *t->packed.owners};
-    default:
+    case FILE_NORMALS:
         return (part){t->normals, t->normal_count, sizeof *t->normals};
-    }
-}
-
-static part scene_part(const froe_scene *s, file_id id) {
-    uint64_t objects = s->object_count;
-    switch (id) {
     case FILE_COORDS:
         return (part){s->coords, (uint64_t)s->vertex_count * (uint64_t)s->dim, sizeof *s->coords};
     case FILE_KINDS:
@@ -87,13 +79,17 @@ static part scene_part(const froe_scene *s, file_id id) {
         return (part){s->groups, s->groups ? objects : 0, sizeof *s->groups};
     case FILE_GROUP_TABLE:
         return (part){s->group_table, s->group_count, sizeof *s->group_table};
+    case FILE_BLOCKS:
+        return (part){t->packed.blocks, t->packed.block_count, PACKED_BLOCK};
+    case FILE_OWNERS:
+        return (part){t->packed.owners, t->packed.owner_count, sizeof *t->packed.owners};
     default:
         return (part){s->text, s->text_size, 1};
     }
 }
 
 uint32_t file_part(const froe_tree *tree, file_id id, const void **data, uint64_t *size) {
-    part p = file_is_of_tree(id) ? tree_part(tree, id) : scene_part(tree->scene, id);
+    const part p = array_of(tree, id);
     *data = p.data;
     *size = p.count * p.item_size;
     return p.item_size;

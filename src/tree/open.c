@@ -38,23 +38,23 @@ static froe_status unreadable(const opening *o, int error) {
 
 /* -------------------------------------------------------------------- file -- */
 
-static froe_status map_descriptor(opening *o, int fd) {
-    struct stat info;
-    if (fstat(fd, &info)) return unreadable(o, errno);
-    if (!S_ISREG(info.st_mode)) return unreadable(o, S_ISDIR(info.st_mode) ? EISDIR : ENODEV);
-    if (info.st_size == 0) return bad_file(o, "it is empty");
-    if ((uint64_t)info.st_size < sizeof(file_header)) return bad_file(o, "it is too short");
-    void *map = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
-    if (map == MAP_FAILED) return unreadable(o, errno);
-    o->bytes = map;
-    o->size = (size_t)info.st_size;
-    return FROE_OK;
-}
-
 static froe_status map_file(opening *o) {
     int fd = open(o->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* opening a pipe must not block */
+    froe_status status = FROE_OK;
+    struct stat info;
     if (fd < 0) return unreadable(o, errno);
-    froe_status status = map_descriptor(o, fd);
+    if (fstat(fd, &info)) {
+        status = unreadable(o, errno);
+    } else if (!S_ISREG(info.st_mode)) {
+        status = unreadable(o, S_ISDIR(info.st_mode) ? EISDIR : ENODEV);
+    } else if ((uint64_t)info.st_size < sizeof(file_header)) {
+        status = bad_file(o, info.st_size ? "it is too short" : "it is empty");
+    } else {
+        void *map = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
+        if (map == MAP_FAILED) status = unreadable(o, errno);
+        o->bytes = status ? NULL : map;
+        o->size = (size_t)info.st_size;
+    }
     close(fd);
     return status;
 }
@@ -67,7 +67,8 @@ static bool is_zero_between(const uint8_t *bytes, uint64_t from, uint64_t to) {
     return true;
 }
 
-static froe_status check_header(opening *o) {
+/* Sections lie in the order of their ids, without gaps but for the zeros that align them. */
+static froe_status check_layout(opening *o) {
     const file_header *h = o->header = (const file_header *)(const void *)o->bytes;
     const size_t table = FILE_SECTIONS * sizeof(file_section);
     if (memcmp(h->magic, FILE_MAGIC, sizeof h->magic) != 0) return bad_file(o, "it does not begin as one");
@@ -78,14 +79,10 @@ static froe_status check_header(opening *o) {
     if (h->checksum != file_checksum(o->table, table, file_checksum(h, offsetof(file_header, checksum), 0)))
         return bad_file(o, "the checksum of its header");
     if (h->unused || h->spare[0] || h->spare[1] || h->spare[2]) return bad_file(o, "an unused field that is not 0");
-    return h->dim >= 2 && h->dim <= FROE_MAX_DIM ? FROE_OK : bad_file(o, "its dimension");
-}
-
-/* Sections lie in the order of their ids, without gaps but for the zeros that align them. */
-static froe_status check_sections(const opening *o) {
+    if (h->dim < 2 || h->dim > FROE_MAX_DIM) return bad_file(o, "its dimension");
     const froe_scene none = {.dim = 0};
     const froe_tree empty = {.scene = (froe_scene *)&none};
-    uint64_t end = sizeof(file_header) + FILE_SECTIONS * sizeof(file_section), size;
+    uint64_t end = sizeof *h + table, size;
     const void *data;
     for (uint32_t i = 0; i < FILE_SECTIONS; i++) {
         const file_section *s = o->table + i;
@@ -116,9 +113,10 @@ static bool optional(uint32_t count, uint32_t objects) {
     return count == 0 || count == objects;
 }
 
-static froe_status claim_scene(opening *o) {
+/* The arrays of scene and tree, as the file claims them. */
+static froe_status claim_arrays(opening *o, froe_tree *t) {
     froe_scene *s = &o->scene;
-    uint32_t coords, forms, starts, tags, faces, groups, text;
+    uint32_t coords, forms, starts, tags, faces, groups, text, count;
     s->dim = (int)o->header->dim;
     s->coords = section(o, FILE_COORDS, &coords);
     s->kinds = section(o, FILE_KINDS, &s->object_count);
@@ -135,11 +133,7 @@ static froe_status claim_scene(opening *o) {
     s->vertex_count = coords / o->header->dim;
     bool fits = coords % o->header->dim == 0 && forms == s->object_count && starts == (uint64_t)s->object_count + 1 &&
                 optional(tags, forms) && optional(faces, forms) && optional(groups, forms);
-    return fits ? FROE_OK : bad_file(o, "sections that do not fit together");
-}
-
-static froe_status claim_tree(const opening *o, froe_tree *t) {
-    uint32_t count;
+    if (!fits) return bad_file(o, "sections that do not fit together");
     const void *meta = section(o, FILE_META, &count);
     if (count != 1) return bad_file(o, "its description");
     memcpy(&t->meta, meta, sizeof t->meta);
@@ -156,17 +150,6 @@ static froe_status claim_tree(const opening *o, froe_tree *t) {
 }
 
 /* ------------------------------------------------------------------- whole -- */
-
-static froe_status read_all(opening *o, froe_tree *t) {
-    froe_status status = check_header(o);
-    if (!status) status = check_sections(o);
-    if (!status) status = claim_scene(o);
-    if (!status) status = claim_tree(o, t);
-    if (!status) status = scene_mapped(&o->scene, &t->alloc, &t->scene, o->diag);
-    if (!status) status = tree_validate(t, o->diag);
-    if (!status && tree_finish(t)) status = support_fail_memory(o->diag);
-    return status;
-}
 
 froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -185,7 +168,11 @@ froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_
     }
     t->alloc = alloc;
     t->mapped = true;
-    status = read_all(&o, t);
+    status = check_layout(&o);
+    if (!status) status = claim_arrays(&o, t);
+    if (!status) status = scene_mapped(&o.scene, &alloc, &t->scene, diag);
+    if (!status) status = tree_validate(t, diag);
+    if (!status && tree_finish(t)) status = support_fail_memory(diag);
     if (status) {
         froe_tree_free(t);
         munmap((void *)(uintptr_t)o.bytes, o.size);

@@ -11,13 +11,22 @@ typedef struct file_head {
     uint8_t zeros[FILE_ALIGN]; /* at least up to the first section */
 } file_head;
 
-static void fill_head(const froe_tree *tree, file_head *head) {
-    memset(head, 0, sizeof *head);
-    file_header *h = &head->header;
-    uint64_t offset = file_align(sizeof *h + sizeof head->table);
+froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!file_machine_fits())
+        return support_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
+    support_writer out;
+    froe_status status = support_writer_open(&out, path, &tree->alloc, diag);
+    if (status) return status;
+    static const uint8_t zeros[FILE_ALIGN];
+    file_head head;
+    file_header *h = &head.header;
+    memset(&head, 0, sizeof head);
+    uint64_t offset = file_align(sizeof *h + sizeof head.table), size;
+    const void *data;
     for (uint32_t i = 0; i < FILE_SECTIONS; i++) {
-        file_section *s = head->table + i;
-        const void *data;
+        file_section *s = head.table + i;
         s->id = i + 1;
         s->item_size = file_part(tree, (file_id)s->id, &data, &s->size);
         s->offset = offset;
@@ -29,31 +38,12 @@ static void fill_head(const froe_tree *tree, file_head *head) {
     h->sections = FILE_SECTIONS;
     h->size = offset;
     h->dim = (uint32_t)tree->scene->dim;
-    h->checksum = file_checksum(head->table, sizeof head->table, file_checksum(h, offsetof(file_header, checksum), 0));
-}
-
-static void put_tree(support_writer *out, const froe_tree *tree) {
-    static const uint8_t zeros[FILE_ALIGN];
-    file_head head;
-    fill_head(tree, &head);
-    support_writer_put(out, &head, head.table[0].offset);
+    h->checksum = file_checksum(head.table, sizeof head.table, file_checksum(h, offsetof(file_header, checksum), 0));
+    support_writer_put(&out, &head, head.table[0].offset);
     for (uint32_t i = 0; i < FILE_SECTIONS; i++) {
-        const void *data;
-        uint64_t size;
         file_part(tree, (file_id)(i + 1), &data, &size);
-        support_writer_put(out, data, size);
-        support_writer_put(out, zeros, file_align(size) - size);
+        support_writer_put(&out, data, size);
+        support_writer_put(&out, zeros, file_align(size) - size);
     }
-}
-
-froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag) {
-    BASE_FLOATS_OWN;
-    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
-    if (!file_machine_fits())
-        return support_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
-    support_writer out;
-    froe_status status = support_writer_open(&out, path, &tree->alloc, diag);
-    if (status) return status;
-    put_tree(&out, tree);
     return support_writer_close(&out, FROE_OK);
 }

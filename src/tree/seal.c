@@ -31,20 +31,6 @@ static const tree_draft *source_of(const seal *s, uint32_t source) {
     return source ? s->grafts[source - 1].draft : s->main;
 }
 
-static uint32_t translate(const seal *s, uint32_t source, uint32_t outer, uint32_t edge) {
-    uint32_t node = edge & ~TREE_EDGE_CUT;
-    if (!(edge & TREE_EDGE_CUT)) return edge;
-    return TREE_EDGE_CUT | (node < outer ? s->maps[0][node] : s->maps[source][node - outer]);
-}
-
-static void copy_ring(seal *s, uint32_t source, const tree_draft *draft, uint32_t ring) {
-    const uint32_t *from = draft->bounds.data + ring;
-    uint32_t *to = s->tree->bounds + s->bounds, count = *from;
-    *to = count;
-    for (uint32_t i = 1; i <= count; i++) to[i] = translate(s, source, draft->outer, from[i]);
-    s->bounds += count + 1;
-}
-
 /* Copies a list; *first becomes its new place. */
 static void copy_list(seal *s, uint32_t source, uint32_t *first, uint32_t count) {
     const tree_draft *draft = source_of(s, source);
@@ -53,23 +39,20 @@ static void copy_list(seal *s, uint32_t source, uint32_t *first, uint32_t count)
     *first = s->pieces;
     for (uint32_t i = 0; i < count; i++) {
         to[i] = (tree_piece){from[i].object, from[i].ring ? s->bounds : 0};
-        if (from[i].ring) copy_ring(s, source, draft, from[i].ring);
+        if (!from[i].ring) continue;
+        const uint32_t *ring = draft->bounds.data + from[i].ring, length = *ring;
+        uint32_t *copy = s->tree->bounds + s->bounds;
+        copy[0] = length;
+        for (uint32_t k = 1; k <= length; k++) {
+            uint32_t node = ring[k] & ~TREE_EDGE_CUT;
+            copy[k] = ring[k];
+            if (ring[k] & TREE_EDGE_CUT)
+                copy[k] =
+                    TREE_EDGE_CUT | (node < draft->outer ? s->maps[0][node] : s->maps[source][node - draft->outer]);
+        }
+        s->bounds += length + 1;
     }
     s->pieces += count;
-}
-
-static void copy_cut(seal *s, uint32_t source, uint32_t *index) {
-    const tree_draft *draft = source_of(s, source);
-    tree_cut *cut = s->tree->cuts + s->cuts;
-    *cut = draft->cuts.data[*index];
-    *index = s->cuts++;
-    if (cut->kind == FROE_CUT_PLANE) {
-        size_t dim = (size_t)draft->dim;
-        memcpy(s->tree->normals + s->normals, draft->normals.data + cut->a, dim * sizeof(double));
-        cut->a = s->normals;
-        s->normals += (uint32_t)dim;
-    }
-    copy_list(s, source, &cut->first, cut->count);
 }
 
 /* Places one node with all it owns; true when its children, a fresh pair, come next. */
@@ -86,7 +69,19 @@ static bool place_node(seal *s, seal_visit *visit) {
     if (node.type == TREE_LEAF) {
         copy_list(s, visit->source, &node.u.list.first, node.u.list.count);
     } else {
-        if (node.type == TREE_TABLED) copy_cut(s, visit->source, &node.u.cut);
+        if (node.type == TREE_TABLED) {
+            const tree_draft *draft = source_of(s, visit->source);
+            tree_cut *cut = s->tree->cuts + s->cuts;
+            *cut = draft->cuts.data[node.u.cut];
+            node.u.cut = s->cuts++;
+            if (cut->kind == FROE_CUT_PLANE) {
+                size_t dim = (size_t)draft->dim;
+                memcpy(s->tree->normals + s->normals, draft->normals.data + cut->a, dim * sizeof(double));
+                cut->a = s->normals;
+                s->normals += (uint32_t)dim;
+            }
+            copy_list(s, visit->source, &cut->first, cut->count);
+        }
         node.child = s->nodes;
         s->nodes += 2;
     }
@@ -95,24 +90,10 @@ static bool place_node(seal *s, seal_visit *visit) {
     return node.type != TREE_LEAF;
 }
 
-static froe_status walk_draft(seal *s) {
-    const froe_allocator *alloc = &s->tree->alloc;
-    s->nodes = s->bounds = 1;
-    s->tree->bounds[0] = 0;
-    if (!array_push(alloc, &s->stack, (seal_visit){0, 0, 0})) return FROE_E_MEMORY;
-    while (s->stack.count) {
-        seal_visit at = s->stack.data[--s->stack.count];
-        while (place_node(s, &at)) {
-            seal_visit right = {at.source, at.from + 1, at.to + 1};
-            if (!array_push(alloc, &s->stack, right)) return FROE_E_MEMORY;
-        }
-    }
-    return FROE_OK;
-}
-
-/* Takes arrays of exactly the needed size. */
-static froe_status take_arrays(seal *s) {
+/* Takes arrays of exactly the needed size, and a map per draft, all zero; grafted leaves know their graft. */
+static froe_status take_memory(seal *s) {
     froe_tree *t = s->tree;
+    const froe_allocator *alloc = &t->alloc;
     size_t nodes = s->main->nodes.count - s->graft_count, cuts = s->main->cuts.count, pieces = s->main->pieces.count;
     size_t bounds = s->main->bounds.count, normals = s->main->normals.count;
     for (size_t i = 0; i < s->graft_count; i++) {
@@ -129,12 +110,8 @@ static froe_status take_arrays(seal *s) {
     t->piece_count = (uint32_t)pieces;
     t->bound_count = (uint32_t)bounds;
     t->normal_count = (uint32_t)normals;
-    return tree_take_arrays(t);
-}
-
-/* One map per draft, all zero; grafted leaves know their graft. */
-static froe_status take_maps(seal *s) {
-    const froe_allocator *alloc = &s->tree->alloc;
+    froe_status status = tree_take_arrays(t);
+    if (status) return status;
     s->maps = support_calloc(alloc, s->graft_count + 1, sizeof *s->maps);
     if (!s->maps) return FROE_E_MEMORY;
     s->map_count = s->graft_count + 1;
@@ -146,43 +123,8 @@ static froe_status take_maps(seal *s) {
     return FROE_OK;
 }
 
-static void free_scratch(seal *s) {
-    const froe_allocator *alloc = &s->main->alloc;
-    for (uint32_t i = 0; i < s->map_count; i++)
-        support_free(alloc, s->maps[i], source_of(s, i)->nodes.count * sizeof(uint32_t));
-    support_free(alloc, s->maps, s->map_count * sizeof *s->maps);
-    array_free(alloc, &s->stack);
-}
-
-static froe_status fill_tree(seal *s) {
-    froe_status status = take_arrays(s);
-    if (!status) status = take_maps(s);
-    if (!status) status = walk_draft(s);
-    if (status) return status;
-    s->tree->predicates = s->main->predicates;
-    for (size_t i = 0; i < s->graft_count; i++) num_stats_add(&s->tree->predicates, &s->grafts[i].draft->predicates);
-    status = tree_finish(s->tree);
-    return status ? status : tree_fill_promises(s->tree);
-}
-
 static void copy_text(char *to, const char *from, size_t size) {
     memcpy(to, from, strnlen(from, size - 1));
-}
-
-/* A copy without what may stand behind the ends of strings and lists: equal trees make equal files. */
-static void copy_meta(const tree_meta *from, size_t dim, tree_meta *to) {
-    copy_text(to->method, from->method, sizeof to->method);
-    copy_text(to->settings, from->settings, sizeof to->settings);
-    to->seed = from->seed;
-    to->leaf = from->leaf;
-    to->promise_count = from->promise_count;
-    for (uint32_t i = 0; i < from->promise_count; i++) {
-        copy_text(to->promises[i].name, from->promises[i].name, sizeof to->promises[i].name);
-        to->promises[i].promised = from->promises[i].promised;
-        to->promises[i].measured = from->promises[i].measured;
-    }
-    memcpy(to->root_lo, from->root_lo, dim * sizeof *to->root_lo);
-    memcpy(to->root_hi, from->root_hi, dim * sizeof *to->root_hi);
 }
 
 froe_status draft_shell(const froe_allocator *alloc, froe_scene *scene, const tree_meta *meta, froe_tree **out) {
@@ -190,7 +132,20 @@ froe_status draft_shell(const froe_allocator *alloc, froe_scene *scene, const tr
     if (!t) return FROE_E_MEMORY;
     t->alloc = *alloc;
     t->scene = scene;
-    copy_meta(meta, (size_t)scene->dim, &t->meta);
+    /* a copy without what may stand behind the ends of strings and lists: equal trees make equal files */
+    tree_meta *to = &t->meta;
+    copy_text(to->method, meta->method, sizeof to->method);
+    copy_text(to->settings, meta->settings, sizeof to->settings);
+    to->seed = meta->seed;
+    to->leaf = meta->leaf;
+    to->promise_count = meta->promise_count;
+    for (uint32_t i = 0; i < meta->promise_count; i++) {
+        copy_text(to->promises[i].name, meta->promises[i].name, sizeof to->promises[i].name);
+        to->promises[i].promised = meta->promises[i].promised;
+        to->promises[i].measured = meta->promises[i].measured;
+    }
+    memcpy(to->root_lo, meta->root_lo, (size_t)scene->dim * sizeof *to->root_lo);
+    memcpy(to->root_hi, meta->root_hi, (size_t)scene->dim * sizeof *to->root_hi);
     scene_hold(scene);
     *out = t;
     return FROE_OK;
@@ -200,8 +155,29 @@ froe_status draft_seal(const tree_draft *main, const tree_graft *grafts, size_t 
                        const tree_meta *meta, froe_tree **out) {
     seal s = {.main = main, .grafts = grafts, .graft_count = graft_count};
     froe_status status = draft_shell(&main->alloc, scene, meta, &s.tree);
-    if (!status) status = fill_tree(&s);
-    free_scratch(&s);
+    if (!status) status = take_memory(&s);
+    if (!status) {
+        s.nodes = s.bounds = 1;
+        s.tree->bounds[0] = 0;
+        if (!array_push(&main->alloc, &s.stack, (seal_visit){0, 0, 0})) status = FROE_E_MEMORY;
+    }
+    while (!status && s.stack.count) {
+        seal_visit at = s.stack.data[--s.stack.count];
+        while (!status && place_node(&s, &at)) {
+            seal_visit right = {at.source, at.from + 1, at.to + 1};
+            if (!array_push(&main->alloc, &s.stack, right)) status = FROE_E_MEMORY;
+        }
+    }
+    if (!status) {
+        s.tree->predicates = main->predicates;
+        for (size_t i = 0; i < graft_count; i++) num_stats_add(&s.tree->predicates, &grafts[i].draft->predicates);
+        status = tree_finish(s.tree);
+    }
+    if (!status) status = tree_fill_promises(s.tree);
+    for (uint32_t i = 0; i < s.map_count; i++)
+        support_free(&main->alloc, s.maps[i], source_of(&s, i)->nodes.count * sizeof(uint32_t));
+    support_free(&main->alloc, s.maps, s.map_count * sizeof *s.maps);
+    array_free(&main->alloc, &s.stack);
     if (status)
         froe_tree_free(s.tree);
     else

@@ -145,44 +145,26 @@ static bool kept(const clip *c, uint32_t point) {
     return c->scratch->sides.data[point] * c->side >= 0;
 }
 
-/* An empty hash table with room for every edge of the shape. */
-static bool clear_edges(clip *c) {
-    size_t size = 16;
-    while (size < 2 * c->from->loops.count) size *= 2;
-    c->scratch->edges.count = 0;
-    if (!array_reserve(c->alloc, &c->scratch->edges, size)) return false;
-    c->scratch->edges.count = size;
-    memset(c->scratch->edges.data, 0xff, size * sizeof(shape_edge));
-    return true;
-}
-
-/* New point where the edge meets the plane; the same bits from either side of it. */
-static bool cross_edge(clip *c, uint32_t a, uint32_t b, uint32_t *point) {
-    shape *out = c->out;
-    size_t dim = (size_t)c->dim;
-    if (!array_reserve(c->alloc, &out->points, dim)) return false;
-    if (a > b) {
-        uint32_t swap = a;
-        a = b;
-        b = swap;
-    }
-    const double *x = c->from->points.data + a * dim, *y = c->from->points.data + b * dim;
-    double u = c->scratch->values.data[a], v = c->scratch->values.data[b], t = u / (u - v);
-    *point = (uint32_t)(out->points.count / dim);
-    for (size_t k = 0; k < dim; k++) out->points.data[out->points.count++] = x[k] + t * (y[k] - x[k]);
-    if (c->plane->axis >= 0) out->points.data[out->points.count - dim + (size_t)c->plane->axis] = c->plane->c;
-    return true;
-}
-
 /* Slot of a crossed edge, made when it is new. False without memory. */
 static bool edge_slot(clip *c, uint32_t a, uint32_t b, uint32_t *slot) {
+    shape *out = c->out;
+    size_t dim = (size_t)c->dim;
     shape_edge *edges = c->scratch->edges.data;
     uint32_t mask = (uint32_t)c->scratch->edges.count - 1, at = (a * 0x9e3779b1u ^ b * 0x85ebca6bu) & mask;
     while (edges[at].kept != SHAPE_EMPTY && (edges[at].kept != a || edges[at].dropped != b)) at = (at + 1) & mask;
     *slot = at;
     if (edges[at].kept != SHAPE_EMPTY) return true;
     edges[at] = (shape_edge){a, b, a, SHAPE_EMPTY};
-    return c->scratch->sides.data[a] == 0 || cross_edge(c, a, b, &edges[at].point);
+    if (c->scratch->sides.data[a] == 0) return true;
+    /* a new point where the edge meets the plane; the same bits from either side of it */
+    if (!array_reserve(c->alloc, &out->points, dim)) return false;
+    uint32_t first = a < b ? a : b, second = a < b ? b : a;
+    const double *x = c->from->points.data + first * dim, *y = c->from->points.data + second * dim;
+    double u = c->scratch->values.data[first], v = c->scratch->values.data[second], t = u / (u - v);
+    edges[at].point = (uint32_t)(out->points.count / dim);
+    for (size_t k = 0; k < dim; k++) out->points.data[out->points.count++] = x[k] + t * (y[k] - x[k]);
+    if (c->plane->axis >= 0) out->points.data[out->points.count - dim + (size_t)c->plane->axis] = c->plane->c;
+    return true;
 }
 
 /* Appends a point to the last face unless it just was. */
@@ -226,42 +208,6 @@ static bool clip_face(clip *c, const uint32_t *loop, uint32_t count) {
     return close_face(c);
 }
 
-/* The loops around the cut, as faces of `out`. */
-static bool close_cut(clip *c) {
-    shape_edge *edges = c->scratch->edges.data;
-    for (size_t i = 0; i < c->scratch->edges.count; i++) {
-        uint32_t at = (uint32_t)i;
-        if (edges[at].kept == SHAPE_EMPTY || edges[at].next == SHAPE_EMPTY) continue;
-        while (edges[at].next != SHAPE_EMPTY) {
-            uint32_t next = edges[at].next;
-            if (!add_point(c, edges[at].point)) return false;
-            edges[at].next = SHAPE_EMPTY;
-            at = next;
-        }
-        if (!close_face(c)) return false;
-    }
-    return true;
-}
-
-/* Drops the points that no face uses. */
-static bool compact(clip *c) {
-    shape *out = c->out;
-    size_t dim = (size_t)c->dim, count = out->points.count / dim, used = 0;
-    c->scratch->renumber.count = 0;
-    if (!array_reserve(c->alloc, &c->scratch->renumber, count)) return false;
-    uint32_t *number = c->scratch->renumber.data;
-    memset(number, 0, count * sizeof *number);
-    for (size_t i = 0; i < out->loops.count; i++) number[out->loops.data[i]] = 1;
-    for (size_t i = 0; i < count; i++) {
-        if (!number[i]) continue;
-        memmove(out->points.data + used * dim, out->points.data + i * dim, dim * sizeof(double));
-        number[i] = (uint32_t)used++;
-    }
-    for (size_t i = 0; i < out->loops.count; i++) out->loops.data[i] = number[out->loops.data[i]];
-    out->points.count = used * dim;
-    return true;
-}
-
 /* The section as a shape: one loop over its own points. */
 static bool copy_cut(const clip *c, const uint32_t *loop, size_t count, shape *cut) {
     size_t dim = (size_t)c->dim;
@@ -272,16 +218,31 @@ static bool copy_cut(const clip *c, const uint32_t *loop, size_t count, shape *c
     return true;
 }
 
-/* 2D: the section runs between the points where the polygon was cut. */
-static bool section_2d(const clip *c, shape *cut) {
-    const shape_edge *edges = c->scratch->edges.data;
+/* 2D: the section runs between the points where the polygon was cut. 3D: the loops around the cut become faces of
+ * `out`, and the first of them is the section. */
+static bool close_cut(clip *c, shape *cut) {
+    shape_edge *edges = c->scratch->edges.data;
+    const shape *out = c->out;
+    const size_t faces = out->starts.count;
+    if (cut) clear(cut);
     for (size_t i = 0; i < c->scratch->edges.count; i++) {
-        if (edges[i].kept == SHAPE_EMPTY || edges[i].next == SHAPE_EMPTY) continue;
-        uint32_t ends[2] = {edges[i].point, edges[edges[i].next].point};
-        return copy_cut(c, ends, 2, cut);
+        uint32_t at = (uint32_t)i;
+        if (edges[at].kept == SHAPE_EMPTY || edges[at].next == SHAPE_EMPTY) continue;
+        if (c->dim == 2) {
+            uint32_t ends[2] = {edges[at].point, edges[edges[at].next].point};
+            return !cut || copy_cut(c, ends, 2, cut);
+        }
+        while (edges[at].next != SHAPE_EMPTY) {
+            uint32_t next = edges[at].next;
+            if (!add_point(c, edges[at].point)) return false;
+            edges[at].next = SHAPE_EMPTY;
+            at = next;
+        }
+        if (!close_face(c)) return false;
     }
-    clear(cut);
-    return true;
+    if (c->dim == 2 || !cut) return true;
+    size_t first = out->starts.data[faces - 1], end = out->loops.count > first ? out->starts.data[faces] : first;
+    return copy_cut(c, out->loops.data + first, end - first, cut);
 }
 
 bool shape_clip(const froe_allocator *alloc, int dim, const shape *s, const shape_plane *plane, int side,
@@ -291,16 +252,29 @@ bool shape_clip(const froe_allocator *alloc, int dim, const shape *s, const shap
     if (!array_reserve(alloc, &out->points, s->points.count) || !array_push(alloc, &out->starts, 0)) return false;
     memcpy(out->points.data, s->points.data, s->points.count * sizeof(double));
     out->points.count = s->points.count;
-    if (!clear_edges(&c)) return false;
+    /* an empty hash table with room for every edge of the shape */
+    size_t size = 16;
+    while (size < 2 * s->loops.count) size *= 2;
+    scratch->edges.count = 0;
+    if (!array_reserve(alloc, &scratch->edges, size)) return false;
+    scratch->edges.count = size;
+    memset(scratch->edges.data, 0xff, size * sizeof(shape_edge));
     for (size_t f = 0; f + 1 < s->starts.count; f++)
         if (!clip_face(&c, s->loops.data + s->starts.data[f], s->starts.data[f + 1] - s->starts.data[f])) return false;
-    if (dim == 2) return (!cut || section_2d(&c, cut)) && compact(&c);
-    size_t faces = out->starts.count;
-    if (!close_cut(&c)) return false;
-    if (cut) {
-        clear(cut);
-        size_t first = out->starts.data[faces - 1], end = out->loops.count > first ? out->starts.data[faces] : first;
-        if (!copy_cut(&c, out->loops.data + first, end - first, cut)) return false;
+    if (!close_cut(&c, cut)) return false;
+    /* drops the points that no face uses */
+    size_t width = (size_t)dim, count = out->points.count / width, used = 0;
+    scratch->renumber.count = 0;
+    if (!array_reserve(alloc, &scratch->renumber, count)) return false;
+    uint32_t *number = scratch->renumber.data;
+    memset(number, 0, count * sizeof *number);
+    for (size_t i = 0; i < out->loops.count; i++) number[out->loops.data[i]] = 1;
+    for (size_t i = 0; i < count; i++) {
+        if (!number[i]) continue;
+        memmove(out->points.data + used * width, out->points.data + i * width, width * sizeof(double));
+        number[i] = (uint32_t)used++;
     }
-    return compact(&c);
+    for (size_t i = 0; i < out->loops.count; i++) out->loops.data[i] = number[out->loops.data[i]];
+    out->points.count = used * width;
+    return true;
 }

@@ -77,37 +77,6 @@ geom_plane tree_plane_at(const froe_tree *t, uint32_t node) {
 
 /* ------------------------------------------------------------------ report -- */
 
-/* Counts one node; the sum of depths of its pieces goes to *depths. */
-static void count_node(const froe_tree *t, froe_report *r, uint32_t node, uint32_t depth, double *depths) {
-    uint32_t count = tree_list(t, node).count;
-    *depths += (double)depth * (double)count;
-    if (!tree_is_leaf(t->nodes + node)) {
-        r->in_cut += count;
-        return;
-    }
-    r->leaves++;
-    if (depth > r->height) r->height = depth;
-    if (count > r->max_leaf) r->max_leaf = count;
-    if (t->nodes[node].flags & TREE_INSEPARABLE) r->inseparable++;
-    if (t->nodes[node].flags & TREE_CROWDED) r->crowded++;
-}
-
-static froe_status count_nodes(const froe_tree *t, froe_report *r) {
-    tree_walk walk = {.tree = t};
-    double depths = 0;
-    while (tree_walk_next(&walk)) count_node(t, r, walk.node, tree_walk_depth(&walk), &depths);
-    r->mean_depth = r->fragments ? depths / (double)r->fragments : 0;
-    return tree_walk_end(&walk);
-}
-
-static uint64_t count_bytes(const froe_tree *t) {
-    uint64_t sum = tree_table_bytes(t->packed.table) + tree_wide_bytes(t->packed.wide), size;
-    const void *data;
-    for (int id = FILE_NODES; id < FILE_END; id++)
-        if (file_is_of_tree((file_id)id)) file_part(t, (file_id)id, &data, &size), sum += size;
-    return sum;
-}
-
 froe_status tree_finish(froe_tree *t) {
     froe_report r = {.method = t->meta.method, .settings = t->meta.settings, .dim = t->scene->dim};
     r.leaf = t->meta.leaf;
@@ -123,11 +92,33 @@ froe_status tree_finish(froe_tree *t) {
         t->promises[i] = (froe_promise){p->name, p->promised, p->measured};
     }
     t->promises[t->meta.promise_count] = (froe_promise){0};
-    froe_status status = count_nodes(t, &r);
+    tree_walk walk = {.tree = t};
+    double depths = 0; /* of all pieces */
+    while (tree_walk_next(&walk)) {
+        const tree_node *n = t->nodes + walk.node;
+        uint32_t count = tree_list(t, walk.node).count, depth = tree_walk_depth(&walk);
+        depths += (double)depth * (double)count;
+        if (!tree_is_leaf(n)) {
+            r.in_cut += count;
+            continue;
+        }
+        r.leaves++;
+        if (depth > r.height) r.height = depth;
+        if (count > r.max_leaf) r.max_leaf = count;
+        if (n->flags & TREE_INSEPARABLE) r.inseparable++;
+        if (n->flags & TREE_CROWDED) r.crowded++;
+    }
+    r.mean_depth = r.fragments ? depths / (double)r.fragments : 0;
+    froe_status status = tree_walk_end(&walk);
     if (!status) status = tree_table_new(t, &t->packed.table);
     if (!status) status = tree_wide_new(t, &t->packed.wide);
     if (!status) status = tree_spare_new(&t->alloc, &t->spare);
-    r.bytes = count_bytes(t);
+    r.bytes = tree_table_bytes(t->packed.table) + tree_wide_bytes(t->packed.wide);
+    for (int id = FILE_NODES; id < FILE_END; id++) {
+        const void *data;
+        uint64_t size;
+        if (file_is_of_tree((file_id)id)) file_part(t, (file_id)id, &data, &size), r.bytes += size;
+    }
     t->report = r;
     return status;
 }
@@ -169,21 +160,8 @@ froe_node_info froe_tree_node(const froe_tree *tree, froe_node node) {
     return info;
 }
 
-/* A fragment of a segment has two corners, as the segment has. */
-static froe_piece plane_piece(const froe_tree *t, uint32_t piece) {
-    uint32_t id = packed_id(t, piece), object = id & PACKED_OBJECT;
-    return (froe_piece){object, packed_is_whole(id), scene_corners(t->scene, object)};
-}
-
 static uint32_t piece_corners(const froe_scene *s, uint32_t object) {
     return scene_form(s, object) == FROE_BALL ? 1 : scene_corners(s, object);
-}
-
-/* Nothing is cut in packed trees of space. */
-static froe_piece space_piece(const froe_tree *t, uint32_t piece) {
-    tree_objects list = tree_list(t, packed_leaf(t, piece));
-    uint32_t object = tree_object(&list, piece - list.first);
-    return (froe_piece){object, true, piece_corners(t->scene, object)};
 }
 
 size_t froe_tree_piece_count(const froe_tree *tree) {
@@ -192,8 +170,15 @@ size_t froe_tree_piece_count(const froe_tree *tree) {
 
 froe_piece froe_tree_piece(const froe_tree *tree, size_t piece) {
     if (piece >= tree->piece_count) return (froe_piece){.object = FROE_NONE};
-    if (tree_is_space(tree)) return space_piece(tree, (uint32_t)piece);
-    if (tree_is_packed(tree)) return plane_piece(tree, (uint32_t)piece);
+    if (tree_is_space(tree)) { /* nothing is cut there */
+        tree_objects list = tree_list(tree, packed_leaf(tree, (uint32_t)piece));
+        uint32_t object = tree_object(&list, (uint32_t)piece - list.first);
+        return (froe_piece){object, true, piece_corners(tree->scene, object)};
+    }
+    if (tree_is_packed(tree)) { /* a fragment of a segment has two corners, as the segment has */
+        uint32_t id = packed_id(tree, (uint32_t)piece), object = id & PACKED_OBJECT;
+        return (froe_piece){object, packed_is_whole(id), scene_corners(tree->scene, object)};
+    }
     const tree_piece *p = tree->pieces + piece;
     froe_piece out = {.object = p->object, .whole = !p->ring};
     if (p->ring)

@@ -58,53 +58,36 @@ static froe_status bad_node(const audit *a, uint32_t node, const char *what) {
 
 /* ---------------------------------------------------------------- structure -- */
 
-static froe_status check_structure(audit *a) {
-    froe_status status = scene_validate(a->tree->scene, &a->alloc, a->diag);
-    if (!status) status = tree_validate(a->tree, a->diag);
-    if (status == FROE_E_FORMAT) {
-        status = FROE_E_AUDIT;
-        if (a->diag) a->diag->status = status;
-    }
-    return status;
-}
-
 /* Counts once more, level by level instead of along paths: children come after their parents. */
-static froe_status count_again(const audit *a, froe_report *r) {
+static froe_status check_report(const audit *a) {
+    const froe_report *r = &a->tree->report;
     const froe_tree *t = a->tree;
     uint32_t *depth = support_calloc(&a->alloc, t->node_count, sizeof *depth);
+    froe_report again = {.dim = t->scene->dim};
     double depths = 0;
     if (!depth) return support_fail_memory(a->diag);
     for (uint32_t i = 0; i < t->node_count; i++) {
         const tree_node *n = t->nodes + i;
         uint32_t count = tree_list(t, i).count;
-        r->fragments += count;
+        again.fragments += count;
         depths += (double)count * depth[i];
         if (tree_is_leaf(n)) {
-            r->leaves++;
-            if (depth[i] > r->height) r->height = depth[i];
-            if (count > r->max_leaf) r->max_leaf = count;
-            r->inseparable += (n->flags & TREE_INSEPARABLE) != 0;
-            r->crowded += (n->flags & TREE_CROWDED) != 0;
+            again.leaves++;
+            if (depth[i] > again.height) again.height = depth[i];
+            if (count > again.max_leaf) again.max_leaf = count;
+            again.inseparable += (n->flags & TREE_INSEPARABLE) != 0;
+            again.crowded += (n->flags & TREE_CROWDED) != 0;
         } else {
-            r->in_cut += count;
+            again.in_cut += count;
             depth[n->child] = depth[n->child + 1] = depth[i] + 1;
         }
     }
-    r->mean_depth = r->fragments ? depths / (double)r->fragments : 0;
+    again.mean_depth = again.fragments ? depths / (double)again.fragments : 0;
     support_free(&a->alloc, depth, t->node_count * sizeof *depth);
-    return FROE_OK;
-}
-
-static froe_status check_report(const audit *a) {
-    const froe_report *r = &a->tree->report;
-    froe_report again = {.dim = a->tree->scene->dim};
-    froe_status status = count_again(a, &again);
-    if (status) return status;
-    bool same = r->dim == again.dim && r->leaf == a->tree->meta.leaf && r->seed == a->tree->meta.seed &&
-                r->objects == a->tree->scene->object_count && r->nodes == a->tree->node_count &&
-                r->leaves == again.leaves && r->fragments == again.fragments && r->in_cut == again.in_cut &&
-                r->size == r->nodes + again.fragments && r->height == again.height &&
-                r->mean_depth == again.mean_depth && r->max_leaf == again.max_leaf &&
+    bool same = r->dim == again.dim && r->leaf == t->meta.leaf && r->seed == t->meta.seed &&
+                r->objects == t->scene->object_count && r->nodes == t->node_count && r->leaves == again.leaves &&
+                r->fragments == again.fragments && r->in_cut == again.in_cut && r->size == r->nodes + again.fragments &&
+                r->height == again.height && r->mean_depth == again.mean_depth && r->max_leaf == again.max_leaf &&
                 r->inseparable == again.inseparable && r->crowded == again.crowded;
     return same ? FROE_OK : support_fail(a->diag, FROE_E_AUDIT, "the report does not tell what is in the tree");
 }
@@ -124,40 +107,7 @@ static froe_status check_guard_stage(const audit *a) {
     return FROE_OK;
 }
 
-/* Of packed trees. */
-static froe_status check_frame(const audit *a) {
-    uint32_t node;
-    const char *why;
-    if (packed_frame_refuted(a->tree, &node, &why)) return support_fail_memory(a->diag);
-    return why ? bad_node(a, node, why) : FROE_OK;
-}
-
 /* -------------------------------------------------------------------- lists -- */
-
-/* In the order of the pieces, which is that of a walk. */
-static froe_status place_pieces(audit *a) {
-    tree_walk walk = {.tree = a->tree};
-    while (tree_walk_next(&walk)) {
-        tree_objects list = tree_list(a->tree, walk.node);
-        for (uint32_t i = 0; i < list.count; i++) a->pieces[a->starts[tree_object(&list, i) + 1]++] = list.first + i;
-    }
-    return tree_walk_end(&walk) ? support_fail_memory(a->diag) : FROE_OK;
-}
-
-/* Sorts the pieces by object (counting). */
-static froe_status sort_pieces(audit *a) {
-    const froe_tree *t = a->tree;
-    size_t objects = t->scene->object_count;
-    a->starts = support_calloc(&a->alloc, objects + 2, sizeof *a->starts);
-    a->pieces = support_calloc(&a->alloc, t->piece_count, sizeof *a->pieces);
-    if (!a->starts || !a->pieces) return support_fail_memory(a->diag);
-    for (uint32_t node = 0; node < t->node_count; node++) {
-        tree_objects list = tree_list(t, node);
-        for (uint32_t i = 0; i < list.count; i++) a->starts[tree_object(&list, i) + 2]++;
-    }
-    for (size_t i = 2; i < objects + 2; i++) a->starts[i] += a->starts[i - 1];
-    return place_pieces(a);
-}
 
 /* One object being compared with its stored pieces. */
 typedef struct comparison {
@@ -178,36 +128,31 @@ static bool differs(comparison *c, uint32_t node, const char *what) {
     return false;
 }
 
-static uint32_t node_of_piece(const froe_tree *t, uint32_t piece) {
-    for (uint32_t i = 0; i < t->node_count; i++) {
-        tree_objects list = tree_list(t, i);
-        if (piece >= list.first && piece - list.first < list.count) return i;
-    }
-    return FROE_NONE;
-}
-
+/* The next piece is in no place of the object; the node that lists it is found by looking through all lists. */
 static bool stray(comparison *c) {
-    return differs(c, node_of_piece(c->tree, *c->next), "a piece where the object is not");
+    uint32_t node = 0, piece = *c->next;
+    for (; node < c->tree->node_count; node++) {
+        tree_objects list = tree_list(c->tree, node);
+        if (piece >= list.first && piece - list.first < list.count) break;
+    }
+    return differs(c, node < c->tree->node_count ? node : FROE_NONE, "a piece where the object is not");
 }
 
-/* The same ring from any first corner; entries are unique within a ring. */
-static bool rings_equal(const uint32_t *stored, const trace_place *place, bool cyclic) {
-    uint32_t n = place->count, shift = 0;
+/* Is the stored ring that of the place? Rings of polygons may begin at any corner; entries are unique within a ring. */
+static bool shape_right(const comparison *c, const tree_piece *piece, const trace_place *place) {
+    const bool cyclic = scene_form(c->tree->scene, c->object) == FROE_POLYGON;
+    uint32_t own = 0, shift = 0, n = place->count;
+    if (!place->ring) return !piece->ring;
+    while (own < n && place->ring[own] == own) own++;
+    bool whole = own == n && own == scene_corners(c->tree->scene, c->object);
+    if (whole || !piece->ring) return whole && !piece->ring;
+    const uint32_t *stored = c->tree->bounds + piece->ring;
     if (stored[0] != n) return false;
     while (cyclic && shift < n && place->ring[shift] != stored[1]) shift++;
     if (shift == n) return false;
     for (uint32_t i = 0; i < n; i++)
         if (stored[1 + i] != place->ring[i + shift < n ? i + shift : i + shift - n]) return false;
     return true;
-}
-
-static bool shape_right(const comparison *c, const tree_piece *piece, const trace_place *place) {
-    uint32_t own = 0;
-    if (!place->ring) return !piece->ring;
-    while (own < place->count && place->ring[own] == own) own++;
-    bool whole = own == place->count && own == scene_corners(c->tree->scene, c->object);
-    if (whole || !piece->ring) return whole && !piece->ring;
-    return rings_equal(c->tree->bounds + piece->ring, place, scene_form(c->tree->scene, c->object) == FROE_POLYGON);
 }
 
 /* A point has one corner, which is both ends. The ring that others are told must be the true one, too. */
@@ -220,41 +165,21 @@ static const char *packed_wrong(const comparison *c, const trace_place *place, u
     return packed_refuted(c->context, c->tree, place->node, i, ring);
 }
 
-/* Of a place without a piece; false stops the trace. */
-static bool may_be_left_out(comparison *c, const trace_place *place) {
-    bool must = place->must;
-    c->no_memory = place->unsure && trace_cell_meets(c->trace, place->node, &must) != FROE_OK;
-    if (c->no_memory) return false;
-    return !must || differs(c, place->node, "a piece is missing");
-}
-
-/* In packed trees of space objects may be listed beside the cells they are in; space_refuted() sees to those. */
-static bool find_place(comparison *c, const trace_place *place) {
-    tree_objects list = tree_list(c->tree, place->node);
-    while (c->next < c->end && *c->next < list.first) c->next++;
-    bool listed = c->next < c->end && *c->next - list.first < list.count;
-    return listed || may_be_left_out(c, place);
-}
-
-/* All pieces of an object: each right in its leaf, no two in one. */
-static bool space_pieces_right(comparison *c) {
-    uint32_t last = FROE_NONE;
-    for (const uint32_t *piece = c->next; piece < c->end; piece++) {
-        uint32_t leaf = packed_leaf(c->tree, *piece);
-        const char *why = leaf == last ? "listed twice" : space_refuted(c->context, c->tree, *piece);
-        if (why) return differs(c, leaf, why);
-        last = leaf;
-    }
-    return true;
-}
-
-/* Places and pieces come in the same order. */
+/* Places and pieces come in the same order. In packed trees of space objects may also be listed beside the cells they
+ * are in: check_chunk() looks at those pieces, and a place needs only to be listed. */
 static bool compare_place(void *user, const trace_place *place) {
     comparison *c = user;
     tree_objects list = tree_list(c->tree, place->node);
-    if (tree_is_space(c->tree)) return find_place(c, place);
+    const bool space = tree_is_space(c->tree);
+    while (space && c->next < c->end && *c->next < list.first) c->next++;
     if (c->next < c->end && *c->next < list.first) return stray(c);
-    if (c->next == c->end || *c->next - list.first >= list.count) return may_be_left_out(c, place);
+    if (c->next == c->end || *c->next - list.first >= list.count) { /* no piece: right unless there must be one */
+        bool must = place->must;
+        c->no_memory = place->unsure && trace_cell_meets(c->trace, place->node, &must) != FROE_OK;
+        if (c->no_memory) return false;
+        return !must || differs(c, place->node, "a piece is missing");
+    }
+    if (space) return true;
     const char *why = tree_is_packed(c->tree) ? packed_wrong(c, place, *c->next - list.first)
                       : shape_right(c, c->tree->pieces + *c->next, place) ? NULL
                                                                           : "a piece of the wrong shape";
@@ -264,137 +189,125 @@ static bool compare_place(void *user, const trace_place *place) {
     return true;
 }
 
-static froe_status check_object(audit *a, unsigned worker, uint32_t object, froe_diagnostic *diag) {
-    trace *t = a->traces + worker;
-    comparison c = {.tree = a->tree, .trace = t, .context = &t->context, .object = object, .diag = diag};
-    c.next = a->pieces + a->starts[object];
-    c.end = a->pieces + a->starts[object + 1];
-    bool space = tree_is_space(a->tree);
-    if (space && !space_pieces_right(&c)) return FROE_E_AUDIT;
-    froe_status status = trace_object(t, object, compare_place, &c);
-    if (status || c.no_memory) return support_fail_memory(diag);
-    if (!c.failed && !space && c.next < c.end) stray(&c);
-    return c.failed ? FROE_E_AUDIT : FROE_OK;
-}
-
+/* Objects of one job, each compared with its pieces, up to the first violation. */
 static froe_status check_chunk(void *user, unsigned worker, size_t job) {
     audit *a = user;
+    trace *t = a->traces + worker;
+    const bool space = tree_is_space(a->tree);
     uint64_t begin = (uint64_t)job * CHUNK, end = begin + CHUNK, objects = a->tree->scene->object_count;
     froe_diagnostic diag;
-    for (uint64_t i = begin; i < end && i < objects; i++) {
-        froe_status status = check_object(a, worker, (uint32_t)i, &diag);
-        if (!status) continue;
-        if (job < a->findings[worker].job) a->findings[worker] = (finding){job, diag};
-        return status;
+    froe_status status = FROE_OK;
+    for (uint64_t i = begin; i < end && i < objects && !status; i++) {
+        comparison c = {.tree = a->tree, .trace = t, .context = &t->context, .object = (uint32_t)i, .diag = &diag};
+        c.next = a->pieces + a->starts[i];
+        c.end = a->pieces + a->starts[i + 1];
+        uint32_t last = FROE_NONE;
+        for (const uint32_t *piece = c.next; space && piece < c.end && !c.failed; piece++) {
+            uint32_t leaf = packed_leaf(a->tree, *piece); /* every piece right in its leaf, and no two in one */
+            const char *why = leaf == last ? "listed twice" : space_refuted(c.context, a->tree, *piece);
+            if (why) differs(&c, leaf, why);
+            last = leaf;
+        }
+        if (!c.failed && trace_object(t, (uint32_t)i, compare_place, &c)) c.no_memory = true;
+        if (!c.failed && !c.no_memory && !space && c.next < c.end) stray(&c);
+        status = c.no_memory ? support_fail_memory(&diag) : c.failed ? FROE_E_AUDIT : FROE_OK;
     }
-    return FROE_OK;
+    if (status && job < a->findings[worker].job) a->findings[worker] = (finding){job, diag};
+    return status;
 }
 
-static froe_status start_workers(audit *a) {
-    unsigned threads = a->task->threads;
-    froe_status status = FROE_OK;
+/* Sorts the pieces by object (counting), and checks all objects on threads. The finding reported is that of the lowest
+ * job. */
+static froe_status check_lists(audit *a) {
+    const froe_tree *t = a->tree;
+    const size_t objects = t->scene->object_count, threads = a->task->threads;
+    a->starts = support_calloc(&a->alloc, objects + 2, sizeof *a->starts);
+    a->pieces = support_calloc(&a->alloc, t->piece_count, sizeof *a->pieces);
     a->traces = support_calloc(&a->alloc, threads, sizeof *a->traces);
     a->findings = support_calloc(&a->alloc, threads, sizeof *a->findings);
-    if (!a->traces || !a->findings) return support_fail_memory(a->diag);
-    for (unsigned i = 0; i < threads && !status; i++) {
-        a->findings[i].job = SIZE_MAX;
-        status = trace_new(a->tree, a->exact_only, a->traces + i);
+    if (!a->starts || !a->pieces || !a->traces || !a->findings) return support_fail_memory(a->diag);
+    for (uint32_t node = 0; node < t->node_count; node++) {
+        tree_objects list = tree_list(t, node);
+        for (uint32_t i = 0; i < list.count; i++) a->starts[tree_object(&list, i) + 2]++;
     }
-    return status ? support_fail_memory(a->diag) : FROE_OK;
-}
-
-static froe_status tell_audit(const audit *a, froe_status status) {
-    const finding *first = a->findings;
+    for (size_t i = 2; i < objects + 2; i++) a->starts[i] += a->starts[i - 1];
+    tree_walk walk = {.tree = t}; /* goes in the order of the pieces */
+    while (tree_walk_next(&walk)) {
+        tree_objects list = tree_list(t, walk.node);
+        for (uint32_t i = 0; i < list.count; i++) a->pieces[a->starts[tree_object(&list, i) + 1]++] = list.first + i;
+    }
+    if (tree_walk_end(&walk)) return support_fail_memory(a->diag);
+    for (unsigned i = 0; i < threads; i++) {
+        a->findings[i].job = SIZE_MAX;
+        if (trace_new(a->tree, a->exact_only, a->traces + i)) return support_fail_memory(a->diag);
+    }
+    froe_status status = base_run(a->task, 0.8, (objects + CHUNK - 1) / CHUNK, check_chunk, a);
     if (status == FROE_E_CANCELLED) return support_fail_cancelled(a->diag);
-    for (unsigned i = 1; i < a->task->threads; i++)
+    const finding *first = a->findings;
+    for (unsigned i = 1; i < threads; i++)
         if (a->findings[i].job < first->job) first = a->findings + i;
     if (status && a->diag) *a->diag = first->diag;
     return status;
 }
 
-static froe_status check_lists(audit *a) {
-    froe_status status = sort_pieces(a);
-    if (!status) status = start_workers(a);
-    if (status) return status;
-    size_t jobs = ((size_t)a->tree->scene->object_count + CHUNK - 1) / CHUNK;
-    return tell_audit(a, base_run(a->task, 0.8, jobs, check_chunk, a));
-}
-
 /* ------------------------------------------------------------------- leaves -- */
-
-static froe_status check_leaf(audit *a, uint32_t node) {
-    const froe_tree *t = a->tree;
-    uint32_t most = t->meta.leaf;
-    tree_objects list = tree_list(t, node);
-    bool crowded = t->nodes[node].flags & TREE_CROWDED, flagged = t->nodes[node].flags & TREE_INSEPARABLE;
-    const char *name = crowded ? "crowded" : "inseparable", *why = NULL;
-    if (list.count <= most && (crowded || flagged))
-        return support_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but not over capacity", node, name);
-    if (list.count <= most || (crowded && tree_is_packed(t))) return FROE_OK;
-    if (!crowded && !flagged)
-        return support_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", node, list.count,
-                            most);
-    froe_status status =
-        (crowded ? crowded_refuted : inseparable_refuted)(&a->traces[0].context, a->task, t, &list, &why);
-    if (status) return support_fail_memory(a->diag);
-    return why ? support_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but %s", node, name, why) : FROE_OK;
-}
 
 static froe_status check_leaves(audit *a) {
     const froe_tree *t = a->tree;
-    froe_status status = FROE_OK;
-    for (uint32_t i = 0; i < t->node_count && !status; i++) {
+    const uint32_t most = t->meta.leaf;
+    for (uint32_t i = 0; i < t->node_count; i++) {
         if (i % 65536 == 0) base_progress(a->task, a->task->done);
         if (base_cancelled(a->task)) return support_fail_cancelled(a->diag);
-        if (tree_is_leaf(t->nodes + i)) status = check_leaf(a, i);
+        if (!tree_is_leaf(t->nodes + i)) continue;
+        tree_objects list = tree_list(t, i);
+        bool crowded = t->nodes[i].flags & TREE_CROWDED, flagged = t->nodes[i].flags & TREE_INSEPARABLE;
+        const char *name = crowded ? "crowded" : "inseparable", *why = NULL;
+        if (list.count <= most && (crowded || flagged))
+            return support_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but not over capacity", i, name);
+        if (list.count <= most || (crowded && tree_is_packed(t))) continue;
+        if (!crowded && !flagged)
+            return support_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", i, list.count,
+                                most);
+        froe_status status =
+            (crowded ? crowded_refuted : inseparable_refuted)(&a->traces[0].context, a->task, t, &list, &why);
+        if (status) return support_fail_memory(a->diag);
+        if (why) return support_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but %s", i, name, why);
     }
-    return status || !base_cancelled(a->task) ? status : support_fail_cancelled(a->diag);
-}
-
-/* ----------------------------------------------------------------- promises -- */
-
-static froe_status check_promise(const audit *a, const tree_promise *p) {
-    double again = p->measured;
-    froe_status status = tree_measure(a->tree, p->name, &again);
-    if (status == FROE_E_MEMORY) return support_fail_memory(a->diag);
-    if (!(p->measured <= p->promised))
-        return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': %.17g at most, measured %.17g", p->name, p->promised,
-                            p->measured);
-    if (!(again <= p->measured))
-        return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': said to be measured as %.17g, but is %.17g", p->name,
-                            p->measured, again);
-    return FROE_OK;
-}
-
-static froe_status check_promises(const audit *a) {
-    froe_status status = FROE_OK;
-    for (uint32_t i = 0; i < a->tree->meta.promise_count && !status; i++)
-        status = check_promise(a, a->tree->meta.promises + i);
-    return status;
+    return base_cancelled(a->task) ? support_fail_cancelled(a->diag) : FROE_OK;
 }
 
 /* -------------------------------------------------------------------- whole -- */
 
-static void clean_up(audit *a) {
-    unsigned threads = a->task->threads;
-    size_t objects = a->tree->scene->object_count, pieces = a->tree->piece_count;
-    for (unsigned i = 0; a->traces && i < threads; i++) trace_free(a->traces + i);
-    support_free(&a->alloc, a->traces, threads * sizeof *a->traces);
-    support_free(&a->alloc, a->findings, threads * sizeof *a->findings);
-    support_free(&a->alloc, a->starts, (objects + 2) * sizeof *a->starts);
-    support_free(&a->alloc, a->pieces, pieces ? pieces * sizeof *a->pieces : 1);
-}
-
 static froe_status check_all(audit *a) {
+    const froe_tree *t = a->tree;
+    uint32_t node;
+    const char *why = NULL;
     if (!base_progress(a->task, 0)) return support_fail_cancelled(a->diag);
-    froe_status status = check_structure(a);
+    froe_status status = scene_validate(t->scene, &a->alloc, a->diag);
+    if (!status) status = tree_validate(t, a->diag);
+    if (status == FROE_E_FORMAT) {
+        status = FROE_E_AUDIT;
+        if (a->diag) a->diag->status = status;
+    }
     if (!status) status = check_report(a);
     if (!status) status = check_guard_stage(a);
-    if (!status && tree_is_packed(a->tree)) status = check_frame(a);
-    if (!status && !base_progress(a->task, 0.1)) return support_fail_cancelled(a->diag);
-    if (!status) status = check_lists(a);
+    if (status) return status;
+    if (tree_is_packed(t) && packed_frame_refuted(t, &node, &why)) return support_fail_memory(a->diag);
+    if (why) return bad_node(a, node, why);
+    if (!base_progress(a->task, 0.1)) return support_fail_cancelled(a->diag);
+    status = check_lists(a);
     if (!status) status = check_leaves(a);
-    if (!status) status = check_promises(a);
+    for (uint32_t i = 0; i < t->meta.promise_count && !status; i++) {
+        const tree_promise *p = t->meta.promises + i;
+        double again = p->measured;
+        if (tree_measure(t, p->name, &again) == FROE_E_MEMORY) return support_fail_memory(a->diag);
+        if (!(p->measured <= p->promised))
+            return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': %.17g at most, measured %.17g", p->name,
+                                p->promised, p->measured);
+        if (!(again <= p->measured))
+            return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': said to be measured as %.17g, but is %.17g",
+                                p->name, p->measured, again);
+    }
     if (!status) base_progress(a->task, 1);
     return status;
 }
@@ -408,6 +321,11 @@ froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_options *opt
     base_task_init(&task, o.threads, o.progress, o.user);
     audit a = {.tree = tree, .alloc = tree->alloc, .task = &task, .diag = diag, .exact_only = o.exact_only};
     froe_status status = check_all(&a);
-    clean_up(&a);
+    size_t objects = tree->scene->object_count, pieces = tree->piece_count;
+    for (unsigned i = 0; a.traces && i < task.threads; i++) trace_free(a.traces + i);
+    support_free(&a.alloc, a.traces, task.threads * sizeof *a.traces);
+    support_free(&a.alloc, a.findings, task.threads * sizeof *a.findings);
+    support_free(&a.alloc, a.starts, (objects + 2) * sizeof *a.starts);
+    support_free(&a.alloc, a.pieces, pieces ? pieces * sizeof *a.pieces : 1);
     return status;
 }

@@ -19,28 +19,6 @@ static bool pair_may_go_on(const pair *p) {
 
 /* ------------------------------------------------------------------- pairs -- */
 
-static bool separates(const pair *p, const geom_plane *plane) {
-    const froe_scene *s = p->scene;
-    int a = geom_side_ball(p->context, plane, scene_point(s, p->a, 0), scene_radius(s, p->a));
-    int b = geom_side_ball(p->context, plane, scene_point(s, p->b, 0), scene_radius(s, p->b));
-    return a * b == -1;
-}
-
-static bool balls_separated(const pair *p) {
-    const double *a = scene_point(p->scene, p->a, 0), *b = scene_point(p->scene, p->b, 0);
-    double normal[3], length = 0, at = 0;
-    for (int k = 0; k < p->scene->dim; k++) {
-        normal[k] = b[k] - a[k];
-        length += normal[k] * normal[k];
-    }
-    length = sqrt(length);
-    double share = 0.5 + 0.5 * (scene_radius(p->scene, p->a) - scene_radius(p->scene, p->b)) / length;
-    for (int k = 0; k < p->scene->dim; k++) at += normal[k] * (a[k] + share * normal[k]);
-    if (!(length > 0) || !isfinite(length) || !isfinite(at)) return false;
-    geom_plane plane = geom_plane_vector(p->scene->dim, normal, at);
-    return separates(p, &plane);
-}
-
 static bool add_corners(normals *m, const froe_scene *s, uint32_t object) {
     uint32_t n = scene_corners(s, object);
     if (!array_reserve(&m->alloc, &m->points, n)) return false;
@@ -48,29 +26,36 @@ static bool add_corners(normals *m, const froe_scene *s, uint32_t object) {
     return true;
 }
 
-static froe_status hulls_separated(const pair *p, bool *out) {
+/* Is there a plane between two hulls, or between two balls across the line of their centres (found in doubles)? */
+static froe_status separated(const pair *p, bool *out) {
+    const froe_scene *s = p->scene;
+    const froe_kind form = scene_form(s, p->a);
     normals *m = p->normals;
+    *out = false;
+    if (form != scene_form(s, p->b)) return FROE_OK;
+    if (form == FROE_BALL) {
+        const double *a = scene_point(s, p->a, 0), *b = scene_point(s, p->b, 0);
+        const double ra = scene_radius(s, p->a), rb = scene_radius(s, p->b);
+        double normal[3], length = 0, at = 0;
+        for (int k = 0; k < s->dim; k++) {
+            normal[k] = b[k] - a[k];
+            length += normal[k] * normal[k];
+        }
+        length = sqrt(length);
+        const double share = 0.5 + 0.5 * (ra - rb) / length;
+        for (int k = 0; k < s->dim; k++) at += normal[k] * (a[k] + share * normal[k]);
+        if (!(length > 0) || !isfinite(length) || !isfinite(at)) return FROE_OK;
+        const geom_plane plane = geom_plane_vector(s->dim, normal, at);
+        *out = geom_side_ball(p->context, &plane, a, ra) * geom_side_ball(p->context, &plane, b, rb) == -1;
+    }
+    if (form != FROE_HULL) return FROE_OK;
     m->points.count = 0;
     if (!add_corners(m, p->scene, p->a)) return FROE_E_MEMORY;
     m->first = (uint32_t)m->points.count;
     return add_corners(m, p->scene, p->b) ? normals_apart(m, out) : FROE_E_MEMORY;
 }
 
-static froe_status separated(const pair *p, bool *out) {
-    froe_kind a = scene_form(p->scene, p->a), b = scene_form(p->scene, p->b);
-    *out = a == FROE_BALL && b == FROE_BALL && balls_separated(p);
-    return a == FROE_HULL && b == FROE_HULL ? hulls_separated(p, out) : FROE_OK;
-}
-
 /* --------------------------------------------------------------- the leaf -- */
-
-static bool one_point(const froe_scene *s, const tree_objects *list) {
-    for (uint32_t i = 0; i < list->count; i++)
-        if (scene_form(s, tree_object(list, i)) != FROE_POINT ||
-            scene_corner(s, tree_object(list, i), 0) != scene_corner(s, tree_object(list, 0), 0))
-            return false;
-    return true;
-}
 
 /* What objects are between on each axis: the first end of one, and the last beginning. */
 typedef struct gauge {
@@ -91,19 +76,6 @@ static bool gauge_separates(const gauge *g, int dim) {
     for (int k = 0; k < dim; k++)
         if (g->least_hi[k] <= g->most_lo[k]) return true;
     return false;
-}
-
-static bool axis_separates(const froe_scene *s, const tree_objects *list) {
-    gauge g;
-    for (uint32_t i = 0; i < list->count; i++) gauge_take(&g, s, tree_object(list, i), !i);
-    return gauge_separates(&g, s->dim);
-}
-
-static bool axis_separates_pair(const pair *p) {
-    gauge g;
-    gauge_take(&g, p->scene, p->a, true);
-    gauge_take(&g, p->scene, p->b, false);
-    return gauge_separates(&g, p->scene->dim);
 }
 
 /* Balls that all certainly hold one point inside cannot be separated two by two: the centre of the smallest is tried.
@@ -127,52 +99,39 @@ static bool share_a_point(const froe_scene *s, const tree_objects *list) {
     return true;
 }
 
-static froe_status any_pair_separated(pair *p, const tree_objects *list, bool *out) {
-    *out = false;
-    for (uint32_t i = 0; i < list->count && pair_may_go_on(p); i++) {
-        p->a = tree_object(list, i);
-        if (scene_form(p->scene, p->a) < FROE_BALL) continue; /* axis-parallel planes are complete for boxes */
-        for (uint32_t j = 0; j < i && !*out; j++) {
-            p->b = tree_object(list, j);
-            froe_status status = separated(p, out);
-            if (status) return status;
-        }
-        if (*out) break;
-    }
-    return FROE_OK;
-}
-
 froe_status inseparable_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_objects *list,
                                 const char **why) {
     const froe_scene *s = tree->scene;
+    gauge g;
+    uint32_t same = 0;
     *why = NULL;
-    if (one_point(s, list)) return FROE_OK;
+    while (same < list->count && scene_form(s, tree_object(list, same)) == FROE_POINT &&
+           scene_corner(s, tree_object(list, same), 0) == scene_corner(s, tree_object(list, 0), 0))
+        same++;
+    if (same == list->count) return FROE_OK; /* all are one and the same point */
     *why = "the support of one of its objects would divide it";
     for (uint32_t i = 0; i < list->count; i++)
         if (scene_form(s, tree_object(list, i)) <= FROE_POLYGON) return FROE_OK;
     *why = "an axis-parallel plane separates two of its objects";
-    if (axis_separates(s, list)) return FROE_OK;
+    for (uint32_t i = 0; i < list->count; i++) gauge_take(&g, s, tree_object(list, i), !i);
+    if (gauge_separates(&g, s->dim)) return FROE_OK;
     *why = NULL;
     if (s->dim > 3 || share_a_point(s, list)) return FROE_OK;
     normals m = {.context = context, .alloc = tree->alloc, .dim = s->dim};
     pair p = {.context = context, .task = task, .scene = s, .normals = &m};
-    bool found;
-    froe_status status = any_pair_separated(&p, list, &found);
+    bool found = false;
+    froe_status status = FROE_OK;
+    for (uint32_t i = 0; i < list->count && !found && !status && pair_may_go_on(&p); i++) {
+        p.a = tree_object(list, i);
+        if (scene_form(s, p.a) < FROE_BALL) continue; /* axis-parallel planes are complete for boxes */
+        for (uint32_t j = 0; j < i && !found && !status; j++) {
+            p.b = tree_object(list, j);
+            status = separated(&p, &found);
+        }
+    }
     normals_free(&m);
     if (!status && found) *why = "a plane separates two of its objects";
     return status;
-}
-
-static froe_status count_crowd(pair *p, const tree_objects *list, tree_crowd *crowd) {
-    while (!tree_crowd_known(crowd) && pair_may_go_on(p)) {
-        p->a = tree_object(list, crowd->a);
-        p->b = tree_object(list, crowd->b);
-        bool apart = axis_separates_pair(p);
-        froe_status status = apart || p->scene->dim > 3 ? FROE_OK : separated(p, &apart);
-        if (status) return status;
-        tree_crowd_tell(crowd, apart);
-    }
-    return FROE_OK;
 }
 
 froe_status crowded_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_objects *list,
@@ -184,7 +143,17 @@ froe_status crowded_refuted(num_context *context, base_task *task, const froe_tr
     normals m = {.context = context, .alloc = tree->alloc, .dim = s->dim};
     pair p = {.context = context, .task = task, .scene = s, .normals = &m};
     tree_crowd crowd = tree_crowd_of(list->count);
-    froe_status status = count_crowd(&p, list, &crowd);
+    froe_status status = FROE_OK;
+    while (!status && !tree_crowd_known(&crowd) && pair_may_go_on(&p)) {
+        gauge g;
+        p.a = tree_object(list, crowd.a);
+        p.b = tree_object(list, crowd.b);
+        gauge_take(&g, s, p.a, true);
+        gauge_take(&g, s, p.b, false);
+        bool apart = gauge_separates(&g, s->dim);
+        if (!apart && s->dim <= 3) status = separated(&p, &apart);
+        if (!status) tree_crowd_tell(&crowd, apart);
+    }
     normals_free(&m);
     *why = tree_crowd_is(&crowd) || base_cancelled(task) ? NULL : "most pairs of its objects can be separated";
     return status;

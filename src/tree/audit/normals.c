@@ -14,59 +14,45 @@ void normals_free(normals *m) {
 
 /* ---------------------------------------------------------------- products -- */
 
-static num_ball product_in_balls(const normals_vector *const v[3]) {
-    num_ball d[3][3], normal[3];
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) d[i][k] = num_ball_sub(num_ball_from(v[i]->to[k]), num_ball_from(v[i]->from[k]));
-    ball_cross(NULL, d[0], d[1], normal);
-    return ball_dot(NULL, normal, d[2]);
-}
-
-static num_dyadic product_exactly(num_arena *arena, const normals_vector *const v[3]) {
-    num_dyadic d[3][3], normal[3];
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            d[i][k] = num_dyadic_sub(arena, num_dyadic_from(arena, v[i]->to[k]), num_dyadic_from(arena, v[i]->from[k]));
-    dyadic_cross(arena, d[0], d[1], normal);
-    return dyadic_dot(arena, normal, d[2]);
-}
-
 /* The sign of (one x other) . d. */
 static int sign_along(normals *m, const normals_ray *ray, const normals_vector *d) {
     const normals_vector *const v[3] = {m->vectors.data + ray->one, m->vectors.data + ray->other, d};
-    int sign = m->context->first == NUM_EXACT ? NUM_UNSURE : num_ball_sign(product_in_balls(v));
+    num_ball ball[3][3], ball_normal[3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) ball[i][k] = num_ball_sub(num_ball_from(v[i]->to[k]), num_ball_from(v[i]->from[k]));
+    ball_cross(NULL, ball[0], ball[1], ball_normal);
+    int sign = m->context->first == NUM_EXACT ? NUM_UNSURE : num_ball_sign(ball_dot(NULL, ball_normal, ball[2]));
     if (sign != NUM_UNSURE) return sign;
-    m->context->arena.top = 0;
-    return product_exactly(&m->context->arena, v).sign;
+    num_arena *arena = &m->context->arena;
+    num_dyadic exact[3][3], normal[3];
+    arena->top = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            exact[i][k] =
+                num_dyadic_sub(arena, num_dyadic_from(arena, v[i]->to[k]), num_dyadic_from(arena, v[i]->from[k]));
+    dyadic_cross(arena, exact[0], exact[1], normal);
+    return dyadic_dot(arena, normal, exact[2]).sign;
 }
 
 /* -------------------------------------------------------------------- rays -- */
-
-static void take_image(normals *m, normals_ray *ray) {
-    const normals_vector *a = m->vectors.data + ray->one, *b = m->vectors.data + ray->other;
-    double most = 0, *x = ray->image;
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        x[k] = (a->to[i] - a->from[i]) * (b->to[j] - b->from[j]) - (a->to[j] - a->from[j]) * (b->to[i] - b->from[i]);
-        most = fabs(x[k]) > most ? fabs(x[k]) : most;
-    }
-    bool fit = most > 0x1p-900 && most < 0x1p900;
-    for (int k = 0; k < 3; k++) x[k] = fit ? x[k] / most : 0;
-}
-
-static bool is_zero(normals *m, const normals_ray *ray) {
-    for (int k = 0; k < 3; k++)
-        if (sign_along(m, ray, &(normals_vector){origin, axes[k]})) return false;
-    return true;
-}
 
 /* Adds one x other, unless some difference speaks against it, or it is 0. */
 static bool add_ray(normals *m, uint32_t one, uint32_t other) {
     normals_ray ray = {.one = one, .other = other};
     for (uint32_t i = 3; i < m->vectors.count; i++)
         if (i != one && i != other && sign_along(m, &ray, m->vectors.data + i) < 0) return true;
-    if (is_zero(m, &ray)) return true;
-    take_image(m, &ray);
+    int k = 0;
+    while (k < 3 && !sign_along(m, &ray, &(normals_vector){origin, axes[k]})) k++;
+    if (k == 3) return true;
+    const normals_vector *a = m->vectors.data + one, *b = m->vectors.data + other;
+    double most = 0, *x = ray.image;
+    for (k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        x[k] = (a->to[i] - a->from[i]) * (b->to[j] - b->from[j]) - (a->to[j] - a->from[j]) * (b->to[i] - b->from[i]);
+        most = fabs(x[k]) > most ? fabs(x[k]) : most;
+    }
+    bool fit = most > 0x1p-900 && most < 0x1p900;
+    for (k = 0; k < 3; k++) x[k] = fit ? x[k] / most : 0;
     return array_push(&m->alloc, &m->rays, ray);
 }
 
@@ -83,28 +69,19 @@ static bool cut_off(normals *m, normals_vector d) {
     return true;
 }
 
-/* All normals: the axes, in both directions. */
-static bool begin_normals(normals *m) {
-    m->vectors.count = m->rays.count = 0;
-    for (int k = 0; k < 3; k++)
-        if (!array_push(&m->alloc, &m->vectors, (normals_vector){origin, axes[k]})) return false;
-    for (uint32_t i = 0; i < (uint32_t)m->dim; i++) {
-        uint32_t j = m->dim == 2 ? 2 : (i + 1) % 3;
-        if (!add_ray(m, i, j) || !add_ray(m, j, i)) return false;
-    }
-    return true;
-}
-
 /* ------------------------------------------------------------- asking normals -- */
 
-/* The points that are last of A and first of B along a normal somewhere in the middle of the cone. Rounded: it
- * may be any pair. */
-static normals_vector worst_in_the_middle(const normals *m) {
+/* A difference that some ray of the cone speaks against; false: the first ray is right, and no difference does.
+ * The points tried first are the last of A and the first of B along a normal somewhere in the middle of the cone.
+ * They are found in doubles, and so may be any pair. Where they cut nothing off, the same is asked of the first ray,
+ * exactly. */
+static bool find_worst(normals *m, normals_vector *worst) {
     const double *const *x = m->points.data;
+    const normals_ray *rays = m->rays.data;
     double n[3] = {0, 0, 0}, best[2] = {0, 0};
     uint32_t at[2] = {0, m->first};
     for (uint32_t i = 0; i < m->rays.count; i++)
-        for (int k = 0; k < 3; k++) n[k] += m->rays.data[i].image[k];
+        for (int k = 0; k < 3; k++) n[k] += rays[i].image[k];
     for (uint32_t i = 0; i < m->points.count; i++) {
         bool b = i >= m->first;
         double along = (n[0] * x[i][0] + n[1] * x[i][1] + n[2] * x[i][2]) * (b ? -1 : 1);
@@ -112,24 +89,15 @@ static normals_vector worst_in_the_middle(const normals *m) {
         best[b] = along;
         at[b] = i;
     }
-    return (normals_vector){x[at[0]], x[at[1]]};
-}
-
-/* The same for a ray, exactly. */
-static normals_vector worst_along(normals *m, const normals_ray *ray) {
-    const double *const *x = m->points.data;
-    normals_vector worst = {x[0], x[m->first]};
-    for (uint32_t i = 1; i < m->points.count; i++) {
-        if (i < m->first && sign_along(m, ray, &(normals_vector){worst.from, x[i]}) > 0) worst.from = x[i];
-        if (i > m->first && sign_along(m, ray, &(normals_vector){worst.to, x[i]}) < 0) worst.to = x[i];
-    }
-    return worst;
-}
-
-static bool cuts(normals *m, normals_vector d) {
+    *worst = (normals_vector){x[at[0]], x[at[1]]};
     for (uint32_t i = 0; i < m->rays.count; i++)
-        if (sign_along(m, m->rays.data + i, &d) < 0) return true;
-    return false;
+        if (sign_along(m, rays + i, worst) < 0) return true;
+    *worst = (normals_vector){x[0], x[m->first]};
+    for (uint32_t i = 1; i < m->points.count; i++) {
+        if (i < m->first && sign_along(m, rays, &(normals_vector){worst->from, x[i]}) > 0) worst->from = x[i];
+        if (i > m->first && sign_along(m, rays, &(normals_vector){worst->to, x[i]}) < 0) worst->to = x[i];
+    }
+    return sign_along(m, rays, worst) < 0;
 }
 
 /* ------------------------------------------------------------------- whole -- */
@@ -150,34 +118,32 @@ static bool flat(normals *m) {
     return true;
 }
 
-/* 2D: points get a third coordinate. */
-static bool pad(normals *m) {
+froe_status normals_apart(normals *m, bool *apart) {
     size_t n = m->points.count;
-    m->padded.count = 0;
-    if (!array_reserve(&m->alloc, &m->padded, 3 * n)) return false;
-    for (size_t i = 0; i < n; i++) {
+    *apart = false;
+    m->padded.count = m->vectors.count = m->rays.count = 0;
+    if (m->dim == 2 && !array_reserve(&m->alloc, &m->padded, 3 * n)) return FROE_E_MEMORY;
+    for (size_t i = 0; m->dim == 2 && i < n; i++) { /* points of the plane get a third coordinate */
         double *x = m->padded.data + 3 * i;
         x[0] = m->points.data[i][0];
         x[1] = m->points.data[i][1];
         x[2] = 0;
         m->points.data[i] = x;
     }
-    return true;
-}
-
-froe_status normals_apart(normals *m, bool *apart) {
-    *apart = false;
-    if (m->dim == 2 && !pad(m)) return FROE_E_MEMORY;
     if (flat(m)) return FROE_OK;
-    if (!begin_normals(m)) return FROE_E_MEMORY;
-    while (m->rays.count) {
-        normals_vector d = worst_in_the_middle(m);
-        if (!cuts(m, d)) {
-            d = worst_along(m, m->rays.data);
-            *apart = sign_along(m, m->rays.data, &d) >= 0;
-            if (*apart) break;
-        }
-        if (!cut_off(m, d)) return FROE_E_MEMORY;
+    /* the cone of all normals: the axes, in both directions */
+    for (int k = 0; k < 3; k++)
+        if (!array_push(&m->alloc, &m->vectors, (normals_vector){origin, axes[k]})) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < (uint32_t)m->dim; i++) {
+        uint32_t j = m->dim == 2 ? 2 : (i + 1) % 3;
+        if (!add_ray(m, i, j) || !add_ray(m, j, i)) return FROE_E_MEMORY;
+    }
+    while (m->rays.count && !*apart) {
+        normals_vector worst;
+        if (!find_worst(m, &worst))
+            *apart = true;
+        else if (!cut_off(m, worst))
+            return FROE_E_MEMORY;
     }
     return FROE_OK;
 }

@@ -10,62 +10,53 @@ static bool in_guard_stage(const froe_tree *t, uint32_t node) {
     return !tree_is_leaf(t->nodes + node) && t->nodes[node].flags & TREE_GUARD;
 }
 
-static double guard_leaves(const froe_tree *t) {
-    double count = 1;
-    for (uint32_t i = 0; i < t->node_count; i++) count += in_guard_stage(t, i);
-    return count;
-}
-
-typedef struct stamps {
-    uint32_t *cell; /* per object: 1 + root of the last cell it was met in */
-    double fragments;
-} stamps;
-
-static void stamp_list(const froe_tree *t, stamps *s, uint32_t node, uint32_t cell) {
-    tree_objects list = tree_list(t, node);
-    for (uint32_t i = 0; i < list.count; i++) {
-        uint32_t *last = s->cell + tree_object(&list, i);
-        s->fragments += *last != cell + 1;
-        *last = cell + 1;
-    }
-}
-
 /* The cell of a node: its highest ancestor-or-self outside the guard stage; itself within. */
 static froe_status guard_fragments(const froe_tree *t, double *out) {
-    stamps s = {support_calloc(&t->alloc, t->scene->object_count, sizeof(uint32_t)), 0};
+    const size_t objects = t->scene->object_count;
+    uint32_t *met =
+        support_calloc(&t->alloc, objects, sizeof *met); /* per object: 1 + root of the last cell it was in */
     tree_walk walk = {.tree = t};
     uint32_t cell = 0;
     size_t depth = SIZE_MAX; /* of the cell's root, while in one */
-    if (!s.cell) return FROE_E_MEMORY;
+    double fragments = 0;
+    if (!met) return FROE_E_MEMORY;
     while (tree_walk_next(&walk)) {
         if (tree_walk_depth(&walk) <= depth) depth = SIZE_MAX;
         if (depth == SIZE_MAX) {
             cell = walk.node;
             if (!in_guard_stage(t, cell)) depth = tree_walk_depth(&walk);
         }
-        stamp_list(t, &s, walk.node, cell);
+        tree_objects list = tree_list(t, walk.node);
+        for (uint32_t i = 0; i < list.count; i++) {
+            uint32_t *last = met + tree_object(&list, i);
+            fragments += *last != cell + 1;
+            *last = cell + 1;
+        }
     }
-    support_free(&t->alloc, s.cell, t->scene->object_count ? t->scene->object_count * sizeof(uint32_t) : 1);
-    *out = s.fragments;
+    support_free(&t->alloc, met, objects ? objects * sizeof *met : 1);
+    *out = fragments;
     return tree_walk_end(&walk);
 }
 
 froe_status tree_measure(const froe_tree *t, const char *name, double *out) {
     const froe_report *r = &t->report;
-    if (!strcmp(name, "height"))
+
+    if (!strcmp(name, "height")) {
         *out = (double)r->height;
-    else if (!strcmp(name, "size"))
+    } else if (!strcmp(name, "size")) {
         *out = (double)r->size;
-    else if (!strcmp(name, "fragments"))
+    } else if (!strcmp(name, "fragments")) {
         *out = (double)r->fragments;
-    else if (!strcmp(name, "leaf_load"))
+    } else if (!strcmp(name, "leaf_load")) {
         *out = (double)r->max_leaf;
-    else if (!strcmp(name, "guard_leaves"))
-        *out = guard_leaves(t);
-    else if (!strcmp(name, "guard_fragments"))
+    } else if (!strcmp(name, "guard_leaves")) {
+        *out = 1;
+        for (uint32_t i = 0; i < t->node_count; i++) *out += in_guard_stage(t, i);
+    } else if (!strcmp(name, "guard_fragments")) {
         return guard_fragments(t, out);
-    else
+    } else {
         return FROE_E_UNSUPPORTED;
+    }
     return FROE_OK;
 }
 

@@ -36,71 +36,39 @@ const geom_plane *trace_plane(trace *t, uint32_t node) {
 
 /* ------------------------------------------------------------------- sides -- */
 
-static int point_side(trace *t, const geom_plane *plane, const ring_point *p) {
-    if (p->kind == RING_VERTEX) return geom_side_vertex(&t->context, plane, p->x);
-    geom_plane a = tree_plane_at(t->tree, p->a), b, support;
-    if (p->kind == RING_CROSSING) return geom_side_crossing(&t->context, plane, p->u, p->v, &a);
-    b = tree_plane_at(t->tree, p->b);
-    scene_support(t->tree->scene, t->object, &support);
+/* The side of a corner of a part: by its image, or exactly by what meets there. */
+static int corner_side(trace *t, const geom_plane *plane, const trace_part *part, uint32_t i) {
+    const froe_scene *s = t->tree->scene;
+    const trace_corner *c = t->corners.data + part->first;
+    if (t->context.first == NUM_FILTER && isfinite(c[i].error)) {
+        int side = geom_side_image(plane, c[i].x, c[i].error);
+        if (side != NUM_UNSURE) return side;
+    }
+    froe_kind form = scene_form(s, t->object);
+    if (form == FROE_POINT) return geom_side_vertex(&t->context, plane, scene_point(s, t->object, 0));
+    ring_point p = form == FROE_SEGMENT ? ring_end(s, t->object, c[i].edge)
+                                        : ring_corner(s, t->object, c[i ? i - 1 : part->count - 1].edge, c[i].edge);
+    if (p.kind == RING_VERTEX) return geom_side_vertex(&t->context, plane, p.x);
+    geom_plane a = tree_plane_at(t->tree, p.a), b, support;
+    if (p.kind == RING_CROSSING) return geom_side_crossing(&t->context, plane, p.u, p.v, &a);
+    b = tree_plane_at(t->tree, p.b);
+    scene_support(s, t->object, &support);
     return geom_side_corner(&t->context, plane, &support, &a, &b);
 }
 
-/* What the i-th corner of a part is. */
-static ring_point corner_point(const trace *t, const trace_part *part, uint32_t i) {
-    const froe_scene *s = t->tree->scene;
-    const trace_corner *c = t->corners.data + part->first;
-    switch (scene_form(s, t->object)) {
-    case FROE_POINT:
-        return (ring_point){.kind = RING_VERTEX, .x = scene_point(s, t->object, 0)};
-    case FROE_SEGMENT:
-        return ring_end(s, t->object, c[i].edge);
-    default:
-        return ring_corner(s, t->object, c[i ? i - 1 : part->count - 1].edge, c[i].edge);
-    }
-}
-
-static int corner_side(trace *t, const geom_plane *plane, const trace_part *part, uint32_t i) {
-    const trace_corner *c = t->corners.data + part->first + i;
-    if (t->context.first == NUM_FILTER && isfinite(c->error)) {
-        int side = geom_side_image(plane, c->x, c->error);
-        if (side != NUM_UNSURE) return side;
-    }
-    ring_point p = corner_point(t, part, i);
-    return point_side(t, plane, &p);
-}
-
-/* An axis-parallel cut needs no plane, as long as the images are sure. */
-static int axis_side(const trace_corner *c, const tree_node *n) {
-    double beyond = c->x[n->axis] - n->u.value;
-    if (c->error == 0) return (beyond > 0) - (beyond < 0);
-    return fabs(beyond) > c->error * (1 + 0x1p-50) ? (beyond > 0 ? 1 : -1) : NUM_UNSURE;
-}
-
-/* The one side of a plain node on which all corners surely are, as bits; 0: not known. */
+/* The one side of a plain node on which all corners surely are, as bits; 0: not known. An axis-parallel cut needs no
+ * plane, as long as the images are sure. */
 static unsigned plain_side(const trace *t, const trace_part *part) {
     const tree_node *n = t->tree->nodes + part->node;
     unsigned reached = 0;
     if (n->type != TREE_PLAIN || t->context.first != NUM_FILTER || t->tree->scene->dim > 3) return 0;
     for (uint32_t i = 0; i < part->count; i++) {
-        int side = axis_side(t->corners.data + part->first + i, n);
-        if (side == NUM_UNSURE) return 0;
-        if (side) reached |= side > 0 ? 2 : 1;
+        const trace_corner *c = t->corners.data + part->first + i;
+        double beyond = c->x[n->axis] - n->u.value;
+        if (c->error != 0 && !(fabs(beyond) > c->error * (1 + 0x1p-50))) return 0;
+        if (beyond != 0) reached |= beyond > 0 ? 2 : 1;
     }
     return reached == 3 ? 0 : reached;
-}
-
-/* Sides of all corners, in t->sides; the result has bit 0 for a negative one, bit 1 for a positive. False: no memory.
- */
-static bool corner_sides(trace *t, const geom_plane *plane, const trace_part *part, unsigned *reached) {
-    t->sides.count = 0;
-    *reached = 0;
-    if (!array_reserve(&t->alloc, &t->sides, part->count)) return false;
-    for (uint32_t i = 0; i < part->count; i++) {
-        int side = corner_side(t, plane, part, i);
-        t->sides.data[t->sides.count++] = (int8_t)side;
-        if (side) *reached |= side > 0 ? 2 : 1;
-    }
-    return true;
 }
 
 /* ---------------------------------------------------------------- dividing -- */
@@ -171,17 +139,7 @@ static froe_status divide_trace(trace *t, const geom_plane *plane, trace_part *p
 
 /* ----------------------------------------------------------------- tracing -- */
 
-static froe_status arrive_in_cell(trace *t, const trace_part *part) {
-    trace_place place = {.node = part->node, .must = true, .count = part->count};
-    t->ring.count = 0;
-    if (!array_reserve(&t->alloc, &t->ring, part->count)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < part->count; i++) t->ring.data[t->ring.count++] = t->corners.data[part->first + i].edge;
-    place.ring = t->ring.data;
-    t->stopped = !t->fn(t->user, &place);
-    return FROE_OK;
-}
-
-/* Follows one part until it arrives; what is cut off on the way waits. */
+/* Follows one part until it arrives; what is cut off on the way waits. Sides of corners are kept in t->sides. */
 static froe_status follow_object(trace *t, trace_part part) {
     while (!tree_is_leaf(t->tree->nodes + part.node)) {
         unsigned reached = plain_side(t, &part);
@@ -190,7 +148,13 @@ static froe_status follow_object(trace *t, trace_part part) {
             continue;
         }
         const geom_plane *plane = trace_plane(t, part.node);
-        if (!corner_sides(t, plane, &part, &reached)) return FROE_E_MEMORY;
+        t->sides.count = 0;
+        if (!array_reserve(&t->alloc, &t->sides, part.count)) return FROE_E_MEMORY;
+        for (uint32_t i = 0; i < part.count; i++) {
+            int side = corner_side(t, plane, &part, i);
+            t->sides.data[t->sides.count++] = (int8_t)side;
+            if (side) reached |= side > 0 ? 2 : 1;
+        }
         if (!reached) break;
         if (reached == 3) {
             froe_status status = divide_trace(t, plane, &part);
@@ -199,31 +163,33 @@ static froe_status follow_object(trace *t, trace_part part) {
             part.node = t->tree->nodes[part.node].child + (reached == 2);
         }
     }
-    return arrive_in_cell(t, &part);
-}
-
-static bool begin_trace(trace *t) {
-    const froe_scene *s = t->tree->scene;
-    uint32_t count = scene_corners(s, t->object);
-    size_t bytes = (size_t)(s->dim < 3 ? s->dim : 3) * sizeof(double);
-    t->corners.count = t->parts.count = 0;
-    if (!array_reserve(&t->alloc, &t->corners, count)) return false;
-    for (uint32_t i = 0; i < count; i++) {
-        trace_corner c = {.edge = i, .error = s->dim > 3 ? INFINITY : 0};
-        memcpy(c.x, scene_point(s, t->object, i), bytes);
-        t->corners.data[t->corners.count++] = c;
-    }
-    return array_push(&t->alloc, &t->parts, (trace_part){0, 0, count});
+    trace_place place = {.node = part.node, .must = true, .count = part.count};
+    t->ring.count = 0;
+    if (!array_reserve(&t->alloc, &t->ring, part.count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < part.count; i++) t->ring.data[t->ring.count++] = t->corners.data[part.first + i].edge;
+    place.ring = t->ring.data;
+    t->stopped = !t->fn(t->user, &place);
+    return FROE_OK;
 }
 
 froe_status trace_object(trace *t, uint32_t object, trace_fn *fn, void *user) {
+    const froe_scene *s = t->tree->scene;
+    const uint32_t count = scene_corners(s, object);
+    const size_t bytes = (size_t)(s->dim < 3 ? s->dim : 3) * sizeof(double);
     froe_status status = FROE_OK;
     t->object = object;
     t->fn = fn;
     t->user = user;
     t->stopped = false;
-    if (scene_form(t->tree->scene, object) > FROE_POLYGON) return trace_solid_object(t);
-    if (!begin_trace(t)) return FROE_E_MEMORY;
+    if (scene_form(s, object) > FROE_POLYGON) return trace_solid_object(t);
+    t->corners.count = t->parts.count = 0;
+    if (!array_reserve(&t->alloc, &t->corners, count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < count; i++) {
+        trace_corner c = {.edge = i, .error = s->dim > 3 ? INFINITY : 0};
+        memcpy(c.x, scene_point(s, object, i), bytes);
+        t->corners.data[t->corners.count++] = c;
+    }
+    if (!array_push(&t->alloc, &t->parts, (trace_part){0, 0, count})) return FROE_E_MEMORY;
     while (!status && !t->stopped && t->parts.count) {
         trace_part part = t->parts.data[--t->parts.count];
         t->corners.count = part.first + part.count;

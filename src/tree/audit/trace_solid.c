@@ -35,40 +35,33 @@ static unsigned interval_reach(double lo, double hi, double c) {
 }
 
 /* Below an oblique cut the whole box may be listed on every side it reaches; the part says where it must be. */
-static unsigned box_allowed(const trace_solid *at, unsigned part, unsigned whole, trace_solid child[2]) {
-    if (!at->oblique) return part;
-    for (unsigned i = 0; i < 2; i++)
-        if (!(part >> i & 1)) child[i].exact = child[i].inside = false;
-    return whole;
-}
-
-static unsigned box_axis(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    int axis = plane->axis;
-    double c = plane->c, w = at->witness[axis];
-    scene_object_bounds(t->tree->scene, t->object, lo, hi);
-    child[0].inside = at->inside && w <= c;
-    child[1].inside = at->inside && w >= c;
-    unsigned part = interval_reach(at->lo[axis], at->hi[axis], c), whole = interval_reach(lo[axis], hi[axis], c);
-    if (part == 3) child[0].hi[axis] = child[1].lo[axis] = c;
-    return box_allowed(at, part, whole, child);
-}
-
-static unsigned box_oblique(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+static unsigned cut_box(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+    const int axis = plane->axis;
+    const double c = plane->c;
     double strict[2][3], any[2][3], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    unsigned part = box_reach(t, plane, at->lo, at->hi, strict), whole;
+    unsigned part, whole;
     scene_object_bounds(t->tree->scene, t->object, lo, hi);
-    whole = box_reach(t, plane, lo, hi, any);
-    child[0].oblique = child[1].oblique = true;
-    if (part == 3) {
-        int side = at->inside && !at->exact ? geom_side_vertex(&t->context, plane, at->witness) : 0;
-        for (int i = 0; i < 2; i++) {
+    if (plane->form == GEOM_AXIS) {
+        child[0].inside = at->inside && at->witness[axis] <= c;
+        child[1].inside = at->inside && at->witness[axis] >= c;
+        part = interval_reach(at->lo[axis], at->hi[axis], c);
+        whole = interval_reach(lo[axis], hi[axis], c);
+        if (part == 3) child[0].hi[axis] = child[1].lo[axis] = c;
+    } else {
+        part = box_reach(t, plane, at->lo, at->hi, strict);
+        whole = box_reach(t, plane, lo, hi, any);
+        child[0].oblique = child[1].oblique = true;
+        int side = part == 3 && at->inside && !at->exact ? geom_side_vertex(&t->context, plane, at->witness) : 0;
+        for (int i = 0; part == 3 && i < 2; i++) {
             child[i].exact = false;
             child[i].inside = at->exact || (at->inside && side == (i ? 1 : -1));
             if (at->exact) memcpy(child[i].witness, strict[i], sizeof strict[i]);
         }
     }
-    return box_allowed(child, part, whole, child);
+    if (!child[0].oblique) return part;
+    for (unsigned i = 0; i < 2; i++)
+        if (!(part >> i & 1)) child[i].exact = child[i].inside = false;
+    return whole;
 }
 
 /* ------------------------------------------------------------------- balls -- */
@@ -95,7 +88,7 @@ static bool ball_meets(trace *t, const trace_solid *at) {
     return (sign == NUM_UNSURE ? exact.sign : sign) > 0;
 }
 
-static unsigned ball_cut(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+static unsigned cut_ball(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
     const froe_scene *s = t->tree->scene;
     const double *centre = scene_point(s, t->object, 0);
     int side = geom_side_ball(&t->context, plane, centre, scene_radius(s, t->object));
@@ -117,7 +110,7 @@ static unsigned ball_cut(trace *t, const geom_plane *plane, const trace_solid *a
 
 /* Corners of the hull on each side of the cut; those strictly on a side, of the corners known to be inside, follow
  * one another behind the waiting ones: first the positive, then the negative. */
-static unsigned hull_cut(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+static unsigned cut_hull(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
     const froe_scene *s = t->tree->scene;
     uint32_t n = scene_corners(s, t->object);
     unsigned reached = 0;
@@ -143,20 +136,6 @@ static unsigned hull_cut(trace *t, const geom_plane *plane, const trace_solid *a
 
 /* ----------------------------------------------------------------- tracing -- */
 
-static unsigned cut(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
-    child[0] = child[1] = *at;
-    child[0].node = t->tree->nodes[at->node].child;
-    child[1].node = child[0].node + 1;
-    switch (scene_form(t->tree->scene, t->object)) {
-    case FROE_BOX:
-        return plane->form == GEOM_AXIS ? box_axis(t, plane, at, child) : box_oblique(t, plane, at, child);
-    case FROE_BALL:
-        return ball_cut(t, plane, at, child);
-    default:
-        return hull_cut(t, plane, at, child);
-    }
-}
-
 static void arrive_solid(trace *t, const trace_solid *at, bool leaf) {
     trace_place place = {.node = at->node, .must = at->exact || at->inside};
     const bool ball = leaf && scene_form(t->tree->scene, t->object) == FROE_BALL && at->exact;
@@ -165,13 +144,18 @@ static void arrive_solid(trace *t, const trace_solid *at, bool leaf) {
     t->stopped = !t->fn(t->user, &place);
 }
 
+/* Carries a waiting solid on; what is on the positive side of cuts on its way waits. False without memory. */
 static bool follow_solid(trace *t, trace_solid at) {
-    bool hull = scene_form(t->tree->scene, t->object) == FROE_HULL;
+    const froe_kind form = scene_form(t->tree->scene, t->object);
     while (!tree_is_leaf(t->tree->nodes + at.node)) {
         const geom_plane *plane = trace_plane(t, at.node);
-        trace_solid child[2];
-        if (hull && !array_reserve(&t->alloc, &t->ring, 2 * (size_t)at.count)) return false;
-        unsigned reached = cut(t, plane, &at, child);
+        trace_solid child[2] = {at, at};
+        child[0].node = t->tree->nodes[at.node].child;
+        child[1].node = child[0].node + 1;
+        if (form == FROE_HULL && !array_reserve(&t->alloc, &t->ring, 2 * (size_t)at.count)) return false;
+        unsigned reached = form == FROE_BOX    ? cut_box(t, plane, &at, child)
+                           : form == FROE_BALL ? cut_ball(t, plane, &at, child)
+                                               : cut_hull(t, plane, &at, child);
         if (!reached) {
             arrive_solid(t, &at, false);
             return true;
@@ -183,29 +167,26 @@ static bool follow_solid(trace *t, trace_solid at) {
     return true;
 }
 
-static bool begin_solids(trace *t) {
+froe_status trace_solid_object(trace *t) {
     const froe_scene *s = t->tree->scene;
+    const froe_kind form = scene_form(s, t->object);
     trace_solid root = {.exact = true, .inside = true};
     for (int k = 0; k < s->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
-    if (scene_form(s, t->object) == FROE_BOX) {
+    if (form == FROE_BOX) {
         scene_object_bounds(s, t->object, root.lo, root.hi);
         memcpy(root.witness, root.lo, sizeof root.witness);
     }
     t->ring.count = t->solids.count = 0;
-    if (scene_form(s, t->object) == FROE_HULL) {
+    if (form == FROE_HULL) {
         root.count = scene_corners(s, t->object);
         if (!array_reserve(&t->alloc, &t->sides, root.count) || !array_reserve(&t->alloc, &t->ring, root.count))
-            return false;
+            return FROE_E_MEMORY;
         for (uint32_t i = 0; i < root.count; i++) t->ring.data[t->ring.count++] = i;
     }
-    return array_push(&t->alloc, &t->solids, root);
-}
-
-froe_status trace_solid_object(trace *t) {
-    bool ok = begin_solids(t);
-    while (ok && !t->stopped && t->solids.count) {
+    bool room = array_push(&t->alloc, &t->solids, root);
+    while (room && !t->stopped && t->solids.count) {
         trace_solid at = t->solids.data[--t->solids.count];
-        ok = follow_solid(t, at);
+        room = follow_solid(t, at);
     }
-    return ok ? FROE_OK : FROE_E_MEMORY;
+    return room ? FROE_OK : FROE_E_MEMORY;
 }

@@ -17,13 +17,6 @@ double packed_scale(const packed_box *box) {
     return tame ? scale : 0;
 }
 
-static float worst_error(const packed_fragment *f, uint32_t count, double scale) {
-    uint32_t most = 0;
-    for (uint32_t i = 0; i < count; i++) most = f[i].error > most ? f[i].error : most;
-    double units = (0.5 + 0x1p-20 + packed_error(most) * scale) * (1 + 0x1p-20);
-    return units < 0x1p15 ? (float)units : PACKED_COARSE; /* infinity and NaN are coarse */
-}
-
 static uint16_t unit_of_number(double x, double lo, double scale) {
     double u = (x - lo) * scale + 0.5;
     return (uint16_t)(u > 0 ? u < PACKED_UNITS ? (int)u : PACKED_UNITS : 0);
@@ -33,7 +26,10 @@ void packed_write(packed_header *block, const packed_box *box, uint32_t owner, c
                   uint32_t count) {
     const double x = box->lo[0], y = box->lo[1];
     double scale = packed_scale(box);
-    float error = worst_error(f, count, scale);
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < count; i++) most = f[i].error > most ? f[i].error : most;
+    const double units = (0.5 + 0x1p-20 + packed_error(most) * scale) * (1 + 0x1p-20);
+    float error = units < 0x1p15 ? (float)units : PACKED_COARSE; /* infinity and NaN are coarse */
     if (error >= PACKED_COARSE || scale == 0) scale = 0, error = PACKED_COARSE;
     *block = (packed_header){.lo = {x, y}, .scale = scale, .owner = owner, .error = error};
     uint16_t *px = (uint16_t *)(void *)(block + 1), *py = px + count, *qx = py + count, *qy = qx + count;
@@ -56,17 +52,13 @@ uint32_t packed_count(const froe_tree *t) {
     return sum;
 }
 
-static uint32_t first_piece(const froe_tree *t, uint32_t node) {
-    while (!tree_is_leaf(t->nodes + node)) node = t->nodes[node].child;
-    return t->nodes[node].u.list.first;
-}
-
 uint32_t packed_leaf_in(const froe_tree *t, uint32_t piece, double *lo, double *hi) {
     uint32_t node = 0;
     for (int k = 0; k < t->scene->dim; k++) lo[k] = t->meta.root_lo[k], hi[k] = t->meta.root_hi[k];
     while (!tree_is_leaf(t->nodes + node)) {
-        const tree_node *n = t->nodes + node;
-        bool upper = piece >= first_piece(t, n->child + 1);
+        const tree_node *n = t->nodes + node, *first = t->nodes + n->child + 1;
+        while (!tree_is_leaf(first)) first = t->nodes + first->child;
+        bool upper = piece >= first->u.list.first;
         (upper ? lo : hi)[n->axis] = n->u.value;
         node = n->child + upper;
     }
@@ -95,23 +87,22 @@ uint32_t packed_cell(const froe_tree *t, const packed_header *block, packed_box 
 
 /* ------------------------------------------------------------------- rings -- */
 
-/* Is this end of a segment, own or where the cut of a node ends it, on the other side of a plain cut? */
-static bool end_beyond(const froe_tree *t, num_context *context, uint32_t object, uint32_t end, const tree_node *cut,
-                       int side) {
-    const double *u = scene_point(t->scene, object, 0), *v = scene_point(t->scene, object, 1);
-    if (!(end & TREE_EDGE_CUT)) return ((end ? v : u)[cut->axis] - cut->u.value) * side < 0;
-    geom_plane plane = geom_plane_axis(2, cut->axis, cut->u.value), made = tree_plane_at(t, end & ~TREE_EDGE_CUT);
-    return geom_side_crossing(context, &plane, u, v, &made) * side < 0;
-}
-
 void packed_ring(const froe_tree *t, num_context *context, uint32_t leaf, uint32_t object, uint32_t ring[2]) {
     const double *lo = packed_block(t, t->nodes + leaf)->lo;
+    const double *ends[2] = {scene_point(t->scene, object, 0), scene_point(t->scene, object, 1)};
     uint32_t node = 0, next;
     ring[0] = 0;
     ring[1] = 1;
     for (const tree_node *n = t->nodes; !tree_is_leaf(n); node = next, n = t->nodes + node) {
         next = step_towards(n, lo);
-        for (int i = 0; i < 2; i++)
-            if (end_beyond(t, context, object, ring[i], n, next == n->child ? -1 : 1)) ring[i] = TREE_EDGE_CUT | node;
+        for (int i = 0; i < 2; i++) { /* an end on the other side of the cut is ended by it */
+            double side = ring[i] & TREE_EDGE_CUT ? 0 : ends[ring[i]][n->axis] - n->u.value;
+            if (ring[i] & TREE_EDGE_CUT) {
+                geom_plane plane = geom_plane_axis(2, n->axis, n->u.value);
+                geom_plane made = tree_plane_at(t, ring[i] & ~TREE_EDGE_CUT);
+                side = geom_side_crossing(context, &plane, ends[0], ends[1], &made);
+            }
+            if (next == n->child ? side > 0 : side < 0) ring[i] = TREE_EDGE_CUT | node;
+        }
     }
 }

@@ -11,21 +11,7 @@ typedef struct packed_end {
     const packed_box *box;
 } packed_end;
 
-/* Exact side beside x[axis] = value. */
-static int side_of_end(const packed_end *e, int axis, double value) {
-    geom_plane plane = geom_plane_axis(2, axis, value);
-    if (e->point.kind == RING_VERTEX) return geom_side_vertex(e->context, &plane, e->point.x);
-    geom_plane made = tree_plane_at(e->tree, e->point.a);
-    return geom_side_crossing(e->context, &plane, e->point.u, e->point.v, &made);
-}
-
-/* Is the side of the cell a cut? The root's are none: objects may touch them. */
-static bool is_cut(const packed_end *e, int axis, bool upper) {
-    const tree_meta *m = &e->tree->meta;
-    return upper ? e->box->hi[axis] != m->root_hi[axis] : e->box->lo[axis] != m->root_lo[axis];
-}
-
-/* Strictly inside, but for the cut that makes it an end. */
+/* Strictly inside, but for the cut that makes it an end. Sides of the root box are no cuts: objects may touch them. */
 static bool in_general_position(const packed_end *e) {
     const tree_node *made = e->point.kind == RING_VERTEX ? NULL : e->tree->nodes + e->point.a;
     for (int axis = 0; axis < 2; axis++) {
@@ -34,8 +20,18 @@ static bool in_general_position(const packed_end *e) {
             continue;
         }
         for (int upper = 0; upper < 2; upper++) {
-            int side = side_of_end(e, axis, (upper ? e->box->hi : e->box->lo)[axis]) * (upper ? -1 : 1);
-            if (is_cut(e, axis, upper) ? side <= 0 : side < 0) return false;
+            const double value = (upper ? e->box->hi : e->box->lo)[axis];
+            const bool cut = value != (upper ? e->tree->meta.root_hi : e->tree->meta.root_lo)[axis];
+            const geom_plane plane = geom_plane_axis(2, axis, value);
+            int side;
+            if (made) {
+                geom_plane other = tree_plane_at(e->tree, e->point.a);
+                side = geom_side_crossing(e->context, &plane, e->point.u, e->point.v, &other);
+            } else {
+                side = geom_side_vertex(e->context, &plane, e->point.x);
+            }
+            if (upper) side = -side;
+            if (cut ? side <= 0 : side < 0) return false;
         }
     }
     return true;
@@ -77,10 +73,6 @@ static bool unit_fits(const packed_end *e, const packed_header *h, int axis, uin
     return num_dyadic_compare(off, most) <= 0;
 }
 
-static bool units_fit(const packed_end *e, const packed_header *h, const uint16_t *x, uint32_t count) {
-    return h->scale == 0 || (unit_fits(e, h, 0, x[0]) && unit_fits(e, h, 1, x[count]));
-}
-
 const char *packed_refuted(num_context *context, const froe_tree *t, uint32_t leaf, uint32_t i,
                            const uint32_t ring[2]) {
     const packed_header *h = packed_block(t, t->nodes + leaf);
@@ -96,7 +88,8 @@ const char *packed_refuted(num_context *context, const froe_tree *t, uint32_t le
         if (own != !(entry & TREE_EDGE_CUT)) return "a fragment with wrong flags";
         packed_end e = {context, t, ring_end(t->scene, object, entry), &box};
         if (!in_general_position(&e)) return "a corner in a cut";
-        if (!units_fit(&e, h, packed_units(h) + 2 * (size_t)count * last + i, count))
+        const uint16_t *x = packed_units(h) + 2 * (size_t)count * last + i, *y = x + count;
+        if (h->scale != 0 && (!unit_fits(&e, h, 0, *x) || !unit_fits(&e, h, 1, *y)))
             return "a fragment with wrong units";
     }
     return NULL;
@@ -109,42 +102,38 @@ typedef struct packed_region {
     double lo[3], hi[3];
 } packed_region;
 
-/* In the plane the root box holds the scene; in space it is the scene's, since searches scale by it. */
-static bool root_fits_table(const froe_tree *t) {
+froe_status packed_frame_refuted(const froe_tree *t, uint32_t *node, const char **why) {
+    ARRAY(packed_region) waiting = {NULL, 0, 0};
+    packed_region at = {.node = 0};
     const froe_scene *s = t->scene;
     const double *lo = t->meta.root_lo, *hi = t->meta.root_hi;
+    *node = 0;
+    *why = NULL;
+    /* in the plane the root box holds the scene; in space it is the scene's, since searches scale by it */
     for (int k = 0; k < FROE_MAX_DIM; k++) {
         const bool used = s->object_count && k < s->dim, exact = !used || s->dim == 3;
         const double least = used ? s->lo[k] : 0, most = used ? s->hi[k] : 0;
-        if (exact ? lo[k] != least || hi[k] != most : lo[k] > least || hi[k] < most) return false;
+        if (exact ? lo[k] != least || hi[k] != most : lo[k] > least || hi[k] < most)
+            *why = "a root box that does not fit the scene";
     }
-    return true;
-}
-
-static const char *divide(const tree_node *n, const packed_region *at, packed_region side[2]) {
-    const double value = n->u.value;
-    if (n->type != TREE_PLAIN) return "a cut of a kind that packed trees do not have";
-    if (!(at->lo[n->axis] < value && value < at->hi[n->axis])) return "a cut that does not divide its cell";
-    side[0] = side[1] = *at;
-    side[0].node = n->child;
-    side[1].node = n->child + 1;
-    side[0].hi[n->axis] = side[1].lo[n->axis] = value;
-    return NULL;
-}
-
-froe_status packed_frame_refuted(const froe_tree *t, uint32_t *node, const char **why) {
-    ARRAY(packed_region) waiting = {NULL, 0, 0};
-    packed_region at = {.node = 0}, side[2];
-    *node = 0;
-    *why = root_fits_table(t) ? NULL : "a root box that does not fit the scene";
-    memcpy(at.lo, t->meta.root_lo, sizeof at.lo);
-    memcpy(at.hi, t->meta.root_hi, sizeof at.hi);
+    memcpy(at.lo, lo, sizeof at.lo);
+    memcpy(at.hi, hi, sizeof at.hi);
     bool room = array_push(&t->alloc, &waiting, at);
     while (room && !*why && waiting.count) {
         at = waiting.data[--waiting.count];
         *node = at.node;
-        if (tree_is_leaf(t->nodes + at.node)) continue;
-        *why = divide(t->nodes + at.node, &at, side);
+        const tree_node *n = t->nodes + at.node;
+        const double value = n->u.value;
+        packed_region side[2] = {at, at};
+        if (tree_is_leaf(n)) continue;
+        if (n->type != TREE_PLAIN)
+            *why = "a cut of a kind that packed trees do not have";
+        else if (!(at.lo[n->axis] < value && value < at.hi[n->axis]))
+            *why = "a cut that does not divide its cell";
+        if (*why) break;
+        side[0].node = n->child;
+        side[1].node = n->child + 1;
+        side[0].hi[n->axis] = side[1].lo[n->axis] = value;
         room = array_push(&t->alloc, &waiting, side[0]) && array_push(&t->alloc, &waiting, side[1]);
     }
     array_free(&t->alloc, &waiting);

@@ -23,17 +23,23 @@ static bool bytes_are_zero(const uint8_t *from, const uint8_t *to) {
     return from == to;
 }
 
-static bool header_fits(const packed_check *c, uint32_t node, const packed_header *h) {
-    packed_box box;
-    if (!isfinite(h->lo[0]) || !isfinite(h->lo[1])) return false;
-    if (packed_cell(c->tree, h, &box) != node || box.lo[0] != h->lo[0] || box.lo[1] != h->lo[1]) return false;
-    if (h->owner != c->owners) return false;
-    bool coarse = h->scale == 0 && h->error == PACKED_COARSE;
-    return coarse || (h->scale == packed_scale(&box) && h->scale > 0 && h->error >= 0.5f && h->error < 0x1p16f);
-}
-
-static froe_status check_ids(packed_check *c, uint32_t node, const uint32_t *ids, uint32_t count) {
+static froe_status check_block(packed_check *c, uint32_t node) {
     const froe_tree *t = c->tree;
+    const tree_node *n = t->nodes + node;
+    uint32_t count = n->u.list.count, room = t->packed.block_count - 1 - c->blocks; /* without the sentinel */
+    if (n->child != c->blocks || (uint64_t)count * 12 > (uint64_t)room * PACKED_BLOCK || packed_size(count) > room)
+        return bad_block(c, node, "a block out of place");
+    const packed_header *h = packed_block(t, n);
+    packed_box box;
+    bool fits = isfinite(h->lo[0]) && isfinite(h->lo[1]) && packed_cell(t, h, &box) == node && box.lo[0] == h->lo[0] &&
+                box.lo[1] == h->lo[1] && h->owner == c->owners;
+    bool coarse = h->scale == 0 && h->error == PACKED_COARSE;
+    bool units = fits && h->scale == packed_scale(&box) && h->scale > 0 && h->error >= 0.5f && h->error < 0x1p16f;
+    const uint32_t *ids = packed_ids(h, count);
+    c->blocks += packed_size(count);
+    if (!fits || !(coarse || units)) return bad_block(c, node, "a block whose header does not fit");
+    if (!bytes_are_zero((const uint8_t *)(ids + count), t->packed.blocks + (size_t)c->blocks * PACKED_BLOCK))
+        return bad_block(c, node, "a block with something behind its end");
     for (uint32_t i = 0; i < count; i++) {
         uint32_t object = ids[i] & PACKED_OBJECT;
         if (object >= t->scene->object_count) return bad_block(c, node, "an object that does not exist");
@@ -48,44 +54,23 @@ static froe_status check_ids(packed_check *c, uint32_t node, const uint32_t *ids
     return FROE_OK;
 }
 
-static froe_status check_block(packed_check *c, uint32_t node) {
-    const froe_tree *t = c->tree;
-    const tree_node *n = t->nodes + node;
-    uint32_t count = n->u.list.count, room = t->packed.block_count - 1 - c->blocks; /* without the sentinel */
-    if (n->child != c->blocks || (uint64_t)count * 12 > (uint64_t)room * PACKED_BLOCK || packed_size(count) > room)
-        return bad_block(c, node, "a block out of place");
-    const packed_header *h = packed_block(t, n);
-    const uint32_t *ids = packed_ids(h, count);
-    c->blocks += packed_size(count);
-    if (!header_fits(c, node, h)) return bad_block(c, node, "a block whose header does not fit");
-    if (!bytes_are_zero((const uint8_t *)(ids + count), t->packed.blocks + (size_t)c->blocks * PACKED_BLOCK))
-        return bad_block(c, node, "a block with something behind its end");
-    return check_ids(c, node, ids, count);
-}
-
-/* Zeros, but for the number of all owners. */
-static bool sentinel_fits(const packed_check *c) {
-    const uint8_t *bytes = c->tree->packed.blocks + (size_t)c->blocks * PACKED_BLOCK;
-    const packed_header *h = (const packed_header *)(const void *)bytes;
-    return h->owner == c->owners && h->lo[0] == 0 && h->lo[1] == 0 && h->scale == 0 && h->error == 0 &&
-           bytes_are_zero(bytes + sizeof *h, bytes + PACKED_BLOCK);
-}
-
-static bool root_fits(const froe_tree *t) {
-    const tree_meta *m = &t->meta;
-    return t->scene->dim == 2 && m->root_lo[0] <= m->root_hi[0] && m->root_lo[1] <= m->root_hi[1];
-}
-
 froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
     if (tree_is_space(t)) return space_validate(t, diag);
     packed_check c = {.tree = t, .diag = diag};
     tree_walk walk = {.tree = t};
-    froe_status status = root_fits(t) && !t->cut_count ? FROE_OK : bad_block(&c, 0, "not a tree that can be packed");
+    const tree_meta *m = &t->meta;
+    bool fits = t->scene->dim == 2 && m->root_lo[0] <= m->root_hi[0] && m->root_lo[1] <= m->root_hi[1];
+    froe_status status = fits && !t->cut_count ? FROE_OK : bad_block(&c, 0, "not a tree that can be packed");
     while (!status && tree_walk_next(&walk))
         if (tree_is_leaf(t->nodes + walk.node)) status = check_block(&c, walk.node);
     if (tree_walk_end(&walk)) return support_fail_memory(diag);
     if (status) return status;
-    if (c.blocks + 1 != t->packed.block_count || c.owners != t->packed.owner_count || !sentinel_fits(&c))
+    /* the sentinel is zeros, but for the number of all owners */
+    const uint8_t *bytes = t->packed.blocks + (size_t)c.blocks * PACKED_BLOCK;
+    const packed_header *h = (const packed_header *)(const void *)bytes;
+    if (c.blocks + 1 != t->packed.block_count || c.owners != t->packed.owner_count || h->owner != c.owners ||
+        h->lo[0] != 0 || h->lo[1] != 0 || h->scale != 0 || h->error != 0 ||
+        !bytes_are_zero(bytes + sizeof *h, bytes + PACKED_BLOCK))
         return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: blocks or owners that no leaf uses");
     return FROE_OK;
 }

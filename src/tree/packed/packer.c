@@ -22,14 +22,6 @@ static froe_status resize(tree_packer *p, uint32_t room) {
     return FROE_OK;
 }
 
-static froe_status reserve_blocks(tree_packer *p, uint32_t blocks) {
-    uint64_t need = (uint64_t)p->block_count + blocks, room = p->block_room + p->block_room / 2 + 16;
-    if (need <= p->block_room) return FROE_OK;
-    if (need >= UINT32_MAX - 1) return FROE_E_LIMIT;
-    if (room < need || room >= UINT32_MAX - 1) room = need;
-    return resize(p, (uint32_t)room);
-}
-
 static uint8_t *block_at(const tree_packer *p, uint32_t block) {
     return p->memory + gap(p->memory) + (size_t)block * PACKED_BLOCK;
 }
@@ -68,9 +60,13 @@ froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, 
 /* Makes a node a leaf of so many pieces and blocks, which are yet to be written. */
 static froe_status take_leaf(tree_packer *p, uint32_t node, uint32_t count, uint32_t size, uint8_t flags,
                              void **block) {
+    uint64_t need = (uint64_t)p->block_count + size, room = p->block_room + p->block_room / 2 + 16;
     if (count > MOST_NODES - p->piece_count) return FROE_E_LIMIT;
-    froe_status status = reserve_blocks(p, size);
-    if (status) return status;
+    if (need > p->block_room) {
+        if (need >= UINT32_MAX - 1) return FROE_E_LIMIT;
+        if (room < need || room >= UINT32_MAX - 1) room = need;
+        if (resize(p, (uint32_t)room)) return FROE_E_MEMORY;
+    }
     *block = block_at(p, p->block_count);
     p->nodes.data[node] =
         (tree_node){.u.list = {p->piece_count, count}, .child = p->block_count, .type = TREE_LEAF, .flags = flags};
@@ -114,50 +110,33 @@ static froe_status trim_array(const froe_allocator *alloc, void **data, size_t r
     return FROE_OK;
 }
 
-static froe_status seal_blocks(tree_packer *p) {
+froe_status packer_seal(tree_packer *p, froe_scene *scene, const tree_meta *meta, froe_tree **out) {
+    froe_tree *t;
     froe_status status = resize(p, p->block_count);
     if (status) return status;
     packed_header *sentinel = (packed_header *)(void *)block_at(p, p->block_count);
     memset(sentinel, 0, PACKED_BLOCK);
     sentinel->owner = (uint32_t)p->owners.count; /* 0 in trees of space */
-    return FROE_OK;
-}
-
-static froe_status trim_nodes(tree_packer *p) {
-    froe_status status =
-        trim_array(&p->alloc, (void **)&p->nodes.data, p->nodes.capacity, p->nodes.count, sizeof *p->nodes.data);
-    if (!status) p->nodes.capacity = p->nodes.count;
-    return status;
-}
-
-/* The last step that can fail: from here on the array of owners is the tree's. */
-static froe_status trim_owners(tree_packer *p) {
-    return trim_array(&p->alloc, (void **)&p->owners.data, p->owners.capacity, p->owners.count, sizeof *p->owners.data);
-}
-
-/* Hands the arrays over. */
-static void fill_tree(tree_packer *p, froe_tree *t) {
-    t->nodes = p->nodes.data;
-    t->node_count = (uint32_t)p->nodes.count;
-    t->piece_count = p->piece_count;
-    t->packed = (tree_packed){.memory = p->memory,
-                              .memory_size = p->memory_size,
-                              .blocks = block_at(p, 0),
-                              .block_count = p->block_count + 1,
-                              .owners = p->owners.data,
-                              .owner_count = (uint32_t)p->owners.count};
-    *p = (tree_packer){.alloc = p->alloc};
-}
-
-froe_status packer_seal(tree_packer *p, froe_scene *scene, const tree_meta *meta, froe_tree **out) {
-    froe_tree *t;
-    froe_status status = seal_blocks(p);
-    if (!status) status = trim_nodes(p);
-    if (!status) status = draft_shell(&p->alloc, scene, meta, &t);
+    status = trim_array(&p->alloc, (void **)&p->nodes.data, p->nodes.capacity, p->nodes.count, sizeof *p->nodes.data);
     if (status) return status;
-    status = trim_owners(p);
-    if (!status) fill_tree(p, t);
-    if (!status) status = tree_finish(t);
+    p->nodes.capacity = p->nodes.count;
+    status = draft_shell(&p->alloc, scene, meta, &t);
+    if (status) return status;
+    status =
+        trim_array(&p->alloc, (void **)&p->owners.data, p->owners.capacity, p->owners.count, sizeof *p->owners.data);
+    if (!status) { /* hands the arrays over */
+        t->nodes = p->nodes.data;
+        t->node_count = (uint32_t)p->nodes.count;
+        t->piece_count = p->piece_count;
+        t->packed = (tree_packed){.memory = p->memory,
+                                  .memory_size = p->memory_size,
+                                  .blocks = block_at(p, 0),
+                                  .block_count = p->block_count + 1,
+                                  .owners = p->owners.data,
+                                  .owner_count = (uint32_t)p->owners.count};
+        *p = (tree_packer){.alloc = p->alloc};
+        status = tree_finish(t);
+    }
     if (!status) status = tree_fill_promises(t);
     if (status)
         froe_tree_free(t);

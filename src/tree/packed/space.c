@@ -27,30 +27,15 @@ uint32_t space_sort(space_item *items, uint32_t count) {
     return triangles;
 }
 
-typedef struct bounds {
+typedef struct space_bounds {
     double lo[3], hi[3];
-} bounds;
+} space_bounds;
 
-static void grow_bounds(bounds *b, const double *lo, const double *hi) {
+static void grow_bounds(space_bounds *b, const double *lo, const double *hi) {
     for (int k = 0; k < 3; k++) {
         b->lo[k] = lo[k] < b->lo[k] ? lo[k] : b->lo[k];
         b->hi[k] = hi[k] > b->hi[k] ? hi[k] : b->hi[k];
     }
-}
-
-/* 65535 / size, rounded down to a power of 2; 0 where numbers are too large or too small for it. */
-static double scale_for(const bounds *b) {
-    double size = 0, most = 0;
-    int exponent;
-    for (int k = 0; k < 3; k++) {
-        most = fmax(most, fmax(fabs(b->lo[k]), fabs(b->hi[k])));
-        size = fmax(size, b->hi[k] - b->lo[k]);
-    }
-    if (most > 0x1p400) return 0;
-    if (size < 0x1p-600) return 0x1p600;
-    frexp(size, &exponent);
-    double scale = ldexp(1, 16 - exponent); /* size * scale in [2^15, 2^16) */
-    return size * scale <= PACKED_UNITS ? scale : scale / 2;
 }
 
 /* Rounded down. */
@@ -65,23 +50,23 @@ static uint16_t unit_above(double x, double lo, double scale) {
     return (uint16_t)(below + (u > below && below < PACKED_UNITS));
 }
 
-static void write_rows(const space_header *h, uint16_t *rows, const froe_scene *s, const space_item *items) {
-    const size_t n = h->count, m = h->triangles;
-    for (size_t i = 0; i < m; i++)
-        for (uint32_t c = 0; c < 3; c++) {
-            const double *x = space_corner(s, items + i, c);
-            for (size_t k = 0; k < 3; k++)
-                rows[c < 2 ? (3 * c + k) * n + i : 6 * n + k * m + i] = unit_of_bound(x[k], h->lo[k], h->scale, 0.5);
-        }
-    for (size_t i = m; i < n; i++)
-        for (size_t k = 0; k < 3; k++) {
-            rows[k * n + i] = unit_of_bound(items[i].lo[k], h->lo[k], h->scale, 0);
-            rows[(3 + k) * n + i] = unit_above(items[i].hi[k], h->lo[k], h->scale);
-        }
+/* 65535 / size, rounded down to a power of 2; 0 where numbers are too large or too small for it. */
+static double scale_for(const space_bounds *b) {
+    double size = 0, most = 0;
+    int exponent;
+    for (int k = 0; k < 3; k++) {
+        most = fmax(most, fmax(fabs(b->lo[k]), fabs(b->hi[k])));
+        size = fmax(size, b->hi[k] - b->lo[k]);
+    }
+    if (most > 0x1p400) return 0;
+    if (size < 0x1p-600) return 0x1p600;
+    frexp(size, &exponent);
+    double scale = ldexp(1, 16 - exponent); /* size * scale in [2^15, 2^16) */
+    return size * scale <= PACKED_UNITS ? scale : scale / 2;
 }
 
 void space_write(space_header *h, const froe_scene *s, const space_item *items, uint32_t count, uint32_t triangles) {
-    bounds frame = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}, parts = frame;
+    space_bounds frame = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}, parts = frame;
     uint32_t *ids = (uint32_t *)(void *)(h + 1);
     for (uint32_t i = 0; i < count; i++) space_ask(s, items + i);
     for (uint32_t i = 0; i < count; i++) space_ask_corners(s, items + i);
@@ -105,5 +90,17 @@ void space_write(space_header *h, const froe_scene *s, const space_item *items, 
         h->box[0][k] = unit_of_bound(parts.lo[k], h->lo[k], h->scale, 0);
         h->box[1][k] = unit_above(parts.hi[k], h->lo[k], h->scale);
     }
-    write_rows(h, (uint16_t *)(void *)(ids + count), s, items);
+    uint16_t *rows = (uint16_t *)(void *)(ids + count);
+    const size_t n = count, m = triangles;
+    for (size_t i = 0; i < m; i++)
+        for (uint32_t c = 0; c < 3; c++) {
+            const double *x = space_corner(s, items + i, c);
+            for (size_t k = 0; k < 3; k++)
+                rows[c < 2 ? (3 * c + k) * n + i : 6 * n + k * m + i] = unit_of_bound(x[k], h->lo[k], h->scale, 0.5);
+        }
+    for (size_t i = m; i < n; i++)
+        for (size_t k = 0; k < 3; k++) {
+            rows[k * n + i] = unit_of_bound(items[i].lo[k], h->lo[k], h->scale, 0);
+            rows[(3 + k) * n + i] = unit_above(items[i].hi[k], h->lo[k], h->scale);
+        }
 }

@@ -17,17 +17,6 @@ typedef struct space_cell {
     double lo[3], hi[3];
 } space_cell;
 
-/* Does the object meet a part of the cell? */
-static bool object_meets_box(num_context *context, const froe_scene *s, uint32_t object, const double corners[6]) {
-    double lo[3], hi[3];
-    scene_object_bounds(s, object, lo, hi);
-    for (int k = 0; k < 3; k++)
-        if (lo[k] > corners[3 + k] || hi[k] < corners[k]) return false;
-    const geom_convex box = {.core = GEOM_CORE_BOX, .dim = 3, .count = 8, .coords = corners};
-    const geom_convex set = scene_convex(s, object);
-    return geom_meet(context, &set, &box);
-}
-
 /* The sign of (x - lo) scale - unit. */
 static int beside(num_context *context, const space_header *h, int k, double x, double unit) {
     num_arena *arena = &context->arena;
@@ -50,33 +39,21 @@ static double outside(num_context *context, const space_header *h, int k, double
 /* Is nothing of the object in the cell outside of the box? */
 static bool is_within_cell(num_context *context, const froe_tree *t, const space_header *h, const space_cell *cell,
                            uint32_t object, const uint16_t box[2][3]) {
+    const geom_convex set = scene_convex(t->scene, object);
+    double least[3], most[3];
+    scene_object_bounds(t->scene, object, least, most);
     for (int k = 0; k < 3; k++) {
         const double low = outside(context, h, k, box[0][k] - 0x1p-20, -1);
         const double high = outside(context, h, k, box[1][k] + 0x1p-20, 1);
         for (int upper = 0; upper < 2; upper++) {
             double c[6] = {cell->lo[0], cell->lo[1], cell->lo[2], cell->hi[0], cell->hi[1], cell->hi[2]};
             c[upper ? k : 3 + k] = upper ? high : low;
-            if (c[k] <= c[3 + k] && object_meets_box(context, t->scene, object, c)) return false;
+            bool apart = c[k] > c[3 + k];
+            for (int i = 0; i < 3; i++) apart = apart || least[i] > c[3 + i] || most[i] < c[i];
+            const geom_convex outer = {.core = GEOM_CORE_BOX, .dim = 3, .count = 8, .coords = c};
+            if (!apart && geom_meet(context, &set, &outer)) return false;
         }
     }
-    return true;
-}
-
-/* Does the box reach beyond the object's part in the cell, which is a box, by a unit and more? */
-static bool loose(num_context *context, const space_header *h, const space_cell *cell, const double *lo,
-                  const double *hi, const uint16_t box[2][3]) {
-    for (int k = 0; k < 3; k++) {
-        const double from = lo[k] > cell->lo[k] ? lo[k] : cell->lo[k], to = hi[k] < cell->hi[k] ? hi[k] : cell->hi[k];
-        if (beside(context, h, k, from, box[0][k] + 1 + 0x1p-20) > 0) return true;
-        if (beside(context, h, k, to, box[1][k] - 1 - 0x1p-20) < 0) return true;
-    }
-    return false;
-}
-
-/* Corner c of triangle i. */
-static bool corner_fits(const space_header *h, uint32_t i, int c, const double *x) {
-    for (int k = 0; k < 3; k++)
-        if (!(fabs((x[k] - h->lo[k]) * h->scale - space_row(h, 3 * c + k)[i]) <= 0.5 + 0x1p-20)) return false;
     return true;
 }
 
@@ -92,15 +69,21 @@ const char *space_refuted(num_context *context, const froe_tree *t, uint32_t pie
         if (lo[k] > cell.hi[k] || hi[k] < cell.lo[k]) return "a piece where the object is not";
     if (h->scale == 0) return NULL;
     bool triangle = i < h->triangles;
-    for (int c = 0; triangle && c < 3; c++)
-        if (!corner_fits(h, i, c, scene_point(t->scene, object, (uint32_t)c))) return "a triangle with wrong units";
+    for (int c = 0; triangle && c < 9; c++) {
+        const double x = scene_point(t->scene, object, (uint32_t)c / 3)[c % 3], unit = space_row(h, c)[i];
+        if (!(fabs((x - h->lo[c % 3]) * h->scale - unit) <= 0.5 + 0x1p-20)) return "a triangle with wrong units";
+    }
     for (int k = 0; k < 3; k++) {
         box[0][k] = triangle ? h->box[0][k] : space_row(h, k)[i];
         box[1][k] = triangle ? h->box[1][k] : space_row(h, 3 + k)[i];
         if (box[0][k] < h->box[0][k] || box[1][k] > h->box[1][k]) return "a box outside the box of its leaf";
     }
-    if (id & SPACE_EXACT && loose(context, h, &cell, lo, hi, (const uint16_t(*)[3])box))
-        return "a box larger than the object";
+    for (int k = 0; id & SPACE_EXACT && k < 3; k++) { /* the part in the cell is a box, too */
+        const double from = lo[k] > cell.lo[k] ? lo[k] : cell.lo[k], to = hi[k] < cell.hi[k] ? hi[k] : cell.hi[k];
+        if (beside(context, h, k, from, box[0][k] + 1 + 0x1p-20) > 0 ||
+            beside(context, h, k, to, box[1][k] - 1 - 0x1p-20) < 0)
+            return "a box larger than the object";
+    }
     return is_within_cell(context, t, h, &cell, object, (const uint16_t(*)[3])box) ? NULL
                                                                                    : "a box that the object leaves";
 }

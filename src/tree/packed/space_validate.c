@@ -17,37 +17,18 @@ static bool range_is_zero(const uint8_t *from, const uint8_t *to) {
     return from == to;
 }
 
-static bool is_power_of_2(double x) {
-    int exponent;
-    return isfinite(x) && frexp(x, &exponent) == 0.5;
-}
-
 /* Units say nothing only where there are none, or where the scene is too large or too small for them. */
-static bool scale_fits(const froe_tree *t, const space_header *h) {
-    if (h->scale == 0) return !h->count || !space_is_tame(t->meta.root_lo, t->meta.root_hi);
-    return h->count && is_power_of_2(h->scale) && h->scale >= 0x1p-400 && h->scale <= 0x1p620;
-}
-
 static bool header_fits(const froe_tree *t, const space_header *h) {
     static const uint8_t zeros[sizeof h->unused];
-    bool numbers = scale_fits(t, h);
+    int exponent;
+    bool numbers = h->scale == 0 ? !h->count || !space_is_tame(t->meta.root_lo, t->meta.root_hi)
+                                 : h->count && isfinite(h->scale) && frexp(h->scale, &exponent) == 0.5 &&
+                                       h->scale >= 0x1p-400 && h->scale <= 0x1p620;
     for (int k = 0; k < 3; k++) {
         numbers = numbers && isfinite(h->lo[k]) && h->box[0][k] <= h->box[1][k];
         if (h->scale == 0) numbers = numbers && h->lo[k] == 0 && h->box[1][k] == 0;
     }
     return numbers && memcmp(h->unused, zeros, sizeof zeros) == 0;
-}
-
-static const char *check_ids(const froe_tree *t, const space_header *h) {
-    const froe_scene *s = t->scene;
-    for (uint32_t i = 0; i < h->count; i++) {
-        uint32_t id = space_ids(h)[i], object = id & PACKED_OBJECT;
-        if (object >= s->object_count || id & PACKED_END) return "an object that does not exist";
-        if (space_is_triangle(s, object) != (i < h->triangles)) return "triangles among others";
-        bool exact = scene_form(s, object) == FROE_BOX || scene_form(s, object) == FROE_POINT;
-        if (exact != ((id & SPACE_EXACT) != 0)) return "a box or point not called so, or something else called so";
-    }
-    return NULL;
 }
 
 static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t *blocks) {
@@ -58,8 +39,14 @@ static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t 
     if ((uint64_t)count * 16 > (uint64_t)room * PACKED_BLOCK || space_size(count, h->triangles) > room)
         return "a block out of place";
     if (!header_fits(t, h)) return "a block whose header does not fit";
-    const char *why = check_ids(t, h);
-    if (why) return why;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t id = space_ids(h)[i], object = id & PACKED_OBJECT;
+        if (object >= t->scene->object_count || id & PACKED_END) return "an object that does not exist";
+        if (space_is_triangle(t->scene, object) != (i < h->triangles)) return "triangles among others";
+        froe_kind form = scene_form(t->scene, object);
+        if ((form == FROE_BOX || form == FROE_POINT) != ((id & SPACE_EXACT) != 0))
+            return "a box or point not called so, or something else called so";
+    }
     *blocks += space_size(count, h->triangles);
     const uint8_t *end = (const uint8_t *)(space_row(h, 8) + h->triangles);
     const uint8_t *from = h->scale == 0 ? (const uint8_t *)(space_ids(h) + count) : end;
@@ -68,16 +55,12 @@ static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t 
                : "a block with something behind its end";
 }
 
-static bool root_fits_scene(const froe_tree *t) {
-    for (int k = 0; k < 3; k++)
-        if (!(t->meta.root_lo[k] <= t->meta.root_hi[k])) return false;
-    return !t->cut_count && !t->packed.owner_count;
-}
-
 froe_status space_validate(const froe_tree *t, froe_diagnostic *diag) {
     tree_walk walk = {.tree = t};
     uint32_t blocks = 0;
-    froe_status status = root_fits_scene(t) ? FROE_OK : bad_space_block(diag, 0, "not a tree that can be packed");
+    bool fits = !t->cut_count && !t->packed.owner_count;
+    for (int k = 0; k < 3; k++) fits = fits && t->meta.root_lo[k] <= t->meta.root_hi[k];
+    froe_status status = fits ? FROE_OK : bad_space_block(diag, 0, "not a tree that can be packed");
     while (!status && tree_walk_next(&walk)) {
         const tree_node *n = t->nodes + walk.node;
         const char *why = tree_is_leaf(n) ? check_block(t, n, &blocks) : NULL;

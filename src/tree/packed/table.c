@@ -18,38 +18,13 @@ typedef struct filling {
 
 /* -------------------------------------------------------------------- grid -- */
 
-/* Cells as the builder halves its cells: always the longer side, `bits` times. */
-static void shape_grid(tree_table *table, const froe_tree *t, uint32_t bits) {
-    double side[2];
-    for (int k = 0; k < 2; k++) {
-        side[k] = t->meta.root_hi[k] - t->meta.root_lo[k];
-        table->lo[k] = t->meta.root_lo[k];
-        table->cells[k] = 1;
-    }
-    double whole[2] = {side[0], side[1]};
-    for (; bits; bits--) {
-        int longer = side[1] > side[0];
-        side[longer] *= 0.5;
-        table->cells[longer] *= 2;
-    }
-    for (int k = 0; k < 2; k++) table->scale[k] = table->cells[k] / whole[k];
-}
-
-static uint32_t bits_for(const froe_tree *t) {
-    uint32_t bits = 0;
-    while (bits < MOST_BITS && (2u << bits) <= t->node_count / 2 + 1) bits++;
-    return bits;
-}
-
-static bool grid_fits(const froe_tree *t) {
-    for (int k = 0; k < 2; k++) {
-        double side = t->meta.root_hi[k] - t->meta.root_lo[k];
-        if (!(side >= 0x1p-900 && side <= 0x1p900)) return false;
-    }
-    return tree_is_packed(t) && t->scene->dim == 2;
-}
-
 /* ----------------------------------------------------------------- filling -- */
+
+/* The cell with this number, or the nearest of from .. to. */
+static uint32_t cell_between(double first, uint32_t from, uint32_t to) {
+    if (!(first > from)) return from;
+    return first < to ? (uint32_t)first : to;
+}
 
 static void fill_rect(filling *f, const table_rect *r, uint32_t ragged) {
     const tree_node *n = f->tree->nodes + r->node;
@@ -59,37 +34,19 @@ static void fill_rect(filling *f, const table_rect *r, uint32_t ragged) {
         for (uint32_t j = r->from[1]; j < r->to[1]; j++) f->table->entries[(size_t)i * f->table->cells[1] + j] = entry;
 }
 
-/* Notes a cut within a hair of a line. */
-static void note_line(filling *f, int axis, double place, double value) {
-    double line = floor(place + 0.5);
-    if (!(line >= 0 && line <= f->table->cells[axis]) || fabs(place - line) > TABLE_HAIR) return;
-    double *known = f->values[axis] + (size_t)line;
-    if (isnan(*known)) *known = value;
-    if (*known != value) f->table->crooked[axis][(size_t)line] = 1;
-}
-
-/* The first cell from `from` on whose core is beyond the cut at this place. */
-static uint32_t first_beyond(double place, uint32_t from, uint32_t to) {
-    double first = floor(place - TABLE_HAIR) + 1;
-    if (!(first > from)) return from;
-    return first < to ? (uint32_t)first : to;
-}
-
-/* The first cell whose core is not short of it. */
-static uint32_t first_not_short(double place, uint32_t from, uint32_t to) {
-    double first = ceil(place + TABLE_HAIR) - 1;
-    if (!(first > from)) return from;
-    return first < to ? (uint32_t)first : to;
-}
-
 /* Fills the cells whose cores the cut divides, and leaves the others to its children. */
 static bool divide_rect(filling *f, const table_rect *r) {
     const tree_node *n = f->tree->nodes + r->node;
-    double place = tree_table_place(f->table, n->axis, n->u.value);
-    uint32_t middle = first_not_short(place, r->from[n->axis], r->to[n->axis]);
-    uint32_t beyond = first_beyond(place, middle, r->to[n->axis]);
+    const double place = tree_table_place(f->table, n->axis, n->u.value), line = floor(place + 0.5);
+    /* the first cell whose core is not short of the cut, and the first whose core is beyond it */
+    uint32_t middle = cell_between(ceil(place + TABLE_HAIR) - 1, r->from[n->axis], r->to[n->axis]);
+    uint32_t beyond = cell_between(floor(place - TABLE_HAIR) + 1, middle, r->to[n->axis]);
     table_rect low = *r, high = *r, between = *r;
-    note_line(f, n->axis, place, n->u.value);
+    if (line >= 0 && line <= f->table->cells[n->axis] && fabs(place - line) <= TABLE_HAIR) {
+        double *known = f->values[n->axis] + (size_t)line;
+        if (isnan(*known)) *known = n->u.value;
+        if (*known != n->u.value) f->table->crooked[n->axis][(size_t)line] = 1;
+    }
     low.node = n->child, low.to[n->axis] = middle;
     high.node = n->child + 1, high.from[n->axis] = beyond;
     between.from[n->axis] = middle, between.to[n->axis] = beyond;
@@ -99,9 +56,26 @@ static bool divide_rect(filling *f, const table_rect *r) {
     return beyond == r->to[n->axis] || array_push(&f->tree->alloc, &f->stack, high);
 }
 
-static froe_status fill_all(filling *f) {
-    table_rect all = {0, {0, 0}, {f->table->cells[0], f->table->cells[1]}};
-    bool room = array_push(&f->tree->alloc, &f->stack, all);
+/* ------------------------------------------------------------------- whole -- */
+
+static size_t cell_count(const tree_table *table) {
+    return (size_t)table->cells[0] * table->cells[1];
+}
+
+/* Takes and fills the arrays of a table whose grid is known. False without memory. */
+static bool fill_table(filling *f) {
+    const froe_allocator *alloc = &f->tree->alloc;
+    tree_table *table = f->table;
+    table->entries = support_calloc(alloc, cell_count(table), sizeof *table->entries);
+    bool room = table->entries;
+    for (int k = 0; k < 2; k++) {
+        table->crooked[k] = support_calloc(alloc, table->cells[k] + 1, 1);
+        f->values[k] = support_calloc(alloc, table->cells[k] + 1, sizeof(double));
+        room = room && table->crooked[k] && f->values[k];
+        for (uint32_t i = 0; f->values[k] && i <= table->cells[k]; i++) f->values[k][i] = NAN;
+    }
+    table_rect all = {0, {0, 0}, {table->cells[0], table->cells[1]}};
+    room = room && array_push(alloc, &f->stack, all);
     while (room && f->stack.count) {
         table_rect r = f->stack.data[--f->stack.count];
         if (tree_is_leaf(f->tree->nodes + r.node))
@@ -109,45 +83,40 @@ static froe_status fill_all(filling *f) {
         else
             room = divide_rect(f, &r);
     }
-    array_free(&f->tree->alloc, &f->stack);
-    return room ? FROE_OK : FROE_E_MEMORY;
-}
-
-/* ------------------------------------------------------------------- whole -- */
-
-static size_t cell_count(const tree_table *table) {
-    return (size_t)table->cells[0] * table->cells[1];
-}
-
-static froe_status take_table(filling *f) {
-    const froe_allocator *alloc = &f->tree->alloc;
-    tree_table *table = f->table;
-    table->entries = support_calloc(alloc, cell_count(table), sizeof *table->entries);
-    for (int k = 0; k < 2; k++) {
-        table->crooked[k] = support_calloc(alloc, table->cells[k] + 1, 1);
-        f->values[k] = support_calloc(alloc, table->cells[k] + 1, sizeof(double));
-        for (uint32_t i = 0; f->values[k] && i <= table->cells[k]; i++) f->values[k][i] = NAN;
-    }
-    return table->entries && table->crooked[0] && table->crooked[1] && f->values[0] && f->values[1] ? FROE_OK
-                                                                                                    : FROE_E_MEMORY;
+    array_free(alloc, &f->stack);
+    return room;
 }
 
 froe_status tree_table_new(const froe_tree *t, tree_table **out) {
     const froe_allocator *alloc = &t->alloc;
+    double side[2], whole[2];
     *out = NULL;
-    if (!grid_fits(t)) return FROE_OK;
+    if (!tree_is_packed(t) || t->scene->dim != 2) return FROE_OK;
+    for (int k = 0; k < 2; k++) {
+        side[k] = whole[k] = t->meta.root_hi[k] - t->meta.root_lo[k];
+        if (!(side[k] >= 0x1p-900 && side[k] <= 0x1p900)) return FROE_OK;
+    }
     tree_table *table = support_calloc(alloc, 1, sizeof *table);
     if (!table) return FROE_E_MEMORY;
+    table->cells[0] = table->cells[1] = 1;
+    /* cells as the builder halves its cells: always the longer side */
+    for (uint32_t bits = 0; bits < MOST_BITS && (2u << bits) <= t->node_count / 2 + 1; bits++) {
+        int longer = side[1] > side[0];
+        side[longer] *= 0.5;
+        table->cells[longer] *= 2;
+    }
+    for (int k = 0; k < 2; k++) {
+        table->lo[k] = t->meta.root_lo[k];
+        table->scale[k] = table->cells[k] / whole[k];
+    }
     filling f = {.tree = t, .table = table};
-    shape_grid(table, t, bits_for(t));
-    froe_status status = take_table(&f);
-    if (!status) status = fill_all(&f);
+    bool filled = fill_table(&f);
     for (int k = 0; k < 2; k++) support_free(alloc, f.values[k], (table->cells[k] + 1) * sizeof(double));
-    if (status)
-        tree_table_free(alloc, table);
-    else
+    if (filled)
         *out = table;
-    return status;
+    else
+        tree_table_free(alloc, table);
+    return filled ? FROE_OK : FROE_E_MEMORY;
 }
 
 void tree_table_free(const froe_allocator *alloc, tree_table *table) {

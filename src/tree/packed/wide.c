@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct bounds {
+typedef struct wide_box {
     double lo[3], hi[3]; /* lo > hi: nothing */
-} bounds;
+} wide_box;
 
 /* What a subtree costs as a forest of at most j + 1 trees: leaves and wide nodes. */
 typedef struct forest {
@@ -16,7 +16,7 @@ typedef struct forest {
 typedef struct widening {
     const froe_tree *tree;
     tree_wide *wide;
-    bounds *boxes;        /* [node] */
+    wide_box *boxes;      /* [node] */
     forest *forests;      /* [node] */
     ARRAY(uint32_t) todo; /* node of each wide node */
     ARRAY(wide_node) nodes;
@@ -24,60 +24,35 @@ typedef struct widening {
 
 /* ------------------------------------------------------------------- boxes -- */
 
-/* Objects may reach 2^-20 units beyond the box (space.h). Coordinates of the tree and of queries, below 1 where they
- * matter, are rounded by less than 2^-52. */
-static bounds leaf_box(const tree_wide *w, const space_header *h) {
-    bounds b = {{1, 1, 1}, {-1, -1, -1}};
-    if (!h->count) return b;
-    for (int k = 0; k < 3; k++) {
-        double lo = (h->lo[k] - w->middle[k]) * w->scale, unit = w->scale / h->scale;
-        b.lo[k] = lo + (h->box[0][k] - 0x1p-19) * unit - 0x1p-50;
-        b.hi[k] = lo + (h->box[1][k] + 0x1p-19) * unit + 0x1p-50;
+/* The box of a leaf, or around those of the children. Objects may reach 2^-20 units beyond the box of a leaf (space.h).
+ * Coordinates of the tree and of queries, below 1 where they matter, are rounded by less than 2^-52. */
+static wide_box box_of(const widening *w, const tree_node *n) {
+    const tree_wide *frame = w->wide;
+    wide_box box = {{1, 1, 1}, {-1, -1, -1}};
+    if (tree_is_leaf(n)) {
+        const space_header *h = space_block(w->tree, n->child);
+        for (int k = 0; h->count && k < 3; k++) {
+            double lo = (h->lo[k] - frame->middle[k]) * frame->scale, unit = frame->scale / h->scale;
+            box.lo[k] = lo + (h->box[0][k] - 0x1p-19) * unit - 0x1p-50;
+            box.hi[k] = lo + (h->box[1][k] + 0x1p-19) * unit + 0x1p-50;
+        }
+        return box;
     }
-    return b;
-}
-
-static bounds both(const bounds *a, const bounds *b) {
+    const wide_box *a = w->boxes + n->child, *b = a + 1;
     if (a->lo[0] > a->hi[0]) return *b;
     if (b->lo[0] > b->hi[0]) return *a;
-    bounds c;
     for (int k = 0; k < 3; k++) {
-        c.lo[k] = a->lo[k] < b->lo[k] ? a->lo[k] : b->lo[k];
-        c.hi[k] = a->hi[k] > b->hi[k] ? a->hi[k] : b->hi[k];
+        box.lo[k] = a->lo[k] < b->lo[k] ? a->lo[k] : b->lo[k];
+        box.hi[k] = a->hi[k] > b->hi[k] ? a->hi[k] : b->hi[k];
     }
-    return c;
-}
-
-static void find_box(widening *w, uint32_t node) {
-    const tree_node *n = w->tree->nodes + node;
-    w->boxes[node] = tree_is_leaf(n) ? leaf_box(w->wide, space_block(w->tree, n->child))
-                                     : both(w->boxes + n->child, w->boxes + n->child + 1);
+    return box;
 }
 
 static bool is_empty(const widening *w, uint32_t node) {
     return w->boxes[node].lo[0] > w->boxes[node].hi[0];
 }
 
-static float surface(const bounds *b) {
-    double x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
-    return (float)(x * y + y * z + z * x);
-}
-
 /* ------------------------------------------------------------------ forests -- */
-
-/* The binary nodes to become wide ones are those of least total surface, which is how many a search visits (Ylitie,
- * Karras and Laine). Bottom up: a subtree stands as a forest of j trees for the sum of its sides at their best shares.
- */
-
-static void share_out(const forest *a, const forest *b, forest *out) {
-    for (int j = 1; j < WIDE_CHILDREN; j++) {
-        out->cost[j] = INFINITY;
-        for (int i = 0; i < j; i++) {
-            const float cost = a->cost[i] + b->cost[j - 1 - i];
-            if (cost < out->cost[j]) out->cost[j] = cost, out->share[j] = (uint8_t)(i + 1);
-        }
-    }
-}
 
 static void find_forest(widening *w, uint32_t node) {
     const tree_node *n = w->tree->nodes + node;
@@ -89,34 +64,26 @@ static void find_forest(widening *w, uint32_t node) {
     } else if (left || right) {
         *f = w->forests[n->child + left];
     } else {
-        share_out(w->forests + n->child, w->forests + n->child + 1, f);
-        f->cost[0] = surface(w->boxes + node) + f->cost[WIDE_CHILDREN - 1];
+        const forest *a = w->forests + n->child, *b = a + 1;
+        for (int j = 1; j < WIDE_CHILDREN; j++) {
+            f->cost[j] = INFINITY;
+            for (int i = 0; i < j; i++) {
+                const float cost = a->cost[i] + b->cost[j - 1 - i];
+                if (cost < f->cost[j]) f->cost[j] = cost, f->share[j] = (uint8_t)(i + 1);
+            }
+        }
+        const wide_box *box = w->boxes + node;
+        double x = box->hi[0] - box->lo[0], y = box->hi[1] - box->lo[1], z = box->hi[2] - box->lo[2];
+        f->cost[0] = (float)(x * y + y * z + z * x) + f->cost[WIDE_CHILDREN - 1];
     }
     for (int j = 1; j < WIDE_CHILDREN; j++)
         if (!(f->cost[j] < f->cost[j - 1])) f->cost[j] = f->cost[j - 1], f->share[j] = 0;
 }
 
-/* Children come after their parents. */
-static void find_boxes(widening *w) {
-    for (uint32_t i = w->tree->node_count; i-- > 0;) {
-        find_box(w, i);
-        find_forest(w, i);
-    }
-}
-
 /* ------------------------------------------------------------------- nodes -- */
 
-/* What a node is but for sides without objects. */
-static uint32_t essence(const widening *w, uint32_t node) {
-    const tree_node *n = w->tree->nodes + node;
-    while (!tree_is_leaf(n) && (is_empty(w, n->child) || is_empty(w, n->child + 1))) {
-        node = n->child + is_empty(w, n->child);
-        n = w->tree->nodes + node;
-    }
-    return node;
-}
-
-/* Up to sixteen nodes that stand for this one; in the order of the tree. The stack has at most one entry for each. */
+/* Up to sixteen nodes that stand for this one; in the order of the tree. The stack has at most one entry for each.
+ * Nodes with a side without objects stand for their other side. */
 static uint32_t open_up(const widening *w, uint32_t node, uint32_t child[]) {
     struct {
         uint32_t node, room;
@@ -124,63 +91,57 @@ static uint32_t open_up(const widening *w, uint32_t node, uint32_t child[]) {
     uint32_t count = 0, top = 1;
     bool first = true;
     while (top) {
-        const uint32_t at = essence(w, stack[--top].node);
-        uint32_t room = stack[top].room, share = 0;
+        uint32_t at = stack[--top].node, room = stack[top].room, share = 0;
+        const tree_node *n = w->tree->nodes + at;
+        for (; !tree_is_leaf(n) && (is_empty(w, n->child) || is_empty(w, n->child + 1)); n = w->tree->nodes + at)
+            at = n->child + is_empty(w, n->child);
         if (is_empty(w, at)) continue;
         for (; room > 1 && !share; room -= !share) share = w->forests[at].share[room - 1];
-        if (first && !share && !tree_is_leaf(w->tree->nodes + at)) room = WIDE_CHILDREN, share = 1; /* it has to be */
+        if (first && !share && !tree_is_leaf(n)) room = WIDE_CHILDREN, share = 1; /* it has to be */
         first = false;
         if (!share) {
             child[count++] = at;
             continue;
         }
-        const uint32_t below = w->tree->nodes[at].child;
-        stack[top].node = below + 1, stack[top++].room = room - share;
-        stack[top].node = below, stack[top++].room = share;
+        stack[top].node = n->child + 1, stack[top++].room = room - share;
+        stack[top].node = n->child, stack[top++].room = share;
     }
     return count;
-}
-
-/* The largest shift for which the size is at most 254 units. */
-static uint8_t shift_for(double size) {
-    int exponent;
-    frexp(size, &exponent); /* size < 2^exponent */
-    int shift = 8 - exponent;
-    return (uint8_t)(ldexp(size, shift) <= 254 ? shift : shift - 1);
 }
 
 static uint8_t byte_below(double u) {
     return (uint8_t)(u > 0 ? u < 255 ? u : 255 : 0);
 }
 
-static uint8_t byte_above(double u) {
-    const uint8_t below = byte_below(u);
-    return (uint8_t)(below + (u > below && below < 255));
-}
-
-static void fill_wide_node(const widening *w, wide_node *n, const bounds *all, const uint32_t child[], uint32_t count) {
-    *n = (wide_node){.count = (uint8_t)count, .unused = WIDE_NORMAL};
+/* Units of the node: the largest shift for which its size is at most 254 of them, and bounds rounded outwards. */
+static void fill_boxes(wide_node *n, const wide_box *all, const wide_box boxes[], const uint32_t child[]) {
     for (int k = 0; k < 3; k++) {
+        const double size = all->hi[k] - all->lo[k];
+        int exponent;
+        frexp(size, &exponent); /* size < 2^exponent */
+        int shift = 8 - exponent;
+        if (ldexp(size, shift) > 254) shift--;
         n->lo[k] = all->lo[k] + 0.0;
-        n->shift[k] = shift_for(all->hi[k] - all->lo[k]);
+        n->shift[k] = (uint8_t)shift;
         const double per = ldexp(1, n->shift[k]);
-        for (uint32_t i = 0; i < count; i++) {
-            const bounds *b = w->boxes + child[i];
-            n->box[0][k][i] = byte_below((b->lo[k] - n->lo[k]) * per);
-            n->box[1][k][i] = byte_above((b->hi[k] - n->lo[k]) * per);
+        for (uint32_t i = 0; i < n->count; i++) {
+            const double above = (boxes[child[i]].hi[k] - n->lo[k]) * per;
+            const uint8_t below = byte_below(above);
+            n->box[0][k][i] = byte_below((boxes[child[i]].lo[k] - n->lo[k]) * per);
+            n->box[1][k][i] = (uint8_t)(below + (above > below && below < 255));
         }
     }
 }
 
-/* Breadth first: siblings lie together. */
+/* Breadth first: siblings lie together. The finished nodes begin at cache lines. */
 static bool make_nodes(widening *w) {
     const froe_allocator *alloc = &w->tree->alloc;
     uint32_t child[WIDE_CHILDREN];
     if (!array_push(alloc, &w->todo, 0)) return false;
     for (size_t i = 0; i < w->todo.count; i++) {
         uint32_t node = w->todo.data[i], count = open_up(w, node, child);
-        wide_node wide;
-        fill_wide_node(w, &wide, w->boxes + node, child, count);
+        wide_node wide = {.count = (uint8_t)count, .unused = WIDE_NORMAL};
+        fill_boxes(&wide, w->boxes + node, w->boxes, child);
         for (uint32_t c = 0; c < count; c++) {
             const tree_node *n = w->tree->nodes + child[c];
             wide.child[c] = tree_is_leaf(n) ? WIDE_LEAF | n->child : (uint32_t)w->todo.count;
@@ -188,32 +149,30 @@ static bool make_nodes(widening *w) {
         }
         if (!array_push(alloc, &w->nodes, wide)) return false;
     }
-    return true;
-}
-
-/* Nodes begin at cache lines. */
-static bool place_nodes(widening *w) {
-    tree_wide *wide = w->wide;
-    wide->count = w->nodes.count;
-    wide->memory_size = wide->count * sizeof(wide_node) + PACKED_BLOCK;
-    wide->memory = support_calloc(&w->tree->alloc, wide->memory_size, 1);
-    if (!wide->memory) return false;
-    size_t gap = (PACKED_BLOCK - (uintptr_t)wide->memory % PACKED_BLOCK) % PACKED_BLOCK;
-    wide->nodes = (wide_node *)(void *)((uint8_t *)wide->memory + gap);
-    memcpy(wide->nodes, w->nodes.data, wide->count * sizeof(wide_node));
+    tree_wide *out = w->wide;
+    out->count = w->nodes.count;
+    out->memory_size = out->count * sizeof(wide_node) + PACKED_BLOCK;
+    out->memory = support_calloc(alloc, out->memory_size, 1);
+    if (!out->memory) return false;
+    size_t gap = (PACKED_BLOCK - (uintptr_t)out->memory % PACKED_BLOCK) % PACKED_BLOCK;
+    out->nodes = (wide_node *)(void *)((uint8_t *)out->memory + gap);
+    memcpy(out->nodes, w->nodes.data, out->count * sizeof(wide_node));
     return true;
 }
 
 /* ------------------------------------------------------------------- whole -- */
 
-static bool fits(const froe_tree *t) {
-    return tree_is_space(t) && t->scene->object_count && t->packed.block_count <= WIDE_INDEX &&
-           space_is_tame(t->meta.root_lo, t->meta.root_hi);
-}
-
-static void set_frame(tree_wide *wide, const tree_meta *m) {
+froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
+    const tree_meta *m = &t->meta;
     double size = 0;
     int exponent;
+    *out = NULL;
+    if (!tree_is_space(t) || !t->scene->object_count || t->packed.block_count > WIDE_INDEX ||
+        !space_is_tame(m->root_lo, m->root_hi))
+        return FROE_OK;
+    tree_wide *wide = support_calloc(&t->alloc, 1, sizeof *wide);
+    if (!wide) return FROE_E_MEMORY;
+    widening w = {.tree = t, .wide = wide};
     for (int k = 0; k < 3; k++) {
         size = fmax(size, m->root_hi[k] - m->root_lo[k]);
         wide->middle[k] = 0.5 * m->root_lo[k] + 0.5 * m->root_hi[k];
@@ -221,20 +180,14 @@ static void set_frame(tree_wide *wide, const tree_meta *m) {
     frexp(size, &exponent);
     wide->scale = ldexp(1, -exponent);
     wide->inverse = ldexp(1, exponent);
-}
-
-froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
-    *out = NULL;
-    if (!fits(t)) return FROE_OK;
-    tree_wide *wide = support_calloc(&t->alloc, 1, sizeof *wide);
-    if (!wide) return FROE_E_MEMORY;
-    widening w = {.tree = t, .wide = wide};
-    set_frame(wide, &t->meta);
     w.boxes = support_calloc(&t->alloc, t->node_count, sizeof *w.boxes);
     w.forests = support_calloc(&t->alloc, t->node_count, sizeof *w.forests);
     bool made = w.boxes && w.forests;
-    if (made) find_boxes(&w);
-    made = made && make_nodes(&w) && place_nodes(&w);
+    for (uint32_t i = t->node_count; made && i-- > 0;) { /* children come after their parents */
+        w.boxes[i] = box_of(&w, t->nodes + i);
+        find_forest(&w, i);
+    }
+    made = made && make_nodes(&w);
     support_free(&t->alloc, w.boxes, t->node_count * sizeof *w.boxes);
     support_free(&t->alloc, w.forests, t->node_count * sizeof *w.forests);
     array_free(&t->alloc, &w.todo);
