@@ -15,7 +15,7 @@
 #include "query/near/near.h"
 #include "query/range/range.h"
 #include "query/ray/ray.h"
-#include "tree/tree.h"
+#include "tree/list.h"
 #include <froe/query.h>
 
 /** Data prepared once for all contexts of a tree: the first member of its struct. */

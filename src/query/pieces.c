@@ -1,6 +1,7 @@
 /* pieces.c: see pieces.h. */
 #include "query/pieces.h"
 #include "support/fail.h"
+#include "tree/list.h"
 #include <string.h>
 
 static void free_pieces(const froe_allocator *alloc, query_part *part) {

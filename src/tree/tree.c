@@ -1,6 +1,7 @@
 /* tree.c: nodes, cuts, pieces and counts of a finished tree. */
 #include "base/floats.h"
 #include "tree/file.h"
+#include "tree/list.h"
 #include "tree/packed/table.h"
 #include "tree/packed/wide.h"
 #include "tree/walk.h"

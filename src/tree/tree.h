@@ -16,7 +16,7 @@
  * list has the place where it would begin. Unused fields are 0. tree/validate.c relies on it.
  *
  * A packed tree, one that is built to be queried, has plain cuts only and neither pieces nor bounds: its leaves are
- * blocks (tree/packed/packed.h). Pieces are numbered all the same; tree_list() reads the lists of both layouts. */
+ * blocks (tree/packed/packed.h). Pieces are numbered all the same. tree/list.h reads the lists of both layouts. */
 #ifndef FROE_TREE_TREE_H
 #define FROE_TREE_TREE_H
 #include "scene/scene.h"
@@ -112,47 +112,14 @@ struct froe_tree {
 static inline bool tree_is_leaf(const tree_node *node) {
     return node->type == TREE_LEAF;
 }
-/** The list of a node: pieces first .. first + count - 1, whose objects tree_object() tells. */
-typedef struct tree_objects {
-    const uint32_t *at;
-    uint32_t stride, mask;
-    uint32_t first, count;
-} tree_objects;
-
 static inline bool tree_is_packed(const froe_tree *t) {
     return t->packed.blocks;
-}
-/** List of a packed leaf: in its block, behind 32 bytes and 8 for each fragment (tree/packed/packed.h); in space
- * behind 64 (tree/packed/space.h). */
-static inline tree_objects tree_packed_list(const froe_tree *t, const tree_node *n) {
-    size_t count = n->u.list.count, at = (size_t)n->child * 64 + (t->scene->dim == 3 ? 64 : 32 + 8 * count);
-    return (tree_objects){.at = (const uint32_t *)(const void *)(t->packed.blocks + at),
-                          .stride = 1,
-                          .mask = 0x3fffffffu,
-                          .first = n->u.list.first,
-                          .count = n->u.list.count};
 }
 /** First piece of a subtree (not of a packed tree): a node's list comes before those of its children, the left one
  * first. */
 static inline uint32_t tree_first_piece(const froe_tree *t, uint32_t node) {
     while (t->nodes[node].type == TREE_PLAIN) node = t->nodes[node].child;
     return tree_is_leaf(t->nodes + node) ? t->nodes[node].u.list.first : t->cuts[t->nodes[node].u.cut].first;
-}
-/** The in-cut or leaf list of a node, wherever its layout keeps it. */
-static inline tree_objects tree_list(const froe_tree *t, uint32_t node) {
-    const tree_node *n = t->nodes + node;
-    if (n->type == TREE_LEAF && tree_is_packed(t)) return tree_packed_list(t, n);
-    tree_objects list = {.stride = sizeof(tree_piece) / sizeof(uint32_t), .mask = UINT32_MAX};
-    if (n->type == TREE_LEAF)
-        list.first = n->u.list.first, list.count = n->u.list.count;
-    else if (n->type == TREE_TABLED)
-        list.first = t->cuts[n->u.cut].first, list.count = t->cuts[n->u.cut].count;
-    if (list.count) list.at = &t->pieces[list.first].object;
-    return list;
-}
-/** Object of the i-th piece of a list. */
-static inline uint32_t tree_object(const tree_objects *list, uint32_t i) {
-    return list->at[(size_t)i * list->stride] & list->mask;
 }
 /** A node's cut, given the tables it refers to; kind NONE at a leaf. */
 froe_cut tree_cut_view(const tree_node *node, const tree_cut *cuts, const double *normals);

@@ -4,6 +4,7 @@
 #include "build/bar/bar_shape.h"
 #include "builders/bar_oracle.h"
 #include "support/memory.h"
+#include "tree/list.h"
 #include "tree/trees.h"
 #include <froe/io.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* test_baselines.c: kd, quad, grid, orthogonal paterson_yao, and autopartition on boxes: the cut of every node is the
  * one its rule names, found again by brute force; no scene makes them large. */
 #include "build/options.h"
-#include "tree/tree.h"
+#include "tree/list.h"
 #include <froe/io.h>
 #include <math.h>
 #include <setjmp.h>

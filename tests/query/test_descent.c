@@ -4,6 +4,7 @@
 #include "query/point/leaf.h"
 #include "query/range/centroids.h"
 #include "query/worlds.h"
+#include "tree/list.h"
 
 enum { POINTS = 3000 };
 

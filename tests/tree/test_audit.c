@@ -1,4 +1,5 @@
 /* test_audit.c: right trees pass, and every invariant, violated once, is found. */
+#include "tree/list.h"
 #include "trees.h"
 #include <math.h>
 #include <stdio.h>

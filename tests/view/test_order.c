@@ -4,6 +4,7 @@
  * inside the cell of its node, decided by the cuts above it alone. Along each ray the order must be that of the
  * distances, and where they are equal (in one cut) that of the ranks. */
 #include "rays.h"
+#include "tree/list.h"
 #include <froe/view.h>
 #include <stdlib.h>
 

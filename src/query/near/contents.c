@@ -1,6 +1,7 @@
 /* contents.c: regions from the root down, then contents from the leaves up, in the same place. */
 #include "query/near/contents.h"
 #include "support/fail.h"
+#include "tree/list.h"
 #include <math.h>
 #include <string.h>
 

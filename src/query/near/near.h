@@ -8,6 +8,7 @@
 #define FROE_QUERY_NEAR_NEAR_H
 #include "geom/meet/distance.h"
 #include "support/array.h"
+#include "tree/list.h"
 #include <froe/query.h>
 
 typedef struct query_neighbour {

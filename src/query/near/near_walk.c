@@ -10,6 +10,7 @@
 #include "query/heap.h"
 #include "query/near/contents.h"
 #include "query/packed/space.h"
+#include "tree/list.h"
 
 /* What is left of a distance when rounding is taken off; 2^-1070: of products below the least normal double. */
 static double rounded_down(double distance) {

@@ -10,6 +10,7 @@
 #define FROE_QUERY_PACKED_SPACE_H
 #include "query/context.h"
 #include "query/packed/space_kernel.h"
+#include "tree/list.h"
 
 /** A walk along a ray, or around a point. */
 typedef struct space_walk {

@@ -3,6 +3,7 @@
  * In the coordinates of the wide tree the scene is within [-1/2, 1/2]. A ray o + t d becomes o' + u d' with u = t *
  * per, by powers of 2 alone but for o' = (o - middle) * scale; keys are u - start, where it comes to the scene. */
 #include "query/packed/space.h"
+#include "tree/list.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

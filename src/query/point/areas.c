@@ -3,6 +3,7 @@
 #include "base/floats.h"
 #include "query/segment.h"
 #include "support/fail.h"
+#include "tree/list.h"
 #include <string.h>
 
 /* -------------------------------------------------------------- references -- */

@@ -3,6 +3,7 @@
 #include "query/point/areas.h"
 #include "query/segment.h"
 #include "support/fail.h"
+#include "tree/list.h"
 #include <string.h>
 
 /* ---------------------------------------------------------------- crossing -- */

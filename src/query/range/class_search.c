@@ -2,6 +2,7 @@
 #include "query/point/leaf.h"
 #include "query/range/classes.h"
 #include "support/fail.h"
+#include "tree/list.h"
 
 /* The cube around a range. */
 typedef struct range_cube {

@@ -12,6 +12,7 @@
 #include "query/cuts.h"
 #include "query/pieces.h"
 #include "query/range/jump.h"
+#include "tree/list.h"
 #include "tree/packed/space.h"
 #include <string.h>
 

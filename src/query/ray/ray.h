@@ -7,6 +7,7 @@
 #define FROE_QUERY_RAY_RAY_H
 #include "geom/ray/ray.h"
 #include "support/array.h"
+#include "tree/list.h"
 #include <froe/query.h>
 
 /** A node, or the list of a cut, that waits; the ray is in its closed region for some t in enter .. leave at most. */

@@ -4,7 +4,7 @@
 #define FROE_TREE_AUDIT_INSEPARABLE_H
 #include "base/task.h"
 #include "geom/predicates.h"
-#include "tree/tree.h"
+#include "tree/list.h"
 
 /** Why the objects of a leaf can be separated after all, as a clause; *why NULL: nothing was found that does.
  * Separable are

@@ -3,6 +3,7 @@
  * The guard stage is the connected top part of the tree whose nodes carry TREE_GUARD; what hangs
  * below it are its cells. A convex object has one fragment in a cell, whatever the refinement
  * of the cell cut it into, so the fragments of a cell are the different objects in its slice. */
+#include "tree/list.h"
 #include "tree/walk.h"
 #include <string.h>
 

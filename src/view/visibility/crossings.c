@@ -2,6 +2,7 @@
 #include "view/visibility/crossings.h"
 #include "base/sort.h"
 #include "geom/predicates.h"
+#include "tree/list.h"
 #include <string.h>
 
 /* ---------------------------------------------------------------------- finding -- */

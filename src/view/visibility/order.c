@@ -3,6 +3,7 @@
 #include "geom/predicates.h"
 #include "geom/selftest.h"
 #include "support/fail.h"
+#include "tree/list.h"
 #include "tree/packed/space.h"
 #include <math.h>
 

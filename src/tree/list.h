@@ -1,0 +1,37 @@
+/* list.h: the in-cut or leaf list of a node, wherever the layout of its tree keeps it.
+ *
+ *     general     pieces[first .. first + count): every second number is an object
+ *     packed      the ids in the block of the leaf, in the plane (packed.h) or in space (space.h)
+ */
+#ifndef FROE_TREE_LIST_H
+#define FROE_TREE_LIST_H
+#include "tree/packed/space.h"
+
+/** The list of a node: pieces first .. first + count - 1, whose objects tree_object() tells. */
+typedef struct tree_objects {
+    const uint32_t *at;
+    uint32_t stride, mask;
+    uint32_t first, count;
+} tree_objects;
+
+static inline tree_objects tree_list(const froe_tree *t, uint32_t node) {
+    const tree_node *n = t->nodes + node;
+    tree_objects list = {.stride = sizeof(tree_piece) / sizeof(uint32_t), .mask = UINT32_MAX};
+    if (n->type == TREE_LEAF)
+        list.first = n->u.list.first, list.count = n->u.list.count;
+    else if (n->type == TREE_TABLED)
+        list.first = t->cuts[n->u.cut].first, list.count = t->cuts[n->u.cut].count;
+    if (n->type == TREE_LEAF && tree_is_packed(t)) {
+        list.stride = 1;
+        list.mask = PACKED_OBJECT;
+        list.at = tree_is_space(t) ? space_ids(space_block(t, n->child)) : packed_ids(packed_block(t, n), list.count);
+    } else if (list.count) {
+        list.at = &t->pieces[list.first].object;
+    }
+    return list;
+}
+/** Object of the i-th piece of a list. */
+static inline uint32_t tree_object(const tree_objects *list, uint32_t i) {
+    return list->at[(size_t)i * list->stride] & list->mask;
+}
+#endif
