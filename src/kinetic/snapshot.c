@@ -1,7 +1,7 @@
 /* snapshot.c: the present of a kinetic partition as an ordinary tree, and where its vertices are exactly. */
 #include "base/floats.h"
 #include "base/sort.h"
-#include "kinetic/live.h"
+#include "kinetic/kinetic.h"
 #include "kinetic/places.h"
 #include "scene/scene.h"
 #include "support/fail.h"
@@ -22,18 +22,18 @@ typedef struct picture {
 
 static bool picture_new(froe_kinetic *k, bool places, picture *p) {
     size_t n = 0;
-    for (uint32_t s = 0; s < k->segments.count; s++) n += segment_at(k, s)->alive;
+    for (uint32_t s = 0; s < k->tree.segments.count; s++) n += ktree_segment_at(&k->tree, s)->alive;
     *p = (picture){.k = k, .count = n, .first_rounded = FROE_NONE};
-    if (places) p->places = places_new(&k->alloc);
-    p->objects = support_calloc(&k->alloc, n + 1, sizeof *p->objects);
-    p->order = support_calloc(&k->alloc, 2 * n + 1, sizeof *p->order);
-    p->coords = support_calloc(&k->alloc, 4 * n + 1, sizeof *p->coords);
-    p->tags = support_calloc(&k->alloc, n + 1, sizeof *p->tags);
+    if (places) p->places = places_new(&k->call.alloc);
+    p->objects = support_calloc(&k->call.alloc, n + 1, sizeof *p->objects);
+    p->order = support_calloc(&k->call.alloc, 2 * n + 1, sizeof *p->order);
+    p->coords = support_calloc(&k->call.alloc, 4 * n + 1, sizeof *p->coords);
+    p->tags = support_calloc(&k->call.alloc, n + 1, sizeof *p->tags);
     return p->objects && p->order && p->coords && p->tags && (p->places || !places);
 }
 
 static void picture_free(picture *p) {
-    const froe_allocator *alloc = &p->k->alloc;
+    const froe_allocator *alloc = &p->k->call.alloc;
     support_free(alloc, p->objects, (p->count + 1) * sizeof *p->objects);
     support_free(alloc, p->order, (2 * p->count + 1) * sizeof *p->order);
     support_free(alloc, p->coords, (4 * p->count + 1) * sizeof *p->coords);
@@ -43,14 +43,14 @@ static void picture_free(picture *p) {
 
 static int by_object_key(void *user, uint32_t a, uint32_t b) {
     const picture *p = user;
-    return comes_before(p->k, p->objects[a], p->objects[b]) ? -1 : 1;
+    return ktree_before(&p->k->tree, p->objects[a], p->objects[b]) ? -1 : 1;
 }
 
 static void take_objects(picture *p) {
     const froe_kinetic *k = p->k;
     uint32_t n = 0;
-    for (uint32_t s = 0; s < k->segments.count; s++) {
-        if (!segment_at(k, s)->alive) continue;
+    for (uint32_t s = 0; s < k->tree.segments.count; s++) {
+        if (!ktree_segment_at(&k->tree, s)->alive) continue;
         p->objects[n] = s;
         p->tags[n] = k->now.motion->objects.data[s].tag;
         p->order[n] = n;
@@ -75,16 +75,16 @@ static bool take_places(picture *p) {
         for (uint32_t e = 0; e < 2; e++) {
             const uint32_t vertex = k->now.segments.data[p->objects[i]].end[e];
             const bool exact = now_round(&k->now, vertex, p->coords + 4 * i + 2 * e);
-            p->rounded += !exact && k->vertices.data[vertex] == 2 * p->objects[i] + e;
+            p->rounded += !exact && k->tree.vertices.data[vertex] == 2 * p->objects[i] + e;
             if (!exact && p->first_rounded == FROE_NONE) p->first_rounded = p->objects[i];
-            if ((p->places && !keep_place(p, vertex, !exact)) || !live_goes_on(k)) return false;
+            if ((p->places && !keep_place(p, vertex, !exact)) || !call_goes_on(&k->call)) return false;
         }
     return true;
 }
 
 static froe_status build_snapshot_tree(const picture *p, froe_tree **tree, froe_diagnostic *diag) {
     froe_scene *scene = NULL;
-    froe_status status = froe_scene_new(2, &p->k->alloc, &scene);
+    froe_status status = froe_scene_new(2, &p->k->call.alloc, &scene);
     if (status) return support_fail_memory(diag);
     froe_objects batch = froe_objects_defaults();
     batch.kind = FROE_SEGMENT;
@@ -120,7 +120,7 @@ typedef struct comparison {
 } comparison;
 
 static void push_pair_of_nodes(comparison *c, uint32_t live, froe_node tree) {
-    if (!array_push(&c->k->alloc, &c->stack, ((twins){live, tree}))) c->short_of_memory = true;
+    if (!array_push(&c->k->call.alloc, &c->stack, ((twins){live, tree}))) c->short_of_memory = true;
 }
 
 static uint32_t snapshot_corner(const comparison *c, uint32_t object, uint32_t end) {
@@ -130,7 +130,8 @@ static uint32_t snapshot_corner(const comparison *c, uint32_t object, uint32_t e
 /* Is a cut of the tree the wall that a segment has at one of its ends? */
 static bool is_wall(const comparison *c, uint32_t segment, uint32_t wall, const froe_cut *cut) {
     const uint32_t object = c->index[segment];
-    if (is_end(wall)) return cut->kind == FROE_CUT_VERTEX && cut->id[0] == snapshot_corner(c, object, END_0 - wall);
+    if (ktree_is_end(wall))
+        return cut->kind == FROE_CUT_VERTEX && cut->id[0] == snapshot_corner(c, object, KTREE_END_0 - wall);
     if (cut->kind != FROE_CUT_CROSSING) return false;
     const uint32_t a = c->originals[cut->id[0]], b = c->originals[cut->id[1]];
     const uint32_t s = c->originals[object], t = c->originals[c->index[wall]];
@@ -141,9 +142,9 @@ static bool is_wall(const comparison *c, uint32_t segment, uint32_t wall, const 
 static bool is_same(comparison *c, twins at) {
     froe_node_info info = froe_tree_node(c->tree, at.tree);
     if (!at.live) return info.cut.kind == FROE_CUT_NONE;
-    const live_node *n = node_at(c->k, at.live);
+    const ktree_node *n = ktree_node_at(&c->k->tree, at.live);
     for (int side = 0; side < 2; side++) {
-        if (n->wall[side] == END_NONE) continue;
+        if (n->wall[side] == KTREE_NO_WALL) continue;
         if (!is_wall(c, n->segment, n->wall[side], &info.cut)) return false;
         push_pair_of_nodes(c, n->child[side], info.child[side]);
         info = froe_tree_node(c->tree, info.child[1 - side]);
@@ -152,20 +153,21 @@ static bool is_same(comparison *c, twins at) {
     if (info.cut.kind != FROE_CUT_OBJECT || c->originals[cut] != c->originals[object]) return false;
     const bool reversed = snapshot_corner(c, cut, 0) != snapshot_corner(c, object, 0);
     const bool turned = c->k->now.segments.data[n->segment].turned != reversed;
-    push_pair_of_nodes(c, n->child[turned ? DOWN : UP], info.child[1]);
-    push_pair_of_nodes(c, n->child[turned ? UP : DOWN], info.child[0]);
+    push_pair_of_nodes(c, n->child[turned ? KTREE_DOWN : KTREE_UP], info.child[1]);
+    push_pair_of_nodes(c, n->child[turned ? KTREE_UP : KTREE_DOWN], info.child[0]);
     return true;
 }
 
 static froe_status compare_with_tree(const picture *p, const froe_tree *tree, bool *alike) {
-    const froe_allocator *alloc = &p->k->alloc;
-    const size_t all = p->k->segments.count;
+    const froe_allocator *alloc = &p->k->call.alloc;
+    const size_t all = p->k->tree.segments.count;
     comparison c = {.k = p->k, .tree = tree, .scene = froe_tree_scene(tree)};
     c.index = support_calloc(alloc, all + 1, sizeof *c.index);
     c.originals = support_calloc(alloc, p->count + 1, sizeof *c.originals);
     c.short_of_memory = !c.index || !c.originals || scene_originals(c.scene, alloc, c.originals);
     for (uint32_t i = 0; i < p->count && !c.short_of_memory; i++) c.index[p->objects[i]] = i;
-    if (!c.short_of_memory) push_pair_of_nodes(&c, node_at(p->k, ROOT)->child[0], froe_tree_root(tree));
+    if (!c.short_of_memory)
+        push_pair_of_nodes(&c, ktree_node_at(&p->k->tree, KTREE_ROOT)->child[0], froe_tree_root(tree));
     *alike = true;
     while (c.stack.count && *alike && !c.short_of_memory) *alike = is_same(&c, c.stack.data[--c.stack.count]);
     array_free(alloc, &c.stack);
@@ -178,7 +180,7 @@ static froe_status compare_with_tree(const picture *p, const froe_tree *tree, bo
 
 static froe_status make_snapshot(picture *p, bool refuse, froe_snapshot *out, froe_diagnostic *diag) {
     take_objects(p);
-    if (!take_places(p)) return live_fail(p->k, diag);
+    if (!take_places(p)) return call_fail(&p->k->call, diag);
     if (refuse && p->rounded)
         return support_fail_at(
             diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
@@ -204,7 +206,7 @@ froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *
     if (o->size != sizeof *o) return support_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");
     picture p;
     froe_snapshot made = {0};
-    froe_status status = live_begin(k, diag);
+    froe_status status = kinetic_begin(k, diag);
     if (status) return status;
     status = picture_new(k, o->places, &p) ? make_snapshot(&p, o->refuse, &made, diag) : support_fail_memory(diag);
     if (!status) *out = made;

@@ -2,7 +2,7 @@
  * and rays. The oracle is small: PRESENT_MOST segments. */
 #ifndef FROE_TESTS_KINETIC_BESIDE_H
 #define FROE_TESTS_KINETIC_BESIDE_H
-#include "kinetic/live.h"
+#include "kinetic/kinetic.h"
 #include "oracle/present.h"
 #include <math.h>
 #include <stdio.h>
@@ -33,7 +33,7 @@ static inline void beside_look(beside *b, present *p) {
     for (uint32_t s = 0; s < froe_motion_object_count(b->motion); s++) {
         const froe_moving_object o = froe_motion_object(b->motion, s);
         there[s] = !b->dead[s] && o.birth <= now && now <= o.death;
-        key[s] = segment_at(b->kinetic, s)->key;
+        key[s] = ktree_segment_at(&b->kinetic->tree, s)->key;
     }
     present_init(p, b->motion, now, there, key);
 }
@@ -42,13 +42,13 @@ static inline void beside_look(beside *b, present *p) {
 static inline bool beside_tree(beside *b, const present *p) {
     const froe_kinetic *k = b->kinetic;
     b->counts.trees++;
-    const uint32_t root = node_at(k, ROOT)->child[0];
+    const uint32_t root = ktree_node_at(&k->tree, KTREE_ROOT)->child[0];
     uint32_t live[4096];
     int made[4096], top = 0;
     if (!root != !p->node_count) return BESIDE_FAIL(b, "an empty tree, or none");
     if (root) live[top] = root, made[top++] = 0;
     while (top) {
-        const live_node *n = node_at(k, live[--top]);
+        const ktree_node *n = ktree_node_at(&k->tree, live[--top]);
         const present_node *o = p->nodes + made[top];
         if (n->segment != o->segment || n->wall[0] != o->wall[0] || n->wall[1] != o->wall[1])
             return BESIDE_FAIL(b, "a node of segment %u with walls %x %x is one of segment %u with walls %x %x",
@@ -190,7 +190,7 @@ static inline bool beside_snapshot(beside *b, present *p) {
     froe_snapshot s;
     if (froe_kinetic_snapshot(b->kinetic, NULL, &s, NULL)) return BESIDE_FAIL(b, "snapshot");
     bool there[PRESENT_MOST], points = false;
-    for (uint32_t i = 0; i < p->count; i++) there[i] = segment_at(b->kinetic, i)->alive;
+    for (uint32_t i = 0; i < p->count; i++) there[i] = ktree_segment_at(&b->kinetic->tree, i)->alive;
     froe_motion *frozen = beside_frozen(p, there, s.tree);
     present q;
     present_init(&q, frozen, 1, there, p->key);

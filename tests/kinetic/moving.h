@@ -1,7 +1,7 @@
 /* moving.h: motions of every kind that a partition in motion has to live with, from integers. */
 #ifndef FROE_TESTS_KINETIC_MOVING_H
 #define FROE_TESTS_KINETIC_MOVING_H
-#include "kinetic/live.h"
+#include "kinetic/kinetic.h"
 #include "support/fuzz.h"
 #include <stdlib.h>
 #include <string.h>

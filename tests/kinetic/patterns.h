@@ -6,7 +6,7 @@
  * patterns. */
 #ifndef FROE_TESTS_KINETIC_PATTERNS_H
 #define FROE_TESTS_KINETIC_PATTERNS_H
-#include "kinetic/live.h"
+#include "kinetic/kinetic.h"
 #include <math.h>
 
 typedef enum pattern_kind { PATTERN_EE, PATTERN_EI, PATTERN_II, PATTERN_ES, PATTERN_III, PATTERN_TURN } pattern_kind;
@@ -21,65 +21,66 @@ typedef struct pattern_counter {
 
 /* The only segment at a vertex; FROE_NONE: there are others. */
 static inline uint32_t pattern_segment(const froe_kinetic *k, uint32_t vertex) {
-    uint32_t e = k->vertices.data[vertex];
-    return e == FROE_NONE || segment_at(k, e / 2)->end[e % 2].next != FROE_NONE ? FROE_NONE : e / 2;
+    uint32_t e = k->tree.vertices.data[vertex];
+    return e == FROE_NONE || ktree_segment_at(&k->tree, e / 2)->end[e % 2].next != FROE_NONE ? FROE_NONE : e / 2;
 }
 
 static inline bool pattern_is_left(const froe_kinetic *k, uint32_t segment, uint32_t vertex) {
     return now_vertex(&k->now, segment, 0) == vertex;
 }
 
-static inline bool pattern_is_higher(froe_kinetic *k, now_name p, now_name q) {
+static inline bool pattern_is_higher(froe_kinetic *k, name_point p, name_point q) {
     return now_spot_of(&k->now, p).y > now_spot_of(&k->now, q).y;
 }
 
 /* The first p of two points is what was on the left. */
-static inline int pattern_of_ends(froe_kinetic *k, now_name p, now_name q) {
+static inline int pattern_of_ends(froe_kinetic *k, name_point p, name_point q) {
     uint32_t s = pattern_segment(k, p.a), t = pattern_segment(k, q.a);
     if (s == FROE_NONE || t == FROE_NONE) return -1;
-    return pattern_is_left(k, s, p.a) | pattern_is_left(k, t, q.a) << 1 | comes_before(k, s, t) << 2 |
+    return pattern_is_left(k, s, p.a) | pattern_is_left(k, t, q.a) << 1 | ktree_before(&k->tree, s, t) << 2 |
            pattern_is_higher(k, p, q) << 3;
 }
 
-static inline int pattern_of_end_and_crossing(froe_kinetic *k, now_name p, now_name q) {
-    now_name end = name_is_vertex(p) ? p : q, crossing = name_is_vertex(p) ? q : p;
+static inline int pattern_of_end_and_crossing(froe_kinetic *k, name_point p, name_point q) {
+    name_point end = name_is_vertex(p) ? p : q, crossing = name_is_vertex(p) ? q : p;
     uint32_t s = pattern_segment(k, end.a);
     if (s == FROE_NONE) return -1;
-    int later = comes_before(k, crossing.a, s) + comes_before(k, (uint32_t)crossing.b, s);
+    int later = ktree_before(&k->tree, crossing.a, s) + ktree_before(&k->tree, (uint32_t)crossing.b, s);
     return pattern_is_left(k, s, end.a) | name_is_vertex(p) << 1 | pattern_is_higher(k, p, q) << 2 | later << 3;
 }
 
-static inline int pattern_of_crossings(froe_kinetic *k, now_name p, now_name q) {
+static inline int pattern_of_crossings(froe_kinetic *k, name_point p, name_point q) {
     static const int numbers[16] = {[3] = 0, [5] = 1, [6] = 2, [9] = 3, [10] = 4, [12] = 5};
     const uint32_t all[4] = {p.a, (uint32_t)p.b, q.a, (uint32_t)q.b};
     int ranks = 0; /* of the segments of p among all four */
     for (int i = 0; i < 2; i++) {
         int rank = 0;
-        for (int j = 0; j < 4; j++) rank += comes_before(k, all[j], all[i]);
+        for (int j = 0; j < 4; j++) rank += ktree_before(&k->tree, all[j], all[i]);
         ranks |= 1 << rank;
     }
     return 2 * numbers[ranks] + pattern_is_higher(k, p, q);
 }
 
 static inline int pattern_of_contact(froe_kinetic *k, const now_claim *c) {
-    uint32_t vertex, met = c->p.b == NAME_SEGMENT ? c->p.a : live_met_segment(k, c->p, c->q);
+    uint32_t vertex, met = c->p.b == NAME_SEGMENT ? c->p.a : now_met_segment(&k->now, c->p, c->q);
     vertex = c->p.b == NAME_SEGMENT || !name_is_vertex(c->p) ? c->q.a : c->p.a;
     uint32_t s = pattern_segment(k, vertex);
     if (s == FROE_NONE || met == FROE_NONE) return -1;
-    return pattern_is_left(k, s, vertex) | comes_before(k, s, met) << 1 | (now_side(&k->now, met, vertex) > 0) << 2;
+    return pattern_is_left(k, s, vertex) | ktree_before(&k->tree, s, met) << 1 |
+           (now_side(&k->now, met, vertex) > 0) << 2;
 }
 
 static inline double pattern_slope(froe_kinetic *k, uint32_t s) {
-    now_spot a = now_spot_of(&k->now, (now_name){now_vertex(&k->now, s, 0), NAME_VERTEX});
-    now_spot b = now_spot_of(&k->now, (now_name){now_vertex(&k->now, s, 1), NAME_VERTEX});
+    now_spot a = now_spot_of(&k->now, (name_point){now_vertex(&k->now, s, 0), NAME_VERTEX});
+    now_spot b = now_spot_of(&k->now, (name_point){now_vertex(&k->now, s, 1), NAME_VERTEX});
     return atan2(b.y - a.y, b.x - a.x);
 }
 
 /* The order of three by slope is an order of their ranks; the first on the steepest or the last comes first on the one
  * between. */
-static inline int pattern_of_three(froe_kinetic *k, now_name p, now_name q) {
-    now_name third;
-    if (!live_third_crossing(p, q, &third)) return -1;
+static inline int pattern_of_three(froe_kinetic *k, name_point p, name_point q) {
+    name_point third;
+    if (!name_third_crossing(p, q, &third)) return -1;
     uint32_t s[3] = {third.a, (uint32_t)third.b, p.a == third.a || p.a == (uint32_t)third.b ? (uint32_t)p.b : p.a};
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2 - i; j++)
@@ -87,7 +88,8 @@ static inline int pattern_of_three(froe_kinetic *k, now_name p, now_name q) {
                 uint32_t swap = s[j];
                 s[j] = s[j + 1], s[j + 1] = swap;
             }
-    int first = comes_before(k, s[1], s[0]) + comes_before(k, s[2], s[0]), second = comes_before(k, s[2], s[1]);
+    int first = ktree_before(&k->tree, s[1], s[0]) + ktree_before(&k->tree, s[2], s[0]),
+        second = ktree_before(&k->tree, s[2], s[1]);
     bool way = now_compare(&k->now, name_crossing(s[1], s[0]), name_crossing(s[1], s[2])) < 0;
     return 4 * first + 2 * second + way;
 }
@@ -95,7 +97,7 @@ static inline int pattern_of_three(froe_kinetic *k, now_name p, now_name q) {
 static inline bool pattern_count(void *user, const froe_event *event) {
     pattern_counter *counter = user;
     froe_kinetic *k = counter->kinetic;
-    const now_claim *c = &k->told_claim;
+    const now_claim *c = &k->events.told_claim;
     static const int kinds[FROE_EVENT_KINDS] = {PATTERN_EE,   PATTERN_EI, PATTERN_II, PATTERN_ES, PATTERN_III,
                                                 PATTERN_TURN, -1,         -1,         -1,         -1};
     int kind = kinds[event->kind], pattern = -1;

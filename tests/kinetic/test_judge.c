@@ -25,7 +25,7 @@ static void turn(truth *g, mpq_t a[2], mpq_t b[2], mpq_t c[2], mpq_t d[2], mpq_t
 }
 
 /* False: parallel. */
-static bool locate(truth *g, const now_state *now, now_name p, mpq_t out[2]) {
+static bool locate(truth *g, const now_state *now, name_point p, mpq_t out[2]) {
     if (name_is_vertex(p)) {
         truth_place(g, now->motion, p.a, now->tick, out);
         return true;
@@ -41,7 +41,7 @@ static bool locate(truth *g, const now_state *now, now_name p, mpq_t out[2]) {
     return true;
 }
 
-static int true_order(truth *g, const now_state *now, now_name p, now_name q, bool both) {
+static int true_order(truth *g, const now_state *now, name_point p, name_point q, bool both) {
     if (!locate(g, now, p, g->cross[0]) || !locate(g, now, q, g->cross[1])) return POLY_PARALLEL;
     int order = mpq_cmp(g->cross[0][0], g->cross[1][0]);
     if (!order && both) order = mpq_cmp(g->cross[0][1], g->cross[1][1]);
@@ -57,15 +57,15 @@ static int true_side(truth *g, const now_state *now, uint32_t segment, uint32_t 
 
 /* ------------------------------------------------------------------- stages -- */
 
-static now_name any_name(const now_state *now, fuzz_source *r) {
+static name_point any_name(const now_state *now, fuzz_source *r) {
     uint32_t n = (uint32_t)now->motion->objects.count, s = (uint32_t)fuzz_int(r, 0, (int)n - 1);
     uint32_t t = (uint32_t)fuzz_int(r, 0, (int)n - 2);
     t += t >= s;
     if (fuzz_int(r, 0, 1)) return name_crossing(s, t);
-    return (now_name){now->segments.data[s].end[fuzz_int(r, 0, 1)], NAME_VERTEX};
+    return (name_point){now->segments.data[s].end[fuzz_int(r, 0, 1)], NAME_VERTEX};
 }
 
-static void check_order(now_state *now, truth *g, now_name p, now_name q) {
+static void check_order(now_state *now, truth *g, name_point p, name_point q) {
     for (int after = 0; after < 2; after++)
         for (int both = 0; both < 2; both++) {
             truth_set_time(g, now->motion, now->tick, after);
@@ -117,7 +117,7 @@ static void check_claim(now_state *now, fuzz_source *r, const now_claim *claim, 
 
 static void check_tick(now_state *now, truth *g, fuzz_source *r, uint64_t *wide_claims) {
     for (int i = 0; i < QUESTIONS; i++) {
-        const now_name p = any_name(now, r), q = any_name(now, r);
+        const name_point p = any_name(now, r), q = any_name(now, r);
         const uint32_t segment = (uint32_t)fuzz_int(r, 0, (int)now->motion->objects.count - 1);
         check_order(now, g, p, q);
         if (name_is_vertex(q)) check_side(now, g, segment, q.a);
@@ -163,7 +163,7 @@ static void all_stages_agree_with_whole_numbers(void **state) {
 
 /* ------------------------------------------------------------ tick by tick -- */
 
-static int64_t last_of(now_state *now, now_name p) {
+static int64_t last_of(now_state *now, name_point p) {
     if (name_is_vertex(p)) return now_course_last(now, p.a);
     int64_t last = INT64_MAX;
     for (int i = 0; i < 4; i++) {
@@ -174,7 +174,7 @@ static int64_t last_of(now_state *now, now_name p) {
     return last;
 }
 
-static int turn_of(now_state *now, now_name p) {
+static int turn_of(now_state *now, name_point p) {
     return name_is_crossing(p) ? now_judge_lines(now, p, true) : 0;
 }
 
@@ -205,7 +205,7 @@ static void failures_are_first(void **state) {
         assert_int_equal(now_new(m, NULL, &now), FROE_OK);
         for (int j = 0; j < 400; j++) {
             now.tick = fuzz_int(&r, 0, (int)m->last_tick / 2) | 1;
-            const now_name p = any_name(&now, &r), q = any_name(&now, &r);
+            const name_point p = any_name(&now, &r), q = any_name(&now, &r);
             const now_claim side = {{(uint32_t)fuzz_int(&r, 0, (int)m->objects.count - 1), NAME_SEGMENT}, q, 1};
             now.least = (now_stage)(j % NOW_STAGES);
             now.lost = false;

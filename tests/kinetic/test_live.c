@@ -161,9 +161,9 @@ static void test_reversal(void **state) {
         assert_int_equal(k->now.tick, m->last_tick - 1);
         audit(k, ways[i].name);
         uint32_t node[2];
-        assert_int_equal(live_compare(k, first, false, node), FROE_OK);
-        assert_int_equal(node[0], LEAF);
-        assert_int_equal(k->node_count, first->node_count);
+        assert_int_equal(kinetic_compare(k, first, false, node), FROE_OK);
+        assert_int_equal(node[0], KTREE_LEAF);
+        assert_int_equal(k->tree.node_count, first->tree.node_count);
         froe_kinetic_free(first);
         froe_kinetic_free(k);
         froe_motion_free(m);
@@ -219,9 +219,9 @@ static void test_epochs(void **state) {
     o.epoch = 50;
     o.augmented = augmented;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
-    uint64_t key = segment_at(k, 0)->key;
+    uint64_t key = ktree_segment_at(&k->tree, 0)->key;
     run(k, "epochs", 120, &(pattern_counter){0});
-    assert_true(segment_at(k, 0)->key != key);
+    assert_true(ktree_segment_at(&k->tree, 0)->key != key);
     froe_kinetic_free(k);
     froe_motion_free(m);
 }
@@ -238,7 +238,7 @@ static void test_order(void **state) {
     for (uint32_t i = 0; i < N; i++) order[i] = N - 1 - i;
     o.order = order;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
-    assert_int_equal(node_at(k, node_at(k, ROOT)->child[0])->segment, N - 1);
+    assert_int_equal(ktree_node_at(&k->tree, ktree_node_at(&k->tree, KTREE_ROOT)->child[0])->segment, N - 1);
     run(k, "order", 50, &(pattern_counter){0});
     froe_kinetic_free(k);
     order[3] = 5;

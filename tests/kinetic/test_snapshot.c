@@ -73,9 +73,9 @@ static void check_end(truth *g, const froe_kinetic *k, const froe_snapshot *s, u
 static bool match(const froe_kinetic *k, const uint32_t *index, uint32_t node, const froe_tree *tree, froe_node at) {
     froe_node_info info = froe_tree_node(tree, at);
     if (!node) return info.cut.kind == FROE_CUT_NONE;
-    const live_node *n = node_at(k, node);
+    const ktree_node *n = ktree_node_at(&k->tree, node);
     for (int side = 0; side < 2; side++) {
-        if (n->wall[side] == END_NONE) continue;
+        if (n->wall[side] == KTREE_NO_WALL) continue;
         if (info.cut.kind != FROE_CUT_VERTEX && info.cut.kind != FROE_CUT_CROSSING) return false;
         if (!match(k, index, n->child[side], tree, info.child[side])) return false;
         info = froe_tree_node(tree, info.child[1 - side]);
@@ -87,8 +87,8 @@ static bool match(const froe_kinetic *k, const uint32_t *index, uint32_t node, c
     const uint32_t along[2] = {froe_scene_corner(scene, cut, 0), froe_scene_corner(scene, cut, 1)};
     const bool reversed = along[0] != of[0], turned = k->now.segments.data[n->segment].turned != reversed;
     return of[0] == along[reversed] && of[1] == along[1 - reversed] &&
-           match(k, index, n->child[turned ? DOWN : UP], tree, info.child[1]) &&
-           match(k, index, n->child[turned ? UP : DOWN], tree, info.child[0]);
+           match(k, index, n->child[turned ? KTREE_DOWN : KTREE_UP], tree, info.child[1]) &&
+           match(k, index, n->child[turned ? KTREE_UP : KTREE_DOWN], tree, info.child[0]);
 }
 
 static void check_refusal(froe_kinetic *k, size_t rounded) {
@@ -108,21 +108,21 @@ static void check(froe_kinetic *k, tally *seen) {
     froe_diagnostic why = {0};
     truth g;
     truth_init(&g);
-    uint32_t *index = calloc(k->segments.count + 1, sizeof *index), n = 0, points = 0;
+    uint32_t *index = calloc(k->tree.segments.count + 1, sizeof *index), n = 0, points = 0;
     assert_non_null(index);
     if (froe_kinetic_snapshot(k, NULL, &s, &why)) fail_msg("%s", why.message);
     truth_set_time(&g, k->now.motion, k->now.tick, false);
-    for (uint32_t id = 0; id < k->segments.count; id++) {
-        if (!segment_at(k, id)->alive) continue;
+    for (uint32_t id = 0; id < k->tree.segments.count; id++) {
+        if (!ktree_segment_at(&k->tree, id)->alive) continue;
         for (int end = 0; end < 2; end++) check_end(&g, k, &s, id, n, end);
-        points += !segment_at(k, id)->here;
+        points += !ktree_segment_at(&k->tree, id)->here;
         index[id] = n++;
     }
     assert_int_equal(froe_places_count(s.places), n);
     froe_exact_place none;
     assert_false(froe_places_end(s.places, n, 0, &none));
     assert_false(froe_places_end(s.places, 0, 2, &none));
-    const bool same = match(k, index, node_at(k, ROOT)->child[0], s.tree, froe_tree_root(s.tree));
+    const bool same = match(k, index, ktree_node_at(&k->tree, KTREE_ROOT)->child[0], s.tree, froe_tree_root(s.tree));
     if (s.alike) assert_true(same); /* it compares which ends and crossings, too */
     if (!s.rounded && !points) assert_true(s.alike);
     assert_int_equal(froe_tree_audit(s.tree, NULL, &why), FROE_OK);

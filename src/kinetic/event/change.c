@@ -1,123 +1,104 @@
-/* change.c: segments enter and leave a live partition, and with them changes of flight plans.
- *
- * Where a segment comes before the one that cuts a cell, everything in that cell is made anew; with random keys that
- * is O(log^2 n) nodes on average. All nodes of a segment that leaves are made anew without it. Segments in one line
- * with it may come into the tree then. */
-#include "kinetic/live.h"
+/* change.c: segments enter and leave a partition in motion. */
+#include "kinetic/event/change.h"
+#include "kinetic/certificate/certify.h"
+#include "kinetic/kinetic.h"
 
-static void push_insertion(froe_kinetic *k, const live_cell *cell, uint32_t parent, uint8_t slot) {
-    live_task task = {*cell, 0, 0, parent, slot};
-    if (!array_push(&k->alloc, &k->tasks, task)) k->short_of_memory = true;
+static void push_insertion(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot) {
+    call_push(&k->call, &k->surgery.tasks, (surgery_task){*cell, 0, 0, parent, slot});
 }
 
-static void insert_below(froe_kinetic *k, uint32_t segment, const live_task *at) {
-    uint32_t node = node_at(k, at->parent)->child[at->slot], end[2];
-    if (node && node_at(k, node)->segment == segment) return; /* it is there already */
-    if (!node || comes_before(k, segment, node_at(k, node)->segment)) {
-        live_new_list(k);
-        live_list(k, segment);
-        live_collect(k, node);
-        live_free_tree(k, node);
-        live_grow(k, &at->cell, 0, at->parent, at->slot);
+static void insert_below(froe_kinetic *k, uint32_t segment, const surgery_task *at) {
+    ktree *tree = &k->tree;
+    uint32_t node = ktree_node_at(tree, at->parent)->child[at->slot], end[2];
+    if (node && ktree_node_at(tree, node)->segment == segment) return; /* it is there already */
+    if (!node || ktree_before(tree, segment, ktree_node_at(tree, node)->segment)) {
+        ktree_new_list(tree);
+        ktree_list(tree, segment);
+        ktree_collect(tree, node);
+        surgery_free_tree(k, node);
+        surgery_grow(k, &at->cell, at->parent, at->slot);
         return;
     }
-    node_at(k, node)->stamp = k->stamp;
+    ktree_node_at(tree, node)->stamp = tree->stamp;
     for (uint8_t slot = 0; slot < 4; slot++) {
-        if (slot < UP && node_at(k, node)->wall[slot] == END_NONE) continue;
-        live_cell cell = live_child_cell(k, &at->cell, node, slot);
-        if (live_clip(k, segment, &cell, end)) push_insertion(k, &cell, node, slot);
+        if (slot < KTREE_UP && ktree_node_at(tree, node)->wall[slot] == KTREE_NO_WALL) continue;
+        ktree_cell cell = ktree_child_cell(tree, &at->cell, node, slot);
+        if (surgery_clip(k, segment, &cell, end)) push_insertion(k, &cell, node, slot);
     }
 }
 
-static void touch_walls(froe_kinetic *k, const live_cell *cell) {
-    for (int side = 0; side < 2; side++) live_touch_wall(k, cell->wall[side]);
+static void touch_walls(ktree *tree, const ktree_cell *cell) {
+    for (int side = 0; side < 2; side++) ktree_touch_wall(tree, cell->wall[side]);
 }
 
 static void insert_nodes(froe_kinetic *k, uint32_t segment) {
-    const live_site all = {ROOT, 0, false, live_plane()};
-    size_t waiting = k->tasks.count;
-    k->stamp++;
-    push_insertion(k, &all.cell, ROOT, 0);
-    while (k->tasks.count > waiting) {
-        live_task task = k->tasks.data[--k->tasks.count];
+    const ktree_site all = {KTREE_ROOT, 0, false, ktree_plane()};
+    size_t waiting = k->surgery.tasks.count;
+    surgery_begin(k);
+    push_insertion(k, &all.cell, KTREE_ROOT, 0);
+    while (k->surgery.tasks.count > waiting) {
+        surgery_task task = k->surgery.tasks.data[--k->surgery.tasks.count];
         insert_below(k, segment, &task);
     }
-    for (uint32_t n = segment_at(k, segment)->nodes; n && !k->short_of_memory; n = node_at(k, n)->next) {
-        live_cell cell = live_cell_of(k, n);
-        touch_walls(k, &cell);
+    uint32_t n = ktree_segment_at(&k->tree, segment)->nodes;
+    for (; n && !k->call.stopped; n = ktree_node_at(&k->tree, n)->next) {
+        ktree_cell cell = ktree_cell_of(&k->tree, n);
+        touch_walls(&k->tree, &cell);
     }
-    live_certify(k, &all);
+    certify_site(k, &all);
 }
 
-/* Enters it in the lists of its vertices. */
-static void link_ends(froe_kinetic *k, uint32_t segment) {
-    for (uint32_t i = 0; i < 2; i++) {
-        uint32_t *first = k->vertices.data + k->now.segments.data[segment].end[i];
-        segment_at(k, segment)->end[i].next = *first;
-        *first = 2 * segment + i;
-    }
-}
-
-static void unlink_ends(froe_kinetic *k, uint32_t segment) {
-    for (uint32_t i = 0; i < 2; i++) {
-        uint32_t *at = k->vertices.data + k->now.segments.data[segment].end[i];
-        while (*at != 2 * segment + i) at = &segment_at(k, *at / 2)->end[*at % 2].next;
-        *at = segment_at(k, segment)->end[i].next;
-    }
-}
-
-void live_enroll(froe_kinetic *k, uint32_t segment) {
-    live_segment *s = segment_at(k, segment);
+void change_enroll(froe_kinetic *k, uint32_t segment) {
+    ktree_segment *s = ktree_segment_at(&k->tree, segment);
     const uint32_t *v = k->now.segments.data[segment].end;
-    if (!s->alive) link_ends(k, segment), s->bound = false;
+    for (uint32_t i = 0; i < 2 && !s->alive; i++) { /* enters it in the lists of its vertices */
+        s->end[i].next = k->tree.vertices.data[v[i]];
+        k->tree.vertices.data[v[i]] = 2 * segment + i;
+    }
+    if (!s->alive) s->bound = false;
     s->alive = true;
-    if (s->here || !now_compare(&k->now, (now_name){v[0], NAME_VERTEX}, (now_name){v[1], NAME_VERTEX})) return;
+    if (s->here || !now_compare(&k->now, (name_point){v[0], NAME_VERTEX}, (name_point){v[1], NAME_VERTEX})) return;
     s->here = true;
-    live_certify_turn(k, segment);
+    certify_turn(k, segment);
 }
 
-void live_insert(froe_kinetic *k, uint32_t segment) {
-    live_enroll(k, segment);
-    if (segment_at(k, segment)->here) insert_nodes(k, segment);
+void change_insert(froe_kinetic *k, uint32_t segment) {
+    change_enroll(k, segment);
+    if (ktree_segment_at(&k->tree, segment)->here) insert_nodes(k, segment);
 }
 
-static void remove_nodes(froe_kinetic *k, uint32_t segment) {
-    while (segment_at(k, segment)->nodes && !k->short_of_memory) {
-        uint32_t node = segment_at(k, segment)->nodes;
-        const live_site site = live_site_of(k, node);
-        k->stamp++;
-        live_new_list(k);
-        segment_at(k, segment)->stamp = k->list_stamp; /* keeps it off the list */
-        live_collect(k, node);
-        live_free_tree(k, node);
-        live_grow(k, &site.cell, 0, site.parent, site.slot);
-        touch_walls(k, &site.cell);
-        live_certify(k, &site);
+void change_unroll(froe_kinetic *k, uint32_t segment) {
+    ktree_segment *s = ktree_segment_at(&k->tree, segment);
+    for (uint32_t i = 0; i < 2 && s->alive; i++) {
+        uint32_t *at = k->tree.vertices.data + k->now.segments.data[segment].end[i];
+        while (*at != 2 * segment + i) at = &ktree_segment_at(&k->tree, *at / 2)->end[*at % 2].next;
+        *at = s->end[i].next;
     }
-}
-
-void live_unroll(froe_kinetic *k, uint32_t segment) {
-    live_segment *s = segment_at(k, segment);
-    if (s->alive) unlink_ends(k, segment);
     s->alive = s->here = false;
-    live_forget_turn(k, segment);
+    cert_forget(&k->certs, &k->certs.segments.data[segment].turn);
 }
 
-void live_remove(froe_kinetic *k, uint32_t segment) {
-    bool here = segment_at(k, segment)->here;
-    live_unroll(k, segment);
+void change_remove(froe_kinetic *k, uint32_t segment) {
+    ktree *tree = &k->tree;
+    ktree_segment *s = ktree_segment_at(tree, segment);
+    const bool here = s->here;
+    change_unroll(k, segment);
     if (!here) return;
-    remove_nodes(k, segment);
-    live_partners(k, segment);
-    size_t first = k->roots.count, count = k->order.count;
-    if (!array_reserve(&k->alloc, &k->roots, count)) {
-        k->short_of_memory = true;
-        count = 0;
+    while (s->nodes && !k->call.stopped) {
+        const uint32_t node = s->nodes;
+        const ktree_site site = ktree_site_of(tree, node);
+        surgery_begin(k);
+        ktree_new_list(tree);
+        s->stamp = tree->list_stamp; /* keeps it off the list */
+        ktree_collect(tree, node);
+        surgery_free_tree(k, node);
+        surgery_grow(k, &site.cell, site.parent, site.slot);
+        touch_walls(tree, &site.cell);
+        certify_site(k, &site);
     }
-    for (size_t i = 0; i < count; i++) k->roots.data[k->roots.count++] = k->order.data[i];
-    live_forget_pairs(k, segment);
-    for (size_t i = first; i < first + count; i++) insert_nodes(k, k->roots.data[i]);
-    k->roots.count = first;
+    collinear_find_partners(k, segment);
+    collinear_forget(k, segment);
+    for (size_t i = 0; i < k->collinear.partners.count; i++) insert_nodes(k, k->collinear.partners.data[i]);
 }
 
 /* ---------------------------------------------------------------- schedule -- */
@@ -128,22 +109,22 @@ static int64_t odd(int64_t tick) {
 }
 
 static void schedule(froe_kinetic *k, uint32_t *cert, cert_kind kind, uint32_t owner, int64_t tick) {
-    if (tick > live_last_tick(k)) tick = NOW_NEVER;
-    if (*cert == CERT_NONE)
-        *cert = live_new_cert(k, kind, owner, tick, NULL);
+    if (tick > kinetic_last_tick(k)) tick = NOW_NEVER;
+    if (*cert == FROE_NONE)
+        *cert = cert_new(&k->certs, kind, owner, tick, NULL);
     else
-        live_set_tick(k, *cert, tick);
+        cert_set_tick(&k->certs, *cert, tick);
 }
 
-void live_schedule(froe_kinetic *k, uint32_t segment) {
+void change_schedule(froe_kinetic *k, uint32_t segment) {
     const motion_object *o = k->now.motion->objects.data + segment;
-    int64_t now = k->now.tick, change = NOW_NEVER;
-    bool there = o->first <= now && now <= o->last;
-    if (o->first <= o->last && now < o->first) change = odd(o->first);
+    const bool there = now_is_alive(&k->now, segment);
+    int64_t change = NOW_NEVER;
+    if (o->first <= o->last && k->now.tick < o->first) change = odd(o->first);
     if (there && o->last < k->now.motion->last_tick) change = odd(o->last + 1);
-    schedule(k, &segment_at(k, segment)->life, CERT_LIFE, segment, change);
+    schedule(k, &k->certs.segments.data[segment].life, CERT_LIFE, segment, change);
     for (int i = 0; i < 2 && there; i++) {
         int64_t last = now_course_last(&k->now, o->vertices[i]);
-        schedule(k, k->courses.data + o->vertices[i], CERT_COURSE, o->vertices[i], odd(last + 1));
+        schedule(k, k->certs.courses.data + o->vertices[i], CERT_COURSE, o->vertices[i], odd(last + 1));
     }
 }

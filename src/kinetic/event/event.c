@@ -1,218 +1,168 @@
-/* event.c: from one instant at which something happens to the next.
- *
- * All certificates that fail at a tick are taken together: those whose slabs overlap form a group. A group is repaired
- * by one surgery, or by several in unrelated cells. Where a group looks like one of the paper's events, the cells are
- * small. Any other group, and any group with points that coincide, gets a cell none of whose borders is involved. The
- * certificates show afterwards whether that was enough: those that still fail are due at once, and are repaired in a
- * larger cell each time, at last in the whole tree. */
+/* event.c: what happens at a tick, and how the partition is repaired. */
+#include "kinetic/event/event.h"
 #include "base/floats.h"
 #include "base/sort.h"
-#include "kinetic/live.h"
-#include <math.h>
+#include "kinetic/certificate/certify.h"
+#include "kinetic/event/change.h"
+#include "kinetic/event/pass.h"
+#include "kinetic/kinetic.h"
 
 enum { CAREFUL_ROUND = 4, RESTART_ROUND = 16, LAST_ROUND = 20 };
 
-int64_t live_last_tick(const froe_kinetic *k) {
-    return (k->now.motion->last_tick - 1) | 1;
-}
-
 /* ------------------------------------------------------------------- cells -- */
 
-static uint32_t ancestor_with(const froe_kinetic *k, uint32_t node, uint32_t segment) {
-    uint32_t n = node;
-    while (n != ROOT && node_at(k, n)->segment != segment) n = node_at(k, n)->parent;
-    return n == ROOT ? node : n;
-}
-
 /* The node of the certificate, or the ancestor with the segment that a point of it meets, if that cuts earlier. */
-static uint32_t node_of(const froe_kinetic *k, const live_item *item) {
-    const live_cert *c = k->certs.data + item->cert;
-    uint32_t node, met;
-    if (item->kind <= CERT_RIGHT) {
-        node = c->owner;
-        met = live_met_segment(k, item->claim.p, item->claim.q);
-    } else {
-        node = segment_at(k, c->owner / 2)->end[c->owner % 2].node;
-        met = item->claim.p.a;
-    }
-    bool above = met != FROE_NONE && comes_before(k, met, node_at(k, node)->segment);
-    return above ? ancestor_with(k, node, met) : node;
-}
-
-static bool is_inside(froe_kinetic *k, const live_cell *cell) {
-    const now_name line[2] = {{0, NAME_LINE}, {1, NAME_LINE}};
-    return (!name_exists(cell->wall[LEFT]) || now_compare(&k->now, cell->wall[LEFT], line[0]) < 0) &&
-           (!name_exists(cell->wall[RIGHT]) || now_compare(&k->now, cell->wall[RIGHT], line[1]) > 0);
+static uint32_t node_of(const froe_kinetic *k, const slab_item *item) {
+    const ktree *tree = &k->tree;
+    uint32_t node = k->certs.all.data[item->cert].owner, met = item->claim.p.a;
+    if (item->kind <= CERT_RIGHT)
+        met = now_met_segment(&k->now, item->claim.p, item->claim.q);
+    else
+        node = ktree_segment_at(tree, node / 2)->end[node % 2].node;
+    if (met == FROE_NONE || !ktree_before(tree, met, ktree_node_at(tree, node)->segment)) return node;
+    for (uint32_t n = node; n != KTREE_ROOT; n = ktree_node_at(tree, n)->parent)
+        if (ktree_node_at(tree, n)->segment == met) return n;
+    return node;
 }
 
 /* The lowest ancestor, from a node up, whose cell has its walls outside the slab; with `careful` also one none of whose
  * borders is a participant. */
 static uint32_t climb_clear_of_slab(froe_kinetic *k, uint32_t node, bool careful) {
-    for (;; node = node_at(k, node)->parent) {
-        if (node_at(k, node)->parent == ROOT) return node;
-        live_cell cell = live_cell_of(k, node);
-        if (is_inside(k, &cell) && (!careful || (!live_in_crew(k, cell.top) && !live_in_crew(k, cell.bottom))))
+    const name_point line[2] = {{0, NAME_LINE}, {1, NAME_LINE}};
+    for (;; node = ktree_node_at(&k->tree, node)->parent) {
+        if (ktree_node_at(&k->tree, node)->parent == KTREE_ROOT) return node;
+        const ktree_cell cell = ktree_cell_of(&k->tree, node);
+        const name_point left = cell.wall[KTREE_LEFT], right = cell.wall[KTREE_RIGHT];
+        if (name_exists(left) && now_compare(&k->now, left, line[0]) >= 0) continue;
+        if (name_exists(right) && now_compare(&k->now, right, line[1]) <= 0) continue;
+        if (!careful ||
+            (!participants_have(&k->participants, cell.top) && !participants_have(&k->participants, cell.bottom)))
             return node;
     }
+}
+
+/* May be KTREE_ROOT. */
+static uint32_t common_ancestor(const ktree *tree, uint32_t a, uint32_t b) {
+    uint32_t depth[2] = {0, 0};
+    for (uint32_t n = a; n != KTREE_ROOT; n = ktree_node_at(tree, n)->parent) depth[0]++;
+    for (uint32_t n = b; n != KTREE_ROOT; n = ktree_node_at(tree, n)->parent) depth[1]++;
+    for (; depth[0] > depth[1]; depth[0]--) a = ktree_node_at(tree, a)->parent;
+    for (; depth[1] > depth[0]; depth[1]--) b = ktree_node_at(tree, b)->parent;
+    while (a != b) a = ktree_node_at(tree, a)->parent, b = ktree_node_at(tree, b)->parent;
+    return a;
 }
 
 /* ------------------------------------------------------------------ groups -- */
 
 /* Items whose slabs overlap, directly or through others. */
-typedef struct group {
+typedef struct event_group {
     size_t first, count; /* of the items */
     double slab[2];
-} group;
+} event_group;
 
-static const live_item *item_of(const froe_kinetic *k, const group *g, size_t i) {
-    return k->items.data + g->first + i;
+static const slab_item *item_of(const froe_kinetic *k, const event_group *g, size_t i) {
+    return k->events.items.data + g->first + i;
 }
 
-static bool is_current(const froe_kinetic *k, const live_item *item) {
-    if (item->kind == CERT_TURN) return segment_at(k, item->cert)->here;
-    const live_cert *c = k->certs.data + item->cert;
-    if (c->kind != item->kind || c->tick > k->now.tick) return false;
-    const now_claim claim = live_claim_of(k, item->cert);
+static bool is_current(const froe_kinetic *k, const slab_item *item) {
+    if (item->kind == CERT_TURN) return ktree_segment_at(&k->tree, item->cert)->here;
+    const cert_record *c = k->certs.all.data + item->cert;
+    if (c->kind == CERT_FREE || c->tick > k->now.tick || certify_kind(&k->tree, &k->certs, item->cert) != item->kind)
+        return false;
+    const now_claim claim = certify_claim_of(k, item->cert);
     return claim_is(&claim, &item->claim);
 }
 
-/* Stores the place of the node, 4 parent + slot, which stays valid when the node is replaced. */
+/* Stores the place of the node, which stays valid when the node is replaced. */
 static void add_root(froe_kinetic *k, uint32_t node) {
     if (!node) return;
-    uint32_t place = 4 * node_at(k, node)->parent + live_slot_of(k, node);
-    for (size_t i = 0; i < k->roots.count; i++)
-        if (k->roots.data[i] == place) return;
-    if (!array_push(&k->alloc, &k->roots, place)) k->short_of_memory = true;
+    uint32_t place = 4 * ktree_node_at(&k->tree, node)->parent + ktree_slot_of(&k->tree, node);
+    for (size_t i = 0; i < k->events.roots.count; i++)
+        if (k->events.roots.data[i] == place) return;
+    call_push(&k->call, &k->events.roots, place);
 }
 
 static uint32_t root_at(const froe_kinetic *k, size_t i) {
-    return node_at(k, k->roots.data[i] / 4)->child[k->roots.data[i] % 4];
+    return ktree_node_at(&k->tree, k->events.roots.data[i] / 4)->child[k->events.roots.data[i] % 4];
 }
 
 /* Where surgery is needed for an item. */
-static void add_roots(froe_kinetic *k, const live_item *item) {
+static void add_roots(froe_kinetic *k, const slab_item *item) {
     if (!is_current(k, item)) return;
     if (item->kind != CERT_TURN) {
         add_root(k, climb_clear_of_slab(k, node_of(k, item), false));
         return;
     }
-    for (uint32_t n = segment_at(k, item->cert)->nodes; n; n = node_at(k, n)->next)
-        add_root(k, climb_clear_of_slab(k, n, false));
-}
-
-static uint32_t depth_of(const froe_kinetic *k, uint32_t node) {
-    uint32_t depth = 0;
-    for (; node != ROOT; node = node_at(k, node)->parent) depth++;
-    return depth;
-}
-
-/* May be ROOT. */
-static uint32_t common_ancestor(const froe_kinetic *k, uint32_t a, uint32_t b) {
-    uint32_t da = depth_of(k, a), db = depth_of(k, b);
-    for (; da > db; da--) a = node_at(k, a)->parent;
-    for (; db > da; db--) b = node_at(k, b)->parent;
-    while (a != b) a = node_at(k, a)->parent, b = node_at(k, b)->parent;
-    return a;
-}
-
-/* Keeps only those roots that are below no other. */
-static void reduce_roots(froe_kinetic *k) {
-    size_t kept = 0;
-    for (size_t i = 0; i < k->roots.count; i++) {
-        bool below = false;
-        for (size_t j = 0; j < k->roots.count && !below; j++)
-            below = i != j && common_ancestor(k, root_at(k, i), root_at(k, j)) == root_at(k, j);
-        if (!below) k->roots.data[kept++] = k->roots.data[i];
-    }
-    k->roots.count = kept;
-}
-
-/* The smallest subtree with all roots. */
-static uint32_t common_root(const froe_kinetic *k) {
-    uint32_t node = LEAF;
-    for (size_t i = 0; i < k->roots.count; i++) {
-        uint32_t at = root_at(k, i) ? root_at(k, i) : k->roots.data[i] / 4;
-        node = node ? common_ancestor(k, node, at) : at;
-    }
-    return node;
-}
-
-/* Collects the participants and places of a group. False: unrelated points may be in one place. */
-static bool call_crew(froe_kinetic *k, const group *g) {
-    bool usual = true;
-    live_new_crew(k);
-    for (size_t i = 0; i < g->count; i++) usual &= live_join_item(k, item_of(k, g, i));
-    return usual;
+    uint32_t n = ktree_segment_at(&k->tree, item->cert)->nodes;
+    for (; n; n = ktree_node_at(&k->tree, n)->next) add_root(k, climb_clear_of_slab(k, n, false));
 }
 
 static bool is_sound(const froe_kinetic *k) {
-    return !k->now.lost && !k->broken && !k->short_of_memory;
+    return !k->now.lost && !k->tree.broken && !k->call.stopped;
 }
 
-/* Surgery next to a wall that is passed, if that is all that happens. */
-static live_outcome pass_wall(froe_kinetic *k, const group *g) {
-    live_outcome outcome = LIVE_DONE;
+static void set_lines(froe_kinetic *k, const event_group *g) {
     k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
-    for (size_t i = 0; i < g->count && !outcome && is_sound(k); i++) {
-        const live_item *item = item_of(k, g, i);
-        if (is_current(k, item)) outcome = live_belong_together(k, item) ? LIVE_NOT_NARROW : live_pass(k, item);
-    }
-    return outcome;
 }
 
 /* Surgery in small cells, if the event is a simple one. False: it is not, or participants were added. */
-static bool operate(froe_kinetic *k, const group *g, bool simple) {
-    k->roots.count = 0;
-    k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
+static bool operate(froe_kinetic *k, const event_group *g, bool simple) {
+    size_t kept = 0;
+    k->events.roots.count = 0;
+    set_lines(k, g);
     for (size_t i = 0; i < g->count; i++) add_roots(k, item_of(k, g, i));
-    reduce_roots(k);
+    for (size_t i = 0; i < k->events.roots.count; i++) { /* only roots that are below no other */
+        bool below = false;
+        for (size_t j = 0; j < k->events.roots.count && !below; j++)
+            below = i != j && common_ancestor(&k->tree, root_at(k, i), root_at(k, j)) == root_at(k, j);
+        if (!below) k->events.roots.data[kept++] = k->events.roots.data[i];
+    }
+    k->events.roots.count = kept;
     if (!simple) return false;
-    for (size_t i = 0; i < k->roots.count && is_sound(k); i++) {
+    for (size_t i = 0; i < k->events.roots.count && is_sound(k); i++) {
         uint32_t node = root_at(k, i);
-        if (node && !live_slab(k, node)) return false;
+        if (node && !surgery_slab(k, node)) return false;
     }
     return true;
 }
 
-/* Widens the group's slab by the near ends and crossings of its participants, and adds the items that it then meets. */
-static void widen(froe_kinetic *k, group *g) {
-    size_t count;
-    do {
-        count = k->crew.count;
-        live_reach_crew(k, g->slab);
-        for (; g->first + g->count < k->items.count; g->count++) {
-            const live_item *next = item_of(k, g, g->count);
-            if (next->slab[0] > g->slab[1]) break;
-            if (next->slab[1] > g->slab[1]) g->slab[1] = next->slab[1];
-            live_join_item(k, next);
-            add_roots(k, next);
-        }
-    } while (k->crew.count > count);
-}
-
 /* Surgery in one cell, none of whose borders is a participant. */
-static void operate_carefully(froe_kinetic *k, group *g) {
+static void operate_carefully(froe_kinetic *k, event_group *g) {
     do {
-        widen(k, g);
-        uint32_t node = common_root(k);
-        if (node == ROOT) k->broken = true; /* a new tree */
+        size_t count;
+        do { /* widens the slab by near ends and crossings of participants, and adds the items that it then meets */
+            count = k->participants.list.count;
+            participants_reach(k, g->slab);
+            for (; g->first + g->count < k->events.items.count; g->count++) {
+                const slab_item *next = item_of(k, g, g->count);
+                if (next->slab[0] > g->slab[1]) break;
+                if (next->slab[1] > g->slab[1]) g->slab[1] = next->slab[1];
+                participants_add_item(k, next);
+                add_roots(k, next);
+            }
+        } while (k->participants.list.count > count);
+        uint32_t node = KTREE_LEAF; /* of the smallest subtree with all roots */
+        for (size_t i = 0; i < k->events.roots.count; i++) {
+            uint32_t at = root_at(k, i) ? root_at(k, i) : k->events.roots.data[i] / 4;
+            node = node ? common_ancestor(&k->tree, node, at) : at;
+        }
+        if (node == KTREE_ROOT) k->tree.broken = true; /* a new tree */
         if (!node || !is_sound(k)) return;
-        k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
-        node = climb_clear_of_slab(k, node, true);
-        if (live_slab(k, node)) return;
+        set_lines(k, g);
+        if (surgery_slab(k, climb_clear_of_slab(k, node, true))) return;
     } while (is_sound(k));
 }
 
 /* ------------------------------------------------------------------ events -- */
 
-static froe_event_kind kind_of(const froe_kinetic *k, const live_item *item) {
-    now_name p = item->claim.p, q = item->claim.q, third;
+static froe_event_kind kind_of(const froe_kinetic *k, const slab_item *item) {
+    name_point p = item->claim.p, q = item->claim.q, third;
     if (item->kind == CERT_TURN) return FROE_EVENT_TURN;
-    if (item->kind > CERT_RIGHT || live_met_segment(k, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
-    if (live_is_one_segment(k, p, q)) return FROE_EVENT_TURN;
+    if (item->kind > CERT_RIGHT || now_met_segment(&k->now, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
+    if (ktree_is_one_segment(&k->tree, p, q)) return FROE_EVENT_TURN;
     if (name_is_vertex(p) && name_is_vertex(q)) return FROE_EVENT_VERTICES;
     if (name_is_vertex(p) || name_is_vertex(q)) return FROE_EVENT_VERTEX_CROSSING;
-    return live_third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
+    return name_third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
 }
 
 static void add_object(froe_event *e, uint32_t object) {
@@ -222,51 +172,38 @@ static void add_object(froe_event *e, uint32_t object) {
     e->object_count++;
 }
 
-static void add_objects(const froe_kinetic *k, froe_event *e, const live_item *item) {
-    if (item->kind == CERT_TURN) {
-        add_object(e, item->cert);
-        return;
-    }
-    const now_name name[2] = {item->claim.p, item->claim.q};
-    for (int i = 0; i < 2; i++) {
-        if (name_is_vertex(name[i])) {
-            uint32_t first = k->vertices.data[name[i].a];
-            if (first != FROE_NONE) add_object(e, first / 2);
-        } else {
-            add_object(e, name[i].a);
-            if (name_is_crossing(name[i])) add_object(e, (uint32_t)name[i].b);
-        }
-    }
-}
-
-static double time_of_tick(const froe_kinetic *k, int64_t tick) {
-    return k->now.motion->begin + ldexp((double)tick, k->now.motion->power);
-}
-
 static froe_event event_at(const froe_kinetic *k, froe_event_kind kind) {
     return (froe_event){.kind = kind,
                         .tick = k->now.tick,
-                        .early = time_of_tick(k, k->now.tick - 2),
-                        .late = time_of_tick(k, k->now.tick)};
+                        .early = now_time_of(&k->now, k->now.tick - 2),
+                        .late = now_time_of(&k->now, k->now.tick)};
 }
 
-static bool tell_event(froe_kinetic *k, const live_watcher *watcher, const froe_event *event, const now_claim *claim) {
+static bool tell_event(froe_kinetic *k, const event_watcher *watcher, const froe_event *event, const now_claim *claim) {
     k->counts.events[event->kind]++;
     if (!watcher->visit) return true;
-    k->told = true;
-    k->told_claim = *claim;
+    k->events.told = true;
+    k->events.told_claim = *claim;
     bool go_on = base_callback(watcher->visit(watcher->user, event));
-    k->told = false;
+    k->events.told = false;
     now_catch_up(&k->now);
     return go_on;
 }
 
 /* What the certificates of a group have in common. */
-static froe_event describe(const froe_kinetic *k, const group *g) {
+static froe_event describe(const froe_kinetic *k, const event_group *g) {
     froe_event e = event_at(k, kind_of(k, item_of(k, g, 0)));
     for (size_t i = 0; i < g->count; i++) {
-        if (kind_of(k, item_of(k, g, i)) != e.kind) e.kind = FROE_EVENT_BATCH;
-        add_objects(k, &e, item_of(k, g, i));
+        const slab_item *item = item_of(k, g, i);
+        const name_point name[2] = {item->claim.p, item->claim.q};
+        if (kind_of(k, item) != e.kind) e.kind = FROE_EVENT_BATCH;
+        if (item->kind == CERT_TURN) add_object(&e, item->cert);
+        for (int j = 0; j < 2 && item->kind != CERT_TURN; j++) {
+            const uint32_t first = name_is_vertex(name[j]) ? k->tree.vertices.data[name[j].a] : FROE_NONE;
+            if (first != FROE_NONE) add_object(&e, first / 2);
+            if (!name_is_vertex(name[j])) add_object(&e, name[j].a);
+            if (name_is_crossing(name[j])) add_object(&e, (uint32_t)name[j].b);
+        }
     }
     if ((e.kind == FROE_EVENT_TRIPLE && e.object_count > 3) || (e.kind == FROE_EVENT_TURN && e.object_count > 1) ||
         e.object_count > 4)
@@ -276,74 +213,64 @@ static froe_event describe(const froe_kinetic *k, const group *g) {
 
 /* ------------------------------------------------------------------ rounds -- */
 
-static bool add_failed_cert(froe_kinetic *k, uint32_t cert) {
-    if (k->certs.data[cert].kind >= CERT_TURN) return true;
-    const now_claim claim = live_claim_of(k, cert);
-    live_item item = {cert, k->certs.data[cert].kind, claim, {0, 0}};
-    if (now_holds(&k->now, &claim) >= 0) { /* between the last tick and this one it failed and became true again */
-        live_rearm(k, cert);
-        return true;
-    }
-    live_find_slab(k, &item);
-    return array_push(&k->alloc, &k->items, item);
-}
-
 static int by_low(void *user, uint32_t a, uint32_t b) {
-    const live_item *items = ((const froe_kinetic *)user)->items.data;
-    const live_item *x = items + a, *y = items + b;
+    const slab_item *items = ((const event_state *)user)->items.data;
+    const slab_item *x = items + a, *y = items + b;
     if (x->slab[0] != y->slab[0]) return x->slab[0] < y->slab[0] ? -1 : 1;
     return (x->slab[1] > y->slab[1]) - (x->slab[1] < y->slab[1]);
 }
 
 /* Sorts the items by place; ties keep the order of the queue, which is a function of what happened before. */
-static void sort_items(froe_kinetic *k) {
-    size_t n = k->items.count;
-    k->order.count = 0;
-    if (n < 2) return;
-    if (!array_reserve(&k->alloc, &k->order, 2 * n) || !array_reserve(&k->alloc, &k->items, n)) {
-        k->short_of_memory = true;
-        return;
-    }
-    for (size_t i = 0; i < n; i++) k->order.data[i] = (uint32_t)i;
-    base_merge_sort(k->order.data, k->order.data + n, n, by_low, k);
-    for (size_t i = 0; i < n; i++) k->items.data[n + i] = k->items.data[k->order.data[i]];
-    for (size_t i = 0; i < n; i++) k->items.data[i] = k->items.data[n + i];
+static void sort_items(kinetic_call *call, event_state *events) {
+    size_t n = events->items.count;
+    events->order.count = 0;
+    if (n < 2 || !call_reserve(call, &events->order, 2 * n) || !call_reserve(call, &events->items, n)) return;
+    uint32_t *order = events->order.data;
+    slab_item *items = events->items.data;
+    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)i;
+    base_merge_sort(order, order + n, n, by_low, events);
+    for (size_t i = 0; i < n; i++) items[n + i] = items[order[i]];
+    for (size_t i = 0; i < n; i++) items[i] = items[n + i];
 }
 
 static void gather_failed_certs(froe_kinetic *k) {
-    k->items.count = 0;
-    for (size_t i = 0; i < k->turning.count; i++) {
-        const uint32_t s = k->turning.data[i], *end = k->now.segments.data[s].end;
-        live_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, {0, 0}};
-        live_find_slab(k, &item);
-        if (!array_push(&k->alloc, &k->items, item)) k->short_of_memory = true;
+    event_state *events = &k->events;
+    events->items.count = 0;
+    for (size_t i = 0; i < events->turning.count; i++) {
+        const uint32_t s = events->turning.data[i], *end = k->now.segments.data[s].end;
+        slab_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, {0, 0}};
+        slab_find(k, &item);
+        call_push(&k->call, &events->items, item);
     }
-    k->turning.count = 0;
-    live_due(k, k->now.tick);
-    size_t count = k->order.count;
-    for (size_t i = 0; i < count && !k->short_of_memory; i++) /* add_item moves certificates in the queue, not here */
-        if (!add_failed_cert(k, k->order.data[i]) || !live_goes_on(k)) k->short_of_memory = true;
-    sort_items(k);
-}
-
-/* The group that begins with item i. */
-static group group_from(const froe_kinetic *k, size_t i) {
-    const live_item *items = k->items.data;
-    group g = {i, 1, {items[i].slab[0], items[i].slab[1]}};
-    for (size_t j = i + 1; j < k->items.count && items[j].slab[0] <= g.slab[1]; j++, g.count++)
-        if (items[j].slab[1] > g.slab[1]) g.slab[1] = items[j].slab[1];
-    return g;
+    events->turning.count = 0;
+    cert_find_due(&k->certs, k->now.tick);
+    const size_t count = k->certs.queue.due.count;
+    for (size_t i = 0; i < count && !k->call.stopped; i++) {
+        const uint32_t cert = k->certs.queue.due.data[i];
+        if (k->certs.all.data[cert].kind < CERT_TURN) {
+            const now_claim claim = certify_claim_of(k, cert);
+            slab_item item = {cert, certify_kind(&k->tree, &k->certs, cert), claim, {0, 0}};
+            if (now_holds(&k->now, &claim) >= 0) { /* since the last tick it failed and became true again */
+                certify_again(k, cert);
+            } else {
+                slab_find(k, &item);
+                call_push(&k->call, &events->items, item);
+            }
+        }
+        call_poll(&k->call);
+    }
+    sort_items(&k->call, events);
 }
 
 /* Does a group look like one event, in one place or on one vertical line? */
-static bool is_one_event(const froe_kinetic *k, const group *g, const froe_event *event) {
+static bool is_one_event(const froe_kinetic *k, const event_group *g, const froe_event *event) {
     switch (event->kind) {
     case FROE_EVENT_CONTACT:
         return g->count == 1 || event->object_count == 2;
     case FROE_EVENT_TRIPLE:
         return event->object_count == 3;
     case FROE_EVENT_TURN:
-        return event->object_count == 1 && !segment_at(k, event->objects[0])->bound;
+        return event->object_count == 1 && !ktree_segment_at(&k->tree, event->objects[0])->bound;
     case FROE_EVENT_BATCH:
         return false;
     default:
@@ -353,53 +280,56 @@ static bool is_one_event(const froe_kinetic *k, const group *g, const froe_event
     }
 }
 
-/* Is it a turn and nothing else, that leaves the tree as it is? */
-static bool is_free_turn(const froe_kinetic *k, const group *g) {
-    const live_item *item = item_of(k, g, 0);
-    return g->count == 1 && item->kind == CERT_TURN && live_turns_freely(k, item->cert);
-}
-
 /* Repairs the tree where the certificates of a group fail. */
-static void repair(froe_kinetic *k, group *g, unsigned round) {
+static void repair(froe_kinetic *k, event_group *g, unsigned round) {
     const froe_event event = describe(k, g);
-    bool simple = call_crew(k, g) && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
-                  !live_has_loose_ends(k, item_of(k, g, 0));
+    bool usual = true; /* unrelated points are not in one place */
+    participants_clear(&k->participants);
+    for (size_t i = 0; i < g->count; i++) usual &= participants_add_item(k, item_of(k, g, i));
+    const bool simple = usual && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
+                        !participants_have_loose_ends(k, item_of(k, g, 0));
     k->now.lost = !(g->slab[0] <= g->slab[1] && g->slab[1] - g->slab[0] < (double)INFINITY);
-    live_outcome outcome = simple ? pass_wall(k, g) : LIVE_NOT_NARROW;
-    if (outcome && !operate(k, g, simple && outcome == LIVE_NOT_NARROW)) {
+    pass_outcome outcome = simple ? PASS_DONE : PASS_REFUSED;
+    set_lines(k, g);
+    for (size_t i = 0; i < g->count && !outcome && is_sound(k); i++) { /* if walls are passed, and that is all */
+        const slab_item *item = item_of(k, g, i);
+        if (is_current(k, item)) outcome = slab_is_one_place(&k->tree, item) ? PASS_REFUSED : pass_wall(k, item);
+    }
+    if (outcome && !operate(k, g, simple && outcome == PASS_REFUSED)) {
         k->counts.crowds++;
         operate_carefully(k, g);
     }
-    if (!k->short_of_memory && !is_sound(k)) live_restart(k);
-}
-
-static bool handle_group(froe_kinetic *k, group *g, unsigned round, const live_watcher *watcher) {
-    if (is_free_turn(k, g))
-        k->counts.free_turns++;
-    else
-        repair(k, g, round);
-    if (k->short_of_memory) return true;
-    const froe_event event = describe(k, g);
-    k->counts.batches += event.kind == FROE_EVENT_BATCH;
-    return round > 0 || tell_event(k, watcher, &event, &item_of(k, g, 0)->claim);
+    if (!k->call.stopped && !is_sound(k)) surgery_restart(k);
 }
 
 /* Until nothing is due any more. */
-static bool settle_tick(froe_kinetic *k, const live_watcher *watcher) {
+static bool settle_tick(froe_kinetic *k, const event_watcher *watcher) {
     bool go_on = true;
-    for (unsigned round = 0; !k->short_of_memory; round++) {
+    for (unsigned round = 0; !k->call.stopped; round++) {
         gather_failed_certs(k);
-        if (!k->items.count || k->short_of_memory) break;
+        const size_t count = k->events.items.count;
+        if (!count || k->call.stopped) break;
         if (round >= RESTART_ROUND) {
-            live_restart(k);
+            surgery_restart(k);
             k->counts.stuck += round >= LAST_ROUND;
             if (round >= LAST_ROUND) break;
             continue;
         }
-        group g;
-        for (size_t i = 0; i < k->items.count && !k->short_of_memory; i += g.count) {
-            g = group_from(k, i);
-            go_on &= handle_group(k, &g, round, watcher);
+        event_group g;
+        for (size_t i = 0; i < count && !k->call.stopped; i += g.count) {
+            const slab_item *items = k->events.items.data;
+            g = (event_group){i, 1, {items[i].slab[0], items[i].slab[1]}};
+            for (size_t j = i + 1; j < count && items[j].slab[0] <= g.slab[1]; j++, g.count++)
+                if (items[j].slab[1] > g.slab[1]) g.slab[1] = items[j].slab[1];
+            /* a turn and nothing else may leave the tree as it is */
+            if (g.count == 1 && items[i].kind == CERT_TURN && turn_is_free(&k->tree, items[i].cert))
+                k->counts.free_turns++;
+            else
+                repair(k, &g, round);
+            if (k->call.stopped) break;
+            const froe_event event = describe(k, &g);
+            k->counts.batches += event.kind == FROE_EVENT_BATCH;
+            if (!round) go_on &= tell_event(k, watcher, &event, &item_of(k, &g, 0)->claim);
         }
     }
     return go_on;
@@ -408,85 +338,80 @@ static bool settle_tick(froe_kinetic *k, const live_watcher *watcher) {
 /* ------------------------------------------------------------------- steps -- */
 
 static void leave_tree(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
-    for (size_t i = 0; i < k->leaving.count; i++)
-        if (k->leaving.data[i] / 2 == segment) {
-            k->leaving.data[i] |= tell_it;
+    for (size_t i = 0; i < k->events.leaving.count; i++)
+        if (k->events.leaving.data[i] / 2 == segment) {
+            k->events.leaving.data[i] |= tell_it;
             return;
         }
-    if (!array_push(&k->alloc, &k->leaving, 2 * segment + tell_it)) k->short_of_memory = true;
+    call_push(&k->call, &k->events.leaving, 2 * segment + tell_it);
 }
 
-/* Which segments have to be taken out before time goes on to the tick. */
-static void gather_leaving(froe_kinetic *k, int64_t tick) {
-    live_due(k, tick);
-    for (size_t i = 0; i < k->order.count; i++) {
-        const live_cert *c = k->certs.data + k->order.data[i];
-        if (c->kind == CERT_LIFE) {
-            leave_tree(k, c->owner, 1);
-        } else if (c->kind == CERT_PAIR) {
-            leave_tree(k, k->pairs.data[c->owner].segment[1], 0);
-        } else if (c->kind == CERT_COURSE) {
-            for (uint32_t e = k->vertices.data[c->owner]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-                leave_tree(k, e / 2, 1);
-        }
-    }
-    for (size_t i = 0; i < k->order.count; i++) {
-        uint32_t cert = k->order.data[i];
-        if (k->certs.data[cert].kind == CERT_COURSE) live_set_tick(k, cert, NOW_NEVER);
-    }
-}
-
-/* Takes them out. Others in one line with them may have to be taken out, too. */
+/* Takes out the segments that have to be out before time goes on to the tick. Others in one line with them may have to
+ * be taken out, too. */
 static void let_leave(froe_kinetic *k, int64_t tick) {
     size_t gone = 0;
-    k->leaving.count = 0;
-    do {
-        gather_leaving(k, tick);
-        if (gone == k->leaving.count) return;
-        for (; gone < k->leaving.count && !k->short_of_memory; gone++) live_remove(k, k->leaving.data[gone] / 2);
-    } while (!k->short_of_memory);
+    k->events.leaving.count = 0;
+    for (;;) {
+        cert_find_due(&k->certs, tick);
+        for (size_t i = 0; i < k->certs.queue.due.count; i++) {
+            const cert_record *c = k->certs.all.data + k->certs.queue.due.data[i];
+            if (c->kind == CERT_LIFE) leave_tree(k, c->owner, 1);
+            if (c->kind == CERT_COLLINEAR) leave_tree(k, k->collinear.pairs.data[c->owner].segment[1], 0);
+            uint32_t e = c->kind == CERT_COURSE ? k->tree.vertices.data[c->owner] : FROE_NONE;
+            for (; e != FROE_NONE; e = ktree_next_end(&k->tree, e)) leave_tree(k, e / 2, 1);
+        }
+        for (size_t i = 0; i < k->certs.queue.due.count; i++) {
+            const uint32_t cert = k->certs.queue.due.data[i];
+            if (k->certs.all.data[cert].kind == CERT_COURSE) cert_set_tick(&k->certs, cert, NOW_NEVER);
+        }
+        if (gone == k->events.leaving.count || k->call.stopped) return;
+        for (; gone < k->events.leaving.count && !k->call.stopped; gone++)
+            change_remove(k, k->events.leaving.data[gone] / 2);
+    }
 }
 
 /* Swaps the ends of segments that turn. This comes before any other question at the tick, as sides depend on it. */
 static void turn_segments(froe_kinetic *k) {
-    k->turning.count = 0;
-    live_due(k, k->now.tick);
-    for (size_t i = 0; i < k->order.count; i++) {
-        const live_cert *c = k->certs.data + k->order.data[i];
-        if (c->kind == CERT_TURN && !array_push(&k->alloc, &k->turning, c->owner)) k->short_of_memory = true;
+    event_state *events = &k->events;
+    events->turning.count = 0;
+    cert_find_due(&k->certs, k->now.tick);
+    for (size_t i = 0; i < k->certs.queue.due.count; i++) {
+        const cert_record *c = k->certs.all.data + k->certs.queue.due.data[i];
+        if (c->kind == CERT_TURN) call_push(&k->call, &events->turning, c->owner);
     }
     size_t kept = 0;
-    for (size_t i = 0; i < k->turning.count && !k->short_of_memory; i++) {
-        uint32_t s = k->turning.data[i];
+    for (size_t i = 0; i < events->turning.count && !k->call.stopped; i++) {
+        uint32_t s = events->turning.data[i];
         bool was = k->now.segments.data[s].turned;
-        live_certify_turn(k, s);
-        if (was != k->now.segments.data[s].turned) k->turning.data[kept++] = s;
+        certify_turn(k, s);
+        if (was != k->now.segments.data[s].turned) events->turning.data[kept++] = s;
     }
-    k->turning.count = kept;
+    events->turning.count = kept;
 }
 
-static bool enter_tree(froe_kinetic *k, const live_watcher *watcher) {
+/* Puts those that have left back into the tree, if they are there, and tells what has changed. */
+static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
     static const now_claim nothing = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
     bool go_on = true;
-    for (size_t i = 0; i < k->leaving.count && !k->short_of_memory; i++) {
-        uint32_t s = k->leaving.data[i] / 2;
+    for (size_t i = 0; i < k->events.leaving.count && !k->call.stopped; i++) {
+        const uint32_t s = k->events.leaving.data[i] / 2;
         const motion_object *o = k->now.motion->objects.data + s;
-        live_schedule(k, s);
-        bool there = o->first <= k->now.tick && k->now.tick <= o->last;
+        change_schedule(k, s);
+        const bool there = now_is_alive(&k->now, s);
         froe_event_kind kind = !there                          ? FROE_EVENT_DISAPPEAR
                                : k->now.tick <= (o->first | 1) ? FROE_EVENT_APPEAR
                                                                : FROE_EVENT_PLAN;
-        if (there) live_insert(k, s);
+        if (there) change_insert(k, s);
         froe_event event = event_at(k, kind);
         add_object(&event, s);
-        if (k->leaving.data[i] % 2) go_on &= tell_event(k, watcher, &event, &nothing);
+        if (k->events.leaving.data[i] % 2) go_on &= tell_event(k, watcher, &event, &nothing);
     }
-    k->leaving.count = 0;
+    k->events.leaving.count = 0;
     return go_on;
 }
 
-bool live_step(froe_kinetic *k, int64_t tick, const live_watcher *watcher) {
-    int64_t next = live_next_tick(k);
+bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
+    int64_t next = cert_next_tick(&k->certs);
     if (next > tick) {
         k->now.tick = tick;
         return true;

@@ -4,7 +4,7 @@
  *     ---|-------o---------|---- t      is a polynomial in between, so halving with its exact signs closes in on
  *       u-2      : f <= 0  u            a root, until no double is left inside. */
 #include "base/floats.h"
-#include "kinetic/live.h"
+#include "kinetic/kinetic.h"
 #include "support/fail.h"
 #include <math.h>
 
@@ -68,7 +68,7 @@ static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
 froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_instant: NULL");
-    if (!k->told) return support_fail(diag, FROE_E_ARG, "no event is being reported");
+    if (!k->events.told) return support_fail(diag, FROE_E_ARG, "no event is being reported");
     now_catch_up(&k->now);
     num_arena *arena = &k->now.context.arena;
     arena->top = 0;
@@ -77,7 +77,7 @@ froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic
                              num_dyadic_scaled(arena, 1, (uint64_t)(k->now.tick - before), 0)};
     double bracket[2];
     bracket_of(k, arena, before, s, bracket);
-    if (k->told_claim.q.b != NAME_NONE) refine(k, k->told_claim, bracket);
+    if (k->events.told_claim.q.b != NAME_NONE) refine(k, k->events.told_claim, bracket);
     out[0] = bracket[0], out[1] = bracket[1];
     return FROE_OK;
 }

@@ -1,29 +1,19 @@
-/* pass.c: a point passes a wall that belongs to another point, and nothing else happens.
- *
- *     _________________             Only two cells change, those on both sides of the wall at the height of the
- *        :   |     :                point: near, where the certificate was, and far. In one of them the segment s of
- *        :far|near :                the point comes to be, or ends, a little earlier, in the other a little later.
- *        :   | o---:-- s            Other segments that cross the wall there, the threads, do so before and after.
- *        :   |     :                A walk down along the wall lists them from below. Since that part of the cell is
- *     ___:__(q)____:___             thin, their order and heights alone determine its new tree (a treap).
- *
- * If there is another wall in a thin part, as of a vertex that has the same x for ever, it passes, too, and this case
- * is refused. The far cell is found by walking down on the other side of the wall, past all segments before s in
- * order. Each of these is on the way to the near cell, too, or ends before the wall. Segments after s are in the far
- * cell. Source: the shaves of the paper's section 2.3; that a thin part is a treap is not in the paper. */
-#include "kinetic/live.h"
+/* pass.c: a point passes a wall that belongs to another point, and nothing else happens. */
+#include "kinetic/event/pass.h"
+#include "kinetic/certificate/certify.h"
+#include "kinetic/kinetic.h"
 #include <string.h>
 
 /* A place in the tree, which of the walls of its cell is passed, and the line that bounds the thin part there. */
 typedef struct half {
-    live_site site;
+    ktree_site site;
     int side;
 } half;
 
 typedef struct passing {
     half near, far;
     uint32_t node, segment; /* of s, in the near cell */
-    uint32_t wall;          /* END_0, END_1, or the segment that it crosses at the point */
+    uint32_t wall;          /* an end, or the segment that it crosses at the point */
     bool grows;             /* it gets longer: the point goes to the far cell, and s comes after it from the near one */
     size_t thread;          /* how many on the list cross the wall in the far cell, from below */
     size_t below;           /* how many of these are below the point */
@@ -31,145 +21,140 @@ typedef struct passing {
 
 /* ----------------------------------------------------------------- two cells -- */
 
-/* On which side of a segment that comes to the wall is the way from the near cell up to the wall's owner? If that does
- * not know it, then it lies beyond the owner's segment, which ends at the wall, and is passed on the same side. */
-static int way_past(const froe_kinetic *k, uint32_t near, uint32_t owner, uint32_t segment) {
-    uint8_t slot = 0;
-    for (uint32_t n = near; n != owner; n = node_at(k, n)->parent) {
-        slot = live_slot_of(k, n);
-        if (node_at(k, node_at(k, n)->parent)->segment == segment && slot >= UP) return slot;
-    }
-    return slot >= UP ? slot : -1;
+static uint32_t root_of(const ktree *tree, const ktree_site *site) {
+    return ktree_node_at(tree, site->parent)->child[site->slot];
 }
 
 /* From the place at `far` down along the wall. False: the tree there is not as described. */
-static bool descend_to_half(const froe_kinetic *k, uint32_t near, uint32_t owner, half *far) {
-    uint32_t segment = node_at(k, near)->segment;
+static bool descend_to_half(const ktree *tree, uint32_t near, uint32_t owner, half *far) {
+    const uint32_t segment = ktree_node_at(tree, near)->segment;
     for (;;) {
-        uint32_t x = node_at(k, far->site.parent)->child[far->site.slot];
-        if (!x || node_at(k, x)->segment == segment || comes_before(k, segment, node_at(k, x)->segment)) return true;
-        int way = far->side;
-        if (node_at(k, x)->wall[far->side] == END_NONE) way = way_past(k, near, owner, node_at(k, x)->segment);
-        if (way < 0) return false;
+        const uint32_t x = root_of(tree, &far->site);
+        if (!x || ktree_node_at(tree, x)->segment == segment) return true;
+        const uint32_t other = ktree_node_at(tree, x)->segment;
+        if (ktree_before(tree, segment, other)) return true;
+        uint8_t way = (uint8_t)far->side;
+        if (ktree_node_at(tree, x)->wall[far->side] == KTREE_NO_WALL) {
+            /* On which side of that segment is the way from the near cell up to the wall's owner? If that does not
+             * know it, then it lies beyond the owner's segment, which ends at the wall, and is passed alike. */
+            bool known = false;
+            way = 0;
+            for (uint32_t n = near; n != owner && !known; n = ktree_node_at(tree, n)->parent) {
+                way = ktree_slot_of(tree, n);
+                known = ktree_node_at(tree, ktree_node_at(tree, n)->parent)->segment == other && way >= KTREE_UP;
+            }
+            if (way < KTREE_UP) return false;
+        }
         far->site.parent = x;
-        far->site.slot = (uint8_t)way;
+        far->site.slot = way;
     }
 }
 
-static uint32_t root_of(const froe_kinetic *k, const live_site *site) {
-    return node_at(k, site->parent)->child[site->slot];
-}
-
-static void look_at(const froe_kinetic *k, live_site *site) {
-    const uint32_t node = root_of(k, site);
-    const live_cell cell = live_cell_of(k, site->parent);
-    site->cell = live_child_cell(k, &cell, site->parent, site->slot);
-    site->cut = node && node_at(k, node)->cut;
-}
-
-/* 1, -1: p is above, below q; 0: undecided. */
-static int height_order(froe_kinetic *k, now_name p, now_name q) {
-    now_spot a = now_spot_of(&k->now, p), b = now_spot_of(&k->now, q);
-    double d = a.y - b.y, error = (a.error + b.error) * 2;
-    return d > error ? 1 : d < -error ? -1 : 0;
-}
-
 /* The near cell, and which end of s passes which of its walls. False: not one end of s alone. */
-static bool find_near(froe_kinetic *k, const live_item *item, passing *p) {
-    p->node = k->certs.data[item->cert].owner;
-    const live_node *n = node_at(k, p->node);
-    const bool both = n->wall[LEFT] != END_NONE && n->wall[RIGHT] != END_NONE;
-    if (item->kind == CERT_MIDDLE && both) return false;
+static bool find_near(const froe_kinetic *k, const slab_item *item, passing *p) {
+    p->node = k->certs.all.data[item->cert].owner;
+    const ktree_node *n = ktree_node_at(&k->tree, p->node);
+    const bool left = n->wall[KTREE_LEFT] != KTREE_NO_WALL, right = n->wall[KTREE_RIGHT] != KTREE_NO_WALL;
+    if (item->kind == CERT_MIDDLE && left && right) return false;
     p->segment = n->segment;
     p->grows = item->kind != CERT_MIDDLE;
-    int side = item->kind == CERT_LEFT || (!p->grows && n->wall[LEFT] == END_NONE) ? LEFT : RIGHT;
+    int side = item->kind == CERT_LEFT || (!p->grows && !left) ? KTREE_LEFT : KTREE_RIGHT;
     p->wall = n->wall[p->grows ? side : 1 - side];
-    p->near = (half){live_site_of(k, p->node), side};
-    return name_is(p->near.site.cell.wall[side], side == LEFT ? item->claim.p : item->claim.q);
+    p->near = (half){ktree_site_of(&k->tree, p->node), side};
+    return name_is(p->near.site.cell.wall[side], side == KTREE_LEFT ? item->claim.p : item->claim.q);
 }
 
-static bool find_far(froe_kinetic *k, now_name point, passing *p) {
+static bool find_far(froe_kinetic *k, name_point point, passing *p) {
+    const ktree *tree = &k->tree;
     uint8_t slot;
     const int side = p->near.side;
-    const uint32_t owner = live_wall_owner(k, p->node, side, &slot);
-    const now_name wall = p->near.site.cell.wall[side];
-    int order = owner ? height_order(k, point, wall) : 0;
-    if (!order) return false;
+    const uint32_t owner = ktree_wall_owner(tree, p->node, side, &slot);
+    const name_point wall = p->near.site.cell.wall[side];
+    if (!owner) return false;
+    const now_spot a = now_spot_of(&k->now, point), b = now_spot_of(&k->now, wall);
+    const double d = a.y - b.y, error = (a.error + b.error) * 2;
+    if (!(d > error) && !(d < -error)) return false; /* which one is higher is undecided */
+    ktree_site *far = &p->far.site;
     p->far.side = 1 - side;
-    p->far.site.parent = owner;
-    p->far.site.slot = (uint8_t)(slot >= UP ? side : order > 0 ? UP : DOWN);
-    if (!descend_to_half(k, p->node, owner, &p->far)) return false;
-    look_at(k, &p->far.site);
-    if (!name_is(p->far.site.cell.wall[1 - side], wall)) return false;
-    const uint32_t root = root_of(k, &p->far.site);
-    const bool there = root && node_at(k, root)->segment == p->segment;
-    if (there == p->grows || (there && node_at(k, root)->wall[1 - side] != END_NONE)) return false;
-    const live_cell *near = &p->near.site.cell, *far = &p->far.site.cell;
-    return is_end(p->wall) || (p->wall == near->top && near->top == far->top) ||
-           (p->wall == near->bottom && near->bottom == far->bottom);
+    far->parent = owner;
+    far->slot = (uint8_t)(slot >= KTREE_UP ? side : d > error ? KTREE_UP : KTREE_DOWN);
+    if (!descend_to_half(tree, p->node, owner, &p->far)) return false;
+    const uint32_t root = root_of(tree, far);
+    const ktree_cell above = ktree_cell_of(tree, far->parent);
+    far->cell = ktree_child_cell(tree, &above, far->parent, far->slot);
+    far->cut = root && ktree_node_at(tree, root)->cut;
+    if (!name_is(far->cell.wall[1 - side], wall)) return false;
+    const bool there = root && ktree_node_at(tree, root)->segment == p->segment;
+    if (there == p->grows || (there && ktree_node_at(tree, root)->wall[1 - side] != KTREE_NO_WALL)) return false;
+    const ktree_cell *near = &p->near.site.cell;
+    return ktree_is_end(p->wall) || (p->wall == near->top && near->top == far->cell.top) ||
+           (p->wall == near->bottom && near->bottom == far->cell.bottom);
 }
 
 /* ------------------------------------------------------------------- threads -- */
 
 /* Is a wall, if there is one, beyond the line that bounds the thin part of a half? */
-static bool is_beyond(froe_kinetic *k, const half *h, now_name wall) {
+static bool is_beyond(froe_kinetic *k, const half *h, name_point wall) {
     if (!name_exists(wall)) return true;
-    int order = now_compare(&k->now, wall, (now_name){(uint32_t)(1 - h->side), NAME_LINE});
-    return h->side == RIGHT ? order < 0 : order > 0;
+    int order = now_compare(&k->now, wall, (name_point){(uint32_t)(1 - h->side), NAME_LINE});
+    return h->side == KTREE_RIGHT ? order < 0 : order > 0;
 }
 
 static void push_half_visit(froe_kinetic *k, uint32_t node, unsigned back) {
-    if (node && !array_push(&k->alloc, &k->order, 2 * node + back)) k->short_of_memory = true;
+    if (node) call_push(&k->call, &k->surgery.scratch, 2 * node + back);
 }
 
 /* Lists the segments that cross a subtree of a half along the passed wall, from the bottom up, and stamps nodes at
  * that wall. False: something has a wall in the thin part. */
 static bool walk_half(froe_kinetic *k, const half *h, uint32_t node) {
-    k->order.count = 0;
+    ktree *tree = &k->tree;
+    k->surgery.scratch.count = 0;
     push_half_visit(k, node, 0);
-    while (k->order.count && !k->short_of_memory) {
-        const uint32_t top = k->order.data[--k->order.count], x = top / 2;
-        live_node *n = node_at(k, x);
+    while (k->surgery.scratch.count && !k->call.stopped) {
+        const uint32_t top = k->surgery.scratch.data[--k->surgery.scratch.count], x = top / 2;
+        ktree_node *n = ktree_node_at(tree, x);
         if (top % 2) {
-            live_list(k, n->segment);
+            ktree_list(tree, n->segment);
             continue;
         }
-        n->stamp = k->stamp;
+        n->stamp = tree->stamp;
         k->counts.nodes_touched++;
-        const bool ends = n->wall[h->side] != END_NONE;
-        if (!is_beyond(k, h, wall_name(k, n->segment, n->wall[ends ? h->side : 1 - h->side]))) return false;
+        const bool ends = n->wall[h->side] != KTREE_NO_WALL;
+        if (!is_beyond(k, h, ktree_wall_name(tree, n->segment, n->wall[ends ? h->side : 1 - h->side]))) return false;
         if (ends) {
             push_half_visit(k, n->child[h->side], 0);
             continue;
         }
-        push_half_visit(k, n->child[UP], 0);
+        push_half_visit(k, n->child[KTREE_UP], 0);
         push_half_visit(k, x, 1);
-        push_half_visit(k, n->child[DOWN], 0);
+        push_half_visit(k, n->child[KTREE_DOWN], 0);
     }
     return true;
 }
 
 /* Both children of a node that reaches the wall. */
 static bool walk_past(froe_kinetic *k, const half *h, uint32_t node) {
-    live_node *n = node_at(k, node);
-    n->stamp = k->stamp;
-    const uint32_t up = n->child[UP];
-    return walk_half(k, h, n->child[DOWN]) && walk_half(k, h, up);
+    ktree_node *n = ktree_node_at(&k->tree, node);
+    n->stamp = k->tree.stamp;
+    const uint32_t up = n->child[KTREE_UP];
+    return walk_half(k, h, n->child[KTREE_DOWN]) && walk_half(k, h, up);
 }
 
 /* Lists the segments across the wall in the far cell, from below, and then the others in the near one. */
 static bool list_threads(froe_kinetic *k, passing *p) {
-    const uint32_t root = root_of(k, &p->far.site);
-    const live_node *n = node_at(k, p->node), *r = node_at(k, root);
+    ktree *tree = &k->tree;
+    const uint32_t root = root_of(tree, &p->far.site);
+    const ktree_node *n = ktree_node_at(tree, p->node), *r = ktree_node_at(tree, root);
     const int side = p->near.side;
-    live_new_list(k);
-    bool thin = p->grows
-                    ? walk_half(k, &p->far, root)
-                    : is_beyond(k, &p->far, wall_name(k, p->segment, r->wall[side])) && walk_past(k, &p->far, root);
-    p->thread = k->list.count;
+    ktree_new_list(tree);
+    bool thin = p->grows ? walk_half(k, &p->far, root)
+                         : is_beyond(k, &p->far, ktree_wall_name(tree, p->segment, r->wall[side])) &&
+                               walk_past(k, &p->far, root);
+    p->thread = tree->list.count;
     if (!thin) return false;
     if (!p->grows) return walk_half(k, &p->near, n->child[1 - side]);
-    return is_beyond(k, &p->near, wall_name(k, p->segment, n->wall[1 - side])) && walk_past(k, &p->near, p->node);
+    return is_beyond(k, &p->near, ktree_wall_name(tree, p->segment, n->wall[1 - side])) &&
+           walk_past(k, &p->near, p->node);
 }
 
 /* -------------------------------------------------------------------- height -- */
@@ -181,10 +166,10 @@ enum { MOST_FAN = 8 };
 /* Those that come from the wall, from below. -1: too many, or some in one line, or earlier than s. */
 static int fan_of(froe_kinetic *k, const passing *p, uint32_t vertex, uint32_t fan[MOST_FAN]) {
     int count = 0;
-    for (uint32_t e = k->vertices.data[vertex]; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next) {
+    for (uint32_t e = k->tree.vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(&k->tree, e)) {
         const uint32_t s = e / 2, other = k->now.segments.data[s].end[1 - e % 2];
-        if (!segment_at(k, s)->here) continue;
-        if (count == MOST_FAN || comes_before(k, s, p->segment)) return -1;
+        if (!ktree_segment_at(&k->tree, s)->here) continue;
+        if (count == MOST_FAN || ktree_before(&k->tree, s, p->segment)) return -1;
         if ((uint32_t)now_end(&k->now, s, p->near.side) != e % 2) continue;
         int at = count++;
         for (; at; at--) {
@@ -198,19 +183,12 @@ static int fan_of(froe_kinetic *k, const passing *p, uint32_t vertex, uint32_t f
     return count;
 }
 
-static void forget_those_at(froe_kinetic *k, passing *p, uint32_t vertex) {
-    size_t kept = 0;
-    for (size_t i = 0; i < p->thread; i++)
-        if (!live_has_end(k, k->list.data[i], vertex)) k->list.data[kept++] = k->list.data[i];
-    p->thread = kept;
-}
-
 /* How many of the thread are below the vertex. False: one goes through it. */
 static bool find_height(froe_kinetic *k, passing *p, uint32_t vertex) {
     size_t low = 0, high = p->thread;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        int side = now_side(&k->now, k->list.data[middle], vertex);
+        int side = now_side(&k->now, k->tree.list.data[middle], vertex);
         if (!side) return false;
         if (side > 0)
             low = middle + 1;
@@ -221,38 +199,35 @@ static bool find_height(froe_kinetic *k, passing *p, uint32_t vertex) {
     return true;
 }
 
-static void insert_fan(froe_kinetic *k, passing *p, const uint32_t *fan, int count) {
+/* Makes the thread the segments that will cross the thin part of the far cell, without s. False: refused. */
+static bool thread_anew(froe_kinetic *k, passing *p, name_point point) {
+    ktree *tree = &k->tree;
+    if (!ktree_is_end(p->wall)) {
+        p->below = p->wall == p->near.site.cell.top ? p->thread : 0;
+        return true;
+    }
+    if (ktree_next_end(tree, tree->vertices.data[point.a]) == FROE_NONE) return find_height(k, p, point.a);
+    uint32_t fan[MOST_FAN];
+    size_t kept = 0;
+    const int count = fan_of(k, p, point.a, fan);
+    if (count < 0) return false;
+    for (size_t i = 0; i < p->thread; i++) /* without those at the vertex */
+        if (!now_has_end(&k->now, tree->list.data[i], point.a)) tree->list.data[kept++] = tree->list.data[i];
+    p->thread = kept;
+    if (!find_height(k, p, point.a)) return false;
+    tree->list.count = p->thread;
+    if (!call_reserve(&k->call, &tree->list, MOST_FAN)) return false;
     size_t at = p->below;
     for (int i = 0; i < count; i++) {
         if (fan[i] == p->segment) {
             p->below = at;
             continue;
         }
-        uint32_t *place = k->list.data + at;
+        uint32_t *place = tree->list.data + at;
         memmove(place + 1, place, (p->thread++ - at++) * sizeof *place);
         *place = fan[i];
     }
-}
-
-/* Makes the thread the segments that will cross the thin part of the far cell, without s. False: refused. */
-static bool thread_anew(froe_kinetic *k, passing *p, now_name point) {
-    if (!is_end(p->wall)) {
-        p->below = p->wall == p->near.site.cell.top ? p->thread : 0;
-        return true;
-    }
-    const uint32_t first = k->vertices.data[point.a];
-    if (segment_at(k, first / 2)->end[first % 2].next == FROE_NONE) return find_height(k, p, point.a);
-    uint32_t fan[MOST_FAN];
-    int count = fan_of(k, p, point.a, fan);
-    if (count < 0) return false;
-    forget_those_at(k, p, point.a);
-    if (!find_height(k, p, point.a)) return false;
-    k->list.count = p->thread;
-    if (array_reserve(&k->alloc, &k->list, MOST_FAN))
-        insert_fan(k, p, fan, count);
-    else
-        k->short_of_memory = true;
-    return !k->short_of_memory;
+    return true;
 }
 
 /* -------------------------------------------------------------------- change -- */
@@ -260,89 +235,81 @@ static bool thread_anew(froe_kinetic *k, passing *p, now_name point) {
 /* The tree of some that cross a cell from wall to wall, given from below: the first in order on top (Vuillemin 1980).
  */
 static void plant(froe_kinetic *k, size_t first, size_t count, uint32_t parent, uint8_t slot) {
-    static const uint32_t no_walls[2] = {END_NONE, END_NONE};
-    k->order.count = 0; /* from the root, always upwards */
-    for (const uint32_t *s = k->list.data + first; s < k->list.data + first + count; s++) {
-        const uint32_t node = live_new_node(k, *s, no_walls);
-        uint32_t below = LEAF;
-        if (!node || !array_reserve(&k->alloc, &k->order, 1)) {
-            k->short_of_memory = true;
-            return;
-        }
-        for (; k->order.count; k->order.count--) {
-            const uint32_t last = k->order.data[k->order.count - 1];
-            if (comes_before(k, node_at(k, last)->segment, *s)) break;
+    static const uint32_t no_walls[2] = {KTREE_NO_WALL, KTREE_NO_WALL};
+    ktree *tree = &k->tree;
+    k->surgery.scratch.count = 0; /* from the root, always upwards */
+    for (const uint32_t *s = tree->list.data + first; s < tree->list.data + first + count; s++) {
+        const uint32_t node = ktree_new_node(tree, *s, no_walls);
+        uint32_t below = KTREE_LEAF;
+        if (!node || !call_reserve(&k->call, &k->surgery.scratch, 1)) return;
+        uint32_t *path = k->surgery.scratch.data;
+        for (; k->surgery.scratch.count; k->surgery.scratch.count--) {
+            const uint32_t last = path[k->surgery.scratch.count - 1];
+            if (ktree_before(tree, ktree_node_at(tree, last)->segment, *s)) break;
             below = last;
         }
-        live_attach(k, node, DOWN, below);
-        if (k->order.count) live_attach(k, k->order.data[k->order.count - 1], UP, node);
-        k->order.data[k->order.count++] = node;
+        ktree_attach(tree, node, KTREE_DOWN, below);
+        if (k->surgery.scratch.count) ktree_attach(tree, path[k->surgery.scratch.count - 1], KTREE_UP, node);
+        path[k->surgery.scratch.count++] = node;
     }
     k->counts.nodes_touched += count;
-    live_attach(k, parent, slot, count ? k->order.data[0] : LEAF);
+    ktree_attach(tree, parent, slot, count ? k->surgery.scratch.data[0] : KTREE_LEAF);
 }
 
-static void leave_near(froe_kinetic *k, const passing *p) {
-    live_node *n = node_at(k, p->node);
-    const uint8_t slot = (uint8_t)(p->grows ? p->near.side : 1 - p->near.side);
-    const uint32_t behind = n->child[slot];
-    n->child[slot] = LEAF;
+/* Takes s, or its end, out of the near cell and puts it into the far one. */
+static void move_segment(froe_kinetic *k, const passing *p) {
+    ktree *tree = &k->tree;
+    const uint8_t from = (uint8_t)(p->grows ? p->near.side : 1 - p->near.side);
+    const uint32_t behind = ktree_node_at(tree, p->node)->child[from];
+    ktree_node_at(tree, p->node)->child[from] = KTREE_LEAF;
     if (p->grows) {
-        live_set_wall(k, p->node, slot, END_NONE);
-        live_free_tree(k, behind);
+        ktree_set_wall(tree, p->node, from, KTREE_NO_WALL);
+        surgery_free_tree(k, behind);
     } else {
-        live_attach(k, p->near.site.parent, p->near.site.slot, behind);
-        live_free_tree(k, p->node);
+        ktree_attach(tree, p->near.site.parent, p->near.site.slot, behind);
+        surgery_free_tree(k, p->node);
     }
-}
-
-static void enter_far(froe_kinetic *k, const passing *p) {
-    const uint32_t root = root_of(k, &p->far.site);
-    const uint8_t slot = (uint8_t)(p->grows ? p->near.side : p->far.side);
-    uint32_t node = root, wall[2] = {END_NONE, END_NONE};
-    wall[slot] = p->wall;
+    const uint32_t root = root_of(tree, &p->far.site);
+    const uint8_t to = (uint8_t)(p->grows ? p->near.side : p->far.side);
     if (p->grows) {
-        node = live_new_node(k, p->segment, wall);
+        uint32_t wall[2] = {KTREE_NO_WALL, KTREE_NO_WALL};
+        wall[to] = p->wall;
+        const uint32_t node = ktree_new_node(tree, p->segment, wall);
         if (!node) return;
-        live_attach(k, p->far.site.parent, p->far.site.slot, node);
-        live_attach(k, node, slot, root);
-        plant(k, 0, p->below, node, DOWN);
-        plant(k, p->below, p->thread - p->below, node, UP);
+        ktree_attach(tree, p->far.site.parent, p->far.site.slot, node);
+        ktree_attach(tree, node, to, root);
+        plant(k, 0, p->below, node, KTREE_DOWN);
+        plant(k, p->below, p->thread - p->below, node, KTREE_UP);
     } else {
-        live_note_half(k, node, 1 - slot);
-        live_set_wall(k, node, slot, p->wall);
-        plant(k, 0, p->thread, node, slot);
+        turn_note_half(k, root, 1 - to);
+        ktree_set_wall(tree, root, to, p->wall);
+        plant(k, 0, p->thread, root, to);
     }
-    if (is_end(p->wall)) live_touch_end(k, 2 * p->segment + (END_0 - p->wall));
+    if (ktree_is_end(p->wall)) ktree_touch_end(tree, 2 * p->segment + (KTREE_END_0 - p->wall));
 }
 
-static bool has_strangers(froe_kinetic *k, const passing *p) {
-    const live_cell *near = &p->near.site.cell, *far = &p->far.site.cell;
-    const uint32_t border[4] = {near->top, near->bottom, far->top, far->bottom};
-    bool found = live_find_strangers(k, border, 4);
-    return live_find_strangers(k, k->list.data, k->list.count) || found;
-}
-
-live_outcome live_pass(froe_kinetic *k, const live_item *item) {
+pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
+    ktree *tree = &k->tree;
     passing p;
-    if (!find_near(k, item, &p)) return LIVE_NOT_NARROW;
-    const now_name point = wall_name(k, p.segment, p.wall);
-    if (!find_far(k, point, &p)) return LIVE_NOT_NARROW;
-    if (!is_beyond(k, &p.near, p.near.site.cell.wall[p.far.side]) ||
-        !is_beyond(k, &p.far, p.far.site.cell.wall[p.near.side]))
-        return LIVE_NOT_NARROW;
-    k->stamp++;
-    if (!list_threads(k, &p)) return LIVE_NOT_NARROW;
-    if (k->short_of_memory) return LIVE_DONE;
-    if (has_strangers(k, &p)) return LIVE_STRANGERS;
-    if (!thread_anew(k, &p, point) || k->now.lost) return LIVE_NOT_NARROW;
+    if (!find_near(k, item, &p)) return PASS_REFUSED;
+    const name_point point = ktree_wall_name(tree, p.segment, p.wall);
+    if (!find_far(k, point, &p)) return PASS_REFUSED;
+    const ktree_cell *near = &p.near.site.cell, *far = &p.far.site.cell;
+    if (!is_beyond(k, &p.near, near->wall[p.far.side]) || !is_beyond(k, &p.far, far->wall[p.near.side]))
+        return PASS_REFUSED;
+    surgery_begin(k);
+    if (!list_threads(k, &p)) return PASS_REFUSED;
+    if (k->call.stopped) return PASS_DONE;
+    bool more = participants_add_near(k, (uint32_t[]){near->top, near->bottom, far->top, far->bottom}, 4);
+    more = participants_add_near(k, tree->list.data, tree->list.count) || more;
+    if (more) return PASS_NEIGHBOURS;
+    if (!thread_anew(k, &p, point) || k->now.lost) return PASS_REFUSED;
     k->counts.surgeries++;
-    leave_near(k, &p);
-    enter_far(k, &p);
-    if (k->short_of_memory) return LIVE_DONE;
-    live_touch_wall(k, p.near.site.cell.wall[p.near.side]);
-    live_certify(k, &p.near.site);
-    live_certify(k, &p.far.site);
-    live_certify_halves(k);
-    return LIVE_DONE;
+    move_segment(k, &p);
+    if (k->call.stopped) return PASS_DONE;
+    ktree_touch_wall(tree, near->wall[p.near.side]);
+    certify_site(k, &p.near.site);
+    certify_site(k, &p.far.site);
+    turn_certify_halves(k);
+    return PASS_DONE;
 }

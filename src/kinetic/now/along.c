@@ -7,27 +7,29 @@
  *       end 0            numerator would be multiplied by how far the segment goes in x, which is 0 when it turns. */
 #include "kinetic/now/now.h"
 
-static bool has_end(const now_state *now, uint32_t segment, uint32_t vertex) {
-    const uint32_t *end = now->segments.data[segment].end;
-    return end[0] == vertex || end[1] == vertex;
-}
-
-uint32_t now_shared(const now_state *now, now_name p, now_name q) {
+uint32_t now_shared(const now_state *now, name_point p, name_point q) {
     if (!name_is_crossing(p)) {
-        now_name other = p;
+        name_point other = p;
         p = q, q = other;
     }
     if (!name_is_crossing(p)) return FROE_NONE;
     const uint32_t both[2] = {p.a, (uint32_t)p.b};
     for (int i = 0; i < 2; i++) {
         if (name_is_crossing(q) && (q.a == both[i] || (uint32_t)q.b == both[i])) return both[i];
-        if (name_is_vertex(q) && has_end(now, both[i], q.a)) return both[i];
+        if (name_is_vertex(q) && now_has_end(now, both[i], q.a)) return both[i];
     }
     return FROE_NONE;
 }
 
-static now_name end_name(const now_state *now, uint32_t segment, int end) {
-    return (now_name){now->segments.data[segment].end[end], NAME_VERTEX};
+uint32_t now_met_segment(const now_state *now, name_point p, name_point q) {
+    name_point vertex = name_is_vertex(p) ? p : q, crossing = name_is_vertex(p) ? q : p;
+    if (!name_is_vertex(vertex) || !name_is_crossing(crossing)) return FROE_NONE;
+    if (now_has_end(now, crossing.a, vertex.a)) return (uint32_t)crossing.b;
+    return now_has_end(now, (uint32_t)crossing.b, vertex.a) ? crossing.a : FROE_NONE;
+}
+
+static name_point end_name(const now_state *now, uint32_t segment, int end) {
+    return (name_point){now->segments.data[segment].end[end], NAME_VERTEX};
 }
 
 int now_along_holds(now_state *now, const now_claim *claim) {
@@ -37,7 +39,7 @@ int now_along_holds(now_state *now, const now_claim *claim) {
 }
 
 /* The turns of the other line through a point of a segment, as numbers with error bounds. */
-static void ball_turns(now_state *now, uint32_t segment, now_name p, poly_ball out[2]) {
+static void ball_turns(now_state *now, uint32_t segment, name_point p, poly_ball out[2]) {
     const uint32_t *end = now->segments.data[segment].end;
     out[0].degree = out[1].degree = 0;
     out[0].c[0] = num_ball_from(end[0] != p.a), out[1].c[0] = num_ball_from(end[0] == p.a);
@@ -51,7 +53,7 @@ static void ball_turns(now_state *now, uint32_t segment, now_name p, poly_ball o
     }
 }
 
-static void exact_turns(now_state *now, uint32_t segment, now_name p, poly_exact out[2]) {
+static void exact_turns(now_state *now, uint32_t segment, name_point p, poly_exact out[2]) {
     const uint32_t *end = now->segments.data[segment].end;
     num_arena *arena = &now->context.arena;
     out[0].degree = out[1].degree = 0;

@@ -279,7 +279,7 @@ static int64_t least_last(now_state *now, uint32_t segment, int64_t last) {
 }
 
 /* The last tick up to which all vertices behind a name keep their pieces. */
-static int64_t named_last(now_state *now, now_name p, int64_t last) {
+static int64_t named_last(now_state *now, name_point p, int64_t last) {
     if (p.b == NAME_VERTEX) {
         int64_t piece = now_course_last(now, p.a);
         return piece < last ? piece : last;
@@ -311,7 +311,7 @@ static int64_t first_change(now_state *now, const now_claim *claim, int64_t last
 
 /* When the denominators behind a claim first change their signs, until `last`. */
 static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last) {
-    const now_name name[2] = {claim->p, claim->q};
+    const name_point name[2] = {claim->p, claim->q};
     int64_t first = NOW_NEVER;
     for (int i = 0; i < 2; i++) {
         now_claim turn = {name[i], {0, NAME_NONE}, 1};

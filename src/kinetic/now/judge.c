@@ -30,7 +30,7 @@ static void cast_vertex(cast *c, uint32_t vertex) {
 }
 
 /* How many vertices are behind it: 1 or 4. */
-static int cast_name(cast *c, now_name p) {
+static int cast_name(cast *c, name_point p) {
     if (p.b == NAME_VERTEX) {
         cast_vertex(c, p.a);
         return 1;
@@ -233,7 +233,7 @@ static int judge(cast *c, const question *ask) {
     return stage == NOW_WIDE ? judge_wide(c, ask) : judge_dyadic(c, ask);
 }
 
-int now_judge_order(now_state *now, now_name p, now_name q, bool along, bool both) {
+int now_judge_order(now_state *now, name_point p, name_point q, bool along, bool both) {
     cast c = {.now = now, .along = along};
     question ask = {.what = ORDER, .both = both};
     ask.count[0] = cast_name(&c, p);
@@ -247,7 +247,7 @@ int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along
     return judge(&c, &(question){.what = TURN});
 }
 
-int now_judge_lines(now_state *now, now_name crossing, bool along) {
+int now_judge_lines(now_state *now, name_point crossing, bool along) {
     cast c = {.now = now, .along = along};
     cast_name(&c, crossing);
     return judge(&c, &(question){.what = LINES});

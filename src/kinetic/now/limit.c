@@ -11,7 +11,7 @@ static double limit_of(num_arena *arena, const poly_exact *top, const poly_exact
     return (double)NAN;
 }
 
-void now_place_near(now_state *now, now_name p, double out[2]) {
+void now_place_near(now_state *now, name_point p, double out[2]) {
     const now_spot spot = now_spot_of(now, p);
     out[0] = spot.x, out[1] = spot.y;
     if (spot.error < (double)INFINITY) return;
@@ -23,7 +23,7 @@ void now_place_near(now_state *now, now_name p, double out[2]) {
 
 /* How far a segment has gone from end 0 to end 1 where it has the x of a point: with w for the point and a, b for the
  * ends, (w - a) / (b - a) in x. */
-static double share_before(now_state *now, uint32_t segment, now_name p) {
+static double share_before(now_state *now, uint32_t segment, name_point p) {
     num_arena *arena = &now->context.arena;
     const uint32_t *end = now->segments.data[segment].end;
     exact_point w, a, b;
@@ -38,12 +38,12 @@ static double share_before(now_state *now, uint32_t segment, now_name p) {
     return limit_of(arena, &top, &bottom);
 }
 
-double now_height_near(now_state *now, uint32_t segment, now_name p) {
+double now_height_near(now_state *now, uint32_t segment, name_point p) {
     const uint32_t *end = now->segments.data[segment].end;
     const now_spot spot = now_spot_of(now, p), u = now_vertex_spot(now, end[0]), v = now_vertex_spot(now, end[1]);
     double share = (spot.x - u.x) / (v.x - u.x), a[2], b[2], at[2];
-    now_place_near(now, (now_name){end[0], NAME_VERTEX}, a);
-    now_place_near(now, (now_name){end[1], NAME_VERTEX}, b);
+    now_place_near(now, (name_point){end[0], NAME_VERTEX}, a);
+    now_place_near(now, (name_point){end[1], NAME_VERTEX}, b);
     if (!(fabs(v.x - u.x) > u.error + v.error && spot.error < (double)INFINITY)) share = share_before(now, segment, p);
     const double low = fmin(a[1], b[1]), high = fmax(a[1], b[1]);
     double y = a[1] + share * (b[1] - a[1]);

@@ -64,7 +64,7 @@ uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
     }
     now_segment *s = now->segments.data + segment;
     *s = (now_segment){{first, first + 1}, false};
-    s->turned = now_compare(now, (now_name){first, NAME_VERTEX}, (now_name){first + 1, NAME_VERTEX}) > 0;
+    s->turned = now_compare(now, (name_point){first, NAME_VERTEX}, (name_point){first + 1, NAME_VERTEX}) > 0;
     return segment;
 }
 
@@ -94,7 +94,7 @@ static num_ball cross_balls(ball2 a, ball2 b) {
     return num_ball_sub(num_ball_mul(a.x, b.y), num_ball_mul(a.y, b.x));
 }
 
-void now_exact_named(now_state *now, now_name p, bool along, exact_point *out) {
+void now_exact_named(now_state *now, name_point p, bool along, exact_point *out) {
     exact_point v[4];
     const bool vertex = p.b == NAME_VERTEX;
     now->context.arena.top = 0;
@@ -112,7 +112,7 @@ void now_exact_named(now_state *now, now_name p, bool along, exact_point *out) {
 }
 
 /* Rounded from exact numbers, where the filter says little. */
-static now_spot exact_spot(now_state *now, now_name p) {
+static now_spot exact_spot(now_state *now, name_point p) {
     num_arena *arena = &now->context.arena;
     exact_point e;
     now_exact_named(now, p, false, &e);
@@ -122,7 +122,7 @@ static now_spot exact_spot(now_state *now, now_name p) {
     return spot;
 }
 
-static now_spot crossing_spot(now_state *now, now_name p) {
+static now_spot crossing_spot(now_state *now, name_point p) {
     const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
     ball2 a = vertex_ball(now, s[0]), d = minus(vertex_ball(now, s[1]), a);
     ball2 c = vertex_ball(now, t[0]), e = minus(vertex_ball(now, t[1]), c);
@@ -135,7 +135,7 @@ static now_spot crossing_spot(now_state *now, now_name p) {
     return (now_spot){x.x, y.x, error};
 }
 
-now_spot now_spot_of(now_state *now, now_name p) {
+now_spot now_spot_of(now_state *now, name_point p) {
     if (p.b == NAME_VERTEX) return now_vertex_spot(now, p.a);
     if (now_is_question(now, (uint32_t)p.b)) return crossing_spot(now, p);
     uint64_t hash = ((uint64_t)p.a << 32 | (uint32_t)p.b) * 0x9e3779b97f4a7c15u;
@@ -157,7 +157,7 @@ static bool is_above_for_good(now_state *now, uint32_t p, uint32_t q) {
 }
 
 /* At the tick, or else just after it. */
-static int compare_exactly(now_state *now, now_name p, now_name q) {
+static int compare_exactly(now_state *now, name_point p, name_point q) {
     now->context.stats.exact++;
     int order = now_judge_order(now, p, q, false, false);
     if (order != POLY_PARALLEL && order) return order;
@@ -168,7 +168,7 @@ static int compare_exactly(now_state *now, now_name p, now_name q) {
 }
 
 /* A point on the line is behind it. */
-static int compare_to_line(now_state *now, now_name p, double line) {
+static int compare_to_line(now_state *now, name_point p, double line) {
     now_spot spot = now_spot_of(now, p);
     double d = spot.x - line, error = spot.error + fabs(d) * 0x1p-52;
     if (fabs(d) > error) return d < 0 ? -1 : 1;
@@ -181,7 +181,7 @@ static int compare_to_line(now_state *now, now_name p, double line) {
     return sign < 0 ? -1 : 1;
 }
 
-int now_compare(now_state *now, now_name p, now_name q) {
+int now_compare(now_state *now, name_point p, name_point q) {
     now->context.stats.calls++;
     if (name_is(p, q)) return 0;
     if (p.b == NAME_LINE && q.b == NAME_LINE) return now->line[p.a] < now->line[q.a] ? -1 : 1;
@@ -225,7 +225,7 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
 /* ------------------------------------------------------------------ claims -- */
 
 /* Of a crossing's lines, just after the tick: see now_claim. 0: parallel for as long as the pieces last. */
-static int lines_turn(now_state *now, now_name crossing) {
+static int lines_turn(now_state *now, name_point crossing) {
     const uint32_t *s = now->segments.data[crossing.a].end, *t = now->segments.data[crossing.b].end;
     ball2 d = minus(vertex_ball(now, s[1]), vertex_ball(now, s[0]));
     ball2 e = minus(vertex_ball(now, t[1]), vertex_ball(now, t[0]));
@@ -242,7 +242,7 @@ int now_holds(now_state *now, const now_claim *claim) {
     return now_compare(now, claim->p, claim->q) < 0 ? 1 : -1;
 }
 
-static void named_ball(now_state *now, now_name p, ball_point *out) {
+static void named_ball(now_state *now, name_point p, ball_point *out) {
     if (p.b == NAME_VERTEX) {
         now_course_ball(now, p.a, out);
         return;

@@ -9,20 +9,9 @@
 #ifndef FROE_KINETIC_NOW_H
 #define FROE_KINETIC_NOW_H
 #include "kinetic/motion/poly.h"
+#include "kinetic/now/name.h"
 #include "num/context.h"
-
-enum {
-    NAME_NONE = -1,   /**< no point: the border of an unbounded cell */
-    NAME_VERTEX = -2, /**< vertex a */
-    NAME_LINE = -3,   /**< the line x = line[a], y from -infinity on */
-    NAME_SEGMENT = -4 /**< not a point: segment a */
-};
-
-/** Names of points: b >= 0 says that it is the crossing of segments a < b. */
-typedef struct now_name {
-    uint32_t a;
-    int32_t b;
-} now_name;
+#include <math.h>
 
 /** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2 with s = tick - base. Coefficients of
  * s^2 are kept elsewhere, so that this is a cache line. */
@@ -45,7 +34,7 @@ typedef struct now_spot {
 } now_spot;
 
 typedef struct now_memory {
-    now_name name;
+    name_point name;
     int64_t tick;
     now_spot spot;
 } now_memory;
@@ -90,27 +79,25 @@ static inline bool now_is_question(const now_state *now, uint32_t segment) {
     return segment + 1 == now->segments.count;
 }
 
-static inline bool name_is(now_name p, now_name q) {
-    return p.a == q.a && p.b == q.b;
-}
-static inline bool name_is_crossing(now_name p) {
-    return p.b >= 0;
-}
-static inline bool name_is_vertex(now_name p) {
-    return p.b == NAME_VERTEX;
-}
-static inline bool name_exists(now_name p) {
-    return p.b != NAME_NONE;
-}
-static inline now_name name_crossing(uint32_t s, uint32_t t) {
-    return s < t ? (now_name){s, (int32_t)t} : (now_name){t, (int32_t)s};
-}
 /** Which end of a segment is on the left (side 0) or right (1): 0 or 1. */
 static inline int now_end(const now_state *now, uint32_t segment, int side) {
     return side ^ (int)now->segments.data[segment].turned;
 }
 static inline uint32_t now_vertex(const now_state *now, uint32_t segment, int side) {
     return now->segments.data[segment].end[now_end(now, segment, side)];
+}
+static inline bool now_has_end(const now_state *now, uint32_t segment, uint32_t vertex) {
+    const uint32_t *end = now->segments.data[segment].end;
+    return end[0] == vertex || end[1] == vertex;
+}
+/** Does a segment's life hold the present tick? */
+static inline bool now_is_alive(const now_state *now, uint32_t segment) {
+    const motion_object *o = now->motion->objects.data + segment;
+    return o->first <= now->tick && now->tick <= o->last;
+}
+/** A tick as a time. */
+static inline double now_time_of(const now_state *now, int64_t tick) {
+    return now->motion->begin + ldexp((double)tick, now->motion->power);
 }
 
 /* course.c */
@@ -141,21 +128,21 @@ void now_exact_at(now_state *now, uint32_t vertex, exact_point *out);
 void now_exact_along(now_state *now, uint32_t vertex, exact_point *out);
 
 /** The same of a vertex or a crossing. Resets the arena. */
-void now_exact_named(now_state *now, now_name p, bool along, exact_point *out);
+void now_exact_named(now_state *now, name_point p, bool along, exact_point *out);
 
 /* judge.c */
 /** -1, 0, 1 as p is before, at or behind q, or POLY_PARALLEL; at the tick, or just after it. By y where x are equal, if
  * `both`. */
-int now_judge_order(now_state *now, now_name p, now_name q, bool along, bool both);
+int now_judge_order(now_state *now, name_point p, name_point q, bool along, bool both);
 int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along);
 /** Whether the second line of a crossing goes on to the left (1) or right (-1) of where the first goes; 0: parallel. */
-int now_judge_lines(now_state *now, now_name crossing, bool along);
+int now_judge_lines(now_state *now, name_point crossing, bool along);
 
 /* now.c */
 /** REQUIRES: a vertex or a crossing. */
-now_spot now_spot_of(now_state *now, now_name p);
+now_spot now_spot_of(now_state *now, name_point p);
 /** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last. */
-int now_compare(now_state *now, now_name p, now_name q);
+int now_compare(now_state *now, name_point p, name_point q);
 /** 1, 0, -1: the vertex is above, on or below the line of a segment just after now. */
 int now_side(now_state *now, uint32_t segment, uint32_t vertex);
 
@@ -163,7 +150,7 @@ int now_side(now_state *now, uint32_t segment, uint32_t vertex);
  * or p and q lie on one segment, and p is nearer to its end 0; or (q of b NAME_NONE) the second line of the crossing p
  * goes on to the left (above = 1) or right (-1) of where the first goes. */
 typedef struct now_claim {
-    now_name p, q;
+    name_point p, q;
     int above; /**< 1 or -1 for segments, NOW_ALONG for points of one segment */
 } now_claim;
 enum { NOW_ALONG = 2 };
@@ -194,14 +181,16 @@ int now_claim_axis(now_state *now, const now_claim *claim);
 
 /* limit.c */
 /** Roughly where a point is. A point without a place at the tick is where it is just after it. */
-void now_place_near(now_state *now, now_name p, double out[2]);
+void now_place_near(now_state *now, name_point p, double out[2]);
 /** Roughly y of a segment where it has the x of a point, which is between its ends. */
-double now_height_near(now_state *now, uint32_t segment, now_name p);
+double now_height_near(now_state *now, uint32_t segment, name_point p);
 
 /* along.c */
 /** The segment that two points lie on by their names: crossings with it, and ends of it; FROE_NONE: there is none, or
  * both are ends. */
-uint32_t now_shared(const now_state *now, now_name p, now_name q);
+uint32_t now_shared(const now_state *now, name_point p, name_point q);
+/** A vertex, and a crossing of a segment that ends at it with another: which one? FROE_NONE: it is not so. */
+uint32_t now_met_segment(const now_state *now, name_point p, name_point q);
 /** As now_holds(), now_claim_ball() and now_claim_exact(), of claims NOW_ALONG that hold. */
 int now_along_holds(now_state *now, const now_claim *claim);
 void now_along_ball(now_state *now, const now_claim *claim, poly_ball *out);

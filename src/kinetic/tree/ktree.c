@@ -1,196 +1,228 @@
-/* ktree.c: nodes of a live partition, their cells, and lists of segments. */
-#include "kinetic/live.h"
+/* ktree.c: nodes of a partition in motion, their cells, and lists of segments. */
+#include "kinetic/tree/ktree.h"
 
-void live_touch_end(froe_kinetic *k, uint32_t end) {
-    live_end *e = segment_at(k, end / 2)->end + end % 2;
-    if (e->stamp == k->stamp) return;
-    e->stamp = k->stamp;
-    if (!array_push(&k->alloc, &k->ends, end)) k->short_of_memory = true;
+void ktree_free(ktree *tree) {
+    const froe_allocator *alloc = &tree->call->alloc;
+    array_free(alloc, &tree->nodes);
+    array_free(alloc, &tree->segments);
+    array_free(alloc, &tree->vertices);
+    array_free(alloc, &tree->touched);
+    array_free(alloc, &tree->list);
+    array_free(alloc, &tree->stack);
+    array_free(alloc, &tree->visits);
 }
 
-void live_touch_wall(froe_kinetic *k, now_name wall) {
-    uint32_t e = name_is_vertex(wall) ? k->vertices.data[wall.a] : FROE_NONE;
-    for (; e != FROE_NONE; e = segment_at(k, e / 2)->end[e % 2].next)
-        if (segment_at(k, e / 2)->end[e % 2].node) live_touch_end(k, e);
+bool ktree_is_one_segment(const ktree *tree, name_point p, name_point q) {
+    if (!name_is_vertex(p) || !name_is_vertex(q)) return false;
+    for (uint32_t e = tree->vertices.data[p.a]; e != FROE_NONE; e = ktree_next_end(tree, e))
+        if (now_has_end(tree->now, e / 2, q.a)) return true;
+    return false;
 }
 
-static live_end *end_of(froe_kinetic *k, uint32_t segment, uint32_t wall) {
-    return segment_at(k, segment)->end + (END_0 - wall);
+/* ------------------------------------------------------------------- walls -- */
+
+void ktree_touch_end(ktree *tree, uint32_t end) {
+    ktree_end *e = ktree_segment_at(tree, end / 2)->end + end % 2;
+    if (e->stamp == tree->stamp) return;
+    e->stamp = tree->stamp;
+    call_push(tree->call, &tree->touched, end);
 }
 
-uint32_t live_new_node(froe_kinetic *k, uint32_t segment, const uint32_t wall[2]) {
-    uint32_t node = k->free_node;
+void ktree_touch_wall(ktree *tree, name_point wall) {
+    uint32_t e = name_is_vertex(wall) ? tree->vertices.data[wall.a] : FROE_NONE;
+    for (; e != FROE_NONE; e = ktree_next_end(tree, e))
+        if (ktree_segment_at(tree, e / 2)->end[e % 2].node) ktree_touch_end(tree, e);
+}
+
+/* Sets the segment in whose direction the walls of a node are named, which is a function of these walls. */
+static void name_walls(const ktree *tree, uint32_t node) {
+    if (!tree->augmented) return;
+    ktree_node *n = tree->nodes.data + node;
+    const bool has[2] = {n->wall[KTREE_LEFT] != KTREE_NO_WALL, n->wall[KTREE_RIGHT] != KTREE_NO_WALL};
+    const uint32_t wall = n->wall[has[KTREE_LEFT] ? KTREE_LEFT : KTREE_RIGHT];
+    n->turner = FROE_NONE;
+    if (has[KTREE_LEFT] && has[KTREE_RIGHT])
+        n->turner = n->segment;
+    else if (wall != KTREE_NO_WALL && !ktree_is_end(wall))
+        n->turner = wall;
+    if (n->turner != FROE_NONE) n->turned = tree->now->segments.data[n->turner].turned;
+}
+
+static void swap(uint32_t *a, uint32_t *b) {
+    const uint32_t first = *a;
+    *a = *b, *b = first;
+}
+
+void ktree_turn_node(const ktree *tree, uint32_t node) {
+    ktree_node *n = tree->nodes.data + node;
+    n->turned = !n->turned;
+    swap(n->wall, n->wall + 1);
+    if (n->turner == n->segment) return; /* what is to the left of both walls stays there */
+    swap(n->child + KTREE_LEFT, n->child + KTREE_RIGHT);
+    swap(n->cert, n->cert + 2);
+    for (uint8_t side = 0; side < 2; side++)
+        if (n->child[side]) tree->nodes.data[n->child[side]].slot = side;
+}
+
+/* Which end's wall a node has; the node of an end's wall is known by its end. */
+static void own_end(ktree *tree, uint32_t node, int side) {
+    const ktree_node *n = ktree_node_at(tree, node);
+    if (ktree_is_end(n->wall[side])) ktree_segment_at(tree, n->segment)->end[KTREE_END_0 - n->wall[side]].node = node;
+}
+
+/* ------------------------------------------------------------------- nodes -- */
+
+uint32_t ktree_new_node(ktree *tree, uint32_t segment, const uint32_t wall[2]) {
+    uint32_t node = tree->free_node;
     if (node) {
-        k->free_node = node_at(k, node)->next;
+        tree->free_node = ktree_node_at(tree, node)->next;
     } else {
-        if (!array_push(&k->alloc, &k->nodes, (live_node){0})) {
-            k->short_of_memory = true;
-            return LEAF;
-        }
-        node = (uint32_t)(k->nodes.count - 1);
+        if (!call_reserve(tree->call, &tree->nodes, 1)) return KTREE_LEAF;
+        node = (uint32_t)tree->nodes.count++;
+        tree->nodes.data[node].turner = FROE_NONE;
     }
-    live_segment *s = segment_at(k, segment);
-    *node_at(k, node) = (live_node){.segment = segment,
-                                    .wall = {wall[0], wall[1]},
-                                    .next = s->nodes,
-                                    .cert = {CERT_NONE, CERT_NONE, CERT_NONE},
-                                    .stamp = k->stamp,
-                                    .turner = FROE_NONE};
-    live_name_walls(k, node);
-    if (s->nodes) node_at(k, s->nodes)->previous = node;
+    ktree_segment *s = ktree_segment_at(tree, segment);
+    *ktree_node_at(tree, node) = (ktree_node){.segment = segment,
+                                              .wall = {wall[0], wall[1]},
+                                              .next = s->nodes,
+                                              .cert = {FROE_NONE, FROE_NONE, FROE_NONE},
+                                              .stamp = tree->stamp,
+                                              .turner = FROE_NONE};
+    name_walls(tree, node);
+    if (s->nodes) ktree_node_at(tree, s->nodes)->previous = node;
     s->nodes = node;
-    k->node_count++;
-    for (int side = 0; side < 2; side++) live_own_end(k, node, side);
+    tree->node_count++;
+    for (int side = 0; side < 2; side++) own_end(tree, node, side);
     return node;
 }
 
-void live_set_wall(froe_kinetic *k, uint32_t node, int side, uint32_t wall) {
-    node_at(k, node)->wall[side] = wall;
-    live_name_walls(k, node);
-    live_own_end(k, node, side);
+void ktree_set_wall(ktree *tree, uint32_t node, int side, uint32_t wall) {
+    ktree_node_at(tree, node)->wall[side] = wall;
+    name_walls(tree, node);
+    own_end(tree, node, side);
 }
 
-void live_own_end(froe_kinetic *k, uint32_t node, int side) {
-    live_node *n = node_at(k, node);
-    if (!is_end(n->wall[side])) return;
-    end_of(k, n->segment, n->wall[side])->node = node;
-}
-
-void live_free_node(froe_kinetic *k, uint32_t node) {
-    live_node *n = node_at(k, node);
-    for (int i = 0; i < 3; i++)
-        if (n->cert[i] != CERT_NONE) live_drop_cert(k, n->cert[i]);
+void ktree_free_node(ktree *tree, uint32_t node) {
+    ktree_node *n = ktree_node_at(tree, node);
     for (int side = 0; side < 2; side++) {
-        if (!is_end(n->wall[side])) continue;
-        live_end *end = end_of(k, n->segment, n->wall[side]);
-        if (end->node == node) end->node = LEAF;
-        live_touch_end(k, 2 * n->segment + (END_0 - n->wall[side]));
+        if (!ktree_is_end(n->wall[side])) continue;
+        const uint32_t which = KTREE_END_0 - n->wall[side];
+        ktree_end *end = ktree_segment_at(tree, n->segment)->end + which;
+        if (end->node == node) end->node = KTREE_LEAF;
+        ktree_touch_end(tree, 2 * n->segment + which);
     }
     if (n->previous)
-        node_at(k, n->previous)->next = n->next;
+        ktree_node_at(tree, n->previous)->next = n->next;
     else
-        segment_at(k, n->segment)->nodes = n->next;
-    if (n->next) node_at(k, n->next)->previous = n->previous;
+        ktree_segment_at(tree, n->segment)->nodes = n->next;
+    if (n->next) ktree_node_at(tree, n->next)->previous = n->previous;
     n->segment = n->turner = FROE_NONE;
-    n->next = k->free_node;
-    k->free_node = node;
-    k->node_count--;
+    n->next = tree->free_node;
+    tree->free_node = node;
+    tree->node_count--;
 }
 
-void live_attach(froe_kinetic *k, uint32_t parent, uint8_t slot, uint32_t node) {
-    node_at(k, parent)->child[slot] = node;
+void ktree_attach(ktree *tree, uint32_t parent, uint8_t slot, uint32_t node) {
+    ktree_node_at(tree, parent)->child[slot] = node;
     if (!node) return;
-    node_at(k, node)->parent = parent;
-    node_at(k, node)->slot = slot;
+    ktree_node_at(tree, node)->parent = parent;
+    ktree_node_at(tree, node)->slot = slot;
 }
 
 /* ------------------------------------------------------------------- cells -- */
 
-live_cell live_plane(void) {
-    return (live_cell){{{0, NAME_NONE}, {0, NAME_NONE}}, FROE_NONE, FROE_NONE};
+ktree_cell ktree_plane(void) {
+    return (ktree_cell){{{0, NAME_NONE}, {0, NAME_NONE}}, FROE_NONE, FROE_NONE};
 }
 
 /* Looks up the name of a wall if it is not known yet. */
-static void take_wall(const froe_kinetic *k, now_name *wall, const live_node *node, int side) {
-    if (node->wall[side] != END_NONE && !name_exists(*wall)) *wall = wall_name(k, node->segment, node->wall[side]);
+static void take_wall(const ktree *tree, name_point *wall, const ktree_node *node, int side) {
+    if (node->wall[side] != KTREE_NO_WALL && !name_exists(*wall))
+        *wall = ktree_wall_name(tree, node->segment, node->wall[side]);
 }
 
-/* What the parent adds to the borders found so far. */
-static void widen(const froe_kinetic *k, live_cell *cell, const live_node *parent, int slot) {
-    if (slot < UP) {
-        take_wall(k, cell->wall + (1 - slot), parent, slot);
-        return;
-    }
-    uint32_t *border = slot == UP ? &cell->bottom : &cell->top;
-    if (*border == FROE_NONE) *border = parent->segment;
-    for (int side = 0; side < 2; side++) take_wall(k, cell->wall + side, parent, side);
-}
-
-static bool is_closed(const live_cell *cell) {
-    return name_exists(cell->wall[LEFT]) && name_exists(cell->wall[RIGHT]) && cell->top != FROE_NONE &&
-           cell->bottom != FROE_NONE;
-}
-
-live_cell live_cell_of(const froe_kinetic *k, uint32_t node) {
-    live_cell cell = live_plane();
-    for (const live_node *n = node_at(k, node); n->parent != ROOT && !is_closed(&cell); n = node_at(k, n->parent)) {
-        const live_node *parent = node_at(k, n->parent);
-        widen(k, &cell, parent, n->slot);
+ktree_cell ktree_cell_of(const ktree *tree, uint32_t node) {
+    ktree_cell cell = ktree_plane();
+    for (const ktree_node *n = ktree_node_at(tree, node); n->parent != KTREE_ROOT; n = ktree_node_at(tree, n->parent)) {
+        if (name_exists(cell.wall[0]) && name_exists(cell.wall[1]) && cell.top != FROE_NONE && cell.bottom != FROE_NONE)
+            break;
+        const ktree_node *parent = ktree_node_at(tree, n->parent);
+        if (n->slot < KTREE_UP) {
+            take_wall(tree, cell.wall + (1 - n->slot), parent, n->slot);
+            continue;
+        }
+        uint32_t *border = n->slot == KTREE_UP ? &cell.bottom : &cell.top;
+        if (*border == FROE_NONE) *border = parent->segment;
+        for (int side = 0; side < 2; side++) take_wall(tree, cell.wall + side, parent, side);
     }
     return cell;
 }
 
-uint32_t live_wall_owner(const froe_kinetic *k, uint32_t node, int side, uint8_t *slot) {
-    for (uint32_t n = node;; n = node_at(k, n)->parent) {
-        uint32_t above = node_at(k, n)->parent;
-        *slot = live_slot_of(k, n);
-        if (above == ROOT) return LEAF;
-        if (*slot == 1 - side || (*slot >= UP && node_at(k, above)->wall[side] != END_NONE)) return above;
-    }
-}
-
-live_cell live_child_cell(const froe_kinetic *k, const live_cell *cell, uint32_t node, int slot) {
-    const live_node *n = node_at(k, node);
-    live_cell child = *cell;
-    now_name left = wall_name(k, n->segment, n->wall[LEFT]), right = wall_name(k, n->segment, n->wall[RIGHT]);
-    if (slot == LEFT) {
-        child.wall[RIGHT] = left;
-    } else if (slot == RIGHT) {
-        child.wall[LEFT] = right;
+ktree_cell ktree_child_cell(const ktree *tree, const ktree_cell *cell, uint32_t node, int slot) {
+    const ktree_node *n = ktree_node_at(tree, node);
+    ktree_cell child = *cell;
+    const name_point left = ktree_wall_name(tree, n->segment, n->wall[KTREE_LEFT]);
+    const name_point right = ktree_wall_name(tree, n->segment, n->wall[KTREE_RIGHT]);
+    if (slot == KTREE_LEFT) {
+        child.wall[KTREE_RIGHT] = left;
+    } else if (slot == KTREE_RIGHT) {
+        child.wall[KTREE_LEFT] = right;
     } else {
-        if (name_exists(left)) child.wall[LEFT] = left;
-        if (name_exists(right)) child.wall[RIGHT] = right;
-        *(slot == UP ? &child.bottom : &child.top) = n->segment;
+        if (name_exists(left)) child.wall[KTREE_LEFT] = left;
+        if (name_exists(right)) child.wall[KTREE_RIGHT] = right;
+        *(slot == KTREE_UP ? &child.bottom : &child.top) = n->segment;
     }
     return child;
 }
 
-/* ------------------------------------------------------------------- lists -- */
-
-void live_new_list(froe_kinetic *k) {
-    k->list_stamp++;
-    k->list.count = 0;
+ktree_site ktree_site_of(const ktree *tree, uint32_t node) {
+    const ktree_node *n = ktree_node_at(tree, node);
+    return (ktree_site){n->parent, ktree_slot_of(tree, node), n->cut, ktree_cell_of(tree, node)};
 }
 
-void live_list(froe_kinetic *k, uint32_t segment) {
-    if (segment_at(k, segment)->stamp == k->list_stamp) return;
-    segment_at(k, segment)->stamp = k->list_stamp;
-    if (!array_push(&k->alloc, &k->list, segment)) k->short_of_memory = true;
-}
-
-typedef void visit_node(froe_kinetic *k, uint32_t node, void *context);
-
-/* Visits a subtree from the top down. */
-static void each_node(froe_kinetic *k, uint32_t node, visit_node *visit, void *context) {
-    k->order.count = 0;
-    if (node && !array_push(&k->alloc, &k->order, node)) k->short_of_memory = true;
-    while (k->order.count) {
-        uint32_t top = k->order.data[--k->order.count];
-        if (!array_reserve(&k->alloc, &k->order, 4)) {
-            k->short_of_memory = true;
-            return;
-        }
-        const live_node *n = node_at(k, top);
-        for (int i = 0; i < 4; i++)
-            if (n->child[i]) k->order.data[k->order.count++] = n->child[i];
-        visit(k, top, context);
+uint32_t ktree_wall_owner(const ktree *tree, uint32_t node, int side, uint8_t *slot) {
+    for (uint32_t n = node;; n = ktree_node_at(tree, n)->parent) {
+        uint32_t above = ktree_node_at(tree, n)->parent;
+        *slot = ktree_slot_of(tree, n);
+        if (above == KTREE_ROOT) return KTREE_LEAF;
+        if (*slot == 1 - side || (*slot >= KTREE_UP && ktree_node_at(tree, above)->wall[side] != KTREE_NO_WALL))
+            return above;
     }
 }
 
-static void list_segment_of(froe_kinetic *k, uint32_t node, void *context) {
-    (void)context;
-    live_list(k, node_at(k, node)->segment);
+/* ------------------------------------------------------------------- walks -- */
+
+void ktree_walk(ktree *tree, uint32_t node) {
+    tree->stack.count = 0;
+    if (node) call_push(tree->call, &tree->stack, node);
 }
 
-void live_collect(froe_kinetic *k, uint32_t node) {
-    each_node(k, node, list_segment_of, NULL);
+uint32_t ktree_walk_next(ktree *tree) {
+    if (!tree->stack.count) return KTREE_LEAF;
+    const uint32_t node = tree->stack.data[--tree->stack.count];
+    if (!call_reserve(tree->call, &tree->stack, 4)) return KTREE_LEAF;
+    const ktree_node *n = ktree_node_at(tree, node);
+    for (int i = 0; i < 4; i++)
+        if (n->child[i]) tree->stack.data[tree->stack.count++] = n->child[i];
+    return node;
 }
 
-static void free_one(froe_kinetic *k, uint32_t node, void *context) {
-    (void)context;
-    live_free_node(k, node);
+void ktree_push_visit(ktree *tree, uint32_t node, const ktree_cell *cell, bool back) {
+    if (node) call_push(tree->call, &tree->visits, (ktree_visit){*cell, node, back});
 }
 
-void live_free_tree(froe_kinetic *k, uint32_t node) {
-    each_node(k, node, free_one, NULL);
+void ktree_new_list(ktree *tree) {
+    tree->list_stamp++;
+    tree->list.count = 0;
+}
+
+void ktree_list(ktree *tree, uint32_t segment) {
+    if (ktree_segment_at(tree, segment)->stamp == tree->list_stamp) return;
+    ktree_segment_at(tree, segment)->stamp = tree->list_stamp;
+    call_push(tree->call, &tree->list, segment);
+}
+
+void ktree_collect(ktree *tree, uint32_t node) {
+    ktree_walk(tree, node);
+    for (uint32_t n; (n = ktree_walk_next(tree));) ktree_list(tree, ktree_node_at(tree, n)->segment);
 }

@@ -1,0 +1,33 @@
+/* event.h: what happens at a tick: which certificates fail together there, what kind of event that is, and how the
+ * partition is repaired.
+ *
+ * All certificates that fail at a tick are taken together: those whose slabs overlap form a group. A group is repaired
+ * by one surgery, or by several in unrelated cells. Where a group looks like one of the paper's events, the cells are
+ * small. Any other group, and any group with points that coincide, gets a cell none of whose borders is involved. The
+ * certificates show afterwards whether that was enough: those that still fail are due at once, and are repaired in a
+ * larger cell each time, at last in the whole tree. */
+#ifndef FROE_KINETIC_EVENT_H
+#define FROE_KINETIC_EVENT_H
+#include "kinetic/event/slab.h"
+#include <froe/kinetic.h>
+
+/** The callback that gets the events. */
+typedef struct event_watcher {
+    froe_event_fn *visit;
+    void *user;
+} event_watcher;
+
+typedef struct event_state {
+    ARRAY(slab_item) items;  /**< certificates that fail at this tick */
+    ARRAY(uint32_t) order;   /**< of the items, while they are sorted */
+    ARRAY(uint32_t) roots;   /**< places in the tree where surgery is needed: 4 parent + slot */
+    ARRAY(uint32_t) leaving; /**< 2 segment + 1: its plan or life changes now; 2 segment: it may come into the tree */
+    ARRAY(uint32_t) turning; /**< segments whose ends change sides now */
+    bool told;               /**< a visitor is in the callback of an event, */
+    now_claim told_claim;    /**< about this; no points: appearances and the like */
+} event_state;
+
+/** Goes to the next tick at which something happens, or to `tick` if nothing happens before. False: the visitor asked
+ * to stop. */
+bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher);
+#endif

@@ -1,0 +1,20 @@
+/* slab.h: the range of x in which the points of a failed certificate are. */
+#ifndef FROE_KINETIC_SLAB_H
+#define FROE_KINETIC_SLAB_H
+#include "kinetic/certificate/cert.h"
+#include "kinetic/tree/ktree.h"
+
+/** A certificate that fails, or a segment that turns. */
+typedef struct slab_item {
+    uint32_t cert; /**< CERT_TURN: the segment */
+    cert_kind kind;
+    now_claim claim;
+    double slab[2]; /**< of x */
+} slab_item;
+
+/** Widens a slab by a point. Lines without a crossing: not at all. */
+void slab_reach(now_state *now, double slab[2], name_point p);
+void slab_find(froe_kinetic *k, slab_item *item);
+/** Are its points about the same segments, so that they meet in one place? */
+bool slab_is_one_place(const ktree *tree, const slab_item *item);
+#endif
