@@ -54,17 +54,13 @@ static froe_kinetic_place kinetic_place_of(froe_kinetic *k, name_point point) {
 
 /* ------------------------------------------------------------------- at the tick -- */
 
-static void push_node(ktree *tree, uint32_t node) {
-    if (node) call_push(tree->call, &tree->stack, node);
-}
-
 /* A segment that the point lies on at the tick: one in the parts of cells that it is in then, borders included. There
  * may be other segments between the two just after the tick. */
 static uint32_t touched_segment(froe_kinetic *k, name_point point) {
     ktree *tree = &k->tree;
     now_state *now = &k->now;
     tree->stack.count = 0;
-    push_node(tree, ktree_node_at(tree, KTREE_ROOT)->child[0]);
+    ktree_push_node(tree, ktree_node_at(tree, KTREE_ROOT)->child[0]);
     while (tree->stack.count && !k->call.stopped) {
         const ktree_node *n = ktree_node_at(tree, tree->stack.data[--tree->stack.count]);
         const uint32_t s = n->segment;
@@ -74,7 +70,7 @@ static uint32_t touched_segment(froe_kinetic *k, name_point point) {
             int order = now_judge_order(now, point, ktree_wall_name(tree, s, n->wall[side]), false, false);
             if (order == POLY_PARALLEL) order = 0;  /* such lines cross anywhere */
             if (side == KTREE_LEFT) order = -order; /* > 0: outside */
-            if (order >= 0) push_node(tree, n->child[side]);
+            if (order >= 0) ktree_push_node(tree, n->child[side]);
             middle = middle && order <= 0;
         }
         if (!middle) continue;
@@ -83,8 +79,8 @@ static uint32_t touched_segment(froe_kinetic *k, name_point point) {
                               now_judge_order(now, point, end_name(k, s, 1), false, true) <=
                           0)
             return s;
-        if (where >= 0) push_node(tree, n->child[KTREE_UP]);
-        if (where <= 0) push_node(tree, n->child[KTREE_DOWN]);
+        if (where >= 0) ktree_push_node(tree, n->child[KTREE_UP]);
+        if (where <= 0) ktree_push_node(tree, n->child[KTREE_DOWN]);
     }
     return FROE_NONE;
 }

@@ -109,22 +109,18 @@ void turn_note_half(froe_kinetic *k, uint32_t node, int side) {
     call_push(&k->call, &k->turns.halves, (turn_half){n->child[side], n->wall[1 - side], (uint8_t)side});
 }
 
-static void push_node(ktree *tree, uint32_t node) {
-    if (node) call_push(tree->call, &tree->stack, node);
-}
-
 /* All regions of a subtree whose border on a side is that of its cell. */
 static void cover_along_wall(froe_kinetic *k, uint32_t top, int side) {
     ktree *tree = &k->tree;
     tree->stack.count = 0;
-    push_node(tree, top);
+    ktree_push_node(tree, top);
     while (tree->stack.count) {
         const ktree_node *n = ktree_node_at(tree, tree->stack.data[--tree->stack.count]);
         const bool ends = n->wall[side] != KTREE_NO_WALL;
         const uint32_t cert = n->cert[!ends ? CERT_MIDDLE : side == KTREE_LEFT ? CERT_LEFT : CERT_RIGHT];
         if (cert != FROE_NONE) turn_cover(k, cert);
-        for (int i = KTREE_UP; i <= KTREE_DOWN && !ends; i++) push_node(tree, n->child[i]);
-        if (ends) push_node(tree, n->child[side]);
+        for (int i = KTREE_UP; i <= KTREE_DOWN && !ends; i++) ktree_push_node(tree, n->child[i]);
+        if (ends) ktree_push_node(tree, n->child[side]);
     }
 }
 

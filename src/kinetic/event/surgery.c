@@ -66,7 +66,7 @@ static void split_node(froe_kinetic *k, const surgery_cutting *c, name_point lin
 }
 
 /* Cuts the tree `node` along now.line[line]. REQUIRES: its place in the tree is given up. */
-static void split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]) {
+static void split_tree(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]) {
     size_t waiting = k->surgery.cuttings.count;
     push_cutting(k, node, KTREE_LEAF, parent, slot);
     while (k->surgery.cuttings.count > waiting && !k->call.stopped) {
@@ -112,8 +112,8 @@ static void join_nodes(froe_kinetic *k, const surgery_cutting *c) {
     surgery_free_node(k, b);
 }
 
-/* The inverse of split(). Sets `broken` where the parts do not fit. */
-static void join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot) {
+/* The inverse of split_tree(). Sets `broken` where the parts do not fit. */
+static void join_trees(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot) {
     size_t waiting = k->surgery.cuttings.count;
     push_cutting(k, a, b, (uint32_t[]){parent, parent}, (uint8_t[]){slot, slot});
     while (k->surgery.cuttings.count > waiting && !k->call.stopped) {
@@ -131,8 +131,9 @@ bool surgery_slab(froe_kinetic *k, uint32_t node) {
     ktree_cell slab = site.cell;
     surgery_begin(k);
     ktree_new_list(tree);
-    split(k, node, 0, (uint32_t[]){KTREE_PARTS, KTREE_PARTS}, (uint8_t[]){0, 1});
-    split(k, ktree_node_at(tree, KTREE_PARTS)->child[1], 1, (uint32_t[]){KTREE_PARTS, KTREE_PARTS}, (uint8_t[]){1, 2});
+    split_tree(k, node, 0, (uint32_t[]){KTREE_PARTS, KTREE_PARTS}, (uint8_t[]){0, 1});
+    split_tree(k, ktree_node_at(tree, KTREE_PARTS)->child[1], 1, (uint32_t[]){KTREE_PARTS, KTREE_PARTS},
+               (uint8_t[]){1, 2});
     if (k->call.stopped) return false;
     ktree_collect(tree, ktree_node_at(tree, KTREE_PARTS)->child[1]);
     bool more = participants_add_near(k, (uint32_t[]){site.cell.top, site.cell.bottom}, 2);
@@ -144,9 +145,9 @@ bool surgery_slab(froe_kinetic *k, uint32_t node) {
         surgery_grow(k, &slab, KTREE_PARTS, 1);
     }
     const uint32_t *part = ktree_node_at(tree, KTREE_PARTS)->child;
-    join(k, part[0], part[1], KTREE_PARTS, 0);
+    join_trees(k, part[0], part[1], KTREE_PARTS, 0);
     part = ktree_node_at(tree, KTREE_PARTS)->child;
-    join(k, part[0], part[2], site.parent, site.slot);
+    join_trees(k, part[0], part[2], site.parent, site.slot);
     if (!more && !tree->broken && !k->now.lost) certify_site(k, &site);
     turn_certify_halves(k);
     return !more;

@@ -194,7 +194,7 @@ uint32_t ktree_wall_owner(const ktree *tree, uint32_t node, int side, uint8_t *s
 
 void ktree_walk(ktree *tree, uint32_t node) {
     tree->stack.count = 0;
-    if (node) call_push(tree->call, &tree->stack, node);
+    ktree_push_node(tree, node);
 }
 
 uint32_t ktree_walk_next(ktree *tree) {

@@ -168,7 +168,11 @@ uint32_t ktree_wall_owner(const ktree *tree, uint32_t node, int side, uint8_t *s
 void ktree_walk(ktree *tree, uint32_t node);
 /** The next one; KTREE_LEAF: there is none. It may be freed before the walk goes on. */
 uint32_t ktree_walk_next(ktree *tree);
-/** Nodes and their cells still to be visited. */
+/** A node still to be visited, on tree->stack; KTREE_LEAF: none. */
+static inline void ktree_push_node(ktree *tree, uint32_t node) {
+    if (node) call_push(tree->call, &tree->stack, node);
+}
+/** The same of a node and its cell, on tree->visits. */
 void ktree_push_visit(ktree *tree, uint32_t node, const ktree_cell *cell, bool back);
 /** An empty list of segments. */
 void ktree_new_list(ktree *tree);
