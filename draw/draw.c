@@ -2,6 +2,7 @@
 #include "output.h"
 #include "palette.h"
 #include "picture.h"
+#include "support/fail.h"
 #include "support/floats.h"
 #include "support/utf8.h"
 #include "support/writer.h"
@@ -83,10 +84,10 @@ static froe_status check_ranges(const froe_draw_options *o, froe_diagnostic *dia
         const range *r = ranges + i;
         if (r->value >= r->lo && r->value <= r->hi) continue;
         if (r->lo == -HUGE_VAL)
-            return draw_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be at most %g.", r->name,
-                             r->value, r->hi);
-        return draw_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
-                         r->value, r->lo, r->hi);
+            return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be at most %g.",
+                                r->name, r->value, r->hi);
+        return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
+                            r->value, r->lo, r->hi);
     }
     return FROE_OK;
 }
@@ -109,28 +110,30 @@ static bool is_utf8(const char *text) {
 
 static froe_status check_options(const froe_draw_options *o, int dim, froe_diagnostic *diag) {
     if (o->size != sizeof *o)
-        return draw_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_draw_defaults().");
-    if (dim > 3) return draw_fail(diag, FROE_E_UNSUPPORTED, "Pictures have 2 or 3 dimensions; this tree has %d.", dim);
+        return support_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_draw_defaults().");
+    if (dim > 3)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Pictures have 2 or 3 dimensions; this tree has %d.", dim);
     if (o->style < 0 || o->style >= FROE_DRAW_STYLE_COUNT)
-        return draw_fail(diag, FROE_E_OPTIONS, "There is no picture style number %d.", (int)o->style);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no picture style number %d.", (int)o->style);
     if (o->style != FROE_DRAW_AUTO && (o->style == FROE_DRAW_FLAT) != (dim == 2))
-        return draw_fail(diag, FROE_E_OPTIONS, "Style '%s' does not suit a tree of dimension %d.",
-                         froe_draw_style_name(o->style), dim);
-    if (o->show > 15) return draw_fail(diag, FROE_E_OPTIONS, "Option 'show' of a picture has unknown bits.");
+        return support_fail(diag, FROE_E_OPTIONS, "Style '%s' does not suit a tree of dimension %d.",
+                            froe_draw_style_name(o->style), dim);
+    if (o->show > 15) return support_fail(diag, FROE_E_OPTIONS, "Option 'show' of a picture has unknown bits.");
     if (!all_finite(o->lo, 3) || !all_finite(o->hi, 3) || !all_finite(o->view, 3))
-        return draw_fail(diag, FROE_E_OPTIONS, "The window and the direction of view must be finite.");
+        return support_fail(diag, FROE_E_OPTIONS, "The window and the direction of view must be finite.");
     for (size_t i = 0; i < o->mark_count; i++)
         if (!o->marks || !all_finite(o->marks[i].lo, 3) || !all_finite(o->marks[i].hi, 3))
-            return draw_fail(diag, FROE_E_OPTIONS, "Mark %zu of a picture is not finite.", i);
-    if (o->title && !is_utf8(o->title)) return draw_fail(diag, FROE_E_OPTIONS, "The title of a picture is not UTF-8.");
+            return support_fail(diag, FROE_E_OPTIONS, "Mark %zu of a picture is not finite.", i);
+    if (o->title && !is_utf8(o->title))
+        return support_fail(diag, FROE_E_OPTIONS, "The title of a picture is not UTF-8.");
     return check_ranges(o, diag);
 }
 
 static froe_status check_pixels(const draw_page *page, froe_draw_format format, froe_diagnostic *diag) {
     double scale = page->options->scale, most = 32000;
     if (format != FROE_DRAW_PNG || (page->width * scale <= most && page->height * scale <= most)) return FROE_OK;
-    return draw_fail(diag, FROE_E_OPTIONS, "A PNG of %.0f x %.0f pixels is too large: at most %.0f either way.",
-                     page->width * scale, page->height * scale, most);
+    return support_fail(diag, FROE_E_OPTIONS, "A PNG of %.0f x %.0f pixels is too large: at most %.0f either way.",
+                        page->width * scale, page->height * scale, most);
 }
 
 /* --------------------------------------------------------------- painting -- */
@@ -171,8 +174,8 @@ static froe_status paint_page(draw_picture *picture, froe_draw_format format, dr
         if (status != FROE_OK) return status;
         status = solid ? draw_solid_paint(picture, output->cr) : draw_plane_paint(picture, output->cr);
     }
-    if (status == FROE_E_MEMORY) draw_fail_memory(diag);
-    if (status == FROE_E_CANCELLED) draw_fail(diag, status, "cancelled");
+    if (status == FROE_E_MEMORY) support_fail_memory(diag);
+    if (status == FROE_E_CANCELLED) support_fail(diag, status, "cancelled");
     return status == FROE_OK ? draw_output_finish(output, diag) : status;
 }
 
@@ -186,7 +189,7 @@ static double standard_detail(const froe_report *report, froe_draw_format format
 static froe_status make(const froe_tree *tree, froe_draw_format format, const froe_draw_options *given,
                         draw_output *output, froe_diagnostic *diag) {
     froe_draw_options o = given ? *given : froe_draw_defaults();
-    *output = (draw_output){.alloc = draw_allocator(o.alloc)};
+    *output = (draw_output){.alloc = support_allocator(o.alloc)};
     int dim = froe_scene_dim(froe_tree_scene(tree));
     froe_status status = check_options(&o, dim, diag);
     if (status != FROE_OK) return status;
@@ -201,20 +204,20 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     status = paint_page(&picture, format, output, diag);
     draw_picture_free(&picture);
     if (status == FROE_OK && o.progress && !support_callback(o.progress(o.user, 1)))
-        return draw_fail(diag, FROE_E_CANCELLED, "cancelled");
+        return support_fail(diag, FROE_E_CANCELLED, "cancelled");
     return status;
 }
 
 froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_draw_write_fn *fn, void *user,
                             const froe_draw_options *options, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!tree || !fn) return draw_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
+    if (!tree || !fn) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
     if (format < 0 || format >= FROE_DRAW_FORMAT_COUNT)
-        return draw_fail(diag, FROE_E_OPTIONS, "There is no picture format number %d.", (int)format);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no picture format number %d.", (int)format);
     draw_output output;
     froe_status status = make(tree, format, options, &output, diag);
     if (status == FROE_OK && !support_callback(fn(user, output.bytes.data, output.bytes.count)))
-        status = draw_fail(diag, FROE_E_IO, "The receiver of the picture refused it.");
+        status = support_fail(diag, FROE_E_IO, "The receiver of the picture refused it.");
     draw_output_free(&output);
     return status;
 }
@@ -223,9 +226,10 @@ froe_status froe_draw(const froe_tree *tree, const char *path, const froe_draw_o
                       froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     froe_draw_format format;
-    if (!tree || !path) return draw_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
+    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
     if (!froe_draw_format_of(path, &format))
-        return draw_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf or .png.", path);
+        return support_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf or .png.",
+                            path);
     draw_output output;
     froe_status status = make(tree, format, options, &output, diag);
     if (status == FROE_OK) status = support_write(path, output.bytes.data, output.bytes.count, &output.alloc, diag);

@@ -28,8 +28,8 @@ typedef struct walk {
     const froe_allocator *alloc;
     const froe_tree *tree;
     const froe_scene *scene;
-    DRAW_ARRAY(frame) frames;
-    DRAW_ARRAY(order) list;
+    ARRAY(frame) frames;
+    ARRAY(order) list;
 } walk;
 
 static bool shows(const walk *w, uint32_t layers) {
@@ -62,7 +62,7 @@ static bool add_item_point(walk *w, draw_point at, double reach, bool cut) {
     draw_point lo = {at.x - reach, at.y - reach}, hi = {at.x + reach, at.y + reach};
     solid->lo = first ? lo : (draw_point){fmin(solid->lo.x, lo.x), fmin(solid->lo.y, lo.y)};
     solid->hi = first ? hi : (draw_point){fmax(solid->hi.x, hi.x), fmax(solid->hi.y, hi.y)};
-    return draw_push(w->alloc, &solid->points, at) && draw_push(w->alloc, &solid->cut, cut);
+    return array_push(w->alloc, &solid->points, at) && array_push(w->alloc, &solid->cut, cut);
 }
 
 /* An item with these corners, moved by explode times `middle`. */
@@ -77,7 +77,7 @@ static bool add_item(walk *w, draw_item item, const double *corners, size_t coun
         draw_point at = draw_camera_project(&w->solid->camera, moved);
         if (!add_item_point(w, at, item.radius, made && made[i].id1)) return false;
     }
-    return draw_push(w->alloc, &w->solid->items, item);
+    return array_push(w->alloc, &w->solid->items, item);
 }
 
 static bool add_area(walk *w, draw_item item, const double *corners, size_t count, const double *middle,
@@ -134,15 +134,15 @@ static bool add_box(walk *w, draw_item item, const double *box, const double *mi
 static bool add_hull(walk *w, draw_item item, const double *corners, size_t count, const double *middle) {
     draw_solid *solid = w->solid;
     size_t first = solid->points.count;
-    DRAW_ARRAY(draw_point) spare = {0};
+    ARRAY(draw_point) spare = {0};
     item.shade = 0.7f;
-    bool ok = draw_reserve(w->alloc, &spare, count + 1) && add_item(w, item, corners, count, middle, NULL);
+    bool ok = array_reserve(w->alloc, &spare, count + 1) && add_item(w, item, corners, count, middle, NULL);
     if (ok) {
         size_t left = draw_hull(solid->points.data + first, spare.data, count);
         solid->items.data[solid->items.count - 1].count = (uint32_t)left;
         solid->points.count = solid->cut.count = first + left;
     }
-    draw_release(w->alloc, &spare);
+    array_free(w->alloc, &spare);
     return ok;
 }
 
@@ -223,7 +223,7 @@ static bool add_list(walk *w, const froe_node_info *info, uint32_t part) {
     for (size_t i = 0; i < info->piece_count; i++) {
         order at = {0, info->first_piece + i};
         if (info->piece_count > 1 && !key_of(w, at.piece, &at.key)) return false;
-        if (!draw_push(w->alloc, &w->list, at)) return false;
+        if (!array_push(w->alloc, &w->list, at)) return false;
     }
     if (w->list.count > 1) qsort(w->list.data, w->list.count, sizeof *w->list.data, nearest_first);
     for (size_t i = 0; i < w->list.count && draw_tick(w->solid->picture->page.task); i++)
@@ -234,7 +234,7 @@ static bool add_list(walk *w, const froe_node_info *info, uint32_t part) {
 /* -------------------------------------------------------------------- walk -- */
 
 static bool push(walk *w, froe_node node, walk_stage stage, uint32_t part, uint32_t depth) {
-    return draw_push(w->alloc, &w->frames, (frame){node, stage, part, depth});
+    return array_push(w->alloc, &w->frames, (frame){node, stage, part, depth});
 }
 
 /* The walls between parts: a cut within its region, in the middle of the gap. */
@@ -279,7 +279,7 @@ froe_status draw_solid_items(draw_solid *solid) {
         frame top = w.frames.data[--w.frames.count];
         ok = visit_item(&w, &top);
     }
-    draw_release(&page->alloc, &w.frames);
-    draw_release(&page->alloc, &w.list);
+    array_free(&page->alloc, &w.frames);
+    array_free(&page->alloc, &w.list);
     return !ok ? FROE_E_MEMORY : page->task->cancelled ? FROE_E_CANCELLED : FROE_OK;
 }

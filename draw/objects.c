@@ -24,8 +24,8 @@ typedef struct painter {
     double weight;
     size_t object_count;
     uint8_t *cut; /* by object: WHOLE, or only pieces are shown; NULL: objects are shown whole */
-    DRAW_ARRAY(stroke) ink, parts;
-    DRAW_ARRAY(draw_point) points;
+    ARRAY(stroke) ink, parts;
+    ARRAY(draw_point) points;
 } painter;
 
 /* Width of strokes by their number: a few hundred are bold, a million are fine. Of
@@ -72,19 +72,19 @@ static stroke directed(const draw_shape *shape, uint32_t object) {
 
 static bool take_object(painter *pen, const draw_shape *shape, uint32_t object, bool whole) {
     if (hidden(pen, shape)) return true;
-    if (shape->sort == DRAW_DOT) return draw_push(&pen->page->alloc, &pen->points, shape->points[0]);
+    if (shape->sort == DRAW_DOT) return array_push(&pen->page->alloc, &pen->points, shape->points[0]);
     if (shape->sort != DRAW_STROKE) {
         paint_area(pen, shape);
         return true;
     }
-    if (whole) return draw_push(&pen->page->alloc, &pen->ink, directed(shape, object));
-    return draw_push(&pen->page->alloc, &pen->parts, directed(shape, object));
+    if (whole) return array_push(&pen->page->alloc, &pen->ink, directed(shape, object));
+    return array_push(&pen->page->alloc, &pen->parts, directed(shape, object));
 }
 
 /* Marks the objects of which only pieces are left. */
 static bool mark_cut(painter *pen) {
     size_t count = froe_tree_piece_count(pen->shaper.tree);
-    pen->cut = draw_calloc(&pen->page->alloc, pen->object_count, sizeof *pen->cut);
+    pen->cut = support_calloc(&pen->page->alloc, pen->object_count, sizeof *pen->cut);
     for (size_t i = 0; pen->cut && i < count; i++) {
         froe_piece piece = froe_tree_piece(pen->shaper.tree, i);
         if (!piece.whole) pen->cut[piece.object] = CUT;
@@ -200,10 +200,10 @@ froe_status draw_paint_objects(const draw_page *page, cairo_t *cr, const draw_vi
     bool ok = gather_shapes(&pen, show & FROE_DRAW_FRAGMENTS);
     if (ok && !page->task->cancelled) paint_object(&pen);
     draw_dots_free(&pen.dots);
-    draw_free(&page->alloc, pen.cut, pen.object_count * sizeof *pen.cut);
-    draw_release(&page->alloc, &pen.ink);
-    draw_release(&page->alloc, &pen.parts);
-    draw_release(&page->alloc, &pen.points);
+    support_free(&page->alloc, pen.cut, pen.object_count * sizeof *pen.cut);
+    array_free(&page->alloc, &pen.ink);
+    array_free(&page->alloc, &pen.parts);
+    array_free(&page->alloc, &pen.points);
     draw_shaper_free(&pen.shaper);
     return !ok ? FROE_E_MEMORY : page->task->cancelled ? FROE_E_CANCELLED : FROE_OK;
 }

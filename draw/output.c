@@ -1,16 +1,16 @@
 /* output.c: Cairo surfaces into memory. What could differ between two runs is
  * pinned: the date of a PDF, and the id that Cairo takes from a counter of the
  * process for the outer group of an SVG. */
-#include "render.h"
+#include "output.h"
+#include "support/fail.h"
 #include <cairo-pdf.h>
-#include <cairo-ps.h>
 #include <cairo-svg.h>
 #include <math.h>
 #include <string.h>
 
 static cairo_status_t collect(void *user, const unsigned char *data, unsigned length) {
     draw_output *output = user;
-    if (output->full || !draw_reserve(&output->alloc, &output->bytes, length)) {
+    if (output->full || !array_reserve(&output->alloc, &output->bytes, length)) {
         output->full = true;
         return CAIRO_STATUS_NO_MEMORY;
     }
@@ -21,10 +21,10 @@ static cairo_status_t collect(void *user, const unsigned char *data, unsigned le
 
 static froe_status failed(const draw_output *output, cairo_status_t status, froe_diagnostic *diag) {
     if (status == CAIRO_STATUS_SUCCESS && !output->full) return FROE_OK;
-    if (output->full || status == CAIRO_STATUS_NO_MEMORY) return draw_fail_memory(diag);
+    if (output->full || status == CAIRO_STATUS_NO_MEMORY) return support_fail_memory(diag);
     if (status == CAIRO_STATUS_INVALID_STRING)
-        return draw_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
-    return draw_fail(diag, FROE_E_UNSUPPORTED, "Cairo cannot make the picture: %s.", cairo_status_to_string(status));
+        return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
+    return support_fail(diag, FROE_E_UNSUPPORTED, "Cairo cannot make the picture: %s.", cairo_status_to_string(status));
 }
 
 static cairo_surface_t *surface_for(draw_output *output, double width, double height, double scale) {
@@ -32,11 +32,6 @@ static cairo_surface_t *surface_for(draw_output *output, double width, double he
         cairo_surface_t *svg = cairo_svg_surface_create_for_stream(collect, output, width, height);
         cairo_svg_surface_set_document_unit(svg, CAIRO_SVG_UNIT_PX);
         return svg;
-    }
-    if ((int)output->format == DRAW_EPS) {
-        cairo_surface_t *eps = cairo_ps_surface_create_for_stream(collect, output, width, height);
-        cairo_ps_surface_set_eps(eps, 1);
-        return eps;
     }
     if (output->format == FROE_DRAW_PDF) return cairo_pdf_surface_create_for_stream(collect, output, width, height);
     return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)ceil(width * scale), (int)ceil(height * scale));
@@ -90,18 +85,6 @@ static void shorten_numbers(draw_output *output) {
     output->bytes.count = kept;
 }
 
-/* The date of a PostScript file becomes blanks. */
-static void blank_date(draw_output *output) {
-    static const char mark[] = "%%CreationDate:";
-    unsigned char *data = output->bytes.data;
-    const size_t count = output->bytes.count, head = count < 1024 ? count : 1024;
-    for (size_t i = 0; i + sizeof mark < head; i++) {
-        if (memcmp(data + i, mark, sizeof mark - 1) != 0) continue;
-        for (i += sizeof mark - 1; i < count && data[i] != '\n'; i++) data[i] = ' ';
-        return;
-    }
-}
-
 froe_status draw_output_finish(draw_output *output, froe_diagnostic *diag) {
     cairo_status_t status = cairo_status(output->cr);
     if (status == CAIRO_STATUS_SUCCESS && output->format == FROE_DRAW_PNG)
@@ -112,7 +95,6 @@ froe_status draw_output_finish(draw_output *output, froe_diagnostic *diag) {
         pin_group_id(output);
         shorten_numbers(output);
     }
-    if ((int)output->format == DRAW_EPS) blank_date(output);
     return failed(output, status, diag);
 }
 
@@ -121,5 +103,5 @@ void draw_output_free(draw_output *output) {
     if (output->surface) cairo_surface_destroy(output->surface);
     output->cr = NULL;
     output->surface = NULL;
-    draw_release(&output->alloc, &output->bytes);
+    array_free(&output->alloc, &output->bytes);
 }

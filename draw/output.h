@@ -1,13 +1,14 @@
 /* output.h: a Cairo page whose bytes are collected in memory and reach a file at once or not at all. */
 #ifndef FROE_DRAW_OUTPUT_H
 #define FROE_DRAW_OUTPUT_H
-#include "memory.h"
+#include "support/array.h"
 #include <cairo.h>
+#include <froe/draw.h>
 
 typedef struct draw_output {
     froe_allocator alloc;
     froe_draw_format format;
-    DRAW_ARRAY(unsigned char) bytes;
+    ARRAY(unsigned char) bytes;
     bool full; /**< out of memory while collecting */
     cairo_surface_t *surface;
     cairo_t *cr; /**< one unit is one page unit; y down */

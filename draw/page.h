@@ -1,9 +1,9 @@
 /* page.h: how a page is laid out: title above, legend below, the picture between. */
 #ifndef FROE_DRAW_PAGE_H
 #define FROE_DRAW_PAGE_H
-#include "memory.h"
 #include "output.h"
 #include "partition.h"
+#include "task.h"
 
 typedef struct draw_page {
     const froe_tree *tree;

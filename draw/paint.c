@@ -24,7 +24,7 @@ static void fill_cells(cairo_t *cr, uint32_t color, double seam) {
 
 /* Indices of the cells by tone, a counting sort. */
 static uint32_t *by_tone(const draw_partition *part, size_t *starts) {
-    uint32_t *order = draw_calloc(&part->alloc, part->cells.count, sizeof *order);
+    uint32_t *order = support_calloc(&part->alloc, part->cells.count, sizeof *order);
     if (!order) return NULL;
     memset(starts, 0, (DRAW_TONES + 1) * sizeof *starts);
     for (size_t i = 0; i < part->cells.count; i++)
@@ -48,7 +48,7 @@ static froe_status paint_cells(const draw_page *page, cairo_t *cr, const draw_pa
             if (i + 1 == starts[tone + 1] || (i + 1 - starts[tone]) % PATH == 0)
                 fill_cells(cr, draw_tone(tone), 0.35 * page->unit);
         }
-    draw_free(&part->alloc, order, part->cells.count * sizeof *order);
+    support_free(&part->alloc, order, part->cells.count * sizeof *order);
     return FROE_OK;
 }
 

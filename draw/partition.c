@@ -14,7 +14,7 @@ typedef struct frame {
     size_t first, count; /* its polygon in `stack`, at the end of it when the frame is on top */
 } frame;
 
-typedef DRAW_ARRAY(draw_point) point_array;
+typedef ARRAY(draw_point) point_array;
 
 typedef struct walk {
     const froe_tree *tree;
@@ -22,7 +22,7 @@ typedef struct walk {
     const draw_view *view;
     uint32_t max_depth;
     draw_partition *out;
-    DRAW_ARRAY(frame) frames;
+    ARRAY(frame) frames;
     point_array stack, ring;
 } walk;
 
@@ -32,9 +32,9 @@ typedef struct depth_node {
 } depth_node;
 
 bool draw_census_of(const froe_allocator *alloc, const froe_tree *tree, froe_node node, draw_census *out) {
-    DRAW_ARRAY(depth_node) stack = {0};
+    ARRAY(depth_node) stack = {0};
     draw_census census = {0};
-    bool ok = draw_push(alloc, &stack, (depth_node){node, 0});
+    bool ok = array_push(alloc, &stack, (depth_node){node, 0});
     while (ok && stack.count) {
         depth_node top = stack.data[--stack.count];
         froe_node_info info = froe_tree_node(tree, top.node);
@@ -42,10 +42,10 @@ bool draw_census_of(const froe_allocator *alloc, const froe_tree *tree, froe_nod
             census.leaves++;
             census.depths += top.depth;
         } else
-            ok = draw_push(alloc, &stack, (depth_node){info.child[0], top.depth + 1}) &&
-                 draw_push(alloc, &stack, (depth_node){info.child[1], top.depth + 1});
+            ok = array_push(alloc, &stack, (depth_node){info.child[0], top.depth + 1}) &&
+                 array_push(alloc, &stack, (depth_node){info.child[1], top.depth + 1});
     }
-    draw_release(alloc, &stack);
+    array_free(alloc, &stack);
     *out = census;
     return ok;
 }
@@ -70,11 +70,11 @@ static bool emit_cell(walk *w, frame top, bool leaf) {
         out->merged++;
         out->merged_leaves += census.leaves;
     }
-    if (!draw_reserve(&out->alloc, &out->points, top.count)) return false;
+    if (!array_reserve(&out->alloc, &out->points, top.count)) return false;
     draw_cell cell = {out->points.count, (uint32_t)top.count, depth};
     for (size_t i = 0; i < top.count; i++)
         out->points.data[out->points.count++] = draw_view_map(w->view, w->stack.data[top.first + i]);
-    return draw_push(&out->alloc, &out->cells, cell);
+    return array_push(&out->alloc, &out->cells, cell);
 }
 
 /* The line in which a cut meets the view's plane. No line: everything is on side `all`. */
@@ -112,26 +112,26 @@ static bool emit_cut(walk *w, const trace *line, size_t count, uint32_t depth, d
     }
     if (!(reach[0] < reach[1])) return true;
     draw_cut cut = {draw_view_map(w->view, ends[0]), draw_view_map(w->view, ends[1]), depth, (float)size};
-    return draw_push(&w->out->alloc, &w->out->cuts, cut);
+    return array_push(&w->out->alloc, &w->out->cuts, cut);
 }
 
 static bool push_part(walk *w, froe_node node, uint32_t depth, const trace *line, int side, size_t count) {
-    if (!draw_reserve(&w->out->alloc, &w->stack, count + 1)) return false;
+    if (!array_reserve(&w->out->alloc, &w->stack, count + 1)) return false;
     size_t first = w->stack.count;
     size_t made = draw_clip_half(w->ring.data, count, line->n, line->c, side ? 1 : -1, w->stack.data + first);
     if (made < 3) return true;
     w->stack.count += made;
-    return draw_push(&w->out->alloc, &w->frames, (frame){node, depth, first, made});
+    return array_push(&w->out->alloc, &w->frames, (frame){node, depth, first, made});
 }
 
 static bool split(walk *w, frame top, const froe_node_info *info, double size) {
     trace line = trace_of(w, &info->cut);
     if (line.all >= 0) {
         frame same = {info->child[line.all], top.depth + 1, top.first, top.count};
-        return draw_push(&w->out->alloc, &w->frames, same);
+        return array_push(&w->out->alloc, &w->frames, same);
     }
     w->ring.count = 0;
-    if (!draw_reserve(&w->out->alloc, &w->ring, top.count)) return false;
+    if (!array_reserve(&w->out->alloc, &w->ring, top.count)) return false;
     for (size_t i = 0; i < top.count; i++) w->ring.data[i] = w->stack.data[top.first + i];
     w->stack.count = top.first;
     return emit_cut(w, &line, top.count, top.depth, size) &&
@@ -141,13 +141,13 @@ static bool split(walk *w, frame top, const froe_node_info *info, double size) {
 
 static bool begin_partition(walk *w) {
     draw_point lo = w->view->lo, hi = w->view->hi;
-    if (!draw_reserve(&w->out->alloc, &w->stack, 4)) return false;
+    if (!array_reserve(&w->out->alloc, &w->stack, 4)) return false;
     w->stack.data[0] = lo;
     w->stack.data[1] = (draw_point){hi.x, lo.y};
     w->stack.data[2] = hi;
     w->stack.data[3] = (draw_point){lo.x, hi.y};
     w->stack.count = 4;
-    return draw_push(&w->out->alloc, &w->frames, (frame){froe_tree_root(w->tree), 0, 0, 4});
+    return array_push(&w->out->alloc, &w->frames, (frame){froe_tree_root(w->tree), 0, 0, 4});
 }
 
 static bool step(walk *w) {
@@ -167,9 +167,9 @@ froe_status draw_partition_add(draw_partition *out, const froe_tree *tree, const
     walk w = {.tree = tree, .scene = froe_tree_scene(tree), .view = view, .max_depth = max_depth, .out = out};
     bool ok = begin_partition(&w);
     while (ok && w.frames.count && draw_tick(task)) ok = step(&w);
-    draw_release(&out->alloc, &w.frames);
-    draw_release(&out->alloc, &w.stack);
-    draw_release(&out->alloc, &w.ring);
+    array_free(&out->alloc, &w.frames);
+    array_free(&out->alloc, &w.stack);
+    array_free(&out->alloc, &w.ring);
     return !ok ? FROE_E_MEMORY : task->cancelled ? FROE_E_CANCELLED : FROE_OK;
 }
 
@@ -181,7 +181,7 @@ static int by_value(const void *a, const void *b) {
 bool draw_partition_scale(draw_partition *part) {
     size_t count = part->cells.count;
     if (!count) return true;
-    double *depths = draw_calloc(&part->alloc, count, sizeof *depths);
+    double *depths = support_calloc(&part->alloc, count, sizeof *depths);
     if (!depths) return false;
     for (size_t i = 0; i < count; i++) depths[i] = part->cells.data[i].depth;
     qsort(depths, count, sizeof *depths, by_value);
@@ -189,12 +189,12 @@ bool draw_partition_scale(draw_partition *part) {
     part->hi_depth = ceil(depths[count - 1 - count / 100]);
     part->below = depths[0] < part->lo_depth;
     part->above = depths[count - 1] > part->hi_depth;
-    draw_free(&part->alloc, depths, count * sizeof *depths);
+    support_free(&part->alloc, depths, count * sizeof *depths);
     return true;
 }
 
 void draw_partition_free(draw_partition *partition) {
-    draw_release(&partition->alloc, &partition->points);
-    draw_release(&partition->alloc, &partition->cells);
-    draw_release(&partition->alloc, &partition->cuts);
+    array_free(&partition->alloc, &partition->points);
+    array_free(&partition->alloc, &partition->cells);
+    array_free(&partition->alloc, &partition->cuts);
 }

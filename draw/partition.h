@@ -16,9 +16,9 @@ typedef struct draw_cut {
 
 typedef struct draw_partition {
     froe_allocator alloc;
-    DRAW_ARRAY(draw_point) points; /**< on the page */
-    DRAW_ARRAY(draw_cell) cells;
-    DRAW_ARRAY(draw_cut) cuts;
+    ARRAY(draw_point) points; /**< on the page */
+    ARRAY(draw_cell) cells;
+    ARRAY(draw_cut) cuts;
     uint64_t merged;           /**< regions drawn as one */
     uint64_t merged_leaves;    /**< leaves within them (of the whole tree, not only of the section) */
     double lo_depth, hi_depth; /**< where the scale of depths begins and ends: draw_partition_scale */

@@ -11,7 +11,7 @@ typedef struct collector {
 
 /* Appends corners in drawing coordinates; sum, if given, receives their sum. False without memory. */
 static bool copy_corners(draw_solid *solid, const double *coords, size_t count, double *sum) {
-    if (!draw_reserve(&solid->picture->page.alloc, &solid->corners, 3 * count)) return false;
+    if (!array_reserve(&solid->picture->page.alloc, &solid->corners, 3 * count)) return false;
     for (size_t i = 0; i < count; i++) {
         double *p = solid->corners.data + solid->corners.count;
         draw_space_point(&solid->picture->space, coords + 3 * i, p);
@@ -27,7 +27,7 @@ static bool keep_faces(draw_solid *solid, const froe_cell *cell, draw_part *part
     part->first_face = solid->face_ends.count;
     part->face_count = cell->face_count;
     if (!copy_corners(solid, cell->coords, cell->corners, sum) ||
-        !draw_reserve(&solid->picture->page.alloc, &solid->face_ends, cell->face_count))
+        !array_reserve(&solid->picture->page.alloc, &solid->face_ends, cell->face_count))
         return false;
     for (size_t f = 0; f < cell->face_count; f++)
         solid->face_ends.data[solid->face_ends.count++] = cell->face_starts[f + 1];
@@ -48,7 +48,7 @@ static bool keep_part(draw_solid *solid, const froe_cell *cell) {
     bool first = solid->parts.count == 0;
     solid->lo_depth = first ? part.depth : fmin(solid->lo_depth, part.depth);
     solid->hi_depth = first ? part.depth : fmax(solid->hi_depth, part.depth);
-    if (!keep_faces(solid, cell, &part) || !draw_push(&page->alloc, &solid->parts, part)) return false;
+    if (!keep_faces(solid, cell, &part) || !array_push(&page->alloc, &solid->parts, part)) return false;
     solid->part_of[cell->node.id1 - 1] = (uint32_t)solid->parts.count;
     return true;
 }
@@ -57,7 +57,7 @@ static bool keep_wall(draw_solid *solid, const froe_cell *cell) {
     draw_wall wall = {solid->corners.count, cell->cut_corners};
     if (cell->cut_corners < 3) return true;
     if (!copy_corners(solid, cell->cut_coords, cell->cut_corners, NULL) ||
-        !draw_push(&solid->picture->page.alloc, &solid->walls, wall))
+        !array_push(&solid->picture->page.alloc, &solid->walls, wall))
         return false;
     solid->wall_of[cell->node.id1 - 1] = (uint32_t)solid->walls.count;
     return true;

@@ -10,9 +10,10 @@
 #include <froe/plot.h>
 
 #include "axis.h"
-#include "memory.h"
+#include "support/fail.h"
 #include "support/floats.h"
 #include "support/xml.h"
+#include "task.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -26,7 +27,7 @@ typedef struct plot {
     const froe_plot_series *series;
     size_t count;
     froe_allocator alloc;
-    DRAW_ARRAY(char) text;
+    ARRAY(char) text;
     bool ok;
     draw_axis x, y;
 } plot;
@@ -34,7 +35,7 @@ typedef struct plot {
 /* ------------------------------------------------------------------ writing -- */
 
 static void put_plot_text(plot *p, const char *text, size_t length) {
-    p->ok = p->ok && draw_reserve(&p->alloc, &p->text, length);
+    p->ok = p->ok && array_reserve(&p->alloc, &p->text, length);
     if (!p->ok) return;
     memcpy(p->text.data + p->text.count, text, length);
     p->text.count += length;
@@ -279,15 +280,16 @@ froe_plot_options froe_plot_defaults(void) {
 }
 
 static froe_status check_plot(const froe_plot_options *o, froe_diagnostic *diag) {
-    if (o->size != sizeof *o) return draw_fail(diag, FROE_E_OPTIONS, "options do not come from froe_plot_defaults()");
+    if (o->size != sizeof *o)
+        return support_fail(diag, FROE_E_OPTIONS, "options do not come from froe_plot_defaults()");
     if ((unsigned)o->kind > FROE_PLOT_POINTS)
-        return draw_fail(diag, FROE_E_OPTIONS, "there is no kind of figure %d", (int)o->kind);
+        return support_fail(diag, FROE_E_OPTIONS, "there is no kind of figure %d", (int)o->kind);
     if (!(o->width >= 60 && o->width <= 4000))
-        return draw_fail(diag, FROE_E_OPTIONS, "width %g is not in 60 .. 4000", o->width);
+        return support_fail(diag, FROE_E_OPTIONS, "width %g is not in 60 .. 4000", o->width);
     if (!(o->height >= 60 && o->height <= 4000))
-        return draw_fail(diag, FROE_E_OPTIONS, "height %g is not in 60 .. 4000", o->height);
+        return support_fail(diag, FROE_E_OPTIONS, "height %g is not in 60 .. 4000", o->height);
     if (!(o->column > 0 && o->column <= 1e9))
-        return draw_fail(diag, FROE_E_OPTIONS, "column %g is not in (0, 1e9]", o->column);
+        return support_fail(diag, FROE_E_OPTIONS, "column %g is not in (0, 1e9]", o->column);
     return FROE_OK;
 }
 
@@ -297,13 +299,13 @@ froe_status froe_plot_write(const froe_plot_series *series, size_t count, froe_d
     const froe_plot_options o = options ? *options : froe_plot_defaults();
     froe_status status = check_plot(&o, diag);
     if (status) return status;
-    if (!fn || (!series && count)) return draw_fail(diag, FROE_E_ARG, "series and fn must not be NULL");
-    plot p = {.o = &o, .series = series, .count = count, .alloc = draw_allocator(o.alloc), .ok = true};
+    if (!fn || (!series && count)) return support_fail(diag, FROE_E_ARG, "series and fn must not be NULL");
+    plot p = {.o = &o, .series = series, .count = count, .alloc = support_allocator(o.alloc), .ok = true};
     put_figure(&p);
     if (!p.ok)
-        status = draw_fail_memory(diag);
+        status = support_fail_memory(diag);
     else if (!support_callback(fn(user, p.text.data, p.text.count)))
-        status = draw_fail(diag, FROE_E_IO, "the receiver of the figure refused it");
-    draw_release(&p.alloc, &p.text);
+        status = support_fail(diag, FROE_E_IO, "the receiver of the figure refused it");
+    array_free(&p.alloc, &p.text);
     return status;
 }

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 static bool append(draw_shaper *s, const double *x) {
-    if (!draw_reserve(&s->alloc, &s->solid, 3)) return false;
+    if (!array_reserve(&s->alloc, &s->solid, 3)) return false;
     draw_space_point(&s->view->space, x, s->solid.data + s->solid.count);
     s->solid.count += 3;
     return true;
@@ -23,7 +23,7 @@ bool draw_corners_of_object(draw_shaper *s, uint32_t object) {
 bool draw_corners_of_piece(draw_shaper *s, size_t piece) {
     size_t corners = froe_tree_piece(s->tree, piece).corners, dim = (size_t)s->view->space.dim;
     s->raw.count = s->made.count = s->solid.count = 0;
-    if (!draw_reserve(&s->alloc, &s->raw, corners * dim) || !draw_reserve(&s->alloc, &s->made, corners)) return false;
+    if (!array_reserve(&s->alloc, &s->raw, corners * dim) || !array_reserve(&s->alloc, &s->made, corners)) return false;
     froe_tree_piece_corners(s->tree, piece, s->raw.data, s->made.data, corners);
     s->made.count = corners;
     for (size_t i = 0; i < corners; i++)
@@ -80,12 +80,12 @@ size_t draw_hull(draw_point *points, draw_point *spare, size_t count) {
 }
 
 static bool add_shape_point(draw_shaper *s, draw_point p) {
-    return draw_push(&s->alloc, &s->points, p);
+    return array_push(&s->alloc, &s->points, p);
 }
 
 static bool room(draw_shaper *s) {
     s->spare.count = 0;
-    return draw_reserve(&s->alloc, &s->points, 5) && draw_reserve(&s->alloc, &s->spare, s->points.count + 5);
+    return array_reserve(&s->alloc, &s->points, 5) && array_reserve(&s->alloc, &s->spare, s->points.count + 5);
 }
 
 /* Points in the view become a shape on the page. */
@@ -225,9 +225,9 @@ bool draw_shape_of_piece(draw_shaper *s, size_t piece, draw_shape *out) {
 }
 
 void draw_shaper_free(draw_shaper *s) {
-    draw_release(&s->alloc, &s->raw);
-    draw_release(&s->alloc, &s->made);
-    draw_release(&s->alloc, &s->solid);
-    draw_release(&s->alloc, &s->points);
-    draw_release(&s->alloc, &s->spare);
+    array_free(&s->alloc, &s->raw);
+    array_free(&s->alloc, &s->made);
+    array_free(&s->alloc, &s->solid);
+    array_free(&s->alloc, &s->points);
+    array_free(&s->alloc, &s->spare);
 }

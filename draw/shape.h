@@ -19,11 +19,11 @@ typedef struct draw_shaper {
     const froe_tree *tree;
     const froe_scene *scene;
     const draw_view *view;
-    DRAW_ARRAY(double) raw;        /**< corners of a piece as the tree gives them */
-    DRAW_ARRAY(froe_node) made;    /**< what made its edges */
-    DRAW_ARRAY(double) solid;      /**< corners in drawing coordinates, three each */
-    DRAW_ARRAY(draw_point) points; /**< in the view */
-    DRAW_ARRAY(draw_point) spare;
+    ARRAY(double) raw;        /**< corners of a piece as the tree gives them */
+    ARRAY(froe_node) made;    /**< what made its edges */
+    ARRAY(double) solid;      /**< corners in drawing coordinates, three each */
+    ARRAY(draw_point) points; /**< in the view */
+    ARRAY(draw_point) spare;
 } draw_shaper;
 
 /** False without memory. */

@@ -22,16 +22,16 @@ static froe_status gather_solids(draw_picture *picture, draw_solid *solid) {
     solid->shaper = (draw_shaper){.alloc = page->alloc, .tree = page->tree, .scene = scene, .view = &solid->view};
     solid->node_count = (size_t)froe_tree_report(page->tree).nodes;
     solid->object_count = froe_scene_object_count(scene);
-    solid->part_of = draw_calloc(&page->alloc, solid->node_count, sizeof *solid->part_of);
-    solid->wall_of = draw_calloc(&page->alloc, solid->node_count, sizeof *solid->wall_of);
-    solid->met = draw_calloc(&page->alloc, solid->object_count, sizeof *solid->met);
+    solid->part_of = support_calloc(&page->alloc, solid->node_count, sizeof *solid->part_of);
+    solid->wall_of = support_calloc(&page->alloc, solid->node_count, sizeof *solid->wall_of);
+    solid->met = support_calloc(&page->alloc, solid->object_count, sizeof *solid->met);
     if (!solid->part_of || !solid->wall_of || !solid->met) return FROE_E_MEMORY;
     froe_status status = draw_solid_parts(solid);
     return status == FROE_OK ? draw_solid_items(solid) : status;
 }
 
 froe_status draw_solid_plan(draw_picture *picture) {
-    draw_solid *solid = draw_calloc(&picture->page.alloc, 1, sizeof *solid);
+    draw_solid *solid = support_calloc(&picture->page.alloc, 1, sizeof *solid);
     if (!solid) return FROE_E_MEMORY;
     picture->solid = solid;
     froe_status status = gather_solids(picture, solid);
@@ -44,18 +44,18 @@ void draw_picture_free(draw_picture *picture) {
     draw_solid *solid = picture->solid;
     const froe_allocator *alloc = &picture->page.alloc;
     if (!solid) return;
-    draw_release(alloc, &solid->parts);
-    draw_release(alloc, &solid->face_ends);
-    draw_release(alloc, &solid->walls);
-    draw_release(alloc, &solid->corners);
-    draw_release(alloc, &solid->items);
-    draw_release(alloc, &solid->points);
-    draw_release(alloc, &solid->cut);
-    draw_free(alloc, solid->part_of, solid->node_count * sizeof *solid->part_of);
-    draw_free(alloc, solid->wall_of, solid->node_count * sizeof *solid->wall_of);
-    draw_free(alloc, solid->met, solid->object_count * sizeof *solid->met);
+    array_free(alloc, &solid->parts);
+    array_free(alloc, &solid->face_ends);
+    array_free(alloc, &solid->walls);
+    array_free(alloc, &solid->corners);
+    array_free(alloc, &solid->items);
+    array_free(alloc, &solid->points);
+    array_free(alloc, &solid->cut);
+    support_free(alloc, solid->part_of, solid->node_count * sizeof *solid->part_of);
+    support_free(alloc, solid->wall_of, solid->node_count * sizeof *solid->wall_of);
+    support_free(alloc, solid->met, solid->object_count * sizeof *solid->met);
     draw_shaper_free(&solid->shaper);
-    draw_free(alloc, solid, sizeof *solid);
+    support_free(alloc, solid, sizeof *solid);
     picture->solid = NULL;
 }
 

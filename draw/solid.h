@@ -50,19 +50,19 @@ typedef struct draw_solid {
     draw_camera camera;
     draw_shaper shaper; /**< for corners */
     draw_view view;     /**< of the shaper: its space only */
-    DRAW_ARRAY(draw_part) parts;
-    DRAW_ARRAY(size_t) face_ends; /**< corner counts of faces, summed up within a part */
-    DRAW_ARRAY(draw_wall) walls;
-    DRAW_ARRAY(double) corners;  /**< of the parts' faces, and of walls */
+    ARRAY(draw_part) parts;
+    ARRAY(size_t) face_ends; /**< corner counts of faces, summed up within a part */
+    ARRAY(draw_wall) walls;
+    ARRAY(double) corners;       /**< of the parts' faces, and of walls */
     uint32_t *part_of, *wall_of; /**< by node: part + 1, wall + 1, or 0 */
     size_t node_count, object_count;
-    DRAW_ARRAY(draw_item) items;
-    DRAW_ARRAY(draw_point) points; /**< in the plane of projection */
-    DRAW_ARRAY(uint8_t) cut;       /**< for each point: was the edge that leaves it made by a cut? */
-    draw_point lo, hi;             /**< of all points */
-    uint32_t *met;                 /**< by object: pieces alternate; boxes: the part that drew it last */
-    double lo_depth, hi_depth;     /**< of the parts */
-    uint64_t leaves;               /**< in all parts */
+    ARRAY(draw_item) items;
+    ARRAY(draw_point) points;  /**< in the plane of projection */
+    ARRAY(uint8_t) cut;        /**< for each point: was the edge that leaves it made by a cut? */
+    draw_point lo, hi;         /**< of all points */
+    uint32_t *met;             /**< by object: pieces alternate; boxes: the part that drew it last */
+    double lo_depth, hi_depth; /**< of the parts */
+    uint64_t leaves;           /**< in all parts */
 } draw_solid;
 
 /** Finds the parts. */

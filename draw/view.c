@@ -65,7 +65,7 @@ bool draw_dots_new(const froe_allocator *alloc, double left, double top, double 
     if (detail > 0 && width / detail * (height / detail) < MOST_DOTS) {
         dots.across = (size_t)(width / detail) + 1;
         dots.down = (size_t)(height / detail) + 1;
-        dots.bits = draw_calloc(alloc, dots.across * dots.down / 8 + 1, 1);
+        dots.bits = support_calloc(alloc, dots.across * dots.down / 8 + 1, 1);
         if (!dots.bits) return false;
     }
     *out = dots;
@@ -73,7 +73,7 @@ bool draw_dots_new(const froe_allocator *alloc, double left, double top, double 
 }
 
 void draw_dots_free(draw_dots *dots) {
-    if (dots->bits) draw_free(&dots->alloc, dots->bits, dots->across * dots->down / 8 + 1);
+    if (dots->bits) support_free(&dots->alloc, dots->bits, dots->across * dots->down / 8 + 1);
     dots->bits = NULL;
 }
 

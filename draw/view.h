@@ -1,8 +1,8 @@
 /* view.h: a plane of the scene on a rectangle of the page. */
 #ifndef FROE_DRAW_VIEW_H
 #define FROE_DRAW_VIEW_H
-#include "memory.h"
 #include "space.h"
+#include "task.h"
 
 typedef struct draw_point {
     double x, y;

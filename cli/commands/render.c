@@ -192,6 +192,13 @@ static bool name_frame(const char *pattern, size_t i, char *out, size_t room) {
     return length > 0 && (size_t)length < room;
 }
 
+static froe_status render_file(const froe_tree *tree, const char *path, const froe_render_options *o,
+                               froe_render_report *report, froe_diagnostic *diag) {
+    froe_draw_format format;
+    const bool png = froe_draw_format_of(path, &format) && format == FROE_DRAW_PNG;
+    return (png ? froe_render_png : froe_render)(tree, path, o, report, diag);
+}
+
 static froe_status render_frames(const render_args *args, const froe_tree *tree, froe_render_options *o,
                                  const froe_camera *cameras, froe_render_report *report, froe_diagnostic *diag) {
     const double seconds = isnan(args->seconds) ? 8 : args->seconds;
@@ -202,7 +209,7 @@ static froe_status render_frames(const render_args *args, const froe_tree *tree,
         char path[4096];
         if (!name_frame(args->output, i, path, sizeof path)) return FROE_E_ARG;
         o->camera = cameras[i];
-        status = froe_render(tree, path, o, report, diag);
+        status = render_file(tree, path, o, report, diag);
     }
     return status;
 }
@@ -241,7 +248,7 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
     o->progress = cli_progress_step;
     o->user = &bar;
     const froe_status status = args->turntable ? render_turning(args, tree, o, &report, &diag)
-                                               : froe_render(tree, args->output, o, &report, &diag);
+                                               : render_file(tree, args->output, o, &report, &diag);
     cli_progress_end(&bar);
     if (status == FROE_E_ARG || status == FROE_E_OPTIONS) return cli_fail(CLI_USE, NULL, "%s", diag.message);
     if (status) return cli_fail_status(CLI_WRITING, args->output, status, &diag);

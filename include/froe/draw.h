@@ -28,7 +28,7 @@
 #define FROE_DRAW_H
 
 #include <froe/froe.h>
-#include <froe/view.h>
+#include <froe/render.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -65,8 +65,6 @@ typedef enum froe_draw_format {
 /** The format that a path's extension asks for, whatever its case. False (nothing
  * written) when the path has no extension or an unknown one. */
 FROE_API bool froe_draw_format_of(const char *path, froe_draw_format *format);
-
-#define FROE_DRAW_CLEAR UINT32_MAX /**< background: none, transparent where the format can be */
 
 /** A marked place: a box in the scene's coordinates, or the ball within it. */
 typedef struct froe_draw_mark {
@@ -123,100 +121,15 @@ FROE_API froe_status froe_draw(const froe_tree *tree, const char *path, const fr
                                froe_diagnostic *diag);
 
 /** Receives the bytes of a picture in order; false stops (FROE_E_IO). */
-typedef bool froe_draw_write_fn(void *user, const void *bytes, size_t count);
+typedef froe_render_write_fn froe_draw_write_fn;
 /** The same picture, byte for byte, to a callback. */
 FROE_API froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_draw_write_fn *fn, void *user,
                                      const froe_draw_options *options, froe_diagnostic *diag);
 
-/* ------------------------------------------------------------------ render -- */
-
-/** How faces are filled. */
-typedef enum froe_shading {
-    FROE_SHADE_FLAT = 0,  /**< lit from the upper left of the camera, two-sided */
-    FROE_SHADE_CEL = 1,   /**< the same in few steps: see cel_levels */
-    FROE_SHADE_PLAIN = 2, /**< one colour per material */
-    FROE_SHADE_WHITE = 3, /**< white: hides what is behind */
-    FROE_SHADE_NONE = 4,  /**< no fills: lines only */
-    FROE_SHADING_COUNT = 5
-} froe_shading;
-/** "flat", "cel", "plain", "white", "none"; NULL for other numbers. */
-FROE_API const char *froe_shading_name(froe_shading shading);
-
-/** What is done about the background that shines through between antialiased shapes. */
-typedef enum froe_seams {
-    FROE_SEAMS_UNDERLAP = 0, /**< WHOLE: shapes go under later neighbours by seam_width */
-    FROE_SEAMS_NONE = 1,
-    FROE_SEAMS_TWICE = 2, /**< all fills are painted twice; only where everything is opaque */
-    FROE_SEAMS_STROKE =
-        3, /**< every fill gets a stroke of its own colour, seam_width wide; outlines grow by half of it */
-    FROE_SEAMS_COUNT = 4
-} froe_seams;
-/** "underlap", "none", "twice", "stroke"; NULL for other numbers. */
-FROE_API const char *froe_seams_name(froe_seams seams);
-
-/** What SVG contains of the origin of shapes. */
-typedef enum froe_ids {
-    FROE_IDS_NONE = 0,
-    FROE_IDS_OBJECT = 1, /**< one path for shapes of one colour and group that follow each other, with data-group */
-    FROE_IDS_FACE = 2    /**< one path per face, with data-object and data-group */
-} froe_ids;
-
-typedef struct froe_render_options {
-    size_t size;          /**< set by froe_render_defaults() */
-    froe_camera camera;   /**< its page is the picture's */
-    bool millimetres;     /**< one unit of the page is a millimetre; otherwise a pixel (SVG, PNG) or point (PDF, EPS) */
-    froe_shading shading; /**< default FLAT */
-    unsigned cel_levels;  /**< 2 .. 64; default 4 */
-    froe_paint paint;     /**< default WHOLE */
-    froe_seams seams;     /**< default UNDERLAP */
-    double seam_width;    /**< in units of the page; default 1 */
-    int section;          /**< see froe_visibility_options */
-    uint32_t lines;       /**< bits of froe_line; default all but mesh */
-    double crease;        /**< degrees; default 30 */
-    double line_width; /**< default 1; silhouettes and borders; sections twice, crossings 0.8, other kinds 0.6 of it */
-    bool interleaved;  /**< lines go below what is nearer, and so never cover half their width of it; default: on top */
-    bool hidden;       /**< hidden lines, dashed */
-    double halo;       /**< gap in lines before nearer ones; default 0 */
-    bool own_colours;  /**< not those of groups, nor their opacity, but froe's; default false. So it is, whatever is
-                                 said here, in white and in lines alone */
-    const double *opacity;     /**< per group, 0 .. 1; NaN, or all NULL: that of its colour, or 1 */
-    const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
-    bool cull_back;
-    uint32_t background; /**< 0xRRGGBB, or FROE_DRAW_CLEAR (default) */
-    int decimals;        /**< SVG: digits after the point, 0 .. 6; default 2 */
-    froe_ids ids;        /**< default NONE */
-    bool layers; /**< SVG: shapes of one object (groups of one name) that follow each other are a group with data-layer;
-                      the order of painting keeps objects together where it can */
-    double min_area;                 /**< see froe_picture_options */
-    const char *title, *description; /**< SVG, PDF: UTF-8; NULL: none */
-    double pixels;                   /**< PNG: pixels per unit of the page, 0.1 .. 64; default 1 */
-    const froe_allocator *alloc;
-    froe_progress_fn *progress;
-    void *user;
-} froe_render_options;
-FROE_API froe_render_options froe_render_defaults(void);
-
-typedef struct froe_render_report {
-    froe_picture_report picture;
-    froe_projection view;
-    uint64_t shapes, strokes; /**< in the file */
-    uint64_t thin_shapes;     /**< left out, since nothing is left of them in the file's coordinates: */
-    uint64_t short_strokes;   /**< in SVG `decimals` digits, otherwise 1/256 of a point or pixel */
-    uint64_t paths, bytes;
-} froe_render_report;
-
-/** The polygons of a tree in space as a picture with hidden surfaces removed, exactly: see froe_picture_new(). `path`
- * ends in .svg, .pdf, .eps or .png and appears whole or not at all. Same tree and options: the same bytes (in PDF, EPS
- * and PNG with the same Cairo). `report` may be NULL. FROE_E_OPTIONS: a value out of range, or EPS with an opacity
- * below 1, which EPS does not have. Otherwise as froe_camera_place(), froe_picture_new(), froe_draw(). */
-FROE_API froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
-                                 froe_render_report *report, froe_diagnostic *diag);
-/** One SVG that shows a picture from each of `count` cameras (see froe_camera_turn) in turn, for ever, in `seconds` a
- * round; where nothing moves (in print) it shows the first. options->camera gives the page; all cameras must have the
- * same. `report`: of the last, but for paths and bytes, which are those of the file. Otherwise as froe_render(). */
-FROE_API froe_status froe_render_animation(const froe_tree *tree, const char *path, const froe_render_options *options,
-                                           const froe_camera *cameras, size_t count, double seconds,
-                                           froe_render_report *report, froe_diagnostic *diag);
+/** The picture of froe_render() as a PNG of options->pixels pixels per unit of the page; `path` may have any name. Same
+ * tree and options: the same bytes with the same Cairo. Otherwise as froe_render(). */
+FROE_API froe_status froe_render_png(const froe_tree *tree, const char *path, const froe_render_options *options,
+                                     froe_render_report *report, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

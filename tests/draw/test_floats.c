@@ -67,7 +67,7 @@ static void renderings(floats_run *r, void *user) {
     o.progress = floats_progress;
     o.user = r;
     for (size_t f = 0; f < 2; f++) {
-        MUST(r, froe_render(tree, files[f], &o, NULL, NULL));
+        MUST(r, (f ? froe_render_png : froe_render)(tree, files[f], &o, NULL, NULL));
         floats_note_file(r, files[f]);
     }
     MUST(r, froe_camera_turn(&o.camera, scene, 2, cameras, NULL));

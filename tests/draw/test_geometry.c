@@ -31,7 +31,7 @@ static double area_of(const draw_point *p, size_t count) {
 
 static void assert_cells_fill(const froe_tree *tree, const draw_view *view, uint32_t max_depth) {
     draw_task task = {.total = 1};
-    draw_partition part = {.alloc = draw_allocator(NULL)};
+    draw_partition part = {.alloc = support_allocator(NULL)};
     assert_int_equal(draw_partition_add(&part, tree, view, max_depth, &task), FROE_OK);
     assert_true(draw_partition_scale(&part));
     double area = 0;
@@ -75,7 +75,7 @@ static void planes_in_drawing_coordinates_keep_their_sides(void **state) {
     size_t nodes = froe_tree_report(tree).nodes, tested = 0;
     for (int up = 0; up < 3; up++) {
         draw_view view = view_of(tree, -1, 0, up);
-        draw_shaper shaper = {.alloc = draw_allocator(NULL), .tree = tree, .scene = scene, .view = &view};
+        draw_shaper shaper = {.alloc = support_allocator(NULL), .tree = tree, .scene = scene, .view = &view};
         for (uint32_t id = 1; id <= nodes; id++) {
             froe_node_info info = froe_tree_node(tree, (froe_node){id});
             if (info.cut.kind == FROE_CUT_NONE) continue;
@@ -165,7 +165,7 @@ static void sections_of_solids_have_the_right_shape(void **state) {
         draw_view view = view_of(tree, 2, 0, 2);
         view.at = draw_space_map(&view.space, 2, cases[i].z);
         draw_shaper shaper = {
-            .alloc = draw_allocator(NULL), .tree = tree, .scene = froe_tree_scene(tree), .view = &view};
+            .alloc = support_allocator(NULL), .tree = tree, .scene = froe_tree_scene(tree), .view = &view};
         for (uint32_t object = 0; object < 6; object++) {
             draw_shape shape;
             assert_true(draw_shape_of_object(&shaper, object, &shape));
@@ -239,7 +239,7 @@ static void the_walk_finds_what_a_ray_finds(void **state) {
         memcpy(o.view, views[v], sizeof o.view);
         draw_task task = {.total = 1};
         draw_picture picture = {.show = FROE_DRAW_OBJECTS, .space = draw_space_over(3, v % 3, lo, hi)};
-        picture.page = (draw_page){.tree = tree, .options = &o, .alloc = draw_allocator(NULL), .task = &task};
+        picture.page = (draw_page){.tree = tree, .options = &o, .alloc = support_allocator(NULL), .task = &task};
         assert_int_equal(draw_solid_plan(&picture), FROE_OK);
         draw_camera camera = draw_camera_from(&picture.space, o.view);
         uint64_t random = 5;
@@ -270,7 +270,7 @@ static void parts_pulled_apart_stay_separated_by_their_cuts(void **state) {
     o.explode_depth = 5;
     draw_task task = {.total = 1};
     draw_picture picture = {.show = 15, .space = draw_space_over(3, 2, lo, hi)};
-    picture.page = (draw_page){.tree = tree, .options = &o, .alloc = draw_allocator(NULL), .task = &task};
+    picture.page = (draw_page){.tree = tree, .options = &o, .alloc = support_allocator(NULL), .task = &task};
     assert_int_equal(draw_solid_plan(&picture), FROE_OK);
     const draw_solid *solid = picture.solid;
     froe_node_info root = froe_tree_node(tree, froe_tree_root(tree));

@@ -1,0 +1,161 @@
+/* render.h: pictures of a tree in space with hidden surfaces removed, exactly, as SVG, PDF and EPS. Part of the core
+ * library; froe/draw.h has PNG.
+ *
+ *     froe_render_options o = froe_render_defaults();
+ *     o.title = "House";
+ *     froe_render(tree, "house.svg", &o, NULL, NULL);       // or .pdf, or .eps
+ *
+ * What is visible, and in which order it is painted, froe_picture_new() of froe/view.h finds. This header colours it,
+ * joins it to paths, and writes them: to a file, as bytes to a function, or as paths, for formats that froe does not
+ * write itself. The same tree and options give the same bytes on every machine. */
+#ifndef FROE_RENDER_H
+#define FROE_RENDER_H
+
+#include <froe/froe.h>
+#include <froe/view.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FROE_DRAW_CLEAR UINT32_MAX /**< background: none, transparent where the format can be */
+
+/** How faces are filled. */
+typedef enum froe_shading {
+    FROE_SHADE_FLAT = 0,  /**< lit from the upper left of the camera, two-sided */
+    FROE_SHADE_CEL = 1,   /**< the same in few steps: see cel_levels */
+    FROE_SHADE_PLAIN = 2, /**< one colour per material */
+    FROE_SHADE_WHITE = 3, /**< white: hides what is behind */
+    FROE_SHADE_NONE = 4,  /**< no fills: lines only */
+    FROE_SHADING_COUNT = 5
+} froe_shading;
+/** "flat", "cel", "plain", "white", "none"; NULL for other numbers. */
+FROE_API const char *froe_shading_name(froe_shading shading);
+
+/** What is done about the background that shines through between antialiased shapes. */
+typedef enum froe_seams {
+    FROE_SEAMS_UNDERLAP = 0, /**< WHOLE: shapes go under later neighbours by seam_width */
+    FROE_SEAMS_NONE = 1,
+    FROE_SEAMS_TWICE = 2, /**< all fills are painted twice; only where everything is opaque */
+    FROE_SEAMS_STROKE =
+        3, /**< every fill gets a stroke of its own colour, seam_width wide; outlines grow by half of it */
+    FROE_SEAMS_COUNT = 4
+} froe_seams;
+/** "underlap", "none", "twice", "stroke"; NULL for other numbers. */
+FROE_API const char *froe_seams_name(froe_seams seams);
+
+/** What SVG contains of the origin of shapes. */
+typedef enum froe_ids {
+    FROE_IDS_NONE = 0,
+    FROE_IDS_OBJECT = 1, /**< one path for shapes of one colour and group that follow each other, with data-group */
+    FROE_IDS_FACE = 2    /**< one path per face, with data-object and data-group */
+} froe_ids;
+
+typedef struct froe_render_options {
+    size_t size;          /**< set by froe_render_defaults() */
+    froe_camera camera;   /**< its page is the picture's */
+    bool millimetres;     /**< one unit of the page is a millimetre; otherwise a pixel (SVG, PNG) or point (PDF, EPS) */
+    froe_shading shading; /**< default FLAT */
+    unsigned cel_levels;  /**< 2 .. 64; default 4 */
+    froe_paint paint;     /**< default WHOLE */
+    froe_seams seams;     /**< default UNDERLAP */
+    double seam_width;    /**< in units of the page; default 1 */
+    int section;          /**< see froe_visibility_options */
+    uint32_t lines;       /**< bits of froe_line; default all but mesh */
+    double crease;        /**< degrees; default 30 */
+    double line_width; /**< default 1; silhouettes and borders; sections twice, crossings 0.8, other kinds 0.6 of it */
+    bool interleaved;  /**< lines go below what is nearer, and so never cover half their width of it; default: on top */
+    bool hidden;       /**< hidden lines, dashed */
+    double halo;       /**< gap in lines before nearer ones; default 0 */
+    bool own_colours;  /**< not those of groups, nor their opacity, but froe's; default false. So it is, whatever is
+                                 said here, in white and in lines alone */
+    const double *opacity;     /**< per group, 0 .. 1; NaN, or all NULL: that of its colour, or 1 */
+    const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
+    bool cull_back;
+    uint32_t background; /**< 0xRRGGBB, or FROE_DRAW_CLEAR (default) */
+    int decimals;        /**< SVG: digits after the point, 0 .. 6; default 2 */
+    froe_ids ids;        /**< default NONE */
+    bool layers; /**< SVG: shapes of one object (groups of one name) that follow each other are a group with data-layer;
+                      the order of painting keeps objects together where it can */
+    double min_area;                 /**< see froe_picture_options */
+    const char *title, *description; /**< SVG, PDF: UTF-8; NULL: none */
+    double pixels;                   /**< PNG: pixels per unit of the page, 0.1 .. 64; default 1 */
+    const froe_allocator *alloc;
+    froe_progress_fn *progress;
+    void *user;
+} froe_render_options;
+FROE_API froe_render_options froe_render_defaults(void);
+
+typedef struct froe_render_report {
+    froe_picture_report picture;
+    froe_projection view;
+    uint64_t shapes, strokes; /**< in the file */
+    uint64_t thin_shapes;     /**< left out, since nothing is left of them in the file's coordinates: */
+    uint64_t short_strokes;   /**< in SVG `decimals` digits, otherwise 1/256 of a point or pixel */
+    uint64_t paths, bytes;
+} froe_render_report;
+
+typedef enum froe_render_format {
+    FROE_RENDER_SVG = 0,
+    FROE_RENDER_PDF = 1, /**< 1.4, uncompressed */
+    FROE_RENDER_EPS = 2, /**< PostScript level 2 */
+    FROE_RENDER_FORMAT_COUNT = 3
+} froe_render_format;
+
+/** The polygons of a tree in space as a picture with hidden surfaces removed, exactly: see froe_picture_new(). `path`
+ * ends in .svg, .pdf or .eps and appears whole or not at all. `options` NULL: the defaults; `report` may be NULL.
+ * FROE_E_OPTIONS: a value out of range, a title or description of a PDF that is not UTF-8, or EPS with an opacity below
+ * 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png, which froe_render_png() of froe/draw.h makes.
+ * FROE_E_IO: the directory or disk does not take it. Otherwise as froe_camera_place(), froe_picture_new(). */
+FROE_API froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
+                                 froe_render_report *report, froe_diagnostic *diag);
+
+/** Receives the bytes of a picture in order; false stops (FROE_E_IO). */
+typedef bool froe_render_write_fn(void *user, const void *bytes, size_t count);
+/** The same picture, byte for byte, to a function, some kilobytes at a time. After a failure, what it has received is
+ * the beginning of a picture at most. */
+FROE_API froe_status froe_render_write(const froe_tree *tree, froe_render_format format, froe_render_write_fn *fn,
+                                       void *user, const froe_render_options *options, froe_render_report *report,
+                                       froe_diagnostic *diag);
+
+/** One SVG that shows a picture from each of `count` cameras (see froe_camera_turn) in turn, for ever, in `seconds` a
+ * round; where nothing moves (in print) it shows the first. options->camera gives the page; all cameras must have the
+ * same. `report`: of the last, but for paths and bytes, which are those of the file. Otherwise as froe_render(). */
+FROE_API froe_status froe_render_animation(const froe_tree *tree, const char *path, const froe_render_options *options,
+                                           const froe_camera *cameras, size_t count, double seconds,
+                                           froe_render_report *report, froe_diagnostic *diag);
+
+/** Points joined by straight lines, 2 doubles each, in units of the page, y downwards. */
+typedef struct froe_outline {
+    const double *points;
+    size_t count;
+    bool closed;
+} froe_outline;
+
+/** What is painted at once: faces of one colour, or lines of one kind. */
+typedef struct froe_render_path {
+    bool lines;                   /**< stroked, with round joins; otherwise filled by the nonzero rule */
+    uint32_t colour;              /**< 0xAARRGGBB, AA: opacity, 255 of lines */
+    double width;                 /**< of the stroke; of faces 0, but for FROE_SEAMS_STROKE */
+    double dash, gap;             /**< lengths; 0: the line is solid */
+    froe_line kind;               /**< lines */
+    bool hidden;                  /**< lines */
+    uint32_t object, group;       /**< faces: the first one's; FROE_NONE */
+    uint32_t layer;               /**< faces: with the option `layers` the first group of their name, else FROE_NONE */
+    const froe_outline *outlines; /**< a union, in any order; valid during the call */
+    size_t count;
+} froe_render_path;
+
+/** Receives the paths of a picture from back to front; false stops, which is no failure. */
+typedef bool froe_render_path_fn(void *user, const froe_render_path *path);
+/** The same picture as paths, for formats that froe does not write. Shapes and lines of which nothing is left once
+ * their points are rounded to 1/steps of a unit are no paths of their own, and lines not part of one. The page and its
+ * background are the caller's to paint. `steps`: above 0, at most 1e6. `bytes` in the report is 0. */
+FROE_API froe_status froe_render_paths(const froe_tree *tree, double steps, froe_render_path_fn *fn, void *user,
+                                       const froe_render_options *options, froe_render_report *report,
+                                       froe_diagnostic *diag);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,108 @@
+/* options.c: the options of a picture and their names, checked before anything is computed. */
+#include "render.h"
+#include "support/fail.h"
+#include "support/utf8.h"
+
+froe_render_options froe_render_defaults(void) {
+    return (froe_render_options){
+        .size = sizeof(froe_render_options),
+        .camera = froe_camera_defaults(),
+        .cel_levels = 4,
+        .seam_width = 1,
+        .lines = FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_OBJECT | FROE_LINE_MATERIAL | FROE_LINE_CREASE |
+                 FROE_LINE_CROSSING | FROE_LINE_SECTION,
+        .crease = 30,
+        .line_width = 1,
+        .background = FROE_DRAW_CLEAR,
+        .decimals = 2,
+        .pixels = 1,
+    };
+}
+
+const char *froe_shading_name(froe_shading shading) {
+    static const char *const names[FROE_SHADING_COUNT] = {"flat", "cel", "plain", "white", "none"};
+    return shading >= 0 && shading < FROE_SHADING_COUNT ? names[shading] : NULL;
+}
+
+const char *froe_seams_name(froe_seams seams) {
+    static const char *const names[FROE_SEAMS_COUNT] = {"underlap", "none", "twice", "stroke"};
+    return seams >= 0 && seams < FROE_SEAMS_COUNT ? names[seams] : NULL;
+}
+
+typedef struct render_range {
+    const char *name;
+    double value, lo, hi;
+} render_range;
+
+static froe_status check_in_range(const render_range *r, size_t count, froe_diagnostic *diag) {
+    for (; count--; r++)
+        if (!(r->value >= r->lo && r->value <= r->hi))
+            return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
+                                r->value, r->lo, r->hi);
+    return FROE_OK;
+}
+
+froe_status vector_check(const froe_scene *scene, const froe_render_options *o, froe_diagnostic *diag) {
+    if (o->size != sizeof *o)
+        return support_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_render_defaults().");
+    const render_range ranges[] = {{"shading", o->shading, 0, FROE_SHADING_COUNT - 1},
+                                   {"cel_levels", o->cel_levels, 2, 64},
+                                   {"seams", o->seams, 0, FROE_SEAMS_COUNT - 1},
+                                   {"ids", o->ids, 0, FROE_IDS_FACE},
+                                   {"min_area", o->min_area, 0, 1e18},
+                                   {"seam_width", o->seam_width, 0, 1e6},
+                                   {"line_width", o->line_width, 0, 1e6},
+                                   {"halo", o->halo, 0, 1e6},
+                                   {"decimals", o->decimals, 0, 6},
+                                   {"pixels", o->pixels, 0.1, 64}};
+    const froe_status status = check_in_range(ranges, sizeof ranges / sizeof *ranges, diag);
+    if (status) return status;
+    if (o->seams == FROE_SEAMS_TWICE && o->interleaved)
+        return support_fail(diag, FROE_E_OPTIONS,
+                            "Shapes with lines among them cannot be painted twice: use other seams.");
+    for (uint32_t g = 0; g < froe_scene_group_count(scene); g++) {
+        const double opacity = vector_opacity(scene, o, g);
+        if (!(opacity >= 0 && opacity <= 1))
+            return support_fail(diag, FROE_E_OPTIONS, "The opacity of group %u is %g, not 0 to 1.", g, opacity);
+        if (opacity < 1 && o->seams == FROE_SEAMS_TWICE)
+            return support_fail(diag, FROE_E_OPTIONS,
+                                "What one sees through cannot be painted twice: use other seams.");
+    }
+    return FROE_OK;
+}
+
+static bool is_utf8(const char *text) {
+    size_t length = 1;
+    for (; text && *text && length; text += length) length = support_utf8_length(text);
+    return length;
+}
+
+froe_status vector_check_format(const froe_scene *scene, const froe_render_options *o, froe_render_format format,
+                                froe_diagnostic *diag) {
+    froe_status status = vector_check(scene, o, diag);
+    const render_range page[] = {{"width", o->camera.width, 1, 32000}, {"height", o->camera.height, 1, 32000}};
+    if (!status) status = check_in_range(page, 2, diag);
+    if (status) return status;
+    if (format == FROE_RENDER_PDF && !is_utf8(o->title))
+        return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
+    if (format == FROE_RENDER_PDF && !is_utf8(o->description))
+        return support_fail(diag, FROE_E_OPTIONS, "The description of the picture is not UTF-8.");
+    for (uint32_t g = 0; format == FROE_RENDER_EPS && g < froe_scene_group_count(scene); g++)
+        if (vector_opacity(scene, o, g) < 1)
+            return support_fail(
+                diag, FROE_E_OPTIONS,
+                "EPS has no opacity, and '%s' (group %u) has: use .svg, .pdf or .png, or make everything opaque.",
+                froe_scene_group(scene, g).material, g);
+    return FROE_OK;
+}
+
+double vector_unit(const froe_render_options *o) {
+    return o->millimetres ? 72 / 25.4 : 1;
+}
+
+double vector_grid(const froe_render_options *o, froe_render_format format) {
+    double grid = 1;
+    if (format != FROE_RENDER_SVG) return 256 * vector_unit(o);
+    for (int i = 0; i < o->decimals; i++) grid *= 10;
+    return grid;
+}

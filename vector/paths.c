@@ -1,0 +1,147 @@
+/* paths.c: a picture as paths, in the order in which they are painted: shapes of one colour share one, strokes of one
+ * kind another. Every format, froe's own and others, is written from these. */
+#include "render.h"
+
+static uint32_t colour_of_shape(const vector_render *r, const froe_shape *shape) {
+    return r->styles.data[r->style_of[shape->patch]];
+}
+
+static uint32_t group_of_shape(const vector_render *r, const froe_shape *shape) {
+    return froe_surface_patch(r->surface, shape->patch).group;
+}
+
+static uint32_t layer_of_shape(const vector_render *r, const froe_shape *shape) {
+    const uint32_t group = group_of_shape(r, shape);
+    return r->layer_of && group != FROE_NONE ? r->layer_of[group] : FROE_NONE;
+}
+
+/* May a shape share the path of another that it follows? */
+static bool shares_path(const vector_render *r, const froe_shape *first, const froe_shape *next) {
+    const froe_ids ids = r->options->ids;
+    if (ids == FROE_IDS_FACE || colour_of_shape(r, first) >> 24 < 255) return false;
+    if (colour_of_shape(r, first) != colour_of_shape(r, next) || layer_of_shape(r, first) != layer_of_shape(r, next))
+        return false;
+    return ids == FROE_IDS_NONE || group_of_shape(r, first) == group_of_shape(r, next);
+}
+
+/* ----------------------------------------------------------------------- showing -- */
+
+bool vector_ring_shows(const vector_render *r, const froe_outline *ring) {
+    const double *points = ring->points;
+    int64_t area = 0;
+    for (size_t i = 1; i + 1 < ring->count; i++) {
+        const int64_t x = vector_step(r, points[0]), y = vector_step(r, points[1]);
+        const int64_t a = vector_step(r, points[2 * i]) - x, b = vector_step(r, points[2 * i + 1]) - y,
+                      c = vector_step(r, points[2 * i + 2]) - x, d = vector_step(r, points[2 * i + 3]) - y;
+        area += a * d - b * c;
+    }
+    return area != 0;
+}
+
+static bool stroke_shows(const vector_render *r, const froe_stroke *s) {
+    for (size_t i = 1; i < s->count; i++)
+        for (int k = 0; k < 2; k++)
+            if (vector_step(r, s->points[2 * i + k]) != vector_step(r, s->points[k])) return true;
+    return false;
+}
+
+static froe_outline ring_of(const vector_render *r, const froe_shape *shape, size_t i) {
+    froe_outline ring = {.closed = true};
+    ring.points = froe_picture_ring(r->picture, shape->first_ring + i, &ring.count);
+    return ring;
+}
+
+static bool shape_shows(const vector_render *r, const froe_shape *shape) {
+    for (size_t i = 0; i < shape->ring_count; i++) {
+        const froe_outline ring = ring_of(r, shape, i);
+        if (vector_ring_shows(r, &ring)) return true;
+    }
+    return false;
+}
+
+froe_status vector_count_shown(vector_render *r) {
+    const size_t shapes = froe_picture_shape_count(r->picture), strokes = froe_picture_stroke_count(r->picture);
+    size_t rings = 0;
+    for (size_t i = 0; i < shapes; i++) {
+        const froe_shape shape = froe_picture_shape(r->picture, i);
+        ++*(shape_shows(r, &shape) ? &r->report.shapes : &r->report.thin_shapes);
+        rings += shape.ring_count;
+    }
+    for (size_t i = 0; i < strokes; i++) {
+        const froe_stroke stroke = froe_picture_stroke(r->picture, i);
+        ++*(stroke_shows(r, &stroke) ? &r->report.strokes : &r->report.short_strokes);
+    }
+    r->room = rings > strokes ? rings : strokes;
+    r->outlines = support_calloc(&r->alloc, r->room, sizeof *r->outlines);
+    return r->outlines ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* ------------------------------------------------------------------------- paths -- */
+
+static size_t place_of_stroke(const vector_render *r, size_t stroke) {
+    return stroke < froe_picture_stroke_count(r->picture) ? froe_picture_stroke(r->picture, stroke).place : SIZE_MAX;
+}
+
+double vector_line_width(const froe_render_options *options, froe_line kind) {
+    const bool outline = kind == FROE_LINE_BORDER || kind == FROE_LINE_SILHOUETTE;
+    if (kind == FROE_LINE_SECTION) return 2 * options->line_width;
+    return (outline ? 1 : kind == FROE_LINE_CROSSING ? 0.8 : 0.6) * options->line_width;
+}
+
+/* Strokes of one kind that are due before the next shape. False: none of them shows. */
+static bool take_strokes(const vector_render *r, vector_cursor *at, froe_render_path *path) {
+    const froe_stroke first = froe_picture_stroke(r->picture, at->stroke);
+    const double width = vector_line_width(r->options, first.kind) * (first.hidden ? VECTOR_HIDDEN : 1);
+    *path = (froe_render_path){.lines = true, .colour = 0xFF1B2630, .kind = first.kind, .hidden = first.hidden};
+    path->width = width;
+    path->dash = first.hidden ? 4 * width : 0;
+    path->gap = first.hidden ? 3 * width : 0;
+    path->object = path->group = path->layer = FROE_NONE;
+    path->outlines = r->outlines;
+    for (; place_of_stroke(r, at->stroke) <= at->shape; at->stroke++) {
+        const froe_stroke next = froe_picture_stroke(r->picture, at->stroke);
+        if (next.kind != first.kind || next.hidden != first.hidden) break;
+        if (stroke_shows(r, &next)) r->outlines[path->count++] = (froe_outline){next.points, next.count, next.closed};
+    }
+    return path->count;
+}
+
+/* Shapes up to one that may not share their path, or that a stroke comes before. False: none of them shows. */
+static bool take_shapes(const vector_render *r, vector_cursor *at, froe_render_path *path) {
+    const size_t count = froe_picture_shape_count(r->picture), place = place_of_stroke(r, at->stroke);
+    const froe_shape first = froe_picture_shape(r->picture, at->shape);
+    bool shows = false;
+    *path = (froe_render_path){.colour = colour_of_shape(r, &first), .outlines = r->outlines};
+    path->width = r->options->seams == FROE_SEAMS_STROKE ? r->options->seam_width : 0;
+    path->object = froe_surface_patch(r->surface, first.patch).objects[0];
+    path->group = group_of_shape(r, &first);
+    path->layer = layer_of_shape(r, &first);
+    const size_t begin = at->shape;
+    for (; at->shape < count && at->shape < place; at->shape++) {
+        const froe_shape next = froe_picture_shape(r->picture, at->shape);
+        if (at->shape > begin && !shares_path(r, &first, &next)) break;
+        for (size_t i = 0; i < next.ring_count; i++) r->outlines[path->count++] = ring_of(r, &next, i);
+        shows = shows || shape_shows(r, &next);
+    }
+    return shows;
+}
+
+bool vector_next_path(const vector_render *r, vector_cursor *at, froe_render_path *path) {
+    for (;;) {
+        const bool lines = place_of_stroke(r, at->stroke) <= at->shape;
+        if (!lines && at->shape >= froe_picture_shape_count(r->picture)) return false;
+        if (lines ? take_strokes(r, at, path) : take_shapes(r, at, path)) return true;
+    }
+}
+
+bool vector_each_path(vector_render *r, froe_render_path_fn *fn, void *user) {
+    for (int pass = r->options->seams == FROE_SEAMS_TWICE ? 0 : 1; pass < 2; pass++) {
+        vector_cursor at = {0, 0};
+        for (froe_render_path path; vector_next_path(r, &at, &path);) {
+            if (path.lines && !pass) continue;
+            r->report.paths++;
+            if (!fn(user, &path)) return false;
+        }
+    }
+    return true;
+}

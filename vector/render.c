@@ -1,0 +1,237 @@
+/* render.c: the public calls for pictures with hidden surfaces removed: checked, computed, written. */
+#include "render.h"
+#include "support/fail.h"
+#include "support/floats.h"
+#include "support/writer.h"
+#include <string.h>
+
+static bool ends_in(const char *path, const char *lower) {
+    const size_t length = strlen(path), n = strlen(lower);
+    const char *at = path + length - n;
+    if (length < n) return false;
+    for (size_t i = 0; i < n; i++)
+        if ((at[i] >= 'A' && at[i] <= 'Z' ? at[i] - 'A' + 'a' : at[i]) != lower[i]) return false;
+    return true;
+}
+
+static froe_status format_of(const char *path, froe_render_format *format, froe_diagnostic *diag) {
+    static const char *const extensions[FROE_RENDER_FORMAT_COUNT] = {".svg", ".pdf", ".eps"};
+    for (int f = 0; f < FROE_RENDER_FORMAT_COUNT; f++)
+        if (ends_in(path, extensions[f])) {
+            *format = (froe_render_format)f;
+            return FROE_OK;
+        }
+    if (ends_in(path, ".png"))
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "PNG is not among the formats of froe_render(): '%.140s' is made "
+                            "by froe_render_png() of the library froe-draw.",
+                            path);
+    return support_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf, .eps or .png.",
+                        path);
+}
+
+/* ----------------------------------------------------------------------- making -- */
+
+/* What is given per group, per patch. */
+static froe_status spread_groups(vector_render *r) {
+    const froe_render_options *o = r->options;
+    bool any = false;
+    for (uint32_t g = 0; g < froe_scene_group_count(r->scene); g++) any = any || vector_opacity(r->scene, o, g) < 1;
+    if (any) r->clear = support_calloc(&r->alloc, r->patches, 1);
+    if (o->priorities) r->priorities = support_calloc(&r->alloc, r->patches, sizeof *r->priorities);
+    if ((any && !r->clear) || (o->priorities && !r->priorities)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < r->patches; i++) {
+        const uint32_t group = froe_surface_patch(r->surface, i).group;
+        if (group == FROE_NONE) continue;
+        if (r->clear) r->clear[i] = vector_opacity(r->scene, o, group) < 1;
+        if (r->priorities) r->priorities[i] = o->priorities[group];
+    }
+    return FROE_OK;
+}
+
+static froe_status find_picture(vector_render *r, froe_diagnostic *diag) {
+    const froe_render_options *o = r->options;
+    froe_picture_options p = froe_picture_defaults();
+    p.view = &r->view;
+    p.paint = o->paint;
+    p.no_fills = o->shading == FROE_SHADE_NONE;
+    p.underlap = o->seams == FROE_SEAMS_UNDERLAP ? o->seam_width : 0;
+    p.styles = r->keys ? r->keys : r->style_of;
+    p.min_area = o->min_area;
+    p.clear = r->clear;
+    p.priorities = r->priorities;
+    p.cull_back = o->cull_back;
+    p.lines = o->line_width > 0 ? o->lines : 0;
+    p.crease = o->crease;
+    p.section = o->section;
+    p.interleave = o->interleaved ? 0.5 * o->line_width : 0;
+    p.hidden = o->hidden;
+    p.halo = o->halo;
+    p.alloc = &r->alloc;
+    p.progress = o->progress;
+    p.user = o->user;
+    return froe_picture_new(r->tree, r->surface, &p, &r->picture, diag);
+}
+
+/* Everything but the bytes. What it returns with any status, render_free() gives back. */
+static froe_status prepare(vector_render *r, const froe_camera *camera, froe_diagnostic *diag) {
+    r->alloc = support_allocator(r->options->alloc);
+    froe_status status = froe_camera_place(camera, r->scene, &r->view, diag);
+    if (!status) status = froe_surface_new(r->scene, &r->alloc, &r->surface, diag);
+    if (status) return status;
+    r->patches = froe_surface_patch_count(r->surface);
+    if (vector_shade(r) || spread_groups(r)) return support_fail_memory(diag);
+    status = find_picture(r, diag);
+    if (status) return status;
+    r->report.picture = froe_picture_statistics(r->picture);
+    r->report.view = r->view;
+    return vector_count_shown(r) ? support_fail_memory(diag) : FROE_OK;
+}
+
+static void free_render(vector_render *r) {
+    froe_picture_free(r->picture);
+    froe_surface_free(r->surface);
+    support_free(&r->alloc, r->style_of, r->patches * sizeof *r->style_of);
+    support_free(&r->alloc, r->clear, r->patches);
+    support_free(&r->alloc, r->priorities, r->patches * sizeof *r->priorities);
+    support_free(&r->alloc, r->layer_of, froe_scene_group_count(r->scene) * sizeof *r->layer_of);
+    support_free(&r->alloc, r->keys, r->patches * sizeof *r->keys);
+    support_free(&r->alloc, r->outlines, r->room * sizeof *r->outlines);
+    array_free(&r->alloc, &r->styles);
+}
+
+/* ---------------------------------------------------------------------- writing -- */
+
+static const char refused[] = "The receiver of the picture refused it.";
+
+static froe_status finish(vector_output *output, froe_diagnostic *diag) {
+    const froe_status status = vector_flush(output);
+    return status == FROE_E_MEMORY ? support_fail_memory(diag) : status ? support_fail(diag, status, refused) : FROE_OK;
+}
+
+/* A whole picture; the options are checked. */
+static froe_status write_picture(vector_render *r, froe_render_format format, vector_output *output,
+                                 froe_diagnostic *diag) {
+    r->grid = vector_grid(r->options, format);
+    froe_status status = prepare(r, &r->options->camera, diag);
+    if (status) return status;
+    if (format == FROE_RENDER_SVG) {
+        vector_svg_begin(r, output);
+        vector_svg_picture(r, output, &(vector_frame){0});
+        vector_svg_end(r, output);
+    } else
+        (format == FROE_RENDER_PDF ? vector_pdf : vector_eps)(r, output);
+    status = finish(output, diag);
+    r->report.bytes = output->count;
+    return status;
+}
+
+/* The writer keeps the first error, which support_writer_close() reports. */
+static bool put_to_file(void *user, const void *bytes, size_t count) {
+    support_writer_put(user, bytes, count);
+    return true;
+}
+
+froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
+                        froe_render_report *report, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    const froe_render_options standard = froe_render_defaults();
+    support_writer file;
+    vector_output output = {.fn = put_to_file, .user = &file};
+    froe_render_format format = FROE_RENDER_SVG;
+    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
+    vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options ? options : &standard};
+    froe_status status = format_of(path, &format, diag);
+    if (!status) status = vector_check_format(r.scene, r.options, format, diag);
+    if (!status) status = support_writer_open(&file, path, r.options->alloc, diag);
+    if (status) return status;
+    status = write_picture(&r, format, &output, diag);
+    status = support_writer_close(&file, status);
+    if (!status && report) *report = r.report;
+    free_render(&r);
+    return status;
+}
+
+froe_status froe_render_write(const froe_tree *tree, froe_render_format format, froe_render_write_fn *fn, void *user,
+                              const froe_render_options *options, froe_render_report *report, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    const froe_render_options standard = froe_render_defaults();
+    vector_output output = {.fn = fn, .user = user};
+    if (!tree || !fn) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
+    if (format < 0 || format >= FROE_RENDER_FORMAT_COUNT)
+        return support_fail(diag, FROE_E_OPTIONS, "There is no picture format number %d.", (int)format);
+    vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options ? options : &standard};
+    froe_status status = vector_check_format(r.scene, r.options, format, diag);
+    if (status) return status;
+    status = write_picture(&r, format, &output, diag);
+    if (!status && report) *report = r.report;
+    free_render(&r);
+    return status;
+}
+
+typedef struct path_receiver {
+    froe_render_path_fn *fn;
+    void *user;
+} path_receiver;
+
+static bool hand_over(void *user, const froe_render_path *path) {
+    const path_receiver *to = user;
+    return support_callback(to->fn(to->user, path));
+}
+
+froe_status froe_render_paths(const froe_tree *tree, double steps, froe_render_path_fn *fn, void *user,
+                              const froe_render_options *options, froe_render_report *report, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    const froe_render_options standard = froe_render_defaults();
+    path_receiver to = {fn, user};
+    if (!tree || !fn) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
+    if (!(steps > 0 && steps <= 1e6))
+        return support_fail(diag, FROE_E_OPTIONS, "A picture has more than 0 and at most 1e6 steps a unit, not %g.",
+                            steps);
+    vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options ? options : &standard};
+    r.grid = steps;
+    froe_status status = vector_check(r.scene, r.options, diag);
+    if (status) return status;
+    status = prepare(&r, &r.options->camera, diag);
+    if (!status) vector_each_path(&r, hand_over, &to);
+    if (!status && report) *report = r.report;
+    free_render(&r);
+    return status;
+}
+
+froe_status froe_render_animation(const froe_tree *tree, const char *path, const froe_render_options *options,
+                                  const froe_camera *cameras, size_t count, double seconds, froe_render_report *report,
+                                  froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    const froe_render_options standard = froe_render_defaults(), *o = options ? options : &standard;
+    support_writer file;
+    vector_output output = {.fn = put_to_file, .user = &file};
+    froe_render_report last = {.paths = 0};
+    if (!tree || !path || !cameras || !count)
+        return support_fail(diag, FROE_E_ARG, "An animation needs a tree, a path and cameras.");
+    if (!ends_in(path, ".svg"))
+        return support_fail(diag, FROE_E_OPTIONS, "Only SVG moves: '%.140s' does not end in .svg.", path);
+    if (!(seconds > 0 && seconds <= 1e6))
+        return support_fail(diag, FROE_E_OPTIONS, "A round of %g seconds is none.", seconds);
+    froe_status status = vector_check_format(froe_tree_scene(tree), o, FROE_RENDER_SVG, diag);
+    if (!status) status = support_writer_open(&file, path, o->alloc, diag);
+    if (status) return status;
+    for (size_t i = 0; !status && i < count; i++) {
+        vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = o};
+        r.grid = vector_grid(o, FROE_RENDER_SVG);
+        status = prepare(&r, cameras + i, diag);
+        if (!status) {
+            if (i == 0) vector_svg_begin(&r, &output);
+            vector_svg_picture(&r, &output, &(vector_frame){i, count, seconds});
+            if (i + 1 == count) vector_svg_end(&r, &output);
+            status = finish(&output, diag);
+        }
+        r.report.paths += last.paths;
+        last = r.report;
+        free_render(&r);
+    }
+    status = support_writer_close(&file, status);
+    last.bytes = output.count;
+    if (!status && report) *report = last;
+    return status;
+}

@@ -1,0 +1,84 @@
+/* render.h: a picture with hidden surfaces removed while it is written, by render.c, options.c, shade.c, paths.c and a
+ * file for each format. */
+#ifndef FROE_VECTOR_RENDER_H
+#define FROE_VECTOR_RENDER_H
+#include "output.h"
+#include "support/array.h"
+#include <math.h>
+
+typedef struct vector_render {
+    froe_allocator alloc;
+    const froe_tree *tree;
+    const froe_scene *scene;
+    const froe_render_options *options;
+    double grid; /**< steps of the output in a unit of the page: see vector_grid() */
+    froe_surface *surface;
+    froe_projection view;
+    froe_picture *picture;
+    size_t patches;
+    uint32_t *style_of;     /**< per patch, into styles */
+    ARRAY(uint32_t) styles; /**< colours, 0xAARRGGBB, ascending, each once */
+    uint32_t *layer_of;     /**< per group: the first of its name; NULL: there are no layers */
+    uint32_t *keys;         /**< per patch: what the order of painting keeps together; NULL: styles */
+    uint8_t *clear;         /**< per patch; NULL: all are opaque */
+    int32_t *priorities;    /**< per patch; NULL */
+    froe_outline *outlines; /**< room for those of the longest path */
+    size_t room;            /**< for so many */
+    froe_render_report report;
+} vector_render;
+
+/* ---------------------------------------------------------------- options.c, shade.c -- */
+
+/** FROE_E_OPTIONS, unless every option is in its range. */
+froe_status vector_check(const froe_scene *scene, const froe_render_options *options, froe_diagnostic *diag);
+/** The same, and that the format has what the picture needs. */
+froe_status vector_check_format(const froe_scene *scene, const froe_render_options *options, froe_render_format format,
+                                froe_diagnostic *diag);
+/** Length of a unit of the page in points (PDF, EPS). */
+double vector_unit(const froe_render_options *options);
+/** Steps of a format's coordinates in a unit of the page: SVG's digits, otherwise 1/256 of a point. */
+double vector_grid(const froe_render_options *options, froe_render_format format);
+
+/** Opacity of a group, 0 .. 1; of FROE_NONE 1. */
+double vector_opacity(const froe_scene *scene, const froe_render_options *options, uint32_t group);
+/** Fills style_of, styles, keys and layer_of. FROE_E_MEMORY. */
+froe_status vector_shade(vector_render *render);
+/** Width of a kind of line in units of the page, and what it is multiplied by where the line is hidden. */
+double vector_line_width(const froe_render_options *options, froe_line kind);
+#define VECTOR_HIDDEN 0.6
+
+/* --------------------------------------------------------------------------- paths.c -- */
+
+/** How far a picture has been painted. */
+typedef struct vector_cursor {
+    size_t shape, stroke;
+} vector_cursor;
+/** Where a coordinate falls on the grid of the output. */
+static inline int64_t vector_step(const vector_render *render, double x) {
+    return (int64_t)floor(x * render->grid + 0.5);
+}
+/** Is anything left of a closed outline on that grid? */
+bool vector_ring_shows(const vector_render *render, const froe_outline *ring);
+/** Makes room for outlines, and notes in the report how many shapes and strokes show, and how many do not.
+ * FROE_E_MEMORY. */
+froe_status vector_count_shown(vector_render *render);
+/** The next path of which something shows; false: there is no more. */
+bool vector_next_path(const vector_render *render, vector_cursor *at, froe_render_path *path);
+/** All paths, with the faces before them once more where the seams want that, counted in the report. False: fn was
+ * false. */
+bool vector_each_path(vector_render *render, froe_render_path_fn *fn, void *user);
+
+/* -------------------------------------------------------------------- svg.c, pdf.c, eps.c -- */
+
+/** When a picture is shown: the i-th of `count`, for a share of `seconds`. count 0: always. */
+typedef struct vector_frame {
+    size_t i, count;
+    double seconds;
+} vector_frame;
+/** Write the beginning of an SVG, a picture (if `frame` says so, only for its time), and the end. */
+void vector_svg_begin(const vector_render *render, vector_output *output);
+void vector_svg_picture(vector_render *render, vector_output *output, const vector_frame *frame);
+void vector_svg_end(const vector_render *render, vector_output *output);
+void vector_pdf(vector_render *render, vector_output *output);
+void vector_eps(vector_render *render, vector_output *output);
+#endif

@@ -1,0 +1,260 @@
+/* svg.c: the picture as compact SVG: relative coordinates on a grid, shared separators, one element per path.
+ *
+ * Coordinates are whole numbers of steps of the grid, scaled to the page by a group around everything: no decimal
+ * points. Differences are taken between rounded points, so that errors do not add up. All rings turn the same way and
+ * fill by the nonzero rule: faces seen from behind and from the front may share a path. */
+#include "render.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* A ring of the path in the making. Paths are unions: their rings may come in any order. */
+typedef struct svg_ring {
+    const froe_outline *outline;
+    double x, y; /* of its first point */
+} svg_ring;
+
+typedef struct svg_writer {
+    vector_render *render;
+    vector_output *output;
+    ARRAY(svg_ring) rings;
+    int64_t at[2];  /* where the last path command ended, on the grid */
+    char command;   /* the last one written; numbers may follow without repeating it */
+    bool number;    /* the last thing written is a number */
+    uint32_t layer; /* that is open; FROE_NONE */
+} svg_writer;
+
+static void put_text(svg_writer *w, const char *text) {
+    vector_put(w->output, text, strlen(text));
+}
+
+static void put_number(svg_writer *w, int64_t steps) {
+    vector_print(w->output, "%s%lld", w->number && steps >= 0 ? " " : "", (long long)steps);
+    w->number = true;
+}
+
+static void put_command(svg_writer *w, char command) {
+    if (w->command != command) {
+        vector_put(w->output, &command, 1);
+        w->number = false;
+    }
+    w->command = command;
+}
+
+/* One ring or polyline, from point `start` on. The first move of a path is absolute; lines may follow a move without
+ * saying so. */
+static void put_outline(svg_writer *w, const froe_outline *o, size_t start) {
+    const bool first = w->command == 0;
+    int64_t begin[2] = {0, 0};
+    for (size_t i = 0; i < o->count; i++) {
+        const double *p = o->points + 2 * ((start + i) % o->count);
+        const int64_t x = vector_step(w->render, p[0]), y = vector_step(w->render, p[1]);
+        const int64_t dx = x - w->at[0], dy = y - w->at[1];
+        if (i == 0) {
+            w->command = 0;
+            put_command(w, 'm');
+            put_number(w, first ? x : dx);
+            put_number(w, first ? y : dy);
+            w->command = 'l';
+            begin[0] = x, begin[1] = y;
+        } else if (dx || dy) {
+            put_command(w, dy == 0 ? 'h' : dx == 0 ? 'v' : 'l');
+            if (dx) put_number(w, dx);
+            if (dy) put_number(w, dy);
+        }
+        w->at[0] = x, w->at[1] = y;
+    }
+    if (!o->closed) return;
+    put_command(w, 'z');
+    memcpy(w->at, begin, sizeof begin); /* closing leads back */
+}
+
+/* ------------------------------------------------------------------------ parts -- */
+
+static void begin_path(svg_writer *w) {
+    w->command = 0;
+    w->number = false;
+    w->render->report.paths++;
+}
+
+static void put_colour(vector_output *output, uint32_t colour) {
+    const uint32_t r = colour >> 16 & 255, g = colour >> 8 & 255, b = colour & 255;
+    if (r % 17 == 0 && g % 17 == 0 && b % 17 == 0)
+        vector_print(output, "#%x%x%x", r / 17, g / 17, b / 17);
+    else
+        vector_print(output, "#%02x%02x%02x", r, g, b);
+}
+
+/* Colour, opacity, and a stroke of the fill's own colour, as wide as seams may be. */
+static void put_style(svg_writer *w, const froe_render_path *path) {
+    const uint32_t alpha = path->colour >> 24;
+    put_text(w, "<path fill=\"");
+    put_colour(w->output, path->colour);
+    if (alpha < 255) vector_print(w->output, "\" fill-opacity=\"0.%02u", alpha * 100 / 255);
+    if (w->render->options->seams != FROE_SEAMS_STROKE) return;
+    put_text(w, "\" stroke=\"");
+    put_colour(w->output, path->colour);
+    vector_print(w->output, "\" stroke-width=\"%s", vector_real(3, w->render->grid * path->width).text);
+}
+
+static void put_ids(svg_writer *w, const froe_render_path *path) {
+    const froe_ids ids = w->render->options->ids;
+    if (ids == FROE_IDS_NONE) return;
+    if (ids == FROE_IDS_FACE) vector_print(w->output, "\" data-object=\"%u", path->object);
+    put_text(w, "\" data-group=\"");
+    if (path->group != FROE_NONE) vector_put_escaped(w->output, froe_scene_group(w->render->scene, path->group).name);
+}
+
+static int compare_along_strips(const void *a, const void *b) {
+    const svg_ring *p = a, *q = b;
+    if (p->x != q->x) return p->x < q->x ? -1 : 1;
+    if (p->y != q->y) return p->y < q->y ? -1 : 1;
+    return p->outline->points < q->outline->points ? -1 : p->outline->points > q->outline->points;
+}
+
+/* The corner of a ring that is nearest to where the last one ended. */
+static size_t nearest_corner(const svg_writer *w, const froe_outline *ring) {
+    int64_t least = INT64_MAX;
+    size_t found = 0;
+    for (size_t i = 0; i < ring->count; i++) {
+        const int64_t far = llabs(vector_step(w->render, ring->points[2 * i]) - w->at[0]) +
+                            llabs(vector_step(w->render, ring->points[2 * i + 1]) - w->at[1]);
+        if (far < least) least = far, found = i;
+    }
+    return found;
+}
+
+/* Rings down one strip of the page and up the next, so that moves are short. */
+static void put_rings(svg_writer *w, const froe_render_path *path) {
+    const double wide = w->render->options->camera.width / ceil(sqrt(0.5 * (double)path->count));
+    if (!array_reserve(&w->render->alloc, &w->rings, path->count)) {
+        w->output->status = FROE_E_MEMORY;
+        return;
+    }
+    for (size_t i = 0; i < path->count; i++) {
+        const froe_outline *outline = path->outlines + i;
+        svg_ring ring = {outline, floor(outline->points[0] / wide), outline->points[1]};
+        if (fmod(ring.x, 2) != 0) ring.y = -ring.y;
+        w->rings.data[i] = ring;
+    }
+    qsort(w->rings.data, path->count, sizeof *w->rings.data, compare_along_strips);
+    for (size_t i = 0; i < path->count; i++) {
+        const froe_outline *ring = w->rings.data[i].outline;
+        if (vector_ring_shows(w->render, ring)) put_outline(w, ring, nearest_corner(w, ring));
+    }
+}
+
+/* Ends the layer that is open, and begins that of a shape. */
+static void put_layer(svg_writer *w, uint32_t layer) {
+    if (w->layer == layer) return;
+    if (w->layer != FROE_NONE) put_text(w, "</g>\n");
+    if (layer != FROE_NONE) {
+        put_text(w, "<g data-layer=\"");
+        vector_put_escaped(w->output, froe_scene_group(w->render->scene, layer).name);
+        put_text(w, "\">\n");
+    }
+    w->layer = layer;
+}
+
+static void put_shapes(svg_writer *w, const froe_render_path *path) {
+    put_layer(w, path->layer);
+    put_style(w, path);
+    put_ids(w, path);
+    put_text(w, "\" d=\"");
+    begin_path(w);
+    put_rings(w, path);
+    put_text(w, "\"/>\n");
+}
+
+static void put_strokes(svg_writer *w, const froe_render_path *path) {
+    /* Not from path->width: three digits depend on the order of rounding. */
+    const double line = w->render->grid * vector_line_width(w->render->options, path->kind),
+                 width = line * (path->hidden ? VECTOR_HIDDEN : 1);
+    vector_print(w->output, "<path class=\"%s%s\" stroke-width=\"%s\"", froe_line_name(path->kind),
+                 path->hidden ? " hidden" : "", vector_real(3, width).text);
+    if (path->hidden)
+        vector_print(w->output, " stroke-dasharray=\"%s %s\"", vector_real(3, 4 * width).text,
+                     vector_real(3, 3 * width).text);
+    put_text(w, " d=\"");
+    begin_path(w);
+    for (size_t i = 0; i < path->count; i++) put_outline(w, path->outlines + i, 0);
+    put_text(w, "\"/>\n");
+}
+
+/* Fills that are painted twice are one group, which ends before the lines. */
+static void put_twice(svg_writer *w, bool begin, size_t frame) {
+    if (w->render->options->seams != FROE_SEAMS_TWICE) return;
+    vector_print(w->output, begin ? "<g id=\"fills%zu\">\n" : "</g>\n<use href=\"#fills%zu\"/>\n", frame);
+}
+
+/* Shown for the i-th of `count` equal times, again and again; the first also where nothing moves. */
+static void put_times(vector_output *output, const vector_frame *f) {
+    const vector_digits from = vector_real(6, (double)f->i / (double)f->count),
+                        to = vector_real(6, (double)(f->i + 1) / (double)f->count);
+    vector_print(
+        output,
+        "<g%s>\n<animate attributeName=\"display\" calcMode=\"discrete\" dur=\"%ss\" repeatCount=\"indefinite\" ",
+        f->i ? " display=\"none\"" : "", vector_real(6, f->seconds).text);
+    if (f->i == 0)
+        vector_print(output, "values=\"inline;none\" keyTimes=\"0;%s\"/>\n", to.text);
+    else if (f->i + 1 < f->count)
+        vector_print(output, "values=\"none;inline;none\" keyTimes=\"0;%s;%s\"/>\n", from.text, to.text);
+    else
+        vector_print(output, "values=\"none;inline\" keyTimes=\"0;%s\"/>\n", from.text);
+}
+
+void vector_svg_picture(vector_render *render, vector_output *output, const vector_frame *frame) {
+    svg_writer w = {.render = render, .output = output, .layer = FROE_NONE};
+    const size_t shapes = froe_picture_shape_count(render->picture);
+    bool lines = false;
+    vector_cursor at = {0, 0};
+    if (frame->count > 1) put_times(output, frame);
+    put_twice(&w, true, frame->i);
+    for (froe_render_path path; !output->status && vector_next_path(render, &at, &path);) {
+        if (path.lines && !lines) {
+            put_layer(&w, FROE_NONE);
+            if (at.shape >= shapes) put_twice(&w, false, frame->i);
+            put_text(&w, "<g fill=\"none\" stroke=\"#1b2630\" stroke-linejoin=\"round\">\n");
+        }
+        if (!path.lines && lines) put_text(&w, "</g>\n");
+        lines = path.lines;
+        if (lines)
+            put_strokes(&w, &path);
+        else
+            put_shapes(&w, &path);
+    }
+    put_layer(&w, FROE_NONE);
+    if (lines)
+        put_text(&w, "</g>\n");
+    else
+        put_twice(&w, false, frame->i);
+    if (frame->count > 1) put_text(&w, "</g>\n");
+    array_free(&render->alloc, &w.rings);
+}
+
+void vector_svg_begin(const vector_render *render, vector_output *output) {
+    const froe_render_options *o = render->options;
+    const char *unit = o->millimetres ? "mm" : "";
+    const vector_digits width = vector_real(10, o->camera.width), height = vector_real(10, o->camera.height);
+    vector_print(output,
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%s%s\" height=\"%s%s\" viewBox=\"0 0 %s %s\" "
+                 "role=\"img\">\n",
+                 width.text, unit, height.text, unit, width.text, height.text);
+    const char *const parts[2][2] = {{"title", o->title}, {"desc", o->description}};
+    for (int i = 0; i < 2; i++) {
+        if (!parts[i][1]) continue;
+        vector_print(output, "<%s>", parts[i][0]);
+        vector_put_escaped(output, parts[i][1]);
+        vector_print(output, "</%s>\n", parts[i][0]);
+    }
+    if (o->background != FROE_DRAW_CLEAR) {
+        vector_print(output, "<rect width=\"100%%\" height=\"100%%\" fill=\"");
+        put_colour(output, o->background);
+        vector_print(output, "\"/>\n");
+    }
+    /* Everything else is in steps of the grid. */
+    if (o->decimals) vector_print(output, "<g transform=\"scale(0.%0*d)\">\n", o->decimals, 1);
+}
+
+void vector_svg_end(const vector_render *render, vector_output *output) {
+    vector_print(output, render->options->decimals ? "</g>\n</svg>\n" : "</svg>\n");
+}
