@@ -73,7 +73,7 @@ coverage: deps-coverage ## which lines do the tests run? build/coverage/report/i
 	@cmake --build --preset coverage --parallel $(JOBS)
 	@ctest --preset coverage --parallel $(JOBS)
 	@cmake -E make_directory build/coverage/report
-	@gcovr --root . --gcov-ignore-parse-errors --filter 'support/|src/|formats/|io/|draw/|cli/' --html-details build/coverage/report/index.html --print-summary build/coverage
+	@gcovr --root . --gcov-ignore-parse-errors --filter 'support/|src/|formats/|vector/|io/|draw/|cli/' --html-details build/coverage/report/index.html --print-summary build/coverage
 
 bare: deps-bare ## README.md word for word on a bare Debian 12, made for it and removed again; as root
 	@scripts/bare

@@ -1,5 +1,5 @@
 /* turntable.c: eight pictures from all around a stool, at one scale. */
-#include <froe/draw.h>
+#include <froe/render.h>
 #include <stdio.h>
 
 enum { FRAMES = 8 };

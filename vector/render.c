@@ -104,7 +104,7 @@ static void free_render(vector_render *r) {
 
 static const char refused[] = "The receiver of the picture refused it.";
 
-static froe_status finish(vector_output *output, froe_diagnostic *diag) {
+static froe_status end_output(vector_output *output, froe_diagnostic *diag) {
     const froe_status status = vector_flush(output);
     return status == FROE_E_MEMORY ? support_fail_memory(diag) : status ? support_fail(diag, status, refused) : FROE_OK;
 }
@@ -121,7 +121,7 @@ static froe_status write_picture(vector_render *r, froe_render_format format, ve
         vector_svg_end(r, output);
     } else
         (format == FROE_RENDER_PDF ? vector_pdf : vector_eps)(r, output);
-    status = finish(output, diag);
+    status = end_output(output, diag);
     r->report.bytes = output->count;
     return status;
 }
@@ -224,7 +224,7 @@ froe_status froe_render_animation(const froe_tree *tree, const char *path, const
             if (i == 0) vector_svg_begin(&r, &output);
             vector_svg_picture(&r, &output, &(vector_frame){i, count, seconds});
             if (i + 1 == count) vector_svg_end(&r, &output);
-            status = finish(&output, diag);
+            status = end_output(&output, diag);
         }
         r.report.paths += last.paths;
         last = r.report;
