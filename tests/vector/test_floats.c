@@ -1,0 +1,44 @@
+/* test_floats.c: however the calling thread computes, rendered pictures have the same bytes, the thread computes so
+ * afterwards, and so do the callbacks. (conformance/test_floats.c has everything else.) */
+#include "support/floats_tree.h"
+#include <froe/render.h>
+
+static bool note_path(void *user, const froe_render_path *path) {
+    for (size_t i = 0; i < path->count; i++)
+        if (!floats_bytes(user, path->outlines[i].points, 2 * path->outlines[i].count * sizeof(double))) return false;
+    return true;
+}
+
+static void renderings(floats_run *r, void *user) {
+    static const char *const files[] = {"floats.svg", "floats.pdf", "floats.eps"};
+    const froe_allocator memory = {floats_memory, r};
+    froe_render_options o = froe_render_defaults();
+    froe_camera cameras[2];
+    froe_scene *scene;
+    froe_tree *tree = floats_tree(r, 3, 1, &scene);
+    (void)user;
+    o.alloc = &memory;
+    o.progress = floats_progress;
+    o.user = r;
+    for (int f = 0; f < FROE_RENDER_FORMAT_COUNT; f++) {
+        MUST(r, froe_render(tree, files[f], &o, NULL, NULL));
+        floats_note_file(r, files[f]);
+        MUST(r, froe_render_write(tree, (froe_render_format)f, floats_bytes, r, &o, NULL, NULL));
+    }
+    MUST(r, froe_render_paths(tree, 100, note_path, r, &o, NULL, NULL));
+    MUST(r, froe_camera_turn(&o.camera, scene, 2, cameras, NULL));
+    MUST(r, froe_render_animation(tree, files[0], &o, cameras, 2, 3, NULL, NULL));
+    floats_note_file(r, files[0]);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
+static void renderings_have_the_same_bytes(void **state) {
+    (void)state;
+    floats_compare(renderings, NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(renderings_have_the_same_bytes)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
