@@ -48,7 +48,7 @@ static void enter_kd_cut(best_cut *best, double cost, int axis, double value) {
 static bool median_on(split_axes *a, const split_work *work, const split_cell *cell, int axis, best_cut *best) {
     if (!split_axes_fill(a, &work->set, cell, axis)) return false;
     while (split_axes_next(a)) {
-        if (!split_tally_separates(&a->tally)) continue;
+        if (!split_tally_useful(a->tally)) continue;
         enter_kd_cut(best, fabs((double)a->tally.negative - a->tally.positive), axis, a->value);
     }
     return true;
@@ -124,7 +124,7 @@ static bool surface_on(split_axes *a, const split_work *work, const split_cell *
     double from = a->low.data[0], size = 2 * width[axis];
     while (split_axes_next(a)) {
         const split_tally *t = &a->tally;
-        if (!split_tally_separates(t)) continue;
+        if (!split_tally_useful(*t)) continue;
         double share = size > 0 ? (0.5 * a->value - 0.5 * from) / (0.5 * size) : 0;
         double below = (double)t->negative + t->both, above = (double)t->positive + t->both;
         enter_kd_cut(best, (s.ends + s.side * share) * below + (s.ends + s.side * (1 - share)) * above, axis, a->value);

@@ -75,7 +75,7 @@ static void search_axis(split_axes *a, int axis, orthogonal_search *s) {
     uint32_t choice = 0, least = UINT32_MAX;
     while (split_axes_next(a)) {
         const split_tally *t = &a->tally;
-        if (!split_tally_separates(t) || !isfinite(a->value)) continue;
+        if (!split_tally_useful(*t) || !isfinite(a->value)) continue;
         uint32_t heavier = larger(t->negative, t->positive), uneven = 2 * heavier - t->negative - t->positive;
         choice++;
         cut.value = a->value;

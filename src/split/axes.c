@@ -11,6 +11,24 @@ void split_axes_free(const froe_allocator *alloc, split_axes *a) {
     array_free(alloc, &a->pairs);
 }
 
+void split_extent(const split_set *set, const split_fragment *f, int axis, double *low, double *high) {
+    froe_kind form = scene_form(set->scene, f->object);
+    if (form >= FROE_BOX) {
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        scene_object_bounds(set->scene, f->object, lo, hi);
+        *low = lo[axis];
+        *high = hi[axis];
+        return;
+    }
+    uint32_t n = split_corner_count(set, f);
+    *low = *high = split_image(set, f, 0)[axis];
+    for (uint32_t i = 1; i < n; i++) {
+        double x = split_image(set, f, i)[axis];
+        if (x < *low) *low = x;
+        if (x > *high) *high = x;
+    }
+}
+
 /** An image with an infinite end counts as unbounded on both sides. */
 static void extent(const split_set *set, const split_fragment *f, int axis, double *low, double *high) {
     split_extent(set, f, axis, low, high);

@@ -9,7 +9,8 @@
 #ifndef FROE_SPLIT_AXES_H
 #define FROE_SPLIT_AXES_H
 #include "base/radix.h"
-#include "split/view.h"
+#include "split/grow.h"
+#include "split/price.h"
 
 typedef struct split_axes {
     ARRAY(double) low, high, flat; /**< of all fragments, ascending */
@@ -20,15 +21,13 @@ typedef struct split_axes {
     split_tally tally;          /**< what it does */
 } split_axes;
 
+/** Where the image of a fragment begins and ends on an axis; solids with all of themselves. */
+void split_extent(const split_set *set, const split_fragment *fragment, int axis, double *low, double *high);
 void split_axes_free(const froe_allocator *alloc, split_axes *axes);
 /** Sorts the ends on an axis, and sets the sweep before the first. False without memory. O(m). */
 bool split_axes_fill(split_axes *axes, const split_set *set, const split_cell *cell, int axis);
 /** Goes on to the next candidate, ascending, each value once. False: there is none. O(1) amortised. */
 bool split_axes_next(split_axes *axes);
-/** Does the cut leave less than all of its cell on either side? */
-static inline bool split_tally_separates(const split_tally *t) {
-    return t->on || (t->negative && t->positive);
-}
 /** All planes x[axis] = c with from <= c <= to have a fragment wholly on each side, or one in them. False: no plane
  * has. O(m). */
 bool split_axes_gap(const split_set *set, const split_cell *cell, int axis, double *from, double *to);

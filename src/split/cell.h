@@ -1,7 +1,8 @@
 /* cell.h: cutting one cell: its fragments are classified, divided and dealt to two new cells. */
 #ifndef FROE_SPLIT_CELL_H
 #define FROE_SPLIT_CELL_H
-#include "split/view.h"
+#include "split/grow.h"
+#include "split/price.h"
 
 /** Ends a cell as a leaf with its list, and takes its fragments off the stack. */
 froe_status cell_leaf(split_work *work, const split_cell *cell, uint8_t flags);

@@ -6,8 +6,13 @@
  * and costs S - w g. A side of more than `most` fragments costs more than any splits. */
 #ifndef FROE_SPLIT_PRICE_H
 #define FROE_SPLIT_PRICE_H
-#include "split/view.h"
-#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/** How a cut deals with the fragments of a cell. */
+typedef struct split_tally {
+    uint32_t negative, positive, on, both; /**< disjoint classes */
+} split_tally;
 
 enum { SPLIT_PRICE_TABLE = 4096 };
 
@@ -23,6 +28,10 @@ typedef struct split_terms {
 void split_price_init(split_price *price);
 /** Of a cut that deals so with a cell of which one fragment in `weight` is shown. Lower is better. */
 double split_price_of(const split_price *price, const split_terms *terms, split_tally tally, double weight);
+
+/** The price among boxes, balls and hulls, which are not split but listed on both sides: comparisons of pairs that are
+ * left, of all, and copies at `copy` each. 1: as much as without the cut. */
+double split_price_of_copies(split_tally tally, double copy);
 
 /** g, from xl(m), m, xl(A), xl(B) and S. */
 static inline double split_gain(double whole, uint32_t m, double a, double b, uint32_t splits) {

@@ -3,6 +3,7 @@
 #include "base/log2.h"
 #include "base/random.h"
 #include "split/cell.h"
+#include "split/contest.h"
 #include "split/finish.h"
 #include "split/resort.h"
 #include <math.h>
@@ -37,117 +38,85 @@ void split_scratch_free(split_work *work) {
     work->scratch = NULL;
 }
 
-/** The best candidate so far. */
-typedef struct choice {
-    froe_cut cut;
-    double cost;
-    bool any, good; /**< good: splits nothing and leaves at most three quarters on a side; no better one is sought */
-} choice;
-
-/** The rules that hold for all candidates of one cell. */
-typedef struct contest {
+/** The search for the cut of one cell: a contest of what the options say. */
+typedef struct refine_search {
+    split_contest contest;
     const split_refine *config;
-    split_work *work;
     split_scratch *scratch;
+    const split_set *set;
     const split_cell *cell;
-    split_terms terms; /**< with `most` where balance is due */
-    bool solids;       /**< there is nothing but boxes, balls and hulls */
-    choice best;
-} contest;
+} refine_search;
 
-/** Comparisons of pairs that are left, of all, and copies, at their price. 1: as much as without the cut. */
-static double solids_cost(split_tally t, double copy) {
-    double m = t.negative + t.positive + t.on + t.both, a = t.negative + t.both, b = t.positive + t.both;
-    return (a * a + b * b) / (m * m) + copy * t.both / m;
+static uint64_t draw_of(const refine_search *s, uint64_t i) {
+    return base_hash(s->config->seed, s->cell->path, i);
 }
 
-static void enter_cut(contest *c, const froe_cut *cut, split_tally tally) {
-    if (!split_tally_useful(tally)) return;
-    double cost = c->solids ? solids_cost(tally, c->config->copy)
-                            : split_price_of(&c->scratch->price, &c->terms, tally, c->scratch->view.weight);
-    if (c->best.any && cost >= c->best.cost) return;
-    uint32_t larger = tally.negative > tally.positive ? tally.negative : tally.positive;
-    c->best = (choice){*cut, cost, true,
-                       !tally.both && 4 * (uint64_t)larger <= 3 * ((uint64_t)tally.negative + tally.positive) + 2};
-    if (cut->kind != FROE_CUT_PLANE) return;
-    split_separator *s = &c->scratch->separator;
-    memcpy(s->best, cut->normal, sizeof s->best);
-    c->best.cut.normal = s->best;
+static uint32_t object_of(const refine_search *s, uint32_t i) {
+    return s->set->items.data[s->cell->first + i].object;
 }
 
-static void enter_support(contest *c, uint32_t item) {
-    const split_set *set = &c->work->set;
-    if (set->scene->dim > 3) return;
-    froe_cut cut = scene_support_cut(set->scene, set->items.data[c->cell->first + item].object);
-    if (cut.kind != FROE_CUT_NONE) enter_cut(c, &cut, split_view_count(&c->scratch->view, set->scene, &cut));
+/** With the count of the cut in what is shown, or NULL. */
+static void enter_cut(refine_search *s, const froe_cut *cut, const split_tally *tally) {
+    split_separator *separator = &s->scratch->separator;
+    split_candidate k = {.cut = *cut}, *best = s->contest.best;
+    split_view_plane plane;
+    if (!(tally ? split_contest_price(&s->contest, &k, *tally) : split_contest_score(&s->contest, &k, &plane))) return;
+    split_contest_enter(&s->contest, &k);
+    if (best->cut.kind != FROE_CUT_PLANE || best->cut.normal == separator->best) return;
+    memcpy(separator->best, best->cut.normal, sizeof separator->best);
+    best->cut.normal = separator->best;
 }
 
-/** All fragments of a small cell, or a draw from a large one. */
-static void enter_supports(contest *c) {
-    uint32_t m = c->cell->count, tries = c->config->supports;
-    for (uint32_t i = 0; i < (m <= tries ? m : tries) && !c->best.good; i++) {
-        if (m <= tries)
-            enter_support(c, i);
-        else
-            enter_support(c, base_below(base_hash(c->config->seed, c->cell->path, i), m));
-    }
+static void enter_support(refine_search *s, uint32_t item) {
+    froe_cut cut = s->set->scene->dim <= 3 ? scene_support_cut(s->set->scene, object_of(s, item)) : (froe_cut){0};
+    if (cut.kind != FROE_CUT_NONE) enter_cut(s, &cut, NULL);
 }
 
 /** Free cuts: a few, evenly chosen from all, so that one of them balances. */
-static void enter_free_cuts(contest *c) {
-    const split_fragment *items = c->work->set.items.data + c->cell->first;
-    uint32_t all = 0, seen = 0, most = c->config->supports > 4 ? c->config->supports : 4;
-    for (uint32_t i = 0; i < c->cell->count; i++) all += split_is_free(&c->work->set, items + i);
-    for (uint32_t i = 0, next = 0; seen < all && !c->best.good; i++) {
-        if (!split_is_free(&c->work->set, items + i)) continue;
-        if (all <= most || seen >= (uint32_t)((2 * (uint64_t)next + 1) * all / (2 * most))) enter_support(c, i), next++;
+static void enter_free_cuts(refine_search *s) {
+    const split_fragment *items = s->set->items.data + s->cell->first;
+    uint32_t all = 0, seen = 0, most = s->config->supports > 4 ? s->config->supports : 4;
+    for (uint32_t i = 0; i < s->cell->count; i++) all += split_is_free(s->set, items + i);
+    for (uint32_t i = 0, next = 0; seen < all && !s->contest.done; i++) {
+        if (!split_is_free(s->set, items + i)) continue;
+        if (all <= most || seen >= (uint32_t)((2 * (uint64_t)next + 1) * all / (2 * most))) enter_support(s, i), next++;
         seen++;
     }
 }
 
-/** A plane through an edge of one polygon and a vertex of another: what balances the fan around a common
+/** Planes through an edge of one polygon and a vertex of another: what balances the fan around a common
  * vertex, where every supporting plane has all others on one side. */
-static void enter_edge(contest *c, uint64_t draw) {
-    const split_set *set = &c->work->set;
-    const froe_scene *scene = set->scene;
-    const split_fragment *items = set->items.data + c->cell->first;
-    uint32_t one = items[base_below(draw, c->cell->count)].object;
-    uint32_t other = items[base_below(base_mix(draw + 1), c->cell->count)].object;
-    if (scene_form(scene, one) != FROE_POLYGON || scene_form(scene, other) != FROE_POLYGON) return;
-    uint32_t n = scene_corners(scene, one), i = base_below(base_mix(draw + 2), n);
-    uint32_t j = base_below(base_mix(draw + 3), scene_corners(scene, other));
-    froe_cut cut = {.kind = FROE_CUT_VERTICES};
-    cut.id[0] = scene_corner(scene, one, i);
-    cut.id[1] = scene_corner(scene, one, i + 1 < n ? i + 1 : 0);
-    cut.id[2] = scene_corner(scene, other, j);
-    if (cut.id[2] == cut.id[0] || cut.id[2] == cut.id[1]) return;
-    enter_cut(c, &cut, split_view_count(&c->scratch->view, scene, &cut));
+static void enter_edges(refine_search *s) {
+    const froe_scene *scene = s->set->scene;
+    for (uint32_t i = 0; i < s->config->edges; i++) {
+        uint64_t draw = draw_of(s, 100000 + i);
+        uint32_t one = object_of(s, base_below(draw, s->cell->count));
+        uint32_t other = object_of(s, base_below(base_mix(draw + 1), s->cell->count));
+        if (scene_form(scene, one) != FROE_POLYGON || scene_form(scene, other) != FROE_POLYGON) continue;
+        uint32_t n = scene_corners(scene, one), corner = base_below(base_mix(draw + 2), n);
+        uint32_t third = base_below(base_mix(draw + 3), scene_corners(scene, other));
+        froe_cut cut = {.kind = FROE_CUT_VERTICES};
+        cut.id[0] = scene_corner(scene, one, corner);
+        cut.id[1] = scene_corner(scene, one, corner + 1 < n ? corner + 1 : 0);
+        cut.id[2] = scene_corner(scene, other, third);
+        if (cut.id[2] != cut.id[0] && cut.id[2] != cut.id[1]) enter_cut(s, &cut, NULL);
+    }
 }
 
-static void enter_edges(contest *c) {
-    for (uint32_t i = 0; i < c->config->edges; i++)
-        enter_edge(c, base_hash(c->config->seed, c->cell->path, 100000 + i));
-}
-
-static bool enter_axes(contest *c, size_t quantiles) {
-    split_view *view = &c->scratch->view;
-    for (int axis = 0; axis < c->work->set.scene->dim && !c->best.good; axis++) {
-        if (!split_view_extents(view, &c->work->set, c->cell, axis)) return false;
-        size_t n = view->values.count, tries = quantiles;
-        if (tries > n) tries = n;
-        for (size_t i = 0, last = n; i < tries; i++) {
+static void enter_axes(refine_search *s, size_t quantiles) {
+    split_view *view = &s->scratch->view;
+    for (int axis = 0; axis < s->set->scene->dim && !s->contest.done && !s->contest.failed; axis++) {
+        s->contest.failed |= !split_view_extents(view, s->set, s->cell, axis);
+        size_t n = view->values.count, tries = quantiles < n ? quantiles : n;
+        for (size_t i = 0, last = n; i < tries && !s->contest.failed; i++) {
             size_t at = (2 * i + 1) * n / (2 * tries);
             froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis, .value = view->values.data[at]};
             if (!isfinite(cut.value) || (last < n && view->values.data[last] == cut.value)) continue;
-            enter_cut(c, &cut, split_view_count_axis(view, cut.value));
+            split_tally tally = split_view_count_axis(view, cut.value);
+            enter_cut(s, &cut, &tally);
             last = at;
         }
     }
-    return true;
-}
-
-static uint32_t item_object(const contest *c, uint32_t i) {
-    return c->work->set.items.data[c->cell->first + i].object;
 }
 
 static double centre_distance(const froe_scene *scene, uint32_t a, uint32_t b) {
@@ -162,118 +131,117 @@ static double centre_distance(const froe_scene *scene, uint32_t a, uint32_t b) {
 }
 
 /** Planes between an object and the nearest of 1, 2, 4, ... 128 others. */
-static void enter_separators(contest *c) {
-    const froe_scene *scene = c->work->set.scene;
-    uint32_t m = c->cell->count;
-    for (uint64_t i = 0; i < SEPARATORS && scene->dim <= 3 && !c->best.good; i++) {
-        uint64_t draw = base_hash(c->config->seed, c->cell->path, 200000 + i);
-        uint32_t a = item_object(c, base_below(draw, m)), b = FROE_NONE;
+static void enter_separators(refine_search *s) {
+    const froe_scene *scene = s->set->scene;
+    uint32_t m = s->cell->count;
+    for (uint64_t i = 0; i < SEPARATORS && scene->dim <= 3 && !s->contest.done; i++) {
+        uint64_t draw = draw_of(s, 200000 + i);
+        uint32_t a = object_of(s, base_below(draw, m)), b = FROE_NONE;
         for (uint32_t t = 0; t < 1u << i % 8; t++) {
-            uint32_t other = item_object(c, base_below(base_mix(draw + 1 + t), m));
+            uint32_t other = object_of(s, base_below(base_mix(draw + 1 + t), m));
             if (other == a || (b != FROE_NONE && centre_distance(scene, a, other) >= centre_distance(scene, a, b)))
                 continue;
             b = other;
         }
         froe_cut cut;
-        if (b != FROE_NONE && split_separate_pair(c->work, a, b, &c->scratch->separator, &cut))
-            enter_cut(c, &cut, split_view_count(&c->scratch->view, scene, &cut));
+        if (b != FROE_NONE && split_separate_pair(s->contest.work, a, b, &s->scratch->separator, &cut))
+            enter_cut(s, &cut, NULL);
     }
 }
 
 /** Planes of facets, drawn at random: of the box around an object, one that lies in the cell or not. */
-static bool enter_facets(contest *c) {
-    const froe_scene *scene = c->work->set.scene;
-    for (uint32_t i = 0; i < c->config->supports && !c->best.good; i++) {
-        uint64_t draw = base_hash(c->config->seed, c->cell->path, 300000 + i);
+static void enter_facets(refine_search *s) {
+    const froe_scene *scene = s->set->scene;
+    split_view *view = &s->scratch->view;
+    for (uint32_t i = 0; i < s->config->supports && !s->contest.done && !s->contest.failed; i++) {
+        uint64_t draw = draw_of(s, 300000 + i);
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
         int axis = (int)base_below(base_mix(draw + 1), (uint32_t)scene->dim);
-        scene_object_bounds(scene, item_object(c, base_below(draw, c->cell->count)), lo, hi);
+        scene_object_bounds(scene, object_of(s, base_below(draw, s->cell->count)), lo, hi);
         froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis, .value = (base_mix(draw + 2) & 1 ? hi : lo)[axis]};
-        if (!split_view_extents(&c->scratch->view, &c->work->set, c->cell, axis)) return false;
-        enter_cut(c, &cut, split_view_count_axis(&c->scratch->view, cut.value));
+        s->contest.failed |= !split_view_extents(view, s->set, s->cell, axis);
+        if (s->contest.failed) return;
+        split_tally tally = split_view_count_axis(view, cut.value);
+        enter_cut(s, &cut, &tally);
     }
-    return true;
 }
 
-static bool solids_only(const contest *c) {
-    uint32_t i = 0;
-    while (i < c->cell->count && scene_form(c->work->set.scene, item_object(c, i)) >= FROE_BOX) i++;
-    return i == c->cell->count;
-}
-
-/** A facet that separates something; complete for boxes. */
-static bool any_facet(const contest *c, froe_cut *cut) {
-    for (int k = 0; k < c->work->set.scene->dim && c->config->facets; k++) {
-        double from, to;
-        if (!split_axes_gap(&c->work->set, c->cell, k, &from, &to)) continue;
-        *cut = (froe_cut){.kind = FROE_CUT_AXIS, .axis = k, .value = from};
-        return true;
-    }
-    return false;
-}
-
-/** When no candidate separates anything: any plane that does. */
-static split_verdict enter_any_separator(contest *c) {
+/** When no candidate separates anything: any plane that does. Facets are complete for boxes. */
+static split_verdict enter_any_separator(refine_search *s) {
+    split_work *work = s->contest.work;
     split_tally tally;
     froe_cut cut;
-    split_verdict verdict = SPLIT_CUT;
-    if (!any_facet(c, &cut)) verdict = split_separate(c->work, c->cell, &c->scratch->separator, &cut);
+    split_verdict verdict = SPLIT_INSEPARABLE;
+    for (int k = 0; k < s->set->scene->dim && s->config->facets && verdict != SPLIT_CUT; k++) {
+        double from, to;
+        if (!split_axes_gap(s->set, s->cell, k, &from, &to)) continue;
+        cut = (froe_cut){.kind = FROE_CUT_AXIS, .axis = k, .value = from};
+        verdict = SPLIT_CUT;
+    }
+    if (verdict != SPLIT_CUT) verdict = split_separate(work, s->cell, &s->scratch->separator, &cut);
     if (verdict != SPLIT_CUT) return verdict;
-    if (cell_tally(c->work, c->cell, &cut, &tally)) return SPLIT_MEMORY;
-    enter_cut(c, &cut, tally);
+    if (cell_tally(work, s->cell, &cut, &tally)) return SPLIT_MEMORY;
+    enter_cut(s, &cut, &tally);
     return SPLIT_CUT;
 }
 
 /** The cheapest of some cuts, unless none pays and the cell is crowded. */
-static split_verdict choose_among_solids(contest *c, froe_cut *cut) {
-    const split_refine *config = c->config;
-    split_separator *separator = &c->scratch->separator;
-    if (!split_separator_ready(&c->work->set, c->cell, separator)) return SPLIT_MEMORY;
-    if (!c->cell->attempt && config->facets) {
-        if (!enter_facets(c)) return SPLIT_MEMORY;
-    } else if (!c->cell->attempt) {
-        if (!enter_axes(c, config->quantiles > QUANTILES ? config->quantiles : QUANTILES)) return SPLIT_MEMORY;
-        enter_separators(c);
+static split_verdict choose_among_solids(refine_search *s, froe_cut *cut) {
+    const split_refine *config = s->config;
+    const split_contest *c = &s->contest;
+    split_separator *separator = &s->scratch->separator;
+    if (!split_separator_ready(s->set, s->cell, separator)) return SPLIT_MEMORY;
+    if (!s->cell->attempt && config->facets) {
+        enter_facets(s);
+    } else if (!s->cell->attempt) {
+        enter_axes(s, config->quantiles > QUANTILES ? config->quantiles : QUANTILES);
+        if (!c->failed) enter_separators(s);
     }
-    split_verdict verdict = c->best.any ? SPLIT_CUT : enter_any_separator(c);
+    if (c->failed) return SPLIT_MEMORY;
+    split_verdict verdict = c->count ? SPLIT_CUT : enter_any_separator(s);
     if (verdict != SPLIT_CUT) return verdict;
-    if (c->best.cost > 1 && config->copy > 0 && split_crowded(c->work, c->cell, separator)) return SPLIT_CROWDED;
-    *cut = c->best.cut;
+    if (c->best->cost > 1 && config->copy > 0 && split_crowded(c->work, s->cell, separator)) return SPLIT_CROWDED;
+    *cut = c->best->cut;
     return SPLIT_CUT;
 }
 
 /** A cut that certainly separates something, or the verdict that none exists. */
-static split_verdict last_resort(contest *c, froe_cut *cut) {
-    uint64_t draw = base_hash(c->config->seed, c->cell->path, 77);
-    if (split_any_support(&c->work->set, c->cell, draw, cut)) return SPLIT_CUT;
-    return split_separate(c->work, c->cell, &c->scratch->separator, cut);
-}
-
-/** Three vertices may lie on a line, which scores do not see. Exact. */
-static bool is_plane(const contest *c, const froe_cut *cut) {
-    if (cut->kind != FROE_CUT_VERTICES) return true;
-    geom_plane plane = scene_cut_plane(c->work->set.scene, cut);
-    return geom_plane_valid(&c->work->set.context, &plane);
+static split_verdict last_resort(refine_search *s, froe_cut *cut) {
+    if (split_any_support(s->set, s->cell, draw_of(s, 77), cut)) return SPLIT_CUT;
+    return split_separate(s->contest.work, s->cell, &s->scratch->separator, cut);
 }
 
 split_verdict split_refine_choose(const split_refine *config, split_work *work, const split_cell *cell, froe_cut *cut) {
-    contest c = {.config = config, .work = work, .scratch = work->scratch, .cell = cell};
-    if (cell->count <= config->leaf) return SPLIT_LEAF;
+    const uint32_t m = cell->count, tries = m <= config->supports ? m : config->supports;
+    split_scratch *scratch = work->scratch;
+    refine_search s = {.config = config, .scratch = scratch, .set = &work->set, .cell = cell};
+    s.contest = (split_contest){.work = work,
+                                .cell = cell,
+                                .view = &scratch->view,
+                                .price = &scratch->price,
+                                .copy = config->copy,
+                                .solids = true};
+    if (m <= config->leaf) return SPLIT_LEAF;
     if (config->leaf && split_one_point(&work->set, cell)) return SPLIT_INSEPARABLE;
-    c.solids = solids_only(&c);
-    if (cell->attempt && !c.solids) return last_resort(&c, cut);
-    if (!c.solids && config->supports == 1 && !config->quantiles && !config->free_cuts) return last_resort(&c, cut);
-    const bool strict = split_balance_due(config, cell->depth, base_log2(cell->count));
-    c.terms = (split_terms){config->weight, strict && cell->count > 4 ? 0.75 * cell->count : (double)INFINITY};
-    if (!split_view_fill(&c.scratch->view, &work->set, cell, config->sample, config->seed)) return SPLIT_MEMORY;
-    if (c.solids) return choose_among_solids(&c, cut);
-    if (config->free_cuts) enter_free_cuts(&c);
-    if (!c.best.any) {
-        enter_supports(&c);
-        if (config->quantiles && !enter_axes(&c, config->quantiles)) return SPLIT_MEMORY;
-        if (strict && work->set.scene->dim == 3) enter_edges(&c);
+    for (uint32_t i = 0; i < m && s.contest.solids; i++)
+        s.contest.solids = scene_form(work->set.scene, object_of(&s, i)) >= FROE_BOX;
+    bool single = config->supports == 1 && !config->quantiles && !config->free_cuts;
+    if (!s.contest.solids && (cell->attempt || single)) return last_resort(&s, cut);
+    const bool strict = split_balance_due(config, cell->depth, base_log2(m));
+    s.contest.terms = (split_terms){config->weight, strict && m > 4 ? 0.75 * m : (double)INFINITY};
+    split_contest_show(&s.contest, config->sample, config->seed);
+    if (s.contest.failed) return SPLIT_MEMORY;
+    if (s.contest.solids) return choose_among_solids(&s, cut);
+    if (config->free_cuts) enter_free_cuts(&s);
+    if (!s.contest.count) {
+        /* all fragments of a small cell, or a draw from a large one */
+        for (uint32_t i = 0; i < tries && !s.contest.done; i++)
+            enter_support(&s, m <= tries ? i : base_below(draw_of(&s, i), m));
+        if (config->quantiles) enter_axes(&s, config->quantiles);
+        if (strict && work->set.scene->dim == 3 && !s.contest.failed) enter_edges(&s);
     }
-    if (!c.best.any || !is_plane(&c, &c.best.cut)) return last_resort(&c, cut);
-    *cut = c.best.cut;
+    if (s.contest.failed) return SPLIT_MEMORY;
+    if (!s.contest.count) return last_resort(&s, cut);
+    *cut = s.contest.best->cut;
     return SPLIT_CUT;
 }

@@ -11,8 +11,8 @@
 #ifndef FROE_SPLIT_REFINE_H
 #define FROE_SPLIT_REFINE_H
 #include "split/axes.h"
-#include "split/price.h"
 #include "split/separate.h"
+#include "split/view.h"
 
 typedef struct split_refine {
     uint32_t leaf; /**< capacity */

@@ -1,7 +1,7 @@
 /* resort.h: cuts that certainly separate something, where better ones cannot be had. */
 #ifndef FROE_SPLIT_RESORT_H
 #define FROE_SPLIT_RESORT_H
-#include "split/facets.h"
+#include "split/view.h"
 
 /** The support of some fragment, drawn by `draw`, takes that fragment at least out of the cell. False: there is none
  * (boxes, balls and hulls only). */
@@ -9,8 +9,8 @@ bool split_any_support(const split_set *set, const split_cell *cell, uint64_t dr
 /** The same, but only by a fragment that crosses its cell from border to border: no disjoint one is split by it. */
 bool split_any_free(const split_set *set, const split_cell *cell, uint64_t draw, froe_cut *cut);
 /** The axis-parallel plane that halves the vertices shown, without those that are first or last along the axis; on the
- * axis where most are left. False: none are left on any. Uses up the facets. */
-bool split_vertex_median(split_facets *facets, const froe_scene *scene, froe_cut *cut);
+ * axis where most are left. False: none are left on any. Uses up the view. */
+bool split_vertex_median(split_view *view, const froe_scene *scene, froe_cut *cut);
 /** Does the fragment cross its cell from border to border? */
 bool split_is_free(const split_set *set, const split_fragment *fragment);
 /** Equal points, and nothing else, in the cell? */

@@ -1,235 +1,348 @@
-/* view.c: counting candidates, fast and only nearly right. */
+/* view.c: laying out a cell and counting beside planes. */
 #include "split/view.h"
 #include "base/random.h"
 #include "base/sort.h"
+#include "split/axes.h"
 #include <math.h>
 #include <string.h>
 
-void split_view_free(const froe_allocator *alloc, split_view *view) {
-    for (int k = 0; k < 3; k++) array_free(alloc, &view->x[k]);
-    array_free(alloc, &view->radius);
-    array_free(alloc, &view->start);
-    array_free(alloc, &view->side);
-    array_free(alloc, &view->values);
-    array_free(alloc, &view->low);
-    array_free(alloc, &view->high);
+#define THIN 1e-5 /* vertices whose triangle is thinner than this give no plane worth trying */
+
+void split_view_free(const froe_allocator *alloc, split_view *v) {
+    array_free(alloc, &v->x);
+    array_free(alloc, &v->y);
+    array_free(alloc, &v->z);
+    array_free(alloc, &v->radius);
+    array_free(alloc, &v->vertex);
+    array_free(alloc, &v->vertices);
+    array_free(alloc, &v->side);
+    array_free(alloc, &v->start);
+    array_free(alloc, &v->corner);
+    array_free(alloc, &v->values);
+    array_free(alloc, &v->low);
+    array_free(alloc, &v->high);
+    if (v->place) support_free(alloc, v->place, v->place_count * sizeof *v->place);
+    v->place = NULL;
 }
 
-/** Appends one corner, or ball. The caller has made room. */
-static void add_view_corner(split_view *view, const double *x, double radius, int dim) {
-    size_t at = view->x[0].count++;
-    for (int k = 0; k < dim; k++) {
-        double size = fabs(x[k]) + radius;
-        view->x[k].data[at] = x[k];
-        if (size > view->reach[k]) view->reach[k] = size;
+/* ---------------------------------------------------------------- filling -- */
+
+static bool reserve_view(split_view *v, const froe_allocator *alloc, uint32_t corners) {
+    v->y.count = v->z.count = v->radius.count = v->x.count;
+    return array_reserve(alloc, &v->x, corners) && array_reserve(alloc, &v->y, corners) &&
+           array_reserve(alloc, &v->z, corners) && array_reserve(alloc, &v->radius, corners) &&
+           array_reserve(alloc, &v->vertex, corners) && array_reserve(alloc, &v->vertices, corners) &&
+           array_reserve(alloc, &v->corner, corners) && array_reserve(alloc, &v->start, 1);
+}
+
+/** A corner of its own; coordinates as in the scene for now. */
+static uint32_t add_view_corner(split_view *v, const double *x, double radius, uint32_t vertex) {
+    uint32_t at = (uint32_t)v->x.count++;
+    v->x.data[at] = x[0];
+    v->y.data[at] = x[1];
+    v->z.data[at] = v->dim == 3 ? x[2] : 0;
+    v->radius.data[at] = radius;
+    v->vertex.data[at] = vertex;
+    v->vertex.count = at + 1;
+    return at;
+}
+
+static uint32_t add_view_vertex(split_view *v, const froe_scene *scene, uint32_t vertex) {
+    uint32_t at = v->place[vertex];
+    if (at != FROE_NONE) return at;
+    v->place[vertex] = at = add_view_corner(v, scene_vertex(scene, vertex), 0, vertex);
+    v->vertices.data[v->vertices.count++] = at;
+    return at;
+}
+
+/** The corners of a box, or the centre of a ball: no vertices of the scene. */
+static void add_solid(split_view *v, const froe_scene *scene, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], x[3], radius = 0;
+    unsigned corners = 1u << v->dim;
+    scene_object_bounds(scene, object, lo, hi);
+    if (scene_form(scene, object) == FROE_BALL) {
+        radius = scene_radius(scene, object);
+        memcpy(lo, scene_point(scene, object, 0), (size_t)v->dim * sizeof *lo);
+        v->round = true;
+        corners = 1;
     }
-    view->radius.data[at] = radius;
-    view->round |= radius > 0;
-}
-
-static void add_view_box(split_view *view, const split_set *set, uint32_t object, int dim) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], x[3];
-    scene_object_bounds(set->scene, object, lo, hi);
-    for (unsigned corner = 0; corner < 1u << dim; corner++) {
-        for (int k = 0; k < dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
-        add_view_corner(view, x, 0, dim);
+    for (unsigned i = 0; i < corners; i++) {
+        for (int k = 0; k < v->dim; k++) x[k] = i >> k & 1 ? hi[k] : lo[k];
+        v->corner.data[v->corner.count++] = add_view_corner(v, x, radius, FROE_NONE);
     }
 }
 
-/** Room for n more corners and one more fragment. */
-static bool reserve_view(split_view *view, const froe_allocator *alloc, int dim, uint32_t n) {
-    for (int k = 0; k < dim; k++) {
-        view->x[k].count = view->x[0].count;
-        if (!array_reserve(alloc, &view->x[k], n)) return false;
-    }
-    view->radius.count = view->x[0].count;
-    return array_reserve(alloc, &view->radius, n) && array_reserve(alloc, &view->start, 1);
-}
-
-static bool add_fragment(split_view *view, const split_set *set, const split_fragment *f) {
+static bool add_view_fragment(split_view *v, const split_set *set, const split_fragment *item) {
     const froe_scene *scene = set->scene;
-    int dim = scene->dim;
-    froe_kind form = scene_form(scene, f->object);
-    uint32_t n = form == FROE_BOX ? 1u << dim : form == FROE_BALL ? 1 : split_corner_count(set, f);
-    if (!reserve_view(view, &set->alloc, dim, n)) return false;
-    if (form == FROE_BOX)
-        add_view_box(view, set, f->object, dim);
-    else
-        for (uint32_t i = 0; i < n; i++)
-            add_view_corner(view, split_image(set, f, i), form == FROE_BALL ? scene_radius(scene, f->object) : 0, dim);
-    view->start.data[view->start.count++] = (uint32_t)view->x[0].count;
+    froe_kind form = scene_form(scene, item->object);
+    bool solid = form == FROE_BOX || form == FROE_BALL;
+    uint32_t n = solid ? 1u << v->dim : split_corner_count(set, item);
+    if (!reserve_view(v, &set->alloc, n)) return false;
+    if (solid) add_solid(v, scene, item->object);
+    for (uint32_t i = 0; i < n && !solid; i++) {
+        const split_corner *k = item->count ? set->corners.data + item->first + i : NULL;
+        uint32_t vertex = !k ? scene_corner(scene, item->object, i) : k->type == SPLIT_VERTEX ? k->a : FROE_NONE, at;
+        if (vertex != FROE_NONE) {
+            at = add_view_vertex(v, scene, vertex);
+        } else {
+            /* where a corner lies beyond doubles, any place of its object will do */
+            bool known = isfinite(k->x[0]) && isfinite(k->x[1]) && (v->dim == 2 || isfinite(k->x[2]));
+            at = add_view_corner(v, known ? k->x : scene_point(scene, item->object, 0), 0, FROE_NONE);
+        }
+        v->corner.data[v->corner.count++] = at;
+    }
+    v->start.data[v->start.count++] = (uint32_t)v->corner.count;
     return true;
 }
 
-/** The i-th fragment shown of a cell. */
-static const split_fragment *shown(const split_set *set, const split_cell *cell, uint32_t i, uint32_t count,
-                                   uint64_t seed) {
-    uint32_t pick = count == cell->count ? i : base_below(base_hash(seed, cell->path, 1000 + i), cell->count);
-    return set->items.data + cell->first + pick;
-}
-
 /** Segments in the plane, shown whole: the commonest case by far. False: there are others, nothing was done. */
-static bool fill_pairs(split_view *view, const split_set *set, const split_fragment *items) {
-    double *x = view->x[0].data, *y = view->x[1].data, reach[2] = {0, 0};
-    for (uint32_t i = 0; i < view->count; i++) {
+static bool fill_pairs(split_view *v, const split_set *set, const split_fragment *items) {
+    double *x = v->x.data, *y = v->y.data;
+    for (uint32_t i = 0; i < v->count; i++) {
         if (split_corner_count(set, items + i) != 2 || scene_form(set->scene, items[i].object) != FROE_SEGMENT)
             return false;
         for (uint32_t k = 0; k < 2; k++, x++, y++) {
             const double *p = split_image(set, items + i, k);
+            if (!isfinite(p[0]) || !isfinite(p[1])) p = scene_point(set->scene, items[i].object, 0);
             *x = p[0];
             *y = p[1];
-            reach[0] = fabs(*x) > reach[0] ? fabs(*x) : reach[0];
-            reach[1] = fabs(*y) > reach[1] ? fabs(*y) : reach[1];
         }
     }
-    view->x[0].count = view->x[1].count = 2 * (size_t)view->count;
-    view->reach[0] = reach[0];
-    view->reach[1] = reach[1];
+    v->x.count = v->corners = 2 * v->count;
     return true;
 }
 
-bool split_view_fill(split_view *view, const split_set *set, const split_cell *cell, uint32_t sample, uint64_t seed) {
-    view->count = cell->count > sample ? sample : cell->count;
-    view->weight = (double)cell->count / view->count;
-    view->pairs = view->round = false;
-    if (set->scene->dim > 3) return true; /* axis-parallel planes are the only candidates */
-    view->start.count = 0;
-    for (int k = 0; k < 3; k++) view->x[k].count = 0, view->reach[k] = 0;
-    if (!reserve_view(view, &set->alloc, set->scene->dim, 2 * view->count)) return false;
-    if (set->scene->dim == 2 && view->count == cell->count)
-        view->pairs = fill_pairs(view, set, set->items.data + cell->first);
-    if (view->pairs) return true;
-    view->start.data[view->start.count++] = 0;
-    for (uint32_t i = 0; i < view->count; i++)
-        if (!add_fragment(view, set, shown(set, cell, i, view->count, seed))) return false;
-    view->side.count = 0;
-    return array_reserve(&set->alloc, &view->side, view->x[0].count);
-}
-
-/** A plane in plain doubles: side = sign of n . x - d. */
-typedef struct rough {
-    double n[3], d;
-} rough;
-
-/** Through dim points: the normal as in geom/plane.h. */
-static rough through(int dim, const double *p, const double *q, const double *r) {
-    rough h = {{p[1] - q[1], q[0] - p[0], 0}, 0};
-    if (dim == 3) {
-        double u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-        h.n[0] = u[1] * v[2] - u[2] * v[1];
-        h.n[1] = u[2] * v[0] - u[0] * v[2];
-        h.n[2] = u[0] * v[1] - u[1] * v[0];
+/** To local coordinates, by a power of two at most twice the width of the corners. */
+static void centre_view(split_view *v) {
+    double *const x[3] = {v->x.data, v->y.data, v->z.data}, width = 0;
+    int exponent = 0;
+    for (int k = 0; k < v->dim; k++) { /* half the middle and half the width, so that nothing overflows */
+        double lo = x[k][0], hi = x[k][0];
+        for (uint32_t i = 1; i < v->corners; i++) {
+            lo = x[k][i] < lo ? x[k][i] : lo;
+            hi = x[k][i] > hi ? x[k][i] : hi;
+        }
+        v->middle[k] = 0.25 * lo + 0.25 * hi;
+        width = 0.5 * hi - 0.5 * lo > width ? 0.5 * hi - 0.5 * lo : width;
     }
-    for (int k = 0; k < dim; k++) h.d += h.n[k] * p[k];
-    return h;
+    if (width > 0) frexp(width, &exponent); /* width < 2^exponent; local coordinates are at most half as large */
+    v->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
+    for (int k = 0; k < 3; k++) v->reach[k] = k < v->dim ? 2 * fabs(v->middle[k]) * v->scale + 0.5 : 0;
+    for (int k = 0; k < v->dim; k++)
+        for (size_t i = 0; i < v->x.count; i++) x[k][i] = (0.5 * x[k][i] - v->middle[k]) * v->scale;
+    for (size_t i = 0; i < v->x.count && v->round; i++) v->radius.data[i] *= 0.5 * v->scale;
 }
 
-static rough rough_plane(const froe_scene *scene, const froe_cut *cut) {
-    int dim = scene->dim;
-    rough h = {.d = cut->value};
-    const uint32_t *id = cut->kind == FROE_CUT_OBJECT ? scene->corners + scene->starts[cut->id[0]] : cut->id;
+/** Two vertices of every object shown, on average, where corners are few. */
+static bool add_outside(split_view *v, const split_set *set, const split_cell *cell, uint64_t seed) {
+    const split_fragment *items = set->items.data + cell->first;
+    if (v->inside >= v->count) return true;
+    if (!reserve_view(v, &set->alloc, 2 * v->count)) return false;
+    for (uint32_t i = 0; i < 2 * v->count; i++) {
+        uint64_t hash = base_hash(seed, cell->path, 0x20000000 + i);
+        uint32_t object = items[base_below(hash, cell->count)].object;
+        uint32_t corner = base_below(base_mix(hash), scene_corners(set->scene, object));
+        add_view_vertex(v, set->scene, scene_corner(set->scene, object, corner));
+    }
+    return true;
+}
+
+/** Forgets the last cell. False without memory. */
+static bool clear_view(split_view *v, const split_set *set) {
+    v->dim = set->scene->dim;
+    v->pairs = v->round = false;
+    for (size_t i = 0; i < v->vertices.count; i++) v->place[v->vertex.data[v->vertices.data[i]]] = FROE_NONE;
+    v->x.count = v->vertex.count = v->vertices.count = v->start.count = v->corner.count = v->side.count = 0;
+    return reserve_view(v, &set->alloc, 2 * v->count);
+}
+
+/** Where vertices are in the view: nowhere yet. Made once it is needed. */
+static bool make_places(split_view *v, const split_set *set) {
+    uint32_t count = set->scene->vertex_count;
+    if (v->place) return true;
+    v->place = support_calloc(&set->alloc, count, sizeof *v->place);
+    if (!v->place) return false;
+    v->place_count = count;
+    memset(v->place, 0xff, count * sizeof *v->place);
+    return true;
+}
+
+bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell, uint32_t sample, uint64_t seed,
+                     bool swept) {
+    const split_fragment *items = set->items.data + cell->first;
+    bool all = cell->count <= sample;
+    v->count = all ? cell->count : sample;
+    v->weight = (double)cell->count / v->count;
+    if (set->scene->dim > 3) return true;
+    if (!clear_view(v, set)) return false;
+    v->swept = swept;
+    v->pairs = set->scene->dim == 2 && all && !swept && fill_pairs(v, set, items);
+    if (!v->pairs) {
+        if (!make_places(v, set)) return false;
+        v->start.data[v->start.count++] = 0;
+        for (uint32_t i = 0; i < v->count; i++) {
+            uint32_t pick = all ? i : base_below(base_hash(seed, cell->path, 0x10000000 + i), cell->count);
+            if (!add_view_fragment(v, set, items + pick)) return false;
+        }
+        v->corners = (uint32_t)v->x.count;
+        v->inside = (uint32_t)v->vertices.count;
+        if (!array_reserve(&set->alloc, &v->side, v->corners)) return false;
+        if (swept && !add_outside(v, set, cell, seed)) return false;
+    }
+    centre_view(v);
+    return true;
+}
+
+/* ----------------------------------------------------------------- planes -- */
+
+void split_view_local(const split_view *v, const double *x, double out[3]) {
+    for (int k = 0; k < 3; k++) out[k] = k < v->dim ? (0.5 * x[k] - v->middle[k]) * v->scale : 0;
+}
+
+static double dot_3(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** Planes that agree up to the rounding of the scene's coordinates are meant as one. Views for sweeps are stricter:
+ * their best is counted again. */
+static double slack_of(const split_view *v, const split_view_plane *plane) {
+    double sum = fabs(plane->d);
+    for (int k = 0; k < 3; k++) sum += fabs(plane->n[k]) * v->reach[k];
+    return 0x1p-49 * sum;
+}
+
+/** The vector between two vertices in the first `dim` coordinates, and its squared length. */
+static double edge(const split_view *v, const froe_scene *scene, uint32_t a, uint32_t b, int dim, double out[3]) {
+    const double *x = scene_vertex(scene, a), *y = scene_vertex(scene, b);
+    for (int k = 0; k < 3; k++) out[k] = k < dim ? (0.5 * y[k] - 0.5 * x[k]) * v->scale : 0;
+    return dot_3(out, out);
+}
+
+/** Through three vertices, or through two and upright, as a line of the plane is. */
+static bool plane_through(const split_view *v, const froe_scene *scene, const uint32_t *id, int span, double thin,
+                          split_view_plane *out) {
+    double *n = out->n, at[3], u[3], w[3] = {0, 0, -1}, x[3], longest = edge(v, scene, id[0], id[1], span, u);
+    if (span == 3) {
+        double ww = edge(v, scene, id[0], id[2], 3, w), xx = edge(v, scene, id[1], id[2], 3, x);
+        longest = ww > longest ? ww : longest;
+        longest = xx > longest ? xx : longest;
+    } else {
+        longest = sqrt(longest); /* in place of an area there is the distance of the two */
+    }
+    n[0] = u[1] * w[2] - u[2] * w[1];
+    n[1] = u[2] * w[0] - u[0] * w[2];
+    n[2] = u[0] * w[1] - u[1] * w[0];
+    double length = sqrt(dot_3(n, n)), over = 1 / length;
+    if (!(length > thin * longest) || !(length > 0x1p-900) || !(length < 0x1p900)) return false; /* NaN, too */
+    split_view_local(v, scene_vertex(scene, id[0]), at);
+    for (int k = 0; k < 3; k++) n[k] *= over, out->known[k] = k < span && !v->pairs ? v->place[id[k]] : FROE_NONE;
+    out->d = dot_3(n, at);
+    /* a few roundings of the normal, which weigh more the thinner the triangle, and of the sums */
+    out->slack = v->swept ? 0x1p-48 * (1 + longest * over) * (1 + sqrt(dot_3(at, at))) : slack_of(v, out);
+    return true;
+}
+
+bool split_view_span(const split_view *v, const froe_scene *scene, const uint32_t *id, double thin,
+                     split_view_plane *out) {
+    return plane_through(v, scene, id, v->dim, thin, out);
+}
+
+split_view_plane split_view_axis(const split_view *v, int axis, double value) {
+    split_view_plane out = {.slack = 0x1p-50, .known = {FROE_NONE, FROE_NONE, FROE_NONE}};
+    out.n[axis] = 1;
+    out.d = (0.5 * value - v->middle[axis]) * v->scale;
+    return out;
+}
+
+/** n . x = value, for any n. */
+static split_view_plane plane_across(const split_view *v, const double *normal, double value) {
+    split_view_plane out = {.known = {FROE_NONE, FROE_NONE, FROE_NONE}};
+    double length = 0;
+    for (int k = 0; k < v->dim; k++) length += normal[k] * normal[k];
+    length = sqrt(length);
+    out.d = 0.5 * value / length;
+    for (int k = 0; k < v->dim; k++) {
+        out.n[k] = normal[k] / length;
+        out.d -= out.n[k] * v->middle[k];
+    }
+    out.d *= v->scale;
+    out.slack = slack_of(v, &out);
+    return out;
+}
+
+bool split_view_cut(const split_view *v, const froe_scene *scene, const froe_cut *cut, split_view_plane *out) {
     switch (cut->kind) {
     case FROE_CUT_AXIS:
-        h.n[cut->axis] = 1;
-        return h;
+        *out = split_view_axis(v, cut->axis, cut->value);
+        return true;
     case FROE_CUT_PLANE:
-        for (int k = 0; k < dim; k++) h.n[k] = cut->normal[k];
-        return h;
-    case FROE_CUT_EDGE: {
-        const double *p = scene_vertex(scene, id[0]), *q = scene_vertex(scene, id[1]);
-        return through(2, p, q, NULL);
-    }
+        *out = plane_across(v, cut->normal, cut->value);
+        return true;
+    case FROE_CUT_EDGE:
+        return plane_through(v, scene, cut->id, 2, 0, out);
+    case FROE_CUT_OBJECT:
+        return plane_through(v, scene, scene->corners + scene->starts[cut->id[0]], v->dim, 0, out);
     default:
-        return through(dim, scene_vertex(scene, id[0]), scene_vertex(scene, id[1]), scene_vertex(scene, id[dim - 1]));
+        return plane_through(v, scene, cut->id, v->dim, THIN, out);
     }
 }
 
-/** How far from the plane rounding could have moved a value: nearer ones count as on the plane. */
-static double slack_of(const split_view *view, int dim, const rough *h) {
-    double reach = fabs(h->d);
-    for (int k = 0; k < dim; k++) reach += fabs(h->n[k]) * view->reach[k];
-    return reach * 0x1p-49;
+double split_view_coordinate(const split_view *v, const froe_scene *scene, uint32_t corner, int axis) {
+    const double *const x[3] = {v->x.data, v->y.data, v->z.data};
+    uint32_t vertex = v->vertex.data[corner];
+    return vertex != FROE_NONE ? scene_vertex(scene, vertex)[axis] : 2 * (x[axis][corner] / v->scale + v->middle[axis]);
 }
 
-static uint8_t rough_side(double value, double slack) {
-    return (uint8_t)((value < -slack) | (value > slack) << 1);
-}
+/* --------------------------------------------------------------- counting -- */
 
-static void find_rough_sides(split_view *view, int dim, const rough *h) {
-    size_t n = view->x[0].count;
-    const double *x = view->x[0].data, *y = view->x[1].data, *z = view->x[2].data;
-    double a = h->n[0], b = h->n[1], c = h->n[2], d = h->d, slack = slack_of(view, dim, h);
-    uint8_t *side = view->side.data;
-    if (dim == 2)
-        for (size_t i = 0; i < n; i++) side[i] = rough_side(a * x[i] + b * y[i] - d, slack);
-    else
-        for (size_t i = 0; i < n; i++) side[i] = rough_side(a * x[i] + b * y[i] + c * z[i] - d, slack);
-}
-
-/** The same where some corners are centres of balls: these reach further by their radius. */
-static void find_sides_round(split_view *view, int dim, const rough *h) {
-    double square = 0, slack = slack_of(view, dim, h);
-    for (int k = 0; k < dim; k++) square += h->n[k] * h->n[k];
-    double length = sqrt(square);
-    for (size_t i = 0; i < view->x[0].count; i++) {
-        double value = -h->d;
-        for (int k = 0; k < dim; k++) value += h->n[k] * view->x[k].data[i];
-        view->side.data[i] = rough_side(value, slack - view->radius.data[i] * length);
-    }
-}
-
-/** Counts segments in the plane, the commonest case by far, without a detour. */
-static split_tally count_pairs(const split_view *view, const rough *h) {
-    const double *x = view->x[0].data, *y = view->x[1].data;
-    double a = h->n[0], b = h->n[1], d = h->d, slack = slack_of(view, 2, h);
+/** Counts segments in the plane without a detour. */
+static split_tally count_pairs(const split_view *v, const split_view_plane *plane) {
+    const double *x = v->x.data, *y = v->y.data;
+    const double a = plane->n[0], b = plane->n[1], d = plane->d, slack = plane->slack;
     uint32_t negative = 0, positive = 0, both = 0;
-    for (uint32_t i = 0; i < view->count; i++, x += 2, y += 2) {
+    for (uint32_t i = 0; i < v->count; i++, x += 2, y += 2) {
         double from = a * x[0] + b * y[0] - d, to = a * x[1] + b * y[1] - d;
         uint32_t below = (from < to ? from : to)<-slack, above = (from > to ? from : to)> slack;
         negative += below;
         positive += above;
         both += below & above;
     }
-    return (split_tally){negative - both, positive - both, view->count + both - negative - positive, both};
+    return (split_tally){negative - both, positive - both, v->count + both - negative - positive, both};
 }
 
-static split_tally count_rings(split_view *view, int dim, const rough *h) {
+/** The sides of all corners; balls reach further than their centres. */
+static void find_view_sides(split_view *v, const split_view_plane *plane) {
+    const double *x = v->x.data, *y = v->y.data, *z = v->z.data, *radius = v->radius.data;
+    const double a = plane->n[0], b = plane->n[1], c = plane->n[2], d = plane->d, slack = plane->slack;
+    const size_t n = v->corners;
+    uint8_t *side = v->side.data;
+    for (size_t i = 0; i < n && v->round; i++) {
+        double value = a * x[i] + b * y[i] + c * z[i] - d, reach = slack - radius[i];
+        side[i] = (uint8_t)((value < -reach) | (value > reach) << 1);
+    }
+    for (size_t i = v->round ? n : 0; i < n; i++) {
+        double value = a * x[i] + b * y[i] + c * z[i] - d;
+        side[i] = (uint8_t)((value < -slack) | (value > slack) << 1);
+    }
+    for (int k = 0; k < 3; k++)
+        if (plane->known[k] < v->corners) side[plane->known[k]] = 0;
+}
+
+split_tally split_view_count(split_view *v, const split_view_plane *plane) {
+    const uint32_t *start = v->start.data, *corner = v->corner.data;
+    const uint8_t *side = v->side.data;
     uint32_t of[4] = {0}; /* on, negative, positive, both */
-    const uint32_t *start = view->start.data;
-    const uint8_t *side = view->side.data;
-    view->round ? find_sides_round(view, dim, h) : find_rough_sides(view, dim, h);
-    for (uint32_t i = 0; i < view->count; i++) {
+    if (v->pairs) return count_pairs(v, plane);
+    find_view_sides(v, plane);
+    for (uint32_t i = 0; i < v->count; i++) {
         unsigned seen = 0;
-        for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[j];
+        for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[corner[j]];
         of[seen]++;
     }
-    return (split_tally){of[1], of[2], of[0], of[3]};
-}
-
-split_tally split_view_count(split_view *view, const froe_scene *scene, const froe_cut *cut) {
-    rough plane = rough_plane(scene, cut);
-    return view->pairs ? count_pairs(view, &plane) : count_rings(view, scene->dim, &plane);
+    return (split_tally){.negative = of[1], .positive = of[2], .on = of[0], .both = of[3]};
 }
 
 /* ------------------------------------------------------------ axis extents -- */
-
-void split_extent(const split_set *set, const split_fragment *f, int axis, double *low, double *high) {
-    froe_kind form = scene_form(set->scene, f->object);
-    if (form >= FROE_BOX) {
-        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-        scene_object_bounds(set->scene, f->object, lo, hi);
-        *low = lo[axis];
-        *high = hi[axis];
-        return;
-    }
-    uint32_t n = split_corner_count(set, f);
-    *low = *high = split_image(set, f, 0)[axis];
-    for (uint32_t i = 1; i < n; i++) {
-        double x = split_image(set, f, i)[axis];
-        if (x < *low) *low = x;
-        if (x > *high) *high = x;
-    }
-}
 
 bool split_view_extents(split_view *view, const split_set *set, const split_cell *cell, int axis) {
     const froe_allocator *alloc = &set->alloc;

@@ -1,6 +1,6 @@
 /* test_grain.c: how the grain builder scores planes: against exact counts and against brute force, in every cell of
  * whole builds; and what it promises. */
-#include "build/grain/contest.h"
+#include "build/grain/candidates.h"
 #include "build/grain/crossing.h"
 #include "build/grain/sweep.h"
 #include "build/method.h"
@@ -22,7 +22,7 @@ typedef struct watch {
     split_grain grain;
     split_grain_notes notes;
     void (*look)(struct watch *w, split_work *work, const split_cell *cell);
-    split_facets facets;
+    split_view view;
     split_sweep sweep;
     split_price price;
     fuzz_source random;
@@ -44,7 +44,6 @@ static watch build_watching(mesh_kind kind, size_t n, void (*look)(watch *, spli
     watch w = {.grain = {.seed = 5, .effort = {4, 4, 6, 256, false}, .height = 30}, .look = look, .random = {9}};
     w.grain.notes = &w.notes;
     base_task_init(&task, 1, NULL, NULL);
-    assert_int_equal(split_facets_new(&alloc, scene, &w.facets), FROE_OK);
     split_price_init(&w.price);
     split_job job = {.scene = scene, .alloc = alloc, .task = &task, .meta = &meta};
     split_method method = {.config = &w,
@@ -54,7 +53,7 @@ static watch build_watching(mesh_kind kind, size_t n, void (*look)(watch *, spli
     assert_int_equal(split_grow(&job, &method, NULL), FROE_OK);
     assert_true(w.compared > 100);
     split_sweep_free(&alloc, &w.sweep);
-    split_facets_free(&alloc, &w.facets);
+    split_view_free(&alloc, &w.view);
     froe_scene_free(scene);
     return w;
 }
@@ -80,28 +79,28 @@ static void compare_tallies(watch *w, split_tally a, split_tally b) {
 /* ---------------------------------------------------------------- scoring -- */
 
 static void compare_with_exact(watch *w, split_work *work, const split_cell *cell) {
-    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
     for (int i = 0; i < 6; i++) {
         froe_cut cut = {.kind = FROE_CUT_VERTICES};
-        split_facet_plane plane;
+        split_view_plane plane;
         split_tally tally;
         if (!drawn_span(w, work, cell, cut.id)) continue;
-        if (!split_facets_plane(&w->facets, work->set.scene, cut.id, 1e-5, &plane)) continue;
+        if (!split_view_span(&w->view, work->set.scene, cut.id, 1e-5, &plane)) continue;
         assert_int_equal(cell_tally(work, cell, &cut, &tally), FROE_OK);
-        compare_tallies(w, split_facets_count(&w->facets, &plane), tally);
+        compare_tallies(w, split_view_count(&w->view, &plane), tally);
     }
 }
 
 static void compare_axes_with_exact(watch *w, split_work *work, const split_cell *cell) {
-    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
     for (int i = 0; i < 6; i++) {
         uint32_t vertex = drawn_vertex(w, work, cell);
         froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = i % work->set.scene->dim};
         cut.value = scene_vertex(work->set.scene, vertex)[cut.axis];
-        split_facet_plane plane = split_facets_axis(&w->facets, cut.axis, cut.value);
+        split_view_plane plane = split_view_axis(&w->view, cut.axis, cut.value);
         split_tally tally;
         assert_int_equal(cell_tally(work, cell, &cut, &tally), FROE_OK);
-        compare_tallies(w, split_facets_count(&w->facets, &plane), tally);
+        compare_tallies(w, split_view_count(&w->view, &plane), tally);
     }
 }
 
@@ -126,17 +125,17 @@ static void exact_coincidences_are_scored_as_such(void **state) {
 
 /** However thin the triangle: where the plane is hardly known, its own vertices are on it all the same. */
 static void compare_zeros(watch *w, split_work *work, const split_cell *cell) {
-    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
     for (int i = 0; i < 6; i++) {
         uint32_t id[3];
-        split_facet_plane plane;
+        split_view_plane plane;
         if (!drawn_span(w, work, cell, id)) continue;
-        if (!split_facets_plane(&w->facets, work->set.scene, id, 0, &plane)) continue;
+        if (!split_view_span(&w->view, work->set.scene, id, 0, &plane)) continue;
         plane.slack = 0;
-        split_facets_count(&w->facets, &plane);
+        split_view_count(&w->view, &plane);
         for (int k = 0; k < work->set.scene->dim; k++) {
-            uint32_t at = w->facets.place[id[k]];
-            if (at < w->facets.corners) assert_int_equal(w->facets.side.data[at], 0);
+            uint32_t at = w->view.place[id[k]];
+            if (at < w->view.corners) assert_int_equal(w->view.side.data[at], 0);
         }
         w->compared++;
     }
@@ -149,8 +148,8 @@ static void vertices_of_a_plane_lie_in_it_by_their_ids(void **state) {
 }
 
 static void compare_outside(watch *w, split_work *work, const split_cell *cell) {
-    const split_facets *f = &w->facets;
-    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    const split_view *f = &w->view;
+    assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
     for (uint32_t i = 0; i < f->corners; i++) {
         assert_true(fabs(f->x.data[i]) <= 0.5 && fabs(f->y.data[i]) <= 0.5 && fabs(f->z.data[i]) <= 0.5);
         if (f->vertex.data[i] != FROE_NONE) assert_int_equal(f->place[f->vertex.data[i]], i);
@@ -187,11 +186,11 @@ static void compare_crossings(watch *w, split_work *work, const split_cell *cell
     for (uint32_t object = 0; object < scene->object_count && !cell->depth; object++) {
         const uint32_t id[3] = {scene_corner(scene, object, 0), scene_corner(scene, object, 1),
                                 scene->dim == 3 ? scene_corner(scene, object, 2) : FROE_NONE};
-        split_facet_plane plane;
-        assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
-        assert_true(split_facets_plane(&w->facets, scene, id, 0, &plane));
-        split_facets_count(&w->facets, &plane);
-        uint32_t count = split_crossing_count(&w->facets, scene, object, &plane);
+        split_view_plane plane;
+        assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
+        assert_true(split_view_span(&w->view, scene, id, 0, &plane));
+        split_view_count(&w->view, &plane);
+        uint32_t count = split_crossing_count(&w->view, scene, object, &plane);
         assert_int_equal(count, crossings_by_contact(work, object));
         w->compared += 1 + count;
     }
@@ -208,9 +207,9 @@ static void splits_are_due_where_objects_cross(void **state) {
 /* ----------------------------------------------------------------- sweeps -- */
 
 static double cost_of(watch *w, const split_work *work, const uint32_t id[3], const split_terms *terms) {
-    split_facet_plane plane;
-    if (!split_facets_plane(&w->facets, work->set.scene, id, 1e-12, &plane)) return INFINITY;
-    split_tally tally = split_facets_count(&w->facets, &plane);
+    split_view_plane plane;
+    if (!split_view_span(&w->view, work->set.scene, id, 1e-12, &plane)) return INFINITY;
+    split_tally tally = split_view_count(&w->view, &plane);
     return split_tally_useful(tally) ? split_price_of(&w->price, terms, tally, 1) : (double)INFINITY;
 }
 
@@ -218,11 +217,11 @@ static void compare_pencil(watch *w, split_work *work, const split_cell *cell) {
     const split_terms terms = {0.1, 0.5 * cell->count};
     uint32_t id[3], best, last = (uint32_t)work->set.scene->dim - 1;
     double least = INFINITY;
-    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
     if (!drawn_span(w, work, cell, id)) return;
-    assert_true(split_sweep_pencil(&w->sweep, &work->set, &w->facets, &w->price, &terms, id, &best));
-    for (size_t i = 0; i < w->facets.vertices.count; i++) {
-        id[last] = w->facets.vertex.data[w->facets.vertices.data[i]];
+    assert_true(split_sweep_pencil(&w->sweep, &work->set, &w->view, &w->price, &terms, id, &best));
+    for (size_t i = 0; i < w->view.vertices.count; i++) {
+        id[last] = w->view.vertex.data[w->view.vertices.data[i]];
         double cost = id[last] == id[0] || id[last] == id[last - 1] ? (double)INFINITY : cost_of(w, work, id, &terms);
         if (cost < least) least = cost;
     }
@@ -242,15 +241,15 @@ static void a_pencil_has_the_best_of_its_planes(void **state) {
 
 static void compare_axis(watch *w, split_work *work, const split_cell *cell) {
     const split_terms terms = {0.1, cell->count};
-    assert_true(split_facets_fill(&w->facets, &work->set, cell, cell->count, 1));
+    assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
     for (int axis = 0; axis < work->set.scene->dim; axis++) {
         uint32_t best;
         double least = INFINITY, found = INFINITY;
-        assert_true(split_sweep_axis(&w->sweep, &work->set, &w->facets, &w->price, &terms, axis, &best));
-        for (uint32_t i = 0; i < w->facets.corners; i++) {
-            double value = split_facets_coordinate(&w->facets, work->set.scene, i, axis);
-            split_facet_plane plane = split_facets_axis(&w->facets, axis, value);
-            split_tally tally = split_facets_count(&w->facets, &plane);
+        assert_true(split_sweep_axis(&w->sweep, &work->set, &w->view, &w->price, &terms, axis, &best));
+        for (uint32_t i = 0; i < w->view.corners; i++) {
+            double value = split_view_coordinate(&w->view, work->set.scene, i, axis);
+            split_view_plane plane = split_view_axis(&w->view, axis, value);
+            split_tally tally = split_view_count(&w->view, &plane);
             double cost = split_tally_useful(tally) ? split_price_of(&w->price, &terms, tally, 1) : (double)INFINITY;
             least = cost < least ? cost : least;
             if (i == best) found = cost;

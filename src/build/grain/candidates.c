@@ -1,98 +1,100 @@
 /* candidates.c: see candidates.h. Draws depend on the path of the cell, not on threads. */
 #include "build/grain/candidates.h"
+#include "base/random.h"
+#include "build/grain/crossing.h"
 #include <math.h>
 #include <string.h>
 
-static uint32_t drawn_object(split_contest *c) {
-    return c->work->set.items.data[c->cell->first + split_draw(c, c->cell->count)].object;
+/** A number below n > 0: the next of this cell's. */
+static uint32_t draw_below(split_grain_search *s, uint32_t n) {
+    return base_below(base_hash(s->config->seed, s->contest.cell->path, s->draws++), n);
 }
 
-static void score_and_enter(split_contest *c, split_candidate k) {
-    if (split_contest_score(c, &k)) split_contest_enter(c, &k);
+static uint32_t drawn_object(split_grain_search *s) {
+    const split_cell *cell = s->contest.cell;
+    return s->contest.work->set.items.data[cell->first + draw_below(s, cell->count)].object;
 }
 
-/* --------------------------------------------------------------- supports -- */
-
-static void enter_support(split_contest *c, uint32_t object) {
-    const froe_scene *scene = c->work->set.scene;
-    froe_cut cut = scene_support_cut(scene, object);
-    split_candidate k = {.kind = SPLIT_SUPPORT, .object = object};
-    if (cut.kind == FROE_CUT_AXIS) {
-        k.kind = SPLIT_AXIS;
-        k.axis = cut.axis;
-        k.value = cut.value;
-    } else if (cut.kind == FROE_CUT_OBJECT) {
-        for (uint32_t i = 0; i < (uint32_t)scene->dim; i++) k.id[i] = scene_corner(scene, object, i);
-    } else {
-        return; /* a segment askew in space: left to split_any_support() */
+bool split_grain_score(split_grain_search *s, split_candidate *k) {
+    split_contest *c = &s->contest;
+    split_view_plane plane;
+    bool useful = split_contest_score(c, k, &plane);
+    if (useful && k->cut.kind == FROE_CUT_OBJECT && k->tally.both) {
+        k->due = c->view->weight * split_crossing_count(c->view, c->work->set.scene, k->cut.id[0], &plane);
+        k->cost -= k->due;
     }
-    score_and_enter(c, k);
+    return useful;
 }
 
-void split_enter_supports(split_contest *c) {
+static void score_and_enter(split_grain_search *s, split_candidate k) {
+    if (split_grain_score(s, &k)) split_contest_enter(&s->contest, &k);
+}
+
+void split_enter_supports(split_grain_search *s) {
+    const split_contest *c = &s->contest;
     const split_fragment *items = c->work->set.items.data + c->cell->first;
-    uint32_t m = c->cell->count, tries = c->config->effort.supports;
-    for (uint32_t i = 0; i < (m <= tries ? m : tries) && !c->done && !c->failed; i++)
-        enter_support(c, m <= tries ? items[i].object : drawn_object(c));
+    uint32_t m = c->cell->count, tries = m <= s->config->effort.supports ? m : s->config->effort.supports;
+    for (uint32_t i = 0; i < tries && !c->done && !c->failed; i++) {
+        froe_cut cut = scene_support_cut(c->work->set.scene, m <= tries ? items[i].object : drawn_object(s));
+        /* segments askew in space are left to split_any_support() */
+        if (cut.kind == FROE_CUT_AXIS || cut.kind == FROE_CUT_OBJECT) score_and_enter(s, (split_candidate){.cut = cut});
+    }
 }
 
-/* ------------------------------------------------------------------- axes -- */
-
-void split_enter_axes(split_contest *c) {
-    for (int axis = 0; axis < c->work->set.scene->dim && !c->done && !c->failed; axis++) {
-        split_candidate k = {.kind = SPLIT_AXIS, .axis = axis};
+void split_enter_axes(split_grain_search *s) {
+    split_contest *c = &s->contest;
+    const split_set *set = &c->work->set;
+    for (int axis = 0; axis < set->scene->dim && !c->done && !c->failed; axis++) {
+        split_candidate k = {.cut = {.kind = FROE_CUT_AXIS, .axis = axis}};
         uint32_t corner;
-        c->failed |= !split_sweep_axis(c->sweep, &c->work->set, c->facets, c->price, &c->terms, axis, &corner);
+        c->failed |= !split_sweep_axis(s->sweep, set, c->view, c->price, &c->terms, axis, &corner);
         if (c->failed || corner == FROE_NONE) continue;
-        k.value = split_facets_coordinate(c->facets, c->work->set.scene, corner, axis);
-        if (isfinite(k.value)) score_and_enter(c, k);
+        k.cut.value = split_view_coordinate(c->view, set->scene, corner, axis);
+        if (isfinite(k.cut.value)) score_and_enter(s, k);
     }
 }
 
 /* ------------------------------------------------------- through vertices -- */
 
-/** An edge of some object of the cell, in the plane an end of one; false: it has none. */
-static bool drawn_axle(split_contest *c, uint32_t axle[2]) {
-    const froe_scene *scene = c->work->set.scene;
-    uint32_t object = drawn_object(c), n = scene_corners(scene, object), i = split_draw(c, n);
-    axle[0] = scene_corner(scene, object, i);
-    axle[1] = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
-    return n > 1 || scene->dim == 2;
-}
-
 /** The best plane through the axle and another vertex. False: there is none. */
-static bool turn_about(split_contest *c, const uint32_t *axle, split_candidate *out) {
-    uint32_t v, last = (uint32_t)c->work->set.scene->dim - 1;
-    c->failed |= !split_sweep_pencil(c->sweep, &c->work->set, c->facets, c->price, &c->terms, axle, &v);
-    *out = (split_candidate){.kind = SPLIT_THROUGH};
-    memcpy(out->id, axle, last * sizeof *axle);
-    out->id[last] = v;
-    return !c->failed && v != FROE_NONE && v != axle[0] && v != axle[last - 1] && split_contest_score(c, out);
+static bool turn_about(split_grain_search *s, const uint32_t *axle, split_candidate *out) {
+    split_contest *c = &s->contest;
+    uint32_t v, last = (uint32_t)c->view->dim - 1;
+    c->failed |= !split_sweep_pencil(s->sweep, &c->work->set, c->view, c->price, &c->terms, axle, &v);
+    *out = (split_candidate){.cut = {.kind = FROE_CUT_VERTICES}};
+    memcpy(out->cut.id, axle, last * sizeof *axle);
+    out->cut.id[last] = v;
+    return !c->failed && v != FROE_NONE && v != axle[0] && v != axle[last - 1] && split_grain_score(s, out);
 }
 
 /** Exchanges vertices of k, whose last is the best for the others, until none of them can be improved. */
-static void improve(split_contest *c, split_candidate *k) {
-    uint32_t failures = 0, last = (uint32_t)c->work->set.scene->dim - 1;
-    for (uint32_t i = 1; i < c->config->effort.turns && failures < last && !c->failed; i++) {
+static void improve(split_grain_search *s, split_candidate *k) {
+    uint32_t failures = 0, last = (uint32_t)s->contest.view->dim - 1, *id = k->cut.id;
+    for (uint32_t i = 1; i < s->config->effort.turns && failures < last && !s->contest.failed; i++) {
         split_candidate next;
-        if (turn_about(c, k->id + 1, &next) && next.cost < k->cost) {
+        if (turn_about(s, id + 1, &next) && next.cost < k->cost) {
             *k = next;
             failures = 0;
         } else {
-            uint32_t first = k->id[0];
-            memmove(k->id, k->id + 1, last * sizeof first);
-            k->id[last] = first;
+            uint32_t first = id[0];
+            memmove(id, id + 1, last * sizeof first);
+            id[last] = first;
             failures++;
         }
     }
 }
 
-void split_enter_through(split_contest *c) {
-    for (uint32_t i = 0; i < c->config->effort.starts && !c->done && !c->failed; i++) {
-        uint32_t axle[2];
+void split_enter_through(split_grain_search *s) {
+    split_contest *c = &s->contest;
+    const froe_scene *scene = c->work->set.scene;
+    for (uint32_t i = 0; i < s->config->effort.starts && !c->done && !c->failed; i++) {
+        /* an edge of some object of the cell, in the plane an end of one */
+        uint32_t object = drawn_object(s), n = scene_corners(scene, object), corner = draw_below(s, n);
+        uint32_t axle[2] = {scene_corner(scene, object, corner),
+                            scene_corner(scene, object, corner + 1 < n ? corner + 1 : 0)};
         split_candidate k;
-        if (!drawn_axle(c, axle) || !turn_about(c, axle, &k)) continue;
-        improve(c, &k);
+        if ((n == 1 && scene->dim == 3) || !turn_about(s, axle, &k)) continue;
+        improve(s, &k);
         split_contest_enter(c, &k);
     }
 }

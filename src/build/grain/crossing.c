@@ -10,7 +10,7 @@ static double dot_3(const double *a, const double *b) {
 }
 
 /** Where the plane meets a fragment that has corners on both sides; in the plane a point, twice. */
-static void chord_of(const split_facets *f, const split_facet_plane *plane, uint32_t fragment, double chord[2][3]) {
+static void chord_of(const split_view *f, const split_view_plane *plane, uint32_t fragment, double chord[2][3]) {
     const double *const x[3] = {f->x.data, f->y.data, f->z.data};
     uint32_t from = f->start.data[fragment], to = f->start.data[fragment + 1], found = 0;
     memset(chord, 0, 2 * sizeof *chord);
@@ -38,13 +38,13 @@ static bool clip_chord(double chord[2][3], const double at[3], const double inwa
 }
 
 /** What bounds an object in its plane at its i-th corner: the edge from there, or the end of a segment. */
-static void border_of(const split_facets *f, const froe_scene *scene, uint32_t object, const split_facet_plane *plane,
+static void border_of(const split_view *f, const froe_scene *scene, uint32_t object, const split_view_plane *plane,
                       uint32_t i, double at[3], double inward[3]) {
     uint32_t corners = scene_corners(scene, object);
     double next[3], e[3];
     const double *n = plane->n;
-    split_facets_local(f, scene_point(scene, object, i), at);
-    split_facets_local(f, scene_point(scene, object, i + 1 < corners ? i + 1 : 0), next);
+    split_view_local(f, scene_point(scene, object, i), at);
+    split_view_local(f, scene_point(scene, object, i + 1 < corners ? i + 1 : 0), next);
     for (int k = 0; k < 3; k++) e[k] = inward[k] = next[k] - at[k];
     if (f->dim == 2) return;
     inward[0] = n[1] * e[2] - n[2] * e[1];
@@ -52,7 +52,7 @@ static void border_of(const split_facets *f, const froe_scene *scene, uint32_t o
     inward[2] = n[0] * e[1] - n[1] * e[0];
 }
 
-static bool crosses(const split_facets *f, const froe_scene *scene, uint32_t object, const split_facet_plane *plane,
+static bool crosses(const split_view *f, const froe_scene *scene, uint32_t object, const split_view_plane *plane,
                     uint32_t fragment) {
     double chord[2][3], at[3], inward[3];
     uint32_t corners = scene_corners(scene, object);
@@ -65,8 +65,8 @@ static bool crosses(const split_facets *f, const froe_scene *scene, uint32_t obj
     return some;
 }
 
-uint32_t split_crossing_count(const split_facets *f, const froe_scene *scene, uint32_t object,
-                              const split_facet_plane *plane) {
+uint32_t split_crossing_count(const split_view *f, const froe_scene *scene, uint32_t object,
+                              const split_view_plane *plane) {
     const uint32_t *start = f->start.data, *corner = f->corner.data;
     uint32_t count = 0;
     for (uint32_t i = 0; i < f->count; i++) {

@@ -7,10 +7,10 @@
  */
 #ifndef FROE_BUILD_GRAIN_CROSSING_H
 #define FROE_BUILD_GRAIN_CROSSING_H
-#include "split/facets.h"
+#include "split/view.h"
 
 /** Of the fragments that a count has just found on both sides of the plane of `object`, how many cross the object
  * itself. In plain doubles: what only touches it may count or not. */
-uint32_t split_crossing_count(const split_facets *facets, const froe_scene *scene, uint32_t object,
-                              const split_facet_plane *plane);
+uint32_t split_crossing_count(const split_view *view, const froe_scene *scene, uint32_t object,
+                              const split_view_plane *plane);
 #endif

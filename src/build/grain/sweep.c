@@ -65,7 +65,7 @@ static uint64_t *radix_sort(uint64_t *x, uint64_t *y, size_t n) {
 }
 
 /** Numbers the different directions; returns how many there are. */
-static uint32_t rank(split_sweep *s, const split_facets *f) {
+static uint32_t rank(split_sweep *s, const split_view *f) {
     uint64_t *x = s->order.data;
     uint32_t ranks = 0;
     if (s->order.count > SMALL)
@@ -112,14 +112,14 @@ static void note_fragment(split_sweep *s, const uint32_t *corner, const uint32_t
                  first_negative < first_positive ? first_negative : first_positive);
 }
 
-static void note_fragments(split_sweep *s, const split_facets *f, uint32_t ranks) {
+static void note_fragments(split_sweep *s, const split_view *f, uint32_t ranks) {
     const uint32_t *corner = f->corner.data, *start = f->start.data;
     for (int k = 0; k < 3; k++) memset(s->change[k].data, 0, (ranks + 1) * sizeof *s->change[k].data);
     for (uint32_t i = 0; i < f->count; i++) note_fragment(s, corner + start[i], corner + start[i + 1], ranks);
 }
 
 /** The corner of the cheapest rank, of those with an input vertex or of all. */
-static uint32_t cheapest(const split_sweep *s, const split_facets *f, uint32_t ranks, const split_price *price,
+static uint32_t cheapest(const split_sweep *s, const split_view *f, uint32_t ranks, const split_price *price,
                          const split_terms *terms, bool any) {
     uint32_t best = FROE_NONE;
     int32_t no_negative = 0, no_positive = 0, on = 0;
@@ -139,7 +139,7 @@ static uint32_t cheapest(const split_sweep *s, const split_facets *f, uint32_t r
     return best;
 }
 
-static uint32_t winner(split_sweep *s, const split_facets *f, const split_price *price, const split_terms *terms,
+static uint32_t winner(split_sweep *s, const split_view *f, const split_price *price, const split_terms *terms,
                        bool any) {
     uint32_t ranks = rank(s, f);
     if (!ranks) return FROE_NONE;
@@ -164,7 +164,7 @@ static void across(const double e[3], double f[3], double g[3]) {
 
 /** Where corners are met. Directions u, v of opposite sense lie in one plane: the lower half is turned up. They grow
  * with the angle; an arc tangent is not needed to sort. */
-static void look_along_edge(split_sweep *s, const split_facets *t, const double p[3], const double e[3]) {
+static void look_along_edge(split_sweep *s, const split_view *t, const double p[3], const double e[3]) {
     const double *x = t->x.data, *y = t->y.data, *z = t->z.data;
     const double near = 0x1p-40 * (1 + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
     double f[3], g[3];
@@ -180,12 +180,11 @@ static void look_along_edge(split_sweep *s, const split_facets *t, const double 
 }
 
 /** The line that a pencil turns about: a point and a unit vector. In the plane it stands upright on a vertex. */
-static bool axle_of(const split_facets *facets, const froe_scene *scene, const uint32_t *axle, double p[3],
-                    double e[3]) {
+static bool axle_of(const split_view *view, const froe_scene *scene, const uint32_t *axle, double p[3], double e[3]) {
     double q[3], square = 0;
-    split_facets_local(facets, scene_vertex(scene, axle[0]), p);
+    split_view_local(view, scene_vertex(scene, axle[0]), p);
     if (scene->dim == 3)
-        split_facets_local(facets, scene_vertex(scene, axle[1]), q);
+        split_view_local(view, scene_vertex(scene, axle[1]), q);
     else
         memcpy(q, (double[]){p[0], p[1], 1}, sizeof q);
     for (int k = 0; k < 3; k++) e[k] = q[k] - p[k], square += e[k] * e[k];
@@ -194,29 +193,29 @@ static bool axle_of(const split_facets *facets, const froe_scene *scene, const u
     return length > 0x1p-100 && length < 0x1p100;
 }
 
-bool split_sweep_pencil(split_sweep *s, const split_set *set, const split_facets *facets, const split_price *price,
+bool split_sweep_pencil(split_sweep *s, const split_set *set, const split_view *view, const split_price *price,
                         const split_terms *terms, const uint32_t *axle, uint32_t *best) {
     double p[3], e[3];
     *best = FROE_NONE;
-    if (facets->x.count > SPLIT_SWEEP_MOST) return true;
-    if (!reserve_sweep(s, &set->alloc, facets->x.count)) return false;
-    if (!axle_of(facets, set->scene, axle, p, e)) return true;
-    look_along_edge(s, facets, p, e);
-    uint32_t corner = winner(s, facets, price, terms, false);
-    if (corner != FROE_NONE) *best = facets->vertex.data[corner];
+    if (view->x.count > SPLIT_SWEEP_MOST) return true;
+    if (!reserve_sweep(s, &set->alloc, view->x.count)) return false;
+    if (!axle_of(view, set->scene, axle, p, e)) return true;
+    look_along_edge(s, view, p, e);
+    uint32_t corner = winner(s, view, price, terms, false);
+    if (corner != FROE_NONE) *best = view->vertex.data[corner];
     return true;
 }
 
-bool split_sweep_axis(split_sweep *s, const split_set *set, const split_facets *facets, const split_price *price,
+bool split_sweep_axis(split_sweep *s, const split_set *set, const split_view *view, const split_price *price,
                       const split_terms *terms, int axis, uint32_t *best) {
-    const double *x = axis == 0 ? facets->x.data : axis == 1 ? facets->y.data : facets->z.data;
+    const double *x = axis == 0 ? view->x.data : axis == 1 ? view->y.data : view->z.data;
     *best = FROE_NONE;
-    if (facets->x.count > SPLIT_SWEEP_MOST) return true;
-    if (!reserve_sweep(s, &set->alloc, facets->x.count)) return false;
-    for (uint32_t i = 0; i < facets->corners; i++) {
+    if (view->x.count > SPLIT_SWEEP_MOST) return true;
+    if (!reserve_sweep(s, &set->alloc, view->x.count)) return false;
+    for (uint32_t i = 0; i < view->corners; i++) {
         s->met.data[i] = 0;
         put_sweep_corner(s, 0.5 + 0.75 * x[i], i); /* |x| <= 1/2, but for rounding */
     }
-    *best = winner(s, facets, price, terms, true);
+    *best = winner(s, view, price, terms, true);
     return true;
 }

@@ -13,8 +13,7 @@
  * here. So counts are only nearly right: the winner is to be counted again. */
 #ifndef FROE_BUILD_GRAIN_SWEEP_H
 #define FROE_BUILD_GRAIN_SWEEP_H
-#include "split/facets.h"
-#include "split/price.h"
+#include "split/view.h"
 
 typedef struct split_sweep {
     ARRAY(uint64_t) order, spare; /**< direction << 24 | corner, to be sorted */
@@ -30,9 +29,9 @@ enum { SPLIT_SWEEP_MOST = 1 << 24 }; /* corners in a sweep */
 void split_sweep_free(const froe_allocator *alloc, split_sweep *sweep);
 /** Of the planes through the axle, two vertices of the scene (in the plane: lines through one), and another vertex
  * shown, the one of least price: that vertex, or FROE_NONE when none separates anything. False: no memory. */
-bool split_sweep_pencil(split_sweep *sweep, const split_set *set, const split_facets *facets, const split_price *price,
+bool split_sweep_pencil(split_sweep *sweep, const split_set *set, const split_view *view, const split_price *price,
                         const split_terms *terms, const uint32_t *axle, uint32_t *best);
 /** Of the planes across an axis through a corner shown, the one of least price: that corner, or FROE_NONE. */
-bool split_sweep_axis(split_sweep *sweep, const split_set *set, const split_facets *facets, const split_price *price,
+bool split_sweep_axis(split_sweep *sweep, const split_set *set, const split_view *view, const split_price *price,
                       const split_terms *terms, int axis, uint32_t *best);
 #endif
