@@ -25,8 +25,8 @@ geom_eye geom_eye_make(bool parallel, const double *at, const double *origin) {
 
 static num_dyadic exact_slope(num_arena *arena, const geom_plane *plane, const geom_eye *eye) {
     num_dyadic n[3];
-    dyadic_normal(arena, plane, n);
-    return dyadic_at_eye(arena, plane, n, eye);
+    plane_normal_dyadic(arena, plane, n);
+    return plane_at_eye_dyadic(arena, plane, n, eye);
 }
 
 int geom_side_of_eye(num_context *context, const geom_plane *plane, const geom_eye *eye) {
@@ -44,8 +44,8 @@ int geom_side_of_eye(num_context *context, const geom_plane *plane, const geom_e
     }
     if (context->first <= NUM_BALL) {
         num_ball n[3];
-        ball_normal(NULL, plane, n);
-        int sure = num_ball_sign(ball_at_eye(NULL, plane, n, eye));
+        plane_normal_ball(NULL, plane, n);
+        int sure = num_ball_sign(plane_at_eye_ball(NULL, plane, n, eye));
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
     return num_exact(context, exact_slope(num_fresh(context), plane, eye).sign);
@@ -82,13 +82,13 @@ static filter_vector gather_vector(const num_ball x[3]) {
 
 filter_vector geom_ray_image(const geom_eye *eye, const double *x) {
     num_ball r[3];
-    ball_ray(NULL, eye, x, r);
+    eye_ray_ball(NULL, eye, x, r);
     return gather_vector(r);
 }
 
 filter_vector geom_line_image(const geom_eye *eye, const geom_line *line) {
     num_ball n[3];
-    ball_line(NULL, eye, line, n);
+    line_of_sight_ball(NULL, eye, line, n);
     return gather_vector(n);
 }
 
@@ -127,29 +127,29 @@ int geom_line_side_point(num_context *context, const geom_eye *eye, const geom_l
         }
     }
     if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(ball_line_at_point(NULL, eye, h, x));
+        int sure = num_ball_sign(line_at_point_ball(NULL, eye, h, x));
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    return num_exact(context, dyadic_line_at_point(num_fresh(context), eye, h, x).sign);
+    return num_exact(context, line_at_point_dyadic(num_fresh(context), eye, h, x).sign);
 }
 
 int geom_line_side_meeting(num_context *context, const geom_eye *eye, const geom_line *h, const geom_line *a,
                            const geom_line *b) {
     context->stats.calls++;
     if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(ball_line_at_meeting(NULL, eye, h, a, b));
+        int sure = num_ball_sign(line_at_meeting_ball(NULL, eye, h, a, b));
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    return num_exact(context, dyadic_line_at_meeting(num_fresh(context), eye, h, a, b).sign);
+    return num_exact(context, line_at_meeting_dyadic(num_fresh(context), eye, h, a, b).sign);
 }
 
 int geom_line_order(num_context *context, const geom_eye *eye, const geom_line *h, const double *x, const double *y) {
     context->stats.calls++;
     if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(ball_line_order(NULL, eye, h, x, y));
+        int sure = num_ball_sign(line_order_ball(NULL, eye, h, x, y));
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    return num_exact(context, dyadic_line_order(num_fresh(context), eye, h, x, y).sign);
+    return num_exact(context, line_order_dyadic(num_fresh(context), eye, h, x, y).sign);
 }
 
 /* a_i / a_k against b_i / b_k, for i before and after k. */
@@ -157,8 +157,8 @@ int geom_line_compare(num_context *context, const geom_eye *eye, const geom_line
     num_arena *arena = num_fresh(context);
     num_dyadic n_a[3], n_b[3];
     int sign = 0;
-    dyadic_line(arena, eye, a, n_a);
-    dyadic_line(arena, eye, b, n_b);
+    line_of_sight_dyadic(arena, eye, a, n_a);
+    line_of_sight_dyadic(arena, eye, b, n_b);
     for (int i = 0; i < 3 && !sign; i++)
         sign = num_dyadic_sub(arena, num_dyadic_mul(arena, n_a[i], n_b[k]), num_dyadic_mul(arena, n_b[i], n_a[k])).sign;
     context->stats.calls++;
@@ -182,7 +182,7 @@ static bool round_vector(num_arena *arena, const num_dyadic x[3], double out[3])
 bool geom_line_round(num_context *context, const geom_eye *eye, const geom_line *line, double out[3]) {
     num_dyadic n[3];
     num_arena *arena = num_fresh(context);
-    dyadic_line(arena, eye, line, n);
+    line_of_sight_dyadic(arena, eye, line, n);
     return round_vector(arena, n, out);
 }
 
@@ -190,15 +190,15 @@ void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_li
                         double out[3]) {
     num_arena *arena = num_fresh(context);
     num_dyadic n_a[3], n_b[3], ray[3];
-    dyadic_line(arena, eye, a, n_a);
-    dyadic_line(arena, eye, b, n_b);
-    dyadic_cross(arena, n_a, n_b, ray);
+    line_of_sight_dyadic(arena, eye, a, n_a);
+    line_of_sight_dyadic(arena, eye, b, n_b);
+    vector_cross_dyadic(arena, n_a, n_b, ray);
     (void)round_vector(arena, ray, out);
 }
 
 double geom_share_round(num_context *context, const geom_eye *eye, const geom_line *line, const double *u,
                         const double *v) {
     num_arena *arena = num_fresh(context);
-    num_dyadic at_u = dyadic_line_at_point(arena, eye, line, u), at_v = dyadic_line_at_point(arena, eye, line, v);
+    num_dyadic at_u = line_at_point_dyadic(arena, eye, line, u), at_v = line_at_point_dyadic(arena, eye, line, v);
     return num_dyadic_quotient(arena, at_u, num_dyadic_sub(arena, at_u, at_v));
 }

@@ -1,5 +1,5 @@
-/* formulas.h: the formulas of predicate_body.inc for balls (ball_*), dyadic numbers (dyadic_*) and
- * dyadic numbers with infinitesimals (sheared_*), and the point that corners are measured from. */
+/* formulas.h: the formulas of predicate_body.inc for balls (*_ball), dyadic numbers (*_dyadic) and
+ * dyadic numbers with infinitesimals (*_sheared), and the point that corners are measured from. */
 #ifndef FROE_GEOM_FORMULAS_H
 #define FROE_GEOM_FORMULAS_H
 #include "geom/plane.h"
@@ -24,7 +24,7 @@ static inline bool geom_has_origin(const geom_plane *plane) {
 #include "geom/predicate_body.inc"
 
 #define T num_sheared
-#define NAME(f) sheared_##f
+#define FORMULA(f) f##_sheared
 #define FROM(x) num_sheared_from(arena, x)
 #define ADD(a, b) num_sheared_add(arena, a, b)
 #define SUB(a, b) num_sheared_sub(arena, a, b)

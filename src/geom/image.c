@@ -19,7 +19,7 @@ static double limit(num_arena *arena, double origin, const num_sheared *offset, 
 static void round_sheared_crossing(num_arena *arena, const double *u, const double *v, const geom_plane *a,
                                    double *out) {
     num_sheared offset[3], divisor;
-    sheared_crossing_point(arena, u, v, a, offset, &divisor);
+    offset_of_crossing_sheared(arena, u, v, a, offset, &divisor);
     for (int k = 0; k < a->dim; k++) out[k] = limit(arena, u[k], &offset[k], &divisor);
 }
 
@@ -30,13 +30,13 @@ void geom_round_crossing(num_context *context, const double *u, const double *v,
         round_sheared_crossing(&context->arena, u, v, a, out);
         return;
     }
-    dyadic_crossing_point(&context->arena, u, v, a, offset, &divisor);
+    offset_of_crossing_dyadic(&context->arena, u, v, a, offset, &divisor);
     for (int k = 0; k < a->dim; k++) out[k] = rounded_image(&context->arena, u[k], offset[k], divisor);
 }
 
 static void round_sheared_corner(num_arena *arena, const geom_plane *const planes[3], const double z[3], double *out) {
     num_sheared offset[3], divisor;
-    sheared_corner_point(arena, planes[0], planes[1], planes[2], z, offset, &divisor);
+    offset_of_corner_sheared(arena, planes[0], planes[1], planes[2], z, offset, &divisor);
     for (int k = 0; k < 3; k++) out[k] = limit(arena, z[k], &offset[k], &divisor);
 }
 
@@ -51,7 +51,7 @@ void geom_round_corner(num_context *context, const geom_plane *s, const geom_pla
         round_sheared_corner(&context->arena, planes, z, out);
         return;
     }
-    dyadic_corner_point(&context->arena, planes[0], planes[1], planes[2], z, offset, &divisor);
+    offset_of_corner_dyadic(&context->arena, planes[0], planes[1], planes[2], z, offset, &divisor);
     for (int k = 0; k < 3; k++) out[k] = rounded_image(&context->arena, z[k], offset[k], divisor);
 }
 

@@ -38,8 +38,8 @@ static void image_normal(geom_plane *plane) {
     num_ball n[3];
     geom_plane multiple;
     plane->n_err = INFINITY; /* n not known yet */
-    ball_normal(NULL, plane, n);
-    if (n_is_small(n) && lifted(plane, &multiple)) ball_normal(NULL, &multiple, n);
+    plane_normal_ball(NULL, plane, n);
+    if (n_is_small(n) && lifted(plane, &multiple)) plane_normal_ball(NULL, &multiple, n);
     double most = 0, error = 0;
     bool certain = num_rounding_trusted();
     for (int k = 0; k < 3; k++) {
@@ -117,11 +117,11 @@ bool geom_plane_valid(num_context *context, const geom_plane *plane) {
     if (plane->form == GEOM_AXIS || plane->form == GEOM_AT_VERTEX) return true;
     if (plane->form == GEOM_AT_CROSSING) {
         context->arena.top = 0;
-        return dyadic_wall_turn(&context->arena, plane).sign > 0;
+        return wall_turn_dyadic(&context->arena, plane).sign > 0;
     }
     if (context->first == NUM_FILTER && plane->n_max > plane->n_err) return true;
     num_dyadic n[3];
     context->arena.top = 0;
-    dyadic_normal(&context->arena, plane, n);
+    plane_normal_dyadic(&context->arena, plane, n);
     return n[0].sign || n[1].sign || n[2].sign;
 }

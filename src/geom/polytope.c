@@ -37,16 +37,16 @@ static int turn_of_planes(num_context *context, const geom_plane *a, const geom_
     num_ball u[3], v[3], w[3], cross[3];
     num_dyadic d[3], e[3], f[3], product[3];
     if (context->first != NUM_EXACT) {
-        ball_normal(NULL, a, u), ball_normal(NULL, b, v), ball_normal(NULL, c, w);
-        ball_cross(NULL, v, w, cross);
-        int sign = num_ball_sign(ball_dot(NULL, u, cross));
+        plane_normal_ball(NULL, a, u), plane_normal_ball(NULL, b, v), plane_normal_ball(NULL, c, w);
+        vector_cross_ball(NULL, v, w, cross);
+        int sign = num_ball_sign(vector_dot_ball(NULL, u, cross));
         if (sign != NUM_UNSURE) return sign;
     }
     num_arena *arena = &context->arena;
     arena->top = 0;
-    dyadic_normal(arena, a, d), dyadic_normal(arena, b, e), dyadic_normal(arena, c, f);
-    dyadic_cross(arena, e, f, product);
-    return dyadic_dot(arena, d, product).sign;
+    plane_normal_dyadic(arena, a, d), plane_normal_dyadic(arena, b, e), plane_normal_dyadic(arena, c, f);
+    vector_cross_dyadic(arena, e, f, product);
+    return vector_dot_dyadic(arena, d, product).sign;
 }
 
 /* The line where planes a and b meet, and the planes that end what is left of it: after[1] in the direction

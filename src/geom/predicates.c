@@ -108,10 +108,10 @@ static int plain_vertex(num_context *context, const geom_plane *h, const double 
         if (plane_holds(h, x)) return num_by_id(context, 0);
     }
     if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(ball_vertex(NULL, h, x));
+        int sure = num_ball_sign(value_at_vertex_ball(NULL, h, x));
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    return num_exact(context, dyadic_vertex(num_fresh(context), h, x).sign);
+    return num_exact(context, value_at_vertex_dyadic(num_fresh(context), h, x).sign);
 }
 
 /* The same for walls. */
@@ -126,11 +126,11 @@ static int wall_vertex(num_context *context, const geom_plane *h, const double *
         }
     }
     if (context->first <= NUM_BALL) {
-        int sure = unless_zero(num_ball_sign(ball_vertex(NULL, h, x)), true);
+        int sure = unless_zero(num_ball_sign(value_at_vertex_ball(NULL, h, x)), true);
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    int plain = dyadic_vertex(num_fresh(context), h, x).sign;
-    return num_exact(context, plain ? plain : num_sheared_sign(sheared_vertex(num_fresh(context), h, x)));
+    int plain = value_at_vertex_dyadic(num_fresh(context), h, x).sign;
+    return num_exact(context, plain ? plain : num_sheared_sign(value_at_vertex_sheared(num_fresh(context), h, x)));
 }
 
 static int vertex_side(num_context *context, const geom_plane *h, const double *x) {
@@ -152,16 +152,16 @@ static int crossing_filter(const geom_plane *h, const double *u, const double *v
 }
 
 static int crossing_ball(const geom_plane *h, const double *u, const double *v, const geom_plane *a) {
-    num_ball divisor, value = ball_crossing(NULL, h, u, v, a, &divisor);
+    num_ball divisor, value = value_at_crossing_ball(NULL, h, u, v, a, &divisor);
     return ratio_sign(num_ball_sign(value), num_ball_sign(divisor));
 }
 
 /* Exactly. Infinitesimals only where it depends on them. */
 static int crossing_sheared(num_context *context, const geom_plane *h, const double *u, const double *v,
                             const geom_plane *a) {
-    num_dyadic plain_divisor, plain = dyadic_crossing(num_fresh(context), h, u, v, a, &plain_divisor);
+    num_dyadic plain_divisor, plain = value_at_crossing_dyadic(num_fresh(context), h, u, v, a, &plain_divisor);
     if (plain.sign && plain_divisor.sign) return num_exact(context, plain.sign * plain_divisor.sign);
-    num_sheared divisor, value = sheared_crossing(num_fresh(context), h, u, v, a, &divisor);
+    num_sheared divisor, value = value_at_crossing_sheared(num_fresh(context), h, u, v, a, &divisor);
     return num_exact(context, num_sheared_sign(value) * num_sheared_sign(divisor));
 }
 
@@ -188,7 +188,7 @@ static int plain_crossing(num_context *context, const geom_plane *h, const doubl
         int sure = crossing_ball(h, u, v, a);
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    num_dyadic divisor, value = dyadic_crossing(num_fresh(context), h, u, v, a, &divisor);
+    num_dyadic divisor, value = value_at_crossing_dyadic(num_fresh(context), h, u, v, a, &divisor);
     return num_exact(context, value.sign * divisor.sign);
 }
 
@@ -217,8 +217,8 @@ static int tie_at_wall(num_context *context, const geom_plane *h, const double *
     }
     if (u[0] == v[0]) return crossing_sheared(context, h, u, v, a);
     num_dyadic n[3];
-    dyadic_normal(num_fresh(context), h, n);
-    int rises = dyadic_slope(&context->arena, h, n, u, v).sign;
+    plane_normal_dyadic(num_fresh(context), h, n);
+    int rises = plane_slope_dyadic(&context->arena, h, n, u, v).sign;
     return rises ? rises * named_point(context, &line, a) : num_exact(context, 0);
 }
 
@@ -272,7 +272,7 @@ static int crossing_at_wall(num_context *context, const geom_plane *h, const dou
         int sure = unless_zero(crossing_ball(h, u, v, a), true);
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
-    num_dyadic divisor, value = dyadic_crossing(num_fresh(context), h, u, v, a, &divisor);
+    num_dyadic divisor, value = value_at_crossing_dyadic(num_fresh(context), h, u, v, a, &divisor);
     if (value.sign && divisor.sign) return num_exact(context, value.sign * divisor.sign);
     return context->first == NUM_FILTER ? tie_at_wall(context, h, u, v, a) : crossing_sheared(context, h, u, v, a);
 }
@@ -319,9 +319,10 @@ static const double *corner_known(const geom_plane *h, const geom_plane *const p
 static int sheared_corner_side(num_context *context, const geom_plane *h, const geom_plane *const planes[3],
                                const double z[3]) {
     num_dyadic plain_divisor,
-        plain = dyadic_corner(num_fresh(context), h, planes[0], planes[1], planes[2], z, &plain_divisor);
+        plain = value_at_corner_dyadic(num_fresh(context), h, planes[0], planes[1], planes[2], z, &plain_divisor);
     if (plain.sign && plain_divisor.sign) return num_exact(context, plain.sign * plain_divisor.sign);
-    num_sheared divisor, value = sheared_corner(num_fresh(context), h, planes[0], planes[1], planes[2], z, &divisor);
+    num_sheared divisor,
+        value = value_at_corner_sheared(num_fresh(context), h, planes[0], planes[1], planes[2], z, &divisor);
     return num_exact(context, num_sheared_sign(value) * num_sheared_sign(divisor));
 }
 
@@ -362,12 +363,13 @@ int geom_side_corner(num_context *context, const geom_plane *plane, const geom_p
         if (sheared && is_inside(context, plane, s)) return num_by_id(context, 0);
     }
     if (context->first <= NUM_BALL) {
-        num_ball divisor, value = ball_corner(NULL, plane, planes[0], planes[1], planes[2], z, &divisor);
+        num_ball divisor, value = value_at_corner_ball(NULL, plane, planes[0], planes[1], planes[2], z, &divisor);
         int sure = unless_zero(ratio_sign(num_ball_sign(value), num_ball_sign(divisor)), sheared);
         if (sure != NUM_UNSURE) return num_refined(context, sure);
     }
     if (sheared) return sheared_corner_side(context, plane, planes, z);
-    num_dyadic divisor, value = dyadic_corner(num_fresh(context), plane, planes[0], planes[1], planes[2], z, &divisor);
+    num_dyadic divisor,
+        value = value_at_corner_dyadic(num_fresh(context), plane, planes[0], planes[1], planes[2], z, &divisor);
     return num_exact(context, value.sign * divisor.sign);
 }
 
@@ -408,10 +410,10 @@ int geom_side_ball(num_context *context, const geom_plane *plane, const double *
         if (sure) return num_filtered(context, side);
     }
     if (context->first <= NUM_BALL) {
-        num_ball at, reach = ball_ball(NULL, plane, centre, radius, &at);
+        num_ball at, reach = reach_of_ball_ball(NULL, plane, centre, radius, &at);
         int side = ball_side(num_ball_sign(at), reach_of(plane, num_ball_sign(reach)), &sure);
         if (sure) return num_refined(context, side);
     }
-    num_dyadic at, reach = dyadic_ball(num_fresh(context), plane, centre, radius, &at);
+    num_dyadic at, reach = reach_of_ball_dyadic(num_fresh(context), plane, centre, radius, &at);
     return num_exact(context, ball_side(at.sign, reach_of(plane, reach.sign), &sure));
 }

@@ -128,10 +128,10 @@ static unsigned sides_reached(pair *p, const geom_body *body, uint32_t from) {
     geom_body_corner(body, from, o);
     for (uint32_t i = 0; i < geom_body_corners(body); i++) {
         geom_body_corner(body, i, x);
-        int side =
-            p->context->first == NUM_EXACT ? NUM_UNSURE : num_ball_sign(ball_beside(NULL, body->dim, p->span, o, x));
+        int side = p->context->first == NUM_EXACT ? NUM_UNSURE
+                                                  : num_ball_sign(beside_span_ball(NULL, body->dim, p->span, o, x));
         p->context->arena.top = 0;
-        if (side == NUM_UNSURE) side = dyadic_beside(&p->context->arena, body->dim, p->span, o, x).sign;
+        if (side == NUM_UNSURE) side = beside_span_dyadic(&p->context->arena, body->dim, p->span, o, x).sign;
         if (side) reached |= side > 0 ? 2 : 1;
     }
     return reached;

@@ -18,7 +18,7 @@
 
 static num_ratio exact_square(num_arena *arena, const double *point, const geom_distance *d) {
     num_ratio s;
-    s.top = dyadic_square(arena, d, point, &s.bottom);
+    s.top = distance_square_dyadic(arena, d, point, &s.bottom);
     return s;
 }
 
@@ -53,7 +53,7 @@ geom_distance geom_distance_from(num_context *context, const double *point, cons
     } else {
         find_simplex(context, point, body, &d);
     }
-    num_ball bottom, top = ball_square(NULL, &d, point, &bottom);
+    num_ball bottom, top = distance_square_ball(NULL, &d, point, &bottom);
     d.square = bottom.x == 1 && bottom.e == 0 ? top : filter_div(top, bottom);
     if (context->first == NUM_EXACT) d.square = (num_ball){0, INFINITY};
     return d;

@@ -8,7 +8,7 @@ static int sign_of(double x) {
 }
 
 #define T double
-#define NAME(f) plain_##f
+#define FORMULA(f) f##_plain
 #define FROM(x) (x)
 #define ADD(a, b) ((a) + (b))
 #define SUB(a, b) ((a) - (b))
@@ -17,7 +17,7 @@ static int sign_of(double x) {
 #include "geom/predicate_body.inc"
 
 #define T double
-#define NAME(f) plain_##f
+#define FORMULA(f) f##_plain
 #define FROM(x) (x)
 #define ADD(a, b) ((a) + (b))
 #define SUB(a, b) ((a) - (b))
@@ -43,8 +43,8 @@ enum { GUESS_STEPS = 32, BALL_STEPS = 64 }; /* far more than corners need where 
 static bool vanishes(num_context *context, const geom_differences *s, uint32_t i, uint32_t j) {
     num_dyadic v[3];
     context->arena.top = 0;
-    dyadic_vector(&context->arena, s, i, j, v);
-    return dyadic_vanishes(v) == 1;
+    gap_vector_dyadic(&context->arena, s, i, j, v);
+    return gap_vanishes_dyadic(v) == 1;
 }
 
 /* Any difference that counts, to begin with. */
@@ -64,17 +64,17 @@ bool geom_gap_among(num_context *context, const geom_differences *set, geom_gap 
     geom_gap guess;
     if (!begin_gap(context, set, &guess)) return false;
     context->stats.calls++;
-    if (context->first == NUM_FILTER) plain_search(NULL, set, &guess, GUESS_STEPS);
+    if (context->first == NUM_FILTER) gap_search_plain(NULL, set, &guess, GUESS_STEPS);
     *out = guess;
     out->zero = false;
-    if (context->first <= NUM_BALL && ball_search(NULL, set, out, BALL_STEPS) == 1) {
+    if (context->first <= NUM_BALL && gap_search_ball(NULL, set, out, BALL_STEPS) == 1) {
         context->stats.refined++;
         return true;
     }
     context->stats.exact++;
     *out = guess;
     out->zero = false;
-    dyadic_search(&context->arena, set, out, UINT32_MAX);
+    gap_search_dyadic(&context->arena, set, out, UINT32_MAX);
     context->stats.exact_zero += out->zero;
     return true;
 }

@@ -12,7 +12,7 @@ const size_t geom_meet_arena = (size_t)1 << 18;
 
 /* ----------------------------------------------------------------- balls -- */
 
-static void ball_place(num_arena *arena, const geom_convex *c, uint32_t i, num_ball x[3], num_ball *weight) {
+static void place_corner_ball(num_arena *arena, const geom_convex *c, uint32_t i, num_ball x[3], num_ball *weight) {
     const double *p = c->core == GEOM_CORE_BOX ? NULL : geom_convex_point(c, c->core == GEOM_CORE_RAY ? 0 : i);
     (void)arena;
     *weight = num_ball_from(1);
@@ -26,14 +26,14 @@ static void ball_place(num_arena *arena, const geom_convex *c, uint32_t i, num_b
 }
 
 /* As far as is certain. */
-static num_ball ball_lowest(num_arena *arena, const geom_convex *c, const num_ball v[3], uint32_t *at,
-                            num_ball *weight) {
+static num_ball lowest_corner_ball(num_arena *arena, const geom_convex *c, const num_ball v[3], uint32_t *at,
+                                   num_ball *weight) {
     double best = INFINITY, low = INFINITY;
     *at = 0;
     for (uint32_t i = 0; i < c->count; i++) {
         num_ball x[3], value;
-        ball_place(arena, c, i, x, weight);
-        value = ball_dot(arena, v, x);
+        place_corner_ball(arena, c, i, x, weight);
+        value = vector_dot_ball(arena, v, x);
         if (!(value.e < INFINITY)) return (num_ball){0, INFINITY};
         if (value.x < best) best = value.x, *at = i;
         if (value.x - value.e < low) low = value.x - value.e;
@@ -48,13 +48,13 @@ static num_ball ball_lowest(num_arena *arena, const geom_convex *c, const num_ba
 /* --------------------------------------------------------------- dyadics -- */
 
 /* A corner where planes meet, by Cramer's rule. */
-static void dyadic_place_meeting(num_arena *arena, const geom_convex *c, uint32_t i, num_dyadic x[3],
+static void place_meeting_dyadic(num_arena *arena, const geom_convex *c, uint32_t i, num_dyadic x[3],
                                  num_dyadic *weight) {
     const uint32_t *of = c->meetings[i].planes;
     const geom_plane *planes[3] = {c->planes + of[0], c->planes + of[1], c->planes + of[2]};
     double z[3];
     geom_corner_origin(planes, NULL, z);
-    dyadic_corner_point(arena, planes[0], planes[1], planes[2], z, x, weight);
+    offset_of_corner_dyadic(arena, planes[0], planes[1], planes[2], z, x, weight);
     for (int k = 0; k < 3; k++) {
         x[k] = num_dyadic_add(arena, x[k], num_dyadic_mul(arena, num_dyadic_from(arena, z[k]), *weight));
         x[k].sign *= weight->sign;
@@ -62,12 +62,13 @@ static void dyadic_place_meeting(num_arena *arena, const geom_convex *c, uint32_
     weight->sign = 1;
 }
 
-static void dyadic_place(num_arena *arena, const geom_convex *c, uint32_t i, num_dyadic x[3], num_dyadic *weight) {
+static void place_corner_dyadic(num_arena *arena, const geom_convex *c, uint32_t i, num_dyadic x[3],
+                                num_dyadic *weight) {
     x[2] = (num_dyadic){0};
     *weight = num_dyadic_from(arena, 1);
     switch (c->core) {
     case GEOM_CORE_PLANES:
-        dyadic_place_meeting(arena, c, i, x, weight);
+        place_meeting_dyadic(arena, c, i, x, weight);
         return;
     case GEOM_CORE_RAY:
         for (int k = 0; k < c->dim; k++) {
@@ -82,24 +83,24 @@ static void dyadic_place(num_arena *arena, const geom_convex *c, uint32_t i, num
     }
 }
 
-static num_dyadic dyadic_lowest(num_arena *arena, const geom_convex *c, const num_dyadic v[3], uint32_t *at,
-                                num_dyadic *weight) {
+static num_dyadic lowest_corner_dyadic(num_arena *arena, const geom_convex *c, const num_dyadic v[3], uint32_t *at,
+                                       num_dyadic *weight) {
     const size_t base = arena->top;
     num_dyadic best[3], x[3], w;
     *at = 0;
-    dyadic_place(arena, c, 0, best, weight);
+    place_corner_dyadic(arena, c, 0, best, weight);
     for (uint32_t i = 1; i < c->count; i++) {
         const size_t top = arena->top;
-        dyadic_place(arena, c, i, x, &w);
+        place_corner_dyadic(arena, c, i, x, &w);
         for (int k = 0; k < 3; k++)
             x[k] = num_dyadic_sub(arena, num_dyadic_mul(arena, x[k], *weight), num_dyadic_mul(arena, best[k], w));
-        const bool lower = dyadic_dot(arena, v, x).sign < 0;
+        const bool lower = vector_dot_dyadic(arena, v, x).sign < 0;
         arena->top = lower ? base : top;
         if (!lower) continue;
         *at = i;
-        dyadic_place(arena, c, i, best, weight);
+        place_corner_dyadic(arena, c, i, best, weight);
     }
-    return dyadic_dot(arena, v, best);
+    return vector_dot_dyadic(arena, v, best);
 }
 
 #include "num/dyadic_terms.inc"
@@ -113,17 +114,17 @@ enum { MOST_STEPS = 40, NO_END = -1 };
 bool geom_meet(num_context *context, const geom_convex *a, const geom_convex *b) {
     int meets = NUM_UNSURE;
     context->stats.calls++;
-    if (context->first != NUM_EXACT) meets = ball_meet(&context->arena, a, b, MOST_STEPS);
+    if (context->first != NUM_EXACT) meets = meet_search_ball(&context->arena, a, b, MOST_STEPS);
     if (meets != NUM_UNSURE) {
         context->stats.refined++;
         return meets;
     }
     context->stats.exact++;
-    return dyadic_meet(&context->arena, a, b, NO_END);
+    return meet_search_dyadic(&context->arena, a, b, NO_END);
 }
 
 bool geom_meet_surely(num_context *context, const geom_convex *a, const geom_convex *b) {
-    return context->first != NUM_EXACT && ball_meet(&context->arena, a, b, MOST_STEPS) == 1;
+    return context->first != NUM_EXACT && meet_search_ball(&context->arena, a, b, MOST_STEPS) == 1;
 }
 
 /* ------------------------------------------------------------------- boxes -- */

@@ -24,13 +24,13 @@ static num_arena *fresh(num_context *context) {
 
 static num_ratio exact_quotient(num_arena *arena, const geom_ray *ray, const geom_hit *h) {
     num_ratio t;
-    t.top = dyadic_ray_quotient(arena, ray, h, &t.bottom);
+    t.top = ray_quotient_dyadic(arena, ray, h, &t.bottom);
     if (t.bottom.sign < 0) t.bottom.sign = 1, t.top.sign = -t.top.sign;
     return t;
 }
 
 static num_ball sphere_image(const geom_ray *ray, const geom_hit *h) {
-    num_ball a, b, c, root = num_ball_sqrt(ball_ray_sphere(NULL, ray, h->p, h->c, &a, &b, &c));
+    num_ball a, b, c, root = num_ball_sqrt(ray_sphere_ball(NULL, ray, h->p, h->c, &a, &b, &c));
     return filter_div(c, filter_sub(root, b)); /* c / (-b + root): nothing cancels, b < 0 */
 }
 
@@ -42,7 +42,7 @@ void geom_hit_image(num_context *context, const geom_ray *ray, geom_hit *hit) {
         hit->t = sphere_image(ray, hit);
         return;
     }
-    top = ball_ray_quotient(NULL, ray, hit, &bottom);
+    top = ray_quotient_ball(NULL, ray, hit, &bottom);
     hit->t = filter_div(top, bottom);
 }
 
@@ -63,7 +63,7 @@ typedef struct sphere {
 static sphere exact_sphere(num_arena *arena, const geom_ray *ray, const geom_hit *h) {
     sphere s;
     num_dyadic c;
-    s.root = dyadic_ray_sphere(arena, ray, h->p, h->c, &s.a, &s.b, &c);
+    s.root = ray_sphere_dyadic(arena, ray, h->p, h->c, &s.a, &s.b, &c);
     return s;
 }
 
@@ -168,13 +168,13 @@ static int side_beside_ray(num_context *context, const geom_ray *ray, const doub
         }
     }
     if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(ball_ray_beside(NULL, ray, 0, 1, p));
+        int sure = num_ball_sign(ray_beside_ball(NULL, ray, 0, 1, p));
         if (sure != NUM_UNSURE) {
             context->stats.refined++;
             return sure;
         }
     }
-    return dyadic_ray_beside(fresh(context), ray, 0, 1, p).sign;
+    return ray_beside_dyadic(fresh(context), ray, 0, 1, p).sign;
 }
 
 /* The determinant of three vectors, two of them rounded once: at most 3 + 1 + 1 + 2 roundings on each of
@@ -202,13 +202,13 @@ static int passes(num_context *context, const geom_ray *ray, const double *p, co
         }
     }
     if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(ball_ray_passes(NULL, ray, p, q));
+        int sure = num_ball_sign(ray_passes_ball(NULL, ray, p, q));
         if (sure != NUM_UNSURE) {
             context->stats.refined++;
             return sure;
         }
     }
-    return dyadic_ray_passes(fresh(context), ray, p, q).sign;
+    return ray_passes_dyadic(fresh(context), ray, p, q).sign;
 }
 
 /* ------------------------------------------------------------------- boxes -- */
@@ -257,12 +257,12 @@ static bool meets_ball(num_context *context, const geom_ray *ray, const geom_bod
     int meets = NUM_UNSURE;
     context->stats.calls++;
     if (context->first <= NUM_BALL) {
-        num_ball a, b, c, root = ball_ray_sphere(NULL, ray, centre, body->radius, &a, &b, &c);
+        num_ball a, b, c, root = ray_sphere_ball(NULL, ray, centre, body->radius, &a, &b, &c);
         meets = meets_sphere(num_ball_sign(c), num_ball_sign(b), num_ball_sign(root), &inside);
         context->stats.refined += meets != NUM_UNSURE;
     }
     if (meets == NUM_UNSURE) {
-        num_dyadic a, b, c, root = dyadic_ray_sphere(fresh(context), ray, centre, body->radius, &a, &b, &c);
+        num_dyadic a, b, c, root = ray_sphere_dyadic(fresh(context), ray, centre, body->radius, &a, &b, &c);
         meets = meets_sphere(c.sign, b.sign, root.sign, &inside);
     }
     *first = (geom_hit){.source = inside ? GEOM_START : GEOM_SPHERE, .p = centre, .c = body->radius};

@@ -46,14 +46,15 @@ static bool begin_program(num_context *context, program *lp) {
 static void solve(num_context *context, program *lp) {
     program trial = *lp;
     context->stats.calls++;
-    if (context->first <= NUM_BALL && ball_complete(NULL, &trial) == 1 && ball_descend(NULL, &trial, BALL_STEPS) == 1) {
+    if (context->first <= NUM_BALL && hull_complete_ball(NULL, &trial) == 1 &&
+        hull_descend_ball(NULL, &trial, BALL_STEPS) == 1) {
         context->stats.refined++;
         *lp = trial;
         return;
     }
     context->stats.exact++;
-    dyadic_complete(&context->arena, lp);
-    dyadic_descend(&context->arena, lp, UINT32_MAX);
+    hull_complete_dyadic(&context->arena, lp);
+    hull_descend_dyadic(&context->arena, lp, UINT32_MAX);
 }
 
 /* Are the shadows of p and q different, seen along this axis as well? */

@@ -20,8 +20,8 @@ static int sign_along(normals *m, const normals_ray *ray, const normals_vector *
     num_ball ball[3][3], ball_normal[3];
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) ball[i][k] = num_ball_sub(num_ball_from(v[i]->to[k]), num_ball_from(v[i]->from[k]));
-    ball_cross(NULL, ball[0], ball[1], ball_normal);
-    int sign = m->context->first == NUM_EXACT ? NUM_UNSURE : num_ball_sign(ball_dot(NULL, ball_normal, ball[2]));
+    vector_cross_ball(NULL, ball[0], ball[1], ball_normal);
+    int sign = m->context->first == NUM_EXACT ? NUM_UNSURE : num_ball_sign(vector_dot_ball(NULL, ball_normal, ball[2]));
     if (sign != NUM_UNSURE) return sign;
     num_arena *arena = &m->context->arena;
     num_dyadic exact[3][3], normal[3];
@@ -30,8 +30,8 @@ static int sign_along(normals *m, const normals_ray *ray, const normals_vector *
         for (int k = 0; k < 3; k++)
             exact[i][k] =
                 num_dyadic_sub(arena, num_dyadic_from(arena, v[i]->to[k]), num_dyadic_from(arena, v[i]->from[k]));
-    dyadic_cross(arena, exact[0], exact[1], normal);
-    return dyadic_dot(arena, normal, exact[2]).sign;
+    vector_cross_dyadic(arena, exact[0], exact[1], normal);
+    return vector_dot_dyadic(arena, normal, exact[2]).sign;
 }
 
 /* -------------------------------------------------------------------- rays -- */
