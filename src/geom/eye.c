@@ -23,32 +23,17 @@ geom_eye geom_eye_make(bool parallel, const double *at, const double *origin) {
 
 /* ------------------------------------------------------------ side of an eye -- */
 
-static num_dyadic exact_slope(num_arena *arena, const geom_plane *plane, const geom_eye *eye) {
-    num_dyadic n[3];
-    plane_normal_dyadic(arena, plane, n);
-    return plane_at_eye_dyadic(arena, plane, n, eye);
-}
-
 int geom_side_of_eye(num_context *context, const geom_plane *plane, const geom_eye *eye) {
     static const double zero[3] = {0, 0, 0};
+    int sign;
     if (!eye->parallel) return geom_side_vertex(context, plane, eye->at);
     context->stats.calls++;
     if (geom_is_sheared(plane)) { /* n = (1, eps, 0) */
         double d = eye->at[0] != 0 ? eye->at[0] : eye->at[1];
-        context->stats.by_id++;
-        return (d > 0) - (d < 0);
+        return num_by_id(context, (d > 0) - (d < 0));
     }
-    if (context->first == NUM_FILTER) {
-        int sure = filter_sign(filter_slope(plane, zero, eye->at));
-        if (sure != NUM_UNSURE) return num_filtered(context, sure);
-    }
-    if (context->first <= NUM_BALL) {
-        num_ball n[3];
-        plane_normal_ball(NULL, plane, n);
-        int sure = num_ball_sign(plane_at_eye_ball(NULL, plane, n, eye));
-        if (sure != NUM_UNSURE) return num_refined(context, sure);
-    }
-    return num_exact(context, exact_slope(num_fresh(context), plane, eye).sign);
+    return NUM_DECIDE(context, sign, filter_sign(filter_slope(plane, zero, eye->at)), NUM_UNSURE, side_of_eye, plane,
+                      eye);
 }
 
 /* Shewchuk's static bound for orient3d ("Adaptive precision floating-point arithmetic", 1997, table 4), plus what
@@ -64,7 +49,7 @@ int geom_side_of_eye_filter(const double *p, const double *q, const double *r, c
     const double size =
         fabs(w0) * (fabs(p12) + fabs(p21)) + fabs(w1) * (fabs(p20) + fabs(p02)) + fabs(w2) * (fabs(p01) + fabs(p10));
     const double bound = 8 * FILTER_U * size + NUM_BALL_TINY * (1 + fabs(w0) + fabs(w1) + fabs(w2));
-    return value > bound ? 1 : value < -bound ? -1 : NUM_UNSURE;
+    return filter_sign((num_ball){value, bound});
 }
 
 /* ------------------------------------------------------------------ images -- */
@@ -94,15 +79,6 @@ filter_vector geom_line_image(const geom_eye *eye, const geom_line *line) {
 
 /* ------------------------------------------------------------------- sides -- */
 
-static bool same_point(const double *a, const double *b) {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-/* Is x one of the points that make the line? */
-static bool line_holds(const geom_line *h, const double *x) {
-    return h->kind == GEOM_SIGHT_EDGE && (same_point(h->u, x) || same_point(h->v, x));
-}
-
 static num_ball filter_at_eye(const geom_plane *plane, const geom_eye *eye) {
     static const double zero[3] = {0, 0, 0};
     return eye->parallel ? filter_slope(plane, zero, eye->at) : filter_value(plane, eye->at);
@@ -116,40 +92,31 @@ static int point_filter(const geom_eye *eye, const geom_line *h, const double *x
     return filter_sign(filter_sub(left, right));
 }
 
+/* Is x one of the points that make the line? */
+static bool line_holds(const geom_line *h, const double *x) {
+    bool is_u = h->kind == GEOM_SIGHT_EDGE, is_v = is_u;
+    for (int k = 0; k < 3 && (is_u || is_v); k++) is_u &= h->u[k] == x[k], is_v &= h->v[k] == x[k];
+    return is_u || is_v;
+}
+
 int geom_line_side_point(num_context *context, const geom_eye *eye, const geom_line *h, const double *x) {
+    int sign;
     context->stats.calls++;
-    if (context->first == NUM_FILTER) {
-        int sure = point_filter(eye, h, x);
-        if (sure != NUM_UNSURE) return num_filtered(context, sure);
-        if (line_holds(h, x)) {
-            context->stats.by_id++;
-            return 0;
-        }
-    }
-    if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(line_at_point_ball(NULL, eye, h, x));
-        if (sure != NUM_UNSURE) return num_refined(context, sure);
-    }
-    return num_exact(context, line_at_point_dyadic(num_fresh(context), eye, h, x).sign);
+    return NUM_DECIDE(context, sign, point_filter(eye, h, x), line_holds(h, x) ? num_by_id(context, 0) : NUM_UNSURE,
+                      side_of_seen_point, eye, h, x);
 }
 
 int geom_line_side_meeting(num_context *context, const geom_eye *eye, const geom_line *h, const geom_line *a,
                            const geom_line *b) {
+    int sign;
     context->stats.calls++;
-    if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(line_at_meeting_ball(NULL, eye, h, a, b));
-        if (sure != NUM_UNSURE) return num_refined(context, sure);
-    }
-    return num_exact(context, line_at_meeting_dyadic(num_fresh(context), eye, h, a, b).sign);
+    return NUM_DECIDE(context, sign, NUM_UNSURE, NUM_UNSURE, side_of_meeting, eye, h, a, b);
 }
 
 int geom_line_order(num_context *context, const geom_eye *eye, const geom_line *h, const double *x, const double *y) {
+    int sign;
     context->stats.calls++;
-    if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(line_order_ball(NULL, eye, h, x, y));
-        if (sure != NUM_UNSURE) return num_refined(context, sure);
-    }
-    return num_exact(context, line_order_dyadic(num_fresh(context), eye, h, x, y).sign);
+    return NUM_DECIDE(context, sign, NUM_UNSURE, NUM_UNSURE, order_on_line, eye, h, x, y);
 }
 
 /* a_i / a_k against b_i / b_k, for i before and after k. */

@@ -11,7 +11,7 @@
 #ifndef FROE_GEOM_FILTER_H
 #define FROE_GEOM_FILTER_H
 #include "geom/plane.h"
-#include "num/ball.h"
+#include "num/ladder.h"
 
 #define FILTER_U 0x1p-53
 #define FILTER_UP (1 + 0x1p-49)
@@ -48,7 +48,7 @@ static inline num_ball filter_sum_in(int dim, const geom_plane *h, const double 
     return (num_ball){x, 8 * FILTER_U * size + h->n_err * spread + NUM_BALL_TINY};
 }
 
-static inline num_ball filter_sum(const geom_plane *h, const double w[3], double c) {
+static inline num_ball filter_sum(const geom_plane *h, const double *w, double c) {
     return filter_sum_in(h->dim, h, w, c);
 }
 
@@ -64,9 +64,9 @@ static inline num_ball filter_value(const geom_plane *h, const double *x) {
         num_ball f = filter_difference(x[h->axis], h->c);
         return (num_ball){f.x, (f.e + h->c_err) * FILTER_UP};
     }
-    double w[3] = {x[0], x[1], h->dim == 3 ? x[2] : 0};
-    if (h->form == GEOM_VECTOR) return filter_sum(h, w, h->c);
-    for (int k = 0; k < 3; k++) w[k] -= h->p[0][k];
+    if (h->form == GEOM_VECTOR) return filter_sum(h, x, h->c);
+    const double *o = h->p[0];
+    const double w[3] = {x[0] - o[0], x[1] - o[1], h->dim == 3 ? x[2] - o[2] : 0};
     return filter_sum(h, w, 0);
 }
 

@@ -3,7 +3,8 @@
 #ifndef FROE_GEOM_FORMULAS_H
 #define FROE_GEOM_FORMULAS_H
 #include "geom/plane.h"
-#include "num/ball.h"
+#include "geom/turn.h"
+#include "num/ladder.h"
 #include "num/sheared.h"
 
 static inline bool geom_has_points(const geom_plane *plane) {
@@ -15,21 +16,26 @@ static inline bool geom_has_origin(const geom_plane *plane) {
     return plane->form == GEOM_AXIS || geom_has_points(plane);
 }
 
+/** What a ball is beside a plane that cuts its interior; a code of the formulas, apart from NUM_UNSURE. */
+enum { GEOM_CUTS = 3 };
+
+/** The side of a ball from the signs of f(centre) and f(centre)^2 - radius^2 |n|^2. A ball that touches a sheared plane
+ * has points on both sides of it, or nearly. */
+static inline int geom_ball_side(const geom_plane *h, int centre, int reach) {
+    if (reach == -1 || (reach == 0 && geom_is_sheared(h))) return GEOM_CUTS;
+    return reach == NUM_UNSURE ? NUM_UNSURE : centre;
+}
+
 #include "num/ball_terms.inc"
-#define SHEAR(a) ((void)(a), num_ball_from(0))
+
 #include "geom/predicate_body.inc"
 
 #include "num/dyadic_terms.inc"
-#define SHEAR(a) ((void)(a), (num_dyadic){0})
+
 #include "geom/predicate_body.inc"
 
-#define T num_sheared
-#define FORMULA(f) f##_sheared
-#define FROM(x) num_sheared_from(arena, x)
-#define ADD(a, b) num_sheared_add(arena, a, b)
-#define SUB(a, b) num_sheared_sub(arena, a, b)
-#define MUL(a, b) num_sheared_mul(arena, a, b)
-#define SHEAR(a) num_sheared_shear(a)
+#include "num/sheared_terms.inc"
+
 #include "geom/predicate_body.inc"
 
 /** Reorders three planes so that z, a point near their corner, lies on the first (unless none has an

@@ -16,43 +16,34 @@ static double limit(num_arena *arena, double origin, const num_sheared *offset, 
     return rounded_image(arena, origin, offset->a[order], divisor->a[order]);
 }
 
-static void round_sheared_crossing(num_arena *arena, const double *u, const double *v, const geom_plane *a,
-                                   double *out) {
-    num_sheared offset[3], divisor;
-    offset_of_crossing_sheared(arena, u, v, a, offset, &divisor);
-    for (int k = 0; k < a->dim; k++) out[k] = limit(arena, u[k], &offset[k], &divisor);
-}
-
 void geom_round_crossing(num_context *context, const double *u, const double *v, const geom_plane *a, double *out) {
-    num_dyadic offset[3], divisor;
-    context->arena.top = 0;
+    num_arena *arena = num_fresh(context);
     if (geom_is_sheared(a)) {
-        round_sheared_crossing(&context->arena, u, v, a, out);
-        return;
+        num_sheared offset[3], divisor;
+        offset_of_crossing_sheared(arena, u, v, a, offset, &divisor);
+        for (int k = 0; k < a->dim; k++) out[k] = limit(arena, u[k], &offset[k], &divisor);
+    } else {
+        num_dyadic offset[3], divisor;
+        offset_of_crossing_dyadic(arena, u, v, a, offset, &divisor);
+        for (int k = 0; k < a->dim; k++) out[k] = rounded_image(arena, u[k], offset[k], divisor);
     }
-    offset_of_crossing_dyadic(&context->arena, u, v, a, offset, &divisor);
-    for (int k = 0; k < a->dim; k++) out[k] = rounded_image(&context->arena, u[k], offset[k], divisor);
-}
-
-static void round_sheared_corner(num_arena *arena, const geom_plane *const planes[3], const double z[3], double *out) {
-    num_sheared offset[3], divisor;
-    offset_of_corner_sheared(arena, planes[0], planes[1], planes[2], z, offset, &divisor);
-    for (int k = 0; k < 3; k++) out[k] = limit(arena, z[k], &offset[k], &divisor);
 }
 
 void geom_round_corner(num_context *context, const geom_plane *s, const geom_plane *a, const geom_plane *b,
                        double *out) {
     const geom_plane *planes[3] = {s, a, b};
+    num_arena *arena = num_fresh(context);
     double z[3];
-    num_dyadic offset[3], divisor;
     geom_corner_origin(planes, NULL, z);
-    context->arena.top = 0;
     if (geom_is_sheared(s) || geom_is_sheared(a) || geom_is_sheared(b)) {
-        round_sheared_corner(&context->arena, planes, z, out);
-        return;
+        num_sheared offset[3], divisor;
+        offset_of_corner_sheared(arena, planes[0], planes[1], planes[2], z, offset, &divisor);
+        for (int k = 0; k < 3; k++) out[k] = limit(arena, z[k], &offset[k], &divisor);
+    } else {
+        num_dyadic offset[3], divisor;
+        offset_of_corner_dyadic(arena, planes[0], planes[1], planes[2], z, offset, &divisor);
+        for (int k = 0; k < 3; k++) out[k] = rounded_image(arena, z[k], offset[k], divisor);
     }
-    offset_of_corner_dyadic(&context->arena, planes[0], planes[1], planes[2], z, offset, &divisor);
-    for (int k = 0; k < 3; k++) out[k] = rounded_image(&context->arena, z[k], offset[k], divisor);
 }
 
 /* Keeps x, an image of a number between p and q, between them; returns its error. */

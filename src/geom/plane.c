@@ -116,12 +116,10 @@ geom_plane geom_plane_at_crossing(int dim, const double *const ends[4]) {
 bool geom_plane_valid(num_context *context, const geom_plane *plane) {
     if (plane->form == GEOM_AXIS || plane->form == GEOM_AT_VERTEX) return true;
     if (plane->form == GEOM_AT_CROSSING) {
-        context->arena.top = 0;
-        return wall_turn_dyadic(&context->arena, plane).sign > 0;
+        return wall_turn_dyadic(num_fresh(context), plane).sign > 0;
     }
     if (context->first == NUM_FILTER && plane->n_max > plane->n_err) return true;
     num_dyadic n[3];
-    context->arena.top = 0;
-    plane_normal_dyadic(&context->arena, plane, n);
+    plane_normal_dyadic(num_fresh(context), plane, n);
     return n[0].sign || n[1].sign || n[2].sign;
 }

@@ -32,21 +32,10 @@ static bool lay_planes(const froe_allocator *alloc, int dim, const double *norma
 
 /* ------------------------------------------------------------------- lines -- */
 
-/* Sign of n_a . (n_b x n_c). */
 static int turn_of_planes(num_context *context, const geom_plane *a, const geom_plane *b, const geom_plane *c) {
-    num_ball u[3], v[3], w[3], cross[3];
-    num_dyadic d[3], e[3], f[3], product[3];
-    if (context->first != NUM_EXACT) {
-        plane_normal_ball(NULL, a, u), plane_normal_ball(NULL, b, v), plane_normal_ball(NULL, c, w);
-        vector_cross_ball(NULL, v, w, cross);
-        int sign = num_ball_sign(vector_dot_ball(NULL, u, cross));
-        if (sign != NUM_UNSURE) return sign;
-    }
-    num_arena *arena = &context->arena;
-    arena->top = 0;
-    plane_normal_dyadic(arena, a, d), plane_normal_dyadic(arena, b, e), plane_normal_dyadic(arena, c, f);
-    vector_cross_dyadic(arena, e, f, product);
-    return vector_dot_dyadic(arena, d, product).sign;
+    int sign;
+    context->stats.calls++;
+    return NUM_DECIDE(context, sign, NUM_UNSURE, NUM_UNSURE, turn_of_normals, a, b, c);
 }
 
 /* The line where planes a and b meet, and the planes that end what is left of it: after[1] in the direction

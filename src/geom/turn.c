@@ -1,21 +1,19 @@
 /* turn.c: see turn.h. */
 #include "geom/turn.h"
+#include "geom/formulas.h"
 #include "geom/predicates.h"
-#include <math.h>
 
-/* 0: not sure. Three roundings of each product and one of their difference (Shewchuk: Adaptive precision floating-point
- * arithmetic, 1997, ccw filter); the constant swallows underflows, and nothing exceeds a bound that has overflowed. */
-static int filtered_turn(const double *a, const double *b, const double *c) {
+/* Three roundings of each product and one of their difference (Shewchuk: Adaptive precision floating-point arithmetic,
+ * 1997, ccw filter); the constant swallows underflows, and nothing exceeds a bound that has overflowed. */
+static int turn_filter(const double *a, const double *b, const double *c) {
     double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]);
-    double bound = 0x1p-51 * (fabs(left) + fabs(right)) + 0x1p-1000;
-    return left - right > bound ? 1 : right - left > bound ? -1 : 0;
+    return filter_sign((num_ball){left - right, 0x1p-51 * (fabs(left) + fabs(right)) + NUM_BALL_TINY});
 }
 
 int geom_turn(num_context *context, const double *a, const double *b, const double *c) {
     if (context->first == NUM_FILTER && num_rounding_trusted()) {
-        int sure = filtered_turn(a, b, c);
-        context->stats.calls += sure != 0;
-        if (sure) return num_filtered(context, sure);
+        const int sure = num_filtered_call(context, turn_filter(a, b, c));
+        if (sure != NUM_UNSURE) return sure;
     }
     geom_plane line = geom_plane_points(2, (const double *const[]){a, b});
     return geom_side_vertex(context, &line, c);
@@ -46,4 +44,10 @@ int geom_projection_axis(num_context *context, const double *a, const double *b,
         if (geom_projected_turn(context, axis, a, b, c) != 0) return axis;
     }
     return -1;
+}
+
+int geom_turn_of_vectors(num_context *context, const geom_vector *a, const geom_vector *b, const geom_vector *c) {
+    int sign;
+    context->stats.calls++;
+    return NUM_DECIDE(context, sign, NUM_UNSURE, NUM_UNSURE, turn_of_vectors, a, b, c);
 }

@@ -9,4 +9,11 @@ int geom_turn(num_context *context, const double *a, const double *b, const doub
 int geom_projected_turn(num_context *context, int axis, const double *a, const double *b, const double *c);
 /** An axis along which three points do not look collinear; -1: they are. */
 int geom_projection_axis(num_context *context, const double *a, const double *b, const double *c);
+
+/** The vector from one point of space to another. */
+typedef struct geom_vector {
+    const double *from, *to;
+} geom_vector;
+/** Sign of (a x b) . c: how three vectors turn. */
+int geom_turn_of_vectors(num_context *context, const geom_vector *a, const geom_vector *b, const geom_vector *c);
 #endif

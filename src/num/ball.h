@@ -39,4 +39,9 @@ static inline num_ball num_ball_mul(num_ball a, num_ball b) {
 static inline int num_ball_sign(num_ball a) {
     return a.x > a.e ? 1 : a.x < -a.e ? -1 : a.x == 0 && a.e == 0 ? 0 : NUM_UNSURE;
 }
+/** The sign of a quotient from the signs of both, where the lower is not 0. */
+static inline int num_quotient_sign(int top, int bottom) {
+    if (top == 0) return 0;
+    return top == NUM_UNSURE || bottom == NUM_UNSURE ? NUM_UNSURE : top * bottom;
+}
 #endif

@@ -19,24 +19,6 @@ typedef struct num_context {
 froe_status num_context_new(const froe_allocator *alloc, num_context *out);
 void num_context_free(num_context *context);
 
-/** These count how an answer was found, and return it. */
-static inline int num_by_id(num_context *context, int sign) {
-    context->stats.by_id++;
-    return sign;
-}
-static inline int num_filtered(num_context *context, int sign) {
-    context->stats.filtered++;
-    return sign;
-}
-static inline int num_refined(num_context *context, int sign) {
-    context->stats.refined++;
-    return sign;
-}
-static inline int num_exact(num_context *context, int sign) {
-    context->stats.exact++;
-    context->stats.exact_zero += sign == 0;
-    return sign;
-}
 /** The arena, for a new evaluation. */
 static inline num_arena *num_fresh(num_context *context) {
     context->arena.top = 0;

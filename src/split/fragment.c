@@ -59,8 +59,7 @@ geom_plane split_plane_at(const split_set *set, uint32_t node) {
 
 static int known_side(split_set *set, int side) {
     set->context.stats.calls++;
-    set->context.stats.by_id++;
-    return side;
+    return num_by_id(&set->context, side);
 }
 
 /** Beyond the filter: a vertex that the plane contains by construction (equal coordinates are the
@@ -85,10 +84,7 @@ static inline int vertex_side(split_set *set, const split_plane *plane, const do
         return known_side(set, (x[k] > p[k]) - (x[k] < p[k]));
     }
     int side = set->context.first == NUM_FILTER ? filter_sign(filter_value(&plane->plane, x)) : NUM_UNSURE;
-    if (side == NUM_UNSURE) return near_vertex_side(set, plane, x);
-    set->context.stats.calls++;
-    set->context.stats.filtered++;
-    return side;
+    return num_filtered_call(&set->context, side) == NUM_UNSURE ? near_vertex_side(set, plane, x) : side;
 }
 
 /** The side on which all corners of a small polygon are; NUM_UNSURE: there is none. */
@@ -129,10 +125,7 @@ static int image_sign(const split_set *set, const split_plane *plane, const spli
 }
 
 static int image_side(split_set *set, const split_plane *plane, const split_corner *k) {
-    int side = image_sign(set, plane, k);
-    set->context.stats.calls += side != NUM_UNSURE;
-    set->context.stats.filtered += side != NUM_UNSURE;
-    return side;
+    return num_filtered_call(&set->context, image_sign(set, plane, k));
 }
 
 int split_corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {

@@ -11,19 +11,10 @@
  * They meet in one common corner x alone iff their cones there do: iff 0 is not in the hull of the generators a - x
  * and x - b, for then, and only then, a plane through x has A and B strictly on its two sides. */
 #include "geom/meet/contact.h"
-#include "geom/formulas.h"
 #include "geom/meet/distance.h"
 #include "geom/meet/gap.h"
 #include "geom/turn.h"
 #include <string.h>
-
-#include "num/ball_terms.inc"
-
-#include "geom/meet/contact_body.inc"
-
-#include "num/dyadic_terms.inc"
-
-#include "geom/meet/contact_body.inc"
 
 static const geom_contact apart = {GEOM_APART, GEOM_TOUCH_SOMEHOW}, overlap = {GEOM_OVERLAP, GEOM_TOUCH_SOMEHOW};
 
@@ -123,15 +114,15 @@ static void add_directions(pair *p, const geom_gap *gap) {
 
 /* Bit 0: a corner lies behind the hyperplane L through corner `from`, bit 1: before it. */
 static unsigned sides_reached(pair *p, const geom_body *body, uint32_t from) {
+    static const double zero[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     double o[3], x[3];
+    const geom_vector d = {p->span[0][0], p->span[0][1]}, v = {o, x};
+    const geom_vector e = body->dim == 2 ? (geom_vector){zero, up} : (geom_vector){p->span[1][0], p->span[1][1]};
     unsigned reached = 0;
     geom_body_corner(body, from, o);
     for (uint32_t i = 0; i < geom_body_corners(body); i++) {
         geom_body_corner(body, i, x);
-        int side = p->context->first == NUM_EXACT ? NUM_UNSURE
-                                                  : num_ball_sign(beside_span_ball(NULL, body->dim, p->span, o, x));
-        p->context->arena.top = 0;
-        if (side == NUM_UNSURE) side = beside_span_dyadic(&p->context->arena, body->dim, p->span, o, x).sign;
+        const int side = geom_turn_of_vectors(p->context, &d, &e, &v);
         if (side) reached |= side > 0 ? 2 : 1;
     }
     return reached;

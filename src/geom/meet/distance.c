@@ -27,9 +27,8 @@ static bool find_feature(num_context *context, const double *point, const geom_b
     if (body->dim != 3 || body->count != 3 || context->first != NUM_FILTER || !num_rounding_trusted()) return false;
     const double *const corner[3] = {geom_body_point(body, 0), geom_body_point(body, 1), geom_body_point(body, 2)};
     geom_feature f;
-    context->stats.calls++;
-    if (!geom_feature_nearest(point, corner, &f)) return false;
-    context->stats.filtered++;
+    if (num_filtered_call(context, geom_feature_nearest(point, corner, &f) ? 1 : NUM_UNSURE) == NUM_UNSURE)
+        return false;
     d->count = f.count;
     d->square = f.square;
     memcpy(d->corner, f.corner, sizeof d->corner);
@@ -78,11 +77,6 @@ static int beyond_both(num_arena *arena, num_ratio s, double radius, num_dyadic 
     return num_dyadic_compare(s.top, num_dyadic_mul(arena, num_dyadic_mul(arena, sum, sum), s.bottom));
 }
 
-static int compare_images(const geom_distance *a, const geom_distance *b) {
-    if (a->radius > 0 || b->radius > 0) return filter_sign(filter_sub(geom_distance_image(a), geom_distance_image(b)));
-    return filter_sign(filter_sub(a->square, b->square));
-}
-
 /* Do both come from the same corners? Objects of one scene share them. */
 static bool same_source(const geom_distance *a, const geom_distance *b) {
     if (a->lo || b->lo || a->count != b->count || a->radius != b->radius) return false;
@@ -92,21 +86,14 @@ static bool same_source(const geom_distance *a, const geom_distance *b) {
     return shared == a->count;
 }
 
-int geom_distance_compare(num_context *context, const double *point, const geom_distance *a, const geom_distance *b) {
-    context->stats.calls++;
-    if (same_source(a, b)) {
-        context->stats.filtered++;
-        return 0;
-    }
-    int sure = compare_images(a, b);
-    bool inside = a->radius > 0 || b->radius > 0; /* then images below 0 mean 0 */
-    if (sure != NUM_UNSURE && !(inside && filter_sign(geom_distance_image(sure > 0 ? a : b)) != 1)) {
-        context->stats.filtered++;
-        return sure;
-    }
-    num_arena *arena = &context->arena;
-    arena->top = 0;
-    context->stats.exact++;
+static int compare_images(const geom_distance *a, const geom_distance *b) {
+    if (a->radius == 0 && b->radius == 0) return filter_sign(filter_sub(a->square, b->square));
+    const num_ball x = geom_distance_image(a), y = geom_distance_image(b);
+    const int sure = filter_sign(filter_sub(x, y)); /* images below 0 mean 0 */
+    return sure != NUM_UNSURE && filter_sign(sure > 0 ? x : y) == 1 ? sure : NUM_UNSURE;
+}
+
+static int compare_exactly(num_arena *arena, const double *point, const geom_distance *a, const geom_distance *b) {
     num_ratio s = exact_square(arena, point, a), t = exact_square(arena, point, b);
     bool out_a = beyond_radius(arena, s, a->radius) > 0, out_b = beyond_radius(arena, t, b->radius) > 0;
     if (!out_a || !out_b) return out_a - out_b;
@@ -114,20 +101,32 @@ int geom_distance_compare(num_context *context, const double *point, const geom_
     return num_roots_compare(arena, s, t, e);
 }
 
+int geom_distance_compare(num_context *context, const double *point, const geom_distance *a, const geom_distance *b) {
+    int sign;
+    context->stats.calls++;
+    if (same_source(a, b)) return num_by_id(context, 0);
+    return NUM_LADDER(context, sign, compare_images(a, b), NUM_UNSURE, NUM_UNSURE,
+                      compare_exactly(num_fresh(context), point, a, b));
+}
+
+/* Sure of no zero distance: there the bound decides. */
+static int compare_image_to(const geom_distance *a, double bound) {
+    const int sure = filter_sign(filter_sub(geom_distance_image(a), num_ball_from(bound)));
+    return sure == -1 && bound == 0 ? NUM_UNSURE : sure;
+}
+
+static int compare_exactly_to(num_arena *arena, const double *point, const geom_distance *a, double bound) {
+    num_ratio s = exact_square(arena, point, a);
+    const int sign = beyond_both(arena, s, a->radius, num_dyadic_from(arena, bound));
+    return sign < 0 && bound == 0 ? 0 : sign;
+}
+
 int geom_distance_compare_to(num_context *context, const double *point, const geom_distance *a, double bound) {
+    int sign;
     if (isinf(bound)) return -1;
     context->stats.calls++;
-    int sure = filter_sign(filter_sub(geom_distance_image(a), num_ball_from(bound)));
-    if (sure == 1 || (sure == -1 && bound > 0)) {
-        context->stats.filtered++;
-        return sure;
-    }
-    num_arena *arena = &context->arena;
-    arena->top = 0;
-    context->stats.exact++;
-    num_ratio s = exact_square(arena, point, a);
-    int sign = beyond_both(arena, s, a->radius, num_dyadic_from(arena, bound));
-    return sign < 0 && bound == 0 ? 0 : sign;
+    return NUM_LADDER(context, sign, compare_image_to(a, bound), NUM_UNSURE, NUM_UNSURE,
+                      compare_exactly_to(num_fresh(context), point, a, bound));
 }
 
 /* ---------------------------------------------------------------- rounding -- */
@@ -204,9 +203,8 @@ static bool round_by_pairs(const num_context *context, const double *point, cons
 }
 
 double geom_distance_round(num_context *context, const double *point, const geom_distance *a) {
-    num_arena *arena = &context->arena;
+    num_arena *arena = num_fresh(context);
     double rounded;
-    arena->top = 0;
     if (round_by_pairs(context, point, a, &rounded)) return rounded;
     rounding r = {exact_square(arena, point, a), a->radius};
     if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;

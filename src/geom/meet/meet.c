@@ -42,7 +42,7 @@ static num_ball lowest_corner_ball(num_arena *arena, const geom_convex *c, const
 }
 
 #include "num/ball_terms.inc"
-#define SIGN(a) num_ball_sign(a)
+
 #include "geom/meet/meet_body.inc"
 
 /* --------------------------------------------------------------- dyadics -- */
@@ -104,7 +104,7 @@ static num_dyadic lowest_corner_dyadic(num_arena *arena, const geom_convex *c, c
 }
 
 #include "num/dyadic_terms.inc"
-#define SIGN(a) (a).sign
+
 #include "geom/meet/meet_body.inc"
 
 /* -------------------------------------------------------------- decisions -- */
@@ -112,15 +112,10 @@ static num_dyadic lowest_corner_dyadic(num_arena *arena, const geom_convex *c, c
 enum { MOST_STEPS = 40, NO_END = -1 };
 
 bool geom_meet(num_context *context, const geom_convex *a, const geom_convex *b) {
-    int meets = NUM_UNSURE;
+    int meets;
     context->stats.calls++;
-    if (context->first != NUM_EXACT) meets = meet_search_ball(&context->arena, a, b, MOST_STEPS);
-    if (meets != NUM_UNSURE) {
-        context->stats.refined++;
-        return meets;
-    }
-    context->stats.exact++;
-    return meet_search_dyadic(&context->arena, a, b, NO_END);
+    return NUM_LADDER(context, meets, NUM_UNSURE, NUM_UNSURE, meet_search_ball(&context->arena, a, b, MOST_STEPS),
+                      meet_search_dyadic(&context->arena, a, b, NO_END));
 }
 
 bool geom_meet_surely(num_context *context, const geom_convex *a, const geom_convex *b) {
@@ -147,26 +142,11 @@ static int filter_meet_boxes(int dim, const double *lo_a, const double *hi_a, co
     return sum < square * sure - NUM_BALL_TINY ? 1 : NUM_UNSURE;
 }
 
-/* The squared reach minus the squared gaps, among corners from[i], to[i]. */
-static int sign_of_rest(num_context *context, int gaps, const double *from, const double *to, double radius_a,
-                        double radius_b) {
-    if (context->first != NUM_EXACT) {
-        num_ball r = num_ball_add(num_ball_from(radius_a), num_ball_from(radius_b)), rest = num_ball_mul(r, r);
-        for (int i = 0; i < gaps; i++) {
-            num_ball gap = num_ball_sub(num_ball_from(to[i]), num_ball_from(from[i]));
-            rest = num_ball_sub(rest, num_ball_mul(gap, gap));
-        }
-        const int sign = num_ball_sign(rest);
-        if (sign != NUM_UNSURE) return num_refined(context, sign);
-    }
-    num_arena *arena = num_fresh(context);
-    num_dyadic r = num_dyadic_add(arena, num_dyadic_from(arena, radius_a), num_dyadic_from(arena, radius_b));
-    num_dyadic rest = num_dyadic_mul(arena, r, r);
-    for (int i = 0; i < gaps; i++) {
-        num_dyadic gap = num_dyadic_sub(arena, num_dyadic_from(arena, to[i]), num_dyadic_from(arena, from[i]));
-        rest = num_dyadic_sub(arena, rest, num_dyadic_mul(arena, gap, gap));
-    }
-    return num_exact(context, rest.sign);
+int geom_reach_over_gaps(num_context *context, int gaps, const double *from, const double *to, double radius_a,
+                         double radius_b) {
+    int sign;
+    context->stats.calls++;
+    return NUM_DECIDE(context, sign, NUM_UNSURE, NUM_UNSURE, reach_over_gaps, gaps, from, to, radius_a, radius_b);
 }
 
 bool geom_meet_boxes(num_context *context, int dim, const double *lo_a, const double *hi_a, double radius_a,
@@ -184,6 +164,5 @@ bool geom_meet_boxes(num_context *context, int dim, const double *lo_a, const do
             from[gaps] = hi_b[k], to[gaps++] = lo_a[k];
     }
     if (!gaps || (radius_a == 0 && radius_b == 0)) return !gaps;
-    context->stats.calls++;
-    return sign_of_rest(context, gaps, from, to, radius_a, radius_b) >= 0;
+    return geom_reach_over_gaps(context, gaps, from, to, radius_a, radius_b) >= 0;
 }

@@ -27,4 +27,7 @@ bool geom_meet_surely(num_context *context, const geom_convex *a, const geom_con
 /** The same for boxes grown by a radius, in any dimension: points, boxes, balls. A bound of b may be infinite. */
 bool geom_meet_boxes(num_context *context, int dim, const double *lo_a, const double *hi_a, double radius_a,
                      const double *lo_b, const double *hi_b, double radius_b);
+/** Sign of (radius_a + radius_b)^2 minus the sum of the squares of the gaps to[i] - from[i]. */
+int geom_reach_over_gaps(num_context *context, int gaps, const double *from, const double *to, double radius_a,
+                         double radius_b);
 #endif

@@ -1,4 +1,4 @@
-/* ray.c: see ray.h. Filters first; then balls; then dyadic numbers. */
+/* ray.c: see ray.h. Each answer by the stages of num/ladder.h. */
 #include "geom/ray/ray.h"
 #include "geom/filter.h"
 #include "geom/formulas.h"
@@ -13,12 +13,6 @@
 #include "num/dyadic_terms.inc"
 
 #include "geom/ray/ray_body.inc"
-
-static num_arena *fresh(num_context *context) {
-    context->arena.top = 0;
-    context->stats.exact++;
-    return &context->arena;
-}
 
 /* -------------------------------------------------------------- parameters -- */
 
@@ -47,13 +41,10 @@ void geom_hit_image(num_context *context, const geom_ray *ray, geom_hit *hit) {
 }
 
 int geom_hit_sign(num_context *context, const geom_ray *ray, const geom_hit *hit) {
+    int sign;
     context->stats.calls++;
-    int sure = num_ball_sign(hit->t);
-    if (sure != NUM_UNSURE || hit->source == GEOM_SPHERE) {
-        context->stats.filtered++;
-        return hit->source == GEOM_SPHERE ? 1 : sure;
-    }
-    return exact_quotient(fresh(context), ray, hit).top.sign;
+    return NUM_LADDER(context, sign, hit->source == GEOM_SPHERE ? 1 : num_ball_sign(hit->t), NUM_UNSURE, NUM_UNSURE,
+                      hit->source == GEOM_SPHERE ? 1 : exact_quotient(num_fresh(context), ray, hit).top.sign);
 }
 
 typedef struct sphere {
@@ -73,15 +64,7 @@ static int against_sphere(num_arena *arena, num_ratio t, const sphere *s) {
     return num_root_sign(arena, sum, t.bottom, s->root);
 }
 
-int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
-    context->stats.calls++;
-    int sure = filter_sign(filter_sub(a->t, b->t));
-    if (sure != NUM_UNSURE) {
-        context->stats.filtered++;
-        return sure;
-    }
-    if (a->source == GEOM_START && b->source == GEOM_START) return 0;
-    num_arena *arena = fresh(context);
+static int compare_exactly(num_arena *arena, const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
     if (a->source != GEOM_SPHERE && b->source != GEOM_SPHERE)
         return num_ratio_compare(arena, exact_quotient(arena, ray, a), exact_quotient(arena, ray, b));
     if (a->source == GEOM_SPHERE && b->source == GEOM_SPHERE) {
@@ -95,33 +78,36 @@ int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *
     return a->source == GEOM_SPHERE ? -sign : sign;
 }
 
-/* t - x for a dyadic x. */
-static int against(num_arena *arena, const geom_hit *h, num_ratio t, const sphere *s, num_dyadic x) {
-    num_ratio bound = {x, num_dyadic_scaled(arena, 1, 1, 0)};
-    return h->source == GEOM_SPHERE ? -against_sphere(arena, bound, s) : num_ratio_compare(arena, t, bound);
-}
-
-int geom_hit_compare_to(num_context *context, const geom_ray *ray, const geom_hit *a, double t) {
-    if (isinf(t)) return -1;
+int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
+    int sign;
+    const bool both_start = a->source == GEOM_START && b->source == GEOM_START;
     context->stats.calls++;
-    int sure = filter_sign(filter_sub(a->t, num_ball_from(t)));
-    if (sure != NUM_UNSURE) {
-        context->stats.filtered++;
-        return sure;
-    }
-    num_arena *arena = fresh(context);
-    num_ratio quotient = {{0}, {0}};
-    sphere s = {{0}, {0}, {0}};
-    if (a->source == GEOM_SPHERE)
-        s = exact_sphere(arena, ray, a);
-    else
-        quotient = exact_quotient(arena, ray, a);
-    return against(arena, a, quotient, &s, num_dyadic_from(arena, t));
+    return NUM_LADDER(context, sign, filter_sign(filter_sub(a->t, b->t)),
+                      both_start ? num_by_id(context, 0) : NUM_UNSURE, NUM_UNSURE,
+                      compare_exactly(num_fresh(context), ray, a, b));
 }
 
+/* Sign of (-b - sqrt(root)) / a minus x. */
 static int sphere_against(void *user, num_arena *arena, num_dyadic x) {
     num_ratio bound = {x, num_dyadic_scaled(arena, 1, 1, 0)};
     return -against_sphere(arena, bound, user);
+}
+
+static int compare_exactly_to(num_arena *arena, const geom_ray *ray, const geom_hit *a, double t) {
+    if (a->source == GEOM_SPHERE) {
+        sphere s = exact_sphere(arena, ray, a);
+        return sphere_against(&s, arena, num_dyadic_from(arena, t));
+    }
+    num_ratio bound = {num_dyadic_from(arena, t), num_dyadic_scaled(arena, 1, 1, 0)};
+    return num_ratio_compare(arena, exact_quotient(arena, ray, a), bound);
+}
+
+int geom_hit_compare_to(num_context *context, const geom_ray *ray, const geom_hit *a, double t) {
+    int sign;
+    if (isinf(t)) return -1;
+    context->stats.calls++;
+    return NUM_LADDER(context, sign, filter_sign(filter_sub(a->t, num_ball_from(t))), NUM_UNSURE, NUM_UNSURE,
+                      compare_exactly_to(num_fresh(context), ray, a, t));
 }
 
 /* The parameter of a PLANE, if pairs of doubles can tell how it is to be rounded. With sizes as sums of coordinates, a
@@ -141,9 +127,8 @@ static bool round_plane(const geom_ray *ray, const geom_hit *h, double *out) {
 }
 
 double geom_hit_round(num_context *context, const geom_ray *ray, const geom_hit *a) {
-    num_arena *arena = &context->arena;
+    num_arena *arena = num_fresh(context);
     double rounded;
-    arena->top = 0;
     if (a->source == GEOM_START) return 0;
     if (a->source == GEOM_PLANE && context->first < NUM_EXACT && round_plane(ray, a, &rounded)) return rounded;
     if (a->source != GEOM_SPHERE) {
@@ -157,24 +142,15 @@ double geom_hit_round(num_context *context, const geom_ray *ray, const geom_hit 
 /* ------------------------------------------------------------------- sides -- */
 
 /* As filter_sum (geom/filter.h): two differences, two products, one more difference. */
-static int side_beside_ray(num_context *context, const geom_ray *ray, const double *p) {
+static int beside_filter(const geom_ray *ray, const double *p) {
     double a = ray->d[0] * (p[1] - ray->o[1]), b = ray->d[1] * (p[0] - ray->o[0]);
+    return filter_sign((num_ball){a - b, 8 * FILTER_U * (fabs(a) + fabs(b)) + NUM_BALL_TINY});
+}
+
+static int side_beside_ray(num_context *context, const geom_ray *ray, const double *p) {
+    int sign;
     context->stats.calls++;
-    if (context->first == NUM_FILTER) {
-        int sure = filter_sign((num_ball){a - b, 8 * FILTER_U * (fabs(a) + fabs(b)) + NUM_BALL_TINY});
-        if (sure != NUM_UNSURE) {
-            context->stats.filtered++;
-            return sure;
-        }
-    }
-    if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(ray_beside_ball(NULL, ray, 0, 1, p));
-        if (sure != NUM_UNSURE) {
-            context->stats.refined++;
-            return sure;
-        }
-    }
-    return ray_beside_dyadic(fresh(context), ray, 0, 1, p).sign;
+    return NUM_DECIDE(context, sign, beside_filter(ray, p), NUM_UNSURE, side_of_ray, ray, 0, 1, p);
 }
 
 /* The determinant of three vectors, two of them rounded once: at most 3 + 1 + 1 + 2 roundings on each of
@@ -193,22 +169,9 @@ static int passes_filter(const geom_ray *ray, const double *p, const double *q) 
 }
 
 static int passes(num_context *context, const geom_ray *ray, const double *p, const double *q) {
+    int sign;
     context->stats.calls++;
-    if (context->first == NUM_FILTER) {
-        int sure = passes_filter(ray, p, q);
-        if (sure != NUM_UNSURE) {
-            context->stats.filtered++;
-            return sure;
-        }
-    }
-    if (context->first <= NUM_BALL) {
-        int sure = num_ball_sign(ray_passes_ball(NULL, ray, p, q));
-        if (sure != NUM_UNSURE) {
-            context->stats.refined++;
-            return sure;
-        }
-    }
-    return ray_passes_dyadic(fresh(context), ray, p, q).sign;
+    return NUM_DECIDE(context, sign, passes_filter(ray, p, q), NUM_UNSURE, way_past_line, ray, p, q);
 }
 
 /* ------------------------------------------------------------------- boxes -- */
@@ -242,29 +205,12 @@ static bool meets_box(num_context *context, const geom_ray *ray, const double *l
 
 /* ------------------------------------------------------------------- balls -- */
 
-/* 1, 0 or NUM_UNSURE from the signs of c, b and the discriminant; *inside: the origin is. */
-static int meets_sphere(int c, int b, int root, bool *inside) {
-    *inside = c != 1;
-    if (c == NUM_UNSURE) return NUM_UNSURE;
-    if (c <= 0) return 1;
-    if (b == 0 || b == 1 || root == -1) return 0;
-    return b == NUM_UNSURE || root == NUM_UNSURE ? NUM_UNSURE : 1;
-}
-
 static bool meets_ball(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
     const double *centre = geom_body_point(body, 0);
-    bool inside = false;
-    int meets = NUM_UNSURE;
+    bool inside;
+    int meets;
     context->stats.calls++;
-    if (context->first <= NUM_BALL) {
-        num_ball a, b, c, root = ray_sphere_ball(NULL, ray, centre, body->radius, &a, &b, &c);
-        meets = meets_sphere(num_ball_sign(c), num_ball_sign(b), num_ball_sign(root), &inside);
-        context->stats.refined += meets != NUM_UNSURE;
-    }
-    if (meets == NUM_UNSURE) {
-        num_dyadic a, b, c, root = ray_sphere_dyadic(fresh(context), ray, centre, body->radius, &a, &b, &c);
-        meets = meets_sphere(c.sign, b.sign, root.sign, &inside);
-    }
+    meets = NUM_DECIDE(context, meets, NUM_UNSURE, NUM_UNSURE, ray_meets_sphere, ray, centre, body->radius, &inside);
     *first = (geom_hit){.source = inside ? GEOM_START : GEOM_SPHERE, .p = centre, .c = body->radius};
     if (meets) geom_hit_image(context, ray, first);
     return meets;
@@ -346,9 +292,7 @@ static int meets_triangle(const geom_ray *ray, const geom_body *body, geom_hit *
 bool geom_ray_meets(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
     if (body->count == 3 && body->form == FROE_POLYGON && ray->dim == 3 && context->first == NUM_FILTER &&
         num_rounding_trusted()) {
-        const int sure = meets_triangle(ray, body, first);
-        context->stats.calls++;
-        context->stats.filtered += sure != NUM_UNSURE;
+        const int sure = num_filtered_call(context, meets_triangle(ray, body, first));
         if (sure != NUM_UNSURE) return sure;
     }
     const double *p = geom_body_point(body, 0);

@@ -24,11 +24,11 @@ typedef struct program {
 } program;
 
 #include "num/ball_terms.inc"
-#define SIGN(a) num_ball_sign(a)
+
 #include "geom/ray/ray_hull_body.inc"
 
 #include "num/dyadic_terms.inc"
-#define SIGN(a) ((a).sign)
+
 #include "geom/ray/ray_hull_body.inc"
 
 /* Some corners whose shadows hold the line; false: it misses the hull. */
@@ -43,25 +43,22 @@ static bool begin_program(num_context *context, program *lp) {
     return gap.zero;
 }
 
-static void solve(num_context *context, program *lp) {
-    program trial = *lp;
-    context->stats.calls++;
-    if (context->first <= NUM_BALL && hull_complete_ball(NULL, &trial) == 1 &&
-        hull_descend_ball(NULL, &trial, BALL_STEPS) == 1) {
-        context->stats.refined++;
-        *lp = trial;
-        return;
-    }
-    context->stats.exact++;
-    hull_complete_dyadic(&context->arena, lp);
-    hull_descend_dyadic(&context->arena, lp, UINT32_MAX);
+/* 1, or NUM_UNSURE: then *solved may be anything. */
+static int solve_ball(const program *lp, program *solved) {
+    *solved = *lp;
+    return hull_complete_ball(NULL, solved) == 1 ? hull_descend_ball(NULL, solved, BALL_STEPS) : NUM_UNSURE;
+}
+
+static int solve_dyadic(num_arena *arena, const program *lp, program *solved) {
+    *solved = *lp;
+    hull_complete_dyadic(arena, solved);
+    return hull_descend_dyadic(arena, solved, UINT32_MAX);
 }
 
 /* Are the shadows of p and q different, seen along this axis as well? */
 static bool apart(num_context *context, const geom_ray *ray, int i, int j, const double *p, const double *q) {
-    num_arena *arena = &context->arena;
+    num_arena *arena = num_fresh(context);
     num_dyadic a, b;
-    arena->top = 0;
     a = num_dyadic_sub(arena, num_dyadic_from(arena, q[j]), num_dyadic_from(arena, p[j]));
     b = num_dyadic_sub(arena, num_dyadic_from(arena, q[i]), num_dyadic_from(arena, p[i]));
     a = num_dyadic_mul(arena, a, num_dyadic_from(arena, ray->d[i]));
@@ -93,9 +90,12 @@ static geom_hit hit_of(num_context *context, const program *lp) {
 }
 
 bool geom_ray_meets_hull(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
-    program lp = {.ray = ray, .body = body};
-    if (!begin_program(context, &lp)) return false;
-    solve(context, &lp);
+    program first_basis = {.ray = ray, .body = body}, lp;
+    int solved;
+    if (!begin_program(context, &first_basis)) return false;
+    context->stats.calls++;
+    (void)NUM_LADDER(context, solved, NUM_UNSURE, NUM_UNSURE, solve_ball(&first_basis, &lp),
+                     solve_dyadic(&context->arena, &first_basis, &lp));
     geom_hit hit = hit_of(context, &lp);
     if (geom_hit_sign(context, ray, &hit) < 0) { /* entered before it begins: is the origin inside, or all behind it? */
         geom_body origin = geom_body_at(ray->dim, ray->o);

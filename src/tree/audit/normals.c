@@ -1,6 +1,5 @@
 /* normals.c: see normals.h. */
 #include "tree/audit/normals.h"
-#include "geom/formulas.h"
 #include "geom/predicates.h"
 
 static const double origin[3] = {0, 0, 0}, axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -12,26 +11,9 @@ void normals_free(normals *m) {
     array_free(&m->alloc, &m->padded);
 }
 
-/* ---------------------------------------------------------------- products -- */
-
 /* The sign of (one x other) . d. */
-static int sign_along(normals *m, const normals_ray *ray, const normals_vector *d) {
-    const normals_vector *const v[3] = {m->vectors.data + ray->one, m->vectors.data + ray->other, d};
-    num_ball ball[3][3], ball_normal[3];
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) ball[i][k] = num_ball_sub(num_ball_from(v[i]->to[k]), num_ball_from(v[i]->from[k]));
-    vector_cross_ball(NULL, ball[0], ball[1], ball_normal);
-    int sign = m->context->first == NUM_EXACT ? NUM_UNSURE : num_ball_sign(vector_dot_ball(NULL, ball_normal, ball[2]));
-    if (sign != NUM_UNSURE) return sign;
-    num_arena *arena = &m->context->arena;
-    num_dyadic exact[3][3], normal[3];
-    arena->top = 0;
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            exact[i][k] =
-                num_dyadic_sub(arena, num_dyadic_from(arena, v[i]->to[k]), num_dyadic_from(arena, v[i]->from[k]));
-    vector_cross_dyadic(arena, exact[0], exact[1], normal);
-    return vector_dot_dyadic(arena, normal, exact[2]).sign;
+static int sign_along(normals *m, const normals_ray *ray, const geom_vector *d) {
+    return geom_turn_of_vectors(m->context, m->vectors.data + ray->one, m->vectors.data + ray->other, d);
 }
 
 /* -------------------------------------------------------------------- rays -- */
@@ -42,9 +24,9 @@ static bool add_ray(normals *m, uint32_t one, uint32_t other) {
     for (uint32_t i = 3; i < m->vectors.count; i++)
         if (i != one && i != other && sign_along(m, &ray, m->vectors.data + i) < 0) return true;
     int k = 0;
-    while (k < 3 && !sign_along(m, &ray, &(normals_vector){origin, axes[k]})) k++;
+    while (k < 3 && !sign_along(m, &ray, &(geom_vector){origin, axes[k]})) k++;
     if (k == 3) return true;
-    const normals_vector *a = m->vectors.data + one, *b = m->vectors.data + other;
+    const geom_vector *a = m->vectors.data + one, *b = m->vectors.data + other;
     double most = 0, *x = ray.image;
     for (k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -58,7 +40,7 @@ static bool add_ray(normals *m, uint32_t one, uint32_t other) {
 
 /* Cuts off what has a negative product with d. Any extreme ray of what is left is an old one, or lies across d and
  * another vector (an axis, where all differences lie in a plane). */
-static bool cut_off(normals *m, normals_vector d) {
+static bool cut_off(normals *m, geom_vector d) {
     uint32_t kept = 0, last = (uint32_t)m->vectors.count;
     for (uint32_t i = 0; i < m->rays.count; i++)
         if (sign_along(m, m->rays.data + i, &d) >= 0) m->rays.data[kept++] = m->rays.data[i];
@@ -75,7 +57,7 @@ static bool cut_off(normals *m, normals_vector d) {
  * The points tried first are the last of A and the first of B along a normal somewhere in the middle of the cone.
  * They are found in doubles, and so may be any pair. Where they cut nothing off, the same is asked of the first ray,
  * exactly. */
-static bool find_worst(normals *m, normals_vector *worst) {
+static bool find_worst(normals *m, geom_vector *worst) {
     const double *const *x = m->points.data;
     const normals_ray *rays = m->rays.data;
     double n[3] = {0, 0, 0}, best[2] = {0, 0};
@@ -89,13 +71,13 @@ static bool find_worst(normals *m, normals_vector *worst) {
         best[b] = along;
         at[b] = i;
     }
-    *worst = (normals_vector){x[at[0]], x[at[1]]};
+    *worst = (geom_vector){x[at[0]], x[at[1]]};
     for (uint32_t i = 0; i < m->rays.count; i++)
         if (sign_along(m, rays + i, worst) < 0) return true;
-    *worst = (normals_vector){x[0], x[m->first]};
+    *worst = (geom_vector){x[0], x[m->first]};
     for (uint32_t i = 1; i < m->points.count; i++) {
-        if (i < m->first && sign_along(m, rays, &(normals_vector){worst->from, x[i]}) > 0) worst->from = x[i];
-        if (i > m->first && sign_along(m, rays, &(normals_vector){worst->to, x[i]}) < 0) worst->to = x[i];
+        if (i < m->first && sign_along(m, rays, &(geom_vector){worst->from, x[i]}) > 0) worst->from = x[i];
+        if (i > m->first && sign_along(m, rays, &(geom_vector){worst->to, x[i]}) < 0) worst->to = x[i];
     }
     return sign_along(m, rays, worst) < 0;
 }
@@ -133,13 +115,13 @@ froe_status normals_apart(normals *m, bool *apart) {
     if (flat(m)) return FROE_OK;
     /* the cone of all normals: the axes, in both directions */
     for (int k = 0; k < 3; k++)
-        if (!array_push(&m->alloc, &m->vectors, (normals_vector){origin, axes[k]})) return FROE_E_MEMORY;
+        if (!array_push(&m->alloc, &m->vectors, (geom_vector){origin, axes[k]})) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < (uint32_t)m->dim; i++) {
         uint32_t j = m->dim == 2 ? 2 : (i + 1) % 3;
         if (!add_ray(m, i, j) || !add_ray(m, j, i)) return FROE_E_MEMORY;
     }
     while (m->rays.count && !*apart) {
-        normals_vector worst;
+        geom_vector worst;
         if (!find_worst(m, &worst))
             *apart = true;
         else if (!cut_off(m, worst))

@@ -10,13 +10,8 @@
  * builders look for planes, but the same question. */
 #ifndef FROE_TREE_AUDIT_NORMALS_H
 #define FROE_TREE_AUDIT_NORMALS_H
-#include "num/context.h"
+#include "geom/turn.h"
 #include "support/array.h"
-
-/** The vector from one point to another. */
-typedef struct normals_vector {
-    const double *from, *to;
-} normals_vector;
 
 /** The normal one x other of two of the vectors; its image to length about 1, or 0 where there is none. */
 typedef struct normals_ray {
@@ -29,11 +24,11 @@ typedef struct normals {
     num_context *context;
     froe_allocator alloc;
     int dim;
-    ARRAY(const double *) points;  /**< first those of A, then those of B */
-    uint32_t first;                /**< how many of them are of A */
-    ARRAY(normals_vector) vectors; /**< the axes, then differences */
-    ARRAY(normals_ray) rays;       /**< of the cone of normals left */
-    ARRAY(double) padded;          /**< 2D: the points with a third coordinate 0 */
+    ARRAY(const double *) points; /**< first those of A, then those of B */
+    uint32_t first;               /**< how many of them are of A */
+    ARRAY(geom_vector) vectors;   /**< the axes, then differences */
+    ARRAY(normals_ray) rays;      /**< of the cone of normals left */
+    ARRAY(double) padded;         /**< 2D: the points with a third coordinate 0 */
 } normals;
 
 void normals_free(normals *m);

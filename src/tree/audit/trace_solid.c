@@ -9,6 +9,7 @@
  *
  * A witness w of a box stands for points near it: its part is a box P with w in it, so on an axis
  * where P extends beyond w, w may be moved a little. */
+#include "geom/meet/meet.h"
 #include "tree/audit/trace.h"
 #include <math.h>
 #include <string.h>
@@ -66,26 +67,19 @@ static unsigned cut_box(trace *t, const geom_plane *plane, const trace_solid *at
 
 /* ------------------------------------------------------------------- balls -- */
 
-/* Does the closed ball, r > 0, meet the open cell? Sign of r^2 - squared distance of centre and cell. */
+/* Does the closed ball, r > 0, meet the open cell? */
 static bool ball_meets(trace *t, const trace_solid *at) {
     const froe_scene *s = t->tree->scene;
     const double *c = scene_point(s, t->object, 0);
-    double r = scene_radius(s, t->object);
-    num_ball sum = num_ball_mul(num_ball_from(r), num_ball_from(r));
-    num_arena *arena = &t->context.arena;
-    arena->top = 0;
-    num_dyadic radius = num_dyadic_from(arena, r), exact = num_dyadic_mul(arena, radius, radius);
+    double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
+    int gaps = 0;
     for (int k = 0; k < s->dim; k++) {
         if (at->lo[k] >= at->hi[k]) return false; /* a cut beside its cell leaves an empty one */
         if (c[k] >= at->lo[k] && c[k] <= at->hi[k]) continue;
-        double border = c[k] < at->lo[k] ? at->lo[k] : at->hi[k];
-        num_ball d = num_ball_sub(num_ball_from(border), num_ball_from(c[k]));
-        num_dyadic e = num_dyadic_sub(arena, num_dyadic_from(arena, border), num_dyadic_from(arena, c[k]));
-        sum = num_ball_sub(sum, num_ball_mul(d, d));
-        exact = num_dyadic_sub(arena, exact, num_dyadic_mul(arena, e, e));
+        from[gaps] = c[k];
+        to[gaps++] = c[k] < at->lo[k] ? at->lo[k] : at->hi[k];
     }
-    int sign = t->context.first == NUM_EXACT ? NUM_UNSURE : num_ball_sign(sum);
-    return (sign == NUM_UNSURE ? exact.sign : sign) > 0;
+    return geom_reach_over_gaps(&t->context, gaps, from, to, scene_radius(s, t->object), 0) > 0;
 }
 
 static unsigned cut_ball(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
