@@ -93,7 +93,8 @@ static int compare_images(const geom_distance *a, const geom_distance *b) {
     return sure != NUM_UNSURE && filter_sign(sure > 0 ? x : y) == 1 ? sure : NUM_UNSURE;
 }
 
-static int compare_exactly(num_arena *arena, const double *point, const geom_distance *a, const geom_distance *b) {
+static int compare_distances_exactly(num_arena *arena, const double *point, const geom_distance *a,
+                                     const geom_distance *b) {
     num_ratio s = exact_square(arena, point, a), t = exact_square(arena, point, b);
     bool out_a = beyond_radius(arena, s, a->radius) > 0, out_b = beyond_radius(arena, t, b->radius) > 0;
     if (!out_a || !out_b) return out_a - out_b;
@@ -106,16 +107,16 @@ int geom_distance_compare(num_context *context, const double *point, const geom_
     context->stats.calls++;
     if (same_source(a, b)) return num_by_id(context, 0);
     return NUM_LADDER(context, sign, compare_images(a, b), NUM_UNSURE, NUM_UNSURE,
-                      compare_exactly(num_fresh(context), point, a, b));
+                      compare_distances_exactly(num_fresh(context), point, a, b));
 }
 
 /* Sure of no zero distance: there the bound decides. */
-static int compare_image_to(const geom_distance *a, double bound) {
+static int distance_image_beyond(const geom_distance *a, double bound) {
     const int sure = filter_sign(filter_sub(geom_distance_image(a), num_ball_from(bound)));
     return sure == -1 && bound == 0 ? NUM_UNSURE : sure;
 }
 
-static int compare_exactly_to(num_arena *arena, const double *point, const geom_distance *a, double bound) {
+static int distance_beyond_exactly(num_arena *arena, const double *point, const geom_distance *a, double bound) {
     num_ratio s = exact_square(arena, point, a);
     const int sign = beyond_both(arena, s, a->radius, num_dyadic_from(arena, bound));
     return sign < 0 && bound == 0 ? 0 : sign;
@@ -125,8 +126,8 @@ int geom_distance_compare_to(num_context *context, const double *point, const ge
     int sign;
     if (isinf(bound)) return -1;
     context->stats.calls++;
-    return NUM_LADDER(context, sign, compare_image_to(a, bound), NUM_UNSURE, NUM_UNSURE,
-                      compare_exactly_to(num_fresh(context), point, a, bound));
+    return NUM_LADDER(context, sign, distance_image_beyond(a, bound), NUM_UNSURE, NUM_UNSURE,
+                      distance_beyond_exactly(num_fresh(context), point, a, bound));
 }
 
 /* ---------------------------------------------------------------- rounding -- */

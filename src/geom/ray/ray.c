@@ -64,7 +64,7 @@ static int against_sphere(num_arena *arena, num_ratio t, const sphere *s) {
     return num_root_sign(arena, sum, t.bottom, s->root);
 }
 
-static int compare_exactly(num_arena *arena, const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
+static int compare_hits_exactly(num_arena *arena, const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
     if (a->source != GEOM_SPHERE && b->source != GEOM_SPHERE)
         return num_ratio_compare(arena, exact_quotient(arena, ray, a), exact_quotient(arena, ray, b));
     if (a->source == GEOM_SPHERE && b->source == GEOM_SPHERE) {
@@ -84,7 +84,7 @@ int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *
     context->stats.calls++;
     return NUM_LADDER(context, sign, filter_sign(filter_sub(a->t, b->t)),
                       both_start ? num_by_id(context, 0) : NUM_UNSURE, NUM_UNSURE,
-                      compare_exactly(num_fresh(context), ray, a, b));
+                      compare_hits_exactly(num_fresh(context), ray, a, b));
 }
 
 /* Sign of (-b - sqrt(root)) / a minus x. */
@@ -93,7 +93,7 @@ static int sphere_against(void *user, num_arena *arena, num_dyadic x) {
     return -against_sphere(arena, bound, user);
 }
 
-static int compare_exactly_to(num_arena *arena, const geom_ray *ray, const geom_hit *a, double t) {
+static int hit_beyond_exactly(num_arena *arena, const geom_ray *ray, const geom_hit *a, double t) {
     if (a->source == GEOM_SPHERE) {
         sphere s = exact_sphere(arena, ray, a);
         return sphere_against(&s, arena, num_dyadic_from(arena, t));
@@ -107,7 +107,7 @@ int geom_hit_compare_to(num_context *context, const geom_ray *ray, const geom_hi
     if (isinf(t)) return -1;
     context->stats.calls++;
     return NUM_LADDER(context, sign, filter_sign(filter_sub(a->t, num_ball_from(t))), NUM_UNSURE, NUM_UNSURE,
-                      compare_exactly_to(num_fresh(context), ray, a, t));
+                      hit_beyond_exactly(num_fresh(context), ray, a, t));
 }
 
 /* The parameter of a PLANE, if pairs of doubles can tell how it is to be rounded. With sizes as sums of coordinates, a
