@@ -16,43 +16,40 @@ froe_contact_options froe_contact_defaults(void) {
 }
 
 /* A span of one pair of slices. */
-typedef struct record {
+typedef struct contact_record {
     uint32_t a, b;
     meet_span span;
-} record;
+} contact_record;
 
-typedef ARRAY(record) record_array;
+typedef ARRAY(contact_record) record_array;
 
-typedef struct worker {
+typedef struct contact_worker {
     meet_worker meet;
     record_array records;
     uint64_t candidates;
     froe_status status;
     uint32_t failed[2];
-} worker;
+} contact_worker;
 
-typedef struct search {
+typedef struct contact_search {
     const froe_motion *m;
     const froe_contact_options *o;
     double from, to;
     base_task task;
     motion_slices slices;
-    worker *workers;
+    contact_worker *workers;
     record_array records; /* of all workers */
     froe_contact *contacts;
     size_t contact_count;
-} search;
+} contact_search;
 
 /* ------------------------------------------------------------------- one pair -- */
 
-static bool share_a_vertex(const motion_object *a, const motion_object *b) {
+/* Not of objects that share a vertex, nor, if groups are to be kept apart, of two of one group. */
+static bool is_asked_for(const contact_search *s, const motion_object *a, const motion_object *b) {
     for (int i = 0; i < 4; i++)
-        if (a->vertices[i / 2] == b->vertices[i % 2]) return true;
-    return false;
-}
-
-static bool is_asked_for(const search *s, const motion_object *a, const motion_object *b) {
-    return !share_a_vertex(a, b) && !(s->o->apart && a->group != FROE_NONE && a->group == b->group);
+        if (a->vertices[i / 2] == b->vertices[i % 2]) return false;
+    return !s->o->apart || a->group == FROE_NONE || a->group != b->group;
 }
 
 static double later_time(double a, double b) {
@@ -64,7 +61,7 @@ static double earlier(double a, double b) {
 }
 
 /* The time both live in, within the time asked for. */
-static void common_life(const search *s, uint32_t a, uint32_t b, double life[2]) {
+static void common_life(const contact_search *s, uint32_t a, uint32_t b, double life[2]) {
     const motion_object *p = s->m->objects.data + a, *q = s->m->objects.data + b;
     life[0] = later_time(s->from, later_time(p->birth, q->birth));
     life[1] = earlier(s->to, earlier(p->death, q->death));
@@ -73,8 +70,8 @@ static void common_life(const search *s, uint32_t a, uint32_t b, double life[2])
 /* Finds the spans of two slices. Slices with a single instant in common are skipped, as longer ones end there, unless
  * the objects have no more time in common. */
 static bool look_at_slices(void *user, unsigned number, uint32_t i, uint32_t j) {
-    search *s = user;
-    worker *w = s->workers + number;
+    contact_search *s = user;
+    contact_worker *w = s->workers + number;
     const motion_slice *p = s->slices.slices.data + i, *q = s->slices.slices.data + j;
     if (p->object > q->object) {
         const motion_slice *swap = p;
@@ -92,12 +89,12 @@ static bool look_at_slices(void *user, unsigned number, uint32_t i, uint32_t j) 
     w->failed[0] = p->object;
     w->failed[1] = q->object;
     for (int k = 0; k < w->meet.span_count && !w->status; k++)
-        if (!array_push(&m->alloc, &w->records, (record){p->object, q->object, w->meet.spans[k]}))
+        if (!array_push(&m->alloc, &w->records, (contact_record){p->object, q->object, w->meet.spans[k]}))
             w->status = FROE_E_MEMORY;
     return !w->status;
 }
 
-static froe_status find_spans(search *s, froe_diagnostic *diag) {
+static froe_status find_spans(contact_search *s, froe_diagnostic *diag) {
     unsigned threads = s->task.threads;
     s->workers = support_calloc(&s->m->alloc, threads, sizeof *s->workers);
     froe_status status = s->workers ? FROE_OK : FROE_E_MEMORY;
@@ -106,7 +103,7 @@ static froe_status find_spans(search *s, froe_diagnostic *diag) {
         status = geom_box_pairs(&s->m->alloc, &s->task, 1, 3, (uint32_t)s->slices.slices.count, s->slices.lo.data,
                                 s->slices.hi.data, look_at_slices, s);
     for (unsigned i = 0; s->workers && i < threads; i++) {
-        const worker *w = s->workers + i;
+        const contact_worker *w = s->workers + i;
         if (w->status == FROE_E_LIMIT)
             return support_fail_at(diag, w->status, w->failed[0], FROE_NONE, FROE_NONE,
                                    "segments %u and %u: two things happen too close to be told apart", w->failed[0],
@@ -119,8 +116,8 @@ static froe_status find_spans(search *s, froe_diagnostic *diag) {
 /* ----------------------------------------------------------------- all of them -- */
 
 static int compare_records(void *user, uint32_t i, uint32_t j) {
-    const search *s = user;
-    const record *a = s->records.data + i, *b = s->records.data + j;
+    const contact_search *s = user;
+    const contact_record *a = s->records.data + i, *b = s->records.data + j;
     if (a->a != b->a) return a->a < b->a ? -1 : 1;
     if (a->b != b->b) return a->b < b->b ? -1 : 1;
     double x = a->span.begin.low, y = b->span.begin.low;
@@ -131,7 +128,7 @@ static int compare_records(void *user, uint32_t i, uint32_t j) {
 }
 
 static int compare_contacts(void *user, uint32_t i, uint32_t j) {
-    const search *s = user;
+    const contact_search *s = user;
     const froe_contact *a = s->contacts + i, *b = s->contacts + j;
     for (int k = 0; k < 2; k++)
         if (a->begin[k] != b->begin[k]) return a->begin[k] < b->begin[k] ? -1 : 1;
@@ -140,7 +137,7 @@ static int compare_contacts(void *user, uint32_t i, uint32_t j) {
 }
 
 /* The numbers 0 .. count-1 in order; to be freed as 2 count + 1 numbers. */
-static uint32_t *sorted(search *s, size_t count, base_compare_fn *compare) {
+static uint32_t *sorted(contact_search *s, size_t count, base_compare_fn *compare) {
     uint32_t *order = support_calloc(&s->m->alloc, 2 * count + 1, sizeof *order);
     if (!order) return NULL;
     for (uint32_t i = 0; i < count; i++) order[i] = i;
@@ -148,77 +145,64 @@ static uint32_t *sorted(search *s, size_t count, base_compare_fn *compare) {
     return order;
 }
 
-static void free_order(const search *s, uint32_t *order, size_t count) {
+static void free_order(const contact_search *s, uint32_t *order, size_t count) {
     support_free(&s->m->alloc, order, (2 * count + 1) * sizeof *order);
 }
 
-static froe_status gather_contacts(search *s) {
-    size_t count = 0;
-    for (unsigned i = 0; i < s->task.threads; i++) count += s->workers[i].records.count;
-    if (count >= UINT32_MAX / 2) return FROE_E_LIMIT;
-    if (!array_reserve(&s->m->alloc, &s->records, count)) return FROE_E_MEMORY;
-    for (unsigned i = 0; i < s->task.threads; i++) {
-        const worker *w = s->workers + i;
-        for (size_t k = 0; k < w->records.count; k++) s->records.data[s->records.count++] = w->records.data[k];
-    }
-    return FROE_OK;
-}
-
-static froe_contact contact_of(const search *s, const record *r) {
-    double life[2];
-    common_life(s, r->a, r->b, life);
-    froe_contact c = {.a = r->a, .b = r->b, .instant = r->span.instant};
-    c.begin[0] = r->span.begin.low, c.begin[1] = r->span.begin.high;
-    c.end[0] = r->span.end.low, c.end[1] = r->span.end.high;
-    c.since_start = r->span.from_start && c.begin[0] == life[0];
-    c.to_stop = r->span.to_end && c.end[1] == life[1];
-    return c;
-}
-
-/* Does a contact go on where its last span ended? */
-static bool contact_goes_on(const record *last, const record *next) {
-    return last->a == next->a && last->b == next->b && last->span.to_end && next->span.from_start &&
-           last->span.end.high == next->span.begin.low;
-}
-
-/* A contact ends no earlier than it begins, so each bound holds for both. Where it lasts for an instant, or nearly so,
- * the enclosures of begin and end overlap. */
-static void tighten(froe_contact *c) {
-    if (c->end[0] < c->begin[0]) c->end[0] = c->begin[0];
-    if (c->begin[1] > c->end[1]) c->begin[1] = c->end[1];
-}
-
-static void join_contacts(search *s, const uint32_t *order) {
-    const record *last = NULL;
+/* Records in order become contacts: one goes on where its last span ended. */
+static void join_contacts(contact_search *s, const uint32_t *order) {
+    const contact_record *last = NULL;
     for (size_t i = 0; i < s->records.count; i++) {
-        const record *r = s->records.data + order[i];
-        froe_contact next = contact_of(s, r);
-        if (last && contact_goes_on(last, r)) {
+        const contact_record *r = s->records.data + order[i];
+        const meet_span *span = &r->span;
+        double life[2];
+        common_life(s, r->a, r->b, life);
+        const bool to_stop = span->to_end && span->end.high == life[1];
+        if (last && last->a == r->a && last->b == r->b && last->span.to_end && span->from_start &&
+            last->span.end.high == span->begin.low) {
             froe_contact *c = s->contacts + s->contact_count - 1;
-            for (int k = 0; k < 2; k++) c->end[k] = next.end[k];
-            c->to_stop = next.to_stop;
-            c->instant = c->instant && next.instant;
+            c->end[0] = span->end.low, c->end[1] = span->end.high;
+            c->to_stop = to_stop;
+            c->instant = c->instant && span->instant;
         } else {
-            s->contacts[s->contact_count++] = next;
+            s->contacts[s->contact_count++] =
+                (froe_contact){.a = r->a,
+                               .b = r->b,
+                               .begin = {span->begin.low, span->begin.high},
+                               .end = {span->end.low, span->end.high},
+                               .instant = span->instant,
+                               .since_start = span->from_start && span->begin.low == life[0],
+                               .to_stop = to_stop};
         }
         last = r;
     }
-    for (size_t i = 0; i < s->contact_count; i++) tighten(s->contacts + i);
+    /* A contact ends no earlier than it begins, so each bound holds for both. Where it lasts for an instant, or nearly
+     * so, the enclosures of begin and end overlap. */
+    for (froe_contact *c = s->contacts; c < s->contacts + s->contact_count; c++) {
+        if (c->end[0] < c->begin[0]) c->end[0] = c->begin[0];
+        if (c->begin[1] > c->end[1]) c->begin[1] = c->end[1];
+    }
 }
 
-static froe_status make_contacts(search *s) {
-    froe_status status = gather_contacts(s);
-    if (status) return status;
-    size_t count = s->records.count;
-    s->contacts = support_calloc(&s->m->alloc, count + 1, sizeof *s->contacts);
+static froe_status make_contacts(contact_search *s) {
+    const froe_allocator *alloc = &s->m->alloc;
+    size_t count = 0;
+    for (unsigned i = 0; i < s->task.threads; i++) count += s->workers[i].records.count;
+    if (count >= UINT32_MAX / 2) return FROE_E_LIMIT;
+    if (!array_reserve(alloc, &s->records, count)) return FROE_E_MEMORY;
+    for (unsigned i = 0; i < s->task.threads; i++) {
+        const contact_worker *w = s->workers + i;
+        for (size_t k = 0; k < w->records.count; k++) s->records.data[s->records.count++] = w->records.data[k];
+    }
+    s->contacts = support_calloc(alloc, count + 1, sizeof *s->contacts);
     uint32_t *order = sorted(s, count, compare_records);
-    if (s->contacts && order) join_contacts(s, order);
-    status = s->contacts && order ? FROE_OK : FROE_E_MEMORY;
+    const bool room = s->contacts && order;
+    if (room) join_contacts(s, order);
     free_order(s, order, count);
-    return status;
+    return room ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status tell_contacts(search *s, froe_contact_fn *fn, void *user) {
+static froe_status tell_contacts(contact_search *s, froe_contact_fn *fn, void *user) {
     uint32_t *order = sorted(s, s->contact_count, compare_contacts);
     if (!order) return FROE_E_MEMORY;
     double first = (double)INFINITY; /* the first contact begins no later */
@@ -233,7 +217,7 @@ static froe_status tell_contacts(search *s, froe_contact_fn *fn, void *user) {
 
 /* --------------------------------------------------------------------- a search -- */
 
-static froe_status check_contact_search(search *s, froe_diagnostic *diag) {
+static froe_status check_contact_search(contact_search *s, froe_diagnostic *diag) {
     const froe_contact_options *o = s->o;
     if (o->size != sizeof *o) return support_fail(diag, FROE_E_OPTIONS, "options not from froe_contact_defaults()");
     s->from = isnan(o->from) ? s->m->begin : o->from;
@@ -244,15 +228,7 @@ static froe_status check_contact_search(search *s, froe_diagnostic *diag) {
     return FROE_OK;
 }
 
-static void count_up(const search *s, froe_contact_statistics *out) {
-    *out = (froe_contact_statistics){.boxes = s->slices.slices.count};
-    for (unsigned i = 0; i < s->task.threads; i++) {
-        out->candidates += s->workers[i].candidates;
-        out->exact += s->workers[i].meet.stats.exact;
-    }
-}
-
-static void search_free(search *s) {
+static void contact_search_free(contact_search *s) {
     const froe_allocator *alloc = &s->m->alloc;
     for (unsigned i = 0; s->workers && i < s->task.threads; i++) {
         meet_worker_free(s->m, &s->workers[i].meet);
@@ -264,19 +240,13 @@ static void search_free(search *s) {
     motion_slices_free(s->m, &s->slices);
 }
 
-static froe_status explain_contact_search(froe_status status, froe_diagnostic *diag) {
-    if (status == FROE_E_MEMORY) return support_fail_memory(diag);
-    if (status == FROE_E_CANCELLED) return support_fail_cancelled(diag);
-    return status;
-}
-
 froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options, froe_contact_fn *fn,
                                  void *user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const froe_contact_options standard = froe_contact_defaults();
     if (!motion || !fn)
         return support_fail(diag, FROE_E_ARG, "no motion, or the function that receives contacts is NULL");
-    search s = {.m = motion, .o = options ? options : &standard};
+    contact_search s = {.m = motion, .o = options ? options : &standard};
     froe_status status = check_contact_search(&s, diag);
     if (status) return status;
     base_task_init(&s.task, s.o->threads, s.o->progress, s.o->user);
@@ -285,7 +255,14 @@ froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_o
     if (!status) status = find_spans(&s, diag);
     if (!status) status = make_contacts(&s);
     if (!status) status = tell_contacts(&s, fn, user);
-    if (!status && s.o->statistics) count_up(&s, s.o->statistics);
-    search_free(&s);
-    return explain_contact_search(status, diag);
+    if (!status && s.o->statistics) {
+        *s.o->statistics = (froe_contact_statistics){.boxes = s.slices.slices.count};
+        for (unsigned i = 0; i < s.task.threads; i++) {
+            s.o->statistics->candidates += s.workers[i].candidates;
+            s.o->statistics->exact += s.workers[i].meet.stats.exact;
+        }
+    }
+    contact_search_free(&s);
+    if (status == FROE_E_MEMORY) return support_fail_memory(diag);
+    return status == FROE_E_CANCELLED ? support_fail_cancelled(diag) : status;
 }

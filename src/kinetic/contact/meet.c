@@ -21,10 +21,10 @@
 #include "kinetic/contact/sides_body.inc"
 
 /* An instant at which a turn (or a gap) vanishes; the bits of those whose isolated root it is. */
-typedef struct event {
+typedef struct meet_event {
     num_isolated *at;
     uint32_t vanishing;
-} event;
+} meet_event;
 
 typedef struct meeting {
     const froe_motion *m;
@@ -33,7 +33,7 @@ typedef struct meeting {
     motion_piece piece[4]; /* of p0, p1, q0, q1 */
     const num_poly *f;     /* what decides: the turns, or the gaps where all turns are 0 for good */
     int f_count;
-    event events[MEET_EVENTS];
+    meet_event events[MEET_EVENTS];
     int event_count;
 } meeting;
 
@@ -93,31 +93,27 @@ static void take_polynomials(meeting *g) {
     g->f_count = flat ? MEET_GAPS : MEET_TURNS;
 }
 
-/* Puts a root among the events; false: too close to another. */
-static bool add_event(meeting *g, num_isolated *root, int i) {
-    int k = g->event_count;
-    for (; k > 0; k--) {
-        int order = num_isolated_compare(&g->w->arena, root, g->events[k - 1].at);
-        if (order == NUM_UNSURE) return false;
-        if (order == 0) {
-            g->events[k - 1].vanishing |= 1u << i;
-            return true;
-        }
-        if (order > 0) break;
-    }
-    for (int j = g->event_count++; j > k; j--) g->events[j] = g->events[j - 1];
-    g->events[k] = (event){root, 1u << i};
-    return true;
-}
-
+/* The roots of all polynomials in order. False: two are too close to be told apart. */
 static bool find_events(meeting *g) {
     for (int i = 0; i < g->f_count; i++) {
         num_isolation *r = &g->w->roots[i];
         if (g->f[i].degree < 0) continue;
         num_isolate(&g->w->arena, &g->f[i], r);
         if (r->count < 0) return false;
-        for (int k = 0; k < r->count; k++)
-            if (!add_event(g, &r->root[k], i)) return false;
+        for (num_isolated *root = r->root; root < r->root + r->count; root++) {
+            int k = g->event_count, order = 1;
+            for (; k > 0; k--) {
+                order = num_isolated_compare(&g->w->arena, root, g->events[k - 1].at);
+                if (order == NUM_UNSURE) return false;
+                if (order >= 0) break;
+            }
+            if (!order) {
+                g->events[k - 1].vanishing |= 1u << i;
+                continue;
+            }
+            for (int j = g->event_count++; j > k; j--) g->events[j] = g->events[j - 1];
+            g->events[k] = (meet_event){root, 1u << i};
+        }
     }
     return true;
 }
@@ -127,23 +123,13 @@ static bool find_events(meeting *g) {
 /* An instant: a dyadic share of the time, or an event. */
 typedef struct moment {
     num_dyadic share;
-    const event *event; /* NULL: share */
+    const meet_event *event; /* NULL: share */
 } moment;
 
 static int sign_of_gap(meeting *g, const moment *at, int i) {
     meet_worker *w = g->w;
     if (!at->event) return num_poly_sign(&w->arena, &w->gap[i], at->share);
     return num_isolated_sign(&w->arena, at->event->at, &w->gap[i], &w->near_gap[i]);
-}
-
-/* Do the bounding boxes meet? Not if along one axis all of q is on one side of all of p. */
-static bool boxes_meet(meeting *g, const moment *at) {
-    for (int k = 0; k < 2; k++) {
-        int first = sign_of_gap(g, at, 4 * k), alike = 1;
-        for (int i = 1; i < 4; i++) alike += sign_of_gap(g, at, 4 * k + i) == first;
-        if (first && alike == 4) return false;
-    }
-    return true;
 }
 
 /* `share`: an instant, or for an event one just before or after it, where turns that do not vanish have the same sign.
@@ -157,7 +143,12 @@ static bool meet_at(meeting *g, const moment *at) {
         if (sign[i]) flat = false;
     }
     if (sign[0] * sign[1] > 0 || sign[2] * sign[3] > 0) return false;
-    return !flat || boxes_meet(g, at);
+    for (int k = 0; k < 2 && flat; k++) { /* boxes are apart if on one axis all of q is on one side of all of p */
+        int first = sign_of_gap(g, at, 4 * k), alike = 1;
+        for (int i = 1; i < 4; i++) alike += sign_of_gap(g, at, 4 * k + i) == first;
+        if (first && alike == 4) return false;
+    }
+    return true;
 }
 
 /* ------------------------------------------------------------------- between -- */
@@ -204,12 +195,6 @@ static void pass_instant(meet_worker *w, bool *now, bool meets, meet_time at) {
     *now = meets;
 }
 
-/* The time up to the next instant. Contacts are closed: they begin and end in instants. */
-static void pass_gap(meet_worker *w, bool *now, bool meets) {
-    if (meets) w->spans[w->span_count - 1].instant = false;
-    *now = meets;
-}
-
 /* Both ends, the events, and the gaps between them, one after the other. */
 static bool walk_roots(meeting *g) {
     meet_worker *w = g->w;
@@ -222,34 +207,13 @@ static bool walk_roots(meeting *g) {
         size_t mark = w->arena.top;
         if (!middle_between(g, before, after, &at.share) || (after && !time_of_root(g, after, &then))) return false;
         at.event = NULL;
-        pass_gap(w, &now, meet_at(g, &at));
+        now = meet_at(g, &at); /* in the gap: contacts are closed, they begin and end in instants */
+        if (now) w->spans[w->span_count - 1].instant = false;
         at.event = after ? &g->events[k] : NULL;
         if (!after) at.share = num_dyadic_scaled(&w->arena, 1, 1, 0);
         pass_instant(w, &now, meet_at(g, &at), then);
         w->arena.top = mark;
     }
-    return true;
-}
-
-static void mark_ends(meeting *g, bool at_start, bool at_end) {
-    meet_worker *w = g->w;
-    for (int i = 0; i < w->span_count; i++) w->spans[i].from_start = w->spans[i].to_end = false;
-    if (!w->span_count) return;
-    w->spans[0].from_start = at_start;
-    w->spans[w->span_count - 1].to_end = at_end;
-}
-
-/* a == b: an instant alone. */
-static bool find_spans(meeting *g) {
-    moment start = {.share = {0}}, end = {.share = num_dyadic_scaled(&g->w->arena, 1, 1, 0)};
-    bool at_start = meet_at(g, &start), at_end = meet_at(g, &end);
-    if (g->a < g->b) {
-        if (!find_events(g) || !walk_roots(g)) return false;
-    } else if (at_start) {
-        meet_time at = {g->a, g->a};
-        g->w->spans[g->w->span_count++] = (meet_span){.begin = at, .end = at, .instant = true};
-    }
-    mark_ends(g, at_start, at_end);
     return true;
 }
 
@@ -263,23 +227,35 @@ froe_status meet_find(const froe_motion *m, meet_worker *worker, uint32_t p, uin
     if (surely_apart(&g)) return FROE_OK;
     worker->stats.exact++;
     take_polynomials(&g);
-    return find_spans(&g) ? FROE_OK : FROE_E_LIMIT;
+    moment start = {.share = {0}}, end = {.share = num_dyadic_scaled(&worker->arena, 1, 1, 0)};
+    const bool at_start = meet_at(&g, &start), at_end = meet_at(&g, &end);
+    meet_span *spans = worker->spans;
+    if (a < b) {
+        if (!find_events(&g) || !walk_roots(&g)) return FROE_E_LIMIT;
+    } else if (at_start) { /* an instant alone */
+        const meet_time at = {a, a};
+        spans[worker->span_count++] = (meet_span){.begin = at, .end = at, .instant = true};
+    }
+    const int count = worker->span_count;
+    for (int i = 0; i < count; i++) {
+        spans[i].from_start = at_start && i == 0;
+        spans[i].to_end = at_end && i == count - 1;
+    }
+    return FROE_OK;
 }
 
 /* -------------------------------------------------------------------- workers -- */
 
-/* A turn is the product of two differences  (Xq Wp - Xp Wq):  coordinates once and times up to four times in each. */
-static size_t arena_limbs(const froe_motion *m) {
-    enum { SPARE_BITS = 64, CUT_BITS = 32, NUMBERS = 500, CHAINS = 4 };
-    size_t coordinate = m->top > m->unit ? (size_t)(m->top - m->unit) : 1;
-    size_t time = (size_t)(m->time_top - m->time_unit) + CUT_BITS;
-    size_t limbs = (2 * coordinate + 8 * time + SPARE_BITS) / 64 + 3;
-    return NUMBERS * limbs + CHAINS * num_poly_arena(limbs, NUM_FRACTION_LIMBS);
-}
-
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
+    enum { SPARE_BITS = 64, CUT_BITS = 32, NUMBERS = 500, CHAINS = 4 };
+    /* A turn is the product of two differences  (Xq Wp - Xp Wq):  coordinates once and times up to four times in each.
+     */
+    const size_t coordinate = m->top > m->unit ? (size_t)(m->top - m->unit) : 1;
+    const size_t time = (size_t)(m->time_top - m->time_unit) + CUT_BITS;
+    const size_t limbs = (2 * coordinate + 8 * time + SPARE_BITS) / 64 + 3;
     *out = (meet_worker){.span_count = 0};
-    return num_arena_reserve(&m->alloc, &out->arena, arena_limbs(m));
+    return num_arena_reserve(&m->alloc, &out->arena,
+                             NUMBERS * limbs + CHAINS * num_poly_arena(limbs, NUM_FRACTION_LIMBS));
 }
 
 void meet_worker_free(const froe_motion *m, meet_worker *worker) {

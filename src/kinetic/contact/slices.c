@@ -42,12 +42,13 @@ static bool put_slice(slicing *s, uint32_t object, const motion_piece piece[2], 
     return true;
 }
 
-/* The way of the vertices divided by the size of the object. */
-static double travel(const slicing *s, const motion_piece piece[2], double from, double to) {
+/* Cuts a time in which neither vertex changes its piece. */
+static bool cut_piece(slicing *s, uint32_t object, const motion_piece piece[2], double from, double to) {
+    const froe_motion *m = s->m;
     double way = 0, size = s->spacing, at[2][2];
     for (int i = 0; i < 2; i++) {
         double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {-(double)INFINITY, -(double)INFINITY};
-        motion_extend(s->m, &piece[i], from, to, lo, hi);
+        motion_extend(m, &piece[i], from, to, lo, hi);
         for (int k = 0; k < 2; k++) {
             if (hi[k] - lo[k] > way) way = hi[k] - lo[k];
             at[i][k] = lo[k];
@@ -55,13 +56,8 @@ static double travel(const slicing *s, const motion_piece piece[2], double from,
     }
     for (int k = 0; k < 2; k++)
         if (fabs(at[0][k] - at[1][k]) > size) size = fabs(at[0][k] - at[1][k]);
-    return way / size;
-}
-
-/* Cuts a time in which neither vertex changes its piece. */
-static bool cut_piece(slicing *s, uint32_t object, const motion_piece piece[2], double from, double to) {
-    const froe_motion *m = s->m;
-    double length = m->end - m->begin, cuts = travel(s, piece, from, to), step = length, next = from;
+    /* as many cuts as the way of the vertices is longer than the object is large */
+    double cuts = way / size, step = m->end - m->begin, next = from;
     if (!(cuts < MOST_CUTS)) cuts = MOST_CUTS;
     for (int level = 0; level < MOST_LEVEL && step * cuts > to - from && 0.5 * step > 0; level++) step *= 0.5;
     for (double k = floor((from - m->begin) / step) + 1; next < to && cuts > 1; k++) {

@@ -5,18 +5,11 @@
 #include "kinetic/now/now.h"
 #include <math.h>
 
-/* a / b, b > 0. */
-static num_ball divide_ball(num_ball a, num_ball b) {
-    double q = a.x / b.x, least = b.x - b.e;
-    if (!(least > 0)) return (num_ball){q, (double)INFINITY};
-    return (num_ball){q, ((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP + NUM_BALL_TINY};
-}
-
 /* The coefficients in doubles, and what is lost by that until s = span. */
 static double in_doubles(const poly_ball *p, num_ball w, double span, double out[3]) {
     double error = 0, size = 0, power = 1;
     for (int i = 0; i < 3; i++, power *= span) {
-        num_ball c = i <= p->degree ? divide_ball(p->c[i], w) : num_ball_from(0);
+        num_ball c = i <= p->degree ? now_divide(p->c[i], w) : num_ball_from(0);
         out[i] = c.x;
         error += c.e * power;
         size += fabs(c.x) * power;

@@ -14,19 +14,19 @@
 enum { LEVELS = 56 };
 
 /* Coefficients over low <= s <= low + 2^power, s counted from now. */
-typedef struct stretch {
+typedef struct failure_stretch {
     int64_t low;
     int power;
     num_ball b[POLY_TERMS];
-} stretch;
+} failure_stretch;
 
-typedef struct search {
+typedef struct failure_search {
     now_state *now;
     const now_claim *claim;
     int axis;
     int64_t start, span; /**< ticks start .. start + span */
     const poly_ball *p;
-} search;
+} failure_search;
 
 /* The sign of the polynomial, where doubles are sure of it: then it is what the predicates would say. */
 static int sign_near(const poly_ball *p, double s) {
@@ -42,7 +42,7 @@ static int sign_near(const poly_ball *p, double s) {
 
 /* REQUIRES: within the span. Before lines become parallel their crossing leaves the segments, and the claim is gone.
  * So `lost` is restored. */
-static bool fails_at(const search *f, int64_t s) {
+static bool fails_at(const failure_search *f, int64_t s) {
     now_state *now = f->now;
     int sign = sign_near(f->p, (double)s);
     if (sign) return sign < 0;
@@ -62,7 +62,7 @@ static int64_t next_even(int64_t s) {
 #define MOST_STEP ((int64_t)1 << 40) /* with larger steps, halving finds the place */
 
 /* The claim holds at `good` and not at `bad`, both even, and changes once: finds that place, from a guess. */
-static int64_t bracket(const search *f, int64_t good, int64_t bad, int64_t guess) {
+static int64_t bracket(const failure_search *f, int64_t good, int64_t bad, int64_t guess) {
     int64_t step = 2, at = next_even(guess);
     while (bad - good > 2) {
         if (at <= good || at >= bad) at = good + (bad - good) / 4 * 2;
@@ -110,7 +110,7 @@ static double rough_root(const poly_ball *p, double low, double high) {
 
 /* -------------------------------------------------------------- in doubles -- */
 
-static void to_bernstein(const poly_ball *p, int power, stretch *out) {
+static void to_bernstein(const poly_ball *p, int power, failure_stretch *out) {
     int d = p->degree;
     double unit = ldexp(1, power), scale = 1;
     num_ball c[POLY_TERMS];
@@ -130,7 +130,7 @@ static void to_bernstein(const poly_ball *p, int power, stretch *out) {
 }
 
 /* Halves at the middle: *s keeps the left half. */
-static void halve(int d, stretch *s, stretch *right) {
+static void halve(int d, failure_stretch *s, failure_stretch *right) {
     num_ball *b = s->b;
     *right = *s;
     for (int k = 0; k < d; k++) {
@@ -169,7 +169,7 @@ static verdict judge(int d, const num_ball *b) {
 }
 
 /* Where a claim fails that changes once from low to high. -1: behind the span, where other pieces hold. */
-static int64_t try_one_root(const search *f, int64_t low, int64_t high) {
+static int64_t try_one_root(const failure_search *f, int64_t low, int64_t high) {
     const int64_t good = low & ~(int64_t)1, last = f->span & ~(int64_t)1;
     int64_t bad = next_even(high);
     double root = rough_root(f->p, (double)low, (double)high);
@@ -181,7 +181,7 @@ static int64_t try_one_root(const search *f, int64_t low, int64_t high) {
 }
 
 /* Both ends of even ticks in the interval, one by one. -1: the claim holds at all of them. */
-static int64_t try_all(const search *f, int64_t low, int64_t high) {
+static int64_t try_all(const failure_search *f, int64_t low, int64_t high) {
     for (int64_t s = next_even(low > 2 ? low : 2); s <= high && s <= f->span; s += 2)
         if (fails_at(f, s)) return s;
     return -1;
@@ -189,16 +189,8 @@ static int64_t try_all(const search *f, int64_t low, int64_t high) {
 
 /* ----------------------------------------------------------------- exactly -- */
 
-/* The polynomial is in `p`, or is made anew each time if it is too wide for that. */
-static int count_roots(const search *f, const poly_wide *p, int64_t low, int power, int *sign) {
-    if (p) return wide_variations(p, low, power, sign);
-    poly_exact exact;
-    now_claim_exact(f->now, f->claim, f->axis, &exact);
-    return exact_variations(&f->now->context.arena, &exact, low, power, sign);
-}
-
 /* The same by Descartes' rule alone. */
-static int64_t search_exactly(const search *f, int64_t low, int power) {
+static int64_t search_exactly(const failure_search *f, int64_t low, int power) {
     struct {
         int64_t low;
         int power;
@@ -214,7 +206,14 @@ static int64_t search_exactly(const search *f, int64_t low, int power) {
         if (power <= 2) {
             at = try_all(f, low, high);
         } else {
-            int sign, changes = count_roots(f, p, low, power, &sign);
+            int sign, changes;
+            if (p) {
+                changes = wide_variations(p, low, power, &sign);
+            } else { /* too wide for that: made anew each time */
+                poly_exact exact;
+                now_claim_exact(f->now, f->claim, f->axis, &exact);
+                changes = exact_variations(&f->now->context.arena, &exact, low, power, &sign);
+            }
             if (!changes && sign >= 0) {
                 at = try_all(f, high - 1, high); /* ends may be roots */
             } else if (!changes) {
@@ -231,41 +230,32 @@ static int64_t search_exactly(const search *f, int64_t low, int power) {
 
 /* ------------------------------------------------------------------ search -- */
 
-static int64_t look_at_stretch(const search *f, stretch *s, bool *halve_it) {
-    int64_t high = s->low + ((int64_t)1 << s->power);
-    *halve_it = false;
-    if (s->low > f->span) return -1;
-    switch (judge(f->p->degree, s->b)) {
-    case HOLDS:
-        return -1;
-    case FAILS:
-        return try_all(f, s->low, s->low + 4);
-    case ONE_ROOT:
-        return s->power <= 2 ? try_all(f, s->low, high) : try_one_root(f, s->low, high);
-    case HOPELESS:
-        return search_exactly(f, s->low, s->power);
-    default:
-        if (s->power <= 2) return try_all(f, s->low, high);
-        *halve_it = true;
-        return -1;
-    }
-}
-
-static int64_t find_first_failure(const search *f) {
-    stretch stack[LEVELS + 2];
+static int64_t find_first_failure(const failure_search *f) {
+    failure_stretch stack[LEVELS + 2];
     int top = 1, power = 0;
     while (((int64_t)1 << power) < f->span) power++;
     to_bernstein(f->p, power, stack);
     while (top) {
-        stretch *s = stack + --top;
-        bool again;
-        int64_t at = look_at_stretch(f, s, &again);
+        failure_stretch *s = stack + --top;
+        const int64_t high = s->low + ((int64_t)1 << s->power);
+        if (s->low > f->span) continue;
+        const verdict v = judge(f->p->degree, s->b);
+        int64_t at = -1;
+        if (v == HOLDS) continue;
+        if (v == HALVE && s->power > 2) {
+            failure_stretch left = *s;
+            halve(f->p->degree, &left, s); /* the right half stays below */
+            stack[top + 1] = left;
+            top += 2;
+            continue;
+        }
+        if (v == FAILS)
+            at = try_all(f, s->low, s->low + 4);
+        else if (v == HOPELESS)
+            at = search_exactly(f, s->low, s->power);
+        else
+            at = s->power <= 2 ? try_all(f, s->low, high) : try_one_root(f, s->low, high);
         if (at >= 0) return at <= f->span ? f->start + at : NOW_NEVER;
-        if (!again) continue;
-        stretch left = *s;
-        halve(f->p->degree, &left, s); /* the right half stays below */
-        stack[top + 1] = left;
-        top += 2;
     }
     return NOW_NEVER;
 }
@@ -288,19 +278,15 @@ static int64_t named_last(now_state *now, name_point p, int64_t last) {
     return p.b >= 0 ? least_last(now, (uint32_t)p.b, last) : last;
 }
 
-static bool is_nothing(const poly_ball *p) {
-    for (int i = 0; i <= p->degree; i++)
-        if (fabs(p->c[i].x) > p->c[i].e) return false;
-    return true;
-}
-
 /* The same of any claim that holds, `last` being the last tick to test. */
 static int64_t first_change(now_state *now, const now_claim *claim, int64_t last) {
-    search f = {now, claim, 0, now->tick, last - now->tick, NULL};
+    failure_search f = {now, claim, 0, now->tick, last - now->tick, NULL};
     if (f.span < 2) return NOW_NEVER;
     poly_ball p;
     now_claim_ball(now, claim, 0, &p);
-    if (is_nothing(&p) && now_claim_axis(now, claim)) {
+    bool sure = false; /* of a coefficient that is not 0 */
+    for (int i = 0; i <= p.degree && !sure; i++) sure = fabs(p.c[i].x) > p.c[i].e;
+    if (!sure && now_claim_axis(now, claim)) {
         f.axis = 1;
         now_claim_ball(now, claim, 1, &p);
     }

@@ -10,19 +10,19 @@ enum { SHORT_BITS = 126, WIDE_BITS = NUM_WIDE_BITS - 1, VERTICES = 8 };
 
 /* The vertices of a question, at the tick or as polynomials in ticks from it on, as integers: |x|, |y| <= 2^place and
  * |w| <= 2^weight, all coefficients alike. */
-typedef struct cast {
+typedef struct judge_cast {
     now_state *now;
     bool along;
     uint32_t vertex[VERTICES];
     motion_whole_curve curve[VERTICES];
     int count, degree, place, weight;
-} cast;
+} judge_cast;
 
-static const motion_piece *piece_of(const cast *c, int i) {
+static const motion_piece *piece_of(const judge_cast *c, int i) {
     return &c->now->bends.data[c->vertex[i]].piece;
 }
 
-static void cast_vertex(cast *c, uint32_t vertex) {
+static void cast_vertex(judge_cast *c, uint32_t vertex) {
     now_course_of(c->now, vertex);
     c->vertex[c->count] = vertex;
     int degree = piece_of(c, c->count++)->degree;
@@ -30,7 +30,7 @@ static void cast_vertex(cast *c, uint32_t vertex) {
 }
 
 /* How many vertices are behind it: 1 or 4. */
-static int cast_name(cast *c, name_point p) {
+static int cast_name(judge_cast *c, name_point p) {
     if (p.b == NAME_VERTEX) {
         cast_vertex(c, p.a);
         return 1;
@@ -40,7 +40,7 @@ static int cast_name(cast *c, name_point p) {
     return 4;
 }
 
-static void cast_side(cast *c, uint32_t segment, uint32_t vertex) {
+static void cast_side(judge_cast *c, uint32_t segment, uint32_t vertex) {
     for (int i = 0; i < 2; i++) cast_vertex(c, now_vertex(c->now, segment, i));
     cast_vertex(c, vertex);
 }
@@ -58,31 +58,25 @@ static int bits_of(num_limbs2 x) {
     return high ? 128 - __builtin_clzll(high) : 64 - __builtin_clzll(low);
 }
 
-static int terms_of(const cast *c, int i) {
+static int terms_of(const judge_cast *c, int i) {
     return c->along ? piece_of(c, i)->degree + 1 : 1;
 }
 
-static int curve_bits(const cast *c, int i) {
+static int curve_bits(const judge_cast *c, int i) {
     num_limbs2 all = 0;
     for (int k = 0; k < terms_of(c, i); k++) all |= size_of_short(c->curve[i].x[k]) | size_of_short(c->curve[i].y[k]);
     return bits_of(all);
 }
 
-/* A piece of the highest degree that begins and ends when all others do, but for those that stand still; -1: none. */
-static int common_clock(const cast *c) {
-    int clock = -1;
+/* Gives all vertices one denominator and drops it. That of a parabola is the square of a linear piece's. */
+static void drop_weights(judge_cast *c) {
+    int clock = -1; /* a piece of the highest degree that begins and ends when all others do that move */
     for (int i = 0; i < c->count; i++) {
         const motion_piece *p = piece_of(c, i), *q = clock < 0 ? p : piece_of(c, clock);
         if (!p->degree) continue;
-        if (p->from->time != q->from->time || p->to->time != q->to->time) return -1;
+        if (p->from->time != q->from->time || p->to->time != q->to->time) return;
         if (p == q || p->degree > q->degree) clock = i;
     }
-    return clock;
-}
-
-/* Gives all vertices one denominator and drops it. That of a parabola is the square of a linear piece's. */
-static void drop_weights(cast *c) {
-    const int clock = common_clock(c);
     if (clock < 0) return;
     const num_short whole = c->curve[clock].w;
     for (int i = 0; i < c->count; i++) {
@@ -97,19 +91,14 @@ static void drop_weights(cast *c) {
     for (int i = 0; i < c->count; i++) c->curve[i].w = 1;
 }
 
-/* Questions have coordinates of their own, perhaps finer than the motion's unit. */
-static bool is_asked(const cast *c, int i) {
-    return c->vertex[i] + 2 >= c->now->courses.count;
-}
-
 /* False: the vertices themselves are too wide. */
-static bool cast_integers(cast *c) {
+static bool cast_integers(judge_cast *c) {
     const froe_motion *m = c->now->motion;
     const int64_t tick = c->now->tick;
     for (int i = 0; i < c->count; i++) {
         motion_whole_curve *v = c->curve + i;
         num_short at[3];
-        if (is_asked(c, i)) return false;
+        if (c->vertex[i] + 2 >= c->now->courses.count) return false; /* of a question, perhaps finer than the unit */
         if (c->along ? !motion_curve_whole(m, piece_of(c, i), tick, v) : !motion_whole(m, piece_of(c, i), tick, at))
             return false;
         if (!c->along) v->x[0] = at[0], v->y[0] = at[1], v->w = at[2];
@@ -134,12 +123,12 @@ static int growth(int degree) {
 }
 
 /* Of d x e for steps between vertices. */
-static int turn_bits(const cast *c) {
+static int turn_bits(const judge_cast *c) {
     return 2 * (c->place + c->weight + 1) + growth(c->degree) + 1;
 }
 
 /* Of the order of two points, from 1 or 4 vertices each. */
-static int order_bits(const cast *c, const int count[2]) {
+static int order_bits(const judge_cast *c, const int count[2]) {
     const int more = growth(c->degree), scaled = turn_bits(c) + c->weight;
     int place[2], weight[2];
     for (int i = 0; i < 2; i++) {
@@ -151,25 +140,14 @@ static int order_bits(const cast *c, const int count[2]) {
 }
 
 /* The first stage whose numbers have so many bits; not before the one asked for. */
-static now_stage stage_for(const cast *c, int bits) {
+static now_stage stage_for(const judge_cast *c, int bits) {
     now_stage stage = bits <= SHORT_BITS ? NOW_SHORT : bits <= WIDE_BITS ? NOW_WIDE : NOW_DYADIC;
     return stage > c->now->least ? stage : c->now->least;
 }
 
 /* ------------------------------------------------------------------ points -- */
 
-static void short_points(const cast *c, short_point *out) {
-    for (int i = 0; i < c->count; i++) {
-        const motion_whole_curve *v = c->curve + i;
-        const int terms = terms_of(c, i);
-        out[i].x.degree = out[i].y.degree = terms - 1;
-        out[i].w.degree = 0;
-        for (int k = 0; k < terms; k++) out[i].x.c[k] = v->x[k], out[i].y.c[k] = v->y[k];
-        out[i].w.c[0] = v->w;
-    }
-}
-
-static void wide_points(const cast *c, wide_point *out) {
+static void wide_points(const judge_cast *c, wide_point *out) {
     for (int i = 0; i < c->count; i++) {
         const motion_whole_curve *v = c->curve + i;
         const int terms = terms_of(c, i);
@@ -184,7 +162,7 @@ static void wide_points(const cast *c, wide_point *out) {
 }
 
 /* Resets the arena. */
-static void dyadic_points(const cast *c, exact_point *out) {
+static void dyadic_points(const judge_cast *c, exact_point *out) {
     c->now->context.arena.top = 0;
     for (int i = 0; i < c->count; i++)
         if (c->along)
@@ -197,66 +175,72 @@ static void dyadic_points(const cast *c, exact_point *out) {
 
 /* What is asked about vertices: the order of two points, from count[] of them each; the side of the third of the line
  * through two; or how the line through two turns to that through two more. */
-typedef struct question {
-    enum { ORDER, TURN, LINES } what;
+typedef struct judge_question {
+    enum { JUDGE_ORDER, JUDGE_TURN, JUDGE_LINES } what;
     int count[2];
-    bool both; /* ORDER: by x, then y */
-} question;
+    bool both; /* JUDGE_ORDER: by x, then y */
+} judge_question;
 
-static int judge_short(const cast *c, const question *ask) {
+static int judge_short(const judge_cast *c, const judge_question *ask) {
     short_point v[VERTICES];
-    short_points(c, v);
-    if (ask->what == ORDER) return short_order_sign(v, ask->count, ask->both);
-    return ask->what == TURN ? short_turn_sign(v) : short_lines_sign(v);
+    for (int i = 0; i < c->count; i++) {
+        const motion_whole_curve *from = c->curve + i;
+        v[i].x.degree = v[i].y.degree = terms_of(c, i) - 1;
+        v[i].w.degree = 0;
+        for (int k = 0; k < terms_of(c, i); k++) v[i].x.c[k] = from->x[k], v[i].y.c[k] = from->y[k];
+        v[i].w.c[0] = from->w;
+    }
+    if (ask->what == JUDGE_ORDER) return short_order_sign(v, ask->count, ask->both);
+    return ask->what == JUDGE_TURN ? short_turn_sign(v) : short_lines_sign(v);
 }
 
-static int judge_wide(const cast *c, const question *ask) {
+static int judge_wide(const judge_cast *c, const judge_question *ask) {
     wide_point v[VERTICES];
     wide_points(c, v);
-    if (ask->what == ORDER) return wide_order_sign(v, ask->count, ask->both);
-    return ask->what == TURN ? wide_turn_sign(v) : wide_lines_sign(v);
+    if (ask->what == JUDGE_ORDER) return wide_order_sign(v, ask->count, ask->both);
+    return ask->what == JUDGE_TURN ? wide_turn_sign(v) : wide_lines_sign(v);
 }
 
-static int judge_dyadic(const cast *c, const question *ask) {
+static int judge_dyadic(const judge_cast *c, const judge_question *ask) {
     num_arena *arena = &c->now->context.arena;
     exact_point v[VERTICES];
     dyadic_points(c, v);
-    if (ask->what == ORDER) return exact_order_sign(arena, v, ask->count, ask->both);
-    return ask->what == TURN ? exact_turn_sign(arena, v) : exact_lines_sign(arena, v);
+    if (ask->what == JUDGE_ORDER) return exact_order_sign(arena, v, ask->count, ask->both);
+    return ask->what == JUDGE_TURN ? exact_turn_sign(arena, v) : exact_lines_sign(arena, v);
 }
 
-static int judge(cast *c, const question *ask) {
+static int judge(judge_cast *c, const judge_question *ask) {
     now_stage stage = NOW_DYADIC;
-    if (cast_integers(c)) stage = stage_for(c, ask->what == ORDER ? order_bits(c, ask->count) : turn_bits(c));
+    if (cast_integers(c)) stage = stage_for(c, ask->what == JUDGE_ORDER ? order_bits(c, ask->count) : turn_bits(c));
     c->now->judged[stage]++;
     if (stage == NOW_SHORT) return judge_short(c, ask);
     return stage == NOW_WIDE ? judge_wide(c, ask) : judge_dyadic(c, ask);
 }
 
 int now_judge_order(now_state *now, name_point p, name_point q, bool along, bool both) {
-    cast c = {.now = now, .along = along};
-    question ask = {.what = ORDER, .both = both};
+    judge_cast c = {.now = now, .along = along};
+    judge_question ask = {.what = JUDGE_ORDER, .both = both};
     ask.count[0] = cast_name(&c, p);
     ask.count[1] = cast_name(&c, q);
     return judge(&c, &ask);
 }
 
 int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along) {
-    cast c = {.now = now, .along = along};
+    judge_cast c = {.now = now, .along = along};
     cast_side(&c, segment, vertex);
-    return judge(&c, &(question){.what = TURN});
+    return judge(&c, &(judge_question){.what = JUDGE_TURN});
 }
 
 int now_judge_lines(now_state *now, name_point crossing, bool along) {
-    cast c = {.now = now, .along = along};
+    judge_cast c = {.now = now, .along = along};
     cast_name(&c, crossing);
-    return judge(&c, &(question){.what = LINES});
+    return judge(&c, &(judge_question){.what = JUDGE_LINES});
 }
 
 /* ------------------------------------------------------------------ claims -- */
 
 /* The vertices of a claim; how many are behind each of its points. */
-static void cast_claim(cast *c, const now_claim *claim, int count[2]) {
+static void cast_claim(judge_cast *c, const now_claim *claim, int count[2]) {
     count[0] = 2, count[1] = 1;
     if (claim->q.b == NAME_NONE) {
         count[0] = cast_name(c, claim->p);
@@ -273,7 +257,7 @@ void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exac
         now_along_exact(now, claim, out);
         return;
     }
-    cast c = {.now = now, .along = true};
+    judge_cast c = {.now = now, .along = true};
     int count[2];
     exact_point v[VERTICES];
     cast_claim(&c, claim, count);
@@ -295,7 +279,7 @@ int now_judge_denominators(now_state *now, const now_claim *claim) {
 }
 
 bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t span, poly_wide *out) {
-    cast c = {.now = now, .along = true};
+    judge_cast c = {.now = now, .along = true};
     int count[2], length = 64 - __builtin_clzll((uint64_t)span | 1) + 1;
     const bool lines = claim->q.b == NAME_NONE, side = lines || claim->p.b == NAME_SEGMENT;
     wide_point v[VERTICES];

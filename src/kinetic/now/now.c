@@ -70,13 +70,6 @@ uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
 
 /* ------------------------------------------------------------------ places -- */
 
-/* a / b, b > 0. */
-static num_ball quotient_ball(num_ball a, num_ball b) {
-    double q = a.x / b.x, least = b.x - b.e;
-    if (!(least > 0)) return (num_ball){q, (double)INFINITY};
-    return (num_ball){q, ((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP + NUM_BALL_TINY};
-}
-
 typedef struct ball2 {
     num_ball x, y;
 } ball2;
@@ -111,28 +104,24 @@ void now_exact_named(now_state *now, name_point p, bool along, exact_point *out)
         exact_crossing(&now->context.arena, v, out);
 }
 
-/* Rounded from exact numbers, where the filter says little. */
-static now_spot exact_spot(now_state *now, name_point p) {
-    num_arena *arena = &now->context.arena;
-    exact_point e;
-    now_exact_named(now, p, false, &e);
-    if (!e.w.c[0].sign) return (now_spot){0, 0, (double)INFINITY};
-    now_spot spot = {num_dyadic_quotient(arena, e.x.c[0], e.w.c[0]), num_dyadic_quotient(arena, e.y.c[0], e.w.c[0]), 0};
-    spot.error = (fabs(spot.x) + fabs(spot.y)) * 0x1p-52 + NUM_BALL_TINY;
-    return spot;
-}
-
 static now_spot crossing_spot(now_state *now, name_point p) {
     const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
     ball2 a = vertex_ball(now, s[0]), d = minus(vertex_ball(now, s[1]), a);
     ball2 c = vertex_ball(now, t[0]), e = minus(vertex_ball(now, t[1]), c);
     num_ball turn = cross_balls(d, e), shift = cross_balls(minus(c, a), e);
     if (turn.x < 0) turn.x = -turn.x, shift.x = -shift.x;
-    num_ball share = quotient_ball(shift, turn);
+    num_ball share = now_divide(shift, turn);
     num_ball x = num_ball_add(a.x, num_ball_mul(share, d.x)), y = num_ball_add(a.y, num_ball_mul(share, d.y));
     double error = x.e > y.e ? x.e : y.e, size = fabs(d.x.x) + fabs(d.y.x);
-    if (!(error < size * 0x1p-20) || !isfinite(x.x) || !isfinite(y.x)) return exact_spot(now, p);
-    return (now_spot){x.x, y.x, error};
+    if (error < size * 0x1p-20 && isfinite(x.x) && isfinite(y.x)) return (now_spot){x.x, y.x, error};
+    num_arena *arena = &now->context.arena; /* rounded from exact numbers, where the filter says little */
+    exact_point exact;
+    now_exact_named(now, p, false, &exact);
+    const num_dyadic w = exact.w.c[0];
+    if (!w.sign) return (now_spot){0, 0, (double)INFINITY};
+    now_spot spot = {num_dyadic_quotient(arena, exact.x.c[0], w), num_dyadic_quotient(arena, exact.y.c[0], w), 0};
+    spot.error = (fabs(spot.x) + fabs(spot.y)) * 0x1p-52 + NUM_BALL_TINY;
+    return spot;
 }
 
 now_spot now_spot_of(now_state *now, name_point p) {
@@ -154,17 +143,6 @@ static bool is_above_for_good(now_state *now, uint32_t p, uint32_t q) {
     if (!a->degree) return true;
     if (a->from->time != b->from->time || a->to->time != b->to->time) return false;
     return a->degree == 1 || a->from->control[0] == b->from->control[0];
-}
-
-/* At the tick, or else just after it. */
-static int compare_exactly(now_state *now, name_point p, name_point q) {
-    now->context.stats.exact++;
-    int order = now_judge_order(now, p, q, false, false);
-    if (order != POLY_PARALLEL && order) return order;
-    now->tied = true;
-    order = now_judge_order(now, p, q, true, true);
-    if (order == POLY_PARALLEL) now->lost = true, order = 1;
-    return order;
 }
 
 /* A point on the line is behind it. */
@@ -195,7 +173,13 @@ int now_compare(now_state *now, name_point p, name_point q) {
         now->tied = true;
         if (fabs(d) > error) return d < 0 ? -1 : 1;
     }
-    return compare_exactly(now, p, q);
+    now->context.stats.exact++;
+    int order = now_judge_order(now, p, q, false, false); /* at the tick, or else just after it */
+    if (order != POLY_PARALLEL && order) return order;
+    now->tied = true;
+    order = now_judge_order(now, p, q, true, true);
+    if (order == POLY_PARALLEL) now->lost = true, order = 1;
+    return order;
 }
 
 /* The sign of ab x aq, from the coordinates as they are; NUM_UNSURE where rounding or their errors may matter. */

@@ -95,6 +95,12 @@ static inline bool now_is_alive(const now_state *now, uint32_t segment) {
     const motion_object *o = now->motion->objects.data + segment;
     return o->first <= now->tick && now->tick <= o->last;
 }
+/** a / b, b > 0. */
+static inline num_ball now_divide(num_ball a, num_ball b) {
+    double q = a.x / b.x, least = b.x - b.e;
+    if (!(least > 0)) return (num_ball){q, (double)INFINITY};
+    return (num_ball){q, ((a.e + fabs(q) * b.e) / least + fabs(q) * 0x1p-52) * NUM_BALL_UP + NUM_BALL_TINY};
+}
 /** A tick as a time. */
 static inline double now_time_of(const now_state *now, int64_t tick) {
     return now->motion->begin + ldexp((double)tick, now->motion->power);
