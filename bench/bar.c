@@ -109,24 +109,24 @@ static cost ask(const froe_tree *tree, range_fn *fn, double size, double eps) {
 /* ------------------------------------------------------------------ figures -- */
 
 typedef struct figure {
-    froe_plot_series series[SERIES];
+    plot_series series[SERIES];
     double x[SERIES][16], y[SERIES][16];
     size_t count;
 } figure;
 
 static void add(figure *f, const char *name) {
-    f->series[f->count] = (froe_plot_series){name, f->x[f->count], f->y[f->count], 0};
+    f->series[f->count] = (plot_series){name, f->x[f->count], f->y[f->count], 0};
     f->count++;
 }
 static void point(figure *f, double x, double y) {
-    froe_plot_series *s = &f->series[f->count - 1];
+    plot_series *s = &f->series[f->count - 1];
     f->x[f->count - 1][s->count] = x;
     f->y[f->count - 1][s->count++] = y;
 }
 
 static void save(const figure *f, const char *folder, const char *name, const char *title, const char *x) {
     char file[64];
-    froe_plot_options o = froe_plot_defaults();
+    plot_options o = plot_defaults();
     if (!folder) return;
     snprintf(file, sizeof file, "bar-%s.svg", name);
     o.title = title, o.x_label = x, o.y_label = "nodes visited";

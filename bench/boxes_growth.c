@@ -66,11 +66,11 @@ static void grow(line *l, const char *kind, size_t largest) {
 
 static void figure(const char *folder, const char *name, const char *title, const char *y_label, const line *lines,
                    size_t count, bool heights) {
-    froe_plot_series series[MOST];
-    froe_plot_options o = froe_plot_defaults();
+    plot_series series[MOST];
+    plot_options o = plot_defaults();
     for (size_t i = 0; i < count; i++)
         series[i] =
-            (froe_plot_series){lines[i].name, lines[i].n, heights ? lines[i].height : lines[i].pieces, lines[i].count};
+            (plot_series){lines[i].name, lines[i].n, heights ? lines[i].height : lines[i].pieces, lines[i].count};
     o.title = title, o.x_label = "boxes", o.y_label = y_label, o.log_x = true;
     bench_figure(folder, name, series, count, &o);
 }

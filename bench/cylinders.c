@@ -174,10 +174,10 @@ static void grow(line *l, size_t n, double ratio) {
 
 static void figure(const char *folder, const char *name, const char *title, const char *y_label, const line *lines,
                    bool heights) {
-    froe_plot_series series[RATIOS];
-    froe_plot_options o = froe_plot_defaults();
+    plot_series series[RATIOS];
+    plot_options o = plot_defaults();
     for (size_t i = 0; i < RATIOS; i++)
-        series[i] = (froe_plot_series){names[i], lines[i].n, heights ? lines[i].height : lines[i].size, lines[i].count};
+        series[i] = (plot_series){names[i], lines[i].n, heights ? lines[i].height : lines[i].size, lines[i].count};
     o.title = title, o.x_label = "segments n", o.y_label = y_label, o.log_x = true;
     bench_figure(folder, name, series, RATIOS, &o);
 }

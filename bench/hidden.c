@@ -12,7 +12,7 @@
 #include "peers/peers.h"
 #include "svg_shapes.h"
 #include <cairo.h>
-#include <froe/draw.h>
+#include <froe/render.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  *     bench_plot SERIES X Y [TITLE] <table.csv >figure.svg
  *
  * SERIES, X and Y name columns of the CSV (no quotes, no blanks): what a row belongs to, and its numbers. */
-#include <froe/plot.h>
+#include "report/plot.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,10 +49,6 @@ static bool add_row(table *t, const char *name, const char *x, const char *y) {
     return true;
 }
 
-static bool put(void *user, const void *bytes, size_t count) {
-    return fwrite(bytes, 1, count, user) == count;
-}
-
 /* As people read it. */
 static const char *label_of(char *column) {
     for (char *c = column; *c; c++)
@@ -60,14 +56,15 @@ static const char *label_of(char *column) {
     return column;
 }
 
-static froe_status write_figure(const table *t, const char *title, const char *x, const char *y) {
-    froe_plot_series series[SERIES];
-    froe_plot_options o = froe_plot_defaults();
+static bool write_figure(const table *t, const char *title, const char *x, const char *y) {
+    plot_series series[SERIES];
+    plot_options o = plot_defaults();
     for (size_t s = 0; s < t->count; s++)
-        series[s] = (froe_plot_series){.name = t->names[s], .x = t->x[s], .y = t->y[s], .count = t->rows[s]};
-    o.kind = FROE_PLOT_POINTS, o.log_x = o.log_y = true;
+        series[s] = (plot_series){.name = t->names[s], .x = t->x[s], .y = t->y[s], .count = t->rows[s]};
+    o.kind = PLOT_POINTS, o.log_x = o.log_y = true;
     o.title = title, o.x_label = x, o.y_label = y, o.width = 640, o.height = 380;
-    return froe_plot_write(series, t->count, put, stdout, &o, NULL);
+    plot_put(stdout, series, t->count, &o);
+    return !fflush(stdout) && !ferror(stdout);
 }
 
 int main(int argc, char **argv) {
@@ -83,6 +80,6 @@ int main(int argc, char **argv) {
         if (!add_row(&t, cells[0], cells[1], cells[2])) return fail("too many rows");
     }
     return write_figure(&t, argc > 4 ? argv[4] : NULL, label_of(argv[2]), label_of(argv[3]))
-               ? fail("the figure was not written")
-               : 0;
+               ? 0
+               : fail("the figure was not written");
 }

@@ -91,11 +91,11 @@ static void draw(const char *folder, const char *kind, const double *x, double y
     static const char *const names[2] = {"tree", "picture of whole faces"};
     double per[2][SIZES];
     char name[64], title[64];
-    froe_plot_series series[2];
-    froe_plot_options o = froe_plot_defaults();
+    plot_series series[2];
+    plot_options o = plot_defaults();
     for (int k = 0; k < 2; k++) {
         for (size_t i = 0; i < count; i++) per[k][i] = 1e6 * y[k][i] / x[i];
-        series[k] = (froe_plot_series){names[k], x, per[k], count};
+        series[k] = (plot_series){names[k], x, per[k], count};
     }
     snprintf(name, sizeof name, "view-%s.svg", kind);
     snprintf(title, sizeof title, "Hidden surfaces of %s", kind);

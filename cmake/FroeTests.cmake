@@ -104,6 +104,11 @@ foreach(source ${test_sources})
   endif()
 endforeach()
 
+if(TARGET test_cli_plot) # figures are part of the program, which tests run otherwise
+  target_sources(test_cli_plot PRIVATE cli/report/plot.c cli/report/axis.c)
+  target_include_directories(test_cli_plot PRIVATE cli)
+endif()
+
 # Outputs whose system calls fail: in the writer's own test, and in a program like froe (tests/faults).
 set(fault_options "")
 foreach(call open write fsync fchmod rename unlink readlink close getentropy)

@@ -1,8 +1,8 @@
-/* figures.c: from rows to series of numbers, drawn by the draw library. */
+/* figures.c: from rows to series of numbers, as figures. */
 #include "compare/figures.h"
 #include "compare/field.h"
+#include "report/plot.h"
 #include <froe/froe.h>
-#include <froe/plot.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,14 +10,10 @@
 /* The series of one figure: one for each method there is, so that a method has the same colour in all figures of a
  * page; most have points. */
 typedef struct figure {
-    froe_plot_series *series;
+    plot_series *series;
     double *numbers; /* all coordinates */
     size_t count, used;
 } figure;
-
-static bool put_bytes(void *user, const void *bytes, size_t count) {
-    return fwrite(bytes, 1, count, user) == count;
-}
 
 static size_t points_of(const json_t *rows, const char *list) {
     size_t points = 0, i;
@@ -52,7 +48,7 @@ static void add_series(figure *f, const json_t *row, const json_t *items, point_
     json_t *item;
     json_array_foreach((json_t *)items, i, item) count += fn(item, key, x + count, y + count);
     f->used += 2 * json_array_size(items);
-    f->series[f->count++] = (froe_plot_series){json_string_value(json_object_get(row, "method")), x, y, count};
+    f->series[f->count++] = (plot_series){json_string_value(json_object_get(row, "method")), x, y, count};
 }
 
 static bool has_points(const figure *f) {
@@ -62,18 +58,18 @@ static bool has_points(const figure *f) {
 }
 
 static bool put_figure(FILE *out, const json_t *rows, const char *list, point_fn *fn, const char *key,
-                       const froe_plot_options *options) {
+                       const plot_options *options) {
     figure f;
     bool ok = begin(&f, rows, list);
     const froe_method_info *method;
     for (size_t i = 0; ok && (method = froe_method_at(i)) != NULL; i++) {
         const json_t *row = field_row(rows, method->name), *items = json_object_get(row, list);
-        if (row || options->kind != FROE_PLOT_COLUMNS) /* columns stand side by side */
+        if (row || options->kind != PLOT_COLUMNS) /* columns stand side by side */
             add_series(&f, row, items ? items : json_object_get(json_object_get(row, "queries"), list), fn, key);
     }
     if (ok && has_points(&f)) {
         fputs("<figure>", out);
-        ok = froe_plot_write(f.series, f.count, put_bytes, out, options, NULL) != FROE_E_MEMORY;
+        plot_put(out, f.series, f.count, options);
         fputs("</figure>\n", out);
     }
     end(&f);
@@ -95,7 +91,7 @@ static bool plain(const json_t *item, const char *key, double *x, double *y) {
 }
 
 static bool put_growth(FILE *out, const json_t *rows) {
-    froe_plot_options o = froe_plot_defaults();
+    plot_options o = plot_defaults();
     o.x_label = "objects n, from the middle outwards", o.log_x = o.log_y = true;
     o.title = "Size against n", o.y_label = "nodes and list entries";
     bool ok = put_figure(out, rows, "growth", plain, "size", &o);
@@ -117,7 +113,7 @@ static bool by_eps(const json_t *item, const char *key, double *x, double *y) {
 }
 
 static bool put_eps(FILE *out, const json_t *rows) {
-    froe_plot_options o = froe_plot_defaults();
+    plot_options o = plot_defaults();
     o.x_label = "1 / eps", o.log_x = o.log_y = true;
     o.title = "Cost against 1 / eps", o.y_label = "nodes visited a query";
     bool ok = put_figure(out, rows, "by_eps", by_eps, "nodes", &o);
@@ -142,8 +138,8 @@ static bool put_loads(FILE *out, const json_t *rows) {
     json_array_foreach((json_t *)rows, i, row) {
         const json_t *bins = json_object_get(row, "leaf_loads");
         if (!bins || !ok) continue;
-        froe_plot_options o = froe_plot_defaults();
-        o.kind = FROE_PLOT_COLUMNS, o.width = 260, o.height = 170;
+        plot_options o = plot_defaults();
+        o.kind = PLOT_COLUMNS, o.width = 260, o.height = 170;
         o.title = json_string_value(json_object_get(row, "method"));
         o.x_label = "pieces in a leaf", o.y_label = "leaves";
         const double step =

@@ -1,7 +1,7 @@
 /* test_floats.c: however the calling thread computes, pictures have the same bytes, the thread computes so
  * afterwards, and so do the callbacks. (conformance/test_floats.c has everything else.) */
 #include "support/floats_tree.h"
-#include <froe/plot.h>
+#include <froe/draw.h>
 
 static void partitions(floats_run *r, void *user) {
     static const struct {
@@ -54,27 +54,10 @@ static void renderings_have_the_same_bytes(void **state) {
     floats_compare(renderings, NULL);
 }
 
-static void plots(floats_run *r, void *user) {
-    static const double x[] = {1, 10, 1000, 0x1p-1060}, y[] = {0.1, 0.3, 7, 0x1p-1070};
-    const froe_plot_series series = {.name = "a", .x = x, .y = y, .count = 4};
-    const froe_allocator memory = {floats_memory, r};
-    froe_plot_options o = froe_plot_defaults();
-    (void)user;
-    o.log_x = o.log_y = true;
-    o.alloc = &memory;
-    MUST(r, froe_plot_write(&series, 1, floats_bytes, r, &o, NULL));
-}
-
-static void plots_have_the_same_bytes(void **state) {
-    (void)state;
-    floats_compare(plots, NULL);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_of_partitions_have_the_same_bytes),
         cmocka_unit_test(renderings_have_the_same_bytes),
-        cmocka_unit_test(plots_have_the_same_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

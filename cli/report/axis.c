@@ -1,32 +1,32 @@
 /* axis.c: scales of figures. Ticks stand at 1, 2 and 5 times powers of ten, on logarithmic axes of many decades at the
  * powers alone. */
-#include "axis.h"
+#include "report/axis.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-draw_axis draw_axis_new(bool log) {
-    return (draw_axis){.log = log, .lo = INFINITY, .hi = -INFINITY};
+plot_axis plot_axis_new(bool log) {
+    return (plot_axis){.log = log, .lo = INFINITY, .hi = -INFINITY};
 }
 
-bool draw_axis_shows(const draw_axis *axis, double value) {
+bool plot_axis_shows(const plot_axis *axis, double value) {
     return isfinite(value) && fabs(value) < 1e15 && (!axis->log || value > 1e-15);
 }
 
-void draw_axis_add(draw_axis *axis, double value) {
-    if (!draw_axis_shows(axis, value)) return;
+void plot_axis_add(plot_axis *axis, double value) {
+    if (!plot_axis_shows(axis, value)) return;
     if (value < axis->lo) axis->lo = value;
     if (value > axis->hi) axis->hi = value;
 }
 
 /* The tick distance that gives some six of them: 1, 2 or 5 times a power of ten. */
-static double step_of(const draw_axis *axis) {
+static double step_of(const plot_axis *axis) {
     const double raw = (axis->hi - axis->lo) / 6, power = pow(10, floor(log10(raw)));
     const double share = raw / power;
     return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
 }
 
-void draw_axis_round(draw_axis *axis) {
+void plot_axis_round(plot_axis *axis) {
     if (axis->lo > axis->hi) axis->lo = axis->log ? 1 : 0, axis->hi = axis->log ? 10 : 1;
     if (axis->log) {
         if (axis->hi < axis->lo * 3) axis->lo /= 2, axis->hi *= 2;
@@ -40,20 +40,20 @@ void draw_axis_round(draw_axis *axis) {
     axis->hi = step * ceil(axis->hi / step);
 }
 
-double draw_axis_at(const draw_axis *axis, double value) {
+double plot_axis_at(const plot_axis *axis, double value) {
     double share = (value - axis->lo) / (axis->hi - axis->lo);
     if (axis->log) share = log10(value / axis->lo) / log10(axis->hi / axis->lo);
     return axis->from + share * (axis->to - axis->from);
 }
 
-static size_t linear_ticks(const draw_axis *axis, double *out) {
+static size_t linear_ticks(const plot_axis *axis, double *out) {
     const double step = step_of(axis), first = ceil(axis->lo / step - 1e-9);
     size_t count = 0;
-    for (double i = first; count < DRAW_TICKS && i * step <= axis->hi + 1e-9 * step; i++) out[count++] = i * step;
+    for (double i = first; count < PLOT_TICKS && i * step <= axis->hi + 1e-9 * step; i++) out[count++] = i * step;
     return count;
 }
 
-size_t draw_axis_ticks(const draw_axis *axis, double *out) {
+size_t plot_axis_ticks(const plot_axis *axis, double *out) {
     if (!axis->log) return linear_ticks(axis, out);
     const double decades = log10(axis->hi / axis->lo);
     const int each = decades < 2.5 ? 3 : 1, stride = decades < 9 ? 1 : 3;
@@ -61,7 +61,7 @@ size_t draw_axis_ticks(const draw_axis *axis, double *out) {
     for (int e = (int)floor(log10(axis->lo)); e <= (int)ceil(log10(axis->hi)); e++)
         for (int i = 0; i < each && e % stride == 0; i++) {
             const double value = (i == 0 ? 1 : i == 1 ? 2 : 5) * pow(10, e);
-            if (value >= axis->lo && value <= axis->hi && count < DRAW_TICKS) out[count++] = value;
+            if (value >= axis->lo && value <= axis->hi && count < PLOT_TICKS) out[count++] = value;
         }
     return count;
 }
@@ -77,7 +77,7 @@ static void put_thousandths(long long value, const char *suffix, char *text) {
     snprintf(text + used, 3, "%s", suffix);
 }
 
-void draw_axis_label(double value, char *text) {
+void plot_axis_label(double value, char *text) {
     static const struct {
         double unit;
         const char *suffix;
