@@ -1,6 +1,7 @@
 /* output.h: the bytes of a picture on their way to the function that receives them. */
 #ifndef FROE_VECTOR_OUTPUT_H
 #define FROE_VECTOR_OUTPUT_H
+#include "support/arithmetic.h"
 #include <froe/render.h>
 
 typedef struct vector_output {

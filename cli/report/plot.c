@@ -27,7 +27,7 @@ typedef struct plot {
 
 /* ------------------------------------------------------------------ writing -- */
 
-static void put_text(plot *p, const char *text) {
+static void put_markup(plot *p, const char *text) {
     fputs(text, p->out);
 }
 
@@ -46,38 +46,38 @@ static void put_number(plot *p, double value) {
 static void put_attribute(plot *p, const char *name, double value) {
     fprintf(p->out, " %s=\"", name);
     put_number(p, value);
-    put_text(p, "\"");
+    put_markup(p, "\"");
 }
 
 static void put_pair(plot *p, const char *command, double x, double y) {
-    put_text(p, command);
+    put_markup(p, command);
     put_number(p, x);
-    put_text(p, " ");
+    put_markup(p, " ");
     put_number(p, y);
 }
 
 /* anchor: start, middle or end. */
 static void put_label(plot *p, double x, double y, const char *anchor, const char *more, const char *text) {
     if (!text || !*text) return;
-    put_text(p, "<text");
+    put_markup(p, "<text");
     put_attribute(p, "x", x);
     put_attribute(p, "y", y);
-    put_text(p, " text-anchor=\"");
-    put_text(p, anchor);
-    put_text(p, "\"");
-    put_text(p, more);
-    put_text(p, ">");
+    put_markup(p, " text-anchor=\"");
+    put_markup(p, anchor);
+    put_markup(p, "\"");
+    put_markup(p, more);
+    put_markup(p, ">");
     put_escaped(p, text);
-    put_text(p, "</text>\n");
+    put_markup(p, "</text>\n");
 }
 
 static void put_line(plot *p, double x0, double y0, double x1, double y1, const char *more) {
-    put_text(p, "<path d=\"");
+    put_markup(p, "<path d=\"");
     put_pair(p, "M", x0, y0);
     put_pair(p, "L", x1, y1);
-    put_text(p, "\" stroke=\"currentColor\"");
-    put_text(p, more);
-    put_text(p, "/>\n");
+    put_markup(p, "\" stroke=\"currentColor\"");
+    put_markup(p, more);
+    put_markup(p, "/>\n");
 }
 
 /* -------------------------------------------------------------------- frame -- */
@@ -121,21 +121,21 @@ static void put_frame(plot *p) {
     put_label(p, p->x.from, 18, "start", " font-weight=\"600\" font-size=\"13\"", p->o->title);
     put_label(p, (p->x.from + p->x.to) / 2, p->o->height - 8, "middle", "", p->o->x_label);
     if (!p->o->y_label) return;
-    put_text(p, "<g transform=\"translate(14 ");
+    put_markup(p, "<g transform=\"translate(14 ");
     put_number(p, (p->y.from + p->y.to) / 2);
-    put_text(p, ") rotate(-90)\">");
+    put_markup(p, ") rotate(-90)\">");
     put_label(p, 0, 0, "middle", "", p->o->y_label);
-    put_text(p, "</g>\n");
+    put_markup(p, "</g>\n");
 }
 
 /* ------------------------------------------------------------------- series -- */
 
 static void put_series_style(plot *p, size_t series, bool line) {
     const char *colour = colours[series % COLOURS];
-    put_text(p, line ? "\" fill=\"none\" stroke-width=\"1.6\" stroke=\"" : "\" stroke=\"none\" fill=\"");
-    put_text(p, colour);
-    if (line && series >= COLOURS) put_text(p, "\" stroke-dasharray=\"5 3");
-    put_text(p, "\"/>\n");
+    put_markup(p, line ? "\" fill=\"none\" stroke-width=\"1.6\" stroke=\"" : "\" stroke=\"none\" fill=\"");
+    put_markup(p, colour);
+    if (line && series >= COLOURS) put_markup(p, "\" stroke-dasharray=\"5 3");
+    put_markup(p, "\"/>\n");
 }
 
 /* A small shape around a point, closed. */
@@ -147,7 +147,7 @@ static void put_marker(plot *p, size_t series, double x, double y) {
                                                    {4, -2, -4, 2, -4, 2, 4, -2, 4}}; /* bar */
     const signed char *shape = shapes[series % MARKERS];
     for (int i = 0; i < shape[0]; i++) put_pair(p, i ? "L" : "M", x + shape[2 * i + 1], y + shape[2 * i + 2]);
-    put_text(p, "Z");
+    put_markup(p, "Z");
 }
 
 static bool place_on_plot(const plot *p, const plot_series *s, size_t i, double *x, double *y) {
@@ -161,7 +161,7 @@ static void put_lines(plot *p, size_t series) {
     const plot_series *s = p->series + series;
     double x, y;
     bool joined = false;
-    put_text(p, "<path d=\"");
+    put_markup(p, "<path d=\"");
     for (size_t i = 0; i < s->count; i++) {
         const bool shown = place_on_plot(p, s, i, &x, &y);
         if (shown) put_pair(p, joined ? "L" : "M", x, y);
@@ -173,7 +173,7 @@ static void put_lines(plot *p, size_t series) {
 static void put_markers(plot *p, size_t series) {
     const plot_series *s = p->series + series;
     double x, y;
-    put_text(p, "<path d=\"");
+    put_markup(p, "<path d=\"");
     for (size_t i = 0; i < s->count; i++)
         if (place_on_plot(p, s, i, &x, &y)) put_marker(p, series, x, y);
     put_series_style(p, series, false);
@@ -183,7 +183,7 @@ static void put_columns(plot *p, size_t series) {
     const plot_series *s = p->series + series;
     const double each = p->o->column / (double)p->count;
     double x, y;
-    put_text(p, "<path d=\"");
+    put_markup(p, "<path d=\"");
     for (size_t i = 0; i < s->count; i++) {
         if (!place_on_plot(p, s, i, &x, &y)) continue;
         const double from = s->x[i] - p->o->column / 2 + each * (double)series;
@@ -192,7 +192,7 @@ static void put_columns(plot *p, size_t series) {
         put_pair(p, "L", left, y);
         put_pair(p, "L", right, y);
         put_pair(p, "L", right, p->y.from);
-        put_text(p, "Z");
+        put_markup(p, "Z");
     }
     put_series_style(p, series, false);
 }
@@ -222,7 +222,7 @@ static double key(plot *p, bool draw) {
         const double width = entry_width(p->series[s].name);
         if (x + width > p->o->width && x > p->x.from) x = p->x.from, y += ROW;
         if (draw) {
-            put_text(p, "<path d=\"");
+            put_markup(p, "<path d=\"");
             put_marker(p, s, x + 4, y - 4);
             put_series_style(p, s, false);
             put_label(p, x + 12, y, "start", "", p->series[s].name);
@@ -240,14 +240,14 @@ void plot_put(FILE *out, const plot_series *series, size_t count, const plot_opt
     plot figure = {.out = out, .o = options, .series = series, .count = count}, *p = &figure;
     fit_axes(p);
     const double height = p->o->height + key(p, false);
-    put_text(p, "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\"");
+    put_markup(p, "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\"");
     put_attribute(p, "width", p->o->width);
     put_attribute(p, "height", height);
-    put_text(p, " viewBox=\"0 0 ");
+    put_markup(p, " viewBox=\"0 0 ");
     put_pair(p, "", p->o->width, height);
-    put_text(p, "\" font-family=\"system-ui,sans-serif\" font-size=\"11\" fill=\"currentColor\" aria-label=\"");
+    put_markup(p, "\" font-family=\"system-ui,sans-serif\" font-size=\"11\" fill=\"currentColor\" aria-label=\"");
     put_escaped(p, p->o->title ? p->o->title : "");
-    put_text(p, "\">\n");
+    put_markup(p, "\">\n");
     put_frame(p);
     size_t points = 0;
     for (size_t s = 0; s < p->count; s++) {
@@ -257,5 +257,5 @@ void plot_put(FILE *out, const plot_series *series, size_t count, const plot_opt
     }
     if (!points) put_label(p, (p->x.from + p->x.to) / 2, (p->y.from + p->y.to) / 2, "middle", "", "nothing to show");
     key(p, true);
-    put_text(p, "</svg>\n");
+    put_markup(p, "</svg>\n");
 }
