@@ -74,9 +74,9 @@ bool froe_places_end(const froe_places *p, uint32_t object, int end, froe_exact_
 
 /* ------------------------------------------------------------------ decimals -- */
 
-enum { DIGITS = 18, MOST_LIMBS = 256 }; /* a coordinate and two times squared, on one scale: less than 170 */
+enum { PLACES_DIGITS = 18, PLACES_LIMBS = 256 }; /* a coordinate and two times squared, on one scale: less than 170 */
 
-/* Divides by 10^DIGITS and returns the rest. */
+/* Divides by 10^PLACES_DIGITS and returns the rest. */
 static uint64_t take_digits(uint64_t *limbs, size_t *count) {
     const uint64_t unit = 1000000000000000000u;
     num_limbs2 rest = 0;
@@ -90,13 +90,14 @@ static uint64_t take_digits(uint64_t *limbs, size_t *count) {
 }
 
 size_t froe_whole_text(const froe_whole *number, char *out, size_t size) {
-    uint64_t limbs[MOST_LIMBS];
-    size_t count = number && number->count <= MOST_LIMBS ? number->count : 0, length = 0;
-    char digits[MOST_LIMBS * 20 + 2]; /* the least significant first */
+    uint64_t limbs[PLACES_LIMBS];
+    size_t count = number && number->count <= PLACES_LIMBS ? number->count : 0, length = 0;
+    char digits[PLACES_LIMBS * 20 + 2]; /* the least significant first */
     for (size_t i = 0; i < count; i++) limbs[i] = number->limbs[i];
     while (count) {
         uint64_t part = take_digits(limbs, &count);
-        for (int i = 0; i < DIGITS && (count || part); i++, part /= 10) digits[length++] = (char)('0' + part % 10);
+        for (int i = 0; i < PLACES_DIGITS && (count || part); i++, part /= 10)
+            digits[length++] = (char)('0' + part % 10);
     }
     if (!length) digits[length++] = '0';
     if (number && number->sign < 0) digits[length++] = '-';

@@ -6,8 +6,8 @@
  *     ___:_____:___ below     turns   the left end of a segment is left of the right end
  *
  * As long as they all hold the partition is right, and when one fails it is repaired near that place. Source: the
- * paper's sections 2.2 and 2.3. That regions between a wall of the node and one of its cell need certificates, too,
- * is not in the paper. */
+ * paper's section 3.1, where such regions are the cells of transient nodes. That regions between a wall of the node and
+ * one of its cell need certificates, too, is not in the paper. */
 #ifndef FROE_KINETIC_CERTIFY_H
 #define FROE_KINETIC_CERTIFY_H
 #include "kinetic/certificate/cert.h"

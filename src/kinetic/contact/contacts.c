@@ -36,7 +36,7 @@ typedef struct contact_search {
     const froe_contact_options *o;
     double from, to;
     base_task task;
-    motion_slices slices;
+    slices_table slices;
     contact_worker *workers;
     record_array records; /* of all workers */
     froe_contact *contacts;
@@ -72,9 +72,9 @@ static void common_life(const contact_search *s, uint32_t a, uint32_t b, double 
 static bool look_at_slices(void *user, unsigned number, uint32_t i, uint32_t j) {
     contact_search *s = user;
     contact_worker *w = s->workers + number;
-    const motion_slice *p = s->slices.slices.data + i, *q = s->slices.slices.data + j;
+    const slices_entry *p = s->slices.slices.data + i, *q = s->slices.slices.data + j;
     if (p->object > q->object) {
-        const motion_slice *swap = p;
+        const slices_entry *swap = p;
         p = q;
         q = swap;
     }
@@ -237,7 +237,7 @@ static void contact_search_free(contact_search *s) {
     support_free(alloc, s->workers, s->task.threads * sizeof *s->workers);
     support_free(alloc, s->contacts, (s->records.count + 1) * sizeof *s->contacts);
     array_free(alloc, &s->records);
-    motion_slices_free(s->m, &s->slices);
+    slices_free(s->m, &s->slices);
 }
 
 froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options, froe_contact_fn *fn,
@@ -250,7 +250,7 @@ froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_o
     froe_status status = check_contact_search(&s, diag);
     if (status) return status;
     base_task_init(&s.task, s.o->threads, s.o->progress, s.o->user);
-    status = motion_slices_find(motion, s.from, s.to, &s.slices);
+    status = slices_find(motion, s.from, s.to, &s.slices);
     if (status == FROE_E_LIMIT) return support_fail(diag, status, "more than 2^31 boxes in the plane and in time");
     if (!status) status = find_spans(&s, diag);
     if (!status) status = make_contacts(&s);

@@ -10,7 +10,7 @@ enum {
 
 typedef struct slicing {
     const froe_motion *m;
-    motion_slices *out;
+    slices_table *out;
     double spacing; /* the side of a square that an object has for itself */
 } slicing;
 
@@ -31,9 +31,9 @@ static bool put_slice(slicing *s, uint32_t object, const motion_piece piece[2], 
     double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {-(double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < 2; i++) motion_extend(s->m, &piece[i], from, to, lo, hi);
     const froe_allocator *alloc = &s->m->alloc;
-    motion_slices *out = s->out;
+    slices_table *out = s->out;
     if (!array_reserve(alloc, &out->lo, 3) || !array_reserve(alloc, &out->hi, 3)) return false;
-    if (!array_push(alloc, &out->slices, (motion_slice){object, from, to})) return false;
+    if (!array_push(alloc, &out->slices, (slices_entry){object, from, to})) return false;
     const double low[3] = {lo[0], lo[1], from}, high[3] = {hi[0], hi[1], to};
     for (int k = 0; k < 3; k++) {
         out->lo.data[out->lo.count++] = low[k];
@@ -88,19 +88,19 @@ static bool slice_object(slicing *s, uint32_t object, double from, double to) {
     return true;
 }
 
-froe_status motion_slices_find(const froe_motion *m, double from, double to, motion_slices *out) {
-    *out = (motion_slices){.slices = {0}};
+froe_status slices_find(const froe_motion *m, double from, double to, slices_table *out) {
+    *out = (slices_table){.slices = {0}};
     slicing s = {m, out, typical_spacing(m)};
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < m->objects.count && !status; i++) {
         if (!slice_object(&s, i, from, to)) status = FROE_E_MEMORY;
         if (out->slices.count >= SLICE_LIMIT) status = FROE_E_LIMIT;
     }
-    if (status) motion_slices_free(m, out);
+    if (status) slices_free(m, out);
     return status;
 }
 
-void motion_slices_free(const froe_motion *m, motion_slices *s) {
+void slices_free(const froe_motion *m, slices_table *s) {
     array_free(&m->alloc, &s->slices);
     array_free(&m->alloc, &s->lo);
     array_free(&m->alloc, &s->hi);

@@ -8,18 +8,18 @@
 #define FROE_KINETIC_SLICES_H
 #include "kinetic/motion/motion.h"
 
-typedef struct motion_slice {
+typedef struct slices_entry {
     uint32_t object;
     double from, to;
-} motion_slice;
+} slices_entry;
 
-typedef struct motion_slices {
-    ARRAY(motion_slice) slices;
+typedef struct slices_table {
+    ARRAY(slices_entry) slices;
     ARRAY(double) lo; /**< x, y, t of each slice's box */
     ARRAY(double) hi;
-} motion_slices;
+} slices_table;
 
 /** All slices between two times within the window. FROE_E_MEMORY, FROE_E_LIMIT (2^31 slices). O(knots + slices). */
-froe_status motion_slices_find(const froe_motion *m, double from, double to, motion_slices *out);
-void motion_slices_free(const froe_motion *m, motion_slices *slices);
+froe_status slices_find(const froe_motion *m, double from, double to, slices_table *out);
+void slices_free(const froe_motion *m, slices_table *slices);
 #endif

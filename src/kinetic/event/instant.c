@@ -17,18 +17,17 @@ static int sign_at(num_arena *arena, const poly_exact *p, num_dyadic s) {
     return y.sign;
 }
 
-/* The time `s` ticks after a tick, rounded down (-1) or up (1). */
-static double rounded_time(num_arena *arena, const froe_motion *m, int64_t tick, num_dyadic s, int way) {
-    num_dyadic ticks = num_dyadic_add(arena, num_dyadic_scaled(arena, 1, (uint64_t)tick, 0), s);
-    num_dyadic length = num_dyadic_scaled(arena, 1, 1, m->power);
-    num_dyadic time = num_dyadic_add(arena, num_dyadic_from(arena, m->begin), num_dyadic_mul(arena, ticks, length));
-    double t = num_dyadic_quotient(arena, time, num_dyadic_scaled(arena, 1, 1, 0));
-    int off = num_dyadic_compare(num_dyadic_from(arena, t), time);
-    return off * way < 0 ? nextafter(t, way * (double)INFINITY) : t;
-}
-
+/* The times s[0] and s[1] ticks after a tick, rounded down and up. */
 static void bracket_of(const froe_kinetic *k, num_arena *arena, int64_t tick, const num_dyadic s[2], double out[2]) {
-    for (int i = 0; i < 2; i++) out[i] = rounded_time(arena, k->now.motion, tick, s[i], i ? 1 : -1);
+    const froe_motion *m = k->now.motion;
+    for (int i = 0; i < 2; i++) {
+        const num_dyadic ticks = num_dyadic_add(arena, num_dyadic_scaled(arena, 1, (uint64_t)tick, 0), s[i]);
+        const num_dyadic since = num_dyadic_mul(arena, ticks, num_dyadic_scaled(arena, 1, 1, m->power));
+        const num_dyadic time = num_dyadic_add(arena, num_dyadic_from(arena, m->begin), since);
+        const double t = num_dyadic_quotient(arena, time, num_dyadic_scaled(arena, 1, 1, 0));
+        const int way = i ? 1 : -1, off = num_dyadic_compare(num_dyadic_from(arena, t), time);
+        out[i] = off * way < 0 ? nextafter(t, way * (double)INFINITY) : t;
+    }
 }
 
 /* The arena holds the polynomial up to `top`; what is above is for each step anew, but for the two ends. */

@@ -15,7 +15,7 @@ typedef struct passing {
     uint32_t node, segment; /* of s, in the near cell */
     uint32_t wall;          /* an end, or the segment that it crosses at the point */
     bool grows;             /* it gets longer: the point goes to the far cell, and s comes after it from the near one */
-    size_t thread;          /* how many on the list cross the wall in the far cell, from below */
+    size_t across;          /* how many on the list cross the wall in the far cell, from below */
     size_t below;           /* how many of these are below the point */
 } passing;
 
@@ -91,7 +91,7 @@ static bool find_far(froe_kinetic *k, name_point point, passing *p) {
            (p->wall == near->bottom && near->bottom == far->cell.bottom);
 }
 
-/* ------------------------------------------------------------------- threads -- */
+/* --------------------------------------------------------- what crosses the wall -- */
 
 /* Is a wall, if there is one, beyond the line that bounds the thin part of a half? */
 static bool is_beyond(froe_kinetic *k, const half *h, name_point wall) {
@@ -141,7 +141,7 @@ static bool walk_past(froe_kinetic *k, const half *h, uint32_t node) {
 }
 
 /* Lists the segments across the wall in the far cell, from below, and then the others in the near one. */
-static bool list_threads(froe_kinetic *k, passing *p) {
+static bool list_crossing(froe_kinetic *k, passing *p) {
     ktree *tree = &k->tree;
     const uint32_t root = root_of(tree, &p->far.site);
     const ktree_node *n = ktree_node_at(tree, p->node), *r = ktree_node_at(tree, root);
@@ -150,7 +150,7 @@ static bool list_threads(froe_kinetic *k, passing *p) {
     bool thin = p->grows ? walk_half(k, &p->far, root)
                          : is_beyond(k, &p->far, ktree_wall_name(tree, p->segment, r->wall[side])) &&
                                walk_past(k, &p->far, root);
-    p->thread = tree->list.count;
+    p->across = tree->list.count;
     if (!thin) return false;
     if (!p->grows) return walk_half(k, &p->near, n->child[1 - side]);
     return is_beyond(k, &p->near, ktree_wall_name(tree, p->segment, n->wall[1 - side])) &&
@@ -183,9 +183,9 @@ static int fan_of(froe_kinetic *k, const passing *p, uint32_t vertex, uint32_t f
     return count;
 }
 
-/* How many of the thread are below the vertex. False: one goes through it. */
+/* How many of those that cross the wall are below the vertex. False: one goes through it. */
 static bool find_height(froe_kinetic *k, passing *p, uint32_t vertex) {
-    size_t low = 0, high = p->thread;
+    size_t low = 0, high = p->across;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         int side = now_side(&k->now, k->tree.list.data[middle], vertex);
@@ -199,11 +199,11 @@ static bool find_height(froe_kinetic *k, passing *p, uint32_t vertex) {
     return true;
 }
 
-/* Makes the thread the segments that will cross the thin part of the far cell, without s. False: refused. */
-static bool thread_anew(froe_kinetic *k, passing *p, name_point point) {
+/* Makes the list that of the segments that will cross the thin part of the far cell, without s. False: refused. */
+static bool list_crossing_after(froe_kinetic *k, passing *p, name_point point) {
     ktree *tree = &k->tree;
     if (!ktree_is_end(p->wall)) {
-        p->below = p->wall == p->near.site.cell.top ? p->thread : 0;
+        p->below = p->wall == p->near.site.cell.top ? p->across : 0;
         return true;
     }
     if (ktree_next_end(tree, tree->vertices.data[point.a]) == FROE_NONE) return find_height(k, p, point.a);
@@ -211,11 +211,11 @@ static bool thread_anew(froe_kinetic *k, passing *p, name_point point) {
     size_t kept = 0;
     const int count = fan_of(k, p, point.a, fan);
     if (count < 0) return false;
-    for (size_t i = 0; i < p->thread; i++) /* without those at the vertex */
+    for (size_t i = 0; i < p->across; i++) /* without those at the vertex */
         if (!now_has_end(&k->now, tree->list.data[i], point.a)) tree->list.data[kept++] = tree->list.data[i];
-    p->thread = kept;
+    p->across = kept;
     if (!find_height(k, p, point.a)) return false;
-    tree->list.count = p->thread;
+    tree->list.count = p->across;
     if (!call_reserve(&k->call, &tree->list, MOST_FAN)) return false;
     size_t at = p->below;
     for (int i = 0; i < count; i++) {
@@ -224,7 +224,7 @@ static bool thread_anew(froe_kinetic *k, passing *p, name_point point) {
             continue;
         }
         uint32_t *place = tree->list.data + at;
-        memmove(place + 1, place, (p->thread++ - at++) * sizeof *place);
+        memmove(place + 1, place, (p->across++ - at++) * sizeof *place);
         *place = fan[i];
     }
     return true;
@@ -279,11 +279,11 @@ static void move_segment(froe_kinetic *k, const passing *p) {
         ktree_attach(tree, p->far.site.parent, p->far.site.slot, node);
         ktree_attach(tree, node, to, root);
         plant(k, 0, p->below, node, KTREE_DOWN);
-        plant(k, p->below, p->thread - p->below, node, KTREE_UP);
+        plant(k, p->below, p->across - p->below, node, KTREE_UP);
     } else {
         turn_note_half(k, root, 1 - to);
         ktree_set_wall(tree, root, to, p->wall);
-        plant(k, 0, p->thread, root, to);
+        plant(k, 0, p->across, root, to);
     }
     if (ktree_is_end(p->wall)) ktree_touch_end(tree, 2 * p->segment + (KTREE_END_0 - p->wall));
 }
@@ -298,12 +298,12 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     if (!is_beyond(k, &p.near, near->wall[p.far.side]) || !is_beyond(k, &p.far, far->wall[p.near.side]))
         return PASS_REFUSED;
     surgery_begin(k);
-    if (!list_threads(k, &p)) return PASS_REFUSED;
+    if (!list_crossing(k, &p)) return PASS_REFUSED;
     if (k->call.stopped) return PASS_DONE;
     bool more = participants_add_near(k, (uint32_t[]){near->top, near->bottom, far->top, far->bottom}, 4);
     more = participants_add_near(k, tree->list.data, tree->list.count) || more;
     if (more) return PASS_NEIGHBOURS;
-    if (!thread_anew(k, &p, point) || k->now.lost) return PASS_REFUSED;
+    if (!list_crossing_after(k, &p, point) || k->now.lost) return PASS_REFUSED;
     k->counts.surgeries++;
     move_segment(k, &p);
     if (k->call.stopped) return PASS_DONE;

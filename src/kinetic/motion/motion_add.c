@@ -9,14 +9,14 @@
 
 #define LIMIT 2147483646u /* ids stay below 2^31 - 2 */
 
-typedef struct adding {
+typedef struct plan_adding {
     froe_motion *motion;
     const froe_moving *batch;
     froe_diagnostic *diag;
     size_t knots;  /* of the batch so far */
     int unit, top; /* of the coordinates so far */
     int time_unit, time_top;
-} adding;
+} plan_adding;
 
 /* ------------------------------------------------------------ widths of numbers -- */
 
@@ -65,13 +65,14 @@ typedef struct plan_input {
     uint32_t vertex; /* for messages */
 } plan_input;
 
-static froe_status fail_at_knot(adding *a, const plan_input *p, size_t i, const char *what, double value) {
+static froe_status fail_at_knot(plan_adding *a, const plan_input *p, size_t i, const char *what, double value) {
     return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u: %s %zu is %g", p->vertex,
                            what, i, value);
 }
 
 /* One finite number of the plan; -0 becomes +0. */
-static froe_status take_number(adding *a, const plan_input *p, size_t i, const char *what, double value, double *out) {
+static froe_status take_number(plan_adding *a, const plan_input *p, size_t i, const char *what, double value,
+                               double *out) {
     if (!isfinite(value)) return fail_at_knot(a, p, i, what, value);
     *out = value + 0.0;
     a->unit = least_of(a->unit, last_bit(*out));
@@ -79,12 +80,12 @@ static froe_status take_number(adding *a, const plan_input *p, size_t i, const c
     return FROE_OK;
 }
 
-static void take_time(adding *a, double time) {
+static void take_time(plan_adding *a, double time) {
     a->time_unit = least_of(a->time_unit, last_bit(time));
     a->time_top = most(a->time_top, top_bit(time));
 }
 
-static froe_status take_knot(adding *a, const plan_input *p, size_t i, motion_knot *knot) {
+static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, motion_knot *knot) {
     *knot = (motion_knot){.time = p->times[i] + 0.0, .control = {NAN, NAN}, .bits = 0};
     if (!isfinite(knot->time)) return fail_at_knot(a, p, i, "time", knot->time);
     if (i && !(knot->time > knot[-1].time))
@@ -102,7 +103,7 @@ static froe_status take_knot(adding *a, const plan_input *p, size_t i, motion_kn
 }
 
 /* Appends the knots of a plan. REQUIRES: room. */
-static froe_status take_plan(adding *a, const plan_input *p, motion_plan *plan) {
+static froe_status take_plan(plan_adding *a, const plan_input *p, motion_plan *plan) {
     if (!p->count)
         return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u has no flight plan",
                                p->vertex);
@@ -119,8 +120,8 @@ static froe_status take_plan(adding *a, const plan_input *p, motion_plan *plan) 
 }
 
 /* Does a plan cover a life? */
-static froe_status check_cover(const adding *a, const motion_plan *plan, uint32_t vertex, uint32_t object, double birth,
-                               double death) {
+static froe_status check_cover(const plan_adding *a, const motion_plan *plan, uint32_t vertex, uint32_t object,
+                               double birth, double death) {
     const motion_knot *first = a->motion->knots.data + plan->first, *last = first + plan->count - 1;
     if (plan->count == 1 || birth > death || (first->time <= birth && death <= last->time)) return FROE_OK;
     bool late = first->time > birth;
@@ -139,7 +140,7 @@ static froe_status check_cover(const adding *a, const motion_plan *plan, uint32_
 
 /* --------------------------------------------------------------------- a batch -- */
 
-static froe_status check_batch(const adding *a) {
+static froe_status check_batch(const plan_adding *a) {
     const froe_moving *b = a->batch;
     if (b->size != sizeof *b) return support_fail(a->diag, FROE_E_OPTIONS, "batch not from froe_moving_defaults()");
     if ((b->vertex_count && (!b->starts || !b->times || !b->coords)) || (b->count && !b->vertex_count))
@@ -159,17 +160,7 @@ static froe_status check_batch(const adding *a) {
     return FROE_OK;
 }
 
-static froe_status reserve(const adding *a) {
-    froe_motion *m = a->motion;
-    const froe_moving *b = a->batch;
-    size_t knots = b->vertex_count ? b->starts[b->vertex_count] - b->starts[0] : 0;
-    m->edition++;
-    bool room = array_reserve(&m->alloc, &m->knots, knots) && array_reserve(&m->alloc, &m->plans, b->vertex_count) &&
-                array_reserve(&m->alloc, &m->objects, b->count);
-    return room ? FROE_OK : support_fail_memory(a->diag);
-}
-
-static froe_status take_vertices(adding *a) {
+static froe_status take_vertices(plan_adding *a) {
     const froe_moving *b = a->batch;
     for (size_t v = 0; v < b->vertex_count; v++) {
         size_t start = b->starts[v];
@@ -181,10 +172,10 @@ static froe_status take_vertices(adding *a) {
     return FROE_OK;
 }
 
-static froe_status set_life(adding *a, uint32_t j, motion_object *o) {
-    const froe_motion *m = a->motion;
+static froe_status take_segment(plan_adding *a, uint32_t j, motion_object *o) {
     const froe_moving *b = a->batch;
-    double birth = b->births ? b->births[j] : m->begin, death = b->deaths ? b->deaths[j] : m->end;
+    const froe_motion *m = a->motion;
+    const double birth = b->births ? b->births[j] : m->begin, death = b->deaths ? b->deaths[j] : m->end;
     if (!(birth <= death) || birth == (double)INFINITY || death == -(double)INFINITY)
         return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u lives from %g to %g", j,
                                birth, death);
@@ -194,13 +185,7 @@ static froe_status set_life(adding *a, uint32_t j, motion_object *o) {
     take_time(a, o->death);
     o->first = motion_tick_after(m, o->birth);
     o->last = motion_tick_before(m, o->death);
-    return FROE_OK;
-}
-
-static froe_status take_segment(adding *a, uint32_t j, motion_object *o) {
-    const froe_moving *b = a->batch;
-    const froe_motion *m = a->motion;
-    froe_status status = set_life(a, j, o);
+    froe_status status = FROE_OK;
     for (int k = 0; k < 2 && !status; k++) {
         uint32_t v = b->vertices ? b->vertices[2 * (size_t)j + (size_t)k] : 2 * j + (uint32_t)k;
         if (v >= b->vertex_count)
@@ -214,14 +199,14 @@ static froe_status take_segment(adding *a, uint32_t j, motion_object *o) {
     return status;
 }
 
-static adding begin_adding(froe_motion *m, const froe_moving *batch, froe_diagnostic *diag) {
-    adding a = {.motion = m, .batch = batch, .diag = diag, .unit = m->unit, .top = m->top};
+static plan_adding begin_adding(froe_motion *m, const froe_moving *batch, froe_diagnostic *diag) {
+    plan_adding a = {.motion = m, .batch = batch, .diag = diag, .unit = m->unit, .top = m->top};
     a.time_unit = least_of(m->time_unit, least_of(last_bit(m->begin), last_bit(m->end)));
     a.time_top = most(m->time_top, most(top_bit(m->begin), top_bit(m->end)));
     return a;
 }
 
-static void commit(const adding *a) {
+static void commit(const plan_adding *a) {
     froe_motion *m = a->motion;
     m->unit = a->unit;
     m->top = a->top;
@@ -233,10 +218,16 @@ static void commit(const adding *a) {
 froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!motion || !batch) return support_fail(diag, FROE_E_ARG, "no motion or no batch");
-    adding a = begin_adding(motion, batch, diag);
+    plan_adding a = begin_adding(motion, batch, diag);
     froe_status status = check_batch(&a);
-    if (!status) status = reserve(&a);
-    if (!status) status = take_vertices(&a);
+    if (status) return status;
+    const size_t knots = batch->vertex_count ? batch->starts[batch->vertex_count] - batch->starts[0] : 0;
+    motion->edition++;
+    if (!array_reserve(&motion->alloc, &motion->knots, knots) ||
+        !array_reserve(&motion->alloc, &motion->plans, batch->vertex_count) ||
+        !array_reserve(&motion->alloc, &motion->objects, batch->count))
+        return support_fail_memory(diag);
+    status = take_vertices(&a);
     for (uint32_t j = 0; j < batch->count && !status; j++)
         status = take_segment(&a, j, motion->objects.data + motion->objects.count + j);
     if (status) return status;
@@ -248,7 +239,7 @@ froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_
 
 froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const double *times, const double *coords,
                           const double *controls, const double life[2], froe_diagnostic *diag) {
-    adding a = begin_adding(m, NULL, diag);
+    plan_adding a = begin_adding(m, NULL, diag);
     plan_input input = {count, times, coords, controls, vertex};
     motion_plan plan;
     m->edition++;

@@ -11,7 +11,7 @@
 #include "kinetic/now/now.h"
 #include <math.h>
 
-enum { LEVELS = 56 };
+enum { FAILURE_LEVELS = 56 };
 
 /* Coefficients over low <= s <= low + 2^power, s counted from now. */
 typedef struct failure_stretch {
@@ -194,7 +194,7 @@ static int64_t search_exactly(const failure_search *f, int64_t low, int power) {
     struct {
         int64_t low;
         int power;
-    } stack[2 * LEVELS];
+    } stack[2 * FAILURE_LEVELS];
     int top = 0;
     stack[top].low = low, stack[top++].power = power;
     poly_wide wide;
@@ -231,7 +231,7 @@ static int64_t search_exactly(const failure_search *f, int64_t low, int power) {
 /* ------------------------------------------------------------------ search -- */
 
 static int64_t find_first_failure(const failure_search *f) {
-    failure_stretch stack[LEVELS + 2];
+    failure_stretch stack[FAILURE_LEVELS + 2];
     int top = 1, power = 0;
     while (((int64_t)1 << power) < f->span) power++;
     to_bernstein(f->p, power, stack);
