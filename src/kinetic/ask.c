@@ -18,19 +18,19 @@ static froe_status check_question(froe_kinetic *k, const double *at, const doubl
     return kinetic_begin(k, diag);
 }
 
-static name_point end_name(const froe_kinetic *k, uint32_t segment, int end) {
-    return (name_point){k->now.segments.data[segment].end[end], NAME_VERTEX};
+static name_point end_name(const now_state *now, uint32_t segment, int end) {
+    return (name_point){now->segments.data[segment].end[end], NAME_VERTEX};
 }
 
 /* In which part of a node's cell a point of the cell is: KTREE_LEFT .. KTREE_DOWN; -1: on the segment. */
-static int part_of(froe_kinetic *k, const ktree_node *n, name_point point) {
+static int part_of(ktree *tree, const ktree_node *n, name_point point) {
     for (int side = 0; side < 2; side++) {
         if (n->wall[side] == KTREE_NO_WALL) continue;
-        int order = now_compare(&k->now, point, ktree_wall_name(&k->tree, n->segment, n->wall[side]));
+        int order = now_compare(tree->now, point, ktree_wall_name(tree, n->segment, n->wall[side]));
         if (!order) return -1;
         if ((order < 0) == (side == KTREE_LEFT)) return side;
     }
-    int where = now_side(&k->now, n->segment, point.a);
+    int where = now_side(tree->now, n->segment, point.a);
     return where ? (where > 0 ? KTREE_UP : KTREE_DOWN) : -1;
 }
 
@@ -39,11 +39,11 @@ static froe_kinetic_place place_on(uint32_t segment) {
 }
 
 /* Just after the tick. */
-static froe_kinetic_place kinetic_place_of(froe_kinetic *k, name_point point) {
+static froe_kinetic_place kinetic_place_of(ktree *tree, name_point point) {
     froe_kinetic_place place = {FROE_NONE, FROE_NONE, FROE_NONE};
-    for (uint32_t x = ktree_node_at(&k->tree, KTREE_ROOT)->child[0]; x;) {
-        const ktree_node *n = ktree_node_at(&k->tree, x);
-        int part = part_of(k, n, point);
+    for (uint32_t x = ktree_node_at(tree, KTREE_ROOT)->child[0]; x;) {
+        const ktree_node *n = ktree_node_at(tree, x);
+        int part = part_of(tree, n, point);
         if (part < 0) return place_on(n->segment);
         if (part == KTREE_UP) place.below = n->segment;
         if (part == KTREE_DOWN) place.above = n->segment;
@@ -75,8 +75,8 @@ static uint32_t touched_segment(froe_kinetic *k, name_point point) {
         }
         if (!middle) continue;
         const int where = now_judge_side(now, s, point.a, false);
-        if (!where && now_judge_order(now, point, end_name(k, s, 0), false, true) *
-                              now_judge_order(now, point, end_name(k, s, 1), false, true) <=
+        if (!where && now_judge_order(now, point, end_name(now, s, 0), false, true) *
+                              now_judge_order(now, point, end_name(now, s, 1), false, true) <=
                           0)
             return s;
         if (where >= 0) ktree_push_node(tree, n->child[KTREE_UP]);
@@ -86,9 +86,9 @@ static uint32_t touched_segment(froe_kinetic *k, name_point point) {
 }
 
 /* The status of an answer. Lack of memory leaves the tree as it was. */
-static froe_status status_of_answer(froe_kinetic *k, froe_diagnostic *diag) {
-    if (!k->call.stopped) return FROE_OK;
-    k->call.stopped = false;
+static froe_status status_of_answer(kinetic_call *call, froe_diagnostic *diag) {
+    if (!call->stopped) return FROE_OK;
+    call->stopped = false;
     return support_fail_memory(diag);
 }
 
@@ -96,14 +96,14 @@ froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kineti
     BASE_FLOATS_OWN;
     froe_status status = check_question(k, at, at, out, diag);
     if (status) return status;
-    name_point point = end_name(k, now_ask(&k->now, at, at), 0);
+    name_point point = end_name(&k->now, now_ask(&k->now, at, at), 0);
     k->now.tied = false;
-    froe_kinetic_place place = kinetic_place_of(k, point);
+    froe_kinetic_place place = kinetic_place_of(&k->tree, point);
     if (place.on == FROE_NONE && k->now.tied) {
         const uint32_t on = touched_segment(k, point);
         if (on != FROE_NONE) place = place_on(on);
     }
-    status = status_of_answer(k, diag);
+    status = status_of_answer(&k->call, diag);
     if (!status) *out = place;
     return status;
 }
@@ -112,23 +112,23 @@ froe_status froe_kinetic_locate(froe_kinetic *k, const double at[2], froe_kineti
 
 /* The way through the parts of a node's cell, from behind so that the first is on top. `order` holds children, and
  * -1 for the segment itself: a visit on the way back. */
-static void push_parts(froe_kinetic *k, const ktree_visit *v, const int order[5]) {
+static void push_parts(ktree *tree, const ktree_visit *v, const int order[5]) {
     for (int i = 4; i >= 0; i--) {
         if (order[i] < 0) {
-            ktree_push_visit(&k->tree, v->node, &v->cell, true);
+            ktree_push_visit(tree, v->node, &v->cell, true);
             continue;
         }
-        if (order[i] < KTREE_UP && ktree_node_at(&k->tree, v->node)->wall[order[i]] == KTREE_NO_WALL) continue;
-        ktree_cell inner = ktree_child_cell(&k->tree, &v->cell, v->node, order[i]);
-        ktree_push_visit(&k->tree, ktree_node_at(&k->tree, v->node)->child[order[i]], &inner, false);
+        if (order[i] < KTREE_UP && ktree_node_at(tree, v->node)->wall[order[i]] == KTREE_NO_WALL) continue;
+        ktree_cell inner = ktree_child_cell(tree, &v->cell, v->node, order[i]);
+        ktree_push_visit(tree, ktree_node_at(tree, v->node)->child[order[i]], &inner, false);
     }
 }
 
 /* Is p between the borders of the part of a cell where its segment is, borders included? */
-static bool is_in_middle(froe_kinetic *k, const ktree_visit *v, name_point p) {
-    ktree_cell middle = ktree_child_cell(&k->tree, &v->cell, v->node, KTREE_UP);
-    return (!name_exists(middle.wall[KTREE_LEFT]) || now_compare(&k->now, p, middle.wall[KTREE_LEFT]) >= 0) &&
-           (!name_exists(middle.wall[KTREE_RIGHT]) || now_compare(&k->now, p, middle.wall[KTREE_RIGHT]) <= 0);
+static bool is_in_middle(ktree *tree, const ktree_visit *v, name_point p) {
+    ktree_cell middle = ktree_child_cell(tree, &v->cell, v->node, KTREE_UP);
+    return (!name_exists(middle.wall[KTREE_LEFT]) || now_compare(tree->now, p, middle.wall[KTREE_LEFT]) >= 0) &&
+           (!name_exists(middle.wall[KTREE_RIGHT]) || now_compare(tree->now, p, middle.wall[KTREE_RIGHT]) <= 0);
 }
 
 /* Two segments in one line: do they overlap in the middle? */
@@ -139,7 +139,8 @@ static bool overlaps(froe_kinetic *k, const ktree_visit *v, uint32_t ray, uint32
             name_point p = {now_vertex(&k->now, both[i], side), NAME_VERTEX};
             name_point left = {now_vertex(&k->now, both[1 - i], 0), NAME_VERTEX};
             name_point right = {now_vertex(&k->now, both[1 - i], 1), NAME_VERTEX};
-            if (now_compare(&k->now, left, p) <= 0 && now_compare(&k->now, p, right) <= 0 && is_in_middle(k, v, p))
+            if (now_compare(&k->now, left, p) <= 0 && now_compare(&k->now, p, right) <= 0 &&
+                is_in_middle(&k->tree, v, p))
                 return true;
         }
     uint32_t end[2];
@@ -158,22 +159,22 @@ static bool ray_meets_cell(froe_kinetic *k, const ktree_visit *v, uint32_t ray) 
     }
     if (side[0] * side[1] > 0 || other[0] * other[1] > 0) return false;
     if (!side[0] && !side[1]) return overlaps(k, v, ray, segment);
-    return is_in_middle(k, v, name_crossing(ray, segment));
+    return is_in_middle(&k->tree, v, name_crossing(ray, segment));
 }
 
 /* The parts in the order in which the ray comes to them. */
-static void follow_ray(froe_kinetic *k, const ktree_visit *v, uint32_t ray) {
-    bool turned = k->now.segments.data[ray].turned;
-    uint32_t segment = ktree_node_at(&k->tree, v->node)->segment;
-    int from = now_side(&k->now, segment, k->now.segments.data[ray].end[0]);
-    if (!from) from = -now_side(&k->now, segment, k->now.segments.data[ray].end[1]);
+static void follow_ray(ktree *tree, const ktree_visit *v, uint32_t ray) {
+    bool turned = tree->now->segments.data[ray].turned;
+    uint32_t segment = ktree_node_at(tree, v->node)->segment;
+    int from = now_side(tree->now, segment, tree->now->segments.data[ray].end[0]);
+    if (!from) from = -now_side(tree->now, segment, tree->now->segments.data[ray].end[1]);
     int near = from > 0 ? KTREE_UP : KTREE_DOWN, far = KTREE_UP + KTREE_DOWN - near,
         in = turned ? KTREE_RIGHT : KTREE_LEFT, out = turned ? KTREE_LEFT : KTREE_RIGHT;
-    uint32_t end = now_vertex(&k->now, segment, in);
-    if (now_side(&k->now, ray, end)) /* else the ray comes to that end first of all */
-        push_parts(k, v, (int[]){in, near, -1, far, out});
+    uint32_t end = now_vertex(tree->now, segment, in);
+    if (now_side(tree->now, ray, end)) /* else the ray comes to that end first of all */
+        push_parts(tree, v, (int[]){in, near, -1, far, out});
     else
-        push_parts(k, v, (int[]){in, -1, near, far, out});
+        push_parts(tree, v, (int[]){in, -1, near, far, out});
 }
 
 froe_status froe_kinetic_ray(froe_kinetic *k, const double from[2], const double to[2], uint32_t *hit,
@@ -181,22 +182,22 @@ froe_status froe_kinetic_ray(froe_kinetic *k, const double from[2], const double
     BASE_FLOATS_OWN;
     froe_status status = check_question(k, from, to, hit, diag);
     if (status) return status;
-    uint32_t ray = now_ask(&k->now, from, to), found = kinetic_place_of(k, end_name(k, ray, 0)).on, end[2];
+    uint32_t ray = now_ask(&k->now, from, to), found = kinetic_place_of(&k->tree, end_name(&k->now, ray, 0)).on, end[2];
     ktree_cell plane = ktree_plane();
     k->tree.visits.count = 0;
     /* a ray without length meets what its point is on */
-    const bool seeks = found == FROE_NONE && now_compare(&k->now, end_name(k, ray, 0), end_name(k, ray, 1));
+    const bool seeks = found == FROE_NONE && now_compare(&k->now, end_name(&k->now, ray, 0), end_name(&k->now, ray, 1));
     if (seeks) ktree_push_visit(&k->tree, ktree_node_at(&k->tree, KTREE_ROOT)->child[0], &plane, false);
     while (k->tree.visits.count && found == FROE_NONE && !k->call.stopped) {
         ktree_visit v = k->tree.visits.data[--k->tree.visits.count];
         if (v.back) {
             if (ray_meets_cell(k, &v, ray)) found = ktree_node_at(&k->tree, v.node)->segment;
         } else if (surgery_clip(k, ray, &v.cell, end)) {
-            follow_ray(k, &v, ray);
+            follow_ray(&k->tree, &v, ray);
         }
     }
     k->tree.visits.count = 0;
-    status = status_of_answer(k, diag);
+    status = status_of_answer(&k->call, diag);
     if (!status) *hit = found;
     return status;
 }
@@ -209,7 +210,7 @@ froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kineti
     froe_status status = check_question(k, eye, eye, (const void *)&visit, diag);
     if (!status && !visit) status = support_fail(diag, FROE_E_ARG, "froe_kinetic_order: NULL");
     if (status) return status;
-    name_point point = end_name(k, now_ask(&k->now, eye, eye), 0);
+    name_point point = end_name(&k->now, now_ask(&k->now, eye, eye), 0);
     ktree_cell plane = ktree_plane();
     k->tree.visits.count = 0;
     ktree_push_visit(&k->tree, ktree_node_at(&k->tree, KTREE_ROOT)->child[0], &plane, false);
@@ -227,15 +228,15 @@ froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kineti
             if (!base_callback(visit(user, n->segment, at))) break;
             continue;
         }
-        int part = part_of(k, n, point);
+        int part = part_of(&k->tree, n, point);
         int side = now_side(&k->now, n->segment, point.a);
         int near = side < 0 ? KTREE_DOWN : KTREE_UP, far = KTREE_UP + KTREE_DOWN - near, order[3] = {far, -1, near};
         if (!side) order[1] = near, order[2] = -1; /* the eye is in its line: it may hide what is on both sides of it */
         if (part == KTREE_LEFT || part == KTREE_RIGHT)
-            push_parts(k, &v, (int[]){KTREE_LEFT + KTREE_RIGHT - part, order[0], order[1], order[2], part});
+            push_parts(&k->tree, &v, (int[]){KTREE_LEFT + KTREE_RIGHT - part, order[0], order[1], order[2], part});
         else
-            push_parts(k, &v, (int[]){KTREE_LEFT, KTREE_RIGHT, order[0], order[1], order[2]});
+            push_parts(&k->tree, &v, (int[]){KTREE_LEFT, KTREE_RIGHT, order[0], order[1], order[2]});
     }
     k->tree.visits.count = 0;
-    return status_of_answer(k, diag);
+    return status_of_answer(&k->call, diag);
 }

@@ -4,8 +4,8 @@
 #include "kinetic/kinetic.h"
 #include "support/fail.h"
 
-static bool same_node(const froe_kinetic *k, uint32_t a, const froe_kinetic *l, uint32_t b) {
-    const ktree_node *m = ktree_node_at(&k->tree, a), *n = ktree_node_at(&l->tree, b);
+static bool same_node(const ktree *tree, uint32_t a, const ktree *other, uint32_t b) {
+    const ktree_node *m = ktree_node_at(tree, a), *n = ktree_node_at(other, b);
     if (m->segment != n->segment || m->wall[0] != n->wall[0] || m->wall[1] != n->wall[1] || m->cut != n->cut)
         return false;
     for (int i = 0; i < 4; i++)
@@ -44,7 +44,8 @@ froe_status kinetic_compare(const froe_kinetic *k, const froe_kinetic *fresh, bo
     if (room && top[0] && top[1]) stack.data[0] = top[0], stack.data[1] = top[1], stack.count = 2;
     while (room && stack.count && !found[0]) {
         uint32_t b = stack.data[--stack.count], a = stack.data[--stack.count];
-        if (!same_node(k, a, fresh, b) || (certificates && !same_certs(k, a, fresh, b))) found[0] = a, found[1] = b;
+        if (!same_node(&k->tree, a, &fresh->tree, b) || (certificates && !same_certs(k, a, fresh, b)))
+            found[0] = a, found[1] = b;
         room = array_reserve(&k->call.alloc, &stack, 8);
         for (int i = 0; i < 4 && room && !found[0]; i++) {
             if (!ktree_node_at(&k->tree, a)->child[i]) continue;
@@ -59,7 +60,7 @@ froe_status kinetic_compare(const froe_kinetic *k, const froe_kinetic *fresh, bo
 static froe_status tell_difference(const froe_kinetic *k, const froe_kinetic *fresh, const uint32_t node[2],
                                    froe_diagnostic *diag) {
     const ktree_node *m = ktree_node_at(&k->tree, node[0]), *n = ktree_node_at(&fresh->tree, node[1]);
-    if (same_node(k, node[0], fresh, node[1]))
+    if (same_node(&k->tree, node[0], &fresh->tree, node[1]))
         return support_fail_at(diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
                                "a node of segment %u has not the certificates that it has from scratch", m->segment);
     unsigned has[2] = {0, 0};

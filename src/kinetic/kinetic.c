@@ -187,10 +187,6 @@ void froe_kinetic_free(froe_kinetic *k) {
 
 /* --------------------------------------------------------------------- time -- */
 
-int64_t kinetic_last_tick(const froe_kinetic *k) {
-    return (k->now.motion->last_tick - 1) | 1;
-}
-
 double froe_kinetic_time(const froe_kinetic *k) {
     BASE_FLOATS_OWN;
     volatile const double time = now_time_of(&k->now, k->now.tick); /* see base/floats.h */
@@ -200,7 +196,7 @@ double froe_kinetic_time(const froe_kinetic *k) {
 double froe_kinetic_next(const froe_kinetic *k) {
     BASE_FLOATS_OWN;
     int64_t tick = cert_next_tick(&k->certs);
-    volatile const double time = tick > kinetic_last_tick(k) ? (double)INFINITY : now_time_of(&k->now, tick);
+    volatile const double time = tick > now_last_tick(&k->now) ? (double)INFINITY : now_time_of(&k->now, tick);
     return time;
 }
 
@@ -219,7 +215,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
                                  froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k || !(time <= k->now.motion->end)) return support_fail(diag, FROE_E_ARG, "that time is not in the window");
-    int64_t tick = motion_tick_after(k->now.motion, time) | 1, last = kinetic_last_tick(k);
+    int64_t tick = motion_tick_after(k->now.motion, time) | 1, last = now_last_tick(&k->now);
     if (tick > last) tick = last;
     if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "time %g has passed", time);
     const event_watcher watcher = {visit, user};

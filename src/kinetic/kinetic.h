@@ -32,8 +32,6 @@ struct froe_kinetic {
 froe_status kinetic_begin(froe_kinetic *k, froe_diagnostic *diag);
 /** Ends a call or a part of it: where memory ran out, makes everything anew, for which memory may suffice now. */
 froe_status kinetic_settle(froe_kinetic *k, froe_diagnostic *diag);
-/** The last odd tick of the window. */
-int64_t kinetic_last_tick(const froe_kinetic *k);
 /** The same segments in the same order at the same time, made from scratch, as a part of the call under way. */
 froe_status kinetic_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *diag);
 /** The first node of each that differs from that of the other, with `certificates` also in these; KTREE_LEAF: none.

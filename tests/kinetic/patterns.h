@@ -97,7 +97,7 @@ static inline int pattern_of_three(froe_kinetic *k, name_point p, name_point q) 
 static inline bool pattern_count(void *user, const froe_event *event) {
     pattern_counter *counter = user;
     froe_kinetic *k = counter->kinetic;
-    const now_claim *c = &k->events.told_claim;
+    const now_claim *c = &k->events.reported;
     static const int kinds[FROE_EVENT_KINDS] = {PATTERN_EE,   PATTERN_EI, PATTERN_II, PATTERN_ES, PATTERN_III,
                                                 PATTERN_TURN, -1,         -1,         -1,         -1};
     int kind = kinds[event->kind], pattern = -1;

@@ -93,17 +93,17 @@ static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *ce
 
 /* The next segment above or below the vertex of a wall of the node: of those that cross it on the outer side of that
  * wall, as what ends on the wall ends at the vertex. */
-static uint32_t next_segment(froe_kinetic *k, uint32_t node, const ktree_cell *cell, int side, bool above) {
+static uint32_t next_segment(ktree *tree, uint32_t node, const ktree_cell *cell, int side, bool above) {
     uint32_t best = above ? cell->top : cell->bottom;
-    const ktree_node *n = ktree_node_at(&k->tree, node);
-    uint32_t vertex = ktree_wall_name(&k->tree, n->segment, n->wall[side]).a;
+    const ktree_node *n = ktree_node_at(tree, node);
+    uint32_t vertex = ktree_wall_name(tree, n->segment, n->wall[side]).a;
     for (uint32_t x = n->child[side]; x;) {
-        n = ktree_node_at(&k->tree, x);
+        n = ktree_node_at(tree, x);
         if (n->wall[1 - side] != KTREE_NO_WALL) { /* to the child next to the wall */
             x = n->child[1 - side];
             continue;
         }
-        int where = now_side(&k->now, n->segment, vertex);
+        int where = now_side(tree->now, n->segment, vertex);
         if (!where) where = above ? 1 : -1; /* it ends at the vertex */
         if ((where < 0) == above) best = n->segment;
         x = n->child[where > 0 ? KTREE_UP : KTREE_DOWN];
@@ -119,7 +119,7 @@ static void certify_end(froe_kinetic *k, uint32_t node, const ktree_cell *cell, 
     if (end->stamp != k->tree.stamp) return;
     end->stamp = 0;
     for (int i = 0; i < 2; i++) {
-        uint32_t next = next_segment(k, node, cell, side, i == 0);
+        uint32_t next = next_segment(&k->tree, node, cell, side, i == 0);
         now_claim claim = {
             {next, NAME_SEGMENT}, {k->now.segments.data[segment].end[which], NAME_VERTEX}, i == 0 ? -1 : 1};
         set_cert(k, k->certs.segments.data[segment].end[which] + i, i == 0 ? CERT_ABOVE : CERT_BELOW,

@@ -109,7 +109,7 @@ static int64_t odd(int64_t tick) {
 }
 
 static void schedule(froe_kinetic *k, uint32_t *cert, cert_kind kind, uint32_t owner, int64_t tick) {
-    if (tick > kinetic_last_tick(k)) tick = NOW_NEVER;
+    if (tick > now_last_tick(&k->now)) tick = NOW_NEVER;
     if (*cert == FROE_NONE)
         *cert = cert_new(&k->certs, kind, owner, tick, NULL);
     else

@@ -101,15 +101,15 @@ static bool is_sound(const froe_kinetic *k) {
     return !k->now.lost && !k->tree.broken && !k->call.stopped;
 }
 
-static void set_lines(froe_kinetic *k, const event_group *g) {
-    k->now.line[0] = g->slab[0], k->now.line[1] = g->slab[1];
+static void set_lines(now_state *now, const event_group *g) {
+    now->line[0] = g->slab[0], now->line[1] = g->slab[1];
 }
 
 /* Surgery in small cells, if the event is a simple one. False: it is not, or participants were added. */
 static bool operate(froe_kinetic *k, const event_group *g, bool simple) {
     size_t kept = 0;
     k->events.roots.count = 0;
-    set_lines(k, g);
+    set_lines(&k->now, g);
     for (size_t i = 0; i < g->count; i++) add_roots(k, item_of(k, g, i));
     for (size_t i = 0; i < k->events.roots.count; i++) { /* only roots that are below no other */
         bool below = false;
@@ -148,18 +148,18 @@ static void operate_carefully(froe_kinetic *k, event_group *g) {
         }
         if (node == KTREE_ROOT) k->tree.broken = true; /* a new tree */
         if (!node || !is_sound(k)) return;
-        set_lines(k, g);
+        set_lines(&k->now, g);
         if (surgery_slab(k, climb_clear_of_slab(k, node, true))) return;
     } while (is_sound(k));
 }
 
 /* ------------------------------------------------------------------ events -- */
 
-static froe_event_kind kind_of(const froe_kinetic *k, const slab_item *item) {
+static froe_event_kind kind_of(const ktree *tree, const slab_item *item) {
     name_point p = item->claim.p, q = item->claim.q, third;
     if (item->kind == CERT_TURN) return FROE_EVENT_TURN;
-    if (item->kind > CERT_RIGHT || now_met_segment(&k->now, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
-    if (ktree_is_one_segment(&k->tree, p, q)) return FROE_EVENT_TURN;
+    if (item->kind > CERT_RIGHT || now_met_segment(tree->now, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
+    if (ktree_is_one_segment(tree, p, q)) return FROE_EVENT_TURN;
     if (name_is_vertex(p) && name_is_vertex(q)) return FROE_EVENT_VERTICES;
     if (name_is_vertex(p) || name_is_vertex(q)) return FROE_EVENT_VERTEX_CROSSING;
     return name_third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
@@ -172,31 +172,29 @@ static void add_object(froe_event *e, uint32_t object) {
     e->object_count++;
 }
 
-static froe_event event_at(const froe_kinetic *k, froe_event_kind kind) {
-    return (froe_event){.kind = kind,
-                        .tick = k->now.tick,
-                        .early = now_time_of(&k->now, k->now.tick - 2),
-                        .late = now_time_of(&k->now, k->now.tick)};
+static froe_event event_at(const now_state *now, froe_event_kind kind) {
+    return (froe_event){
+        .kind = kind, .tick = now->tick, .early = now_time_of(now, now->tick - 2), .late = now_time_of(now, now->tick)};
 }
 
 static bool tell_event(froe_kinetic *k, const event_watcher *watcher, const froe_event *event, const now_claim *claim) {
     k->counts.events[event->kind]++;
     if (!watcher->visit) return true;
-    k->events.told = true;
-    k->events.told_claim = *claim;
+    k->events.reporting = true;
+    k->events.reported = *claim;
     bool go_on = base_callback(watcher->visit(watcher->user, event));
-    k->events.told = false;
+    k->events.reporting = false;
     now_catch_up(&k->now);
     return go_on;
 }
 
 /* What the certificates of a group have in common. */
 static froe_event describe(const froe_kinetic *k, const event_group *g) {
-    froe_event e = event_at(k, kind_of(k, item_of(k, g, 0)));
+    froe_event e = event_at(&k->now, kind_of(&k->tree, item_of(k, g, 0)));
     for (size_t i = 0; i < g->count; i++) {
         const slab_item *item = item_of(k, g, i);
         const name_point name[2] = {item->claim.p, item->claim.q};
-        if (kind_of(k, item) != e.kind) e.kind = FROE_EVENT_BATCH;
+        if (kind_of(&k->tree, item) != e.kind) e.kind = FROE_EVENT_BATCH;
         if (item->kind == CERT_TURN) add_object(&e, item->cert);
         for (int j = 0; j < 2 && item->kind != CERT_TURN; j++) {
             const uint32_t first = name_is_vertex(name[j]) ? k->tree.vertices.data[name[j].a] : FROE_NONE;
@@ -239,7 +237,7 @@ static void gather_failed_certs(froe_kinetic *k) {
     for (size_t i = 0; i < events->turning.count; i++) {
         const uint32_t s = events->turning.data[i], *end = k->now.segments.data[s].end;
         slab_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, {0, 0}};
-        slab_find(k, &item);
+        slab_find(&k->tree, &item);
         call_push(&k->call, &events->items, item);
     }
     events->turning.count = 0;
@@ -253,7 +251,7 @@ static void gather_failed_certs(froe_kinetic *k) {
             if (now_holds(&k->now, &claim) >= 0) { /* since the last tick it failed and became true again */
                 certify_again(k, cert);
             } else {
-                slab_find(k, &item);
+                slab_find(&k->tree, &item);
                 call_push(&k->call, &events->items, item);
             }
         }
@@ -290,7 +288,7 @@ static void repair(froe_kinetic *k, event_group *g, unsigned round) {
                         !participants_have_loose_ends(k, item_of(k, g, 0));
     k->now.lost = !(g->slab[0] <= g->slab[1] && g->slab[1] - g->slab[0] < (double)INFINITY);
     pass_outcome outcome = simple ? PASS_DONE : PASS_REFUSED;
-    set_lines(k, g);
+    set_lines(&k->now, g);
     for (size_t i = 0; i < g->count && !outcome && is_sound(k); i++) { /* if walls are passed, and that is all */
         const slab_item *item = item_of(k, g, i);
         if (is_current(k, item)) outcome = slab_is_one_place(&k->tree, item) ? PASS_REFUSED : pass_wall(k, item);
@@ -402,7 +400,7 @@ static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
                                : k->now.tick <= (o->first | 1) ? FROE_EVENT_APPEAR
                                                                : FROE_EVENT_PLAN;
         if (there) change_insert(k, s);
-        froe_event event = event_at(k, kind);
+        froe_event event = event_at(&k->now, kind);
         add_object(&event, s);
         if (k->events.leaving.data[i] % 2) go_on &= tell_event(k, watcher, &event, &nothing);
     }

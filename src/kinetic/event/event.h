@@ -23,8 +23,8 @@ typedef struct event_state {
     ARRAY(uint32_t) roots;   /**< places in the tree where surgery is needed: 4 parent + slot */
     ARRAY(uint32_t) leaving; /**< 2 segment + 1: its plan or life changes now; 2 segment: it may come into the tree */
     ARRAY(uint32_t) turning; /**< segments whose ends change sides now */
-    bool told;               /**< a visitor is in the callback of an event, */
-    now_claim told_claim;    /**< about this; no points: appearances and the like */
+    bool reporting;          /**< a visitor is in the callback of an event, */
+    now_claim reported;      /**< about this; no points: appearances and the like */
 } event_state;
 
 /** Goes to the next tick at which something happens, or to `tick` if nothing happens before. False: the visitor asked

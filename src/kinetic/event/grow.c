@@ -9,9 +9,9 @@
 #include "kinetic/kinetic.h"
 
 /* The order of two points; if they coincide, their segments are bound to each other. */
-static int order_of(froe_kinetic *k, name_point p, name_point q) {
-    const int order = now_compare(&k->now, p, q);
-    if (!order) turn_bind(&k->tree, p, q);
+static int order_of(ktree *tree, name_point p, name_point q) {
+    const int order = now_compare(tree->now, p, q);
+    if (!order) turn_bind(tree, p, q);
     return order;
 }
 
@@ -29,7 +29,7 @@ static bool clip_border(froe_kinetic *k, uint32_t segment, uint32_t border, int 
     if (side[0] <= 0 && side[1] <= 0) return false;
     if (side[0] >= 0 && side[1] >= 0) return true;
     int out = side[0] < 0 ? KTREE_LEFT : KTREE_RIGHT;
-    if (ktree_is_end(end[out]) || (order_of(k, cut, at[out]) > 0) == (out == KTREE_LEFT)) {
+    if (ktree_is_end(end[out]) || (order_of(&k->tree, cut, at[out]) > 0) == (out == KTREE_LEFT)) {
         at[out] = cut;
         end[out] = border;
     }
@@ -44,19 +44,19 @@ bool surgery_clip(froe_kinetic *k, uint32_t segment, const ktree_cell *cell, uin
         end[i] = KTREE_END_0 - (uint32_t)now_end(now, segment, i);
     }
     const name_point left = cell->wall[KTREE_LEFT], right = cell->wall[KTREE_RIGHT];
-    if (name_exists(left) && order_of(k, at[KTREE_RIGHT], left) <= 0) return false;
-    if (name_exists(right) && order_of(k, at[KTREE_LEFT], right) >= 0) return false;
+    if (name_exists(left) && order_of(&k->tree, at[KTREE_RIGHT], left) <= 0) return false;
+    if (name_exists(right) && order_of(&k->tree, at[KTREE_LEFT], right) >= 0) return false;
     if (cell->top != FROE_NONE && !clip_border(k, segment, cell->top, -1, at, end)) return false;
     if (cell->bottom != FROE_NONE && !clip_border(k, segment, cell->bottom, 1, at, end)) return false;
     if ((!ktree_is_end(end[KTREE_LEFT]) || !ktree_is_end(end[KTREE_RIGHT])) &&
-        order_of(k, at[KTREE_LEFT], at[KTREE_RIGHT]) >= 0)
+        order_of(&k->tree, at[KTREE_LEFT], at[KTREE_RIGHT]) >= 0)
         return false;
     bool on_wall = false;
-    if (name_exists(left) && order_of(k, at[KTREE_LEFT], left) <= 0)
+    if (name_exists(left) && order_of(&k->tree, at[KTREE_LEFT], left) <= 0)
         at[KTREE_LEFT] = left, end[KTREE_LEFT] = KTREE_NO_WALL, on_wall = true;
-    if (name_exists(right) && order_of(k, at[KTREE_RIGHT], right) >= 0)
+    if (name_exists(right) && order_of(&k->tree, at[KTREE_RIGHT], right) >= 0)
         at[KTREE_RIGHT] = right, end[KTREE_RIGHT] = KTREE_NO_WALL, on_wall = true;
-    return !on_wall || order_of(k, at[KTREE_LEFT], at[KTREE_RIGHT]) < 0;
+    return !on_wall || order_of(&k->tree, at[KTREE_LEFT], at[KTREE_RIGHT]) < 0;
 }
 
 /* ------------------------------------------------------------------- order -- */

@@ -18,8 +18,8 @@ static int sign_at(num_arena *arena, const poly_exact *p, num_dyadic s) {
 }
 
 /* The times s[0] and s[1] ticks after a tick, rounded down and up. */
-static void bracket_of(const froe_kinetic *k, num_arena *arena, int64_t tick, const num_dyadic s[2], double out[2]) {
-    const froe_motion *m = k->now.motion;
+static void bracket_of(const now_state *now, num_arena *arena, int64_t tick, const num_dyadic s[2], double out[2]) {
+    const froe_motion *m = now->motion;
     for (int i = 0; i < 2; i++) {
         const num_dyadic ticks = num_dyadic_add(arena, num_dyadic_scaled(arena, 1, (uint64_t)tick, 0), s[i]);
         const num_dyadic since = num_dyadic_mul(arena, ticks, num_dyadic_scaled(arena, 1, 1, m->power));
@@ -31,8 +31,8 @@ static void bracket_of(const froe_kinetic *k, num_arena *arena, int64_t tick, co
 }
 
 /* The arena holds the polynomial up to `top`; what is above is for each step anew, but for the two ends. */
-static void narrow(froe_kinetic *k, const poly_exact *p, int64_t tick, double out[2]) {
-    num_arena *arena = &k->now.context.arena;
+static void narrow(now_state *now, const poly_exact *p, int64_t tick, double out[2]) {
+    num_arena *arena = &now->context.arena;
     const size_t top = arena->top;
     uint64_t low = 0;
     int bits = 0; /* the root is in low / 2^bits .. (low + 2) / 2^bits */
@@ -44,7 +44,7 @@ static void narrow(froe_kinetic *k, const poly_exact *p, int64_t tick, double ou
         bits++;
         num_dyadic s[2] = {num_dyadic_scaled(arena, 1, low, -bits), num_dyadic_scaled(arena, 1, low + 2, -bits)};
         if (!sign) s[0] = s[1] = middle;
-        bracket_of(k, arena, tick, s, out);
+        bracket_of(now, arena, tick, s, out);
         if (!sign) break;
     }
 }
@@ -59,7 +59,7 @@ static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
         int axis = now_claim_axis(&k->now, &claim);
         now_claim_exact(&k->now, &claim, axis, &p);
         int end = sign_at(arena, &p, num_dyadic_scaled(arena, 1, 2, 0));
-        if (exact_sign(&p) > 0 && end <= 0) narrow(k, &p, before, out);
+        if (exact_sign(&p) > 0 && end <= 0) narrow(&k->now, &p, before, out);
     }
     k->now.tick = tick;
 }
@@ -67,7 +67,7 @@ static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
 froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_instant: NULL");
-    if (!k->events.told) return support_fail(diag, FROE_E_ARG, "no event is being reported");
+    if (!k->events.reporting) return support_fail(diag, FROE_E_ARG, "no event is being reported");
     now_catch_up(&k->now);
     num_arena *arena = &k->now.context.arena;
     arena->top = 0;
@@ -75,8 +75,8 @@ froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic
     const num_dyadic s[2] = {num_dyadic_scaled(arena, 1, 0, 0),
                              num_dyadic_scaled(arena, 1, (uint64_t)(k->now.tick - before), 0)};
     double bracket[2];
-    bracket_of(k, arena, before, s, bracket);
-    if (k->events.told_claim.q.b != NAME_NONE) refine(k, k->events.told_claim, bracket);
+    bracket_of(&k->now, arena, before, s, bracket);
+    if (k->events.reported.q.b != NAME_NONE) refine(k, k->events.reported, bracket);
     out[0] = bracket[0], out[1] = bracket[1];
     return FROE_OK;
 }

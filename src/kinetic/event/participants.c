@@ -124,17 +124,17 @@ bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t cou
 /* ------------------------------------------------------------------- items -- */
 
 /* Do the points of a certificate lie in different places, and do the segments of each keep away from the other? */
-static bool are_apart(froe_kinetic *k, const name_point name[2], const participants_place place[2]) {
+static bool are_apart(ktree *tree, const name_point name[2], const participants_place place[2]) {
     if (places_meet(place, place + 1)) return false;
     for (int i = 0; i < 2; i++) {
         const participants_place *other = place + (1 - i);
-        uint32_t e = name_is_vertex(name[i]) ? k->tree.vertices.data[name[i].a] : FROE_NONE;
-        for (; e != FROE_NONE; e = ktree_next_end(&k->tree, e)) {
-            const line s = line_of_segment(&k->now, e / 2);
+        uint32_t e = name_is_vertex(name[i]) ? tree->vertices.data[name[i].a] : FROE_NONE;
+        for (; e != FROE_NONE; e = ktree_next_end(tree, e)) {
+            const line s = line_of_segment(tree->now, e / 2);
             if (comes_near(&s, other)) return false;
         }
         for (int j = 0; j < 2 && name_is_crossing(name[i]); j++) {
-            const line s = line_of_segment(&k->now, j ? (uint32_t)name[i].b : name[i].a);
+            const line s = line_of_segment(tree->now, j ? (uint32_t)name[i].b : name[i].a);
             if (comes_near(&s, other)) return false;
         }
     }
@@ -158,7 +158,7 @@ bool participants_add_item(froe_kinetic *k, const slab_item *item) {
         place[i] = place_of_name(&k->now, p, now_spot_of(&k->now, other).x);
         call_push(&k->call, &all->places, place[i]);
     }
-    return slab_is_one_place(&k->tree, item) || are_apart(k, name, place);
+    return slab_is_one_place(&k->tree, item) || are_apart(&k->tree, name, place);
 }
 
 bool participants_have_loose_ends(froe_kinetic *k, const slab_item *item) {

@@ -64,14 +64,13 @@ static bool find_near(const froe_kinetic *k, const slab_item *item, passing *p) 
     return name_is(p->near.site.cell.wall[side], side == KTREE_LEFT ? item->claim.p : item->claim.q);
 }
 
-static bool find_far(froe_kinetic *k, name_point point, passing *p) {
-    const ktree *tree = &k->tree;
+static bool find_far(ktree *tree, name_point point, passing *p) {
     uint8_t slot;
     const int side = p->near.side;
     const uint32_t owner = ktree_wall_owner(tree, p->node, side, &slot);
     const name_point wall = p->near.site.cell.wall[side];
     if (!owner) return false;
-    const now_spot a = now_spot_of(&k->now, point), b = now_spot_of(&k->now, wall);
+    const now_spot a = now_spot_of(tree->now, point), b = now_spot_of(tree->now, wall);
     const double d = a.y - b.y, error = (a.error + b.error) * 2;
     if (!(d > error) && !(d < -error)) return false; /* which one is higher is undecided */
     ktree_site *far = &p->far.site;
@@ -94,9 +93,9 @@ static bool find_far(froe_kinetic *k, name_point point, passing *p) {
 /* --------------------------------------------------------- what crosses the wall -- */
 
 /* Is a wall, if there is one, beyond the line that bounds the thin part of a half? */
-static bool is_beyond(froe_kinetic *k, const half *h, name_point wall) {
+static bool is_beyond(now_state *now, const half *h, name_point wall) {
     if (!name_exists(wall)) return true;
-    int order = now_compare(&k->now, wall, (name_point){(uint32_t)(1 - h->side), NAME_LINE});
+    int order = now_compare(now, wall, (name_point){(uint32_t)(1 - h->side), NAME_LINE});
     return h->side == KTREE_RIGHT ? order < 0 : order > 0;
 }
 
@@ -120,7 +119,8 @@ static bool walk_half(froe_kinetic *k, const half *h, uint32_t node) {
         n->stamp = tree->stamp;
         k->counts.nodes_touched++;
         const bool ends = n->wall[h->side] != KTREE_NO_WALL;
-        if (!is_beyond(k, h, ktree_wall_name(tree, n->segment, n->wall[ends ? h->side : 1 - h->side]))) return false;
+        if (!is_beyond(&k->now, h, ktree_wall_name(tree, n->segment, n->wall[ends ? h->side : 1 - h->side])))
+            return false;
         if (ends) {
             push_half_visit(k, n->child[h->side], 0);
             continue;
@@ -148,12 +148,12 @@ static bool list_crossing(froe_kinetic *k, passing *p) {
     const int side = p->near.side;
     ktree_new_list(tree);
     bool thin = p->grows ? walk_half(k, &p->far, root)
-                         : is_beyond(k, &p->far, ktree_wall_name(tree, p->segment, r->wall[side])) &&
+                         : is_beyond(&k->now, &p->far, ktree_wall_name(tree, p->segment, r->wall[side])) &&
                                walk_past(k, &p->far, root);
     p->across = tree->list.count;
     if (!thin) return false;
     if (!p->grows) return walk_half(k, &p->near, n->child[1 - side]);
-    return is_beyond(k, &p->near, ktree_wall_name(tree, p->segment, n->wall[1 - side])) &&
+    return is_beyond(&k->now, &p->near, ktree_wall_name(tree, p->segment, n->wall[1 - side])) &&
            walk_past(k, &p->near, p->node);
 }
 
@@ -164,16 +164,16 @@ static bool list_crossing(froe_kinetic *k, passing *p) {
 enum { MOST_FAN = 8 };
 
 /* Those that come from the wall, from below. -1: too many, or some in one line, or earlier than s. */
-static int fan_of(froe_kinetic *k, const passing *p, uint32_t vertex, uint32_t fan[MOST_FAN]) {
+static int fan_of(ktree *tree, const passing *p, uint32_t vertex, uint32_t fan[MOST_FAN]) {
     int count = 0;
-    for (uint32_t e = k->tree.vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(&k->tree, e)) {
-        const uint32_t s = e / 2, other = k->now.segments.data[s].end[1 - e % 2];
-        if (!ktree_segment_at(&k->tree, s)->here) continue;
-        if (count == MOST_FAN || ktree_before(&k->tree, s, p->segment)) return -1;
-        if ((uint32_t)now_end(&k->now, s, p->near.side) != e % 2) continue;
+    for (uint32_t e = tree->vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(tree, e)) {
+        const uint32_t s = e / 2, other = tree->now->segments.data[s].end[1 - e % 2];
+        if (!ktree_segment_at(tree, s)->here) continue;
+        if (count == MOST_FAN || ktree_before(tree, s, p->segment)) return -1;
+        if ((uint32_t)now_end(tree->now, s, p->near.side) != e % 2) continue;
         int at = count++;
         for (; at; at--) {
-            int side = now_side(&k->now, fan[at - 1], other);
+            int side = now_side(tree->now, fan[at - 1], other);
             if (!side) return -1;
             if (side > 0) break;
             fan[at] = fan[at - 1];
@@ -184,11 +184,11 @@ static int fan_of(froe_kinetic *k, const passing *p, uint32_t vertex, uint32_t f
 }
 
 /* How many of those that cross the wall are below the vertex. False: one goes through it. */
-static bool find_height(froe_kinetic *k, passing *p, uint32_t vertex) {
+static bool find_height(ktree *tree, passing *p, uint32_t vertex) {
     size_t low = 0, high = p->across;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        int side = now_side(&k->now, k->tree.list.data[middle], vertex);
+        int side = now_side(tree->now, tree->list.data[middle], vertex);
         if (!side) return false;
         if (side > 0)
             low = middle + 1;
@@ -200,23 +200,22 @@ static bool find_height(froe_kinetic *k, passing *p, uint32_t vertex) {
 }
 
 /* Makes the list that of the segments that will cross the thin part of the far cell, without s. False: refused. */
-static bool list_crossing_after(froe_kinetic *k, passing *p, name_point point) {
-    ktree *tree = &k->tree;
+static bool list_crossing_after(ktree *tree, passing *p, name_point point) {
     if (!ktree_is_end(p->wall)) {
         p->below = p->wall == p->near.site.cell.top ? p->across : 0;
         return true;
     }
-    if (ktree_next_end(tree, tree->vertices.data[point.a]) == FROE_NONE) return find_height(k, p, point.a);
+    if (ktree_next_end(tree, tree->vertices.data[point.a]) == FROE_NONE) return find_height(tree, p, point.a);
     uint32_t fan[MOST_FAN];
     size_t kept = 0;
-    const int count = fan_of(k, p, point.a, fan);
+    const int count = fan_of(tree, p, point.a, fan);
     if (count < 0) return false;
     for (size_t i = 0; i < p->across; i++) /* without those at the vertex */
-        if (!now_has_end(&k->now, tree->list.data[i], point.a)) tree->list.data[kept++] = tree->list.data[i];
+        if (!now_has_end(tree->now, tree->list.data[i], point.a)) tree->list.data[kept++] = tree->list.data[i];
     p->across = kept;
-    if (!find_height(k, p, point.a)) return false;
+    if (!find_height(tree, p, point.a)) return false;
     tree->list.count = p->across;
-    if (!call_reserve(&k->call, &tree->list, MOST_FAN)) return false;
+    if (!call_reserve(tree->call, &tree->list, MOST_FAN)) return false;
     size_t at = p->below;
     for (int i = 0; i < count; i++) {
         if (fan[i] == p->segment) {
@@ -293,9 +292,9 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     passing p;
     if (!find_near(k, item, &p)) return PASS_REFUSED;
     const name_point point = ktree_wall_name(tree, p.segment, p.wall);
-    if (!find_far(k, point, &p)) return PASS_REFUSED;
+    if (!find_far(tree, point, &p)) return PASS_REFUSED;
     const ktree_cell *near = &p.near.site.cell, *far = &p.far.site.cell;
-    if (!is_beyond(k, &p.near, near->wall[p.far.side]) || !is_beyond(k, &p.far, far->wall[p.near.side]))
+    if (!is_beyond(&k->now, &p.near, near->wall[p.far.side]) || !is_beyond(&k->now, &p.far, far->wall[p.near.side]))
         return PASS_REFUSED;
     surgery_begin(k);
     if (!list_crossing(k, &p)) return PASS_REFUSED;
@@ -303,7 +302,7 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     bool more = participants_add_near(k, (uint32_t[]){near->top, near->bottom, far->top, far->bottom}, 4);
     more = participants_add_near(k, tree->list.data, tree->list.count) || more;
     if (more) return PASS_NEIGHBOURS;
-    if (!list_crossing_after(k, &p, point) || k->now.lost) return PASS_REFUSED;
+    if (!list_crossing_after(tree, &p, point) || k->now.lost) return PASS_REFUSED;
     k->counts.surgeries++;
     move_segment(k, &p);
     if (k->call.stopped) return PASS_DONE;

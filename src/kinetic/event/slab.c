@@ -23,27 +23,27 @@ void slab_reach(now_state *now, double slab[2], name_point p) {
 }
 
 /* Where the segments at a vertex cross another one. */
-static void reach_crossings(froe_kinetic *k, double slab[2], uint32_t vertex, uint32_t other) {
-    for (uint32_t e = k->tree.vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(&k->tree, e))
-        if (ktree_segment_at(&k->tree, e / 2)->here && e / 2 != other)
-            participants_reach_pair(&k->now, slab, e / 2, other);
+static void reach_crossings(ktree *tree, double slab[2], uint32_t vertex, uint32_t other) {
+    for (uint32_t e = tree->vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(tree, e))
+        if (ktree_segment_at(tree, e / 2)->here && e / 2 != other)
+            participants_reach_pair(tree->now, slab, e / 2, other);
 }
 
-void slab_find(froe_kinetic *k, slab_item *item) {
+void slab_find(ktree *tree, slab_item *item) {
     name_point p = item->claim.p, q = item->claim.q, third;
-    if (k->now.motion->top > SAFE_TOP) { /* one group, and the whole tree anew */
+    if (tree->now->motion->top > SAFE_TOP) { /* one group, and the whole tree anew */
         item->slab[0] = -(double)INFINITY, item->slab[1] = (double)INFINITY;
         return;
     }
     item->slab[0] = (double)INFINITY, item->slab[1] = -(double)INFINITY;
-    slab_reach(&k->now, item->slab, q);
+    slab_reach(tree->now, item->slab, q);
     if (p.b == NAME_SEGMENT) {
-        reach_crossings(k, item->slab, q.a, p.a);
+        reach_crossings(tree, item->slab, q.a, p.a);
         return;
     }
-    slab_reach(&k->now, item->slab, p);
-    uint32_t met = now_met_segment(&k->now, p, q);
-    if (met != FROE_NONE) reach_crossings(k, item->slab, name_is_vertex(p) ? p.a : q.a, met);
+    slab_reach(tree->now, item->slab, p);
+    uint32_t met = now_met_segment(tree->now, p, q);
+    if (met != FROE_NONE) reach_crossings(tree, item->slab, name_is_vertex(p) ? p.a : q.a, met);
     if (name_is_crossing(p) && name_is_crossing(q) && name_third_crossing(p, q, &third))
-        slab_reach(&k->now, item->slab, third);
+        slab_reach(tree->now, item->slab, third);
 }

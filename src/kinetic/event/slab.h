@@ -14,7 +14,7 @@ typedef struct slab_item {
 
 /** Widens a slab by a point. Lines without a crossing: not at all. */
 void slab_reach(now_state *now, double slab[2], name_point p);
-void slab_find(froe_kinetic *k, slab_item *item);
+void slab_find(ktree *tree, slab_item *item);
 /** Are its points about the same segments, so that they meet in one place? */
 bool slab_is_one_place(const ktree *tree, const slab_item *item);
 #endif

@@ -95,6 +95,10 @@ static inline bool now_is_alive(const now_state *now, uint32_t segment) {
     const motion_object *o = now->motion->objects.data + segment;
     return o->first <= now->tick && now->tick <= o->last;
 }
+/** The last odd tick of the window. */
+static inline int64_t now_last_tick(const now_state *now) {
+    return (now->motion->last_tick - 1) | 1;
+}
 /** a / b, b > 0. */
 static inline num_ball now_divide(num_ball a, num_ball b) {
     double q = a.x / b.x, least = b.x - b.e;

@@ -10,7 +10,7 @@
  *
  * The tree is a function of the order of the segments (their keys) and of where they are. This header knows neither
  * how it is changed when that changes (event/surgery.h) nor how such a change is noticed (certificate/cert.h). It keeps
- * what these two tell one another: stamps of what a surgery touched, and the numbers of certificates of regions. */
+ * what these two exchange: stamps of what a surgery touched, and the numbers of certificates of regions. */
 #ifndef FROE_KINETIC_KTREE_H
 #define FROE_KINETIC_KTREE_H
 #include "kinetic/call.h"
