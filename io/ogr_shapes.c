@@ -3,8 +3,8 @@
 #include "formats/input/triangulate.h"
 
 void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes) {
-    formats_buffer_free(alloc, &shapes->stack);
-    formats_buffer_free(alloc, &shapes->points);
+    array_free(alloc, &shapes->stack);
+    array_free(alloc, &shapes->points);
 }
 
 static froe_status shapes_out_of_memory(formats_sink *sink) {
@@ -15,9 +15,8 @@ static froe_status shapes_out_of_memory(formats_sink *sink) {
 static froe_status load_points(formats_sink *sink, io_shapes *shapes, OGRGeometryH line, size_t *count) {
     int n = OGR_G_GetPointCount(line);
     *count = n > 0 ? (size_t)n : 0;
-    shapes->points.size = 0;
-    double *xy = formats_buffer_add(&sink->alloc, &shapes->points, (*count + 1) * 2 * sizeof *xy);
-    if (!xy) return shapes_out_of_memory(sink);
+    if (!array_reserve(&sink->alloc, &shapes->points, (*count + 1) * 2)) return shapes_out_of_memory(sink);
+    double *xy = shapes->points.data;
     if (*count) OGR_G_GetPoints(line, xy, 2 * sizeof *xy, xy + 1, 2 * sizeof *xy, NULL, 0);
     return FROE_OK;
 }
@@ -33,12 +32,11 @@ static bool is_collection(OGRwkbGeometryType type) {
 /* Calls fn for every part that is no collection, in order. */
 static froe_status each_part(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry, part_fn *fn, void *user) {
     const froe_allocator *alloc = &sink->alloc;
-    shapes->stack.size = 0;
-    if (!formats_buffer_put(alloc, &shapes->stack, &geometry, sizeof geometry)) return shapes_out_of_memory(sink);
+    shapes->stack.count = 0;
+    if (!array_push(alloc, &shapes->stack, geometry)) return shapes_out_of_memory(sink);
     froe_status status = FROE_OK;
-    while (shapes->stack.size && !status) {
-        shapes->stack.size -= sizeof(OGRGeometryH);
-        OGRGeometryH part = *(OGRGeometryH *)((char *)shapes->stack.data + shapes->stack.size);
+    while (shapes->stack.count && !status) {
+        OGRGeometryH part = shapes->stack.data[--shapes->stack.count];
         OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(part));
         if (!is_collection(type)) {
             status = fn(user, sink, shapes, part, type);
@@ -46,7 +44,7 @@ static froe_status each_part(formats_sink *sink, io_shapes *shapes, OGRGeometryH
         }
         for (int i = OGR_G_GetGeometryCount(part); i-- > 0;) {
             OGRGeometryH child = OGR_G_GetGeometryRef(part, i);
-            if (!formats_buffer_put(alloc, &shapes->stack, &child, sizeof child)) return shapes_out_of_memory(sink);
+            if (!array_push(alloc, &shapes->stack, child)) return shapes_out_of_memory(sink);
         }
     }
     return status;
@@ -100,35 +98,19 @@ static froe_status add_line(formats_sink *sink, io_shapes *shapes, OGRGeometryH 
     return status;
 }
 
-static froe_status add_polygon(formats_sink *sink, io_shapes *shapes, OGRGeometryH polygon) {
-    int rings = OGR_G_GetGeometryCount(polygon);
-    froe_status status = FROE_OK;
-    formats_sink_new_face(sink);
-    for (int i = 0; i < rings && !status; ++i) status = add_line(sink, shapes, OGR_G_GetGeometryRef(polygon, i), true);
-    sink->face = FROE_NONE;
-    return status;
-}
-
-static froe_status add_ogr_point(formats_sink *sink, OGRGeometryH point) {
-    double p[2] = {OGR_G_GetX(point, 0), OGR_G_GetY(point, 0)};
-    return formats_sink_point(sink, p);
-}
-
 static froe_status add_part(void *user, formats_sink *sink, io_shapes *shapes, OGRGeometryH part,
                             OGRwkbGeometryType type) {
     (void)user;
     if (OGR_G_IsEmpty(part)) return ++sink->report.skipped, FROE_OK;
-    switch (type) {
-    case wkbPoint:
-        return add_ogr_point(sink, part);
-    case wkbLineString:
-        return add_line(sink, shapes, part, false);
-    case wkbPolygon:
-    case wkbTriangle:
-        return add_polygon(sink, shapes, part);
-    default:
-        return ++sink->report.skipped, FROE_OK;
-    }
+    if (type == wkbPoint) return formats_sink_point(sink, (const double[]){OGR_G_GetX(part, 0), OGR_G_GetY(part, 0)});
+    if (type == wkbLineString) return add_line(sink, shapes, part, false);
+    if (type != wkbPolygon && type != wkbTriangle) return ++sink->report.skipped, FROE_OK;
+    const int rings = OGR_G_GetGeometryCount(part);
+    froe_status status = FROE_OK;
+    formats_sink_new_face(sink);
+    for (int i = 0; i < rings && !status; ++i) status = add_line(sink, shapes, OGR_G_GetGeometryRef(part, i), true);
+    sink->face = FROE_NONE;
+    return status;
 }
 
 froe_status io_shapes_add(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry) {

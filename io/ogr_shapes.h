@@ -7,8 +7,8 @@
 
 /** Scratch memory, kept from feature to feature. */
 typedef struct io_shapes {
-    formats_buffer stack;  /**< of OGRGeometryH */
-    formats_buffer points; /**< xy doubles */
+    ARRAY(OGRGeometryH) stack;
+    ARRAY(double) points; /**< xy */
 } io_shapes;
 void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes);
 

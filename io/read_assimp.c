@@ -40,22 +40,27 @@ typedef struct visit {
     double parent[12];
 } visit;
 
-typedef struct walk {
+typedef struct material_group {
+    unsigned material;
+    uint32_t group;
+} material_group;
+
+typedef struct model {
     const struct aiScene *scene;
     formats_sink *sink;
-    formats_buffer stack;     /* of visit */
-    formats_buffer points;    /* transformed vertices of a mesh, doubles */
-    formats_buffer corners;   /* of a face, doubles */
-    formats_buffer materials; /* of the current node: pairs material, group (uint32_t) */
+    ARRAY(visit) stack;
+    ARRAY(double) points;         /* transformed vertices of a mesh, 3 each */
+    ARRAY(double) corners;        /* of a face, 3 each */
+    ARRAY(material_group) groups; /* of the current node */
     uint64_t faces, faces_done;
     bool linear; /* colours are shares of light (glTF), not of sRGB */
-} walk;
+} model;
 
-static froe_status assimp_out_of_memory(walk *w) {
+static froe_status assimp_out_of_memory(model *w) {
     return support_fail(w->sink->diag, FROE_E_MEMORY, "%s: out of memory", support_short(w->sink->path));
 }
 
-static froe_status corrupt(walk *w, const char *what) {
+static froe_status corrupt(model *w, const char *what) {
     return support_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(w->sink->path), what);
 }
 
@@ -67,10 +72,10 @@ static void multiply(const double *parent, const struct aiMatrix4x4 *m, double *
                              (j == 3 ? parent[4 * i + 3] : 0);
 }
 
-static froe_status transform(walk *w, const struct aiMesh *mesh, const double *m) {
-    w->points.size = 0;
-    double *to = formats_buffer_add(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3 * sizeof *to);
-    if (!to) return assimp_out_of_memory(w);
+/* The vertices of a mesh in space: m holds the rows of a 3 x 4 matrix. */
+static froe_status transform(model *w, const struct aiMesh *mesh, const double *m) {
+    if (!array_reserve(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3)) return assimp_out_of_memory(w);
+    double *to = w->points.data;
     for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
         const double p[3] = {mesh->mVertices[i].x, mesh->mVertices[i].y, mesh->mVertices[i].z};
         for (int k = 0; k < 3; ++k, ++to)
@@ -79,46 +84,29 @@ static froe_status transform(walk *w, const struct aiMesh *mesh, const double *m
     return FROE_OK;
 }
 
-static froe_status add_face(walk *w, const struct aiMesh *mesh, const struct aiFace *face) {
-    const double *points = w->points.data;
-    w->corners.size = 0;
+static froe_status add_face(model *w, const struct aiMesh *mesh, const struct aiFace *face) {
+    w->corners.count = 0;
     for (unsigned i = 0; i < face->mNumIndices; ++i) {
         unsigned at = face->mIndices[i];
         if (at >= mesh->mNumVertices) return corrupt(w, "a face names a vertex that does not exist");
-        if (!formats_buffer_put(&w->sink->alloc, &w->corners, points + 3 * (size_t)at, 3 * sizeof *points))
+        if (!array_append(&w->sink->alloc, &w->corners, w->points.data + 3 * (size_t)at, 3))
             return assimp_out_of_memory(w);
     }
     if (!face->mNumIndices) return ++w->sink->report.skipped, FROE_OK;
     return formats_sink_face(w->sink, w->corners.data, face->mNumIndices);
 }
 
-static froe_status report_assimp(walk *w) {
+static froe_status report_assimp(model *w) {
     enum { FACES_PER_REPORT = 8192 };
     if (w->faces_done++ % FACES_PER_REPORT) return FROE_OK;
     double half = w->faces ? 0.5 * (double)w->faces_done / (double)w->faces : 0.5;
     return formats_sink_progress(w->sink, 0.5 + half); /* the import itself was the first half */
 }
 
-/* A mesh without faces is a cloud of points. */
-static froe_status add_cloud(walk *w, const struct aiMesh *mesh) {
-    froe_status status = FROE_OK;
-    const double *points = w->points.data;
-    for (unsigned i = 0; i < mesh->mNumVertices && !status; ++i) {
-        status = formats_sink_point(w->sink, points + 3 * (size_t)i);
-        if (!status) status = report_assimp(w);
-    }
-    return status;
-}
-
-static const char *material_name(walk *w, unsigned index, struct aiString *name) {
+static const char *material_name(model *w, unsigned index, struct aiString *name) {
     *name = (struct aiString){.length = 0};
     if (index < w->scene->mNumMaterials) aiGetMaterialString(w->scene->mMaterials[index], AI_MATKEY_NAME, name);
     return name->data;
-}
-
-/* From shares of light to sRGB (IEC 61966-2-1). */
-static double srgb(double light) {
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
 }
 
 /* In glTF only materials whose alpha mode is BLEND are transparent. */
@@ -133,7 +121,7 @@ static double opacity_of(const struct aiMaterial *material, double alpha) {
 }
 
 /* 0: there is none, or it is made up by assimp, or a picture says it. */
-static uint32_t material_colour(walk *w, unsigned index) {
+static uint32_t material_colour(model *w, unsigned index) {
     struct aiColor4D c;
     struct aiString name;
     if (index >= w->scene->mNumMaterials || !strcmp(material_name(w, index, &name), AI_DEFAULT_MATERIAL_NAME)) return 0;
@@ -145,78 +133,70 @@ static uint32_t material_colour(walk *w, unsigned index) {
         aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &c))
         return 0;
     double rgba[4] = {c.r, c.g, c.b, opacity_of(material, c.a)};
-    for (int k = 0; w->linear && k < 3; k++) rgba[k] = srgb(rgba[k]);
+    for (int k = 0; w->linear && k < 3; k++) /* from shares of light to sRGB (IEC 61966-2-1) */
+        rgba[k] = rgba[k] <= 0.0031308 ? 12.92 * rgba[k] : 1.055 * pow(rgba[k], 1 / 2.4) - 0.055;
     return formats_colour(rgba);
 }
 
 /* One group for each node and name of a material, or with `boxes` for each node. */
-static froe_status enter_node_group(walk *w, const struct aiNode *node, unsigned material) {
+static froe_status enter_node_group(model *w, const struct aiNode *node, unsigned material) {
     struct aiString name, other;
     material_name(w, material, &name);
-    const uint32_t *known = w->materials.data;
-    for (size_t i = 0; i < w->materials.size / sizeof *known; i += 2) {
-        bool same = w->sink->boxes || known[i] == material || !strcmp(material_name(w, known[i], &other), name.data);
-        if (same) return w->sink->group = known[i + 1], FROE_OK;
+    for (size_t i = 0; i < w->groups.count; ++i) {
+        const material_group *known = w->groups.data + i;
+        bool same = w->sink->boxes || known->material == material ||
+                    !strcmp(material_name(w, known->material, &other), name.data);
+        if (same) return w->sink->group = known->group, FROE_OK;
     }
     froe_group group = {.name = node->mName.data, .material = name.data, .colour = material_colour(w, material)};
     froe_status status = formats_sink_group(w->sink, &group);
     if (status) return status;
-    uint32_t pair[2] = {material, w->sink->group};
-    return formats_buffer_put(&w->sink->alloc, &w->materials, pair, sizeof pair) ? FROE_OK : assimp_out_of_memory(w);
+    const material_group added = {material, w->sink->group};
+    return array_push(&w->sink->alloc, &w->groups, added) ? FROE_OK : assimp_out_of_memory(w);
 }
 
-static froe_status add_mesh(walk *w, const struct aiNode *node, unsigned index, const double *m) {
+/* A mesh without faces is a cloud of points. */
+static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index, const double *m) {
     if (index >= w->scene->mNumMeshes) return corrupt(w, "a node names a mesh that does not exist");
     const struct aiMesh *mesh = w->scene->mMeshes[index];
+    const bool cloud = !mesh->mNumFaces;
     froe_status status = enter_node_group(w, node, mesh->mMaterialIndex);
     if (!status) status = transform(w, mesh, m);
-    if (!status && !mesh->mNumFaces) status = add_cloud(w, mesh);
-    for (unsigned i = 0; i < mesh->mNumFaces && !status; ++i) {
-        w->sink->number = i;
-        status = add_face(w, mesh, &mesh->mFaces[i]);
+    for (unsigned i = 0; i < (cloud ? mesh->mNumVertices : mesh->mNumFaces) && !status; ++i) {
+        if (!cloud) w->sink->number = i;
+        status =
+            cloud ? formats_sink_point(w->sink, w->points.data + 3 * (size_t)i) : add_face(w, mesh, &mesh->mFaces[i]);
         if (!status) status = report_assimp(w);
     }
     return status;
 }
 
-static froe_status add_node(walk *w, const struct aiNode *node, const double *m) {
-    if (!node->mNumMeshes) return FROE_OK;
-    froe_status status = formats_sink_feature(w->sink, w->sink->report.features);
-    w->sink->inside = node->mName.data;
-    w->materials.size = 0;
-    for (unsigned i = 0; i < node->mNumMeshes && !status; ++i) status = add_mesh(w, node, node->mMeshes[i], m);
-    return status;
-}
-
-static froe_status push(walk *w, const struct aiNode *node, const double *parent) {
+static froe_status push(model *w, const struct aiNode *node, const double *parent) {
     visit next = {.node = node};
     memcpy(next.parent, parent, sizeof next.parent);
-    return formats_buffer_put(&w->sink->alloc, &w->stack, &next, sizeof next) ? FROE_OK : assimp_out_of_memory(w);
+    return array_push(&w->sink->alloc, &w->stack, next) ? FROE_OK : assimp_out_of_memory(w);
 }
 
-static froe_status walk_nodes(walk *w) {
+static froe_status walk_nodes(model *w) {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     froe_status status = push(w, w->scene->mRootNode, identity);
-    while (!status && w->stack.size) {
-        visit at;
-        w->stack.size -= sizeof at;
-        memcpy(&at, (char *)w->stack.data + w->stack.size, sizeof at);
+    while (!status && w->stack.count) {
+        const visit at = w->stack.data[--w->stack.count];
+        const struct aiNode *node = at.node;
         double m[12];
-        multiply(at.parent, &at.node->mTransformation, m);
-        status = add_node(w, at.node, m);
-        for (unsigned i = at.node->mNumChildren; i-- > 0 && !status;) status = push(w, at.node->mChildren[i], m);
+        multiply(at.parent, &node->mTransformation, m);
+        if (node->mNumMeshes) {
+            status = formats_sink_feature(w->sink, w->sink->report.features);
+            w->sink->inside = node->mName.data;
+            w->groups.count = 0;
+        }
+        for (unsigned i = 0; i < node->mNumMeshes && !status; ++i) status = add_mesh(w, node, node->mMeshes[i], m);
+        for (unsigned i = node->mNumChildren; i-- > 0 && !status;) status = push(w, node->mChildren[i], m);
     }
     return status;
 }
 
 /* --------------------------------------------------------------- import -- */
-
-static uint64_t count_faces(const struct aiScene *scene) {
-    uint64_t faces = 0; /* instances count once: only the progress bar depends on it */
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
-        faces += scene->mMeshes[i]->mNumFaces ? scene->mMeshes[i]->mNumFaces : scene->mMeshes[i]->mNumVertices;
-    return faces;
-}
 
 /* "glTF2 Importer" becomes "glTF2 (assimp)". */
 static void set_format(const formats_source *source, formats_sink *sink, const struct aiScene *scene) {
@@ -244,21 +224,18 @@ static froe_status refuse_import(const formats_source *source, formats_sink *sin
                         *reason ? reason : "is of no type that can be read");
 }
 
-static froe_status import(const formats_source *source, formats_sink *sink, const struct aiScene **scene) {
-    pthread_mutex_lock(&import_lock);
-    *scene = aiImportFile(source->path, 0);
-    froe_status status = *scene ? FROE_OK : refuse_import(source, sink);
-    pthread_mutex_unlock(&import_lock);
-    return status;
-}
-
 froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_sink_open(sink, 3);
     if (!status) status = formats_sink_progress(sink, 0);
-    const struct aiScene *scene;
-    if (!status) status = import(source, sink, &scene);
     if (status) return status;
-    walk w = {.scene = scene, .sink = sink, .faces = count_faces(scene)};
+    pthread_mutex_lock(&import_lock);
+    const struct aiScene *scene = aiImportFile(source->path, 0);
+    if (!scene) status = refuse_import(source, sink);
+    pthread_mutex_unlock(&import_lock);
+    if (status) return status;
+    model w = {.scene = scene, .sink = sink};
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) /* instances count once: only the progress bar depends on it */
+        w.faces += scene->mMeshes[i]->mNumFaces ? scene->mMeshes[i]->mNumFaces : scene->mMeshes[i]->mNumVertices;
     set_format(source, sink, scene);
     w.linear = !strncmp(sink->report.format, "glTF", 4);
     sink->unit = "face";
@@ -266,8 +243,10 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "has no nodes");
     if (!status) status = formats_sink_end_feature(sink);
     sink->inside = NULL; /* it belongs to assimp's scene */
-    formats_buffer *buffers[] = {&w.stack, &w.points, &w.corners, &w.materials};
-    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) formats_buffer_free(&sink->alloc, buffers[i]);
+    array_free(&sink->alloc, &w.stack);
+    array_free(&sink->alloc, &w.points);
+    array_free(&sink->alloc, &w.corners);
+    array_free(&sink->alloc, &w.groups);
     aiReleaseImport(scene);
     return status;
 }

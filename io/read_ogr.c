@@ -33,11 +33,6 @@ static void register_drivers(void) {
     GDALAllRegister();
 }
 
-static void register_once(void) {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, register_drivers);
-}
-
 /* -------------------------------------------------------------- features -- */
 
 typedef struct map {
@@ -60,7 +55,7 @@ static froe_status map_fail(map *m, froe_status status, const char *otherwise) {
 static int find_field(OGRFeatureDefnH fields, const char *const *names) {
     for (; *names; ++names)
         for (int i = 0; i < OGR_FD_GetFieldCount(fields); ++i)
-            if (formats_equal_nocase(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(fields, i)), *names)) return i;
+            if (support_equal_nocase(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(fields, i)), *names)) return i;
     return -1;
 }
 
@@ -94,15 +89,6 @@ static froe_status enter_group(map *m, OGRFeatureH feature, const io_sides *side
     return formats_sink_group(m->sink, &group);
 }
 
-/* The feature's geometry without curves; *own when the caller must destroy it. */
-static OGRGeometryH linear(map *m, OGRFeatureH feature, bool *own) {
-    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
-    *own = geometry && OGR_G_HasCurveGeometry(geometry, FALSE);
-    if (!*own) return geometry;
-    m->sink->report.linearised += OGR_G_HasCurveGeometry(geometry, TRUE) != 0;
-    return OGR_G_GetLinearGeometry(geometry, 0, NULL);
-}
-
 static froe_status add_feature(map *m, OGRFeatureH feature) {
     formats_sink *sink = m->sink;
     GIntBig id = OGR_F_GetFID(feature);
@@ -110,54 +96,45 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
     if (status) return status;
     sink->tagged = id >= 0;
     sink->tag = (uint64_t)id;
-    bool own;
-    OGRGeometryH geometry = linear(m, feature, &own);
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    const bool curved = geometry && OGR_G_HasCurveGeometry(geometry, FALSE);
+    if (curved) { /* a copy without curves */
+        sink->report.linearised += OGR_G_HasCurveGeometry(geometry, TRUE) != 0;
+        geometry = OGR_G_GetLinearGeometry(geometry, 0, NULL);
+    }
     if (!geometry)
-        return own ? formats_sink_fail(sink, FROE_E_FORMAT, "its curves cannot be linearised")
-                   : (++sink->report.no_geometry, FROE_OK);
+        return curved ? formats_sink_fail(sink, FROE_E_FORMAT, "its curves cannot be linearised")
+                      : (++sink->report.no_geometry, FROE_OK);
     sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
     io_sides sides;
     status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
     if (!status) status = enter_group(m, feature, &sides);
     if (!status) status = io_shapes_add(sink, &m->shapes, geometry);
-    if (own) OGR_G_DestroyGeometry(geometry);
+    if (curved) OGR_G_DestroyGeometry(geometry);
     return status;
 }
 
-static froe_status report_ogr(map *m, double done) {
+/* The features of one layer, or of all. A file like OSM, that knows the layer of a feature only when it has read it,
+ * gives all of them mixed. */
+static froe_status add_features(map *m, OGRLayerH one) {
     enum { FEATURES_PER_REPORT = 256 };
-    return m->features_done++ % FEATURES_PER_REPORT ? FROE_OK : formats_sink_progress(m->sink, done);
-}
-
-/* All layers. A file like OSM, that knows the layer of a feature only when it has
- * read it, gives them mixed. */
-static froe_status add_all(map *m) {
+    const bool reporting = m->sink->progress != NULL;
     froe_status status = FROE_OK;
-    double done = 0;
-    GDALDatasetResetReading(m->data);
+    double expected = reporting && one ? (double)OGR_L_GetFeatureCount(one, FALSE) : -1, done = 0;
+    if (one)
+        OGR_L_ResetReading(one);
+    else
+        GDALDatasetResetReading(m->data);
     while (!status) {
-        OGRLayerH layer = NULL;
-        OGRFeatureH feature = GDALDatasetGetNextFeature(m->data, &layer, m->sink->progress ? &done : NULL, NULL, NULL);
+        OGRLayerH layer = one;
+        OGRFeatureH feature = one ? OGR_L_GetNextFeature(one)
+                                  : GDALDatasetGetNextFeature(m->data, &layer, reporting ? &done : NULL, NULL, NULL);
         if (!feature) break;
         enter_layer(m, layer);
         status = add_feature(m, feature);
         OGR_F_Destroy(feature);
-        if (!status) status = report_ogr(m, done);
-    }
-    return status;
-}
-
-static froe_status add_layer(map *m, OGRLayerH layer) {
-    froe_status status = FROE_OK;
-    double expected = m->sink->progress ? (double)OGR_L_GetFeatureCount(layer, FALSE) : -1;
-    enter_layer(m, layer);
-    OGR_L_ResetReading(layer);
-    while (!status) {
-        OGRFeatureH feature = OGR_L_GetNextFeature(layer);
-        if (!feature) break;
-        status = add_feature(m, feature);
-        OGR_F_Destroy(feature);
-        if (!status) status = report_ogr(m, expected > 0 ? (double)m->features_done / expected : 0);
+        if (one) done = expected > 0 ? (double)m->features_done / expected : 0;
+        if (!status && m->features_done++ % FEATURES_PER_REPORT == 0) status = formats_sink_progress(m->sink, done);
     }
     return status;
 }
@@ -197,31 +174,28 @@ static froe_status add_layers(map *m) {
     m->sink->report.layers = one ? 1 : (uint64_t)layers;
     m->sink->report.layers_left = (uint64_t)layers - m->sink->report.layers;
     m->heard.failed = false; /* earlier failures did not keep the file from opening */
-    if (!status) status = one ? add_layer(m, one) : add_all(m);
+    if (!status) status = add_features(m, one);
     if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "cannot be read to its end");
     if (!status) status = formats_sink_end_feature(m->sink);
     m->sink->inside = NULL;
     return status;
 }
 
-static GDALDatasetH open_map(const formats_source *source) {
+froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
     /* columns with geometry have many names */
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
     static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
                                          "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
-    bool is_csv = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
-    return GDALOpenEx(source->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
-                      is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
-}
-
-froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
+    const bool is_csv = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
     map m = {.source = source, .sink = sink, .heard.path = source->path};
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);
     if (status) return status;
     CPLPushErrorHandlerEx(hear, &m.heard);
-    register_once();
-    m.data = open_map(source);
+    pthread_once(&once, register_drivers);
+    m.data = GDALOpenEx(source->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
+                        is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
     if (!m.data) status = map_fail(&m, FROE_E_FORMAT, "is of no type that can be read");
     if (!status) {
         formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));

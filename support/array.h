@@ -8,6 +8,7 @@
 #ifndef FROE_SUPPORT_ARRAY_H
 #define FROE_SUPPORT_ARRAY_H
 #include "support/alloc.h"
+#include <string.h>
 
 #define ARRAY(T)                                                                                                       \
     struct {                                                                                                           \
@@ -21,6 +22,11 @@
      support_array_grow((alloc), (void **)&(a)->data, &(a)->capacity, (a)->count, (size_t)(extra), sizeof *(a)->data))
 /** Appends a copy of `item`. */
 #define array_push(alloc, a, ...) (array_reserve((alloc), (a), 1) && ((a)->data[(a)->count++] = __VA_ARGS__, true))
+/** Appends copies of `n` items, which may be none. */
+#define array_append(alloc, a, items, n)                                                                               \
+    (array_reserve((alloc), (a), (n)) &&                                                                               \
+     ((n) == 0 || memcpy((a)->data + (a)->count, (items), (size_t)(n) * sizeof *(a)->data)) &&                         \
+     ((a)->count += (size_t)(n), true))
 #define array_free(alloc, a)                                                                                           \
     (support_free((alloc), (a)->data, (a)->capacity * sizeof *(a)->data), (a)->data = NULL,                            \
      (a)->count = (a)->capacity = 0)

@@ -46,12 +46,8 @@ static void add_in_cells(formats_maker *m, const size_t *from, const size_t *ext
 /* Boxes of `wide` x `wide` x `other` cells, the odd axis at random, anywhere they find room among the others. */
 static void pack(formats_maker *m, size_t wide, size_t other) {
     size_t volume = wide * wide * other, side = formats_root(4 * volume * m->n, 3) + wide + other;
-    formats_buffer cells = {0};
-    uint8_t *taken = formats_buffer_add(&m->sink.alloc, &cells, side * side * side);
-    if (taken)
-        memset(taken, 0, side * side * side);
-    else
-        m->status = support_fail_memory(m->sink.diag);
+    uint8_t *taken = support_calloc(&m->sink.alloc, side * side * side, 1);
+    if (!taken) m->status = support_fail_memory(m->sink.diag);
     while (!formats_done(m)) {
         int odd = (int)formats_below(m, 3);
         size_t from[3], extent[3];
@@ -61,7 +57,7 @@ static void pack(formats_maker *m, size_t wide, size_t other) {
         }
         if (take_cells(taken, side, from, extent)) add_in_cells(m, from, extent);
     }
-    formats_buffer_free(&m->sink.alloc, &cells);
+    support_free(&m->sink.alloc, taken, side * side * side);
 }
 
 void formats_make_sticks(formats_maker *m) {

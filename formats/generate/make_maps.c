@@ -93,19 +93,18 @@ void formats_make_cells(formats_maker *m) {
     typedef struct cell {
         double lo[2], hi[2];
     } cell;
-    formats_buffer all = {0};
+    ARRAY(cell) all = {0};
     cell at = {{0, 0}, {1, 1}};
-    bool room = formats_buffer_put(&m->sink.alloc, &all, &at, sizeof at);
+    bool room = array_push(&m->sink.alloc, &all, at);
     for (size_t i = 0; room && !formats_done(m); ++i) {
-        memcpy(&at, (cell *)all.data + i, sizeof at);
+        at = all.data[i];
         int axis = at.hi[1] - at.lo[1] > at.hi[0] - at.lo[0];
         double cut = at.lo[axis] + (at.hi[axis] - at.lo[axis]) * formats_between(m, 0.3, 0.7);
         cell below = at, above = at;
         below.hi[axis] = above.lo[axis] = cut;
         formats_make_segment(m, above.lo[0], above.lo[1], below.hi[0], below.hi[1]);
-        room = formats_buffer_put(&m->sink.alloc, &all, &below, sizeof below) &&
-               formats_buffer_put(&m->sink.alloc, &all, &above, sizeof above);
+        room = array_push(&m->sink.alloc, &all, below) && array_push(&m->sink.alloc, &all, above);
     }
     if (!room) m->status = support_fail_memory(m->sink.diag);
-    formats_buffer_free(&m->sink.alloc, &all);
+    array_free(&m->sink.alloc, &all);
 }

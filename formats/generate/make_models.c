@@ -112,11 +112,11 @@ void formats_make_cells_3d(formats_maker *m) {
     typedef struct cell {
         double lo[3], hi[3];
     } cell;
-    formats_buffer all = {0};
+    ARRAY(cell) all = {0};
     cell at = {{0, 0, 0}, {1, 1, 1}};
-    bool room = formats_buffer_put(&m->sink.alloc, &all, &at, sizeof at);
+    bool room = array_push(&m->sink.alloc, &all, at);
     for (size_t i = 0; room && !formats_done(m); ++i) {
-        memcpy(&at, (cell *)all.data + i, sizeof at);
+        at = all.data[i];
         int axis = 0;
         for (int k = 1; k < 3; ++k)
             if (at.hi[k] - at.lo[k] > at.hi[axis] - at.lo[axis]) axis = k;
@@ -130,9 +130,8 @@ void formats_make_cells_3d(formats_maker *m) {
         formats_make_quad(m, corners[0], corners[1], corners[2], corners[3]);
         cell below = at, above = at;
         below.hi[axis] = above.lo[axis] = cut;
-        room = formats_buffer_put(&m->sink.alloc, &all, &below, sizeof below) &&
-               formats_buffer_put(&m->sink.alloc, &all, &above, sizeof above);
+        room = array_push(&m->sink.alloc, &all, below) && array_push(&m->sink.alloc, &all, above);
     }
     if (!room) m->status = support_fail_memory(m->sink.diag);
-    formats_buffer_free(&m->sink.alloc, &all);
+    array_free(&m->sink.alloc, &all);
 }

@@ -55,36 +55,20 @@ static void sort_along_curve(spot *spots, uint32_t count) {
 
 /* ----------------------------------------------------------------- the levels -- */
 
-static uint32_t distinct(const spot *spots, uint32_t count) {
-    uint32_t entries = 0;
-    for (uint32_t i = 0; i < count; ++i) entries += !i || spots[i].place != spots[i - 1].place;
-    return entries;
-}
-
-static void lay_out(formats_corner_index *index, uint32_t width) {
-    while (width) {
-        index->first[index->levels + 1] = index->first[index->levels] + width;
-        ++index->levels;
-        width = width > 1 ? (width + FORMATS_CORNER_FAN - 1) / FORMATS_CORNER_FAN : 0;
-    }
-}
-
 static uint32_t parent(const formats_corner_index *index, uint32_t level, uint32_t entry) {
     return index->first[level + 1] + (entry - index->first[level]) / FORMATS_CORNER_FAN;
 }
 
-static void fill_places(formats_corner_index *index, const spot *spots, uint32_t count) {
+/* The boxes of all levels, from the places of the corners along the curve. */
+static void fill_boxes(formats_corner_index *index, const spot *spots) {
     uint32_t entry = 0;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < index->count; ++i) {
         if (i && spots[i].place != spots[i - 1].place) ++entry;
         double *box = index->box[entry];
         box[0] = box[2] = spots[i].x;
         box[1] = box[3] = spots[i].y;
         index->place[spots[i].corner] = entry;
     }
-}
-
-static void fill_boxes(formats_corner_index *index) {
     for (uint32_t level = 0; level + 1 < index->levels; ++level)
         for (uint32_t i = index->first[level]; i < index->first[level + 1]; ++i) {
             const double *from = index->box[i];
@@ -99,29 +83,34 @@ static void fill_boxes(formats_corner_index *index) {
 
 bool formats_corner_index_new(const froe_allocator *alloc, const double *xy, uint32_t count,
                               formats_corner_index *out) {
-    formats_buffer sorting = {0};
-    spot *spots = formats_buffer_add(alloc, &sorting, count * sizeof *spots);
-    *out = (formats_corner_index){0};
+    spot *spots = support_calloc(alloc, count, sizeof *spots);
+    *out = (formats_corner_index){.count = count};
     if (!spots) return false;
     for (uint32_t i = 0; i < count; ++i) spots[i] = (spot){xy[2 * i], xy[2 * i + 1], 0, i};
     sort_along_curve(spots, count);
-    lay_out(out, distinct(spots, count));
-    size_t entries = out->first[out->levels], words = entries + count;
-    char *room = formats_buffer_add(alloc, &out->buffer, entries * sizeof *out->box + words * sizeof *out->marks);
-    if (room) {
-        out->box = (double(*)[4])(void *)room;
-        out->marks = (uint32_t *)(void *)(room + entries * sizeof *out->box);
-        out->place = out->marks + entries;
-        for (size_t i = 0; i < entries; ++i) out->marks[i] = 0;
-        fill_places(out, spots, count);
-        fill_boxes(out);
+    uint32_t width = 0; /* of level 0: places that differ */
+    for (uint32_t i = 0; i < count; ++i) width += !i || spots[i].place != spots[i - 1].place;
+    while (width) {
+        out->first[out->levels + 1] = out->first[out->levels] + width;
+        ++out->levels;
+        width = width > 1 ? (width + FORMATS_CORNER_FAN - 1) / FORMATS_CORNER_FAN : 0;
     }
-    formats_buffer_free(alloc, &sorting);
+    const size_t entries = out->first[out->levels];
+    out->box = support_calloc(alloc, entries, sizeof *out->box);
+    out->marks = support_calloc(alloc, entries, sizeof *out->marks);
+    out->place = support_calloc(alloc, count, sizeof *out->place);
+    const bool room = out->box && out->marks && out->place;
+    if (room) fill_boxes(out, spots);
+    support_free(alloc, spots, count * sizeof *spots);
     return room;
 }
 
 void formats_corner_index_free(const froe_allocator *alloc, formats_corner_index *index) {
-    formats_buffer_free(alloc, &index->buffer);
+    const size_t entries = index->first[index->levels];
+    support_free(alloc, index->box, entries * sizeof *index->box);
+    support_free(alloc, index->marks, entries * sizeof *index->marks);
+    support_free(alloc, index->place, index->count * sizeof *index->place);
+    *index = (formats_corner_index){0};
 }
 
 void formats_corner_index_mark(formats_corner_index *index, uint32_t corner, bool marked) {
@@ -160,11 +149,6 @@ static bool same_place(const double *p, const double *q) {
     return p[0] == q[0] && p[1] == q[1];
 }
 
-static bool holds(const double *a, const double *b, const double *c, const double *p) {
-    return !same_place(p, a) && !same_place(p, b) && !same_place(p, c) && formats_orient(a, b, p) >= 0 &&
-           formats_orient(b, c, p) >= 0 && formats_orient(c, a, p) >= 0;
-}
-
 bool formats_corner_index_any(const formats_corner_index *index, const double *a, const double *b, const double *c) {
     struct {
         uint32_t level, entry;
@@ -177,7 +161,10 @@ bool formats_corner_index_any(const formats_corner_index *index, const double *a
         at = stack[--top];
         if (!index->marks[at.entry] || beside(index->box[at.entry], a, b, c)) continue;
         if (!at.level) {
-            if (holds(a, b, c, index->box[at.entry])) return true;
+            const double *p = index->box[at.entry];
+            if (!same_place(p, a) && !same_place(p, b) && !same_place(p, c) && formats_orient(a, b, p) >= 0 &&
+                formats_orient(b, c, p) >= 0 && formats_orient(c, a, p) >= 0)
+                return true;
             continue;
         }
         uint32_t child = index->first[at.level - 1] + (at.entry - index->first[at.level]) * FORMATS_CORNER_FAN;

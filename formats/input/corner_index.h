@@ -8,12 +8,12 @@
  * Corners in one place are one entry. */
 #ifndef FROE_FORMATS_CORNER_INDEX_H
 #define FROE_FORMATS_CORNER_INDEX_H
-#include "formats/input/common.h"
+#include "support/alloc.h"
 
 enum { FORMATS_CORNER_FAN = 8, FORMATS_CORNER_LEVELS = 12 };
 
 typedef struct formats_corner_index {
-    formats_buffer buffer;
+    size_t count;                                      /**< corners */
     uint32_t levels, first[FORMATS_CORNER_LEVELS + 1]; /**< entries of each level */
     double (*box)[4];                                  /**< of each entry: low x, y, high x, y */
     uint32_t *marks;                                   /**< of each entry: marked corners below */

@@ -38,15 +38,15 @@ static int axis_of(const char *name, bool sided) {
 }
 
 static int role_of(const char *name, bool *beyond) {
-    if (formats_equal_nocase(name, "r") || formats_equal_nocase(name, "radius")) return FORMATS_CSV_RADIUS;
-    if (formats_equal_nocase(name, "tag")) return FORMATS_CSV_TAG;
-    if (formats_equal_nocase(name, "wkt") || formats_equal_nocase(name, "geometry") ||
-        formats_equal_nocase(name, "geom"))
+    if (support_equal_nocase(name, "r") || support_equal_nocase(name, "radius")) return FORMATS_CSV_RADIUS;
+    if (support_equal_nocase(name, "tag")) return FORMATS_CSV_TAG;
+    if (support_equal_nocase(name, "wkt") || support_equal_nocase(name, "geometry") ||
+        support_equal_nocase(name, "geom"))
         return FORMATS_CSV_GEOMETRY;
     int corner = (name[0] | 0x20) == 'h';
     bool sided = strlen(name) > 3 && name[2] == '_';
     char side[3] = {name[0], sided ? name[1] : '\0', '\0'};
-    if (sided && !formats_equal_nocase(side, "lo") && !formats_equal_nocase(side, "hi")) return FORMATS_CSV_LEFT_ALONE;
+    if (sided && !support_equal_nocase(side, "lo") && !support_equal_nocase(side, "hi")) return FORMATS_CSV_LEFT_ALONE;
     int axis = axis_of(sided ? name + 3 : name, sided);
     if (axis < 0) return FORMATS_CSV_LEFT_ALONE;
     if (axis >= FROE_MAX_DIM) return *beyond = true, FORMATS_CSV_LEFT_ALONE;

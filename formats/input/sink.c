@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { BATCH_OBJECTS = 65536, BATCH_BYTES = 8 << 20 };
+enum { BATCH_OBJECTS = 65536, BATCH_DOUBLES = 1 << 20 };
 
 froe_status formats_sink_open(formats_sink *sink, int dim) {
     sink->dim = dim;
@@ -19,9 +19,12 @@ froe_status formats_sink_open(formats_sink *sink, int dim) {
 }
 
 void formats_sink_free(formats_sink *sink) {
-    formats_buffer *buffers[] = {&sink->coords,       &sink->radii,  &sink->starts,
-                                 &sink->object_faces, &sink->groups, &sink->tags};
-    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) formats_buffer_free(&sink->alloc, buffers[i]);
+    array_free(&sink->alloc, &sink->coords);
+    array_free(&sink->alloc, &sink->radii);
+    array_free(&sink->alloc, &sink->starts);
+    array_free(&sink->alloc, &sink->object_faces);
+    array_free(&sink->alloc, &sink->groups);
+    array_free(&sink->alloc, &sink->tags);
     froe_scene_free(sink->scene);
     sink->scene = NULL;
 }
@@ -47,12 +50,6 @@ froe_status formats_sink_progress(formats_sink *sink, double done) {
 
 /* ------------------------------------------------------------- the batch -- */
 
-static void forget_batch(formats_sink *sink) {
-    sink->coords.size = sink->radii.size = sink->starts.size = 0;
-    sink->object_faces.size = sink->groups.size = sink->tags.size = 0;
-    sink->count = 0;
-}
-
 static froe_status flush(formats_sink *sink) {
     if (!sink->count) return FROE_OK;
     froe_objects batch = froe_objects_defaults();
@@ -72,7 +69,9 @@ static froe_status flush(formats_sink *sink) {
         if (sink->diag) sink->diag->object = why.object, sink->diag->corner = why.corner, sink->diag->axis = why.axis;
         return status;
     }
-    forget_batch(sink);
+    sink->coords.count = sink->radii.count = sink->starts.count = 0;
+    sink->object_faces.count = sink->groups.count = sink->tags.count = 0;
+    sink->count = 0;
     return FROE_OK;
 }
 
@@ -82,7 +81,7 @@ static froe_status sink_out_of_memory(formats_sink *sink) {
 }
 
 static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
-    bool full = sink->count == BATCH_OBJECTS || sink->coords.size > BATCH_BYTES;
+    bool full = sink->count == BATCH_OBJECTS || sink->coords.count > BATCH_DOUBLES;
     if (full || (sink->count && kind != sink->kind)) {
         froe_status status = flush(sink);
         if (status) return status;
@@ -90,19 +89,15 @@ static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double 
     if (sink->total >= FROE_NONE - 1) return formats_sink_fail(sink, FROE_E_LIMIT, "more than 2^32 - 2 objects");
     const froe_allocator *alloc = &sink->alloc;
     sink->kind = kind;
-    uint32_t id = (uint32_t)sink->total, face = sink->face == FROE_NONE ? id : sink->face;
-    uint64_t tag = sink->tagged ? sink->tag : id;
-    size_t point_bytes = (size_t)sink->dim * sizeof(double), start = sink->coords.size / point_bytes;
-    if (kind == FROE_POLYGON) {
-        if (!sink->count && !formats_buffer_put(alloc, &sink->starts, &start, sizeof start))
-            return sink_out_of_memory(sink);
-        size_t end = start + corners;
-        if (!formats_buffer_put(alloc, &sink->starts, &end, sizeof end)) return sink_out_of_memory(sink);
-    }
-    if (!formats_buffer_put(alloc, &sink->coords, coords, corners * point_bytes) ||
-        !formats_buffer_put(alloc, &sink->object_faces, &face, sizeof face) ||
-        !formats_buffer_put(alloc, &sink->groups, &sink->group, sizeof sink->group) ||
-        !formats_buffer_put(alloc, &sink->tags, &tag, sizeof tag))
+    const uint32_t id = (uint32_t)sink->total;
+    const size_t dim = (size_t)sink->dim, start = sink->coords.count / dim;
+    const bool first = kind == FROE_POLYGON && !sink->count;
+    if ((first && !array_push(alloc, &sink->starts, start)) ||
+        (kind == FROE_POLYGON && !array_push(alloc, &sink->starts, start + corners)) ||
+        !array_append(alloc, &sink->coords, coords, corners * dim) ||
+        !array_push(alloc, &sink->object_faces, sink->face == FROE_NONE ? id : sink->face) ||
+        !array_push(alloc, &sink->groups, sink->group) ||
+        !array_push(alloc, &sink->tags, sink->tagged ? sink->tag : id))
         return sink_out_of_memory(sink);
     ++sink->count;
     ++sink->total;
@@ -172,20 +167,18 @@ static froe_status finite(formats_sink *sink, const double *coords, size_t corne
     return FROE_OK;
 }
 
-static void extend(formats_sink *sink, const double *p) {
-    for (int k = 0; k < sink->dim; ++k) {
-        if (!sink->bounded || p[k] < sink->lo[k]) sink->lo[k] = p[k];
-        if (!sink->bounded || p[k] > sink->hi[k]) sink->hi[k] = p[k];
-    }
-    sink->bounded = true;
-}
-
 /* Checks; then adds the object, or with `boxes` only widens the feature's box. */
 static froe_status add_to_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
     froe_status status = finite(sink, coords, corners);
     if (status) return status;
     if (!sink->boxes) return put_in_sink(sink, kind, coords, corners);
-    for (size_t i = 0; i < corners; ++i) extend(sink, coords + i * (size_t)sink->dim);
+    for (size_t i = 0; i < corners * (size_t)sink->dim; ++i) {
+        const size_t k = i % (size_t)sink->dim;
+        const bool first = !sink->bounded && i < (size_t)sink->dim;
+        if (first || coords[i] < sink->lo[k]) sink->lo[k] = coords[i];
+        if (first || coords[i] > sink->hi[k]) sink->hi[k] = coords[i];
+    }
+    sink->bounded = sink->bounded || corners;
     return FROE_OK;
 }
 
@@ -227,8 +220,7 @@ froe_status formats_sink_ball(formats_sink *sink, const double *centre, double r
         return add_pair(sink, FROE_BOX, lo, hi);
     }
     status = put_in_sink(sink, FROE_BALL, centre, 1);
-    if (!status && !formats_buffer_put(&sink->alloc, &sink->radii, &radius, sizeof radius))
-        return sink_out_of_memory(sink);
+    if (!status && !array_push(&sink->alloc, &sink->radii, radius)) return sink_out_of_memory(sink);
     return status;
 }
 
@@ -257,18 +249,6 @@ static froe_status polygon_fits(formats_sink *sink, const double *corners, size_
     return FROE_OK;
 }
 
-static froe_status split(formats_sink *sink, const double *corners, size_t count) {
-    formats_buffer triangles = {0};
-    froe_status status = FROE_OK;
-    if (!formats_triangulate(&sink->alloc, corners, count, &triangles)) status = sink_out_of_memory(sink);
-    const uint32_t *at = triangles.data;
-    for (size_t i = 0; !status && i < triangles.size / sizeof *at; i += 3)
-        status = formats_sink_triangle(sink, corners + 3 * at[i], corners + 3 * at[i + 1], corners + 3 * at[i + 2]);
-    formats_buffer_free(&sink->alloc, &triangles);
-    ++sink->report.triangulated;
-    return status;
-}
-
 froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t count) {
     if (count == 1) return formats_sink_point(sink, corners);
     if (count == 2) return formats_sink_segment(sink, corners, corners + 3);
@@ -278,7 +258,14 @@ froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t 
     if (!status && sink->faces == FROE_FACES_POLYGONS) status = polygon_fits(sink, corners, count, &whole);
     if (status) return status;
     formats_sink_new_face(sink);
-    status = whole ? put_in_sink(sink, FROE_POLYGON, corners, count) : split(sink, corners, count);
+    formats_indices triangles = {0};
+    if (whole)
+        status = put_in_sink(sink, FROE_POLYGON, corners, count);
+    else if (++sink->report.triangulated, !formats_triangulate(&sink->alloc, corners, count, &triangles))
+        status = sink_out_of_memory(sink);
+    for (const uint32_t *at = triangles.data, *end = at + triangles.count; at != end && !status; at += 3)
+        status = formats_sink_triangle(sink, corners + 3 * at[0], corners + 3 * at[1], corners + 3 * at[2]);
+    array_free(&sink->alloc, &triangles);
     sink->face = FROE_NONE;
     return status;
 }

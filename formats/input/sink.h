@@ -3,7 +3,9 @@
 #ifndef FROE_FORMATS_SINK_H
 #define FROE_FORMATS_SINK_H
 
-#include "formats/input/common.h"
+#include "support/array.h"
+#include "support/fail.h"
+#include <froe/formats.h>
 
 typedef struct formats_sink {
     /* set by the owner before formats_sink_open() */
@@ -31,7 +33,10 @@ typedef struct formats_sink {
     froe_kind kind; /**< of the batch */
     size_t count;   /**< objects in the batch */
     size_t total;   /**< objects so far, batch included: the next id */
-    formats_buffer coords, radii, starts, object_faces, groups, tags;
+    ARRAY(double) coords, radii;
+    ARRAY(size_t) starts;
+    ARRAY(uint32_t) object_faces, groups;
+    ARRAY(uint64_t) tags;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     bool bounded; /**< lo and hi hold something */
 } formats_sink;

@@ -1,11 +1,13 @@
 /* source.c: from a path to a scene, by the reader that is chosen by the first bytes of the file. */
 #include "formats/input/source.h"
+#include "support/locale.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Reads until the buffer is full or the file ends; -1 with errno on failure. */
@@ -19,6 +21,17 @@ static ssize_t read_fully(int file, char *to, size_t size) {
         done += (size_t)got;
     }
     return (ssize_t)done;
+}
+
+froe_status formats_fail_file(froe_diagnostic *diag, const char *path, int error) {
+    if (error == ENOMEM) return support_fail_memory(diag);
+    return support_fail(diag, FROE_E_IO, "%s: %s", support_short(path), support_errno(error).text);
+}
+
+double formats_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 froe_status formats_source_open(const char *path, formats_source *source, froe_diagnostic *diag) {
@@ -42,7 +55,7 @@ froe_status formats_source_open(const char *path, formats_source *source, froe_d
     source->head_size = (size_t)got;
     source->head[got] = '\0';
     source->size = (uint64_t)about.st_size;
-    source->extension = formats_path_extension(path);
+    source->extension = support_path_extension(path);
     return FROE_OK;
 }
 
@@ -52,9 +65,10 @@ bool formats_is_moving(const formats_source *source) {
             (strstr(source->head, "\"temporalGeometry\"") || strstr(source->head, "\"MovingLineString\"")));
 }
 
-froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_buffer *text) {
-    char *to = source->size < SIZE_MAX ? formats_buffer_add(&sink->alloc, text, (size_t)source->size + 1) : NULL;
-    if (!to)
+froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text) {
+    const bool room = source->size < SIZE_MAX && array_reserve(&sink->alloc, text, (size_t)source->size + 1);
+    char *to = text->data;
+    if (!room)
         return support_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory for the text", support_short(source->path));
     int file = open(source->path, O_RDONLY | O_CLOEXEC);
     ssize_t got = file < 0 ? -1 : read_fully(file, to, (size_t)source->size);
@@ -62,7 +76,7 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
     if (file >= 0) close(file);
     if (got < 0) return formats_fail_file(sink->diag, source->path, error);
     to[got] = '\0';
-    text->size = (size_t)got;
+    text->count = (size_t)got;
     if (!binary && memchr(to, '\0', (size_t)got))
         return support_fail(sink->diag, FROE_E_FORMAT, "%s: is not text: byte %zu is zero", support_short(source->path),
                             strlen(to));
@@ -127,14 +141,14 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
                          .boxes = o->boxes,
                          .progress = o->progress,
                          .user = o->user};
-    formats_locale locale;
-    if (!formats_locale_enter(&locale)) return support_fail_memory(diag);
+    support_locale locale;
+    if (!support_locale_enter(&locale)) return support_fail_memory(diag);
     formats_source source;
     froe_status status = formats_source_open(path, &source, diag);
     source.options = o;
     if (!status) status = fill_scene(choose, maps, &source, &sink, out);
     formats_sink_free(&sink);
-    formats_locale_leave(&locale);
+    support_locale_leave(&locale);
     sink.report.seconds = formats_seconds() - start;
     if (!status && report) *report = sink.report;
     return status;

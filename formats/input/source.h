@@ -3,11 +3,12 @@
 #define FROE_FORMATS_SOURCE_H
 
 #include "formats/input/sink.h"
+#include "support/path.h"
 
 /** What is known of a file before a reader is chosen. */
 typedef struct formats_source {
     const char *path;
-    formats_extension extension;
+    support_extension extension;
     uint64_t size; /**< bytes */
     char head[4096 + 1];
     size_t head_size; /**< bytes of the file's beginning in `head`, which ends with a NUL */
@@ -35,8 +36,14 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
                          const froe_read_options *options, froe_scene **out, froe_read_report *report,
                          froe_diagnostic *diag);
 
+typedef ARRAY(char) formats_text;
 /** The whole file and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text holds a NUL. */
-froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_buffer *text);
+froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text);
+
+/** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: what an errno value says about a file. */
+froe_status formats_fail_file(froe_diagnostic *diag, const char *path, int error);
+/** Seconds of a clock that only goes forward. */
+double formats_seconds(void);
 
 void formats_report_format(formats_sink *sink, const char *precision, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -78,22 +78,10 @@ typedef struct outline {
     bool *dull;
     formats_corner_index index;
     ear_set ears;
+    formats_indices *triangles;
     uint32_t left;    /* corners not clipped yet */
     uint32_t clipped; /* corners since all were tested */
 } outline;
-
-static bool ear_set_new(const froe_allocator *alloc, uint32_t count, formats_buffer *buffer, ear_set *set) {
-    size_t words = 0, at = 0;
-    uint32_t level_words[SET_LEVELS];
-    *set = (ear_set){.count = count};
-    for (uint32_t bits = count; !set->levels || bits > 1; bits = level_words[set->levels++])
-        words += level_words[set->levels] = (bits + WORD - 1) / WORD;
-    uint64_t *room = formats_buffer_add(alloc, buffer, words * sizeof *room);
-    if (!room) return false;
-    memset(room, 0, words * sizeof *room);
-    for (uint32_t level = 0; level < set->levels; at += level_words[level++]) set->words[level] = room + at;
-    return true;
-}
 
 static void set_ear(ear_set *set, uint32_t corner, bool ear) {
     for (uint32_t level = 0; level < set->levels; ++level, corner /= WORD) {
@@ -156,28 +144,24 @@ static uint32_t find_ear(outline *o, uint32_t from) {
     }
 }
 
-static void clip(outline *o, uint32_t b) {
-    uint32_t a = o->before[b], c = o->next[b];
-    o->next[a] = c;
-    o->before[c] = a;
-    --o->left;
-    ++o->clipped;
-    set_ear(&o->ears, b, false);
-    if (o->dull[b]) formats_corner_index_mark(&o->index, b, false);
-    look_at_turn(o, a);
-    look_at_turn(o, c);
-    look_at_ear(o, a);
-    look_at_ear(o, c);
-}
-
-static bool clip_all(const froe_allocator *alloc, outline *o, formats_buffer *triangles) {
-    uint32_t at = 1; /* the fan of a convex polygon starts at its corner 0 */
+/* False: no memory. */
+static bool clip_all(const froe_allocator *alloc, outline *o) {
+    uint32_t from = 1; /* the fan of a convex polygon starts at its corner 0 */
     look_at_all(o, 0);
     while (o->left >= 3) {
-        uint32_t b = find_ear(o, at), triangle[3] = {o->before[b], b, o->next[b]};
-        if (!formats_buffer_put(alloc, triangles, triangle, sizeof triangle)) return false;
-        clip(o, b);
-        at = triangle[2];
+        const uint32_t b = find_ear(o, from), a = o->before[b], c = o->next[b], triangle[3] = {a, b, c};
+        if (!array_append(alloc, o->triangles, triangle, 3)) return false;
+        o->next[a] = c;
+        o->before[c] = a;
+        --o->left;
+        ++o->clipped;
+        set_ear(&o->ears, b, false);
+        if (o->dull[b]) formats_corner_index_mark(&o->index, b, false);
+        look_at_turn(o, a);
+        look_at_turn(o, c);
+        look_at_ear(o, a);
+        look_at_ear(o, c);
+        from = c;
     }
     return true;
 }
@@ -205,41 +189,38 @@ static int main_axis(const double *corners, size_t count, bool *flip) {
     return axis;
 }
 
-static void cast_shadow(const double *corners, size_t count, double *xy) {
-    bool flip;
-    int axis = main_axis(corners, count, &flip), first = (axis + 1) % 3, second = (axis + 2) % 3;
-    for (size_t i = 0; i < count; ++i) {
-        xy[2 * i] = corners[3 * i + (size_t)(flip ? second : first)];
-        xy[2 * i + 1] = corners[3 * i + (size_t)(flip ? first : second)];
-    }
-}
-
-static void link_ring(outline *o, uint32_t count) {
-    for (uint32_t i = 0; i < count; ++i) {
-        o->next[i] = i + 1 < count ? i + 1 : 0;
-        o->before[i] = i ? i - 1 : count - 1;
-        o->dull[i] = false;
-    }
-}
-
-bool formats_triangulate(const froe_allocator *alloc, const double *corners, size_t count, formats_buffer *triangles) {
+bool formats_triangulate(const froe_allocator *alloc, const double *corners, size_t count, formats_indices *triangles) {
     if (count > UINT32_MAX / 2) return false;
-    formats_buffer shadow = {0}, links = {0}, dull = {0}, words = {0};
-    double *xy = formats_buffer_add(alloc, &shadow, count * 2 * sizeof *xy);
-    uint32_t *next = formats_buffer_add(alloc, &links, count * 2 * sizeof *next);
-    outline o = {.xy = xy, .next = next, .left = (uint32_t)count};
-    o.dull = formats_buffer_add(alloc, &dull, count * sizeof *o.dull);
-    bool done = xy && next && o.dull && ear_set_new(alloc, o.left, &words, &o.ears);
+    outline o = {.triangles = triangles, .left = (uint32_t)count};
+    size_t words = 0, at = 0;
+    uint32_t level_words[SET_LEVELS];
+    o.ears.count = o.left;
+    for (uint32_t bits = o.left; !o.ears.levels || bits > 1; bits = level_words[o.ears.levels++])
+        words += level_words[o.ears.levels] = (bits + WORD - 1) / WORD;
+    double *xy = support_calloc(alloc, 2 * count, sizeof *xy);
+    uint32_t *links = support_calloc(alloc, 2 * count, sizeof *links);
+    uint64_t *ears = support_calloc(alloc, words, sizeof *ears);
+    o.dull = support_calloc(alloc, count, sizeof *o.dull);
+    bool done = xy && links && ears && o.dull;
     if (done) {
-        o.before = next + count;
-        cast_shadow(corners, count, xy);
-        link_ring(&o, o.left);
-        done = formats_corner_index_new(alloc, xy, o.left, &o.index) && clip_all(alloc, &o, triangles);
+        bool flip;
+        const int axis = main_axis(corners, count, &flip), first = (axis + 1) % 3, second = (axis + 2) % 3;
+        o.xy = xy;
+        o.next = links;
+        o.before = links + count;
+        for (uint32_t i = 0; i < o.left; ++i) {
+            xy[2 * i] = corners[3 * i + (size_t)(flip ? second : first)];
+            xy[2 * i + 1] = corners[3 * i + (size_t)(flip ? first : second)];
+            o.next[i] = i + 1 < o.left ? i + 1 : 0;
+            o.before[i] = i ? i - 1 : o.left - 1;
+        }
+        for (uint32_t level = 0; level < o.ears.levels; at += level_words[level++]) o.ears.words[level] = ears + at;
+        done = formats_corner_index_new(alloc, xy, o.left, &o.index) && clip_all(alloc, &o);
     }
     formats_corner_index_free(alloc, &o.index);
-    formats_buffer_free(alloc, &shadow);
-    formats_buffer_free(alloc, &links);
-    formats_buffer_free(alloc, &dull);
-    formats_buffer_free(alloc, &words);
+    support_free(alloc, xy, 2 * count * sizeof *xy);
+    support_free(alloc, links, 2 * count * sizeof *links);
+    support_free(alloc, ears, words * sizeof *ears);
+    support_free(alloc, o.dull, count * sizeof *o.dull);
     return done;
 }

@@ -1,5 +1,6 @@
 /* animate.c: froe_animate: from a motion to a page; see animate.h. */
 #include "formats/motion/animate.h"
+#include "support/alloc.h"
 #include "support/floats.h"
 #include <math.h>
 #include <string.h>
@@ -59,17 +60,6 @@ static froe_status check_animation(const formats_animation *a, froe_diagnostic *
     return FROE_OK;
 }
 
-static froe_status write_file(formats_animation *a, formats_animation_writer *put, const char *path,
-                              froe_diagnostic *diag) {
-    formats_writer w;
-    froe_status status = formats_writer_open(&w, path, diag);
-    if (status) return status;
-    find_bounds(a);
-    deal(a);
-    put(&w, a);
-    return formats_writer_close(&w, FROE_OK);
-}
-
 froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
                          const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
@@ -81,21 +71,23 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
     a.end = froe_motion_window(motion).end;
     froe_status status = check_animation(&a, diag);
     if (status) return status;
-    formats_extension extension = formats_path_extension(path);
+    support_extension extension = support_path_extension(path);
     bool svg = strcmp(extension.text, "svg") == 0;
     if (!svg && strcmp(extension.text, "html") != 0)
         return support_fail(diag, FROE_E_UNSUPPORTED, "%s: motions are shown as .svg or .html", support_short(path));
-    froe_allocator alloc = support_allocator(NULL);
-    formats_buffer starts = {0}, touched = {0};
-    size_t objects = froe_motion_object_count(motion);
-    a.starts = formats_buffer_add(&alloc, &starts, (objects + 2) * sizeof *a.starts);
-    a.touched = formats_buffer_add(&alloc, &touched, 2 * count * sizeof *a.touched);
-    status = a.starts && a.touched ? FROE_OK : support_fail_memory(diag);
+    const froe_allocator alloc = support_allocator(NULL);
+    const size_t starts = froe_motion_object_count(motion) + 2;
+    formats_writer w;
+    a.starts = support_calloc(&alloc, starts, sizeof *a.starts);
+    a.touched = support_calloc(&alloc, 2 * count, sizeof *a.touched);
+    status = a.starts && a.touched ? formats_writer_open(&w, path, diag) : support_fail_memory(diag);
     if (!status) {
-        memset(a.starts, 0, (objects + 2) * sizeof *a.starts);
-        status = write_file(&a, svg ? formats_animate_svg : formats_animate_page, path, diag);
+        find_bounds(&a);
+        deal(&a);
+        (svg ? formats_animate_svg : formats_animate_page)(&w, &a);
+        status = formats_writer_close(&w, FROE_OK);
     }
-    formats_buffer_free(&alloc, &starts);
-    formats_buffer_free(&alloc, &touched);
+    support_free(&alloc, a.starts, starts * sizeof *a.starts);
+    support_free(&alloc, a.touched, 2 * count * sizeof *a.touched);
     return status;
 }

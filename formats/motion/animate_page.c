@@ -82,19 +82,6 @@ static void put_member(formats_writer *w, const char *name, double value) {
     formats_put_number(w, value);
 }
 
-static void put_plan(formats_writer *w, const froe_motion *m, uint32_t vertex) {
-    formats_put(w, vertex ? ",\n[" : "\n[");
-    for (size_t i = 0; i < froe_motion_knot_count(m, vertex); i++) {
-        froe_moving_knot k = froe_motion_knot(m, vertex, i);
-        put_member(w, i ? ",[" : "[", k.time);
-        for (int axis = 0; axis < 2; axis++) put_member(w, ",", k.at[axis]);
-        if (isnan(k.control[0])) formats_put(w, ",null");
-        for (int axis = 0; axis < 2 && !isnan(k.control[0]); axis++) put_member(w, ",", k.control[axis]);
-        formats_put(w, "]");
-    }
-    formats_put(w, "]");
-}
-
 /* In a script no text may end it. */
 static void put_page_text(formats_writer *w, const char *text) {
     char safe[64];
@@ -104,35 +91,24 @@ static void put_page_text(formats_writer *w, const char *text) {
     formats_put_json(w, safe);
 }
 
-static void put_object(formats_writer *w, const formats_animation *a, uint32_t i) {
-    froe_moving_object o = froe_motion_object(a->motion, i);
-    formats_put(w, i ? ",\n[" : "\n[");
-    formats_put_whole(w, o.vertices[0]);
-    put_member(w, ",", o.vertices[1]);
-    put_member(w, ",", o.birth);
-    put_member(w, ",", o.death);
-    formats_put(w, ",");
-    put_page_text(w, o.group == FROE_NONE ? "" : froe_motion_group(a->motion, o.group).name);
-    formats_put(w, "]");
-}
-
-static void put_contact(formats_writer *w, const froe_contact *c, bool first) {
-    formats_put(w, first ? "\n[" : ",\n[");
-    formats_put_whole(w, c->a);
-    put_member(w, ",", c->b);
-    put_member(w, ",", c->begin[0]);
-    put_member(w, ",", c->end[1]);
-    formats_put(w, c->instant ? ",1]" : ",0]");
-}
-
-/* Digits behind the point that tell instants of the window apart. */
-static int digits_of(const formats_animation *a) {
-    int digits = 0;
-    for (double step = (a->end - a->begin) / 1000; step < 1 && digits < 12; step *= 10) digits++;
-    return digits;
+static void put_plans(formats_writer *w, const froe_motion *m) {
+    for (uint32_t v = 0; v < froe_motion_vertex_count(m); v++) {
+        formats_put(w, v ? ",\n[" : "\n[");
+        for (size_t i = 0; i < froe_motion_knot_count(m, v); i++) {
+            froe_moving_knot k = froe_motion_knot(m, v, i);
+            put_member(w, i ? ",[" : "[", k.time);
+            for (int axis = 0; axis < 2; axis++) put_member(w, ",", k.at[axis]);
+            if (isnan(k.control[0])) formats_put(w, ",null");
+            for (int axis = 0; axis < 2 && !isnan(k.control[0]); axis++) put_member(w, ",", k.control[axis]);
+            formats_put(w, "]");
+        }
+        formats_put(w, "]");
+    }
 }
 
 void formats_animate_page(formats_writer *w, const formats_animation *a) {
+    int digits = 0; /* behind the point, that tell instants of the window apart */
+    for (double step = (a->end - a->begin) / 1000; step < 1 && digits < 12; step *= 10) digits++;
     formats_put(w, head);
     put_member(w, "const motion = {begin: ", a->begin);
     put_member(w, ", end: ", a->end);
@@ -141,17 +117,35 @@ void formats_animate_page(formats_writer *w, const formats_animation *a) {
     put_member(w, ", margin: ", FORMATS_ANIMATION_MARGIN);
     put_member(w, ", scale: ", a->scale);
     put_member(w, ", seconds: ", a->options.seconds);
-    put_member(w, ", digits: ", digits_of(a));
+    put_member(w, ", digits: ", digits);
     put_member(w, ", lo: [", a->lo[0]);
     put_member(w, ", ", a->lo[1]);
     put_member(w, "], hi: [", a->hi[0]);
     put_member(w, ", ", a->hi[1]);
     formats_put(w, "],\nvertices: [");
-    for (uint32_t v = 0; v < froe_motion_vertex_count(a->motion); v++) put_plan(w, a->motion, v);
+    put_plans(w, a->motion);
     formats_put(w, "],\nobjects: [");
-    for (uint32_t i = 0; i < froe_motion_object_count(a->motion); i++) put_object(w, a, i);
+    for (uint32_t i = 0; i < froe_motion_object_count(a->motion); i++) {
+        froe_moving_object o = froe_motion_object(a->motion, i);
+        formats_put(w, i ? ",\n[" : "\n[");
+        formats_put_whole(w, o.vertices[0]);
+        put_member(w, ",", o.vertices[1]);
+        put_member(w, ",", o.birth);
+        put_member(w, ",", o.death);
+        formats_put(w, ",");
+        put_page_text(w, o.group == FROE_NONE ? "" : froe_motion_group(a->motion, o.group).name);
+        formats_put(w, "]");
+    }
     formats_put(w, "],\ncontacts: [");
-    for (size_t i = 0; i < a->count; i++) put_contact(w, a->contacts + i, i == 0);
+    for (size_t i = 0; i < a->count; i++) {
+        const froe_contact *c = a->contacts + i;
+        formats_put(w, i ? ",\n[" : "\n[");
+        formats_put_whole(w, c->a);
+        put_member(w, ",", c->b);
+        put_member(w, ",", c->begin[0]);
+        put_member(w, ",", c->end[1]);
+        formats_put(w, c->instant ? ",1]" : ",0]");
+    }
     formats_put(w, "]};\n");
     formats_put(w, program);
 }

@@ -80,25 +80,18 @@ static void put_loop(formats_writer *w, const formats_animation *a) {
     put_format(w, "\" dur=\"%gs\" repeatCount=\"indefinite\"/>", a->options.seconds, 0);
 }
 
-static void put_beginning(formats_writer *w, const formats_animation *a, froe_moving_object object) {
-    const keys k = {w, a, object, false, 0};
-    formats_put(w, share_of(a, object.birth) > 0 ? "<path visibility=\"hidden\" d=\"" : "<path d=\"");
-    put_place(&k, object.birth);
-    formats_put(w, "\">");
-}
-
-static void put_motion(formats_writer *w, const formats_animation *a, froe_moving_object object) {
-    keys k = {w, a, object, false, 0};
-    formats_put(w, "<animate attributeName=\"d\" values=\"");
+/* How the object moves, and when it is there. */
+static void put_life(formats_writer *w, const formats_animation *a, const froe_moving_object *o) {
+    keys k = {w, a, *o, false, 0};
+    double birth = share_of(a, o->birth), death = share_of(a, o->death);
+    formats_put(w, birth > 0 ? "<path visibility=\"hidden\" d=\"" : "<path d=\"");
+    put_place(&k, o->birth);
+    formats_put(w, "\"><animate attributeName=\"d\" values=\"");
     put_keys(&k);
     k.timing = true;
     formats_put(w, "\" keyTimes=\"");
     put_keys(&k);
     put_loop(w, a);
-}
-
-static void put_life(formats_writer *w, const formats_animation *a, const froe_moving_object *o) {
-    double birth = share_of(a, o->birth), death = share_of(a, o->death);
     if (birth <= 0 && death >= 1) return;
     formats_put(
         w, "<animate attributeName=\"visibility\" calcMode=\"discrete\" values=\"hidden;visible;hidden\" keyTimes=\"");
@@ -140,8 +133,6 @@ void formats_animate_svg(formats_writer *w, const formats_animation *a) {
     for (uint32_t o = 0; o < froe_motion_object_count(a->motion); o++) {
         froe_moving_object object = froe_motion_object(a->motion, o);
         if (object.birth > object.death) continue;
-        put_beginning(w, a, object);
-        put_motion(w, a, object);
         put_life(w, a, &object);
         put_contacts(w, a, o);
         formats_put(w, "</path>\n");

@@ -20,27 +20,19 @@ static bool take_character(const char **at, char c) {
     return **at == c && *(*at)++;
 }
 
-static bool is_leap(int year) {
-    return year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-}
-
-/* Days from 1970 to the first of March of the year before or of this one: the era of 400 years has 146 097 days, and
- * months from March on have 153 days in fives. */
-static int64_t days_of(int year, int month, int day) {
-    int y = month < 3 ? year - 1 : year, m = month < 3 ? month + 9 : month - 3;
-    int64_t leaps = y / 4 - y / 100 + y / 400;
-    return 365 * (int64_t)y + leaps + (153 * m + 2) / 5 + day - 1 - 719468;
-}
-
+/* Days since 1970. From the first of March of the year before or of this one on, the era of 400 years has 146 097 days,
+ * and months have 153 days in fives. */
 static bool take_date(const char **at, int64_t *days) {
     static const int lengths[] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     int year, month, day;
     if (!take_number(at, 4, 9999, &year) || !take_character(at, '-') || !take_number(at, 2, 12, &month) ||
         !take_character(at, '-') || !take_number(at, 2, 31, &day))
         return false;
-    if (!year || !month || !day || day > lengths[month - 1] || (month == 2 && day == 29 && !is_leap(year)))
-        return false;
-    *days = days_of(year, month, day);
+    const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    if (!year || !month || !day || day > lengths[month - 1] || (month == 2 && day == 29 && !leap)) return false;
+    const int y = month < 3 ? year - 1 : year, m = month < 3 ? month + 9 : month - 3;
+    const int64_t leaps = y / 4 - y / 100 + y / 400;
+    *days = 365 * (int64_t)y + leaps + (153 * m + 2) / 5 + day - 1 - 719468;
     return true;
 }
 

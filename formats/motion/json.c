@@ -8,7 +8,7 @@
 
 typedef struct parser {
     const froe_allocator *alloc;
-    formats_buffer *values;
+    formats_json_values *values;
     char *at, *end;
     size_t open; /* the innermost container that is not closed, counted from 1; 0: there is none */
     size_t line;
@@ -29,14 +29,6 @@ static froe_status expected(const parser *p, const char *what) {
     return FROE_E_FORMAT;
 }
 
-static formats_json *value_at(const parser *p, size_t index) {
-    return (formats_json *)p->values->data + index;
-}
-
-static size_t count_values(const parser *p) {
-    return p->values->size / sizeof(formats_json);
-}
-
 static void skip_blanks(parser *p) {
     for (; *p->at == ' ' || *p->at == '\t' || *p->at == '\r' || *p->at == '\n'; p->at++) p->line += *p->at == '\n';
 }
@@ -49,21 +41,10 @@ static bool take_byte(parser *p, char byte) {
 
 static froe_status put_value(parser *p, formats_json_kind kind, const char *text, double number) {
     const formats_json value = {.kind = kind, .span = 1, .number = number, .text = text};
-    return formats_buffer_put(p->alloc, p->values, &value, sizeof value) ? FROE_OK : FROE_E_MEMORY;
+    return array_push(p->alloc, p->values, value) ? FROE_OK : FROE_E_MEMORY;
 }
 
 /* ----------------------------------------------------------------- scalars -- */
-
-static froe_status read_name(parser *p) {
-    static const char *const names[] = {"null", "true", "false"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        size_t length = strlen(names[i]);
-        if (strncmp(p->at, names[i], length) != 0) continue;
-        p->at += length;
-        return put_value(p, FORMATS_JSON_NAME, p->at - length, 0);
-    }
-    return expected(p, "a value");
-}
 
 static bool skip_digits(char **at) {
     size_t digits = strspn(*at, "0123456789");
@@ -155,20 +136,29 @@ static froe_status read_string(parser *p) {
 
 /* A value, or the beginning of a container. */
 static froe_status read_value(parser *p) {
+    static const char *const names[] = {"null", "true", "false"};
     skip_blanks(p);
     if (*p->at == '"') return read_string(p);
     if (*p->at == '-' || (*p->at >= '0' && *p->at <= '9')) return read_json_number(p);
-    if (*p->at != '[' && *p->at != '{') return read_name(p);
+    if (*p->at != '[' && *p->at != '{') {
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+            size_t length = strlen(names[i]);
+            if (strncmp(p->at, names[i], length) != 0) continue;
+            p->at += length;
+            return put_value(p, FORMATS_JSON_NAME, p->at - length, 0);
+        }
+        return expected(p, "a value");
+    }
     froe_status status = put_value(p, *p->at == '[' ? FORMATS_JSON_ARRAY : FORMATS_JSON_OBJECT, p->at, 0);
     if (status) return status;
-    value_at(p, count_values(p) - 1)->span = p->open;
-    p->open = count_values(p);
+    p->values->data[p->values->count - 1].span = p->open;
+    p->open = p->values->count;
     p->at++;
     return FROE_OK;
 }
 
 static froe_status read_key(parser *p) {
-    formats_json *object = value_at(p, p->open - 1);
+    formats_json *object = p->values->data + p->open - 1;
     skip_blanks(p);
     if (*p->at != '"') return expected(p, object->count ? "string" : "string or '}'");
     froe_status status = read_string(p);
@@ -180,7 +170,7 @@ static froe_status read_key(parser *p) {
 /* Goes on behind a value, or behind the beginning of a container: closes what ends there. True: another value follows. */
 static bool goes_on(parser *p, bool begun, froe_status *status) {
     while (p->open) {
-        formats_json *container = value_at(p, p->open - 1);
+        formats_json *container = p->values->data + p->open - 1;
         const char *close = container->kind == FORMATS_JSON_ARRAY ? "']'" : "'}'";
         container->count += !begun;
         skip_blanks(p);
@@ -189,21 +179,21 @@ static bool goes_on(parser *p, bool begun, froe_status *status) {
             return !*status;
         }
         size_t outer = container->span;
-        container->span = count_values(p) - (p->open - 1);
+        container->span = p->values->count - (p->open - 1);
         p->open = outer;
         begun = false;
     }
     return false;
 }
 
-froe_status formats_json_read(const froe_allocator *alloc, char *text, size_t length, formats_buffer *values,
+froe_status formats_json_read(const froe_allocator *alloc, char *text, size_t length, formats_json_values *values,
                               formats_json_error *error) {
     parser p = {.alloc = alloc, .values = values, .at = text, .end = text + length, .line = 1, .error = error};
     froe_status status = FROE_OK;
     bool more = true;
     while (more && !status) {
         size_t outer = p.open;
-        if (p.open && value_at(&p, p.open - 1)->kind == FORMATS_JSON_OBJECT) status = read_key(&p);
+        if (p.open && values->data[p.open - 1].kind == FORMATS_JSON_OBJECT) status = read_key(&p);
         if (!status) status = read_value(&p);
         if (!status) more = goes_on(&p, p.open != outer, &status);
     }

@@ -6,7 +6,7 @@
  * for the whole process. So this is read here.) */
 #ifndef FROE_FORMATS_JSON_H
 #define FROE_FORMATS_JSON_H
-#include "formats/input/common.h"
+#include "support/array.h"
 
 typedef enum formats_json_kind {
     FORMATS_JSON_NAME,
@@ -23,6 +23,7 @@ typedef struct formats_json {
     double number;
     const char *text; /**< of a string: its characters, UTF-8, ended by zero; otherwise where it begins in the text */
 } formats_json;
+typedef ARRAY(formats_json) formats_json_values;
 
 /** What is wrong with a text, and in which line, counted from 1. */
 typedef struct formats_json_error {
@@ -33,7 +34,7 @@ typedef struct formats_json_error {
 /** Reads `text` (RFC 8259), which lasts as long as the values: strings are decoded in it. text[length] is 0; a string may
  * not hold U+0000. Numbers are rounded to the nearest double in the locale of the thread, which is to be "C"; those
  * beyond the largest are refused. Without recursion, at any depth. FROE_E_MEMORY, FROE_E_FORMAT with `error`. */
-froe_status formats_json_read(const froe_allocator *alloc, char *text, size_t length, formats_buffer *values,
+froe_status formats_json_read(const froe_allocator *alloc, char *text, size_t length, formats_json_values *values,
                               formats_json_error *error);
 
 /** Values may be NULL, which is of no kind and has nothing within it. */

@@ -15,30 +15,16 @@ static const struct {
 };
 enum { COLUMNS = sizeof columns / sizeof *columns };
 
-static uint64_t whole_of(const froe_contact *c, int column) {
-    const uint64_t values[] = {c->a, c->b, 0, 0, 0, 0, c->instant, c->since_start, c->to_stop};
-    return values[column];
-}
-
-static double number_of(const froe_contact *c, int column) {
-    const double values[] = {c->begin[0], c->begin[1], c->end[0], c->end[1]};
-    return values[column - 2];
-}
-
-static const char *name_of_object(const froe_motion *m, const froe_contact *c, int column) {
-    uint32_t group = froe_motion_object(m, column == COLUMNS - 1 ? c->b : c->a).group;
-    return group == FROE_NONE ? "" : froe_motion_group(m, group).name;
-}
-
 static void put_contact_cell(formats_writer *w, const froe_motion *m, const froe_contact *c, int column, bool json) {
+    const uint64_t wholes[] = {c->a, c->b, 0, 0, 0, 0, c->instant, c->since_start, c->to_stop};
+    const double numbers[] = {0, 0, c->begin[0], c->begin[1], c->end[0], c->end[1]};
+    const uint32_t group = froe_motion_object(m, column == COLUMNS - 1 ? c->b : c->a).group;
     if (columns[column].type == WHOLE)
-        formats_put_whole(w, whole_of(c, column));
+        formats_put_whole(w, wholes[column]);
     else if (columns[column].type == NUMBER)
-        formats_put_number(w, number_of(c, column));
-    else if (json)
-        formats_put_json(w, name_of_object(m, c, column));
+        formats_put_number(w, numbers[column]);
     else
-        formats_put_csv(w, name_of_object(m, c, column));
+        (json ? formats_put_json : formats_put_csv)(w, group == FROE_NONE ? "" : froe_motion_group(m, group).name);
 }
 
 static void put_csv(formats_writer *w, const froe_motion *m, const froe_contact *contacts, size_t count) {
@@ -69,7 +55,7 @@ froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *c
     SUPPORT_FLOATS_OWN;
     if (!motion || !path || (count && !contacts))
         return support_fail(diag, FROE_E_ARG, "froe_write_contacts: motion, contacts and path must not be NULL");
-    formats_extension extension = formats_path_extension(path);
+    support_extension extension = support_path_extension(path);
     bool json = strcmp(extension.text, "json") == 0;
     if (!json && strcmp(extension.text, "csv") != 0)
         return support_fail(diag, FROE_E_UNSUPPORTED, "%s: contacts are written as .csv or .json", support_short(path));

@@ -58,21 +58,6 @@ static bool is_straight(const froe_moving_knot *k) {
     return isnan(k->control[0]);
 }
 
-static bool has_parabolas(const chain *c) {
-    for (uint32_t i = 0; i < point_count(c); i++)
-        for (size_t k = 0; k + 1 < froe_motion_knot_count(c->motion, vertex_of(c, i)); k++) {
-            froe_moving_knot knot = froe_motion_knot(c->motion, vertex_of(c, i), k);
-            if (!is_straight(&knot)) return true;
-        }
-    return false;
-}
-
-static void put_position(formats_writer *w, const double *p) {
-    formats_put(w, "[");
-    formats_put_point(w, p, 2, ",");
-    formats_put(w, "]");
-}
-
 /* All points at one instant; `control`: their control points instead, of straight pieces the middles. */
 static void put_geometry(formats_writer *w, const chain *c, size_t k, bool control) {
     bool point = vertex_of(c, 0) == vertex_of(c, 1);
@@ -81,14 +66,15 @@ static void put_geometry(formats_writer *w, const chain *c, size_t k, bool contr
     for (uint32_t i = 0; i < count; i++) {
         uint32_t v = vertex_of(c, c->ring && i + 1 == count ? 0 : i);
         froe_moving_knot knot = froe_motion_knot(c->motion, v, k);
-        double middle[2] = {knot.at[0], knot.at[1]};
+        double at[2] = {knot.at[0], knot.at[1]};
         if (control) {
             froe_moving_knot next = froe_motion_knot(c->motion, v, k + 1);
             for (int axis = 0; axis < 2; axis++)
-                middle[axis] = is_straight(&knot) ? 0.5 * knot.at[axis] + 0.5 * next.at[axis] : knot.control[axis];
+                at[axis] = is_straight(&knot) ? 0.5 * knot.at[axis] + 0.5 * next.at[axis] : knot.control[axis];
         }
-        if (i) formats_put(w, ",");
-        put_position(w, middle);
+        formats_put(w, i ? ",[" : "[");
+        formats_put_point(w, at, 2, ",");
+        formats_put(w, "]");
     }
     formats_put(w, c->ring ? "]]" : point ? "" : "]");
 }
@@ -106,7 +92,12 @@ static void put_feature(formats_writer *w, const chain *c) {
     froe_moving_object o = froe_motion_object(c->motion, c->first);
     uint32_t v0 = vertex_of(c, 0);
     size_t count = froe_motion_knot_count(c->motion, v0);
-    bool point = v0 == vertex_of(c, 1), parabolas = has_parabolas(c);
+    bool point = v0 == vertex_of(c, 1), parabolas = false;
+    for (uint32_t i = 0; i < point_count(c) && !parabolas; i++)
+        for (size_t k = 0; k + 1 < count && !parabolas; k++) {
+            const froe_moving_knot knot = froe_motion_knot(c->motion, vertex_of(c, i), k);
+            parabolas = !is_straight(&knot);
+        }
     formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
     if (o.group != FROE_NONE) {
         formats_put(w, "\"name\":");

@@ -29,7 +29,7 @@ static void put_ends(formats_writer *w, const froe_places *places, uint32_t obje
 froe_status froe_write_places(const froe_places *places, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!places || !path) return support_fail(diag, FROE_E_ARG, "froe_write_places: places and path must not be NULL");
-    if (strcmp(formats_path_extension(path).text, "csv") != 0)
+    if (strcmp(support_path_extension(path).text, "csv") != 0)
         return support_fail(diag, FROE_E_UNSUPPORTED, "%s: exact places are written as .csv", support_short(path));
     formats_writer w;
     froe_status status = formats_writer_open(&w, path, diag);

@@ -39,51 +39,25 @@ static froe_status read_field(formats_sink *sink, const formats_csv_table *t, in
     return FROE_OK;
 }
 
-static froe_status read_row(formats_sink *sink, const formats_csv_table *t, char **at, row *r) {
+/* A row as the object that it says. */
+static froe_status read_row(formats_sink *sink, const formats_csv_table *t, char **at) {
+    row r = {.tag = 0};
     bool last = false;
     int column = 0;
-    froe_status status = FROE_OK;
+    froe_status status = formats_sink_feature(sink, sink->report.features + 1);
     while (!last && !status) {
         char *field = formats_csv_field(at, t->separator, &last);
-        if (column < t->columns) status = read_field(sink, t, t->role[column], field, r);
+        if (column < t->columns) status = read_field(sink, t, t->role[column], field, &r);
         ++column;
     }
-    if (!status && column != t->columns)
+    if (status) return status;
+    if (column != t->columns)
         return formats_sink_fail(sink, FROE_E_FORMAT, "it has %d columns, the header %d", column, t->columns);
-    return status;
-}
-
-static froe_status add_row(formats_sink *sink, const formats_csv_table *t, const row *r) {
-    sink->tagged = r->tagged;
-    sink->tag = r->tag;
-    if (t->kind == FROE_BOX) return formats_sink_box(sink, r->corners, r->corners + t->dim);
-    if (t->kind == FROE_BALL) return formats_sink_ball(sink, r->corners, r->radius);
-    return formats_sink_point(sink, r->corners);
-}
-
-static bool is_blank(const char *at) {
-    at += strspn(at, " \t\r");
-    return *at == '\n' || !*at;
-}
-
-static froe_status read_rows(formats_sink *sink, const formats_csv_table *t, char *at, const formats_buffer *text) {
-    enum { ROWS_PER_REPORT = 4096 };
-    froe_status status = FROE_OK;
-    const char *begin = text->data;
-    while (*at && !status) {
-        if (is_blank(at)) {
-            at += strcspn(at, "\n");
-            at += *at == '\n';
-            continue;
-        }
-        row r = {.tag = 0};
-        status = formats_sink_feature(sink, sink->report.features + 1);
-        if (!status) status = read_row(sink, t, &at, &r);
-        if (!status) status = add_row(sink, t, &r);
-        if (!status && sink->report.features % ROWS_PER_REPORT == 0)
-            status = formats_sink_progress(sink, (double)(at - begin) / (double)text->size);
-    }
-    return status;
+    sink->tagged = r.tagged;
+    sink->tag = r.tag;
+    if (t->kind == FROE_BOX) return formats_sink_box(sink, r.corners, r.corners + t->dim);
+    if (t->kind == FROE_BALL) return formats_sink_ball(sink, r.corners, r.radius);
+    return formats_sink_point(sink, r.corners);
 }
 
 static froe_status refuse_header(const formats_source *source, const formats_sink *sink, formats_csv_header what) {
@@ -98,19 +72,29 @@ static froe_status refuse_header(const formats_source *source, const formats_sin
 }
 
 froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
-    formats_buffer text = {0};
+    enum { ROWS_PER_REPORT = 4096 };
+    formats_text text = {0};
     formats_csv_table t;
     froe_status status = formats_load(source, sink, false, &text);
     char *at = text.data;
-    formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &t);
+    const formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &t);
     if (what != FORMATS_CSV_OURS) status = refuse_header(source, sink, what);
     if (!status) status = formats_sink_open(sink, t.dim);
     sink->unit = "row";
     sink->report.layers = 1;
-    if (!status) {
+    if (!status)
         formats_report_format(sink, "float64", "CSV %ss", t.kind == FROE_BOX ? "boxe" : froe_kind_name(t.kind));
-        status = read_rows(sink, &t, at, &text);
+    while (!status && *at) {
+        const char *word = at + strspn(at, " \t\r");
+        if (*word == '\n' || !*word) { /* a blank line */
+            at += strcspn(at, "\n");
+            at += *at == '\n';
+            continue;
+        }
+        status = read_row(sink, &t, &at);
+        if (!status && sink->report.features % ROWS_PER_REPORT == 0)
+            status = formats_sink_progress(sink, (double)(at - text.data) / (double)text.count);
     }
-    formats_buffer_free(&sink->alloc, &text);
+    array_free(&sink->alloc, &text);
     return status;
 }

@@ -13,26 +13,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { NAME_ROOM = 128, PATH_ROOM = 4096, MOST_BYTES = 1 << 24 };
-
-typedef struct material {
-    char name[NAME_ROOM];
-    double rgba[4];
-    bool coloured, painted; /* painted: by a picture, the colour only tints it */
-} material;
+enum { PATH_ROOM = 4096, MOST_BYTES = 1 << 24 };
 
 uint32_t formats_material_colour(const formats_materials *materials, const char *name) {
-    const material *all = materials->all.data;
-    for (size_t i = materials->all.size / sizeof *all; i-- > 0;)
-        if (!strcmp(all[i].name, name)) return all[i].coloured && !all[i].painted ? formats_colour(all[i].rgba) : 0;
+    for (size_t i = materials->count; i-- > 0;) {
+        const formats_material *m = materials->data + i;
+        if (!strcmp(m->name, name)) return m->coloured && !m->painted ? formats_colour(m->rgba) : 0;
+    }
     return 0;
 }
-
-void formats_materials_free(formats_sink *sink, formats_materials *materials) {
-    formats_buffer_free(&sink->alloc, &materials->all);
-}
-
-/* --------------------------------------------------------------------- reading -- */
 
 /* What follows the word at the beginning of a line; NULL: the line begins with another. */
 static const char *after(const char *line, const char *word) {
@@ -42,16 +31,8 @@ static const char *after(const char *line, const char *word) {
     return line + length + strspn(line + length, " \t");
 }
 
-static void copy_name(char *to, const char *from) {
-    size_t length = strlen(from);
-    while (length && strchr(" \t\r", from[length - 1])) length--;
-    if (length >= NAME_ROOM) length = NAME_ROOM - 1;
-    memcpy(to, from, length);
-    to[length] = '\0';
-}
-
 /* Kd r g b; one number stands for three. Spectra (Kd spectral, Kd xyz) stay unknown. */
-static void read_colour(material *m, const char *at) {
+static void read_colour(formats_material *m, const char *at) {
     int count = 0;
     for (char *end; count < 3; count++, at = end) {
         m->rgba[count] = strtod(at, &end);
@@ -67,47 +48,43 @@ static void read_share(double *share, const char *at, bool clear) {
     if (end != at) *share = clear ? 1 - value : value;
 }
 
-static froe_status read_line(formats_sink *sink, formats_materials *materials, const char *line) {
-    const char *name = after(line, "newmtl"), *at;
-    if (name) {
-        material *m = formats_buffer_add(&sink->alloc, &materials->all, sizeof *m);
-        if (!m) return support_fail_memory(sink->diag);
-        *m = (material){.rgba = {0, 0, 0, 1}};
-        copy_name(m->name, name);
-    } else if (materials->all.size) {
-        material *last = (material *)materials->all.data + materials->all.size / sizeof *last - 1;
-        if ((at = after(line, "Kd"))) read_colour(last, at);
-        if (after(line, "map_Kd")) last->painted = true;
-        if ((at = after(line, "d"))) read_share(last->rgba + 3, at, false);
-        if ((at = after(line, "Tr"))) read_share(last->rgba + 3, at, true);
-    }
-    return FROE_OK;
-}
-
-/* A name at or below the folder of the OBJ, as a path. False: it is none. */
-static bool find_material(const char *path, const char *name, char out[PATH_ROOM]) {
+/* Does a file of this name lie at or below the folder of the OBJ, and is it no larger than such files are? */
+static bool find_library(const char *path, const char *name, char out[PATH_ROOM], struct stat *about) {
     const char *slash = strrchr(path, '/');
     const int folder = slash ? (int)(slash - path) + 1 : 0;
     if (*name == '/' || !strcmp(name, "..") || !strncmp(name, "../", 3) || strstr(name, "/../")) return false;
     const int length = snprintf(out, PATH_ROOM, "%.*s%s", folder, path, name);
-    struct stat about;
-    return length > 0 && length < PATH_ROOM && !stat(out, &about) && S_ISREG(about.st_mode) &&
-           about.st_size <= MOST_BYTES;
+    return length > 0 && length < PATH_ROOM && !stat(out, about) && S_ISREG(about->st_mode) &&
+           about->st_size <= MOST_BYTES;
 }
 
 froe_status formats_materials_read(formats_sink *sink, const char *path, const char *name,
                                    formats_materials *materials) {
     char library[PATH_ROOM];
     struct stat about;
-    formats_buffer text = {0};
-    if (!find_material(path, name, library) || stat(library, &about)) return FROE_OK;
+    formats_text text = {0};
+    if (!find_library(path, name, library, &about)) return FROE_OK;
     const formats_source source = {.path = library, .size = (uint64_t)about.st_size};
     froe_status status = formats_load(&source, sink, false, &text);
     for (char *line = text.data, *next; !status && line && *line; line = next) {
         next = line + strcspn(line, "\n");
         if (*next) *next++ = '\0';
-        status = read_line(sink, materials, line);
+        const char *at = after(line, "newmtl");
+        if (at) {
+            size_t length = strlen(at);
+            while (length && strchr(" \t\r", at[length - 1])) length--;
+            if (length >= FORMATS_MATERIAL_NAME) length = FORMATS_MATERIAL_NAME - 1;
+            formats_material m = {.rgba = {0, 0, 0, 1}};
+            memcpy(m.name, at, length);
+            if (!array_push(&sink->alloc, materials, m)) status = support_fail_memory(sink->diag);
+        } else if (materials->count) {
+            formats_material *last = materials->data + materials->count - 1;
+            if ((at = after(line, "Kd"))) read_colour(last, at);
+            if (after(line, "map_Kd")) last->painted = true;
+            if ((at = after(line, "d"))) read_share(last->rgba + 3, at, false);
+            if ((at = after(line, "Tr"))) read_share(last->rgba + 3, at, true);
+        }
     }
-    formats_buffer_free(&sink->alloc, &text);
+    array_free(&sink->alloc, &text);
     return status == FROE_E_MEMORY ? status : FROE_OK;
 }

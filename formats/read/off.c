@@ -12,7 +12,7 @@ typedef struct off {
     size_t length;
     bool extras; /* vertices carry normals or colours: the rest of their line is theirs */
     uint64_t vertices, faces;
-    formats_buffer points, corners; /* doubles, 3 each */
+    ARRAY(double) points, corners; /* 3 each */
 } off;
 
 static froe_status broken_off(off *o, const char *what) {
@@ -72,24 +72,24 @@ static froe_status read_off_header(off *o) {
 }
 
 static froe_status read_vertices(off *o) {
-    double *p = formats_buffer_add(&o->sink->alloc, &o->points, (size_t)o->vertices * 3 * sizeof *p);
-    if (!p) return support_fail_memory(o->sink->diag);
+    if (!array_reserve(&o->sink->alloc, &o->points, (size_t)o->vertices * 3)) return support_fail_memory(o->sink->diag);
     for (uint64_t i = 0; i < o->vertices; ++i) {
         for (int k = 0; k < 3; ++k)
-            if (!number(o, p++)) return broken_off(o, *o->at ? "a coordinate is not a number" : "vertices are missing");
+            if (!number(o, &o->points.data[o->points.count++]))
+                return broken_off(o, *o->at ? "a coordinate is not a number" : "vertices are missing");
         if (o->extras) skip_line(o);
     }
     return FROE_OK;
 }
 
-static froe_status read_face(off *o, uint64_t corners) {
-    const double *points = o->points.data;
-    o->corners.size = 0;
+static froe_status read_face(off *o) {
+    uint64_t corners, vertex;
+    o->corners.count = 0;
+    if (!whole(o, &corners)) return broken_off(o, *o->at ? "a count of corners is not a number" : "faces are missing");
     for (uint64_t i = 0; i < corners; ++i) {
-        uint64_t vertex;
         if (!whole(o, &vertex)) return broken_off(o, *o->at ? "an index is not a number" : "faces are missing");
         if (vertex >= o->vertices) return broken_off(o, "a face names a vertex that does not exist");
-        if (!formats_buffer_put(&o->sink->alloc, &o->corners, points + 3 * vertex, 3 * sizeof *points))
+        if (!array_append(&o->sink->alloc, &o->corners, o->points.data + 3 * vertex, 3))
             return support_fail_memory(o->sink->diag);
     }
     skip_line(o); /* colours */
@@ -97,25 +97,11 @@ static froe_status read_face(off *o, uint64_t corners) {
     return formats_sink_face(o->sink, o->corners.data, (size_t)corners);
 }
 
-static froe_status read_faces(off *o) {
-    enum { FACES_PER_REPORT = 4096 };
-    froe_status status = FROE_OK;
-    for (uint64_t i = 0; i < o->faces && !status; ++i) {
-        uint64_t corners;
-        o->sink->number = i;
-        if (!whole(o, &corners))
-            return broken_off(o, *o->at ? "a count of corners is not a number" : "faces are missing");
-        status = read_face(o, corners);
-        if (!status && i % FACES_PER_REPORT == 0)
-            status = formats_sink_progress(o->sink, (double)(o->at - o->begin) / (double)o->length);
-    }
-    return status;
-}
-
 froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
-    formats_buffer text = {0};
+    enum { FACES_PER_REPORT = 4096 };
+    formats_text text = {0};
     froe_status status = formats_load(source, sink, false, &text);
-    off o = {.source = source, .sink = sink, .begin = text.data, .at = text.data, .length = text.size};
+    off o = {.source = source, .sink = sink, .begin = text.data, .at = text.data, .length = text.count};
     if (!status) status = read_off_header(&o);
     if (!status) status = formats_sink_open(sink, 3);
     if (!status) status = read_vertices(&o);
@@ -123,9 +109,14 @@ froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
     sink->report.layers = 1;
     if (!status) status = formats_sink_feature(sink, 0);
     sink->unit = "face";
-    if (!status) status = read_faces(&o);
-    formats_buffer_free(&sink->alloc, &o.points);
-    formats_buffer_free(&sink->alloc, &o.corners);
-    formats_buffer_free(&sink->alloc, &text);
+    for (uint64_t i = 0; i < o.faces && !status; ++i) {
+        sink->number = i;
+        status = read_face(&o);
+        if (!status && i % FACES_PER_REPORT == 0)
+            status = formats_sink_progress(sink, (double)(o.at - o.begin) / (double)o.length);
+    }
+    array_free(&sink->alloc, &o.points);
+    array_free(&sink->alloc, &o.corners);
+    array_free(&sink->alloc, &text);
     return status;
 }

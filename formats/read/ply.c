@@ -30,7 +30,9 @@ typedef struct ply {
     const char *at, *end;
     bool text, big; /* big: the most significant byte comes first */
     bool doubles;   /* x, y and z are doubles */
-    formats_buffer elements, points, corners, indices;
+    ARRAY(element) elements;
+    ARRAY(double) points, corners; /* 3 each */
+    ARRAY(double) indices;
     uint64_t done, all; /* items of all elements */
     bool shapes;        /* there are faces or edges */
 } ply;
@@ -83,8 +85,8 @@ static ply_role role_of(const element *e, const char *name, bool list) {
 
 static froe_status read_property(ply *p) {
     char word[WORD_ROOM];
-    if (!p->elements.size) return broken(p, "a property belongs to no element");
-    element *e = (element *)p->elements.data + p->elements.size / sizeof *e - 1;
+    if (!p->elements.count) return broken(p, "a property belongs to no element");
+    element *e = p->elements.data + p->elements.count - 1;
     if (e->properties == MOST_PROPERTIES) return broken(p, "an element has more than 64 properties");
     property *to = &e->property[e->properties++];
     *to = (property){.count = NO_TYPE};
@@ -103,10 +105,10 @@ static froe_status read_property(ply *p) {
 
 static froe_status read_element(ply *p) {
     char word[WORD_ROOM], *end;
-    next_word(p, word);
-    element *e = formats_buffer_add(&p->sink->alloc, &p->elements, sizeof *e);
-    if (!e) return out_of_memory(p);
+    if (!array_reserve(&p->sink->alloc, &p->elements, 1)) return out_of_memory(p);
+    element *e = p->elements.data + p->elements.count++;
     memset(e, 0, sizeof *e);
+    next_word(p, word);
     e->kind = !strcmp(word, "vertex") ? VERTEX : !strcmp(word, "face") ? FACE : !strcmp(word, "edge") ? EDGE : OTHER;
     next_word(p, word);
     e->count = strtoull(word, &end, 10);
@@ -115,15 +117,6 @@ static froe_status read_element(ply *p) {
     p->shapes = p->shapes || ((e->kind == FACE || e->kind == EDGE) && e->count);
     p->all += e->count;
     return FROE_OK;
-}
-
-static froe_status read_format(ply *p) {
-    char word[WORD_ROOM];
-    next_word(p, word);
-    p->text = !strcmp(word, "ascii");
-    p->big = !strcmp(word, "binary_big_endian");
-    if (p->text || p->big || !strcmp(word, "binary_little_endian")) return FROE_OK;
-    return broken(p, "its format is neither ascii nor binary");
 }
 
 static froe_status read_ply_header(ply *p) {
@@ -135,8 +128,11 @@ static froe_status read_ply_header(ply *p) {
         next_word(p, word);
         if (!strcmp(word, "end_header")) break;
         if (!strcmp(word, "format")) {
-            status = read_format(p);
-            formatted = true;
+            next_word(p, word);
+            p->text = !strcmp(word, "ascii");
+            p->big = !strcmp(word, "binary_big_endian");
+            formatted = p->text || p->big || !strcmp(word, "binary_little_endian");
+            if (!formatted) return broken(p, "its format is neither ascii nor binary");
         } else if (!strcmp(word, "element")) {
             status = read_element(p);
         } else if (!strcmp(word, "property")) {
@@ -148,11 +144,6 @@ static froe_status read_ply_header(ply *p) {
 }
 
 /* ------------------------------------------------------------------ data -- */
-
-static size_t size_of(ply_type type) {
-    static const unsigned char sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
-    return sizes[type];
-}
 
 static double decode(ply_type type, uint64_t bits) {
     float single;
@@ -184,7 +175,8 @@ static bool read_number(ply *p, ply_type type, double *value) {
         p->at = end;
         return found;
     }
-    size_t size = size_of(type);
+    static const unsigned char sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
+    const size_t size = sizes[type];
     if ((size_t)(p->end - p->at) < size) return false;
     uint64_t bits = 0;
     for (size_t i = 0; i < size; ++i) bits = bits << 8 | (unsigned char)p->at[p->big ? i : size - 1 - i];
@@ -195,7 +187,7 @@ static bool read_number(ply *p, ply_type type, double *value) {
 
 /* Numbers of one item, by role; of its indices all. */
 static froe_status read_item(ply *p, const element *e, double *by_role) {
-    p->indices.size = 0;
+    p->indices.count = 0;
     for (int i = 0; i < e->properties; ++i) {
         const property *to = &e->property[i];
         double count = 1, value;
@@ -204,50 +196,43 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
         for (double k = 0; k < count; ++k) {
             if (!read_number(p, to->type, &value)) return broken(p, "the data end too early, or hold no number");
             by_role[to->role] = value;
-            if (to->role == INDICES && !formats_buffer_put(&p->sink->alloc, &p->indices, &value, sizeof value))
-                return out_of_memory(p);
+            if (to->role == INDICES && !array_push(&p->sink->alloc, &p->indices, value)) return out_of_memory(p);
         }
     }
     return FROE_OK;
 }
 
 static froe_status add_corner(ply *p, double index) {
-    size_t points = p->points.size / (3 * sizeof(double));
-    if (!(index >= 0 && index < (double)points) || index != (double)(uint64_t)index)
+    if (!(index >= 0 && index < (double)(p->points.count / 3)) || index != (double)(uint64_t)index)
         return broken(p, "a face or edge names a vertex that does not exist (or comes later)");
-    const double *at = (const double *)p->points.data + 3 * (size_t)index;
-    return formats_buffer_put(&p->sink->alloc, &p->corners, at, 3 * sizeof *at) ? FROE_OK : out_of_memory(p);
+    const double *at = p->points.data + 3 * (size_t)index;
+    return array_append(&p->sink->alloc, &p->corners, at, 3) ? FROE_OK : out_of_memory(p);
 }
 
-static froe_status add_shape(ply *p, const element *e, const double *by_role) {
+/* A vertex is kept for the faces and edges to come, where there are any. */
+static froe_status add_item(ply *p, const element *e, const double *by_role) {
     froe_status status = FROE_OK;
-    const double *at = p->indices.data;
-    p->corners.size = 0;
+    if (e->kind == OTHER) return FROE_OK;
+    if (e->kind == VERTEX && !p->shapes) return formats_sink_point(p->sink, by_role + X);
+    if (e->kind == VERTEX)
+        return array_append(&p->sink->alloc, &p->points, by_role + X, 3) ? FROE_OK : out_of_memory(p);
+    p->corners.count = 0;
     if (e->kind == EDGE) {
         status = add_corner(p, by_role[FIRST]);
         if (!status) status = add_corner(p, by_role[SECOND]);
     } else {
-        for (size_t i = 0; i < p->indices.size / sizeof *at && !status; ++i) status = add_corner(p, at[i]);
+        for (size_t i = 0; i < p->indices.count && !status; ++i) status = add_corner(p, p->indices.data[i]);
     }
     if (status) return status;
-    if (!p->corners.size) return ++p->sink->report.skipped, FROE_OK;
-    return formats_sink_face(p->sink, p->corners.data, p->corners.size / (3 * sizeof(double)));
-}
-
-static froe_status add_item(ply *p, const element *e, const double *by_role) {
-    if (e->kind == FACE || e->kind == EDGE) return add_shape(p, e, by_role);
-    if (e->kind != VERTEX) return FROE_OK;
-    if (!p->shapes) return formats_sink_point(p->sink, by_role + X);
-    return formats_buffer_put(&p->sink->alloc, &p->points, by_role + X, 3 * sizeof *by_role) ? FROE_OK
-                                                                                             : out_of_memory(p);
+    if (!p->corners.count) return ++p->sink->report.skipped, FROE_OK;
+    return formats_sink_face(p->sink, p->corners.data, p->corners.count / 3);
 }
 
 static froe_status read_data(ply *p) {
     enum { ITEMS_PER_REPORT = 8192 };
     froe_status status = FROE_OK;
-    const element *elements = p->elements.data;
-    for (size_t k = 0; k < p->elements.size / sizeof *elements; ++k) {
-        const element *e = &elements[k];
+    for (size_t k = 0; k < p->elements.count; ++k) {
+        const element *e = p->elements.data + k;
         for (uint64_t i = 0; i < e->count && !status; ++i) {
             double by_role[SECOND + 1] = {0};
             p->sink->number = i;
@@ -261,11 +246,12 @@ static froe_status read_data(ply *p) {
 }
 
 froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
-    formats_buffer file = {0};
+    const froe_allocator *alloc = &sink->alloc;
+    formats_text file = {0};
     ply p = {.sink = sink};
     froe_status status = formats_load(source, sink, true, &file);
     p.at = file.data;
-    p.end = p.at + file.size;
+    p.end = p.at + file.count;
     if (!status && strncmp(p.at, "ply", 3) != 0) status = broken(&p, "does not begin like PLY");
     if (!status) status = read_ply_header(&p);
     if (!status) status = formats_sink_open(sink, 3);
@@ -274,7 +260,10 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
     if (!status) status = formats_sink_feature(sink, 0);
     sink->unit = p.shapes ? "face" : "vertex";
     if (!status) status = read_data(&p);
-    formats_buffer *buffers[] = {&file, &p.elements, &p.points, &p.corners, &p.indices};
-    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) formats_buffer_free(&sink->alloc, buffers[i]);
+    array_free(alloc, &file);
+    array_free(alloc, &p.elements);
+    array_free(alloc, &p.points);
+    array_free(alloc, &p.corners);
+    array_free(alloc, &p.indices);
     return status;
 }

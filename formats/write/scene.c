@@ -27,19 +27,14 @@ static const double *place_of_corner(const pen *p, uint32_t object, const froe_o
     return froe_scene_vertex(p->scene, corner_of(p, object, o, corner));
 }
 
-/* The first object whose kind is not among the kinds (bits); FROE_NONE: all are. */
-static uint32_t first_other(const pen *p, uint32_t kinds) {
-    for (uint32_t i = 0; i < p->objects; ++i)
-        if (!(kinds >> froe_scene_object(p->scene, i).kind & 1)) return i;
-    return FROE_NONE;
-}
-
+/* Can the scene be written in this format, which has these kinds (bits)? */
 static froe_status check_kinds(const pen *p, const char *format, uint32_t kinds, bool dim_fits) {
-    uint32_t other = first_other(p, kinds);
-    if (dim_fits && other == FROE_NONE) return FROE_OK;
+    uint32_t other = 0;
     if (!dim_fits)
         return support_fail(p->diag, FROE_E_UNSUPPORTED, "%s: a scene of dimension %d cannot be written as %s",
                             support_short(p->path), p->dim, format);
+    while (other < p->objects && kinds >> froe_scene_object(p->scene, other).kind & 1) ++other;
+    if (other == p->objects) return FROE_OK;
     froe_status status =
         support_fail(p->diag, FROE_E_UNSUPPORTED, "%s: object %u, a %s, cannot be written as %s",
                      support_short(p->path), other, froe_kind_name(froe_scene_object(p->scene, other).kind), format);
@@ -55,23 +50,29 @@ static void position(pen *p, const double *at) {
     formats_put(&p->writer, "]");
 }
 
-static void begin_feature(pen *p, uint32_t first, const froe_object *o, const char *type) {
-    formats_put(&p->writer,
-                first ? ",\n{\"type\":\"Feature\",\"properties\":{" : "\n{\"type\":\"Feature\",\"properties\":{");
-    if (o->group != FROE_NONE) {
-        froe_group group = froe_scene_group(p->scene, o->group);
-        formats_put(&p->writer, "\"name\":");
-        formats_put_json(&p->writer, group.name);
-        formats_put(&p->writer, ",\"layer\":");
-        formats_put_json(&p->writer, group.material);
+/* Segments, of which several that continue one another share a line. */
+static void put_lines(pen *p, uint32_t first, uint32_t end) {
+    const bool several = end > first + 1;
+    uint32_t last = FROE_NONE;
+    for (uint32_t i = first; i < end; ++i) {
+        froe_object o = froe_scene_object(p->scene, i);
+        if (i == first || corner_of(p, i, &o, 0) != last) {
+            formats_put(&p->writer, i > first ? "],[" : several ? "[[" : "[");
+            position(p, place_of_corner(p, i, &o, 0));
+        }
+        formats_put(&p->writer, ",");
+        position(p, place_of_corner(p, i, &o, 1));
+        last = corner_of(p, i, &o, 1);
     }
-    formats_put(&p->writer, "},\"geometry\":{\"type\":");
-    formats_put_json(&p->writer, type);
-    formats_put(&p->writer, ",\"coordinates\":");
+    formats_put(&p->writer, several ? "]]" : "]");
 }
 
-/* A box as a ring; with `boxes` it is read as the box it was. */
-static void put_box(pen *p, const double *lo, const double *hi) {
+static void put_coordinates(pen *p, uint32_t first, uint32_t end, const froe_object *o) {
+    if (o->kind == FROE_SEGMENT) return put_lines(p, first, end);
+    const double *lo = place_of_corner(p, first, o, 0);
+    if (o->kind == FROE_POINT) return position(p, lo);
+    /* a box as a ring; with `boxes` it is read as the box it was */
+    const double *hi = place_of_corner(p, first, o, 1);
     const double ring[5][2] = {{lo[0], lo[1]}, {hi[0], lo[1]}, {hi[0], hi[1]}, {lo[0], hi[1]}, {lo[0], lo[1]}};
     for (int i = 0; i < 5; ++i) {
         formats_put(&p->writer, i ? "," : "[[");
@@ -80,61 +81,34 @@ static void put_box(pen *p, const double *lo, const double *hi) {
     formats_put(&p->writer, "]]");
 }
 
-/* The end of the run of segments from `first` that share its group. */
-static uint32_t run_end(const pen *p, uint32_t first, const froe_object *o) {
-    uint32_t end = first + 1;
-    while (o->group != FROE_NONE && end < p->objects) {
-        froe_object next = froe_scene_object(p->scene, end);
-        if (next.kind != FROE_SEGMENT || next.group != o->group) break;
-        ++end;
-    }
-    return end;
-}
-
-static void put_scene_line(pen *p, const double *a, const double *b) {
-    formats_put(&p->writer, "[");
-    position(p, a);
-    formats_put(&p->writer, ",");
-    position(p, b);
-    formats_put(&p->writer, "]");
-}
-
-/* Segments that continue one another share a line. */
-static void put_lines(pen *p, uint32_t first, uint32_t end) {
-    uint32_t last = FROE_NONE;
-    for (uint32_t i = first; i < end; ++i) {
-        froe_object o = froe_scene_object(p->scene, i);
-        if (i == first || corner_of(p, i, &o, 0) != last) {
-            formats_put(&p->writer, i > first ? "],[" : "[[");
-            position(p, place_of_corner(p, i, &o, 0));
-        }
-        formats_put(&p->writer, ",");
-        position(p, place_of_corner(p, i, &o, 1));
-        last = corner_of(p, i, &o, 1);
-    }
-    formats_put(&p->writer, "]]");
-}
-
-static const char *type_of(froe_kind kind, uint32_t objects) {
-    if (kind == FROE_POINT) return "Point";
-    if (kind == FROE_BOX) return "Polygon";
-    return objects == 1 ? "LineString" : "MultiLineString";
-}
-
 static void write_geojson(pen *p) {
-    formats_put(&p->writer, "{\"type\":\"FeatureCollection\",\"features\":[");
+    formats_writer *w = &p->writer;
+    formats_put(w, "{\"type\":\"FeatureCollection\",\"features\":[");
     for (uint32_t i = 0, end; i < p->objects; i = end) {
-        froe_object o = froe_scene_object(p->scene, i);
-        end = o.kind == FROE_SEGMENT ? run_end(p, i, &o) : i + 1;
-        begin_feature(p, i, &o, type_of(o.kind, end - i));
-        if (o.kind == FROE_POINT) position(p, place_of_corner(p, i, &o, 0));
-        if (o.kind == FROE_BOX) put_box(p, place_of_corner(p, i, &o, 0), place_of_corner(p, i, &o, 1));
-        if (o.kind == FROE_SEGMENT && end == i + 1)
-            put_scene_line(p, place_of_corner(p, i, &o, 0), place_of_corner(p, i, &o, 1));
-        if (o.kind == FROE_SEGMENT && end > i + 1) put_lines(p, i, end);
-        formats_put(&p->writer, "}}");
+        const froe_object o = froe_scene_object(p->scene, i);
+        /* a run of segments that share their group is one feature */
+        for (end = i + 1; o.kind == FROE_SEGMENT && o.group != FROE_NONE && end < p->objects; ++end) {
+            const froe_object next = froe_scene_object(p->scene, end);
+            if (next.kind != FROE_SEGMENT || next.group != o.group) break;
+        }
+        formats_put(w, i ? ",\n{\"type\":\"Feature\",\"properties\":{" : "\n{\"type\":\"Feature\",\"properties\":{");
+        if (o.group != FROE_NONE) {
+            const froe_group group = froe_scene_group(p->scene, o.group);
+            formats_put(w, "\"name\":");
+            formats_put_json(w, group.name);
+            formats_put(w, ",\"layer\":");
+            formats_put_json(w, group.material);
+        }
+        formats_put(w, "},\"geometry\":{\"type\":");
+        formats_put_json(w, o.kind == FROE_POINT ? "Point"
+                            : o.kind == FROE_BOX ? "Polygon"
+                            : end == i + 1       ? "LineString"
+                                                 : "MultiLineString");
+        formats_put(w, ",\"coordinates\":");
+        put_coordinates(p, i, end, &o);
+        formats_put(w, "}}");
     }
-    formats_put(&p->writer, "\n]}\n");
+    formats_put(w, "\n]}\n");
 }
 
 /* ------------------------------------------------------------------- CSV -- */
@@ -202,23 +176,21 @@ static void write_off(pen *p) {
     }
 }
 
-static void put_group(pen *p, uint32_t id) {
-    froe_group group = {.name = "", .material = ""};
-    if (id != FROE_NONE) group = froe_scene_group(p->scene, id);
-    formats_put(&p->writer, "o ");
-    formats_put_word(&p->writer, group.name);
-    formats_put(&p->writer, "\nusemtl ");
-    formats_put_word(&p->writer, group.material);
-    formats_put(&p->writer, "\n");
-}
-
 static void write_obj(pen *p) {
     static const char *const words[FROE_KIND_COUNT] = {"p", "l", "f", "", "", ""};
     put_vertices(p, "v ");
     uint32_t group = FROE_NONE;
     for (uint32_t i = 0; i < p->objects; ++i) {
         froe_object o = froe_scene_object(p->scene, i);
-        if (o.group != group) put_group(p, o.group);
+        if (o.group != group) {
+            froe_group of = {.name = "", .material = ""};
+            if (o.group != FROE_NONE) of = froe_scene_group(p->scene, o.group);
+            formats_put(&p->writer, "o ");
+            formats_put_word(&p->writer, of.name);
+            formats_put(&p->writer, "\nusemtl ");
+            formats_put_word(&p->writer, of.material);
+            formats_put(&p->writer, "\n");
+        }
         group = o.group;
         formats_put(&p->writer, words[o.kind]);
         put_indices(p, i, &o, 1);
@@ -244,23 +216,6 @@ static const kind_of_file files[] = {
     {"obj", "OBJ", POINTS | SEGMENTS | POLYGONS, 3, 3, write_obj},
 };
 
-static const kind_of_file *find_place(const char *path) {
-    formats_extension extension = formats_path_extension(path);
-    for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
-        if (!strcmp(files[i].extension, extension.text)) return &files[i];
-    return NULL;
-}
-
-static froe_status check_written_scene(const pen *p, const kind_of_file *file) {
-    if (!file)
-        return support_fail(p->diag, FROE_E_UNSUPPORTED, "%s: a scene is written to .geojson, .csv, .off or .obj",
-                            support_short(p->path));
-    bool fits = p->dim >= file->least_dim && p->dim <= file->most_dim;
-    froe_status status = check_kinds(p, file->name, file->kinds, fits);
-    if (status || file->write != write_csv || !p->objects) return status;
-    return check_kinds(p, "CSV together with the kind of object 0", 1u << froe_scene_object(p->scene, 0).kind, true);
-}
-
 froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!scene || !path) return support_fail(diag, FROE_E_ARG, "froe_write_scene: scene and path must not be NULL");
@@ -269,8 +224,16 @@ froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_dia
              .diag = diag,
              .dim = froe_scene_dim(scene),
              .objects = froe_scene_object_count(scene)};
-    const kind_of_file *file = find_place(path);
-    froe_status status = check_written_scene(&p, file);
+    const support_extension extension = support_path_extension(path);
+    const kind_of_file *file = files, *end = files + sizeof files / sizeof *files;
+    while (file != end && strcmp(file->extension, extension.text)) ++file;
+    if (file == end)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: a scene is written to .geojson, .csv, .off or .obj",
+                            support_short(path));
+    froe_status status = check_kinds(&p, file->name, file->kinds, p.dim >= file->least_dim && p.dim <= file->most_dim);
+    if (!status && file->write == write_csv && p.objects)
+        status =
+            check_kinds(&p, "CSV together with the kind of object 0", 1u << froe_scene_object(scene, 0).kind, true);
     if (!status) status = formats_writer_open(&p.writer, path, diag);
     if (status) return status;
     file->write(&p);

@@ -14,14 +14,6 @@ static void put_attribute(formats_writer *w, const formats_attribute *a,
 
 /* --------------------------------------------------------------- GeoJSON -- */
 
-static void geojson_positions(formats_writer *w, const formats_shape *s) {
-    for (size_t i = 0; i < s->corners; ++i) {
-        formats_put(w, i ? ",[" : "[");
-        formats_put_point(w, s->coords + i * (size_t)s->dim, s->dim, ",");
-        formats_put(w, "]");
-    }
-}
-
 static void geojson_geometry(formats_writer *w, const formats_shape *s) {
     static const char *const types[] = {"MultiPoint", "LineString", "Polygon", "Polygon"};
     bool point = s->sort == FORMATS_POINTS && s->corners == 1, polygon = s->sort == FORMATS_POLYGON;
@@ -29,18 +21,17 @@ static void geojson_geometry(formats_writer *w, const formats_shape *s) {
     formats_put_json(w, point ? "Point" : types[s->sort]);
     formats_put(w, ",\"coordinates\":");
     formats_put(w, point ? "" : polygon ? "[[" : "[");
-    geojson_positions(w, s);
+    for (size_t i = 0; i < s->corners; ++i) {
+        formats_put(w, i ? ",[" : "[");
+        formats_put_point(w, s->coords + i * (size_t)s->dim, s->dim, ",");
+        formats_put(w, "]");
+    }
     if (polygon) {
         formats_put(w, ",[");
         formats_put_point(w, s->coords, s->dim, ",");
         formats_put(w, "]]");
     }
     formats_put(w, point ? "}" : "]}");
-}
-
-static void geojson_begin(formats_writer *w, const formats_shape *like) {
-    (void)like;
-    formats_put(w, "{\"type\":\"FeatureCollection\",\"features\":[");
 }
 
 static void geojson_shape(formats_writer *w, const formats_shape *s, bool first) {
@@ -61,26 +52,7 @@ static void geojson_shape(formats_writer *w, const formats_shape *s, bool first)
     formats_put(w, "}");
 }
 
-static void geojson_end(formats_writer *w) {
-    formats_put(w, "\n]}\n");
-}
-
 /* ------------------------------------------------------------------- OBJ -- */
-
-/* Corners count backwards from the last vertex, so that nothing needs to be remembered. */
-static void obj_element(formats_writer *w, const char *word, size_t first, size_t end, size_t corners) {
-    formats_put(w, word);
-    for (size_t i = first; i < end; ++i) {
-        formats_put(w, " -");
-        formats_put_whole(w, corners - i);
-    }
-    formats_put(w, "\n");
-}
-
-static void obj_begin(formats_writer *w, const formats_shape *like) {
-    (void)like;
-    formats_put(w, "# written by froe; group names carry the attributes\n");
-}
 
 static void obj_shape(formats_writer *w, const formats_shape *s, bool first) {
     (void)first;
@@ -102,11 +74,14 @@ static void obj_shape(formats_writer *w, const formats_shape *s, bool first) {
     size_t whole[2] = {0, s->corners};
     const size_t *starts = s->sort == FORMATS_SURFACE ? s->starts : whole;
     size_t faces = s->sort == FORMATS_SURFACE ? s->faces : 1;
-    for (size_t f = 0; f < faces; ++f) obj_element(w, words[s->sort], starts[f], starts[f + 1], s->corners);
-}
-
-static void obj_end(formats_writer *w) {
-    (void)w;
+    for (size_t f = 0; f < faces; ++f) {
+        formats_put(w, words[s->sort]);
+        for (size_t i = starts[f]; i < starts[f + 1]; ++i) {
+            formats_put(w, " -"); /* corners count backwards from the last vertex, so that nothing is remembered */
+            formats_put_whole(w, s->corners - i);
+        }
+        formats_put(w, "\n");
+    }
 }
 
 /* ------------------------------------------------------------------- CSV -- */
@@ -138,7 +113,7 @@ static void wkt(formats_writer *w, const formats_shape *s) {
     }
 }
 
-static void csv_begin(formats_writer *w, const formats_shape *like) {
+static void csv_columns(formats_writer *w, const formats_shape *like) {
     for (int i = 0; i < like->attribute_count; ++i) {
         formats_put_csv(w, like->attributes[i].name);
         formats_put(w, ",");
@@ -161,15 +136,13 @@ static void csv_shape(formats_writer *w, const formats_shape *s, bool first) {
     formats_put(w, "\"\n");
 }
 
-static void csv_end(formats_writer *w) {
-    (void)w;
-}
-
-const formats_format *formats_format_of(const char *path) {
-    static const formats_format geojson = {"GeoJSON", 2, 2, geojson_begin, geojson_shape, geojson_end};
-    static const formats_format obj = {"OBJ", 3, 3, obj_begin, obj_shape, obj_end};
-    static const formats_format csv = {"CSV", 2, FROE_MAX_DIM, csv_begin, csv_shape, csv_end};
-    formats_extension extension = formats_path_extension(path);
+const formats_shape_file *formats_shape_file_of(const char *path) {
+    static const formats_shape_file geojson = {
+        2, 2, "{\"type\":\"FeatureCollection\",\"features\":[", NULL, geojson_shape, "\n]}\n"};
+    static const formats_shape_file obj = {3,    3,         "# written by froe; group names carry the attributes\n",
+                                           NULL, obj_shape, ""};
+    static const formats_shape_file csv = {2, FROE_MAX_DIM, "", csv_columns, csv_shape, ""};
+    support_extension extension = support_path_extension(path);
     if (!strcmp(extension.text, "geojson") || !strcmp(extension.text, "json")) return &geojson;
     if (!strcmp(extension.text, "obj")) return &obj;
     return strcmp(extension.text, "csv") ? NULL : &csv;

@@ -28,15 +28,16 @@ typedef struct formats_shape {
     int attribute_count;
 } formats_shape;
 
-typedef struct formats_format {
-    const char *name;
+/** How a file of shapes is written: head, columns, shapes, foot. */
+typedef struct formats_shape_file {
     int least_dim, most_dim;
-    void (*begin)(formats_writer *writer, const formats_shape *like); /**< `like` has the names of the attributes */
+    const char *head;
+    void (*columns)(formats_writer *writer, const formats_shape *like); /**< the names of its attributes; may be NULL */
     void (*shape)(formats_writer *writer, const formats_shape *shape, bool first);
-    void (*end)(formats_writer *writer);
-} formats_format;
+    const char *foot;
+} formats_shape_file;
 
 /** By extension; NULL: none is known. */
-const formats_format *formats_format_of(const char *path);
+const formats_shape_file *formats_shape_file_of(const char *path);
 
 #endif

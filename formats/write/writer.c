@@ -7,14 +7,14 @@
 #include <string.h>
 
 froe_status formats_writer_open(formats_writer *w, const char *path, froe_diagnostic *diag) {
-    if (!formats_locale_enter(&w->locale)) return support_fail_memory(diag);
+    if (!support_locale_enter(&w->locale)) return support_fail_memory(diag);
     froe_status status = support_writer_open(&w->out, path, NULL, diag);
-    if (status) formats_locale_leave(&w->locale);
+    if (status) support_locale_leave(&w->locale);
     return status;
 }
 
 froe_status formats_writer_close(formats_writer *w, froe_status status) {
-    formats_locale_leave(&w->locale);
+    support_locale_leave(&w->locale);
     return support_writer_close(&w->out, status);
 }
 

@@ -3,12 +3,15 @@
 #ifndef FROE_FORMATS_WRITER_H
 #define FROE_FORMATS_WRITER_H
 
-#include "formats/input/common.h"
+#include "support/fail.h"
+#include "support/locale.h"
+#include "support/path.h"
 #include "support/writer.h"
+#include <froe/formats.h>
 
 typedef struct formats_writer {
     support_writer out;
-    formats_locale locale; /**< numbers have decimal points */
+    support_locale locale; /**< numbers have decimal points */
 } formats_writer;
 
 /** FROE_E_IO, FROE_E_MEMORY; on success formats_writer_close() must follow. */

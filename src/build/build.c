@@ -2,7 +2,7 @@
 #include "base/floats.h"
 #include "build/options.h"
 #include "support/fail.h"
-#include <locale.h>
+#include "support/locale.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -185,12 +185,10 @@ static froe_status prepare(const froe_build_options *o, const build_method *meth
 /** In the C locale: a decimal comma would make settings invalid, or get into trees. */
 static froe_status prepare_in_any_locale(const froe_build_options *o, const build_method *method, bool tuned,
                                          build_job *job) {
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), callers;
-    if (!plain) return support_fail_memory(job->diag);
-    callers = uselocale(plain);
-    froe_status status = prepare(o, method, tuned, job);
-    uselocale(callers);
-    freelocale(plain);
+    support_locale locale;
+    if (!support_locale_enter(&locale)) return support_fail_memory(job->diag);
+    const froe_status status = prepare(o, method, tuned, job);
+    support_locale_leave(&locale);
     return status;
 }
 

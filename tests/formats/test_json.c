@@ -8,7 +8,7 @@
 
 typedef struct document {
     char *text;
-    formats_buffer values;
+    formats_json_values values;
     formats_json_error error;
 } document;
 
@@ -21,7 +21,7 @@ static froe_status read_text(document *d, const froe_allocator *alloc, const cha
 }
 
 static void drop(document *d, const froe_allocator *alloc) {
-    formats_buffer_free(alloc, &d->values);
+    array_free(alloc, &d->values);
     free(d->text);
 }
 
@@ -38,7 +38,7 @@ static void values_are_what_the_text_says(void **state) {
     assert_int_equal(read_text(&d, &alloc, text, sizeof text - 1), FROE_OK);
     const formats_json *root = d.values.data, *list = root + 2;
     assert_true(formats_json_is(root, FORMATS_JSON_OBJECT) && root->count == 8);
-    assert_int_equal(root->span, d.values.size / sizeof *root);
+    assert_int_equal(root->span, d.values.count);
     assert_int_equal(formats_json_size(list), 6);
     size_t i = 0;
     FORMATS_JSON_EACH(item, list)
@@ -154,7 +154,7 @@ static void any_depth_will_do(void **state) {
 static froe_status without_memory(void *user, const froe_allocator *alloc) {
     document d;
     froe_status status = read_text(&d, alloc, user, strlen(user));
-    if (!status) assert_int_equal(d.values.size / sizeof(formats_json), 2001);
+    if (!status) assert_int_equal(d.values.count, 2001);
     drop(&d, alloc);
     return status;
 }

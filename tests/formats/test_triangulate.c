@@ -95,7 +95,7 @@ static void check_definition(const polygon *p, const uint32_t *triangles) {
 }
 
 /** In space, seen along z, x or y, from either side. */
-static void triangulate(const polygon *p, uint32_t view, const froe_allocator *given, formats_buffer *triangles) {
+static void triangulate(const polygon *p, uint32_t view, const froe_allocator *given, formats_indices *triangles) {
     double corners[MOST][3];
     const froe_allocator alloc = support_allocator(given);
     const bool turned = view & 1;
@@ -105,7 +105,7 @@ static void triangulate(const polygon *p, uint32_t view, const froe_allocator *g
         corners[i][(view / 2 + 2) % 3] = (double)(p->xy[i][0] & 1) * 0.125; /* not quite flat */
     }
     assert_true(formats_triangulate(&alloc, corners[0], p->count, triangles));
-    assert_int_equal(triangles->size, (p->count - 2) * 3 * sizeof(uint32_t));
+    assert_int_equal(triangles->count, (p->count - 2) * 3);
 }
 
 static void simple_polygons_lose_the_first_ear_from_where_the_last_was(void **state) {
@@ -113,11 +113,11 @@ static void simple_polygons_lose_the_first_ear_from_where_the_last_was(void **st
     size_t corners = 0;
     for (uint32_t round = 0; round < 600; round++) {
         const polygon p = simple_polygon(round, 4 + round % 60, 3 + round % 40);
-        formats_buffer triangles = {0};
+        formats_indices triangles = {0};
         triangulate(&p, round % 6, NULL, &triangles);
         check_definition(&p, triangles.data);
         const froe_allocator alloc = support_allocator(NULL);
-        formats_buffer_free(&alloc, &triangles);
+        array_free(&alloc, &triangles);
         corners += p.count;
     }
     assert_true(corners > 10000);
@@ -130,7 +130,7 @@ static void any_ring_keeps_its_area_and_its_corners(void **state) {
         polygon p = {.count = 3 + round % 60};
         for (uint64_t i = 0; i < p.count; i++)
             for (uint64_t k = 0; k < 2; k++) p.xy[i][k] = base_below(base_hash(round, i, k), 2 + round % 17);
-        formats_buffer triangles = {0};
+        formats_indices triangles = {0};
         triangulate(&p, 0, NULL, &triangles);
         const uint32_t *t = triangles.data;
         int64_t sum = 0;
@@ -141,7 +141,7 @@ static void any_ring_keeps_its_area_and_its_corners(void **state) {
         }
         assert_true(sum == ring_area(&p));
         for (size_t i = 0; i < p.count; i++) assert_true(uses[i] > 0);
-        formats_buffer_free(&alloc, &triangles);
+        array_free(&alloc, &triangles);
     }
 }
 
@@ -186,16 +186,16 @@ static void large_polygons_end(void **state) {
             if (i >= 2) whole += area(first, last, at);
             memcpy(last, at, sizeof at);
         }
-        formats_buffer triangles = {0};
+        formats_indices triangles = {0};
         assert_true(formats_triangulate(&alloc, corners, LARGE, &triangles));
-        const uint32_t *t = triangles.data, *end = t + triangles.size / sizeof *t;
+        const uint32_t *t = triangles.data, *end = t + triangles.count;
         assert_int_equal(end - t, 3 * (LARGE - 2));
         for (; t < end; t += 3) {
             for (int k = 0; k < 3; k++) large_corner(shape, t[k], x[k]);
             sum += area(x[0], x[1], x[2]);
         }
         assert_true(sum == whole || sum == -whole);
-        formats_buffer_free(&alloc, &triangles);
+        array_free(&alloc, &triangles);
     }
     free(corners);
 }
@@ -203,11 +203,11 @@ static void large_polygons_end(void **state) {
 static froe_status with_allocator(void *user, const froe_allocator *alloc) {
     const polygon *p = user;
     double corners[MOST][3] = {{0}};
-    formats_buffer triangles = {0};
+    formats_indices triangles = {0};
     for (size_t i = 0; i < p->count; i++)
         for (int k = 0; k < 2; k++) corners[i][k] = (double)p->xy[i][k];
     const bool done = formats_triangulate(alloc, corners[0], p->count, &triangles);
-    formats_buffer_free(alloc, &triangles);
+    array_free(alloc, &triangles);
     return done ? FROE_OK : FROE_E_MEMORY;
 }
 

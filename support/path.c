@@ -1,0 +1,20 @@
+/* path.c: ASCII letters in lower case. */
+#include "support/path.h"
+#include <string.h>
+
+static char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+support_extension support_path_extension(const char *path) {
+    support_extension extension = {""};
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash + 1 : path, '.');
+    if (!dot || strlen(dot + 1) >= sizeof extension.text) return extension;
+    for (size_t i = 0; dot[i + 1]; ++i) extension.text[i] = lower(dot[i + 1]);
+    return extension;
+}
+
+bool support_equal_nocase(const char *a, const char *b) {
+    while (*a && lower(*a) == lower(*b)) ++a, ++b;
+    return !*a && !*b;
+}
