@@ -1,6 +1,6 @@
 /* kinetic.h: a cylindrical partition that is kept right while its segments move, and its parts (Agarwal, Erickson and
  * Guibas, "Kinetic BSPs for intersecting segments and disjoint triangles", SODA 1998). It speaks for kinetic.c,
- * call.c, ask.c, audit.c and snapshot.c here, and for instant.c of event/. */
+ * ask.c, audit.c and snapshot.c here, and for instant.c of event/. */
 #ifndef FROE_KINETIC_KINETIC_H
 #define FROE_KINETIC_KINETIC_H
 #include "kinetic/call.h"

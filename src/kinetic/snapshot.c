@@ -10,7 +10,7 @@ froe_snapshot_options froe_snapshot_defaults(void) {
     return (froe_snapshot_options){.size = sizeof(froe_snapshot_options), .places = true};
 }
 
-typedef struct picture {
+typedef struct snapshot_work {
     froe_kinetic *k;
     uint32_t *objects, *order; /* ids in the motion, by id; positions in it, the first to cut first */
     size_t count, rounded;
@@ -18,12 +18,12 @@ typedef struct picture {
     double *coords;
     uint64_t *tags;
     froe_places *places; /* NULL: not asked for */
-} picture;
+} snapshot_work;
 
-static bool picture_new(froe_kinetic *k, bool places, picture *p) {
+static bool snapshot_new(froe_kinetic *k, bool places, snapshot_work *p) {
     size_t n = 0;
     for (uint32_t s = 0; s < k->tree.segments.count; s++) n += ktree_segment_at(&k->tree, s)->alive;
-    *p = (picture){.k = k, .count = n, .first_rounded = FROE_NONE};
+    *p = (snapshot_work){.k = k, .count = n, .first_rounded = FROE_NONE};
     if (places) p->places = places_new(&k->call.alloc);
     p->objects = support_calloc(&k->call.alloc, n + 1, sizeof *p->objects);
     p->order = support_calloc(&k->call.alloc, 2 * n + 1, sizeof *p->order);
@@ -32,7 +32,7 @@ static bool picture_new(froe_kinetic *k, bool places, picture *p) {
     return p->objects && p->order && p->coords && p->tags && (p->places || !places);
 }
 
-static void picture_free(picture *p) {
+static void snapshot_free(snapshot_work *p) {
     const froe_allocator *alloc = &p->k->call.alloc;
     support_free(alloc, p->objects, (p->count + 1) * sizeof *p->objects);
     support_free(alloc, p->order, (2 * p->count + 1) * sizeof *p->order);
@@ -42,11 +42,11 @@ static void picture_free(picture *p) {
 }
 
 static int by_object_key(void *user, uint32_t a, uint32_t b) {
-    const picture *p = user;
+    const snapshot_work *p = user;
     return ktree_before(&p->k->tree, p->objects[a], p->objects[b]) ? -1 : 1;
 }
 
-static void take_objects(picture *p) {
+static void take_objects(snapshot_work *p) {
     const froe_kinetic *k = p->k;
     uint32_t n = 0;
     for (uint32_t s = 0; s < k->tree.segments.count; s++) {
@@ -59,17 +59,9 @@ static void take_objects(picture *p) {
     if (n > 1) base_merge_sort(p->order, p->order + n, n, by_object_key, p);
 }
 
-static bool keep_place(const picture *p, uint32_t vertex, bool rounded) {
-    now_state *now = &p->k->now;
-    exact_point at;
-    now->context.arena.top = 0;
-    now_exact_at(now, vertex, &at);
-    return places_add(p->places, &at, rounded);
-}
-
 /* A vertex that several segments share is rounded alike, and counted for each of its segments but the first no more.
  * False: no memory, or cancelled. */
-static bool take_places(picture *p) {
+static bool take_places(snapshot_work *p) {
     froe_kinetic *k = p->k;
     for (size_t i = 0; i < p->count; i++)
         for (uint32_t e = 0; e < 2; e++) {
@@ -77,12 +69,18 @@ static bool take_places(picture *p) {
             const bool exact = now_round(&k->now, vertex, p->coords + 4 * i + 2 * e);
             p->rounded += !exact && k->tree.vertices.data[vertex] == 2 * p->objects[i] + e;
             if (!exact && p->first_rounded == FROE_NONE) p->first_rounded = p->objects[i];
-            if ((p->places && !keep_place(p, vertex, !exact)) || !call_goes_on(&k->call)) return false;
+            if (p->places) {
+                exact_point at;
+                k->now.context.arena.top = 0;
+                now_exact_at(&k->now, vertex, &at);
+                if (!places_add(p->places, &at, !exact)) return false;
+            }
+            if (!call_goes_on(&k->call)) return false;
         }
     return true;
 }
 
-static froe_status build_snapshot_tree(const picture *p, froe_tree **tree, froe_diagnostic *diag) {
+static froe_status build_snapshot_tree(const snapshot_work *p, froe_tree **tree, froe_diagnostic *diag) {
     froe_scene *scene = NULL;
     froe_status status = froe_scene_new(2, &p->k->call.alloc, &scene);
     if (status) return support_fail_memory(diag);
@@ -104,31 +102,31 @@ static froe_status build_snapshot_tree(const picture *p, froe_tree **tree, froe_
 
 /* Nodes to compare; the tree has one for each cut of a live node. Of objects that are equal the tree names
  * the first one. */
-typedef struct twins {
+typedef struct snapshot_twins {
     uint32_t live;
     froe_node tree;
-} twins;
+} snapshot_twins;
 
-typedef struct comparison {
+typedef struct snapshot_comparison {
     const froe_kinetic *k;
     const froe_tree *tree;
     const froe_scene *scene;
     uint32_t *index;     /* of the motion's objects in the scene */
     uint32_t *originals; /* of the scene's objects: the first that is equal */
-    ARRAY(twins) stack;
+    ARRAY(snapshot_twins) stack;
     bool short_of_memory;
-} comparison;
+} snapshot_comparison;
 
-static void push_pair_of_nodes(comparison *c, uint32_t live, froe_node tree) {
-    if (!array_push(&c->k->call.alloc, &c->stack, ((twins){live, tree}))) c->short_of_memory = true;
+static void push_pair_of_nodes(snapshot_comparison *c, uint32_t live, froe_node tree) {
+    if (!array_push(&c->k->call.alloc, &c->stack, ((snapshot_twins){live, tree}))) c->short_of_memory = true;
 }
 
-static uint32_t snapshot_corner(const comparison *c, uint32_t object, uint32_t end) {
+static uint32_t snapshot_corner(const snapshot_comparison *c, uint32_t object, uint32_t end) {
     return froe_scene_corner(c->scene, object, end);
 }
 
 /* Is a cut of the tree the wall that a segment has at one of its ends? */
-static bool is_wall(const comparison *c, uint32_t segment, uint32_t wall, const froe_cut *cut) {
+static bool is_wall(const snapshot_comparison *c, uint32_t segment, uint32_t wall, const froe_cut *cut) {
     const uint32_t object = c->index[segment];
     if (ktree_is_end(wall))
         return cut->kind == FROE_CUT_VERTEX && cut->id[0] == snapshot_corner(c, object, KTREE_END_0 - wall);
@@ -139,7 +137,7 @@ static bool is_wall(const comparison *c, uint32_t segment, uint32_t wall, const 
 }
 
 /* The cuts of a live node: walls on its left and right, then the segment, which is directed as its ends are given. */
-static bool is_same(comparison *c, twins at) {
+static bool is_same(snapshot_comparison *c, snapshot_twins at) {
     froe_node_info info = froe_tree_node(c->tree, at.tree);
     if (!at.live) return info.cut.kind == FROE_CUT_NONE;
     const ktree_node *n = ktree_node_at(&c->k->tree, at.live);
@@ -158,10 +156,10 @@ static bool is_same(comparison *c, twins at) {
     return true;
 }
 
-static froe_status compare_with_tree(const picture *p, const froe_tree *tree, bool *alike) {
+static froe_status compare_with_tree(const snapshot_work *p, const froe_tree *tree, bool *alike) {
     const froe_allocator *alloc = &p->k->call.alloc;
     const size_t all = p->k->tree.segments.count;
-    comparison c = {.k = p->k, .tree = tree, .scene = froe_tree_scene(tree)};
+    snapshot_comparison c = {.k = p->k, .tree = tree, .scene = froe_tree_scene(tree)};
     c.index = support_calloc(alloc, all + 1, sizeof *c.index);
     c.originals = support_calloc(alloc, p->count + 1, sizeof *c.originals);
     c.short_of_memory = !c.index || !c.originals || scene_originals(c.scene, alloc, c.originals);
@@ -178,7 +176,7 @@ static froe_status compare_with_tree(const picture *p, const froe_tree *tree, bo
 
 /* ---------------------------------------------------------------- snapshots -- */
 
-static froe_status make_snapshot(picture *p, bool refuse, froe_snapshot *out, froe_diagnostic *diag) {
+static froe_status make_snapshot(snapshot_work *p, bool refuse, froe_snapshot *out, froe_diagnostic *diag) {
     take_objects(p);
     if (!take_places(p)) return call_fail(&p->k->call, diag);
     if (refuse && p->rounded)
@@ -204,12 +202,12 @@ froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *
     const froe_snapshot_options standard = froe_snapshot_defaults(), *o = options ? options : &standard;
     if (!k || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_snapshot: NULL");
     if (o->size != sizeof *o) return support_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");
-    picture p;
+    snapshot_work p;
     froe_snapshot made = {0};
     froe_status status = kinetic_begin(k, diag);
     if (status) return status;
-    status = picture_new(k, o->places, &p) ? make_snapshot(&p, o->refuse, &made, diag) : support_fail_memory(diag);
+    status = snapshot_new(k, o->places, &p) ? make_snapshot(&p, o->refuse, &made, diag) : support_fail_memory(diag);
     if (!status) *out = made;
-    picture_free(&p);
+    snapshot_free(&p);
     return status;
 }

@@ -8,7 +8,9 @@
  *
  * Positions are homogeneous, (X/W, Y/W) with W > 0. A linear piece p0 -> p1 has
  *     X = p0 (t1-t) + p1 (t-t0),   W = t1-t0,
- * a quadratic one Bezier's form with the squares; so knots are met exactly from both sides, and nothing is divided. */
+ * a quadratic one Bezier's form with the squares; so knots are met exactly from both sides, and nothing is divided.
+ *
+ * It speaks for motion.c, motion_add.c (plans enter a motion) and place.c (where a vertex is). */
 #ifndef FROE_KINETIC_MOTION_H
 #define FROE_KINETIC_MOTION_H
 #include "num/ball.h"

@@ -5,7 +5,10 @@
  *                  u+                    is still equal then, it stays so until a flight plan takes another piece.
  *
  * Points go by name: a vertex, where the lines of two segments cross, or a line x = c that does not move. They are
- * ordered by x and then y, as if all vertical lines were slightly inclined (see num/sheared.h): x + eps y. */
+ * ordered by x and then y, as if all vertical lines were slightly inclined (see num/sheared.h): x + eps y.
+ *
+ * It speaks for now.c (places, order, sides, claims), course.c (pieces of plans in doubles), judge.c (order and sides
+ * exactly), along.c (order along a segment), failure.c (when a claim fails) and limit.c (places for output). */
 #ifndef FROE_KINETIC_NOW_H
 #define FROE_KINETIC_NOW_H
 #include "kinetic/motion/poly.h"
