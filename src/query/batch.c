@@ -96,11 +96,6 @@ static froe_status clear_found(froe_query *q, size_t count, froe_diagnostic *dia
     return array_reserve(&q->alloc, &q->found, count) ? FROE_OK : support_fail_memory(diag);
 }
 
-/* Checks point i. */
-static froe_status check_point(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
-    return query_check_point(point_of(b, b->points, i), q->tree->scene->dim, "A point", diag);
-}
-
 static froe_status ask_groups_in(const batch *b, froe_query *q, size_t i, const query_leaf *leaf,
                                  froe_diagnostic *diag) {
     froe_status status = query_groups_in(q, b->areas, point_of(b, b->points, i), leaf, diag);
@@ -112,7 +107,8 @@ static froe_status ask_groups_in(const batch *b, froe_query *q, size_t i, const 
 
 /* Without borders no leaf is searched for. */
 static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
-    const froe_status status = check_point(b, q, i, diag);
+    const double *x = point_of(b, b->points, i);
+    const froe_status status = query_check_point(x, q->tree->scene->dim, "A point", diag);
     return status ? status : ask_groups_in(b, q, i, NULL, diag);
 }
 
@@ -141,44 +137,17 @@ static double distance_of(const froe_query *q, size_t i) {
     return q->near.out.data[i].distance;
 }
 
-/* Appends what a query found to its chunk. */
-static bool append_answers(const batch *b, const froe_query *q, batch_chunk *c) {
-    const size_t count = q->found.count;
-    if (!array_reserve(&q->alloc, &c->ids, count)) return false;
-    if (b->value && !array_reserve(&q->alloc, &c->values, count)) return false;
-    if (count) memcpy(c->ids.data + c->ids.count, q->found.data, count * sizeof *q->found.data);
-    c->ids.count += count;
-    for (size_t i = 0; b->value && i < count; i++) c->values.data[c->values.count++] = b->value(q, i);
-    return true;
-}
-
-/* Checks ray i. */
-static froe_status check_ray(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
-    const double *point = point_of(b, b->points, i);
-    if (b->ask == ask_vertical) return query_vertical_check(q, point, b->direction, diag);
-    return query_ray_take(q, point, point_of(b, b->directions, i), b->limit, diag);
-}
-
 /* Names the first bad question of a chunk, before any is answered. */
-static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t end, ask_fn *check,
-                             froe_diagnostic *diag) {
+static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t end, froe_diagnostic *diag) {
     for (size_t i = first; i < end; i++) {
-        const froe_status status = check(b, q, i, diag);
+        const double *x = point_of(b, b->points, i);
+        const froe_status status = b->ask == ask_vertical ? query_vertical_check(q, x, b->direction, diag)
+                                   : b->directions ? query_ray_take(q, x, point_of(b, b->directions, i), b->limit, diag)
+                                                   : query_check_point(x, q->tree->scene->dim, "A point", diag);
         if (status) diag->object = (uint32_t)i;
         if (status) return status;
     }
     return FROE_OK;
-}
-
-static froe_status answer_rays(const batch *b, froe_query *q, size_t first, size_t end, froe_diagnostic *diag) {
-    const froe_status status = check_all(b, q, first, end, check_ray, diag);
-    if (status) return status;
-    const double *points = point_of(b, b->points, first);
-    if (b->ask != ask_vertical)
-        return space_rays(q, points, point_of(b, b->directions, first), end - first, b->limit,
-                          b->hits ? b->hits + first : NULL, b->objects ? b->objects + first : NULL, diag);
-    return packed_vertical(q, points, end - first, b->direction, b->objects + first) ? support_fail_memory(diag)
-                                                                                     : FROE_OK;
 }
 
 static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
@@ -187,23 +156,35 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     batch_chunk *c = b->chunks + job;
     const size_t first = job * QUERIES_PER_CHUNK, left = b->count - first;
     const size_t end = first + (left < QUERIES_PER_CHUNK ? left : QUERIES_PER_CHUNK);
+    const double *points = b->points ? point_of(b, b->points, first) : NULL;
     query_leaf leaves[QUERIES_PER_CHUNK];
-    froe_status status = FROE_OK;
     /* On a packed tree rays are answered all at once: one computes while others wait for memory. */
+    const bool upright = b->ask == ask_vertical && q->packed;
     const bool in_space = (b->ask == ask_ray || b->ask == ask_ray_any) && q->space && q->tree->packed.wide;
-    if (in_space || (b->ask == ask_vertical && q->packed)) return answer_rays(b, q, first, end, &c->diag);
-    if (b->ask_in) { /* the leaves of all points are found together, so that their cache misses overlap */
-        status = check_all(b, q, first, end, check_point, &c->diag);
-        if (status) return status;
-        if (query_leaf_find_all(q, point_of(b, b->points, first), end - first, leaves))
-            return support_fail_memory(&c->diag);
-        if (b->areas) query_areas_ask(b->areas, leaves, end - first);
-    }
+    froe_status status = upright || in_space || b->ask_in ? check_all(b, q, first, end, &c->diag) : FROE_OK;
+    if (status) return status;
+    if (in_space)
+        return space_rays(q, points, point_of(b, b->directions, first), end - first, b->limit,
+                          b->hits ? b->hits + first : NULL, b->objects ? b->objects + first : NULL, &c->diag);
+    if (upright) status = packed_vertical(q, points, end - first, b->direction, b->objects + first);
+    if (upright) return status ? support_fail_memory(&c->diag) : FROE_OK;
+    /* The leaves of all points are found together, so that their cache misses overlap. */
+    if (b->ask_in && query_leaf_find_all(q, points, end - first, leaves)) return support_fail_memory(&c->diag);
+    if (b->ask_in && b->areas) query_areas_ask(b->areas, leaves, end - first);
     for (size_t i = first; i < end && !status; i++) {
         status = b->ask_in ? b->ask_in(b, q, i, leaves + (i - first), &c->diag) : b->ask(b, q, i, &c->diag);
-        if (!status && !append_answers(b, q, c)) status = support_fail_memory(&c->diag);
-        if (status) c->diag.object = (uint32_t)i;
-        c->counts[i - first] = (uint32_t)q->found.count;
+        const size_t count = q->found.count;
+        if (!status &&
+            !(array_reserve(&q->alloc, &c->ids, count) && (!b->value || array_reserve(&q->alloc, &c->values, count))))
+            status = support_fail_memory(&c->diag);
+        if (status) {
+            c->diag.object = (uint32_t)i;
+            return status;
+        }
+        if (count) memcpy(c->ids.data + c->ids.count, q->found.data, count * sizeof *q->found.data);
+        c->ids.count += count;
+        for (size_t k = 0; b->value && k < count; k++) c->values.data[c->values.count++] = b->value(q, k);
+        c->counts[i - first] = (uint32_t)count;
     }
     return status;
 }
@@ -239,17 +220,6 @@ static froe_status gather_answers(const batch *b, froe_answers *out) {
 
 /* ----------------------------------------------------------------- running -- */
 
-/* The diagnostic of the first query that failed with this status. */
-static froe_status explain_batch(const batch *b, froe_status status, froe_diagnostic *diag) {
-    for (size_t i = 0; i < b->chunk_count; i++)
-        if (b->chunks[i].diag.status == status) {
-            if (diag) *diag = b->chunks[i].diag;
-            return status;
-        }
-    if (status == FROE_E_CANCELLED) return support_fail_cancelled(diag);
-    return support_fail_memory(diag);
-}
-
 static froe_status run_batch(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     const froe_allocator *alloc = &b->query->alloc;
     if (b->count > UINT32_MAX - 1) return support_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
@@ -257,8 +227,14 @@ static froe_status run_batch(batch *b, const froe_batch_options *options, froe_a
     b->chunks = support_calloc(alloc, b->chunk_count, sizeof *b->chunks);
     if (!b->chunks) return support_fail_memory(diag);
     froe_status status = query_workers_take(b->query, options, b->chunk_count, &b->workers, diag);
-    if (!status && (status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b)))
-        explain_batch(b, status, diag);
+    if (!status && (status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b))) {
+        size_t i = 0; /* the first query that failed with this status says why */
+        while (i < b->chunk_count && b->chunks[i].diag.status != status) i++;
+        if (i == b->chunk_count)
+            status == FROE_E_CANCELLED ? support_fail_cancelled(diag) : support_fail_memory(diag);
+        else if (diag)
+            *diag = b->chunks[i].diag;
+    }
     if (!status && out && (status = gather_answers(b, out))) support_fail_memory(diag);
     query_workers_give(&b->workers);
     for (size_t i = 0; i < b->chunk_count; i++) {

@@ -53,20 +53,18 @@ froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diag
     return FROE_OK;
 }
 
-static void release(query_shared *shared, const froe_allocator *alloc) {
-    if (atomic_fetch_sub(&shared->holds, 1) > 1) return;
-    for (int i = 0; i < QUERY_PARTS; i++) {
-        query_part *part = atomic_load(&shared->parts[i]);
-        if (part) part->free(alloc, part);
-    }
-    support_free(alloc, shared, sizeof *shared);
-}
-
 /* Frees a context, but not its forks. */
 static void free_alone(froe_query *query) {
     if (!query) return;
     froe_allocator alloc = query->alloc;
-    release(query->shared, &alloc);
+    query_shared *shared = query->shared;
+    if (atomic_fetch_sub(&shared->holds, 1) == 1) { /* the last context that shares the parts */
+        for (int i = 0; i < QUERY_PARTS; i++) {
+            query_part *part = atomic_load(&shared->parts[i]);
+            if (part) part->free(&alloc, part);
+        }
+        support_free(&alloc, shared, sizeof *shared);
+    }
     num_context_free(&query->numbers);
     query_marks_free(&query->marks, &alloc);
     query_ray_free(&query->ray, &alloc);

@@ -9,19 +9,6 @@ static void free_planes(const froe_allocator *alloc, query_part *part) {
     support_free(alloc, p, sizeof *p);
 }
 
-static query_plane lay_out_plane(const geom_plane *plane) {
-    query_plane out = {.c = plane->c, .n_err = plane->n_err};
-    if (plane->form == GEOM_AT_CROSSING) {
-        /* x[0] = c, where c is known up to c_err only: as (x - (c - k)) - k with a k so large that what is charged for
-         * its rounding covers the error. */
-        const double k = plane->c_err / (4 * FILTER_U) + fabs(plane->c) / 2;
-        return (query_plane){.n = {1}, .o = {plane->c - k}, .c = k, .n_err = k < 0x1p1000 ? 0 : INFINITY};
-    }
-    memcpy(out.n, plane->n, sizeof out.n);
-    if (plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL) memcpy(out.o, plane->p[0], sizeof out.o);
-    return out;
-}
-
 static froe_status make_cuts(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
     query_planes *p = support_calloc(&q->alloc, 1, sizeof *p);
@@ -37,8 +24,18 @@ static froe_status make_cuts(froe_query *q, query_part **out, froe_diagnostic *d
     for (uint32_t v = 0; v < t->node_count; v++) {
         const tree_node *node = t->nodes + v;
         if (node->type != TREE_TABLED || t->cuts[node->u.cut].kind == FROE_CUT_AXIS) continue;
-        geom_plane plane = tree_plane_at(t, v);
-        p->planes[node->u.cut] = lay_out_plane(&plane);
+        const geom_plane plane = tree_plane_at(t, v);
+        query_plane *h = p->planes + node->u.cut;
+        *h = (query_plane){.c = plane.c, .n_err = plane.n_err};
+        if (plane.form == GEOM_AT_CROSSING) {
+            /* x[0] = c, where c is known up to c_err only: as (x - (c - k)) - k with a k so large that what is charged
+             * for its rounding covers the error. */
+            const double k = plane.c_err / (4 * FILTER_U) + fabs(plane.c) / 2;
+            *h = (query_plane){.n = {1}, .o = {plane.c - k}, .c = k, .n_err = k < 0x1p1000 ? 0 : INFINITY};
+            continue;
+        }
+        memcpy(h->n, plane.n, sizeof h->n);
+        if (plane.form == GEOM_POINTS || plane.form == GEOM_VERTICAL) memcpy(h->o, plane.p[0], sizeof h->o);
     }
     return FROE_OK;
 }

@@ -50,16 +50,6 @@ static bool is_equal(const query_sets *sets, uint32_t kept, const query_members 
     return count == set->count && !(count && memcmp(sets->numbers.data + first, set->data, count * sizeof *set->data));
 }
 
-static bool keep_anew(query_sets *sets, const froe_allocator *alloc, const query_members *set) {
-    if (set->count > UINT32_MAX - sets->numbers.count) return false;
-    if (!array_reserve(alloc, &sets->numbers, set->count) || !array_reserve(alloc, &sets->starts, 2)) return false;
-    if (!sets->starts.count) sets->starts.data[sets->starts.count++] = 0;
-    if (set->count) memcpy(sets->numbers.data + sets->numbers.count, set->data, set->count * sizeof *set->data);
-    sets->numbers.count += set->count;
-    sets->starts.data[sets->starts.count++] = (uint32_t)sets->numbers.count;
-    return true;
-}
-
 bool query_sets_keep(query_sets *sets, const froe_allocator *alloc, const query_members *set, uint32_t *out) {
     uint64_t sum = set->count;
     for (size_t i = 0; i < set->count; i++) sum = base_mix(sum + set->data[i]);
@@ -69,7 +59,12 @@ bool query_sets_keep(query_sets *sets, const froe_allocator *alloc, const query_
     *out = scene_table_find(&sets->table, tag, &at);
     while (*out != FROE_NONE && !is_equal(sets, *out, set)) *out = scene_table_find_next(&sets->table, tag, &at);
     if (*out != FROE_NONE) return true;
-    if (!keep_anew(sets, alloc, set)) return false;
+    if (set->count > UINT32_MAX - sets->numbers.count) return false;
+    if (!array_reserve(alloc, &sets->numbers, set->count) || !array_reserve(alloc, &sets->starts, 2)) return false;
+    if (!sets->starts.count) sets->starts.data[sets->starts.count++] = 0;
+    if (set->count) memcpy(sets->numbers.data + sets->numbers.count, set->data, set->count * sizeof *set->data);
+    sets->numbers.count += set->count;
+    sets->starts.data[sets->starts.count++] = (uint32_t)sets->numbers.count;
     *out = (uint32_t)sets->starts.count - 2;
     scene_table_put(&sets->table, at, tag, *out);
     return true;

@@ -13,17 +13,6 @@ int query_turn(num_context *numbers, const double *u, const double *v, const dou
     return geom_side_vertex(numbers, &line, x);
 }
 
-/* The part of the segment's bounding box within the box; false if there is none. */
-static bool common_box(const double *u, const double *v, const double *lo, const double *hi, double box[2][2]) {
-    for (int k = 0; k < 2; k++) {
-        double low = u[k] < v[k] ? u[k] : v[k], high = u[k] < v[k] ? v[k] : u[k];
-        box[0][k] = low > lo[k] ? low : lo[k];
-        box[1][k] = high < hi[k] ? high : hi[k];
-        if (!(box[0][k] <= box[1][k])) return false;
-    }
-    return true;
-}
-
 static bool interval_holds(const double *lo, const double *hi, const double *x) {
     return lo[0] <= x[0] && x[0] <= hi[0] && lo[1] <= x[1] && x[1] <= hi[1];
 }
@@ -32,8 +21,13 @@ static bool interval_holds(const double *lo, const double *hi, const double *x) 
  * side. */
 bool query_segment_meets_box(num_context *numbers, const double *u, const double *v, const double *lo,
                              const double *hi) {
-    double box[2][2];
-    if (!common_box(u, v, lo, hi, box)) return false;
+    double box[2][2]; /* the part of the segment's bounding box within the box */
+    for (int k = 0; k < 2; k++) {
+        const double low = u[k] < v[k] ? u[k] : v[k], high = u[k] < v[k] ? v[k] : u[k];
+        box[0][k] = low > lo[k] ? low : lo[k];
+        box[1][k] = high < hi[k] ? high : hi[k];
+        if (!(box[0][k] <= box[1][k])) return false;
+    }
     if (u[0] == v[0] || u[1] == v[1] || interval_holds(lo, hi, u) || interval_holds(lo, hi, v)) return true;
     bool rising = (u[0] < v[0]) == (u[1] < v[1]);
     const double one[2] = {box[0][0], box[rising][1]}, other[2] = {box[1][0], box[!rising][1]};

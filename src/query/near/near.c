@@ -65,31 +65,27 @@ static bool measure_neighbour(froe_query *q, const geom_body *body, double bound
     return geom_distance_compare_to(&q->numbers, q->near.point, &out->distance, bound) <= 0;
 }
 
-/* Takes object i of a list into account. False without memory. */
-static bool look_up(froe_query *q, const tree_objects *list, uint32_t i, size_t k, double bound) {
-    const froe_scene *s = q->tree->scene;
-    const uint32_t object = tree_object(list, i);
-    if (query_seen(q, list, i, object)) return true;
-    q->stats.tests++;
-    if (!q->near.packed) { /* packed trees have compared better bounds */
-        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-        scene_object_bounds(s, object, lo, hi);
-        if (query_near_box(&q->near, s->dim, lo, hi) > q->near.limit) return true;
-    }
-    const geom_body body = scene_body(s, object);
-    query_neighbour x = {.square = NAN, .object = object};
-    return !measure_neighbour(q, &body, bound, &x) || take_neighbour(q, &x, k);
-}
-
 static froe_status find_neighbours(froe_query *q, size_t k, double bound, froe_diagnostic *diag) {
+    const froe_scene *s = q->tree->scene;
     tree_objects list;
     q->near.one = k == 1;
     froe_status status = query_near_begin(q, diag);
     if (bound < INFINITY) q->near.limit = query_near_square(&q->near, bound);
     while (!status && k && !(status = query_near_next(q, &list)) && list.count) {
         if (!query_expect(q, list.count)) return FROE_E_MEMORY;
-        for (uint32_t i = 0; i < list.count; i++)
-            if (!look_up(q, &list, i, k, bound)) return FROE_E_MEMORY;
+        for (uint32_t i = 0; i < list.count; i++) {
+            const uint32_t object = tree_object(&list, i);
+            if (query_seen(q, &list, i, object)) continue;
+            q->stats.tests++;
+            if (!q->near.packed) { /* packed trees have compared better bounds */
+                double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+                scene_object_bounds(s, object, lo, hi);
+                if (query_near_box(&q->near, s->dim, lo, hi) > q->near.limit) continue;
+            }
+            const geom_body body = scene_body(s, object);
+            query_neighbour x = {.square = NAN, .object = object};
+            if (measure_neighbour(q, &body, bound, &x) && !take_neighbour(q, &x, k)) return FROE_E_MEMORY;
+        }
     }
     query_heap_unwind(q->near.order.data, q->near.order.count, further, q);
     return status;

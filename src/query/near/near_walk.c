@@ -105,22 +105,6 @@ static bool pop_region(query_near *n) {
 
 /* ----------------------------------------------------------------- walking -- */
 
-/* Goes on to the nearer child, unless a waiting node is nearer. False without memory. */
-static bool go_on_to_child(froe_query *q, const query_contents *c, uint32_t child) {
-    query_near *n = &q->near;
-    query_place near = {bound_of(n, c, child), child}, far = {bound_of(n, c, child + 1), child + 1};
-    if (far.bound < near.bound) {
-        const query_place swap = near;
-        near = far;
-        far = swap;
-    }
-    n->at.node = FROE_NONE;
-    if (!push_region(q, far)) return false;
-    if (n->heap.count && n->places.data[n->heap.data[0]].bound < near.bound) return push_region(q, near);
-    if (near.bound <= n->limit && !isinf(near.bound)) n->at = near;
-    return true;
-}
-
 froe_status query_near_next(froe_query *q, tree_objects *list) {
     const froe_tree *t = q->tree;
     query_near *n = &q->near;
@@ -134,7 +118,20 @@ froe_status query_near_next(froe_query *q, tree_objects *list) {
         q->stats.nodes++;
         q->stats.leaves += tree_is_leaf(node);
         n->at.node = FROE_NONE;
-        if (!tree_is_leaf(node) && !go_on_to_child(q, contents, node->child)) status = FROE_E_MEMORY;
+        if (!tree_is_leaf(node)) { /* on to the nearer child, unless a waiting node is nearer */
+            const uint32_t child = node->child;
+            query_place near = {bound_of(n, contents, child), child},
+                        far = {bound_of(n, contents, child + 1), child + 1};
+            if (far.bound < near.bound) {
+                const query_place swap = near;
+                near = far;
+                far = swap;
+            }
+            if (!push_region(q, far)) return FROE_E_MEMORY;
+            const bool waits = n->heap.count && n->places.data[n->heap.data[0]].bound < near.bound;
+            if (waits && !push_region(q, near)) return FROE_E_MEMORY;
+            if (!waits && near.bound <= n->limit && !isinf(near.bound)) n->at = near;
+        }
         if (list->count) break;
     }
     return status;

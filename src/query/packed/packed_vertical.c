@@ -166,24 +166,6 @@ static size_t launch_climbs(froe_query *q, const double *points, size_t count, s
     return next;
 }
 
-/* Answers a batch: the next ray takes the place of one that is answered; where none is left, the last one does. */
-static void answer_climbs(froe_query *q, climb *batch, size_t flying, const double *points, size_t count, size_t next,
-                          int direction, uint32_t *objects) {
-    for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
-        climb *c = batch + i;
-        uint32_t object = test(q, c->block, c->count, c->point, direction), *stack = c->stack;
-        bool flies;
-        if (object == FROE_NONE && go_on_climbing(q->tree, c, direction)) continue;
-        *c->object = object;
-        q->stats.nodes += c->nodes;
-        next = launch_climbs(q, points, count, next, direction, objects, c, &flies);
-        if (flies) continue;
-        *c = batch[--flying];
-        batch[flying].stack = stack;
-        if (i == flying) i = 0;
-    }
-}
-
 froe_status packed_vertical(froe_query *q, const double *points, size_t count, int direction, uint32_t *objects) {
     packed_work *work = q->packed;
     climb batch[PACKED_FLIGHT];
@@ -202,6 +184,20 @@ froe_status packed_vertical(froe_query *q, const double *points, size_t count, i
         *objects = test(q, block, in_block, batch->point, direction);
         if (*objects != FROE_NONE || !more) q->stats.nodes += batch->nodes;
     }
-    if (count > 1) answer_climbs(q, batch, flying, points, count, next, direction, objects);
+    if (count == 1) return FROE_OK;
+    /* The next ray takes the place of one that is answered; where none is left, the last one does. */
+    for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
+        climb *c = batch + i;
+        uint32_t object = test(q, c->block, c->count, c->point, direction), *stack = c->stack;
+        bool flies;
+        if (object == FROE_NONE && go_on_climbing(q->tree, c, direction)) continue;
+        *c->object = object;
+        q->stats.nodes += c->nodes;
+        next = launch_climbs(q, points, count, next, direction, objects, c, &flies);
+        if (flies) continue;
+        *c = batch[--flying];
+        batch[flying].stack = stack;
+        if (i == flying) i = 0;
+    }
     return FROE_OK;
 }

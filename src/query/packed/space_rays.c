@@ -80,38 +80,34 @@ static space_step step_ray(const ray_batch *f, space_runner *r) {
     return SPACE_ON;
 }
 
-/* The next ray takes the place of one that is answered; where none is left, the last ray of the batch does. */
-static froe_status answer_batch(ray_batch *f, space_runner *running) {
-    size_t flying = 0;
-    bool flies = true;
-    froe_status status = FROE_OK;
-    for (; flying < RAYS_AT_ONCE && flies && !status; flying += flies) status = launch_ray(f, running + flying, &flies);
-    for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
-        const space_step did = step_ray(f, running + i);
-        if (did == SPACE_NO_MEMORY) return support_fail_memory(f->diag);
-        if (did != SPACE_END) continue;
-        const space_runner *r = running + i;
-        if (f->objects) f->objects[r->at] = r->best.object;
-        if (f->hits) f->hits[r->at] = (froe_hit){.object = r->best.object};
-        if (f->hits && r->best.object != FROE_NONE)
-            f->hits[r->at].t = geom_hit_round(&f->query->numbers, &r->ray, &r->best.hit);
-        status = launch_ray(f, running + i, &flies);
-        if (flies || status) continue;
-        const space_runner gone = running[i];
-        running[i] = running[--flying];
-        running[flying] = gone;
-        if (i == flying) i = 0;
-    }
-    return status;
-}
-
 froe_status space_rays(froe_query *q, const double *origins, const double *directions, size_t count, double t_max,
                        froe_hit *hits, uint32_t *objects, froe_diagnostic *diag) {
     const uint64_t exact = q->numbers.stats.exact;
     ray_batch f = {q, origins, directions, t_max, hits, objects, count, 0, diag};
     if (!q->space->batch) q->space->batch = support_calloc(&q->alloc, RAYS_AT_ONCE, sizeof *q->space->batch);
     if (!q->space->batch) return support_fail_memory(diag);
-    const froe_status status = answer_batch(&f, q->space->batch);
+    /* The next ray takes the place of one that is answered; where none is left, the last ray of the batch does. */
+    space_runner *running = q->space->batch;
+    size_t flying = 0;
+    bool flies = true;
+    froe_status status = FROE_OK;
+    for (; flying < RAYS_AT_ONCE && flies && !status; flying += flies)
+        status = launch_ray(&f, running + flying, &flies);
+    for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
+        space_runner *r = running + i;
+        const space_step did = step_ray(&f, r);
+        if (did == SPACE_NO_MEMORY) return support_fail_memory(diag);
+        if (did != SPACE_END) continue;
+        if (objects) objects[r->at] = r->best.object;
+        if (hits) hits[r->at] = (froe_hit){.object = r->best.object};
+        if (hits && r->best.object != FROE_NONE) hits[r->at].t = geom_hit_round(&q->numbers, &r->ray, &r->best.hit);
+        status = launch_ray(&f, r, &flies);
+        if (flies || status) continue;
+        const space_runner gone = *r;
+        *r = running[--flying];
+        running[flying] = gone;
+        if (i == flying) i = 0;
+    }
     q->stats.exact += q->numbers.stats.exact - exact;
     return status;
 }

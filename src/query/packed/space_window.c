@@ -4,33 +4,6 @@
  * decided exactly; an object that several leaves list is looked at once. */
 #include "query/packed/space.h"
 
-/* Leaves whose boxes the window may meet: their blocks become `others`. */
-static bool gather_in_window(froe_query *q, const space_window *window) {
-    space_work *w = q->space;
-    const tree_wide *wide = q->tree->packed.wide;
-    w->objects.count = w->others.count = 0;
-    if (!array_push(&q->alloc, &w->objects, 0)) return false;
-    while (w->objects.count) {
-        const wide_node *n = wide->nodes + w->objects.data[--w->objects.count];
-        q->stats.nodes++;
-        if (!array_reserve(&q->alloc, &w->objects, WIDE_CHILDREN) ||
-            !array_reserve(&q->alloc, &w->others, WIDE_CHILDREN))
-            return false;
-        for (uint32_t bits = w->kernels->window_node(n, window); bits; bits &= bits - 1) {
-            const uint32_t child = n->child[__builtin_ctz(bits)];
-            if (child & WIDE_LEAF) {
-                const uint8_t *block = q->tree->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK;
-                for (int at = 0; at < 512; at += 64) __builtin_prefetch(block + at);
-                w->others.data[w->others.count++] = child & WIDE_INDEX;
-            } else {
-                __builtin_prefetch(wide->nodes + child);
-                w->objects.data[w->objects.count++] = child;
-            }
-        }
-    }
-    return true;
-}
-
 /* Objects of a block that meet the window. False without memory. */
 static bool answer_space_window(froe_query *q, const space_header *h, const space_window *window) {
     space_work *w = q->space;
@@ -57,7 +30,28 @@ froe_status space_range(froe_query *q, const double *lo, const double *hi, bool 
         window.from[k] = (lo[k] - wide->middle[k]) * wide->scale;
         window.to[k] = (hi[k] - wide->middle[k]) * wide->scale;
     }
-    if (!gather_in_window(q, &window)) return FROE_E_MEMORY;
+    /* Leaves whose boxes the window may meet: their blocks become `others`. */
+    space_work *w = q->space;
+    w->objects.count = w->others.count = 0;
+    if (!array_push(&q->alloc, &w->objects, 0)) return FROE_E_MEMORY;
+    while (w->objects.count) {
+        const wide_node *n = wide->nodes + w->objects.data[--w->objects.count];
+        q->stats.nodes++;
+        if (!array_reserve(&q->alloc, &w->objects, WIDE_CHILDREN) ||
+            !array_reserve(&q->alloc, &w->others, WIDE_CHILDREN))
+            return FROE_E_MEMORY;
+        for (uint32_t bits = w->kernels->window_node(n, &window); bits; bits &= bits - 1) {
+            const uint32_t child = n->child[__builtin_ctz(bits)];
+            if (child & WIDE_LEAF) {
+                const uint8_t *block = q->tree->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK;
+                for (int at = 0; at < 512; at += 64) __builtin_prefetch(block + at);
+                w->others.data[w->others.count++] = child & WIDE_INDEX;
+            } else {
+                __builtin_prefetch(wide->nodes + child);
+                w->objects.data[w->objects.count++] = child;
+            }
+        }
+    }
     for (size_t i = 0; i < q->space->others.count && !(any && q->found.count); i++)
         if (!answer_space_window(q, space_block(q->tree, q->space->others.data[i]), &window)) return FROE_E_MEMORY;
     return FROE_OK;

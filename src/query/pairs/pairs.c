@@ -29,7 +29,6 @@ typedef struct pair_search {
     bool shared;
     desk *desks;          /* [thread] */
     object_pairs *chunks; /* of a wave */
-    size_t chunk_count;   /* most of a wave */
     uint32_t first;       /* object of the wave */
 } pair_search;
 
@@ -97,39 +96,34 @@ static froe_status find_partners(void *user, unsigned worker, size_t job) {
     return FROE_OK;
 }
 
-/* All threads search a wave; then its pairs are reported in order, and the next wave begins. */
-static froe_status search_all(pair_search *s, uint32_t objects, froe_pair_fn *fn, void *user) {
-    const uint64_t jobs = ((uint64_t)objects + OBJECTS_PER_JOB - 1) / OBJECTS_PER_JOB;
-    for (uint64_t done = 0; done < jobs; done += s->chunk_count) {
-        const size_t count = jobs - done < s->chunk_count ? (size_t)(jobs - done) : s->chunk_count;
-        s->first = (uint32_t)done * OBJECTS_PER_JOB;
-        const froe_status status = base_run(&s->workers->task, (double)count / (double)jobs, count, find_partners, s);
-        if (status) return status;
-        for (size_t i = 0; i < count; i++)
-            for (size_t n = 0; n < s->chunks[i].count; n++)
-                if (!base_callback(fn(user, s->chunks[i].data + n))) return FROE_OK;
-    }
-    return FROE_OK;
-}
-
-static froe_status find_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
+/* Searches object by object. All threads search a wave; then its pairs are reported in order, and the next wave
+ * begins. */
+static froe_status search_objects(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
     const froe_query *query = workers->queries[0];
     const froe_allocator *alloc = &query->alloc;
     const unsigned threads = workers->count;
-    pair_search s = {
-        .workers = workers, .shared = shared, .chunk_count = threads > 1 ? (size_t)threads * JOBS_PER_WAVE : 1};
-    froe_status status = FROE_E_MEMORY;
+    const uint64_t objects = query->tree->scene->object_count, jobs = (objects + OBJECTS_PER_JOB - 1) / OBJECTS_PER_JOB;
+    pair_search s = {.workers = workers, .shared = shared};
+    const size_t wave = threads > 1 ? (size_t)threads * JOBS_PER_WAVE : 1;
+    bool more = true;
     s.desks = support_calloc(alloc, threads, sizeof *s.desks);
-    s.chunks = support_calloc(alloc, s.chunk_count, sizeof *s.chunks);
+    s.chunks = support_calloc(alloc, wave, sizeof *s.chunks);
+    froe_status status = s.desks && s.chunks ? FROE_OK : FROE_E_MEMORY;
     for (unsigned i = 0; s.desks && i < threads; i++) s.desks[i].q = workers->queries[i];
-    if (s.desks && s.chunks) status = search_all(&s, query->tree->scene->object_count, fn, user);
+    for (uint64_t done = 0; !status && more && done < jobs; done += wave) {
+        const size_t count = jobs - done < wave ? (size_t)(jobs - done) : wave;
+        s.first = (uint32_t)done * OBJECTS_PER_JOB;
+        status = base_run(&workers->task, (double)count / (double)jobs, count, find_partners, &s);
+        for (size_t i = 0; !status && i < count; i++)
+            for (size_t n = 0; more && n < s.chunks[i].count; n++) more = base_callback(fn(user, s.chunks[i].data + n));
+    }
     for (unsigned i = 0; s.desks && i < threads; i++) {
         array_free(alloc, &s.desks[i].points);
         array_free(alloc, &s.desks[i].sides);
     }
-    for (size_t i = 0; s.chunks && i < s.chunk_count; i++) array_free(alloc, &s.chunks[i]);
+    for (size_t i = 0; s.chunks && i < wave; i++) array_free(alloc, &s.chunks[i]);
     support_free(alloc, s.desks, threads * sizeof *s.desks);
-    support_free(alloc, s.chunks, s.chunk_count * sizeof *s.chunks);
+    support_free(alloc, s.chunks, wave * sizeof *s.chunks);
     return status;
 }
 
@@ -143,7 +137,7 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
     froe_status status = query_workers_take(query, options, jobs, &workers, diag);
     if (!status) {
         status = query->packed ? packed_pairs(&workers, shared, fn, fn_user) : FROE_E_LIMIT;
-        if (status == FROE_E_LIMIT) status = find_pairs(&workers, shared, fn, fn_user);
+        if (status == FROE_E_LIMIT) status = search_objects(&workers, shared, fn, fn_user);
         if (status == FROE_E_CANCELLED) support_fail_cancelled(diag);
         if (status == FROE_E_MEMORY) support_fail_memory(diag);
     }

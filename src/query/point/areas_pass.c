@@ -72,22 +72,6 @@ froe_status query_areas_travel(froe_query *q, const query_areas *areas, const do
 
 /* ---------------------------------------------------------------- entering -- */
 
-/* What a point on the border of a cell lies on may be listed elsewhere. Other borders are crossed within the cell. */
-static froe_status touch_borders(froe_query *q, const query_areas *areas, const double *point) {
-    const double ends[4] = {point[0], point[1], point[0], point[1]};
-    froe_range range = froe_range_defaults();
-    range.points = ends;
-    if (query_range_ask(q, &range, false, NULL)) return FROE_E_MEMORY;
-    for (size_t i = 0; i < q->found.count; i++) {
-        const uint32_t object = q->found.data[i];
-        const int role = areas->roles[object];
-        if ((role == AREA_MEMBER || role == AREA_BORDER) &&
-            !query_members_add(&q->groups.touched, &q->alloc, q->tree->scene->groups[object]))
-            return FROE_E_MEMORY;
-    }
-    return FROE_OK;
-}
-
 froe_status query_areas_enter(froe_query *q, const query_areas *areas, const query_leaf *leaf, const double *point) {
     const uint32_t slot = areas->slots[leaf->place], number = slot & AREA_NUMBER;
     const query_area_leaf *there =
@@ -105,7 +89,20 @@ froe_status query_areas_enter(froe_query *q, const query_areas *areas, const que
             if (bounds_meet(from, point, s[i].u, s[i].v) && !pass_border(q, s + i, i < there->borders, from, point))
                 return FROE_E_MEMORY;
     }
-    return leaf->on_cut ? touch_borders(q, areas, point) : FROE_OK;
+    if (!leaf->on_cut) return FROE_OK;
+    /* What a point on the border of a cell lies on may be listed elsewhere. Other borders are crossed within the cell. */
+    const double ends[4] = {point[0], point[1], point[0], point[1]};
+    froe_range range = froe_range_defaults();
+    range.points = ends;
+    if (query_range_ask(q, &range, false, NULL)) return FROE_E_MEMORY;
+    for (size_t i = 0; i < q->found.count; i++) {
+        const uint32_t object = q->found.data[i];
+        const int role = areas->roles[object];
+        if ((role == AREA_MEMBER || role == AREA_BORDER) &&
+            !query_members_add(&q->groups.touched, &q->alloc, q->tree->scene->groups[object]))
+            return FROE_E_MEMORY;
+    }
+    return FROE_OK;
 }
 
 /* Prefetches all slots first, then the beginnings of all leaves: so no load waits for another. */

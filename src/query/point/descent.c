@@ -133,7 +133,15 @@ static bool take_units(query_descent *d, const froe_tree *t) {
     return true;
 }
 
-static bool fill_descent(query_descent *d, const froe_tree *t, const froe_allocator *alloc) {
+static froe_status make_descent(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    const froe_allocator *alloc = &q->alloc;
+    const froe_tree *t = q->tree;
+    query_descent *d = support_calloc(alloc, 1, sizeof *d);
+    if (!d) return support_fail_memory(diag);
+    d->part.free = free_descent;
+    *out = &d->part;
+    d->there = q->numbers.first == NUM_FILTER && take_units(d, t);
+    if (!d->there) return FROE_OK;
     descent_plan p = {.tree = t, .alloc = alloc, .d = d};
     const uint32_t cuts = t->node_count / 2;
     bool ok = false;
@@ -151,16 +159,7 @@ static bool fill_descent(query_descent *d, const froe_tree *t, const froe_alloca
     support_free(alloc, p.weights, t->node_count * sizeof *p.weights);
     support_free(alloc, p.numbers, t->node_count * sizeof *p.numbers);
     array_free(alloc, &p.roots);
-    return ok;
-}
-
-static froe_status make_descent(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    query_descent *d = support_calloc(&q->alloc, 1, sizeof *d);
-    if (!d) return support_fail_memory(diag);
-    d->part.free = free_descent;
-    *out = &d->part;
-    d->there = q->numbers.first == NUM_FILTER && take_units(d, q->tree);
-    return d->there && !fill_descent(d, q->tree, &q->alloc) ? support_fail_memory(diag) : FROE_OK;
+    return ok ? FROE_OK : support_fail_memory(diag);
 }
 
 froe_status query_descent_of(froe_query *query, const query_descent **out, froe_diagnostic *diag) {

@@ -4,18 +4,6 @@
 #include "query/point/areas.h"
 #include "support/fail.h"
 
-/* Groups of the objects that contain the point. */
-static froe_status add_holders(froe_query *q, const double *point, froe_diagnostic *diag) {
-    const uint32_t *groups = q->tree->scene->groups;
-    const froe_status status = query_locate(q, point, diag);
-    for (size_t i = 0; !status && i < q->found.count; i++) {
-        const uint32_t group = groups ? groups[q->found.data[i]] : FROE_NONE;
-        if (group != FROE_NONE && !query_members_add(&q->groups.touched, &q->alloc, group))
-            return support_fail_memory(diag);
-    }
-    return status;
-}
-
 froe_status query_groups_in(froe_query *q, const query_areas *areas, const double *point, const query_leaf *leaf,
                             froe_diagnostic *diag) {
     const uint64_t queries = q->stats.queries + 1, exact = q->numbers.stats.exact;
@@ -23,7 +11,15 @@ froe_status query_groups_in(froe_query *q, const query_areas *areas, const doubl
     q->groups.inside.count = q->groups.touched.count = 0;
     if (query_in_scene(q->tree->scene, point)) {
         if (areas->borders && query_areas_enter(q, areas, leaf, point)) return support_fail_memory(diag);
-        if (areas->solids || !areas->borders) status = add_holders(q, point, diag);
+        if (areas->solids || !areas->borders) { /* groups of the objects that contain the point */
+            const uint32_t *groups = q->tree->scene->groups;
+            status = query_locate(q, point, diag);
+            for (size_t i = 0; !status && groups && i < q->found.count; i++) {
+                const uint32_t group = groups[q->found.data[i]];
+                if (group != FROE_NONE && !query_members_add(&q->groups.touched, &q->alloc, group))
+                    return support_fail_memory(diag);
+            }
+        }
     }
     /* The groups on whose borders the point is join those that it is inside of. */
     for (size_t i = 0; !status && i < q->groups.touched.count; i++)

@@ -26,22 +26,21 @@ static int side_in_plane(froe_query *q, const tree_cut *cut, const double *x) {
     }
 }
 
-/* In space, by its plane. */
-static int side_in_space(froe_query *q, const query_planes *planes, const tree_node *n, const double *x) {
-    const query_cut cut = query_cut_at(q->tree, planes, n);
-    double error;
-    if (cut.axis >= 0) return (x[cut.axis] > cut.value) - (x[cut.axis] < cut.value);
-    const double value = query_plane_value(cut.plane, x, &error);
-    return q->numbers.first == NUM_FILTER && fabs(value) > error ? value > 0 ? 1 : -1 : NUM_UNSURE;
-}
-
 /* Side of a point beside the cut of a node: -1, 0, 1. No planes are needed in the plane. */
 static int side_of_point(froe_query *q, const query_planes *planes, uint32_t node, const double *x) {
     const froe_tree *t = q->tree;
     const tree_node *n = t->nodes + node;
     if (n->type == TREE_PLAIN) return (x[n->axis] > n->u.value) - (x[n->axis] < n->u.value);
-    const int side = planes ? side_in_space(q, planes, n, x) : side_in_plane(q, t->cuts + n->u.cut, x);
-    if (side != NUM_UNSURE) return side;
+    if (planes) {
+        const query_cut cut = query_cut_at(t, planes, n);
+        double error;
+        if (cut.axis >= 0) return (x[cut.axis] > cut.value) - (x[cut.axis] < cut.value);
+        const double value = query_plane_value(cut.plane, x, &error);
+        if (q->numbers.first == NUM_FILTER && fabs(value) > error) return value > 0 ? 1 : -1;
+    } else {
+        const int side = side_in_plane(q, t->cuts + n->u.cut, x);
+        if (side != NUM_UNSURE) return side;
+    }
     const geom_plane plane = tree_plane_at(t, node);
     return geom_side_vertex(&q->numbers, &plane, x);
 }
@@ -151,28 +150,6 @@ static size_t launch_points(froe_query *q, const ways *w, const double *points, 
     return next;
 }
 
-/* Each point in turn passes a cut and prefetches its next one, which is in the cache at its next turn. */
-static void find_batch(froe_query *q, const ways *w, const double *points, size_t count, query_leaf *leaves) {
-    flyer batch[POINTS_AT_ONCE];
-    size_t next = 0, flying = 0;
-    for (bool flies = true; flying < POINTS_AT_ONCE && flies; flying += flies)
-        next = launch_points(q, w, points, count, next, batch + flying, leaves, &flies);
-    for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
-        flyer *f = batch + i;
-        const double *x = points + 2 * f->number;
-        bool flies;
-        if (!has_come(w, f)) {
-            pass_cut(q, w->descent, f, x);
-            if (!(f->p.next & DESCENT_LEAF)) __builtin_prefetch(w->descent->cuts + f->p.next);
-            continue;
-        }
-        leaves[f->number] = arrive_at_leaf(q, w, f, x);
-        next = launch_points(q, w, points, count, next, f, leaves, &flies);
-        if (!flies) *f = batch[--flying];
-        if (i == flying) i = 0;
-    }
-}
-
 /* ------------------------------------------------------------------- whole -- */
 
 froe_status query_leaf_find(froe_query *q, const double *point, query_leaf *out) {
@@ -190,15 +167,31 @@ froe_status query_leaf_find(froe_query *q, const double *point, query_leaf *out)
     return FROE_OK;
 }
 
+/* Each point in turn passes a cut and prefetches its next one, which is in the cache at its next turn. */
 froe_status query_leaf_find_all(froe_query *q, const double *points, size_t count, query_leaf *leaves) {
     const size_t dim = (size_t)q->tree->scene->dim;
     ways w = {.planes = NULL};
+    flyer batch[POINTS_AT_ONCE];
+    size_t next = 0, flying = 0;
     const froe_status status = find_ways(q, &w);
     if (status) return status;
     q->stats.leaves += count;
-    if (w.descends)
-        find_batch(q, &w, points, count, leaves);
-    else
-        for (size_t i = 0; i < count; i++) leaves[i] = find_by_tree(q, &w, points + i * dim);
+    for (size_t i = 0; i < count && !w.descends; i++) leaves[i] = find_by_tree(q, &w, points + i * dim);
+    for (bool flies = w.descends; flying < POINTS_AT_ONCE && flies; flying += flies)
+        next = launch_points(q, &w, points, count, next, batch + flying, leaves, &flies);
+    for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
+        flyer *f = batch + i;
+        const double *x = points + 2 * f->number;
+        bool flies;
+        if (!has_come(&w, f)) {
+            pass_cut(q, w.descent, f, x);
+            if (!(f->p.next & DESCENT_LEAF)) __builtin_prefetch(w.descent->cuts + f->p.next);
+            continue;
+        }
+        leaves[f->number] = arrive_at_leaf(q, &w, f, x);
+        next = launch_points(q, &w, points, count, next, f, leaves, &flies);
+        if (!flies) *f = batch[--flying];
+        if (i == flying) i = 0;
+    }
     return FROE_OK;
 }

@@ -102,9 +102,15 @@ static bool divide_parts(centroid_plan *p) {
 
 /* ------------------------------------------------------------------- making -- */
 
-static froe_status fill_centroids(query_centroids *c, const froe_tree *t) {
-    const froe_allocator *alloc = &t->alloc;
-    centroid_plan p = {.tree = t, .c = c};
+static froe_status make_centroids(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    const froe_allocator *alloc = &q->alloc;
+    query_centroids *c = support_calloc(alloc, 1, sizeof *c);
+    if (!c) return support_fail_memory(diag);
+    c->part.free = free_centroids;
+    *out = &c->part;
+    c->dim = q->tree->scene->dim;
+    c->node_count = q->tree->node_count;
+    centroid_plan p = {.tree = q->tree, .c = c};
     bool ok = false;
     c->steps = support_calloc(alloc, c->node_count, sizeof *c->steps);
     c->boxes = support_calloc(alloc, (size_t)c->node_count * 2 * (size_t)c->dim, sizeof *c->boxes);
@@ -119,17 +125,7 @@ static froe_status fill_centroids(query_centroids *c, const froe_tree *t) {
     support_free(alloc, p.parents, c->node_count * sizeof *p.parents);
     support_free(alloc, p.gone, c->node_count * sizeof *p.gone);
     array_free(alloc, &p.parts);
-    return ok ? FROE_OK : FROE_E_MEMORY;
-}
-
-static froe_status make_centroids(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    query_centroids *c = support_calloc(&q->alloc, 1, sizeof *c);
-    if (!c) return support_fail_memory(diag);
-    c->part.free = free_centroids;
-    *out = &c->part;
-    c->dim = q->tree->scene->dim;
-    c->node_count = q->tree->node_count;
-    return fill_centroids(c, q->tree) ? support_fail_memory(diag) : FROE_OK;
+    return ok ? FROE_OK : support_fail_memory(diag);
 }
 
 froe_status query_centroids_of(froe_query *query, const query_centroids **out, froe_diagnostic *diag) {

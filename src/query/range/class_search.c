@@ -30,21 +30,6 @@ static range_cube cube_of(const query_range *r) {
     return c;
 }
 
-/* ------------------------------------------------------------------- forks -- */
-
-static froe_status take_forks(froe_query *q, const query_classes *p, froe_diagnostic *diag) {
-    if (q->classes.forks || !p->count) return FROE_OK;
-    q->classes.forks = support_calloc(&q->alloc, p->count, sizeof *q->classes.forks);
-    if (!q->classes.forks) return support_fail_memory(diag);
-    q->classes.count = p->count;
-    for (uint32_t i = 0; i < p->count; i++) {
-        const froe_status status = froe_query_fork(p->classes[i].query, q->classes.forks + i, diag);
-        if (status) query_classes_give(q);
-        if (status) return status;
-    }
-    return FROE_OK;
-}
-
 /* ------------------------------------------------------------------ asking -- */
 
 static bool done(const froe_query *q) {
@@ -97,8 +82,16 @@ froe_status query_classes_search(froe_query *q, froe_diagnostic *diag) {
     const query_classes *p;
     const range_cube around = cube_of(&q->range);
     froe_status status = query_classes_of(q, &p, diag);
-    if (!status) status = take_forks(q, p, diag);
     if (status) return status;
+    if (!q->classes.forks && p->count) {
+        q->classes.forks = support_calloc(&q->alloc, p->count, sizeof *q->classes.forks);
+        if (!q->classes.forks) return support_fail_memory(diag);
+        q->classes.count = p->count;
+        for (uint32_t i = 0; i < p->count && !status; i++)
+            status = froe_query_fork(p->classes[i].query, q->classes.forks + i, diag);
+        if (status) query_classes_give(q);
+        if (status) return status;
+    }
     if (!p->count || !(around.reach <= p->classes[p->count - 1].step))
         return query_range_walk(q) ? support_fail_memory(diag) : FROE_OK;
     for (uint32_t i = 0; i < p->count && !status && !done(q); i++) {

@@ -84,36 +84,29 @@ static froe_status fill_class(query_class *c, const froe_tree *t, const base_pai
     return status;
 }
 
-static froe_status add_classes(query_classes *p, const froe_tree *t, const base_pair *sorted, froe_diagnostic *diag) {
+static froe_status make_classes(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    const froe_tree *t = q->tree;
     const uint32_t objects = t->scene->object_count;
+    query_classes *p = support_calloc(&q->alloc, 1, sizeof *p);
+    if (!p) return support_fail_memory(diag);
+    p->part.free = free_classes;
+    *out = &p->part;
+    base_pair *sorted = support_calloc(&q->alloc, 2 * (size_t)objects, sizeof *sorted);
+    if (!sorted) return support_fail_memory(diag);
+    for (uint32_t i = 0; i < objects; i++)
+        sorted[i] = (base_pair){base_double_key(step_of_size(size_of_object(t->scene, i))), i};
+    base_radix_sort(sorted, sorted + objects, objects);
     uint32_t count = 0, next = 0, made = 0;
     for (uint32_t i = 0; i < objects; i++) count += !i || sorted[i].key != sorted[i - 1].key;
     p->classes = support_calloc(&t->alloc, count, sizeof *p->classes);
-    if (!p->classes) return support_fail_memory(diag);
-    p->count = count;
-    froe_status status = FROE_OK;
+    froe_status status = p->classes ? FROE_OK : support_fail_memory(diag);
+    if (p->classes) p->count = count;
     for (uint32_t first = 0; first < objects && !status; first = next) {
         const double step = step_of_size(size_of_object(t->scene, sorted[first].value));
         for (next = first; next < objects && sorted[next].key == sorted[first].key;) next++;
         status = fill_class(p->classes + made++, t, sorted + first, next - first, step, diag);
     }
-    return status;
-}
-
-static froe_status make_classes(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    const froe_tree *t = q->tree;
-    const size_t objects = t->scene->object_count;
-    query_classes *p = support_calloc(&q->alloc, 1, sizeof *p);
-    if (!p) return support_fail_memory(diag);
-    p->part.free = free_classes;
-    *out = &p->part;
-    base_pair *sorted = support_calloc(&q->alloc, 2 * objects, sizeof *sorted);
-    if (!sorted) return support_fail_memory(diag);
-    for (uint32_t i = 0; i < objects; i++)
-        sorted[i] = (base_pair){base_double_key(step_of_size(size_of_object(t->scene, i))), i};
-    base_radix_sort(sorted, sorted + objects, objects);
-    const froe_status status = add_classes(p, t, sorted, diag);
-    support_free(&q->alloc, sorted, (objects ? 2 * objects * sizeof *sorted : 1));
+    support_free(&q->alloc, sorted, (objects ? 2 * (size_t)objects * sizeof *sorted : 1));
     return status;
 }
 

@@ -62,35 +62,30 @@ static bool box_meets(froe_query *q, const double *lo, const double *hi, uint32_
 
 /* -------------------------------------------------------------- halfspaces -- */
 
-/* 1: a corner of the object is in all halfspaces; 0: none is in one of them, nor anything else of the object;
- * NUM_UNSURE. */
-static int halfspaces_meet_corners(num_context *context, const froe_range *from, const geom_convex *set) {
-    const uint32_t watched = set->count < 64 ? set->count : 64;
+static bool halfspaces_meet(froe_query *q, uint32_t object, bool *memory) {
+    query_range *r = &q->range;
+    const froe_range *from = r->from;
+    const froe_scene *s = q->tree->scene;
+    const geom_convex set = scene_convex(s, object);
+    /* A corner of the object in all halfspaces decides, and so does a halfspace that has none of it. */
+    const uint32_t watched = set.count < 64 ? set.count : 64;
     uint64_t in_all = watched < 64 ? ((uint64_t)1 << watched) - 1 : UINT64_MAX;
     for (size_t h = 0; h < from->count; h++) {
-        const geom_plane plane = geom_plane_vector(set->dim, from->points + h * (size_t)set->dim, from->offsets[h]);
+        const geom_plane plane = geom_plane_vector(set.dim, from->points + h * (size_t)set.dim, from->offsets[h]);
         uint32_t outside = 0;
-        for (uint32_t i = 0; i < set->count; i++) {
+        for (uint32_t i = 0; i < set.count; i++) {
             double x[3];
-            for (int k = 0; k < set->dim; k++) x[k] = geom_convex_coordinate(set, i, k);
-            if (geom_side_vertex(context, &plane, x) <= 0) continue;
+            for (int k = 0; k < set.dim; k++) x[k] = geom_convex_coordinate(&set, i, k);
+            if (geom_side_vertex(&q->numbers, &plane, x) <= 0) continue;
             outside++;
             if (i < watched) in_all &= ~((uint64_t)1 << i);
         }
-        if (outside == set->count && set->radius == 0) return 0;
+        if (outside == set.count && set.radius == 0) return false;
     }
-    return in_all ? 1 : NUM_UNSURE;
-}
-
-static bool halfspaces_meet(froe_query *q, uint32_t object, bool *memory) {
-    query_range *r = &q->range;
-    const froe_scene *s = q->tree->scene;
-    const geom_convex set = scene_convex(s, object);
-    const int known = halfspaces_meet_corners(&q->numbers, r->from, &set);
-    if (known != NUM_UNSURE) return known;
+    if (in_all) return true;
     if (!r->polytope_made) { /* the corners of the halfspaces within the bounds of the scene, when first needed */
-        r->polytope_made = geom_polytope_make(&q->numbers, &q->alloc, s->dim, r->from->points, r->from->offsets,
-                                              r->from->count, s->lo, s->hi, &r->polytope) &&
+        r->polytope_made = geom_polytope_make(&q->numbers, &q->alloc, s->dim, from->points, from->offsets, from->count,
+                                              s->lo, s->hi, &r->polytope) &&
                            !num_arena_reserve(&q->alloc, &q->numbers.arena, geom_meet_arena);
         r->range.set = geom_polytope_convex(&r->polytope, s->dim);
     }
@@ -127,19 +122,6 @@ static bool set_meets(froe_query *q, uint32_t object) {
     return geom_meet(&q->numbers, &object_set, &set);
 }
 
-/* Is a corner of the object within the margin of the range for certain? Of boxes and balls. Then an object of
- * many corners need not be tested against the range itself. */
-static bool holds_corner(froe_query *q, uint32_t object) {
-    const froe_scene *s = q->tree->scene;
-    const query_range *r = &q->range;
-    if (r->range.kind != GEOM_RANGE_BALL && (r->range.kind != GEOM_RANGE_BOX || r->margin == 0)) return false;
-    for (uint32_t i = 0, n = scene_corners(s, object); i < n; i++) {
-        const double *x = scene_point(s, object, i);
-        if (geom_range_holds(&q->numbers, &r->range, r->margin, x, x)) return true;
-    }
-    return false;
-}
-
 static bool decide_object(froe_query *q, uint32_t object, bool *memory) {
     const froe_scene *s = q->tree->scene;
     const froe_range *from = q->range.from;
@@ -148,7 +130,14 @@ static bool decide_object(froe_query *q, uint32_t object, bool *memory) {
     const bool boxlike = form == FROE_POINT || form == FROE_BALL || form == FROE_BOX;
     const double *lo = scene_point(s, object, 0), *hi = form == FROE_BOX ? scene_point(s, object, 1) : lo;
     const double radius = form == FROE_BALL ? scene_radius(s, object) : 0;
-    if (!boxlike && holds_corner(q, object)) return true;
+    /* Is a corner of the object within the margin of the range for certain? Of boxes and balls. Then an object of many
+     * corners need not be tested against the range itself. */
+    const query_range *r = &q->range;
+    const bool marked = r->range.kind == GEOM_RANGE_BALL || (r->range.kind == GEOM_RANGE_BOX && r->margin != 0);
+    for (uint32_t i = 0, n = scene_corners(s, object); !boxlike && marked && i < n; i++) {
+        const double *x = scene_point(s, object, i);
+        if (geom_range_holds(&q->numbers, &r->range, r->margin, x, x)) return true;
+    }
     switch (from->shape) {
     case FROE_SHAPE_BOX:
         if (boxlike)

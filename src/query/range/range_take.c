@@ -47,30 +47,6 @@ static bool has_radius(froe_range_shape shape) {
     return shape == FROE_SHAPE_BALL || shape == FROE_SHAPE_CAPSULE;
 }
 
-static froe_status check_numbers(const froe_range *r, size_t dim, froe_diagnostic *diag) {
-    const size_t count = range_point_count(r, dim);
-    for (size_t i = 0; i < count * dim; i++) {
-        const double x = r->points[i];
-        const bool no_bound = r->shape == FROE_SHAPE_BOX && (i < dim ? x == -INFINITY : x == INFINITY);
-        if (!isfinite(x) && !no_bound)
-            return support_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], x);
-    }
-    for (size_t i = 0; r->shape == FROE_SHAPE_HALFSPACES && i < count; i++)
-        if (!isfinite(r->offsets[i]))
-            return support_fail(diag, FROE_E_INPUT, "A halfspace has the offset %g.", r->offsets[i]);
-    for (size_t k = 0; r->shape == FROE_SHAPE_BOX && k < dim; k++)
-        if (r->points[k] > r->points[dim + k])
-            return support_fail(diag, FROE_E_INPUT, "A box has lo %g > hi %g on axis %zu.", r->points[k],
-                                r->points[dim + k], k);
-    if (has_radius(r->shape) && !(r->radius >= 0 && isfinite(r->radius)))
-        return support_fail(diag, FROE_E_INPUT, "A %s has the radius %g.", names[r->shape], r->radius);
-    if (!(r->eps >= 0 && isfinite(r->eps))) return support_fail(diag, FROE_E_INPUT, "A range has eps %g.", r->eps);
-    size_t zeros = 0;
-    while (r->shape == FROE_SHAPE_RAY && zeros < dim && r->points[dim + zeros] == 0) zeros++;
-    if (zeros == dim) return support_fail(diag, FROE_E_INPUT, "A ray has no direction.");
-    return FROE_OK;
-}
-
 froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *diag) {
     if (r->size != sizeof *r || (unsigned)r->shape >= FROE_SHAPE_COUNT)
         return support_fail(diag, FROE_E_OPTIONS, "A range must come from froe_range_defaults() and have a shape.");
@@ -84,7 +60,27 @@ froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *dia
         return support_fail(diag, FROE_E_ARG, "A %s without points.", names[r->shape]);
     if (!count && !halfspaces) return support_fail(diag, FROE_E_INPUT, "A hull of no points.");
     if (count > UINT32_MAX / 8) return support_fail(diag, FROE_E_ARG, "A %s of too many points.", names[r->shape]);
-    return check_numbers(r, (size_t)dim, diag);
+    const size_t n = (size_t)dim;
+    for (size_t i = 0; i < count * n; i++) {
+        const double x = r->points[i];
+        const bool no_bound = r->shape == FROE_SHAPE_BOX && (i < n ? x == -INFINITY : x == INFINITY);
+        if (!isfinite(x) && !no_bound)
+            return support_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], x);
+    }
+    for (size_t i = 0; halfspaces && i < count; i++)
+        if (!isfinite(r->offsets[i]))
+            return support_fail(diag, FROE_E_INPUT, "A halfspace has the offset %g.", r->offsets[i]);
+    for (size_t k = 0; r->shape == FROE_SHAPE_BOX && k < n; k++)
+        if (r->points[k] > r->points[n + k])
+            return support_fail(diag, FROE_E_INPUT, "A box has lo %g > hi %g on axis %zu.", r->points[k],
+                                r->points[n + k], k);
+    if (has_radius(r->shape) && !(r->radius >= 0 && isfinite(r->radius)))
+        return support_fail(diag, FROE_E_INPUT, "A %s has the radius %g.", names[r->shape], r->radius);
+    if (!(r->eps >= 0 && isfinite(r->eps))) return support_fail(diag, FROE_E_INPUT, "A range has eps %g.", r->eps);
+    size_t zeros = 0;
+    while (r->shape == FROE_SHAPE_RAY && zeros < n && r->points[n + zeros] == 0) zeros++;
+    if (zeros == n) return support_fail(diag, FROE_E_INPUT, "A ray has no direction.");
+    return FROE_OK;
 }
 
 /* ------------------------------------------------------------------ facets -- */
@@ -151,30 +147,20 @@ static bool add_facets(geom_range *r, const froe_allocator *alloc, const froe_ra
     }
 }
 
-/* ------------------------------------------------------------------ bounds -- */
-
-static void take_bounds(geom_range *r, const froe_range *from) {
-    const size_t dim = (size_t)r->dim;
-    for (size_t k = 0; k < dim; k++) r->lo[k] = -INFINITY, r->hi[k] = INFINITY;
-    if (from->shape == FROE_SHAPE_BOX) {
-        memcpy(r->lo, from->points, dim * sizeof *r->lo);
-        memcpy(r->hi, from->points + dim, dim * sizeof *r->hi);
-    } else if (from->shape == FROE_SHAPE_RAY) {
-        for (size_t k = 0; k < dim; k++) {
-            if (from->points[dim + k] >= 0) r->lo[k] = from->points[k];
-            if (from->points[dim + k] <= 0) r->hi[k] = from->points[k];
-        }
-    } else if (from->shape != FROE_SHAPE_HALFSPACES) {
-        geom_range_bound(r);
-    }
-}
+/* ------------------------------------------------------------------ margin -- */
 
 enum { FEW_POINTS = 256 };
 
-/* The greatest distance of two points of a set, about. */
-static double spread_of_points(size_t dim, const double *points, size_t count) {
+/* A lower bound of the diameter; of halfspaces that of their corners. Of many points it is the greatest extent along an
+ * axis. */
+static double diameter(const geom_range *r, const froe_range *from) {
+    const size_t dim = (size_t)r->dim;
+    const size_t count = from->shape == FROE_SHAPE_HALFSPACES ? r->set.count : range_point_count(from, dim);
+    const double *points = from->shape == FROE_SHAPE_HALFSPACES ? r->set.coords : from->points;
+    const double radius = has_radius(from->shape) ? from->radius : 0;
     double most = 0;
-    for (size_t i = 0; i < count; i++)
+    for (size_t k = 0; k < dim && count > FEW_POINTS; k++) most = filter_greater(most, r->hi[k] - r->lo[k]);
+    for (size_t i = 0; i < count && count <= FEW_POINTS; i++)
         for (size_t j = 0; j < i; j++) {
             double square = 0;
             for (size_t k = 0; k < dim; k++) {
@@ -183,49 +169,31 @@ static double spread_of_points(size_t dim, const double *points, size_t count) {
             }
             most = filter_greater(most, square);
         }
-    return most > 0x1p-900 ? sqrt(most) : 0; /* squares that are not denormal; what is shorter has no margin */
-}
-
-/* A lower bound of the diameter; of halfspaces that of their corners. */
-static double diameter(const geom_range *r, const froe_range *from) {
-    const size_t dim = (size_t)r->dim;
-    const size_t count = from->shape == FROE_SHAPE_HALFSPACES ? r->set.count : range_point_count(from, dim);
-    const double *points = from->shape == FROE_SHAPE_HALFSPACES ? r->set.coords : from->points;
-    double most = 0;
-    for (int k = 0; k < r->dim && count > FEW_POINTS; k++) most = filter_greater(most, r->hi[k] - r->lo[k]);
-    if (count <= FEW_POINTS) most = spread_of_points(dim, points, count);
-    const double radius = has_radius(from->shape) ? from->radius : 0;
+    /* Squares that are not denormal; what is shorter has no margin. */
+    if (count <= FEW_POINTS) most = most > 0x1p-900 ? sqrt(most) : 0;
     const double size = (most - 4 * r->set.error) * (1 - 0x1p-45) + 2 * radius;
     return size > 0x1p-500 ? size * (1 - 0x1p-45) : 0;
 }
 
-/* Halfspaces within a box that holds all numbers: which of its planes makes a corner bounds what they do not. */
-static froe_status measure_halfspaces(froe_query *q, const froe_range *from, froe_diagnostic *diag) {
+static froe_status take_margin(froe_query *q, const froe_range *from, froe_diagnostic *diag) {
     static const double lo[3] = {-0x1p1023, -0x1p1023, -0x1p1023}, hi[3] = {0x1p1023, 0x1p1023, 0x1p1023};
     query_range *r = &q->range;
     const uint32_t dim = (uint32_t)r->range.dim;
-    if (!geom_polytope_make(&q->numbers, &q->alloc, (int)dim, from->points, from->offsets, from->count, lo, hi,
-                            &r->polytope))
-        return support_fail_memory(diag);
-    for (size_t i = 0; i < r->polytope.corners.count; i++)
-        for (int j = 0; j < 3; j++)
-            if (r->polytope.corners.data[i].planes[j] < 2 * dim)
-                return support_fail(diag, FROE_E_INPUT, "Halfspaces without a bound have no eps.");
-    r->range.set = geom_polytope_convex(&r->polytope, (int)dim);
-    return FROE_OK;
-}
-
-static froe_status take_margin(froe_query *q, const froe_range *from, froe_diagnostic *diag) {
-    query_range *r = &q->range;
     r->margin = 0;
     if (from->eps == 0) return FROE_OK;
     bool unbounded = from->shape == FROE_SHAPE_RAY;
-    for (size_t i = 0; from->shape == FROE_SHAPE_BOX && i < 2 * (size_t)r->range.dim; i++)
+    for (size_t i = 0; from->shape == FROE_SHAPE_BOX && i < 2 * (size_t)dim; i++)
         unbounded |= !isfinite(from->points[i]);
     if (unbounded) return support_fail(diag, FROE_E_INPUT, "A %s without a bound has no eps.", names[from->shape]);
     if (from->shape == FROE_SHAPE_HALFSPACES) {
-        const froe_status status = measure_halfspaces(q, from, diag);
-        if (status) return status;
+        /* Within a box that holds all numbers: which of its planes makes a corner bounds what they do not. */
+        if (!geom_polytope_make(&q->numbers, &q->alloc, (int)dim, from->points, from->offsets, from->count, lo, hi,
+                                &r->polytope))
+            return support_fail_memory(diag);
+        for (size_t i = 0; i < 3 * r->polytope.corners.count; i++)
+            if (r->polytope.corners.data[i / 3].planes[i % 3] < 2 * dim)
+                return support_fail(diag, FROE_E_INPUT, "Halfspaces without a bound have no eps.");
+        r->range.set = geom_polytope_convex(&r->polytope, (int)dim);
     }
     const double margin = from->eps * diameter(&r->range, from) * (1 - 0x1p-45);
     r->margin = margin > 0x1p-900 && isfinite(margin) ? margin : 0;
@@ -256,7 +224,19 @@ froe_status query_range_take(froe_query *q, const froe_range *from, froe_diagnos
     if (from->shape == FROE_SHAPE_RAY) set->core = GEOM_CORE_RAY;
     if (from->shape == FROE_SHAPE_BOX) set->core = GEOM_CORE_BOX, set->count = 1u << dim;
     if (from->shape == FROE_SHAPE_HALFSPACES) set->count = 0;
-    take_bounds(&r->range, from);
+    double *lo = r->range.lo, *hi = r->range.hi;
+    for (int k = 0; k < dim; k++) lo[k] = -INFINITY, hi[k] = INFINITY;
+    if (from->shape == FROE_SHAPE_BOX) {
+        memcpy(lo, from->points, (size_t)dim * sizeof *lo);
+        memcpy(hi, from->points + dim, (size_t)dim * sizeof *hi);
+    } else if (from->shape == FROE_SHAPE_RAY) {
+        for (int k = 0; k < dim; k++) {
+            if (from->points[dim + k] >= 0) lo[k] = from->points[k];
+            if (from->points[dim + k] <= 0) hi[k] = from->points[k];
+        }
+    } else if (from->shape != FROE_SHAPE_HALFSPACES) {
+        geom_range_bound(&r->range);
+    }
     status = take_margin(q, from, diag);
     if (status) return status;
     r->range.facets.count = 0;

@@ -67,23 +67,6 @@ static void visit_list(range_walk *w, uint32_t node) {
     }
 }
 
-/* Takes all of a list whose objects are where they are listed. */
-static void take_flat(range_walk *w, const tree_objects *list) {
-    froe_query *q = w->q;
-    const bool whole = w->pieces->whole;
-    if (!(whole ? array_reserve(&q->alloc, &q->found, list->count) : query_expect(q, list->count))) {
-        w->memory = true;
-        return;
-    }
-    uint32_t *found = q->found.data + q->found.count;
-    if (!whole) {
-        q->found.count += query_mark_all(&q->marks, list->at, list->stride, list->count, found);
-        return;
-    }
-    for (uint32_t i = 0; i < list->count; i++) found[i] = list->at[(size_t)i * list->stride];
-    q->found.count += list->count;
-}
-
 /* Of a list whose region is in the range: only solids, and whatever packed trees of space hold, may be listed where
  * they are not. */
 static void take_list(range_walk *w, const tree_objects *list) {
@@ -116,6 +99,7 @@ static void take_blocks(range_walk *w, uint32_t node) {
     }
 }
 
+/* Takes all of the lists below a node whose region is in the range. */
 static void take_slice(range_walk *w, uint32_t node) {
     const froe_tree *t = w->tree;
     w->q->stats.slices++;
@@ -133,7 +117,20 @@ static void take_slice(range_walk *w, uint32_t node) {
     list.first = first;
     list.count = last->u.list.first + last->u.list.count - first;
     if (list.count) list.at = &t->pieces[first].object;
-    w->pieces->flat ? take_flat(w, &list) : take_list(w, &list);
+    if (!w->pieces->flat) {
+        take_list(w, &list);
+        return;
+    }
+    /* Objects are where they are listed. */
+    froe_query *q = w->q;
+    const bool whole = w->pieces->whole;
+    if (!(whole ? array_reserve(&q->alloc, &q->found, list.count) : query_expect(q, list.count))) {
+        w->memory = true;
+        return;
+    }
+    uint32_t *found = q->found.data + q->found.count;
+    for (uint32_t i = 0; whole && i < list.count; i++) found[i] = list.at[(size_t)i * list.stride];
+    q->found.count += whole ? list.count : query_mark_all(&q->marks, list.at, list.stride, list.count, found);
 }
 
 /* ------------------------------------------------------------------- stack -- */

@@ -55,40 +55,32 @@ static bool overlap_exactly(finder *f, const view_piece *piece, const paint_part
 
 /* ------------------------------------------------------------------------- arcs -- */
 
-static froe_status compare_visible(finder *f, uint32_t visible, uint32_t i) {
-    const view_piece *piece = f->parts->v->pieces + visible;
-    const paint_part *part = f->parts->parts.data + i;
-    const uint32_t node = f->parts->node_of[visible];
-    if (f->stamps[i] == visible + 1) return FROE_OK;
-    f->stamps[i] = visible + 1;
-    if (part->node == node || f->known[part->node] == node + 1) return FROE_OK;
-    if (f->parts->clear && part->place <= piece->place) return FROE_OK;
-    if (++*f->tests > f->most) return FROE_E_BUDGET;
-    /* Do their interiors overlap? Sightlines decide where rounding could hide that. */
-    const print_point *ring = f->parts->points.data + part->first;
-    const double unsure = 1e-9 * (f->parts->view->width + f->parts->view->height);
-    if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, -unsure)) return FROE_OK;
-    if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, unsure) &&
-        !overlap_exactly(f, piece, part, f->parts->kinds.data[i]))
-        return FROE_OK;
-    f->known[part->node] = node + 1;
-    return array_push(&f->parts->v->alloc, f->arcs, (graph_arc){part->node, node}) ? FROE_OK : FROE_E_MEMORY;
-}
-
+/* Finds the arcs from parts that lie under a visible piece. */
 static froe_status compare_piece(finder *f, uint32_t visible) {
-    froe_status status = FROE_OK;
-    const view_grid *g = &f->grid;
+    const view_piece *piece = f->parts->v->pieces + visible;
+    const uint32_t node = f->parts->node_of[visible];
+    const double unsure = 1e-9 * (f->parts->view->width + f->parts->view->height);
     f->piece.count = 0;
     if (!view_print_visible(f->parts, visible, &f->piece)) return FROE_E_MEMORY;
     if (f->piece.count < 3) return FROE_OK;
-    const view_cells r = view_grid_cells(g, f->piece.data, f->piece.count, 0);
-    for (uint32_t y = r.y0; y <= r.y1; y++)
-        for (uint32_t x = r.x0; x <= r.x1; x++) {
-            const size_t cell = (size_t)y * g->cells + x;
-            for (uint32_t e = g->starts[cell]; e < g->starts[cell + 1] && !status; e++)
-                status = compare_visible(f, visible, g->entries[e]);
-        }
-    return status;
+    view_grid_walk walk = view_grid_begin(&f->grid, view_grid_cells(&f->grid, f->piece.data, f->piece.count, 0));
+    for (uint32_t i; view_grid_next(&walk, &i);) {
+        const paint_part *part = f->parts->parts.data + i;
+        if (f->stamps[i] == visible + 1) continue;
+        f->stamps[i] = visible + 1;
+        if (part->node == node || f->known[part->node] == node + 1) continue;
+        if (f->parts->clear && part->place <= piece->place) continue;
+        if (++*f->tests > f->most) return FROE_E_BUDGET;
+        /* Do their interiors overlap? Sightlines decide where rounding could hide that. */
+        const print_point *ring = f->parts->points.data + part->first;
+        if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, -unsure)) continue;
+        if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, unsure) &&
+            !overlap_exactly(f, piece, part, f->parts->kinds.data[i]))
+            continue;
+        f->known[part->node] = node + 1;
+        if (!array_push(&f->parts->v->alloc, f->arcs, (graph_arc){part->node, node})) return FROE_E_MEMORY;
+    }
+    return FROE_OK;
 }
 
 static const print_point *arc_points(const void *user, size_t i, size_t *points) {

@@ -71,35 +71,28 @@ static double length_of(const view_segment *s) {
     return sqrt(x * x + y * y);
 }
 
-/* Notes the gap that t leaves in s, if any. */
-static bool compare_lines(gapper *g, uint32_t i, uint32_t j) {
-    const view_segment *s = g->in->data + i, *t = g->in->data + j;
-    gap x;
-    const int weaker = view_strength(t->kind, t->hidden) - view_strength(s->kind, s->hidden);
-    for (int wide = 0; wide <= s->hidden && (weaker > 0 || (!weaker && j < i)); wide++)
-        if (stretch_near(s, t, g->same[wide], &x) && (x.to - x.from) * length_of(s) >= 8 * g->same[wide] &&
-            !array_push(g->alloc, &g->gaps, x)) /* lines with shorter stretches only cross */
-            return false;
-    for (int e = 0; e < 4; e++) /* lines that meet leave no gap in each other */
-        if (s->vertex[e / 2] != FROE_NONE && s->vertex[e / 2] == t->vertex[e % 2]) return true;
-    if (s->hidden || t->hidden || !(g->halo > 0) || !stretch_near(s, t, g->halo, &x)) return true;
-    return depth_between(g, s, t, x) < g->halo || array_push(g->alloc, &g->gaps, x);
-}
-
+/* Notes the gaps that other segments leave in segment i. */
 static bool compare_all(gapper *g, uint32_t i) {
     const view_segment *s = g->in->data + i;
-    const view_cells c = view_grid_cells(&g->grid, s->at, 2, fmax(g->same[s->hidden], s->hidden ? 0 : g->halo));
+    const double reach = fmax(g->same[s->hidden], s->hidden ? 0 : g->halo);
+    view_grid_walk walk = view_grid_begin(&g->grid, view_grid_cells(&g->grid, s->at, 2, reach));
     g->gaps.count = 0;
-    for (uint32_t y = c.y0; y <= c.y1; y++)
-        for (uint32_t x = c.x0; x <= c.x1; x++) {
-            const size_t cell = (size_t)y * g->grid.cells + x;
-            for (uint32_t e = g->grid.starts[cell]; e < g->grid.starts[cell + 1]; e++) {
-                const uint32_t j = g->grid.entries[e];
-                if (j == i || g->stamps[j] == i + 1) continue;
-                g->stamps[j] = i + 1;
-                if (!compare_lines(g, i, j)) return false;
-            }
-        }
+    for (uint32_t j; view_grid_next(&walk, &j);) {
+        const view_segment *t = g->in->data + j;
+        gap x;
+        if (j == i || g->stamps[j] == i + 1) continue;
+        g->stamps[j] = i + 1;
+        const int weaker = view_strength(t->kind, t->hidden) - view_strength(s->kind, s->hidden);
+        for (int wide = 0; wide <= s->hidden && (weaker > 0 || (!weaker && j < i)); wide++)
+            if (stretch_near(s, t, g->same[wide], &x) && (x.to - x.from) * length_of(s) >= 8 * g->same[wide] &&
+                !array_push(g->alloc, &g->gaps, x)) /* lines with shorter stretches only cross */
+                return false;
+        bool meet = false; /* then they leave no halo in each other */
+        for (int e = 0; e < 4; e++)
+            meet = meet || (s->vertex[e / 2] != FROE_NONE && s->vertex[e / 2] == t->vertex[e % 2]);
+        if (s->hidden || t->hidden || !(g->halo > 0) || meet || !stretch_near(s, t, g->halo, &x)) continue;
+        if (depth_between(g, s, t, x) >= g->halo && !array_push(g->alloc, &g->gaps, x)) return false;
+    }
     return true;
 }
 

@@ -35,22 +35,6 @@ static view_cells cells_of(const filler *f, size_t i) {
     return view_grid_cells(f->grid, points, n, 0);
 }
 
-static void choose_cells(const filler *f, const froe_projection *view) {
-    const double wanted = sqrt((double)f->count);
-    uint32_t cells = wanted < CELLS_LEAST ? CELLS_LEAST : wanted > CELLS_MOST ? CELLS_MOST : (uint32_t)wanted;
-    for (;; cells /= 2) {
-        f->grid->cells = cells;
-        f->grid->wide = view->width / cells;
-        f->grid->high = view->height / cells;
-        f->grid->entry_count = 0;
-        for (size_t i = 0; i < f->count; i++) {
-            const view_cells c = cells_of(f, i);
-            f->grid->entry_count += (uint64_t)(c.x1 - c.x0 + 1) * (c.y1 - c.y0 + 1);
-        }
-        if (cells <= CELLS_LEAST || f->grid->entry_count <= ENTRIES_A_THING * (uint64_t)f->count) return;
-    }
-}
-
 static void fill_grid(const filler *f, bool count_only) {
     view_grid *g = f->grid;
     for (size_t i = f->count; i-- > 0;) {
@@ -69,7 +53,19 @@ static void fill_grid(const filler *f, bool count_only) {
 froe_status view_grid_new(const froe_allocator *alloc, const froe_projection *view, size_t count, view_points_fn *fn,
                           const void *user, view_grid *out) {
     const filler f = {out, count, fn, user};
-    choose_cells(&f, view);
+    const double wanted = sqrt((double)count);
+    uint32_t side = wanted < CELLS_LEAST ? CELLS_LEAST : wanted > CELLS_MOST ? CELLS_MOST : (uint32_t)wanted;
+    for (;; side /= 2) {
+        out->cells = side;
+        out->wide = view->width / side;
+        out->high = view->height / side;
+        out->entry_count = 0;
+        for (size_t i = 0; i < count; i++) {
+            const view_cells c = cells_of(&f, i);
+            out->entry_count += (uint64_t)(c.x1 - c.x0 + 1) * (c.y1 - c.y0 + 1);
+        }
+        if (side <= CELLS_LEAST || out->entry_count <= ENTRIES_A_THING * (uint64_t)count) break;
+    }
     const size_t cells = (size_t)out->cells * out->cells;
     out->starts = support_calloc(alloc, cells + 1, sizeof *out->starts);
     if (out->entry_count < UINT32_MAX) out->entries = support_calloc(alloc, out->entry_count + 1, sizeof *out->entries);

@@ -30,4 +30,30 @@ froe_status view_grid_new(const froe_allocator *alloc, const froe_projection *vi
 void view_grid_free(const froe_allocator *alloc, view_grid *grid);
 /** The cells that the bounds of some points, widened by `beyond`, meet. */
 view_cells view_grid_cells(const view_grid *grid, const print_point *points, size_t count, double beyond);
+
+/** A walk over the entries of cells, row by row. */
+typedef struct view_grid_walk {
+    const view_grid *grid;
+    view_cells cells;
+    uint32_t x, y;  /**< the cell of the thing found last, and ... */
+    uint32_t entry; /**< ... the entry after it */
+} view_grid_walk;
+
+static inline view_grid_walk view_grid_begin(const view_grid *g, view_cells c) {
+    const bool none = c.x0 > c.x1 || c.y0 > c.y1;
+    return (view_grid_walk){g, c, c.x0, none ? c.y1 + 1 : c.y0, none ? 0 : g->starts[(size_t)c.y0 * g->cells + c.x0]};
+}
+/** The next thing, which comes once for each of its cells. False: there is none left. */
+static inline bool view_grid_next(view_grid_walk *w, uint32_t *thing) {
+    const view_grid *g = w->grid;
+    while (w->y <= w->cells.y1) {
+        if (w->entry < g->starts[(size_t)w->y * g->cells + w->x + 1]) {
+            *thing = g->entries[w->entry++];
+            return true;
+        }
+        if (w->x++ == w->cells.x1) w->x = w->cells.x0, w->y++;
+        if (w->y <= w->cells.y1) w->entry = g->starts[(size_t)w->y * g->cells + w->x];
+    }
+    return false;
+}
 #endif

@@ -30,19 +30,6 @@ static const print_point *line_points(const void *user, size_t i, size_t *points
     return s->points.data + s->starts.data[i];
 }
 
-static bool print_pieces(line_sorter *s) {
-    const froe_allocator *alloc = &s->p->picture->alloc;
-    const uint32_t n = s->p->v->piece_count;
-    if (!array_reserve(alloc, &s->starts, (size_t)n + 1)) return false;
-    s->starts.data[s->starts.count++] = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        if (!view_print_visible(&s->p->parts, i, &s->points)) return false;
-        s->starts.data[s->starts.count++] = (uint32_t)s->points.count;
-    }
-    s->stamps = support_calloc(alloc, (size_t)n + 1, sizeof *s->stamps);
-    return s->stamps && !view_grid_new(alloc, s->p->options->view, n, line_points, s, &s->grid);
-}
-
 /* --------------------------------------------------------------------- distances -- */
 
 /* A place of the page on or near a segment: the share of the segment, and the distance. */
@@ -68,26 +55,21 @@ static void offer(near_place *best, print_point at, print_point on, double share
     if (square < best->square) *best = (near_place){at, share, square};
 }
 
-/* The part of ab inside a convex ring. False: none. */
-static bool clip(const print_point *ring, size_t n, print_point a, print_point b, double share[2]) {
+/* Where a segment and a convex ring are nearest to each other. */
+static near_place nearest(const print_point *ring, size_t n, print_point a, print_point b) {
     const double turn = print_area(ring, n) > 0 ? 1 : -1;
-    share[0] = 0, share[1] = 1;
-    for (size_t i = 0; i < n; i++) {
+    near_place best = {.square = INFINITY};
+    double share[2] = {0, 1}; /* the part of ab inside the ring */
+    bool inside = true;
+    for (size_t i = 0; i < n && inside; i++) {
         const print_point p = ring[i], q = ring[i + 1 < n ? i + 1 : 0];
         const double at_a = turn * ((q.y - p.y) * (a.x - p.x) - (q.x - p.x) * (a.y - p.y)),
                      at_b = turn * ((q.y - p.y) * (b.x - p.x) - (q.x - p.x) * (b.y - p.y));
-        if (at_a < 0 && at_b < 0) return false;
+        inside = at_a >= 0 || at_b >= 0;
         if (at_a < 0) share[0] = fmax(share[0], at_a / (at_a - at_b));
         if (at_b < 0) share[1] = fmin(share[1], at_a / (at_a - at_b));
     }
-    return share[0] <= share[1];
-}
-
-/* Where a segment and a convex ring are nearest to each other. */
-static near_place nearest(const print_point *ring, size_t n, print_point a, print_point b) {
-    double share[2];
-    near_place best = {.square = INFINITY};
-    if (clip(ring, n, a, b, share)) {
+    if (inside && share[0] <= share[1]) {
         const double middle = 0.5 * (share[0] + share[1]);
         return (near_place){point_at(a, b, middle), middle, 0};
     }
@@ -120,43 +102,31 @@ static double near_at(const view_painter *p, uint32_t object, print_point page) 
 
 /* ------------------------------------------------------------------------- nodes -- */
 
-/* Notes a visible piece if it is within reach. */
-static bool note(line_sorter *s, uint32_t i, uint32_t visible, const view_segment *segment) {
-    const froe_allocator *alloc = &s->p->picture->alloc;
-    size_t n;
-    const print_point *ring = line_points(s, visible, &n);
-    const uint32_t node = s->p->parts.node_of[visible];
-    if (s->stamps[visible] == i + 1) return true;
-    s->stamps[visible] = i + 1;
-    if (n < 3) return true;
-    const near_place m = nearest(ring, n, segment->at[0], segment->at[1]);
-    if (m.square > s->reach * s->reach) return true;
-    /* In front of the segment by more than a line is wide: less is what neighbours on a curved surface are. */
-    const froe_projection *view = s->p->options->view;
-    const double own = segment->near[0] + m.share * (segment->near[1] - segment->near[0]);
-    const double wide = 2 * s->reach / view->scale * (view->eye.parallel ? 1 : own);
-    const bool nearer = near_at(s->p, s->p->v->pieces[visible].object, m.at) > own + wide;
-    return nearer ? array_push(alloc, &s->nearer, node) : array_push(alloc, &s->farther, node);
-}
-
-static bool look_around(line_sorter *s, uint32_t i) {
-    const view_segment *segment = s->p->segments.data + i;
-    const view_cells r = view_grid_cells(&s->grid, segment->at, 2, s->reach);
-    s->nearer.count = s->farther.count = 0;
-    for (uint32_t y = r.y0; y <= r.y1; y++)
-        for (uint32_t x = r.x0; x <= r.x1; x++) {
-            const size_t cell = (size_t)y * s->grid.cells + x;
-            for (uint32_t e = s->grid.starts[cell]; e < s->grid.starts[cell + 1]; e++)
-                if (!note(s, i, s->grid.entries[e], segment)) return false;
-        }
-    return true;
-}
-
+/* Makes a segment a node if something nearer is visible within its reach: between the nodes in front and the others. */
 static bool add_interleaved_line(line_sorter *s, uint32_t i) {
-    const froe_allocator *alloc = &s->p->picture->alloc;
-    const uint32_t own = s->p->graph.count + (uint32_t)s->lines.count;
-    if (s->p->segments.data[i].hidden) return true;
-    if (!look_around(s, i)) return false;
+    const view_painter *p = s->p;
+    const froe_allocator *alloc = &p->picture->alloc;
+    const froe_projection *view = p->options->view;
+    const view_segment *segment = p->segments.data + i;
+    const uint32_t own = p->graph.count + (uint32_t)s->lines.count;
+    if (segment->hidden) return true;
+    s->nearer.count = s->farther.count = 0;
+    view_grid_walk walk = view_grid_begin(&s->grid, view_grid_cells(&s->grid, segment->at, 2, s->reach));
+    for (uint32_t visible; view_grid_next(&walk, &visible);) {
+        size_t n;
+        const print_point *ring = line_points(s, visible, &n);
+        const uint32_t node = p->parts.node_of[visible];
+        if (s->stamps[visible] == i + 1) continue;
+        s->stamps[visible] = i + 1;
+        if (n < 3) continue;
+        const near_place m = nearest(ring, n, segment->at[0], segment->at[1]);
+        if (m.square > s->reach * s->reach) continue;
+        /* In front of the segment by more than a line is wide: less is what neighbours on a curved surface are. */
+        const double near = segment->near[0] + m.share * (segment->near[1] - segment->near[0]);
+        const double wide = 2 * s->reach / view->scale * (view->eye.parallel ? 1 : near);
+        const bool nearer = near_at(p, p->v->pieces[visible].object, m.at) > near + wide;
+        if (!(nearer ? array_push(alloc, &s->nearer, node) : array_push(alloc, &s->farther, node))) return false;
+    }
     if (!s->nearer.count) return true;
     for (size_t k = 0; k < s->farther.count; k++)
         if (!array_push(alloc, &s->arcs, (graph_arc){s->farther.data[k], own})) return false;
@@ -167,7 +137,7 @@ static bool add_interleaved_line(line_sorter *s, uint32_t i) {
 
 /* ------------------------------------------------------------------------- order -- */
 
-static froe_status sort(line_sorter *s, view_graph *g) {
+static froe_status sort_lines(line_sorter *s, view_graph *g) {
     const froe_allocator *alloc = &s->p->picture->alloc;
     const uint32_t faces = s->p->graph.count, n = faces + (uint32_t)s->lines.count;
     froe_status status = view_graph_new(alloc, n, s->arcs.data, s->arcs.count, g);
@@ -199,13 +169,21 @@ froe_status view_interleave(view_painter *p) {
     const froe_allocator *alloc = &p->picture->alloc;
     line_sorter s = {.p = p, .reach = p->options->interleave};
     view_graph g = {0};
-    bool ok = print_pieces(&s);
+    const uint32_t pieces = p->v->piece_count;
+    bool ok = array_reserve(alloc, &s.starts, (size_t)pieces + 1);
+    if (ok) s.starts.data[s.starts.count++] = 0;
+    for (uint32_t i = 0; ok && i < pieces; i++) {
+        ok = view_print_visible(&p->parts, i, &s.points);
+        s.starts.data[s.starts.count++] = (uint32_t)s.points.count;
+    }
+    s.stamps = support_calloc(alloc, (size_t)pieces + 1, sizeof *s.stamps);
+    ok = ok && s.stamps && !view_grid_new(alloc, p->options->view, pieces, line_points, &s, &s.grid);
     for (uint32_t i = 0; ok && i < p->segments.count; i++) ok = add_interleaved_line(&s, i);
     const view_graph *faces = &p->graph; /* whose arcs still count */
     for (uint32_t v = 0; v < faces->count; v++)
         for (uint32_t e = faces->out_starts[v]; ok && e < faces->out_starts[v + 1] && !faces->late[v]; e++)
             ok = array_push(alloc, &s.arcs, (graph_arc){v, faces->outs[e]});
-    const froe_status status = ok ? sort(&s, &g) : FROE_E_MEMORY;
+    const froe_status status = ok ? sort_lines(&s, &g) : FROE_E_MEMORY;
     view_graph_free(alloc, &g);
     view_grid_free(alloc, &s.grid);
     support_free(alloc, s.stamps, ((size_t)p->v->piece_count + 1) * sizeof *s.stamps);

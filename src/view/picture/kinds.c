@@ -11,13 +11,6 @@ static uint32_t group_of(const froe_scene *s, uint32_t object) {
     return s->groups ? s->groups[object] : FROE_NONE;
 }
 
-static froe_line change_of(const froe_scene *s, uint32_t a, uint32_t b) {
-    if (a == b) return (froe_line)0;
-    if (a == FROE_NONE || b == FROE_NONE) return FROE_LINE_OBJECT;
-    const froe_group x = froe_scene_group(s, a), y = froe_scene_group(s, b);
-    return !strcmp(x.name, y.name) && strcmp(x.material, y.material) != 0 ? FROE_LINE_MATERIAL : FROE_LINE_OBJECT;
-}
-
 static double cosine(const froe_scene *s, uint32_t a, uint32_t b) {
     geom_plane p, q;
     double dot = 0, pp = 0, qq = 0;
@@ -38,7 +31,12 @@ static froe_line kind_of_pair(view_sights *sights, uint32_t edge, uint32_t a, ui
                         surface_ascends(s, b, edge); /* the second runs the other way than its neighbour asks */
     const int x = view_facing(sights, a), y = view_facing(sights, b) * (turned ? -1 : 1);
     if (wanted & FROE_LINE_SILHOUETTE && (x > 0) != (y > 0)) return FROE_LINE_SILHOUETTE;
-    const froe_line change = change_of(s->scene, group_of(s->scene, a), group_of(s->scene, b));
+    const uint32_t p = group_of(s->scene, a), q = group_of(s->scene, b);
+    froe_line change = p == q ? (froe_line)0 : FROE_LINE_OBJECT;
+    if (p != q && p != FROE_NONE && q != FROE_NONE) {
+        const froe_group of_a = froe_scene_group(s->scene, p), of_b = froe_scene_group(s->scene, q);
+        if (!strcmp(of_a.name, of_b.name) && strcmp(of_a.material, of_b.material) != 0) change = FROE_LINE_MATERIAL;
+    }
     if (wanted & change) return change;
     const double c = cosine(s->scene, a, b) * (turned ? -1 : 1);
     return wanted & FROE_LINE_CREASE && c <= limit ? FROE_LINE_CREASE : FROE_LINE_MESH;

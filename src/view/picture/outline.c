@@ -64,17 +64,6 @@ static bool goes_straight(const view_outliner *o, uint32_t u, uint32_t v, uint32
     return !geom_plane_valid(&o->sights->context, &plane);
 }
 
-/* The polygon across a side into which the patch may be extended; FROE_NONE. */
-static uint32_t under(const view_outliner *o, uint32_t patch, uint32_t edge) {
-    const froe_surface *s = o->sights->surface;
-    const uint32_t *use = s->uses + s->edge_starts[edge];
-    if (!(o->underlap > 0) || !o->runs || s->edge_starts[edge + 1] - s->edge_starts[edge] != 2) return FROE_NONE;
-    const uint32_t other = s->patch_of[use[0]] == patch ? use[1] : use[0], far = s->patch_of[other];
-    if (far == patch || o->runs[far] == FROE_NONE || o->runs[far] <= o->runs[patch] || !is_drawn(o, other))
-        return FROE_NONE;
-    return other;
-}
-
 /* The corner of a polygon farthest from ab, on the other side of it than the patch, which is on its left. */
 static bool apex(const view_outliner *o, uint32_t object, print_point a, print_point b, print_point *c,
                  double *height) {
@@ -105,7 +94,14 @@ static outline_detour detour_by(const view_outliner *o, print_point a, print_poi
 
 static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline_detour *out) {
     const outline_side *s = o->sides.data + side;
-    const uint32_t object = under(o, patch, s->edge);
+    const froe_surface *surface = o->sights->surface;
+    const uint32_t *use = surface->uses + surface->edge_starts[s->edge];
+    uint32_t object = FROE_NONE; /* the polygon across the side into which the patch may be extended */
+    if (o->underlap > 0 && o->runs && surface->edge_starts[s->edge + 1] - surface->edge_starts[s->edge] == 2) {
+        const uint32_t other = surface->patch_of[use[0]] == patch ? use[1] : use[0], far = surface->patch_of[other];
+        const bool later = far != patch && o->runs[far] != FROE_NONE && o->runs[far] > o->runs[patch];
+        if (later && is_drawn(o, other)) object = other;
+    }
     const print_point a = page_of(o, o->starts.data[side]), b = page_of(o, s->to);
     print_point c;
     double height;
@@ -141,23 +137,17 @@ static bool take_ring(view_outliner *o, uint32_t side) {
     return true;
 }
 
-/* Strips along the sides of a ring as it is printed. */
-static bool look_along(view_outliner *o, const print_point *ring, size_t count) {
-    bool bare;
-    for (size_t i = 0; o->seams && i < count; i++)
-        if (!view_seams_look(o->seams, o->node, ring[i], ring[i + 1 < count ? i + 1 : 0], &bare)) return false;
-    return true;
-}
-
 /* Appends the ring: with its detours, or cut where a vertex is out of sight or too far away. */
 static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
     const size_t first = points->count, n = o->ring.count;
-    bool cut;
+    bool cut, bare;
     print_begin(&o->press);
     for (size_t i = 0; i < n; i++)
         if (!print_add(&o->press, view_vertex(o->sights, o->starts.data[o->ring.data[i]]))) return false;
     if (!print_end(&o->press, points, &cut)) return false;
-    if (cut && !look_along(o, points->data + first, points->count - first)) return false;
+    const print_point *at = points->data + first;
+    for (size_t i = 0, m = points->count - first; cut && o->seams && i < m; i++) /* strips along what is left */
+        if (!view_seams_look(o->seams, o->node, at[i], at[i + 1 < m ? i + 1 : 0], &bare)) return false;
     if (!cut) {
         points->count = first;
         o->detours.count = 0;

@@ -180,19 +180,6 @@ static bool put_segments(overlayer *o, view_segments *out) {
 
 /* ---------------------------------------------------------------------- calling -- */
 
-static bool overlay_line_at(overlayer *o, const view_items *items, const uint32_t *lines, size_t count,
-                            view_segments *out) {
-    const overlay_line *first = o->lines.data + lines[0];
-    o->line = first->line;
-    o->members.count = 0;
-    for (size_t i = 0; i < count; i++) {
-        const overlay_line *l = o->lines.data + lines[i];
-        if (!add_members(o, items, l, l->turned != first->turned)) return false;
-    }
-    return find_places(o) && paint_line_of_sight(o, by_strength, &o->drawn) &&
-           paint_line_of_sight(o, by_nearness, &o->front) && put_segments(o, out);
-}
-
 froe_status view_overlay(view_sights *sights, const view_items *items, bool depths, view_segments *out) {
     overlayer o = {.sights = sights, .depths = depths};
     overlay_ids lines = {0};
@@ -209,7 +196,15 @@ froe_status view_overlay(view_sights *sights, const view_items *items, bool dept
     ok = ok && sort(&o, &lines, o.lines.count, by_line);
     for (size_t i = 0, end; ok && i < lines.count; i = end) {
         for (end = i + 1; end < lines.count && !by_line(&o, lines.data[i], lines.data[end]);) end++;
-        ok = overlay_line_at(&o, items, lines.data + i, end - i, out);
+        const overlay_line *first = o.lines.data + lines.data[i];
+        o.line = first->line;
+        o.members.count = 0;
+        for (size_t k = i; ok && k < end; k++) {
+            const overlay_line *l = o.lines.data + lines.data[k];
+            ok = add_members(&o, items, l, l->turned != first->turned);
+        }
+        ok = ok && find_places(&o) && paint_line_of_sight(&o, by_strength, &o.drawn) &&
+             paint_line_of_sight(&o, by_nearness, &o.front) && put_segments(&o, out);
     }
     overlay_ids *const ids[] = {&o.drawn, &o.front, &o.next, &o.order, &o.ends, &o.spare};
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) array_free(&sights->alloc, ids[i]);

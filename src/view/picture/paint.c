@@ -126,31 +126,27 @@ static bool put_whole_patch(view_painter *p, uint32_t patch, uint32_t node) {
     return true;
 }
 
-static froe_status begin_outlines(view_painter *p) {
-    const froe_status status = view_outliner_new(&p->outliner, p->sights, p->options->view, p->options->cull_back);
+froe_status view_paint_whole(view_painter *p) {
+    const froe_picture_options *o = p->options;
+    p->painted = support_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->painted);
     p->runs = support_calloc(&p->picture->alloc, (size_t)p->v->surface->patch_count + 1, sizeof *p->runs);
-    if (status || !p->runs) return FROE_E_MEMORY;
+    if (!p->painted || !p->runs || view_outliner_new(&p->outliner, p->sights, o->view, o->cull_back))
+        return FROE_E_MEMORY;
     /* Runs of patches of one style without lines between; patches painted whole and opaque get the number of theirs. */
     uint32_t run = 0, last = FROE_NONE;
     for (uint32_t i = 0; i < p->v->surface->patch_count; i++) p->runs[i] = FROE_NONE;
     for (uint32_t i = 0; i < p->graph.count; i++) {
         const uint32_t v = p->order[i];
         const paint_node *node = p->parts.nodes.data + v;
-        const uint32_t style = p->options->styles ? p->options->styles[node->patch] : 0;
+        const uint32_t style = o->styles ? o->styles[node->patch] : 0;
         run += style != last || (p->breaks && p->breaks[i]);
         last = style;
         if (node->piece == FROE_NONE && !is_clipped(p, v) && !is_clear(p, node->patch)) p->runs[node->patch] = run;
     }
-    p->outliner.underlap = p->options->underlap;
+    p->outliner.underlap = o->underlap;
     p->outliner.runs = p->runs;
-    if (!(p->options->underlap > 0)) return FROE_OK;
-    return view_seams_new(&p->seams, &p->parts, p->order, p->breaks, p->options->styles, p->options->clear,
-                          p->options->underlap);
-}
-
-froe_status view_paint_whole(view_painter *p) {
-    p->painted = support_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->painted);
-    if (!p->painted || begin_outlines(p)) return FROE_E_MEMORY;
+    if (o->underlap > 0 && view_seams_new(&p->seams, &p->parts, p->order, p->breaks, o->styles, o->clear, o->underlap))
+        return FROE_E_MEMORY;
     for (uint32_t i = 0; i < p->graph.count; i++) {
         const uint32_t v = p->order[i];
         const paint_node *node = p->parts.nodes.data + v;

@@ -51,25 +51,23 @@ bool view_print_piece(view_parts *p, view_sights *sights, uint32_t piece, print_
     return view_beam_of(sights, piece, &p->ring) && print_ring_of(p, patch, p->ring.data, p->ring.count, out);
 }
 
-static bool print_object(view_parts *p, view_sights *sights, uint32_t object, print_ring *out) {
-    const froe_scene *s = p->v->tree->scene;
-    const uint32_t n = scene_corners(s, object);
-    bool cut;
-    print_begin(&p->press);
-    for (uint32_t i = 0; i < n; i++)
-        if (!print_add(&p->press, scene_point(s, object, view_facing(sights, object) > 0 ? i : n - 1 - i)))
-            return false;
-    return print_end(&p->press, out, &cut);
-}
-
 /* ------------------------------------------------------------------------ parts -- */
 
 static bool add_part(view_parts *p, view_sights *sights, uint32_t node, int kind, uint32_t source, uint32_t place) {
     const froe_allocator *alloc = &p->v->alloc;
     paint_part part = {.node = node, .place = place, .source = source, .first = (uint32_t)p->points.count};
-    const bool ok = kind == PART_OBJECT  ? print_object(p, sights, source, &p->points)
-                    : kind == PART_PIECE ? view_print_piece(p, sights, source, &p->points)
-                                         : view_print_visible(p, source, &p->points);
+    bool cut, ok = true;
+    if (kind == PART_OBJECT) {
+        const froe_scene *s = p->v->tree->scene;
+        const uint32_t n = scene_corners(s, source);
+        const bool front = view_facing(sights, source) > 0;
+        print_begin(&p->press);
+        for (uint32_t i = 0; ok && i < n; i++) ok = print_add(&p->press, scene_point(s, source, front ? i : n - 1 - i));
+        ok = ok && print_end(&p->press, &p->points, &cut);
+    } else {
+        ok = kind == PART_PIECE ? view_print_piece(p, sights, source, &p->points)
+                                : view_print_visible(p, source, &p->points);
+    }
     part.count = (uint32_t)p->points.count - part.first;
     if (!ok) return false;
     if (part.count < 3) { /* away from the page */
@@ -84,21 +82,6 @@ static bool is_drawn(const view_parts *p, view_sights *sights, uint32_t object) 
     return facing > 0 || (facing < 0 && !p->cull_back);
 }
 
-/* One node for a patch; or one for each piece of it with a visible part. */
-static bool add_nodes(view_parts *p, uint32_t patch) {
-    const froe_visibility *v = p->v;
-    const froe_allocator *alloc = &v->alloc;
-    p->node_of_patch[patch] = (uint32_t)p->nodes.count;
-    const bool pieces = p->split[patch] == PARTS_PIECES;
-    if (!pieces && !array_push(alloc, &p->nodes, (paint_node){patch, FROE_NONE})) return false;
-    for (uint32_t i = v->patch_starts[patch]; i < v->patch_starts[patch + 1]; i++) {
-        const bool next = pieces && (i == v->patch_starts[patch] || v->pieces[i].piece != v->pieces[i - 1].piece);
-        if (next && !array_push(alloc, &p->nodes, (paint_node){patch, v->pieces[i].piece})) return false;
-        p->node_of[i] = (uint32_t)p->nodes.count - 1;
-    }
-    return true;
-}
-
 froe_status view_parts_make(view_parts *p, view_sights *sights) {
     const froe_visibility *v = p->v;
     const froe_surface *s = v->surface;
@@ -107,7 +90,16 @@ froe_status view_parts_make(view_parts *p, view_sights *sights) {
     for (uint32_t patch = 0; patch < s->patch_count; patch++) {
         p->node_of_patch[patch] = FROE_NONE;
         if (v->patch_starts[patch] == v->patch_starts[patch + 1]) continue;
-        if (!add_nodes(p, patch)) return FROE_E_MEMORY;
+        /* One node for a patch; or one for each piece of it with a visible part. */
+        const bool pieces = p->split[patch] == PARTS_PIECES;
+        p->node_of_patch[patch] = (uint32_t)p->nodes.count;
+        if (!pieces && !array_push(&v->alloc, &p->nodes, (paint_node){patch, FROE_NONE})) return FROE_E_MEMORY;
+        for (uint32_t i = v->patch_starts[patch]; i < v->patch_starts[patch + 1]; i++) {
+            const bool next = pieces && (i == v->patch_starts[patch] || v->pieces[i].piece != v->pieces[i - 1].piece);
+            if (next && !array_push(&v->alloc, &p->nodes, (paint_node){patch, v->pieces[i].piece}))
+                return FROE_E_MEMORY;
+            p->node_of[i] = (uint32_t)p->nodes.count - 1;
+        }
         for (uint32_t i = v->patch_starts[patch]; p->split[patch] && i < v->patch_starts[patch + 1]; i++)
             if (!add_part(p, sights, p->node_of[i], PART_VISIBLE, i, v->pieces[i].place)) return FROE_E_MEMORY;
         for (uint32_t m = s->patch_starts[patch]; !p->clear && !p->split[patch] && m < s->patch_starts[patch + 1]; m++)

@@ -39,19 +39,6 @@ const char *froe_line_name(froe_line kind) {
 
 /* --------------------------------------------------------------------- looking -- */
 
-/* Kinds depend on the eye. They use sightlines of their own, as those of the visibility do not exist yet. */
-static froe_status find_kinds(const view_painter *p, const froe_tree *tree, const froe_surface *surface, uint8_t *kinds,
-                              froe_diagnostic *diag) {
-    geom_eye eye;
-    view_sights sights;
-    froe_status status = view_eye_of(tree, &p->options->view->eye, &eye, diag);
-    if (status) return status;
-    status = view_sights_new(&sights, tree, surface, &eye, NULL, 0, &p->picture->alloc);
-    if (!status) view_line_kinds(&sights, p->options->lines, p->options->crease, kinds);
-    view_sights_free(&sights);
-    return status ? support_fail_memory(diag) : FROE_OK;
-}
-
 static froe_status look_for_picture(view_painter *p, const froe_tree *tree, const froe_surface *surface,
                                     const uint8_t *kinds, froe_diagnostic *diag) {
     const froe_picture_options *o = p->options;
@@ -128,7 +115,17 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
                                 froe_diagnostic *diag) {
     uint8_t *kinds = support_calloc(&p->picture->alloc, (size_t)surface->edge_count + 1, 1);
     if (!kinds) return support_fail_memory(diag);
-    froe_status status = p->options->lines ? find_kinds(p, tree, surface, kinds, diag) : FROE_OK;
+    froe_status status = FROE_OK;
+    if (p->options->lines) {
+        /* Kinds depend on the eye. They use sightlines of their own, as those of the visibility do not exist yet. */
+        geom_eye eye;
+        view_sights sights = {.alloc = p->picture->alloc};
+        status = view_eye_of(tree, &p->options->view->eye, &eye, diag);
+        if (!status && view_sights_new(&sights, tree, surface, &eye, NULL, 0, &p->picture->alloc))
+            status = support_fail_memory(diag);
+        if (!status) view_line_kinds(&sights, p->options->lines, p->options->crease, kinds);
+        if (sights.tree) view_sights_free(&sights);
+    }
     if (!status) status = look_for_picture(p, tree, surface, kinds, diag);
     if (!status) {
         if (p->options->lines) status = view_make_segments(p, kinds);

@@ -56,32 +56,29 @@ void view_seams_free(view_seams *s) {
 
 /* -------------------------------------------------------------------- clipping -- */
 
-/* The part of a convex ring on the left of ab, as the eye sees it. */
-static bool clip_left(const froe_allocator *alloc, const print_ring *in, print_point a, print_point b,
-                      print_ring *out) {
-    const double dx = b.x - a.x, dy = b.y - a.y;
-    out->count = 0;
-    if (!array_reserve(alloc, out, 2 * in->count)) return false;
-    for (size_t i = 0; i < in->count; i++) {
-        const print_point p = in->data[i], q = in->data[i + 1 < in->count ? i + 1 : 0];
-        const double at_p = dy * (p.x - a.x) - dx * (p.y - a.y), at_q = dy * (q.x - a.x) - dx * (q.y - a.y);
-        if (at_p >= 0) out->data[out->count++] = p;
-        if ((at_p >= 0) == (at_q >= 0)) continue;
-        const double t = at_p / (at_p - at_q);
-        out->data[out->count++] = (print_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
-    }
-    return true;
-}
-
-/* The common part of a visible piece and a convex ring of four corners, into clip[0]. */
+/* The common part of a visible piece and a convex ring of four corners, into clip[0]: cut side by side. */
 static bool clip_piece(view_seams *s, uint32_t visible, const print_point ring[4]) {
     const froe_allocator *alloc = &s->parts->v->alloc;
     const seam_span span = s->pieces.data[visible];
     s->clip[0].count = 0;
     if (!array_reserve(alloc, &s->clip[0], span.count)) return false;
     for (size_t i = 0; i < span.count; i++) s->clip[0].data[s->clip[0].count++] = s->points.data[span.first + i];
-    for (int i = 0; i < 4; i++)
-        if (!clip_left(alloc, &s->clip[i % 2], ring[i], ring[(i + 1) % 4], &s->clip[!(i % 2)])) return false;
+    for (int side = 0; side < 4; side++) {
+        const print_ring *in = &s->clip[side % 2];
+        print_ring *out = &s->clip[!(side % 2)];
+        const print_point a = ring[side], b = ring[(side + 1) % 4];
+        const double dx = b.x - a.x, dy = b.y - a.y;
+        out->count = 0;
+        if (!array_reserve(alloc, out, 2 * in->count)) return false;
+        for (size_t i = 0; i < in->count; i++) { /* what is on the left of ab, as the eye sees it */
+            const print_point p = in->data[i], q = in->data[i + 1 < in->count ? i + 1 : 0];
+            const double at_p = dy * (p.x - a.x) - dx * (p.y - a.y), at_q = dy * (q.x - a.x) - dx * (q.y - a.y);
+            if (at_p >= 0) out->data[out->count++] = p;
+            if ((at_p >= 0) == (at_q >= 0)) continue;
+            const double t = at_p / (at_p - at_q);
+            out->data[out->count++] = (print_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+        }
+    }
     return true;
 }
 
@@ -98,22 +95,19 @@ static void make_strip(print_point a, print_point b, double width, print_point o
     out[3] = (print_point){out[0].x + x, out[0].y + y};
 }
 
-/* Pieces that may meet a ring, each once. */
+/* Pieces that may meet a ring, each once: in the first of the cells in common. */
 static bool list_near(view_seams *s, const print_point *ring, size_t count) {
     const view_grid *g = &s->grid;
     const view_cells strip = view_grid_cells(g, ring, count, 0);
+    view_grid_walk walk = view_grid_begin(g, strip);
     s->near.count = 0;
-    for (uint32_t y = strip.y0; y <= strip.y1; y++)
-        for (uint32_t x = strip.x0; x <= strip.x1; x++) {
-            const size_t cell = (size_t)y * g->cells + x;
-            for (uint32_t e = g->starts[cell]; e < g->starts[cell + 1]; e++) {
-                const seam_span span = s->pieces.data[g->entries[e]];
-                const view_cells own = view_grid_cells(g, s->points.data + span.first, span.count, 0);
-                const bool first = x == (own.x0 > strip.x0 ? own.x0 : strip.x0) &&
-                                   y == (own.y0 > strip.y0 ? own.y0 : strip.y0); /* of the cells in common */
-                if (first && !array_push(&s->parts->v->alloc, &s->near, g->entries[e])) return false;
-            }
-        }
+    for (uint32_t i; view_grid_next(&walk, &i);) {
+        const seam_span span = s->pieces.data[i];
+        const view_cells own = view_grid_cells(g, s->points.data + span.first, span.count, 0);
+        const bool first =
+            walk.x == (own.x0 > strip.x0 ? own.x0 : strip.x0) && walk.y == (own.y0 > strip.y0 ? own.y0 : strip.y0);
+        if (first && !array_push(&s->parts->v->alloc, &s->near, i)) return false;
+    }
     return true;
 }
 
@@ -178,18 +172,6 @@ static bool join_ranges(view_seams *s, seam_ranges *ranges) {
     return true;
 }
 
-/* Do pieces that are painted later cover all of a convex ring? (They do not overlap.) */
-static bool is_covered(view_seams *s, uint32_t node, const print_point ring[4], bool *all) {
-    double covered = 0;
-    for (size_t i = 0; i < s->near.count; i++) {
-        if (!covers(s, s->near.data[i], node)) continue;
-        if (!clip_piece(s, s->near.data[i], ring)) return false;
-        covered += s->clip[0].count < 3 ? 0 : print_area(s->clip[0].data, s->clip[0].count);
-    }
-    *all = covered > 0.999 * print_area(ring, 4);
-    return true;
-}
-
 /* Beyond ab from one share to the other, narrower outside, as wide as there is room. */
 static bool put_strip(view_seams *s, uint32_t node, print_point a, print_point b, double from, double to) {
     const double dx = b.x - a.x, dy = b.y - a.y, length = sqrt(dx * dx + dy * dy);
@@ -200,7 +182,13 @@ static bool put_strip(view_seams *s, uint32_t node, print_point a, print_point b
         const double w = width / length, x = dx * w, y = dy * w;
         const print_point strip[4] = {
             v, u, {u.x - y + 0.4 * x, u.y + x + 0.4 * y}, {v.x - y - 0.4 * x, v.y + x - 0.4 * y}};
-        if (!is_covered(s, node, strip, &all)) return false;
+        double covered = 0; /* by pieces that are painted later, which do not overlap */
+        for (size_t i = 0; i < s->near.count; i++) {
+            if (!covers(s, s->near.data[i], node)) continue;
+            if (!clip_piece(s, s->near.data[i], strip)) return false;
+            covered += s->clip[0].count < 3 ? 0 : print_area(s->clip[0].data, s->clip[0].count);
+        }
+        all = covered > 0.999 * print_area(strip, 4);
         if (!all) continue;
         if (!array_reserve(alloc, &s->extra, 4)) return false;
         for (int i = 0; i < 4; i++) s->extra.data[s->extra.count++] = strip[i];

@@ -32,28 +32,22 @@ static bool add_stretch(view_painter *p, uint32_t edge, uint8_t kind, bool hidde
                          view_share_of(s, edge, mark[1]));
 }
 
-/* The part of an edge that the section leaves; *left: there is one. */
-static froe_status cut_to_section(view_sights *s, uint32_t edge, int section, view_mark mark[2], bool *left) {
-    const geom_plane plane = tree_plane_at(s->tree, 0);
-    int side[2];
-    for (int e = 0; e < 2; e++)
-        side[e] = section * geom_side_vertex(&s->context, &plane, view_vertex(s, mark[e].vertex));
-    *left = side[0] > 0 || side[1] > 0 || (!side[0] && !side[1]);
-    if (!*left || side[0] * side[1] >= 0) return FROE_OK;
-    return view_stop_edge(s, edge, view_line_of_edge(s, edge), &mark[side[1] < 0]);
-}
-
 /* Adds all of an edge on the page as hidden: its visible parts are drawn over that. */
 static froe_status add_hidden(view_painter *p, uint32_t edge, uint8_t kind) {
     view_sights *s = p->sights;
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     view_mark mark[2] = {{.vertex = v[0]}, {.vertex = v[1]}};
-    bool left = true;
     if (view_is_point(s, edge)) return FROE_OK;
     const uint32_t line = view_line_of_edge(s, edge);
     if (line == FROE_NONE) return FROE_E_MEMORY;
-    const froe_status status = p->v->section ? cut_to_section(s, edge, p->v->section, mark, &left) : FROE_OK;
-    if (status || !left) return status;
+    if (p->v->section) { /* what the section leaves of it */
+        const geom_plane plane = tree_plane_at(s->tree, 0);
+        int side[2];
+        for (int e = 0; e < 2; e++)
+            side[e] = p->v->section * geom_side_vertex(&s->context, &plane, view_vertex(s, v[e]));
+        if (side[0] <= 0 && side[1] <= 0 && (side[0] || side[1])) return FROE_OK;
+        if (side[0] * side[1] < 0 && view_stop_edge(s, edge, line, &mark[side[1] < 0])) return FROE_E_MEMORY;
+    }
     view_stretch part = {edge, {view_end_at(s, line, mark[0]), view_end_at(s, line, mark[1])}};
     if (!view_cut_to_window(s, line, &part)) return FROE_OK;
     for (int e = 0; e < 2; e++) mark[e] = view_mark_of(&part.end[e]);

@@ -19,18 +19,6 @@ static uint32_t class_of(const view_segment *s) {
 
 /* -------------------------------------------------------------------- polylines -- */
 
-static size_t first_end(const chainer *c, uint64_t key) {
-    size_t lo = 0, hi = c->end_count;
-    while (lo < hi) {
-        const size_t mid = lo + (hi - lo) / 2;
-        if (c->ends.data[mid].key < key)
-            lo = mid + 1;
-        else
-            hi = mid;
-    }
-    return lo;
-}
-
 /* The unused segment that goes on straightest beyond end `e` of segment `i`: 2 * segment + end; FROE_NONE. */
 static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
     const view_segment *s = c->p->segments.data + i;
@@ -39,7 +27,15 @@ static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
     const double dx = s->at[e].x - s->at[!e].x, dy = s->at[e].y - s->at[!e].y;
     double best = -INFINITY;
     uint32_t found = FROE_NONE;
-    for (size_t k = first_end(c, key); k < c->end_count && c->ends.data[k].key == key; k++) {
+    size_t lo = 0, hi = c->end_count; /* the first end of that key */
+    while (lo < hi) {
+        const size_t mid = lo + (hi - lo) / 2;
+        if (c->ends.data[mid].key < key)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    for (size_t k = lo; k < c->end_count && c->ends.data[k].key == key; k++) {
         const uint32_t other = c->ends.data[k].value >> 1, end = c->ends.data[k].value & 1;
         const view_segment *t = c->p->segments.data + other;
         if (t->used || t->place != s->place) continue;

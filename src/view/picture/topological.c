@@ -34,18 +34,6 @@ static bool push_style(style_sorter *s, uint32_t style) {
     return true;
 }
 
-static heap_entry pop_style(style_sorter *s) {
-    heap_entry *h = s->heap.data, first = h[0], last = h[--s->heap.count];
-    size_t i = 0;
-    for (size_t child; (child = 2 * i + 1) < s->heap.count; i = child) {
-        if (child + 1 < s->heap.count && before(h[child + 1], h[child])) child++;
-        if (!before(h[child], last)) break;
-        h[i] = h[child];
-    }
-    h[i] = last;
-    return first;
-}
-
 static bool make_ready(style_sorter *s, uint32_t v) {
     const uint32_t style = s->styles ? s->styles[v] : 0;
     s->below[v] = s->top[style];
@@ -54,13 +42,22 @@ static bool make_ready(style_sorter *s, uint32_t v) {
     return push_style(s, style);
 }
 
-/* The style to go on with: `now` while anything of it waits. */
+/* The style to go on with: `now` while anything of it waits, then that of the first entry that is not old. */
 static uint32_t next_style(style_sorter *s, uint32_t now) {
     if (now != UINT32_MAX && s->waiting[now]) return now;
     for (;;) {
-        const heap_entry e = pop_style(s);
-        if (s->waiting[e.style] == e.waiting && e.waiting) return e.style;
-        if (s->waiting[e.style] && !push_style(s, e.style)) return UINT32_MAX; /* cannot fail: one was just popped */
+        heap_entry *h = s->heap.data;
+        const heap_entry first = h[0], last = h[--s->heap.count];
+        size_t i = 0;
+        for (size_t child; (child = 2 * i + 1) < s->heap.count; i = child) {
+            if (child + 1 < s->heap.count && before(h[child + 1], h[child])) child++;
+            if (!before(h[child], last)) break;
+            h[i] = h[child];
+        }
+        h[i] = last;
+        if (s->waiting[first.style] == first.waiting && first.waiting) return first.style;
+        if (s->waiting[first.style] && !push_style(s, first.style))
+            return UINT32_MAX; /* cannot fail: one was just popped */
     }
 }
 
