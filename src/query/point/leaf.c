@@ -139,8 +139,8 @@ static query_leaf arrive_at_leaf(froe_query *q, const ways *w, const flyer *f, c
 }
 
 /* Begins the next of the points that are in the scene. */
-static size_t launch_points(froe_query *q, const ways *w, const double *points, size_t count, size_t next, flyer *f,
-                            query_leaf *leaves, bool *flies) {
+static inline size_t launch_points(froe_query *q, const ways *w, const double *points, size_t count, size_t next,
+                                   flyer *f, query_leaf *leaves, bool *flies) {
     for (*flies = false; next < count && !*flies; next++) {
         *f = (flyer){.number = next};
         if (next + POINTS_AHEAD < count) query_descent_ask(w->descent, points + 2 * (next + POINTS_AHEAD));

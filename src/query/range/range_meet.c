@@ -133,8 +133,8 @@ static bool decide_object(froe_query *q, uint32_t object, bool *memory) {
     /* Is a corner of the object within the margin of the range for certain? Of boxes and balls. Then an object of many
      * corners need not be tested against the range itself. */
     const query_range *r = &q->range;
-    const bool marked = r->range.kind == GEOM_RANGE_BALL || (r->range.kind == GEOM_RANGE_BOX && r->margin != 0);
-    for (uint32_t i = 0, n = scene_corners(s, object); !boxlike && marked && i < n; i++) {
+    const bool margin = r->range.kind == GEOM_RANGE_BALL || (r->range.kind == GEOM_RANGE_BOX && r->margin != 0);
+    for (uint32_t i = 0, n = !boxlike && margin ? scene_corners(s, object) : 0; i < n; i++) {
         const double *x = scene_point(s, object, i);
         if (geom_range_holds(&q->numbers, &r->range, r->margin, x, x)) return true;
     }

@@ -63,8 +63,8 @@ froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *dia
     const size_t n = (size_t)dim;
     for (size_t i = 0; i < count * n; i++) {
         const double x = r->points[i];
-        const bool no_bound = r->shape == FROE_SHAPE_BOX && (i < n ? x == -INFINITY : x == INFINITY);
-        if (!isfinite(x) && !no_bound)
+        if (isfinite(x)) continue;
+        if (r->shape != FROE_SHAPE_BOX || x != (i < n ? -INFINITY : INFINITY)) /* boxes may be unbounded */
             return support_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], x);
     }
     for (size_t i = 0; halfspaces && i < count; i++)

@@ -193,9 +193,8 @@ static double plane_bound(const query_plane *h, int side, int dim, const double 
     return (side ? -(h->c + shift) : h->c + shift) + error;
 }
 
-/* Cuts the state of a region down to side 0 or 1 of a cut. False: the range is not there. */
-static bool go_beside(const range_walk *w, const query_cut *cut, int side, double *state) {
-    if (cut->axis >= 0) return go_beside_axis(w, cut, side, state);
+/* As go_beside(), of any other cut. */
+static bool go_beside_plane(const range_walk *w, const query_cut *cut, int side, double *state) {
     const geom_range *range = &w->r->range;
     const query_plane *h = cut->plane;
     const solid_state p = solid_state_of(w, state);
@@ -225,6 +224,11 @@ static bool go_beside(const range_walk *w, const query_cut *cut, int side, doubl
         return geom_shrink_box(n, plane_bound(h, side, w->dim, p.part_lo, p.part_hi), w->dim, p.part_lo, p.part_hi) &&
                geom_range_shrink(range, p.part_lo, p.part_hi);
     }
+}
+
+/* Cuts the state of a region down to side 0 or 1 of a cut. False: the range is not there. */
+static bool go_beside(const range_walk *w, const query_cut *cut, int side, double *state) {
+    return cut->axis >= 0 ? go_beside_axis(w, cut, side, state) : go_beside_plane(w, cut, side, state);
 }
 
 /* The node where the range meets the next cut, below this one, which becomes the region of the state. */

@@ -57,7 +57,8 @@ double query_ray_latest(const geom_hit *hit) {
 typedef enum ray_wanted { RAY_FIRST, RAY_ANY, RAY_ALL } ray_wanted;
 
 /* Puts into q->ray.met what the ray meets: the first object, any, or all, each once. */
-static froe_status gather_met(froe_query *q, double t_max, uint32_t kinds, ray_wanted wanted, froe_diagnostic *diag) {
+static inline froe_status gather_met(froe_query *q, double t_max, uint32_t kinds, ray_wanted wanted,
+                                     froe_diagnostic *diag) {
     const uint64_t exact = q->numbers.stats.exact;
     tree_objects list;
     query_met met;
