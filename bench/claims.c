@@ -92,18 +92,17 @@ static void put_head(FILE *file) {
     char day[32];
     const time_t now = time(NULL);
     strftime(day, sizeof day, "%Y-%m-%d", gmtime(&now));
-    fprintf(
-        file,
-        "# Claims of the sources, measured\n\n"
-        "`make claims` measures what the five sources claim, as far as it is built, and writes this page. Each claim "
-        "is a "
-        "number and the range in\nwhich it must lie; ranges have room for small n and lower terms, and many have two "
-        "ends: *linear* is not shown by an exponent below\n0.9, and a scene that ought to be quadratic must be. "
-        "Exponents are least-squares slopes on log-log scales over at least three doublings;\n"
-        "nodes and pieces are counted, times are processor times, the least of three.\n\n"
-        "froe %s, %s, one thread.\n\n"
-        "| source | claim | method | measured | range | is | verdict |\n|---|---|---|---|---|---|---|\n",
-        froe_version(), day);
+    fprintf(file,
+            "# Claims of the sources, measured\n\n"
+            "This page compares the claims of the five sources with measurements. `make claims` measures them, as far\n"
+            "as they are built, and writes this page. Each claim is a number and the range in which it must lie.\n"
+            "Ranges have room for small n and lower terms, and many have two ends: an exponent below 0.9 does not\n"
+            "show *linear*, and a scene that is quadratic in theory must be quadratic here. Exponents are least-\n"
+            "squares slopes on log-log scales over at least three doublings. Nodes and pieces are counted. Times are\n"
+            "processor times, the least of three.\n\n"
+            "froe %s, %s, one thread.\n\n"
+            "| source | claim | method | measured | range | is | verdict |\n|---|---|---|---|---|---|---|\n",
+            froe_version(), day);
 }
 
 int main(int argc, char **argv) {
