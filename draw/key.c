@@ -1,8 +1,8 @@
 /* key.c: the small drawing beside a sheet of sections that shows where they cut the scene. */
+#include "exploded/solid.h"
 #include "lettering.h"
 #include "paint.h"
 #include "palette.h"
-#include "solid.h"
 #include <math.h>
 
 typedef struct key_view {

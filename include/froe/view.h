@@ -56,6 +56,22 @@ FROE_API froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye,
 FROE_API froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t count,
                                       const froe_order_options *options, uint32_t *pieces, froe_diagnostic *diag);
 
+/** Where a walk by depth is at a node. */
+typedef enum froe_order_stage {
+    FROE_ORDER_BEGIN = 0, /**< before everything in its region */
+    FROE_ORDER_LIST = 1,  /**< at its list, of an inner node between its two sides */
+    FROE_ORDER_END = 2    /**< after everything in its region */
+} froe_order_stage;
+/** Receives a node at each stage; false stops. */
+typedef bool froe_order_node_fn(void *user, froe_node node, froe_order_stage stage);
+/** The walk by itself: visits every node of a tree in R^2 or R^3, whatever its objects and leaves, so that no region
+ * hides one that comes after it (front to back) or before it (back to front). What is in the list of one node is in
+ * no order. Of the options front_to_back alone counts. Stopping is no failure. FROE_E_ARG: as froe_tree_order().
+ * FROE_E_UNSUPPORTED: other dimensions. FROE_E_MEMORY. O(nodes) time, O(height) memory. */
+FROE_API froe_status froe_tree_order_nodes(const froe_tree *tree, const froe_eye *eye,
+                                           const froe_order_options *options, froe_order_node_fn *fn, void *user,
+                                           froe_diagnostic *diag);
+
 /* ----------------------------------------------------------------- surface -- */
 
 /** What belongs together in the polygons of a scene in space, for any eye. A patch is a maximal set of

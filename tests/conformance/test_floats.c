@@ -292,6 +292,13 @@ static void every_measure_is_the_same(void **state) {
 
 /* -------------------------------------------------------------------- views -- */
 
+static bool note_node(void *user, froe_node node, froe_order_stage stage) {
+    const uint32_t at[2] = {node.id1, stage};
+    floats_called(user);
+    floats_note(user, at, sizeof at);
+    return true;
+}
+
 static bool note_piece(void *user, size_t piece) {
     floats_called(user);
     floats_note(user, &piece, sizeof piece);
@@ -374,6 +381,7 @@ static void views(floats_run *r, void *user) {
         o.user = r;
         for (int e = 0; e < 3; e++) MUST(r, froe_tree_order(tree, eyes + e, NULL, note_piece, r, NULL));
         MUST(r, froe_tree_orders(tree, eyes, 3, &o, pieces, NULL));
+        MUST(r, froe_tree_order_nodes(tree, eyes, NULL, note_node, r, NULL));
         floats_note(r, pieces, 12 * froe_tree_piece_count(tree));
         free(pieces);
         MUST(r, froe_surface_new(scene, &(froe_allocator){floats_memory, r}, &surface, NULL));

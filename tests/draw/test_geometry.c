@@ -1,10 +1,10 @@
 /* test_geometry.c: what is behind the pictures: cells that fill the page, cuts on the right side,
  * shapes of sections, and the painter's order against a ray caster. */
+#include "exploded/solid.h"
 #include "lettering.h"
 #include "partition.h"
 #include "pictures.h"
 #include "shape.h"
-#include "solid.h"
 #include <math.h>
 
 static draw_view view_of(const froe_tree *tree, int axis, double at, int up) {

@@ -205,6 +205,62 @@ static void refuse(const froe_tree *tree, froe_eye eye, const char *word, froe_s
     assert_int_equal(l.count, 0);
 }
 
+typedef struct node_walk {
+    const froe_tree *tree;
+    uint32_t *open;  /* nodes that have begun and not ended */
+    uint32_t *lists; /* nodes whose lists hold something, as they come */
+    size_t depth, nodes, count, stop;
+} node_walk;
+
+/* A node begins within its parent, and its list and its end come while it is the last that is open. */
+static bool walk_node(void *user, froe_node node, froe_order_stage stage) {
+    node_walk *w = user;
+    if (stage == FROE_ORDER_BEGIN) {
+        if (w->depth) {
+            const froe_node_info parent = froe_tree_node(w->tree, (froe_node){w->open[w->depth - 1]});
+            assert_true(parent.child[0].id1 == node.id1 || parent.child[1].id1 == node.id1);
+        }
+        w->open[w->depth++] = node.id1;
+        w->nodes++;
+    } else
+        assert_int_equal(w->open[w->depth - 1], node.id1);
+    if (stage == FROE_ORDER_END) w->depth--;
+    if (stage == FROE_ORDER_LIST && froe_tree_node(w->tree, node).piece_count) w->lists[w->count++] = node.id1 - 1;
+    return w->nodes != w->stop;
+}
+
+/* The pieces of froe_tree_order(), list by list. */
+static void nodes_come_in_the_order_of_their_pieces(void **state) {
+    (void)state;
+    froe_tree *tree = trees_grow(3, FROE_POLYGON, 60, 0, 0.5, "density", 1);
+    ray_case c;
+    open_case(&c, tree);
+    for (uint32_t e = 0; e < 12; e++) {
+        const froe_eye eye = rays_eye(tree, e / 2);
+        froe_order_options o = froe_order_defaults();
+        node_walk w = {.tree = tree};
+        w.open = calloc(tree->node_count, sizeof *w.open);
+        w.lists = calloc(tree->node_count, sizeof *w.lists);
+        o.front_to_back = e % 2;
+        assert_int_equal(froe_tree_order_nodes(tree, &eye, &o, walk_node, &w, NULL), FROE_OK);
+        assert_int_equal(w.nodes, tree->node_count);
+        assert_int_equal(w.depth, 0);
+        listing l = list_order(tree, &eye, e % 2, NULL);
+        size_t at = 0;
+        for (size_t i = 0; i < l.count; i++) {
+            if (i && c.home[l.pieces[i]] != w.lists[at]) at++;
+            assert_int_equal(c.home[l.pieces[i]], w.lists[at]);
+        }
+        assert_int_equal(at + 1, w.count);
+        w.stop = 3, w.nodes = w.depth = 0;
+        assert_int_equal(froe_tree_order_nodes(tree, &eye, &o, walk_node, &w, NULL), FROE_OK);
+        assert_int_equal(w.nodes, 3);
+        free(w.open), free(w.lists), free(l.pieces);
+    }
+    close_case(&c);
+    froe_tree_free(tree);
+}
+
 static void what_has_no_order_is_refused(void **state) {
     (void)state;
     froe_tree *tree = trees_grow(3, FROE_POLYGON, 30, 0, 1, "density", 1);
@@ -231,6 +287,11 @@ static void an_empty_scene_has_an_empty_order(void **state) {
     froe_tree_free(tree);
 }
 
+static bool any_node(void *user, froe_node node, froe_order_stage stage) {
+    (void)user, (void)stage;
+    return node.id1;
+}
+
 static froe_status order_with(void *user, const froe_allocator *alloc) {
     froe_scene *scene;
     froe_tree *tree = NULL;
@@ -246,6 +307,7 @@ static froe_status order_with(void *user, const froe_allocator *alloc) {
     if (!status) status = froe_build(scene, &o, &tree, NULL);
     if (!status) status = froe_tree_order(tree, eyes, NULL, keep, &l, NULL);
     if (!status) status = froe_tree_orders(tree, eyes, 2, NULL, pieces, NULL);
+    if (!status) status = froe_tree_order_nodes(tree, eyes, NULL, any_node, NULL, NULL);
     froe_tree_free(tree);
     froe_scene_free(scene);
     return status;
@@ -263,6 +325,7 @@ int main(void) {
         cmocka_unit_test(segments_in_the_plane_are_in_order),
         cmocka_unit_test(orders_for_many_eyes_are_those_for_each),
         cmocka_unit_test(a_visitor_may_stop),
+        cmocka_unit_test(nodes_come_in_the_order_of_their_pieces),
         cmocka_unit_test(what_has_no_order_is_refused),
         cmocka_unit_test(an_empty_scene_has_an_empty_order),
         cmocka_unit_test(every_allocation_may_fail),

@@ -154,9 +154,6 @@ froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
     const froe_scene *scene = tree->scene;
     num_context context;
     froe_status status = FROE_OK;
-    if (scene->dim > 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "depth orders exist in 2 and 3 dimensions, not in %d",
-                            scene->dim);
     for (uint32_t i = 0; i < scene->object_count; i++)
         if (scene_form(scene, i) > FROE_POLYGON)
             return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,

@@ -18,7 +18,10 @@ static froe_status check_orders(const froe_tree *tree, const froe_order_options 
     if (!*options) *options = standard;
     if ((*options)->size != sizeof **options)
         return support_fail(diag, FROE_E_OPTIONS, "the options are not from froe_order_defaults()");
-    return view_order_check(tree, diag);
+    if (tree->scene->dim > 3)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "depth orders exist in 2 and 3 dimensions, not in %d",
+                            tree->scene->dim);
+    return FROE_OK;
 }
 
 froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const froe_order_options *options,
@@ -30,6 +33,7 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
     uint32_t piece;
     if (!eye || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check_orders(tree, &options, &standard, diag);
+    if (!status) status = view_order_check(tree, diag);
     if (!status) status = view_eye_of(tree, eye, &from, diag);
     if (status) return status;
     status = view_order_begin(&order, tree, &from, options->front_to_back, options->ranks);
@@ -37,6 +41,44 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
     }
     status = view_order_end(&order) ? FROE_E_MEMORY : status;
     return status ? support_fail_memory(diag) : FROE_OK;
+}
+
+typedef struct order_frame {
+    uint32_t node;
+    froe_order_stage stage;
+} order_frame;
+
+froe_status froe_tree_order_nodes(const froe_tree *tree, const froe_eye *eye, const froe_order_options *options,
+                                  froe_order_node_fn *fn, void *user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    const froe_order_options standard = froe_order_defaults();
+    geom_eye from;
+    num_context context;
+    ARRAY(order_frame) frames = {0};
+    if (!eye || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    froe_status status = check_orders(tree, &options, &standard, diag);
+    if (!status) status = view_eye_of(tree, eye, &from, diag);
+    if (status) return status;
+    if (geom_context_new(&tree->alloc, &context)) return support_fail_memory(diag);
+    bool room = array_push(&tree->alloc, &frames, (order_frame){0, FROE_ORDER_BEGIN});
+    while (room && frames.count) {
+        const order_frame top = frames.data[--frames.count];
+        const tree_node *n = tree->nodes + top.node;
+        if (!base_callback(fn(user, (froe_node){top.node + 1}, top.stage))) break;
+        if (top.stage != FROE_ORDER_BEGIN) continue;
+        room = array_reserve(&tree->alloc, &frames, 4);
+        if (!room) break;
+        frames.data[frames.count++] = (order_frame){top.node, FROE_ORDER_END};
+        const bool leaf = tree_is_leaf(n);
+        const uint32_t near = leaf ? 0 : n->child + (view_side_of_eye(&context, tree, top.node, &from) >= 0),
+                       far = leaf ? 0 : 2 * n->child + 1 - near;
+        if (!leaf) frames.data[frames.count++] = (order_frame){options->front_to_back ? far : near, FROE_ORDER_BEGIN};
+        frames.data[frames.count++] = (order_frame){top.node, FROE_ORDER_LIST};
+        if (!leaf) frames.data[frames.count++] = (order_frame){options->front_to_back ? near : far, FROE_ORDER_BEGIN};
+    }
+    array_free(&tree->alloc, &frames);
+    num_context_free(&context);
+    return room ? FROE_OK : support_fail_memory(diag);
 }
 
 /* ------------------------------------------------------------------ many eyes -- */
@@ -101,6 +143,7 @@ froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t
     const froe_order_options standard = froe_order_defaults();
     if (count && (!eyes || !pieces)) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     froe_status status = check_orders(tree, &options, &standard, diag);
+    if (!status) status = view_order_check(tree, diag);
     if (status) return status;
     base_task task;
     base_task_init(&task, options->threads, options->progress, options->user);

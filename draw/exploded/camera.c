@@ -1,5 +1,5 @@
 /* camera.c: parallel projection without a sine in it, so that it is the same on every machine. */
-#include "solid.h"
+#include "exploded/solid.h"
 #include <math.h>
 
 double draw_dot(const double *a, const double *b) {

@@ -2,7 +2,7 @@
  *
  * Items are listed from front to back. Of those smaller than a dot the nearest in each
  * dot is kept, then all are painted from back to front. */
-#include "solid.h"
+#include "exploded/solid.h"
 #include "paint.h"
 #include "palette.h"
 #include <math.h>

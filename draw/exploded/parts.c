@@ -1,5 +1,5 @@
 /* parts.c: the regions that an exploded view pulls apart, from the cells of the tree. */
-#include "solid.h"
+#include "exploded/solid.h"
 #include "support/floats.h"
 #include <math.h>
 #include <stdlib.h>
