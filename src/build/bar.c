@@ -184,12 +184,6 @@ static bool plan_cube(const bar *b, const split_work *work, const split_cell *ce
     return count > b->k && cube_cut(box, b->job->scene->dim, &g, !b->points, cut);
 }
 
-static void note_aspect(bar_notes *notes, const bar_candidate *c) {
-    const double aspect = c->aspect[0] > c->aspect[1] ? c->aspect[0] : c->aspect[1];
-    double most = atomic_load(&notes->aspect);
-    while (aspect > most && !atomic_compare_exchange_weak(&notes->aspect, &most, aspect)) continue;
-}
-
 static froe_status plan_bar(const bar *b, const split_work *work, const split_cell *cell, const bar_region *region,
                             bar_scratch *s) {
     bar_candidate c;
@@ -202,7 +196,9 @@ static froe_status plan_bar(const bar *b, const split_work *work, const split_ce
     const bool stuck = found == BAR_UNBALANCED && old && region->cuts >= PATIENCE;
     if (found == BAR_NONE || (stuck && !b->points && cell->count <= STAR)) return FROE_OK;
     if (found == BAR_UNBALANCED || (old && region->cuts >= SEQUENCE)) atomic_fetch_add(&b->notes->unbalanced, 1);
-    note_aspect(b->notes, &c);
+    const double aspect = c.aspect[0] > c.aspect[1] ? c.aspect[0] : c.aspect[1];
+    double most = atomic_load(&b->notes->aspect);
+    while (aspect > most && !atomic_compare_exchange_weak(&b->notes->aspect, &most, aspect)) continue;
     s->cut = split_directions_cut(&b->rule.directions, c.direction, c.value);
     s->planned = true;
     return FROE_OK;
@@ -307,27 +303,6 @@ static void note_bar(const void *config) {
         build_promise(job, "height", most_height(b->share, job->scene->object_count, job->leaf), 0);
 }
 
-/** A cube that has all guards inside. */
-static void find_root(bar *b) {
-    const froe_scene *scene = b->job->scene;
-    const int dim = scene->dim;
-    guard_cube box, root;
-    memcpy(box.lo, scene->lo, sizeof box.lo);
-    memcpy(box.hi, scene->hi, sizeof box.hi);
-    for (uint32_t i = 0; i < scene->object_count && !b->cubes && !b->points; i++) {
-        double guards[BAR_GUARDS_MOST * 3];
-        const uint32_t count = bar_guards_of(&b->guards, scene, i, guards) * (uint32_t)dim;
-        for (uint32_t j = 0; j < count; j++) {
-            box.lo[j % (uint32_t)dim] = fmin(box.lo[j % (uint32_t)dim], guards[j]);
-            box.hi[j % (uint32_t)dim] = fmax(box.hi[j % (uint32_t)dim], guards[j]);
-        }
-    }
-    guard_root(&box, dim, &root);
-    b->root = bar_region_of(dim, root.lo, root.hi);
-    memcpy(b->job->meta.root_lo, root.lo, (size_t)dim * sizeof(double));
-    memcpy(b->job->meta.root_hi, root.hi, (size_t)dim * sizeof(double));
-}
-
 static froe_status refuse_directions(build_job *job) {
     const int asked = (int)job->option[DIRECTIONS];
     if (has_keys(job->scene))
@@ -352,7 +327,24 @@ static froe_status prepare_bar(bar *b) {
     b->k = (uint32_t)job->option[K];
     b->stop = (uint32_t)job->option[STOP];
     if (!b->cubes) bar_guards_make(&b->rule.directions, (bar_guard_kind)job->option[GUARDS], &b->guards);
-    find_root(b);
+    /* a cube that has all guards inside */
+    const froe_scene *scene = b->job->scene;
+    const int dim = scene->dim;
+    guard_cube box, root;
+    memcpy(box.lo, scene->lo, sizeof box.lo);
+    memcpy(box.hi, scene->hi, sizeof box.hi);
+    for (uint32_t i = 0; i < scene->object_count && !b->cubes && !b->points; i++) {
+        double guards[BAR_GUARDS_MOST * 3];
+        const uint32_t count = bar_guards_of(&b->guards, scene, i, guards) * (uint32_t)dim;
+        for (uint32_t j = 0; j < count; j++) {
+            box.lo[j % (uint32_t)dim] = fmin(box.lo[j % (uint32_t)dim], guards[j]);
+            box.hi[j % (uint32_t)dim] = fmax(box.hi[j % (uint32_t)dim], guards[j]);
+        }
+    }
+    guard_root(&box, dim, &root);
+    b->root = bar_region_of(dim, root.lo, root.hi);
+    memcpy(b->job->meta.root_lo, root.lo, (size_t)dim * sizeof(double));
+    memcpy(b->job->meta.root_hi, root.hi, (size_t)dim * sizeof(double));
     return FROE_OK;
 }
 

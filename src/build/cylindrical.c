@@ -43,12 +43,6 @@ static froe_status draw_new(const build_job *job, draw *d) {
     return d->order && d->keys ? FROE_OK : support_fail_memory(job->diag);
 }
 
-static void draw_free(const build_job *job, draw *d) {
-    size_t n = job->scene->object_count;
-    support_free(&job->alloc, d->order, n ? n * sizeof *d->order : 1);
-    support_free(&job->alloc, d->keys, n ? 2 * n * sizeof *d->keys : 1);
-}
-
 /** The order for an attempt. */
 static const uint32_t *draw_order(const build_job *job, draw *d, uint32_t attempt) {
     uint32_t n = job->scene->object_count;
@@ -102,7 +96,9 @@ static froe_status build_cylindrical(build_job *job, froe_tree **out) {
         status = attempts(job, &d, &why, out);
         if (status && job->diag) *job->diag = why;
     }
-    draw_free(job, &d);
+    size_t n = job->scene->object_count;
+    support_free(&job->alloc, d.order, n ? n * sizeof *d.order : 1);
+    support_free(&job->alloc, d.keys, n ? 2 * n * sizeof *d.keys : 1);
     return status;
 }
 

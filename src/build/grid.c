@@ -27,18 +27,6 @@ typedef struct grid {
     double lines[FROE_MAX_DIM];
 } grid;
 
-/** The edge of a cube, in units of the largest extent: such that cubes fill the bounds. Widths that are less than an
- * edge count as one cube. Bisection: how many there are falls as the edge grows. */
-static double edge_of(const double *width, int dim, double cubes) {
-    double low = 0x1p-30, high = 1;
-    for (int turn = 0; turn < 60; turn++) {
-        double edge = 0.5 * low + 0.5 * high, count = 1;
-        for (int k = 0; k < dim; k++) count *= width[k] > edge ? width[k] / edge : 1;
-        *(count > cubes ? &low : &high) = edge;
-    }
-    return high;
-}
-
 static void lay(grid *g, const froe_scene *s, double cubes) {
     double width[FROE_MAX_DIM], most = 0;
     for (int k = 0; k < s->dim; k++) {
@@ -47,7 +35,15 @@ static void lay(grid *g, const froe_scene *s, double cubes) {
     }
     if (!(most > 0)) return;
     for (int k = 0; k < s->dim; k++) width[k] /= most;
-    double edge = edge_of(width, s->dim, cubes);
+    /* The edge of a cube, in units of the largest extent: such that cubes fill the bounds. Widths that are less than
+     * an edge count as one cube. Bisection: how many there are falls as the edge grows. */
+    double low = 0x1p-30, high = 1;
+    for (int turn = 0; turn < 60; turn++) {
+        double edge = 0.5 * low + 0.5 * high, count = 1;
+        for (int k = 0; k < s->dim; k++) count *= width[k] > edge ? width[k] / edge : 1;
+        *(count > cubes ? &low : &high) = edge;
+    }
+    double edge = high;
     for (int k = 0; k < s->dim; k++) {
         double parts = width[k] > edge ? floor(width[k] / edge + 0.5) : 1;
         g->lo[k] = s->lo[k];

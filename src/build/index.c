@@ -239,17 +239,6 @@ static bool count_sides(index_work *w, const index_cell *cell, halve_cut *cut, i
 
 /* The middle cut across the longer side, or the other one where that divides most fragments; false where both divide
  * all. *which: whose classes. */
-static bool best_middle(index_work *w, const index_cell *cell, halve_cut *cut, int *which) {
-    const double *lo = cell->box.lo, *hi = cell->box.hi;
-    int axis = 0.5 * hi[1] - 0.5 * lo[1] > 0.5 * hi[0] - 0.5 * lo[0];
-    halve_cut other = middle_cut(&cell->box, 1 - axis);
-    *cut = middle_cut(&cell->box, axis);
-    *which = 0;
-    bool found = count_sides(w, cell, cut, 0);
-    if (found && 2 * (uint64_t)cut->both <= cell->count) return true;
-    if (count_sides(w, cell, &other, 1) && (!found || other.both < cut->both)) *cut = other, *which = 1, found = true;
-    return found && cut->both < cell->count;
-}
 
 /* Is it time for medians? */
 static bool is_deep(const index_work *w, const index_cell *cell) {
@@ -263,7 +252,16 @@ static bool choose_halving(index_work *w, const index_cell *cell, halve_cut *cut
     if (cell->growth >= w->job->option[GROWTH] || cell->barren >= BARREN) return false;
     if (cell->lonely >= LONELY && shrink_cut(cell, f, cut) && count_sides(w, cell, cut, 0)) return true;
     if (is_deep(w, cell) && median_cut(w, cell, f, cut) && count_sides(w, cell, cut, 0)) return true;
-    return best_middle(w, cell, cut, which);
+    /* across the longer side, unless that splits half and the other fewer */
+    const double *lo = cell->box.lo, *hi = cell->box.hi;
+    int axis = 0.5 * hi[1] - 0.5 * lo[1] > 0.5 * hi[0] - 0.5 * lo[0];
+    halve_cut other = middle_cut(&cell->box, 1 - axis);
+    *cut = middle_cut(&cell->box, axis);
+    *which = 0;
+    bool found = count_sides(w, cell, cut, 0);
+    if (found && 2 * (uint64_t)cut->both <= cell->count) return true;
+    if (count_sides(w, cell, &other, 1) && (!found || other.both < cut->both)) *cut = other, *which = 1, found = true;
+    return found && cut->both < cell->count;
 }
 
 /* Deals the fragments: the positive ones take the place of all, the negative ones lie on top. */

@@ -45,15 +45,6 @@ static void enter_kd_cut(best_cut *best, double cost, int axis, double value) {
 
 /* ------------------------------------------------------------------ median -- */
 
-static bool median_on(split_axes *a, const split_work *work, const split_cell *cell, int axis, best_cut *best) {
-    if (!split_axes_fill(a, &work->set, cell, axis)) return false;
-    while (split_axes_next(a)) {
-        if (!split_tally_useful(a->tally)) continue;
-        enter_kd_cut(best, fabs((double)a->tally.negative - a->tally.positive), axis, a->value);
-    }
-    return true;
-}
-
 /** Half widths of the cell's objects: no overflow. */
 static void find_widths(const split_work *work, const split_cell *cell, double *width) {
     for (int k = 0; k < work->set.scene->dim; k++) {
@@ -85,7 +76,12 @@ static bool find_median(const kd *d, split_work *work, const split_cell *cell, b
     if (d->axes == WIDEST) find_widths(work, cell, width);
     for (int turn = 0; turn < dim && best->cost == INFINITY; turn++) {
         int axis = next_axis(d, cell, width, dim, turn);
-        if (!median_on(&s->axes, work, cell, axis, best)) return false;
+        /* ends of extents, the most even cut */
+        if (!split_axes_fill(&s->axes, &work->set, cell, axis)) return false;
+        while (split_axes_next(&s->axes)) {
+            if (!split_tally_useful(s->axes.tally)) continue;
+            enter_kd_cut(best, fabs((double)s->axes.tally.negative - s->axes.tally.positive), axis, s->axes.value);
+        }
         width[axis] = -1;
     }
     return true;

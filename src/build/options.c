@@ -55,18 +55,6 @@ static bool parse_value(const froe_option_info *option, const char *text, size_t
     return *out >= option->lo && *out <= option->hi && (whole || !option->whole);
 }
 
-static froe_status refuse_value(const froe_option_info *o, word w, froe_diagnostic *diag) {
-    char list[128] = "";
-    for (size_t i = 0; o->choices && o->choices[i]; i++) {
-        size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", o->choices[i]);
-    }
-    if (o->choices)
-        return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': choose one of %s", w.length, w.text, list);
-    return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': a %snumber from %g to %g is needed", w.length, w.text,
-                        o->whole ? "whole " : "", o->lo, o->hi);
-}
-
 froe_status options_parse(const build_method *method, const char *settings, bool tuned, double *value,
                           froe_diagnostic *diag) {
     const froe_option_info *options = method->info.options, *tuning = options_tuning(method);
@@ -81,8 +69,18 @@ froe_status options_parse(const build_method *method, const char *settings, bool
         if (!o)
             return support_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, (int)name,
                                 w.text);
-        if (!equal || !parse_value(o, equal + 1, (size_t)w.length - name - 1, &value[o - options]))
-            return refuse_value(o, w, diag);
+        if (!equal || !parse_value(o, equal + 1, (size_t)w.length - name - 1, &value[o - options])) {
+            /* says which values there are */
+            char list[128] = "";
+            for (size_t i = 0; o->choices && o->choices[i]; i++) {
+                size_t used = strlen(list);
+                snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", o->choices[i]);
+            }
+            if (o->choices)
+                return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': choose one of %s", w.length, w.text, list);
+            return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': a %snumber from %g to %g is needed", w.length,
+                                w.text, o->whole ? "whole " : "", o->lo, o->hi);
+        }
     }
     return FROE_OK;
 }

@@ -308,24 +308,6 @@ static void push_parts(finish *f, const part *p, uint32_t child, const mask side
                                       .columns = t->columns};
 }
 
-/** *full: there are too few columns, and nothing was done. */
-static froe_status cut_part(finish *f, const part *p, bool *full) {
-    tree_draft *draft = f->set->draft;
-    froe_cut by;
-    row *r;
-    uint32_t child;
-    froe_status status = find_exact_row(f, p, choose_piece(f, p), &by, &r);
-    if (status) return status;
-    mask below = r->below & p->set, above = r->above & p->set, both = below & above, upper;
-    *full = f->t->columns + size(both) > ROOM;
-    if (*full) return FROE_OK;
-    status = draft_split(draft, p->node - draft->outer, &by, 0, &child);
-    if (!status) status = list(f, p->node, p->set & ~(below | above));
-    if (!status) status = divide_all(f, &by, p->node, both, below | above, &upper);
-    if (!status) push_parts(f, p, draft->outer + child, (const mask[2]){below, (above & ~both) | upper});
-    return status;
-}
-
 /** Pushes all parts, the topmost too, as ordinary cells. */
 static froe_status give_back(finish *f, split_work *work) {
     split_set *s = f->set;
@@ -349,7 +331,23 @@ static froe_status give_back(finish *f, split_work *work) {
 static froe_status do_part(finish *f, const part *p, bool *full) {
     f->set->corners.count = p->corner_top;
     f->t->columns = p->columns;
-    if (size(p->set) > f->config->leaf) return cut_part(f, p, full);
+    if (size(p->set) > f->config->leaf) {
+        /* too few columns: nothing is done */
+        tree_draft *draft = f->set->draft;
+        froe_cut by;
+        row *r;
+        uint32_t child;
+        froe_status status = find_exact_row(f, p, choose_piece(f, p), &by, &r);
+        if (status) return status;
+        mask below = r->below & p->set, above = r->above & p->set, both = below & above, upper;
+        *full = f->t->columns + size(both) > ROOM;
+        if (*full) return FROE_OK;
+        status = draft_split(draft, p->node - draft->outer, &by, 0, &child);
+        if (!status) status = list(f, p->node, p->set & ~(below | above));
+        if (!status) status = divide_all(f, &by, p->node, both, below | above, &upper);
+        if (!status) push_parts(f, p, draft->outer + child, (const mask[2]){below, (above & ~both) | upper});
+        return status;
+    }
     draft_leaf(f->set->draft, p->node - f->set->draft->outer, 0);
     return list(f, p->node, p->set);
 }

@@ -143,26 +143,6 @@ static int class_beside(int side) {
     return side < 0 ? SPLIT_NEG : side > 0 ? SPLIT_POS : SPLIT_ON;
 }
 
-static int classify_box(split_set *set, const split_plane *plane, uint32_t object) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    bool negative = false, positive = false;
-    scene_object_bounds(set->scene, object, lo, hi);
-    for (unsigned corner = 0; corner < 1u << set->scene->dim && !(negative && positive); corner++) {
-        double x[3];
-        for (int k = 0; k < set->scene->dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
-        int side = geom_side_vertex(&set->context, &plane->plane, x);
-        negative |= side < 0;
-        positive |= side > 0;
-    }
-    return class_of_sides(negative, positive);
-}
-
-static int classify_ball(split_set *set, const split_plane *plane, uint32_t object) {
-    int side = geom_side_ball(&set->context, &plane->plane, scene_point(set->scene, object, 0),
-                              scene_radius(set->scene, object));
-    return side == 2 ? SPLIT_BOTH : class_beside(side);
-}
-
 /** Appends the sides of all corners, of the ring or of the whole object, and returns the class. */
 static int corner_sides(split_set *set, const split_plane *plane, const split_fragment *f) {
     const split_corner *ring = f->count ? set->corners.data + f->first : NULL;
@@ -178,47 +158,20 @@ static int corner_sides(split_set *set, const split_plane *plane, const split_fr
     return class_of_sides(negative, positive);
 }
 
-/** The class of a ring alone. Whether a plane splits it is mostly seen from corners that are far from the plane; only
- * where they do not tell are the others worth exact numbers, and only until both sides are met. */
-static int ring_class(split_set *set, const split_plane *plane, const split_fragment *f) {
-    const split_corner *ring = set->corners.data + f->first;
-    bool negative = false, positive = false, unsure = false;
-    for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
-        int side = ring[i].type == SPLIT_VERTEX ? vertex_side(set, plane, ring[i].x) : image_side(set, plane, ring + i);
-        unsure |= side == NUM_UNSURE;
-        negative |= side == -1;
-        positive |= side == 1;
-    }
-    if (!unsure || (negative && positive)) return class_of_sides(negative, positive);
-    const int whole = object_side(set, plane, f->object);
-    if (whole != NUM_UNSURE) return class_beside(whole);
-    for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
-        if (ring[i].type == SPLIT_VERTEX || image_sign(set, plane, ring + i) != NUM_UNSURE) continue;
-        int side = corner_side(set, plane, f->object, ring + i);
-        negative |= side < 0;
-        positive |= side > 0;
-    }
-    return class_of_sides(negative, positive);
-}
-
-/** Whole objects beside x[axis] = c, by comparisons alone. */
-static int whole_beside_axis(split_set *set, const geom_plane *plane, const split_fragment *f) {
-    uint32_t n = split_corner_count(set, f);
-    bool negative = false, positive = false;
-    set->context.stats.calls += n;
-    set->context.stats.by_id += n;
-    for (uint32_t i = 0; i < n; i++) {
-        double x = split_image(set, f, i)[plane->axis];
-        negative |= x < plane->c;
-        positive |= x > plane->c;
-    }
-    return class_of_sides(negative, positive);
-}
-
 static int classify_corners(split_set *set, const split_plane *plane, const split_fragment *f, bool is_cut) {
     size_t start = set->sides.count;
     if (plane->plane.form == GEOM_AXIS && !f->count) {
-        int class = whole_beside_axis(set, &plane->plane, f);
+        /* whole objects beside x[axis] = c, by comparisons alone */
+        uint32_t n = split_corner_count(set, f);
+        bool negative = false, positive = false;
+        set->context.stats.calls += n;
+        set->context.stats.by_id += n;
+        for (uint32_t i = 0; i < n; i++) {
+            double x = split_image(set, f, i)[plane->plane.axis];
+            negative |= x < plane->plane.c;
+            positive |= x > plane->plane.c;
+        }
+        int class = class_of_sides(negative, positive);
         if (class == SPLIT_BOTH && is_cut) corner_sides(set, plane, f);
         return class;
     }
@@ -227,40 +180,72 @@ static int classify_corners(split_set *set, const split_plane *plane, const spli
     return class;
 }
 
-/** Whole segments beside a line, the commonest case of all. */
-static int classify_pair(split_set *set, const split_plane *plane, const split_fragment *f) {
-    const double *u = split_image(set, f, 0), *v = split_image(set, f, 1);
-    int a = filter_beside_line(&plane->plane, u), b = filter_beside_line(&plane->plane, v);
-    unsigned sure = (a != NUM_UNSURE) + (b != NUM_UNSURE);
-    set->context.stats.calls += sure;
-    set->context.stats.filtered += sure;
-    if (a == NUM_UNSURE) a = near_vertex_side(set, plane, u);
-    if (b == NUM_UNSURE) b = near_vertex_side(set, plane, v);
-    if (a * b < 0) {
-        set->sides.data[set->sides.count++] = (int8_t)a;
-        set->sides.data[set->sides.count++] = (int8_t)b;
-    }
-    return class_of_sides((a < 0) | (b < 0), (a > 0) | (b > 0));
-}
-
-static bool is_pair_beside_line(const split_set *set, const split_plane *plane, const split_fragment *f,
-                                froe_kind form) {
-    return form == FROE_SEGMENT && !f->count && plane->plane.form == GEOM_POINTS && plane->plane.dim == 2 &&
-           set->context.first == NUM_FILTER;
-}
-
 int split_classify(split_set *set, const split_plane *plane, const split_fragment *f) {
     froe_kind form = scene_form(set->scene, f->object);
     if (plane->cut.kind == FROE_CUT_OBJECT && plane->cut.id[0] == f->object) return SPLIT_ON;
-    if (is_pair_beside_line(set, plane, f, form)) return classify_pair(set, plane, f);
-    if (form == FROE_BALL) return classify_ball(set, plane, f->object);
-    if (form == FROE_BOX && plane->plane.form != GEOM_AXIS) return classify_box(set, plane, f->object);
+    if (form == FROE_SEGMENT && !f->count && plane->plane.form == GEOM_POINTS && plane->plane.dim == 2 &&
+        set->context.first == NUM_FILTER) {
+        /* whole segments beside a line, the commonest case of all */
+        const double *u = split_image(set, f, 0), *v = split_image(set, f, 1);
+        int a = filter_beside_line(&plane->plane, u), b = filter_beside_line(&plane->plane, v);
+        unsigned sure = (a != NUM_UNSURE) + (b != NUM_UNSURE);
+        set->context.stats.calls += sure;
+        set->context.stats.filtered += sure;
+        if (a == NUM_UNSURE) a = near_vertex_side(set, plane, u);
+        if (b == NUM_UNSURE) b = near_vertex_side(set, plane, v);
+        if (a * b < 0) {
+            set->sides.data[set->sides.count++] = (int8_t)a;
+            set->sides.data[set->sides.count++] = (int8_t)b;
+        }
+        return class_of_sides((a < 0) | (b < 0), (a > 0) | (b > 0));
+    }
+    if (form == FROE_BALL) {
+        int side = geom_side_ball(&set->context, &plane->plane, scene_point(set->scene, f->object, 0),
+                                  scene_radius(set->scene, f->object));
+        return side == 2 ? SPLIT_BOTH : class_beside(side);
+    }
+    if (form == FROE_BOX && plane->plane.form != GEOM_AXIS) {
+        /* by its corners */
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        bool negative = false, positive = false;
+        scene_object_bounds(set->scene, f->object, lo, hi);
+        for (unsigned corner = 0; corner < 1u << set->scene->dim && !(negative && positive); corner++) {
+            double x[3];
+            for (int k = 0; k < set->scene->dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
+            int side = geom_side_vertex(&set->context, &plane->plane, x);
+            negative |= side < 0;
+            positive |= side > 0;
+        }
+        return class_of_sides(negative, positive);
+    }
     return classify_corners(set, plane, f, split_is_cut(form));
 }
 
 int split_class(split_set *set, const split_plane *plane, const split_fragment *f) {
     bool known = plane->cut.kind == FROE_CUT_OBJECT && plane->cut.id[0] == f->object;
-    if (f->count && !known) return ring_class(set, plane, f);
+    if (f->count && !known) {
+        /* The class of a ring alone. Whether a plane splits it is mostly seen from corners that are far from the
+         * plane; only where they do not tell are the others worth exact numbers, and only until both sides are met. */
+        const split_corner *ring = set->corners.data + f->first;
+        bool negative = false, positive = false, unsure = false;
+        for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
+            int side =
+                ring[i].type == SPLIT_VERTEX ? vertex_side(set, plane, ring[i].x) : image_side(set, plane, ring + i);
+            unsure |= side == NUM_UNSURE;
+            negative |= side == -1;
+            positive |= side == 1;
+        }
+        if (!unsure || (negative && positive)) return class_of_sides(negative, positive);
+        const int whole = object_side(set, plane, f->object);
+        if (whole != NUM_UNSURE) return class_beside(whole);
+        for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
+            if (ring[i].type == SPLIT_VERTEX || image_sign(set, plane, ring + i) != NUM_UNSURE) continue;
+            int side = corner_side(set, plane, f->object, ring + i);
+            negative |= side < 0;
+            positive |= side > 0;
+        }
+        return class_of_sides(negative, positive);
+    }
     const size_t start = set->sides.count;
     const int class = split_classify(set, plane, f);
     set->sides.count = start;

@@ -281,22 +281,6 @@ static froe_status seal(grow *g, froe_tree **out) {
     return status;
 }
 
-static void free_grow(grow *g) {
-    const froe_allocator *alloc = &g->job->alloc;
-    for (unsigned i = 0; i < g->worker_count; i++) {
-        split_work *work = g->workers + i;
-        if (g->method->scratch_free) g->method->scratch_free(work);
-        split_set_free(&work->set);
-        array_free(alloc, &work->cells);
-    }
-    support_free(alloc, g->workers, g->job->task->threads * sizeof *g->workers);
-    for (size_t i = 0; i < g->tasks.count; i++) draft_free(&g->tasks.data[i].draft);
-    array_free(alloc, &g->tasks);
-    array_free(alloc, &g->store_items);
-    array_free(alloc, &g->store_corners);
-    draft_free(&g->main);
-}
-
 /** Two objects that cross: those of the main part, or of the first task that was refused. */
 static froe_status explain_crossing(const grow *g) {
     const uint32_t *ids = g->workers[0].crossing;
@@ -323,6 +307,18 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
     if (!status) status = base_run(job->task, job->span, g.tasks.count, do_task, &g);
     if (!status && out) status = seal(&g, out);
     if (status == FROE_E_INPUT) explain_crossing(&g);
-    free_grow(&g);
+    const froe_allocator *alloc = &g.job->alloc;
+    for (unsigned i = 0; i < g.worker_count; i++) {
+        split_work *work = g.workers + i;
+        if (g.method->scratch_free) g.method->scratch_free(work);
+        split_set_free(&work->set);
+        array_free(alloc, &work->cells);
+    }
+    support_free(alloc, g.workers, g.job->task->threads * sizeof *g.workers);
+    for (size_t i = 0; i < g.tasks.count; i++) draft_free(&g.tasks.data[i].draft);
+    array_free(alloc, &g.tasks);
+    array_free(alloc, &g.store_items);
+    array_free(alloc, &g.store_corners);
+    draft_free(&g.main);
     return status == FROE_E_INPUT ? status : split_explain(job->diag, job->max_fragments, status);
 }

@@ -72,18 +72,6 @@ static void enter_support(refine_search *s, uint32_t item) {
     if (cut.kind != FROE_CUT_NONE) enter_cut(s, &cut, NULL);
 }
 
-/** Free cuts: a few, evenly chosen from all, so that one of them balances. */
-static void enter_free_cuts(refine_search *s) {
-    const split_fragment *items = s->set->items.data + s->cell->first;
-    uint32_t all = 0, seen = 0, most = s->config->supports > 4 ? s->config->supports : 4;
-    for (uint32_t i = 0; i < s->cell->count; i++) all += split_is_free(s->set, items + i);
-    for (uint32_t i = 0, next = 0; seen < all && !s->contest.done; i++) {
-        if (!split_is_free(s->set, items + i)) continue;
-        if (all <= most || seen >= (uint32_t)((2 * (uint64_t)next + 1) * all / (2 * most))) enter_support(s, i), next++;
-        seen++;
-    }
-}
-
 /** Planes through an edge of one polygon and a vertex of another: what balances the fan around a common
  * vertex, where every supporting plane has all others on one side. */
 static void enter_edges(refine_search *s) {
@@ -232,7 +220,18 @@ split_verdict split_refine_choose(const split_refine *config, split_work *work, 
     split_contest_show(&s.contest, config->sample, config->seed);
     if (s.contest.failed) return SPLIT_MEMORY;
     if (s.contest.solids) return choose_among_solids(&s, cut);
-    if (config->free_cuts) enter_free_cuts(&s);
+    if (config->free_cuts) {
+        /* free cuts: a few, evenly chosen from all, so that one of them balances */
+        const split_fragment *items = s.set->items.data + s.cell->first;
+        uint32_t all = 0, seen = 0, most = s.config->supports > 4 ? s.config->supports : 4;
+        for (uint32_t i = 0; i < s.cell->count; i++) all += split_is_free(s.set, items + i);
+        for (uint32_t i = 0, next = 0; seen < all && !s.contest.done; i++) {
+            if (!split_is_free(s.set, items + i)) continue;
+            if (all <= most || seen >= (uint32_t)((2 * (uint64_t)next + 1) * all / (2 * most)))
+                enter_support(&s, i), next++;
+            seen++;
+        }
+    }
     if (!s.contest.count) {
         /* all fragments of a small cell, or a draw from a large one */
         for (uint32_t i = 0; i < tries && !s.contest.done; i++)

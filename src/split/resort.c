@@ -28,23 +28,19 @@ bool split_is_free(const split_set *set, const split_fragment *f) {
     return f->count > 0;
 }
 
-/** The median of the inner coordinates on an axis, and how many there are. */
-static size_t inner_median(split_view *v, const froe_scene *scene, int axis, double *median) {
-    double *x = v->x.data; /* local coordinates, no longer needed: there is room for as many */
-    size_t count = v->inside, lo = 0, hi = count;
-    for (size_t i = 0; i < count; i++) x[i] = scene_vertex(scene, v->vertex.data[v->vertices.data[i]])[axis];
-    base_sort(x, count, sizeof *x, base_compare_doubles);
-    while (lo < count && x[lo] == x[0]) lo++;
-    while (hi > lo && x[hi - 1] == x[count - 1]) hi--;
-    if (hi > lo) *median = x[lo + (hi - lo) / 2];
-    return hi - lo;
-}
-
 bool split_vertex_median(split_view *v, const froe_scene *scene, froe_cut *cut) {
     size_t most = 0;
     for (int axis = 0; axis < scene->dim; axis++) {
         double median = 0;
-        size_t inner = inner_median(v, scene, axis, &median);
+        /* the median of the inner coordinates on an axis, and how many there are */
+        double *x = v->x.data; /* local coordinates, no longer needed: there is room for as many */
+        size_t count = v->inside, lo = 0, hi = count;
+        for (size_t i = 0; i < count; i++) x[i] = scene_vertex(scene, v->vertex.data[v->vertices.data[i]])[axis];
+        base_sort(x, count, sizeof *x, base_compare_doubles);
+        while (lo < count && x[lo] == x[0]) lo++;
+        while (hi > lo && x[hi - 1] == x[count - 1]) hi--;
+        if (hi > lo) median = x[lo + (hi - lo) / 2];
+        size_t inner = hi - lo;
         if (inner <= most) continue;
         most = inner;
         *cut = (froe_cut){.kind = FROE_CUT_AXIS, .axis = axis, .value = median};

@@ -55,30 +55,28 @@ static uint32_t add_view_vertex(split_view *v, const froe_scene *scene, uint32_t
     return at;
 }
 
-/** The corners of a box, or the centre of a ball: no vertices of the scene. */
-static void add_solid(split_view *v, const froe_scene *scene, uint32_t object) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], x[3], radius = 0;
-    unsigned corners = 1u << v->dim;
-    scene_object_bounds(scene, object, lo, hi);
-    if (scene_form(scene, object) == FROE_BALL) {
-        radius = scene_radius(scene, object);
-        memcpy(lo, scene_point(scene, object, 0), (size_t)v->dim * sizeof *lo);
-        v->round = true;
-        corners = 1;
-    }
-    for (unsigned i = 0; i < corners; i++) {
-        for (int k = 0; k < v->dim; k++) x[k] = i >> k & 1 ? hi[k] : lo[k];
-        v->corner.data[v->corner.count++] = add_view_corner(v, x, radius, FROE_NONE);
-    }
-}
-
 static bool add_view_fragment(split_view *v, const split_set *set, const split_fragment *item) {
     const froe_scene *scene = set->scene;
     froe_kind form = scene_form(scene, item->object);
     bool solid = form == FROE_BOX || form == FROE_BALL;
     uint32_t n = solid ? 1u << v->dim : split_corner_count(set, item);
     if (!reserve_view(v, &set->alloc, n)) return false;
-    if (solid) add_solid(v, scene, item->object);
+    if (solid) {
+        /* the corners of a box, or the centre of a ball: no vertices of the scene */
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], x[3], radius = 0;
+        unsigned corners = 1u << v->dim;
+        scene_object_bounds(scene, item->object, lo, hi);
+        if (scene_form(scene, item->object) == FROE_BALL) {
+            radius = scene_radius(scene, item->object);
+            memcpy(lo, scene_point(scene, item->object, 0), (size_t)v->dim * sizeof *lo);
+            v->round = true;
+            corners = 1;
+        }
+        for (unsigned i = 0; i < corners; i++) {
+            for (int k = 0; k < v->dim; k++) x[k] = i >> k & 1 ? hi[k] : lo[k];
+            v->corner.data[v->corner.count++] = add_view_corner(v, x, radius, FROE_NONE);
+        }
+    }
     for (uint32_t i = 0; i < n && !solid; i++) {
         const split_corner *k = item->count ? set->corners.data + item->first + i : NULL;
         uint32_t vertex = !k ? scene_corner(scene, item->object, i) : k->type == SPLIT_VERTEX ? k->a : FROE_NONE, at;
@@ -112,27 +110,6 @@ static bool fill_pairs(split_view *v, const split_set *set, const split_fragment
     return true;
 }
 
-/** To local coordinates, by a power of two at most twice the width of the corners. */
-static void centre_view(split_view *v) {
-    double *const x[3] = {v->x.data, v->y.data, v->z.data}, width = 0;
-    int exponent = 0;
-    for (int k = 0; k < v->dim; k++) { /* half the middle and half the width, so that nothing overflows */
-        double lo = x[k][0], hi = x[k][0];
-        for (uint32_t i = 1; i < v->corners; i++) {
-            lo = x[k][i] < lo ? x[k][i] : lo;
-            hi = x[k][i] > hi ? x[k][i] : hi;
-        }
-        v->middle[k] = 0.25 * lo + 0.25 * hi;
-        width = 0.5 * hi - 0.5 * lo > width ? 0.5 * hi - 0.5 * lo : width;
-    }
-    if (width > 0) frexp(width, &exponent); /* width < 2^exponent; local coordinates are at most half as large */
-    v->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
-    for (int k = 0; k < 3; k++) v->reach[k] = k < v->dim ? 2 * fabs(v->middle[k]) * v->scale + 0.5 : 0;
-    for (int k = 0; k < v->dim; k++)
-        for (size_t i = 0; i < v->x.count; i++) x[k][i] = (0.5 * x[k][i] - v->middle[k]) * v->scale;
-    for (size_t i = 0; i < v->x.count && v->round; i++) v->radius.data[i] *= 0.5 * v->scale;
-}
-
 /** Two vertices of every object shown, on average, where corners are few. */
 static bool add_outside(split_view *v, const split_set *set, const split_cell *cell, uint64_t seed) {
     const split_fragment *items = set->items.data + cell->first;
@@ -145,15 +122,6 @@ static bool add_outside(split_view *v, const split_set *set, const split_cell *c
         add_view_vertex(v, set->scene, scene_corner(set->scene, object, corner));
     }
     return true;
-}
-
-/** Forgets the last cell. False without memory. */
-static bool clear_view(split_view *v, const split_set *set) {
-    v->dim = set->scene->dim;
-    v->pairs = v->round = false;
-    for (size_t i = 0; i < v->vertices.count; i++) v->place[v->vertex.data[v->vertices.data[i]]] = FROE_NONE;
-    v->x.count = v->vertex.count = v->vertices.count = v->start.count = v->corner.count = v->side.count = 0;
-    return reserve_view(v, &set->alloc, 2 * v->count);
 }
 
 /** Where vertices are in the view: nowhere yet. Made once it is needed. */
@@ -174,7 +142,12 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
     v->count = all ? cell->count : sample;
     v->weight = (double)cell->count / v->count;
     if (set->scene->dim > 3) return true;
-    if (!clear_view(v, set)) return false;
+    /* forgets the last cell */
+    v->dim = set->scene->dim;
+    v->pairs = v->round = false;
+    for (size_t i = 0; i < v->vertices.count; i++) v->place[v->vertex.data[v->vertices.data[i]]] = FROE_NONE;
+    v->x.count = v->vertex.count = v->vertices.count = v->start.count = v->corner.count = v->side.count = 0;
+    if (!reserve_view(v, &set->alloc, 2 * v->count)) return false;
     v->swept = swept;
     v->pairs = set->scene->dim == 2 && all && !swept && fill_pairs(v, set, items);
     if (!v->pairs) {
@@ -189,7 +162,24 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
         if (!array_reserve(&set->alloc, &v->side, v->corners)) return false;
         if (swept && !add_outside(v, set, cell, seed)) return false;
     }
-    centre_view(v);
+    /* to local coordinates, by a power of two at most twice the width of the corners */
+    double *const x[3] = {v->x.data, v->y.data, v->z.data}, width = 0;
+    int exponent = 0;
+    for (int k = 0; k < v->dim; k++) { /* half the middle and half the width, so that nothing overflows */
+        double lo = x[k][0], hi = x[k][0];
+        for (uint32_t i = 1; i < v->corners; i++) {
+            lo = x[k][i] < lo ? x[k][i] : lo;
+            hi = x[k][i] > hi ? x[k][i] : hi;
+        }
+        v->middle[k] = 0.25 * lo + 0.25 * hi;
+        width = 0.5 * hi - 0.5 * lo > width ? 0.5 * hi - 0.5 * lo : width;
+    }
+    if (width > 0) frexp(width, &exponent); /* width < 2^exponent; local coordinates are at most half as large */
+    v->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
+    for (int k = 0; k < 3; k++) v->reach[k] = k < v->dim ? 2 * fabs(v->middle[k]) * v->scale + 0.5 : 0;
+    for (int k = 0; k < v->dim; k++)
+        for (size_t i = 0; i < v->x.count; i++) x[k][i] = (0.5 * x[k][i] - v->middle[k]) * v->scale;
+    for (size_t i = 0; i < v->x.count && v->round; i++) v->radius.data[i] *= 0.5 * v->scale;
     return true;
 }
 
@@ -295,21 +285,6 @@ double split_view_coordinate(const split_view *v, const froe_scene *scene, uint3
 
 /* --------------------------------------------------------------- counting -- */
 
-/** Counts segments in the plane without a detour. */
-static split_tally count_pairs(const split_view *v, const split_view_plane *plane) {
-    const double *x = v->x.data, *y = v->y.data;
-    const double a = plane->n[0], b = plane->n[1], d = plane->d, slack = plane->slack;
-    uint32_t negative = 0, positive = 0, both = 0;
-    for (uint32_t i = 0; i < v->count; i++, x += 2, y += 2) {
-        double from = a * x[0] + b * y[0] - d, to = a * x[1] + b * y[1] - d;
-        uint32_t below = (from < to ? from : to)<-slack, above = (from > to ? from : to)> slack;
-        negative += below;
-        positive += above;
-        both += below & above;
-    }
-    return (split_tally){negative - both, positive - both, v->count + both - negative - positive, both};
-}
-
 /** The sides of all corners; balls reach further than their centres. */
 static void find_view_sides(split_view *v, const split_view_plane *plane) {
     const double *x = v->x.data, *y = v->y.data, *z = v->z.data, *radius = v->radius.data;
@@ -331,8 +306,21 @@ static void find_view_sides(split_view *v, const split_view_plane *plane) {
 split_tally split_view_count(split_view *v, const split_view_plane *plane) {
     const uint32_t *start = v->start.data, *corner = v->corner.data;
     const uint8_t *side = v->side.data;
-    uint32_t of[4] = {0}; /* on, negative, positive, both */
-    if (v->pairs) return count_pairs(v, plane);
+    uint32_t of[4] = {0};
+    if (v->pairs) {
+        /* counts segments in the plane without a detour */
+        const double *x = v->x.data, *y = v->y.data;
+        const double a = plane->n[0], b = plane->n[1], d = plane->d, slack = plane->slack;
+        uint32_t negative = 0, positive = 0, both = 0;
+        for (uint32_t i = 0; i < v->count; i++, x += 2, y += 2) {
+            double from = a * x[0] + b * y[0] - d, to = a * x[1] + b * y[1] - d;
+            uint32_t below = (from < to ? from : to)<-slack, above = (from > to ? from : to)> slack;
+            negative += below;
+            positive += above;
+            both += below & above;
+        }
+        return (split_tally){negative - both, positive - both, v->count + both - negative - positive, both};
+    }
     find_view_sides(v, plane);
     for (uint32_t i = 0; i < v->count; i++) {
         unsigned seen = 0;

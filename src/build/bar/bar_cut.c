@@ -99,19 +99,6 @@ static bool is_better(const bar_candidate *c, const bar_candidate *than) {
     return c->larger < than->larger || (c->larger == than->larger && fatness(c) < fatness(than));
 }
 
-/** All candidates of the step; returns the best of them. Where one along an axis is good enough the others are left
- * out (direction -1): their cuts cost more to store and to ask. */
-static bar_candidate candidates(const bar_rule *rule, bar_search *s, const bar_step *step, double target,
-                                bar_candidate all[DIRECTIONS_MOST]) {
-    bar_candidate best = {.direction = -1};
-    for (int i = 0; i < rule->directions.count; i++) {
-        const bool enough = i >= rule->directions.dim && best.direction >= 0 && best.larger <= target;
-        all[i] = enough ? (bar_candidate){.direction = -1} : candidate(rule, s, step, i);
-        if (is_better(all + i, &best)) best = all[i];
-    }
-    return best;
-}
-
 /* ---------------------------------------------------------------- sequences -- */
 
 /** Adds the part of a step that has most of its points, or a sample of them. */
@@ -161,7 +148,14 @@ bar_found bar_search_cut(const bar_rule *rule, const froe_allocator *alloc, bar_
     for (size_t at = 0; at < s->steps.count; at++) {
         bar_step step = s->steps.data[at];
         if (!bar_shape_of(&rule->directions, &step.region, &s->shape) || is_too_small(rule, &s->shape)) continue;
-        const bar_candidate best = candidates(rule, s, &step, target, all);
+        /* All candidates of the step. Where one along an axis is good enough the others are left out (direction -1):
+         * their cuts cost more to store and to ask. */
+        bar_candidate best = {.direction = -1};
+        for (int i = 0; i < rule->directions.count; i++) {
+            const bool enough = i >= rule->directions.dim && best.direction >= 0 && best.larger <= target;
+            all[i] = enough ? (bar_candidate){.direction = -1} : candidate(rule, s, &step, i);
+            if (is_better(all + i, &best)) best = all[i];
+        }
         if (best.direction >= 0 && best.larger <= target) {
             *out = at ? first[step.first] : best;
             return BAR_CUT;

@@ -131,36 +131,6 @@ static uint32_t half_circles_of(const split_directions *d, const support *s, dou
     return count;
 }
 
-/** From the middle of the object along u until all supporting planes that face u are passed. */
-static uint32_t spheres_of(const bar_guards *g, const support *s, double *out) {
-    const split_directions *d = &g->directions;
-    double c[3], x[3] = {0};
-    uint32_t count = 0;
-    for (int k = 0; k < 3; k++) c[k] = 0.5 * s->lo[k] + 0.5 * s->hi[k];
-    for (uint32_t j = 0; j < g->count; j++) {
-        const bar_sector *sector = g->sectors + j;
-        double t = -INFINITY;
-        for (int i = 0; i < DIRECTIONS_MOST; i++) { /* in space, all */
-            double key = split_key(d, i, c), slope = sector->slope[i];
-            double way = slope < 0 ? (key - s->lo[i]) / -slope : (s->hi[i] - key) / slope;
-            t = way > t ? way : t;
-        }
-        for (int k = 0; k < 3; k++) x[k] = c[k] + t * sector->u[k] + 0.0;
-        count = append_guard(out, count, x, 3);
-    }
-    return count;
-}
-
-static uint32_t support_corners(int dim, const support *s, double *out) {
-    uint32_t count = 0;
-    for (uint32_t corner = 0; corner < 1u << dim; corner++) {
-        double x[3] = {0};
-        for (int k = 0; k < dim; k++) x[k] = corner >> k & 1 ? s->hi[k] : s->lo[k];
-        count = append_guard(out, count, x, dim);
-    }
-    return count;
-}
-
 uint32_t bar_guards_of(const bar_guards *g, const froe_scene *scene, uint32_t object, double *out) {
     support s;
     if (scene_form(scene, object) == FROE_POINT) {
@@ -168,7 +138,34 @@ uint32_t bar_guards_of(const bar_guards *g, const froe_scene *scene, uint32_t ob
         return 1;
     }
     support_of(&g->directions, scene, object, &s);
-    if (g->kind == BAR_BOXES) return support_corners(scene->dim, &s, out);
-    if (scene->dim == 3) return spheres_of(g, &s, out);
+    if (g->kind == BAR_BOXES) {
+        /* the corners of the bounding box */
+        uint32_t count = 0;
+        for (uint32_t corner = 0; corner < 1u << scene->dim; corner++) {
+            double x[3] = {0};
+            for (int k = 0; k < scene->dim; k++) x[k] = corner >> k & 1 ? s.hi[k] : s.lo[k];
+            count = append_guard(out, count, x, scene->dim);
+        }
+        return count;
+    }
+    if (scene->dim == 3) {
+        /* from the middle of the object along u until all supporting planes that face u are passed */
+        const split_directions *d = &g->directions;
+        double c[3], x[3] = {0};
+        uint32_t count = 0;
+        for (int k = 0; k < 3; k++) c[k] = 0.5 * s.lo[k] + 0.5 * s.hi[k];
+        for (uint32_t j = 0; j < g->count; j++) {
+            const bar_sector *sector = g->sectors + j;
+            double t = -INFINITY;
+            for (int i = 0; i < DIRECTIONS_MOST; i++) { /* in space, all */
+                double key = split_key(d, i, c), slope = sector->slope[i];
+                double way = slope < 0 ? (key - s.lo[i]) / -slope : (s.hi[i] - key) / slope;
+                t = way > t ? way : t;
+            }
+            for (int k = 0; k < 3; k++) x[k] = c[k] + t * sector->u[k] + 0.0;
+            count = append_guard(out, count, x, 3);
+        }
+        return count;
+    }
     return g->kind == BAR_PAIRS ? pairs_of(&g->directions, &s, out) : half_circles_of(&g->directions, &s, out);
 }

@@ -66,19 +66,6 @@ static void bound_by_two(const split_directions *d, int i, int j, int sign, bar_
     lower(&r->hi[axis], 1, turn * (above[0] + above[1]), fabs(above[0]) + fabs(above[1]));
 }
 
-/** Adds facets along the axes near the cell that do not touch it. One cut may leave a small corner of a large box: what
- * is computed near the middle of that says nothing about the corner. Sums of facets do. */
-static void tighten(const split_directions *d, bar_region *r) {
-    for (int round = 0; round < ROUNDS; round++)
-        for (int i = d->dim; i < d->count; i++) {
-            for (int k = 0; k < d->dim; k++) bound_by_one(d, i, k, r);
-            for (int j = d->dim; j < i; j++) {
-                bound_by_two(d, i, j, 1, r);
-                bound_by_two(d, i, j, -1, r);
-            }
-        }
-}
-
 static void find_shift(bar_shape *s, const bar_region *r) {
     const split_directions *d = s->directions;
     double o[3] = {0};
@@ -202,7 +189,16 @@ bool bar_shape_of(const split_directions *d, const bar_region *region, bar_shape
     bar_region near = *region, *r = &near;
     s->directions = d;
     s->width = 0;
-    tighten(d, r);
+    /* Adds facets along the axes near the cell that do not touch it. One cut may leave a small corner of a large
+     * box: what is computed near the middle of that says nothing about the corner. Sums of facets do. */
+    for (int round = 0; round < ROUNDS; round++)
+        for (int i = d->dim; i < d->count; i++) {
+            for (int k = 0; k < d->dim; k++) bound_by_one(d, i, k, r);
+            for (int j = d->dim; j < i; j++) {
+                bound_by_two(d, i, j, 1, r);
+                bound_by_two(d, i, j, -1, r);
+            }
+        }
     find_shift(s, r);
     for (int k = 0; k < d->dim; k++) {
         lo[k] = bar_shape_local(s, k, r->lo[k]);

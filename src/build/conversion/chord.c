@@ -25,31 +25,8 @@ void chord_add(chord_search *search, const split_set *set, const split_cell *cel
     search->items.data[search->items.count++] = new;
 }
 
-/** The support of a chord. */
-static geom_plane line_of(const split_set *set, const split_cell *cell, const chord_item *chord) {
-    geom_plane line;
-    scene_support(set->scene, set->items.data[cell->first + chord->item].object, &line);
-    return line;
-}
-
 static bool item_is_above(const geom_plane *line, const chord_item *item) {
     return filter_value(line, item->middle).x > 0;
-}
-
-/** Weights below and above a chord. */
-static void weigh_chord(const chord_search *search, uint32_t chord, const geom_plane *line, uint64_t weight[2]) {
-    weight[0] = weight[1] = 0;
-    for (uint32_t i = 0; i < search->items.count; i++)
-        if (i != chord) weight[item_is_above(line, search->items.data + i)] += search->items.data[i].weight;
-}
-
-/** Leaves the candidates on one side of the chord. */
-static void keep_chord(chord_search *search, uint32_t chord, const geom_plane *line, bool above) {
-    uint32_t *c = search->chords.data;
-    size_t kept = 0;
-    for (size_t i = 0; i < search->chords.count; i++)
-        if (c[i] != chord && item_is_above(line, search->items.data + c[i]) == above) c[kept++] = c[i];
-    search->chords.count = kept;
 }
 
 uint32_t chord_choose(chord_search *search, const split_set *set, const split_cell *cell, uint64_t seed) {
@@ -58,11 +35,22 @@ uint32_t chord_choose(chord_search *search, const split_set *set, const split_ce
     for (uint32_t round = 0; round < ROUNDS && search->chords.count; round++) {
         uint64_t draw = base_hash(seed, cell->path, 400000 + round);
         uint32_t chord = search->chords.data[base_below(draw, (uint32_t)search->chords.count)];
-        geom_plane line = line_of(set, cell, search->items.data + chord);
-        weigh_chord(search, chord, &line, weight);
+        /* the support of a chord */
+        geom_plane line;
+        scene_support(set->scene, set->items.data[cell->first + (search->items.data + chord)->item].object, &line);
+        /* weights below and above a chord */
+        weight[0] = weight[1] = 0;
+        for (uint32_t i = 0; i < search->items.count; i++)
+            if (i != chord) weight[item_is_above(&line, search->items.data + i)] += search->items.data[i].weight;
         uint64_t heavier = weight[0] > weight[1] ? weight[0] : weight[1];
         if (heavier < least) least = heavier, best = search->items.data[chord].item;
-        keep_chord(search, chord, &line, weight[1] > weight[0]);
+        /* leaves the candidates on one side of the chord */
+        uint32_t *c = search->chords.data;
+        size_t kept = 0;
+        for (size_t i = 0; i < search->chords.count; i++)
+            if (c[i] != chord && item_is_above(&line, search->items.data + c[i]) == (weight[1] > weight[0]))
+                c[kept++] = c[i];
+        search->chords.count = kept;
     }
     return best;
 }

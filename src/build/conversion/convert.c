@@ -34,22 +34,7 @@ static bool is_short(const convert *c, const split_fragment *f, uint32_t at) {
     return false;
 }
 
-/** Sorts the fragments of a cell into chords and others. False without memory. */
-static bool find_chords(convert *c, const split_cell *cell, uint32_t at) {
-    const split_set *set = &c->work.set;
-    if (!chord_begin(&c->chords, set, cell)) return false;
-    for (uint32_t i = 0; i < cell->count; i++)
-        chord_add(&c->chords, set, cell, i, !is_short(c, set->items.data + cell->first + i, at));
-    return true;
-}
-
 /* ------------------------------------------------------------------ regions -- */
-
-static void pop_region(convert *c, uint32_t corners, region *out) {
-    out->count = corners;
-    c->corners.count -= corners;
-    if (corners) memcpy(out->corner, c->corners.data + c->corners.count, corners * sizeof *out->corner);
-}
 
 static bool push_cell(convert *c, uint32_t at, const region *r) {
     if (!array_reserve(&c->job->alloc, &c->corners, r->count)) return false;
@@ -114,14 +99,6 @@ static froe_status do_star(convert *c, split_cell *cell) {
 
 /* ------------------------------------------------------------------ pruning -- */
 
-/** The only side of the cut on which there is anything: 0, 1, or -1 where it is not so simple. Exact. */
-static froe_status find_only_side(convert *c, const split_cell *cell, const froe_cut *cut, int *side) {
-    split_tally t;
-    froe_status status = cell_tally(&c->work, cell, cut, &t);
-    *side = t.on || t.both || (t.negative && t.positive) ? -1 : t.positive > 0;
-    return status;
-}
-
 /** May the cut of a node be left out, where everything lies on one side of it? A cut that misses the region may. */
 static bool may_prune(const convert *c, uint32_t at, int side, const region *r) {
     geom_plane line = scene_cut_plane(c->job->scene, &c->job->plan->nodes.data[at].cut);
@@ -140,10 +117,17 @@ static froe_status follow_plan(convert *c, split_cell *cell, uint32_t at, const 
     for (;;) {
         const point_node *n = c->job->plan->nodes.data + at;
         int side;
-        if (!find_chords(c, cell, at)) return FROE_E_MEMORY;
+        /* sorts the fragments of a cell into chords and others */
+        const split_set *set = &c->work.set;
+        if (!chord_begin(&c->chords, set, cell)) return FROE_E_MEMORY;
+        for (uint32_t i = 0; i < cell->count; i++)
+            chord_add(&c->chords, set, cell, i, !is_short(c, set->items.data + cell->first + i, at));
         if (c->chords.chords.count) return cut_along_chord(c, cell, at, r);
         if (n->cut.kind == FROE_CUT_NONE) return do_star(c, cell);
-        froe_status status = find_only_side(c, cell, &n->cut, &side);
+        /* The only side of the cut on which there is anything: 0, 1, or -1 where it is not so simple. Exact. */
+        split_tally t;
+        froe_status status = cell_tally(&c->work, cell, &n->cut, &t);
+        side = t.on || t.both || (t.negative && t.positive) ? -1 : t.positive > 0;
         if (status) return status;
         if (!may_prune(c, at, side, r)) return cut_by_plan(c, cell, at, r);
         at = n->child + (uint32_t)side;
@@ -155,7 +139,9 @@ static froe_status do_planned_cell(convert *c) {
     convert_cell own = c->cells.data[--c->cells.count];
     region r;
     c->work.set.corners.count = cell.corner_top;
-    pop_region(c, own.corners, &r);
+    r.count = own.corners;
+    c->corners.count -= own.corners;
+    if (own.corners) memcpy(r.corner, c->corners.data + c->corners.count, own.corners * sizeof *r.corner);
     if (cell.count <= c->job->leaf) return cell_leaf(&c->work, &cell, 0);
     return own.at == FROE_NONE ? do_star(c, &cell) : follow_plan(c, &cell, own.at, &r);
 }
@@ -192,17 +178,6 @@ static froe_status begin_conversion(convert *c) {
     return push_cell(c, 0, &all) && array_push(&job->alloc, &c->work.cells, root) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static void free_conversion(convert *c) {
-    const froe_allocator *alloc = &c->job->alloc;
-    split_scratch_free(&c->work);
-    split_set_free(&c->work.set);
-    array_free(alloc, &c->work.cells);
-    array_free(alloc, &c->cells);
-    array_free(alloc, &c->corners);
-    chord_free(alloc, &c->chords);
-    draft_free(&c->draft);
-}
-
 froe_status split_convert(const convert_job *job, froe_tree **out) {
     convert c = {.job = job, .work.set.alloc = job->alloc};
     c.refine = split_axial_of(job->scene, job->leaf, job->seed, 1).refine;
@@ -215,6 +190,13 @@ froe_status split_convert(const convert_job *job, froe_tree **out) {
         num_stats_add(&c.draft.predicates, &c.work.set.context.stats);
         status = draft_seal(&c.draft, NULL, 0, job->scene, job->meta, out);
     }
-    free_conversion(&c);
+    const froe_allocator *alloc = &c.job->alloc;
+    split_scratch_free(&c.work);
+    split_set_free(&c.work.set);
+    array_free(alloc, &c.work.cells);
+    array_free(alloc, &c.cells);
+    array_free(alloc, &c.corners);
+    chord_free(alloc, &c.chords);
+    draft_free(&c.draft);
     return status;
 }

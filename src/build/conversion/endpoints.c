@@ -48,11 +48,14 @@ static froe_status partition(converter *c, const convert_plan *plan) {
     return build_tuned(c->points, &o, &c->tree, c->job->diag);
 }
 
-/** Cuts of points are axis-parallel or have normals: others would name objects of another scene. */
-static froe_status copy_cuts(converter *c) {
+static froe_status plan_by_method(converter *c, const convert_plan *plan) {
+    froe_status status = make_points(c);
+    if (!status) status = partition(c, plan);
+    if (status) return status;
+    /* cuts of points are axis-parallel or have normals: others would name objects of another scene */
     ARRAY(uint32_t) stack = {0}; /* nodes of the tree, and behind each the one of the plan */
     const froe_allocator *alloc = &c->job->alloc;
-    froe_status status = array_push(alloc, &stack, 0) && array_push(alloc, &stack, 0) ? FROE_OK : FROE_E_MEMORY;
+    status = array_push(alloc, &stack, 0) && array_push(alloc, &stack, 0) ? FROE_OK : FROE_E_MEMORY;
     while (stack.count && !status) {
         uint32_t at = stack.data[--stack.count], node = stack.data[--stack.count], child;
         froe_cut cut = tree_cut_at(c->tree, node);
@@ -66,14 +69,6 @@ static froe_status copy_cuts(converter *c) {
                 status = FROE_E_MEMORY;
     }
     array_free(alloc, &stack);
-    return status;
-}
-
-static froe_status plan_by_method(converter *c, const convert_plan *plan) {
-    froe_status status = make_points(c);
-    if (!status) status = partition(c, plan);
-    if (status) return status; /* explained already */
-    status = copy_cuts(c);
     return status == FROE_E_UNSUPPORTED ? status : split_explain(c->job->diag, 0, status);
 }
 

@@ -41,29 +41,6 @@ typedef struct walk_step {
     bool left; /**< its children have been walked */
 } walk_step;
 
-static froe_status number_point_nodes(point_tree *t) {
-    ARRAY(walk_step) stack = {0};
-    uint32_t time = 0;
-    bool room = array_push(&t->alloc, &stack, (walk_step){0, 0, false});
-    while (stack.count && room) {
-        walk_step s = stack.data[--stack.count];
-        point_node *n = t->nodes.data + s.node;
-        if (s.left) {
-            n->leave = time;
-            continue;
-        }
-        n->enter = time++;
-        n->leave = time;
-        t->height = s.depth > t->height ? s.depth : t->height;
-        if (is_leaf(n)) continue;
-        room = array_push(&t->alloc, &stack, (walk_step){s.node, s.depth, true}) &&
-               array_push(&t->alloc, &stack, (walk_step){n->child + 1, s.depth + 1, false}) &&
-               array_push(&t->alloc, &stack, (walk_step){n->child, s.depth + 1, false});
-    }
-    array_free(&t->alloc, &stack);
-    return room ? FROE_OK : FROE_E_MEMORY;
-}
-
 static uint32_t home_of(const point_tree *t, num_context *context, uint32_t vertex) {
     uint32_t node = 0;
     while (!is_leaf(t->nodes.data + node)) {
@@ -178,7 +155,27 @@ static froe_status find_junctions(point_tree *t) {
 }
 
 froe_status point_tree_finish(point_tree *t, num_context *context) {
-    froe_status status = number_point_nodes(t);
+    /* times of entering and leaving, in depth-first order */
+    ARRAY(walk_step) stack = {0};
+    uint32_t time = 0;
+    bool room = array_push(&t->alloc, &stack, (walk_step){0, 0, false});
+    while (stack.count && room) {
+        walk_step s = stack.data[--stack.count];
+        point_node *n = t->nodes.data + s.node;
+        if (s.left) {
+            n->leave = time;
+            continue;
+        }
+        n->enter = time++;
+        n->leave = time;
+        t->height = s.depth > t->height ? s.depth : t->height;
+        if (is_leaf(n)) continue;
+        room = array_push(&t->alloc, &stack, (walk_step){s.node, s.depth, true}) &&
+               array_push(&t->alloc, &stack, (walk_step){n->child + 1, s.depth + 1, false}) &&
+               array_push(&t->alloc, &stack, (walk_step){n->child, s.depth + 1, false});
+    }
+    array_free(&t->alloc, &stack);
+    froe_status status = room ? FROE_OK : FROE_E_MEMORY;
     if (!status) status = find_homes(t, context);
     return status ? status : find_junctions(t);
 }

@@ -221,17 +221,6 @@ static froe_status own_edge(const split_cylinder *c, split_work *work, const spl
     return FROE_OK;
 }
 
-static stretch edge_stretch(const split_set *set, const split_fragment *f, uint32_t at) {
-    stretch s = {.fragment = f, .end = {split_corner_of(set, f, at)}};
-    uint32_t next = at + 1 < split_corner_count(set, f) ? at + 1 : 0, v[2];
-    s.end[1] = split_corner_of(set, f, next);
-    s.edge = set->scene->starts[f->object] + s.end[0].edge;
-    froe_scene_edge(set->scene, s.edge, v);
-    s.u = v[0], s.v = v[1];
-    turn_right(set->scene, &s);
-    return s;
-}
-
 /** Is the polygon a segment, as seen from above? */
 static bool is_upright(split_set *set, uint32_t object) {
     const froe_scene *scene = set->scene;
@@ -266,7 +255,14 @@ static split_verdict cut_polygon(const split_cylinder *c, split_work *work, cons
     uint32_t at;
     if (own_edge(c, work, cell, f, &at)) return SPLIT_MEMORY;
     if (at != FROE_NONE) {
-        stretch s = edge_stretch(&work->set, f, at);
+        /* the edge from the corner, turned so that it runs to the right */
+        stretch s = {.fragment = f, .end = {split_corner_of(&work->set, f, at)}};
+        uint32_t next = at + 1 < split_corner_count(&work->set, f) ? at + 1 : 0, v[2];
+        s.end[1] = split_corner_of(&work->set, f, next);
+        s.edge = work->set.scene->starts[f->object] + s.end[0].edge;
+        froe_scene_edge(work->set.scene, s.edge, v);
+        s.u = v[0], s.v = v[1];
+        turn_right(work->set.scene, &s);
         froe_cut line = edge_cut(work->set.scene, s.edge);
         return cut_stretch(&work->set, cell, &s, &line, cut);
     }

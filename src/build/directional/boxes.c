@@ -126,29 +126,20 @@ bool boxes_add_cover(boxes *b, boxes_cell *cell, uint32_t object) {
     return true;
 }
 
-static void insert_sorted(boxes_event *e, uint32_t count) {
-    for (uint32_t i = 1; i < count; i++) {
-        boxes_event x = e[i];
-        uint32_t k = i;
-        for (; k && e[k - 1].x > x.x; k--) e[k] = e[k - 1];
-        e[k] = x;
-    }
-}
-
-/** Of all events of a new cell on one axis, still in the order of their fragments. */
-static void number_changes(boxes *b, const boxes_cell *cell, int axis) {
-    boxes_event *e = b->events[axis].data + cell->event[axis];
-    const boxes_fragment *item = b->fragments.data + cell->first;
-    for (uint32_t i = 0; i < cell->events[axis]; i++)
-        e[i].change = change_at((boxes_end)e[i].end, item[e[i].fragment].alive, axis);
-}
-
 /** Sorts the events of a new cell on one axis. */
 static bool sort_events(boxes *b, const boxes_cell *cell, int axis) {
     uint32_t count = cell->events[axis];
     boxes_event *e = b->events[axis].data + cell->event[axis];
     if (count <= INSERTION) {
-        if (count) insert_sorted(e, count);
+        if (count) {
+            /* insertion sort: few events */
+            for (uint32_t i = 1; i < count; i++) {
+                boxes_event x = e[i];
+                uint32_t k = i;
+                for (; k && e[k - 1].x > x.x; k--) e[k] = e[k - 1];
+                e[k] = x;
+            }
+        }
         return true;
     }
     b->pairs.count = b->spare_events.count = 0;
@@ -184,7 +175,11 @@ froe_status boxes_open(boxes *b, boxes_cell cell, const uint32_t *objects, uint3
             return FROE_E_MEMORY;
     }
     for (int k = 0; k < b->dim; k++) {
-        number_changes(b, &cell, k);
+        /* of all events of a new cell on one axis, still in the order of their fragments */
+        boxes_event *e = b->events[k].data + cell.event[k];
+        const boxes_fragment *item = b->fragments.data + cell.first;
+        for (uint32_t i = 0; i < cell.events[k]; i++)
+            e[i].change = change_at((boxes_end)e[i].end, item[e[i].fragment].alive, k);
         if (!sort_events(b, &cell, k)) return FROE_E_MEMORY;
     }
     return array_push(&b->alloc, &b->cells, cell) ? FROE_OK : FROE_E_MEMORY;

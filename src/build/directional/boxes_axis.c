@@ -12,18 +12,6 @@ static uint32_t distinct(const boxes_event *e, uint32_t count) {
 }
 
 /* Numbers the coordinates, and notes where each box has its ends. */
-static void number_places(boxes_axis *a, const boxes_event *e, uint32_t events) {
-    uint32_t position = 0;
-    for (uint32_t i = 0; i < a->count; i++) a->places[i].at[BOXES_HI] = a->size + 1;
-    for (uint32_t i = 0; i < events; i++) {
-        if (!i || e[i].x != e[i - 1].x) a->x[++position] = e[i].x;
-        uint32_t *at = a->places[e[i].fragment].at;
-        if (e[i].end == BOXES_FLAT)
-            at[BOXES_LO] = at[BOXES_HI] = position;
-        else
-            at[e[i].end] = position;
-    }
-}
 
 /* Orders the boxes by one end, by counting. first[p] becomes the number of boxes that have it before p. */
 static void order_box_ends(boxes_axis *a, boxes_end end, uint32_t *first, uint32_t *sorted) {
@@ -38,28 +26,37 @@ static void order_box_ends(boxes_axis *a, boxes_end end, uint32_t *first, uint32
 
 /* ------------------------------------------------------------ making, freeing -- */
 
-static bool make_arrays(const froe_allocator *alloc, boxes_axis *a) {
-    size_t positions = (size_t)a->size + 4;
-    a->x = support_calloc(alloc, positions, sizeof *a->x);
-    a->faces = support_calloc(alloc, positions, sizeof *a->faces);
-    a->places = support_calloc(alloc, a->count, sizeof *a->places);
-    for (int i = 0; i < 2; i++) {
-        a->first[i] = support_calloc(alloc, positions, sizeof *a->first[i]);
-        a->order[i] = support_calloc(alloc, a->count, sizeof *a->order[i]);
-        a->ends[i] = base_fenwick_new(alloc, a->size + 1);
-        if (!a->first[i] || !a->order[i] || !a->ends[i].sum) return false;
-    }
-    return a->x && a->faces && a->places && !base_max_tree_new(alloc, a->size + 2, &a->slack) &&
-           !base_max_tree_new(alloc, a->size + 2, &a->least) && !base_max_tree_new(alloc, a->count, &a->reach) &&
-           !base_max_tree_new(alloc, a->count, &a->before) && !base_max_tree_new(alloc, a->count, &a->after);
-}
-
 froe_status boxes_axis_new(const boxes *b, const boxes_cell *cell, int axis, boxes_axis *out) {
     const boxes_event *e = b->events[axis].data + cell->event[axis];
     uint32_t events = cell->events[axis];
     *out = (boxes_axis){.count = cell->count, .size = distinct(e, events)};
-    if (!make_arrays(&b->alloc, out)) return FROE_E_MEMORY;
-    number_places(out, e, events);
+    size_t positions = (size_t)out->size + 4;
+    out->x = support_calloc(&b->alloc, positions, sizeof *out->x);
+    out->faces = support_calloc(&b->alloc, positions, sizeof *out->faces);
+    out->places = support_calloc(&b->alloc, out->count, sizeof *out->places);
+    for (int i = 0; i < 2; i++) {
+        out->first[i] = support_calloc(&b->alloc, positions, sizeof *out->first[i]);
+        out->order[i] = support_calloc(&b->alloc, out->count, sizeof *out->order[i]);
+        out->ends[i] = base_fenwick_new(&b->alloc, out->size + 1);
+        if (!out->first[i] || !out->order[i] || !out->ends[i].sum) return FROE_E_MEMORY;
+    }
+    if (!(out->x && out->faces && out->places && !base_max_tree_new(&b->alloc, out->size + 2, &out->slack) &&
+          !base_max_tree_new(&b->alloc, out->size + 2, &out->least) &&
+          !base_max_tree_new(&b->alloc, out->count, &out->reach) &&
+          !base_max_tree_new(&b->alloc, out->count, &out->before) &&
+          !base_max_tree_new(&b->alloc, out->count, &out->after)))
+        return FROE_E_MEMORY;
+    /* places are ranks of coordinates, from 1 */
+    uint32_t position = 0;
+    for (uint32_t i = 0; i < out->count; i++) out->places[i].at[BOXES_HI] = out->size + 1;
+    for (uint32_t i = 0; i < events; i++) {
+        if (!i || e[i].x != e[i - 1].x) out->x[++position] = e[i].x;
+        uint32_t *at = out->places[e[i].fragment].at;
+        if (e[i].end == BOXES_FLAT)
+            at[BOXES_LO] = at[BOXES_HI] = position;
+        else
+            at[e[i].end] = position;
+    }
     order_box_ends(out, BOXES_LO, out->first[0], out->order[0]);
     order_box_ends(out, BOXES_HI, out->first[1], out->order[1]);
     base_max_tree_raise(&out->least, 0, out->size + 2, -NO_FACE);

@@ -68,18 +68,6 @@ static froe_status begin_carving(carve *c, const boxes_cell *cell) {
     return FROE_OK;
 }
 
-static void end_carving(carve *c) {
-    const froe_allocator *alloc = &c->b->alloc;
-    for (int k = 0; k < c->b->dim; k++) boxes_axis_free(alloc, c->axis + k);
-    support_free(alloc, c->fragments, c->count * sizeof *c->fragments);
-    support_free(alloc, c->gone, c->count * sizeof *c->gone);
-    array_free(alloc, &c->small);
-    array_free(alloc, &c->divided);
-    array_free(alloc, &c->changed);
-    array_free(alloc, &c->covers);
-    array_free(alloc, &c->spare);
-}
-
 /* ------------------------------------------------------------------ reading off -- */
 
 /* Boxes in [from, end) of an order (0 by beginning, 1 by end) whose number in `tree` is at least `level`. */
@@ -139,22 +127,6 @@ static froe_status emit_carved_in_cut(carve *c, const boxes_axis *a, uint32_t at
 }
 
 /* The boxes across the cut, and all on the smaller side, these among them. */
-static bool read_off(carve *c, const boxes_axis *a, uint32_t at, bool above) {
-    uint32_t begun = a->first[0][at], ended = a->first[1][at + 1];
-    c->small.count = c->divided.count = 0;
-    bool ok = collect_boxes(c, a, &a->reach, 0, 0, begun, (int64_t)at + 1, &c->divided);
-    ok = ok && (above ? collect_boxes(c, a, &a->after, 1, ended, c->count, 1, &c->small)
-                      : collect_boxes(c, a, &a->reach, 0, 0, begun, 1, &c->small));
-    return ok && sort_carve_list(c, &c->small);
-}
-
-static void pay(carve *c, const boxes_cut *cut) {
-    for (size_t i = 0; i < c->divided.count && cut->forced; i++) {
-        uint32_t box = c->divided.data[i];
-        if (rooms(c, box, cut->axis) == 3) continue;
-        c->b->paid += (uint64_t)boxes_weight(c->b, c->fragments[box].alive, cut->axis);
-    }
-}
 
 /* What the cut does to the boxes that stay: rooms that it touches die, faces in it are faces inside no more. */
 static bool touch_rooms(carve *c, int axis, uint32_t at, bool above) {
@@ -179,13 +151,6 @@ static bool touch_rooms(carve *c, int axis, uint32_t at, bool above) {
 }
 
 /* Takes the smaller side out. */
-static void take_small(carve *c, const boxes_axis *a, uint32_t at, bool above) {
-    for (size_t i = 0; i < c->small.count; i++) {
-        const uint32_t *p = a->places[c->small.data[i]].at;
-        bool divided = above ? p[BOXES_LO] < at : p[BOXES_HI] > at;
-        if (!divided) give(c, c->small.data[i], false);
-    }
-}
 
 /* The rest goes on as the larger child. */
 static bool shrink_carved(carve *c, const boxes_spot *spot, bool above, uint32_t child) {
@@ -207,35 +172,32 @@ static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
     froe_status status = boxes_split_node(c->b, c->cell.node, &spot->cut, &child);
     if (!status) status = emit_carved_in_cut(c, a, at);
     if (status) return status;
-    if (!read_off(c, a, at, above)) return FROE_E_MEMORY;
-    pay(c, &spot->cut);
+    /* what the cut divides, and what lies on the small side */
+    uint32_t begun = a->first[0][at], ended = a->first[1][at + 1];
+    c->small.count = c->divided.count = 0;
+    bool ok = collect_boxes(c, a, &a->reach, 0, 0, begun, (int64_t)at + 1, &c->divided);
+    ok = ok && (above ? collect_boxes(c, a, &a->after, 1, ended, c->count, 1, &c->small)
+                      : collect_boxes(c, a, &a->reach, 0, 0, begun, 1, &c->small));
+    if (!(ok && sort_carve_list(c, &c->small))) return FROE_E_MEMORY;
+    /* what a forced cut costs */
+    for (size_t i = 0; i < c->divided.count && spot->cut.forced; i++) {
+        uint32_t box = c->divided.data[i];
+        if (rooms(c, box, spot->cut.axis) == 3) continue;
+        c->b->paid += (uint64_t)boxes_weight(c->b, c->fragments[box].alive, spot->cut.axis);
+    }
     boxes_cell small = c->cell;
     small.node = child + above;
     (above ? small.lo : small.hi)[spot->cut.axis] = spot->cut.c;
     status = open_cell(c, &small, &c->small);
     if (status) return status;
-    take_small(c, a, at, above);
+    /* the small side is taken out */
+    for (size_t i = 0; i < c->small.count; i++) {
+        const uint32_t *p = a->places[c->small.data[i]].at;
+        bool divided = above ? p[BOXES_LO] < at : p[BOXES_HI] > at;
+        if (!divided) give(c, c->small.data[i], false);
+    }
     if (!touch_rooms(c, spot->cut.axis, at, above)) return FROE_E_MEMORY;
     return shrink_carved(c, spot, above, child) ? FROE_OK : FROE_E_MEMORY;
-}
-
-static boxes_spot choose_carving(const carve *c) {
-    boxes_spot least = {.at = 0}, lemma = {.at = 0};
-    for (int k = 0; k < c->b->dim; k++) {
-        boxes_spot here[2];
-        boxes_axis_best(c->axis + k, k, c->lo[k], c->hi[k], c->b->options.faces, here, here + 1);
-        if (boxes_better(&here[0].cut, &least.cut, true)) least = here[0];
-        if (boxes_better(&here[1].cut, &lemma.cut, false)) lemma = here[1];
-    }
-    uint32_t enough = boxes_narrow(c->b, c->left, &least.cut, &lemma.cut);
-    for (int k = 0; k < c->b->dim && enough; k++) {
-        boxes_spot here;
-        boxes_axis_narrow(c->axis + k, k, c->lo[k], c->hi[k], enough, &here);
-        if (boxes_better(&here.cut, &lemma.cut, true)) lemma = here;
-    }
-    boxes_cut cut = boxes_decide(c->b, &least.cut, &lemma.cut);
-    bool by_lemma = lemma.cut.found && cut.axis == lemma.cut.axis && cut.c == lemma.cut.c;
-    return (boxes_spot){cut, by_lemma ? lemma.at : least.at};
 }
 
 /* What is left becomes a cell again. */
@@ -252,11 +214,35 @@ froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task) {
     froe_status status = begin_carving(&c, cell);
     boxes_drop(b, cell);
     while (!status && c.left > c.count / 2) {
-        boxes_spot spot = choose_carving(&c);
+        /* the best cut of all axes */
+        boxes_spot least = {.at = 0}, lemma = {.at = 0};
+        for (int k = 0; k < c.b->dim; k++) {
+            boxes_spot here[2];
+            boxes_axis_best(c.axis + k, k, c.lo[k], c.hi[k], c.b->options.faces, here, here + 1);
+            if (boxes_better(&here[0].cut, &least.cut, true)) least = here[0];
+            if (boxes_better(&here[1].cut, &lemma.cut, false)) lemma = here[1];
+        }
+        uint32_t enough = boxes_narrow(c.b, c.left, &least.cut, &lemma.cut);
+        for (int k = 0; k < c.b->dim && enough; k++) {
+            boxes_spot here;
+            boxes_axis_narrow(c.axis + k, k, c.lo[k], c.hi[k], enough, &here);
+            if (boxes_better(&here.cut, &lemma.cut, true)) lemma = here;
+        }
+        boxes_cut cut = boxes_decide(c.b, &least.cut, &lemma.cut);
+        bool by_lemma = lemma.cut.found && cut.axis == lemma.cut.axis && cut.c == lemma.cut.c;
+        boxes_spot spot = (boxes_spot){cut, by_lemma ? lemma.at : least.at};
         if (!spot.cut.found) break;
         status = base_progress(task, task->done) ? cut_off_side(&c, &spot) : FROE_E_CANCELLED;
     }
     if (!status) status = reopen(&c);
-    end_carving(&c);
+    const froe_allocator *alloc = &c.b->alloc;
+    for (int k = 0; k < c.b->dim; k++) boxes_axis_free(alloc, c.axis + k);
+    support_free(alloc, c.fragments, c.count * sizeof *c.fragments);
+    support_free(alloc, c.gone, c.count * sizeof *c.gone);
+    array_free(alloc, &c.small);
+    array_free(alloc, &c.divided);
+    array_free(alloc, &c.changed);
+    array_free(alloc, &c.covers);
+    array_free(alloc, &c.spare);
     return status;
 }

@@ -49,34 +49,6 @@ static void shift_changes(unsigned was, unsigned alive, int axis, int16_t shift[
     shift[1] = (int16_t)((to - from) * BOXES_ROOMS);
 }
 
-/** Deals the fragments: those above close up in place, those below go on top of them. */
-static bool deal_fragments(boxes *b, const boxes_cell *cell, const boxes_cut *cut, boxes_cell side[2]) {
-    boxes_fragment *item = b->fragments.data + cell->first;
-    boxes_parts *parts = b->parts.data;
-    bool ok = true;
-    b->fragments.count = cell->first;
-    for (uint32_t i = 0; i < cell->count && ok; i++) {
-        boxes_fragment whole = item[i];
-        unsigned mark = b->marks.data[i];
-        for (int s = 0; s < 2; s++) {
-            parts[i].name[s] = FROE_NONE;
-            if (!(mark & (s ? MARK_ABOVE : MARK_BELOW))) continue;
-            boxes_fragment f = part(whole, mark, s, cut->axis);
-            if (!f.inside) {
-                ok = ok && boxes_add_cover(b, &side[s], f.object);
-                continue;
-            }
-            parts[i].name[s] = side[s].count++;
-            shift_changes(whole.alive, f.alive, cut->axis, parts[i].shift[s]);
-            (s ? item : b->spare.data)[parts[i].name[s]] = f;
-        }
-    }
-    if (side[0].count) memcpy(item + side[1].count, b->spare.data, side[0].count * sizeof *item);
-    side[0].first = side[1].first + side[1].count;
-    b->fragments.count = (size_t)side[0].first + side[0].count;
-    return ok;
-}
-
 /** Writes the event as a side sees it; returns 1 if its fragment is there. That is unpredictable, so
  * branch-free: the next event overwrites one whose fragment is not there. */
 static size_t hand_on(const boxes_event *e, const boxes_parts *parts, int side, bool across, boxes_event *to) {
@@ -84,19 +56,6 @@ static size_t hand_on(const boxes_event *e, const boxes_parts *parts, int side, 
     to->fragment = parts->name[side];
     to->change = (uint16_t)(to->change + parts->shift[side][across]);
     return parts->name[side] != FROE_NONE;
-}
-
-/** To both sides: those above close up in place, the others go aside. */
-static void deal_along(const boxes *b, boxes_event *item, size_t count, size_t dealt[2]) {
-    boxes_event *spare = b->spare_events.data;
-    size_t above = 0, below = 0;
-    for (size_t i = 0; i < count; i++) {
-        boxes_event e = item[i];
-        const boxes_parts *parts = b->parts.data + e.fragment;
-        above += hand_on(&e, parts, 1, false, item + above); /* at most item[i] */
-        below += hand_on(&e, parts, 0, false, spare + below);
-    }
-    dealt[0] = below, dealt[1] = above;
 }
 
 /** On the axis of the cut, where each goes to the side on which it lies. */
@@ -123,27 +82,23 @@ static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, 
     boxes_event *item = b->events[axis].data + cell->event[axis];
     if (axis == cut->axis)
         deal_across(b, cut->c, item, count, dealt);
-    else
-        deal_along(b, item, count, dealt);
+    else {
+        /* to both sides: those above close up in place, the others go aside */
+        boxes_event *spare = b->spare_events.data;
+        size_t above = 0, below = 0;
+        for (size_t i = 0; i < count; i++) {
+            boxes_event e = item[i];
+            const boxes_parts *parts = b->parts.data + e.fragment;
+            above += hand_on(&e, parts, 1, false, item + above); /* at most item[i] */
+            below += hand_on(&e, parts, 0, false, spare + below);
+        }
+        dealt[0] = below, dealt[1] = above;
+    }
     for (int s = 0; s < 2; s++) side[s].events[axis] = (uint32_t)dealt[s];
     side[0].event[axis] = cell->event[axis] + dealt[1];
     if (dealt[0]) memcpy(item + dealt[1], b->spare_events.data, dealt[0] * sizeof *item);
     b->events[axis].count = side[0].event[axis] + dealt[0];
     return true;
-}
-
-/** Lists the boxes without extent that lie in the cut. */
-static froe_status emit_boxes_in_cut(boxes *b, const boxes_cell *cell) {
-    const boxes_fragment *item = b->fragments.data + cell->first;
-    froe_status status = FROE_OK;
-    bool begun = false;
-    for (uint32_t i = 0; i < cell->count && !status; i++) {
-        if (b->marks.data[i]) continue;
-        if (!begun) status = draft_list(&b->draft, cell->node);
-        begun = true;
-        if (!status) status = draft_piece(&b->draft, cell->node, item[i].object, NULL, 0);
-    }
-    return status;
 }
 
 /** The weight of what a forced cut divides, but for boxes with both rooms: those pay for themselves. */
@@ -174,7 +129,17 @@ froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut)
     mark(b, cell, cut);
     pay(b, cell, cut);
     froe_status status = boxes_split_node(b, cell->node, cut, &child);
-    if (!status) status = emit_boxes_in_cut(b, cell);
+    if (!status) {
+        /* lists the boxes without extent that lie in the cut */
+        const boxes_fragment *item = b->fragments.data + cell->first;
+        bool begun = false;
+        for (uint32_t i = 0; i < cell->count && !status; i++) {
+            if (b->marks.data[i]) continue;
+            if (!begun) status = draft_list(&b->draft, cell->node);
+            begun = true;
+            if (!status) status = draft_piece(&b->draft, cell->node, item[i].object, NULL, 0);
+        }
+    }
     if (status) return status;
     boxes_cell side[2] = {*cell, *cell};
     for (uint32_t s = 0; s < 2; s++) {
@@ -182,7 +147,30 @@ froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut)
         side[s].count = 0;
         (s ? side[s].lo : side[s].hi)[cut->axis] = cut->c;
     }
-    bool ok = deal_fragments(b, cell, cut, side);
+    /* deals the fragments: those above close up in place, those below go on top of them */
+    boxes_fragment *item = b->fragments.data + cell->first;
+    boxes_parts *parts = b->parts.data;
+    bool ok = true;
+    b->fragments.count = cell->first;
+    for (uint32_t i = 0; i < cell->count && ok; i++) {
+        boxes_fragment whole = item[i];
+        unsigned mark = b->marks.data[i];
+        for (int s = 0; s < 2; s++) {
+            parts[i].name[s] = FROE_NONE;
+            if (!(mark & (s ? MARK_ABOVE : MARK_BELOW))) continue;
+            boxes_fragment f = part(whole, mark, s, cut->axis);
+            if (!f.inside) {
+                ok = ok && boxes_add_cover(b, &side[s], f.object);
+                continue;
+            }
+            parts[i].name[s] = side[s].count++;
+            shift_changes(whole.alive, f.alive, cut->axis, parts[i].shift[s]);
+            (s ? item : b->spare.data)[parts[i].name[s]] = f;
+        }
+    }
+    if (side[0].count) memcpy(item + side[1].count, b->spare.data, side[0].count * sizeof *item);
+    side[0].first = side[1].first + side[1].count;
+    b->fragments.count = (size_t)side[0].first + side[0].count;
     for (int k = 0; k < b->dim && ok; k++) ok = deal_events(b, cell, cut, k, side);
     if (!ok) return FROE_E_MEMORY;
     b->cells.data[b->cells.count++] = side[1];

@@ -75,21 +75,6 @@ boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *
 /* ------------------------------------------------------------------ sweeping -- */
 
 /* Before the first event on each axis: boxes that begin at the border of the cell or before. */
-static void start_sweeps(const boxes *b, const boxes_cell *cell, sweep s[FROE_MAX_DIM]) {
-    const boxes_fragment *f = b->fragments.data + cell->first, *end = f + cell->count;
-    for (int k = 0; k < b->dim; k++) s[k] = (sweep){0};
-    for (; f < end; f++) {
-        uint32_t some, both;
-        boxes_count_rooms(f->alive, &some, &both);
-        for (int k = 0; k < b->dim; k++) {
-            unsigned rooms = f->alive >> 2 * k & 3, begins = f->inside >> 2 * k & 1;
-            int64_t weight = b->weight[some - (rooms > 0)][both - (rooms == 3)];
-            s[k].above += begins;
-            s[k].divided += !begins;
-            s[k].slack -= weight & ((int64_t)begins - 1);
-        }
-    }
-}
 
 /* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. The kinds of
  * ends are unpredictable, so branch-free. */
@@ -128,19 +113,6 @@ static boxes_cut cut_at(const sweep *s, int axis, double x) {
 }
 
 /* A quick test of two numbers first: hardly any cut is better than all before. */
-static void consider(const boxes *b, const sweep *s, int axis, double x, bool face, sweep_found *best) {
-    uint32_t less = smaller(s);
-    if (s->divided <= best->most && face && (less || b->options.faces)) {
-        boxes_cut cut = cut_at(s, axis, x);
-        if (boxes_better_on_axis(&cut, &best->least, true)) best->least = cut;
-        best->most = best->least.divided;
-    }
-    if (less >= best->enough && s->slack >= 0) {
-        boxes_cut cut = cut_at(s, axis, x);
-        if (boxes_better_on_axis(&cut, &best->lemma, false)) best->lemma = cut;
-        best->enough = balance(&best->lemma);
-    }
-}
 
 /* The second time: a face that divides fewest, and leaves enough boxes on both sides; is it paid for? */
 static void consider_narrow(const sweep *s, int axis, double x, bool face, sweep_found *best) {
@@ -161,8 +133,20 @@ static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, 
         const boxes_event *next = arrive_at_boxes(b->changes, &s, e, end, &face);
         if (narrow)
             consider_narrow(&s, axis, e->x, face, &best);
-        else
-            consider(b, &s, axis, e->x, face, &best);
+        else {
+            /* the cut at this event, as the best in use and as the best by the lemma */
+            uint32_t less = smaller(&s);
+            if (s.divided <= best.most && face && (less || b->options.faces)) {
+                boxes_cut cut = cut_at(&s, axis, e->x);
+                if (boxes_better_on_axis(&cut, &best.least, true)) best.least = cut;
+                best.most = best.least.divided;
+            }
+            if (less >= best.enough && s.slack >= 0) {
+                boxes_cut cut = cut_at(&s, axis, e->x);
+                if (boxes_better_on_axis(&cut, &best.lemma, false)) best.lemma = cut;
+                best.enough = balance(&best.lemma);
+            }
+        }
         leave_boxes(b->changes, &s, e, next);
         e = next;
     }
@@ -178,7 +162,20 @@ boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
     boxes_cut least = {.found = false}, lemma = {.found = false};
     uint32_t narrow = 0;
     sweep from[FROE_MAX_DIM];
-    start_sweeps(b, cell, from);
+    /* where sweeps begin: below all boxes */
+    const boxes_fragment *f = b->fragments.data + cell->first, *end = f + cell->count;
+    for (int k = 0; k < b->dim; k++) from[k] = (sweep){0};
+    for (; f < end; f++) {
+        uint32_t some, both;
+        boxes_count_rooms(f->alive, &some, &both);
+        for (int k = 0; k < b->dim; k++) {
+            unsigned rooms = f->alive >> 2 * k & 3, begins = f->inside >> 2 * k & 1;
+            int64_t weight = b->weight[some - (rooms > 0)][both - (rooms == 3)];
+            from[k].above += begins;
+            from[k].divided += !begins;
+            from[k].slack -= weight & ((int64_t)begins - 1);
+        }
+    }
     for (int turn = 0; turn < (narrow ? 2 : 1); turn++) {
         for (int k = 0; k < b->dim && !perfect(b, cell, &least); k++) {
             if (!cell->events[k]) continue;

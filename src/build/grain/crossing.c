@@ -9,22 +9,6 @@ static double dot_3(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/** Where the plane meets a fragment that has corners on both sides; in the plane a point, twice. */
-static void chord_of(const split_view *f, const split_view_plane *plane, uint32_t fragment, double chord[2][3]) {
-    const double *const x[3] = {f->x.data, f->y.data, f->z.data};
-    uint32_t from = f->start.data[fragment], to = f->start.data[fragment + 1], found = 0;
-    memset(chord, 0, 2 * sizeof *chord);
-    for (uint32_t j = from; j < to && found < 2; j++) {
-        uint32_t a = f->corner.data[j], b = f->corner.data[j + 1 < to ? j + 1 : from];
-        double p[3] = {x[0][a], x[1][a], x[2][a]}, q[3] = {x[0][b], x[1][b], x[2][b]};
-        double u = dot_3(plane->n, p) - plane->d, v = dot_3(plane->n, q) - plane->d;
-        if ((u > 0) == (v > 0)) continue;
-        for (int k = 0; k < 3; k++) chord[found][k] = p[k] + (q[k] - p[k]) * (u / (u - v));
-        found++;
-    }
-    if (found == 1) memcpy(chord[1], chord[0], sizeof chord[1]);
-}
-
 /** Shortens a chord to a halfspace, less a hair. False: nothing is left. */
 static bool clip_chord(double chord[2][3], const double at[3], const double inward[3]) {
     double border = dot_3(at, inward) + TOUCHING * sqrt(dot_3(inward, inward));
@@ -57,7 +41,19 @@ static bool crosses(const split_view *f, const froe_scene *scene, uint32_t objec
     double chord[2][3], at[3], inward[3];
     uint32_t corners = scene_corners(scene, object);
     bool some = true;
-    chord_of(f, plane, fragment, chord);
+    /* where the plane meets a fragment that has corners on both sides; in the plane a point, twice */
+    const double *const x[3] = {f->x.data, f->y.data, f->z.data};
+    uint32_t from = f->start.data[fragment], to = f->start.data[fragment + 1], found = 0;
+    memset(chord, 0, 2 * sizeof *chord);
+    for (uint32_t j = from; j < to && found < 2; j++) {
+        uint32_t a = f->corner.data[j], b = f->corner.data[j + 1 < to ? j + 1 : from];
+        double p[3] = {x[0][a], x[1][a], x[2][a]}, q[3] = {x[0][b], x[1][b], x[2][b]};
+        double u = dot_3(plane->n, p) - plane->d, v = dot_3(plane->n, q) - plane->d;
+        if ((u > 0) == (v > 0)) continue;
+        for (int k = 0; k < 3; k++) chord[found][k] = p[k] + (q[k] - p[k]) * (u / (u - v));
+        found++;
+    }
+    if (found == 1) memcpy(chord[1], chord[0], sizeof chord[1]);
     for (uint32_t i = 0; i < corners && some; i++) {
         border_of(f, scene, object, plane, i, at, inward);
         some = clip_chord(chord, at, inward);

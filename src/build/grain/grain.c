@@ -102,9 +102,15 @@ static split_verdict balance_vertices(split_grain_search *s, froe_cut *cut) {
 
 /* ----------------------------------------------------------------- choice -- */
 
-/** Scores the best of a sample on all fragments. Where corners lie closer together than doubles tell, a sample is
- * full of cuts that seem to split nothing and split all: if no finalist is worth its splits, supports are, perhaps. */
-static void run_off(split_grain_search *s) {
+static void hold(split_grain_search *s) {
+    split_contest_show(&s->contest, s->config->effort.sample, s->config->seed);
+    if (s->contest.failed) return;
+    split_enter_supports(s);
+    split_enter_axes(s);
+    split_enter_through(s);
+    /* Scores the best of a sample on all fragments. Where corners lie closer together than doubles tell, a sample is
+     * full of cuts that seem to split nothing and split all: if no finalist is worth its splits, supports are,
+     * perhaps. */
     split_contest *c = &s->contest;
     split_candidate last[SPLIT_FINALISTS];
     uint32_t count = c->count;
@@ -114,15 +120,6 @@ static void run_off(split_grain_search *s) {
     for (uint32_t i = 0; i < count && !c->failed; i++)
         if (split_grain_score(s, &last[i])) split_contest_enter(c, &last[i]);
     if (!c->count || c->best[0].cost > 0) split_enter_supports(s);
-}
-
-static void hold(split_grain_search *s) {
-    split_contest_show(&s->contest, s->config->effort.sample, s->config->seed);
-    if (s->contest.failed) return;
-    split_enter_supports(s);
-    split_enter_axes(s);
-    split_enter_through(s);
-    run_off(s);
 }
 
 /** Where the best cut makes more splits for each bit than the weight assumes, the contest is held once more with that

@@ -33,15 +33,6 @@ static void put_sweep_corner(split_sweep *s, double direction, uint32_t corner) 
 
 /* ---------------------------------------------------------------- sorting -- */
 
-static void insertion_sort(uint64_t *x, size_t n) {
-    for (size_t i = 1; i < n; i++) {
-        uint64_t item = x[i];
-        size_t at = i;
-        for (; at && x[at - 1] > item; at--) x[at] = x[at - 1];
-        x[at] = item;
-    }
-}
-
 /** By direction; returns x or y, whichever holds the result. */
 static uint64_t *radix_sort(uint64_t *x, uint64_t *y, size_t n) {
     enum { SIZE = 1 << DIGIT };
@@ -62,23 +53,6 @@ static uint64_t *radix_sort(uint64_t *x, uint64_t *y, size_t n) {
         y = swap;
     }
     return x;
-}
-
-/** Numbers the different directions; returns how many there are. */
-static uint32_t rank(split_sweep *s, const split_view *f) {
-    uint64_t *x = s->order.data;
-    uint32_t ranks = 0;
-    if (s->order.count > SMALL)
-        x = radix_sort(x, s->spare.data, s->order.count);
-    else
-        insertion_sort(x, s->order.count);
-    for (size_t i = 0; i < s->order.count; i++) {
-        uint32_t corner = (uint32_t)x[i] & ((1u << INDEX) - 1);
-        if (!i || x[i] >> INDEX != x[i - 1] >> INDEX) s->at.data[ranks++] = corner;
-        if (f->vertex.data[corner] != FROE_NONE) s->at.data[ranks - 1] = corner;
-        s->met.data[corner] |= ranks - 1;
-    }
-    return ranks;
 }
 
 /* --------------------------------------------------------------- counting -- */
@@ -112,15 +86,32 @@ static void note_fragment(split_sweep *s, const uint32_t *corner, const uint32_t
                  first_negative < first_positive ? first_negative : first_positive);
 }
 
-static void note_fragments(split_sweep *s, const split_view *f, uint32_t ranks) {
+static uint32_t winner(split_sweep *s, const split_view *f, const split_price *price, const split_terms *terms,
+                       bool any) {
+    /* the different directions get numbers */
+    uint64_t *x = s->order.data;
+    uint32_t ranks = 0;
+    if (s->order.count > SMALL)
+        x = radix_sort(x, s->spare.data, s->order.count);
+    else {
+        for (size_t i = 1; i < s->order.count; i++) {
+            uint64_t item = x[i];
+            size_t at = i;
+            for (; at && x[at - 1] > item; at--) x[at] = x[at - 1];
+            x[at] = item;
+        }
+    }
+    for (size_t i = 0; i < s->order.count; i++) {
+        uint32_t corner = (uint32_t)x[i] & ((1u << INDEX) - 1);
+        if (!i || x[i] >> INDEX != x[i - 1] >> INDEX) s->at.data[ranks++] = corner;
+        if (f->vertex.data[corner] != FROE_NONE) s->at.data[ranks - 1] = corner;
+        s->met.data[corner] |= ranks - 1;
+    }
+    if (!ranks) return FROE_NONE;
     const uint32_t *corner = f->corner.data, *start = f->start.data;
     for (int k = 0; k < 3; k++) memset(s->change[k].data, 0, (ranks + 1) * sizeof *s->change[k].data);
     for (uint32_t i = 0; i < f->count; i++) note_fragment(s, corner + start[i], corner + start[i + 1], ranks);
-}
-
-/** The corner of the cheapest rank, of those with an input vertex or of all. */
-static uint32_t cheapest(const split_sweep *s, const split_view *f, uint32_t ranks, const split_price *price,
-                         const split_terms *terms, bool any) {
+    /* the corner of the cheapest rank, of those with an input vertex or of all */
     uint32_t best = FROE_NONE;
     int32_t no_negative = 0, no_positive = 0, on = 0;
     double least = 0;
@@ -139,18 +130,31 @@ static uint32_t cheapest(const split_sweep *s, const split_view *f, uint32_t ran
     return best;
 }
 
-static uint32_t winner(split_sweep *s, const split_view *f, const split_price *price, const split_terms *terms,
-                       bool any) {
-    uint32_t ranks = rank(s, f);
-    if (!ranks) return FROE_NONE;
-    note_fragments(s, f, ranks);
-    return cheapest(s, f, ranks, price, terms, any);
-}
-
 /* ---------------------------------------------------------------- pencils -- */
 
-/** Two vectors across e that favour no axis, so that structure does not fall on the seam where directions begin. */
-static void across(const double e[3], double f[3], double g[3]) {
+bool split_sweep_pencil(split_sweep *s, const split_set *set, const split_view *view, const split_price *price,
+                        const split_terms *terms, const uint32_t *axle, uint32_t *best) {
+    double p[3], e[3];
+    *best = FROE_NONE;
+    if (view->x.count > SPLIT_SWEEP_MOST) return true;
+    if (!reserve_sweep(s, &set->alloc, view->x.count)) return false;
+    /* The line that a pencil turns about: a point and a unit vector. In the plane it stands upright on a vertex. */
+    double q[3], square = 0;
+    split_view_local(view, scene_vertex(set->scene, axle[0]), p);
+    if (set->scene->dim == 3)
+        split_view_local(view, scene_vertex(set->scene, axle[1]), q);
+    else
+        memcpy(q, (double[]){p[0], p[1], 1}, sizeof q);
+    for (int k = 0; k < 3; k++) e[k] = q[k] - p[k], square += e[k] * e[k];
+    double length = sqrt(square);
+    for (int k = 0; k < 3; k++) e[k] /= length;
+    if (!(length > 0x1p-100 && length < 0x1p100)) return true;
+    /* Where corners are met. Directions u, v of opposite sense lie in one plane: the lower half is turned up. They
+     * grow with the angle; an arc tangent is not needed to sort. */
+    const double *x = view->x.data, *y = view->y.data, *z = view->z.data;
+    const double near = 0x1p-40 * (1 + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
+    double f[3], g[3];
+    /* two vectors across e that favour no axis, so that structure does not fall on the seam where directions begin */
     double h[3] = {0.3, 0.2, 0.1};
     int k = fabs(e[0]) < fabs(e[1]) ? 0 : 1;
     h[fabs(e[2]) < fabs(e[k]) ? 2 : k] = 1;
@@ -160,16 +164,7 @@ static void across(const double e[3], double f[3], double g[3]) {
     g[0] = e[1] * f[2] - e[2] * f[1];
     g[1] = e[2] * f[0] - e[0] * f[2];
     g[2] = e[0] * f[1] - e[1] * f[0];
-}
-
-/** Where corners are met. Directions u, v of opposite sense lie in one plane: the lower half is turned up. They grow
- * with the angle; an arc tangent is not needed to sort. */
-static void look_along_edge(split_sweep *s, const split_view *t, const double p[3], const double e[3]) {
-    const double *x = t->x.data, *y = t->y.data, *z = t->z.data;
-    const double near = 0x1p-40 * (1 + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
-    double f[3], g[3];
-    across(e, f, g);
-    for (uint32_t i = 0; i < t->x.count; i++) {
+    for (uint32_t i = 0; i < view->x.count; i++) {
         double dx = x[i] - p[0], dy = y[i] - p[1], dz = z[i] - p[2];
         double u = f[0] * dx + f[1] * dy + f[2] * dz, v = g[0] * dx + g[1] * dy + g[2] * dz;
         double size = fabs(u) + fabs(v), cosine = u / size;
@@ -177,30 +172,6 @@ static void look_along_edge(split_sweep *s, const split_view *t, const double p[
         s->met.data[i] = !(size > near) ? ALWAYS : below ? NEGATIVE : 0;
         if (size > near) put_sweep_corner(s, 0.5 - 0.5 * (below ? -cosine : cosine), i);
     }
-}
-
-/** The line that a pencil turns about: a point and a unit vector. In the plane it stands upright on a vertex. */
-static bool axle_of(const split_view *view, const froe_scene *scene, const uint32_t *axle, double p[3], double e[3]) {
-    double q[3], square = 0;
-    split_view_local(view, scene_vertex(scene, axle[0]), p);
-    if (scene->dim == 3)
-        split_view_local(view, scene_vertex(scene, axle[1]), q);
-    else
-        memcpy(q, (double[]){p[0], p[1], 1}, sizeof q);
-    for (int k = 0; k < 3; k++) e[k] = q[k] - p[k], square += e[k] * e[k];
-    double length = sqrt(square);
-    for (int k = 0; k < 3; k++) e[k] /= length;
-    return length > 0x1p-100 && length < 0x1p100;
-}
-
-bool split_sweep_pencil(split_sweep *s, const split_set *set, const split_view *view, const split_price *price,
-                        const split_terms *terms, const uint32_t *axle, uint32_t *best) {
-    double p[3], e[3];
-    *best = FROE_NONE;
-    if (view->x.count > SPLIT_SWEEP_MOST) return true;
-    if (!reserve_sweep(s, &set->alloc, view->x.count)) return false;
-    if (!axle_of(view, set->scene, axle, p, e)) return true;
-    look_along_edge(s, view, p, e);
     uint32_t corner = winner(s, view, price, terms, false);
     if (corner != FROE_NONE) *best = view->vertex.data[corner];
     return true;

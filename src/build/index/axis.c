@@ -74,13 +74,6 @@ static double clip_end(axis_work *work, const axis_ends *ends, bool last, const 
     return error;
 }
 
-static void confine(double x[2], const packed_box *box) {
-    for (int k = 0; k < 2; k++) {
-        x[k] = x[k] > box->lo[k] ? x[k] : box->lo[k];
-        x[k] = x[k] < box->hi[k] ? x[k] : box->hi[k];
-    }
-}
-
 /* Corners lie in no cut, but they may lie in the border of the root box. */
 static bool is_inside_box(const double *x, const packed_box *box) {
     return (x[0] >= box->lo[0]) & (x[0] <= box->hi[0]) & (x[1] >= box->lo[1]) & (x[1] <= box->hi[1]);
@@ -99,7 +92,10 @@ void axis_clip(axis_work *work, uint32_t object, const packed_box *box, packed_f
             continue;
         }
         const uint32_t error = packed_half(clip_end(work, ends, last, box, x));
-        confine(x, box);
+        for (int k = 0; k < 2; k++) {
+            x[k] = x[k] > box->lo[k] ? x[k] : box->lo[k];
+            x[k] = x[k] < box->hi[k] ? x[k] : box->hi[k];
+        }
         out->error = error > out->error ? error : out->error;
     }
 }

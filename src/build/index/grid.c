@@ -40,18 +40,6 @@ static uint32_t line_count(const split_grid *g, int axis) {
 }
 
 /* Which axis each level halves: that of the longer side. */
-static void choose_axes(split_grid *g) {
-    double side[2] = {g->box.hi[0] - g->box.lo[0], g->box.hi[1] - g->box.lo[1]};
-    for (uint32_t l = 0; l < g->levels; l++) {
-        g->axis[l] = side[1] > side[0];
-        side[g->axis[l]] *= 0.5;
-    }
-    g->rest[g->levels][0] = g->rest[g->levels][1] = 0;
-    for (uint32_t l = g->levels; l--;) {
-        memcpy(g->rest[l], g->rest[l + 1], sizeof g->rest[l]);
-        g->rest[l][g->axis[l]]++;
-    }
-}
 
 /* Midpoints of midpoints; false where doubles run out. */
 static bool lay_lines(split_grid *g, int axis) {
@@ -179,10 +167,6 @@ static bool row_first(dealing *d, const axis_ends *ends, const uint32_t at[2], b
 }
 
 /* Notes the crossing from a cell to the next in the node where they part. */
-static void count_crossing(split_grid *g, uint32_t from, uint32_t to) {
-    uint32_t bit = 31 - (uint32_t)__builtin_clz(from ^ to), level = g->levels - 1 - bit;
-    g->count[(1u << level) | (from >> (bit + 1))]++;
-}
 
 /* All further cells of a fragment. */
 static froe_status walk_grid_cells(dealing *d, const grid_crosser *c) {
@@ -194,7 +178,8 @@ static froe_status walk_grid_cells(dealing *d, const grid_crosser *c) {
         bool row = at[0] == c->to[0] || (at[1] != c->to[1] && row_first(d, d->work->ends + object, at, up));
         at[row] += !row || up ? 1u : UINT32_MAX; /* up, or down by one */
         uint32_t next = cell_of(g, at[0], at[1]);
-        count_crossing(g, cell, next);
+        uint32_t bit = 31 - (uint32_t)__builtin_clz(cell ^ next), level = g->levels - 1 - bit;
+        g->count[(1u << level) | (cell >> (bit + 1))]++;
         cell = next;
         if (!array_push(d->alloc, &d->records, (grid_record){cell, object | GRID_SHARED})) return FROE_E_MEMORY;
     }
@@ -215,12 +200,6 @@ static froe_status walk_all(dealing *d) {
 /* ------------------------------------------------------------------ sorting -- */
 
 /* starts[c] becomes where the run of cell c ends; filling moves it to where it begins. */
-static void count_cells(dealing *d) {
-    uint32_t *starts = d->grid->starts, cells = 1u << d->grid->levels;
-    for (uint32_t i = 0; i < d->source->count; i++) starts[d->homes[i]]++;
-    for (size_t i = 0; i < d->records.count; i++) starts[d->records.data[i].cell]++;
-    for (uint32_t c = 1; c <= cells; c++) starts[c] += starts[c - 1];
-}
 
 /* From the last to the first, so that runs ascend. */
 static void fill_cells(dealing *d) {
@@ -247,7 +226,10 @@ static froe_status sort_ids(dealing *d) {
     if (g->id_room > INT32_MAX) return FROE_E_LIMIT;
     g->ids = support_calloc(d->alloc, g->id_room, sizeof *g->ids);
     if (!g->ids) return FROE_E_MEMORY;
-    count_cells(d);
+    uint32_t *starts = d->grid->starts, cells = 1u << d->grid->levels;
+    for (uint32_t i = 0; i < d->source->count; i++) starts[d->homes[i]]++;
+    for (size_t i = 0; i < d->records.count; i++) starts[d->records.data[i].cell]++;
+    for (uint32_t c = 1; c <= cells; c++) starts[c] += starts[c - 1];
     fill_cells(d);
     count_nodes(g);
     return FROE_OK;
@@ -265,7 +247,17 @@ static bool nudge(const dealing *d) {
 /* One attempt with the levels that the grid has. *made false: steps are too many, or lines cannot be laid. */
 static froe_status attempt(dealing *d, bool *made) {
     split_grid *g = d->grid;
-    choose_axes(g);
+    /* each level halves the longer side */
+    double side[2] = {g->box.hi[0] - g->box.lo[0], g->box.hi[1] - g->box.lo[1]};
+    for (uint32_t l = 0; l < g->levels; l++) {
+        g->axis[l] = side[1] > side[0];
+        side[g->axis[l]] *= 0.5;
+    }
+    g->rest[g->levels][0] = g->rest[g->levels][1] = 0;
+    for (uint32_t l = g->levels; l--;) {
+        memcpy(g->rest[l], g->rest[l + 1], sizeof g->rest[l]);
+        g->rest[l][g->axis[l]]++;
+    }
     froe_status status = take_lines(d->alloc, g);
     if (status) return status;
     *made = lay_lines(g, 0) && lay_lines(g, 1);

@@ -31,15 +31,6 @@ typedef struct space_work {
     double done; /* share of the objects in finished leaves */
 } space_work;
 
-static froe_status end_space_leaf(space_work *w, const space_cell *cell) {
-    const uint64_t most = w->job->max_fragments;
-    const uint8_t flags = cell->count > w->job->leaf ? TREE_CROWDED : 0;
-    if (most && (uint64_t)w->packer.piece_count + cell->count > most) return FROE_E_BUDGET;
-    w->items.count = cell->first;
-    w->done += cell->count / cell->growth;
-    return packer_space_leaf(&w->packer, cell->node, w->job->scene, w->items.data + cell->first, cell->count, flags);
-}
-
 /* Names the cut of a cell and tells on which sides its items are; false: it is to be a leaf. */
 static bool choose_surface_cut(space_work *w, const space_cell *cell, surface_cut *cut) {
     const space_item *items = w->items.data + cell->first;
@@ -73,7 +64,16 @@ static froe_status cut_cell(space_work *w, const space_cell *cell) {
     uint32_t child;
     w->classes.count = 0;
     if (!array_reserve(&w->job->alloc, &w->classes, cell->count)) return FROE_E_MEMORY;
-    if (!choose_surface_cut(w, cell, &cut)) return end_space_leaf(w, cell);
+    if (!choose_surface_cut(w, cell, &cut)) {
+        /* nothing separates them: a leaf */
+        const uint64_t most = w->job->max_fragments;
+        const uint8_t flags = cell->count > w->job->leaf ? TREE_CROWDED : 0;
+        if (most && (uint64_t)w->packer.piece_count + cell->count > most) return FROE_E_BUDGET;
+        w->items.count = cell->first;
+        w->done += cell->count / cell->growth;
+        return packer_space_leaf(&w->packer, cell->node, w->job->scene, w->items.data + cell->first, cell->count,
+                                 flags);
+    }
     froe_status status = packer_split(&w->packer, cell->node, cut.axis, cut.value, &child);
     if (!status) status = deal_space_items(w, cell, &cut, side);
     if (status) return status;

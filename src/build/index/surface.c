@@ -28,32 +28,6 @@ static int bin_of(const binning *b, int axis, double x) {
     return place > 0 ? place < b->bins ? (int)place : b->bins - 1 : 0;
 }
 
-static void find_bounds(binning *b, const space_item *items, uint32_t count) {
-    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < count; i++)
-        for (int k = 0; k < 3; k++) {
-            lo[k] = items[i].lo[k] < lo[k] ? items[i].lo[k] : lo[k];
-            hi[k] = items[i].hi[k] > hi[k] ? items[i].hi[k] : hi[k];
-        }
-    memcpy(b->lo, lo, sizeof lo);
-    memcpy(b->hi, hi, sizeof hi);
-}
-
-static void fill_bins(binning *b, const space_item *items, uint32_t count) {
-    uint32_t step = count > 2 * SAMPLES ? count / SAMPLES : 1;
-    *b = (binning){.bins = count < FEW ? FEW_BINS : BINS};
-    find_bounds(b, items, count);
-    for (int k = 0; k < 3; k++) {
-        b->size[k] = b->hi[k] - b->lo[k];
-        b->per_bin[k] = b->size[k] > 0 ? b->bins / b->size[k] : 0;
-    }
-    for (uint32_t i = 0; i < count; i += step, b->samples++)
-        for (int k = 0; k < 3; k++) {
-            b->begin[k][bin_of(b, k, items[i].lo[k])]++;
-            b->end[k][bin_of(b, k, items[i].hi[k])]++;
-        }
-}
-
 /* Cuts that leave one side empty are worth more than their surface says. */
 static void try_axis(const binning *b, int k, surface_cut *best) {
     double most = b->size[0] > b->size[1] ? b->size[0] : b->size[1];
@@ -73,7 +47,27 @@ static void try_axis(const binning *b, int k, surface_cut *best) {
 
 bool surface_choose(const space_item *items, uint32_t count, surface_cut *cut) {
     binning b;
-    fill_bins(&b, items, count);
+    /* where extents begin and end, by bins */
+    uint32_t step = count > 2 * SAMPLES ? count / SAMPLES : 1;
+    b = (binning){.bins = count < FEW ? FEW_BINS : BINS};
+    /* the bounds of all items */
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++) {
+            lo[k] = items[i].lo[k] < lo[k] ? items[i].lo[k] : lo[k];
+            hi[k] = items[i].hi[k] > hi[k] ? items[i].hi[k] : hi[k];
+        }
+    memcpy(b.lo, lo, sizeof lo);
+    memcpy(b.hi, hi, sizeof hi);
+    for (int k = 0; k < 3; k++) {
+        b.size[k] = b.hi[k] - b.lo[k];
+        b.per_bin[k] = b.size[k] > 0 ? b.bins / b.size[k] : 0;
+    }
+    for (uint32_t i = 0; i < count; i += step, b.samples++)
+        for (int k = 0; k < 3; k++) {
+            b.begin[k][bin_of(&b, k, items[i].lo[k])]++;
+            b.end[k][bin_of(&b, k, items[i].hi[k])]++;
+        }
     *cut = (surface_cut){.axis = -1, .cost = INFINITY};
     for (int k = 0; k < 3; k++)
         if (b.size[k] > 0 && b.size[k] <= 0x1p1000 && isfinite(b.per_bin[k])) try_axis(&b, k, cut);
@@ -131,22 +125,6 @@ typedef struct plane {
     double p[3], n[3], doubt; /* doubt: 2^-47 |e| |f|, in sums of coordinates */
 } plane;
 
-static plane plane_of(const double *const p[3]) {
-    plane a = {.doubt = 0};
-    double e[3], f[3], e_size = 0, f_size = 0;
-    for (int k = 0; k < 3; k++) {
-        a.p[k] = p[0][k];
-        e[k] = p[1][k] - p[0][k], f[k] = p[2][k] - p[0][k];
-        e_size += fabs(e[k]), f_size += fabs(f[k]);
-    }
-    for (int k = 0; k < 3; k++) {
-        int i = k == 2 ? 0 : k + 1, j = k ? k - 1 : 2;
-        a.n[k] = e[i] * f[j] - e[j] * f[i];
-    }
-    a.doubt = 0x1p-47 * e_size * f_size;
-    return a;
-}
-
 /* Is a plane certainly beside the box? With w from a corner to the middle of the box and h its half extents, n . w errs
  * by less than 2^-47 |e| |f| (|w| + |h|), in sums of coordinates. */
 static bool misses(const plane *a, const space_item *b) {
@@ -182,21 +160,30 @@ static void clip_listed(const froe_scene *s, const surface_cut *cut, bool thorou
     divide_triangle(p, cut->axis, cut->value, part);
     for (int i = 0; i < 2; i++) left[i] = shrink_item(out[i], part + i, cut->axis);
     if (!thorough) return;
-    const plane a = plane_of(p);
+    /* the plane of the triangle, and how far its sides may be trusted */
+    plane a = {.doubt = 0};
+    double e[3], f[3], e_size = 0, f_size = 0;
+    for (int k = 0; k < 3; k++) {
+        a.p[k] = p[0][k];
+        e[k] = p[1][k] - p[0][k], f[k] = p[2][k] - p[0][k];
+        e_size += fabs(e[k]), f_size += fabs(f[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = k == 2 ? 0 : k + 1, j = k ? k - 1 : 2;
+        a.n[k] = e[i] * f[j] - e[j] * f[i];
+    }
+    a.doubt = 0x1p-47 * e_size * f_size;
     for (int i = 0; i < 2; i++) left[i] = left[i] && !misses(&a, out[i]);
 }
 
 /* Differences of coordinates do not overflow: only then parts can be told. */
-static bool is_tame(const froe_scene *s) {
-    double most = 0;
-    for (int k = 0; k < 3; k++) most = fmax(most, fmax(fabs(s->lo[k]), fabs(s->hi[k])));
-    return most <= 0x1p1000;
-}
 
 void surface_deal(const froe_scene *s, const space_item *items, uint32_t count, surface_cut *cut,
                   const uint8_t *classes, bool thorough, space_item *negative, space_item *positive) {
     uint32_t below = 0, above = 0;
-    const bool tame = is_tame(s);
+    double most = 0;
+    for (int k = 0; k < 3; k++) most = fmax(most, fmax(fabs(s->lo[k]), fabs(s->hi[k])));
+    const bool tame = most <= 0x1p1000;
     for (uint32_t i = 0; i < count; i++) {
         const space_item item = items[i]; /* positive may be items */
         space_item *const out[2] = {negative + below, positive + above};

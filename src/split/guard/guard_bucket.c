@@ -122,14 +122,6 @@ static froe_status count_chunk(void *user, unsigned worker, size_t chunk) {
 }
 
 /* All counts into the first sum, and every level into the one above. */
-static void sum_up(bucket *b) {
-    uint32_t total = b->grid.starts[b->levels + 1], *sums = b->sums;
-    for (uint32_t chunk = 1; chunk < b->chunks; chunk++)
-        for (uint32_t i = 0; i < total; i++) sums[i] += sums[chunk * (size_t)total + i];
-    for (int level = b->levels; level > 0; level--)
-        for (uint32_t i = 0; i < b->grid.starts[level + 1] - b->grid.starts[level]; i++)
-            sums[b->grid.starts[level - 1] + (i >> b->dim)] += sums[b->grid.starts[level] + i];
-}
 
 /* ---- decisions */
 
@@ -137,20 +129,6 @@ static void sum_up(bucket *b) {
 static void route(bucket *b, const cell *c, uint32_t target) {
     uint32_t shift = (uint32_t)b->dim * ((uint32_t)b->levels - c->level), first = c->code << shift;
     for (uint32_t i = 0; i < 1u << shift; i++) b->routes[first + i] = target;
-}
-
-static froe_status make_item(bucket *b, const cell *c, uint32_t count, const guard_cube *cube, bool shrink) {
-    guard_item part = {.node = c->node,
-                       .height = b->item->height + c->level * (uint32_t)b->dim,
-                       .begin = b->item->begin + b->moved,
-                       .count = count,
-                       .side = guard_other_side(b->item->side),
-                       .shrink = shrink};
-    route(b, c, b->items);
-    b->depths[b->items] = (uint8_t)c->level;
-    b->ends[b->items++] = b->moved;
-    b->moved += count;
-    return guard_push(b->w, b->item, &part, cube);
 }
 
 /* Does the cell shrink? Then it does so to the corner of its fullest part. */
@@ -181,7 +159,18 @@ static froe_status split_cells(bucket *b) {
         guard_grid_cell(&b->grid, (int)c.level, c.code, &cube, mid);
         bool last = c.level == (uint32_t)b->levels;
         if (last || shrinks(b, &c, guards)) {
-            status = make_item(b, &c, guards, &cube, !last);
+            /* the cell becomes an item of its own */
+            guard_item part = {.node = c.node,
+                               .height = b->item->height + c.level * (uint32_t)b->dim,
+                               .begin = b->item->begin + b->moved,
+                               .count = guards,
+                               .side = guard_other_side(b->item->side),
+                               .shrink = (!last)};
+            route(b, &c, b->items);
+            b->depths[b->items] = (uint8_t)c.level;
+            b->ends[b->items++] = b->moved;
+            b->moved += guards;
+            status = guard_push(b->w, b->item, &part, &cube);
             continue;
         }
         status = guard_octants(b->w, c.node, b->item->height + c.level * (uint32_t)b->dim, mid, &first);
@@ -303,7 +292,15 @@ static froe_status reserve_bucket(bucket *b, uint32_t most_chunks) {
 
 static froe_status count_guards(bucket *b) {
     froe_status status = share(b, b->chunks, count_chunk);
-    if (!status) sum_up(b);
+    if (!status) {
+        /* sums over chunks, then over levels from the finest up */
+        uint32_t total = b->grid.starts[b->levels + 1], *sums = b->sums;
+        for (uint32_t chunk = 1; chunk < b->chunks; chunk++)
+            for (uint32_t i = 0; i < total; i++) sums[i] += sums[chunk * (size_t)total + i];
+        for (int level = b->levels; level > 0; level--)
+            for (uint32_t i = 0; i < b->grid.starts[level + 1] - b->grid.starts[level]; i++)
+                sums[b->grid.starts[level - 1] + (i >> b->dim)] += sums[b->grid.starts[level] + i];
+    }
     return status;
 }
 
@@ -340,12 +337,6 @@ static froe_status split_scene(bucket *b, double **main, size_t *bytes) {
 }
 
 /* The bits of an axis in all codes are those of its last slice. */
-static void mix_axes(bucket *b) {
-    for (uint32_t high = 1; high < 1u << b->dim; high++) {
-        const guard_axis *t = &b->grid.axes[__builtin_ctz(high)];
-        b->axes[high] = b->axes[high & (high - 1)] | t->codes[t->last];
-    }
-}
 
 froe_status guard_bucket_scene(guard_worker *w, const split_places *places, double **main, size_t *bytes,
                                uint32_t *count) {
@@ -353,7 +344,10 @@ froe_status guard_bucket_scene(guard_worker *w, const split_places *places, doub
     uint32_t threads = w->plan->task->threads;
     b.dim = places->grid.dim;
     b.levels = places->grid.levels;
-    mix_axes(&b);
+    for (uint32_t high = 1; high < 1u << b.dim; high++) {
+        const guard_axis *t = &b.grid.axes[__builtin_ctz(high)];
+        b.axes[high] = b.axes[high & (high - 1)] | t->codes[t->last];
+    }
     *count = 0;
     froe_status status = reserve_bucket(&b, threads < CHUNKS_MAX ? threads : CHUNKS_MAX); /* sums are large */
     if (!status) status = count_guards(&b);

@@ -50,18 +50,6 @@ static uint32_t spread_bits(uint32_t slice, int dim, int axis, int levels) {
     return code;
 }
 
-static bool fill_bounds(double *bounds, uint32_t slices, double lo, double hi) {
-    bounds[0] = lo;
-    bounds[slices] = hi;
-    bounds[slices + 1] = INFINITY;
-    for (uint32_t step = slices; step > 1; step /= 2)
-        for (uint32_t i = step / 2; i < slices; i += step)
-            bounds[i] = guard_middle(bounds[i - step / 2], bounds[i + step / 2]);
-    for (uint32_t i = 0; i < slices; i++)
-        if (!(bounds[i] < bounds[i + 1])) return false;
-    return true;
-}
-
 static size_t axis_size(int levels) {
     size_t slices = (size_t)1 << levels;
     return (slices + 2) * sizeof(double) + slices * sizeof(uint32_t) + (slices + 7) / 8 * 8;
@@ -87,7 +75,15 @@ bool guard_grid_make(int dim, int levels, const guard_cube *cube, char *room, gu
             t->codes[i] = spread_bits(i, dim, axis, levels);
             t->levels[i] = (uint8_t)(i ? levels - __builtin_ctz(i) : 0);
         }
-        if (!fill_bounds(t->bounds, out->slices, cube->lo[axis], cube->hi[axis])) return false;
+        /* middles of middles, as long as doubles tell them apart */
+        t->bounds[0] = cube->lo[axis];
+        t->bounds[out->slices] = cube->hi[axis];
+        t->bounds[out->slices + 1] = INFINITY;
+        for (uint32_t step = out->slices; step > 1; step /= 2)
+            for (uint32_t i = step / 2; i < out->slices; i += step)
+                t->bounds[i] = guard_middle(t->bounds[i - step / 2], t->bounds[i + step / 2]);
+        for (uint32_t i = 0; i < out->slices; i++)
+            if (!(t->bounds[i] < t->bounds[i + 1])) return false;
     }
     return true;
 }

@@ -11,20 +11,6 @@ typedef struct octree {
     uint16_t *codes;                  /* [guard] */
 } octree;
 
-static inline void count_orthants(octree *o, const double *points, uint32_t count, int dim) {
-    for (uint32_t p = 0; p < count; p++) {
-        const double *x = points + (size_t)p * (size_t)dim;
-        uint32_t code = 0, dead = 0;
-        for (int i = 0; i < dim; i++) {
-            code = 2 * code + (x[i] > o->mid[i]);
-            dead |= x[i] == o->mid[i];
-        }
-        code = dead ? 1u << dim : code;
-        o->codes[p] = (uint16_t)code;
-        o->counts[code]++;
-    }
-}
-
 static inline void move_guards(const octree *o, const double *points, uint32_t count, double *to, int dim) {
     uint32_t at[GUARD_CELLS + 1];
     for (uint32_t code = 0, sum = 0; code <= 1u << dim; code++) {
@@ -72,7 +58,18 @@ static inline froe_status octree_step(guard_worker *w, const guard_item *item, c
     o.codes = guard_scratch(w, item->count * sizeof *o.codes);
     if (!o.codes) return FROE_E_MEMORY;
     for (int i = 0; i < dim; i++) o.mid[i] = guard_middle(cube->lo[i], cube->hi[i]);
-    count_orthants(&o, points, item->count, dim);
+    /* the orthant of each guard; 2^dim: it lies in a cut */
+    for (uint32_t p = 0; p < item->count; p++) {
+        const double *x = points + (size_t)p * (size_t)dim;
+        uint32_t code = 0, dead = 0;
+        for (int i = 0; i < dim; i++) {
+            code = 2 * code + (x[i] > o.mid[i]);
+            dead |= x[i] == o.mid[i];
+        }
+        code = dead ? 1u << dim : code;
+        o.codes[p] = (uint16_t)code;
+        o.counts[code]++;
+    }
     uint32_t best = 0;
     for (uint32_t code = 1; code < 1u << dim; code++)
         if (o.counts[code] > o.counts[best]) best = code;

@@ -54,13 +54,6 @@ static const double *point_of(const phase *ph, uint32_t guard) {
     return ph->points + (size_t)guard * (size_t)ph->dim;
 }
 
-static void trim_cube(phase *ph) {
-    for (int i = 0; i < ph->dim; i++) {
-        while (ph->first[i] < ph->last[i] && !alive_at(ph, i, ph->first[i])) ph->first[i]++;
-        while (ph->first[i] < ph->last[i] && !alive_at(ph, i, ph->last[i] - 1)) ph->last[i]--;
-    }
-}
-
 /* ---- sides and the decision */
 
 /* Walks from both ends until one side is finished. */
@@ -86,15 +79,6 @@ static uint32_t count_alive(const phase *ph, int axis, uint32_t begin, uint32_t 
     return count;
 }
 
-static void look_at_sides(phase *ph, side *sides) {
-    for (int i = 0; i < ph->dim; i++) {
-        ph->mid[i] = guard_middle(ph->cube.lo[i], ph->cube.hi[i]);
-        sides[i] = smaller_side(ph, i);
-        sides[i].here = count_alive(ph, i, sides[i].begin, sides[i].end);
-        sides[i].on = count_alive(ph, i, sides[i].on_begin, sides[i].on_end);
-    }
-}
-
 static void list_alive(phase *ph, int axis, uint32_t begin, uint32_t end) {
     for (uint32_t place = begin; place < end; place++) {
         uint32_t guard = guard_at(ph, axis, place);
@@ -106,15 +90,6 @@ static void list_alive(phase *ph, int axis, uint32_t begin, uint32_t end) {
 
 /* Lists the guards that are not on the fuller side of the axis. When that is the one with fewer places, then half of
  * all guards are there at least, and the phase is about to end: walking over the others is no loss. */
-static void list_minority(phase *ph, int axis, const side *s, bool fuller_above) {
-    list_alive(ph, axis, s->on_begin, s->on_end);
-    if (fuller_above != s->above)
-        list_alive(ph, axis, s->begin, s->end);
-    else if (s->above)
-        list_alive(ph, axis, ph->first[axis], s->on_begin);
-    else
-        list_alive(ph, axis, s->on_end, ph->last[axis]);
-}
 
 /* Is a shrink due? Then *corner is where. */
 static bool must_shrink(phase *ph, const side *sides, uint32_t *corner) {
@@ -126,7 +101,16 @@ static bool must_shrink(phase *ph, const side *sides, uint32_t *corner) {
         uint32_t there = ph->alive - sides[i].here - sides[i].on;
         bool above = (sides[i].here > there) == sides[i].above;
         few = (sides[i].here > there ? there : sides[i].here) + sides[i].on < kill;
-        if (few) list_minority(ph, i, &sides[i], above);
+        if (few) {
+            /* lists those in the cut and on the smaller side */
+            list_alive(ph, i, sides[i].on_begin, sides[i].on_end);
+            if (above != sides[i].above)
+                list_alive(ph, i, sides[i].begin, sides[i].end);
+            else if (sides[i].above)
+                list_alive(ph, i, ph->first[i], sides[i].on_begin);
+            else
+                list_alive(ph, i, sides[i].on_end, ph->last[i]);
+        }
         few = few && ph->listed < kill;
         *corner = 2 * *corner + above;
     }
@@ -159,7 +143,10 @@ static froe_status push_guard_part(phase *ph, uint32_t node, uint32_t count, con
 /* ---- octree split */
 
 /* Lists the guards on smaller sides and planes, with the codes of their orthants (dead: one more). */
-static void list_split(phase *ph, const side *sides, uint32_t *counts) {
+
+static froe_status split_into_octants(phase *ph, const side *sides) {
+    uint32_t counts[GUARD_CELLS + 1] = {0}, labels[GUARD_CELLS + 1], first, cells = 1u << ph->dim, rest = 0;
+    /* numbers of the octants, and the guards in each */
     ph->listed = 0;
     for (int i = 0; i < ph->dim; i++) {
         list_alive(ph, i, sides[i].begin, sides[i].end);
@@ -175,23 +162,6 @@ static void list_split(phase *ph, const side *sides, uint32_t *counts) {
         ph->codes[at] = (uint16_t)(dead ? 1u << ph->dim : code);
         counts[ph->codes[at]]++;
     }
-}
-
-/* The orthant that is on the larger sides becomes the cube. */
-static void go_down(phase *ph, const side *sides, uint32_t first_cell) {
-    uint32_t code = 0;
-    for (int i = 0; i < ph->dim; i++) {
-        code = 2 * code + !sides[i].above;
-        *(sides[i].above ? &ph->last[i] : &ph->first[i]) = sides[i].above ? sides[i].on_begin : sides[i].on_end;
-    }
-    guard_orthant(&ph->cube, ph->mid, code, ph->dim);
-    ph->node = first_cell + code;
-    ph->alive -= ph->listed;
-}
-
-static froe_status split_into_octants(phase *ph, const side *sides) {
-    uint32_t counts[GUARD_CELLS + 1] = {0}, labels[GUARD_CELLS + 1], first, cells = 1u << ph->dim, rest = 0;
-    list_split(ph, sides, counts);
     froe_status status = guard_octants(ph->w, ph->node, ph->height, ph->mid, &first);
     ph->height += (uint32_t)ph->dim;
     for (int i = 0; i < ph->dim; i++) rest = 2 * rest + !sides[i].above;
@@ -204,7 +174,15 @@ static froe_status split_into_octants(phase *ph, const side *sides) {
     if (status) return status;
     labels[cells] = DEAD;
     for (uint32_t at = 0; at < ph->listed; at++) ph->labels[ph->list[at]] = labels[ph->codes[at]];
-    go_down(ph, sides, first);
+    /* the orthant that is on the larger sides becomes the cube */
+    uint32_t code = 0;
+    for (int i = 0; i < ph->dim; i++) {
+        code = 2 * code + !sides[i].above;
+        *(sides[i].above ? &ph->last[i] : &ph->first[i]) = sides[i].above ? sides[i].on_begin : sides[i].on_end;
+    }
+    guard_orthant(&ph->cube, ph->mid, code, ph->dim);
+    ph->node = first + code;
+    ph->alive -= ph->listed;
     return FROE_OK;
 }
 
@@ -215,16 +193,14 @@ static uint32_t far_place(const phase *ph, int axis) {
     return guard_above(ph->corner, ph->dim, axis) ? ph->first[axis] : ph->last[axis] - 1;
 }
 
-static void drop_far(phase *ph, int axis) {
-    if (guard_above(ph->corner, ph->dim, axis))
-        ph->first[axis]++;
-    else
-        ph->last[axis]--;
-}
-
 static const double *phase_farthest(guard_peeler *self, int axis) {
     phase *ph = (phase *)self;
-    while (ph->first[axis] < ph->last[axis] && !alive_at(ph, axis, far_place(ph, axis))) drop_far(ph, axis);
+    while (ph->first[axis] < ph->last[axis] && !alive_at(ph, axis, far_place(ph, axis))) {
+        if (guard_above(ph->corner, ph->dim, axis))
+            ph->first[axis]++;
+        else
+            ph->last[axis]--;
+    }
     return ph->first[axis] < ph->last[axis] ? point_of(ph, guard_at(ph, axis, far_place(ph, axis))) : NULL;
 }
 
@@ -237,13 +213,6 @@ static void phase_peel(guard_peeler *self, int axis) {
 }
 
 /* Guards on the planes of the inner cube die. */
-static void drop_border(phase *ph, const guard_shrunk *shrunk) {
-    for (int c = 0; c < shrunk->count; c++) {
-        int i = shrunk->axes[c];
-        const double *point;
-        while ((point = phase_farthest(&ph->peeler, i)) && point[i] == shrunk->values[c]) phase_peel(&ph->peeler, i);
-    }
-}
 
 static froe_status shrink_cube(phase *ph, uint32_t corner) {
     guard_shrunk shrunk;
@@ -255,7 +224,12 @@ static froe_status shrink_cube(phase *ph, uint32_t corner) {
     froe_status status = guard_shrink_nodes(ph->w, &here, &shrunk, &inner);
     if (status) return status;
     for (uint32_t at = 0; at < ph->listed; at++) guard_count(ph->w, ph->node, point_of(ph, ph->list[at]), inner);
-    drop_border(ph, &shrunk);
+    /* guards on the border of the new cube are dropped */
+    for (int c = 0; c < shrunk.count; c++) {
+        int i = shrunk.axes[c];
+        const double *point;
+        while ((point = phase_farthest(&ph->peeler, i)) && point[i] == shrunk.values[c]) phase_peel(&ph->peeler, i);
+    }
     ph->cube = shrunk.cube;
     ph->node = inner;
     ph->height += (uint32_t)shrunk.count;
@@ -272,8 +246,17 @@ static froe_status follow_phase(phase *ph) {
         if (ph->alive <= ph->w->plan->k || (begun && ph->alive <= half))
             return push_guard_part(ph, ph->node, ph->alive, &ph->cube, &ph->rest);
         if (base_cancelled(ph->w->plan->task)) return FROE_E_CANCELLED;
-        trim_cube(ph);
-        look_at_sides(ph, sides);
+        for (int i = 0; i < ph->dim; i++) {
+            while (ph->first[i] < ph->last[i] && !alive_at(ph, i, ph->first[i])) ph->first[i]++;
+            while (ph->first[i] < ph->last[i] && !alive_at(ph, i, ph->last[i] - 1)) ph->last[i]--;
+        }
+        /* the smaller side of every axis */
+        for (int i = 0; i < ph->dim; i++) {
+            ph->mid[i] = guard_middle(ph->cube.lo[i], ph->cube.hi[i]);
+            sides[i] = smaller_side(ph, i);
+            sides[i].here = count_alive(ph, i, sides[i].begin, sides[i].end);
+            sides[i].on = count_alive(ph, i, sides[i].on_begin, sides[i].on_end);
+        }
         froe_status status = must_shrink(ph, sides, &corner) ? shrink_cube(ph, corner) : split_into_octants(ph, sides);
         if (status) return status;
     }

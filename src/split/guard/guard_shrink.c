@@ -16,26 +16,7 @@
 #include "split/guard/guard_shrink.h"
 #include <string.h>
 
-static double distance(const double *point, const guard_cube *cube, int axis, bool above) {
-    return above ? cube->hi[axis] - point[axis] : point[axis] - cube->lo[axis];
-}
-
 /* Peels one guard: the farthest on an axis with the largest rounded distance. */
-static int peel_one(const guard_cube *cube, int dim, uint32_t corner, guard_peeler *peeler, double *size,
-                    double *nearest) {
-    int best = -1;
-    for (int i = 0; i < dim; i++) {
-        const double *point = peeler->farthest(peeler, i);
-        if (!point) continue;
-        double far = distance(point, cube, i, guard_above(corner, dim, i));
-        if (best >= 0 && far <= *size) continue;
-        best = i;
-        *size = far;
-        *nearest = point[i];
-    }
-    if (best >= 0) peeler->peel(peeler, best);
-    return best;
-}
 
 /* Where axis i is cut: v +- s between the farthest guard left and the nearest one peeled on i. */
 static double place_between(double at, const double *left, const double *peeled, bool above) {
@@ -51,7 +32,19 @@ void guard_shrink_rule(const guard_cube *cube, int dim, uint32_t corner, uint32_
     int last = -1;
     for (uint32_t n = 0; n < kill; n++) {
         double value = 0;
-        int axis = peel_one(cube, dim, corner, peeler, &size, &value);
+        /* takes off the guard that is farthest from the corner, on the axis where it is */
+        int best = -1;
+        for (int i = 0; i < dim; i++) {
+            const double *point = peeler->farthest(peeler, i);
+            if (!point) continue;
+            double far = guard_above(corner, dim, i) ? cube->hi[i] - point[i] : point[i] - cube->lo[i];
+            if (best >= 0 && far <= size) continue;
+            best = i;
+            size = far;
+            value = point[i];
+        }
+        if (best >= 0) peeler->peel(peeler, best);
+        int axis = best;
         if (axis < 0) break;
         peeled[axis] = true;
         nearest[axis] = value;

@@ -45,17 +45,6 @@ typedef struct building {
 
 /* ---- root */
 
-static void bounding_box(const double *guards, size_t count, int dim, guard_cube *box) {
-    for (int i = 0; i < dim; i++) box->lo[i] = box->hi[i] = count ? guards[i] : 0;
-    for (size_t p = 1; p < count; p++) {
-        const double *x = guards + p * (size_t)dim;
-        for (int i = 0; i < dim; i++) {
-            box->lo[i] = x[i] < box->lo[i] ? x[i] : box->lo[i];
-            box->hi[i] = x[i] > box->hi[i] ? x[i] : box->hi[i];
-        }
-    }
-}
-
 /* Rounding may put the border on guards, at 1e308 or where the scene is tiny and far from the origin: then
  * the others are copied. Returns their number. */
 static size_t drop_border(building *b, const double *guards, size_t count, const guard_cube *root) {
@@ -86,7 +75,15 @@ static froe_status plant(building *b, const double *guards, size_t count) {
     if (!b->main) return FROE_E_MEMORY;
     b->foreman.side[GUARD_MAIN] = b->main;
     b->foreman.input = guards;
-    bounding_box(guards, count, b->plan.dim, &box);
+    /* the bounding box of the guards */
+    for (int i = 0; i < b->plan.dim; i++) box.lo[i] = box.hi[i] = count ? guards[i] : 0;
+    for (size_t p = 1; p < count; p++) {
+        const double *x = guards + p * (size_t)b->plan.dim;
+        for (int i = 0; i < b->plan.dim; i++) {
+            box.lo[i] = x[i] < box.lo[i] ? x[i] : box.lo[i];
+            box.hi[i] = x[i] > box.hi[i] ? x[i] : box.hi[i];
+        }
+    }
     guard_root(&box, b->plan.dim, &root);
     froe_status status = start_guard_tree(b, &root);
     bool all = guard_strictly_inside(box.lo, box.hi, &root, b->plan.dim);
@@ -210,19 +207,6 @@ static froe_status splice_job(void *user, unsigned worker, size_t number) {
     return FROE_OK;
 }
 
-static void splice_foreman(building *b) {
-    for (uint32_t node = 0, next = 0, shift = 0; node < b->nodes.count; node++) {
-        for (; next < b->jobs.count && b->jobs.data[next].place <= node; next++) shift += b->jobs.data[next].count;
-        split_guard_node copy = b->nodes.data[node];
-        if (copy.child) copy.child = final_number(b, copy.child);
-        b->out->nodes.data[node + shift] = copy;
-    }
-    for (size_t i = 0; i < b->jobs.count; i++) {
-        const job *j = &b->jobs.data[i];
-        b->out->nodes.data[final_number(b, j->item.node)] = moved(b->hands[j->worker].nodes.data[j->first], j);
-    }
-}
-
 static froe_status splice(building *b) {
     size_t count = b->nodes.count;
     for (size_t i = 0, before = 0; i < b->jobs.count; i++) {
@@ -234,7 +218,17 @@ static froe_status splice(building *b) {
     }
     if (!array_reserve(b->plan.alloc, &b->out->nodes, count)) return FROE_E_MEMORY;
     b->out->nodes.count = count;
-    splice_foreman(b);
+    /* the nodes of the upper part get their final numbers, and the roots of jobs what the jobs made of them */
+    for (uint32_t node = 0, next = 0, shift = 0; node < b->nodes.count; node++) {
+        for (; next < b->jobs.count && b->jobs.data[next].place <= node; next++) shift += b->jobs.data[next].count;
+        split_guard_node copy = b->nodes.data[node];
+        if (copy.child) copy.child = final_number(b, copy.child);
+        b->out->nodes.data[node + shift] = copy;
+    }
+    for (size_t i = 0; i < b->jobs.count; i++) {
+        const job *j = &b->jobs.data[i];
+        b->out->nodes.data[final_number(b, j->item.node)] = moved(b->hands[j->worker].nodes.data[j->first], j);
+    }
     return base_run(b->plan.task, 0, b->jobs.count, splice_job, b);
 }
 

@@ -77,25 +77,21 @@ static inline uint32_t look_up(const descent *d, const uint32_t code[2]) {
     return node;
 }
 
-/** For each box the lowest node whose cell holds it, or the first whose cut it lies across, or in, from
- * a node above on. Several boxes go down abreast, so that one waits for memory while others go on. */
-static void find_homes(const split_guard_node *nodes, const box *boxes, size_t count, uint32_t *home) {
-    for (bool moving = true; moving;) {
-        moving = false;
-        for (size_t i = 0; i < count; i++) {
-            const split_guard_node *n = nodes + home[i];
-            bool below = boxes[i].lo[n->axis]<n->value, above = boxes[i].hi[n->axis]> n->value;
-            bool step = n->child && below != above;
-            home[i] = step ? n->child + above : home[i];
-            moving |= step;
-        }
-    }
-}
-
 static void empty(const descent *d, queue *q) {
     box boxes[ABREAST];
     for (size_t k = 0; k < q->count; k++) scene_object_bounds(d->places->scene, q->object[k], boxes[k].lo, boxes[k].hi);
-    find_homes(d->nodes, boxes, q->count, q->node);
+    /* For each box the lowest node whose cell holds it, or the first whose cut it lies across, or in, from a node
+     * above on. Several boxes go down abreast, so that one waits for memory while others go on. */
+    for (bool moving = true; moving;) {
+        moving = false;
+        for (size_t i = 0; i < q->count; i++) {
+            const split_guard_node *n = d->nodes + q->node[i];
+            bool below = boxes[i].lo[n->axis]<n->value, above = boxes[i].hi[n->axis]> n->value;
+            bool step = n->child && below != above;
+            q->node[i] = step ? n->child + above : q->node[i];
+            moving |= step;
+        }
+    }
     for (size_t k = 0; k < q->count; k++) d->home[q->object[k]] = q->node[k];
     q->count = 0;
 }
@@ -120,31 +116,6 @@ static froe_status descend_chunk(void *user, unsigned worker, size_t job) {
 }
 
 /* ------------------------------------------------------------------- the sort -- */
-
-/** Slices from the numbers of nodes' own objects: children come later than their parent, so two passes do. */
-static void make_slices(const split_guard_node *nodes, const uint32_t *own, split_homes *h) {
-    for (size_t v = h->node_count; v-- > 0;) { /* end: so many objects in the subtree */
-        uint32_t child = nodes[v].child;
-        h->end[v] = own[v] + (child ? h->end[child] + h->end[child + 1] : 0);
-    }
-    h->at[0] = 0;
-    for (size_t v = 0; v < h->node_count; v++) {
-        uint32_t child = nodes[v].child;
-        if (child) {
-            h->at[child] = h->at[v] + own[v];
-            h->at[child + 1] = h->at[child] + h->end[child];
-        }
-        h->end[v] += h->at[v];
-    }
-}
-
-/** Counting sort of the objects by lowest containing node. `own` is zero. */
-static void sort_by_home(const split_guard_node *nodes, const uint32_t *home, uint32_t *own, split_homes *h) {
-    for (size_t i = 0; i < h->object_count; i++) own[home[i]]++;
-    make_slices(nodes, own, h);
-    for (size_t v = 0; v < h->node_count; v++) own[v] = h->at[v];
-    for (uint32_t i = 0; i < h->object_count; i++) h->ids[own[home[i]]++] = i;
-}
 
 void split_homes_free(const froe_allocator *alloc, split_homes *h) {
     support_free(alloc, h->ids, h->object_count * sizeof *h->ids);
@@ -184,7 +155,26 @@ froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const
     uint32_t *home = numbers(alloc, n), *own = support_calloc(alloc, m, sizeof *own);
     descent d = {.places = places, .nodes = guard->nodes.data, .task = task, .home = home};
     froe_status status = h.ids && h.at && h.end && home && own ? descend_to_homes(alloc, &d) : FROE_E_MEMORY;
-    if (!status) sort_by_home(guard->nodes.data, home, own, &h);
+    if (!status) {
+        /* Counting sort of the objects by lowest containing node. `own` is zero. */
+        for (size_t i = 0; i < h.object_count; i++) own[home[i]]++;
+        /* slices from the numbers of nodes' own objects: children come later than their parent, so two passes do */
+        for (size_t v = h.node_count; v-- > 0;) { /* end: so many objects in the subtree */
+            uint32_t child = guard->nodes.data[v].child;
+            h.end[v] = own[v] + (child ? h.end[child] + h.end[child + 1] : 0);
+        }
+        h.at[0] = 0;
+        for (size_t v = 0; v < h.node_count; v++) {
+            uint32_t child = guard->nodes.data[v].child;
+            if (child) {
+                h.at[child] = h.at[v] + own[v];
+                h.at[child + 1] = h.at[child] + h.end[child];
+            }
+            h.end[v] += h.at[v];
+        }
+        for (size_t v = 0; v < h.node_count; v++) own[v] = h.at[v];
+        for (uint32_t i = 0; i < h.object_count; i++) h.ids[own[home[i]]++] = i;
+    }
     support_free(alloc, home, n * sizeof *home);
     support_free(alloc, own, m * sizeof *own);
     if (status)
