@@ -87,7 +87,7 @@ static void corners_round_to_the_nearest_double_and_images_keep_their_error(void
     }
 }
 
-static void images_of_vertices_are_sure_only_of_the_truth(void **state) {
+static void i1_i2_images_of_vertices_are_sure_only_of_the_truth(void **state) {
     fixture *f = *state;
     int sure[FUZZ_CLASSES] = {0};
     for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
@@ -105,7 +105,7 @@ static void images_of_vertices_are_sure_only_of_the_truth(void **state) {
 }
 
 /* A point anywhere in the box of an image: shifted by its whole error, the worst it may be. */
-static void images_allow_for_their_whole_error(void **state) {
+static void i1_images_allow_for_their_whole_error(void **state) {
     fixture *f = *state;
     int sure = 0;
     for (int kind = 0; kind < FUZZ_WIDE; kind++) {
@@ -143,8 +143,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(crossings_round_to_the_nearest_double_and_images_keep_their_error),
         cmocka_unit_test(corners_round_to_the_nearest_double_and_images_keep_their_error),
-        cmocka_unit_test(images_of_vertices_are_sure_only_of_the_truth),
-        cmocka_unit_test(images_allow_for_their_whole_error),
+        cmocka_unit_test(i1_i2_images_of_vertices_are_sure_only_of_the_truth),
+        cmocka_unit_test(i1_images_allow_for_their_whole_error),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

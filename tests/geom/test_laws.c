@@ -1,6 +1,7 @@
-/* test_laws.c: algebra that holds for the true answers, so for ours: scaling, exact
- * translation, permuting what defines a plane or a point, mirrors. And how often which
- * stage is needed, and that an untrusted machine is only slower. */
+/* test_laws.c: the laws of geom/predicates.h that are algebra: scaling, exact translation, permuting what defines a
+ * plane or a point, mirrors. A test begins with the numbers of the laws that it checks; test_degenerate.c has the
+ * others, and A1, X5 and C5 are checked by test_sides.c and test_walls.c against rationals. And how often which stage
+ * is needed. */
 #include "geom/sides.h"
 #include <fenv.h>
 
@@ -52,7 +53,7 @@ static void assert_same(answers a, answers b, int sign) {
 
 static const fuzz_class exact_classes[] = {FUZZ_SMALL_LATTICE, FUZZ_LATTICE, FUZZ_FLAT, FUZZ_CONCURRENT};
 
-static void scaling_by_a_power_of_two_changes_nothing(void **state) {
+static void a2_scaling_by_a_power_of_two_changes_nothing(void **state) {
     num_context *context = *state;
     fuzz_source r = {1};
     double p[SIDES_POINTS * 3], q[SIDES_POINTS * 3];
@@ -64,7 +65,7 @@ static void scaling_by_a_power_of_two_changes_nothing(void **state) {
     }
 }
 
-static void an_exact_translation_changes_nothing(void **state) {
+static void a3_an_exact_translation_changes_nothing(void **state) {
     num_context *context = *state;
     fuzz_source r = {2};
     double p[SIDES_POINTS * 3], q[SIDES_POINTS * 3];
@@ -76,7 +77,7 @@ static void an_exact_translation_changes_nothing(void **state) {
     }
 }
 
-static void exchanging_two_axes_mirrors_and_rotating_all_three_does_not(void **state) {
+static void a4_exchanging_two_axes_mirrors_and_rotating_all_three_does_not(void **state) {
     num_context *context = *state;
     fuzz_source r = {3};
     double p[SIDES_POINTS * 3], q[SIDES_POINTS * 3];
@@ -91,7 +92,7 @@ static void exchanging_two_axes_mirrors_and_rotating_all_three_does_not(void **s
     }
 }
 
-static void permuting_the_points_of_a_plane_gives_the_sign_of_the_permutation(void **state) {
+static void v1_x1_permuting_the_points_of_a_plane_gives_the_sign_of_the_permutation(void **state) {
     num_context *context = *state;
     static const int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}};
     fuzz_source r = {4};
@@ -108,6 +109,8 @@ static void permuting_the_points_of_a_plane_gives_the_sign_of_the_permutation(vo
             if (!cross) continue;
             assert_int_equal(geom_side_crossing(context, &g, u, v, &a), k < 3 ? crossing : -crossing);
             assert_int_equal(geom_side_crossing(context, &g, v, u, &a), k < 3 ? crossing : -crossing);
+            geom_plane turned = triangle(p, 6 + order[k][0], 6 + order[k][1], 6 + order[k][2]);
+            assert_int_equal(geom_side_crossing(context, &h, u, v, &turned), crossing);
         }
         geom_plane l = geom_plane_points(2, (const double *const[]){u2, v2}),
                    m = geom_plane_points(2, (const double *const[]){v2, u2});
@@ -115,7 +118,7 @@ static void permuting_the_points_of_a_plane_gives_the_sign_of_the_permutation(vo
     }
 }
 
-static void permuting_the_planes_of_a_corner_changes_nothing(void **state) {
+static void c1_c2_permuting_the_planes_of_a_corner_changes_nothing(void **state) {
     num_context *context = *state;
     fuzz_source r = {5};
     sides_case c;
@@ -136,7 +139,7 @@ static void permuting_the_planes_of_a_corner_changes_nothing(void **state) {
 }
 
 /* What neighbours in a mesh share is known without arithmetic. */
-static void shared_corners_and_edges_are_zeros_by_id(void **state) {
+static void a7_shared_corners_and_edges_are_zeros_by_id(void **state) {
     num_context *context = *state;
     fuzz_source r = {6};
     double p[8 * 3];
@@ -186,7 +189,7 @@ static void balls_certify_nearly_all_zeros_of_lattices(void **state) {
     }
 }
 
-static void extreme_exponents_stay_within_the_arena(void **state) {
+static void a5_extreme_exponents_stay_within_the_arena(void **state) {
     num_context *context = *state;
     fuzz_source r = {8};
     sides_case c;
@@ -209,7 +212,7 @@ static void extreme_exponents_stay_within_the_arena(void **state) {
 }
 
 /* Under another rounding mode the filters keep silent, and every answer stays right. */
-static void a_wrong_rounding_mode_makes_slow_not_wrong(void **state) {
+static void a6_a_wrong_rounding_mode_makes_slow_not_wrong(void **state) {
     static const int modes[3] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
     num_context *context = *state, strange;
     for (int m = 0; m < 3; m++) {
@@ -268,16 +271,16 @@ int main(void) {
 #define LAW(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
         LAW(filters_know_no_scale),
-        LAW(scaling_by_a_power_of_two_changes_nothing),
-        LAW(an_exact_translation_changes_nothing),
-        LAW(exchanging_two_axes_mirrors_and_rotating_all_three_does_not),
-        LAW(permuting_the_points_of_a_plane_gives_the_sign_of_the_permutation),
-        LAW(permuting_the_planes_of_a_corner_changes_nothing),
-        LAW(shared_corners_and_edges_are_zeros_by_id),
+        LAW(a2_scaling_by_a_power_of_two_changes_nothing),
+        LAW(a3_an_exact_translation_changes_nothing),
+        LAW(a4_exchanging_two_axes_mirrors_and_rotating_all_three_does_not),
+        LAW(v1_x1_permuting_the_points_of_a_plane_gives_the_sign_of_the_permutation),
+        LAW(c1_c2_permuting_the_planes_of_a_corner_changes_nothing),
+        LAW(a7_shared_corners_and_edges_are_zeros_by_id),
         LAW(filters_decide_nearly_all_random_input),
         LAW(balls_certify_nearly_all_zeros_of_lattices),
-        LAW(extreme_exponents_stay_within_the_arena),
-        LAW(a_wrong_rounding_mode_makes_slow_not_wrong),
+        LAW(a5_extreme_exponents_stay_within_the_arena),
+        LAW(a6_a_wrong_rounding_mode_makes_slow_not_wrong),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

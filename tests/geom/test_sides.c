@@ -1,4 +1,4 @@
-/* test_sides.c: every predicate, started at every stage, against exact rationals. */
+/* test_sides.c: law A1 of geom/predicates.h: every predicate, started at every stage, against exact rationals. */
 #include "geom/sides.h"
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-/* test_walls.c: sides of and on sheared walls, started at every stage, against exact rationals in which the
- * infinitesimal is a number, 2^-65536 (support/rational.h). */
+/* test_walls.c: laws V5, X5 and C5 of geom/predicates.h: sides of and on sheared walls, started at every stage, against
+ * exact rationals in which the infinitesimal is a number, 2^-65536 (support/rational.h). */
 #include "geom/sides.h"
 
 enum { POOL = 7 };
