@@ -1,6 +1,7 @@
 /* view.c: window to page, and clipping to the window (Cairo's coordinates have
  * 24 bits before the point: nothing far off the page may reach it). */
 #include "view.h"
+#include "support/clip.h"
 #include <math.h>
 
 void draw_view_place(draw_view *view, double left, double top, double width, double height) {
@@ -40,11 +41,9 @@ size_t draw_clip_half(const draw_point *ring, size_t count, draw_point n, double
     for (size_t i = 0; i < count; i++) {
         draw_point p = ring[i], q = ring[i + 1 < count ? i + 1 : 0];
         double d = side * (n.x * p.x + n.y * p.y - c), e = side * (n.x * q.x + n.y * q.y - c);
-        if (d >= 0) out[made++] = p;
-        if ((d > 0 && e < 0) || (d < 0 && e > 0)) {
-            double t = d / (d - e);
-            out[made++] = (draw_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
-        }
+        const support_clipped left = support_clip_edge(d, e);
+        if (left.corner) out[made++] = p;
+        if (left.meeting) out[made++] = (draw_point){p.x + left.share * (q.x - p.x), p.y + left.share * (q.y - p.y)};
     }
     return made;
 }

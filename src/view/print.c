@@ -1,5 +1,6 @@
 /* print.c: cutting and projecting. */
 #include "view/print.h"
+#include "support/clip.h"
 #include <math.h>
 
 void print_free(print_press *press) {
@@ -96,10 +97,7 @@ bool print_clip_segment(const froe_projection *view, const double *from, const d
         side_of_view(view, side, beyond, n, &c);
         const double at_a = n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c,
                      at_b = n[0] * b[0] + n[1] * b[1] + n[2] * b[2] + c;
-        if (at_a < 0 && at_b < 0) return false;
-        const double t = at_a / (at_a - at_b);
-        if (at_a < 0 && t > share[0]) share[0] = t;
-        if (at_b < 0 && t < share[1]) share[1] = t;
+        if (!support_clip_shares(at_a, at_b, share)) return false;
     }
     return share[0] < share[1];
 }

@@ -1,6 +1,7 @@
 /* region.c: Sutherland and Hodgman's clipping (1974), corner by corner. */
 #include "build/conversion/region.h"
 #include "geom/filter.h"
+#include "support/clip.h"
 
 void region_around(const double *lo, const double *hi, uint32_t side, region *out) {
     double from[2], to[2];
@@ -60,12 +61,13 @@ void region_clip(const region *r, const geom_plane *line, int which, uint32_t si
     out->count = 0;
     for (uint32_t i = 0; i < n && out->count + 2 <= REGION_MOST; i++) {
         double u = which * value[i], v = which * value[i + 1 < n ? i + 1 : 0];
-        if (u >= 0) {
+        const support_clipped left = support_clip_edge(u, v);
+        if (left.corner) {
             out->corner[out->count] = r->corner[i];
             if (u == 0 && v < 0) out->corner[out->count].side = side;
             out->count++;
         }
-        if (!((u > 0 && v < 0) || (u < 0 && v > 0))) continue;
+        if (!left.meeting) continue;
         out->corner[out->count] = meeting(r, line, value, i);
         if (u > 0) out->corner[out->count].side = side;
         out->count++;

@@ -8,6 +8,7 @@
  * So lines with something nearer within reach become nodes of the order graph. Where that closes cycles, lines are made
  * late, never faces: a late line goes on top of all, as lines without anything nearer do. All in doubles: visibility
  * has been decided before; this affects half a line's width. */
+#include "support/clip.h"
 #include "view/picture/grid.h"
 #include "view/picture/picture.h"
 #include <math.h>
@@ -65,9 +66,7 @@ static near_place nearest(const print_point *ring, size_t n, print_point a, prin
         const print_point p = ring[i], q = ring[i + 1 < n ? i + 1 : 0];
         const double at_a = turn * ((q.y - p.y) * (a.x - p.x) - (q.x - p.x) * (a.y - p.y)),
                      at_b = turn * ((q.y - p.y) * (b.x - p.x) - (q.x - p.x) * (b.y - p.y));
-        inside = at_a >= 0 || at_b >= 0;
-        if (at_a < 0) share[0] = fmax(share[0], at_a / (at_a - at_b));
-        if (at_b < 0) share[1] = fmin(share[1], at_a / (at_a - at_b));
+        inside = support_clip_shares(at_a, at_b, share);
     }
     if (inside && share[0] <= share[1]) {
         const double middle = 0.5 * (share[0] + share[1]);

@@ -1,6 +1,7 @@
 /* seams.c: visible pieces on the page, and their parts along a side. */
 #include "view/picture/seams.h"
 #include "base/sort.h"
+#include "support/clip.h"
 #include <math.h>
 
 /* ----------------------------------------------------------------- begin, end -- */
@@ -73,10 +74,10 @@ static bool clip_piece(view_seams *s, uint32_t visible, const print_point ring[4
         for (size_t i = 0; i < in->count; i++) { /* what is on the left of ab, as the eye sees it */
             const print_point p = in->data[i], q = in->data[i + 1 < in->count ? i + 1 : 0];
             const double at_p = dy * (p.x - a.x) - dx * (p.y - a.y), at_q = dy * (q.x - a.x) - dx * (q.y - a.y);
-            if (at_p >= 0) out->data[out->count++] = p;
-            if ((at_p >= 0) == (at_q >= 0)) continue;
-            const double t = at_p / (at_p - at_q);
-            out->data[out->count++] = (print_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+            const support_clipped left = support_clip_edge(at_p, at_q);
+            if (left.corner) out->data[out->count++] = p;
+            if (left.meeting)
+                out->data[out->count++] = (print_point){p.x + left.share * (q.x - p.x), p.y + left.share * (q.y - p.y)};
         }
     }
     return true;
