@@ -26,7 +26,7 @@ typedef struct cube {
     unsigned blocked; /* bits 2 k, 2 k + 1: a guard is in the low, the high side of axis k */
 } cube;
 
-typedef struct survey {
+typedef struct clutter_survey {
     measure_sample sample;
     measure_hierarchy guards, objects;
     num_context context;
@@ -39,16 +39,16 @@ typedef struct survey {
     cube cubes[BEST];    /* the best from different places, best first */
     uint32_t met[BEST];
     uint64_t keys[BEST];
-} survey;
+} clutter_survey;
 
-static double draw_share(survey *s) {
+static double draw_share(clutter_survey *s) {
     return (double)(base_hash(s->key, 1, s->draws++) >> 11) * 0x1p-53;
 }
 
 /* ------------------------------------------------------------------ growing -- */
 
 /* The largest cube around a point without a guard inside. */
-static cube grow_around(survey *s, const double *centre) {
+static cube grow_around(clutter_survey *s, const double *centre) {
     cube c = {.blocked = 0};
     double half = s->limit / 2;
     for (int k = 0; k < s->dim; k++) c.lo[k] = centre[k] - half, c.hi[k] = centre[k] + half;
@@ -67,25 +67,8 @@ static cube grow_around(survey *s, const double *centre) {
     return c;
 }
 
-static bool locked(const survey *s, const cube *c) {
-    bool opposite = !c->blocked;
-    for (int k = 0; k < s->dim; k++) opposite |= (c->blocked >> 2 * k & 3) == 3;
-    return opposite;
-}
-
-/* How far a cube that grows from a corner may grow until the guard is in its side; 0: it never is inside. */
-static double reach(const survey *s, const double *corner, unsigned up, const double *guard, int *axis) {
-    double most = 0;
-    for (int k = 0; k < s->dim; k++) {
-        double far = up >> k & 1 ? guard[k] - corner[k] : corner[k] - guard[k];
-        if (!(far > 0)) return 0;
-        if (far > most) most = far, *axis = k;
-    }
-    return most;
-}
-
 /* Moves the corner between the free sides outwards, until the next guard is in one of them. */
-static void grow_away(survey *s, cube *c) {
+static void grow_away(clutter_survey *s, cube *c) {
     unsigned up = 0;
     double corner[FROE_MAX_DIM], side = s->limit;
     int blocking = -1;
@@ -99,9 +82,16 @@ static void grow_away(survey *s, cube *c) {
     }
     measure_search search = measure_search_begin(&s->guards, c->lo, c->hi, 0);
     for (uint32_t g; (g = measure_search_next(&search)) != FROE_NONE;) {
+        const double *guard = s->points + (size_t)g * (size_t)s->dim;
         int axis = 0;
-        double far = reach(s, corner, up, s->points + (size_t)g * (size_t)s->dim, &axis);
-        if (!(far > 0) || far >= side) continue;
+        double far = 0; /* how far the cube may grow until the guard is in its side */
+        bool met = true;
+        for (int k = 0; k < s->dim; k++) {
+            double away = up >> k & 1 ? guard[k] - corner[k] : corner[k] - guard[k];
+            met = met && away > 0;
+            if (away > far) far = away, axis = k;
+        }
+        if (!met || far >= side) continue;
         side = far;
         blocking = axis;
         for (int k = 0; k < s->dim; k++)
@@ -110,32 +100,30 @@ static void grow_away(survey *s, cube *c) {
     c->blocked = blocking < 0 ? 0 : c->blocked | 1u << (2 * blocking + (int)(up >> blocking & 1));
 }
 
-static cube grow_cube(survey *s, const double *centre) {
+static cube grow_cube(clutter_survey *s, const double *centre) {
     cube c = grow_around(s, centre);
-    for (int turn = 0; turn <= s->dim && !locked(s, &c); turn++) grow_away(s, &c);
+    for (int turn = 0; turn <= s->dim; turn++) {
+        bool locked = !c.blocked; /* between opposite sides */
+        for (int k = 0; k < s->dim; k++) locked |= (c.blocked >> 2 * k & 3) == 3;
+        if (locked) break;
+        grow_away(s, &c);
+    }
     return c;
 }
 
 /* ----------------------------------------------------------------- counting -- */
 
-/* Has the object a corner in the box? */
-static bool corner_inside(const survey *s, uint32_t object, const double *points) {
-    const froe_scene *scene = s->sample.scene;
-    bool found = false;
-    if (scene_form(scene, object) == FROE_BALL) return false;
-    for (uint32_t i = 0; i < scene_corners(scene, object) && !found; i++) {
-        const double *p = scene_point(scene, object, i);
-        found = true;
-        for (int k = 0; k < s->dim && found; k++) found = points[k] <= p[k] && p[k] <= points[s->dim + k];
-    }
-    return found;
-}
-
 /* Of an object whose bounding box meets the box. */
-static bool object_meets(survey *s, uint32_t object, const double *points) {
+static bool object_meets(clutter_survey *s, uint32_t object, const double *points) {
     const froe_scene *scene = s->sample.scene;
     int form = scene_form(scene, object);
-    if (form == FROE_BOX || form == FROE_POINT || corner_inside(s, object, points)) return true;
+    if (form == FROE_BOX || form == FROE_POINT) return true;
+    for (uint32_t i = 0; i < scene_corners(scene, object) && form != FROE_BALL; i++) {
+        const double *p = scene_point(scene, object, i);
+        bool inside = true;
+        for (int k = 0; k < s->dim && inside; k++) inside = points[k] <= p[k] && p[k] <= points[s->dim + k];
+        if (inside) return true;
+    }
     if (s->dim <= 3) {
         geom_convex a = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = points};
         geom_convex b = scene_convex(scene, object);
@@ -146,7 +134,7 @@ static bool object_meets(survey *s, uint32_t object, const double *points) {
 }
 
 /* Objects that meet the open cube: that meet the largest closed one of doubles inside. */
-static uint32_t count(survey *s, const cube *c) {
+static uint32_t count(clutter_survey *s, const cube *c) {
     double points[2 * FROE_MAX_DIM];
     uint32_t met = 0;
     for (int k = 0; k < s->dim; k++) {
@@ -160,7 +148,7 @@ static uint32_t count(survey *s, const cube *c) {
 }
 
 /* Keeps the best cubes in order; of those that meet as many objects, that of the lower key. */
-static void keep_cube(survey *s, const cube *c, uint32_t met) {
+static void keep_cube(clutter_survey *s, const cube *c, uint32_t met) {
     int at = BEST;
     while (at && (met > s->met[at - 1] || (met == s->met[at - 1] && s->key < s->keys[at - 1]))) at--;
     if (at == BEST) return;
@@ -174,7 +162,7 @@ static void keep_cube(survey *s, const cube *c, uint32_t met) {
 }
 
 /* Tries cubes around places within a good one, until CLIMB in a row meet no more objects. */
-static void climb_from(survey *s, cube *best, uint32_t *most) {
+static void climb_from(clutter_survey *s, cube *best, uint32_t *most) {
     for (int try = 0; try < CLIMB; try++) {
         double centre[FROE_MAX_DIM];
         for (int k = 0; k < s->dim; k++) {
@@ -190,26 +178,20 @@ static void climb_from(survey *s, cube *best, uint32_t *most) {
     }
 }
 
-/* A place near an object, at a distance of any order of magnitude. */
-static void place_cube(survey *s, uint32_t object, double *out) {
-    const double *lo = s->bounds.lo + (size_t)object * (size_t)s->dim,
-                 *hi = s->bounds.hi + (size_t)object * (size_t)s->dim;
-    double away = s->limit;
-    for (uint32_t steps = base_below(base_hash(s->key, 2, s->draws++), 40); steps; steps--) away *= 0.5;
-    for (int k = 0; k < s->dim; k++) {
-        double share = draw_share(s), at = lo[k] * (1 - share) + hi[k] * share;
-        out[k] = at + away * (2 * draw_share(s) - 1);
-    }
-}
-
-static froe_status look_everywhere(survey *s) {
+/* Cubes around places near objects, at a distance of any order of magnitude. */
+static froe_status look_everywhere(clutter_survey *s) {
     for (uint32_t i = 0; i < s->sample.count; i++) {
-        double centre[FROE_MAX_DIM];
+        double centre[FROE_MAX_DIM], away = s->limit;
         uint32_t object = measure_sample_object(&s->sample, i);
         if (!measure_sample_go_on(&s->sample, i)) return FROE_E_CANCELLED;
         s->key = measure_sample_key(&s->sample, object);
         s->draws = 0;
-        place_cube(s, object, centre);
+        for (uint32_t steps = base_below(base_hash(s->key, 2, s->draws++), 40); steps; steps--) away *= 0.5;
+        for (int k = 0; k < s->dim; k++) {
+            size_t at = (size_t)object * (size_t)s->dim + (size_t)k;
+            double share = draw_share(s), place = s->bounds.lo[at] * (1 - share) + s->bounds.hi[at] * share;
+            centre[k] = place + away * (2 * draw_share(s) - 1);
+        }
         cube c = grow_cube(s, centre);
         uint32_t met = count(s, &c);
         keep_cube(s, &c, met);
@@ -218,7 +200,7 @@ static froe_status look_everywhere(survey *s) {
     return FROE_OK;
 }
 
-static froe_status look_for_clutter(survey *s, froe_clutter *out) {
+static froe_status look_for_clutter(clutter_survey *s, froe_clutter *out) {
     froe_status status = look_everywhere(s);
     uint32_t best = 0;
     for (uint32_t i = 0; i < BEST && !status; i++) {
@@ -235,14 +217,7 @@ static froe_status look_for_clutter(survey *s, froe_clutter *out) {
 
 /* -------------------------------------------------------------------- making -- */
 
-static void add_guards(survey *s, size_t object, size_t corners) {
-    double *to = s->points + object * corners * (size_t)s->dim;
-    size_t at = object * (size_t)s->dim;
-    for (size_t c = 0; c < corners; c++)
-        for (int k = 0; k < s->dim; k++) *to++ = (c >> k & 1 ? s->bounds.hi : s->bounds.lo)[at + (size_t)k];
-}
-
-static froe_status begin_clutter(survey *s) {
+static froe_status begin_clutter(clutter_survey *s) {
     const froe_scene *scene = s->sample.scene;
     const froe_allocator *alloc = &s->sample.alloc;
     size_t n = scene->object_count, corners = (size_t)1 << s->dim;
@@ -253,7 +228,10 @@ static froe_status begin_clutter(survey *s) {
     s->guard_numbers = s->bounds.numbers * corners;
     s->points = support_calloc(alloc, s->guard_numbers, sizeof *s->points);
     if (!s->points) return FROE_E_MEMORY;
-    for (size_t i = 0; i < n; i++) add_guards(s, i, corners);
+    double *to = s->points;
+    for (size_t i = 0; i < n * corners; i++)
+        for (size_t k = 0; k < (size_t)s->dim; k++)
+            *to++ = (i % corners >> k & 1 ? s->bounds.hi : s->bounds.lo)[i / corners * (size_t)s->dim + k];
     for (int k = 0; k < s->dim && n; k++) s->limit = fmax(s->limit, 3 * (scene->hi[k] - scene->lo[k]));
     if (s->limit > 0x1p1000) s->limit = 0x1p1000;
     status = measure_hierarchy_new(alloc, s->dim, (uint32_t)(n * corners), s->points, s->points, NULL, &s->guards);
@@ -261,25 +239,20 @@ static froe_status begin_clutter(survey *s) {
                   : measure_hierarchy_new(alloc, s->dim, (uint32_t)n, s->bounds.lo, s->bounds.hi, NULL, &s->objects);
 }
 
-static void end_clutter(survey *s) {
-    const froe_allocator *alloc = &s->sample.alloc;
-    if (s->context.alloc.fn) num_context_free(&s->context);
-    measure_bounds_free(&s->sample, &s->bounds);
-    support_free(alloc, s->points, s->guard_numbers ? s->guard_numbers * sizeof *s->points : 1);
-    measure_hierarchy_free(&s->guards);
-    measure_hierarchy_free(&s->objects);
-}
-
 froe_status froe_measure_clutter(const froe_scene *scene, const froe_measure_options *options, froe_clutter *out,
                                  froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    survey s = {.dim = 0};
+    clutter_survey s = {.dim = 0};
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;
     s.dim = scene->dim;
     status = begin_clutter(&s);
     if (status == FROE_E_LIMIT) support_fail(diag, status, "more than 2^31 corners of bounding boxes");
     if (!status) status = look_for_clutter(&s, out);
-    end_clutter(&s);
+    if (s.context.alloc.fn) num_context_free(&s.context);
+    measure_bounds_free(&s.sample, &s.bounds);
+    support_free(&s.sample.alloc, s.points, s.guard_numbers ? s.guard_numbers * sizeof *s.points : 1);
+    measure_hierarchy_free(&s.guards);
+    measure_hierarchy_free(&s.objects);
     return measure_sample_end(&s.sample, status, diag);
 }

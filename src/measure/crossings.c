@@ -12,20 +12,17 @@ static bool sample_goes_on(measure_sample *sample, size_t done, size_t all) {
 
 /* -------------------------------------------------------------------- search -- */
 
-static bool overlap(int dim, const double *lo, const double *hi, const double *from, const double *to) {
-    bool inside = true;
-    for (int k = 0; k < dim && inside; k++) inside = lo[k] < to[k] && hi[k] > from[k];
-    return inside;
-}
-
 static uint32_t look_in_window(const measure_hierarchy *boxes, const measure_windows *w, size_t i) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
     uint32_t count = 0;
-    w->get(w->user, i, lo, hi);
-    measure_search search = measure_search_begin(boxes, lo, hi, 0);
+    w->get(w->user, i, from, to);
+    measure_search search = measure_search_begin(boxes, from, to, 0);
     for (uint32_t f; (f = measure_search_next(&search)) != FROE_NONE;) {
-        size_t at = (size_t)f * (size_t)boxes->dim;
-        count += overlap(boxes->dim, w->bounds->lo + at, w->bounds->hi + at, lo, hi);
+        const double *lo = w->bounds->lo + (size_t)f * (size_t)boxes->dim;
+        const double *hi = w->bounds->hi + (size_t)f * (size_t)boxes->dim;
+        bool inside = true;
+        for (int k = 0; k < boxes->dim && inside; k++) inside = lo[k] < to[k] && hi[k] > from[k];
+        count += inside;
     }
     return count;
 }
@@ -78,13 +75,6 @@ static froe_status ends_new(const measure_sample *sample, const measure_bounds *
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
-static void ends_free(const measure_sample *sample, ends *e) {
-    uint32_t n = sample->scene->object_count;
-    support_free(&sample->alloc, e->value, n * sizeof *e->value);
-    support_free(&sample->alloc, e->flat, n * sizeof *e->flat);
-    support_free(&sample->alloc, e->rank, n * sizeof *e->rank);
-}
-
 /* Ends before x, and of those at x: none (0), of boxes that are not flat (1), all (2). */
 static uint32_t ends_before(const ends *e, uint32_t count, double x, int with) {
     uint32_t from = 0, end = count;
@@ -100,29 +90,19 @@ static uint32_t ends_before(const ends *e, uint32_t count, double x, int with) {
 
 /* ---------------------------------------------------------------------- trees -- */
 
-typedef struct counter {
+typedef struct crossing_counter {
     measure_sample *sample;
     const measure_windows *windows;
     ends ends[FROE_MAX_DIM][2]; /* lower, upper */
     uint32_t *out;
-} counter;
+} crossing_counter;
 
-/* The corner for window i of the product with upper ends on the axes in `upper`. A box that begins before
- * hi and ends up to lo: all that end there, but if lo = hi, not the flat ones at it, which do not begin before. */
-static void corners_below(const counter *c, size_t i, unsigned upper, uint32_t below[]) {
-    uint32_t n = c->sample->scene->object_count;
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    c->windows->get(c->windows->user, i, lo, hi);
-    for (int k = 0; k < c->sample->scene->dim; k++)
-        below[k] = upper >> k & 1 ? ends_before(&c->ends[k][1], n, lo[k], lo[k] < hi[k] ? 2 : 1)
-                                  : ends_before(&c->ends[k][0], n, hi[k], 0);
-}
-
-/* Adds or subtracts the counts of one product of conditions. */
-static froe_status add_product(counter *c, unsigned upper) {
+/* Adds or subtracts the counts of one product of conditions, with upper ends on the axes in `upper`. A box that begins
+ * before hi and ends up to lo: all that end there, but if lo = hi, not the flat ones at it, which do not begin before. */
+static froe_status add_product(crossing_counter *c, unsigned upper) {
     int dim = c->sample->scene->dim;
     size_t count = c->windows->count, products = (size_t)1 << dim;
-    uint32_t *rank[FROE_MAX_DIM], sign = 1;
+    uint32_t *rank[FROE_MAX_DIM], sign = 1, n = c->sample->scene->object_count;
     measure_dominance tree;
     for (int k = 0; k < dim; k++) {
         rank[k] = c->ends[k][upper >> k & 1].rank;
@@ -131,7 +111,11 @@ static froe_status add_product(counter *c, unsigned upper) {
     froe_status status = measure_dominance_new(&c->sample->alloc, dim, c->sample->scene->object_count, rank, &tree);
     for (size_t i = 0; i < count && !status; i++) {
         uint32_t below[FROE_MAX_DIM];
-        corners_below(c, i, upper, below);
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        c->windows->get(c->windows->user, i, lo, hi);
+        for (int k = 0; k < dim; k++)
+            below[k] = upper >> k & 1 ? ends_before(&c->ends[k][1], n, lo[k], lo[k] < hi[k] ? 2 : 1)
+                                      : ends_before(&c->ends[k][0], n, hi[k], 0);
         c->out[i] += sign * measure_dominance_count(&tree, below);
         if (!sample_goes_on(c->sample, upper * count + i, products * count)) status = FROE_E_CANCELLED;
     }
@@ -140,13 +124,20 @@ static froe_status add_product(counter *c, unsigned upper) {
 }
 
 froe_status measure_count_by_trees(measure_sample *sample, const measure_windows *windows, uint32_t *out) {
-    int dim = sample->scene->dim;
-    counter c = {.sample = sample, .windows = windows, .out = out};
+    const froe_scene *scene = sample->scene;
+    const int dim = scene->dim;
+    crossing_counter c = {.sample = sample, .windows = windows, .out = out};
     froe_status status = FROE_OK;
     for (size_t i = 0; i < windows->count; i++) out[i] = 0;
     for (int k = 0; k < 2 * dim && !status; k++)
         status = ends_new(sample, windows->bounds, k / 2, k % 2, &c.ends[k / 2][k % 2]);
     for (unsigned upper = 0; upper < 1u << dim && !status; upper++) status = add_product(&c, upper);
-    for (int k = 0; k < 2 * dim; k++) ends_free(sample, &c.ends[k / 2][k % 2]);
+    for (int k = 0; k < 2 * dim; k++) {
+        const ends *e = &c.ends[k / 2][k % 2];
+        const size_t n = scene->object_count;
+        support_free(&sample->alloc, e->value, n * sizeof *e->value);
+        support_free(&sample->alloc, e->flat, n * sizeof *e->flat);
+        support_free(&sample->alloc, e->rank, n * sizeof *e->rank);
+    }
     return status;
 }

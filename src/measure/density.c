@@ -27,7 +27,7 @@ typedef struct candidate {
     uint64_t key;
 } candidate;
 
-typedef struct survey {
+typedef struct density_survey {
     measure_sample sample;
     measure_hierarchy objects;
     num_context context;
@@ -39,42 +39,24 @@ typedef struct survey {
     candidate best[TRIED]; /* most loaded first; of equal ones that of the lower key */
     uint32_t best_count;
     froe_density out;
-} survey;
+} density_survey;
 
-/* Is a corner of the object certainly within the radius of the point? */
-static bool surely_within(const survey *s, const double *point, double radius, uint32_t object) {
+static bool is_within_radius(density_survey *s, const double *point, double radius, uint32_t object) {
     const froe_scene *scene = s->sample.scene;
-    bool found = false;
-    if (scene_form(scene, object) == FROE_BALL) return false;
-    for (uint32_t i = 0; i < scene_corners(scene, object) && !found; i++) {
+    const bool corners = scene_form(scene, object) != FROE_BALL;
+    for (uint32_t i = 0; i < scene_corners(scene, object) && corners; i++) { /* is one certainly within? */
         const double *p = scene_point(scene, object, i);
         double square = 0;
         for (int k = 0; k < scene->dim; k++) square += (p[k] - point[k]) * (p[k] - point[k]);
-        found = square * (1 + 0x1p-40) < radius * radius - 0x1p-1000; /* no denormal squares */
+        if (square * (1 + 0x1p-40) < radius * radius - 0x1p-1000) return true; /* no denormal squares */
     }
-    return found;
-}
-
-static bool is_within_radius(survey *s, const double *point, double radius, uint32_t object) {
-    if (surely_within(s, point, radius, object)) return true;
-    geom_body body = scene_body(s->sample.scene, object);
+    geom_body body = scene_body(scene, object);
     geom_distance distance = geom_distance_from(&s->context, point, &body);
     return geom_distance_compare_to(&s->context, point, &distance, radius) <= 0;
 }
 
-/* N(o), in s->near. `reach` is 3 r, rounded up. */
-static bool find_near(survey *s, const double *centre, double reach, double least) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    for (int k = 0; k < s->objects.dim; k++) lo[k] = centre[k] - reach, hi[k] = centre[k] + reach;
-    measure_search search = measure_search_begin(&s->objects, lo, hi, least);
-    s->near.count = 0;
-    for (uint32_t i; (i = measure_search_next(&search)) != FROE_NONE;)
-        if (is_within_radius(s, centre, reach, i) && !array_push(&s->sample.alloc, &s->near, i)) return false;
-    return true;
-}
-
 /* Counts what a ball of the size of the object meets; keeps the best ball. */
-static void try_ball(survey *s, const double *centre, double radius) {
+static void try_ball(density_survey *s, const double *centre, double radius) {
     uint32_t count = 0;
     for (size_t i = 0; i < s->near.count && count + (s->near.count - i) > s->out.lower; i++)
         count += is_within_radius(s, centre, radius, s->near.data[i]);
@@ -84,17 +66,8 @@ static void try_ball(survey *s, const double *centre, double radius) {
     memcpy(s->out.centre, centre, (size_t)s->objects.dim * sizeof(double));
 }
 
-/* A point of the box of an object, at random. */
-static void random_point(const survey *s, uint32_t object, uint64_t key, double *out) {
-    size_t at = (size_t)object * (size_t)s->objects.dim;
-    for (int k = 0; k < s->objects.dim; k++) {
-        double share = (double)(base_hash(key, 1, (uint64_t)k) >> 11) * 0x1p-53;
-        out[k] = s->bounds.lo[at + (size_t)k] * (1 - share) + s->bounds.hi[at + (size_t)k] * share;
-    }
-}
-
 /* One of N(o), at random and independent of their order: the one with the least hash. */
-static uint32_t random_near(const survey *s, uint64_t key) {
+static uint32_t random_near(const density_survey *s, uint64_t key) {
     uint32_t chosen = s->near.data[0];
     uint64_t least = UINT64_MAX;
     for (size_t i = 0; i < s->near.count; i++) {
@@ -105,26 +78,36 @@ static uint32_t random_near(const survey *s, uint64_t key) {
 }
 
 /* Balls half-way to points of the objects near by, and around points of the object. */
-static void try_balls(survey *s, uint32_t object, const double *centre, double radius) {
+static void try_balls(density_survey *s, uint32_t object, const double *centre, double radius) {
     double at[FROE_MAX_DIM];
     for (uint64_t try = 0; try < TRIES && s->near.count > s->out.lower; try++) {
         uint64_t key = base_hash(s->keys[object], 0, try);
         bool between = try % 3 != 0;
-        random_point(s, between ? random_near(s, key) : object, key, at);
-        for (int k = 0; k < s->objects.dim && between; k++) at[k] = 0.5 * at[k] + 0.5 * centre[k];
+        size_t of = (size_t)(between ? random_near(s, key) : object) * (size_t)s->objects.dim;
+        for (size_t k = 0; k < (size_t)s->objects.dim; k++) { /* a point of its box, at random */
+            double share = (double)(base_hash(key, 1, k) >> 11) * 0x1p-53;
+            at[k] = s->bounds.lo[of + k] * (1 - share) + s->bounds.hi[of + k] * share;
+            if (between) at[k] = 0.5 * at[k] + 0.5 * centre[k];
+        }
         try_ball(s, at, radius);
     }
 }
 
-/* Finds N(o), and the ball around it. */
-static bool look_around(survey *s, uint32_t object, measure_ball *ball, double *radius) {
+/* Finds N(o), in s->near, and the ball around the object. */
+static bool look_around(density_survey *s, uint32_t object, measure_ball *ball, double *radius) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     *radius = s->kind == FROE_SIZE_RADIUS ? s->size[object] : 0.5 * s->size[object];
     *ball = measure_enclosing(s->sample.scene, object);
-    double reach = (3 * *radius + fmax(0, ball->radius - *radius)) * (1 + 0x1p-40);
-    return find_near(s, ball->centre, reach, s->size[object]);
+    const double reach = (3 * *radius + fmax(0, ball->radius - *radius)) * (1 + 0x1p-40); /* 3 r, rounded up */
+    for (int k = 0; k < s->objects.dim; k++) lo[k] = ball->centre[k] - reach, hi[k] = ball->centre[k] + reach;
+    measure_search search = measure_search_begin(&s->objects, lo, hi, s->size[object]);
+    s->near.count = 0;
+    for (uint32_t i; (i = measure_search_next(&search)) != FROE_NONE;)
+        if (is_within_radius(s, ball->centre, reach, i) && !array_push(&s->sample.alloc, &s->near, i)) return false;
+    return true;
 }
 
-static void keep_candidate(survey *s, candidate c) {
+static void keep_candidate(density_survey *s, candidate c) {
     uint32_t at = s->best_count < TRIED ? s->best_count++ : TRIED;
     while (at && (s->best[at - 1].load < c.load || (s->best[at - 1].load == c.load && s->best[at - 1].key > c.key))) {
         if (at < TRIED) s->best[at] = s->best[at - 1];
@@ -133,7 +116,7 @@ static void keep_candidate(survey *s, candidate c) {
     if (at < TRIED) s->best[at] = c;
 }
 
-static froe_status note_object(survey *s, uint32_t object) {
+static froe_status note_object(density_survey *s, uint32_t object) {
     measure_ball ball;
     double radius;
     if (!look_around(s, object, &ball, &radius)) return FROE_E_MEMORY;
@@ -144,17 +127,7 @@ static froe_status note_object(survey *s, uint32_t object) {
     return array_push(&s->sample.alloc, &s->sample.values[0], count) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status try_best(survey *s) {
-    for (uint32_t i = 0; i < s->best_count && s->best[i].load > s->out.lower; i++) {
-        measure_ball ball;
-        double radius;
-        if (!look_around(s, s->best[i].object, &ball, &radius)) return FROE_E_MEMORY;
-        try_balls(s, s->best[i].object, ball.centre, radius);
-    }
-    return FROE_OK;
-}
-
-static froe_status begin_density(survey *s) {
+static froe_status begin_density(density_survey *s) {
     const froe_scene *scene = s->sample.scene;
     const froe_allocator *alloc = &s->sample.alloc;
     size_t n = scene->object_count;
@@ -171,31 +144,33 @@ static froe_status begin_density(survey *s) {
     return measure_hierarchy_new(alloc, scene->dim, (uint32_t)n, s->bounds.lo, s->bounds.hi, s->size, &s->objects);
 }
 
-static void end_density(survey *s) {
-    const froe_allocator *alloc = &s->sample.alloc;
-    size_t n = s->sample.scene->object_count;
-    if (s->context.alloc.fn) num_context_free(&s->context);
-    measure_bounds_free(&s->sample, &s->bounds);
-    support_free(alloc, s->size, n ? n * sizeof *s->size : 1);
-    support_free(alloc, s->keys, n ? n * sizeof *s->keys : 1);
-    measure_hierarchy_free(&s->objects);
-    array_free(alloc, &s->near);
-}
-
 froe_status froe_measure_density(const froe_scene *scene, froe_size size, const froe_measure_options *options,
                                  froe_density *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    survey s = {.kind = size};
+    density_survey s = {.kind = size};
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;
     status = begin_density(&s);
     for (uint32_t i = 0; i < s.sample.count && !status; i++)
         status = measure_sample_go_on(&s.sample, i) ? note_object(&s, measure_sample_object(&s.sample, i))
                                                     : FROE_E_CANCELLED;
-    if (!status) status = try_best(&s);
+    for (uint32_t i = 0; i < s.best_count && s.best[i].load > s.out.lower && !status; i++) {
+        measure_ball ball;
+        double radius;
+        if (look_around(&s, s.best[i].object, &ball, &radius))
+            try_balls(&s, s.best[i].object, ball.centre, radius);
+        else
+            status = FROE_E_MEMORY;
+    }
     s.out.count = s.sample.count;
     if (!status) status = measure_sample_spread(&s.sample, 0, &s.out.load);
     if (!status) *out = s.out;
-    end_density(&s);
+    const size_t n = scene->object_count;
+    if (s.context.alloc.fn) num_context_free(&s.context);
+    measure_bounds_free(&s.sample, &s.bounds);
+    support_free(&s.sample.alloc, s.size, n ? n * sizeof *s.size : 1);
+    support_free(&s.sample.alloc, s.keys, n ? n * sizeof *s.keys : 1);
+    measure_hierarchy_free(&s.objects);
+    array_free(&s.sample.alloc, &s.near);
     return measure_sample_end(&s.sample, status, diag);
 }

@@ -15,12 +15,12 @@
 /* Rooms that a face is widened by. From EVEN on: little on axis form - EVEN, much on the others. */
 enum { NONE, SIMPLE, EXTENDED, EVEN };
 
-typedef struct survey {
+typedef struct directional_survey {
     measure_sample sample;
     measure_bounds bounds;
     double delta;
     uint32_t *counts; /* for each object of the sample, each face, each form */
-} survey;
+} directional_survey;
 
 /* ------------------------------------------------------------------- windows -- */
 
@@ -32,7 +32,7 @@ static size_t windows_each(int dim) {
     return 2 * (size_t)dim * forms(dim);
 }
 
-static int longest_side(const survey *s, uint32_t object, double *side) {
+static int longest_side(const directional_survey *s, uint32_t object, double *side) {
     int dim = s->sample.scene->dim, longest = 0;
     size_t at = (size_t)object * (size_t)dim;
     for (int k = 0; k < dim; k++) {
@@ -42,12 +42,12 @@ static int longest_side(const survey *s, uint32_t object, double *side) {
     return longest;
 }
 
-static double much(const survey *s, double side) {
+static double much(const directional_survey *s, double side) {
     return side > 0 ? (1 + 2 * s->delta) * side : 0; /* the factor may be infinite */
 }
 
 /* What the face across `axis` of a box with these sides is widened by on axis k. */
-static double room_of_side(const survey *s, const double *side, int longest, int axis, int form, int k) {
+static double room_of_side(const directional_survey *s, const double *side, int longest, int axis, int form, int k) {
     double face = 0;
     if (form == NONE) return 0;
     if (form == SIMPLE || k == form - EVEN) return s->delta * side[k];
@@ -59,7 +59,7 @@ static double room_of_side(const survey *s, const double *side, int longest, int
 
 /* Faces of an object: lower, then upper, on each axis; forms of each face. */
 static void window(const void *user, size_t i, double *lo, double *hi) {
-    const survey *s = user;
+    const directional_survey *s = user;
     int dim = s->sample.scene->dim, form = (int)(i % forms(dim)), face = (int)(i % windows_each(dim) / forms(dim));
     uint32_t object = measure_sample_object(&s->sample, (uint32_t)(i / windows_each(dim)));
     size_t at = (size_t)object * (size_t)dim;
@@ -76,7 +76,7 @@ static void window(const void *user, size_t i, double *lo, double *hi) {
 /* -------------------------------------------------------------------- results -- */
 
 /* The greater count of the two faces across an axis, without the boxes that cross a face itself. */
-static uint32_t worse_face(const survey *s, uint32_t i, int axis, size_t form) {
+static uint32_t worse_face(const directional_survey *s, uint32_t i, int axis, size_t form) {
     size_t each = forms(s->sample.scene->dim);
     const uint32_t *low = s->counts + i * windows_each(s->sample.scene->dim) + 2 * (size_t)axis * each;
     const uint32_t *high = low + each;
@@ -84,7 +84,7 @@ static uint32_t worse_face(const survey *s, uint32_t i, int axis, size_t form) {
     return a > b ? a : b;
 }
 
-static uint32_t worst_face(const survey *s, uint32_t i, size_t form) {
+static uint32_t worst_face(const directional_survey *s, uint32_t i, size_t form) {
     uint32_t most = 0;
     for (int k = 0; k < s->sample.scene->dim; k++) {
         uint32_t count = worse_face(s, i, k, form);
@@ -93,7 +93,7 @@ static uint32_t worst_face(const survey *s, uint32_t i, size_t form) {
     return most;
 }
 
-static bool note_box(survey *s, uint32_t i) {
+static bool note_box(directional_survey *s, uint32_t i) {
     double side[FROE_MAX_DIM];
     int longest = longest_side(s, measure_sample_object(&s->sample, i), side);
     uint32_t paired = UINT32_MAX, directed = UINT32_MAX;
@@ -110,7 +110,7 @@ static bool note_box(survey *s, uint32_t i) {
     return true;
 }
 
-static froe_status look_for_directional(survey *s, froe_counting counting) {
+static froe_status look_for_directional(directional_survey *s, froe_counting counting) {
     measure_windows windows = {&s->bounds, s->sample.count * windows_each(s->sample.scene->dim), window, s};
     froe_status status = measure_bounds_new(&s->sample, &s->bounds);
     s->counts = support_calloc(&s->sample.alloc, windows.count, sizeof *s->counts);
@@ -128,7 +128,7 @@ static froe_status look_for_directional(survey *s, froe_counting counting) {
 froe_status froe_measure_directional(const froe_scene *scene, double delta, const froe_measure_options *options,
                                      froe_directional *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    survey s = {.delta = delta};
+    directional_survey s = {.delta = delta};
     froe_counting counting = options ? options->counting : FROE_COUNT_SEARCH;
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;

@@ -97,27 +97,22 @@ static bool make_node(maker *m, int axis, const size_t *from, uint32_t count) {
     return axis < d->dim - 2 || make_plane(m, d->nodes.count - 1);
 }
 
-static bool make_children(maker *m, size_t at, int axis) {
-    measure_dominance_node *node = m->d->nodes.data + at;
-    uint32_t count = node->count;
-    size_t keys = node->keys;
-    node->next = m->d->nodes.count;
-    for (uint32_t j = 1; j <= count; j++) {
-        uint32_t low = j & -j;
-        size_t from = keys + j - low;
-        if (!make_node(m, axis + 1, &from, low)) return false;
-    }
-    return true;
-}
-
+/* The nodes of an axis from `from` on, of which each has children: one for each node of a Fenwick tree of its points. */
 static bool make_tree(maker *m) {
     measure_dominance *d = m->d;
     bool ok = make_node(m, 0, NULL, m->count);
-    size_t from = 0;
-    for (int axis = 0; axis < d->dim - 2 && ok; axis++) {
-        size_t end = d->nodes.count;
-        for (; from < end && ok; from++) ok = make_children(m, from, axis);
-    }
+    size_t at = 0;
+    for (int axis = 0; axis < d->dim - 2 && ok; axis++)
+        for (size_t end = d->nodes.count; at < end && ok; at++) {
+            const uint32_t count = d->nodes.data[at].count;
+            const size_t keys = d->nodes.data[at].keys;
+            d->nodes.data[at].next = d->nodes.count;
+            for (uint32_t j = 1; j <= count && ok; j++) {
+                const uint32_t low = j & -j;
+                const size_t from = keys + j - low;
+                ok = make_node(m, axis + 1, &from, low);
+            }
+        }
     return ok;
 }
 

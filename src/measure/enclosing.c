@@ -81,13 +81,6 @@ static bool circumscribe(int dim, const support *s, double scale, measure_ball *
     return isfinite(out->radius);
 }
 
-static bool ball_holds(int dim, const measure_ball *ball, const support *s, double scale) {
-    bool all = true;
-    for (int i = 0; i < s->count; i++)
-        all = all && sqrt(square_distance(dim, ball->centre, s->point[i], scale)) <= ball->radius * SLACK;
-    return all;
-}
-
 /* Of the balls held by the last point and some of the others, the smallest that holds all. */
 static bool exchange(int dim, support *s, double scale, measure_ball *ball) {
     support best = {.count = 0};
@@ -99,7 +92,10 @@ static bool exchange(int dim, support *s, double scale, measure_ball *ball) {
             if (set >> i & 1) some.point[some.count++] = s->point[i];
         measure_ball b;
         if (some.count > dim + 1 || !circumscribe(dim, &some, scale, &b)) continue;
-        if (b.radius < least.radius && ball_holds(dim, &b, s, scale)) least = b, best = some;
+        bool holds = b.radius < least.radius;
+        for (int i = 0; i < s->count; i++)
+            holds = holds && sqrt(square_distance(dim, b.centre, s->point[i], scale)) <= b.radius * SLACK;
+        if (holds) least = b, best = some;
     }
     if (!best.count || least.radius <= ball->radius) return false; /* no growth: doubles allow no better ball */
     *s = best;
@@ -126,22 +122,16 @@ static measure_ball enclose_corners(const froe_scene *scene, uint32_t object, do
     return ball;
 }
 
-static measure_ball enclose_box(const froe_scene *scene, uint32_t object, double scale) {
-    measure_ball ball;
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    scene_object_bounds(scene, object, lo, hi);
-    for (int k = 0; k < scene->dim; k++) ball.centre[k] = lo[k] + (0.5 * hi[k] - 0.5 * lo[k]);
-    ball.radius = 0.5 * sqrt(square_distance(scene->dim, lo, hi, scale));
-    return ball;
-}
-
 measure_ball measure_enclosing(const froe_scene *scene, uint32_t object) {
     const double scale = measure_scale(scene, object);
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     measure_ball ball;
     switch (scene_form(scene, object)) {
     case FROE_BOX:
     case FROE_POINT:
-        ball = enclose_box(scene, object, scale);
+        scene_object_bounds(scene, object, lo, hi);
+        for (int k = 0; k < scene->dim; k++) ball.centre[k] = lo[k] + (0.5 * hi[k] - 0.5 * lo[k]);
+        ball.radius = 0.5 * sqrt(square_distance(scene->dim, lo, hi, scale));
         break;
     case FROE_BALL:
         memcpy(ball.centre, scene_point(scene, object, 0), (size_t)scene->dim * sizeof(double));

@@ -17,13 +17,6 @@ static double ball_volume(int dim, double radius) {
     return volume;
 }
 
-static double box_volume(const froe_scene *scene, uint32_t object, double scale) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], volume = 1;
-    scene_object_bounds(scene, object, lo, hi);
-    for (int k = 0; k < scene->dim; k++) volume *= hi[k] * scale - lo[k] * scale;
-    return volume;
-}
-
 static void cross_of_points(const double *a, const double *b, const double *c, double scale, double *out) {
     double u[3], v[3];
     for (int k = 0; k < 3; k++) u[k] = b[k] * scale - a[k] * scale, v[k] = c[k] * scale - a[k] * scale;
@@ -84,13 +77,16 @@ static froe_status note_hull(measure_sample *s, num_context *context, uint32_t o
 static bool note_object(measure_sample *s, uint32_t object, froe_fatness *out) {
     const froe_scene *scene = s->scene;
     const double scale = measure_scale(scene, object);
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], volume = 1;
     measure_ball ball;
     switch (scene_form(scene, object)) {
     case FROE_BALL:
         out->thin += scene_radius(scene, object) == 0;
         return note(s, FULL, scene_radius(scene, object) > 0);
     case FROE_BOX:
-        return note_full(s, object, scale, box_volume(scene, object, scale), out);
+        scene_object_bounds(scene, object, lo, hi);
+        for (int k = 0; k < scene->dim; k++) volume *= hi[k] * scale - lo[k] * scale;
+        return note_full(s, object, scale, volume, out);
     case FROE_POLYGON:
         out->thin++;
         ball = measure_enclosing(scene, object);
@@ -102,20 +98,6 @@ static bool note_object(measure_sample *s, uint32_t object, froe_fatness *out) {
     }
 }
 
-static froe_status note_all(measure_sample *s, num_context *context, froe_fatness *out) {
-    froe_status status = FROE_OK;
-    for (uint32_t i = 0; i < s->count && !status; i++) {
-        uint32_t object = measure_sample_object(s, i);
-        if (!measure_sample_go_on(s, i))
-            status = FROE_E_CANCELLED;
-        else if (scene_form(s->scene, object) == FROE_HULL)
-            status = note_hull(s, context, object, out);
-        else if (!note_object(s, object, out))
-            status = FROE_E_MEMORY;
-    }
-    return status;
-}
-
 froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_options *options, froe_fatness *out,
                                  froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -125,10 +107,17 @@ froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_opt
     if (status) return status;
     froe_fatness found = {.thin = 0};
     status = geom_context_new(&s.alloc, &context);
-    if (!status) {
-        status = note_all(&s, &context, &found);
-        num_context_free(&context);
+    const bool made = !status;
+    for (uint32_t i = 0; i < s.count && !status; i++) {
+        uint32_t object = measure_sample_object(&s, i);
+        if (!measure_sample_go_on(&s, i))
+            status = FROE_E_CANCELLED;
+        else if (scene_form(scene, object) == FROE_HULL)
+            status = note_hull(&s, &context, object, &found);
+        else if (!note_object(&s, object, &found))
+            status = FROE_E_MEMORY;
     }
+    if (made) num_context_free(&context);
     if (!status) status = measure_sample_spread(&s, FULL, &found.full);
     if (!status) status = measure_sample_spread(&s, FLAT, &found.flat);
     if (!status) status = measure_sample_spread(&s, SLIVER, &found.sliver);

@@ -6,7 +6,10 @@
 
 /* ------------------------------------------------------------------ packing -- */
 
-static void bounds(const measure_hierarchy *h, const double *lo, const double *hi, double *from, double *to) {
+static froe_status order(measure_hierarchy *h, const double *lo, const double *hi) {
+    double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
+    base_pair *pairs = support_calloc(&h->alloc, 2 * (size_t)h->count, sizeof *pairs);
+    if (!pairs) return FROE_E_MEMORY;
     for (int k = 0; k < h->dim; k++) from[k] = lo[k], to[k] = hi[k];
     for (size_t i = 1; i < h->count; i++)
         for (int k = 0; k < h->dim; k++) {
@@ -14,13 +17,6 @@ static void bounds(const measure_hierarchy *h, const double *lo, const double *h
             if (lo[at] < from[k]) from[k] = lo[at];
             if (hi[at] > to[k]) to[k] = hi[at];
         }
-}
-
-static froe_status order(measure_hierarchy *h, const double *lo, const double *hi) {
-    double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
-    base_pair *pairs = support_calloc(&h->alloc, 2 * (size_t)h->count, sizeof *pairs);
-    if (!pairs) return FROE_E_MEMORY;
-    bounds(h, lo, hi, from, to);
     for (uint32_t i = 0; i < h->count; i++) {
         size_t at = (size_t)i * (size_t)h->dim;
         pairs[i] = (base_pair){base_curve_place(h->dim, lo + at, hi + at, from, to), i};
@@ -38,42 +34,31 @@ static void copy_entry(measure_hierarchy *h, uint32_t to, const double *lo, cons
     h->size[to] = size;
 }
 
-static void widen_entry(measure_hierarchy *h, uint32_t to, uint32_t by) {
-    size_t a = (size_t)to * (size_t)h->dim, b = (size_t)by * (size_t)h->dim;
-    for (int k = 0; k < h->dim; k++, a++, b++) {
-        if (h->lo[b] < h->lo[a]) h->lo[a] = h->lo[b];
-        if (h->hi[b] > h->hi[a]) h->hi[a] = h->hi[b];
-    }
-    if (h->size[by] > h->size[to]) h->size[to] = h->size[by];
-}
-
 static void fill_level(measure_hierarchy *h, uint32_t level) {
     uint32_t below = h->first[level - 1], end = h->first[level];
     for (uint32_t child = below; child < end; child++) {
         uint32_t node = end + (child - below) / MEASURE_FAN;
-        size_t at = (size_t)child * (size_t)h->dim;
-        if ((child - below) % MEASURE_FAN)
-            widen_entry(h, node, child);
-        else
-            copy_entry(h, node, h->lo + at, h->hi + at, h->size[child]);
+        size_t a = (size_t)node * (size_t)h->dim, b = (size_t)child * (size_t)h->dim;
+        if ((child - below) % MEASURE_FAN == 0) {
+            copy_entry(h, node, h->lo + b, h->hi + b, h->size[child]);
+            continue;
+        }
+        for (int k = 0; k < h->dim; k++, a++, b++) {
+            if (h->lo[b] < h->lo[a]) h->lo[a] = h->lo[b];
+            if (h->hi[b] > h->hi[a]) h->hi[a] = h->hi[b];
+        }
+        if (h->size[child] > h->size[node]) h->size[node] = h->size[child];
     }
-}
-
-static void lay_out_hierarchy(measure_hierarchy *h) {
-    uint32_t width = h->count;
-    h->first[0] = 0;
-    while (width) {
-        h->first[h->levels + 1] = h->first[h->levels] + width;
-        h->levels++;
-        width = width > 1 ? (width + MEASURE_FAN - 1) / MEASURE_FAN : 0;
-    }
-    h->entries = h->first[h->levels];
 }
 
 froe_status measure_hierarchy_new(const froe_allocator *alloc, int dim, uint32_t count, const double *lo,
                                   const double *hi, const double *size, measure_hierarchy *out) {
     *out = (measure_hierarchy){.alloc = *alloc, .dim = dim, .count = count};
-    lay_out_hierarchy(out);
+    for (uint32_t width = count; width; width = width > 1 ? (width + MEASURE_FAN - 1) / MEASURE_FAN : 0) {
+        out->first[out->levels + 1] = out->first[out->levels] + width;
+        out->levels++;
+    }
+    out->entries = out->first[out->levels];
     size_t numbers = (size_t)out->entries * (size_t)dim;
     out->ids = support_calloc(alloc, count, sizeof *out->ids);
     out->lo = support_calloc(alloc, numbers, sizeof *out->lo);
@@ -110,29 +95,20 @@ measure_search measure_search_begin(const measure_hierarchy *h, const double *lo
     return s;
 }
 
-static bool matches(const measure_search *s, uint32_t entry) {
-    const double *lo = s->in->lo + (size_t)entry * (size_t)s->in->dim;
-    const double *hi = s->in->hi + (size_t)entry * (size_t)s->in->dim;
-    bool meets = s->in->size[entry] >= s->least;
-    for (int k = 0; k < s->in->dim && meets; k++) meets = lo[k] <= s->hi[k] && hi[k] >= s->lo[k];
-    return meets;
-}
-
-static void push_children(measure_search *s, uint32_t entry) {
-    const measure_hierarchy *h = s->in;
-    uint32_t level = 1;
-    while (entry >= h->first[level + 1]) level++;
-    uint32_t child = h->first[level - 1] + (entry - h->first[level]) * MEASURE_FAN, end = child + MEASURE_FAN;
-    if (end > h->first[level]) end = h->first[level];
-    while (end > child) s->stack[s->top++] = --end;
-}
-
 uint32_t measure_search_next(measure_search *s) {
+    const measure_hierarchy *h = s->in;
     while (s->top) {
-        uint32_t entry = s->stack[--s->top];
-        if (!matches(s, entry)) continue;
-        if (entry < s->in->count) return s->in->ids[entry];
-        push_children(s, entry);
+        const uint32_t entry = s->stack[--s->top];
+        const double *lo = h->lo + (size_t)entry * (size_t)h->dim, *hi = h->hi + (size_t)entry * (size_t)h->dim;
+        bool meets = h->size[entry] >= s->least;
+        for (int k = 0; k < h->dim && meets; k++) meets = lo[k] <= s->hi[k] && hi[k] >= s->lo[k];
+        if (!meets) continue;
+        if (entry < h->count) return h->ids[entry];
+        uint32_t level = 1;
+        while (entry >= h->first[level + 1]) level++;
+        uint32_t child = h->first[level - 1] + (entry - h->first[level]) * MEASURE_FAN, end = child + MEASURE_FAN;
+        if (end > h->first[level]) end = h->first[level];
+        while (end > child) s->stack[s->top++] = --end;
     }
     return FROE_NONE;
 }

@@ -14,10 +14,10 @@ enum {
 };
 
 /* Pairs that a worker has found, in a line of the cache of their own. */
-typedef struct counter {
+typedef struct pair_counter {
     uint32_t pairs;
     char apart[60];
-} counter;
+} pair_counter;
 
 /* Objects that lie side by side: a run of `order`, and a search tree of its boxes. */
 typedef struct sheet {
@@ -25,7 +25,7 @@ typedef struct sheet {
     measure_hierarchy boxes;
 } sheet;
 
-typedef struct search {
+typedef struct sheet_search {
     const measure_candidates *of;
     const froe_allocator *alloc;
     base_task *task;
@@ -34,7 +34,7 @@ typedef struct search {
     void *user;
     /* before there are sheets */
     atomic_size_t found;
-    counter *counters; /* of each worker */
+    pair_counter *counters; /* of each worker */
     /* then */
     base_pair *pairs; /* places in the list, by source polygon; and as many more */
     uint32_t *order;  /* places in the list: the sheets, one after the other, then the loose objects */
@@ -45,55 +45,42 @@ typedef struct search {
     uint32_t straight;        /* the loose objects begin here in `order` */
     ARRAY(measure_touch) touches;
     bool *crooked;
-} search;
+} sheet_search;
 
 /* -------------------------------------------------------------------- boxes -- */
 
 static bool count_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
-    search *s = user;
+    sheet_search *s = user;
     (void)a, (void)b;
     if (++s->counters[worker].pairs < COUNTED) return true;
     s->counters[worker].pairs = 0;
     return atomic_fetch_add(&s->found, COUNTED) < ENOUGH * (size_t)s->of->count;
 }
 
-/* Are there more pairs of boxes than a sweep costs? Counting them takes a small part of the time of testing them. */
-static froe_status count_boxes(search *s, bool *many) {
-    const measure_candidates *of = s->of;
-    s->counters = support_calloc(s->alloc, s->task->threads, sizeof *s->counters);
-    if (!s->counters) return FROE_E_MEMORY;
-    froe_status status =
-        geom_box_pairs(s->alloc, s->task, 0.1, of->scene->dim, of->count, of->lo, of->hi, count_pair, s);
-    support_free(s->alloc, s->counters, s->task->threads * sizeof *s->counters);
-    *many = status == FROE_E_CANCELLED && !base_cancelled(s->task);
-    return *many ? FROE_OK : status;
-}
-
 /* ------------------------------------------------------------------- sheets -- */
-
-/* The axis along which polygons look largest, by the sum of their areas in doubles: any axis is right. */
-static int widest(const froe_scene *scene, const uint32_t *objects, uint32_t count) {
-    double areas[3] = {0, 0, 0};
-    for (uint32_t i = 0; i < count; i++) {
-        const double *a = scene_point(scene, objects[i], 0), *b = scene_point(scene, objects[i], 1);
-        const double *c = scene_point(scene, objects[i], 2);
-        for (int k = 0; k < 3; k++) {
-            int u = (k + 1) % 3, v = (k + 2) % 3;
-            areas[k] += fabs((b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]));
-        }
-    }
-    int best = areas[1] > areas[0] ? 1 : 0;
-    return areas[2] > areas[best] ? 2 : best;
-}
 
 /* Sweeps over a run of s->pairs; straight objects come into the order, s->crooked is set for all. `objects` is scratch.
  */
-static froe_status sweep_run(search *s, size_t first, uint32_t count, uint32_t *objects) {
+static froe_status sweep_run(sheet_search *s, size_t first, uint32_t count, uint32_t *objects) {
     const froe_scene *scene = s->of->scene;
     for (uint32_t i = 0; i < count; i++) objects[i] = s->of->objects[s->pairs[first + i].value];
+    int axis = -1;
+    if (scene->dim ==
+        3) { /* along which the polygons look largest, by the sum of their areas in doubles: any is right */
+        double areas[3] = {0, 0, 0};
+        for (uint32_t i = 0; i < count; i++) {
+            const double *a = scene_point(scene, objects[i], 0), *b = scene_point(scene, objects[i], 1);
+            const double *c = scene_point(scene, objects[i], 2);
+            for (int k = 0; k < 3; k++) {
+                int u = (k + 1) % 3, v = (k + 2) % 3;
+                areas[k] += fabs((b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]));
+            }
+        }
+        axis = areas[1] > areas[0] ? 1 : 0;
+        axis = areas[2] > areas[axis] ? 2 : axis;
+    }
     measure_sheet made = {.crooked = s->crooked + first};
-    froe_status status = measure_sheet_sweep(
-        s->context, s->task, scene, scene->dim == 2 ? -1 : widest(scene, objects, count), objects, count, &made);
+    froe_status status = measure_sheet_sweep(s->context, s->task, scene, axis, objects, count, &made);
     for (size_t i = 0; i < made.touches.count && !status; i++) {
         measure_touch t = made.touches.data[i];
         if (made.crooked[t.a] || made.crooked[t.b]) continue;
@@ -109,17 +96,14 @@ static froe_status sweep_run(search *s, size_t first, uint32_t count, uint32_t *
     return status;
 }
 
-/* The source polygon of a candidate; all segments of the plane have one. */
-static uint64_t source(const search *s, uint32_t place) {
+static froe_status sweep_all(sheet_search *s) {
     const froe_scene *scene = s->of->scene;
-    uint32_t object = s->of->objects[place];
-    return scene->dim == 2 ? 0 : scene->faces ? scene->faces[object] : object;
-}
-
-static froe_status sweep_all(search *s) {
     uint32_t count = s->of->count, *objects = support_calloc(s->alloc, count, sizeof *objects);
     froe_status status = objects ? FROE_OK : FROE_E_MEMORY;
-    for (uint32_t i = 0; i < count; i++) s->pairs[i] = (base_pair){source(s, i), i};
+    for (uint32_t i = 0; i < count; i++) { /* by source polygon; all segments of the plane have one */
+        const uint32_t object = s->of->objects[i];
+        s->pairs[i] = (base_pair){scene->dim == 2 ? 0 : scene->faces ? scene->faces[object] : object, i};
+    }
     base_radix_sort(s->pairs, s->pairs + count, count);
     memset(s->crooked, true, count);
     for (uint32_t first = 0, end; first < count && !status; first = end) {
@@ -134,18 +118,13 @@ static froe_status sweep_all(search *s) {
 
 /* ---------------------------------------------------------------- searching -- */
 
-static void copy_bounds(search *s) {
-    size_t dim = (size_t)s->of->scene->dim;
-    for (size_t i = 0; i < s->of->count; i++) {
-        memcpy(s->lo + i * dim, s->of->lo + s->order[i] * dim, dim * sizeof *s->lo);
-        memcpy(s->hi + i * dim, s->of->hi + s->order[i] * dim, dim * sizeof *s->hi);
-    }
-}
-
-static froe_status make_trees(search *s) {
+static froe_status make_trees(sheet_search *s) {
     int dim = s->of->scene->dim;
     size_t width = (size_t)dim, count = s->sheets.count;
-    copy_bounds(s);
+    for (size_t i = 0; i < s->of->count; i++) {
+        memcpy(s->lo + i * width, s->of->lo + s->order[i] * width, width * sizeof *s->lo);
+        memcpy(s->hi + i * width, s->of->hi + s->order[i] * width, width * sizeof *s->hi);
+    }
     s->sheet_lo = support_calloc(s->alloc, count * width, sizeof *s->sheet_lo);
     s->sheet_hi = support_calloc(s->alloc, count * width, sizeof *s->sheet_hi);
     if (!s->sheet_lo || !s->sheet_hi) return FROE_E_MEMORY;
@@ -161,29 +140,23 @@ static froe_status make_trees(search *s) {
     return measure_hierarchy_new(s->alloc, dim, (uint32_t)count, s->sheet_lo, s->sheet_hi, NULL, &s->bounds);
 }
 
-static bool visit_sheet(search *s, unsigned worker, uint32_t visitor, const sheet *t) {
-    size_t at = (size_t)visitor * (size_t)s->of->scene->dim;
-    measure_search in = measure_search_begin(&t->boxes, s->lo + at, s->hi + at, 0);
-    for (uint32_t i; (i = measure_search_next(&in)) != FROE_NONE;) {
-        if (base_cancelled(s->task)) return false;
-        if (!s->fn(s->user, worker, s->order[visitor], s->order[t->first + i])) return false;
-    }
-    return true;
-}
-
 /* A loose object visits all sheets, an object of a sheet visits the sheets before it. */
-static bool visit_sheets(search *s, unsigned worker, uint32_t visitor) {
+static bool visit_sheets(sheet_search *s, unsigned worker, uint32_t visitor) {
     size_t at = (size_t)visitor * (size_t)s->of->scene->dim;
     measure_search sheets = measure_search_begin(&s->bounds, s->lo + at, s->hi + at, 0);
     for (uint32_t i; (i = measure_search_next(&sheets)) != FROE_NONE;) {
         const sheet *t = s->sheets.data + i;
-        if (visitor >= t->end && !visit_sheet(s, worker, visitor, t)) return false;
+        if (visitor < t->end) continue;
+        measure_search in = measure_search_begin(&t->boxes, s->lo + at, s->hi + at, 0);
+        for (uint32_t k; (k = measure_search_next(&in)) != FROE_NONE;)
+            if (base_cancelled(s->task) || !s->fn(s->user, worker, s->order[visitor], s->order[t->first + k]))
+                return false;
     }
     return true;
 }
 
 static froe_status visit_job(void *user, unsigned worker, size_t job) {
-    search *s = user;
+    sheet_search *s = user;
     size_t end = (job + 1) * VISITORS;
     for (size_t i = job * VISITORS; i < end && i < s->of->count; i++)
         if (!visit_sheets(s, worker, (uint32_t)i)) return FROE_E_CANCELLED;
@@ -191,13 +164,13 @@ static froe_status visit_job(void *user, unsigned worker, size_t job) {
 }
 
 static bool loose_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
-    const search *s = user;
+    const sheet_search *s = user;
     return s->fn(s->user, worker, s->order[s->straight + a], s->order[s->straight + b]);
 }
 
 /* -------------------------------------------------------------------- pairs -- */
 
-static froe_status tell_touches(search *s) {
+static froe_status tell_touches(sheet_search *s) {
     size_t count = s->touches.count;
     base_pair *pairs = support_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
     if (!pairs) return FROE_E_MEMORY;
@@ -211,7 +184,7 @@ static froe_status tell_touches(search *s) {
     return go_on ? FROE_OK : FROE_E_CANCELLED;
 }
 
-static froe_status search_sheets(search *s) {
+static froe_status search_sheets(sheet_search *s) {
     uint32_t count = s->of->count;
     size_t numbers = (size_t)count * (size_t)s->of->scene->dim;
     s->pairs = support_calloc(s->alloc, 2 * (size_t)count, sizeof *s->pairs);
@@ -232,31 +205,30 @@ static froe_status search_sheets(search *s) {
     support_free(s->alloc, s->lo, numbers * sizeof *s->lo);
     support_free(s->alloc, s->hi, numbers * sizeof *s->hi);
     support_free(s->alloc, s->crooked, count * sizeof *s->crooked);
-    return status;
-}
-
-static void free_sheets(search *s) {
-    size_t numbers = s->sheets.count * (size_t)s->of->scene->dim;
+    size_t bounds = s->sheets.count * (size_t)s->of->scene->dim;
     for (size_t i = 0; i < s->sheets.count; i++)
         if (s->sheets.data[i].boxes.ids) measure_hierarchy_free(&s->sheets.data[i].boxes);
     if (s->bounds.ids) measure_hierarchy_free(&s->bounds);
-    support_free(s->alloc, s->sheet_lo, (numbers ? numbers : 1) * sizeof *s->sheet_lo);
-    support_free(s->alloc, s->sheet_hi, (numbers ? numbers : 1) * sizeof *s->sheet_hi);
+    support_free(s->alloc, s->sheet_lo, (bounds ? bounds : 1) * sizeof *s->sheet_lo);
+    support_free(s->alloc, s->sheet_hi, (bounds ? bounds : 1) * sizeof *s->sheet_hi);
     array_free(s->alloc, &s->sheets);
     array_free(s->alloc, &s->touches);
+    return status;
 }
 
 froe_status measure_odd_pairs(base_task *task, num_context *context, const measure_candidates *of, geom_pair_fn *fn,
                               void *user) {
-    search s = {.of = of, .alloc = &of->scene->alloc, .task = task, .context = context, .fn = fn, .user = user};
-    bool many = false;
-    froe_status status = count_boxes(&s, &many);
-    if (!status && many) {
+    const int dim = of->scene->dim;
+    sheet_search s = {.of = of, .alloc = &of->scene->alloc, .task = task, .context = context, .fn = fn, .user = user};
+    /* Are there more pairs of boxes than a sweep costs? Counting them takes a small part of the time of testing them. */
+    s.counters = support_calloc(s.alloc, task->threads, sizeof *s.counters);
+    if (!s.counters) return FROE_E_MEMORY;
+    froe_status status = geom_box_pairs(s.alloc, task, 0.1, dim, of->count, of->lo, of->hi, count_pair, &s);
+    support_free(s.alloc, s.counters, task->threads * sizeof *s.counters);
+    if (status == FROE_E_CANCELLED && !base_cancelled(task))
         status = search_sheets(&s);
-        free_sheets(&s);
-    } else if (!status) {
-        status = geom_box_pairs(s.alloc, task, 0.9, of->scene->dim, of->count, of->lo, of->hi, fn, user);
-    }
+    else if (!status)
+        status = geom_box_pairs(s.alloc, task, 0.9, dim, of->count, of->lo, of->hi, fn, user);
     if (!status && !base_progress(task, 1)) status = FROE_E_CANCELLED;
     return status;
 }

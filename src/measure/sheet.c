@@ -7,13 +7,13 @@
 enum { POLL = 1 << 12 };
 
 /* Number 0 is no edge: the end of the list of neighbours, and of the tree. */
-typedef struct edge {
+typedef struct sheet_edge {
     double p[2], q[2];     /* p before q: by the first coordinate, then by the second */
     uint32_t beside[2];    /* what lies below and above, or FROE_NONE; of a segment itself, twice */
     uint32_t neighbour[2]; /* on the line, below and above */
     uint32_t child[2];
     bool on; /* on the line */
-} edge;
+} sheet_edge;
 
 /* The edge of an object: vertices p and q, and what lies on one side, or on both. */
 typedef struct side {
@@ -28,7 +28,7 @@ typedef struct sweep {
     int axis;
     measure_sheet *sheet;
     ARRAY(side) sides;
-    ARRAY(edge) edges;
+    ARRAY(sheet_edge) edges;
     base_pair *events; /* where edges begin and end, in order: an edge, its lowest bit is the end */
     size_t event_room, event_count;
     uint32_t root;
@@ -52,10 +52,10 @@ static bool same_sheet_place(const double *p, const double *q) {
 
 /* Where is f, of e? 1 above, -1 below, 0: on one line. Both meet the line of the sweep, and do not cross before it. f
  * may be a point. */
-static int place_on_sheet(const sweep *s, const edge *e, const edge *f) {
+static int place_on_sheet(const sweep *s, const sheet_edge *e, const sheet_edge *f) {
     if (e == f) return 0;
     bool later = before(f->p, e->p);
-    const edge *first = later ? f : e, *second = later ? e : f;
+    const sheet_edge *first = later ? f : e, *second = later ? e : f;
     int sign = same_sheet_place(first->p, second->p) ? 0 : geom_turn(s->context, first->p, first->q, second->p);
     if (!sign && !same_sheet_place(second->p, second->q)) sign = geom_turn(s->context, first->p, first->q, second->q);
     return later ? -sign : sign;
@@ -67,20 +67,9 @@ static void condemn(sweep *s, uint32_t object) {
     if (object != FROE_NONE) s->sheet->crooked[object] = true;
 }
 
-static void condemn_edge(sweep *s, const edge *e) {
+static void condemn_edge(sweep *s, const sheet_edge *e) {
     condemn(s, e->beside[0]);
     condemn(s, e->beside[1]);
-}
-
-/* The edge between two corners of an object, which turns left if way is 1. */
-static bool add_side(sweep *s, uint32_t number, uint32_t from, uint32_t to, int way) {
-    double p[2], q[2];
-    shadow(s, from, p);
-    shadow(s, to, q);
-    bool ascends = before(p, q), both = s->axis < 0;
-    side new = {ascends ? from : to, ascends ? to : from, number, both || ascends != (way > 0),
-                both || ascends == (way > 0)};
-    return array_push(s->alloc, &s->sides, new);
 }
 
 static froe_status add_object(sweep *s, uint32_t number, uint32_t object) {
@@ -91,14 +80,20 @@ static froe_status add_object(sweep *s, uint32_t number, uint32_t object) {
                                                 scene_point(scene, object, 1), scene_point(scene, object, 2));
     s->sheet->crooked[number] = !way; /* seen edge-on */
     for (uint32_t i = 0; way && i < edges; i++) {
-        uint32_t next = i + 1 < corners ? i + 1 : 0;
-        if (!add_side(s, number, scene_corner(scene, object, i), scene_corner(scene, object, next), way))
-            return FROE_E_MEMORY;
+        const uint32_t from = scene_corner(scene, object, i),
+                       to = scene_corner(scene, object, i + 1 < corners ? i + 1 : 0);
+        double p[2], q[2];
+        shadow(s, from, p);
+        shadow(s, to, q);
+        const bool ascends = before(p, q), both = s->axis < 0;
+        const side new = {ascends ? from : to, ascends ? to : from, number, both || ascends != (way > 0),
+                          both || ascends == (way > 0)};
+        if (!array_push(s->alloc, &s->sides, new)) return FROE_E_MEMORY;
     }
     return FROE_OK;
 }
 
-static void claim(sweep *s, edge *e, int which, uint32_t object) {
+static void claim(sweep *s, sheet_edge *e, int which, uint32_t object) {
     if (e->beside[which] == FROE_NONE) {
         e->beside[which] = object;
     } else {
@@ -112,19 +107,19 @@ static froe_status join_sides(sweep *s) {
     size_t count = s->sides.count;
     base_pair *pairs = support_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
     bool room = pairs && array_reserve(s->alloc, &s->edges, count + 1);
-    if (room) s->edges.data[s->edges.count++] = (edge){.beside = {FROE_NONE, FROE_NONE}};
+    if (room) s->edges.data[s->edges.count++] = (sheet_edge){.beside = {FROE_NONE, FROE_NONE}};
     for (size_t i = 0; room && i < count; i++)
         pairs[i] = (base_pair){(uint64_t)s->sides.data[i].p << 32 | s->sides.data[i].q, (uint32_t)i};
     if (room) base_radix_sort(pairs, pairs + count, count);
     for (size_t i = 0; room && i < count; i++) {
         const side *from = s->sides.data + pairs[i].value;
         if (!i || pairs[i].key != pairs[i - 1].key) {
-            edge *new = s->edges.data + s->edges.count++;
-            *new = (edge){.beside = {FROE_NONE, FROE_NONE}};
+            sheet_edge *new = s->edges.data + s->edges.count++;
+            *new = (sheet_edge){.beside = {FROE_NONE, FROE_NONE}};
             shadow(s, from->p, new->p);
             shadow(s, from->q, new->q);
         }
-        edge *e = s->edges.data + s->edges.count - 1;
+        sheet_edge *e = s->edges.data + s->edges.count - 1;
         if (from->below) claim(s, e, 0, from->object);
         if (from->above) claim(s, e, 1, from->object);
     }
@@ -133,7 +128,7 @@ static froe_status join_sides(sweep *s) {
 }
 
 static const double *event_place(const sweep *s, const base_pair *event) {
-    const edge *e = s->edges.data + event->value / 2;
+    const sheet_edge *e = s->edges.data + event->value / 2;
     return event->value % 2 ? e->p : e->q;
 }
 
@@ -154,8 +149,8 @@ static froe_status sort_events(sweep *s) {
 /* ---------------------------------------------------------------------- tree -- */
 
 /* Brings an edge beside `key` to the top, top down. */
-static uint32_t splay(const sweep *s, uint32_t top, const edge *key) {
-    edge *e = s->edges.data;
+static uint32_t splay(const sweep *s, uint32_t top, const sheet_edge *key) {
+    sheet_edge *e = s->edges.data;
     uint32_t parts[2] = {0, 0}, *tails[2] = {parts, parts + 1}; /* what lies below and above of all that was passed */
     for (int sign; (sign = place_on_sheet(s, e + top, key)) != 0;) {
         int towards = sign > 0;
@@ -185,7 +180,7 @@ static void link_neighbours(sweep *s, uint32_t low, uint32_t high) {
 
 /* An edge that runs along another one from its start on is not inserted. */
 static void insert(sweep *s, uint32_t number) {
-    edge *e = s->edges.data, *new = e + number;
+    sheet_edge *e = s->edges.data, *new = e + number;
     new->child[0] = new->child[1] = 0;
     if (s->root) {
         s->root = splay(s, s->root, new);
@@ -209,7 +204,7 @@ static void insert(sweep *s, uint32_t number) {
 }
 
 static void take_out(sweep *s, uint32_t number) {
-    edge *e = s->edges.data, *old = e + number;
+    sheet_edge *e = s->edges.data, *old = e + number;
     splay(s, s->root, old);
     s->root = old->child[1];
     if (old->child[0]) {
@@ -224,57 +219,48 @@ static void take_out(sweep *s, uint32_t number) {
 
 /* Do neighbours cross further on? The one that ends first does so on the wrong side of the other. */
 static bool cross(const sweep *s, uint32_t low, uint32_t high) {
-    const edge *a = s->edges.data + low, *b = s->edges.data + high;
+    const sheet_edge *a = s->edges.data + low, *b = s->edges.data + high;
     if (!low || !high) return false;
     return before(a->q, b->q) ? geom_turn(s->context, b->p, b->q, a->q) > 0
                               : geom_turn(s->context, a->p, a->q, b->q) < 0;
 }
 
-static bool condemned(const sweep *s, const edge *e) {
+static bool condemned(const sweep *s, const sheet_edge *e) {
     for (int k = 0; k < 2; k++)
         if (e->beside[k] != FROE_NONE && !s->sheet->crooked[e->beside[k]]) return false;
     return true;
 }
 
-/* The edge to remove of two that cross: one of crooked objects alone, or else the longer one, which may cross more. */
-static uint32_t choose(const sweep *s, uint32_t low, uint32_t high) {
-    const edge *a = s->edges.data + low, *b = s->edges.data + high;
-    if (condemned(s, a) != condemned(s, b)) return condemned(s, a) ? low : high;
-    return a->q[0] - a->p[0] > b->q[0] - b->p[0] ? low : high;
-}
-
-/* Condemns the objects between two neighbours if they differ. */
-static void compare_sides(sweep *s, uint32_t low, uint32_t high) {
-    uint32_t above = s->edges.data[low].beside[1], below = s->edges.data[high].beside[0];
-    if (s->axis < 0 || above == below) return;
-    condemn(s, above);
-    condemn(s, below);
-}
-
 /* Tests all that are neighbours at a point now, before edges that begin there are in, or for good. */
-static void settle(sweep *s, const edge *point, bool for_good) {
-    edge *e = s->edges.data;
+static void settle(sweep *s, const sheet_edge *point, bool for_good) {
+    sheet_edge *e = s->edges.data;
     uint32_t low = s->root ? s->root = splay(s, s->root, point) : 0;
     while (low && place_on_sheet(s, e + low, point) <= 0) low = e[low].neighbour[0];
     for (bool here = true; here;) {
         uint32_t high = e[low].neighbour[1];
-        if (cross(s, low, high)) {
-            uint32_t gone = choose(s, low, high);
+        if (cross(s, low,
+                  high)) { /* an edge of crooked objects alone goes, or else the longer one, which may cross more */
+            const sheet_edge *a = e + low, *b = e + high;
+            const bool one = condemned(s, a), longer = a->q[0] - a->p[0] > b->q[0] - b->p[0];
+            const uint32_t gone = (one != condemned(s, b) ? one : longer) ? low : high;
             condemn_edge(s, e + gone);
             if (gone == low) low = e[low].neighbour[0];
             take_out(s, gone);
             continue;
         }
-        if (for_good) compare_sides(s, low, high);
+        if (for_good && s->axis >= 0 && e[low].beside[1] != e[high].beside[0]) { /* different objects between them */
+            condemn(s, e[low].beside[1]);
+            condemn(s, e[high].beside[0]);
+        }
         here = high && !place_on_sheet(s, e + high, point);
         low = high;
     }
 }
 
 /* Notes that objects with a corner at events first .. end touch the objects beside an edge there. */
-static froe_status touch(sweep *s, const edge *on, size_t first, size_t end) {
+static froe_status touch(sweep *s, const sheet_edge *on, size_t first, size_t end) {
     for (size_t i = first; i < end; i++) {
-        const edge *e = s->edges.data + s->events[i].value / 2;
+        const sheet_edge *e = s->edges.data + s->events[i].value / 2;
         for (int k = 0; k < 4; k++) {
             measure_touch t = {on->beside[k / 2], e->beside[k % 2]};
             if (t.a == FROE_NONE || t.b == FROE_NONE || t.a == t.b || s->sheet->crooked[t.a] || s->sheet->crooked[t.b])
@@ -288,7 +274,7 @@ static froe_status touch(sweep *s, const edge *on, size_t first, size_t end) {
 /* Handles all edges that end or begin at one point. Of edges that only pass, at most one is left before others begin,
  * since two would cross there. */
 static froe_status pass(sweep *s, size_t first, size_t end) {
-    edge *e = s->edges.data, point = {.on = true};
+    sheet_edge *e = s->edges.data, point = {.on = true};
     for (int k = 0; k < 2; k++) point.p[k] = point.q[k] = event_place(s, s->events + first)[k];
     for (size_t i = first; i < end; i++) {
         uint32_t number = s->events[i].value / 2;
@@ -306,20 +292,6 @@ static froe_status pass(sweep *s, size_t first, size_t end) {
     return FROE_OK;
 }
 
-static froe_status sweep_sheet(sweep *s, base_task *task) {
-    froe_status status = FROE_OK;
-    size_t looked = 0;
-    for (size_t first = 0, end; first < s->event_count && !status; first = end) {
-        const double *at = event_place(s, s->events + first);
-        for (end = first + 1; end < s->event_count && same_sheet_place(at, event_place(s, s->events + end));) end++;
-        status = pass(s, first, end);
-        if (first < looked) continue;
-        looked = first + POLL;
-        if (!base_progress(task, task->done)) return FROE_E_CANCELLED;
-    }
-    return status;
-}
-
 froe_status measure_sheet_sweep(num_context *context, base_task *task, const froe_scene *scene, int axis,
                                 const uint32_t *objects, uint32_t count, measure_sheet *sheet) {
     sweep s = {.context = context, .alloc = &scene->alloc, .scene = scene, .axis = axis, .sheet = sheet};
@@ -327,7 +299,15 @@ froe_status measure_sheet_sweep(num_context *context, base_task *task, const fro
     for (uint32_t i = 0; i < count && !status; i++) status = add_object(&s, i, objects[i]);
     if (!status) status = join_sides(&s);
     if (!status) status = sort_events(&s);
-    if (!status) status = sweep_sheet(&s, task);
+    size_t looked = 0;
+    for (size_t first = 0, end; first < s.event_count && !status; first = end) {
+        const double *at = event_place(&s, s.events + first);
+        for (end = first + 1; end < s.event_count && same_sheet_place(at, event_place(&s, s.events + end));) end++;
+        status = pass(&s, first, end);
+        if (first < looked) continue;
+        looked = first + POLL;
+        if (!base_progress(task, task->done)) status = FROE_E_CANCELLED;
+    }
     array_free(s.alloc, &s.sides);
     array_free(s.alloc, &s.edges);
     support_free(s.alloc, s.events, s.event_room * sizeof *s.events);

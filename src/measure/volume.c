@@ -16,9 +16,9 @@ typedef struct facet {
     bool seen;
 } facet;
 
-typedef struct edge {
+typedef struct hull_edge {
     const double *a, *b;
-} edge;
+} hull_edge;
 
 typedef struct hull {
     num_context *context;
@@ -26,7 +26,7 @@ typedef struct hull {
     const froe_scene *scene;
     uint32_t object;
     ARRAY(facet) facets;
-    ARRAY(edge) border;
+    ARRAY(hull_edge) border;
 } hull;
 
 static const double *hull_corner(const hull *h, uint32_t i) {
@@ -34,12 +34,6 @@ static const double *hull_corner(const hull *h, uint32_t i) {
 }
 
 /* ----------------------------------------------------------------- in the plane -- */
-
-/* Is p beyond q, as seen from a corner of the hull with which both are in one line? By coordinates, exactly. */
-static bool beyond(const double *a, const double *q, const double *p) {
-    const int k = q[0] == a[0];
-    return q[k] > a[k] ? p[k] > q[k] : p[k] < q[k];
-}
 
 /* The corner after `at`, counterclockwise: no other lies right of the line to it, nor farther on it. */
 static const double *next_on_hull(const hull *h, const double *at) {
@@ -53,7 +47,11 @@ static const double *next_on_hull(const hull *h, const double *at) {
             geom_plane plane = geom_plane_points(2, line);
             side = geom_side_vertex(h->context, &plane, p);
         }
-        if (side < 0 || (side == 0 && beyond(at, best, p))) best = p;
+        if (side == 0) { /* in one line: is p beyond? By coordinates, exactly */
+            const int k = best[0] == at[0];
+            side = (best[k] > at[k] ? p[k] > best[k] : p[k] < best[k]) ? -1 : 1;
+        }
+        if (side < 0) best = p;
     }
     return best;
 }
@@ -90,24 +88,18 @@ static bool seen_along(const hull *h, const double *a, const double *b) {
     return found;
 }
 
-/* The edges between facets that see the corner and facets that do not. */
-static bool find_border(hull *h) {
-    h->border.count = 0;
-    for (size_t i = 0; i < h->facets.count; i++) {
-        const facet *f = h->facets.data + i;
-        for (int k = 0; k < 3 && f->seen; k++) {
-            const edge e = {f->p[k], f->p[(k + 1) % 3]};
-            if (!seen_along(h, e.b, e.a) && !array_push(h->alloc, &h->border, e)) return false;
-        }
-    }
-    return true;
-}
-
 static bool add_hull_corner(hull *h, const double *x) {
     for (size_t i = 0; i < h->facets.count; i++)
         h->facets.data[i].seen = geom_side_vertex(h->context, &h->facets.data[i].plane, x) > 0;
-    if (!find_border(h)) return false;
+    h->border.count = 0; /* the edges between facets that see the corner and facets that do not */
     size_t kept = 0;
+    for (size_t i = 0; i < h->facets.count; i++) {
+        const facet *f = h->facets.data + i;
+        for (int k = 0; k < 3 && f->seen; k++) {
+            const hull_edge e = {f->p[k], f->p[(k + 1) % 3]};
+            if (!seen_along(h, e.b, e.a) && !array_push(h->alloc, &h->border, e)) return false;
+        }
+    }
     for (size_t i = 0; i < h->facets.count; i++)
         if (!h->facets.data[i].seen) h->facets.data[kept++] = h->facets.data[i];
     h->facets.count = kept;
