@@ -24,11 +24,6 @@ static froe_status load_points(formats_sink *sink, io_shapes *shapes, OGRGeometr
 typedef froe_status part_fn(void *user, formats_sink *sink, io_shapes *shapes, OGRGeometryH part,
                             OGRwkbGeometryType type);
 
-static bool is_collection(OGRwkbGeometryType type) {
-    return type == wkbGeometryCollection || type == wkbMultiPoint || type == wkbMultiLineString ||
-           type == wkbMultiPolygon || type == wkbPolyhedralSurface || type == wkbTIN;
-}
-
 /* Calls fn for every part that is no collection, in order. */
 static froe_status each_part(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry, part_fn *fn, void *user) {
     const froe_allocator *alloc = &sink->alloc;
@@ -38,7 +33,9 @@ static froe_status each_part(formats_sink *sink, io_shapes *shapes, OGRGeometryH
     while (shapes->stack.count && !status) {
         OGRGeometryH part = shapes->stack.data[--shapes->stack.count];
         OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(part));
-        if (!is_collection(type)) {
+        const bool collection = type == wkbGeometryCollection || type == wkbMultiPoint || type == wkbMultiLineString ||
+                                type == wkbMultiPolygon || type == wkbPolyhedralSurface || type == wkbTIN;
+        if (!collection) {
             status = fn(user, sink, shapes, part, type);
             continue;
         }

@@ -64,14 +64,6 @@ static froe_status corrupt(model *w, const char *what) {
     return support_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(w->sink->path), what);
 }
 
-static void multiply(const double *parent, const struct aiMatrix4x4 *m, double *out) {
-    const double own[12] = {m->a1, m->a2, m->a3, m->a4, m->b1, m->b2, m->b3, m->b4, m->c1, m->c2, m->c3, m->c4};
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 4; ++j)
-            out[4 * i + j] = parent[4 * i] * own[j] + parent[4 * i + 1] * own[4 + j] + parent[4 * i + 2] * own[8 + j] +
-                             (j == 3 ? parent[4 * i + 3] : 0);
-}
-
 /* The vertices of a mesh in space: m holds the rows of a 3 x 4 matrix. */
 static froe_status transform(model *w, const struct aiMesh *mesh, const double *m) {
     if (!array_reserve(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3)) return assimp_out_of_memory(w);
@@ -96,28 +88,10 @@ static froe_status add_face(model *w, const struct aiMesh *mesh, const struct ai
     return formats_sink_face(w->sink, w->corners.data, face->mNumIndices);
 }
 
-static froe_status report_assimp(model *w) {
-    enum { FACES_PER_REPORT = 8192 };
-    if (w->faces_done++ % FACES_PER_REPORT) return FROE_OK;
-    double half = w->faces ? 0.5 * (double)w->faces_done / (double)w->faces : 0.5;
-    return formats_sink_progress(w->sink, 0.5 + half); /* the import itself was the first half */
-}
-
 static const char *material_name(model *w, unsigned index, struct aiString *name) {
     *name = (struct aiString){.length = 0};
     if (index < w->scene->mNumMaterials) aiGetMaterialString(w->scene->mMaterials[index], AI_MATKEY_NAME, name);
     return name->data;
-}
-
-/* In glTF only materials whose alpha mode is BLEND are transparent. */
-static double opacity_of(const struct aiMaterial *material, double alpha) {
-    struct aiString blending = {.length = 0};
-    float opacity = 1;
-    if (!aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &blending))
-        return strcmp(blending.data, "BLEND") ? 1 : alpha;
-    /* aiGetMaterialFloat() is inline in the header and nowhere in the library: without optimisation it does not link. */
-    aiGetMaterialFloatArray(material, AI_MATKEY_OPACITY, &opacity, NULL);
-    return opacity;
 }
 
 /* 0: there is none, or it is made up by assimp, or a picture says it. */
@@ -132,7 +106,14 @@ static uint32_t material_colour(model *w, unsigned index) {
     if (aiGetMaterialColor(material, AI_MATKEY_BASE_COLOR, &c) &&
         aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &c))
         return 0;
-    double rgba[4] = {c.r, c.g, c.b, opacity_of(material, c.a)};
+    struct aiString blending = {.length = 0};
+    float opacity = 1;
+    /* aiGetMaterialFloat() is inline in the header and nowhere in the library: without optimisation it does not link. */
+    if (aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &blending))
+        aiGetMaterialFloatArray(material, AI_MATKEY_OPACITY, &opacity, NULL);
+    else if (!strcmp(blending.data, "BLEND")) /* in glTF only these materials are transparent */
+        opacity = c.a;
+    double rgba[4] = {c.r, c.g, c.b, opacity};
     for (int k = 0; w->linear && k < 3; k++) /* from shares of light to sRGB (IEC 61966-2-1) */
         rgba[k] = rgba[k] <= 0.0031308 ? 12.92 * rgba[k] : 1.055 * pow(rgba[k], 1 / 2.4) - 0.055;
     return formats_colour(rgba);
@@ -159,6 +140,7 @@ static froe_status enter_node_group(model *w, const struct aiNode *node, unsigne
 static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index, const double *m) {
     if (index >= w->scene->mNumMeshes) return corrupt(w, "a node names a mesh that does not exist");
     const struct aiMesh *mesh = w->scene->mMeshes[index];
+    enum { FACES_PER_REPORT = 8192 };
     const bool cloud = !mesh->mNumFaces;
     froe_status status = enter_node_group(w, node, mesh->mMaterialIndex);
     if (!status) status = transform(w, mesh, m);
@@ -166,7 +148,9 @@ static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index,
         if (!cloud) w->sink->number = i;
         status =
             cloud ? formats_sink_point(w->sink, w->points.data + 3 * (size_t)i) : add_face(w, mesh, &mesh->mFaces[i]);
-        if (!status) status = report_assimp(w);
+        if (status || w->faces_done++ % FACES_PER_REPORT) continue;
+        const double half = w->faces ? 0.5 * (double)w->faces_done / (double)w->faces : 0.5;
+        status = formats_sink_progress(w->sink, 0.5 + half); /* the import itself was the first half */
     }
     return status;
 }
@@ -183,8 +167,13 @@ static froe_status walk_nodes(model *w) {
     while (!status && w->stack.count) {
         const visit at = w->stack.data[--w->stack.count];
         const struct aiNode *node = at.node;
+        const struct aiMatrix4x4 *t = &node->mTransformation;
+        const double own[12] = {t->a1, t->a2, t->a3, t->a4, t->b1, t->b2, t->b3, t->b4, t->c1, t->c2, t->c3, t->c4};
         double m[12];
-        multiply(at.parent, &node->mTransformation, m);
+        for (int i = 0; i < 12; ++i) {
+            const double *row = at.parent + i / 4 * 4;
+            m[i] = row[0] * own[i % 4] + row[1] * own[4 + i % 4] + row[2] * own[8 + i % 4] + (i % 4 == 3 ? row[3] : 0);
+        }
         if (node->mNumMeshes) {
             status = formats_sink_feature(w->sink, w->sink->report.features);
             w->sink->inside = node->mName.data;

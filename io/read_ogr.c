@@ -59,18 +59,6 @@ static int find_field(OGRFeatureDefnH fields, const char *const *names) {
     return -1;
 }
 
-static void enter_layer(map *m, OGRLayerH layer) {
-    static const char *const names[] = {"name", "title", "label", NULL}, *const ids[] = {"id", NULL},
-                             *const layers[] = {"layer", NULL};
-    if (layer == m->layer) return;
-    OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);
-    m->layer = layer;
-    m->layer_name = m->sink->inside = OGR_L_GetName(layer);
-    m->name_field = find_field(fields, names);
-    m->id_field = find_field(fields, ids);
-    m->layer_field = find_field(fields, layers);
-}
-
 static const char *text_of(OGRFeatureH feature, int field) {
     return field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field) ? OGR_F_GetFieldAsString(feature, field) : "";
 }
@@ -118,6 +106,8 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
  * gives all of them mixed. */
 static froe_status add_features(map *m, OGRLayerH one) {
     enum { FEATURES_PER_REPORT = 256 };
+    static const char *const names[] = {"name", "title", "label", NULL}, *const ids[] = {"id", NULL},
+                             *const layers[] = {"layer", NULL};
     const bool reporting = m->sink->progress != NULL;
     froe_status status = FROE_OK;
     double expected = reporting && one ? (double)OGR_L_GetFeatureCount(one, FALSE) : -1, done = 0;
@@ -130,7 +120,14 @@ static froe_status add_features(map *m, OGRLayerH one) {
         OGRFeatureH feature = one ? OGR_L_GetNextFeature(one)
                                   : GDALDatasetGetNextFeature(m->data, &layer, reporting ? &done : NULL, NULL, NULL);
         if (!feature) break;
-        enter_layer(m, layer);
+        if (layer != m->layer) {
+            OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);
+            m->layer = layer;
+            m->layer_name = m->sink->inside = OGR_L_GetName(layer);
+            m->name_field = find_field(fields, names);
+            m->id_field = find_field(fields, ids);
+            m->layer_field = find_field(fields, layers);
+        }
         status = add_feature(m, feature);
         OGR_F_Destroy(feature);
         if (one) done = expected > 0 ? (double)m->features_done / expected : 0;
@@ -140,18 +137,6 @@ static froe_status add_features(map *m, OGRLayerH one) {
 }
 
 /* ----------------------------------------------------------------- layers -- */
-
-static froe_status no_layer(map *m, const char *wanted) {
-    char names[128] = "";
-    size_t used = 0;
-    for (int i = 0; i < GDALDatasetGetLayerCount(m->data) && used < sizeof names; ++i) {
-        const char *name = OGR_L_GetName(GDALDatasetGetLayer(m->data, i));
-        int wrote = snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", name);
-        used += wrote > 0 ? (size_t)wrote : 0;
-    }
-    return support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: has no layer '%.40s'; it has: %s",
-                        support_short(m->source->path), wanted, names);
-}
 
 static froe_status filter(map *m, OGRLayerH layer) {
     const char *where = m->source->options->where;
@@ -164,8 +149,18 @@ static froe_status filter(map *m, OGRLayerH layer) {
 static froe_status add_layers(map *m) {
     const char *wanted = m->source->options->layer;
     OGRLayerH one = wanted ? GDALDatasetGetLayerByName(m->data, wanted) : NULL;
-    if (wanted && !one) return no_layer(m, wanted);
-    int layers = GDALDatasetGetLayerCount(m->data);
+    const int layers = GDALDatasetGetLayerCount(m->data);
+    if (wanted && !one) {
+        char names[128] = "";
+        size_t used = 0;
+        for (int i = 0; i < layers && used < sizeof names; ++i) {
+            const char *name = OGR_L_GetName(GDALDatasetGetLayer(m->data, i));
+            const int wrote = snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", name);
+            used += wrote > 0 ? (size_t)wrote : 0;
+        }
+        return support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: has no layer '%.40s'; it has: %s",
+                            support_short(m->source->path), wanted, names);
+    }
     /* the layers of a topology are views of the same arcs: all of them would be the same lines again */
     if (!one && layers && !strcmp(m->sink->report.format, "TopoJSON")) one = GDALDatasetGetLayer(m->data, 0);
     froe_status status = FROE_OK;

@@ -3,7 +3,6 @@
 #include "support/writer.h"
 #include "support/alloc.h"
 #include "support/fail.h"
-#include "support/floats.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -25,18 +24,15 @@ struct support_writer_room {
 
 /* ------------------------------------------------------------------- bytes -- */
 
-/* Waits until a descriptor that does not block takes bytes again. */
-static bool is_ready(int file) {
-    struct pollfd one = {.fd = file, .events = POLLOUT};
-    return poll(&one, 1, -1) >= 0 || errno == EINTR;
-}
-
 /* Writes everything or returns an errno. */
 static int write_all(int file, const unsigned char *at, size_t count) {
     while (count) {
         ssize_t wrote = write(file, at, count < SSIZE_MAX ? count : SSIZE_MAX);
         if (wrote < 0 && errno == EINTR) continue;
-        if (wrote < 0 && (errno == EAGAIN || errno == EWOULDBLOCK) && is_ready(file)) continue;
+        if (wrote < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) { /* a descriptor that does not block: wait */
+            struct pollfd one = {.fd = file, .events = POLLOUT};
+            if (poll(&one, 1, -1) >= 0 || errno == EINTR) continue;
+        }
         if (wrote <= 0) return wrote ? errno : ENOSPC;
         at += wrote;
         count -= (size_t)wrote;
@@ -158,18 +154,7 @@ static int keep_access(int file, const struct stat *old) {
     return result ? errno : 0;
 }
 
-/* The new file is never open to more readers than the old one was. Returns an errno. */
-static int replace(support_writer *w, const struct stat *old) {
-    w->file = create_beside(w->room, old ? old->st_mode & 0777 : 0666);
-    if (w->file < 0) return errno;
-    int error = old ? keep_access(w->file, old) : 0;
-    if (error) {
-        close(w->file);
-        unlink(w->room->temporary);
-    }
-    return error;
-}
-
+/* Returns an errno. */
 static int open_file(support_writer *w) {
     struct stat old;
     size_t length = strlen(w->path);
@@ -181,19 +166,28 @@ static int open_file(support_writer *w) {
     bool exists = named < 0 && stat(w->path, &old) == 0;
     if (named < 0 && !exists && errno != ENOENT) return errno;
     if (exists && S_ISDIR(old.st_mode)) return EISDIR;
-    if (named < 0 && (!exists || S_ISREG(old.st_mode))) return replace(w, exists ? &old : NULL);
-    w->file = exists ? open(w->path, O_WRONLY | O_NOCTTY | O_CLOEXEC) : fcntl(named, F_DUPFD_CLOEXEC, 0);
-    return w->file < 0 ? errno : 0;
+    const bool replaced = named < 0 && (!exists || S_ISREG(old.st_mode));
+    if (replaced) /* the new file is never open to more readers than the old one was */
+        w->file = create_beside(w->room, exists ? old.st_mode & 0777 : 0666);
+    else
+        w->file = exists ? open(w->path, O_WRONLY | O_NOCTTY | O_CLOEXEC) : fcntl(named, F_DUPFD_CLOEXEC, 0);
+    if (w->file < 0) return errno;
+    error = replaced && exists ? keep_access(w->file, &old) : 0;
+    if (error) {
+        close(w->file);
+        unlink(w->room->temporary);
+    }
+    return error;
 }
 
 froe_status support_writer_open(support_writer *w, const char *path, const froe_allocator *alloc,
                                 froe_diagnostic *diag) {
     *w = (support_writer){.path = path, .alloc = support_allocator(alloc), .diag = diag, .file = -1};
-    w->room = support_callback(w->alloc.fn(w->alloc.user, NULL, 0, sizeof *w->room));
+    w->room = support_realloc(&w->alloc, NULL, 0, sizeof *w->room);
     if (!w->room) return support_fail_memory(diag);
     int error = open_file(w);
     if (!error) return FROE_OK;
-    support_callback(w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0));
+    support_free(&w->alloc, w->room, sizeof *w->room);
     return support_fail_file(diag, "write", path, error);
 }
 
@@ -206,7 +200,7 @@ froe_status support_writer_close(support_writer *w, froe_status status) {
     if (!status && w->error) status = support_fail_file(w->diag, "write", w->path, w->error);
     if (*temporary && status) unlink(temporary);
     if (*temporary && !status) sync_folder(target);
-    support_callback(w->alloc.fn(w->alloc.user, w->room, sizeof *w->room, 0));
+    support_free(&w->alloc, w->room, sizeof *w->room);
     return status;
 }
 

@@ -3,12 +3,12 @@
 #include "support/floats.h"
 #include <string.h>
 
-typedef struct generator {
+typedef struct scene_generator {
     froe_generator_info info;
     formats_make_fn *make;
-} generator;
+} scene_generator;
 
-static const generator generators[] = {
+static const scene_generator generators[] = {
     /* in the plane */
     {{"segments", 2, FROE_SEGMENT, "short segments anywhere in the unit square; some cross", true},
      formats_make_segments},
@@ -109,18 +109,13 @@ const froe_generator_info *froe_generator_at(size_t i) {
     return i < GENERATORS ? &generators[i].info : NULL;
 }
 
-static const generator *find_generator(const char *name) {
-    for (size_t i = 0; i < GENERATORS; ++i)
-        if (!strcmp(generators[i].info.name, name)) return &generators[i];
-    return NULL;
-}
-
 froe_status froe_generate(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc, froe_scene **out,
                           froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!kind || !out) return support_fail(diag, FROE_E_ARG, "froe_generate: kind and out must not be NULL");
-    const generator *g = find_generator(kind);
-    if (!g) return support_fail(diag, FROE_E_OPTIONS, "'%.60s' is no kind of scene that can be generated", kind);
+    const scene_generator *g = generators, *end = generators + GENERATORS;
+    while (g != end && strcmp(g->info.name, kind)) ++g;
+    if (g == end) return support_fail(diag, FROE_E_OPTIONS, "'%.60s' is no kind of scene that can be generated", kind);
     if (!n) return support_fail(diag, FROE_E_ARG, "a scene of 0 objects cannot be generated");
     if (n >= (1u << 31) - 2) return support_fail(diag, FROE_E_LIMIT, "%zu objects are more than a scene can hold", n);
     formats_maker m = {.sink = {.alloc = support_allocator(alloc), .diag = diag, .path = kind, .unit = "object"},

@@ -33,16 +33,6 @@ static bool take_cells(uint8_t *taken, size_t side, const size_t *from, const si
     return true;
 }
 
-/* One box in the unit cells that it has taken, not quite filling them. */
-static void add_in_cells(formats_maker *m, const size_t *from, const size_t *extent) {
-    double lo[3], hi[3];
-    for (int k = 0; k < 3; k++) {
-        lo[k] = (double)from[k] + formats_between(m, 0, 0.3);
-        hi[k] = (double)(from[k] + extent[k]) - formats_between(m, 0, 0.3);
-    }
-    add_made_box(m, lo, hi);
-}
-
 /* Boxes of `wide` x `wide` x `other` cells, the odd axis at random, anywhere they find room among the others. */
 static void pack(formats_maker *m, size_t wide, size_t other) {
     size_t volume = wide * wide * other, side = formats_root(4 * volume * m->n, 3) + wide + other;
@@ -55,7 +45,13 @@ static void pack(formats_maker *m, size_t wide, size_t other) {
             extent[k] = k == odd ? other : wide;
             from[k] = formats_below(m, (uint32_t)(side - extent[k] + 1));
         }
-        if (take_cells(taken, side, from, extent)) add_in_cells(m, from, extent);
+        if (!take_cells(taken, side, from, extent)) continue;
+        double lo[3], hi[3]; /* not quite filling its cells */
+        for (int k = 0; k < 3; k++) {
+            lo[k] = (double)from[k] + formats_between(m, 0, 0.3);
+            hi[k] = (double)(from[k] + extent[k]) - formats_between(m, 0, 0.3);
+        }
+        add_made_box(m, lo, hi);
     }
     support_free(&m->sink.alloc, taken, side * side * side);
 }

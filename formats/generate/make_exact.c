@@ -127,16 +127,11 @@ void formats_make_denormal(formats_maker *m) {
     }
 }
 
-/* -2 .. 2 with both zeros. */
-static double tiny(formats_maker *m) {
-    static const double values[] = {-2, -1, -0.0, 0.0, 1, 2};
-    return values[formats_below(m, sizeof values / sizeof *values)];
-}
-
 void formats_make_degenerate(formats_maker *m) {
+    static const double values[] = {-2, -1, -0.0, 0.0, 1, 2};
     while (!formats_done(m)) {
         double p[4];
-        for (int k = 0; k < 4; ++k) p[k] = tiny(m);
+        for (int k = 0; k < 4; ++k) p[k] = values[formats_below(m, sizeof values / sizeof *values)];
         formats_make_segment(m, p[0], p[1], p[2], p[3]);
     }
 }

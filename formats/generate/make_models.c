@@ -20,12 +20,6 @@ static void wall(formats_maker *m, const double *from, int axis, bool door) {
     upright(m, hinge, latch, z + 8, z + 12);
 }
 
-static void floor_tile(formats_maker *m, const double *from) {
-    double x = from[0], y = from[1], z = from[2];
-    const double corners[4][3] = {{x, y, z}, {x + 16, y, z}, {x + 16, y + 16, z}, {x, y + 16, z}};
-    formats_make_quad(m, corners[0], corners[1], corners[2], corners[3]);
-}
-
 /* One group a storey; about 8 triangles a room. */
 void formats_make_rooms_3d(formats_maker *m) {
     size_t side = formats_root(m->n / 8, 3) + 1;
@@ -36,7 +30,9 @@ void formats_make_rooms_3d(formats_maker *m) {
         formats_grid(i, side, 3, from);
         for (int k = 0; k < 3; ++k) from[k] *= k < 2 ? 16 : 12;
         uint32_t dice = formats_below(m, 8);
-        floor_tile(m, from);
+        const double x = from[0], y = from[1], z = from[2];
+        const double tile[4][3] = {{x, y, z}, {x + 16, y, z}, {x + 16, y + 16, z}, {x, y + 16, z}};
+        formats_make_quad(m, tile[0], tile[1], tile[2], tile[3]);
         if (dice < 6) wall(m, from, 0, dice < 3);
         if (dice & 1) wall(m, from, 1, dice & 2);
     }
@@ -69,25 +65,21 @@ void formats_make_city(formats_maker *m) {
     }
 }
 
-/* Noise on lattices of 64, 16 and 4, interpolated bilinearly (value noise). */
-static double height_at(const formats_maker *m, double x, double y) {
-    double sum = 0;
-    for (uint64_t width = 64; width >= 4; width /= 4) {
-        double u = x / (double)width, v = y / (double)width;
-        uint64_t i = (uint64_t)u, j = (uint64_t)v;
-        double fu = u - (double)i, fv = v - (double)j;
-        double low = formats_unit_at(m, width, i, j) * (1 - fu) + formats_unit_at(m, width, i + 1, j) * fu;
-        double high = formats_unit_at(m, width, i, j + 1) * (1 - fu) + formats_unit_at(m, width, i + 1, j + 1) * fu;
-        sum += 0.5 * (double)width * (low * (1 - fv) + high * fv);
-    }
-    return sum;
-}
-
 /* Grid points moved by less than 0.3 steps, so that no triangle turns over: 0.7 * 0.7 > 0.3 * 1.3. */
 static void ground(const formats_maker *m, size_t i, size_t j, double *to) {
     to[0] = (double)i + 0.3 * formats_unit_at(m, 1, i, j);
     to[1] = (double)j + 0.3 * formats_unit_at(m, 2, i, j);
-    to[2] = height_at(m, to[0], to[1]);
+    to[2] = 0; /* noise on lattices of 64, 16 and 4, interpolated bilinearly (value noise) */
+    for (uint64_t width = 64; width >= 4; width /= 4) {
+        double u = to[0] / (double)width, v = to[1] / (double)width;
+        uint64_t column = (uint64_t)u, row = (uint64_t)v;
+        double fu = u - (double)column, fv = v - (double)row;
+        double low =
+            formats_unit_at(m, width, column, row) * (1 - fu) + formats_unit_at(m, width, column + 1, row) * fu;
+        double high =
+            formats_unit_at(m, width, column, row + 1) * (1 - fu) + formats_unit_at(m, width, column + 1, row + 1) * fu;
+        to[2] += 0.5 * (double)width * (low * (1 - fv) + high * fv);
+    }
 }
 
 /* Two triangles a square, lower right and upper left of its diagonal, both facing up. */

@@ -6,12 +6,12 @@
 
 enum { SECONDS = 60, KNOTS = 5, MOST_CORNERS = 6 };
 
-typedef struct maker {
+typedef struct motion_maker {
     formats_maker random; /* no sink is opened */
     froe_motion *motion;
     size_t made;
     double side; /* the length of a segment: about that of the square it has for itself */
-} maker;
+} motion_maker;
 
 /* A chain of corners, closed from three on, at the same instants each. */
 typedef struct body {
@@ -27,7 +27,7 @@ static body body_of(size_t corners, size_t knots) {
     return b;
 }
 
-static void add_body(maker *m, const body *b) {
+static void add_body(motion_maker *m, const body *b) {
     size_t starts[MOST_CORNERS + 1] = {0};
     double times[MOST_CORNERS * KNOTS], xy[2 * MOST_CORNERS * KNOTS], controls[2 * MOST_CORNERS * KNOTS];
     uint32_t ends[2 * MOST_CORNERS];
@@ -52,18 +52,18 @@ static void add_body(maker *m, const body *b) {
     m->made += batch.count;
 }
 
-static bool more(const maker *m) {
+static bool more(const motion_maker *m) {
     return !m->random.status && m->made < m->random.n;
 }
 
-static void place_in_square(maker *m, double to[2]) {
+static void place_in_square(motion_maker *m, double to[2]) {
     formats_place(&m->random, 2, to);
 }
 
 /* ----------------------------------------------------------------------- kinds -- */
 
 /* Both ends go straight from place to place, near one another. */
-static void make_linear(maker *m) {
+static void make_linear(motion_maker *m) {
     while (more(m)) {
         body b = body_of(2, KNOTS);
         for (size_t k = 0; k < KNOTS; k++) {
@@ -77,7 +77,7 @@ static void make_linear(maker *m) {
 }
 
 /* The same on parabolas. */
-static void make_quadratic(maker *m) {
+static void make_quadratic(motion_maker *m) {
     while (more(m)) {
         body b = body_of(2, 3);
         for (size_t k = 0; k < b.knots; k++) {
@@ -95,7 +95,7 @@ static void make_quadratic(maker *m) {
 }
 
 /* Whole coordinates at whole times: much happens at once, and exactly. */
-static void make_lattice(maker *m) {
+static void make_lattice(motion_maker *m) {
     uint32_t width = (uint32_t)formats_root(m->random.n, 2) + 2;
     while (more(m)) {
         body b = body_of(2, KNOTS);
@@ -108,7 +108,7 @@ static void make_lattice(maker *m) {
 }
 
 /* A field of segments in one common translation, half of them against it. */
-static void make_rigid(maker *m) {
+static void make_rigid(motion_maker *m) {
     while (more(m)) {
         body b = body_of(2, 2);
         double p[2], d[2], way[2] = {0.25, 0.125}, sign = m->made % 2 ? 1 : -1;
@@ -124,7 +124,7 @@ static void make_rigid(maker *m) {
 }
 
 /* Segments that turn around their middles by quarters of a turn, each on a parabola, and drift. */
-static void make_spin(maker *m) {
+static void make_spin(motion_maker *m) {
     while (more(m)) {
         body b = body_of(2, KNOTS);
         double p[2], d[2], drift[2];
@@ -148,7 +148,7 @@ static void make_spin(maker *m) {
 }
 
 /* Polygons of three to six corners that go straight and change their shape a little. */
-static void make_polygons(maker *m) {
+static void make_polygons(motion_maker *m) {
     while (more(m)) {
         body b = body_of(3 + formats_below(&m->random, MOST_CORNERS - 2), KNOTS);
         for (size_t k = 0; k < KNOTS; k++) {
@@ -166,7 +166,7 @@ static void make_polygons(maker *m) {
 
 typedef struct generator {
     froe_motion_generator_info info;
-    void (*make)(maker *m);
+    void (*make)(motion_maker *m);
 } generator;
 
 static const generator generators[] = {
@@ -192,7 +192,7 @@ froe_status froe_generate_motion(const char *kind, size_t n, uint64_t seed, cons
     if (i == GENERATORS) return support_fail(diag, FROE_E_OPTIONS, "'%.60s' is no kind of motion", kind);
     if (!n) return support_fail(diag, FROE_E_ARG, "a motion of 0 objects cannot be generated");
     if (n >= (1u << 31) - 2) return support_fail(diag, FROE_E_LIMIT, "%zu objects are more than a motion can hold", n);
-    maker m = {.random = {.sink = {.diag = diag}, .n = n, .seed = seed}, .side = 0.5 / sqrt((double)n)};
+    motion_maker m = {.random = {.sink = {.diag = diag}, .n = n, .seed = seed}, .side = 0.5 / sqrt((double)n)};
     froe_motion_options w = froe_motion_defaults();
     w.begin = 0;
     w.end = SECONDS;

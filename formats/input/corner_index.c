@@ -139,12 +139,6 @@ static double least(double a, double b, double c) {
     return c < a ? c : a;
 }
 
-static bool beside(const double *box, const double *a, const double *b, const double *c) {
-    for (int k = 0; k < 2; ++k)
-        if (box[k] > -least(-a[k], -b[k], -c[k]) || box[k + 2] < least(a[k], b[k], c[k])) return true;
-    return right_of(box, a, b) || right_of(box, b, c) || right_of(box, c, a);
-}
-
 static bool same_place(const double *p, const double *q) {
     return p[0] == q[0] && p[1] == q[1];
 }
@@ -159,11 +153,14 @@ bool formats_corner_index_any(const formats_corner_index *index, const double *a
     stack[top++].entry = index->first[index->levels - 1];
     while (top) {
         at = stack[--top];
-        if (!index->marks[at.entry] || beside(index->box[at.entry], a, b, c)) continue;
+        const double *box = index->box[at.entry];
+        bool beside = !index->marks[at.entry];
+        for (int k = 0; k < 2 && !beside; ++k)
+            beside = box[k] > -least(-a[k], -b[k], -c[k]) || box[k + 2] < least(a[k], b[k], c[k]);
+        if (beside || right_of(box, a, b) || right_of(box, b, c) || right_of(box, c, a)) continue;
         if (!at.level) {
-            const double *p = index->box[at.entry];
-            if (!same_place(p, a) && !same_place(p, b) && !same_place(p, c) && formats_orient(a, b, p) >= 0 &&
-                formats_orient(b, c, p) >= 0 && formats_orient(c, a, p) >= 0)
+            if (!same_place(box, a) && !same_place(box, b) && !same_place(box, c) && formats_orient(a, b, box) >= 0 &&
+                formats_orient(b, c, box) >= 0 && formats_orient(c, a, box) >= 0)
                 return true;
             continue;
         }

@@ -132,24 +132,21 @@ static void look_at_all(outline *o, uint32_t from) {
     o->clipped = 0;
 }
 
-/* The next ear from `from` on; without one (flat, or not simple) `from` itself. Where the polygon is not simple there may
- * be ears that are not known: all corners are tested again, once enough of them have gone since the last time. */
-static uint32_t find_ear(outline *o, uint32_t from) {
-    for (;;) {
-        uint32_t b = next_ear(&o->ears, from);
-        if (b == NO_EAR) b = next_ear(&o->ears, 0);
-        if (b != NO_EAR) return b;
-        if (!o->clipped || o->clipped < o->left / 8) return from;
-        look_at_all(o, from);
-    }
-}
-
 /* False: no memory. */
 static bool clip_all(const froe_allocator *alloc, outline *o) {
     uint32_t from = 1; /* the fan of a convex polygon starts at its corner 0 */
     look_at_all(o, 0);
     while (o->left >= 3) {
-        const uint32_t b = find_ear(o, from), a = o->before[b], c = o->next[b], triangle[3] = {a, b, c};
+        /* The next ear from `from` on; without one (flat, or not simple) `from` itself. Where the polygon is not simple
+         * there may be ears that are not known: all corners are tested again, once enough of them have gone since. */
+        uint32_t b = next_ear(&o->ears, from);
+        if (b == NO_EAR) b = next_ear(&o->ears, 0);
+        if (b == NO_EAR && o->clipped && o->clipped >= o->left / 8) {
+            look_at_all(o, from);
+            continue;
+        }
+        if (b == NO_EAR) b = from;
+        const uint32_t a = o->before[b], c = o->next[b], triangle[3] = {a, b, c};
         if (!array_append(alloc, o->triangles, triangle, 3)) return false;
         o->next[a] = c;
         o->before[c] = a;

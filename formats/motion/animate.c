@@ -47,19 +47,6 @@ static void deal(formats_animation *a) {
     a->starts[objects] = 2 * a->count;
 }
 
-static froe_status check_animation(const formats_animation *a, froe_diagnostic *diag) {
-    if (a->options.size != sizeof a->options || !(a->options.width > 4 * FORMATS_ANIMATION_MARGIN) ||
-        !isfinite(a->options.width) || !(a->options.seconds > 0) || !isfinite(a->options.seconds))
-        return support_fail(diag, FROE_E_OPTIONS,
-                            "froe_animate: options not from froe_animation_defaults(), or a width "
-                            "below 64, or no time");
-    size_t objects = froe_motion_object_count(a->motion);
-    for (size_t i = 0; i < a->count; i++)
-        if (a->contacts[i].a >= objects || a->contacts[i].b >= objects)
-            return support_fail(diag, FROE_E_ARG, "froe_animate: contact %zu is of objects that are not there", i);
-    return FROE_OK;
-}
-
 froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
                          const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
@@ -69,18 +56,24 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
     a.options = options ? *options : froe_animation_defaults();
     a.begin = froe_motion_window(motion).begin;
     a.end = froe_motion_window(motion).end;
-    froe_status status = check_animation(&a, diag);
-    if (status) return status;
+    if (a.options.size != sizeof a.options || !(a.options.width > 4 * FORMATS_ANIMATION_MARGIN) ||
+        !isfinite(a.options.width) || !(a.options.seconds > 0) || !isfinite(a.options.seconds))
+        return support_fail(
+            diag, FROE_E_OPTIONS,
+            "froe_animate: options not from froe_animation_defaults(), or a width below 64, or no time");
+    const size_t objects = froe_motion_object_count(motion), starts = objects + 2;
+    for (size_t i = 0; i < count; i++)
+        if (contacts[i].a >= objects || contacts[i].b >= objects)
+            return support_fail(diag, FROE_E_ARG, "froe_animate: contact %zu is of objects that are not there", i);
     support_extension extension = support_path_extension(path);
     bool svg = strcmp(extension.text, "svg") == 0;
     if (!svg && strcmp(extension.text, "html") != 0)
         return support_fail(diag, FROE_E_UNSUPPORTED, "%s: motions are shown as .svg or .html", support_short(path));
     const froe_allocator alloc = support_allocator(NULL);
-    const size_t starts = froe_motion_object_count(motion) + 2;
     formats_writer w;
     a.starts = support_calloc(&alloc, starts, sizeof *a.starts);
     a.touched = support_calloc(&alloc, 2 * count, sizeof *a.touched);
-    status = a.starts && a.touched ? formats_writer_open(&w, path, diag) : support_fail_memory(diag);
+    froe_status status = a.starts && a.touched ? formats_writer_open(&w, path, diag) : support_fail_memory(diag);
     if (!status) {
         find_bounds(&a);
         deal(&a);

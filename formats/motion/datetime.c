@@ -63,18 +63,6 @@ static bool take_zone(const char **at, int *minutes) {
     return true;
 }
 
-/* 1000 (seconds + 0.digits), read as one decimal number, so that it is rounded once. */
-static double milliseconds_of(int64_t seconds, const char *digits) {
-    char text[48], fraction[24];
-    snprintf(fraction, sizeof fraction, "%s000", digits);
-    if (seconds >= 0) {
-        snprintf(text, sizeof text, "%lld%.3s.%s", (long long)seconds, fraction, fraction + 3);
-        return strtod(text, NULL);
-    }
-    snprintf(text, sizeof text, "%.3s.%s", fraction, fraction + 3);
-    return 1000 * (double)seconds + strtod(text, NULL); /* before 1970 */
-}
-
 bool formats_datetime(const char *text, double *milliseconds) {
     int64_t days;
     int seconds = 0, zone = 0;
@@ -84,6 +72,14 @@ bool formats_datetime(const char *text, double *milliseconds) {
         if (!take_character(&text, 'T') && !take_character(&text, 't') && !take_character(&text, ' ')) return false;
         if (!take_clock(&text, &seconds, digits) || !take_zone(&text, &zone) || *text) return false;
     }
-    *milliseconds = milliseconds_of(days * 86400 + seconds - 60 * (int64_t)zone, digits);
+    /* 1000 (since + 0.digits), read as one decimal number, so that it is rounded once */
+    const int64_t since = days * 86400 + seconds - 60 * (int64_t)zone;
+    char number[48], fraction[24];
+    snprintf(fraction, sizeof fraction, "%s000", digits);
+    if (since >= 0)
+        snprintf(number, sizeof number, "%lld%.3s.%s", (long long)since, fraction, fraction + 3);
+    else /* before 1970 */
+        snprintf(number, sizeof number, "%.3s.%s", fraction, fraction + 3);
+    *milliseconds = strtod(number, NULL) + (since < 0 ? 1000 * (double)since : 0);
     return true;
 }

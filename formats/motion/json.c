@@ -90,22 +90,17 @@ static uint32_t read_code_point(char **at) {
     return 0x10000 + ((uint32_t)(high & 0x3ff) << 10 | (uint32_t)(low & 0x3ff));
 }
 
-static char *put_code_point(char *to, uint32_t c) {
-    if (c < 0x80) return *to = (char)c, to + 1;
-    int more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
-    static const uint8_t first[] = {0, 0xc0, 0xe0, 0xf0};
-    *to++ = (char)(first[more] | c >> 6 * more);
-    while (more--) *to++ = (char)(0x80 | (c >> 6 * more & 0x3f));
-    return to;
-}
-
 /* Behind the backslash. False: there is no such escape. */
 static bool decode_escape(char **at, char **to) {
     static const char from[] = "\"\\/bfnrt", into[] = "\"\\/\b\f\n\r\t";
     if (**at == 'u') {
         uint32_t c = read_code_point(at);
-        if (c) *to = put_code_point(*to, c);
-        return c != 0;
+        static const uint8_t first[] = {0, 0xc0, 0xe0, 0xf0};
+        int more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+        if (!c) return false;
+        *(*to)++ = (char)(first[more] | c >> 6 * more);
+        while (more--) *(*to)++ = (char)(0x80 | (c >> 6 * more & 0x3f));
+        return true;
     }
     const char *known = **at ? strchr(from, **at) : NULL;
     if (known) *(*to)++ = into[known - from], ++*at;

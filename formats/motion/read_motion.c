@@ -350,23 +350,21 @@ static froe_status load(const reading *r, formats_text *text) {
     return got < PART && array_push(&r->alloc, text, '\0') ? FROE_OK : no_memory(r);
 }
 
-static froe_status parse(const reading *r, formats_text *text, formats_json_values *values) {
-    support_locale locale;
-    formats_json_error error;
-    if (!support_locale_enter(&locale)) return no_memory(r);
-    froe_status status = formats_json_read(&r->alloc, text->data, text->count - 1, values, &error);
-    support_locale_leave(&locale);
-    if (status == FROE_E_MEMORY) return no_memory(r);
-    return status ? support_fail(r->diag, status, "%s: line %zu: %s", support_short(r->path), error.line, error.reason)
-                  : FROE_OK;
-}
-
 static froe_status read_file(reading *r) {
     const froe_allocator *alloc = &r->alloc;
     formats_text text = {0};
     formats_json_values values = {0};
+    formats_json_error error;
+    support_locale locale;
     froe_status status = load(r, &text);
-    if (!status) status = parse(r, &text, &values);
+    if (!status && !support_locale_enter(&locale)) status = no_memory(r);
+    if (!status) {
+        status = formats_json_read(alloc, text.data, text.count - 1, &values, &error);
+        support_locale_leave(&locale);
+        if (status == FROE_E_MEMORY) no_memory(r);
+        if (status == FROE_E_FORMAT)
+            support_fail(r->diag, status, "%s: line %zu: %s", support_short(r->path), error.line, error.reason);
+    }
     if (!status) status = take_features(r, values.data);
     if (!status) status = open_window(r);
     if (!status) status = take_features(r, values.data);

@@ -27,29 +27,6 @@ static void put_contact_cell(formats_writer *w, const froe_motion *m, const froe
         (json ? formats_put_json : formats_put_csv)(w, group == FROE_NONE ? "" : froe_motion_group(m, group).name);
 }
 
-static void put_csv(formats_writer *w, const froe_motion *m, const froe_contact *contacts, size_t count) {
-    for (int k = 0; k < COLUMNS; k++) formats_put(w, k ? "," : ""), formats_put(w, columns[k].name);
-    formats_put(w, "\n");
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < COLUMNS; k++) formats_put(w, k ? "," : ""), put_contact_cell(w, m, contacts + i, k, false);
-        formats_put(w, "\n");
-    }
-}
-
-static void put_json(formats_writer *w, const froe_motion *m, const froe_contact *contacts, size_t count) {
-    formats_put(w, "[");
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < COLUMNS; k++) {
-            formats_put(w, k ? ", " : i ? ",\n {" : "\n {");
-            formats_put_json(w, columns[k].name);
-            formats_put(w, ": ");
-            put_contact_cell(w, m, contacts + i, k, true);
-        }
-        formats_put(w, "}");
-    }
-    formats_put(w, "\n]\n");
-}
-
 froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *contacts, size_t count, const char *path,
                                 froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
@@ -62,6 +39,20 @@ froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *c
     formats_writer w;
     froe_status status = formats_writer_open(&w, path, diag);
     if (status) return status;
-    (json ? put_json : put_csv)(&w, motion, contacts, count);
+    if (json) formats_put(&w, "[");
+    for (int k = 0; k < COLUMNS && !json; k++) formats_put(&w, k ? "," : ""), formats_put(&w, columns[k].name);
+    if (!json) formats_put(&w, "\n");
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < COLUMNS; k++) {
+            if (json) {
+                formats_put(&w, k ? ", " : i ? ",\n {" : "\n {");
+                formats_put_json(&w, columns[k].name);
+            }
+            formats_put(&w, json ? ": " : k ? "," : "");
+            put_contact_cell(&w, motion, contacts + i, k, json);
+        }
+        formats_put(&w, json ? "}" : "\n");
+    }
+    if (json) formats_put(&w, "\n]\n");
     return formats_writer_close(&w, FROE_OK);
 }

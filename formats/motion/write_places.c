@@ -14,18 +14,6 @@ static void put_whole(formats_writer *w, const froe_whole *number) {
     formats_put(w, digits);
 }
 
-static void put_ends(formats_writer *w, const froe_places *places, uint32_t object) {
-    froe_exact_place at;
-    for (int end = 0; end < 2 && froe_places_end(places, object, end, &at); end++) {
-        formats_put_whole(w, object);
-        formats_put(w, end ? ",1" : ",0");
-        put_whole(w, &at.x);
-        put_whole(w, &at.y);
-        put_whole(w, &at.w);
-        formats_put(w, at.rounded ? ",1\n" : ",0\n");
-    }
-}
-
 froe_status froe_write_places(const froe_places *places, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!places || !path) return support_fail(diag, FROE_E_ARG, "froe_write_places: places and path must not be NULL");
@@ -35,6 +23,15 @@ froe_status froe_write_places(const froe_places *places, const char *path, froe_
     froe_status status = formats_writer_open(&w, path, diag);
     if (status) return status;
     formats_put(&w, "object,end,x,y,w,rounded\n");
-    for (uint32_t i = 0; i < froe_places_count(places); i++) put_ends(&w, places, i);
+    froe_exact_place at;
+    for (uint32_t i = 0; i < froe_places_count(places); i++)
+        for (int end = 0; end < 2 && froe_places_end(places, i, end, &at); end++) {
+            formats_put_whole(&w, i);
+            formats_put(&w, end ? ",1" : ",0");
+            put_whole(&w, &at.x);
+            put_whole(&w, &at.y);
+            put_whole(&w, &at.w);
+            formats_put(&w, at.rounded ? ",1\n" : ",0\n");
+        }
     return formats_writer_close(&w, FROE_OK);
 }

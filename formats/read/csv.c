@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct row {
+typedef struct csv_row {
     double corners[2 * FROE_MAX_DIM], radius; /* corner 1 directly behind corner 0 */
     uint64_t tag;
     bool tagged;
-} row;
+} csv_row;
 
 static froe_status read_csv_number(formats_sink *sink, const char *field, double *value) {
     char *end;
@@ -23,7 +23,7 @@ static froe_status read_csv_number(formats_sink *sink, const char *field, double
     return formats_sink_fail(sink, FROE_E_FORMAT, "'%.40s' is not a number", field);
 }
 
-static froe_status read_field(formats_sink *sink, const formats_csv_table *t, int role, const char *field, row *r) {
+static froe_status read_field(formats_sink *sink, const formats_csv_table *t, int role, const char *field, csv_row *r) {
     if (role == FORMATS_CSV_RADIUS && t->kind == FROE_BALL) return read_csv_number(sink, field, &r->radius);
     if (role < FORMATS_CSV_RADIUS) {
         int corner = role / FROE_MAX_DIM, axis = role % FROE_MAX_DIM;
@@ -41,7 +41,7 @@ static froe_status read_field(formats_sink *sink, const formats_csv_table *t, in
 
 /* A row as the object that it says. */
 static froe_status read_row(formats_sink *sink, const formats_csv_table *t, char **at) {
-    row r = {.tag = 0};
+    csv_row r = {.tag = 0};
     bool last = false;
     int column = 0;
     froe_status status = formats_sink_feature(sink, sink->report.features + 1);
@@ -60,17 +60,6 @@ static froe_status read_row(formats_sink *sink, const formats_csv_table *t, char
     return formats_sink_point(sink, r.corners);
 }
 
-static froe_status refuse_header(const formats_source *source, const formats_sink *sink, formats_csv_header what) {
-    const char *name = support_short(source->path);
-    if (what == FORMATS_CSV_BEYOND)
-        return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: has more than %d axes", name, FROE_MAX_DIM);
-    if (what == FORMATS_CSV_HALVES)
-        return support_fail(
-            sink->diag, FROE_E_FORMAT,
-            "%s: columns of boxes are lo_ and hi_ of the same two or more axes, as in lo_x,lo_y,hi_x,hi_y", name);
-    return support_fail(sink->diag, FROE_E_IO, "%s: changed while it was read", name);
-}
-
 froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     enum { ROWS_PER_REPORT = 4096 };
     formats_text text = {0};
@@ -78,7 +67,15 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_load(source, sink, false, &text);
     char *at = text.data;
     const formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &t);
-    if (what != FORMATS_CSV_OURS) status = refuse_header(source, sink, what);
+    const char *name = support_short(source->path);
+    if (what == FORMATS_CSV_BEYOND)
+        status = support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: has more than %d axes", name, FROE_MAX_DIM);
+    else if (what == FORMATS_CSV_HALVES)
+        status = support_fail(
+            sink->diag, FROE_E_FORMAT,
+            "%s: columns of boxes are lo_ and hi_ of the same two or more axes, as in lo_x,lo_y,hi_x,hi_y", name);
+    else if (what == FORMATS_CSV_OTHER)
+        status = support_fail(sink->diag, FROE_E_IO, "%s: changed while it was read", name);
     if (!status) status = formats_sink_open(sink, t.dim);
     sink->unit = "row";
     sink->report.layers = 1;

@@ -48,22 +48,18 @@ static void read_share(double *share, const char *at, bool clear) {
     if (end != at) *share = clear ? 1 - value : value;
 }
 
-/* Does a file of this name lie at or below the folder of the OBJ, and is it no larger than such files are? */
-static bool find_library(const char *path, const char *name, char out[PATH_ROOM], struct stat *about) {
-    const char *slash = strrchr(path, '/');
-    const int folder = slash ? (int)(slash - path) + 1 : 0;
-    if (*name == '/' || !strcmp(name, "..") || !strncmp(name, "../", 3) || strstr(name, "/../")) return false;
-    const int length = snprintf(out, PATH_ROOM, "%.*s%s", folder, path, name);
-    return length > 0 && length < PATH_ROOM && !stat(out, about) && S_ISREG(about->st_mode) &&
-           about->st_size <= MOST_BYTES;
-}
-
 froe_status formats_materials_read(formats_sink *sink, const char *path, const char *name,
                                    formats_materials *materials) {
     char library[PATH_ROOM];
     struct stat about;
     formats_text text = {0};
-    if (!find_library(path, name, library, &about)) return FROE_OK;
+    const char *slash = strrchr(path, '/');
+    const int folder = slash ? (int)(slash - path) + 1 : 0,
+              length = snprintf(library, PATH_ROOM, "%.*s%s", folder, path, name);
+    const bool above = *name == '/' || !strcmp(name, "..") || !strncmp(name, "../", 3) || strstr(name, "/../");
+    if (above || length <= 0 || length >= PATH_ROOM || stat(library, &about) || !S_ISREG(about.st_mode) ||
+        about.st_size > MOST_BYTES)
+        return FROE_OK;
     const formats_source source = {.path = library, .size = (uint64_t)about.st_size};
     froe_status status = formats_load(&source, sink, false, &text);
     for (char *line = text.data, *next; !status && line && *line; line = next) {
@@ -71,11 +67,11 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
         if (*next) *next++ = '\0';
         const char *at = after(line, "newmtl");
         if (at) {
-            size_t length = strlen(at);
-            while (length && strchr(" \t\r", at[length - 1])) length--;
-            if (length >= FORMATS_MATERIAL_NAME) length = FORMATS_MATERIAL_NAME - 1;
+            size_t kept = strlen(at);
+            while (kept && strchr(" \t\r", at[kept - 1])) kept--;
+            if (kept >= FORMATS_MATERIAL_NAME) kept = FORMATS_MATERIAL_NAME - 1;
             formats_material m = {.rgba = {0, 0, 0, 1}};
-            memcpy(m.name, at, length);
+            memcpy(m.name, at, kept);
             if (!array_push(&sink->alloc, materials, m)) status = support_fail_memory(sink->diag);
         } else if (materials->count) {
             formats_material *last = materials->data + materials->count - 1;

@@ -46,18 +46,14 @@ static froe_status out_of_memory(obj *o) {
 
 /* ---------------------------------------------------------------- groups -- */
 
-static uint32_t hash(const char *name, const char *material) { /* FNV-1a */
-    uint32_t h = 2166136261u;
-    for (; *name; ++name) h = (h ^ (unsigned char)*name) * 16777619u;
-    h = (h ^ 255u) * 16777619u;
-    for (; *material; ++material) h = (h ^ (unsigned char)*material) * 16777619u;
-    return h % BUCKETS;
-}
-
 static froe_status enter_named_group(obj *o) {
     o->sink->group = FROE_NONE;
     if (!*o->name && !*o->material) return FROE_OK;
-    uint32_t bucket = hash(o->name, o->material);
+    uint32_t hash = 2166136261u; /* FNV-1a of both names, with a byte between them that no text has */
+    for (const char *c = o->name; *c; ++c) hash = (hash ^ (unsigned char)*c) * 16777619u;
+    hash = (hash ^ 255u) * 16777619u;
+    for (const char *c = o->material; *c; ++c) hash = (hash ^ (unsigned char)*c) * 16777619u;
+    const uint32_t bucket = hash % BUCKETS;
     for (uint32_t at = o->first1[bucket]; at; at = o->groups.data[at - 1].next1) {
         const known *k = o->groups.data + at - 1;
         if (strcmp(k->name, o->name) || strcmp(k->material, o->material)) continue;
@@ -86,17 +82,6 @@ static void copy_rest(char *to, size_t room, const char *from) {
 }
 
 /* -------------------------------------------------------------- elements -- */
-
-static froe_status read_vertex(obj *o, const char *at) {
-    double p[3];
-    for (int k = 0; k < 3; ++k) {
-        char *end;
-        p[k] = strtod(at, &end);
-        if (end == at) return broken_obj(o, "a vertex needs three coordinates");
-        at = end;
-    }
-    return array_append(&o->sink->alloc, &o->points, p, 3) ? FROE_OK : out_of_memory(o);
-}
 
 /* Gathers the corners named on a line. */
 static froe_status read_corners(obj *o, const char *at, size_t *count) {
@@ -138,8 +123,17 @@ static bool starts(const char *line, const char *word) {
 }
 
 static froe_status read_line(obj *o) {
-    const char *line = o->line + strspn(o->line, " \t");
-    if (starts(line, "v")) return read_vertex(o, line + 1);
+    char *line = o->line + strspn(o->line, " \t");
+    if (starts(line, "v")) {
+        double p[3];
+        char *end = line + 1;
+        for (int k = 0; k < 3; ++k) {
+            const char *from = end;
+            p[k] = strtod(from, &end);
+            if (end == from) return broken_obj(o, "a vertex needs three coordinates");
+        }
+        return array_append(&o->sink->alloc, &o->points, p, 3) ? FROE_OK : out_of_memory(o);
+    }
     if (starts(line, "f") || starts(line, "l") || starts(line, "p")) return read_element(o, *line, line + 1);
     if (starts(line, "mtllib")) {
         char name[1024];

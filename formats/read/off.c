@@ -71,17 +71,6 @@ static froe_status read_off_header(off *o) {
     return FROE_OK;
 }
 
-static froe_status read_vertices(off *o) {
-    if (!array_reserve(&o->sink->alloc, &o->points, (size_t)o->vertices * 3)) return support_fail_memory(o->sink->diag);
-    for (uint64_t i = 0; i < o->vertices; ++i) {
-        for (int k = 0; k < 3; ++k)
-            if (!number(o, &o->points.data[o->points.count++]))
-                return broken_off(o, *o->at ? "a coordinate is not a number" : "vertices are missing");
-        if (o->extras) skip_line(o);
-    }
-    return FROE_OK;
-}
-
 static froe_status read_face(off *o) {
     uint64_t corners, vertex;
     o->corners.count = 0;
@@ -104,7 +93,14 @@ froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
     off o = {.source = source, .sink = sink, .begin = text.data, .at = text.data, .length = text.count};
     if (!status) status = read_off_header(&o);
     if (!status) status = formats_sink_open(sink, 3);
-    if (!status) status = read_vertices(&o);
+    if (!status && !array_reserve(&sink->alloc, &o.points, (size_t)o.vertices * 3))
+        status = support_fail_memory(sink->diag);
+    for (uint64_t i = 0; i < o.vertices && !status; ++i) {
+        for (int k = 0; k < 3 && !status; ++k)
+            if (!number(&o, &o.points.data[o.points.count++]))
+                status = broken_off(&o, *o.at ? "a coordinate is not a number" : "vertices are missing");
+        if (o.extras) skip_line(&o);
+    }
     formats_report_format(sink, "float64", "OFF");
     sink->report.layers = 1;
     if (!status) status = formats_sink_feature(sink, 0);

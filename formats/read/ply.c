@@ -75,14 +75,6 @@ static ply_type type_of(const char *name) {
     return NO_TYPE;
 }
 
-static ply_role role_of(const element *e, const char *name, bool list) {
-    if (e->kind == VERTEX && !list && name[0] >= 'x' && name[0] <= 'z' && !name[1])
-        return (ply_role)(X + name[0] - 'x');
-    if (e->kind == FACE && list && (!strcmp(name, "vertex_indices") || !strcmp(name, "vertex_index"))) return INDICES;
-    if (e->kind == EDGE && !list && !strcmp(name, "vertex1")) return FIRST;
-    return e->kind == EDGE && !list && !strcmp(name, "vertex2") ? SECOND : LEFT_ALONE;
-}
-
 static froe_status read_property(ply *p) {
     char word[WORD_ROOM];
     if (!p->elements.count) return broken(p, "a property belongs to no element");
@@ -98,7 +90,14 @@ static froe_status read_property(ply *p) {
     to->type = type_of(word);
     if (to->type == NO_TYPE || (list && (to->count == NO_TYPE || to->count >= FLOAT32)))
         return broken(p, "a property is of unknown type");
-    to->role = role_of(e, next_word(p, word), list);
+    next_word(p, word);
+    to->role = LEFT_ALONE;
+    if (e->kind == VERTEX && !list && word[0] >= 'x' && word[0] <= 'z' && !word[1])
+        to->role = (ply_role)(X + word[0] - 'x');
+    if (e->kind == FACE && list && (!strcmp(word, "vertex_indices") || !strcmp(word, "vertex_index")))
+        to->role = INDICES;
+    if (e->kind == EDGE && !list && !strcmp(word, "vertex1")) to->role = FIRST;
+    if (e->kind == EDGE && !list && !strcmp(word, "vertex2")) to->role = SECOND;
     if (to->role >= X && to->role <= Z) p->doubles = to->type == FLOAT64;
     return FROE_OK;
 }
@@ -145,28 +144,6 @@ static froe_status read_ply_header(ply *p) {
 
 /* ------------------------------------------------------------------ data -- */
 
-static double decode(ply_type type, uint64_t bits) {
-    float single;
-    double whole;
-    uint32_t low = (uint32_t)bits;
-    switch (type) {
-    case INT8:
-        return (int8_t)bits;
-    case INT16:
-        return (int16_t)bits;
-    case INT32:
-        return (int32_t)bits;
-    case FLOAT32:
-        memcpy(&single, &low, sizeof single);
-        return (double)single;
-    case FLOAT64:
-        memcpy(&whole, &bits, sizeof whole);
-        return whole;
-    default:
-        return (double)bits;
-    }
-}
-
 static bool read_number(ply *p, ply_type type, double *value) {
     if (p->text) {
         char *end;
@@ -181,7 +158,15 @@ static bool read_number(ply *p, ply_type type, double *value) {
     uint64_t bits = 0;
     for (size_t i = 0; i < size; ++i) bits = bits << 8 | (unsigned char)p->at[p->big ? i : size - 1 - i];
     p->at += size;
-    *value = decode(type, bits);
+    float single;
+    const uint32_t low = (uint32_t)bits;
+    memcpy(value, &bits, sizeof *value);
+    memcpy(&single, &low, sizeof single);
+    if (type == FLOAT32) *value = (double)single;
+    if (type == INT8) *value = (int8_t)bits;
+    if (type == INT16) *value = (int16_t)bits;
+    if (type == INT32) *value = (int32_t)bits;
+    if (type == UINT8 || type == UINT16 || type == UINT32) *value = (double)bits;
     return true;
 }
 
@@ -228,24 +213,8 @@ static froe_status add_item(ply *p, const element *e, const double *by_role) {
     return formats_sink_face(p->sink, p->corners.data, p->corners.count / 3);
 }
 
-static froe_status read_data(ply *p) {
-    enum { ITEMS_PER_REPORT = 8192 };
-    froe_status status = FROE_OK;
-    for (size_t k = 0; k < p->elements.count; ++k) {
-        const element *e = p->elements.data + k;
-        for (uint64_t i = 0; i < e->count && !status; ++i) {
-            double by_role[SECOND + 1] = {0};
-            p->sink->number = i;
-            status = read_item(p, e, by_role);
-            if (!status) status = add_item(p, e, by_role);
-            if (!status && p->done++ % ITEMS_PER_REPORT == 0)
-                status = formats_sink_progress(p->sink, (double)p->done / (double)p->all);
-        }
-    }
-    return status;
-}
-
 froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
+    enum { ITEMS_PER_REPORT = 8192 };
     const froe_allocator *alloc = &sink->alloc;
     formats_text file = {0};
     ply p = {.sink = sink};
@@ -259,7 +228,17 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
     sink->report.layers = 1;
     if (!status) status = formats_sink_feature(sink, 0);
     sink->unit = p.shapes ? "face" : "vertex";
-    if (!status) status = read_data(&p);
+    for (size_t k = 0; k < p.elements.count; ++k) {
+        const element *e = p.elements.data + k;
+        for (uint64_t i = 0; i < e->count && !status; ++i) {
+            double by_role[SECOND + 1] = {0};
+            sink->number = i;
+            status = read_item(&p, e, by_role);
+            if (!status) status = add_item(&p, e, by_role);
+            if (!status && p.done++ % ITEMS_PER_REPORT == 0)
+                status = formats_sink_progress(sink, (double)p.done / (double)p.all);
+        }
+    }
     array_free(alloc, &file);
     array_free(alloc, &p.elements);
     array_free(alloc, &p.points);

@@ -161,17 +161,6 @@ static froe_status write_cells(export_job *j) {
 
 /* -------------------------------------------------------------------- all -- */
 
-static froe_status check_export(const export_job *j, const char *path) {
-    const char *extensions = j->dim == 2 ? ".geojson or .csv" : j->dim == 3 ? ".obj or .csv" : ".csv";
-    bool fits = j->file && j->dim >= j->file->least_dim && j->dim <= j->file->most_dim;
-    if (fits && (j->dim <= 3 || j->what == FROE_EXPORT_FRAGMENTS)) return FROE_OK;
-    if (fits)
-        return support_fail(j->diag, FROE_E_UNSUPPORTED,
-                            "%s: cells and cuts have coordinates in dimensions 2 and 3 only", support_short(path));
-    return support_fail(j->diag, FROE_E_UNSUPPORTED, "%s: a tree of dimension %d is exported to %s",
-                        support_short(path), j->dim, extensions);
-}
-
 static froe_status run_export(export_job *j, const char *path) {
     froe_status status = formats_writer_open(&j->writer, path, j->diag);
     if (status) return status;
@@ -208,6 +197,15 @@ froe_status froe_export(const froe_tree *tree, const char *path, froe_export_wha
                     .options = options ? options : &defaults,
                     .file = formats_shape_file_of(path),
                     .diag = diag};
-    froe_status status = check_export(&j, path);
-    return status ? status : run_export(&j, path);
+    const bool fits = j.file && j.dim >= j.file->least_dim && j.dim <= j.file->most_dim;
+    if (fits && j.dim > 3 && what != FROE_EXPORT_FRAGMENTS)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: cells and cuts have coordinates in dimensions 2 and 3 only",
+                            support_short(path));
+    if (!fits)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: a tree of dimension %d is exported to %s",
+                            support_short(path), j.dim,
+                            j.dim == 2   ? ".geojson or .csv"
+                            : j.dim == 3 ? ".obj or .csv"
+                                         : ".csv");
+    return run_export(&j, path);
 }

@@ -67,12 +67,8 @@ static void put_lines(pen *p, uint32_t first, uint32_t end) {
     formats_put(&p->writer, several ? "]]" : "]");
 }
 
-static void put_coordinates(pen *p, uint32_t first, uint32_t end, const froe_object *o) {
-    if (o->kind == FROE_SEGMENT) return put_lines(p, first, end);
-    const double *lo = place_of_corner(p, first, o, 0);
-    if (o->kind == FROE_POINT) return position(p, lo);
-    /* a box as a ring; with `boxes` it is read as the box it was */
-    const double *hi = place_of_corner(p, first, o, 1);
+/* A box as a ring; with `boxes` it is read as the box it was. */
+static void put_box(pen *p, const double *lo, const double *hi) {
     const double ring[5][2] = {{lo[0], lo[1]}, {hi[0], lo[1]}, {hi[0], hi[1]}, {lo[0], hi[1]}, {lo[0], lo[1]}};
     for (int i = 0; i < 5; ++i) {
         formats_put(&p->writer, i ? "," : "[[");
@@ -105,7 +101,9 @@ static void write_geojson(pen *p) {
                             : end == i + 1       ? "LineString"
                                                  : "MultiLineString");
         formats_put(w, ",\"coordinates\":");
-        put_coordinates(p, i, end, &o);
+        if (o.kind == FROE_POINT) position(p, place_of_corner(p, i, &o, 0));
+        if (o.kind == FROE_BOX) put_box(p, place_of_corner(p, i, &o, 0), place_of_corner(p, i, &o, 1));
+        if (o.kind == FROE_SEGMENT) put_lines(p, i, end);
         formats_put(w, "}}");
     }
     formats_put(w, "\n]}\n");

@@ -14,9 +14,22 @@ static void put_attribute(formats_writer *w, const formats_attribute *a,
 
 /* --------------------------------------------------------------- GeoJSON -- */
 
-static void geojson_geometry(formats_writer *w, const formats_shape *s) {
+static void geojson_shape(formats_writer *w, const formats_shape *s, bool first) {
     static const char *const types[] = {"MultiPoint", "LineString", "Polygon", "Polygon"};
     bool point = s->sort == FORMATS_POINTS && s->corners == 1, polygon = s->sort == FORMATS_POLYGON;
+    formats_put(w, first ? "\n" : ",\n");
+    formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
+    for (int i = 0; i < s->attribute_count; ++i) {
+        formats_put(w, i ? "," : "");
+        formats_put_json(w, s->attributes[i].name);
+        formats_put(w, ":");
+        if (s->attributes[i].missing) {
+            formats_put(w, "null");
+        } else {
+            put_attribute(w, &s->attributes[i], formats_put_json);
+        }
+    }
+    formats_put(w, "},\"geometry\":");
     formats_put(w, "{\"type\":");
     formats_put_json(w, point ? "Point" : types[s->sort]);
     formats_put(w, ",\"coordinates\":");
@@ -32,23 +45,6 @@ static void geojson_geometry(formats_writer *w, const formats_shape *s) {
         formats_put(w, "]]");
     }
     formats_put(w, point ? "}" : "]}");
-}
-
-static void geojson_shape(formats_writer *w, const formats_shape *s, bool first) {
-    formats_put(w, first ? "\n" : ",\n");
-    formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
-    for (int i = 0; i < s->attribute_count; ++i) {
-        formats_put(w, i ? "," : "");
-        formats_put_json(w, s->attributes[i].name);
-        formats_put(w, ":");
-        if (s->attributes[i].missing) {
-            formats_put(w, "null");
-        } else {
-            put_attribute(w, &s->attributes[i], formats_put_json);
-        }
-    }
-    formats_put(w, "},\"geometry\":");
-    geojson_geometry(w, s);
     formats_put(w, "}");
 }
 
@@ -99,20 +95,6 @@ static void wkt_run(formats_writer *w, const formats_shape *s, size_t first, siz
     formats_put(w, ")");
 }
 
-static void wkt(formats_writer *w, const formats_shape *s) {
-    static const char *const types[] = {"MULTIPOINT", "LINESTRING", "POLYGON", "POLYHEDRALSURFACE"};
-    formats_put(w, s->sort == FORMATS_POINTS && s->corners == 1 ? "POINT" : types[s->sort]);
-    formats_put(w, s->dim == 3 ? " Z " : " ");
-    if (s->sort == FORMATS_POLYGON) formats_put(w, "(");
-    if (s->sort != FORMATS_SURFACE) wkt_run(w, s, 0, s->corners, s->sort == FORMATS_POLYGON);
-    if (s->sort == FORMATS_POLYGON) formats_put(w, ")");
-    for (size_t f = 0; s->sort == FORMATS_SURFACE && f < s->faces; ++f) {
-        formats_put(w, f ? ",(" : "((");
-        wkt_run(w, s, s->starts[f], s->starts[f + 1], true);
-        formats_put(w, f + 1 < s->faces ? ")" : "))");
-    }
-}
-
 static void csv_columns(formats_writer *w, const formats_shape *like) {
     for (int i = 0; i < like->attribute_count; ++i) {
         formats_put_csv(w, like->attributes[i].name);
@@ -122,16 +104,26 @@ static void csv_columns(formats_writer *w, const formats_shape *like) {
 }
 
 static void csv_shape(formats_writer *w, const formats_shape *s, bool first) {
+    static const char *const types[] = {"MULTIPOINT", "LINESTRING", "POLYGON", "POLYHEDRALSURFACE"};
     (void)first;
     for (int i = 0; i < s->attribute_count; ++i) {
         if (!s->attributes[i].missing) put_attribute(w, &s->attributes[i], formats_put_csv);
         formats_put(w, ",");
     }
     formats_put(w, "\"");
-    if (s->dim <= 3) {
-        wkt(w, s);
-    } else {
+    if (s->dim > 3) {
         wkt_run(w, s, 0, s->corners, false);
+    } else {
+        formats_put(w, s->sort == FORMATS_POINTS && s->corners == 1 ? "POINT" : types[s->sort]);
+        formats_put(w, s->dim == 3 ? " Z " : " ");
+        if (s->sort == FORMATS_POLYGON) formats_put(w, "(");
+        if (s->sort != FORMATS_SURFACE) wkt_run(w, s, 0, s->corners, s->sort == FORMATS_POLYGON);
+        if (s->sort == FORMATS_POLYGON) formats_put(w, ")");
+        for (size_t f = 0; s->sort == FORMATS_SURFACE && f < s->faces; ++f) {
+            formats_put(w, f ? ",(" : "((");
+            wkt_run(w, s, s->starts[f], s->starts[f + 1], true);
+            formats_put(w, f + 1 < s->faces ? ")" : "))");
+        }
     }
     formats_put(w, "\"\n");
 }

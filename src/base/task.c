@@ -14,7 +14,7 @@ enum { STACK_BYTES = 1 << 20, POLL_NANOSECONDS = 50 * 1000 * 1000 };
 static const double STEP = 1.0 / 1024; /* least progress worth a callback */
 
 /* One base_run() in progress. */
-typedef struct crew {
+typedef struct job_run {
     base_task *task;
     base_job_fn *fn;
     void *user;
@@ -22,16 +22,16 @@ typedef struct crew {
     double start, span;
     atomic_size_t next, finished, failed; /* failed: lowest failing job so far */
     pthread_mutex_t lock;                 /* guards status, working */
-    pthread_cond_t quiet;                 /* working reached 0 */
+    pthread_cond_t quiet;                 /* `working` reached 0 */
     froe_status status;                   /* of job `failed` */
     unsigned working;                     /* threads other than the calling one */
     base_floats_held caller;
-} crew;
+} job_run;
 
-typedef struct hand {
-    crew *crew;
+typedef struct job_worker {
+    job_run *run;
     unsigned worker;
-} hand;
+} job_worker;
 
 void base_task_init(base_task *task, unsigned threads, froe_progress_fn *progress, void *user) {
     long processors = threads ? (long)threads : sysconf(_SC_NPROCESSORS_ONLN);
@@ -51,7 +51,7 @@ bool base_progress(base_task *task, double done) {
     return false;
 }
 
-static void note_failure(crew *c, size_t job, froe_status status) {
+static void note_failure(job_run *c, size_t job, froe_status status) {
     pthread_mutex_lock(&c->lock);
     if (job < atomic_load(&c->failed)) {
         atomic_store(&c->failed, job);
@@ -61,7 +61,7 @@ static void note_failure(crew *c, size_t job, froe_status status) {
 }
 
 /* Does one more job; false when there is none left to do. */
-static bool work_on_jobs(crew *c, unsigned worker) {
+static bool work_on_jobs(job_run *c, unsigned worker) {
     if (base_cancelled(c->task)) return false;
     size_t job = atomic_fetch_add(&c->next, 1);
     if (job >= c->count || job > atomic_load(&c->failed)) return false;
@@ -71,15 +71,15 @@ static bool work_on_jobs(crew *c, unsigned worker) {
     return true;
 }
 
-static void report_progress(crew *c, bool always) {
+static void report_progress(job_run *c, bool always) {
     double share = (double)atomic_load(&c->finished) / (double)c->count;
     double done = c->start + c->span * share;
     if (always || done >= c->task->done + STEP) base_progress(c->task, done);
 }
 
-static void *labour(void *argument) {
-    hand *h = argument;
-    crew *c = h->crew;
+static void *run_worker(void *argument) {
+    job_worker *h = argument;
+    job_run *c = h->run;
     base_floats_begin_thread(c->caller);
     while (work_on_jobs(c, h->worker)) {
     }
@@ -90,24 +90,24 @@ static void *labour(void *argument) {
 }
 
 /* Starts up to `wanted` threads, fewer if the system refuses. */
-static unsigned hire(crew *c, unsigned wanted, hand *hands, pthread_t *threads) {
+static unsigned start_threads(job_run *c, unsigned wanted, job_worker *workers, pthread_t *threads) {
     pthread_attr_t attr;
-    unsigned hired = 0;
+    unsigned started = 0;
     if (pthread_attr_init(&attr) != 0) return 0;
     (void)pthread_attr_setstacksize(&attr, STACK_BYTES);
     pthread_mutex_lock(&c->lock);
-    for (; hired < wanted; hired++) {
-        hands[hired] = (hand){c, hired + 1};
-        if (pthread_create(&threads[hired], &attr, labour, &hands[hired]) != 0) break;
+    for (; started < wanted; started++) {
+        workers[started] = (job_worker){c, started + 1};
+        if (pthread_create(&threads[started], &attr, run_worker, &workers[started]) != 0) break;
         c->working++;
     }
     pthread_mutex_unlock(&c->lock);
     pthread_attr_destroy(&attr);
-    return hired;
+    return started;
 }
 
 /* Waits until the other threads are done; reports progress meanwhile, so that the callback can cancel. */
-static void wait_for_quiet(crew *c) {
+static void wait_for_quiet(job_run *c) {
     pthread_mutex_lock(&c->lock);
     while (c->working) {
         struct timespec until;
@@ -123,31 +123,31 @@ static void wait_for_quiet(crew *c) {
     pthread_mutex_unlock(&c->lock);
 }
 
-static void run_crew(crew *c, unsigned others) {
-    hand hands[BASE_THREADS_MAX];
+static void run_on_threads(job_run *c, unsigned others) {
+    job_worker workers[BASE_THREADS_MAX];
     pthread_t threads[BASE_THREADS_MAX];
-    unsigned hired = others ? hire(c, others, hands, threads) : 0;
+    unsigned started = others ? start_threads(c, others, workers, threads) : 0;
     while (work_on_jobs(c, 0)) report_progress(c, false);
-    if (hired) wait_for_quiet(c);
-    for (unsigned i = 0; i < hired; i++) pthread_join(threads[i], NULL);
+    if (started) wait_for_quiet(c);
+    for (unsigned i = 0; i < started; i++) pthread_join(threads[i], NULL);
 }
 
 froe_status base_run(base_task *task, double span, size_t count, base_job_fn *fn, void *user) {
     if (base_cancelled(task)) return FROE_E_CANCELLED;
     if (!count) return base_progress(task, task->done + span * task->scale) ? FROE_OK : FROE_E_CANCELLED;
-    crew c = {.task = task,
-              .fn = fn,
-              .user = user,
-              .count = count,
-              .start = task->done,
-              .span = span * task->scale,
-              .caller = base_floats_of_caller()};
+    job_run c = {.task = task,
+                 .fn = fn,
+                 .user = user,
+                 .count = count,
+                 .start = task->done,
+                 .span = span * task->scale,
+                 .caller = base_floats_of_caller()};
     atomic_init(&c.next, 0);
     atomic_init(&c.finished, 0);
     atomic_init(&c.failed, SIZE_MAX);
     pthread_mutex_init(&c.lock, NULL);
     pthread_cond_init(&c.quiet, NULL);
-    run_crew(&c, count < task->threads ? (unsigned)count - 1 : task->threads - 1);
+    run_on_threads(&c, count < task->threads ? (unsigned)count - 1 : task->threads - 1);
     pthread_cond_destroy(&c.quiet);
     pthread_mutex_destroy(&c.lock);
     if (base_cancelled(task)) return FROE_E_CANCELLED;

@@ -10,23 +10,13 @@ static num_dyadic fraction(const uint64_t *limbs) {
     return (num_dyadic){1, low - NUM_FRACTION_LIMBS, (uint32_t)(high - low), limbs + low};
 }
 
-/* Sets the bit of 2^-depth. */
-static void set_bit(uint64_t *limbs, int depth) {
-    int bit = 64 * NUM_FRACTION_LIMBS - depth;
-    limbs[bit / 64] |= (uint64_t)1 << (bit % 64);
-}
-
-static num_dyadic power_of_half(num_arena *arena, int depth) {
-    return num_dyadic_scaled(arena, 1, 1, -depth);
-}
-
 num_dyadic num_isolated_low(const num_isolated *root) {
     return fraction(root->lo);
 }
 
 num_dyadic num_isolated_high(num_arena *arena, const num_isolated *root) {
     num_dyadic low = fraction(root->lo);
-    return root->exact ? low : num_dyadic_add(arena, low, power_of_half(arena, root->depth));
+    return root->exact ? low : num_dyadic_add(arena, low, num_dyadic_scaled(arena, 1, 1, -root->depth));
 }
 
 static num_ball low_ball(const num_isolated *root) {
@@ -51,19 +41,12 @@ static int sign_at_low(num_arena *arena, const num_isolated *at) {
 /* The upper half of an interval. */
 static num_isolated upper_half(const num_isolated *root) {
     num_isolated half = *root;
-    set_bit(half.lo, ++half.depth);
+    const int bit = 64 * NUM_FRACTION_LIMBS - ++half.depth; /* of 2^-depth */
+    half.lo[bit / 64] |= (uint64_t)1 << (bit % 64);
     return half;
 }
 
 /* ------------------------------------------------------------------ one root -- */
-
-/* Is the root above the middle, where the polynomial has that sign? */
-static bool is_above(num_arena *arena, const num_isolated *root, const num_isolated *half, int sign) {
-    const num_chain *chain = &root->of->chain;
-    if (!root->even) return sign == root->low_sign;
-    return num_chain_variations(arena, chain, fraction(root->lo)) ==
-           num_chain_variations(arena, chain, fraction(half->lo));
-}
 
 bool num_isolated_refine(num_arena *arena, num_isolated *root) {
     if (root->exact) return true;
@@ -71,7 +54,11 @@ bool num_isolated_refine(num_arena *arena, num_isolated *root) {
     num_isolated half = upper_half(root);
     int sign = sign_at_low(arena, &half);
     half.exact = sign == 0;
-    if (sign == 0 || is_above(arena, root, &half, sign))
+    const num_chain *chain = &root->of->chain;
+    const bool above = !root->even ? sign == root->low_sign
+                                   : num_chain_variations(arena, chain, fraction(root->lo)) ==
+                                         num_chain_variations(arena, chain, fraction(half.lo));
+    if (half.exact || above)
         *root = half;
     else
         root->depth++;
@@ -181,17 +168,6 @@ static outcome find_all(num_arena *arena, num_isolation *out, int exact) {
     return FOUND;
 }
 
-/* Puts the exact roots, which come first and in any order, in their places. Roots of one polynomial are apart. */
-static void sort_roots(num_arena *arena, num_isolation *out) {
-    for (int i = 1; i < out->count; i++) {
-        num_isolated moved = out->root[i];
-        int j = i;
-        for (; j > 0 && num_isolated_compare(arena, &moved, &out->root[j - 1]) < 0; j--)
-            out->root[j] = out->root[j - 1];
-        out->root[j] = moved;
-    }
-}
-
 void num_isolate(num_arena *arena, const num_poly *f, num_isolation *out) {
     num_poly inside = num_poly_without(arena, f, (num_dyadic){0});
     inside = num_poly_without(arena, &inside, num_dyadic_scaled(arena, 1, 1, 0));
@@ -203,25 +179,29 @@ void num_isolate(num_arena *arena, const num_poly *f, num_isolation *out) {
         found = find_all(arena, out, exact);
     }
     if (found == TOO_CLOSE) out->count = -1;
-    sort_roots(arena, out);
+    /* The exact roots, which come first and in any order, go to their places. Roots of one polynomial are apart. */
+    for (int i = 1; i < out->count; i++) {
+        num_isolated moved = out->root[i];
+        int j = i;
+        for (; j > 0 && num_isolated_compare(arena, &moved, &out->root[j - 1]) < 0; j--)
+            out->root[j] = out->root[j - 1];
+        out->root[j] = moved;
+    }
 }
 
 /* --------------------------------------------------------------- comparisons -- */
 
-/* By Tarski's query: the sum over one root. */
-static int exact_sign(num_arena *arena, const num_isolated *root, const num_poly *g) {
-    size_t mark = arena->top;
-    num_chain chain = num_chain_of(arena, &root->of->chain.p[0], g);
-    int low = num_chain_variations(arena, &chain, fraction(root->lo));
-    int sign = low - num_chain_variations(arena, &chain, num_isolated_high(arena, root));
-    arena->top = mark;
-    return sign;
-}
-
 int num_isolated_sign(num_arena *arena, const num_isolated *root, const num_poly *g, const num_ball_poly *near) {
     int sign = num_ball_sign(num_ball_poly_at(near, num_isolated_ball(root)));
     if (sign != NUM_UNSURE) return sign;
-    return root->exact ? num_poly_sign(arena, g, fraction(root->lo)) : exact_sign(arena, root, g);
+    if (root->exact) return num_poly_sign(arena, g, fraction(root->lo));
+    /* by Tarski's query: the sum over one root */
+    const size_t mark = arena->top;
+    const num_chain chain = num_chain_of(arena, &root->of->chain.p[0], g);
+    const int low = num_chain_variations(arena, &chain, fraction(root->lo));
+    sign = low - num_chain_variations(arena, &chain, num_isolated_high(arena, root));
+    arena->top = mark;
+    return sign;
 }
 
 /* -1, 1: apart; 0: one interval holds the other, or they are the same point. */

@@ -52,25 +52,18 @@ static num_poly product(num_arena *arena, const num_poly *f, const num_poly *g) 
     return fg;
 }
 
-static num_poly negative(num_poly f) {
-    for (int i = 0; i <= f.degree; i++) f.c[i].sign = -f.c[i].sign;
-    return f;
-}
-
-/* One step of pseudo-division: |lead b| a, less the multiple of b that takes a's leading term away. */
-static void divide_step(num_arena *arena, num_poly *a, const num_poly *b) {
-    num_dyadic lead = b->c[b->degree], top = a->c[a->degree];
-    if (lead.sign < 0) lead.sign = 1, top.sign = -top.sign;
-    int shift = a->degree - b->degree;
-    for (int i = 0; i < a->degree; i++) a->c[i] = num_dyadic_mul(arena, a->c[i], lead);
-    for (int i = 0; i < b->degree; i++)
-        a->c[i + shift] = num_dyadic_sub(arena, a->c[i + shift], num_dyadic_mul(arena, top, b->c[i]));
-    num_poly_trim(a, a->degree - 1);
-}
-
-/* A positive multiple of the remainder of a by b, not zero. */
+/* A positive multiple of the remainder of a by b, not zero. Each step of pseudo-division takes |lead b| a, less the
+ * multiple of b that takes a's leading term away. */
 static num_poly remainder_of(num_arena *arena, num_poly a, const num_poly *b) {
-    while (a.degree >= b->degree) divide_step(arena, &a, b);
+    while (a.degree >= b->degree) {
+        num_dyadic lead = b->c[b->degree], top = a.c[a.degree];
+        if (lead.sign < 0) lead.sign = 1, top.sign = -top.sign;
+        const int shift = a.degree - b->degree;
+        for (int i = 0; i < a.degree; i++) a.c[i] = num_dyadic_mul(arena, a.c[i], lead);
+        for (int i = 0; i < b->degree; i++)
+            a.c[i + shift] = num_dyadic_sub(arena, a.c[i + shift], num_dyadic_mul(arena, top, b->c[i]));
+        num_poly_trim(&a, a.degree - 1);
+    }
     return a;
 }
 
@@ -84,7 +77,8 @@ num_chain num_chain_of(num_arena *arena, const num_poly *f, const num_poly *g) {
     while (next.degree >= 0) {
         const num_poly *last = &chain.p[chain.count - 1];
         chain.p[chain.count++] = next;
-        next = negative(remainder_of(arena, *last, &chain.p[chain.count - 1]));
+        next = remainder_of(arena, *last, &chain.p[chain.count - 1]);
+        for (int i = 0; i <= next.degree; i++) next.c[i].sign = -next.c[i].sign;
     }
     return chain;
 }

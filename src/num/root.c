@@ -38,12 +38,12 @@ int num_roots_compare(num_arena *arena, num_ratio a, num_ratio b, num_dyadic e) 
 
 static const uint64_t GREATEST = 0x7fefffffffffffff, FRACTION = 0xfffffffffffff;
 
-typedef struct search {
+typedef struct double_search {
     num_arena *arena;
     size_t mark;
     num_compare_fn *compare;
     void *user;
-} search;
+} double_search;
 
 static double double_of(uint64_t bits) {
     double x;
@@ -52,13 +52,13 @@ static double double_of(uint64_t bits) {
 }
 
 /* Is the value at least the double with these bits? */
-static bool reaches(const search *s, uint64_t bits) {
+static bool reaches(const double_search *s, uint64_t bits) {
     s->arena->top = s->mark;
     return s->compare(s->user, s->arena, num_dyadic_from(s->arena, double_of(bits))) >= 0;
 }
 
 /* The value against half way from this double to the next. */
-static int beyond_half(const search *s, uint64_t bits) {
+static int beyond_half(const double_search *s, uint64_t bits) {
     uint64_t exponent = bits >> 52, whole = bits & FRACTION;
     if (exponent)
         whole |= FRACTION + 1;
@@ -69,7 +69,7 @@ static int beyond_half(const search *s, uint64_t bits) {
 }
 
 /* The greatest finite double that the value reaches; steps double from the guess, then halve. */
-static uint64_t greatest_reached(const search *s, uint64_t guess) {
+static uint64_t greatest_reached(const double_search *s, uint64_t guess) {
     uint64_t low = 0, high = GREATEST + 1, step = 1; /* reached; not reached */
     if (reaches(s, guess)) {
         for (low = guess; GREATEST - low >= step && reaches(s, low + step); step *= 2) low += step;
@@ -89,7 +89,7 @@ static uint64_t greatest_reached(const search *s, uint64_t guess) {
 }
 
 double num_nearest(num_arena *arena, num_compare_fn *compare, void *user, double guess) {
-    search s = {arena, arena->top, compare, user};
+    double_search s = {arena, arena->top, compare, user};
     uint64_t bits = 0;
     if (guess > 0) memcpy(&bits, &guess, sizeof bits);
     uint64_t low = greatest_reached(&s, bits < GREATEST ? bits : GREATEST);
