@@ -5,7 +5,7 @@
  *                   share          Hodgman: Reentrant polygon clipping, 1974).
  *
  * Decisions have no use for it: there a point keeps where it comes from, and its side is asked exactly (src/geom).
- * That is how fragments (src/split/), cells (src/tree/shape.c) and moving segments are clipped, by labels on corners. */
+ * That is how fragments (src/split/), cells (src/tree/shape.c) and moving segments are clipped, by labels. */
 #ifndef FROE_SUPPORT_CLIP_H
 #define FROE_SUPPORT_CLIP_H
 #include <stdbool.h>

@@ -98,7 +98,7 @@ typedef struct crossing_counter {
 } crossing_counter;
 
 /* Adds or subtracts the counts of one product of conditions, with upper ends on the axes in `upper`. A box that begins
- * before hi and ends up to lo: all that end there, but if lo = hi, not the flat ones at it, which do not begin before. */
+ * before hi and ends up to lo: all that end there, but if lo = hi, not the flat ones at it, which begin at it. */
 static froe_status add_product(crossing_counter *c, unsigned upper) {
     int dim = c->sample->scene->dim;
     size_t count = c->windows->count, products = (size_t)1 << dim;

@@ -97,7 +97,7 @@ static bool make_node(maker *m, int axis, const size_t *from, uint32_t count) {
     return axis < d->dim - 2 || make_plane(m, d->nodes.count - 1);
 }
 
-/* The nodes of an axis from `from` on, of which each has children: one for each node of a Fenwick tree of its points. */
+/* Axis by axis: the children of each node are the nodes of a Fenwick tree over its points. */
 static bool make_tree(maker *m) {
     measure_dominance *d = m->d;
     bool ok = make_node(m, 0, NULL, m->count);

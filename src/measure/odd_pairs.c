@@ -220,7 +220,7 @@ froe_status measure_odd_pairs(base_task *task, num_context *context, const measu
                               void *user) {
     const int dim = of->scene->dim;
     sheet_search s = {.of = of, .alloc = &of->scene->alloc, .task = task, .context = context, .fn = fn, .user = user};
-    /* Are there more pairs of boxes than a sweep costs? Counting them takes a small part of the time of testing them. */
+    /* Are there more pairs of boxes than a sweep costs? Counting takes a small part of the time of testing. */
     s.counters = support_calloc(s.alloc, task->threads, sizeof *s.counters);
     if (!s.counters) return FROE_E_MEMORY;
     froe_status status = geom_box_pairs(s.alloc, task, 0.1, dim, of->count, of->lo, of->hi, count_pair, &s);

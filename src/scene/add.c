@@ -21,47 +21,6 @@ froe_objects froe_objects_defaults(void) {
 
 /* ------------------------------------------------------------------- check -- */
 
-static froe_status check_kind(const froe_scene *s, const froe_objects *b, froe_diagnostic *diag) {
-    if ((unsigned)b->kind >= FROE_KIND_COUNT)
-        return support_fail(diag, FROE_E_ARG, "there is no kind %d", (int)b->kind);
-    bool plane_or_space = b->kind == FROE_SEGMENT || b->kind == FROE_HULL;
-    if ((plane_or_space && s->dim > 3) || (b->kind == FROE_POLYGON && s->dim != 3))
-        return support_fail(diag, FROE_E_UNSUPPORTED, "there are no %ss in dimension %d", froe_kind_name(b->kind),
-                            s->dim);
-    return FROE_OK;
-}
-
-static froe_status check_arrays(const froe_objects *b, froe_diagnostic *diag) {
-    if (b->count && !b->coords) return support_fail(diag, FROE_E_ARG, "coords is null");
-    if (b->starts && b->kind != FROE_POLYGON && b->kind != FROE_HULL)
-        return support_fail(diag, FROE_E_ARG, "starts is for polygons and hulls only");
-    if (b->count && (b->kind == FROE_BALL) != (b->radii != NULL))
-        return support_fail(diag, FROE_E_ARG, "balls need radii, and only they have them");
-    return FROE_OK;
-}
-
-static froe_status check_starts(const froe_objects *b, froe_diagnostic *diag) {
-    size_t least = b->kind == FROE_POLYGON ? 3 : 1;
-    for (size_t j = 0; b->starts && j < b->count; j++) {
-        if (b->starts[j + 1] >= b->starts[j] && b->starts[j + 1] - b->starts[j] >= least) continue;
-        return support_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
-                               "%s %zu needs at least %zu corners: starts go from %zu to %zu", froe_kind_name(b->kind),
-                               j, least, b->starts[j], b->starts[j + 1]);
-    }
-    return FROE_OK;
-}
-
-static froe_status check_groups(const froe_scene *s, const froe_objects *b, froe_diagnostic *diag) {
-    if (b->group != FROE_NONE && b->group >= s->group_count)
-        return support_fail(diag, FROE_E_INPUT, "there is no group %u", b->group);
-    for (size_t j = 0; b->groups && j < b->count; j++)
-        if (b->groups[j] != FROE_NONE && b->groups[j] >= s->group_count)
-            return support_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
-                                   "%s %zu belongs to group %u, which does not exist", froe_kind_name(b->kind), j,
-                                   b->groups[j]);
-    return FROE_OK;
-}
-
 /** The limits come before every loop over the batch: from here on a size_t count fits 31 bits. */
 static froe_status check_limits(scene_adding *a) {
     static const size_t corners_of[FROE_KIND_COUNT] = {1, 2, 3, 2, 1, 3};
@@ -80,18 +39,44 @@ static froe_status check_limits(scene_adding *a) {
     return FROE_OK;
 }
 
-static froe_status check_adding(scene_adding *a) {
-    const froe_objects *b = a->batch;
-    if (!a->scene || !b) return support_fail(a->diag, FROE_E_ARG, "scene or batch is null");
+/** The batch itself, and whether the scene can take such objects. */
+static froe_status check_batch(const froe_scene *s, const froe_objects *b, froe_diagnostic *diag) {
+    if (!s || !b) return support_fail(diag, FROE_E_ARG, "scene or batch is null");
     if (b->size != sizeof *b) /* once the struct has grown: its older sizes too, with defaults for what they lack */
-        return support_fail(a->diag, FROE_E_OPTIONS, "the batch does not come from froe_objects_defaults()");
-    froe_status status = scene_growable(a->scene, a->diag);
-    if (!status) status = check_kind(a->scene, b, a->diag);
-    if (!status) status = check_arrays(b, a->diag);
-    if (!status) status = check_limits(a);
-    if (!status) status = check_starts(b, a->diag);
-    if (!status) status = check_groups(a->scene, b, a->diag);
-    return status;
+        return support_fail(diag, FROE_E_OPTIONS, "the batch does not come from froe_objects_defaults()");
+    froe_status status = scene_growable(s, diag);
+    if (status) return status;
+    if ((unsigned)b->kind >= FROE_KIND_COUNT)
+        return support_fail(diag, FROE_E_ARG, "there is no kind %d", (int)b->kind);
+    bool plane_or_space = b->kind == FROE_SEGMENT || b->kind == FROE_HULL;
+    if ((plane_or_space && s->dim > 3) || (b->kind == FROE_POLYGON && s->dim != 3))
+        return support_fail(diag, FROE_E_UNSUPPORTED, "there are no %ss in dimension %d", froe_kind_name(b->kind),
+                            s->dim);
+    if (b->count && !b->coords) return support_fail(diag, FROE_E_ARG, "coords is null");
+    if (b->starts && b->kind != FROE_POLYGON && b->kind != FROE_HULL)
+        return support_fail(diag, FROE_E_ARG, "starts is for polygons and hulls only");
+    if (b->count && (b->kind == FROE_BALL) != (b->radii != NULL))
+        return support_fail(diag, FROE_E_ARG, "balls need radii, and only they have them");
+    return FROE_OK;
+}
+
+/** Where each object begins, and its group. */
+static froe_status check_lists(const froe_scene *s, const froe_objects *b, froe_diagnostic *diag) {
+    size_t least = b->kind == FROE_POLYGON ? 3 : 1;
+    for (size_t j = 0; b->starts && j < b->count; j++) {
+        if (b->starts[j + 1] >= b->starts[j] && b->starts[j + 1] - b->starts[j] >= least) continue;
+        return support_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
+                               "%s %zu needs at least %zu corners: starts go from %zu to %zu", froe_kind_name(b->kind),
+                               j, least, b->starts[j], b->starts[j + 1]);
+    }
+    if (b->group != FROE_NONE && b->group >= s->group_count)
+        return support_fail(diag, FROE_E_INPUT, "there is no group %u", b->group);
+    for (size_t j = 0; b->groups && j < b->count; j++)
+        if (b->groups[j] != FROE_NONE && b->groups[j] >= s->group_count)
+            return support_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
+                                   "%s %zu belongs to group %u, which does not exist", froe_kind_name(b->kind), j,
+                                   b->groups[j]);
+    return FROE_OK;
 }
 
 /* ----------------------------------------------------------------- reserve -- */
@@ -203,10 +188,11 @@ static froe_status take_forms(scene_adding *a) {
 
 /* ------------------------------------------------------------------ commit -- */
 
-static void commit_labels(const scene_adding *a) {
+static void commit(const scene_adding *a) {
     const froe_objects *b = a->batch;
-    struct scene_store *store = a->scene->store;
-    uint32_t old = a->scene->object_count, all = old + (uint32_t)b->count;
+    froe_scene *s = a->scene;
+    struct scene_store *store = s->store;
+    uint32_t old = s->object_count, all = old + (uint32_t)b->count;
     bool tags = store->tags.count || b->tags, faces = store->faces.count || b->faces;
     bool groups = store->groups.count || b->groups || b->group != FROE_NONE;
     for (size_t i = store->tags.count; tags && i < all; i++)
@@ -218,15 +204,9 @@ static void commit_labels(const scene_adding *a) {
     store->tags.count = tags ? all : 0;
     store->faces.count = faces ? all : 0;
     store->groups.count = groups ? all : 0;
-}
-
-static void commit(const scene_adding *a) {
-    froe_scene *s = a->scene;
-    struct scene_store *store = s->store;
-    commit_labels(a);
-    store->kinds.count += a->batch->count;
-    store->forms.count += a->batch->count;
-    store->starts.count += a->batch->count;
+    store->kinds.count += b->count;
+    store->forms.count += b->count;
+    store->starts.count += b->count;
     store->corners.count += a->used;
     store->radii.count += a->gap;
     for (int k = 0; k < s->dim; k++) {
@@ -238,7 +218,9 @@ static void commit(const scene_adding *a) {
 froe_status froe_scene_add(froe_scene *scene, const froe_objects *batch, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     scene_adding a = {.scene = scene, .batch = batch, .diag = diag};
-    froe_status status = check_adding(&a);
+    froe_status status = check_batch(scene, batch, diag);
+    if (!status) status = check_limits(&a);
+    if (!status) status = check_lists(scene, batch, diag);
     if (status || !batch->count) return status;
     for (int k = 0; k < FROE_MAX_DIM; k++) a.lo[k] = INFINITY, a.hi[k] = -INFINITY;
     status = reserve(&a);

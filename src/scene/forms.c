@@ -9,21 +9,6 @@ static const double *store_vertex(const scene_adding *a, uint32_t vertex) {
     return a->scene->store->coords.data + (size_t)vertex * (size_t)a->scene->dim;
 }
 
-static void segment_form(const uint32_t *ring, uint32_t *count, froe_kind *form) {
-    if (ring[0] != ring[1]) return;
-    *count = 1;
-    *form = FROE_POINT;
-}
-
-static froe_status box_form(const scene_adding *a, size_t j, const uint32_t *ring) {
-    const double *lo = store_vertex(a, ring[0]), *hi = store_vertex(a, ring[1]);
-    for (int k = 0; k < a->scene->dim; k++)
-        if (lo[k] > hi[k])
-            return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, 1, (uint32_t)k,
-                                   "box %zu: its low corner %g is above its high corner %g", j, lo[k], hi[k]);
-    return FROE_OK;
-}
-
 static froe_status ball_form(scene_adding *a, size_t j, uint32_t *ring, uint32_t *count) {
     struct scene_store *store = a->scene->store;
     double radius = a->batch->radii[j] + 0.0, lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -44,26 +29,20 @@ static froe_status ball_form(scene_adding *a, size_t j, uint32_t *ring, uint32_t
     return FROE_OK;
 }
 
-/** Which corner of object j of the batch has become this vertex. */
-static uint32_t corner_of_vertex(const scene_adding *a, size_t j, uint32_t vertex) {
-    const froe_objects *b = a->batch;
-    const double *x = store_vertex(a, vertex);
-    size_t dim = (size_t)a->scene->dim, begin = scene_adding_corner(a, j), end = scene_adding_corner(a, j + 1);
-    for (size_t c = begin; c < end; c++) {
-        const double *y = b->coords + (b->indices ? b->indices[c] : c) * dim;
-        size_t same = 0;
-        while (same < dim && x[same] == y[same]) same++;
-        if (same == dim) return (uint32_t)(c - begin);
-    }
-    return FROE_NONE;
-}
-
 static froe_status polygon_form(scene_adding *a, size_t j, uint32_t *ring, uint32_t *count, froe_kind *form) {
     struct scene_store *store = a->scene->store;
     scene_fault fault;
     if (scene_polygon_form(&store->context, store->coords.data, ring, count, form, &fault)) return FROE_OK;
+    const froe_objects *b = a->batch;
     const double *x = store_vertex(a, fault.vertex);
-    uint32_t corner = corner_of_vertex(a, j, fault.vertex);
+    uint32_t corner = FROE_NONE; /* of object j of the batch, that has become this vertex */
+    size_t dim = (size_t)a->scene->dim, begin = scene_adding_corner(a, j), end = scene_adding_corner(a, j + 1);
+    for (size_t c = begin; c < end && corner == FROE_NONE; c++) {
+        const double *y = b->coords + (b->indices ? b->indices[c] : c) * dim;
+        size_t same = 0;
+        while (same < dim && x[same] == y[same]) same++;
+        if (same == dim) corner = (uint32_t)(c - begin);
+    }
     return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, corner, FROE_NONE,
                            "polygon %zu %s: see its corner %u at (%.17g, %.17g, %.17g)", j, fault.reason, corner, x[0],
                            x[1], x[2]);
@@ -82,35 +61,38 @@ static void sift(uint32_t *ids, size_t root, size_t count) {
     ids[root] = id;
 }
 
-/** Heapsort: in place, never recursive, O(n log n) on any input. */
-static void sort_ids(uint32_t *ids, size_t count) {
-    for (size_t i = count / 2; i-- > 0;) sift(ids, i, count);
-    for (size_t end = count; end-- > 1;) {
-        uint32_t top = ids[0];
-        ids[0] = ids[end];
-        ids[end] = top;
-        sift(ids, 0, end);
-    }
-}
-
 /** A hull has no order of its own: ascending vertex ids, each once, make equal hulls look equal. */
 static void hull_form(uint32_t *ring, uint32_t *count) {
     uint32_t kept = 1;
-    sort_ids(ring, *count);
+    for (size_t i = *count / 2; i-- > 0;) sift(ring, i, *count); /* heapsort: in place, O(n log n) on any input */
+    for (size_t end = *count; end-- > 1;) {
+        uint32_t top = ring[0];
+        ring[0] = ring[end];
+        ring[end] = top;
+        sift(ring, 0, end);
+    }
     for (uint32_t i = 1; i < *count; i++)
         if (ring[i] != ring[kept - 1]) ring[kept++] = ring[i];
     *count = kept;
 }
 
 froe_status scene_form_object(scene_adding *a, size_t j, uint32_t *ring, uint32_t *count, froe_kind *form) {
+    const double *lo, *hi;
     switch (a->batch->kind) {
     case FROE_SEGMENT:
-        segment_form(ring, count, form);
+        if (ring[0] != ring[1]) return FROE_OK;
+        *count = 1;
+        *form = FROE_POINT;
         return FROE_OK;
     case FROE_POLYGON:
         return polygon_form(a, j, ring, count, form);
     case FROE_BOX:
-        return box_form(a, j, ring);
+        lo = store_vertex(a, ring[0]), hi = store_vertex(a, ring[1]);
+        for (int k = 0; k < a->scene->dim; k++)
+            if (lo[k] > hi[k])
+                return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, 1, (uint32_t)k,
+                                       "box %zu: its low corner %g is above its high corner %g", j, lo[k], hi[k]);
+        return FROE_OK;
     case FROE_BALL:
         return ball_form(a, j, ring, count);
     case FROE_HULL:

@@ -22,7 +22,9 @@ static bool plain_number(double x) {
 }
 
 /** No two vertices may be equal: everything that knows points by their ids relies on it. */
-static froe_status check_different(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+static froe_status check_vertices(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+    for (size_t i = 0, n = (size_t)s->vertex_count * (size_t)s->dim; i < n; i++)
+        if (!plain_number(s->coords[i])) return bad_scene(diag, "a coordinate is not finite, or is -0");
     scene_table table = {0};
     size_t bytes = (size_t)s->dim * sizeof(double);
     froe_status status = scene_table_reserve(alloc, &table, s->vertex_count) ? FROE_OK : support_fail_memory(diag);
@@ -39,50 +41,12 @@ static froe_status check_different(const froe_scene *s, const froe_allocator *al
     return status;
 }
 
-static froe_status check_vertices(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
-    for (size_t i = 0, n = (size_t)s->vertex_count * (size_t)s->dim; i < n; i++)
-        if (!plain_number(s->coords[i])) return bad_scene(diag, "a coordinate is not finite, or is -0");
-    return check_different(s, alloc, diag);
-}
-
 /* ----------------------------------------------------------------- objects -- */
-
-static bool kind_exists(int dim, unsigned kind) {
-    if (kind == FROE_SEGMENT || kind == FROE_HULL) return dim <= 3;
-    return kind == FROE_POLYGON ? dim == 3 : kind < FROE_KIND_COUNT;
-}
-
-static bool form_of_kind(unsigned kind, unsigned form) {
-    if (form == kind) return true;
-    return (kind == FROE_SEGMENT && form == FROE_POINT) ||
-           (kind == FROE_POLYGON && (form == FROE_POINT || form == FROE_SEGMENT));
-}
-
-static bool corner_count_fits(unsigned form, uint32_t count) {
-    switch (form) {
-    case FROE_POINT:
-        return count == 1;
-    case FROE_POLYGON:
-        return count >= 3;
-    case FROE_HULL:
-        return count >= 1;
-    default:
-        return count == 2;
-    }
-}
-
-static bool ball_fits(const froe_scene *s, uint32_t object) {
-    double radius = scene_radius(s, object), lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    if (!plain_number(radius) || radius < 0) return false;
-    scene_ball_bounds(s->dim, scene_point(s, object, 0), radius, lo, hi);
-    for (int k = 0; k < s->dim; k++)
-        if (!isfinite(lo[k]) || !isfinite(hi[k])) return false;
-    return true;
-}
 
 static bool shape_fits(const froe_scene *s, uint32_t object, num_context *context) {
     const uint32_t *ring = s->corners + s->starts[object];
     uint32_t count = scene_corners(s, object);
+    double radius, lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     switch (scene_form(s, object)) {
     case FROE_SEGMENT:
         return ring[0] != ring[1];
@@ -93,7 +57,12 @@ static bool shape_fits(const froe_scene *s, uint32_t object, num_context *contex
             if (scene_point(s, object, 0)[k] > scene_point(s, object, 1)[k]) return false;
         return true;
     case FROE_BALL:
-        return ball_fits(s, object);
+        radius = scene_radius(s, object);
+        if (!plain_number(radius) || radius < 0) return false;
+        scene_ball_bounds(s->dim, scene_point(s, object, 0), radius, lo, hi);
+        for (int k = 0; k < s->dim; k++)
+            if (!isfinite(lo[k]) || !isfinite(hi[k])) return false;
+        return true;
     case FROE_HULL:
         for (uint32_t i = 1; i < count; i++)
             if (ring[i] <= ring[i - 1]) return false;
@@ -106,8 +75,14 @@ static bool shape_fits(const froe_scene *s, uint32_t object, num_context *contex
 static froe_status check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag) {
     unsigned kind = s->kinds[object], form = s->forms[object];
     uint32_t begin = s->starts[object], end = s->starts[object + 1];
-    if (!kind_exists(s->dim, kind) || !form_of_kind(kind, form)) return bad_object(diag, object, "wrong kind or form");
-    if (end < begin || end > s->corner_count || !corner_count_fits(form, end - begin))
+    const bool flat = kind == FROE_SEGMENT || kind == FROE_HULL;
+    const bool exists = flat ? s->dim <= 3 : kind == FROE_POLYGON ? s->dim == 3 : kind < FROE_KIND_COUNT;
+    const bool lesser = (kind == FROE_SEGMENT && form == FROE_POINT) ||
+                        (kind == FROE_POLYGON && (form == FROE_POINT || form == FROE_SEGMENT));
+    if (!exists || (form != kind && !lesser)) return bad_object(diag, object, "wrong kind or form");
+    const uint32_t least = form == FROE_POINT || form == FROE_HULL ? 1 : form == FROE_POLYGON ? 3 : 2;
+    const bool more = form == FROE_POLYGON || form == FROE_HULL;
+    if (end < begin || end > s->corner_count || (more ? end - begin < least : end - begin != least))
         return bad_object(diag, object, "wrong number of corners");
     for (uint32_t i = begin; i < end; i++) {
         bool radius = form == FROE_BALL && i > begin;
@@ -133,8 +108,18 @@ static froe_status check_objects(const froe_scene *s, const froe_allocator *allo
 
 /* ------------------------------------------------------------------- whole -- */
 
-static froe_status check_groups(const froe_scene *s, froe_diagnostic *diag) {
-    if (!s->group_count) return FROE_OK;
+froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+    if (s->dim < 2 || s->dim > FROE_MAX_DIM) return bad_scene(diag, "its dimension");
+    if (s->object_count > SCENE_LIMIT || s->vertex_count > SCENE_LIMIT || s->group_count > SCENE_LIMIT ||
+        s->corner_count > SCENE_CORNER_LIMIT)
+        return bad_scene(diag, "its counts");
+    bool objects = !s->object_count || (s->kinds && s->forms && s->corners);
+    bool vertices = (!s->vertex_count || s->coords) && (!s->radius_count || s->radii);
+    bool groups = !s->group_count || (s->group_table && s->text);
+    if (!objects || !vertices || !groups) return bad_scene(diag, "a part is missing");
+    froe_status status = check_vertices(s, alloc, diag);
+    if (!status) status = check_objects(s, alloc, diag);
+    if (status || !s->group_count) return status;
     if (!s->text_size || s->text[0] || s->text[s->text_size - 1]) return bad_scene(diag, "the strings of the groups");
     for (uint32_t i = 0; i < s->group_count; i++) {
         const scene_group *g = s->group_table + i;
@@ -143,37 +128,6 @@ static froe_status check_groups(const froe_scene *s, froe_diagnostic *diag) {
             return bad_scene(diag, "the strings of a group");
     }
     return FROE_OK;
-}
-
-static froe_status check_counts(const froe_scene *s, froe_diagnostic *diag) {
-    if (s->dim < 2 || s->dim > FROE_MAX_DIM) return bad_scene(diag, "its dimension");
-    if (s->object_count > SCENE_LIMIT || s->vertex_count > SCENE_LIMIT || s->group_count > SCENE_LIMIT ||
-        s->corner_count > SCENE_CORNER_LIMIT)
-        return bad_scene(diag, "its counts");
-    bool objects = !s->object_count || (s->kinds && s->forms && s->corners);
-    bool vertices = (!s->vertex_count || s->coords) && (!s->radius_count || s->radii);
-    bool groups = !s->group_count || (s->group_table && s->text);
-    return objects && vertices && groups ? FROE_OK : bad_scene(diag, "a part is missing");
-}
-
-froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
-    froe_status status = check_counts(s, diag);
-    if (!status) status = check_vertices(s, alloc, diag);
-    if (!status) status = check_objects(s, alloc, diag);
-    if (!status) status = check_groups(s, diag);
-    return status;
-}
-
-static void compute_bounds(froe_scene *s) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    for (int k = 0; k < FROE_MAX_DIM; k++) s->lo[k] = INFINITY, s->hi[k] = -INFINITY;
-    for (uint32_t i = 0; i < s->object_count; i++) {
-        scene_object_bounds(s, i, lo, hi);
-        for (int k = 0; k < s->dim; k++) {
-            s->lo[k] = fmin(s->lo[k], lo[k]);
-            s->hi[k] = fmax(s->hi[k], hi[k]);
-        }
-    }
 }
 
 froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller, froe_scene **out,
@@ -188,7 +142,15 @@ froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller,
     s->mapped = true;
     s->store = NULL;
     atomic_init(&s->holds, 1);
-    compute_bounds(s);
+    for (int k = 0; k < FROE_MAX_DIM; k++) s->lo[k] = INFINITY, s->hi[k] = -INFINITY;
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        scene_object_bounds(s, i, lo, hi);
+        for (int k = 0; k < s->dim; k++) {
+            s->lo[k] = fmin(s->lo[k], lo[k]);
+            s->hi[k] = fmax(s->hi[k], hi[k]);
+        }
+    }
     *out = s;
     return FROE_OK;
 }

@@ -4,10 +4,6 @@
 #include "scene/table.h"
 #include <string.h>
 
-static bool equal_in_order(const uint32_t *a, const uint32_t *b, uint32_t count) {
-    return memcmp(a, b, count * sizeof *a) == 0;
-}
-
 /** Rings equal up to where they start and which way they go. Convex rings visit no vertex twice. */
 static bool equal_rings(const uint32_t *a, const uint32_t *b, uint32_t count) {
     uint32_t start = 0, forward = 0, backward = 0;
@@ -29,7 +25,7 @@ bool scene_equal(const froe_scene *s, uint32_t a, uint32_t b) {
     case FROE_POLYGON:
         return equal_rings(x, y, count);
     default:
-        return equal_in_order(x, y, count);
+        return memcmp(x, y, count * sizeof *x) == 0;
     }
 }
 

@@ -66,18 +66,13 @@ static bool ascends(const ring_view *r, uint32_t i, uint32_t j) {
     return less(at(r, i), at(r, j), (r->axis + 1) % 3, (r->axis + 2) % 3);
 }
 
-/** The turn at the least corner: that of the whole ring, if it is simple. */
-static int orientation(const ring_view *r) {
-    uint32_t n = r->count, least = 0;
-    for (uint32_t i = 1; i < n; i++)
-        if (ascends(r, i, least)) least = i;
-    return turn_at(r, least ? least - 1 : n - 1, least, least + 1 < n ? least + 1 : 0);
-}
-
 static bool convex(const ring_view *r, scene_fault *fault) {
     if (r->count == 3) return true;
-    int way = orientation(r);
-    uint32_t n = r->count, minima = 0;
+    uint32_t n = r->count, minima = 0, least = 0;
+    for (uint32_t i = 1; i < n; i++)
+        if (ascends(r, i, least)) least = i;
+    /* at the least corner the ring turns as the whole does, if it is simple */
+    const int way = turn_at(r, least ? least - 1 : n - 1, least, least + 1 < n ? least + 1 : 0);
     for (uint32_t i = n - 1, j = 0, k = 1; j < n; i = j++, k = k + 1 < n ? k + 1 : 0) {
         bool before = ascends(r, i, j), after = ascends(r, j, k);
         int t = turn_at(r, i, j, k);
@@ -91,15 +86,6 @@ static bool convex(const ring_view *r, scene_fault *fault) {
 }
 
 /* ----------------------------------------------------------------- the ring -- */
-
-/** Drops corners equal to the one before, around the ring. */
-static uint32_t compact(uint32_t *ring, uint32_t count) {
-    uint32_t kept = 1;
-    for (uint32_t i = 1; i < count; i++)
-        if (ring[i] != ring[kept - 1]) ring[kept++] = ring[i];
-    while (kept > 1 && ring[kept - 1] == ring[0]) kept--;
-    return kept;
-}
 
 static bool less_3d(const double *a, const double *b) {
     return a[0] < b[0] || (a[0] == b[0] && less(a, b, 1, 2));
@@ -126,22 +112,22 @@ static void reverse(uint32_t *ring, uint32_t count) {
     }
 }
 
-static void rotate_left(uint32_t *ring, uint32_t count, uint32_t by) {
-    reverse(ring, by);
-    reverse(ring + by, count - by);
-    reverse(ring, count);
-}
-
 bool scene_polygon_form(num_context *context, const double *coords, uint32_t *ring, uint32_t *count, froe_kind *form,
                         scene_fault *fault) {
-    ring_view view = {.context = context, .coords = coords, .ring = ring, .count = compact(ring, *count)};
+    uint32_t kept = 1; /* drops corners equal to the one before, around the ring */
+    for (uint32_t i = 1; i < *count; i++)
+        if (ring[i] != ring[kept - 1]) ring[kept++] = ring[i];
+    while (kept > 1 && ring[kept - 1] == ring[0]) kept--;
+    ring_view view = {.context = context, .coords = coords, .ring = ring, .count = kept};
     uint32_t third = third_corner(&view);
     if (!third) {
         flatten(&view, ring, count, form);
         return true;
     }
     if (!planar(&view, third, fault) || !convex(&view, fault)) return false;
-    rotate_left(ring, view.count, third - 2); /* corners 0 .. third-1 lie on one edge */
+    reverse(ring, third - 2); /* rotates to the left: corners 0 .. third-1 lie on one edge */
+    reverse(ring + third - 2, view.count - (third - 2));
+    reverse(ring, view.count);
     *count = view.count;
     *form = FROE_POLYGON;
     return true;

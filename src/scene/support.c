@@ -25,12 +25,6 @@ void scene_object_bounds(const froe_scene *s, uint32_t object, double *lo, doubl
 
 /* ----------------------------------------------------------------- support -- */
 
-static geom_plane plane_of_object(const froe_scene *s, uint32_t object) {
-    const double *points[3];
-    for (uint32_t i = 0; i < (uint32_t)s->dim; i++) points[i] = scene_point(s, object, i);
-    return geom_plane_points(s->dim, points);
-}
-
 static froe_cut axis_cut(int axis, double value) {
     return (froe_cut){.kind = FROE_CUT_AXIS, .axis = axis, .value = value};
 }
@@ -87,20 +81,14 @@ void scene_crossing_line(const froe_scene *s, uint32_t id, const double *ends[2]
     for (int i = 0; i < 2; i++) ends[i] = scene_vertex(s, vertices[i]);
 }
 
-static geom_plane crossing_plane(const froe_scene *s, const froe_cut *cut) {
-    const double *ends[4];
-    scene_crossing_line(s, cut->id[0], ends);
-    scene_crossing_line(s, cut->id[1], ends + 2);
-    return geom_plane_at_crossing(s->dim, ends);
-}
-
 geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut) {
-    const double *points[3] = {NULL};
+    const double *points[4] = {NULL};
     switch (cut->kind) {
     case FROE_CUT_AXIS:
         return geom_plane_axis(s->dim, cut->axis, cut->value);
     case FROE_CUT_OBJECT:
-        return plane_of_object(s, cut->id[0]);
+        for (int i = 0; i < s->dim; i++) points[i] = scene_point(s, cut->id[0], (uint32_t)i);
+        return geom_plane_points(s->dim, points);
     case FROE_CUT_VERTICES:
         for (int i = 0; i < s->dim; i++) points[i] = scene_vertex(s, cut->id[i]);
         return geom_plane_points(s->dim, points);
@@ -111,7 +99,9 @@ geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut) {
     case FROE_CUT_VERTEX:
         return geom_plane_at_vertex(s->dim, scene_vertex(s, cut->id[0]));
     case FROE_CUT_CROSSING:
-        return crossing_plane(s, cut);
+        scene_crossing_line(s, cut->id[0], points);
+        scene_crossing_line(s, cut->id[1], points + 2);
+        return geom_plane_at_crossing(s->dim, points);
     default:
         return (geom_plane){.dim = s->dim};
     }

@@ -17,26 +17,6 @@ uint32_t scene_vertex_tag(const double *point, int dim) {
     return (uint32_t)(hash >> 32);
 }
 
-static void prefetch(const froe_scene *s, const uint32_t *tags, size_t count) {
-    const struct scene_store *store = s->store;
-    for (size_t i = 0; i < count; i++)
-        __builtin_prefetch(store->table.slots + scene_table_home(&store->table, tags[i]));
-    for (size_t i = 0; i < count; i++) {
-        uint32_t next_id = store->table.slots[scene_table_home(&store->table, tags[i])].next_id;
-        if (next_id) __builtin_prefetch(store->coords.data + (size_t)(next_id - 1) * (size_t)s->dim);
-    }
-}
-
-/** The vertex at `point`, or FROE_NONE with *at where it belongs. */
-static uint32_t lookup(const froe_scene *s, const double *point, uint32_t tag, size_t *at) {
-    const struct scene_store *store = s->store;
-    size_t bytes = (size_t)s->dim * sizeof *point;
-    uint32_t id = scene_table_find(&store->table, tag, at);
-    while (id != FROE_NONE && memcmp(store->coords.data + (size_t)id * (size_t)s->dim, point, bytes) != 0)
-        id = scene_table_find_next(&store->table, tag, at);
-    return id;
-}
-
 froe_status scene_vertices_add(froe_scene *s, const double *points, size_t count, uint32_t *ids) {
     struct scene_store *store = s->store;
     size_t dim = (size_t)s->dim;
@@ -44,10 +24,19 @@ froe_status scene_vertices_add(froe_scene *s, const double *points, size_t count
     if (!scene_table_reserve(&s->alloc, &store->table, count)) return FROE_E_MEMORY;
     if (!array_reserve(&s->alloc, &store->coords, count * dim)) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) tags[i] = scene_vertex_tag(points + i * dim, s->dim);
-    prefetch(s, tags, count);
+    for (size_t i = 0; i < count; i++)
+        __builtin_prefetch(store->table.slots + scene_table_home(&store->table, tags[i]));
     for (size_t i = 0; i < count; i++) {
+        uint32_t next_id = store->table.slots[scene_table_home(&store->table, tags[i])].next_id;
+        if (next_id) __builtin_prefetch(store->coords.data + (size_t)(next_id - 1) * dim);
+    }
+    for (size_t i = 0; i < count; i++) {
+        const double *point = points + i * dim;
         size_t at = scene_table_home(&store->table, tags[i]);
-        ids[i] = lookup(s, points + i * dim, tags[i], &at);
+        ids[i] = scene_table_find(&store->table, tags[i], &at);
+        while (ids[i] != FROE_NONE &&
+               memcmp(store->coords.data + (size_t)ids[i] * dim, point, dim * sizeof *point) != 0)
+            ids[i] = scene_table_find_next(&store->table, tags[i], &at);
         if (ids[i] != FROE_NONE) continue;
         if (store->table.count == SCENE_LIMIT) return FROE_E_LIMIT;
         ids[i] = (uint32_t)store->table.count;
