@@ -127,9 +127,9 @@ static split_verdict probe(const void *config, split_work *work, const split_cel
 
 typedef struct guard_stage {
     build_job *job;
-    split_places places;
+    split_grid_boxes grid_boxes;
     split_guard_tree tree;
-    split_homes homes;
+    split_lowest_nodes lowest;
 } guard_stage;
 
 static froe_status explain_guard_stage(const guard_stage *g, froe_status status) {
@@ -142,9 +142,9 @@ static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
     static const split_form form[] = {SPLIT_FORM_DEFAULT, SPLIT_FORM_U, SPLIT_FORM_S};
     split_guard_options o = {.dim = g->job->scene->dim, .k = k, .form = form[(int)g->job->option[FORM]]};
     split_guard_tree_free(&g->job->alloc, &g->tree);
-    split_homes_free(&g->job->alloc, &g->homes);
-    froe_status status = split_guard_tree_of(&g->job->alloc, g->job->task, span, &o, &g->places, &g->tree);
-    if (!status) status = split_homes_make(&g->job->alloc, g->job->task, &g->places, &g->tree, &g->homes);
+    split_lowest_nodes_free(&g->job->alloc, &g->lowest);
+    froe_status status = split_guard_tree_of(&g->job->alloc, g->job->task, span, &o, &g->grid_boxes, &g->tree);
+    if (!status) status = split_lowest_nodes_make(&g->job->alloc, g->job->task, &g->grid_boxes, &g->tree, &g->lowest);
     return explain_guard_stage(g, status);
 }
 
@@ -152,7 +152,7 @@ static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
 static split_job guard_job(const guard_stage *g) {
     split_job split = build_split_job(g->job);
     split.guard = &g->tree;
-    split.homes = &g->homes;
+    split.lowest = &g->lowest;
     return split;
 }
 
@@ -203,7 +203,7 @@ static froe_status by_cost(guard_stage *g) {
 
 static froe_status find_k(guard_stage *g) {
     int mode = (int)g->job->option[MODE];
-    froe_status status = split_places_make(&g->job->alloc, g->job->task, g->job->scene, &g->places);
+    froe_status status = split_grid_boxes_make(&g->job->alloc, g->job->task, g->job->scene, &g->grid_boxes);
     if (status) return explain_guard_stage(g, status);
     if (mode == MODE_DOUBLING) return by_doubling(g);
     if (mode == MODE_TUNED) return by_cost(g);
@@ -256,8 +256,8 @@ static froe_status build_density(build_job *job, froe_tree **out) {
         split.guard_fragments = promise(job, &g.tree);
         status = split_grow(&split, &method, out);
     }
-    split_homes_free(&job->alloc, &g.homes);
-    split_places_free(&job->alloc, &g.places);
+    split_lowest_nodes_free(&job->alloc, &g.lowest);
+    split_grid_boxes_free(&job->alloc, &g.grid_boxes);
     split_guard_tree_free(&job->alloc, &g.tree);
     return status;
 }

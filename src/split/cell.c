@@ -173,19 +173,19 @@ froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *c
     return push_child_cells(work, side);
 }
 
-froe_status cell_take(split_work *work, const split_homes *homes, split_cell *cell, uint32_t count) {
+froe_status cell_take(split_work *work, const split_lowest_nodes *lowest, split_cell *cell, uint32_t count) {
     split_set *set = &work->set;
     if (!array_reserve(&set->alloc, &set->items, count)) return FROE_E_MEMORY;
     if (count) {
         /* Asks for the coordinates of objects that are about to be read, all at once: without this a cell of ten
          * objects waits ten times for memory. Measured: a quarter of the time to build. */
         for (uint32_t i = 0; i < (count < PREFETCH ? count : PREFETCH); i++) {
-            const uint32_t *corner = set->scene->corners + set->scene->starts[homes->ids[cell->whole + i]];
+            const uint32_t *corner = set->scene->corners + set->scene->starts[lowest->ids[cell->whole + i]];
             __builtin_prefetch(scene_vertex(set->scene, corner[0]));
         }
     }
     for (uint32_t i = 0; i < count; i++)
-        set->items.data[set->items.count++] = (split_fragment){.object = homes->ids[cell->whole + i]};
+        set->items.data[set->items.count++] = (split_fragment){.object = lowest->ids[cell->whole + i]};
     cell->count += count;
     cell->whole += count;
     cell->wholes -= count;
@@ -197,13 +197,14 @@ froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *c
     froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = node->axis, .value = node->value};
     split_cell side[2];
     uint32_t in_cut;
-    froe_status status = cell_take(work, job->homes, cell, split_homes_own(job->homes, job->guard, cell->guard));
+    froe_status status =
+        cell_take(work, job->lowest, cell, split_lowest_nodes_own(job->lowest, job->guard, cell->guard));
     if (!status) status = cut_in_two(work, cell, &cut, TREE_GUARD, NULL, side, &in_cut);
     if (status) return status;
     for (uint32_t s = 0; s < 2; s++) {
         side[s].guard = node->child + s;
-        side[s].whole = job->homes->at[node->child + s];
-        side[s].wholes = job->homes->end[node->child + s] - side[s].whole;
+        side[s].whole = job->lowest->at[node->child + s];
+        side[s].wholes = job->lowest->end[node->child + s] - side[s].whole;
     }
     note_progress(cell, in_cut, side);
     work->guarded += in_cut;

@@ -7,7 +7,7 @@
 /** Ends a cell as a leaf with its list, and takes its fragments off the stack. */
 froe_status cell_leaf(split_work *work, const split_cell *cell, uint8_t flags);
 /** Turns the first `count` whole objects of the cell into fragments of it. */
-froe_status cell_take(split_work *work, const split_homes *homes, split_cell *cell, uint32_t count);
+froe_status cell_take(split_work *work, const split_lowest_nodes *lowest, split_cell *cell, uint32_t count);
 /** How the cut would deal with the cell's fragments, exactly. */
 froe_status cell_tally(split_work *work, const split_cell *cell, const froe_cut *cut, split_tally *out);
 /** Cuts a cell without whole objects. On success its fragments are replaced by those of the children, child 0

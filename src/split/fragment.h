@@ -1,4 +1,4 @@
-/* fragment.h: pieces of objects while a builder cuts them.
+/* fragment.h: fragments: on which side of a cut each lies, and where a segment or polygon is cut in two.
  *
  * A fragment is an object and, once something was cut off, a ring of corners, each
  * known by where it comes from (Bernstein and Fussell 2009) and with a double image for

@@ -89,7 +89,7 @@ froe_status split_step(const split_method *method, split_work *work, split_cell 
 
 /** Cuts or ends a cell below the guard stage. */
 static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
-    froe_status status = cell_take(work, g->job->homes, cell, cell->wholes);
+    froe_status status = cell_take(work, g->job->lowest, cell, cell->wholes);
     bool done = false;
     if (g->method->finish && !status) status = g->method->finish(g->method->config, work, cell, &done);
     return status || done ? status : split_step(g->method, work, cell);
@@ -163,7 +163,7 @@ static froe_status start_workers(grow *g) {
     return status;
 }
 
-/** The root cell: all objects, not yet cut, in the order of homes.h; or as fragments without a guard stage. */
+/** The root cell: all objects, not yet cut, in the order of lowest_nodes.h; or as fragments without a guard stage. */
 static froe_status push_root(grow *g, split_work *work) {
     uint32_t n = g->job->scene->object_count;
     split_cell root = {.path = 1, .guard = FROE_NONE, .growth = 1};

@@ -2,7 +2,7 @@
  *
  *     pending cells     [ ... | cell | cell | current ]        depth first, negative child first
  *     set->items        [ ... | its fragments on top ]
- *     homes->ids        [ .. | objects that nothing has cut yet | .. ]     in the guard stage only
+ *     lowest->ids       [ .. | objects that nothing has cut yet | .. ]     in the guard stage only
  *
  * Nothing recurses. Cells of at most 1/64 of the fragments become tasks: each
  * is finished in a draft of its own, on any thread, and grafted. What a cell becomes depends
@@ -11,7 +11,7 @@
 #define FROE_SPLIT_GROW_H
 #include "base/task.h"
 #include "split/fragment.h"
-#include "split/guard/homes.h"
+#include "split/guard/lowest_nodes.h"
 
 /** What a method keeps of a cell besides: bytes of its own, all zero at the root. */
 typedef struct split_room {
@@ -23,7 +23,7 @@ typedef struct split_cell {
     uint32_t depth;
     uint64_t path;          /**< for base_hash() */
     uint32_t first, count;  /**< its fragments: set->items */
-    uint32_t whole, wholes; /**< and, in the guard stage, whole objects: homes->ids[whole ..], so many */
+    uint32_t whole, wholes; /**< and, in the guard stage, whole objects: lowest->ids[whole ..], so many */
     uint32_t corner_top;    /**< corners from here on belong to cells that are done */
     uint32_t guard;         /**< node of the guard tree that this cell is, or FROE_NONE */
     float growth;           /**< fragmentation by the cuts so far: see density.c */
@@ -95,8 +95,8 @@ typedef struct split_job {
     const froe_cut *root;          /**< the cut of the root, whatever it separates, and then no guard stage; NULL: the
                                         method's choice */
     const split_guard_tree *guard; /**< NULL: no guard stage */
-    const split_homes *homes;      /**< with guard */
-    double span;                   /**< share of the task's progress */
+    const split_lowest_nodes *lowest; /**< with guard */
+    double span;                      /**< share of the task's progress */
     const tree_meta *meta;
     double *guard_fragments; /**< receives the sum of split_work.guarded, before meta is read; may be NULL */
     num_stage first;         /**< where predicates start: NUM_FILTER, later ones for tests */

@@ -4,8 +4,8 @@
 #include "base/random.h"
 #include "split/cell.h"
 #include "split/contest.h"
+#include "split/fallback.h"
 #include "split/finish.h"
-#include "split/resort.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* test_converted.c: plans of endpoints, their homes and T-junctions, by brute force; what a converted tree owes to its
+/* test_converted.c: plans of endpoints, their locations and T-junctions, by brute force; what a converted tree owes to its
  * plan: size, height, cells met; balance along chords; every way to plan, on every kind of scene. */
 #include "build/conversion/chord.h"
 #include "build/conversion/convert.h"

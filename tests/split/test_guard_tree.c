@@ -3,7 +3,7 @@
 #include "guard_scenes.h"
 #include "split/guard/guard_shrink.h"
 #include "split/guard/guards.h"
-#include "split/guard/homes.h"
+#include "split/guard/lowest_nodes.h"
 #include <pthread.h>
 
 enum { WAYS = 4 };
@@ -473,9 +473,9 @@ static froe_scene *boxes_of(const double *guards, size_t count, int dim, bool sm
 }
 
 typedef struct staged { /* what density has before it grows anything */
-    split_places places;
+    split_grid_boxes grid_boxes;
     split_guard_tree tree;
-    split_homes homes;
+    split_lowest_nodes lowest;
 } staged;
 
 static froe_status stage(const froe_allocator *alloc, const froe_scene *scene, split_guard_options options,
@@ -483,27 +483,27 @@ static froe_status stage(const froe_allocator *alloc, const froe_scene *scene, s
     base_task task;
     memset(out, 0, sizeof *out);
     base_task_init(&task, threads, NULL, NULL);
-    froe_status status = split_places_make(alloc, &task, scene, &out->places);
-    if (!status) status = split_guard_tree_of(alloc, &task, 1, &options, &out->places, &out->tree);
+    froe_status status = split_grid_boxes_make(alloc, &task, scene, &out->grid_boxes);
+    if (!status) status = split_guard_tree_of(alloc, &task, 1, &options, &out->grid_boxes, &out->tree);
     if (!status) assert_true(task.done == 1);
-    return status ? status : split_homes_make(alloc, &task, &out->places, &out->tree, &out->homes);
+    return status ? status : split_lowest_nodes_make(alloc, &task, &out->grid_boxes, &out->tree, &out->lowest);
 }
 
 static void unstage(const froe_allocator *alloc, staged *s) {
-    split_places_free(alloc, &s->places);
+    split_grid_boxes_free(alloc, &s->grid_boxes);
     split_guard_tree_free(alloc, &s->tree);
-    split_homes_free(alloc, &s->homes);
+    split_lowest_nodes_free(alloc, &s->lowest);
 }
 
 /* Each object is among those of the node that cuts it first. */
-static void check_homes(const froe_scene *scene, const staged *s) {
+static void check_lowest_nodes(const froe_scene *scene, const staged *s) {
     const split_guard_node *nodes = s->tree.nodes.data;
-    uint32_t *home = malloc(scene->object_count * sizeof *home);
-    assert_non_null(home);
-    memset(home, 0xff, scene->object_count * sizeof *home);
+    uint32_t *lowest = malloc(scene->object_count * sizeof *lowest);
+    assert_non_null(lowest);
+    memset(lowest, 0xff, scene->object_count * sizeof *lowest);
     for (uint32_t v = 0; v < s->tree.nodes.count; v++)
-        for (uint32_t i = 0; i < split_homes_own(&s->homes, &s->tree, v); i++)
-            home[s->homes.ids[s->homes.at[v] + i]] = v;
+        for (uint32_t i = 0; i < split_lowest_nodes_own(&s->lowest, &s->tree, v); i++)
+            lowest[s->lowest.ids[s->lowest.at[v] + i]] = v;
     for (uint32_t i = 0; i < scene->object_count; i++) {
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
         uint32_t node = 0;
@@ -513,12 +513,12 @@ static void check_homes(const froe_scene *scene, const staged *s) {
             if (below == above) break;
             node = nodes[node].child + above;
         }
-        assert_int_equal(home[i], node);
+        assert_int_equal(lowest[i], node);
     }
-    free(home);
+    free(lowest);
 }
 
-/* The tree of a scene is that of its guards written down, and its objects' homes are where comparisons lead. */
+/* The tree of a scene is that of its guards written down, and its objects' lowest containing nodes are where comparisons lead. */
 static void check_scene(const froe_scene *scene, split_guard_options options) {
     froe_allocator alloc = support_allocator(NULL);
     base_task task;
@@ -533,14 +533,14 @@ static void check_scene(const froe_scene *scene, split_guard_options options) {
         assert_memory_equal(expected.lo, s.tree.lo, sizeof expected.lo);
         assert_memory_equal(expected.hi, s.tree.hi, sizeof expected.hi);
         assert_true(expected.promised == s.tree.promised);
-        check_homes(scene, &s);
+        check_lowest_nodes(scene, &s);
         unstage(&alloc, &s);
     }
     discard(&expected);
     split_guards_free(&alloc, &guards);
 }
 
-static void a_scene_has_the_tree_of_its_guards_and_homes_in_it(void **state) {
+static void a_scene_has_the_tree_of_its_guards_and_lowest_nodes_in_it(void **state) {
     static const int dims[] = {2, 2, 3, 5, 8};
     static const size_t counts[] = {300, 9000, 9000, 3000, 300};
     static const uint32_t ks[] = {0, 3, 16, 256};
@@ -596,7 +596,7 @@ int main(void) {
         cmocka_unit_test(cancelling_leaves_nothing_behind),
         cmocka_unit_test(progress_rises_by_its_span),
         cmocka_unit_test(too_many_guards_are_refused),
-        cmocka_unit_test(a_scene_has_the_tree_of_its_guards_and_homes_in_it),
+        cmocka_unit_test(a_scene_has_the_tree_of_its_guards_and_lowest_nodes_in_it),
         cmocka_unit_test(every_allocation_for_a_scene_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

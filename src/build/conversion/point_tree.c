@@ -12,7 +12,7 @@ froe_status point_tree_new(const froe_allocator *alloc, const froe_scene *scene,
 
 void point_tree_free(point_tree *t) {
     size_t vertices = t->scene->vertex_count, nodes = t->nodes.count;
-    support_free(&t->alloc, t->homes, vertices ? vertices * sizeof *t->homes : 1);
+    support_free(&t->alloc, t->locations, vertices ? vertices * sizeof *t->locations : 1);
     support_free(&t->alloc, t->starts, (2 * nodes + 1) * sizeof *t->starts);
     array_free(&t->alloc, &t->junctions);
     array_free(&t->alloc, &t->nodes);
@@ -41,7 +41,7 @@ typedef struct walk_step {
     bool left; /**< its children have been walked */
 } walk_step;
 
-static uint32_t home_of(const point_tree *t, num_context *context, uint32_t vertex) {
+static uint32_t locate_vertex(const point_tree *t, num_context *context, uint32_t vertex) {
     uint32_t node = 0;
     while (!is_leaf(t->nodes.data + node)) {
         const point_node *n = t->nodes.data + node;
@@ -53,15 +53,15 @@ static uint32_t home_of(const point_tree *t, num_context *context, uint32_t vert
     return t->nodes.data[node].enter;
 }
 
-static froe_status find_homes(point_tree *t, num_context *context) {
+static froe_status locate_endpoints(point_tree *t, num_context *context) {
     const froe_scene *s = t->scene;
-    t->homes = support_calloc(&t->alloc, s->vertex_count, sizeof *t->homes);
-    if (!t->homes) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < s->vertex_count; i++) t->homes[i] = FROE_NONE;
+    t->locations = support_calloc(&t->alloc, s->vertex_count, sizeof *t->locations);
+    if (!t->locations) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < s->vertex_count; i++) t->locations[i] = FROE_NONE;
     for (uint32_t i = 0; i < s->object_count; i++)
         for (uint32_t j = 0; j < scene_corners(s, i); j++) {
             uint32_t vertex = scene_corner(s, i, j);
-            if (t->homes[vertex] == FROE_NONE) t->homes[vertex] = home_of(t, context, vertex);
+            if (t->locations[vertex] == FROE_NONE) t->locations[vertex] = locate_vertex(t, context, vertex);
         }
     return FROE_OK;
 }
@@ -176,7 +176,7 @@ froe_status point_tree_finish(point_tree *t, num_context *context) {
     }
     array_free(&t->alloc, &stack);
     froe_status status = room ? FROE_OK : FROE_E_MEMORY;
-    if (!status) status = find_homes(t, context);
+    if (!status) status = locate_endpoints(t, context);
     return status ? status : find_junctions(t);
 }
 

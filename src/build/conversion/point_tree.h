@@ -1,7 +1,7 @@
 /* point_tree.h: a BSP of points as a plan for a BSP of segments (convert.h).
  *
- *     nodes     pairs of children, negative first, after their parents
- *     homes     of each endpoint: the leaf whose open region it lies in, or the inner node whose cut it lies in
+ *     nodes      pairs of children, negative first, after their parents
+ *     locations  of each endpoint: the leaf whose open region it lies in, or the inner node whose cut it lies in
  *
  * An endpoint lies in the open region of a node if its leaf or inner node is in the subtree of that node: one
  * comparison, once nodes are numbered in the order of a walk.
@@ -26,7 +26,7 @@ typedef struct point_tree {
     const froe_scene *scene; /**< the segments' own: cuts name its vertices */
     ARRAY(point_node) nodes;
     uint32_t height;
-    uint32_t *homes;         /**< by vertex: `enter` of that node; FROE_NONE: no endpoint */
+    uint32_t *locations;     /**< by vertex: `enter` of that node; FROE_NONE: no endpoint */
     uint32_t *starts;        /**< junctions on node v from its side s (0 negative): starts[2 v + s] .. */
     ARRAY(double) junctions; /**< by the coordinate region_along() the cut, ascending */
 } point_tree;
@@ -42,7 +42,7 @@ froe_status point_tree_finish(point_tree *tree, num_context *context);
 /** Does the vertex lie in the open region of the node? Of endpoints of the scene's objects. */
 static inline bool point_tree_holds(const point_tree *tree, uint32_t node, uint32_t vertex) {
     const point_node *n = tree->nodes.data + node;
-    return tree->homes[vertex] >= n->enter && tree->homes[vertex] < n->leave;
+    return tree->locations[vertex] >= n->enter && tree->locations[vertex] < n->leave;
 }
 /** Is there a T-junction, made from that side, on the cut of a node, strictly between two coordinates along it? */
 bool point_tree_junction(const point_tree *tree, uint32_t node, int side, double from, double to);

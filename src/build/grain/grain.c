@@ -4,7 +4,7 @@
 #include "base/random.h"
 #include "build/grain/candidates.h"
 #include "split/cell.h"
-#include "split/resort.h"
+#include "split/fallback.h"
 #include <string.h>
 
 #define SHARE 0.7 /* of a cell that a balanced cut may leave on a side, whatever the budget */

@@ -25,7 +25,7 @@ typedef struct dealing {
     const froe_allocator *alloc;
     const grid_source *source;
     split_grid *grid;
-    uint32_t *homes; /* first cell of each fragment */
+    uint32_t *first_cells; /* first cell of each fragment */
     ARRAY(grid_crosser) crossers;
     ARRAY(grid_record) records; /* further cells */
     uint64_t steps;             /* from cell to cell, of all fragments */
@@ -142,7 +142,7 @@ static froe_status place_all(dealing *d) {
         grid_crosser c = {.index = i};
         place_end(d, &f, false, c.from);
         place_end(d, &f, true, c.to);
-        d->homes[i] = cell_of(d->grid, c.from[0], c.from[1]);
+        d->first_cells[i] = cell_of(d->grid, c.from[0], c.from[1]);
         if (i % BLOCK == 0 && !base_progress(d->task, d->task->done)) return FROE_E_CANCELLED;
         if (c.from[0] == c.to[0] && c.from[1] == c.to[1]) continue;
         d->steps += (uint64_t)(c.to[0] - c.from[0]) + (uint64_t)abs(c.to[1] - c.from[1]);
@@ -171,7 +171,7 @@ static bool row_first(dealing *d, const axis_ends *ends, const uint32_t at[2], b
 /* All further cells of a fragment. */
 static froe_status walk_grid_cells(dealing *d, const grid_crosser *c) {
     split_grid *g = d->grid;
-    uint32_t at[2] = {c->from[0], c->from[1]}, cell = d->homes[c->index];
+    uint32_t at[2] = {c->from[0], c->from[1]}, cell = d->first_cells[c->index];
     uint32_t object = d->source->fragments ? d->source->fragments[c->index].id & PACKED_OBJECT : c->index;
     bool up = c->to[1] > c->from[1];
     while (at[0] != c->to[0] || at[1] != c->to[1]) {
@@ -210,7 +210,7 @@ static void fill_cells(dealing *d) {
         bool shared = crosser && d->crossers.data[crosser - 1].index == i;
         uint32_t object = d->source->fragments ? d->source->fragments[i].id & PACKED_OBJECT : i;
         crosser -= shared;
-        g->ids[--g->starts[d->homes[i]]] = object | (shared ? GRID_SHARED : 0);
+        g->ids[--g->starts[d->first_cells[i]]] = object | (shared ? GRID_SHARED : 0);
     }
 }
 
@@ -227,7 +227,7 @@ static froe_status sort_ids(dealing *d) {
     g->ids = support_calloc(d->alloc, g->id_room, sizeof *g->ids);
     if (!g->ids) return FROE_E_MEMORY;
     uint32_t *starts = d->grid->starts, cells = 1u << d->grid->levels;
-    for (uint32_t i = 0; i < d->source->count; i++) starts[d->homes[i]]++;
+    for (uint32_t i = 0; i < d->source->count; i++) starts[d->first_cells[i]]++;
     for (size_t i = 0; i < d->records.count; i++) starts[d->records.data[i].cell]++;
     for (uint32_t c = 1; c <= cells; c++) starts[c] += starts[c - 1];
     fill_cells(d);
@@ -304,15 +304,15 @@ froe_status grid_new(axis_work *work, base_task *task, const froe_allocator *all
     size_t room = levels >= 2 ? source->count : 1;
     froe_status status = FROE_OK;
     *made = false;
-    d.homes = support_calloc(alloc, room, sizeof *d.homes);
-    if (!d.homes) return FROE_E_MEMORY;
+    d.first_cells = support_calloc(alloc, room, sizeof *d.first_cells);
+    if (!d.first_cells) return FROE_E_MEMORY;
     while (levels >= 2 && !*made && !status) {
         grid = (split_grid){.box = source->box, .levels = levels};
         status = attempt(&d, made);
         levels = fewer_levels(&d);
         if (status || !*made) grid_free(alloc, &grid);
     }
-    support_free(alloc, d.homes, room * sizeof *d.homes);
+    support_free(alloc, d.first_cells, room * sizeof *d.first_cells);
     array_free(alloc, &d.crossers);
     array_free(alloc, &d.records);
     if (!status && *made) *out = grid;

@@ -8,7 +8,7 @@
  * A guard on a plane dies where that plane splits, so it counts only in the cells above: its key says on which level
  * it dies.
  *
- * The guards of a whole scene are the corners of boxes whose places on the grid are known (places.h). They are not
+ * The guards of a whole scene are the corners of boxes whose places on the grid are known (grid_boxes.h). They are not
  * written down unless they go on, and few do, as that grid is fine enough to finish most cells. */
 #include "split/guard/guard_work.h"
 #include <string.h>
@@ -27,7 +27,7 @@ typedef struct cell {
 typedef struct bucket {
     guard_worker *w;
     const guard_item *item;
-    const split_places *places; /* of the scene whose guards they are; NULL: they are those of the item */
+    const split_grid_boxes *grid_boxes; /* of the scene whose guards they are; NULL: they are those of the item */
     const double *points;
     double *to;
     uint32_t entries; /* guards, or objects of the scene */
@@ -64,17 +64,17 @@ static void corner_of(const double *lo, const double *hi, uint32_t high, int dim
 
 /* Key of a corner of an object's box. */
 static inline uint32_t corner_key(const bucket *b, uint32_t object, uint32_t high, int dim) {
-    const uint32_t *code = b->places->codes[object];
-    if (!(code[0] & PLACES_APART)) return (code[0] ^ ((code[0] ^ code[1]) & b->axes[high])) & GUARD_CODE;
+    const uint32_t *code = b->grid_boxes->codes[object];
+    if (!(code[0] & GRID_BOXES_APART)) return (code[0] ^ ((code[0] ^ code[1]) & b->axes[high])) & GUARD_CODE;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], x[FROE_MAX_DIM];
-    scene_bounds_in(b->places->scene, dim, object, lo, hi);
+    scene_bounds_in(b->grid_boxes->scene, dim, object, lo, hi);
     corner_of(lo, hi, high, dim, x);
     return point_key(b, x, dim);
 }
 
 /* A flat box has each of its vertices once: those that are never at hi on its flat axes. */
 static inline bool is_vertex(const bucket *b, uint32_t object, uint32_t high) {
-    return !(b->places->codes[object][0] >> PLACES_FLAT & high & (GUARD_CELLS - 1));
+    return !(b->grid_boxes->codes[object][0] >> GRID_BOXES_FLAT & high & (GUARD_CELLS - 1));
 }
 
 static inline void count_key(const bucket *b, uint32_t key, uint32_t *sums, int dim) {
@@ -87,7 +87,7 @@ static inline void count_key(const bucket *b, uint32_t key, uint32_t *sums, int 
 
 static inline void count_entries(const bucket *b, uint32_t begin, uint32_t end, uint32_t *sums, int dim) {
     for (uint32_t i = begin; i < end; i++) {
-        if (b->places) {
+        if (b->grid_boxes) {
             for (uint32_t high = 0; high < 1u << dim; high++)
                 if (is_vertex(b, i, high)) count_key(b, corner_key(b, i, high, dim), sums, dim);
         } else {
@@ -195,7 +195,7 @@ static inline void send_object(const bucket *b, uint32_t object, uint32_t *ends,
         if (target == NOWHERE) continue;
         size_t at = ends[target]++;
         if (!move) continue;
-        scene_bounds_in(b->places->scene, dim, object, lo, hi);
+        scene_bounds_in(b->grid_boxes->scene, dim, object, lo, hi);
         corner_of(lo, hi, high, dim, b->to + at * (size_t)dim);
     }
 }
@@ -205,7 +205,7 @@ static inline void send_entries(const bucket *b, uint32_t begin, uint32_t end, u
     size_t size = (size_t)dim;
     for (uint32_t i = begin; i < end; i++) {
         uint32_t target = NOWHERE;
-        if (b->places)
+        if (b->grid_boxes)
             send_object(b, i, ends, move, dim);
         else
             target = target_of(b, b->keys[i]);
@@ -271,12 +271,12 @@ static void *carve(char *room, size_t *used, size_t bytes) {
 /* Lays out all arrays in one block and returns its size; room NULL: only that. */
 static size_t lay_out_bucket(bucket *b, char *room) {
     size_t used = 0, cells = (size_t)1 << (b->dim * b->levels);
-    if (!b->places) b->tables = carve(room, &used, guard_grid_size(b->dim, b->levels));
+    if (!b->grid_boxes) b->tables = carve(room, &used, guard_grid_size(b->dim, b->levels));
     b->routes = carve(room, &used, cells * sizeof *b->routes);
     b->depths = carve(room, &used, cells);
     b->ends = carve(room, &used, b->chunks * cells * sizeof *b->ends);
     b->sums = carve(room, &used, b->chunks * 2 * cells * sizeof *b->sums); /* all levels are fewer than two last ones */
-    if (!b->places) b->keys = carve(room, &used, b->entries * sizeof *b->keys);
+    if (!b->grid_boxes) b->keys = carve(room, &used, b->entries * sizeof *b->keys);
     return used;
 }
 
@@ -325,7 +325,7 @@ froe_status guard_bucket(guard_worker *w, const guard_item *item, const guard_cu
 static froe_status split_scene(bucket *b, double **main, size_t *bytes) {
     guard_item item = {.side = GUARD_INPUT, .count = b->sums[0]};
     guard_cube cube;
-    froe_status status = guard_push(b->w, NULL, &item, &b->places->root);
+    froe_status status = guard_push(b->w, NULL, &item, &b->grid_boxes->root);
     if (status || !b->w->items.count) return status; /* a leaf */
     guard_pop(b->w, &item, &cube);
     b->item = &item;
@@ -338,12 +338,13 @@ static froe_status split_scene(bucket *b, double **main, size_t *bytes) {
 
 /* The bits of an axis in all codes are those of its last slice. */
 
-froe_status guard_bucket_scene(guard_worker *w, const split_places *places, double **main, size_t *bytes,
+froe_status guard_bucket_scene(guard_worker *w, const split_grid_boxes *grid_boxes, double **main, size_t *bytes,
                                uint32_t *count) {
-    bucket b = {.w = w, .places = places, .entries = (uint32_t)places->object_count, .grid = places->grid};
+    bucket b = {
+        .w = w, .grid_boxes = grid_boxes, .entries = (uint32_t)grid_boxes->object_count, .grid = grid_boxes->grid};
     uint32_t threads = w->plan->task->threads;
-    b.dim = places->grid.dim;
-    b.levels = places->grid.levels;
+    b.dim = grid_boxes->grid.dim;
+    b.levels = grid_boxes->grid.levels;
     for (uint32_t high = 1; high < 1u << b.dim; high++) {
         const guard_axis *t = &b.grid.axes[__builtin_ctz(high)];
         b.axes[high] = b.axes[high & (high - 1)] | t->codes[t->last];

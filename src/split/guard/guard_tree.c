@@ -93,11 +93,11 @@ static froe_status plant(building *b, const double *guards, size_t count) {
 }
 
 /* The same, for the guards of a scene: most of them, as a rule, need not be written down. */
-static froe_status plant_scene(building *b, const split_places *places) {
-    const froe_scene *scene = places->scene;
-    if (places->grid.levels && (uint64_t)scene->object_count << b->plan.dim <= GUARD_LIMIT) {
-        froe_status status = start_guard_tree(b, &places->root);
-        if (!status) status = guard_bucket_scene(&b->foreman, places, &b->main, &b->bytes, &b->count);
+static froe_status plant_scene(building *b, const split_grid_boxes *grid_boxes) {
+    const froe_scene *scene = grid_boxes->scene;
+    if (grid_boxes->grid.levels && (uint64_t)scene->object_count << b->plan.dim <= GUARD_LIMIT) {
+        froe_status status = start_guard_tree(b, &grid_boxes->root);
+        if (!status) status = guard_bucket_scene(&b->foreman, grid_boxes, &b->main, &b->bytes, &b->count);
         b->foreman.side[GUARD_MAIN] = b->main;
         if (status || b->count) return status;
         b->nodes.count = 0;
@@ -255,14 +255,14 @@ static froe_status finish_guard_tree(building *b) {
     return status;
 }
 
-static froe_status build_guard_tree(building *b, double span, const split_places *places, const double *guards,
+static froe_status build_guard_tree(building *b, double span, const split_grid_boxes *grid_boxes, const double *guards,
                                     size_t count) {
     const base_task *task = b->plan.task;
     b->hands = support_calloc(b->plan.alloc, task->threads, sizeof *b->hands);
     if (!b->hands) return FROE_E_MEMORY;
     b->hand_count = task->threads;
     for (unsigned i = 0; i < b->hand_count; i++) b->hands[i].work.plan = &b->plan;
-    froe_status status = places ? plant_scene(b, places) : plant(b, guards, count);
+    froe_status status = grid_boxes ? plant_scene(b, grid_boxes) : plant(b, guards, count);
     if (status) return status;
     b->job_count = task->threads == 1 ? UINT32_MAX : b->count / task->threads / 8 + (1 << 12);
     b->share = span * task->scale / (b->count ? b->count : 1);
@@ -296,8 +296,8 @@ static uint32_t cell_load(int dim) { /* ceil(sqrt dim)^dim */
 }
 
 static froe_status build_tree(const froe_allocator *alloc, base_task *task, double span,
-                              const split_guard_options *options, const split_places *places, const double *guards,
-                              size_t count, split_guard_tree *out) {
+                              const split_guard_options *options, const split_grid_boxes *grid_boxes,
+                              const double *guards, size_t count, split_guard_tree *out) {
     int dim = options->dim;
     split_form form = options->form != SPLIT_FORM_DEFAULT ? options->form : options->k ? SPLIT_FORM_S : SPLIT_FORM_U;
     split_guard_tree tree = {.dim = dim, .k = options->k, .form = form, .cell_load = cell_load(dim)};
@@ -314,7 +314,7 @@ static froe_status build_tree(const froe_allocator *alloc, base_task *task, doub
     b.foreman.nodes = &b.nodes;
     b.foreman.parallel = task->threads > 1;
     double done = task->done + span * task->scale;
-    froe_status status = build_guard_tree(&b, span, places, guards, count);
+    froe_status status = build_guard_tree(&b, span, grid_boxes, guards, count);
     if (!status && !base_progress(task, done)) status = FROE_E_CANCELLED;
     free_building(&b);
     if (status)
@@ -331,8 +331,9 @@ froe_status split_guard_tree_build(const froe_allocator *alloc, base_task *task,
 }
 
 froe_status split_guard_tree_of(const froe_allocator *alloc, base_task *task, double span,
-                                const split_guard_options *options, const split_places *places, split_guard_tree *out) {
-    return build_tree(alloc, task, span, options, places, NULL, 0, out);
+                                const split_guard_options *options, const split_grid_boxes *grid_boxes,
+                                split_guard_tree *out) {
+    return build_tree(alloc, task, span, options, grid_boxes, NULL, 0, out);
 }
 
 void split_guard_tree_free(const froe_allocator *alloc, split_guard_tree *tree) {

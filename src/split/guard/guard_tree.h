@@ -16,7 +16,7 @@
 #ifndef FROE_SPLIT_GUARD_GUARD_TREE_H
 #define FROE_SPLIT_GUARD_GUARD_TREE_H
 #include "base/task.h"
-#include "split/guard/places.h"
+#include "split/guard/grid_boxes.h"
 #include "support/array.h"
 
 /** How a shrink cuts off what is outside of the inner cube. */
@@ -72,6 +72,7 @@ froe_status split_guard_tree_build(const froe_allocator *alloc, base_task *task,
                                    split_guard_tree *out);
 /** The tree of all guards of a scene (guards.h). */
 froe_status split_guard_tree_of(const froe_allocator *alloc, base_task *task, double span,
-                                const split_guard_options *options, const split_places *places, split_guard_tree *out);
+                                const split_guard_options *options, const split_grid_boxes *grid_boxes,
+                                split_guard_tree *out);
 void split_guard_tree_free(const froe_allocator *alloc, split_guard_tree *tree);
 #endif

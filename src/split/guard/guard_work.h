@@ -12,9 +12,9 @@
  * the middle. The corner of a cube is named by the orthant that it belongs to. */
 #ifndef FROE_SPLIT_GUARD_GUARD_WORK_H
 #define FROE_SPLIT_GUARD_GUARD_WORK_H
+#include "split/guard/grid_boxes.h"
 #include "split/guard/guard_grid.h"
 #include "split/guard/guard_tree.h"
-#include "split/guard/places.h"
 
 #define GUARD_CELLS (1u << FROE_MAX_DIM)
 #define GUARD_LIMIT 2147483646u /* guards, nodes */
@@ -109,7 +109,7 @@ froe_status guard_octree(guard_worker *w, const guard_item *item, const guard_cu
 froe_status guard_bucket(guard_worker *w, const guard_item *item, const guard_cube *cube, int levels);
 /** The first step of all, on the guards of a scene, whose number becomes *count. Guards that go on are written to
  * *main, whose memory, *bytes, is the caller's from then on. *count 0: nothing was done, since the root shrinks. */
-froe_status guard_bucket_scene(guard_worker *w, const split_places *places, double **main, size_t *bytes,
+froe_status guard_bucket_scene(guard_worker *w, const split_grid_boxes *grid_boxes, double **main, size_t *bytes,
                                uint32_t *count);
 froe_status guard_shrink(guard_worker *w, const guard_item *item, const guard_cube *cube, uint32_t corner);
 froe_status guard_phase(guard_worker *w, const guard_item *item, const guard_cube *cube);

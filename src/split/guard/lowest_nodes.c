@@ -1,9 +1,9 @@
-/* homes.c: where each object's descent ends, then a counting sort of the objects by that node.
+/* lowest_nodes.c: where each object's descent ends, then a counting sort of the objects by that node.
  *
- * As far as the guard tree is an octree, a table tells its node for each cell of the grid of places.h, on all
+ * As far as the guard tree is an octree, a table tells its node for each cell of the grid of grid_boxes.h, on all
  * levels. There the bits in which both codes of an object begin alike are its way down. Only below a shrink, or below
  * the grid, or when it touches a plane, does an object have to be compared with cuts. */
-#include "split/guard/homes.h"
+#include "split/guard/lowest_nodes.h"
 
 enum { CHUNK = 8192, ABREAST = 8 }; /* objects per job, and going down together */
 
@@ -14,10 +14,10 @@ typedef struct box {
 #define ASTRAY 0x80000000u /* of a node in the map: what is below does not follow the grid */
 
 typedef struct descent {
-    const split_places *places;
+    const split_grid_boxes *grid_boxes;
     const split_guard_node *nodes;
     base_task *task;
-    uint32_t *home;
+    uint32_t *lowest;
     uint32_t *map; /* the node of each cell of the grid, on all levels; NULL: there is no grid */
     size_t map_count;
 } descent;
@@ -43,7 +43,7 @@ static uint32_t part_node(const descent *d, uint32_t node, const double *mid, ui
 }
 
 static void fill_map(const descent *d) {
-    const guard_grid *grid = &d->places->grid;
+    const guard_grid *grid = &d->grid_boxes->grid;
     int dim = grid->dim;
     d->map[0] = 0;
     for (int level = 0; level < grid->levels; level++)
@@ -61,8 +61,8 @@ static void fill_map(const descent *d) {
 
 /** The lowest containing node of an object, if its codes tell; or a node above it, ASTRAY. */
 static inline uint32_t look_up(const descent *d, const uint32_t code[2]) {
-    const guard_grid *grid = &d->places->grid;
-    if (code[0] & PLACES_APART) return ASTRAY;
+    const guard_grid *grid = &d->grid_boxes->grid;
+    if (code[0] & GRID_BOXES_APART) return ASTRAY;
     uint32_t first = code[0] & GUARD_CODE, differ = first ^ code[1];
     int dim = grid->dim, bits = dim * grid->levels;
     if (!differ) { /* within a cell of the last level */
@@ -79,7 +79,8 @@ static inline uint32_t look_up(const descent *d, const uint32_t code[2]) {
 
 static void empty(const descent *d, queue *q) {
     box boxes[ABREAST];
-    for (size_t k = 0; k < q->count; k++) scene_object_bounds(d->places->scene, q->object[k], boxes[k].lo, boxes[k].hi);
+    for (size_t k = 0; k < q->count; k++)
+        scene_object_bounds(d->grid_boxes->scene, q->object[k], boxes[k].lo, boxes[k].hi);
     /* For each box the lowest node whose cell holds it, or the first whose cut it lies across, or in, from a node
      * above on. Several boxes go down abreast, so that one waits for memory while others go on. */
     for (bool moving = true; moving;) {
@@ -92,7 +93,7 @@ static void empty(const descent *d, queue *q) {
             moving |= step;
         }
     }
-    for (size_t k = 0; k < q->count; k++) d->home[q->object[k]] = q->node[k];
+    for (size_t k = 0; k < q->count; k++) d->lowest[q->object[k]] = q->node[k];
     q->count = 0;
 }
 
@@ -102,10 +103,10 @@ static froe_status descend_chunk(void *user, unsigned worker, size_t job) {
     queue q = {.count = 0};
     (void)worker;
     if (base_cancelled(d->task)) return FROE_E_CANCELLED;
-    if (last > d->places->object_count) last = d->places->object_count;
+    if (last > d->grid_boxes->object_count) last = d->grid_boxes->object_count;
     for (size_t i = first; i < last; i++) {
-        uint32_t node = d->map ? look_up(d, d->places->codes[i]) : ASTRAY;
-        d->home[i] = node;
+        uint32_t node = d->map ? look_up(d, d->grid_boxes->codes[i]) : ASTRAY;
+        d->lowest[i] = node;
         if (!(node & ASTRAY)) continue;
         q.object[q.count] = (uint32_t)i;
         q.node[q.count++] = node & ~ASTRAY;
@@ -117,11 +118,11 @@ static froe_status descend_chunk(void *user, unsigned worker, size_t job) {
 
 /* ------------------------------------------------------------------- the sort -- */
 
-void split_homes_free(const froe_allocator *alloc, split_homes *h) {
+void split_lowest_nodes_free(const froe_allocator *alloc, split_lowest_nodes *h) {
     support_free(alloc, h->ids, h->object_count * sizeof *h->ids);
     support_free(alloc, h->at, h->node_count * sizeof *h->at);
     support_free(alloc, h->end, h->node_count * sizeof *h->end);
-    *h = (split_homes){0};
+    *h = (split_lowest_nodes){0};
 }
 
 /** Memory for count numbers, not cleared; one at least. */
@@ -130,9 +131,9 @@ static uint32_t *numbers(const froe_allocator *alloc, size_t count) {
 }
 
 /** Finds the lowest containing node of each object, given memory for them. */
-static froe_status descend_to_homes(const froe_allocator *alloc, descent *d) {
-    size_t n = d->places->object_count;
-    const guard_grid *grid = &d->places->grid;
+static froe_status descend_to_lowest(const froe_allocator *alloc, descent *d) {
+    size_t n = d->grid_boxes->object_count;
+    const guard_grid *grid = &d->grid_boxes->grid;
     if (grid->levels) {
         d->map_count = grid->starts[grid->levels + 1];
         d->map = numbers(alloc, d->map_count);
@@ -144,20 +145,20 @@ static froe_status descend_to_homes(const froe_allocator *alloc, descent *d) {
     return status;
 }
 
-froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const split_places *places,
-                             const split_guard_tree *guard, split_homes *out) {
-    size_t n = places->object_count, m = guard->nodes.count;
+froe_status split_lowest_nodes_make(const froe_allocator *alloc, base_task *task, const split_grid_boxes *grid_boxes,
+                                    const split_guard_tree *guard, split_lowest_nodes *out) {
+    size_t n = grid_boxes->object_count, m = guard->nodes.count;
     if (!n) return FROE_OK;
-    split_homes h = {.object_count = n, .node_count = m};
+    split_lowest_nodes h = {.object_count = n, .node_count = m};
     h.ids = numbers(alloc, n);
     h.at = numbers(alloc, m);
     h.end = numbers(alloc, m);
-    uint32_t *home = numbers(alloc, n), *own = support_calloc(alloc, m, sizeof *own);
-    descent d = {.places = places, .nodes = guard->nodes.data, .task = task, .home = home};
-    froe_status status = h.ids && h.at && h.end && home && own ? descend_to_homes(alloc, &d) : FROE_E_MEMORY;
+    uint32_t *lowest = numbers(alloc, n), *own = support_calloc(alloc, m, sizeof *own);
+    descent d = {.grid_boxes = grid_boxes, .nodes = guard->nodes.data, .task = task, .lowest = lowest};
+    froe_status status = h.ids && h.at && h.end && lowest && own ? descend_to_lowest(alloc, &d) : FROE_E_MEMORY;
     if (!status) {
         /* Counting sort of the objects by lowest containing node. `own` is zero. */
-        for (size_t i = 0; i < h.object_count; i++) own[home[i]]++;
+        for (size_t i = 0; i < h.object_count; i++) own[lowest[i]]++;
         /* slices from the numbers of nodes' own objects: children come later than their parent, so two passes do */
         for (size_t v = h.node_count; v-- > 0;) { /* end: so many objects in the subtree */
             uint32_t child = guard->nodes.data[v].child;
@@ -173,12 +174,12 @@ froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const
             h.end[v] += h.at[v];
         }
         for (size_t v = 0; v < h.node_count; v++) own[v] = h.at[v];
-        for (uint32_t i = 0; i < h.object_count; i++) h.ids[own[home[i]]++] = i;
+        for (uint32_t i = 0; i < h.object_count; i++) h.ids[own[lowest[i]]++] = i;
     }
-    support_free(alloc, home, n * sizeof *home);
+    support_free(alloc, lowest, n * sizeof *lowest);
     support_free(alloc, own, m * sizeof *own);
     if (status)
-        split_homes_free(alloc, &h);
+        split_lowest_nodes_free(alloc, &h);
     else
         *out = h;
     return status;

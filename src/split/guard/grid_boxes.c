@@ -1,10 +1,10 @@
-/* places.c: one pass over the objects. */
-#include "split/guard/places.h"
+/* grid_boxes.c: one pass over the objects. */
+#include "split/guard/grid_boxes.h"
 #include <string.h>
 
 enum { CHUNK = 8192 }; /* objects per job */
 
-/** Codes of a box, as in places.h. */
+/** Codes of a box, as in grid_boxes.h. */
 static inline void place_on_grid(const guard_grid *grid, const double *lo, const double *hi, int dim,
                                  uint32_t code[2]) {
     uint32_t first = 0, last = 0, flat = 0, apart = 0;
@@ -16,11 +16,11 @@ static inline void place_on_grid(const guard_grid *grid, const double *lo, const
         flat |= (uint32_t)(lo[i] == hi[i]) << i;
         apart |= (lo[i] == t->bounds[from]) | (hi[i] == t->bounds[to]);
     }
-    code[0] = first | flat << PLACES_FLAT | (apart ? PLACES_APART : 0);
+    code[0] = first | flat << GRID_BOXES_FLAT | (apart ? GRID_BOXES_APART : 0);
     code[1] = last;
 }
 
-static inline void place_objects(const split_places *p, uint32_t begin, uint32_t end, int dim) {
+static inline void place_objects(const split_grid_boxes *p, uint32_t begin, uint32_t end, int dim) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     for (uint32_t i = begin; i < end; i++) {
         scene_bounds_in(p->scene, dim, i, lo, hi);
@@ -29,7 +29,7 @@ static inline void place_objects(const split_places *p, uint32_t begin, uint32_t
 }
 
 static froe_status place_chunk(void *user, unsigned worker, size_t chunk) {
-    const split_places *p = user;
+    const split_grid_boxes *p = user;
     size_t end = (chunk + 1) * CHUNK < p->object_count ? (chunk + 1) * CHUNK : p->object_count;
     (void)worker;
     switch (p->grid.dim) { /* one source, compiled for the common dimensions */
@@ -45,7 +45,7 @@ static froe_status place_chunk(void *user, unsigned worker, size_t chunk) {
     return FROE_OK;
 }
 
-static froe_status fill_places(const froe_allocator *alloc, base_task *task, int levels, split_places *p) {
+static froe_status fill_places(const froe_allocator *alloc, base_task *task, int levels, split_grid_boxes *p) {
     int dim = p->scene->dim;
     p->table_bytes = guard_grid_size(dim, levels);
     p->tables = support_realloc(alloc, NULL, 0, p->table_bytes);
@@ -59,9 +59,9 @@ static froe_status fill_places(const froe_allocator *alloc, base_task *task, int
     return base_run(task, 0, (p->object_count + CHUNK - 1) / CHUNK, place_chunk, p);
 }
 
-froe_status split_places_make(const froe_allocator *alloc, base_task *task, const froe_scene *scene,
-                              split_places *out) {
-    split_places p = {.scene = scene, .object_count = scene->object_count};
+froe_status split_grid_boxes_make(const froe_allocator *alloc, base_task *task, const froe_scene *scene,
+                                  split_grid_boxes *out) {
+    split_grid_boxes p = {.scene = scene, .object_count = scene->object_count};
     uint64_t guards = (uint64_t)scene->object_count << scene->dim;
     int levels = guard_grid_levels(guards, scene->dim, GUARD_CODE_BITS);
     guard_cube box = {.lo = {0}};
@@ -73,14 +73,14 @@ froe_status split_places_make(const froe_allocator *alloc, base_task *task, cons
         if (guard_strictly_inside(box.lo, box.hi, &p.root, scene->dim)) status = fill_places(alloc, task, levels, &p);
     }
     if (status)
-        split_places_free(alloc, &p);
+        split_grid_boxes_free(alloc, &p);
     else
         *out = p;
     return status;
 }
 
-void split_places_free(const froe_allocator *alloc, split_places *p) {
+void split_grid_boxes_free(const froe_allocator *alloc, split_grid_boxes *p) {
     if (p->codes) support_free(alloc, p->codes, p->object_count * sizeof *p->codes);
     support_free(alloc, p->tables, p->table_bytes);
-    *p = (split_places){.scene = p->scene};
+    *p = (split_grid_boxes){.scene = p->scene};
 }

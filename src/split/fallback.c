@@ -1,5 +1,5 @@
-/* resort.c: see resort.h. */
-#include "split/resort.h"
+/* fallback.c: see fallback.h. */
+#include "split/fallback.h"
 #include "base/random.h"
 #include "base/sort.h"
 

@@ -1,4 +1,4 @@
-/* homes.h: where in the guard tree each object first meets a cut.
+/* lowest_nodes.h: where in the guard tree each object first meets a cut.
  *
  *            x = 4                 object 7 goes left of x = 4, right of y = 1, and lies across x = 2:
  *           /     \                that is its lowest containing node. Nodes above need not list it.
@@ -9,25 +9,26 @@
  * In this order the objects that lie wholly in a cell and have been cut by nothing are one slice, so
  * the guard stage carries a cell's cut fragments only (de Berg, lemma 2.2: each object is found
  * by its lowest node that contains it). O(n height) comparisons, no arithmetic. */
-#ifndef FROE_SPLIT_GUARD_HOMES_H
-#define FROE_SPLIT_GUARD_HOMES_H
+#ifndef FROE_SPLIT_GUARD_LOWEST_NODES_H
+#define FROE_SPLIT_GUARD_LOWEST_NODES_H
 #include "scene/scene.h"
 #include "split/guard/guard_tree.h"
 
-typedef struct split_homes {
+typedef struct split_lowest_nodes {
     uint32_t *ids;      /**< all objects, by lowest containing node */
     uint32_t *at, *end; /**< per guard node: its slice of ids, its own objects first */
     size_t object_count, node_count;
-} split_homes;
+} split_lowest_nodes;
 
 /** The tree is that of the same scene. */
-froe_status split_homes_make(const froe_allocator *alloc, base_task *task, const split_places *places,
-                             const split_guard_tree *guard, split_homes *out);
-void split_homes_free(const froe_allocator *alloc, split_homes *homes);
+froe_status split_lowest_nodes_make(const froe_allocator *alloc, base_task *task, const split_grid_boxes *grid_boxes,
+                                    const split_guard_tree *guard, split_lowest_nodes *out);
+void split_lowest_nodes_free(const froe_allocator *alloc, split_lowest_nodes *lowest);
 
 /** The objects whose lowest containing node is `node` itself: ids[at[node] ..], so many. */
-static inline uint32_t split_homes_own(const split_homes *homes, const split_guard_tree *guard, uint32_t node) {
+static inline uint32_t split_lowest_nodes_own(const split_lowest_nodes *lowest, const split_guard_tree *guard,
+                                              uint32_t node) {
     uint32_t child = guard->nodes.data[node].child;
-    return (child ? homes->at[child] : homes->end[node]) - homes->at[node];
+    return (child ? lowest->at[child] : lowest->end[node]) - lowest->at[node];
 }
 #endif
