@@ -5,7 +5,9 @@
  * built in drafts of their own, by other threads: a graft puts such a draft in place of a
  * leaf of the main one; its ring entries below `outer` mean nodes of the main draft, those
  * from `outer` on are its own nodes (node + outer). draft_seal renumbers depth-first, so
- * the result does not depend on which thread built which subtree, or when. */
+ * the result does not depend on which thread built which subtree, or when.
+ *
+ * It speaks for draft.c and seal.c. */
 #ifndef FROE_TREE_DRAFT_H
 #define FROE_TREE_DRAFT_H
 #include "tree/tree.h"

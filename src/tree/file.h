@@ -5,7 +5,9 @@
  *     ...   sections      in the order of their ids, each at a multiple of 64, zeros between
  *
  * Sections are the arrays of the tree and its scene as they lie in memory, so that opening is
- * mapping. Everything has one place only: two equal trees make equal files. */
+ * mapping. Everything has one place only: two equal trees make equal files.
+ *
+ * It speaks for file.c, open.c and save.c. */
 #ifndef FROE_TREE_FILE_H
 #define FROE_TREE_FILE_H
 #include "tree/packed/packed.h"

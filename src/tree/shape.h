@@ -5,7 +5,9 @@
  * every point is put on ONE side, once, and the rest is combinatorics: each crossed edge gets
  * one new point, shared by the two faces of the edge, so the face that closes the cut always
  * consists of closed loops. Points within the rounding error of the plane count as on it,
- * which keeps slivers out of pictures; nothing else depends on it. */
+ * which keeps slivers out of pictures; nothing else depends on it.
+ *
+ * It speaks for shape.c and cells.c (the cells of a tree as such shapes). */
 #ifndef FROE_TREE_SHAPE_H
 #define FROE_TREE_SHAPE_H
 #include "geom/plane.h"

@@ -1,4 +1,5 @@
 /* tree.c: nodes, cuts, pieces and counts of a finished tree. */
+#include "tree/tree.h"
 #include "base/floats.h"
 #include "tree/file.h"
 #include "tree/list.h"

@@ -16,7 +16,9 @@
  * list has the place where it would begin. Unused fields are 0. tree/validate.c relies on it.
  *
  * A packed tree, one that is built to be queried, has plain cuts only and neither pieces nor bounds: its leaves are
- * blocks (tree/packed/packed.h). Pieces are numbered all the same. tree/list.h reads the lists of both layouts. */
+ * blocks (tree/packed/packed.h). Pieces are numbered all the same. tree/list.h reads the lists of both layouts.
+ *
+ * It speaks for tree.c, corners.c (the spare context) and audit/promise.c. */
 #ifndef FROE_TREE_TREE_H
 #define FROE_TREE_TREE_H
 #include "scene/scene.h"

@@ -8,7 +8,9 @@
  * rest, whether a solid reaches into a cell that cuts bound from several sides is enclosed: it MAY be listed wherever
  * no single cut excludes it, and MUST be where a point of it is known to lie, or is found (trace_cell.c).
  *
- * This is the audit's own clipping: it shares the predicates with the builders, nothing else. */
+ * This is the audit's own clipping: it shares the predicates with the builders, nothing else.
+ *
+ * It speaks for trace.c, trace_cell.c, trace_solid.c and audit.c, which compares the places with the tree. */
 #ifndef FROE_TREE_AUDIT_TRACE_H
 #define FROE_TREE_AUDIT_TRACE_H
 #include "geom/predicates.h"

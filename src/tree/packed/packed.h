@@ -20,7 +20,9 @@
  * whose closed cell holds the point: hits on borders of cells need no care. The builder chooses its cuts so, the audit
  * proves it.
  *
- * Points are segments without length. The layout is that of docs/design/index.md, with what was measured. */
+ * Points are segments without length. The layout is that of docs/design/index.md, with what was measured.
+ *
+ * It speaks for packed.c and packed_validate.c. */
 #ifndef FROE_TREE_PACKED_PACKED_H
 #define FROE_TREE_PACKED_PACKED_H
 #include "tree/tree.h"

@@ -14,7 +14,9 @@
  *     lo +-----------------+  0
  *
  * So any point of an object lies in the box of a leaf that lists it, and a search may go by boxes
- * alone: tree/packed/wide.h. */
+ * alone: tree/packed/wide.h.
+ *
+ * It speaks for space.c, space_audit.c and space_validate.c. */
 #ifndef FROE_TREE_PACKED_SPACE_H
 #define FROE_TREE_PACKED_SPACE_H
 #include "tree/packed/packed.h"
