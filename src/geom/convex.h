@@ -11,6 +11,7 @@
  * Corners of PLANES have no exact doubles: `coords` are images, each within `error` of the true coordinate. */
 #ifndef FROE_GEOM_CONVEX_H
 #define FROE_GEOM_CONVEX_H
+#include "geom/body.h"
 #include "geom/plane.h"
 
 typedef enum geom_core { GEOM_CORE_LIST, GEOM_CORE_BOX, GEOM_CORE_RAY, GEOM_CORE_PLANES } geom_core;
@@ -40,5 +41,14 @@ static inline const double *geom_convex_point(const geom_convex *c, uint32_t i) 
 /** Coordinate k of corner i; for lists and boxes. */
 static inline double geom_convex_coordinate(const geom_convex *c, uint32_t i, int k) {
     return geom_convex_point(c, c->core == GEOM_CORE_BOX ? i >> k & 1 : i)[k];
+}
+/** A body of the plane or of space. Its coordinates stay the body's. */
+static inline geom_convex geom_convex_of(const geom_body *body) {
+    return (geom_convex){.core = body->form == FROE_BOX ? GEOM_CORE_BOX : GEOM_CORE_LIST,
+                         .dim = body->dim,
+                         .count = geom_body_corners(body),
+                         .coords = body->coords,
+                         .ids = body->corners,
+                         .radius = body->form == FROE_BALL ? body->radius : 0};
 }
 #endif

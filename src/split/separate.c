@@ -1,5 +1,6 @@
 /* separate.c: see separate.h. Every plane found is checked by the exact predicates before it counts. */
 #include "split/separate.h"
+#include "geom/meet/apart.h"
 #include "tree/crowd.h"
 #include <math.h>
 
@@ -28,33 +29,6 @@ static bool by_axis(const split_work *work, const split_cell *cell, froe_cut *cu
     return false;
 }
 
-/** Does the plane have object a weakly on one side and b weakly on the other, neither in it? */
-static bool cut_separates(split_work *work, const froe_cut *cut, uint32_t a, uint32_t b) {
-    split_set *set = &work->set;
-    split_plane plane = split_plane_of(set->scene, cut);
-    split_fragment fa = {.object = a}, fb = {.object = b};
-    set->sides.count = 0;
-    int ca = split_classify(set, &plane, &fa), cb = split_classify(set, &plane, &fb);
-    return (ca == SPLIT_NEG && cb == SPLIT_POS) || (ca == SPLIT_POS && cb == SPLIT_NEG);
-}
-
-/** Between two balls, across the line of their centres: at the middle of the gap. */
-static bool between_balls(split_work *work, uint32_t a, uint32_t b, double *normal, froe_cut *cut) {
-    const froe_scene *scene = work->set.scene;
-    const double *ca = scene_point(scene, a, 0), *cb = scene_point(scene, b, 0);
-    double ra = scene_radius(scene, a), rb = scene_radius(scene, b), length = 0, at = 0;
-    for (int k = 0; k < scene->dim; k++) {
-        normal[k] = cb[k] - ca[k];
-        length += normal[k] * normal[k];
-    }
-    length = sqrt(length);
-    double t = 0.5 + 0.5 * (ra - rb) / length; /* share of the way from centre a to centre b */
-    for (int k = 0; k < scene->dim; k++) at += normal[k] * (ca[k] + t * normal[k]);
-    if (!(length > 0) || !isfinite(at) || !isfinite(length)) return false;
-    *cut = (froe_cut){.kind = FROE_CUT_PLANE, .value = at, .normal = normal};
-    return cut_separates(work, cut, a, b);
-}
-
 /** Appends the corners of a hull; the caller has made room. */
 static void add_corners(const froe_scene *scene, uint32_t object, int set, split_separator *separator) {
     for (uint32_t i = 0; i < scene_corners(scene, object); i++) {
@@ -76,14 +50,14 @@ static bool between_hulls(split_work *work, uint32_t a, uint32_t b, split_separa
     return true;
 }
 
-/** Pairs of unlike kinds are left to the axis-parallel planes. */
 bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
     const froe_scene *scene = work->set.scene;
     if (scene->dim > 3) return false;
-    froe_kind fa = scene_form(scene, a), fb = scene_form(scene, b);
-    if (fa == FROE_BALL && fb == FROE_BALL) return between_balls(work, a, b, separator->normal, cut);
-    if (fa == FROE_HULL && fb == FROE_HULL) return between_hulls(work, a, b, separator, cut);
-    return false;
+    const bool hulls = scene_form(scene, a) == FROE_HULL && scene_form(scene, b) == FROE_HULL;
+    if (hulls && between_hulls(work, a, b, separator, cut)) return true;
+    const geom_body one = scene_body(scene, a), other = scene_body(scene, b);
+    *cut = (froe_cut){.kind = FROE_CUT_PLANE, .normal = separator->normal};
+    return geom_apart(&work->set.context, &one, &other, separator->normal, &cut->value);
 }
 
 /** Do all balls contain the centre of the smallest? Then no two can be separated: no need to try all pairs. */
@@ -120,13 +94,17 @@ bool split_separator_ready(const split_set *set, const split_cell *cell, split_s
 
 split_verdict split_separate(split_work *work, const split_cell *cell, split_separator *separator, froe_cut *cut) {
     if (by_axis(work, cell, cut) && cell->attempt < 2) return SPLIT_CUT;
-    if (work->set.scene->dim > 3 || share_a_point(work, cell)) return SPLIT_INSEPARABLE;
+    const froe_scene *scene = work->set.scene;
+    if (scene->dim > 3 || share_a_point(work, cell)) return SPLIT_INSEPARABLE;
     if (!split_separator_ready(&work->set, cell, separator)) return SPLIT_MEMORY;
     for (uint32_t i = 0; i < cell->count && split_go_on(work); i++) {
         uint32_t a = object_at(work, cell, i);
-        if (scene_form(work->set.scene, a) < FROE_BALL) continue; /* boxes: by_axis() is complete for them */
-        for (uint32_t j = 0; j < i; j++)
-            if (split_separate_pair(work, a, object_at(work, cell, j), separator, cut)) return SPLIT_CUT;
+        for (uint32_t j = 0; j < i; j++) {
+            uint32_t b = object_at(work, cell, j);
+            if (scene_form(scene, a) == FROE_BOX && scene_form(scene, b) == FROE_BOX)
+                continue; /* by_axis() found none */
+            if (split_separate_pair(work, a, b, separator, cut)) return SPLIT_CUT;
+        }
     }
     return base_cancelled(work->task) ? SPLIT_CANCELLED : SPLIT_INSEPARABLE;
 }

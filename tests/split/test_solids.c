@@ -112,14 +112,68 @@ static void a_flat_hull_on_another_ends_in_the_cut(void **state) {
     froe_tree_free(tree);
 }
 
-/** Two triangles in the plane z = x + y, on either side of y = x - 1/4: nothing but axis-parallel cuts is tried. */
-static void hulls_in_one_plane_are_left_to_axis_parallel_cuts(void **state) {
+/** Two triangles in the plane z = x + y, on either side of y = x - 1/4. */
+static void hulls_in_one_plane_are_told_apart(void **state) {
     static const double coords[] = {0, 0, 0, 3, 3, 6, 0, 3, 3, 0.5, 0, 0.5, 3.5, 3, 6.5, 3.5, 0, 3.5};
     static const size_t starts[] = {0, 3, 6};
     solids s = begin(3);
     (void)state;
     add(&s, FROE_HULL, 2, coords, NULL, starts);
-    assert_int_equal(inseparable_of(&s), 1);
+    assert_int_equal(inseparable_of(&s), 0);
+}
+
+/* ------------------------------------------------------------ unlike kinds -- */
+
+/** Unit vectors at right angles: the first is the direction of the gap. */
+static void draw_frame(solids *s, int dim, double frame[3][3]) {
+    for (int i = 0; i < dim;) {
+        double length = 0;
+        for (int k = 0; k < dim; k++) frame[i][k] = fuzz_unit(&s->random);
+        for (int j = 0; j < i; j++) {
+            double along = 0;
+            for (int k = 0; k < dim; k++) along += frame[i][k] * frame[j][k];
+            for (int k = 0; k < dim; k++) frame[i][k] -= along * frame[j][k];
+        }
+        for (int k = 0; k < dim; k++) length += frame[i][k] * frame[i][k];
+        length = sqrt(length);
+        for (int k = 0; k < dim; k++) frame[i][k] /= length;
+        if (length > 0.1) i++;
+    }
+}
+
+/** A ball, a hull or a box on the side `way` of the plane across frame[0] through the origin, about `gap` from it. */
+static void add_beside(solids *s, int dim, froe_kind kind, double way, double gap, double frame[3][3]) {
+    enum { CORNERS = 6 };
+    double coords[CORNERS * 3], radius = 0.6 + 0.3 * fuzz_unit(&s->random);
+    const size_t starts[2] = {0, CORNERS};
+    for (int i = 0; i < CORNERS; i++)
+        for (int k = 0; k < dim; k++) coords[i * dim + k] = way * gap * frame[0][k];
+    if (kind == FROE_BALL)
+        for (int k = 0; k < dim; k++) coords[k] += way * radius * frame[0][k];
+    for (int i = 0; i < CORNERS && kind == FROE_HULL; i++) /* the first dim corners are as near as the gap says */
+        for (int j = 0; j < dim; j++) {
+            const double step = j ? fuzz_unit(&s->random) : i < dim ? 0 : way * radius;
+            for (int k = 0; k < dim; k++) coords[i * dim + k] += step * frame[j][k];
+        }
+    for (int k = 0; k < dim && kind == FROE_BOX; k++)
+        coords[way * frame[0][k] > 0 ? dim + k : k] += way * frame[0][k] > 0 ? radius : -radius;
+    add(s, kind, 1, coords, kind == FROE_BALL ? &radius : NULL, kind == FROE_HULL ? starts : NULL);
+}
+
+/** Gaps down to a few units in the last place of the coordinates; axis-parallel planes separate few of these pairs. */
+static void disjoint_solids_of_any_kinds_are_told_apart(void **state) {
+    static const froe_kind kinds[] = {FROE_BALL, FROE_HULL, FROE_BOX};
+    (void)state;
+    solids s = {.random = {11}};
+    for (int i = 0; i < 3000; i++) {
+        const int dim = 2 + i % 2;
+        double frame[3][3], gap = pow(10, -1 - i / 2 % 15);
+        assert_int_equal(froe_scene_new(dim, NULL, &s.scene), FROE_OK);
+        draw_frame(&s, dim, frame);
+        add_beside(&s, dim, kinds[i % 3], 1, gap, frame);
+        add_beside(&s, dim, kinds[i / 3 % 3], -1, gap, frame);
+        if (inseparable_of(&s)) fail_msg("case %d, gap %g", i, gap);
+    }
 }
 
 /* --------------------------------------------------------- heavy overlap -- */
@@ -244,7 +298,8 @@ int main(void) {
         cmocka_unit_test(hulls_of_many_corners_are_told_apart_by_few_questions),
         cmocka_unit_test(hulls_that_touch_are_told_apart),
         cmocka_unit_test(a_flat_hull_on_another_ends_in_the_cut),
-        cmocka_unit_test(hulls_in_one_plane_are_left_to_axis_parallel_cuts),
+        cmocka_unit_test(hulls_in_one_plane_are_told_apart),
+        cmocka_unit_test(disjoint_solids_of_any_kinds_are_told_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -629,6 +629,35 @@ static void crowds_that_are_none_are_found(void **state) {
     assert_crowd(crowd(2, FROE_BALL, 3, centres, small, NULL, TREE_CROWDED), "called crowded, but most pairs");
 }
 
+/* A ball beside a corner of a box, whose boxes overlap, in one leaf of capacity 1. */
+static froe_tree *ball_and_box(double radius) {
+    const tree_meta one = {.method = "by hand", .leaf = 1};
+    const double box[4] = {0, 0, 1, 1}, centre[2] = {1.5, 1.5};
+    froe_scene *scene;
+    tree_draft draft;
+    froe_tree *tree;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_BOX, 1, box, NULL, NULL), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_BALL, 1, centre, &radius, NULL), FROE_OK);
+    assert_int_equal(draft_new(NULL, 2, 0, &draft), FROE_OK);
+    draft_leaf(&draft, 0, TREE_INSEPARABLE);
+    assert_int_equal(draft_list(&draft, 0), FROE_OK);
+    for (uint32_t i = 0; i < 2; i++) assert_int_equal(draft_piece(&draft, 0, i, NULL, 0), FROE_OK);
+    assert_int_equal(draft_seal(&draft, NULL, 0, scene, &one, &tree), FROE_OK);
+    draft_free(&draft);
+    froe_scene_free(scene);
+    return tree;
+}
+
+/* A builder that gives up a pair is found, down to 2^-45 of the coordinates. */
+static void separable_solids_of_unlike_kinds_are_found(void **state) {
+    (void)state;
+    assert_crowd(ball_and_box(0.6), "called inseparable, but a plane");
+    assert_crowd(ball_and_box(sqrt(0.5) - 0x1p-43), "called inseparable, but a plane");
+    assert_crowd(ball_and_box(sqrt(0.5) + 0x1p-43), NULL);
+    assert_crowd(ball_and_box(0.8), NULL);
+}
+
 static void separable_boxes_are_found(void **state) {
     (void)state;
     const double overlapping[12] = {0, 0, 2, 2, 1, 1, 3, 3, 1, 0, 2, 3}, touching[8] = {0, 0, 1, 1, 1, 0, 2, 1};
@@ -775,6 +804,7 @@ int main(void) {
         cmocka_unit_test(overfull_leaves_are_found),
         cmocka_unit_test(crowds_that_are_none_are_found),
         cmocka_unit_test(separable_boxes_are_found),
+        cmocka_unit_test(separable_solids_of_unlike_kinds_are_found),
         cmocka_unit_test(separable_balls_and_hulls_are_found),
         cmocka_unit_test(leaf_zero_means_empty_leaves),
         cmocka_unit_test(broken_promises_are_found),

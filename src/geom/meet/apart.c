@@ -84,15 +84,6 @@ static bool try_direction(num_context *context, const geom_body *a, const geom_b
     return side_of_body(context, &plane, a) == -1 && side_of_body(context, &plane, b) == 1;
 }
 
-static geom_convex convex_of(const geom_body *body) {
-    return (geom_convex){.core = body->form == FROE_BOX ? GEOM_CORE_BOX : GEOM_CORE_LIST,
-                         .dim = body->dim,
-                         .count = geom_body_corners(body),
-                         .coords = body->coords,
-                         .ids = body->corners,
-                         .radius = body->form == FROE_BALL ? body->radius : 0};
-}
-
 bool geom_apart(num_context *context, const geom_body *a, const geom_body *b, double normal[3], double *value) {
     const geom_body core_a = core_of(a), core_b = core_of(b);
     const geom_gap gap = geom_gap_between(context, &core_a, &core_b);
@@ -104,7 +95,7 @@ bool geom_apart(num_context *context, const geom_body *a, const geom_body *b, do
     if (geom_gap_guess(&core_a, &core_b, &gap, direction) &&
         try_direction(context, a, b, &gap, direction, power, normal, value))
         return true;
-    const geom_convex set_a = convex_of(a), set_b = convex_of(b);
+    const geom_convex set_a = geom_convex_of(a), set_b = geom_convex_of(b);
     if (geom_meet(context, &set_a, &set_b)) return false;
     for (int i = 0; i < LENGTHS; i++) {
         round_direction(context, &core_a, &core_b, &gap, 1 - 0.4 * i / LENGTHS, direction);

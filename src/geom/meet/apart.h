@@ -12,8 +12,8 @@
 #include "geom/body.h"
 
 /** Finds  normal . x = value  with all of `a` where it is <= 0 and all of `b` where it is >= 0, neither wholly in it. 2D
- * and 3D; bodies of any kinds. False: they have a point in common, or the gap is far narrower than doubles of the size of
- * the largest coordinate tell apart. The coefficients are scaled so that nothing over- or underflows. Expected O(count)
+ * and 3D; bodies of any kinds. False: they have a point in common, or no such plane was found, which never
+ * happens to bodies further apart than 2^-45 of the largest coordinate. The coefficients are scaled so that nothing over- or underflows. Expected O(count)
  * of the corners. Arena: num_arena_bound. */
 bool geom_apart(num_context *context, const geom_body *a, const geom_body *b, double normal[3], double *value);
 #endif

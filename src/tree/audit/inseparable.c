@@ -1,5 +1,7 @@
 /* inseparable.c: looking for a cut between the objects of a leaf that claims there is none. */
 #include "tree/audit/inseparable.h"
+#include "geom/meet/meet.h"
+#include "scene/convex.h"
 #include "tree/audit/normals.h"
 #include "tree/crowd.h"
 #include <math.h>
@@ -26,33 +28,31 @@ static bool add_corners(normals *m, const froe_scene *s, uint32_t object) {
     return true;
 }
 
-/* Is there a plane between two hulls, or between two balls across the line of their centres (found in doubles)? */
+/* The largest coordinate of an object, radius included. */
+static double largest_coordinate(const froe_scene *s, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], most = 0;
+    scene_object_bounds(s, object, lo, hi);
+    for (int k = 0; k < s->dim; k++) most = fmax(most, fmax(fabs(lo[k]), fabs(hi[k])));
+    return most;
+}
+
+/* Are they so far apart that builders have to find a plane, or is there one between two hulls that touch? */
 static froe_status separated(const pair *p, bool *out) {
     const froe_scene *s = p->scene;
-    const froe_kind form = scene_form(s, p->a);
     normals *m = p->normals;
     *out = false;
-    if (form != scene_form(s, p->b)) return FROE_OK;
-    if (form == FROE_BALL) {
-        const double *a = scene_point(s, p->a, 0), *b = scene_point(s, p->b, 0);
-        const double ra = scene_radius(s, p->a), rb = scene_radius(s, p->b);
-        double normal[3], length = 0, at = 0;
-        for (int k = 0; k < s->dim; k++) {
-            normal[k] = b[k] - a[k];
-            length += normal[k] * normal[k];
-        }
-        length = sqrt(length);
-        const double share = 0.5 + 0.5 * (ra - rb) / length;
-        for (int k = 0; k < s->dim; k++) at += normal[k] * (a[k] + share * normal[k]);
-        if (!(length > 0) || !isfinite(length) || !isfinite(at)) return FROE_OK;
-        const geom_plane plane = geom_plane_vector(s->dim, normal, at);
-        *out = geom_side_ball(p->context, &plane, a, ra) * geom_side_ball(p->context, &plane, b, rb) == -1;
+    if (scene_form(s, p->a) == FROE_HULL && scene_form(s, p->b) == FROE_HULL) {
+        m->points.count = 0;
+        if (!add_corners(m, p->scene, p->a)) return FROE_E_MEMORY;
+        m->first = (uint32_t)m->points.count;
+        const froe_status status = add_corners(m, p->scene, p->b) ? normals_apart(m, out) : FROE_E_MEMORY;
+        if (status || *out) return status;
     }
-    if (form != FROE_HULL) return FROE_OK;
-    m->points.count = 0;
-    if (!add_corners(m, p->scene, p->a)) return FROE_E_MEMORY;
-    m->first = (uint32_t)m->points.count;
-    return add_corners(m, p->scene, p->b) ? normals_apart(m, out) : FROE_E_MEMORY;
+    geom_convex a = scene_convex(s, p->a);
+    const geom_convex b = scene_convex(s, p->b);
+    a.radius += 0x1p-45 * fmax(largest_coordinate(s, p->a), largest_coordinate(s, p->b));
+    *out = isfinite(a.radius) && !geom_meet(p->context, &a, &b);
+    return FROE_OK;
 }
 
 /* --------------------------------------------------------------- the leaf -- */
@@ -123,9 +123,9 @@ froe_status inseparable_refuted(num_context *context, base_task *task, const fro
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < list->count && !found && !status && pair_may_go_on(&p); i++) {
         p.a = tree_object(list, i);
-        if (scene_form(s, p.a) < FROE_BALL) continue; /* axis-parallel planes are complete for boxes */
         for (uint32_t j = 0; j < i && !found && !status; j++) {
             p.b = tree_object(list, j);
+            if (scene_form(s, p.a) == FROE_BOX && scene_form(s, p.b) == FROE_BOX) continue; /* no axis separates them */
             status = separated(&p, &found);
         }
     }

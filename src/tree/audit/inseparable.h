@@ -11,10 +11,11 @@
  *   - objects with a support (points, segments, polygons), by it, unless all are one and the same point;
  *   - others by an axis-parallel plane with one of them on each side, touching it at most, or in it: complete
  *     for boxes;
- *   - two balls in R^2 or R^3 by the plane across the line of their centres, between them, in doubles;
  *   - two hulls by any plane with one of them on each side, touching it at most, or one in it: complete, but for two
  *     in one plane, where axis-parallel planes alone count (normals.h).
- * O(m dim), and O(m^2) pairs of balls or hulls when axis-parallel planes fail. On the calling thread of `task`;
+ *   - all pairs of solids in R^2 and R^3 further apart than 2^-45 of their largest coordinate. Distances decide,
+ *     not planes, so that the audit does not repeat the search of the builders (geom/meet/apart.h).
+ * O(m dim), and O(m^2) pairs when axis-parallel planes fail. On the calling thread of `task`;
  * NULL, too, when that was cancelled meanwhile. FROE_E_MEMORY. */
 froe_status inseparable_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_objects *list,
                                 const char **why);
