@@ -15,7 +15,7 @@ static geom_body core_of(const geom_body *body) {
 }
 
 /* The largest coordinate of both, radii included. */
-static double largest_coordinate(const geom_body *a, const geom_body *b) {
+static double greatest_coordinate(const geom_body *a, const geom_body *b) {
     double most = fmax(a->form == FROE_BALL ? a->radius : 0, b->form == FROE_BALL ? b->radius : 0);
     for (int side = 0; side < 2; side++) {
         const geom_body *body = side ? b : a;
@@ -90,7 +90,7 @@ bool geom_apart(num_context *context, const geom_body *a, const geom_body *b, do
     double direction[3];
     int power;
     if (gap.zero) return false;
-    frexp(largest_coordinate(a, b), &power);
+    frexp(greatest_coordinate(a, b), &power);
     power = power > 1000 ? -1000 : power < -1000 ? 1000 : -power;
     if (geom_gap_guess(&core_a, &core_b, &gap, direction) &&
         try_direction(context, a, b, &gap, direction, power, normal, value))
