@@ -577,23 +577,27 @@ static void solids_beside_oblique_cuts_are_enclosed(void **state) {
 
 /* -------------------------------------------------------------------- leaves -- */
 
-/* All objects in one leaf of capacity 1. */
-static froe_tree *crowd(int dim, froe_kind kind, size_t count, const double *coords, const double *radii,
-                        const size_t *starts, uint8_t flags) {
+/* All objects in one leaf of capacity 1. Takes the scene. */
+static froe_tree *one_leaf(froe_scene *scene, uint8_t flags) {
     const tree_meta one = {.method = "by hand", .leaf = 1};
-    froe_scene *scene;
     tree_draft draft;
     froe_tree *tree;
-    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
-    assert_int_equal(trees_add(scene, kind, count, coords, radii, starts), FROE_OK);
-    assert_int_equal(draft_new(NULL, dim, 0, &draft), FROE_OK);
+    assert_int_equal(draft_new(NULL, scene->dim, 0, &draft), FROE_OK);
     draft_leaf(&draft, 0, flags);
     assert_int_equal(draft_list(&draft, 0), FROE_OK);
-    for (uint32_t i = 0; i < count; i++) assert_int_equal(draft_piece(&draft, 0, i, NULL, 0), FROE_OK);
+    for (uint32_t i = 0; i < scene->object_count; i++) assert_int_equal(draft_piece(&draft, 0, i, NULL, 0), FROE_OK);
     assert_int_equal(draft_seal(&draft, NULL, 0, scene, &one, &tree), FROE_OK);
     draft_free(&draft);
     froe_scene_free(scene);
     return tree;
+}
+
+static froe_tree *crowd(int dim, froe_kind kind, size_t count, const double *coords, const double *radii,
+                        const size_t *starts, uint8_t flags) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, kind, count, coords, radii, starts), FROE_OK);
+    return one_leaf(scene, flags);
 }
 
 static void assert_crowd(froe_tree *tree, const char *what) {
@@ -631,22 +635,12 @@ static void crowds_that_are_none_are_found(void **state) {
 
 /* A ball beside a corner of a box, whose boxes overlap, in one leaf of capacity 1. */
 static froe_tree *ball_and_box(double radius) {
-    const tree_meta one = {.method = "by hand", .leaf = 1};
     const double box[4] = {0, 0, 1, 1}, centre[2] = {1.5, 1.5};
     froe_scene *scene;
-    tree_draft draft;
-    froe_tree *tree;
     assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
     assert_int_equal(trees_add(scene, FROE_BOX, 1, box, NULL, NULL), FROE_OK);
     assert_int_equal(trees_add(scene, FROE_BALL, 1, centre, &radius, NULL), FROE_OK);
-    assert_int_equal(draft_new(NULL, 2, 0, &draft), FROE_OK);
-    draft_leaf(&draft, 0, TREE_INSEPARABLE);
-    assert_int_equal(draft_list(&draft, 0), FROE_OK);
-    for (uint32_t i = 0; i < 2; i++) assert_int_equal(draft_piece(&draft, 0, i, NULL, 0), FROE_OK);
-    assert_int_equal(draft_seal(&draft, NULL, 0, scene, &one, &tree), FROE_OK);
-    draft_free(&draft);
-    froe_scene_free(scene);
-    return tree;
+    return one_leaf(scene, TREE_INSEPARABLE);
 }
 
 /* A builder that gives up a pair is found, down to 2^-45 of the coordinates. */
