@@ -52,7 +52,8 @@ static bool between_hulls(split_work *work, uint32_t a, uint32_t b, split_separa
 
 bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
     const froe_scene *scene = work->set.scene;
-    if (scene->dim > 3) return false;
+    const bool boxes = scene_form(scene, a) == FROE_BOX && scene_form(scene, b) == FROE_BOX;
+    if (scene->dim > 3 || boxes) return false; /* axis-parallel planes do */
     const bool hulls = scene_form(scene, a) == FROE_HULL && scene_form(scene, b) == FROE_HULL;
     if (hulls && between_hulls(work, a, b, separator, cut)) return true;
     const geom_body one = scene_body(scene, a), other = scene_body(scene, b);

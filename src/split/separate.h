@@ -17,7 +17,7 @@ typedef struct split_separator {
  *     unless their interiors meet;
  *   - for hulls in R^2 and R^3, planes through corners of a pair: exact and complete, also where they touch, but for
  *     pairs that lie in one plane (geom/between.h);
- *   - for all pairs in R^2 and R^3, the plane halfway between their nearest points, in doubles: complete for pairs further
+ *   - for all pairs but boxes in R^2 and R^3, the plane halfway between their nearest points, in doubles: complete for pairs further
  *     apart than 2^-45 of their largest coordinate (geom/meet/apart.h).
  * The cut may point to the separator. O(m d) first, O(m^2) pairs only when axis planes fail.
  * SPLIT_MEMORY, SPLIT_CANCELLED. */
@@ -25,7 +25,7 @@ split_verdict split_separate(split_work *work, const split_cell *cell, split_sep
 
 /** Room for any pair of the cell. False without memory. */
 bool split_separator_ready(const split_set *set, const split_cell *cell, split_separator *separator);
-/** A plane between two solids, of the second and third kinds above. REQUIRES: ready. */
+/** A plane between two solids, of the second and third kinds above; none for two boxes. REQUIRES: ready. */
 bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut);
 /** Can half of the pairs of the cell not be told apart? Of all pairs, in cells of many objects of those that stand
  * near each other (tree_crowd). REQUIRES: ready. O(m) pairs of them, at most m^2 / 2. */
