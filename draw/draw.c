@@ -4,6 +4,7 @@
 #include "picture.h"
 #include "support/fail.h"
 #include "support/floats.h"
+#include "support/path.h"
 #include "support/utf8.h"
 #include "support/writer.h"
 #include "support/xml.h"
@@ -45,17 +46,11 @@ const char *froe_draw_layer_name(froe_draw_layer layer) {
     }
 }
 
-static bool same_word(const char *a, const char *lower) {
-    for (; *a && *lower; a++, lower++)
-        if ((*a >= 'A' && *a <= 'Z' ? *a - 'A' + 'a' : *a) != *lower) return false;
-    return *a == *lower;
-}
-
 bool froe_draw_format_of(const char *path, froe_draw_format *format) {
-    static const char *const extensions[FROE_DRAW_FORMAT_COUNT] = {".svg", ".pdf", ".png"};
-    const char *dot = path ? strrchr(path, '.') : NULL;
-    for (int f = 0; dot && f < FROE_DRAW_FORMAT_COUNT; f++)
-        if (same_word(dot, extensions[f])) {
+    static const char *const extensions[FROE_DRAW_FORMAT_COUNT] = {"svg", "pdf", "png"};
+    const support_extension extension = support_path_extension(path ? path : "");
+    for (int f = 0; f < FROE_DRAW_FORMAT_COUNT; f++)
+        if (strcmp(extension.text, extensions[f]) == 0) {
             *format = (froe_draw_format)f;
             return true;
         }

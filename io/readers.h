@@ -1,4 +1,4 @@
-/* readers.h: the readers that need a library. */
+/* readers.h: the readers that need a library. It speaks for read_assimp.c and read_ogr.c. */
 #ifndef FROE_IO_READERS_H
 #define FROE_IO_READERS_H
 

@@ -1,23 +1,14 @@
 /* html.c: small pieces of HTML made from reports. */
 #include "report/html.h"
 #include "files.h"
+#include "support/xml.h"
 #include "version.h"
 #include <froe/froe.h>
 #include <string.h>
 
 void html_text(FILE *out, const char *text) {
-    for (; *text; text++) {
-        if (*text == '&')
-            fputs("&amp;", out);
-        else if (*text == '<')
-            fputs("&lt;", out);
-        else if (*text == '>')
-            fputs("&gt;", out);
-        else if (*text == '"')
-            fputs("&quot;", out);
-        else
-            fputc(*text, out);
-    }
+    char bytes[8];
+    for (size_t n; (n = support_xml_escape(&text, bytes));) fwrite(bytes, 1, n, out);
 }
 
 /* Digits in groups of three, parted by thin spaces. */

@@ -1,4 +1,5 @@
-/* animate.h: a motion on its way to a picture: its scale on the page, and the contacts of each object. */
+/* animate.h: a motion on its way to a picture: its scale on the page, and the contacts of each object. It speaks for
+ * animate.c, animate_svg.c and animate_page.c. */
 #ifndef FROE_FORMATS_ANIMATE_H
 #define FROE_FORMATS_ANIMATE_H
 #include "formats/write/writer.h"

@@ -1,4 +1,4 @@
-/* read_motion.c: OGC Moving Features JSON (19-045r3).
+/* read_motion.c: froe_read_motion: OGC Moving Features JSON (19-045r3).
  *
  *     feature -> temporalGeometry (or its prisms) -> one flight plan a point, one segment a pair of neighbours
  *

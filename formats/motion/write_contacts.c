@@ -1,4 +1,4 @@
-/* write_contacts.c: contacts as a table, CSV or JSON: one list of columns for both. */
+/* write_contacts.c: froe_write_contacts: contacts as a table, CSV or JSON: one list of columns for both. */
 #include "formats/write/writer.h"
 #include "support/floats.h"
 #include <string.h>

@@ -1,4 +1,4 @@
-/* write_events.c: what happens in a kinetic partition, as a table that is written while it happens. */
+/* write_events.c: froe_event_writer: what happens in a kinetic partition, as a table that is written while it happens. */
 #include "formats/write/writer.h"
 #include "support/alloc.h"
 #include "support/floats.h"

@@ -1,4 +1,4 @@
-/* write_motion.c: a motion as OGC Moving Features JSON, one feature a chain of segments. */
+/* write_motion.c: froe_write_motion: a motion as OGC Moving Features JSON, one feature a chain of segments. */
 #include "formats/write/writer.h"
 #include "support/floats.h"
 #include <math.h>

@@ -1,4 +1,4 @@
-/* readers.h: the readers that need no library. */
+/* readers.h: the readers that need no library. It speaks for csv.c, off.c, obj.c and ply.c. */
 #ifndef FROE_FORMATS_READERS_H
 #define FROE_FORMATS_READERS_H
 
