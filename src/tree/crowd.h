@@ -1,10 +1,10 @@
-/* crowd.h: when may solids that can be told apart stay together?
+/* crowd.h: when solids that can be separated stay together.
  *
  * Where solids overlap, a cut between two of them runs through many others, and each of these has one more entry
- * from then on. A leaf is crowded when at least half of the pairs of its objects cannot be told apart by any cut: to
+ * from then on. A leaf is crowded when at least half of the pairs of its objects cannot be separated by any cut: to
  * compare all of them is then at most twice the work that remains with any partition. In long lists each object is
- * compared with the TREE_CROWD_REACH before it. Builder and audit go through the same pairs, and each finds
- * out in its own way which can be told apart. */
+ * compared with the TREE_CROWD_REACH before it. Builder and audit go through the same pairs. Each decides by a method of
+ * its own which can be separated. */
 #ifndef FROE_TREE_CROWD_H
 #define FROE_TREE_CROWD_H
 #include <stdbool.h>
@@ -15,7 +15,7 @@ enum { TREE_CROWD_REACH = 32 };
 /** Goes through the pairs of a list, from (0, 1) on. */
 typedef struct tree_crowd {
     uint32_t a, b;                   /**< the next pair: places in the list, a < b */
-    uint64_t pairs, together, apart; /**< so many cannot be told apart, so many can */
+    uint64_t pairs, together, apart; /**< of all; that cannot be separated; that can */
 } tree_crowd;
 
 /** Of a list of two objects at least. */

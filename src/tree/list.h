@@ -7,7 +7,7 @@
 #define FROE_TREE_LIST_H
 #include "tree/packed/space.h"
 
-/** The list of a node: pieces first .. first + count - 1, whose objects tree_object() tells. */
+/** The list of a node: pieces first .. first + count - 1; tree_object() returns their objects. */
 typedef struct tree_objects {
     const uint32_t *at;
     uint32_t stride, mask;

@@ -68,7 +68,7 @@ static void begin_climb(const froe_tree *t, climb *c, int direction) {
     c->waiting = 0;
     c->column = NO_TABLE;
     if (table && place >= 0 && place < table->cells[0]) c->column = (uint32_t)place;
-    if (c->column == NO_TABLE || !(place >= c->column + TABLE_HAIR && place <= c->column + 1 - TABLE_HAIR)) {
+    if (c->column == NO_TABLE || !(place >= c->column + TABLE_MARGIN && place <= c->column + 1 - TABLE_MARGIN)) {
         begin_at_root(t, c, direction);
         return;
     }

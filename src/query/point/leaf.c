@@ -64,7 +64,7 @@ static query_leaf find_packed(froe_query *q, const query_planes *planes, const d
         const double place = table ? tree_table_place(table, k, x[k]) : -1;
         if (!(place >= 0 && place < table->cells[k])) return go_down(q, planes, 0, x);
         cell[k] = (uint32_t)place;
-        if (place < cell[k] + TABLE_HAIR || place > cell[k] + 1 - TABLE_HAIR) return go_down(q, planes, 0, x);
+        if (place < cell[k] + TABLE_MARGIN || place > cell[k] + 1 - TABLE_MARGIN) return go_down(q, planes, 0, x);
     }
     const tree_entry entry = tree_table_at(table, cell[0], cell[1]);
     return entry.kind & TABLE_LEAF ? (query_leaf){.place = entry.at} : go_down(q, planes, entry.at, x);

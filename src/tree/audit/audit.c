@@ -1,6 +1,6 @@
 /* audit.c: is this tree right? Every invariant, checked without trusting the builder.
  *
- *   1  Structure: all that tree/validate.c says of indices, and the scene beneath is valid.
+ *   1  Structure: all that tree/validate.c checks of indices, and the scene beneath is valid.
  *   2  Report: the counts are those of the arrays.
  *   3  Guard stage: flagged nodes have axis-parallel cuts and form a connected top part of the tree.
  *   4  Lists: every object is carried from the root by tree/audit/trace.h. Each list holds exactly the
@@ -155,12 +155,12 @@ static bool shape_right(const comparison *c, const tree_piece *piece, const trac
     return true;
 }
 
-/* A point has one corner, which is both ends. The ring that others are told must be the true one, too. */
+/* A point has one corner, which is both ends. The ring that packed_ring() computes must be the true one, too. */
 static const char *packed_wrong(const comparison *c, const trace_place *place, uint32_t i) {
-    uint32_t ring[2] = {place->ring[0], place->ring[place->count - 1]}, told[2];
+    uint32_t ring[2] = {place->ring[0], place->ring[place->count - 1]}, found[2];
     if (place->count == 2) {
-        packed_ring(c->tree, c->context, place->node, c->object, told);
-        if (told[0] != ring[0] || told[1] != ring[1]) return "a piece of the wrong shape";
+        packed_ring(c->tree, c->context, place->node, c->object, found);
+        if (found[0] != ring[0] || found[1] != ring[1]) return "a piece of the wrong shape";
     }
     return packed_refuted(c->context, c->tree, place->node, i, ring);
 }

@@ -14,7 +14,7 @@ typedef struct pair {
     uint32_t a, b;
 } pair;
 
-/* To be asked in long loops. */
+/* False: cancelled. For long loops. */
 static bool pair_may_go_on(const pair *p) {
     return base_progress(p->task, p->task->done);
 }

@@ -55,7 +55,7 @@ static bool cut_off(normals *m, geom_vector d) {
 
 /* A difference that some ray of the cone speaks against; false: the first ray is right, and no difference does.
  * The points tried first are the last of A and the first of B along a normal somewhere in the middle of the cone.
- * They are found in doubles, and so may be any pair. Where they cut nothing off, the same is asked of the first ray,
+ * They are found in doubles, and so may be any pair. Where they cut nothing off, the points are those of the first ray,
  * exactly. */
 static bool find_worst(normals *m, geom_vector *worst) {
     const double *const *x = m->points.data;

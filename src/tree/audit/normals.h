@@ -1,4 +1,4 @@
-/* normals.h: is there a plane between two sets of points? The audit's own answer, from the normals' point of view.
+/* normals.h: is there a plane between two sets of points? The audit decides it on the set of normals.
  *
  *          \    d1                   A normal n is right when n . d >= 0 for all differences d = b - a of points of B
  *    rays   \  /   cone of           and A. Those that are right for some differences form a cone. As long as that is

@@ -1,4 +1,4 @@
-/* packed_audit.h: is what a block says of a fragment true? */
+/* packed_audit.h: is what a block stores of a fragment right? */
 #ifndef FROE_TREE_PACKED_PACKED_AUDIT_H
 #define FROE_TREE_PACKED_PACKED_AUDIT_H
 #include "tree/packed/packed.h"

@@ -1,8 +1,8 @@
-/* space_audit.c: is what a block of space says of an object true?
+/* space_audit.c: is what a block of space stores of an object right?
  *
- *     |   |<--- told --->|   |      No point of the object in the cell may lie outside of the box told, by more than
+ *     |   |<-- stored -->|   |      No point of the object in the cell may lie outside of the box stored, by more than
  *     |   | .----------. |   |      2^-20 units: it must not meet the rest of the cell, which is up to six boxes.
- *     |   | |  object  | |   |      Searches rely on it. Of boxes and points they rely on more: the box told is
+ *     |   | |  object  | |   |      Searches rely on it. Of boxes and points they rely on more: the box stored is
  *     |   | '----------' |   |      the object's own, less than a unit and 2^-20 larger on each side.
  *    cell                  cell
  *

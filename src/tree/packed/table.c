@@ -39,10 +39,10 @@ static bool divide_rect(filling *f, const table_rect *r) {
     const tree_node *n = f->tree->nodes + r->node;
     const double place = tree_table_place(f->table, n->axis, n->u.value), line = floor(place + 0.5);
     /* the first cell whose core is not short of the cut, and the first whose core is beyond it */
-    uint32_t middle = cell_between(ceil(place + TABLE_HAIR) - 1, r->from[n->axis], r->to[n->axis]);
-    uint32_t beyond = cell_between(floor(place - TABLE_HAIR) + 1, middle, r->to[n->axis]);
+    uint32_t middle = cell_between(ceil(place + TABLE_MARGIN) - 1, r->from[n->axis], r->to[n->axis]);
+    uint32_t beyond = cell_between(floor(place - TABLE_MARGIN) + 1, middle, r->to[n->axis]);
     table_rect low = *r, high = *r, between = *r;
-    if (line >= 0 && line <= f->table->cells[n->axis] && fabs(place - line) <= TABLE_HAIR) {
+    if (line >= 0 && line <= f->table->cells[n->axis] && fabs(place - line) <= TABLE_MARGIN) {
         double *known = f->values[n->axis] + (size_t)line;
         if (isnan(*known)) *known = n->u.value;
         if (*known != n->u.value) f->table->crooked[n->axis][(size_t)line] = 1;

@@ -2,16 +2,16 @@
  *
  *        line 0     1     2     3         The root box is a grid of about as many cells as the tree has leaves; each
  *          +-----+--:--+-----+            cell names the lowest node whose region holds its core, the cell without a
- *          |  4  |  9  |  9  |    ^       hair's breadth along its lines. Where a tree is cut in the middle the lines
- *          +-----+--:--+-----+    | hair  are its cuts, up to rounding, and the nodes about as deep as its leaves.
- *          |  5  |  6  |  7  |    v
+ *          |  4  |  9  |  9  |            margin along its lines. Where a tree is cut in the middle the lines are its
+ *          +-----+--:--+-----+            cuts, up to rounding, and the nodes about as deep as its leaves.
+ *          |  5  |  6  |  7  |
  *          +-----+--:--+-----+
  *
  * g(x) = (x - lo) * scale is where x lies in the grid. It is monotone, rounded or not; that alone makes the table
- * right: x is in the core of cell i if i + HAIR <= g(x) <= i + 1 - HAIR, and then it is beyond every value v with
- * g(v) < i + HAIR.
+ * right: x is in the core of cell i if i + MARGIN <= g(x) <= i + 1 - MARGIN, and then it is beyond every value v with
+ * g(v) < i + MARGIN.
  *
- * Two cuts of different values within a hair of one line could have a cell between them that no core reaches. Such a
+ * Two cuts of different values within a margin of one line could have a cell between them that no core reaches. Such a
  * line is crooked, and what crosses it has to begin at the root. A cell whose node is cut where other cells of that
  * node are not is ragged: a rectangle with it and another node has to begin at the root, too. Along a line that is not
  * crooked, the regions of the cells on both sides meet in its one cut, or span it: so the nodes of a rectangle of cells
@@ -20,7 +20,7 @@
 #define FROE_TREE_PACKED_TABLE_H
 #include "tree/tree.h"
 
-#define TABLE_HAIR 0x1p-24
+#define TABLE_MARGIN 0x1p-24
 
 /** The node of a cell. Leaves are opened up, which saves their readers a cache miss. */
 typedef struct tree_entry {
@@ -49,10 +49,10 @@ static inline double tree_table_place(const tree_table *table, int axis, double 
 static inline tree_entry tree_table_at(const tree_table *table, uint32_t column, uint32_t row) {
     return table->entries[(size_t)column * table->cells[1] + row];
 }
-/** Columns or rows from .. to (included) that [lo, hi] reaches, by a hair perhaps. */
+/** Columns or rows from .. to (included) that [lo, hi] reaches, or comes within a margin of. */
 static inline void tree_table_span(const tree_table *table, int axis, double lo, double hi, uint32_t *from,
                                    uint32_t *to) {
-    double a = tree_table_place(table, axis, lo) - TABLE_HAIR, b = tree_table_place(table, axis, hi) + TABLE_HAIR;
+    double a = tree_table_place(table, axis, lo) - TABLE_MARGIN, b = tree_table_place(table, axis, hi) + TABLE_MARGIN;
     uint32_t last = table->cells[axis] - 1;
     *from = a > 0 ? a < last ? (uint32_t)a : last : 0;
     *to = b > 0 ? b < last ? (uint32_t)b : last : 0;
