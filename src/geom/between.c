@@ -1,6 +1,7 @@
 /* between.c: see between.h. Nothing but signs of determinants decides. */
 #include "geom/between.h"
 #include "base/random.h"
+#include "geom/body.h"
 #include <string.h>
 
 /* Planes through the first `depth` of the points that were on the wrong side, and the points before `limit` on their
@@ -10,7 +11,7 @@ typedef struct level {
     bool strict; /* some of those lies beside the plane, not in it */
 } level;
 
-typedef struct search {
+typedef struct between_search {
     num_context *context;
     int dim, depth;
     geom_member *members;
@@ -19,17 +20,17 @@ typedef struct search {
     geom_plane plane;
     int sign; /* the side of the plane on which set 1 has to be */
     level levels[4];
-} search;
+} between_search;
 
 /* The plane through the basis. False: it spans none. */
-static bool take_plane(search *s) {
+static bool take_plane(between_search *s) {
     const double *points[3] = {s->basis[0].x, s->basis[1].x, s->basis[2].x};
     s->plane = geom_plane_points(s->dim, points);
     return geom_plane_valid(s->context, &s->plane);
 }
 
 /* Any plane through the first `depth` of the basis: they are independent, so that some of the seeds complete them. */
-static void any_plane(search *s) {
+static void any_plane(between_search *s) {
     int missing = s->dim - s->depth;
     s->sign = 1;
     for (int first = 0; first < s->dim; first++) {
@@ -38,16 +39,10 @@ static void any_plane(search *s) {
     }
 }
 
-static bool same_place(const search *s, const geom_member *a, const geom_member *b) {
-    for (int k = 0; k < s->dim; k++)
-        if (a->x[k] != b->x[k]) return false;
-    return true;
-}
-
 /* Makes dim of the points that span a plane the seeds. */
-static bool find_seeds(search *s, uint32_t count) {
+static bool find_seeds(between_search *s, uint32_t count) {
     uint32_t second = 1, third;
-    while (second < count && same_place(s, s->members, s->members + second)) second++;
+    while (second < count && geom_same_point(s->members->x, s->members[second].x, s->dim)) second++;
     if (second == count) return false;
     s->seeds[0] = s->basis[0] = s->members[0];
     s->seeds[1] = s->basis[1] = s->members[second];
@@ -58,46 +53,17 @@ static bool find_seeds(search *s, uint32_t count) {
     return s->dim == 2;
 }
 
-static void shuffle(geom_member *members, uint32_t count) {
-    for (uint32_t i = count; i > 1; i--) {
-        uint32_t j = base_below(base_mix(i), i);
-        geom_member m = members[j];
-        members[j] = members[i - 1];
-        members[i - 1] = m;
-    }
-}
-
-/* A point that was on the wrong side once is likely to be so again: it is looked at first from now on. */
-static void move_to_front(geom_member *members, uint32_t at) {
-    geom_member m = members[at];
-    memmove(members + 1, members, at * sizeof m);
-    members[0] = m;
-}
-
-/* Takes up the planes through one point more. */
-static void descend_walk(search *s) {
-    uint32_t at = s->levels[s->depth].next;
-    s->basis[s->depth++] = s->members[at];
-    s->levels[s->depth] = (level){.limit = at};
-    any_plane(s);
-}
-
-/* Goes back to the planes through one point less; the plane found is right for the point that was wrong, too. */
-static void ascend(search *s) {
-    bool strict = s->levels[s->depth--].strict;
-    level *l = s->levels + s->depth;
-    l->strict = strict;
-    move_to_front(s->members, l->next++);
-}
-
 /* Looks at the next point. False: no plane is right for it and for those before. */
-static bool step_walk(search *s) {
+static bool step_walk(between_search *s) {
+    const uint32_t at = s->levels[s->depth].next;
+    const geom_member *m = s->members + at;
     level *l = s->levels + s->depth;
-    const geom_member *m = s->members + l->next;
     int side = geom_side_vertex(s->context, &s->plane, m->x) * s->sign * m->set;
-    if (side < 0 && l->strict) {
+    if (side < 0 && l->strict) { /* takes up the planes through one point more */
         if (s->depth == s->dim) return false;
-        descend_walk(s);
+        s->basis[s->depth++] = *m;
+        s->levels[s->depth] = (level){.limit = at};
+        any_plane(s);
         return true;
     }
     if (side < 0) s->sign = -s->sign; /* all before lie in the plane: turned round it is as right for them */
@@ -107,17 +73,29 @@ static bool step_walk(search *s) {
 }
 
 geom_answer geom_between(num_context *context, int dim, geom_member *members, uint32_t count) {
-    search s = {.context = context, .dim = dim, .members = members, .levels = {{.limit = count}}};
-    shuffle(members, count);
+    between_search s = {.context = context, .dim = dim, .members = members, .levels = {{.limit = count}}};
+    for (uint32_t i = count; i > 1; i--) { /* a random order */
+        const uint32_t j = base_below(base_mix(i), i);
+        const geom_member m = members[j];
+        members[j] = members[i - 1];
+        members[i - 1] = m;
+    }
     if (!find_seeds(&s, count)) return GEOM_FLAT;
     any_plane(&s);
     for (;;) {
         bool done = s.levels[s.depth].next == s.levels[s.depth].limit;
         if (done && !s.depth) break;
-        if (done)
-            ascend(&s);
-        else if (!step_walk(&s))
-            return GEOM_NO;
+        if (!done && !step_walk(&s)) return GEOM_NO;
+        if (!done) continue;
+        /* Back to the planes through one point less; the plane found is right for the point that was wrong, too. That is
+         * likely to be wrong again: it is looked at first from now on. */
+        const bool strict = s.levels[s.depth--].strict;
+        level *l = s.levels + s.depth;
+        const uint32_t at = l->next++;
+        const geom_member wrong = members[at];
+        l->strict = strict;
+        memmove(members + 1, members, at * sizeof wrong);
+        members[0] = wrong;
     }
     if (!s.levels[0].strict) return GEOM_FLAT;
     memcpy(members, s.basis, (size_t)dim * sizeof *members);

@@ -39,6 +39,13 @@ static inline geom_body geom_body_at(int dim, const double *x) {
     return (geom_body){.form = FROE_POINT, .dim = dim, .count = 1, .coords = x};
 }
 
+/** Are two points equal? */
+static inline bool geom_same_point(const double *p, const double *q, int dim) {
+    for (int k = 0; k < dim; k++)
+        if (p[k] != q[k]) return false;
+    return true;
+}
+
 /** The dimension of the body itself, 0 .. dim: exact. Any dimension for points, boxes, balls. */
 int geom_body_rank(num_context *context, const geom_body *b);
 #endif

@@ -65,13 +65,6 @@ double geom_image_crossing(const double *u, const double *v, const geom_plane *a
     return geom_is_sheared(a) ? worst + NUM_BALL_TINY : worst; /* never exact: the true point is infinitely near */
 }
 
-/* -s(z) ab[k] - a(z) bs[k] - b(z) sa[k] */
-static num_ball corner_offset(const num_ball at[3], const filter_vector across[3], int k) {
-    num_ball sum = {0, 0};
-    for (int i = 0; i < 3; i++) sum = filter_sub(sum, filter_mul(at[i], (num_ball){across[i].x[k], across[i].e}));
-    return sum;
-}
-
 double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_plane *b, double *out) {
     const geom_plane *planes[3] = {s, a, b};
     filter_vector n[3], across[3];
@@ -83,7 +76,10 @@ double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_pl
     for (int i = 0; i < 3; i++) across[i] = filter_cross(&n[(i + 1) % 3], &n[(i + 2) % 3]);
     num_ball divisor = filter_dot(&n[0], &across[0]);
     for (int k = 0; k < 3; k++) {
-        num_ball x = filter_add(num_ball_from(z[k]), filter_div(corner_offset(at, across, k), divisor));
+        num_ball offset = {0, 0}; /* -s(z) ab[k] - a(z) bs[k] - b(z) sa[k] */
+        for (int i = 0; i < 3; i++)
+            offset = filter_sub(offset, filter_mul(at[i], (num_ball){across[i].x[k], across[i].e}));
+        const num_ball x = filter_add(num_ball_from(z[k]), filter_div(offset, divisor));
         out[k] = x.x;
         if (!(x.e <= 0x1p1000)) return INFINITY; /* NaN too */
         worst = filter_greater(worst, x.e);

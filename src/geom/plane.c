@@ -9,10 +9,6 @@ static geom_plane blank(geom_form form, int dim) {
     return plane;
 }
 
-static bool n_is_small(const num_ball *n) {
-    return fabs(n[0].x) < FILTER_SMALL && fabs(n[1].x) < FILTER_SMALL && fabs(n[2].x) < FILTER_SMALL;
-}
-
 /* The same plane with all coordinates multiplied by a power of two, so that its points are about 1 apart where their
  * differences are tiny. False: not needed, or it would overflow. */
 static bool lifted(const geom_plane *plane, geom_plane *out) {
@@ -39,7 +35,8 @@ static void image_normal(geom_plane *plane) {
     geom_plane multiple;
     plane->n_err = INFINITY; /* n not known yet */
     plane_normal_ball(NULL, plane, n);
-    if (n_is_small(n) && lifted(plane, &multiple)) plane_normal_ball(NULL, &multiple, n);
+    const double largest = filter_greater(filter_greater(fabs(n[0].x), fabs(n[1].x)), fabs(n[2].x));
+    if (largest < FILTER_SMALL && lifted(plane, &multiple)) plane_normal_ball(NULL, &multiple, n);
     double most = 0, error = 0;
     bool certain = num_rounding_trusted();
     for (int k = 0; k < 3; k++) {

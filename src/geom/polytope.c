@@ -40,22 +40,22 @@ static int turn_of_planes(num_context *context, const geom_plane *a, const geom_
 
 /* The line where planes a and b meet, and the planes that end what is left of it: after[1] in the direction
  * n_a x n_b, after[0] against it. */
-typedef struct line {
+typedef struct polytope_line {
     num_context *context;
     const geom_polytope *polytope;
     uint32_t a, b, after[2];
     bool put_off; /* was a plane parallel to it while it had no end? */
-} line;
+} polytope_line;
 
 /* Is the point where the line meets plane `at` within halfspace `of`? Outside -1, on its border 0, inside 1. */
-static int is_within_line(const line *l, uint32_t of, uint32_t at) {
+static int is_within_line(const polytope_line *l, uint32_t of, uint32_t at) {
     const geom_plane *planes = l->polytope->planes.data;
     int side = geom_side_corner(l->context, planes + of, planes + l->a, planes + l->b, planes + at);
     return -side * l->polytope->senses.data[of];
 }
 
 /* Takes from the line what a halfspace does not hold; false: nothing is left. */
-static bool cut_line(line *l, uint32_t plane) {
+static bool cut_line(polytope_line *l, uint32_t plane) {
     const geom_plane *planes = l->polytope->planes.data;
     int way =
         turn_of_planes(l->context, planes + plane, planes + l->a, planes + l->b) * l->polytope->senses.data[plane];
@@ -68,7 +68,7 @@ static bool cut_line(line *l, uint32_t plane) {
 }
 
 /* The box ends every line. */
-static bool find_ends(line *l, uint32_t count) {
+static bool find_ends(polytope_line *l, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         if (i != l->a && i != l->b && !cut_line(l, i)) return false;
     for (uint32_t i = 0; i < count && l->put_off; i++) {
@@ -100,7 +100,7 @@ static bool parallel(num_context *context, const geom_plane *a, const geom_plane
 
 static bool add_polytope_line(num_context *context, const froe_allocator *alloc, geom_polytope *p, uint32_t a,
                               uint32_t b, uint32_t count) {
-    line l = {.context = context, .polytope = p, .a = a, .b = b, .after = {FROE_NONE, FROE_NONE}};
+    polytope_line l = {.context = context, .polytope = p, .a = a, .b = b, .after = {FROE_NONE, FROE_NONE}};
     if (parallel(context, p->planes.data + a, p->planes.data + b) || !find_ends(&l, count)) return true;
     return add_polytope_corner(alloc, p, a, b, l.after[0]) && add_polytope_corner(alloc, p, a, b, l.after[1]);
 }
@@ -109,16 +109,6 @@ static bool add_polytope_line(num_context *context, const froe_allocator *alloc,
 
 static int by_planes(const void *a, const void *b) {
     return memcmp(a, b, sizeof(geom_meeting));
-}
-
-/* A corner is found on each of its lines. */
-static void drop_repeated(geom_polytope *p) {
-    size_t kept = 0;
-    base_sort(p->corners.data, p->corners.count, sizeof *p->corners.data, by_planes);
-    for (size_t i = 0; i < p->corners.count; i++)
-        if (!i || by_planes(p->corners.data + i, p->corners.data + kept - 1))
-            p->corners.data[kept++] = p->corners.data[i];
-    p->corners.count = kept;
 }
 
 static bool add_images(const froe_allocator *alloc, int dim, geom_polytope *p) {
@@ -148,7 +138,13 @@ bool geom_polytope_make(num_context *context, const froe_allocator *alloc, int d
         else
             for (uint32_t b = a + 1; b < most && ok; b++) ok = add_polytope_line(context, alloc, out, a, b, most);
     }
-    drop_repeated(out);
+    /* a corner is found on each of its lines */
+    size_t kept = 0;
+    geom_meeting *corners = out->corners.data;
+    base_sort(corners, out->corners.count, sizeof *corners, by_planes);
+    for (size_t i = 0; i < out->corners.count; i++)
+        if (!i || by_planes(corners + i, corners + kept - 1)) corners[kept++] = corners[i];
+    out->corners.count = kept;
     return ok && add_images(alloc, dim, out);
 }
 

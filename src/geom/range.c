@@ -110,12 +110,6 @@ static double furthest(const geom_range *r, const double *lo, const double *hi) 
 
 /* ----------------------------------------------------------------- holding -- */
 
-static bool bounds_hold(const geom_range *r, double margin, const double *lo, const double *hi) {
-    bool held = true;
-    for (int k = 0; k < r->dim; k++) held &= (lo[k] >= r->lo[k] - margin) & (hi[k] <= r->hi[k] + margin);
-    return held;
-}
-
 static bool facets_hold(const geom_range *r, double margin, const double *lo, const double *hi) {
     for (size_t i = 0; i < r->facets.count; i++) {
         const geom_facet *f = r->facets.data + i;
@@ -153,7 +147,10 @@ static bool corners_held(num_context *context, const geom_range *r, double margi
 }
 
 bool geom_range_holds(num_context *context, const geom_range *r, double margin, const double *lo, const double *hi) {
-    if (r->kind != GEOM_RANGE_BALL && !bounds_hold(r, margin, lo, hi)) return false;
+    bool held = true;
+    for (int k = 0; k < r->dim && r->kind != GEOM_RANGE_BALL; k++)
+        held &= (lo[k] >= r->lo[k] - margin) & (hi[k] <= r->hi[k] + margin);
+    if (!held) return false;
     if (r->kind == GEOM_RANGE_BOX && margin == 0) return true;
     if (context->first == NUM_EXACT) return false;
     const double reach = (margin + r->set.radius) * SURE;

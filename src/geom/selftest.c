@@ -59,10 +59,6 @@ static const hard_case cases[] = {
     {RAY, 0, {-7, 10, 11, 7, 0, -7, 3, 11, 1, -6, 8, 10, 3, -1, -2}},
 };
 
-static int dim_of(formula f) {
-    return f == VERTEX_2 || f == CROSSING_2 || f == BALL_2 ? 2 : 3;
-}
-
 static geom_plane plane_of(int dim, const double *p) {
     return geom_plane_points(dim, (const double *const[]){p, p + dim, p + 2 * dim});
 }
@@ -94,11 +90,6 @@ static int edge(num_context *context, const geom_eye *eye, const double *p) {
     return agreed(geom_line_image_side(&image, &ray), geom_line_side_point(context, eye, &line, p + 6));
 }
 
-static int edge_near(num_context *context, const double *p) {
-    const geom_eye eye = geom_eye_make(false, p, NULL);
-    return edge(context, &eye, p + 3);
-}
-
 static int cut(num_context *context, const double *p) {
     const geom_eye eye = geom_eye_make(false, p, NULL);
     const geom_plane s = plane_of(3, p + 3), a = plane_of(3, p + 12);
@@ -122,7 +113,7 @@ static int meets(num_context *context, const double *p) {
 }
 
 static int answer_case(num_context *context, formula f, const double *p) {
-    const int dim = dim_of(f);
+    const int dim = f == VERTEX_2 || f == CROSSING_2 || f == BALL_2 ? 2 : 3;
     geom_plane h = f <= EYE_AFAR ? plane_of(dim, p) : (geom_plane){.dim = 3};
     geom_eye eye;
     switch (f) {
@@ -143,7 +134,8 @@ static int answer_case(num_context *context, formula f, const double *p) {
         eye = geom_eye_make(true, p + 9, NULL);
         return agreed(geom_side_of_eye_filter(p, p + 3, p + 6, &eye), geom_side_of_eye(context, &h, &eye));
     case EDGE_POINT:
-        return edge_near(context, p);
+        eye = geom_eye_make(false, p, NULL);
+        return edge(context, &eye, p + 3);
     case EDGE_AFAR:
         eye = geom_eye_make(true, p, p + 12);
         return edge(context, &eye, p + 3);
@@ -159,15 +151,11 @@ static int answer_case(num_context *context, formula f, const double *p) {
     return NUM_UNSURE;
 }
 
-static int ask_case(num_context *context, const hard_case *c) {
-    double points[3 * HARD_POINTS];
-    for (int i = 0; i < 3 * HARD_POINTS; i++) points[i] = c->tenths[i] * 0.1;
-    return answer_case(context, c->formula, points);
-}
-
 const char *geom_formula_at_fault(num_context *context) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const int found = ask_case(context, cases + i);
+        double points[3 * HARD_POINTS];
+        for (int k = 0; k < 3 * HARD_POINTS; k++) points[k] = cases[i].tenths[k] * 0.1;
+        const int found = answer_case(context, cases[i].formula, points);
         if (found != NUM_UNSURE && found != cases[i].right) return names[cases[i].formula];
     }
     return NULL;

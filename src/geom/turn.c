@@ -24,21 +24,14 @@ int geom_projected_turn(num_context *context, int axis, const double *a, const d
     return geom_turn(context, (const double[]){a[u], a[v]}, (const double[]){b[u], b[v]}, (const double[]){c[u], c[v]});
 }
 
-/** The axis along which a triangle looks largest: where to ask first. */
-static int guess_axis(const double *a, const double *b, const double *c) {
-    int best = 0;
+int geom_projection_axis(num_context *context, const double *a, const double *b, const double *c) {
+    int first = 0; /* along which the triangle looks largest */
     double most = -1;
     for (int k = 0; k < 3; k++) {
         int u = (k + 1) % 3, v = (k + 2) % 3;
-        double area = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
-        if (area < 0) area = -area;
-        if (area > most) most = area, best = k;
+        double area = fabs((b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]));
+        if (area > most) most = area, first = k;
     }
-    return best;
-}
-
-int geom_projection_axis(num_context *context, const double *a, const double *b, const double *c) {
-    int first = guess_axis(a, b, c);
     for (int i = 0; i < 3; i++) {
         int axis = (first + i) % 3;
         if (geom_projected_turn(context, axis, a, b, c) != 0) return axis;

@@ -14,10 +14,10 @@
 enum { SUPPORT = 4, ROUNDS = 1000 };
 #define SLACK (1 + 0x1p-40)
 
-typedef struct support {
+typedef struct support_points {
     const double *point[SUPPORT + 1];
     int count;
-} support;
+} support_points;
 
 double measure_scale(const froe_scene *scene, uint32_t object) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], most = 0;
@@ -62,7 +62,7 @@ static bool solve(int m, double a[3][4]) {
 
 /* The ball with all these points on its surface and its centre among them: centre = p0 + sum t_i v_i, v_i = p_i - p0,
  * where 2 v_j . sum t_i v_i = |v_j|^2. */
-static bool circumscribe(int dim, const support *s, double scale, measure_ball *out) {
+static bool circumscribe(int dim, const support_points *s, double scale, measure_ball *out) {
     double v[3][3] = {{0}}, a[3][4] = {{0}};
     int m = s->count - 1;
     for (int i = 0; i < m; i++)
@@ -82,12 +82,12 @@ static bool circumscribe(int dim, const support *s, double scale, measure_ball *
 }
 
 /* Of the balls held by the last point and some of the others, the smallest that holds all. */
-static bool exchange(int dim, support *s, double scale, measure_ball *ball) {
-    support best = {.count = 0};
+static bool exchange(int dim, support_points *s, double scale, measure_ball *ball) {
+    support_points best = {.count = 0};
     measure_ball least = {.radius = INFINITY};
     int others = s->count - 1;
     for (unsigned set = 0; set < 1u << others; set++) {
-        support some = {{s->point[others]}, 1};
+        support_points some = {{s->point[others]}, 1};
         for (int i = 0; i < others; i++)
             if (set >> i & 1) some.point[some.count++] = s->point[i];
         measure_ball b;
@@ -105,7 +105,7 @@ static bool exchange(int dim, support *s, double scale, measure_ball *ball) {
 
 /* The radius times scale. */
 static measure_ball enclose_corners(const froe_scene *scene, uint32_t object, double scale) {
-    support s = {{scene_point(scene, object, 0)}, 1};
+    support_points s = {{scene_point(scene, object, 0)}, 1};
     measure_ball ball = {.radius = 0};
     memcpy(ball.centre, s.point[0], (size_t)scene->dim * sizeof(double));
     for (int round = 0; round < ROUNDS; round++) {

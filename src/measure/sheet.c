@@ -16,27 +16,27 @@ typedef struct sheet_edge {
 } sheet_edge;
 
 /* The edge of an object: vertices p and q, and what lies on one side, or on both. */
-typedef struct side {
+typedef struct sheet_side {
     uint32_t p, q, object;
     bool below, above;
-} side;
+} sheet_side;
 
-typedef struct sweep {
+typedef struct sheet_sweep {
     num_context *context;
     const froe_allocator *alloc;
     const froe_scene *scene;
     int axis;
     measure_sheet *sheet;
-    ARRAY(side) sides;
+    ARRAY(sheet_side) sides;
     ARRAY(sheet_edge) edges;
     base_pair *events; /* where edges begin and end, in order: an edge, its lowest bit is the end */
     size_t event_room, event_count;
     uint32_t root;
-} sweep;
+} sheet_sweep;
 
 /* ------------------------------------------------------------------- places -- */
 
-static void shadow(const sweep *s, uint32_t vertex, double *out) {
+static void shadow(const sheet_sweep *s, uint32_t vertex, double *out) {
     const double *x = scene_vertex(s->scene, vertex);
     out[0] = s->axis < 0 ? x[0] : x[(s->axis + 1) % 3];
     out[1] = s->axis < 0 ? x[1] : x[(s->axis + 2) % 3];
@@ -52,7 +52,7 @@ static bool same_sheet_place(const double *p, const double *q) {
 
 /* Where is f, of e? 1 above, -1 below, 0: on one line. Both meet the line of the sweep, and do not cross before it. f
  * may be a point. */
-static int place_on_sheet(const sweep *s, const sheet_edge *e, const sheet_edge *f) {
+static int place_on_sheet(const sheet_sweep *s, const sheet_edge *e, const sheet_edge *f) {
     if (e == f) return 0;
     bool later = before(f->p, e->p);
     const sheet_edge *first = later ? f : e, *second = later ? e : f;
@@ -63,16 +63,16 @@ static int place_on_sheet(const sweep *s, const sheet_edge *e, const sheet_edge 
 
 /* --------------------------------------------------------------------- edges -- */
 
-static void condemn(sweep *s, uint32_t object) {
+static void condemn(sheet_sweep *s, uint32_t object) {
     if (object != FROE_NONE) s->sheet->crooked[object] = true;
 }
 
-static void condemn_edge(sweep *s, const sheet_edge *e) {
+static void condemn_edge(sheet_sweep *s, const sheet_edge *e) {
     condemn(s, e->beside[0]);
     condemn(s, e->beside[1]);
 }
 
-static froe_status add_object(sweep *s, uint32_t number, uint32_t object) {
+static froe_status add_object(sheet_sweep *s, uint32_t number, uint32_t object) {
     const froe_scene *scene = s->scene;
     uint32_t corners = scene_corners(scene, object), edges = s->axis < 0 ? 1 : corners;
     int way = s->axis < 0 ? 1
@@ -86,14 +86,14 @@ static froe_status add_object(sweep *s, uint32_t number, uint32_t object) {
         shadow(s, from, p);
         shadow(s, to, q);
         const bool ascends = before(p, q), both = s->axis < 0;
-        const side new = {ascends ? from : to, ascends ? to : from, number, both || ascends != (way > 0),
-                          both || ascends == (way > 0)};
+        const sheet_side new = {ascends ? from : to, ascends ? to : from, number, both || ascends != (way > 0),
+                                both || ascends == (way > 0)};
         if (!array_push(s->alloc, &s->sides, new)) return FROE_E_MEMORY;
     }
     return FROE_OK;
 }
 
-static void claim(sweep *s, sheet_edge *e, int which, uint32_t object) {
+static void claim(sheet_sweep *s, sheet_edge *e, int which, uint32_t object) {
     if (e->beside[which] == FROE_NONE) {
         e->beside[which] = object;
     } else {
@@ -103,7 +103,7 @@ static void claim(sweep *s, sheet_edge *e, int which, uint32_t object) {
 }
 
 /* One edge for all sides between the same vertices. */
-static froe_status join_sides(sweep *s) {
+static froe_status join_sides(sheet_sweep *s) {
     size_t count = s->sides.count;
     base_pair *pairs = support_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
     bool room = pairs && array_reserve(s->alloc, &s->edges, count + 1);
@@ -112,7 +112,7 @@ static froe_status join_sides(sweep *s) {
         pairs[i] = (base_pair){(uint64_t)s->sides.data[i].p << 32 | s->sides.data[i].q, (uint32_t)i};
     if (room) base_radix_sort(pairs, pairs + count, count);
     for (size_t i = 0; room && i < count; i++) {
-        const side *from = s->sides.data + pairs[i].value;
+        const sheet_side *from = s->sides.data + pairs[i].value;
         if (!i || pairs[i].key != pairs[i - 1].key) {
             sheet_edge *new = s->edges.data + s->edges.count++;
             *new = (sheet_edge){.beside = {FROE_NONE, FROE_NONE}};
@@ -127,12 +127,12 @@ static froe_status join_sides(sweep *s) {
     return room ? FROE_OK : FROE_E_MEMORY;
 }
 
-static const double *event_place(const sweep *s, const base_pair *event) {
+static const double *event_place(const sheet_sweep *s, const base_pair *event) {
     const sheet_edge *e = s->edges.data + event->value / 2;
     return event->value % 2 ? e->p : e->q;
 }
 
-static froe_status sort_events(sweep *s) {
+static froe_status sort_events(sheet_sweep *s) {
     s->event_count = 2 * (s->edges.count - 1);
     s->event_room = 2 * s->event_count + 1;
     s->events = support_calloc(s->alloc, s->event_room, sizeof *s->events);
@@ -149,7 +149,7 @@ static froe_status sort_events(sweep *s) {
 /* ---------------------------------------------------------------------- tree -- */
 
 /* Brings an edge beside `key` to the top, top down. */
-static uint32_t splay(const sweep *s, uint32_t top, const sheet_edge *key) {
+static uint32_t splay(const sheet_sweep *s, uint32_t top, const sheet_edge *key) {
     sheet_edge *e = s->edges.data;
     uint32_t parts[2] = {0, 0}, *tails[2] = {parts, parts + 1}; /* what lies below and above of all that was passed */
     for (int sign; (sign = place_on_sheet(s, e + top, key)) != 0;) {
@@ -173,13 +173,13 @@ static uint32_t splay(const sweep *s, uint32_t top, const sheet_edge *key) {
     return top;
 }
 
-static void link_neighbours(sweep *s, uint32_t low, uint32_t high) {
+static void link_neighbours(sheet_sweep *s, uint32_t low, uint32_t high) {
     s->edges.data[low].neighbour[1] = high;
     s->edges.data[high].neighbour[0] = low;
 }
 
 /* An edge that runs along another one from its start on is not inserted. */
-static void insert(sweep *s, uint32_t number) {
+static void insert(sheet_sweep *s, uint32_t number) {
     sheet_edge *e = s->edges.data, *new = e + number;
     new->child[0] = new->child[1] = 0;
     if (s->root) {
@@ -203,7 +203,7 @@ static void insert(sweep *s, uint32_t number) {
     s->root = number;
 }
 
-static void take_out(sweep *s, uint32_t number) {
+static void take_out(sheet_sweep *s, uint32_t number) {
     sheet_edge *e = s->edges.data, *old = e + number;
     splay(s, s->root, old);
     s->root = old->child[1];
@@ -218,21 +218,21 @@ static void take_out(sweep *s, uint32_t number) {
 /* --------------------------------------------------------------------- sweep -- */
 
 /* Do neighbours cross further on? The one that ends first does so on the wrong side of the other. */
-static bool cross(const sweep *s, uint32_t low, uint32_t high) {
+static bool cross(const sheet_sweep *s, uint32_t low, uint32_t high) {
     const sheet_edge *a = s->edges.data + low, *b = s->edges.data + high;
     if (!low || !high) return false;
     return before(a->q, b->q) ? geom_turn(s->context, b->p, b->q, a->q) > 0
                               : geom_turn(s->context, a->p, a->q, b->q) < 0;
 }
 
-static bool condemned(const sweep *s, const sheet_edge *e) {
+static bool condemned(const sheet_sweep *s, const sheet_edge *e) {
     for (int k = 0; k < 2; k++)
         if (e->beside[k] != FROE_NONE && !s->sheet->crooked[e->beside[k]]) return false;
     return true;
 }
 
 /* Tests all that are neighbours at a point now, before edges that begin there are in, or for good. */
-static void settle(sweep *s, const sheet_edge *point, bool for_good) {
+static void settle(sheet_sweep *s, const sheet_edge *point, bool for_good) {
     sheet_edge *e = s->edges.data;
     uint32_t low = s->root ? s->root = splay(s, s->root, point) : 0;
     while (low && place_on_sheet(s, e + low, point) <= 0) low = e[low].neighbour[0];
@@ -258,7 +258,7 @@ static void settle(sweep *s, const sheet_edge *point, bool for_good) {
 }
 
 /* Notes that objects with a corner at events first .. end touch the objects beside an edge there. */
-static froe_status touch(sweep *s, const sheet_edge *on, size_t first, size_t end) {
+static froe_status touch(sheet_sweep *s, const sheet_edge *on, size_t first, size_t end) {
     for (size_t i = first; i < end; i++) {
         const sheet_edge *e = s->edges.data + s->events[i].value / 2;
         for (int k = 0; k < 4; k++) {
@@ -273,7 +273,7 @@ static froe_status touch(sweep *s, const sheet_edge *on, size_t first, size_t en
 
 /* Handles all edges that end or begin at one point. Of edges that only pass, at most one is left before others begin,
  * since two would cross there. */
-static froe_status pass(sweep *s, size_t first, size_t end) {
+static froe_status pass(sheet_sweep *s, size_t first, size_t end) {
     sheet_edge *e = s->edges.data, point = {.on = true};
     for (int k = 0; k < 2; k++) point.p[k] = point.q[k] = event_place(s, s->events + first)[k];
     for (size_t i = first; i < end; i++) {
@@ -294,7 +294,7 @@ static froe_status pass(sweep *s, size_t first, size_t end) {
 
 froe_status measure_sheet_sweep(num_context *context, base_task *task, const froe_scene *scene, int axis,
                                 const uint32_t *objects, uint32_t count, measure_sheet *sheet) {
-    sweep s = {.context = context, .alloc = &scene->alloc, .scene = scene, .axis = axis, .sheet = sheet};
+    sheet_sweep s = {.context = context, .alloc = &scene->alloc, .scene = scene, .axis = axis, .sheet = sheet};
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < count && !status; i++) status = add_object(&s, i, objects[i]);
     if (!status) status = join_sides(&s);

@@ -92,28 +92,24 @@ static geom_contact meet_ball(num_context *context, const geom_body *ball, const
 /* --------------------------------------------------------------- polytopes -- */
 
 /* Two polytopes, and a subspace L of the directions around 0 in C. */
-typedef struct pair {
+typedef struct contact_pair {
     num_context *context;
     const geom_body *a, *b;
     uint32_t i, j; /* corners whose difference is in L */
     int rank;      /* of L */
     double span[2][2][3];
-} pair;
+} contact_pair;
 
-static void add_direction(pair *p, uint32_t i, uint32_t j) {
-    if (p->rank < 2) {
-        geom_body_corner(p->a, i, p->span[p->rank][0]);
-        geom_body_corner(p->b, j, p->span[p->rank][1]);
+static void add_directions(contact_pair *p, const geom_gap *gap) {
+    for (int n = 0; n + 1 < gap->count; n++, p->rank++) {
+        if (p->rank >= 2) continue;
+        geom_body_corner(p->a, gap->a[n], p->span[p->rank][0]);
+        geom_body_corner(p->b, gap->b[n], p->span[p->rank][1]);
     }
-    p->rank++;
-}
-
-static void add_directions(pair *p, const geom_gap *gap) {
-    for (int n = 0; n + 1 < gap->count; n++) add_direction(p, gap->a[n], gap->b[n]);
 }
 
 /* Bit 0: a corner lies behind the hyperplane L through corner `from`, bit 1: before it. */
-static unsigned sides_reached(pair *p, const geom_body *body, uint32_t from) {
+static unsigned sides_reached(contact_pair *p, const geom_body *body, uint32_t from) {
     static const double zero[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     double o[3], x[3];
     const geom_vector d = {p->span[0][0], p->span[0][1]}, v = {o, x};
@@ -128,16 +124,8 @@ static unsigned sides_reached(pair *p, const geom_body *body, uint32_t from) {
     return reached;
 }
 
-/* L is a hyperplane: is C on both sides, or on none? */
-static bool inside_by_sides(pair *p) {
-    unsigned a = sides_reached(p, p->a, p->i), b = sides_reached(p, p->b, p->j);
-    bool before = (a & 2) || (b & 1), behind = (a & 1) || (b & 2);
-    p->rank += before || behind;
-    return before == behind;
-}
-
 /* Is 0 in the relative interior of C? Then the rank of L is that of C. */
-static bool inside(pair *p) {
+static bool inside(contact_pair *p) {
     int dim = p->a->dim;
     while (p->rank < dim - 1) {
         geom_differences rest = {.a = p->a, .b = p->b, .along = p->rank == 1, .nonzero = true};
@@ -150,7 +138,12 @@ static bool inside(pair *p) {
         if (!gap.zero) return false;
         add_directions(p, &gap);
     }
-    return p->rank >= dim || inside_by_sides(p);
+    if (p->rank >= dim) return true;
+    /* L is a hyperplane: is C on both sides, or on none? */
+    unsigned a = sides_reached(p, p->a, p->i), b = sides_reached(p, p->b, p->j);
+    bool before = (a & 2) || (b & 1), behind = (a & 1) || (b & 2);
+    p->rank += before || behind;
+    return before == behind;
 }
 
 /* The first corner of both. */
@@ -167,20 +160,16 @@ static bool common_corner(const geom_body *a, const geom_body *b, uint32_t *i, u
     return false;
 }
 
-/* Do they have more in common than this corner? */
-static bool meet_elsewhere(num_context *context, const geom_body *a, const geom_body *b, uint32_t i, uint32_t j) {
-    geom_differences cone = {.a = a, .b = b, .star = true, .star_a = i, .star_b = j, .nonzero = true};
-    geom_gap gap;
-    return !geom_gap_among(context, &cone, &gap) || gap.zero;
-}
-
 static geom_contact meet_polytopes(num_context *context, const geom_body *a, const geom_body *b) {
-    uint32_t i, j;
-    if (common_corner(a, b, &i, &j) && !meet_elsewhere(context, a, b, i, j))
-        return contact_by_touch(GEOM_TOUCH_AT_CORNER);
-    geom_gap gap = geom_gap_between(context, a, b);
+    geom_differences cone = {.a = a, .b = b, .star = true, .nonzero = true};
+    geom_gap gap;
+    if (common_corner(a, b, &cone.star_a, &cone.star_b)) { /* do they have more in common than this corner? */
+        const bool elsewhere = !geom_gap_among(context, &cone, &gap) || gap.zero;
+        if (!elsewhere) return contact_by_touch(GEOM_TOUCH_AT_CORNER);
+    }
+    gap = geom_gap_between(context, a, b);
     if (!gap.zero) return apart;
-    pair p = {.context = context, .a = a, .b = b, .i = gap.a[0], .j = gap.b[0]};
+    contact_pair p = {.context = context, .a = a, .b = b, .i = gap.a[0], .j = gap.b[0]};
     add_directions(&p, &gap);
     if (!inside(&p)) return contact_by_touch(GEOM_TOUCH_SOMEHOW);
     int rank_a = geom_body_rank(context, a), rank_b = geom_body_rank(context, b);

@@ -31,11 +31,4 @@ geom_contact geom_contact_of(num_context *context, const geom_body *a, const geo
 /** The same for two segments in the plane, for two polygons in space. */
 geom_contact geom_contact_segments(num_context *context, const geom_body *a, const geom_body *b);
 geom_contact geom_contact_polygons(num_context *context, const geom_body *a, const geom_body *b, signed char *sides);
-
-/** Are two points equal? */
-static inline bool geom_same_point(const double *p, const double *q, int dim) {
-    for (int k = 0; k < dim; k++)
-        if (p[k] != q[k]) return false;
-    return true;
-}
 #endif

@@ -69,11 +69,6 @@ static int order(const polygon *p, bool p_up, const polygon *q, bool q_up) {
     return geom_side_vertex(p->context, &plane, w[1]);
 }
 
-/* Both straddle the other's plane: do their open intervals on the line meet? */
-static bool pierce(const polygon *p, const polygon *q) {
-    return order(p, true, q, true) > 0 && order(p, false, q, false) < 0;
-}
-
 /* A projection that keeps the polygon's area, and which way it turns there. */
 static int projection(const polygon *p, int *axis) {
     *axis = geom_projection_axis(p->context, polygon_corner(p, 0), polygon_corner(p, 1), polygon_corner(p, 2));
@@ -153,7 +148,9 @@ geom_contact geom_contact_polygons(num_context *context, const geom_body *a, con
     if (!find_sides(&q, &p) || !find_sides(&p, &q)) return m;
     bool coplanar = !q.front && !q.behind;
     if (coplanar && !separates(&p, &q) && !separates(&q, &p)) return (geom_contact){GEOM_OVERLAP, m.touch};
-    if (p.front && p.behind && q.front && q.behind && pierce(&p, &q)) return (geom_contact){GEOM_CROSS, m.touch};
+    const bool straddle = p.front && p.behind && q.front && q.behind; /* do their open intervals on the line meet? */
+    if (straddle && order(&p, true, &q, true) > 0 && order(&p, false, &q, false) < 0)
+        return (geom_contact){GEOM_CROSS, m.touch};
     m.kind = GEOM_TOUCH;
     if (holds_corner(&p, &q) || holds_corner(&q, &p))
         m.touch = GEOM_TOUCH_JUNCTION;

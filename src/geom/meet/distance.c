@@ -35,13 +35,6 @@ static bool find_feature(num_context *context, const double *point, const geom_b
     return true;
 }
 
-static void find_simplex(num_context *context, const double *point, const geom_body *body, geom_distance *d) {
-    geom_body at = geom_body_at(body->dim, point);
-    geom_gap gap = geom_gap_between(context, body, &at);
-    d->count = gap.zero ? 0 : gap.count;
-    for (int i = 0; i < d->count; i++) d->corner[i] = geom_body_point(body, gap.a[i]);
-}
-
 geom_distance geom_distance_from(num_context *context, const double *point, const geom_body *body) {
     geom_distance d = {.dim = body->dim, .radius = body->form == FROE_BALL ? body->radius : 0};
     if (body->form == FROE_POINT || body->form == FROE_BOX || body->form == FROE_BALL) {
@@ -50,7 +43,10 @@ geom_distance geom_distance_from(num_context *context, const double *point, cons
     } else if (find_feature(context, point, body, &d)) {
         return d;
     } else {
-        find_simplex(context, point, body, &d);
+        const geom_body at = geom_body_at(body->dim, point);
+        const geom_gap gap = geom_gap_between(context, body, &at);
+        d.count = gap.zero ? 0 : gap.count;
+        for (int i = 0; i < d.count; i++) d.corner[i] = geom_body_point(body, gap.a[i]);
     }
     num_ball bottom, top = distance_square_ball(NULL, &d, point, &bottom);
     d.square = bottom.x == 1 && bottom.e == 0 ? top : filter_div(top, bottom);
@@ -196,17 +192,13 @@ static bool round_simplex(const double *point, const geom_distance *a, double *o
     return round_root(s, error, out);
 }
 
-/* Where pairs do not tell, exact numbers do. */
-static bool round_by_pairs(const num_context *context, const double *point, const geom_distance *a, double *out) {
-    if (context->first == NUM_EXACT || a->radius > 0) return false;
-    if (a->lo) return round_box(point, a, out);
-    return a->count && a->dim <= 3 && round_simplex(point, a, out);
-}
-
 double geom_distance_round(num_context *context, const double *point, const geom_distance *a) {
     num_arena *arena = num_fresh(context);
     double rounded;
-    if (round_by_pairs(context, point, a, &rounded)) return rounded;
+    bool done = false; /* where pairs do not tell, exact numbers do */
+    if (context->first != NUM_EXACT && !(a->radius > 0))
+        done = a->lo ? round_box(point, a, &rounded) : a->count && a->dim <= 3 && round_simplex(point, a, &rounded);
+    if (done) return rounded;
     rounding r = {exact_square(arena, point, a), a->radius};
     if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;
     return num_nearest(arena, against, &r, geom_distance_image(a).x);

@@ -23,17 +23,13 @@ static num_ratio exact_quotient(num_arena *arena, const geom_ray *ray, const geo
     return t;
 }
 
-static num_ball sphere_image(const geom_ray *ray, const geom_hit *h) {
-    num_ball a, b, c, root = num_ball_sqrt(ray_sphere_ball(NULL, ray, h->p, h->c, &a, &b, &c));
-    return filter_div(c, filter_sub(root, b)); /* c / (-b + root): nothing cancels, b < 0 */
-}
-
 void geom_hit_image(num_context *context, const geom_ray *ray, geom_hit *hit) {
     num_ball bottom, top;
     hit->t = (num_ball){0, hit->source == GEOM_START ? 0 : (double)INFINITY};
     if (hit->source == GEOM_START || context->first == NUM_EXACT) return;
     if (hit->source == GEOM_SPHERE) {
-        hit->t = sphere_image(ray, hit);
+        num_ball a, b, c, root = num_ball_sqrt(ray_sphere_ball(NULL, ray, hit->p, hit->c, &a, &b, &c));
+        hit->t = filter_div(c, filter_sub(root, b)); /* c / (-b + root): nothing cancels, b < 0 */
         return;
     }
     top = ray_quotient_ball(NULL, ray, hit, &bottom);
@@ -243,11 +239,6 @@ static bool meets_segment_2d(num_context *context, const geom_ray *ray, const do
     return true;
 }
 
-static bool meets_segment_3d(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
-    if (passes(context, ray, geom_body_point(body, 0), geom_body_point(body, 1))) return false;
-    return geom_ray_meets_hull(context, ray, body, first);
-}
-
 /* All edges must be passed the same way; touching them will do. If the ray lies in the plane, it passes none. */
 static bool meets_polygon(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
     int way = 0;
@@ -304,7 +295,8 @@ bool geom_ray_meets(num_context *context, const geom_ray *ray, const geom_body *
     case FROE_BALL:
         return meets_ball(context, ray, body, first);
     case FROE_SEGMENT:
-        if (ray->dim == 3) return meets_segment_3d(context, ray, body, first);
+        if (ray->dim == 3)
+            return !passes(context, ray, p, geom_body_point(body, 1)) && geom_ray_meets_hull(context, ray, body, first);
         return meets_segment_2d(context, ray, p, geom_body_point(body, 1), first);
     case FROE_POLYGON:
         return meets_polygon(context, ray, body, first);

@@ -31,18 +31,6 @@ typedef struct program {
 
 #include "geom/ray/ray_hull_body.inc"
 
-/* Some corners whose shadows hold the line; false: it misses the hull. */
-static bool begin_program(num_context *context, program *lp) {
-    geom_body origin = geom_body_at(lp->ray->dim, lp->ray->o);
-    geom_differences shadows = {.a = lp->body, .b = &origin, .along = true};
-    geom_gap gap;
-    memcpy(shadows.from, lp->ray->d, sizeof shadows.from);
-    geom_gap_among(context, &shadows, &gap);
-    lp->count = gap.count;
-    memcpy(lp->basis, gap.a, sizeof lp->basis);
-    return gap.zero;
-}
-
 /* 1, or NUM_UNSURE: then *solved may be anything. */
 static int solve_ball(const program *lp, program *solved) {
     *solved = *lp;
@@ -90,17 +78,22 @@ static geom_hit hit_of(num_context *context, const program *lp) {
 }
 
 bool geom_ray_meets_hull(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
-    program first_basis = {.ray = ray, .body = body}, lp;
+    geom_body start = geom_body_at(ray->dim, ray->o);
+    geom_differences shadows = {.a = body, .b = &start, .along = true};
+    geom_gap gap;
     int solved;
-    if (!begin_program(context, &first_basis)) return false;
+    memcpy(shadows.from, ray->d, sizeof shadows.from);
+    geom_gap_among(context, &shadows, &gap);
+    if (!gap.zero) return false;                                              /* the line misses the hull */
+    program first_basis = {.ray = ray, .body = body, .count = gap.count}, lp; /* corners whose shadows hold the line */
+    memcpy(first_basis.basis, gap.a, sizeof first_basis.basis);
     context->stats.calls++;
     (void)NUM_LADDER(context, solved, NUM_UNSURE, NUM_UNSURE, solve_ball(&first_basis, &lp),
                      solve_dyadic(&context->arena, &first_basis, &lp));
     geom_hit hit = hit_of(context, &lp);
     if (geom_hit_sign(context, ray, &hit) < 0) { /* entered before it begins: is the origin inside, or all behind it? */
-        geom_body origin = geom_body_at(ray->dim, ray->o);
         hit = (geom_hit){.source = GEOM_START};
-        if (!geom_gap_between(context, body, &origin).zero) return false;
+        if (!geom_gap_between(context, body, &start).zero) return false;
     }
     *first = hit;
     return true;
