@@ -59,47 +59,14 @@ bool froe_draw_format_of(const char *path, froe_draw_format *format) {
 
 /* --------------------------------------------------------------- checking -- */
 
-typedef struct range {
+typedef struct draw_range {
     const char *name;
     double value, lo, hi;
-} range;
-
-static froe_status check_ranges(const froe_draw_options *o, froe_diagnostic *diag) {
-    const range ranges[] = {{"width", o->width, 16, 32000},
-                            {"height", o->height, o->height == 0 ? 0 : 16, 32000},
-                            {"margin", o->margin, -HUGE_VAL, o->width / 2},
-                            {"scale", o->scale, 0.1, 16},
-                            {"detail", o->detail, -HUGE_VAL, 1e6},
-                            {"axis", o->axis, -1, 2},
-                            {"up", o->up, 0, 2},
-                            {"at", o->at, -1.7976931348623157e308, 1.7976931348623157e308},
-                            {"explode", o->explode, 0, 10},
-                            {"explode_depth", o->explode_depth, 0, 32}};
-    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
-        const range *r = ranges + i;
-        if (r->value >= r->lo && r->value <= r->hi) continue;
-        if (r->lo == -HUGE_VAL)
-            return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be at most %g.",
-                                r->name, r->value, r->hi);
-        return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
-                            r->value, r->lo, r->hi);
-    }
-    return FROE_OK;
-}
+} draw_range;
 
 static bool all_finite(const double *x, int count) {
     for (int k = 0; k < count; k++)
         if (!isfinite(x[k])) return false;
-    return true;
-}
-
-/* Cairo would refuse it too, but only after looking for fonts. */
-static bool is_utf8(const char *text) {
-    while (*text) {
-        const size_t length = support_utf8_length(text);
-        if (!length) return false;
-        text += length;
-    }
     return true;
 }
 
@@ -119,50 +86,57 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
     for (size_t i = 0; i < o->mark_count; i++)
         if (!o->marks || !all_finite(o->marks[i].lo, 3) || !all_finite(o->marks[i].hi, 3))
             return support_fail(diag, FROE_E_OPTIONS, "Mark %zu of a picture is not finite.", i);
-    if (o->title && !is_utf8(o->title))
-        return support_fail(diag, FROE_E_OPTIONS, "The title of a picture is not UTF-8.");
-    return check_ranges(o, diag);
-}
-
-static froe_status check_pixels(const draw_page *page, froe_draw_format format, froe_diagnostic *diag) {
-    double scale = page->options->scale, most = 32000;
-    if (format != FROE_DRAW_PNG || (page->width * scale <= most && page->height * scale <= most)) return FROE_OK;
-    return support_fail(diag, FROE_E_OPTIONS, "A PNG of %.0f x %.0f pixels is too large: at most %.0f either way.",
-                        page->width * scale, page->height * scale, most);
+    /* Cairo would refuse it too, but only after looking for fonts. */
+    size_t length = 1;
+    for (const char *text = o->title; text && *text && length; text += length) length = support_utf8_length(text);
+    if (!length) return support_fail(diag, FROE_E_OPTIONS, "The title of a picture is not UTF-8.");
+    const draw_range ranges[] = {{"width", o->width, 16, 32000},
+                                 {"height", o->height, o->height == 0 ? 0 : 16, 32000},
+                                 {"margin", o->margin, -HUGE_VAL, o->width / 2},
+                                 {"scale", o->scale, 0.1, 16},
+                                 {"detail", o->detail, -HUGE_VAL, 1e6},
+                                 {"axis", o->axis, -1, 2},
+                                 {"up", o->up, 0, 2},
+                                 {"at", o->at, -1.7976931348623157e308, 1.7976931348623157e308},
+                                 {"explode", o->explode, 0, 10},
+                                 {"explode_depth", o->explode_depth, 0, 32}};
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const draw_range *r = ranges + i;
+        if (r->value >= r->lo && r->value <= r->hi) continue;
+        if (r->lo == -HUGE_VAL)
+            return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be at most %g.",
+                                r->name, r->value, r->hi);
+        return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
+                            r->value, r->lo, r->hi);
+    }
+    return FROE_OK;
 }
 
 /* --------------------------------------------------------------- painting -- */
-
-static bool has_window(const froe_draw_options *o, int dim) {
-    for (int k = 0; k < dim; k++)
-        if (!(o->lo[k] < o->hi[k])) return false;
-    return true;
-}
 
 /* Margins around a whole scene, and no window thinner than an eighth. */
 static void frame_scene(draw_picture *picture, const froe_draw_options *o) {
     const froe_scene *scene = froe_tree_scene(picture->page.tree);
     int dim = froe_scene_dim(scene);
     double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
-    bool solid = picture->page.options->style == FROE_DRAW_EXPLODED;
-    picture->whole = solid || !has_window(o, dim);
+    picture->whole = o->style == FROE_DRAW_EXPLODED;
+    for (int k = 0; k < dim; k++)
+        if (!(o->lo[k] < o->hi[k])) picture->whole = true; /* there is no window */
     if (picture->whole) froe_scene_bounds(scene, lo, hi);
     picture->space = draw_space_over(dim, o->up, picture->whole ? lo : o->lo, picture->whole ? hi : o->hi);
     for (int k = 0; k < 3; k++)
         picture->wide[k] = picture->whole ? fmax(picture->space.reach[k] + 0.025, 0.125) : picture->space.reach[k];
 }
 
-static uint32_t standard_layers(froe_draw_style style) {
-    return style == FROE_DRAW_EXPLODED ? FROE_DRAW_CELLS | FROE_DRAW_FRAGMENTS | FROE_DRAW_OBJECTS
-                                       : FROE_DRAW_CELLS | FROE_DRAW_CUTS | FROE_DRAW_FRAGMENTS | FROE_DRAW_OBJECTS;
-}
-
 static froe_status paint_page(draw_picture *picture, froe_draw_format format, draw_output *output,
                               froe_diagnostic *diag) {
     const draw_page *page = &picture->page;
+    const double scale = page->options->scale, most = 32000;
     bool solid = page->options->style == FROE_DRAW_EXPLODED;
     froe_status status = solid ? draw_solid_plan(picture) : draw_plane_plan(picture);
-    if (status == FROE_OK && (status = check_pixels(page, format, diag)) != FROE_OK) return status;
+    if (status == FROE_OK && format == FROE_DRAW_PNG && !(page->width * scale <= most && page->height * scale <= most))
+        return support_fail(diag, FROE_E_OPTIONS, "A PNG of %.0f x %.0f pixels is too large: at most %.0f either way.",
+                            page->width * scale, page->height * scale, most);
     if (status == FROE_OK) {
         status = draw_output_begin(output, &page->alloc, format, page->width, page->height, page->options->scale,
                                    page->options->title, diag);
@@ -172,12 +146,6 @@ static froe_status paint_page(draw_picture *picture, froe_draw_format format, dr
     if (status == FROE_E_MEMORY) support_fail_memory(diag);
     if (status == FROE_E_CANCELLED) support_fail(diag, status, "cancelled");
     return status == FROE_OK ? draw_output_finish(output, diag) : status;
-}
-
-/* Small trees are drawn to the last cell a reader may zoom into; of large ones, what the page shows. */
-static double standard_detail(const froe_report *report, froe_draw_format format, double scale) {
-    if (format == FROE_DRAW_PNG) return 1 / fmax(scale, 1);
-    return report->leaves + report->objects <= 100000 ? 0.125 : 3;
 }
 
 /* The picture's bytes, in `output`, which the caller frees. */
@@ -190,10 +158,16 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     if (status != FROE_OK) return status;
     if (o.style == FROE_DRAW_AUTO) o.style = dim == 2 ? FROE_DRAW_FLAT : FROE_DRAW_SECTIONS;
     froe_report report = froe_tree_report(tree);
-    if (o.detail < 0) o.detail = standard_detail(&report, format, o.scale);
+    /* Small trees are drawn to the last cell a reader may zoom into; of large ones, what the page shows. */
+    if (o.detail < 0)
+        o.detail = format == FROE_DRAW_PNG                    ? 1 / fmax(o.scale, 1)
+                   : report.leaves + report.objects <= 100000 ? 0.125
+                                                              : 3;
+    const uint32_t all = FROE_DRAW_CELLS | FROE_DRAW_CUTS | FROE_DRAW_FRAGMENTS | FROE_DRAW_OBJECTS,
+                   standard = o.style == FROE_DRAW_EXPLODED ? all & ~(uint32_t)FROE_DRAW_CUTS : all;
     draw_task task = {.progress = o.progress, .user = o.user};
     task.total = 3.0 * (double)(report.nodes + report.objects + report.fragments) + 1;
-    draw_picture picture = {.show = o.show ? o.show : standard_layers(o.style)};
+    draw_picture picture = {.show = o.show ? o.show : standard};
     picture.page = (draw_page){.tree = tree, .options = &o, .alloc = output->alloc, .task = &task};
     frame_scene(&picture, &o);
     status = paint_page(&picture, format, output, diag);

@@ -15,7 +15,7 @@ typedef struct stroke {
     bool cut, odd; /* cut: p is an end that a cut made */
 } stroke;
 
-typedef struct painter {
+typedef struct object_painter {
     const draw_page *page;
     cairo_t *cr;
     const draw_view *view;
@@ -26,17 +26,18 @@ typedef struct painter {
     uint8_t *cut; /* by object: WHOLE, or only pieces are shown; NULL: objects are shown whole */
     ARRAY(stroke) ink, parts;
     ARRAY(draw_point) points;
-} painter;
+} object_painter;
 
-/* Width of strokes by their number: a few hundred are bold, a million are fine. Of
- * a scene in space a section meets about the power 2/3. */
-static double weight_for(const draw_page *page, const draw_view *view, size_t count) {
-    double met = view->axis < 0 ? (double)count : cbrt((double)count * (double)count);
-    double each = sqrt(page->inner_width * page->inner_height / (met + 1));
-    return fmin(fmax(0.055 * each, 0.4 * page->unit), 1.5 * page->unit);
+static stroke directed(const draw_shape *shape, uint32_t object) {
+    draw_point p = shape->points[0], q = shape->points[1];
+    bool turn = q.x < p.x || (q.x == p.x && q.y > p.y);
+    return turn ? (stroke){q, p, object, shape->cut[1], false} : (stroke){p, q, object, shape->cut[0], false};
 }
 
-static bool hidden(painter *pen, const draw_shape *shape) {
+/* Areas are washed and outlined at once, under all strokes. Nothing is taken that spans no more than a dot whose place
+ * is taken. */
+static bool take_object(object_painter *pen, const draw_shape *shape, uint32_t object, bool whole) {
+    cairo_t *cr = pen->cr;
     if (shape->sort == DRAW_NOTHING) return true;
     draw_point lo = shape->points[0], hi = lo;
     for (size_t i = 1; i < shape->count; i++) {
@@ -45,12 +46,11 @@ static bool hidden(painter *pen, const draw_shape *shape) {
         hi = (draw_point){fmax(hi.x, p.x), fmax(hi.y, p.y)};
     }
     hi.x += 2 * shape->radius;
-    return draw_dots_taken(&pen->dots, lo, hi);
-}
-
-/* Areas are washed and outlined at once, under all strokes. */
-static void paint_area(painter *pen, const draw_shape *shape) {
-    cairo_t *cr = pen->cr;
+    if (draw_dots_taken(&pen->dots, lo, hi)) return true;
+    if (shape->sort == DRAW_DOT) return array_push(&pen->page->alloc, &pen->points, shape->points[0]);
+    if (shape->sort == DRAW_STROKE)
+        return whole ? array_push(&pen->page->alloc, &pen->ink, directed(shape, object))
+                     : array_push(&pen->page->alloc, &pen->parts, directed(shape, object));
     if (shape->sort == DRAW_DISC)
         draw_circle(cr, shape->points[0], shape->radius);
     else
@@ -62,53 +62,31 @@ static void paint_area(painter *pen, const draw_shape *shape) {
     cairo_set_line_width(cr, 0.8 * pen->weight);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_MITER);
     cairo_stroke(cr);
+    return true;
 }
 
-static stroke directed(const draw_shape *shape, uint32_t object) {
-    draw_point p = shape->points[0], q = shape->points[1];
-    bool turn = q.x < p.x || (q.x == p.x && q.y > p.y);
-    return turn ? (stroke){q, p, object, shape->cut[1], false} : (stroke){p, q, object, shape->cut[0], false};
-}
-
-static bool take_object(painter *pen, const draw_shape *shape, uint32_t object, bool whole) {
-    if (hidden(pen, shape)) return true;
-    if (shape->sort == DRAW_DOT) return array_push(&pen->page->alloc, &pen->points, shape->points[0]);
-    if (shape->sort != DRAW_STROKE) {
-        paint_area(pen, shape);
-        return true;
-    }
-    if (whole) return array_push(&pen->page->alloc, &pen->ink, directed(shape, object));
-    return array_push(&pen->page->alloc, &pen->parts, directed(shape, object));
-}
-
-/* Marks the objects of which only pieces are left. */
-static bool mark_cut(painter *pen) {
-    size_t count = froe_tree_piece_count(pen->shaper.tree);
-    pen->cut = support_calloc(&pen->page->alloc, pen->object_count, sizeof *pen->cut);
-    for (size_t i = 0; pen->cut && i < count; i++) {
-        froe_piece piece = froe_tree_piece(pen->shaper.tree, i);
+/* Whole objects and, if pieces are wanted, those of the objects that were cut. */
+static bool gather_shapes(object_painter *pen, bool pieces) {
+    const draw_page *page = pen->page;
+    const froe_tree *tree = pen->shaper.tree;
+    const size_t count = pieces ? froe_tree_piece_count(tree) : 0;
+    draw_shape shape;
+    if (!draw_dots_new(&page->alloc, 0, 0, page->width, page->height, pen->view->detail, &pen->dots)) return false;
+    if (pieces) pen->cut = support_calloc(&page->alloc, pen->object_count, sizeof *pen->cut);
+    if (pieces && !pen->cut) return false;
+    for (size_t i = 0; i < count; i++) {
+        froe_piece piece = froe_tree_piece(tree, i);
         if (!piece.whole) pen->cut[piece.object] = CUT;
     }
-    return pen->cut;
-}
-
-static bool gather_whole_objects(painter *pen) {
-    draw_shape shape;
-    for (size_t i = 0; i < pen->object_count && draw_tick(pen->page->task); i++) {
+    for (size_t i = 0; i < pen->object_count && draw_tick(page->task); i++) {
         if (!draw_shape_of_object(&pen->shaper, (uint32_t)i, &shape)) return false;
         if (!pen->cut || pen->cut[i] == WHOLE) {
             if (!take_object(pen, &shape, (uint32_t)i, true)) return false;
         } else if (shape.sort == DRAW_NOTHING)
             pen->cut[i] = CUT_UNSEEN; /* so are its pieces, whose corners cost exact arithmetic */
     }
-    return true;
-}
-
-static bool gather_pieces(painter *pen) {
-    size_t count = froe_tree_piece_count(pen->shaper.tree);
-    draw_shape shape;
-    for (size_t i = 0; i < count && draw_tick(pen->page->task); i++) {
-        froe_piece piece = froe_tree_piece(pen->shaper.tree, i);
+    for (size_t i = 0; i < count && draw_tick(page->task); i++) {
+        froe_piece piece = froe_tree_piece(tree, i);
         if (piece.whole || pen->cut[piece.object] == CUT_UNSEEN) continue;
         if (!draw_shape_of_piece(&pen->shaper, i, &shape) || !take_object(pen, &shape, piece.object, false))
             return false;
@@ -125,14 +103,6 @@ static int along_object(const void *a, const void *b) {
     return (s->q.y < t->q.y) - (s->q.y > t->q.y);
 }
 
-/* Along each object, every second part is odd. */
-static void alternate(painter *pen) {
-    stroke *parts = pen->parts.data;
-    if (pen->parts.count) qsort(parts, pen->parts.count, sizeof *parts, along_object);
-    for (size_t i = 1; i < pen->parts.count; i++)
-        parts[i].odd = parts[i].object == parts[i - 1].object && !parts[i - 1].odd;
-}
-
 static void paint_strokes(cairo_t *cr, const stroke *strokes, size_t count, bool odd) {
     size_t held = 0;
     for (size_t i = 0; i < count; i++) {
@@ -144,61 +114,56 @@ static void paint_strokes(cairo_t *cr, const stroke *strokes, size_t count, bool
     cairo_stroke(cr);
 }
 
-static void paint_ticks(painter *pen) {
-    double reach = 2.4 * pen->page->unit;
-    size_t held = 0;
-    for (size_t i = 0; i < pen->parts.count; i++) {
-        const stroke *s = pen->parts.data + i;
-        double dx = s->q.x - s->p.x, dy = s->q.y - s->p.y, length = sqrt(dx * dx + dy * dy);
-        if (!s->cut || length < 2 * reach) continue;
-        dx *= reach / length, dy *= reach / length;
-        cairo_move_to(pen->cr, s->p.x - dy, s->p.y + dx);
-        cairo_line_to(pen->cr, s->p.x + dy, s->p.y - dx);
-        if (++held % PATH == 0) cairo_stroke(pen->cr);
-    }
-    cairo_stroke(pen->cr);
-}
-
-static void paint_points(painter *pen) {
-    for (size_t i = 0; i < pen->points.count; i++) {
-        draw_circle(pen->cr, pen->points.data[i], 1.1 * pen->weight);
-        if ((i + 1) % PATH == 0) cairo_fill(pen->cr);
-    }
-    cairo_fill(pen->cr);
-}
-
-static void paint_object(painter *pen) {
+static void paint_gathered(object_painter *pen) {
     cairo_t *cr = pen->cr;
-    alternate(pen);
+    stroke *parts = pen->parts.data;
+    const double reach = 2.4 * pen->page->unit;
+    size_t held = 0;
+    /* Along each object, every second part is odd. */
+    if (pen->parts.count) qsort(parts, pen->parts.count, sizeof *parts, along_object);
+    for (size_t i = 1; i < pen->parts.count; i++)
+        parts[i].odd = parts[i].object == parts[i - 1].object && !parts[i - 1].odd;
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_width(cr, pen->weight);
     draw_set_color(cr, DRAW_INK, 1);
     paint_strokes(cr, pen->ink.data, pen->ink.count, false);
-    paint_points(pen);
-    paint_strokes(cr, pen->parts.data, pen->parts.count, false);
+    for (size_t i = 0; i < pen->points.count; i++) {
+        draw_circle(cr, pen->points.data[i], 1.1 * pen->weight);
+        if ((i + 1) % PATH == 0) cairo_fill(cr);
+    }
+    cairo_fill(cr);
+    paint_strokes(cr, parts, pen->parts.count, false);
     draw_set_color(cr, DRAW_ACCENT, 1);
-    paint_strokes(cr, pen->parts.data, pen->parts.count, true);
+    paint_strokes(cr, parts, pen->parts.count, true);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_width(cr, fmax(0.6 * pen->weight, 0.5 * pen->page->unit));
     draw_set_color(cr, DRAW_INK, 1);
-    paint_ticks(pen);
-}
-
-static bool gather_shapes(painter *pen, bool pieces) {
-    const draw_page *page = pen->page;
-    return draw_dots_new(&page->alloc, 0, 0, page->width, page->height, pen->view->detail, &pen->dots) &&
-           (!pieces || mark_cut(pen)) && gather_whole_objects(pen) && (!pieces || gather_pieces(pen));
+    /* Ticks, where there is room for one. */
+    for (size_t i = 0; i < pen->parts.count; i++) {
+        const stroke *s = parts + i;
+        double dx = s->q.x - s->p.x, dy = s->q.y - s->p.y, length = sqrt(dx * dx + dy * dy);
+        if (!s->cut || length < 2 * reach) continue;
+        dx *= reach / length, dy *= reach / length;
+        cairo_move_to(cr, s->p.x - dy, s->p.y + dx);
+        cairo_line_to(cr, s->p.x + dy, s->p.y - dx);
+        if (++held % PATH == 0) cairo_stroke(cr);
+    }
+    cairo_stroke(cr);
 }
 
 froe_status draw_paint_objects(const draw_page *page, cairo_t *cr, const draw_view *view, uint32_t show) {
     if (!(show & (FROE_DRAW_OBJECTS | FROE_DRAW_FRAGMENTS))) return FROE_OK;
     const froe_scene *scene = froe_tree_scene(page->tree);
-    painter pen = {.page = page, .cr = cr, .view = view};
+    object_painter pen = {.page = page, .cr = cr, .view = view};
     pen.shaper = (draw_shaper){.alloc = page->alloc, .tree = page->tree, .scene = scene, .view = view};
     pen.object_count = froe_scene_object_count(scene);
-    pen.weight = weight_for(page, view, pen.object_count);
+    /* Width of strokes by their number: a few hundred are bold, a million are fine. Of a scene in space a section meets
+     * about the power 2/3. */
+    const double count = (double)pen.object_count, met = view->axis < 0 ? count : cbrt(count * count);
+    const double each = sqrt(page->inner_width * page->inner_height / (met + 1));
+    pen.weight = fmin(fmax(0.055 * each, 0.4 * page->unit), 1.5 * page->unit);
     bool ok = gather_shapes(&pen, show & FROE_DRAW_FRAGMENTS);
-    if (ok && !page->task->cancelled) paint_object(&pen);
+    if (ok && !page->task->cancelled) paint_gathered(&pen);
     draw_dots_free(&pen.dots);
     support_free(&page->alloc, pen.cut, pen.object_count * sizeof *pen.cut);
     array_free(&page->alloc, &pen.ink);

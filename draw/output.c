@@ -27,21 +27,17 @@ static froe_status failed(const draw_output *output, cairo_status_t status, froe
     return support_fail(diag, FROE_E_UNSUPPORTED, "Cairo cannot make the picture: %s.", cairo_status_to_string(status));
 }
 
-static cairo_surface_t *surface_for(draw_output *output, double width, double height, double scale) {
-    if (output->format == FROE_DRAW_SVG) {
-        cairo_surface_t *svg = cairo_svg_surface_create_for_stream(collect, output, width, height);
-        cairo_svg_surface_set_document_unit(svg, CAIRO_SVG_UNIT_PX);
-        return svg;
-    }
-    if (output->format == FROE_DRAW_PDF) return cairo_pdf_surface_create_for_stream(collect, output, width, height);
-    return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)ceil(width * scale), (int)ceil(height * scale));
-}
-
 froe_status draw_output_begin(draw_output *output, const froe_allocator *alloc, froe_draw_format format, double width,
                               double height, double scale, const char *title, froe_diagnostic *diag) {
     *output = (draw_output){.alloc = *alloc, .format = format};
-    output->surface = surface_for(output, width, height, scale);
-    if (format == FROE_DRAW_PDF) {
+    if (format == FROE_DRAW_SVG) {
+        output->surface = cairo_svg_surface_create_for_stream(collect, output, width, height);
+        cairo_svg_surface_set_document_unit(output->surface, CAIRO_SVG_UNIT_PX);
+    } else if (format == FROE_DRAW_PNG) {
+        output->surface =
+            cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)ceil(width * scale), (int)ceil(height * scale));
+    } else {
+        output->surface = cairo_pdf_surface_create_for_stream(collect, output, width, height);
         cairo_pdf_surface_set_metadata(output->surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
         cairo_pdf_surface_set_metadata(output->surface, CAIRO_PDF_METADATA_CREATOR, "froe");
         if (title && *title) cairo_pdf_surface_set_metadata(output->surface, CAIRO_PDF_METADATA_TITLE, title);

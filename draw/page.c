@@ -81,42 +81,35 @@ void draw_page_open(const draw_page *page, cairo_t *cr) {
     draw_text(cr, page->options->title, page->left, page->margin + 1.25 * page->text, size, 0);
 }
 
-static const char *noun(const froe_scene *scene) {
-    static const char *const nouns[FROE_KIND_COUNT] = {"points", "segments", "polygons", "boxes", "balls", "hulls"};
-    size_t count = froe_scene_object_count(scene);
-    for (int kind = 0; kind < FROE_KIND_COUNT; kind++)
-        if (count && froe_scene_kind_count(scene, (froe_kind)kind) == count) return nouns[kind];
-    return "objects";
-}
-
 static void describe(const draw_page *page, char *out) {
+    static const char *const nouns[FROE_KIND_COUNT] = {"points", "segments", "polygons", "boxes", "balls", "hulls"};
+    const froe_scene *scene = froe_tree_scene(page->tree);
     froe_report report = froe_tree_report(page->tree);
+    const char *noun = "objects";
     char objects[40], pieces[40], cells[40], method[40];
+    for (int kind = FROE_KIND_COUNT; kind-- > 0;)
+        if (report.objects && froe_scene_kind_count(scene, (froe_kind)kind) == froe_scene_object_count(scene))
+            noun = nouns[kind];
     draw_count(objects, report.objects);
     draw_count(pieces, report.fragments);
     draw_count(cells, report.leaves);
     snprintf(method, sizeof method, "%.32s%s", report.method ? report.method : "",
              report.method && *report.method ? " · " : "");
-    snprintf(out, LINE, "%s%s %s in %s pieces · %s cells · height %llu", method, objects,
-             noun(froe_tree_scene(page->tree)), pieces, cells, (unsigned long long)report.height);
-}
-
-/* The largest 1, 2 or 5 times a power of ten that is not above `length`. */
-static double round_length(double length) {
-    char text[40];
-    snprintf(text, sizeof text, "%.0e", length);
-    if (strtod(text, NULL) > length) snprintf(text, sizeof text, "%.0e", length * 0.9);
-    text[0] = text[0] >= '5' ? '5' : text[0] >= '2' ? '2' : '1';
-    return strtod(text, NULL);
+    snprintf(out, LINE, "%s%s %s in %s pieces · %s cells · height %llu", method, objects, noun, pieces, cells,
+             (unsigned long long)report.height);
 }
 
 /* Returns the left end of what it drew. */
 static double scale_bar(const draw_page *page, cairo_t *cr, const draw_legend *legend, double right, double y) {
     double wanted = legend->length * (0.14 * page->inner_width / legend->unit);
     if (!(legend->unit > 0) || !(wanted > 0) || !(wanted < 1e308)) return right;
-    double length = round_length(wanted), across = length / legend->length * legend->unit;
-    if (!(across >= 2 && across < page->inner_width)) return right;
+    /* The largest 1, 2 or 5 times a power of ten that is not above what is wanted. */
     char label[44];
+    snprintf(label, sizeof label, "%.0e", wanted);
+    if (strtod(label, NULL) > wanted) snprintf(label, sizeof label, "%.0e", wanted * 0.9);
+    label[0] = label[0] >= '5' ? '5' : label[0] >= '2' ? '2' : '1';
+    double length = strtod(label, NULL), across = length / legend->length * legend->unit;
+    if (!(across >= 2 && across < page->inner_width)) return right;
     draw_number(label, length);
     double u = page->unit, left = right - across, tick = 0.3 * page->text;
     draw_set_color(cr, DRAW_INK, 1);

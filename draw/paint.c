@@ -7,46 +7,31 @@
 
 enum { PATH = 512 }; /* most rings or lines in one path: Cairo's sweeps are not linear */
 
-static void ring_path(cairo_t *cr, const draw_point *p, size_t count) {
-    cairo_move_to(cr, p[0].x, p[0].y);
-    for (size_t i = 1; i < count; i++) cairo_line_to(cr, p[i].x, p[i].y);
-    cairo_close_path(cr);
-}
-
-/* A thin line of the same colour around each cell closes the seams that antialiasing leaves. */
-static void fill_cells(cairo_t *cr, uint32_t color, double seam) {
-    draw_set_color(cr, color, 1);
-    cairo_set_line_width(cr, seam);
-    cairo_set_line_join(cr, CAIRO_LINE_JOIN_BEVEL);
-    cairo_fill_preserve(cr);
-    cairo_stroke(cr);
-}
-
-/* Indices of the cells by tone, a counting sort. */
-static uint32_t *by_tone(const draw_partition *part, size_t *starts) {
+/* Cells by tone, a counting sort. */
+static froe_status paint_cells(const draw_page *page, cairo_t *cr, const draw_partition *part) {
+    size_t starts[DRAW_TONES + 1] = {0}, next[DRAW_TONES];
     uint32_t *order = support_calloc(&part->alloc, part->cells.count, sizeof *order);
-    if (!order) return NULL;
-    memset(starts, 0, (DRAW_TONES + 1) * sizeof *starts);
+    if (!order) return FROE_E_MEMORY;
     for (size_t i = 0; i < part->cells.count; i++)
         starts[draw_tone_of(part->cells.data[i].depth, part->lo_depth, part->hi_depth) + 1]++;
     for (int t = 0; t < DRAW_TONES; t++) starts[t + 1] += starts[t];
-    size_t next[DRAW_TONES];
     memcpy(next, starts, sizeof next);
     for (size_t i = 0; i < part->cells.count; i++)
         order[next[draw_tone_of(part->cells.data[i].depth, part->lo_depth, part->hi_depth)]++] = (uint32_t)i;
-    return order;
-}
-
-static froe_status paint_cells(const draw_page *page, cairo_t *cr, const draw_partition *part) {
-    size_t starts[DRAW_TONES + 1];
-    uint32_t *order = by_tone(part, starts);
-    if (!order) return FROE_E_MEMORY;
     for (int tone = 0; tone < DRAW_TONES; tone++)
         for (size_t i = starts[tone]; i < starts[tone + 1]; i++) {
             const draw_cell *cell = part->cells.data + order[i];
-            ring_path(cr, part->points.data + cell->first, cell->count);
-            if (i + 1 == starts[tone + 1] || (i + 1 - starts[tone]) % PATH == 0)
-                fill_cells(cr, draw_tone(tone), 0.35 * page->unit);
+            const draw_point *p = part->points.data + cell->first;
+            cairo_move_to(cr, p[0].x, p[0].y);
+            for (size_t k = 1; k < cell->count; k++) cairo_line_to(cr, p[k].x, p[k].y);
+            cairo_close_path(cr);
+            if (i + 1 != starts[tone + 1] && (i + 1 - starts[tone]) % PATH != 0) continue;
+            /* A thin line of the same colour around each cell closes the seams that antialiasing leaves. */
+            draw_set_color(cr, draw_tone(tone), 1);
+            cairo_set_line_width(cr, 0.35 * page->unit);
+            cairo_set_line_join(cr, CAIRO_LINE_JOIN_BEVEL);
+            cairo_fill_preserve(cr);
+            cairo_stroke(cr);
         }
     support_free(&part->alloc, order, part->cells.count * sizeof *order);
     return FROE_OK;
@@ -62,17 +47,14 @@ static int weight_class(const draw_cut *cut, double unit) {
     return cut->depth < DEEP ? (int)cut->depth : DEEP;
 }
 
-static void set_weight(cairo_t *cr, int class, double unit) {
-    double deep = class < DEEP ? (double)class / DEEP : 1, faint = class > DEEP ? (double)(class - DEEP) / FADES : 0;
-    draw_set_color(cr, DRAW_LINE, (1 - 0.45 * deep) * (1 - faint));
-    cairo_set_line_width(cr, (1.25 - 0.95 * sqrt(deep)) * unit);
-}
-
 static void paint_cuts(const draw_page *page, cairo_t *cr, const draw_partition *part) {
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
     for (int class = CLASSES; class -- > 0;) {
         size_t held = 0;
-        set_weight(cr, class, page->unit);
+        const double deep = class < DEEP ? (double)class / DEEP : 1,
+                     faint = class > DEEP ? (double)(class - DEEP) / FADES : 0;
+        draw_set_color(cr, DRAW_LINE, (1 - 0.45 * deep) * (1 - faint));
+        cairo_set_line_width(cr, (1.25 - 0.95 * sqrt(deep)) * page->unit);
         for (size_t i = 0; i < part->cuts.count; i++) {
             const draw_cut *cut = part->cuts.data + i;
             if (weight_class(cut, page->unit) != class) continue;

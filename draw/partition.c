@@ -8,23 +8,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef struct frame {
+typedef struct region_frame {
     froe_node node;
     uint32_t depth;
     size_t first, count; /* its polygon in `stack`, at the end of it when the frame is on top */
-} frame;
+} region_frame;
 
 typedef ARRAY(draw_point) point_array;
 
-typedef struct walk {
+typedef struct partition_walk {
     const froe_tree *tree;
     const froe_scene *scene;
     const draw_view *view;
     uint32_t max_depth;
     draw_partition *out;
-    ARRAY(frame) frames;
+    ARRAY(region_frame) frames;
     point_array stack, ring;
-} walk;
+} partition_walk;
 
 typedef struct depth_node {
     froe_node node;
@@ -50,17 +50,7 @@ bool draw_census_of(const froe_allocator *alloc, const froe_tree *tree, froe_nod
     return ok;
 }
 
-/* The longer side of a polygon's bounds, on the page. */
-static double size_of(const walk *w, const draw_point *p, size_t count) {
-    draw_point lo = p[0], hi = p[0];
-    for (size_t i = 1; i < count; i++) {
-        lo = (draw_point){fmin(lo.x, p[i].x), fmin(lo.y, p[i].y)};
-        hi = (draw_point){fmax(hi.x, p[i].x), fmax(hi.y, p[i].y)};
-    }
-    return fmax(hi.x - lo.x, hi.y - lo.y) * w->view->scale;
-}
-
-static bool emit_cell(walk *w, frame top, bool leaf) {
+static bool emit_cell(partition_walk *w, region_frame top, bool leaf) {
     draw_partition *out = w->out;
     double depth = top.depth;
     if (!leaf) {
@@ -77,26 +67,14 @@ static bool emit_cell(walk *w, frame top, bool leaf) {
     return array_push(&out->alloc, &out->cells, cell);
 }
 
-/* The line in which a cut meets the view's plane. No line: everything is on side `all`. */
+/* The line in which a cut meets the view's plane. */
 typedef struct trace {
     draw_point n;
     double c;
-    int all; /* -1: there is a line */
 } trace;
 
-static trace trace_of(const walk *w, const froe_cut *cut) {
-    const draw_view *view = w->view;
-    draw_plane plane = draw_space_plane(&view->space, w->scene, cut);
-    double c = plane.c;
-    if (view->axis >= 0) c -= plane.n[view->axis] * view->at;
-    trace line = {{plane.n[view->across], plane.n[view->up]}, c, -1};
-    /* Parallel: the section lies on one side; within the cut it counts as in front. */
-    if (line.n.x == 0 && line.n.y == 0) line.all = c <= 0;
-    return line;
-}
-
 /* The part of the line inside a convex ring: its two extreme crossings. */
-static bool emit_cut(walk *w, const trace *line, size_t count, uint32_t depth, double size) {
+static bool emit_cut(partition_walk *w, const trace *line, size_t count, uint32_t depth, double size) {
     const draw_point *ring = w->ring.data;
     draw_point along = {-line->n.y, line->n.x}, ends[2] = {{0, 0}, {0, 0}};
     double reach[2] = {HUGE_VAL, -HUGE_VAL};
@@ -115,19 +93,23 @@ static bool emit_cut(walk *w, const trace *line, size_t count, uint32_t depth, d
     return array_push(&w->out->alloc, &w->out->cuts, cut);
 }
 
-static bool push_part(walk *w, froe_node node, uint32_t depth, const trace *line, int side, size_t count) {
+static bool push_part(partition_walk *w, froe_node node, uint32_t depth, const trace *line, int side, size_t count) {
     if (!array_reserve(&w->out->alloc, &w->stack, count + 1)) return false;
     size_t first = w->stack.count;
     size_t made = draw_clip_half(w->ring.data, count, line->n, line->c, side ? 1 : -1, w->stack.data + first);
     if (made < 3) return true;
     w->stack.count += made;
-    return array_push(&w->out->alloc, &w->frames, (frame){node, depth, first, made});
+    return array_push(&w->out->alloc, &w->frames, (region_frame){node, depth, first, made});
 }
 
-static bool split(walk *w, frame top, const froe_node_info *info, double size) {
-    trace line = trace_of(w, &info->cut);
-    if (line.all >= 0) {
-        frame same = {info->child[line.all], top.depth + 1, top.first, top.count};
+static bool split(partition_walk *w, region_frame top, const froe_node_info *info, double size) {
+    const draw_view *view = w->view;
+    const draw_plane plane = draw_space_plane(&view->space, w->scene, &info->cut);
+    const double c = view->axis < 0 ? plane.c : plane.c - plane.n[view->axis] * view->at;
+    const trace line = {{plane.n[view->across], plane.n[view->up]}, c};
+    if (line.n.x == 0 && line.n.y == 0) {
+        /* Parallel: the section lies on one side; within the cut it counts as in front. */
+        region_frame same = {info->child[c <= 0], top.depth + 1, top.first, top.count};
         return array_push(&w->out->alloc, &w->frames, same);
     }
     w->ring.count = 0;
@@ -139,22 +121,18 @@ static bool split(walk *w, frame top, const froe_node_info *info, double size) {
            push_part(w, info->child[1], top.depth + 1, &line, 1, top.count);
 }
 
-static bool begin_partition(walk *w) {
-    draw_point lo = w->view->lo, hi = w->view->hi;
-    if (!array_reserve(&w->out->alloc, &w->stack, 4)) return false;
-    w->stack.data[0] = lo;
-    w->stack.data[1] = (draw_point){hi.x, lo.y};
-    w->stack.data[2] = hi;
-    w->stack.data[3] = (draw_point){lo.x, hi.y};
-    w->stack.count = 4;
-    return array_push(&w->out->alloc, &w->frames, (frame){froe_tree_root(w->tree), 0, 0, 4});
-}
-
-static bool step(walk *w) {
-    frame top = w->frames.data[--w->frames.count];
+/* Takes a region off the stack: it is split, or drawn as it is. */
+static bool step(partition_walk *w) {
+    region_frame top = w->frames.data[--w->frames.count];
     froe_node_info info = froe_tree_node(w->tree, top.node);
     bool leaf = info.cut.kind == FROE_CUT_NONE;
-    double size = size_of(w, w->stack.data + top.first, top.count);
+    const draw_point *p = w->stack.data + top.first;
+    draw_point lo = p[0], hi = p[0];
+    for (size_t i = 1; i < top.count; i++) {
+        lo = (draw_point){fmin(lo.x, p[i].x), fmin(lo.y, p[i].y)};
+        hi = (draw_point){fmax(hi.x, p[i].x), fmax(hi.y, p[i].y)};
+    }
+    double size = fmax(hi.x - lo.x, hi.y - lo.y) * w->view->scale;
     if (!leaf && (!w->max_depth || top.depth < w->max_depth) && size >= w->view->detail)
         return split(w, top, &info, size);
     bool ok = emit_cell(w, top, leaf);
@@ -164,8 +142,10 @@ static bool step(walk *w) {
 
 froe_status draw_partition_add(draw_partition *out, const froe_tree *tree, const draw_view *view, uint32_t max_depth,
                                draw_task *task) {
-    walk w = {.tree = tree, .scene = froe_tree_scene(tree), .view = view, .max_depth = max_depth, .out = out};
-    bool ok = begin_partition(&w);
+    partition_walk w = {.tree = tree, .scene = froe_tree_scene(tree), .view = view, .max_depth = max_depth, .out = out};
+    const draw_point lo = view->lo, hi = view->hi, window[4] = {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}};
+    bool ok = array_push(&out->alloc, &w.frames, (region_frame){froe_tree_root(tree), 0, 0, 4});
+    for (int i = 0; i < 4 && ok; i++) ok = array_push(&out->alloc, &w.stack, window[i]);
     while (ok && w.frames.count && draw_tick(task)) ok = step(&w);
     array_free(&out->alloc, &w.frames);
     array_free(&out->alloc, &w.stack);

@@ -60,51 +60,36 @@ static void set_view(const draw_picture *picture, int axis, double at, draw_pane
     snprintf(out->label, sizeof out->label, "%c = %s", "xyz"[picture->space.from[axis]], number);
 }
 
-static double middle(const draw_picture *picture, int axis) {
-    return picture->space.sign[axis] * ldexp(picture->space.mid[axis], -picture->space.shift);
-}
-
-static int sheet(const draw_picture *picture, draw_panel *panels) {
+/* Views in their places; returns how many. */
+static int arrange(const draw_picture *picture, draw_panel *panels) {
     const draw_page *page = &picture->page;
     const double *wide = picture->wide;
+    const draw_space *space = &picture->space;
     double gap = GAP * page->text, label = LABEL * page->text;
+    if (!is_sheet(picture)) {
+        set_view(picture, section_axis(picture), page->options->at, panels);
+        draw_view_place(&panels[0].view, page->left, page->top, page->inner_width,
+                        fmax(page->inner_height - (space->dim == 3 ? label : 0), 1));
+        return 1;
+    }
     double scale = fmin((page->inner_width - gap) / (2 * (wide[0] + wide[1])),
                         (page->inner_height - gap - 2 * label) / (2 * (wide[1] + wide[2])));
     scale = fmax(scale, 0);
     double x = 2 * wide[0] * scale, y = 2 * wide[1] * scale, z = 2 * wide[2] * scale;
     double left = page->left + 0.5 * fmax(page->inner_width - x - y - gap, 0), top = page->top;
-    for (int i = 0; i < 3; i++) set_view(picture, 2 - i, middle(picture, 2 - i), panels + i);
+    for (int i = 0; i < 3; i++) {
+        const int axis = 2 - i;
+        set_view(picture, axis, space->sign[axis] * ldexp(space->mid[axis], -space->shift), panels + i);
+    }
     draw_view_place(&panels[0].view, left, top, x, y);
     draw_view_place(&panels[1].view, left, top + y + label + gap, x, z);
     draw_view_place(&panels[2].view, left + x + gap, top + y + label + gap, y, z);
     return 3;
 }
 
-static int arrange(const draw_picture *picture, draw_panel *panels) {
-    if (is_sheet(picture)) return sheet(picture, panels);
-    const draw_page *page = &picture->page;
-    bool section = picture->space.dim == 3;
-    set_view(picture, section_axis(picture), page->options->at, panels);
-    draw_view_place(&panels[0].view, page->left, page->top, page->inner_width,
-                    fmax(page->inner_height - (section ? LABEL * page->text : 0), 1));
-    return 1;
-}
-
 static void frame_path(cairo_t *cr, const draw_view *view) {
     draw_point p = draw_view_map(view, view->lo), q = draw_view_map(view, view->hi);
     cairo_rectangle(cr, p.x, q.y, q.x - p.x, p.y - q.y);
-}
-
-static void paint_label(const draw_page *page, cairo_t *cr, const draw_panel *panel) {
-    draw_point p = draw_view_map(&panel->view, panel->view.lo);
-    draw_set_color(cr, DRAW_SOFT, 1);
-    draw_text(cr, panel->label, p.x, p.y + 1.5 * page->text, page->text, 0);
-}
-
-/* What a section at `away` of half the height of a mark leaves of its half sides; 0: nothing. */
-static double share_of(const froe_draw_mark *mark, double away) {
-    if (away > 1) return 0;
-    return mark->ball ? sqrt(1 - away * away) : 1;
 }
 
 static void paint_mark(const draw_page *page, cairo_t *cr, const draw_view *view, const froe_draw_mark *mark) {
@@ -116,7 +101,9 @@ static void paint_mark(const draw_page *page, cairo_t *cr, const draw_view *view
         centre[k] = 0.5 * (a + b), half[k] = 0.5 * fabs(b - a);
     }
     const double off = view->axis < 0 ? 0 : fabs(view->at - centre[view->axis]);
-    const double share = off > 0 ? share_of(mark, off / half[view->axis]) : 1;
+    /* What a section at `away` of half the height of a mark leaves of its half sides. */
+    const double away = off > 0 ? off / half[view->axis] : 0;
+    const double share = away > 1 ? 0 : mark->ball ? sqrt(1 - away * away) : 1;
     if (!(share > 0)) return;
     const draw_point p = draw_view_map(view, (draw_point){centre[view->across] - share * half[view->across],
                                                           centre[view->up] - share * half[view->up]});
@@ -154,20 +141,11 @@ static froe_status paint_panels(const draw_picture *picture, cairo_t *cr, const 
         draw_set_color(cr, DRAW_LINE, 0.6);
         cairo_set_line_width(cr, 0.5 * page->unit);
         cairo_stroke(cr);
-        paint_label(page, cr, panels + i);
+        const draw_point corner = draw_view_map(&panels[i].view, panels[i].view.lo);
+        draw_set_color(cr, DRAW_SOFT, 1);
+        draw_text(cr, panels[i].label, corner.x, corner.y + 1.5 * page->text, page->text, 0);
     }
     return status;
-}
-
-/* In the corner that a sheet leaves free: right of the plan, above the side view. */
-static void paint_key(const draw_picture *picture, cairo_t *cr, const draw_panel *panels) {
-    draw_point left = draw_view_map(&panels[2].view, panels[2].view.lo);
-    draw_point right = draw_view_map(&panels[2].view, panels[2].view.hi);
-    draw_point top = draw_view_map(&panels[0].view, panels[0].view.hi);
-    draw_point bottom = draw_view_map(&panels[0].view, panels[0].view.lo);
-    double width = right.x - left.x, height = bottom.y - top.y;
-    if (width > 8 * picture->page.text && height > 8 * picture->page.text)
-        draw_paint_key(&picture->page, cr, &picture->space, picture->wide, left.x, top.y, width, height);
 }
 
 froe_status draw_plane_paint(draw_picture *picture, cairo_t *cr) {
@@ -176,7 +154,14 @@ froe_status draw_plane_paint(draw_picture *picture, cairo_t *cr) {
     int count = arrange(picture, panels);
     draw_partition part = {.alloc = page->alloc};
     draw_page_open(page, cr);
-    if (count == 3) paint_key(picture, cr, panels);
+    if (count == 3) { /* a key in the corner that a sheet leaves free: right of the plan, above the side view */
+        const draw_view *plan = &panels[0].view, *side = &panels[2].view;
+        const draw_point left = draw_view_map(side, side->lo), right = draw_view_map(side, side->hi);
+        const double top = draw_view_map(plan, plan->hi).y, height = draw_view_map(plan, plan->lo).y - top;
+        const double width = right.x - left.x;
+        if (width > 8 * page->text && height > 8 * page->text)
+            draw_paint_key(page, cr, &picture->space, picture->wide, left.x, top, width, height);
+    }
     froe_status status = paint_panels(picture, cr, panels, count, &part);
     draw_legend legend = {.scale_of_depths = picture->show & FROE_DRAW_CELLS,
                           .lo_depth = part.lo_depth,

@@ -63,16 +63,10 @@ static void direction(const draw_space *space, const double *p, const double *q,
         for (int k = 0; k < 3; k++) out[k] /= largest;
 }
 
-static void scale_to_one(double *n) {
-    double largest = fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2])));
-    if (largest > 0)
-        for (int k = 0; k < 3; k++) n[k] /= largest;
-}
-
 static draw_plane through(const draw_space *space, const double *point, const double *normal) {
     draw_plane plane = {{normal[0], normal[1], normal[2]}, 0};
-    double p[3];
-    scale_to_one(plane.n);
+    double p[3], largest = fmax(fabs(normal[0]), fmax(fabs(normal[1]), fabs(normal[2])));
+    for (int k = 0; k < 3 && largest > 0; k++) plane.n[k] /= largest;
     draw_space_point(space, point, p);
     for (int k = 0; k < 3; k++) plane.c += plane.n[k] * p[k];
     return plane;

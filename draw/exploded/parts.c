@@ -21,20 +21,6 @@ static bool copy_corners(draw_solid *solid, const double *coords, size_t count, 
     return true;
 }
 
-static bool keep_faces(draw_solid *solid, const froe_cell *cell, draw_part *part) {
-    double sum[3] = {0};
-    part->first_corner = solid->corners.count;
-    part->first_face = solid->face_ends.count;
-    part->face_count = cell->face_count;
-    if (!copy_corners(solid, cell->coords, cell->corners, sum) ||
-        !array_reserve(&solid->picture->page.alloc, &solid->face_ends, cell->face_count))
-        return false;
-    for (size_t f = 0; f < cell->face_count; f++)
-        solid->face_ends.data[solid->face_ends.count++] = cell->face_starts[f + 1];
-    for (int k = 0; k < 3; k++) part->middle[k] = cell->corners ? sum[k] / (double)cell->corners : 0;
-    return true;
-}
-
 static bool keep_part(draw_solid *solid, const froe_cell *cell) {
     const draw_page *page = &solid->picture->page;
     draw_part part = {.node = cell->node, .depth = cell->depth, .leaf = cell->leaf};
@@ -48,18 +34,18 @@ static bool keep_part(draw_solid *solid, const froe_cell *cell) {
     bool first = solid->parts.count == 0;
     solid->lo_depth = first ? part.depth : fmin(solid->lo_depth, part.depth);
     solid->hi_depth = first ? part.depth : fmax(solid->hi_depth, part.depth);
-    if (!keep_faces(solid, cell, &part) || !array_push(&page->alloc, &solid->parts, part)) return false;
-    solid->part_of[cell->node.id1 - 1] = (uint32_t)solid->parts.count;
-    return true;
-}
-
-static bool keep_wall(draw_solid *solid, const froe_cell *cell) {
-    draw_wall wall = {solid->corners.count, cell->cut_corners};
-    if (cell->cut_corners < 3) return true;
-    if (!copy_corners(solid, cell->cut_coords, cell->cut_corners, NULL) ||
-        !array_push(&solid->picture->page.alloc, &solid->walls, wall))
+    part.first_corner = solid->corners.count;
+    part.first_face = solid->face_ends.count;
+    part.face_count = cell->face_count;
+    double sum[3] = {0};
+    if (!copy_corners(solid, cell->coords, cell->corners, sum) ||
+        !array_reserve(&page->alloc, &solid->face_ends, cell->face_count))
         return false;
-    solid->wall_of[cell->node.id1 - 1] = (uint32_t)solid->walls.count;
+    for (size_t f = 0; f < cell->face_count; f++)
+        solid->face_ends.data[solid->face_ends.count++] = cell->face_starts[f + 1];
+    for (int k = 0; k < 3; k++) part.middle[k] = cell->corners ? sum[k] / (double)cell->corners : 0;
+    if (!array_push(&page->alloc, &solid->parts, part)) return false;
+    solid->part_of[cell->node.id1 - 1] = (uint32_t)solid->parts.count;
     return true;
 }
 
@@ -70,7 +56,12 @@ static bool visit_part(void *user, const froe_cell *cell) {
     uint32_t depth = solid->picture->page.options->explode_depth;
     bool ok = true;
     if (cell->depth == depth || (cell->leaf && cell->depth < depth)) ok = keep_part(solid, cell);
-    if (cell->depth < depth && !cell->leaf) ok = keep_wall(solid, cell);
+    if (cell->depth < depth && !cell->leaf && cell->cut_corners >= 3) {
+        const draw_wall wall = {solid->corners.count, cell->cut_corners};
+        ok = copy_corners(solid, cell->cut_coords, cell->cut_corners, NULL) &&
+             array_push(&solid->picture->page.alloc, &solid->walls, wall);
+        if (ok) solid->wall_of[cell->node.id1 - 1] = (uint32_t)solid->walls.count;
+    }
     if (!ok) c->status = FROE_E_MEMORY;
     if (ok && !draw_tick(solid->picture->page.task)) c->status = FROE_E_CANCELLED;
     return c->status == FROE_OK;

@@ -13,9 +13,12 @@
 
 /* ---------------------------------------------------------------- planning -- */
 
-static froe_status gather_solids(draw_picture *picture, draw_solid *solid) {
-    const draw_page *page = &picture->page;
+froe_status draw_solid_plan(draw_picture *picture) {
+    draw_page *page = &picture->page;
     const froe_scene *scene = froe_tree_scene(page->tree);
+    draw_solid *solid = support_calloc(&page->alloc, 1, sizeof *solid);
+    if (!solid) return FROE_E_MEMORY;
+    picture->solid = solid;
     solid->picture = picture;
     solid->camera = draw_camera_from(&picture->space, page->options->view);
     solid->view.space = picture->space;
@@ -25,18 +28,10 @@ static froe_status gather_solids(draw_picture *picture, draw_solid *solid) {
     solid->part_of = support_calloc(&page->alloc, solid->node_count, sizeof *solid->part_of);
     solid->wall_of = support_calloc(&page->alloc, solid->node_count, sizeof *solid->wall_of);
     solid->met = support_calloc(&page->alloc, solid->object_count, sizeof *solid->met);
-    if (!solid->part_of || !solid->wall_of || !solid->met) return FROE_E_MEMORY;
-    froe_status status = draw_solid_parts(solid);
-    return status == FROE_OK ? draw_solid_items(solid) : status;
-}
-
-froe_status draw_solid_plan(draw_picture *picture) {
-    draw_solid *solid = support_calloc(&picture->page.alloc, 1, sizeof *solid);
-    if (!solid) return FROE_E_MEMORY;
-    picture->solid = solid;
-    froe_status status = gather_solids(picture, solid);
+    froe_status status = solid->part_of && solid->wall_of && solid->met ? draw_solid_parts(solid) : FROE_E_MEMORY;
+    if (status == FROE_OK) status = draw_solid_items(solid);
     double across = solid->hi.x - solid->lo.x, up = solid->hi.y - solid->lo.y;
-    draw_page_plan(&picture->page, across > 0 ? fmin(up / across, 4) : 1, 0, 0);
+    draw_page_plan(page, across > 0 ? fmin(up / across, 4) : 1, 0, 0);
     return status;
 }
 
@@ -61,20 +56,20 @@ void draw_picture_free(draw_picture *picture) {
 
 /* ---------------------------------------------------------------- painting -- */
 
-typedef struct painter {
+typedef struct solid_painter {
     const draw_solid *solid;
     const draw_page *page;
     cairo_t *cr;
     draw_view view;
     double weight; /* of the edges of pieces */
     bool glass;    /* contents are seen through the cells */
-} painter;
+} solid_painter;
 
-static draw_point at(const painter *pen, const draw_item *item, size_t i) {
+static draw_point at(const solid_painter *pen, const draw_item *item, size_t i) {
     return draw_view_map(&pen->view, pen->solid->points.data[item->first + i]);
 }
 
-static void area_path(const painter *pen, const draw_item *item) {
+static void area_path(const solid_painter *pen, const draw_item *item) {
     for (size_t i = 0; i < item->count; i++) {
         draw_point p = at(pen, item, i);
         cairo_line_to(pen->cr, p.x, p.y);
@@ -83,7 +78,7 @@ static void area_path(const painter *pen, const draw_item *item) {
 }
 
 /* The edges whose mark is `cut`. */
-static bool edge_path(const painter *pen, const draw_item *item, bool cut) {
+static bool edge_path(const solid_painter *pen, const draw_item *item, bool cut) {
     bool any = false;
     for (size_t i = 0; i < item->count; i++) {
         if (pen->solid->cut.data[item->first + i] != cut) continue;
@@ -95,19 +90,13 @@ static bool edge_path(const painter *pen, const draw_item *item, bool cut) {
     return any;
 }
 
-static bool is_cut(const painter *pen, const draw_item *item) {
-    for (size_t i = 0; i < item->count; i++)
-        if (pen->solid->cut.data[item->first + i]) return true;
-    return false;
-}
-
-static void ink_edges(const painter *pen) {
+static void ink_edges(const solid_painter *pen) {
     draw_set_color(pen->cr, DRAW_INK, 0.75);
     cairo_set_line_width(pen->cr, pen->weight);
     cairo_stroke(pen->cr);
 }
 
-static void paint_piece(const painter *pen, const draw_item *item) {
+static void paint_piece(const solid_painter *pen, const draw_item *item) {
     cairo_t *cr = pen->cr;
     bool fragments = pen->solid->picture->show & FROE_DRAW_FRAGMENTS;
     uint32_t color = draw_mix(PLASTER_DARK, PLASTER_LIGHT, item->shade);
@@ -115,7 +104,9 @@ static void paint_piece(const painter *pen, const draw_item *item) {
     area_path(pen, item);
     draw_set_color(cr, color, 1);
     cairo_fill_preserve(cr);
-    if (!is_cut(pen, item)) {
+    bool cut = false;
+    for (size_t i = 0; i < item->count; i++) cut = cut || pen->solid->cut.data[item->first + i];
+    if (!cut) {
         ink_edges(pen);
         return;
     }
@@ -128,7 +119,7 @@ static void paint_piece(const painter *pen, const draw_item *item) {
     if (edge_path(pen, item, false)) ink_edges(pen);
 }
 
-static void paint_thin(const painter *pen, const draw_item *item) {
+static void paint_thin(const solid_painter *pen, const draw_item *item) {
     cairo_t *cr = pen->cr;
     draw_point p = at(pen, item, 0);
     double r = item->radius > 0 ? item->radius * pen->view.scale : 1.2 * pen->page->unit;
@@ -152,14 +143,10 @@ static void paint_thin(const painter *pen, const draw_item *item) {
         cairo_fill(cr);
 }
 
-static uint32_t tone_of(const painter *pen, const draw_item *item) {
-    const draw_solid *solid = pen->solid;
-    return draw_tone(draw_tone_of(solid->parts.data[item->part].depth, solid->lo_depth, solid->hi_depth));
-}
-
-static void paint_face(const painter *pen, const draw_item *item) {
+static void paint_face(const solid_painter *pen, const draw_item *item) {
     cairo_t *cr = pen->cr;
-    uint32_t tone = tone_of(pen, item);
+    const draw_solid *solid = pen->solid;
+    uint32_t tone = draw_tone(draw_tone_of(solid->parts.data[item->part].depth, solid->lo_depth, solid->hi_depth));
     bool back = item->matter == DRAW_BACK;
     if (back && !pen->glass) return;
     area_path(pen, item);
@@ -173,29 +160,8 @@ static void paint_face(const painter *pen, const draw_item *item) {
     cairo_stroke(cr);
 }
 
-static void paint_wall(const painter *pen, const draw_item *item) {
-    double fade = fmin(item->depth / 8.0, 1);
-    area_path(pen, item);
-    draw_set_color(pen->cr, DRAW_ACCENT, 0.07);
-    cairo_fill_preserve(pen->cr);
-    draw_set_color(pen->cr, DRAW_ACCENT, 0.8 - 0.4 * fade);
-    cairo_set_line_width(pen->cr, (0.9 - 0.5 * fade) * pen->page->unit);
-    cairo_stroke(pen->cr);
-}
-
-static void paint_item(const painter *pen, const draw_item *item) {
-    if (item->matter == DRAW_WALL)
-        paint_wall(pen, item);
-    else if (item->matter != DRAW_PIECE)
-        paint_face(pen, item);
-    else if (item->count < 3)
-        paint_thin(pen, item);
-    else
-        paint_piece(pen, item);
-}
-
 /* Drops what lies behind something tiny in the same dot; front to back. */
-static bool thin_out(painter *pen, draw_item *items, size_t *count) {
+static bool thin_out(solid_painter *pen, draw_item *items, size_t *count) {
     draw_dots dots;
     const draw_page *page = pen->page;
     if (!draw_dots_new(&page->alloc, 0, 0, page->width, page->height, page->options->detail, &dots)) return false;
@@ -215,24 +181,32 @@ static bool thin_out(painter *pen, draw_item *items, size_t *count) {
     return true;
 }
 
-static double edge_weight(const painter *pen, size_t count) {
-    double each = sqrt(pen->page->inner_width * pen->page->inner_height / (double)(count + 1));
-    return fmin(fmax(0.03 * each, 0.12 * pen->page->unit), 0.6 * pen->page->unit);
-}
-
 froe_status draw_solid_paint(draw_picture *picture, cairo_t *cr) {
     draw_solid *solid = picture->solid;
     const draw_page *page = &picture->page;
-    painter pen = {.solid = solid, .page = page, .cr = cr};
+    solid_painter pen = {.solid = solid, .page = page, .cr = cr};
     pen.view = (draw_view){.lo = solid->lo, .hi = solid->hi};
     draw_view_place(&pen.view, page->left, page->top, page->inner_width, page->inner_height);
     pen.glass = picture->show & (FROE_DRAW_FRAGMENTS | FROE_DRAW_OBJECTS);
     if (!thin_out(&pen, solid->items.data, &solid->items.count)) return FROE_E_MEMORY;
-    pen.weight = edge_weight(&pen, solid->items.count);
+    const double each = sqrt(page->inner_width * page->inner_height / (double)(solid->items.count + 1));
+    pen.weight = fmin(fmax(0.03 * each, 0.12 * page->unit), 0.6 * page->unit);
     draw_page_open(page, cr);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-    for (size_t i = solid->items.count; i-- > 0;) paint_item(&pen, solid->items.data + i);
+    for (size_t i = solid->items.count; i-- > 0;) {
+        const draw_item *item = solid->items.data + i;
+        if (item->matter == DRAW_WALL) {
+            double fade = fmin(item->depth / 8.0, 1);
+            area_path(&pen, item);
+            draw_set_color(cr, DRAW_ACCENT, 0.07);
+            cairo_fill_preserve(cr);
+            draw_set_color(cr, DRAW_ACCENT, 0.8 - 0.4 * fade);
+            cairo_set_line_width(cr, (0.9 - 0.5 * fade) * page->unit);
+            cairo_stroke(cr);
+        } else
+            (item->matter != DRAW_PIECE ? paint_face : item->count < 3 ? paint_thin : paint_piece)(&pen, item);
+    }
     draw_legend legend = {.scale_of_depths = picture->show & FROE_DRAW_CELLS,
                           .lo_depth = floor(solid->lo_depth),
                           .hi_depth = ceil(solid->hi_depth),
