@@ -114,20 +114,6 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
 
 /* --------------------------------------------------------------- painting -- */
 
-/* Margins around a whole scene, and no window thinner than an eighth. */
-static void frame_scene(draw_picture *picture, const froe_draw_options *o) {
-    const froe_scene *scene = froe_tree_scene(picture->page.tree);
-    int dim = froe_scene_dim(scene);
-    double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
-    picture->whole = o->style == FROE_DRAW_EXPLODED;
-    for (int k = 0; k < dim; k++)
-        if (!(o->lo[k] < o->hi[k])) picture->whole = true; /* there is no window */
-    if (picture->whole) froe_scene_bounds(scene, lo, hi);
-    picture->space = draw_space_over(dim, o->up, picture->whole ? lo : o->lo, picture->whole ? hi : o->hi);
-    for (int k = 0; k < 3; k++)
-        picture->wide[k] = picture->whole ? fmax(picture->space.reach[k] + 0.025, 0.125) : picture->space.reach[k];
-}
-
 static froe_status paint_page(draw_picture *picture, froe_draw_format format, draw_output *output,
                               froe_diagnostic *diag) {
     const draw_page *page = &picture->page;
@@ -169,7 +155,15 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     task.total = 3.0 * (double)(report.nodes + report.objects + report.fragments) + 1;
     draw_picture picture = {.show = o.show ? o.show : standard};
     picture.page = (draw_page){.tree = tree, .options = &o, .alloc = output->alloc, .task = &task};
-    frame_scene(&picture, &o);
+    /* Margins around a whole scene, and no window thinner than an eighth. */
+    double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
+    picture.whole = o.style == FROE_DRAW_EXPLODED;
+    for (int k = 0; k < dim; k++)
+        if (!(o.lo[k] < o.hi[k])) picture.whole = true; /* there is no window */
+    if (picture.whole) froe_scene_bounds(froe_tree_scene(tree), lo, hi);
+    picture.space = draw_space_over(dim, o.up, picture.whole ? lo : o.lo, picture.whole ? hi : o.hi);
+    for (int k = 0; k < 3; k++)
+        picture.wide[k] = picture.whole ? fmax(picture.space.reach[k] + 0.025, 0.125) : picture.space.reach[k];
     status = paint_page(&picture, format, output, diag);
     draw_picture_free(&picture);
     if (status == FROE_OK && o.progress && !support_callback(o.progress(o.user, 1)))

@@ -168,39 +168,6 @@ static void quadratic_to(cairo_t *cr, point control, point end) {
                    end.y + 2 * (control.y - end.y) / 3, end.x, end.y);
 }
 
-static void stroke_path(cairo_t *cr, char sort, const point *p, int count) {
-    if (sort == 'o') {
-        point start = middle(p[count - 1], p[0]);
-        cairo_move_to(cr, start.x, start.y);
-        for (int i = 0; i < count; i++) quadratic_to(cr, p[i], middle(p[i], p[(i + 1) % count]));
-        cairo_close_path(cr);
-        return;
-    }
-    cairo_move_to(cr, p[0].x, p[0].y);
-    for (int i = 1; i < count; i++)
-        if (sort == 'l' || count == 2)
-            cairo_line_to(cr, p[i].x, p[i].y);
-        else if (i + 1 < count)
-            quadratic_to(cr, p[i], i + 2 < count ? middle(p[i], p[i + 1]) : p[i + 1]);
-}
-
-/* Adds the strokes of a glyph at (x, y) and returns its width. */
-static double glyph_path(cairo_t *cr, const char *glyph, double x, double y, double unit) {
-    char *at;
-    double width = (double)strtol(glyph, &at, 10) * unit;
-    while (*at == ' ') {
-        point p[24];
-        int count = 0;
-        char sort = at[1];
-        for (at++; (count ? *at == ' ' && at[1] < 'a' : true) && count < 24; count++) {
-            p[count].x = x + unit * (double)strtol(at + 1, &at, 10);
-            p[count].y = y - unit * (double)strtol(at + 1, &at, 10);
-        }
-        stroke_path(cr, sort, p, count);
-    }
-    return width;
-}
-
 void draw_text(cairo_t *cr, const char *text, double x, double y, double size, double align) {
     x -= align * draw_text_length(cr, text, size);
     if (!draw_text_known(text)) {
@@ -211,7 +178,32 @@ void draw_text(cairo_t *cr, const char *text, double x, double y, double size, d
     }
     double unit = EM * size;
     cairo_new_path(cr);
-    for (const char *t = text; *t; x += GAP * unit) x += glyph_path(cr, next_glyph(&t), x, y, unit);
+    for (const char *t = text; *t; x += GAP * unit) { /* a glyph is its width and its strokes */
+        char *at;
+        const double width = (double)strtol(next_glyph(&t), &at, 10) * unit;
+        while (*at == ' ') {
+            point p[24];
+            int count = 0;
+            char sort = at[1];
+            for (at++; (count ? *at == ' ' && at[1] < 'a' : true) && count < 24; count++) {
+                p[count].x = x + unit * (double)strtol(at + 1, &at, 10);
+                p[count].y = y - unit * (double)strtol(at + 1, &at, 10);
+            }
+            const point start = sort == 'o' ? middle(p[count - 1], p[0]) : p[0];
+            cairo_move_to(cr, start.x, start.y);
+            if (sort == 'o') {
+                for (int i = 0; i < count; i++) quadratic_to(cr, p[i], middle(p[i], p[(i + 1) % count]));
+                cairo_close_path(cr);
+                continue;
+            }
+            for (int i = 1; i < count; i++)
+                if (sort == 'l' || count == 2)
+                    cairo_line_to(cr, p[i].x, p[i].y);
+                else if (i + 1 < count)
+                    quadratic_to(cr, p[i], i + 2 < count ? middle(p[i], p[i + 1]) : p[i + 1]);
+        }
+        x += width;
+    }
     cairo_set_line_width(cr, 0.075 * size);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);

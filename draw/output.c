@@ -47,28 +47,23 @@ froe_status draw_output_begin(draw_output *output, const froe_allocator *alloc, 
     return failed(output, cairo_status(output->cr), diag);
 }
 
-/* `id="surface12"` becomes `id="froe"`. */
-static void pin_group_id(draw_output *output) {
+/* `id="surface12"` becomes `id="froe"`; and of the six decimals of coordinates, which are whole 1/256 in Cairo, those
+ * from the third on are noise. */
+static void pin_svg(draw_output *output) {
     static const char mark[] = "<g id=\"surface", name[] = "<g id=\"froe";
     unsigned char *data = output->bytes.data;
-    size_t count = output->bytes.count, head = count < 1024 ? count : 1024;
+    size_t count = output->bytes.count, head = count < 1024 ? count : 1024, kept = 0, digits = 0;
+    bool fraction = false;
     for (size_t i = 0; i + sizeof mark < head; i++) {
         if (memcmp(data + i, mark, sizeof mark - 1) != 0) continue;
         size_t end = i + sizeof mark - 1;
         while (end < count && data[end] >= '0' && data[end] <= '9') end++;
         memcpy(data + i, name, sizeof name - 1);
         memmove(data + i + sizeof name - 1, data + end, count - end);
-        output->bytes.count -= end - (i + sizeof name - 1);
-        return;
+        count -= end - (i + sizeof name - 1);
+        break;
     }
-}
-
-/* Cairo prints its 24.8 coordinates with six decimals, of which the third is noise. */
-static void shorten_numbers(draw_output *output) {
-    unsigned char *data = output->bytes.data;
-    size_t kept = 0, digits = 0;
-    bool fraction = false;
-    for (size_t i = 0; i < output->bytes.count; i++) {
+    for (size_t i = 0; i < count; i++) {
         bool digit = data[i] >= '0' && data[i] <= '9';
         if (data[i] == '.') {
             fraction = true;
@@ -87,10 +82,7 @@ froe_status draw_output_finish(draw_output *output, froe_diagnostic *diag) {
         status = cairo_surface_write_to_png_stream(output->surface, collect, output);
     cairo_surface_finish(output->surface);
     if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(output->surface);
-    if (status == CAIRO_STATUS_SUCCESS && output->format == FROE_DRAW_SVG) {
-        pin_group_id(output);
-        shorten_numbers(output);
-    }
+    if (status == CAIRO_STATUS_SUCCESS && output->format == FROE_DRAW_SVG) pin_svg(output);
     return failed(output, status, diag);
 }
 

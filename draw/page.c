@@ -81,24 +81,6 @@ void draw_page_open(const draw_page *page, cairo_t *cr) {
     draw_text(cr, page->options->title, page->left, page->margin + 1.25 * page->text, size, 0);
 }
 
-static void describe(const draw_page *page, char *out) {
-    static const char *const nouns[FROE_KIND_COUNT] = {"points", "segments", "polygons", "boxes", "balls", "hulls"};
-    const froe_scene *scene = froe_tree_scene(page->tree);
-    froe_report report = froe_tree_report(page->tree);
-    const char *noun = "objects";
-    char objects[40], pieces[40], cells[40], method[40];
-    for (int kind = FROE_KIND_COUNT; kind-- > 0;)
-        if (report.objects && froe_scene_kind_count(scene, (froe_kind)kind) == froe_scene_object_count(scene))
-            noun = nouns[kind];
-    draw_count(objects, report.objects);
-    draw_count(pieces, report.fragments);
-    draw_count(cells, report.leaves);
-    snprintf(method, sizeof method, "%.32s%s", report.method ? report.method : "",
-             report.method && *report.method ? " · " : "");
-    snprintf(out, LINE, "%s%s %s in %s pieces · %s cells · height %llu", method, objects, noun, pieces, cells,
-             (unsigned long long)report.height);
-}
-
 /* Returns the left end of what it drew. */
 static double scale_bar(const draw_page *page, cairo_t *cr, const draw_legend *legend, double right, double y) {
     double wanted = legend->length * (0.14 * page->inner_width / legend->unit);
@@ -159,8 +141,22 @@ static void fitted(const draw_page *page, cairo_t *cr, const char *text, double 
 void draw_page_close(const draw_page *page, cairo_t *cr, const draw_legend *legend) {
     if (!page->options->legend) return;
     char text[LINE], merged[40], leaves[40];
+    static const char *const nouns[FROE_KIND_COUNT] = {"points", "segments", "polygons", "boxes", "balls", "hulls"};
+    const froe_scene *scene = froe_tree_scene(page->tree);
+    froe_report report = froe_tree_report(page->tree);
+    const char *noun = "objects";
+    char objects[40], pieces[40], cells[40], method[40];
+    for (int kind = FROE_KIND_COUNT; kind-- > 0;)
+        if (report.objects && froe_scene_kind_count(scene, (froe_kind)kind) == froe_scene_object_count(scene))
+            noun = nouns[kind];
+    draw_count(objects, report.objects);
+    draw_count(pieces, report.fragments);
+    draw_count(cells, report.leaves);
+    snprintf(method, sizeof method, "%.32s%s", report.method ? report.method : "",
+             report.method && *report.method ? " · " : "");
+    snprintf(text, sizeof text, "%s%s %s in %s pieces · %s cells · height %llu", method, objects, noun, pieces, cells,
+             (unsigned long long)report.height);
     double y = page->height - fmax(page->margin, 1.9 * page->text), right = page->left + page->inner_width;
-    describe(page, text);
     right = scale_bar(page, cr, legend, right, y);
     if (legend->scale_of_depths) right = depth_scale(page, cr, legend, right - 2.2 * page->text, y);
     draw_set_color(cr, DRAW_SOFT, 1);

@@ -41,12 +41,6 @@ static froe_status paint_cells(const draw_page *page, cairo_t *cr, const draw_pa
  * regions of a few dots would only darken the picture: they fade out by size. */
 enum { DEEP = 11, FADES = 4, CLASSES = DEEP + FADES, GONE = CLASSES };
 
-static int weight_class(const draw_cut *cut, double unit) {
-    double size = cut->size / (2.5 * unit);
-    if (size < FADES) return size < 1 ? GONE : CLASSES - (int)size;
-    return cut->depth < DEEP ? (int)cut->depth : DEEP;
-}
-
 static void paint_cuts(const draw_page *page, cairo_t *cr, const draw_partition *part) {
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
     for (int class = CLASSES; class -- > 0;) {
@@ -57,7 +51,11 @@ static void paint_cuts(const draw_page *page, cairo_t *cr, const draw_partition 
         cairo_set_line_width(cr, (1.25 - 0.95 * sqrt(deep)) * page->unit);
         for (size_t i = 0; i < part->cuts.count; i++) {
             const draw_cut *cut = part->cuts.data + i;
-            if (weight_class(cut, page->unit) != class) continue;
+            const double size = cut->size / (2.5 * page->unit);
+            const int own = size < 1       ? GONE
+                            : size < FADES ? CLASSES - (int)size
+                                           : (int)(cut->depth < DEEP ? cut->depth : DEEP);
+            if (own != class) continue;
             cairo_move_to(cr, cut->p.x, cut->p.y);
             cairo_line_to(cr, cut->q.x, cut->q.y);
             if (++held % PATH == 0) cairo_stroke(cr);

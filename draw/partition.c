@@ -50,48 +50,11 @@ bool draw_census_of(const froe_allocator *alloc, const froe_tree *tree, froe_nod
     return ok;
 }
 
-static bool emit_cell(partition_walk *w, region_frame top, bool leaf) {
-    draw_partition *out = w->out;
-    double depth = top.depth;
-    if (!leaf) {
-        draw_census census;
-        if (!draw_census_of(&out->alloc, w->tree, top.node, &census)) return false;
-        if (!w->max_depth || top.depth < w->max_depth) depth += (double)census.depths / (double)census.leaves;
-        out->merged++;
-        out->merged_leaves += census.leaves;
-    }
-    if (!array_reserve(&out->alloc, &out->points, top.count)) return false;
-    draw_cell cell = {out->points.count, (uint32_t)top.count, depth};
-    for (size_t i = 0; i < top.count; i++)
-        out->points.data[out->points.count++] = draw_view_map(w->view, w->stack.data[top.first + i]);
-    return array_push(&out->alloc, &out->cells, cell);
-}
-
 /* The line in which a cut meets the view's plane. */
 typedef struct trace {
     draw_point n;
     double c;
 } trace;
-
-/* The part of the line inside a convex ring: its two extreme crossings. */
-static bool emit_cut(partition_walk *w, const trace *line, size_t count, uint32_t depth, double size) {
-    const draw_point *ring = w->ring.data;
-    draw_point along = {-line->n.y, line->n.x}, ends[2] = {{0, 0}, {0, 0}};
-    double reach[2] = {HUGE_VAL, -HUGE_VAL};
-    for (size_t i = 0; i < count; i++) {
-        draw_point p = ring[i], q = ring[i + 1 < count ? i + 1 : 0];
-        double d = line->n.x * p.x + line->n.y * p.y - line->c, e = line->n.x * q.x + line->n.y * q.y - line->c;
-        if (d != 0 && !(d < 0 && e > 0) && !(d > 0 && e < 0)) continue;
-        double t = d == 0 ? 0 : d / (d - e);
-        draw_point x = {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
-        double s = along.x * x.x + along.y * x.y;
-        if (s < reach[0]) reach[0] = s, ends[0] = x;
-        if (s > reach[1]) reach[1] = s, ends[1] = x;
-    }
-    if (!(reach[0] < reach[1])) return true;
-    draw_cut cut = {draw_view_map(w->view, ends[0]), draw_view_map(w->view, ends[1]), depth, (float)size};
-    return array_push(&w->out->alloc, &w->out->cuts, cut);
-}
 
 static bool push_part(partition_walk *w, froe_node node, uint32_t depth, const trace *line, int side, size_t count) {
     if (!array_reserve(&w->out->alloc, &w->stack, count + 1)) return false;
@@ -116,8 +79,23 @@ static bool split(partition_walk *w, region_frame top, const froe_node_info *inf
     if (!array_reserve(&w->out->alloc, &w->ring, top.count)) return false;
     for (size_t i = 0; i < top.count; i++) w->ring.data[i] = w->stack.data[top.first + i];
     w->stack.count = top.first;
-    return emit_cut(w, &line, top.count, top.depth, size) &&
-           push_part(w, info->child[0], top.depth + 1, &line, 0, top.count) &&
+    /* The part of the line inside the convex ring: its two extreme crossings. */
+    const draw_point *ring = w->ring.data, along = {-line.n.y, line.n.x};
+    draw_point ends[2] = {{0, 0}, {0, 0}};
+    double reach[2] = {HUGE_VAL, -HUGE_VAL};
+    for (size_t i = 0; i < top.count; i++) {
+        draw_point p = ring[i], q = ring[i + 1 < top.count ? i + 1 : 0];
+        double d = line.n.x * p.x + line.n.y * p.y - line.c, e = line.n.x * q.x + line.n.y * q.y - line.c;
+        if (d != 0 && !(d < 0 && e > 0) && !(d > 0 && e < 0)) continue;
+        double t = d == 0 ? 0 : d / (d - e);
+        draw_point x = {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+        double s = along.x * x.x + along.y * x.y;
+        if (s < reach[0]) reach[0] = s, ends[0] = x;
+        if (s > reach[1]) reach[1] = s, ends[1] = x;
+    }
+    const draw_cut cut = {draw_view_map(view, ends[0]), draw_view_map(view, ends[1]), top.depth, (float)size};
+    if (reach[0] < reach[1] && !array_push(&w->out->alloc, &w->out->cuts, cut)) return false;
+    return push_part(w, info->child[0], top.depth + 1, &line, 0, top.count) &&
            push_part(w, info->child[1], top.depth + 1, &line, 1, top.count);
 }
 
@@ -135,9 +113,21 @@ static bool step(partition_walk *w) {
     double size = fmax(hi.x - lo.x, hi.y - lo.y) * w->view->scale;
     if (!leaf && (!w->max_depth || top.depth < w->max_depth) && size >= w->view->detail)
         return split(w, top, &info, size);
-    bool ok = emit_cell(w, top, leaf);
+    draw_partition *out = w->out;
+    double depth = top.depth;
+    if (!leaf) {
+        draw_census census;
+        if (!draw_census_of(&out->alloc, w->tree, top.node, &census)) return false;
+        if (!w->max_depth || top.depth < w->max_depth) depth += (double)census.depths / (double)census.leaves;
+        out->merged++;
+        out->merged_leaves += census.leaves;
+    }
+    if (!array_reserve(&out->alloc, &out->points, top.count)) return false;
+    draw_cell cell = {out->points.count, (uint32_t)top.count, depth};
+    for (size_t i = 0; i < top.count; i++)
+        out->points.data[out->points.count++] = draw_view_map(w->view, w->stack.data[top.first + i]);
     w->stack.count = top.first;
-    return ok;
+    return array_push(&out->alloc, &out->cells, cell);
 }
 
 froe_status draw_partition_add(draw_partition *out, const froe_tree *tree, const draw_view *view, uint32_t max_depth,

@@ -31,8 +31,16 @@ static bool paint_path(void *user, const froe_render_path *path) {
     return true;
 }
 
-/* What froe_render_paths() leaves to its caller: the size in pixels. */
-static froe_status check_pixels(const froe_render_options *o, froe_diagnostic *diag) {
+froe_status froe_render_png(const froe_tree *tree, const char *path, const froe_render_options *options,
+                            froe_render_report *report, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    const froe_render_options standard = froe_render_defaults(), *o = options ? options : &standard;
+    froe_render_report found;
+    draw_output output = {.alloc = support_allocator(o->alloc)};
+    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
+    if (o->size != sizeof *o)
+        return support_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_render_defaults().");
+    /* What froe_render_paths() leaves to its caller: the size in pixels. */
     const struct {
         const char *name;
         double value, lo, hi;
@@ -43,22 +51,8 @@ static froe_status check_pixels(const froe_render_options *o, froe_diagnostic *d
         if (!(ranges[i].value >= ranges[i].lo && ranges[i].value <= ranges[i].hi))
             return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.",
                                 ranges[i].name, ranges[i].value, ranges[i].lo, ranges[i].hi);
-    return FROE_OK;
-}
-
-froe_status froe_render_png(const froe_tree *tree, const char *path, const froe_render_options *options,
-                            froe_render_report *report, froe_diagnostic *diag) {
-    SUPPORT_FLOATS_OWN;
-    const froe_render_options standard = froe_render_defaults(), *o = options ? options : &standard;
-    froe_render_report found;
-    draw_output output = {.alloc = support_allocator(o->alloc)};
-    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
-    if (o->size != sizeof *o)
-        return support_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_render_defaults().");
-    froe_status status = check_pixels(o, diag);
-    if (status) return status;
-    status = draw_output_begin(&output, &output.alloc, FROE_DRAW_PNG, o->camera.width, o->camera.height, o->pixels,
-                               NULL, diag);
+    froe_status status = draw_output_begin(&output, &output.alloc, FROE_DRAW_PNG, o->camera.width, o->camera.height,
+                                           o->pixels, NULL, diag);
     if (!status) {
         if (o->background != FROE_DRAW_CLEAR) {
             set_colour(output.cr, o->background, 1);

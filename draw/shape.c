@@ -114,13 +114,6 @@ static bool finish(draw_shaper *s, draw_shape *out) {
     return true;
 }
 
-/* Several corners on one line: its ends. */
-static void outermost(draw_shaper *s) {
-    qsort(s->points.data, s->points.count, sizeof *s->points.data, by_x_then_y);
-    s->points.data[1] = s->points.data[s->points.count - 1];
-    s->points.count = 2;
-}
-
 /* A point, segment or planar polygon. Of a cut polygon two crossings are left; a
  * polygon that merely touches the plane with a corner leaves nothing. */
 static bool plane_figure(draw_shaper *s, bool pieces, draw_shape *out) {
@@ -136,36 +129,11 @@ static bool plane_figure(draw_shaper *s, bool pieces, draw_shape *out) {
         if (!add_shape_point(s, on ? flat(s, i) : shape_crossing(s, i, j))) return false;
     }
     if (count > 2 && s->points.count < 2) s->points.count = 0;
-    if (flat_corners < count && s->points.count > 2) outermost(s);
-    return finish(s, out);
-}
-
-static bool box(draw_shaper *s, draw_shape *out) {
-    double a = over(s, 0), b = over(s, 1);
-    if (fmin(a, b) > 0 || fmax(a, b) < 0) return true;
-    draw_point p = flat(s, 0), q = flat(s, 1);
-    draw_point lo = {fmin(p.x, q.x), fmin(p.y, q.y)}, hi = {fmax(p.x, q.x), fmax(p.y, q.y)};
-    bool thin = lo.x == hi.x || lo.y == hi.y;
-    bool ok = add_shape_point(s, lo) && (thin || add_shape_point(s, (draw_point){hi.x, lo.y})) &&
-              add_shape_point(s, hi) && (thin || add_shape_point(s, (draw_point){lo.x, hi.y}));
-    return ok && finish(s, out);
-}
-
-/* A circle of 128 corners, by halving arcs: for discs too large for the page's curves. */
-static bool wide_disc(draw_shaper *s, draw_point c, double r, draw_shape *out) {
-    enum { CORNERS = 128 };
-    draw_point p[CORNERS] = {{1, 0}};
-    p[CORNERS / 4] = (draw_point){0, 1};
-    p[CORNERS / 2] = (draw_point){-1, 0};
-    p[3 * CORNERS / 4] = (draw_point){0, -1};
-    for (int step = CORNERS / 8; step; step /= 2)
-        for (int i = step; i < CORNERS; i += 2 * step) {
-            draw_point a = p[i - step], b = p[(i + step) % CORNERS], m = {a.x + b.x, a.y + b.y};
-            double length = sqrt(m.x * m.x + m.y * m.y);
-            p[i] = (draw_point){m.x / length, m.y / length};
-        }
-    for (int i = 0; i < CORNERS; i++)
-        if (!add_shape_point(s, (draw_point){c.x + r * p[i].x, c.y + r * p[i].y})) return false;
+    if (flat_corners < count && s->points.count > 2) { /* several corners on one line: its ends */
+        qsort(s->points.data, s->points.count, sizeof *s->points.data, by_x_then_y);
+        s->points.data[1] = s->points.data[s->points.count - 1];
+        s->points.count = 2;
+    }
     return finish(s, out);
 }
 
@@ -178,25 +146,25 @@ static bool ball(draw_shaper *s, double raw_radius, draw_shape *out) {
     draw_point c = flat(s, 0), lo = s->view->lo, hi = s->view->hi;
     if (c.x + r < lo.x || c.x - r > hi.x || c.y + r < lo.y || c.y - r > hi.y) return true;
     if (r == 0) return add_shape_point(s, c) && finish(s, out);
-    if (r > 64 * (hi.x - lo.x + hi.y - lo.y)) return wide_disc(s, c, r, out);
+    if (r > 64 * (hi.x - lo.x + hi.y - lo.y)) { /* too large for the page's curves: a ring, by halving arcs */
+        enum { CORNERS = 128 };
+        draw_point p[CORNERS] = {{1, 0}};
+        p[CORNERS / 4] = (draw_point){0, 1};
+        p[CORNERS / 2] = (draw_point){-1, 0};
+        p[3 * CORNERS / 4] = (draw_point){0, -1};
+        for (int step = CORNERS / 8; step; step /= 2)
+            for (int i = step; i < CORNERS; i += 2 * step) {
+                draw_point a = p[i - step], b = p[(i + step) % CORNERS], m = {a.x + b.x, a.y + b.y};
+                double length = sqrt(m.x * m.x + m.y * m.y);
+                p[i] = (draw_point){m.x / length, m.y / length};
+            }
+        for (int i = 0; i < CORNERS; i++)
+            if (!add_shape_point(s, (draw_point){c.x + r * p[i].x, c.y + r * p[i].y})) return false;
+        return finish(s, out);
+    }
     if (!add_shape_point(s, draw_view_map(s->view, c))) return false;
     *out = (draw_shape){.sort = DRAW_DISC, .points = s->points.data, .count = 1, .radius = r * s->view->scale};
     return true;
-}
-
-static bool hull(draw_shaper *s, draw_shape *out) {
-    size_t count = corner_count(s);
-    for (size_t i = 0; i < count; i++) {
-        double a = over(s, i);
-        if (a == 0 && !add_shape_point(s, flat(s, i))) return false;
-        for (size_t j = i + 1; a != 0 && j < count; j++)
-            if (((a < 0 && over(s, j) > 0) || (a > 0 && over(s, j) < 0)) &&
-                !add_shape_point(s, shape_crossing(s, i, j)))
-                return false;
-    }
-    if (!room(s)) return false;
-    s->points.count = draw_hull(s->points.data, s->spare.data, s->points.count);
-    return finish(s, out);
 }
 
 bool draw_shape_of_object(draw_shaper *s, uint32_t object, draw_shape *out) {
@@ -204,16 +172,30 @@ bool draw_shape_of_object(draw_shaper *s, uint32_t object, draw_shape *out) {
     *out = (draw_shape){.sort = DRAW_NOTHING};
     s->points.count = 0;
     if (!draw_corners_of_object(s, object)) return false;
-    switch (o.form) {
-    case FROE_BOX:
-        return box(s, out);
-    case FROE_BALL:
-        return ball(s, o.radius, out);
-    case FROE_HULL:
-        return hull(s, out);
-    default:
-        return plane_figure(s, false, out);
+    if (o.form == FROE_BALL) return ball(s, o.radius, out);
+    if (o.form != FROE_BOX && o.form != FROE_HULL) return plane_figure(s, false, out);
+    if (o.form == FROE_HULL) {
+        const size_t count = corner_count(s);
+        for (size_t i = 0; i < count; i++) {
+            const double at = over(s, i);
+            if (at == 0 && !add_shape_point(s, flat(s, i))) return false;
+            for (size_t j = i + 1; at != 0 && j < count; j++)
+                if (((at < 0 && over(s, j) > 0) || (at > 0 && over(s, j) < 0)) &&
+                    !add_shape_point(s, shape_crossing(s, i, j)))
+                    return false;
+        }
+        if (!room(s)) return false;
+        s->points.count = draw_hull(s->points.data, s->spare.data, s->points.count);
+        return finish(s, out);
     }
+    const double a = over(s, 0), b = over(s, 1);
+    if (fmin(a, b) > 0 || fmax(a, b) < 0) return true;
+    draw_point p = flat(s, 0), q = flat(s, 1);
+    draw_point lo = {fmin(p.x, q.x), fmin(p.y, q.y)}, hi = {fmax(p.x, q.x), fmax(p.y, q.y)};
+    bool thin = lo.x == hi.x || lo.y == hi.y;
+    bool ok = add_shape_point(s, lo) && (thin || add_shape_point(s, (draw_point){hi.x, lo.y})) &&
+              add_shape_point(s, hi) && (thin || add_shape_point(s, (draw_point){lo.x, hi.y}));
+    return ok && finish(s, out);
 }
 
 bool draw_shape_of_piece(draw_shaper *s, size_t piece, draw_shape *out) {

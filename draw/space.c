@@ -112,22 +112,6 @@ static draw_plane of_object(const draw_space *space, const froe_scene *scene, ui
     return used == 2 || space->dim == 2 ? along(space, corners[0], corners[1]) : spanned(space, corners, used);
 }
 
-/* normal . x = value, with x = (mid + half * p) / 2^shift. */
-static draw_plane of_normal(const draw_space *space, const double *normal, double value) {
-    draw_plane plane = {{0}, 0};
-    double largest = 0;
-    for (int k = 0; k < space->dim; k++) largest = fmax(largest, fabs(normal[k]));
-    if (!(largest > 0)) return plane;
-    int shift;
-    double scale = frexp(largest, &shift), c = ldexp(value, space->shift - shift) / scale;
-    for (int k = 0; k < space->dim; k++) {
-        plane.n[k] = space->sign[k] * ldexp(normal[space->from[k]], -shift) / scale;
-        c -= plane.n[k] * space->mid[k];
-    }
-    plane.c = finite(c / space->half);
-    return plane;
-}
-
 draw_plane draw_space_plane(const draw_space *space, const froe_scene *scene, const froe_cut *cut) {
     draw_plane plane = {{0}, 0};
     const double *p[3] = {NULL, NULL, NULL};
@@ -148,8 +132,20 @@ draw_plane draw_space_plane(const draw_space *space, const froe_scene *scene, co
     case FROE_CUT_EDGE:
         return along(space, p[0], p[1]);
     case FROE_CUT_PLANE:
-        return of_normal(space, cut->normal, cut->value);
+        break;
     default:
         return plane;
     }
+    /* normal . x = value, with x = (mid + half * p) / 2^shift. */
+    double largest = 0;
+    for (int k = 0; k < space->dim; k++) largest = fmax(largest, fabs(cut->normal[k]));
+    if (!(largest > 0)) return plane;
+    int exponent;
+    double scale = frexp(largest, &exponent), c = ldexp(cut->value, space->shift - exponent) / scale;
+    for (int k = 0; k < space->dim; k++) {
+        plane.n[k] = space->sign[k] * ldexp(cut->normal[space->from[k]], -exponent) / scale;
+        c -= plane.n[k] * space->mid[k];
+    }
+    plane.c = finite(c / space->half);
+    return plane;
 }

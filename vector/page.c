@@ -16,19 +16,6 @@ static void put_colour(vector_output *output, uint32_t colour, const char *opera
                  vector_real(4, (colour & 255) / 255.0).text, operator);
 }
 
-/* Points that fall together on the grid are one. */
-static void put_outline(page_writer *w, const froe_outline *outline) {
-    int64_t at[2] = {0, 0};
-    for (size_t i = 0; i < outline->count; i++) {
-        const int64_t x = vector_step(w->render, outline->points[2 * i]),
-                      y = vector_step(w->render, outline->points[2 * i + 1]);
-        if (i && x == at[0] && y == at[1]) continue;
-        vector_print(w->output, "%lld %lld %c\n", (long long)x, (long long)y, i ? 'l' : 'm');
-        at[0] = x, at[1] = y;
-    }
-    if (outline->closed) vector_print(w->output, "h\n");
-}
-
 static bool put_path(void *user, const froe_render_path *path) {
     page_writer *w = user;
     const double grid = w->render->grid;
@@ -45,8 +32,19 @@ static bool put_path(void *user, const froe_render_path *path) {
         else
             vector_print(w->output, "[] 0 d\n");
     }
-    for (size_t i = 0; i < path->count; i++)
-        if (path->lines || vector_ring_shows(w->render, path->outlines + i)) put_outline(w, path->outlines + i);
+    for (size_t i = 0; i < path->count; i++) {
+        const froe_outline *outline = path->outlines + i;
+        int64_t at[2] = {0, 0};
+        if (!path->lines && !vector_ring_shows(w->render, outline)) continue;
+        for (size_t k = 0; k < outline->count; k++) { /* points that fall together on the grid are one */
+            const int64_t x = vector_step(w->render, outline->points[2 * k]),
+                          y = vector_step(w->render, outline->points[2 * k + 1]);
+            if (k && x == at[0] && y == at[1]) continue;
+            vector_print(w->output, "%lld %lld %c\n", (long long)x, (long long)y, k ? 'l' : 'm');
+            at[0] = x, at[1] = y;
+        }
+        if (outline->closed) vector_print(w->output, "h\n");
+    }
     vector_print(w->output, "%s\n", path->lines ? "S" : path->width > 0 ? "B" : "f");
     return !w->output->status;
 }

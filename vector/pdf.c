@@ -20,21 +20,15 @@ static void end_object(pdf_writer *w) {
     vector_print(w->output, "endobj\n");
 }
 
-static uint32_t next_character(const char **text) {
-    const unsigned char *at = (const unsigned char *)*text;
-    const int more = *at < 0x80 ? 0 : *at < 0xE0 ? 1 : *at < 0xF0 ? 2 : 3;
-    uint32_t character = more ? *at & (0x3Fu >> more) : *at;
-    for (int i = 1; i <= more; i++) character = character << 6 | (at[i] & 0x3Fu);
-    *text += more + 1;
-    return character;
-}
-
 /* A text of valid UTF-8 as UTF-16 in hexadecimal digits (7.9.2.2), which needs no escaping. */
 static void put_entry(pdf_writer *w, const char *key, const char *text) {
     if (!text || !*text) return;
     vector_print(w->output, "/%s<FEFF", key);
-    while (*text) {
-        const uint32_t c = next_character(&text);
+    for (const unsigned char *at = (const unsigned char *)text; *at;) {
+        const int more = *at < 0x80 ? 0 : *at < 0xE0 ? 1 : *at < 0xF0 ? 2 : 3;
+        uint32_t c = more ? *at & (0x3Fu >> more) : *at;
+        for (int i = 1; i <= more; i++) c = c << 6 | (at[i] & 0x3Fu);
+        at += more + 1;
         if (c < 0x10000)
             vector_print(w->output, "%04X", c);
         else

@@ -10,13 +10,6 @@ static const uint32_t hues[] = {0xE9E4D8, 0xB8CBD6, 0xD9B48F, 0xB9C7A0, 0xC9B6CF
  * share a path more often. */
 enum { LIGHTS = 64 };
 
-static uint32_t lit(uint32_t colour, double light) {
-    uint32_t out = 0;
-    for (int shift = 0; shift < 24; shift += 8)
-        out |= (uint32_t)floor((double)(colour >> shift & 255) * light + 0.5) << shift;
-    return out;
-}
-
 /* How much the light, to the upper left of the camera, lights a polygon: 0 .. 1, from both sides. */
 static double light_on(const vector_render *r, uint32_t object) {
     const double *p[3];
@@ -59,25 +52,23 @@ double vector_opacity(const froe_scene *scene, const froe_render_options *o, uin
     return colour ? (colour & 255) / 255.0 : 1;
 }
 
-/* 0xRRGGBB. */
-static uint32_t colour_of(const vector_render *r, uint32_t group, const uint32_t *materials) {
-    if (group == FROE_NONE) return hues[0];
-    const uint32_t given = given_colour(r->scene, r->options, group);
-    return given ? given >> 8 : hues[materials[group] % (sizeof hues / sizeof *hues)];
-}
-
 /* 0xAARRGGBB. */
 static uint32_t style_of(const vector_render *r, uint32_t patch, const uint32_t *materials) {
     const froe_render_options *o = r->options;
     const froe_patch p = froe_surface_patch(r->surface, patch);
     const uint32_t alpha = (uint32_t)floor(vector_opacity(r->scene, o, p.group) * 255 + 0.5);
-    uint32_t colour = colour_of(r, p.group, materials);
+    const uint32_t given = p.group == FROE_NONE ? 0 : given_colour(r->scene, o, p.group);
+    const uint32_t own = p.group == FROE_NONE ? hues[0] : hues[materials[p.group] % (sizeof hues / sizeof *hues)];
+    const uint32_t colour = given ? given >> 8 : own;
     const double lit_by = light_on(r, p.objects[0]);
     const double light = o->shading == FROE_SHADE_CEL ? (floor(lit_by * 0.9999 * o->cel_levels) + 0.5) / o->cel_levels
                                                       : floor(lit_by * LIGHTS + 0.5) / LIGHTS;
     if (o->shading == FROE_SHADE_WHITE) return alpha << 24 | 0xFFFFFF;
-    if (o->shading != FROE_SHADE_PLAIN) colour = lit(colour, 0.45 + 0.55 * light);
-    return alpha << 24 | colour;
+    if (o->shading == FROE_SHADE_PLAIN) return alpha << 24 | colour;
+    uint32_t lit = alpha << 24;
+    for (int shift = 0; shift < 24; shift += 8)
+        lit |= (uint32_t)floor((double)(colour >> shift & 255) * (0.45 + 0.55 * light) + 0.5) << shift;
+    return lit;
 }
 
 static int compare_styles(const void *a, const void *b) {

@@ -84,43 +84,11 @@ static void put_colour(vector_output *output, uint32_t colour) {
         vector_print(output, "#%02x%02x%02x", r, g, b);
 }
 
-/* Colour, opacity, and a stroke of the fill's own colour, as wide as seams may be. */
-static void put_style(svg_writer *w, const froe_render_path *path) {
-    const uint32_t alpha = path->colour >> 24;
-    put_text(w, "<path fill=\"");
-    put_colour(w->output, path->colour);
-    if (alpha < 255) vector_print(w->output, "\" fill-opacity=\"0.%02u", alpha * 100 / 255);
-    if (w->render->options->seams != FROE_SEAMS_STROKE) return;
-    put_text(w, "\" stroke=\"");
-    put_colour(w->output, path->colour);
-    vector_print(w->output, "\" stroke-width=\"%s", vector_real(3, w->render->grid * path->width).text);
-}
-
-static void put_ids(svg_writer *w, const froe_render_path *path) {
-    const froe_ids ids = w->render->options->ids;
-    if (ids == FROE_IDS_NONE) return;
-    if (ids == FROE_IDS_FACE) vector_print(w->output, "\" data-object=\"%u", path->object);
-    put_text(w, "\" data-group=\"");
-    if (path->group != FROE_NONE) vector_put_escaped(w->output, froe_scene_group(w->render->scene, path->group).name);
-}
-
 static int compare_along_strips(const void *a, const void *b) {
     const svg_ring *p = a, *q = b;
     if (p->x != q->x) return p->x < q->x ? -1 : 1;
     if (p->y != q->y) return p->y < q->y ? -1 : 1;
     return p->outline->points < q->outline->points ? -1 : p->outline->points > q->outline->points;
-}
-
-/* The corner of a ring that is nearest to where the last one ended. */
-static size_t nearest_corner(const svg_writer *w, const froe_outline *ring) {
-    int64_t least = INT64_MAX;
-    size_t found = 0;
-    for (size_t i = 0; i < ring->count; i++) {
-        const int64_t far = llabs(vector_step(w->render, ring->points[2 * i]) - w->at[0]) +
-                            llabs(vector_step(w->render, ring->points[2 * i + 1]) - w->at[1]);
-        if (far < least) least = far, found = i;
-    }
-    return found;
 }
 
 /* Rings down one strip of the page and up the next, so that moves are short. */
@@ -139,7 +107,16 @@ static void put_rings(svg_writer *w, const froe_render_path *path) {
     qsort(w->rings.data, path->count, sizeof *w->rings.data, compare_along_strips);
     for (size_t i = 0; i < path->count; i++) {
         const froe_outline *ring = w->rings.data[i].outline;
-        if (vector_ring_shows(w->render, ring)) put_outline(w, ring, nearest_corner(w, ring));
+        if (!vector_ring_shows(w->render, ring)) continue;
+        /* It begins at the corner that is nearest to where the last one ended. */
+        int64_t least = INT64_MAX;
+        size_t nearest = 0;
+        for (size_t k = 0; k < ring->count; k++) {
+            const int64_t far = llabs(vector_step(w->render, ring->points[2 * k]) - w->at[0]) +
+                                llabs(vector_step(w->render, ring->points[2 * k + 1]) - w->at[1]);
+            if (far < least) least = far, nearest = k;
+        }
+        put_outline(w, ring, nearest);
     }
 }
 
@@ -156,9 +133,21 @@ static void put_layer(svg_writer *w, uint32_t layer) {
 }
 
 static void put_shapes(svg_writer *w, const froe_render_path *path) {
+    const vector_render *r = w->render;
+    const uint32_t alpha = path->colour >> 24;
     put_layer(w, path->layer);
-    put_style(w, path);
-    put_ids(w, path);
+    put_text(w, "<path fill=\"");
+    put_colour(w->output, path->colour);
+    if (alpha < 255) vector_print(w->output, "\" fill-opacity=\"0.%02u", alpha * 100 / 255);
+    if (r->options->seams == FROE_SEAMS_STROKE) { /* of the fill's own colour, as wide as seams may be */
+        put_text(w, "\" stroke=\"");
+        put_colour(w->output, path->colour);
+        vector_print(w->output, "\" stroke-width=\"%s", vector_real(3, r->grid * path->width).text);
+    }
+    if (r->options->ids == FROE_IDS_FACE) vector_print(w->output, "\" data-object=\"%u", path->object);
+    if (r->options->ids != FROE_IDS_NONE) put_text(w, "\" data-group=\"");
+    if (r->options->ids != FROE_IDS_NONE && path->group != FROE_NONE)
+        vector_put_escaped(w->output, froe_scene_group(r->scene, path->group).name);
     put_text(w, "\" d=\"");
     begin_path(w);
     put_rings(w, path);

@@ -210,21 +210,6 @@ static bool add_list(item_walk *w, const froe_node_info *info) {
 
 /* -------------------------------------------------------------------- walk -- */
 
-/* The list of a node and, above all parts, the wall between its two sides: the cut within its region, in the middle of
- * the gap. */
-static bool add_node(item_walk *w, froe_node node) {
-    const froe_node_info info = froe_tree_node(w->tree, node);
-    const uint32_t wall = w->solid->wall_of[node.id1 - 1];
-    if (!add_list(w, &info)) return false;
-    if (!wall || w->part || !shows(w, FROE_DRAW_CUTS)) return true;
-    const draw_wall *cut = w->solid->walls.data + wall - 1;
-    const double *corners = w->solid->corners.data + cut->first_corner;
-    const draw_item item = {.matter = DRAW_WALL, .depth = (uint16_t)(w->depth < 65536 ? w->depth - 1 : 65535)};
-    double own[3];
-    centre(corners, cut->count, own);
-    return add_area(w, item, corners, cut->count, own, NULL);
-}
-
 static bool visit_stage(void *user, froe_node node, froe_order_stage stage) {
     SUPPORT_FLOATS_OWN;
     item_walk *w = user;
@@ -236,7 +221,18 @@ static bool visit_stage(void *user, froe_node node, froe_order_stage stage) {
             w->ok = add_faces(w, DRAW_FRONT);
         }
     } else if (stage == FROE_ORDER_LIST) {
-        w->ok = add_node(w, node);
+        const froe_node_info info = froe_tree_node(w->tree, node);
+        const uint32_t wall = w->solid->wall_of[node.id1 - 1];
+        w->ok = add_list(w, &info);
+        if (w->ok && wall && !w->part && shows(w, FROE_DRAW_CUTS)) {
+            /* The wall between two parts: the cut within its region, in the middle of the gap. */
+            const draw_wall *cut = w->solid->walls.data + wall - 1;
+            const double *corners = w->solid->corners.data + cut->first_corner;
+            const draw_item item = {.matter = DRAW_WALL, .depth = (uint16_t)(w->depth < 65536 ? w->depth - 1 : 65535)};
+            double middle[3];
+            centre(corners, cut->count, middle);
+            w->ok = add_area(w, item, corners, cut->count, middle, NULL);
+        }
     } else {
         w->depth--;
         if (w->part && w->part_node.id1 == node.id1) {

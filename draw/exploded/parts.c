@@ -21,12 +21,22 @@ static bool copy_corners(draw_solid *solid, const double *coords, size_t count, 
     return true;
 }
 
-static bool keep_part(draw_solid *solid, const froe_cell *cell) {
+/* Keeps a region at the depth of the parts with its faces, and of one above that its cut. */
+static froe_status keep_region(draw_solid *solid, const froe_cell *cell) {
     const draw_page *page = &solid->picture->page;
+    const uint32_t depth = page->options->explode_depth;
+    if (cell->depth < depth && !cell->leaf && cell->cut_corners >= 3) {
+        const draw_wall wall = {solid->corners.count, cell->cut_corners};
+        if (!copy_corners(solid, cell->cut_coords, cell->cut_corners, NULL) ||
+            !array_push(&page->alloc, &solid->walls, wall))
+            return FROE_E_MEMORY;
+        solid->wall_of[cell->node.id1 - 1] = (uint32_t)solid->walls.count;
+    }
+    if (cell->depth != depth && !(cell->leaf && cell->depth < depth)) return FROE_OK;
     draw_part part = {.node = cell->node, .depth = cell->depth, .leaf = cell->leaf};
     if (!cell->leaf) {
         draw_census census;
-        if (!draw_census_of(&page->alloc, page->tree, cell->node, &census)) return false;
+        if (!draw_census_of(&page->alloc, page->tree, cell->node, &census)) return FROE_E_MEMORY;
         part.depth += (double)census.depths / (double)census.leaves;
         solid->leaves += census.leaves;
     } else
@@ -40,30 +50,20 @@ static bool keep_part(draw_solid *solid, const froe_cell *cell) {
     double sum[3] = {0};
     if (!copy_corners(solid, cell->coords, cell->corners, sum) ||
         !array_reserve(&page->alloc, &solid->face_ends, cell->face_count))
-        return false;
+        return FROE_E_MEMORY;
     for (size_t f = 0; f < cell->face_count; f++)
         solid->face_ends.data[solid->face_ends.count++] = cell->face_starts[f + 1];
     for (int k = 0; k < 3; k++) part.middle[k] = cell->corners ? sum[k] / (double)cell->corners : 0;
-    if (!array_push(&page->alloc, &solid->parts, part)) return false;
+    if (!array_push(&page->alloc, &solid->parts, part)) return FROE_E_MEMORY;
     solid->part_of[cell->node.id1 - 1] = (uint32_t)solid->parts.count;
-    return true;
+    return FROE_OK;
 }
 
-static bool visit_part(void *user, const froe_cell *cell) {
+static bool visit_cell(void *user, const froe_cell *cell) {
     SUPPORT_FLOATS_OWN;
     collector *c = user;
-    draw_solid *solid = c->solid;
-    uint32_t depth = solid->picture->page.options->explode_depth;
-    bool ok = true;
-    if (cell->depth == depth || (cell->leaf && cell->depth < depth)) ok = keep_part(solid, cell);
-    if (cell->depth < depth && !cell->leaf && cell->cut_corners >= 3) {
-        const draw_wall wall = {solid->corners.count, cell->cut_corners};
-        ok = copy_corners(solid, cell->cut_coords, cell->cut_corners, NULL) &&
-             array_push(&solid->picture->page.alloc, &solid->walls, wall);
-        if (ok) solid->wall_of[cell->node.id1 - 1] = (uint32_t)solid->walls.count;
-    }
-    if (!ok) c->status = FROE_E_MEMORY;
-    if (ok && !draw_tick(solid->picture->page.task)) c->status = FROE_E_CANCELLED;
+    c->status = keep_region(c->solid, cell);
+    if (!c->status && !draw_tick(c->solid->picture->page.task)) c->status = FROE_E_CANCELLED;
     return c->status == FROE_OK;
 }
 
@@ -72,6 +72,6 @@ froe_status draw_solid_parts(draw_solid *solid) {
     double lo[3] = {0}, hi[3] = {0};
     if (!froe_scene_bounds(froe_tree_scene(page->tree), lo, hi)) return FROE_OK;
     collector c = {solid, FROE_OK};
-    froe_status status = froe_tree_cells(page->tree, lo, hi, visit_part, &c, NULL);
+    froe_status status = froe_tree_cells(page->tree, lo, hi, visit_cell, &c, NULL);
     return c.status != FROE_OK ? c.status : status;
 }
