@@ -2,29 +2,22 @@
 #include "render.h"
 #include "support/fail.h"
 #include "support/floats.h"
+#include "support/path.h"
 #include "support/writer.h"
 #include <string.h>
 
-static bool ends_in(const char *path, const char *lower) {
-    const size_t length = strlen(path), n = strlen(lower);
-    const char *at = path + length - n;
-    if (length < n) return false;
-    for (size_t i = 0; i < n; i++)
-        if ((at[i] >= 'A' && at[i] <= 'Z' ? at[i] - 'A' + 'a' : at[i]) != lower[i]) return false;
-    return true;
-}
-
 static froe_status format_of(const char *path, froe_render_format *format, froe_diagnostic *diag) {
-    static const char *const extensions[FROE_RENDER_FORMAT_COUNT] = {".svg", ".pdf", ".eps"};
+    static const char *const extensions[FROE_RENDER_FORMAT_COUNT] = {"svg", "pdf", "eps"};
+    const support_extension extension = support_path_extension(path);
     for (int f = 0; f < FROE_RENDER_FORMAT_COUNT; f++)
-        if (ends_in(path, extensions[f])) {
+        if (strcmp(extension.text, extensions[f]) == 0) {
             *format = (froe_render_format)f;
             return FROE_OK;
         }
-    if (ends_in(path, ".png"))
+    if (strcmp(extension.text, "png") == 0)
         return support_fail(diag, FROE_E_UNSUPPORTED,
-                            "PNG is not among the formats of froe_render(): '%.140s' is made "
-                            "by froe_render_png() of the library froe-draw.",
+                            "PNG is not among the formats of froe_render(): '%.140s' is made by froe_render_png() of "
+                            "the library froe-draw.",
                             path);
     return support_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf, .eps or .png.",
                         path);
@@ -209,7 +202,7 @@ froe_status froe_render_animation(const froe_tree *tree, const char *path, const
     froe_render_report last = {.paths = 0};
     if (!tree || !path || !cameras || !count)
         return support_fail(diag, FROE_E_ARG, "An animation needs a tree, a path and cameras.");
-    if (!ends_in(path, ".svg"))
+    if (strcmp(support_path_extension(path).text, "svg") != 0)
         return support_fail(diag, FROE_E_OPTIONS, "Only SVG moves: '%.140s' does not end in .svg.", path);
     if (!(seconds > 0 && seconds <= 1e6))
         return support_fail(diag, FROE_E_OPTIONS, "A round of %g seconds is none.", seconds);
