@@ -36,23 +36,6 @@ static uint64_t spread(uint64_t x) {
     return (x | x << 1) & UINT64_C(0x5555555555555555);
 }
 
-/* Corners in one place have equal ranks on both axes, and no others do. */
-static void sort_along_curve(spot *spots, uint32_t count) {
-    uint32_t rank = 0;
-    qsort(spots, count, sizeof *spots, by_x);
-    for (uint32_t i = 0; i < count; ++i) {
-        if (i && by_x(spots + i - 1, spots + i)) ++rank;
-        spots[i].place = spread(rank);
-    }
-    rank = 0;
-    qsort(spots, count, sizeof *spots, by_y);
-    for (uint32_t i = 0, last = 0; i < count; last = i++) {
-        if (by_y(spots + last, spots + i)) ++rank;
-        spots[i].place |= spread(rank) << 1;
-    }
-    qsort(spots, count, sizeof *spots, by_place);
-}
-
 /* ----------------------------------------------------------------- the levels -- */
 
 static uint32_t parent(const formats_corner_index *index, uint32_t level, uint32_t entry) {
@@ -87,7 +70,20 @@ bool formats_corner_index_new(const froe_allocator *alloc, const double *xy, uin
     *out = (formats_corner_index){.count = count};
     if (!spots) return false;
     for (uint32_t i = 0; i < count; ++i) spots[i] = (spot){xy[2 * i], xy[2 * i + 1], 0, i};
-    sort_along_curve(spots, count);
+    /* Corners in one place have equal ranks on both axes, and no others do. */
+    uint32_t rank = 0;
+    qsort(spots, count, sizeof *spots, by_x);
+    for (uint32_t i = 0; i < count; ++i) {
+        if (i && by_x(spots + i - 1, spots + i)) ++rank;
+        spots[i].place = spread(rank);
+    }
+    rank = 0;
+    qsort(spots, count, sizeof *spots, by_y);
+    for (uint32_t i = 0, last = 0; i < count; last = i++) {
+        if (by_y(spots + last, spots + i)) ++rank;
+        spots[i].place |= spread(rank) << 1;
+    }
+    qsort(spots, count, sizeof *spots, by_place);
     uint32_t width = 0; /* of level 0: places that differ */
     for (uint32_t i = 0; i < count; ++i) width += !i || spots[i].place != spots[i - 1].place;
     while (width) {

@@ -82,15 +82,6 @@ static void put_member(formats_writer *w, const char *name, double value) {
     formats_put_number(w, value);
 }
 
-/* In a script no text may end it. */
-static void put_page_text(formats_writer *w, const char *text) {
-    char safe[64];
-    size_t i = 0;
-    for (; text[i] && i + 1 < sizeof safe; i++) safe[i] = text[i] == '<' ? '(' : text[i];
-    safe[i] = '\0';
-    formats_put_json(w, safe);
-}
-
 static void put_plans(formats_writer *w, const froe_motion *m) {
     for (uint32_t v = 0; v < froe_motion_vertex_count(m); v++) {
         formats_put(w, v ? ",\n[" : "\n[");
@@ -133,7 +124,10 @@ void formats_animate_page(formats_writer *w, const formats_animation *a) {
         put_member(w, ",", o.birth);
         put_member(w, ",", o.death);
         formats_put(w, ",");
-        put_page_text(w, o.group == FROE_NONE ? "" : froe_motion_group(a->motion, o.group).name);
+        const char *name = o.group == FROE_NONE ? "" : froe_motion_group(a->motion, o.group).name;
+        char safe[64] = ""; /* in a script no text may end it */
+        for (size_t k = 0; name[k] && k + 1 < sizeof safe; k++) safe[k] = name[k] == '<' ? '(' : name[k];
+        formats_put_json(w, safe);
         formats_put(w, "]");
     }
     formats_put(w, "],\ncontacts: [");
