@@ -88,25 +88,6 @@ void view_camera_ray(const froe_projection *view, const double origin[3], int ax
 
 /* ---------------------------------------------------------------------- placing -- */
 
-static froe_status check_camera(const froe_camera *c, froe_diagnostic *diag) {
-    if (c->size != sizeof *c)
-        return support_fail(diag, FROE_E_OPTIONS, "the camera is not from froe_camera_defaults()");
-    for (int k = 0; k < 3; k++)
-        if (!isfinite(c->eye[k]) || !isfinite(c->target[k]) || !isfinite(c->up[k]))
-            return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
-                                   "coordinate %d of eye, target or up is not a finite number", k);
-    if (!(c->width > 0 && c->height > 0 && c->width <= 1e9 && c->height <= 1e9))
-        return support_fail(diag, FROE_E_OPTIONS, "a page of %g x %g is none", c->width, c->height);
-    if (!(c->margin >= 0 && 2 * c->margin < fmin(c->width, c->height)))
-        return support_fail(diag, FROE_E_OPTIONS, "a margin of %g leaves nothing of a page of %g x %g", c->margin,
-                            c->width, c->height);
-    if (!c->parallel && !(c->fov >= 1 && c->fov <= 170))
-        return support_fail(diag, FROE_E_OPTIONS, "an angle of view of %g degrees is not in 1 .. 170", c->fov);
-    if (!(c->scale >= 0) || !isfinite(c->scale))
-        return support_fail(diag, FROE_E_OPTIONS, "a scale of %g is none", c->scale);
-    return FROE_OK;
-}
-
 /* The page's axes. An up along the line of view is replaced by the first axis that is not along it. */
 static froe_status set_axes(const froe_camera *c, froe_projection *out, froe_diagnostic *diag) {
     double up[3] = {c->up[0], c->up[1], c->up[2]};
@@ -227,19 +208,6 @@ static double extent_of(const froe_scene *scene) {
 #define LEAST_EXTENT 0x1p-1000
 #define MOST_EXTENT 0x1p1000
 
-/* The corners of the page, in space, at the distance of the scene. */
-static void set_view_window(froe_projection *out, double distance) {
-    for (int i = 0; i < 4; i++) {
-        const double x = (i == 1 || i == 2 ? out->width : 0) - out->centre[0],
-                     y = out->centre[1] - (i < 2 ? 0 : out->height);
-        const double reach = out->eye.parallel ? 1 / out->scale : distance / out->scale,
-                     depth = out->eye.parallel ? 0 : distance;
-        for (int k = 0; k < 3; k++)
-            out->window[3 * i + k] =
-                out->origin[k] + reach * (x * out->right[k] + y * out->up[k]) - depth * out->back[k];
-    }
-}
-
 static froe_status put_in_place(const froe_camera *camera, const froe_scene *scene, const fit_points *points,
                                 froe_projection *out, froe_diagnostic *diag) {
     froe_projection view = {.width = camera->width, .height = camera->height, .eye.parallel = camera->parallel};
@@ -271,7 +239,16 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
         view.scale =
             camera->parallel ? camera->scale : (0.5 * camera->height - camera->margin) / view_tan(camera->fov / 2);
     if (status) return status;
-    set_view_window(&view, distance);
+    /* The corners of the page, in space, at the distance of the scene. */
+    for (int i = 0; i < 4; i++) {
+        const double x = (i == 1 || i == 2 ? view.width : 0) - view.centre[0],
+                     y = view.centre[1] - (i < 2 ? 0 : view.height);
+        const double reach = camera->parallel ? 1 / view.scale : distance / view.scale,
+                     depth = camera->parallel ? 0 : distance;
+        for (int k = 0; k < 3; k++)
+            view.window[3 * i + k] =
+                view.origin[k] + reach * (x * view.right[k] + y * view.up[k]) - depth * view.back[k];
+    }
     for (int i = 0; i < 12; i++)
         if (!isfinite(view.window[i]))
             return support_fail(diag, FROE_E_ARG,
@@ -289,10 +266,24 @@ froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene
     if (!camera || !scene || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     if (scene->dim != 3)
         return support_fail(diag, FROE_E_UNSUPPORTED, "cameras look at scenes in space, not in R^%d", scene->dim);
-    froe_status status = check_camera(camera, diag);
-    if (status) return status;
+    const froe_camera *c = camera;
+    if (c->size != sizeof *c)
+        return support_fail(diag, FROE_E_OPTIONS, "the camera is not from froe_camera_defaults()");
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(c->eye[k]) || !isfinite(c->target[k]) || !isfinite(c->up[k]))
+            return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
+                                   "coordinate %d of eye, target or up is not a finite number", k);
+    if (!(c->width > 0 && c->height > 0 && c->width <= 1e9 && c->height <= 1e9))
+        return support_fail(diag, FROE_E_OPTIONS, "a page of %g x %g is none", c->width, c->height);
+    if (!(c->margin >= 0 && 2 * c->margin < fmin(c->width, c->height)))
+        return support_fail(diag, FROE_E_OPTIONS, "a margin of %g leaves nothing of a page of %g x %g", c->margin,
+                            c->width, c->height);
+    if (!c->parallel && !(c->fov >= 1 && c->fov <= 170))
+        return support_fail(diag, FROE_E_OPTIONS, "an angle of view of %g degrees is not in 1 .. 170", c->fov);
+    if (!(c->scale >= 0) || !isfinite(c->scale))
+        return support_fail(diag, FROE_E_OPTIONS, "a scale of %g is none", c->scale);
     const bool ok = fit_points_new(camera, scene, &points);
-    status = ok ? put_in_place(camera, scene, &points, out, diag) : support_fail_memory(diag);
+    const froe_status status = ok ? put_in_place(camera, scene, &points, out, diag) : support_fail_memory(diag);
     array_free(&scene->alloc, &points.own);
     return status;
 }

@@ -41,27 +41,6 @@ static void side_of_view(const froe_projection *v, int side, double beyond, doub
     *c = parallel ? limit : 0;
 }
 
-/* Cuts at[from] to one half-space into the other array; *cut: something was cut off. */
-static bool cut_side(print_press *p, int from, int side, bool *cut) {
-    const double *ring = p->at[from].data;
-    const size_t count = p->at[from].count / 3;
-    double n[3], c;
-    side_of_view(p->view, side, PRINT_BEYOND, n, &c);
-    p->at[!from].count = 0;
-    for (size_t i = 0; i < count; i++) {
-        const double *a = ring + 3 * i, *b = ring + 3 * (i + 1 < count ? i + 1 : 0);
-        const double at_a = n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c,
-                     at_b = n[0] * b[0] + n[1] * b[1] + n[2] * b[2] + c;
-        if (at_a >= 0 && !put_on_page(p, !from, a[0], a[1], a[2])) return false;
-        if (!(at_a >= 0)) *cut = true;
-        if ((at_a >= 0) == (at_b >= 0)) continue;
-        const double t = at_a / (at_a - at_b);
-        if (!put_on_page(p, !from, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])))
-            return false;
-    }
-    return true;
-}
-
 bool print_end(print_press *press, print_ring *out, bool *cut) {
     *cut = false;
     for (int side = 0; side < 5; side++) {
@@ -73,7 +52,18 @@ bool print_end(print_press *press, print_ring *out, bool *cut) {
             needed = !(n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c >= 0);
         }
         if (!needed) continue;
-        if (!cut_side(press, 0, side, cut)) return false;
+        *cut = true; /* from at[0] to one half-space into at[1] */
+        press->at[1].count = 0;
+        for (size_t i = 0, count = press->at[0].count; i < count; i += 3) {
+            const double *a = press->at[0].data + i, *b = press->at[0].data + (i + 3 < count ? i + 3 : 0);
+            const double at_a = n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c,
+                         at_b = n[0] * b[0] + n[1] * b[1] + n[2] * b[2] + c;
+            if (at_a >= 0 && !put_on_page(press, 1, a[0], a[1], a[2])) return false;
+            if ((at_a >= 0) == (at_b >= 0)) continue;
+            const double t = at_a / (at_a - at_b);
+            if (!put_on_page(press, 1, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])))
+                return false;
+        }
         const __typeof__(press->at[0]) swap = press->at[0];
         press->at[0] = press->at[1];
         press->at[1] = swap;

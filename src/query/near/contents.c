@@ -22,27 +22,6 @@ static void add_box(size_t dim, double *to, const double *lo, const double *hi) 
     }
 }
 
-/* Puts the box of what a node has in place of its region; its children's boxes are there. */
-static void gather_contents(query_contents *c, const froe_tree *t, uint32_t node) {
-    const size_t dim = c->dim;
-    const tree_objects list = tree_list(t, node);
-    double *box = box_of(c, node), held[2 * FROE_MAX_DIM], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    for (size_t k = 0; k < dim; k++) held[k] = INFINITY, held[dim + k] = -INFINITY;
-    for (uint32_t i = 0; i < list.count; i++) {
-        scene_bounds_in(t->scene, (int)dim, tree_object(&list, i), lo, hi);
-        for (size_t k = 0; k < dim; k++) {
-            if (lo[k] < box[k]) lo[k] = box[k];
-            if (hi[k] > box[dim + k]) hi[k] = box[dim + k];
-        }
-        add_box(dim, held, lo, hi);
-    }
-    for (uint32_t side = 0; side < 2 && !tree_is_leaf(t->nodes + node); side++) {
-        const double *child = box_of(c, t->nodes[node].child + side);
-        add_box(dim, held, child, child + dim);
-    }
-    memcpy(box, held, 2 * dim * sizeof *box);
-}
-
 static froe_status make_contents(froe_query *q, query_part **out, froe_diagnostic *diag) {
     query_contents *c = support_calloc(&q->alloc, 1, sizeof *c);
     if (!c) return support_fail_memory(diag);
@@ -66,7 +45,25 @@ static froe_status make_contents(froe_query *q, query_part **out, froe_diagnosti
         box_of(c, child)[dim + (size_t)cut.axis] = cut.value;
         box_of(c, child + 1)[cut.axis] = cut.value;
     }
-    for (uint32_t v = t->node_count; v-- > 0;) gather_contents(c, t, v);
+    /* Puts the box of what a node has in place of its region, when its children's boxes are there. */
+    for (uint32_t v = t->node_count; v-- > 0;) {
+        const tree_objects list = tree_list(t, v);
+        double *box = box_of(c, v), held[2 * FROE_MAX_DIM], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        for (size_t k = 0; k < dim; k++) held[k] = INFINITY, held[dim + k] = -INFINITY;
+        for (uint32_t i = 0; i < list.count; i++) {
+            scene_bounds_in(t->scene, (int)dim, tree_object(&list, i), lo, hi);
+            for (size_t k = 0; k < dim; k++) {
+                if (lo[k] < box[k]) lo[k] = box[k];
+                if (hi[k] > box[dim + k]) hi[k] = box[dim + k];
+            }
+            add_box(dim, held, lo, hi);
+        }
+        for (uint32_t side = 0; side < 2 && !tree_is_leaf(t->nodes + v); side++) {
+            const double *child = box_of(c, t->nodes[v].child + side);
+            add_box(dim, held, child, child + dim);
+        }
+        memcpy(box, held, bytes);
+    }
     return FROE_OK;
 }
 

@@ -6,9 +6,9 @@
 #include <immintrin.h>
 #include <math.h>
 
-#define TARGET "avx2,popcnt,bmi"
-#define LANES __attribute__((target(TARGET), always_inline)) static inline
-#define LANES_KERNEL __attribute__((target(TARGET))) static
+#define LANES_TARGET "avx2,popcnt,bmi"
+#define LANES __attribute__((target(LANES_TARGET), always_inline)) static inline
+#define LANES_KERNEL __attribute__((target(LANES_TARGET))) static
 #define KERNELS packed_kernels_avx2
 #define KERNELS_NAME "avx2"
 #define SPACE_KERNELS space_kernels_avx2

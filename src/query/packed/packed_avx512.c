@@ -6,9 +6,9 @@
 #include <immintrin.h>
 #include <math.h>
 
-#define TARGET "avx512f,avx512bw,avx512dq,avx512vl"
-#define LANES __attribute__((target(TARGET), always_inline)) static inline
-#define LANES_KERNEL __attribute__((target(TARGET))) static
+#define LANES_TARGET "avx512f,avx512bw,avx512dq,avx512vl"
+#define LANES __attribute__((target(LANES_TARGET), always_inline)) static inline
+#define LANES_KERNEL __attribute__((target(LANES_TARGET))) static
 #define KERNELS packed_kernels_avx512
 #define KERNELS_NAME "avx512"
 #define SPACE_KERNELS space_kernels_avx512

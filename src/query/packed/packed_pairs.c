@@ -131,14 +131,6 @@ static void decide_open(pairing *p) {
     p->q->packed->candidates.count = 0;
 }
 
-static void leave_open(pairing *p, uint32_t a, uint32_t b) {
-    froe_query *q = p->q;
-    if (!array_reserve(&q->alloc, &q->packed->candidates, 2)) p->status = FROE_E_MEMORY;
-    if (p->status) return;
-    q->packed->candidates.data[q->packed->candidates.count++] = a;
-    q->packed->candidates.data[q->packed->candidates.count++] = b;
-}
-
 static void pair_leaf(pairing *p, const tree_node *leaf) {
     froe_query *q = p->q;
     const packed_header *block = packed_block(q->tree, leaf);
@@ -156,10 +148,12 @@ static void pair_leaf(pairing *p, const tree_node *leaf) {
             for (uint32_t bits = row.crossing[word] | row.unsure[word]; bits && !p->status; bits &= bits - 1) {
                 const uint32_t bit = (uint32_t)__builtin_ctz(bits), j = word * PACKED_LANES + bit;
                 const uint32_t a = ids[i] & PACKED_OBJECT, b = ids[j] & PACKED_OBJECT;
-                if (row.crossing[word] >> bit & 1)
+                if (row.crossing[word] >> bit & 1) {
                     gather_pair(p, a, b, FROE_MEET_CROSS);
-                else
-                    leave_open(p, a, b);
+                } else if (!array_push(&q->alloc, &q->packed->candidates, a) ||
+                           !array_push(&q->alloc, &q->packed->candidates, b)) {
+                    p->status = FROE_E_MEMORY;
+                }
             }
     }
     decide_open(p);

@@ -9,7 +9,7 @@
 #define KERNELS packed_kernels_plain
 #define KERNELS_NAME "plain"
 #define SPACE_KERNELS space_kernels_plain
-#define EACH for (int i = 0; i < 4; i++)
+#define EACH_QUARTER for (int i = 0; i < 4; i++)
 
 typedef float floats __attribute__((vector_size(16)));
 typedef int32_t ints __attribute__((vector_size(16)));
@@ -25,82 +25,82 @@ LANES floats pick(ints m, floats a, floats b) {
 }
 LANES lanes lanes_units(const uint16_t *p) {
     lanes r;
-    EACH r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
+    EACH_QUARTER r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
     return r;
 }
 LANES lanes lanes_bytes(const uint8_t *p) {
     lanes r;
-    EACH r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
+    EACH_QUARTER r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
     return r;
 }
 LANES void lanes_store(float *x, lanes a) {
     memcpy(x, &a, sizeof a);
 }
 LANES lanes lanes_sqrt(lanes a) {
-    EACH a.x[i] = (floats){sqrtf(a.x[i][0]), sqrtf(a.x[i][1]), sqrtf(a.x[i][2]), sqrtf(a.x[i][3])};
+    EACH_QUARTER a.x[i] = (floats){sqrtf(a.x[i][0]), sqrtf(a.x[i][1]), sqrtf(a.x[i][2]), sqrtf(a.x[i][3])};
     return a;
 }
 LANES lanes lanes_pick(lanes_mask m, lanes a, lanes b) {
-    EACH a.x[i] = pick(m.x[i], a.x[i], b.x[i]);
+    EACH_QUARTER a.x[i] = pick(m.x[i], a.x[i], b.x[i]);
     return a;
 }
 LANES lanes lanes_set(float x) {
     lanes r;
-    EACH r.x[i] = (floats){x, x, x, x};
+    EACH_QUARTER r.x[i] = (floats){x, x, x, x};
     return r;
 }
 LANES lanes lanes_add(lanes a, lanes b) {
-    EACH a.x[i] += b.x[i];
+    EACH_QUARTER a.x[i] += b.x[i];
     return a;
 }
 LANES lanes lanes_sub(lanes a, lanes b) {
-    EACH a.x[i] -= b.x[i];
+    EACH_QUARTER a.x[i] -= b.x[i];
     return a;
 }
 LANES lanes lanes_mul(lanes a, lanes b) {
-    EACH a.x[i] *= b.x[i];
+    EACH_QUARTER a.x[i] *= b.x[i];
     return a;
 }
 LANES lanes lanes_div(lanes a, lanes b) {
-    EACH a.x[i] /= b.x[i];
+    EACH_QUARTER a.x[i] /= b.x[i];
     return a;
 }
 LANES lanes lanes_min(lanes a, lanes b) {
-    EACH a.x[i] = pick(a.x[i] < b.x[i], a.x[i], b.x[i]);
+    EACH_QUARTER a.x[i] = pick(a.x[i] < b.x[i], a.x[i], b.x[i]);
     return a;
 }
 LANES lanes lanes_max(lanes a, lanes b) {
-    EACH a.x[i] = pick(a.x[i] > b.x[i], a.x[i], b.x[i]);
+    EACH_QUARTER a.x[i] = pick(a.x[i] > b.x[i], a.x[i], b.x[i]);
     return a;
 }
 LANES lanes lanes_abs(lanes a) {
-    EACH a.x[i] = (floats)((ints)a.x[i] & 0x7fffffff);
+    EACH_QUARTER a.x[i] = (floats)((ints)a.x[i] & 0x7fffffff);
     return a;
 }
 LANES lanes_mask lanes_first(uint32_t n) {
     lanes_mask m;
     int32_t end = n < PACKED_LANES ? (int32_t)n : PACKED_LANES;
-    EACH m.x[i] = (ints){4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3} < end;
+    EACH_QUARTER m.x[i] = (ints){4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3} < end;
     return m;
 }
 LANES lanes_mask lanes_le(lanes_mask m, lanes a, lanes b) {
-    EACH m.x[i] &= a.x[i] <= b.x[i];
+    EACH_QUARTER m.x[i] &= a.x[i] <= b.x[i];
     return m;
 }
 LANES lanes_mask lanes_lt(lanes_mask m, lanes a, lanes b) {
-    EACH m.x[i] &= a.x[i] < b.x[i];
+    EACH_QUARTER m.x[i] &= a.x[i] < b.x[i];
     return m;
 }
 LANES lanes_mask lanes_and(lanes_mask m, lanes_mask n) {
-    EACH m.x[i] &= n.x[i];
+    EACH_QUARTER m.x[i] &= n.x[i];
     return m;
 }
 LANES lanes_mask lanes_or(lanes_mask m, lanes_mask n) {
-    EACH m.x[i] |= n.x[i];
+    EACH_QUARTER m.x[i] |= n.x[i];
     return m;
 }
 LANES lanes_mask lanes_without(lanes_mask m, lanes_mask n) {
-    EACH m.x[i] &= ~n.x[i];
+    EACH_QUARTER m.x[i] &= ~n.x[i];
     return m;
 }
 /* Each lane keeps its own bit; the four vectors have different ones. */
@@ -112,13 +112,13 @@ LANES uint32_t lanes_bits(lanes_mask m) {
 LANES lanes_mask lanes_flagged(const uint32_t *ids, int shift) {
     lanes_mask m;
     memcpy(&m, ids, sizeof m);
-    EACH m.x[i] = m.x[i] << shift >> 31; /* arithmetic: copies of the sign */
+    EACH_QUARTER m.x[i] = m.x[i] << shift >> 31; /* arithmetic: copies of the sign */
     return m;
 }
 LANES float lanes_least(lanes_mask m, lanes a) {
     const floats none = {(float)INFINITY, (float)INFINITY, (float)INFINITY, (float)INFINITY};
     floats least = none;
-    EACH a.x[i] = pick(m.x[i], a.x[i], none), least = pick(a.x[i] < least, a.x[i], least);
+    EACH_QUARTER a.x[i] = pick(m.x[i], a.x[i], none), least = pick(a.x[i] < least, a.x[i], least);
     float left = least[0] < least[1] ? least[0] : least[1], right = least[2] < least[3] ? least[2] : least[3];
     return left < right ? left : right;
 }

@@ -60,23 +60,6 @@ static void begin_at_root(const froe_tree *t, climb *c, int direction) {
     descend_from(t, c, direction, 0);
 }
 
-/* Finds the first leaf of a ray: by the column of the table in whose core its point is, if any. */
-static void begin_climb(const froe_tree *t, climb *c, int direction) {
-    const tree_table *table = t->packed.table;
-    const double place = table ? tree_table_place(table, 0, c->point[0]) : 0;
-    uint32_t from, to;
-    c->waiting = 0;
-    c->column = NO_TABLE;
-    if (table && place >= 0 && place < table->cells[0]) c->column = (uint32_t)place;
-    if (c->column == NO_TABLE || !(place >= c->column + TABLE_MARGIN && place <= c->column + 1 - TABLE_MARGIN)) {
-        begin_at_root(t, c, direction);
-        return;
-    }
-    tree_table_span(table, 1, c->point[1], c->point[1], &from, &to);
-    c->row = direction > 0 ? from : to;
-    enter_column(t, c, direction, tree_table_at(table, c->column, c->row));
-}
-
 /* Finds the next leaf of a ray; false: there is none. */
 static bool go_on_climbing(const froe_tree *t, climb *c, int direction) {
     const tree_table *table = t->packed.table;
@@ -102,30 +85,7 @@ static bool go_on_climbing(const froe_tree *t, climb *c, int direction) {
 
 /* ------------------------------------------------------------------- leaves -- */
 
-/* The candidate that is met first, exactly. */
-static uint32_t first_of(froe_query *q, const packed_header *block, const packed_heights *h, const double *point,
-                         int direction) {
-    query_height best = {0}, here;
-    uint32_t object = FROE_NONE;
-    const double *ends[2];
-    q->packed->decided += h->count;
-    for (uint32_t i = 0; i < h->count; i++) {
-        if (q->tree->scene->kinds[h->candidates[i]] != FROE_SEGMENT) continue; /* points never are sure */
-        packed_ends(q->tree->scene, h->candidates[i], ends);
-        if (!query_height_at(&q->numbers, ends[0], ends[1], point, direction, &here)) continue;
-        int order = object == FROE_NONE ? -1 : query_height_compare(&q->numbers, &here, &best) * direction;
-        if (order > 0 || (order == 0 && h->candidates[i] > object)) continue;
-        best = here;
-        object = h->candidates[i];
-    }
-    if (object == FROE_NONE) return FROE_NONE;
-    /* Beyond the far side of its cell, it is not in this leaf that the ray meets it. */
-    packed_box cell;
-    packed_cell(q->tree, block, &cell);
-    const query_height side = {.known = true, .x = best.x, .y = direction > 0 ? cell.hi[1] : cell.lo[1]};
-    return query_height_compare(&q->numbers, &best, &side) * direction > 0 ? FROE_NONE : object;
-}
-
+/* What the ray meets in a leaf; FROE_NONE. */
 static uint32_t test(froe_query *q, uint32_t block, uint32_t count, const double *point, int direction) {
     const uint8_t *bytes = q->tree->packed.blocks + (size_t)block * PACKED_BLOCK;
     const packed_header *header = (const packed_header *)(const void *)bytes;
@@ -135,7 +95,26 @@ static uint32_t test(froe_query *q, uint32_t block, uint32_t count, const double
     q->stats.tests += count;
     q->packed->kernels->vertical(header, count, point, direction, &h);
     if (h.sure || !h.count) return h.count ? h.candidates[0] : FROE_NONE;
-    return first_of(q, header, &h, point, direction);
+    /* The candidate that is met first, exactly. */
+    query_height best = {0}, here;
+    uint32_t object = FROE_NONE;
+    const double *ends[2];
+    q->packed->decided += h.count;
+    for (uint32_t i = 0; i < h.count; i++) {
+        if (q->tree->scene->kinds[h.candidates[i]] != FROE_SEGMENT) continue; /* points never are sure */
+        packed_ends(q->tree->scene, h.candidates[i], ends);
+        if (!query_height_at(&q->numbers, ends[0], ends[1], point, direction, &here)) continue;
+        int order = object == FROE_NONE ? -1 : query_height_compare(&q->numbers, &here, &best) * direction;
+        if (order > 0 || (order == 0 && h.candidates[i] > object)) continue;
+        best = here;
+        object = h.candidates[i];
+    }
+    if (object == FROE_NONE) return FROE_NONE;
+    /* Beyond the far side of its cell, it is not in this leaf that the ray meets it. */
+    packed_box cell;
+    packed_cell(q->tree, header, &cell);
+    const query_height side = {.known = true, .x = best.x, .y = direction > 0 ? cell.hi[1] : cell.lo[1]};
+    return query_height_compare(&q->numbers, &best, &side) * direction > 0 ? FROE_NONE : object;
 }
 
 /* -------------------------------------------------------------------- whole -- */
@@ -160,8 +139,20 @@ static size_t launch_climbs(froe_query *q, const double *points, size_t count, s
             if (column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])
                 __builtin_prefetch(table->entries + (size_t)column * table->cells[1] + (size_t)row);
         }
-        begin_climb(q->tree, c, direction);
         *flies = true;
+        /* The first leaf of the ray: by the column of the table in whose core its point is, if any. */
+        const double place = table ? tree_table_place(table, 0, x[0]) : -1;
+        const bool in_table = place >= 0 && place < table->cells[0];
+        c->waiting = 0;
+        c->column = in_table ? (uint32_t)place : 0;
+        if (!in_table || !(place >= c->column + TABLE_MARGIN && place <= c->column + 1 - TABLE_MARGIN)) {
+            begin_at_root(q->tree, c, direction);
+            continue;
+        }
+        uint32_t from, to;
+        tree_table_span(table, 1, x[1], x[1], &from, &to);
+        c->row = direction > 0 ? from : to;
+        enter_column(q->tree, c, direction, tree_table_at(table, c->column, c->row));
     }
     return next;
 }

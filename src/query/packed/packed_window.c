@@ -46,17 +46,6 @@ static const packed_header *block_at(const froe_tree *t, uint32_t block) {
     return (const packed_header *)(const void *)(t->packed.blocks + (size_t)block * PACKED_BLOCK);
 }
 
-/* Leaves of a subtree inside the window, as one visit. */
-static packed_visit slice_of(const froe_tree *t, uint32_t node) {
-    const tree_node *first = t->nodes + node, *last = first;
-    while (!tree_is_leaf(first)) first = t->nodes + first->child;
-    while (!tree_is_leaf(last)) last = t->nodes + last->child + 1;
-    packed_visit visit = {first->child, last->child + packed_size(last->u.list.count), 0};
-    __builtin_prefetch(block_at(t, visit.block));
-    __builtin_prefetch(block_at(t, visit.end));
-    return visit;
-}
-
 static bool visit_leaf(froe_query *q, uint32_t block, uint32_t count) {
     const packed_visit visit = {block, 0, count};
     if (!count) return true;
@@ -83,8 +72,14 @@ static bool walk_window(froe_query *q, const packed_window *w, uint32_t node, ui
             n = nodes + n->child + !low;
             at.node = (uint32_t)(n - nodes);
         }
-        if (!at.open) {
-            if (!array_push(&q->alloc, &work->visits, slice_of(q->tree, at.node))) return false;
+        if (!at.open) { /* leaves of a subtree inside the window, as one visit */
+            const tree_node *last = n = nodes + at.node;
+            while (!tree_is_leaf(n)) n = nodes + n->child;
+            while (!tree_is_leaf(last)) last = nodes + last->child + 1;
+            const packed_visit visit = {n->child, last->child + packed_size(last->u.list.count), 0};
+            __builtin_prefetch(block_at(q->tree, visit.block));
+            __builtin_prefetch(block_at(q->tree, visit.end));
+            if (!array_push(&q->alloc, &work->visits, visit)) return false;
         } else if (!visit_leaf(q, n->child, n->u.list.count)) {
             return false;
         }

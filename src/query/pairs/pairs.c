@@ -55,43 +55,37 @@ static bool greater(void *user, uint32_t a, uint32_t b) {
     return a > b;
 }
 
-/* Adds the pairs of an object with those found. False without memory. */
-static bool add_pairs(desk *d, uint32_t object, const geom_body *a, bool shared, object_pairs *out) {
-    static const froe_meeting kinds[GEOM_CONTACTS] = {
-        [GEOM_CROSS] = FROE_MEET_CROSS, [GEOM_TOUCH] = FROE_MEET_TOUCH, [GEOM_OVERLAP] = FROE_MEET_OVERLAP};
-    froe_query *q = d->q;
-    for (size_t i = 0; i < q->found.count; i++) {
-        const geom_body b = scene_body(q->tree->scene, q->found.data[i]);
-        d->sides.count = 0;
-        if (!array_reserve(&q->alloc, &d->sides, (size_t)a->count + b.count)) return false;
-        const geom_contact c = geom_contact_of(&q->numbers, a, &b, d->sides.data);
-        if (!shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) continue;
-        if (!array_push(&q->alloc, out, (froe_pair){object, q->found.data[i], kinds[c.kind]})) return false;
-    }
-    return true;
-}
-
 /* Finds the pairs of some objects with later ones. */
 static froe_status find_partners(void *user, unsigned worker, size_t job) {
+    static const froe_meeting kinds[GEOM_CONTACTS] = {
+        [GEOM_CROSS] = FROE_MEET_CROSS, [GEOM_TOUCH] = FROE_MEET_TOUCH, [GEOM_OVERLAP] = FROE_MEET_OVERLAP};
     pair_search *s = user;
     desk *d = s->desks + worker;
     object_pairs *out = s->chunks + job;
-    const froe_scene *scene = d->q->tree->scene;
+    froe_query *q = d->q;
+    const froe_scene *scene = q->tree->scene;
     const uint32_t first = s->first + (uint32_t)job * OBJECTS_PER_JOB, left = scene->object_count - first;
     out->count = 0;
     for (uint32_t i = first; i < first + (left < OBJECTS_PER_JOB ? left : OBJECTS_PER_JOB); i++) {
         const geom_body body = scene_body(scene, i);
         froe_range range;
         if (!take_body(d, &body, &range)) return FROE_E_MEMORY;
-        const froe_status status = query_range_ask(d->q, &range, false, NULL);
+        const froe_status status = query_range_ask(q, &range, false, NULL);
         if (status) return status;
         /* Keeps what was found with an id above that of the object, in order. */
         size_t kept = 0;
-        for (size_t n = 0; n < d->q->found.count; n++)
-            if (d->q->found.data[n] > i) d->q->found.data[kept++] = d->q->found.data[n];
-        d->q->found.count = kept;
-        query_heap_sort(d->q->found.data, kept, greater, NULL);
-        if (!add_pairs(d, i, &body, s->shared, out)) return FROE_E_MEMORY;
+        for (size_t n = 0; n < q->found.count; n++)
+            if (q->found.data[n] > i) q->found.data[kept++] = q->found.data[n];
+        q->found.count = kept;
+        query_heap_sort(q->found.data, kept, greater, NULL);
+        for (size_t n = 0; n < kept; n++) {
+            const geom_body other = scene_body(scene, q->found.data[n]);
+            d->sides.count = 0;
+            if (!array_reserve(&q->alloc, &d->sides, (size_t)body.count + other.count)) return FROE_E_MEMORY;
+            const geom_contact c = geom_contact_of(&q->numbers, &body, &other, d->sides.data);
+            if (!s->shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) continue;
+            if (!array_push(&q->alloc, out, (froe_pair){i, q->found.data[n], kinds[c.kind]})) return FROE_E_MEMORY;
+        }
     }
     return FROE_OK;
 }

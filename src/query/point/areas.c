@@ -44,14 +44,14 @@ static uint32_t last_of(const reference_search *v) {
 
 static bool look_at_cell(void *user, const froe_cell *cell) {
     BASE_FLOATS_OWN;
-    enum { TRIES = 4 };
+    enum { REFERENCE_TRIES = 4 };
     reference_search *v = user;
     query_areas *areas = v->areas;
     if (!cell->leaf) return true;
     const uint32_t node = cell->node.id1 - 1, place = query_leaf_place(v->q->tree, node);
     double x[2];
     bool found = false;
-    for (uint32_t try = 0; try < TRIES && !found && !v->status; try++) {
+    for (uint32_t try = 0; try < REFERENCE_TRIES && !found && !v->status; try++) {
         /* A mean of the corners of the cell, with other weights at every try. */
         double sum = 0;
         for (size_t i = 0; i < cell->corners; i++) sum += 1 + (double)(try * (i + 1) % 7);

@@ -158,9 +158,9 @@ static bool gather_borders(settling *w, const tree_objects *list, int role, cons
 
 /* Appends the gathered borders; two that are equal share one entry. */
 static bool append_border(settling *w, uint32_t *count) {
-    enum { WORDS = sizeof(query_border) / sizeof(uint64_t) };
+    enum { ENTRY_WORDS = sizeof(query_border) / sizeof(uint64_t) };
     query_border *seen = w->seen.data, *last = NULL;
-    if (!array_reserve(&w->q->alloc, &w->areas->leaves, w->order.count * WORDS)) return false;
+    if (!array_reserve(&w->q->alloc, &w->areas->leaves, w->order.count * ENTRY_WORDS)) return false;
     *count = 0;
     for (size_t i = 0; i < w->order.count; i++) {
         const query_border *s = seen + w->order.data[i];
@@ -170,7 +170,7 @@ static bool append_border(settling *w, uint32_t *count) {
         }
         last = (query_border *)(void *)(w->areas->leaves.data + w->areas->leaves.count);
         *last = *s;
-        w->areas->leaves.count += WORDS;
+        w->areas->leaves.count += ENTRY_WORDS;
         ++*count;
     }
     return true;
@@ -178,12 +178,12 @@ static bool append_border(settling *w, uint32_t *count) {
 
 /* The slot of a leaf that has its reference. */
 static bool settle_near(settling *w, const tree_objects *list, query_reference from, uint32_t *slot) {
-    enum { WORDS = sizeof(query_area_leaf) / sizeof(uint64_t) };
+    enum { ENTRY_WORDS = sizeof(query_area_leaf) / sizeof(uint64_t) };
     query_areas *areas = w->areas;
     query_area_leaf leaf = {.from = from};
     const size_t start = areas->leaves.count;
-    if (!array_reserve(&w->q->alloc, &areas->leaves, WORDS)) return false;
-    areas->leaves.count += WORDS;
+    if (!array_reserve(&w->q->alloc, &areas->leaves, ENTRY_WORDS)) return false;
+    areas->leaves.count += ENTRY_WORDS;
     if (!gather_borders(w, list, AREA_BORDER, from.at) || !append_border(w, &leaf.borders)) return false;
     if (!gather_borders(w, list, AREA_MEMBER, from.at) || !append_border(w, &leaf.others)) return false;
     if (leaf.borders + leaf.others == 0) {

@@ -72,23 +72,6 @@ static bool see_line(const query_descent *d, const geom_plane *h, int *major, do
     return h->n_err <= fabs(n) * 0x1p-40 && size <= 0x1p10 && fabs(*c) <= 2;
 }
 
-static void lay_cut(descent_plan *p, uint32_t number) {
-    const uint32_t node = p->d->nodes[number], child = p->tree->nodes[node].child;
-    const geom_plane h = tree_plane_at(p->tree, node);
-    int major;
-    double slope, c;
-    const bool seen = see_line(p->d, &h, &major, &slope, &c), back = seen && h.n[major] < 0;
-    descent_cut *cut = p->d->cuts + number;
-    *cut = (descent_cut){.slope = seen ? (float)slope : 0, .c = seen ? (float)c : NAN};
-    for (uint32_t side = 0; side < 2; side++) {
-        const tree_node *n = p->tree->nodes + child + side;
-        const uint32_t leaf = (child + side) | DESCENT_LEAF | (n->u.list.count ? 0 : DESCENT_EMPTY);
-        cut->next[side ^ back] = tree_is_leaf(n) ? leaf : p->numbers[child + side];
-    }
-    if (seen && major) cut->next[0] |= DESCENT_STEEP;
-    if (back) p->d->nodes[number] |= DESCENT_BACK;
-}
-
 /* ------------------------------------------------------------------- table -- */
 
 /* The first cut from here on that may meet a cell. */
@@ -152,7 +135,22 @@ static froe_status make_descent(froe_query *q, query_part **out, froe_diagnostic
     p.numbers = support_calloc(alloc, t->node_count, sizeof *p.numbers);
     if (d->cuts && d->nodes && d->table && p.weights && p.numbers) {
         ok = number_cuts(&p);
-        for (uint32_t i = 0; ok && i < cuts; i++) lay_cut(&p, i);
+        for (uint32_t i = 0; ok && i < cuts; i++) {
+            const uint32_t node = d->nodes[i], child = t->nodes[node].child;
+            const geom_plane h = tree_plane_at(t, node);
+            int major;
+            double slope, c;
+            const bool seen = see_line(d, &h, &major, &slope, &c), back = seen && h.n[major] < 0;
+            descent_cut *cut = d->cuts + i;
+            *cut = (descent_cut){.slope = seen ? (float)slope : 0, .c = seen ? (float)c : NAN};
+            for (uint32_t side = 0; side < 2; side++) {
+                const tree_node *n = t->nodes + child + side;
+                const uint32_t leaf = (child + side) | DESCENT_LEAF | (n->u.list.count ? 0 : DESCENT_EMPTY);
+                cut->next[side ^ back] = tree_is_leaf(n) ? leaf : p.numbers[child + side];
+            }
+            if (seen && major) cut->next[0] |= DESCENT_STEEP;
+            if (back) d->nodes[i] |= DESCENT_BACK;
+        }
         if (ok) fill_table(d);
     }
     d->cut_count = cuts;

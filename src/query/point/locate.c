@@ -8,22 +8,25 @@
 #include "support/fail.h"
 #include <string.h>
 
-static bool object_holds(froe_query *q, uint32_t object, const double *x, bool *memory) {
-    const froe_scene *s = q->tree->scene;
-    if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return query_range_meets(q, object, memory);
-    q->stats.tests++;
-    return query_segment_meets_box(&q->numbers, scene_point(s, object, 0), scene_point(s, object, 1), x, x);
-}
-
 /* Those of a list. */
 static froe_status test_list(froe_query *q, const tree_objects *list, const froe_range *point, froe_diagnostic *diag) {
+    const froe_scene *s = q->tree->scene;
+    const double *x = point->points;
     bool memory = false;
     query_begin(q);
     query_range_of_box(q, point);
     if (!query_expect(q, list->count)) return support_fail_memory(diag);
     for (uint32_t i = 0; i < list->count; i++) {
         const uint32_t object = tree_object(list, i);
-        if (!query_seen(q, list, i, object) && object_holds(q, object, point->points, &memory)) query_found(q, object);
+        if (query_seen(q, list, i, object)) continue;
+        bool holds;
+        if (s->dim == 2 && scene_form(s, object) == FROE_SEGMENT) {
+            q->stats.tests++;
+            holds = query_segment_meets_box(&q->numbers, scene_point(s, object, 0), scene_point(s, object, 1), x, x);
+        } else {
+            holds = query_range_meets(q, object, &memory);
+        }
+        if (holds) query_found(q, object);
     }
     return memory ? support_fail_memory(diag) : FROE_OK;
 }

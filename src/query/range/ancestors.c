@@ -25,8 +25,18 @@ static uint32_t roundest(uint32_t first, uint32_t last) {
     return last >> place << place;
 }
 
-/* Numbers nodes and paths, and links paths with those above. Sizes of subtrees are in `order` until a node gets its number, parents first. */
-static void number_nodes(query_ancestors *a, const froe_tree *t) {
+static froe_status make_ancestors(froe_query *q, query_part **out, froe_diagnostic *diag) {
+    query_ancestors *a = support_calloc(&q->alloc, 1, sizeof *a);
+    if (!a) return support_fail_memory(diag);
+    a->part.free = free_ancestors;
+    *out = &a->part;
+    a->node_count = q->tree->node_count;
+    a->of = support_calloc(&q->alloc, a->node_count, sizeof *a->of);
+    a->above = support_calloc(&q->alloc, (size_t)a->node_count + 1, sizeof *a->above);
+    if (!a->of || !a->above) return support_fail_memory(diag);
+    /* Numbers nodes and paths, and links paths with those above. Sizes of subtrees are in `order` until a node gets its
+     * number, parents first. */
+    const froe_tree *t = q->tree;
     query_ancestor *of = a->of;
     for (uint32_t v = t->node_count; v-- > 0;) {
         of[v].order = 1;
@@ -52,18 +62,6 @@ static void number_nodes(query_ancestors *a, const froe_tree *t) {
             if (of[child].path != of[v].path) a->above[of[child].path] = v;
         }
     }
-}
-
-static froe_status make_ancestors(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    query_ancestors *a = support_calloc(&q->alloc, 1, sizeof *a);
-    if (!a) return support_fail_memory(diag);
-    a->part.free = free_ancestors;
-    *out = &a->part;
-    a->node_count = q->tree->node_count;
-    a->of = support_calloc(&q->alloc, a->node_count, sizeof *a->of);
-    a->above = support_calloc(&q->alloc, (size_t)a->node_count + 1, sizeof *a->above);
-    if (!a->of || !a->above) return support_fail_memory(diag);
-    number_nodes(a, q->tree);
     return FROE_OK;
 }
 

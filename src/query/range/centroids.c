@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Plain descent is faster up to this many times the logarithm of the nodes. */
-enum { DEEP = 4 };
+enum { DEEP_IN_LOGARITHMS = 4 };
 
 static void free_centroids(const froe_allocator *alloc, query_part *part) {
     query_centroids *c = (query_centroids *)part;
@@ -17,10 +17,8 @@ static void free_centroids(const froe_allocator *alloc, query_part *part) {
 bool query_is_deep(const froe_tree *t) {
     uint64_t log = 1;
     while (t->node_count >> log) log++;
-    return t->report.height > DEEP * log;
+    return t->report.height > DEEP_IN_LOGARITHMS * log;
 }
-
-/* ------------------------------------------------------------------ regions -- */
 
 /* Sizes of the subtrees among axis-parallel cuts, 0 below oblique ones; parents; regions. */
 typedef struct centroid_plan {
@@ -30,28 +28,6 @@ typedef struct centroid_plan {
     bool *gone;            /* is the subtree no longer part of what is left above it? */
     ARRAY(uint64_t) parts; /* a root, and where the step that divides it goes: 2 step + side, or none */
 } centroid_plan;
-
-static void lay_regions(centroid_plan *p) {
-    const froe_tree *t = p->tree;
-    const size_t dim = (size_t)p->c->dim, width = 2 * dim;
-    for (size_t k = 0; k < width; k++) p->c->boxes[k] = k < dim ? -INFINITY : INFINITY;
-    p->sizes[0] = 1;
-    for (uint32_t v = 0; v < t->node_count; v++) { /* parents come first */
-        if (!p->sizes[v]) continue;
-        const froe_cut cut = tree_cut_at(t, v);
-        if (cut.kind != FROE_CUT_AXIS) continue;
-        for (uint32_t side = 0; side < 2; side++) {
-            const uint32_t child = t->nodes[v].child + side;
-            double *box = p->c->boxes + child * width;
-            memcpy(box, p->c->boxes + v * width, width * sizeof *box);
-            box[side ? (size_t)cut.axis : dim + (size_t)cut.axis] = cut.value;
-            p->parents[child] = v;
-            p->sizes[child] = 1;
-        }
-    }
-    for (uint32_t v = t->node_count - 1; v > 0; v--)
-        if (p->sizes[v]) p->sizes[p->parents[v]] += p->sizes[v];
-}
 
 /* ---------------------------------------------------------------- centroids -- */
 
@@ -118,7 +94,25 @@ static froe_status make_centroids(froe_query *q, query_part **out, froe_diagnost
     p.parents = support_calloc(alloc, c->node_count, sizeof *p.parents);
     p.gone = support_calloc(alloc, c->node_count, sizeof *p.gone);
     if (c->steps && c->boxes && p.sizes && p.parents && p.gone) {
-        lay_regions(&p);
+        const froe_tree *t = q->tree;
+        const size_t dim = (size_t)c->dim, width = 2 * dim;
+        for (size_t k = 0; k < width; k++) c->boxes[k] = k < dim ? -INFINITY : INFINITY;
+        p.sizes[0] = 1;
+        for (uint32_t v = 0; v < t->node_count; v++) { /* parents come first */
+            if (!p.sizes[v]) continue;
+            const froe_cut cut = tree_cut_at(t, v);
+            if (cut.kind != FROE_CUT_AXIS) continue;
+            for (uint32_t side = 0; side < 2; side++) {
+                const uint32_t child = t->nodes[v].child + side;
+                double *box = c->boxes + child * width;
+                memcpy(box, c->boxes + v * width, width * sizeof *box);
+                box[side ? (size_t)cut.axis : dim + (size_t)cut.axis] = cut.value;
+                p.parents[child] = v;
+                p.sizes[child] = 1;
+            }
+        }
+        for (uint32_t v = t->node_count - 1; v > 0; v--)
+            if (p.sizes[v]) p.sizes[p.parents[v]] += p.sizes[v];
         ok = divide_parts(&p);
     }
     support_free(alloc, p.sizes, c->node_count * sizeof *p.sizes);

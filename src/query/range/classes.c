@@ -45,24 +45,6 @@ static double number_beyond(double x, double step, double direction) {
     return fmin(fmax(far, -DBL_MAX), DBL_MAX);
 }
 
-static froe_status add_boxes(froe_scene *boxes, const froe_scene *s, const query_class *c, froe_diagnostic *diag) {
-    double ends[2 * FROE_MAX_DIM], *lo = ends, *hi = ends + s->dim;
-    froe_objects box = froe_objects_defaults();
-    froe_status status = FROE_OK;
-    box.kind = FROE_BOX;
-    box.count = 1;
-    box.coords = ends;
-    for (uint32_t i = 0; i < c->count && !status; i++) {
-        scene_object_bounds(s, c->ids[i], lo, hi);
-        for (int k = 0; k < s->dim; k++) {
-            lo[k] = c->step > 0 ? number_beyond(lo[k], c->step, -1) : lo[k];
-            hi[k] = c->step > 0 ? number_beyond(hi[k], c->step, 1) : hi[k];
-        }
-        status = froe_scene_add(boxes, &box, diag);
-    }
-    return status;
-}
-
 /* A class of the objects first .. first + count, and the tree of their boxes. */
 static froe_status fill_class(query_class *c, const froe_tree *t, const base_pair *sorted, uint32_t count, double step,
                               froe_diagnostic *diag) {
@@ -77,7 +59,19 @@ static froe_status fill_class(query_class *c, const froe_tree *t, const base_pai
     o.threads = 1;
     froe_status status = froe_scene_new(t->scene->dim, &t->alloc, &boxes);
     if (status) return support_fail_memory(diag);
-    status = add_boxes(boxes, t->scene, c, diag);
+    double ends[2 * FROE_MAX_DIM], *lo = ends, *hi = ends + t->scene->dim;
+    froe_objects box = froe_objects_defaults();
+    box.kind = FROE_BOX;
+    box.count = 1;
+    box.coords = ends;
+    for (uint32_t i = 0; i < count && !status; i++) {
+        scene_object_bounds(t->scene, c->ids[i], lo, hi);
+        for (int k = 0; k < t->scene->dim && step > 0; k++) {
+            lo[k] = number_beyond(lo[k], step, -1);
+            hi[k] = number_beyond(hi[k], step, 1);
+        }
+        status = froe_scene_add(boxes, &box, diag);
+    }
     if (!status) status = froe_build(boxes, &o, &c->tree, diag);
     if (!status) status = froe_query_new(c->tree, &c->query, diag);
     froe_scene_free(boxes);

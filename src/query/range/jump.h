@@ -1,7 +1,7 @@
 /* jump.h: from a node of the tree down past all cuts that a piece of a range does not meet.
  *
  *     plain    cut after cut
- *     box      where do the bounds of the piece lie? One search by centroids (centroids.h), after PATIENCE
+ *     box      where do the bounds of the piece lie? One search by centroids (centroids.h), after CUTS_BEFORE_JUMP
  *              cuts passed in a row, which cost about as much as the search
  *     lca      de Berg (Linear size binary space partitions for uncluttered scenes, 2000), section 3.3: along each
  *              axis both extreme points of the piece are located by centroids; of the lowest common ancestors of each
@@ -26,8 +26,8 @@ typedef struct query_jump {
 froe_status query_jump_prepare(froe_query *query, froe_walk walk, query_jump *out);
 /** Is a jump due after so many cuts passed in a row? */
 static inline bool query_jump_is_due(const query_jump *jump, int passed) {
-    enum { PATIENCE = 16 };
-    return jump->centroids && (jump->ancestors || passed == PATIENCE);
+    enum { CUTS_BEFORE_JUMP = 16 };
+    return jump->centroids && (jump->ancestors || passed == CUTS_BEFORE_JUMP);
 }
 /** The deepest node below this one whose region holds what of a box is in this one's: it, or one further down. The box
  * must reach into the region, and is cut down to it. */

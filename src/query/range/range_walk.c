@@ -364,31 +364,6 @@ static void follow_thin(range_walk *w, uint32_t node, double *t) {
 
 /* -------------------------------------------------------------------- walk -- */
 
-/* The state of the root. False: the range is apart from the scene. */
-static bool begin_walk(range_walk *w, double *state) {
-    const froe_scene *s = w->tree->scene;
-    const geom_range *range = &w->r->range;
-    const size_t dim = (size_t)w->dim;
-    if (range->kind == GEOM_RANGE_THIN) {
-        w->width = 2;
-        state[0] = 0;
-        state[1] = w->r->shape == FROE_SHAPE_RAY ? INFINITY : 1;
-        return true;
-    }
-    w->width = range->kind == GEOM_RANGE_SOLID ? 4 * dim : 2 * dim;
-    const solid_state p = solid_state_of(w, state);
-    memcpy(p.lo, s->lo, dim * sizeof *state);
-    memcpy(p.hi, s->hi, dim * sizeof *state);
-    for (size_t k = 0; k < dim; k++)
-        if (range->lo[k] > s->hi[k] || range->hi[k] < s->lo[k]) return false;
-    if (range->kind != GEOM_RANGE_SOLID) return true;
-    for (size_t k = 0; k < dim; k++) {
-        p.part_lo[k] = filter_greater(s->lo[k], range->lo[k]);
-        p.part_hi[k] = s->hi[k] < range->hi[k] ? s->hi[k] : range->hi[k];
-    }
-    return geom_range_shrink(range, p.part_lo, p.part_hi);
-}
-
 froe_status query_range_walk(froe_query *q) {
     range_walk w = {.q = q, .tree = q->tree, .r = &q->range, .dim = q->tree->scene->dim};
     double state[2 * BOX];
@@ -398,16 +373,34 @@ froe_status query_range_walk(froe_query *q) {
     if (status) return status;
     w.points = w.pieces->points && q->numbers.first == NUM_FILTER;
     q->range.nodes.count = q->range.boxes.count = 0;
-    if (!q->tree->scene->object_count || !begin_walk(&w, state)) return FROE_OK;
+    if (!q->tree->scene->object_count) return FROE_OK;
+    /* The state of the root. */
+    const froe_scene *s = w.tree->scene;
+    const geom_range *range = &w.r->range;
+    const size_t dim = (size_t)w.dim;
+    const bool thin = range->kind == GEOM_RANGE_THIN, solid = range->kind == GEOM_RANGE_SOLID;
+    w.width = thin ? 2 : solid ? 4 * dim : 2 * dim;
+    if (thin) {
+        state[0] = 0;
+        state[1] = w.r->shape == FROE_SHAPE_RAY ? INFINITY : 1;
+    } else {
+        const solid_state p = solid_state_of(&w, state);
+        memcpy(p.lo, s->lo, dim * sizeof *state);
+        memcpy(p.hi, s->hi, dim * sizeof *state);
+        for (size_t k = 0; k < dim; k++)
+            if (range->lo[k] > s->hi[k] || range->hi[k] < s->lo[k]) return FROE_OK; /* apart from the scene */
+        for (size_t k = 0; k < dim && solid; k++) {
+            p.part_lo[k] = filter_greater(s->lo[k], range->lo[k]);
+            p.part_hi[k] = s->hi[k] < range->hi[k] ? s->hi[k] : range->hi[k];
+        }
+        if (solid && !geom_range_shrink(range, p.part_lo, p.part_hi)) return FROE_OK;
+    }
     push_state(&w, 0, state);
     while (!done(&w) && q->range.nodes.count) {
         const uint32_t node = q->range.nodes.data[--q->range.nodes.count];
         q->range.boxes.count -= w.width;
         memcpy(state, q->range.boxes.data + q->range.boxes.count, w.width * sizeof *state);
-        if (w.r->range.kind == GEOM_RANGE_THIN)
-            follow_thin(&w, node, state);
-        else
-            follow_solid(&w, node, state);
+        thin ? follow_thin(&w, node, state) : follow_solid(&w, node, state);
     }
     return w.memory ? FROE_E_MEMORY : FROE_OK;
 }

@@ -51,24 +51,6 @@ static bool push_step(froe_query *q, query_step step) {
     return array_push(&q->alloc, &q->ray.steps, step);
 }
 
-/* Replaces an inner node by what the ray visits of it: the first to come on top. */
-static bool divide_step(froe_query *q, const query_planes *planes, const query_step *s) {
-    const froe_tree *t = q->tree;
-    const tree_node *node = t->nodes + s->node;
-    const query_cut cut = query_cut_at(t, planes, node);
-    const crossing c =
-        cut.axis >= 0 ? cross_axis(&q->ray.ray, cut.axis, cut.value) : cross_plane(&q->ray.ray, cut.plane, s->leave);
-    query_step first = {node->child + (uint32_t)c.first, false, s->enter, s->leave}, list = *s, second = first;
-    second.node = node->child + 1 - (uint32_t)c.first;
-    list.list = true;
-    if (!c.both) {
-        list.enter = second.enter = c.lo > s->enter ? c.lo : s->enter;
-        list.leave = first.leave = c.hi < s->leave ? c.hi : s->leave;
-    }
-    const bool listed = node->type == TREE_TABLED && t->cuts[node->u.cut].count;
-    return push_step(q, second) && (!listed || push_step(q, list)) && push_step(q, first);
-}
-
 froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
     const query_planes *planes;
     q->ray.packed = false;
@@ -109,9 +91,23 @@ froe_status query_walk_next(froe_query *q, tree_objects *list) {
         if (leaf || s.list) {
             *list = tree_list(q->tree, s.node);
             if (list->count) return FROE_OK;
-        } else if (!divide_step(q, planes, &s)) {
-            return FROE_E_MEMORY;
+            continue;
         }
+        /* An inner node is replaced by what the ray visits of it: the first to come on top. */
+        const froe_tree *t = q->tree;
+        const tree_node *node = t->nodes + s.node;
+        const query_cut cut = query_cut_at(t, planes, node);
+        const crossing c =
+            cut.axis >= 0 ? cross_axis(&q->ray.ray, cut.axis, cut.value) : cross_plane(&q->ray.ray, cut.plane, s.leave);
+        query_step first = {node->child + (uint32_t)c.first, false, s.enter, s.leave}, in_cut = s, second = first;
+        second.node = node->child + 1 - (uint32_t)c.first;
+        in_cut.list = true;
+        if (!c.both) {
+            in_cut.enter = second.enter = c.lo > s.enter ? c.lo : s.enter;
+            in_cut.leave = first.leave = c.hi < s.leave ? c.hi : s.leave;
+        }
+        const bool listed = node->type == TREE_TABLED && t->cuts[node->u.cut].count;
+        if (!push_step(q, second) || (listed && !push_step(q, in_cut)) || !push_step(q, first)) return FROE_E_MEMORY;
     }
     return status;
 }

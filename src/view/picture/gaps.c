@@ -116,22 +116,6 @@ static bool put_part(gapper *g, const view_segment *s, double from, double to) {
     return array_push(g->alloc, &g->out, part);
 }
 
-static bool put_rest(gapper *g, uint32_t i) {
-    const view_segment *s = g->in->data + i;
-    const size_t n = g->gaps.count;
-    double last = 0;
-    g->order.count = 0;
-    if (!array_reserve(g->alloc, &g->order, 2 * n)) return false;
-    for (uint32_t k = 0; k < n; k++) g->order.data[k] = k;
-    base_merge_sort(g->order.data, g->order.data + n, n, by_gap_start, g);
-    for (size_t k = 0; k < n; k++) {
-        const gap x = g->gaps.data[g->order.data[k]];
-        if (x.from > last && !put_part(g, s, last, x.from)) return false;
-        last = fmax(last, x.to);
-    }
-    return last >= 1 || put_part(g, s, last, 1);
-}
-
 froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection *view, double halo,
                               view_segments *segments) {
     gapper g = {.alloc = alloc, .view = view, .halo = halo, .in = segments};
@@ -141,8 +125,24 @@ froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection
     g.stamps = support_calloc(alloc, n + 1, sizeof *g.stamps);
     froe_status status = g.stamps ? FROE_OK : FROE_E_MEMORY;
     if (!status) status = view_grid_new(alloc, view, n, gap_points, segments, &g.grid);
-    for (uint32_t i = 0; !status && i < n; i++)
-        if (!compare_all(&g, i) || !put_rest(&g, i)) status = FROE_E_MEMORY;
+    bool ok = !status;
+    for (uint32_t i = 0; ok && i < n; i++) {
+        const view_segment *s = segments->data + i;
+        double last = 0; /* of its share before which all has been decided */
+        ok = compare_all(&g, i);
+        const size_t count = g.gaps.count;
+        g.order.count = 0;
+        ok = ok && array_reserve(alloc, &g.order, 2 * count);
+        for (uint32_t k = 0; ok && k < count; k++) g.order.data[k] = k;
+        if (ok) base_merge_sort(g.order.data, g.order.data + count, count, by_gap_start, &g);
+        for (size_t k = 0; ok && k < count; k++) {
+            const gap x = g.gaps.data[g.order.data[k]];
+            ok = x.from <= last || put_part(&g, s, last, x.from);
+            last = fmax(last, x.to);
+        }
+        ok = ok && (last >= 1 || put_part(&g, s, last, 1));
+    }
+    if (!ok && !status) status = FROE_E_MEMORY;
     support_free(alloc, g.stamps, (n + 1) * sizeof *g.stamps);
     view_grid_free(alloc, &g.grid);
     array_free(alloc, &g.gaps);

@@ -30,24 +30,6 @@ static bool is_drawn(const view_outliner *o, uint32_t object) {
     return facing > 0 || (facing < 0 && !o->cull_back);
 }
 
-/* The sides of one polygon, as they turn left; not those across which the patch goes on. */
-static bool add_sides(view_outliner *o, uint32_t object) {
-    const froe_surface *s = o->sights->surface;
-    const froe_scene *scene = s->scene;
-    const bool front = view_facing(o->sights, object) > 0;
-    for (uint32_t i = 0, n = scene_corners(scene, object); i < n; i++) {
-        const uint32_t edge = s->edge_of[scene->starts[object] + i], *use = s->uses + s->edge_starts[edge];
-        const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
-        const uint32_t from = front ? a : b, to = front ? b : a, side = (uint32_t)o->sides.count;
-        if (s->inside[edge] && is_drawn(o, use[0] == object ? use[1] : use[0])) continue;
-        if (!array_push(&o->alloc, &o->sides, (outline_side){edge, to, object, o->first_side[from]}) ||
-            !array_push(&o->alloc, &o->starts, from))
-            return false;
-        o->first_side[from] = side;
-    }
-    return true;
-}
-
 /* ----------------------------------------------------------------------- points -- */
 
 static print_point page_of(const view_outliner *o, uint32_t vertex) {
@@ -55,13 +37,6 @@ static print_point page_of(const view_outliner *o, uint32_t vertex) {
     double page[2];
     if (froe_project(o->view, view_vertex(o->sights, vertex), page)) p = (print_point){page[0], page[1]};
     return p;
-}
-
-/* Goes the border straight on from u by v to w? Exactly, in space. */
-static bool goes_straight(const view_outliner *o, uint32_t u, uint32_t v, uint32_t w) {
-    const double *const p[3] = {view_vertex(o->sights, u), view_vertex(o->sights, v), view_vertex(o->sights, w)};
-    const geom_plane plane = geom_plane_points(3, p);
-    return !geom_plane_valid(&o->sights->context, &plane);
 }
 
 /* The corner of a polygon farthest from ab, on the other side of it than the patch, which is on its left. */
@@ -125,18 +100,6 @@ static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline
 
 /* ------------------------------------------------------------------------ rings -- */
 
-/* Takes the sides of one ring off the lists. */
-static bool take_ring(view_outliner *o, uint32_t side) {
-    o->ring.count = 0;
-    for (uint32_t at = o->starts.data[side]; o->first_side[at] != FROE_NONE;) {
-        const uint32_t next = o->first_side[at];
-        o->first_side[at] = o->sides.data[next].next;
-        if (!array_push(&o->alloc, &o->ring, next)) return false;
-        at = o->sides.data[next].to;
-    }
-    return true;
-}
-
 /* Appends the ring: with its detours, or cut where a vertex is out of sight or too far away. */
 static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
     const size_t first = points->count, n = o->ring.count;
@@ -159,8 +122,13 @@ static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print
         const size_t j = i ? i - 1 : n - 1;
         const uint32_t side = o->ring.data[i], before = o->ring.data[j], a = o->starts.data[side];
         const outline_detour *d = o->detours.data + i;
-        const bool plain = !d->count && !o->detours.data[j].count;
-        if (plain && goes_straight(o, o->starts.data[before], a, o->sides.data[side].to)) continue;
+        if (!d->count && !o->detours.data[j].count) { /* goes the border straight on? Exactly, in space */
+            const uint32_t vertices[3] = {o->starts.data[before], a, o->sides.data[side].to};
+            const double *p[3];
+            for (int k = 0; k < 3; k++) p[k] = view_vertex(o->sights, vertices[k]);
+            const geom_plane plane = geom_plane_points(3, p);
+            if (!geom_plane_valid(&o->sights->context, &plane)) continue;
+        }
         points->data[points->count++] = page_of(o, a);
         for (uint32_t k = 0; k < d->count; k++) points->data[points->count++] = d->at[k];
     }
@@ -173,12 +141,34 @@ static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print
 
 bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
     const froe_surface *s = o->sights->surface;
+    const froe_scene *scene = s->scene;
     bool ok = true;
     o->sides.count = o->starts.count = 0;
-    for (uint32_t m = s->patch_starts[patch]; ok && m < s->patch_starts[patch + 1]; m++)
-        ok = !is_drawn(o, s->members[m]) || add_sides(o, s->members[m]);
-    for (uint32_t i = 0; ok && i < o->sides.count; i++)
-        ok = take_ring(o, i) && (o->ring.count < 3 || put_ring(o, patch, points, ends));
+    for (uint32_t m = s->patch_starts[patch]; ok && m < s->patch_starts[patch + 1]; m++) {
+        const uint32_t object = s->members[m], n = scene_corners(scene, object);
+        const bool front = view_facing(o->sights, object) > 0;
+        if (!is_drawn(o, object)) continue;
+        for (uint32_t i = 0; ok && i < n;
+             i++) { /* sides as they turn left, but for those that the patch goes on across */
+            const uint32_t edge = s->edge_of[scene->starts[object] + i], *use = s->uses + s->edge_starts[edge];
+            const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
+            const uint32_t from = front ? a : b, to = front ? b : a, side = (uint32_t)o->sides.count;
+            if (s->inside[edge] && is_drawn(o, use[0] == object ? use[1] : use[0])) continue;
+            ok = array_push(&o->alloc, &o->sides, (outline_side){edge, to, object, o->first_side[from]}) &&
+                 array_push(&o->alloc, &o->starts, from);
+            if (ok) o->first_side[from] = side;
+        }
+    }
+    for (uint32_t i = 0; ok && i < o->sides.count; i++) {
+        o->ring.count = 0;
+        for (uint32_t at = o->starts.data[i]; ok && o->first_side[at] != FROE_NONE;) { /* takes a ring off the lists */
+            const uint32_t next = o->first_side[at];
+            o->first_side[at] = o->sides.data[next].next;
+            ok = array_push(&o->alloc, &o->ring, next);
+            at = o->sides.data[next].to;
+        }
+        ok = ok && (o->ring.count < 3 || put_ring(o, patch, points, ends));
+    }
     for (size_t i = 0; i < o->starts.count; i++) o->first_side[o->starts.data[i]] = FROE_NONE;
     return ok;
 }

@@ -147,12 +147,6 @@ static bool paint_line_of_sight(overlayer *o, base_compare_fn *compare, overlay_
 
 /* -------------------------------------------------------------------- segments -- */
 
-static double near_at(const overlay_member *m, print_point at) {
-    const double dx = m->at[1].x - m->at[0].x, dy = m->at[1].y - m->at[0].y, square = dx * dx + dy * dy;
-    const double t = square > 0 ? ((at.x - m->at[0].x) * dx + (at.y - m->at[0].y) * dy) / square : 0;
-    return m->near[0] + t * (m->near[1] - m->near[0]);
-}
-
 static bool put_segments(overlayer *o, view_segments *out) {
     for (uint32_t i = 0, first; i + 1 < o->places.count; i++) {
         if (o->drawn.data[i] == FROE_NONE) continue;
@@ -171,7 +165,11 @@ static bool put_segments(overlayer *o, view_segments *out) {
             const bool own = x->place[e] == place && x->end[e].vertex != FROE_NONE; /* it ends there itself */
             s.vertex[e] = own ? x->end[e].vertex : o->places.data[place].vertex;
             s.at[e] = o->places.data[place].at;
-            s.near[e] = near_at(nearest, s.at[e]);
+            /* As near as the nearest member is there, linearly along it. */
+            const print_point *at = nearest->at;
+            const double dx = at[1].x - at[0].x, dy = at[1].y - at[0].y, square = dx * dx + dy * dy;
+            const double t = square > 0 ? ((s.at[e].x - at[0].x) * dx + (s.at[e].y - at[0].y) * dy) / square : 0;
+            s.near[e] = nearest->near[0] + t * (nearest->near[1] - nearest->near[0]);
         }
         if (!array_push(&o->sights->alloc, out, s)) return false;
     }

@@ -90,27 +90,6 @@ static froe_status plan_fills(view_painter *p) {
     return status;
 }
 
-static void free_painter(view_painter *p) {
-    const froe_allocator *alloc = &p->picture->alloc;
-    view_outliner_free(&p->outliner);
-    view_seams_free(&p->seams);
-    view_graph_free(alloc, &p->graph);
-    array_free(alloc, &p->arcs);
-    view_region_free(alloc, &p->region);
-    support_free(alloc, p->order, (p->parts.nodes.count + 1) * sizeof *p->order);
-    support_free(alloc, p->breaks, p->parts.nodes.count + 1);
-    array_free(alloc, &p->items);
-    array_free(alloc, &p->segments);
-    support_free(alloc, p->painted, (p->parts.nodes.count + 1) * sizeof *p->painted);
-    if (p->v) {
-        support_free(alloc, p->places, ((size_t)p->v->tree->piece_count + 1) * sizeof *p->places);
-        support_free(alloc, p->left_out, (size_t)p->v->surface->patch_count + 1);
-        support_free(alloc, p->runs, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->runs);
-    }
-    view_parts_free(&p->parts);
-    froe_visibility_free(p->v);
-}
-
 static froe_status make_picture(view_painter *p, const froe_tree *tree, const froe_surface *surface,
                                 froe_diagnostic *diag) {
     uint8_t *kinds = support_calloc(&p->picture->alloc, (size_t)surface->edge_count + 1, 1);
@@ -185,7 +164,23 @@ froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
     picture->alloc = alloc;
     view_painter p = {.picture = picture, .options = options};
     status = make_picture(&p, tree, surface, diag);
-    free_painter(&p);
+    view_outliner_free(&p.outliner);
+    view_seams_free(&p.seams);
+    view_graph_free(&alloc, &p.graph);
+    array_free(&alloc, &p.arcs);
+    view_region_free(&alloc, &p.region);
+    support_free(&alloc, p.order, (p.parts.nodes.count + 1) * sizeof *p.order);
+    support_free(&alloc, p.breaks, p.parts.nodes.count + 1);
+    array_free(&alloc, &p.items);
+    array_free(&alloc, &p.segments);
+    support_free(&alloc, p.painted, (p.parts.nodes.count + 1) * sizeof *p.painted);
+    if (p.v) {
+        support_free(&alloc, p.places, ((size_t)p.v->tree->piece_count + 1) * sizeof *p.places);
+        support_free(&alloc, p.left_out, (size_t)p.v->surface->patch_count + 1);
+        support_free(&alloc, p.runs, ((size_t)p.v->surface->patch_count + 1) * sizeof *p.runs);
+    }
+    view_parts_free(&p.parts);
+    froe_visibility_free(p.v);
     if (status) {
         froe_picture_free(picture);
         return status;

@@ -10,7 +10,6 @@ typedef struct heap_entry {
 
 typedef struct style_sorter {
     const froe_allocator *alloc;
-    const view_graph *g;
     const uint32_t *styles;  /* NULL: all 0 */
     uint32_t *missing;       /* per node: arcs from nodes not painted yet */
     uint32_t *below;         /* per node: the one below it in its stack */
@@ -61,35 +60,29 @@ static uint32_t next_style(style_sorter *s, uint32_t now) {
     }
 }
 
-static bool sort_by_style(style_sorter *s, uint32_t *order) {
-    const view_graph *g = s->g;
-    for (uint32_t i = 0; i < g->arc_count; i++) s->missing[g->outs[i]]++;
-    for (uint32_t v = 0; v < g->count; v++)
-        if (g->late[v])
-            for (uint32_t i = g->out_starts[v]; i < g->out_starts[v + 1]; i++) s->missing[g->outs[i]]--;
-    for (uint32_t v = g->count; v-- > 0;) /* the lowest comes to lie on top */
-        if (!s->missing[v] && !make_ready(s, v)) return false;
-    uint32_t style = UINT32_MAX;
-    for (uint32_t k = 0; k < g->count; k++) {
-        style = next_style(s, style);
-        const uint32_t v = order[k] = s->top[style];
-        s->top[style] = s->below[v];
-        s->waiting[style]--;
-        for (uint32_t i = g->out_starts[v + 1]; !g->late[v] && i-- > g->out_starts[v];)
-            if (--s->missing[g->outs[i]] == 0 && !make_ready(s, g->outs[i])) return false;
-    }
-    return true;
-}
-
 froe_status view_graph_sort(const froe_allocator *alloc, const view_graph *graph, const uint32_t *styles,
                             uint32_t style_count, uint32_t *order) {
     const size_t n = (size_t)graph->count + 1, m = (size_t)style_count + 1;
-    style_sorter s = {.alloc = alloc, .g = graph, .styles = styles};
+    style_sorter s = {.alloc = alloc, .styles = styles};
     s.missing = support_calloc(alloc, n, sizeof *s.missing);
     s.below = support_calloc(alloc, n, sizeof *s.below);
     s.top = support_calloc(alloc, m, sizeof *s.top);
     s.waiting = support_calloc(alloc, m, sizeof *s.waiting);
-    const bool ok = s.missing && s.below && s.top && s.waiting && sort_by_style(&s, order);
+    bool ok = s.missing && s.below && s.top && s.waiting;
+    for (uint32_t v = 0; ok && v < graph->count; v++)
+        for (uint32_t i = graph->out_starts[v]; !graph->late[v] && i < graph->out_starts[v + 1]; i++)
+            s.missing[graph->outs[i]]++;
+    for (uint32_t v = graph->count; ok && v-- > 0;) /* the lowest comes to lie on top */
+        if (!s.missing[v]) ok = make_ready(&s, v);
+    uint32_t style = UINT32_MAX;
+    for (uint32_t k = 0; ok && k < graph->count; k++) {
+        style = next_style(&s, style);
+        const uint32_t v = order[k] = s.top[style];
+        s.top[style] = s.below[v];
+        s.waiting[style]--;
+        for (uint32_t i = graph->out_starts[v + 1]; ok && !graph->late[v] && i-- > graph->out_starts[v];)
+            if (--s.missing[graph->outs[i]] == 0) ok = make_ready(&s, graph->outs[i]);
+    }
     support_free(alloc, s.missing, n * sizeof *s.missing);
     support_free(alloc, s.below, n * sizeof *s.below);
     support_free(alloc, s.top, m * sizeof *s.top);

@@ -24,19 +24,6 @@ static bool keep_open(void *user, const view_stretch *part) {
     return array_push(&c->sights->alloc, &c->open, *part);
 }
 
-/* Appends the parts of the open stretches inside a piece of the list. */
-static bool keep_inside(view_crosser *c, uint32_t piece, view_stretches *out) {
-    if (!view_beam_of(c->sights, piece, &c->list_ring)) return false;
-    for (size_t i = 0; i < c->open.count; i++) {
-        view_stretch part = c->open.data[i];
-        bool left = true; /* unless it runs along the border */
-        for (size_t k = 0; left && k < c->list_ring.count; k++)
-            left = view_cut_stretch(c->sights, part.edge, c->list_ring.data[k].way, &part);
-        if (left && !array_push(&c->sights->alloc, out, part)) return false;
-    }
-    return true;
-}
-
 /* Appends the parts of the open stretches inside the list of a cut, or all where the cut is the section. */
 static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_stretches *out) {
     view_sights *s = c->sights;
@@ -46,7 +33,15 @@ static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_st
     for (size_t k = 0; ok && section && k < c->open.count; k++) ok = array_push(&s->alloc, out, c->open.data[k]);
     for (uint32_t k = 0; ok && !section && c->open.count && k < list.count; k++) {
         const uint32_t object = tree_object(&list, k), other = s->surface->patch_of[object];
-        if (other != FROE_NONE && other != patch && view_facing(s, object)) ok = keep_inside(c, list.first + k, out);
+        if (other == FROE_NONE || other == patch || !view_facing(s, object)) continue;
+        ok = view_beam_of(s, list.first + k, &c->list_ring);
+        for (size_t i = 0; ok && i < c->open.count; i++) { /* its part inside that piece of the list */
+            view_stretch part = c->open.data[i];
+            bool left = true; /* unless it runs along the border */
+            for (size_t j = 0; left && j < c->list_ring.count; j++)
+                left = view_cut_stretch(s, part.edge, c->list_ring.data[j].way, &part);
+            if (left) ok = array_push(&s->alloc, out, part);
+        }
     }
     return ok;
 }
@@ -106,36 +101,27 @@ static crossing_line line_of_crossing(const froe_visibility *v, uint32_t line, b
 
 /* -------------------------------------------------------------- along the section -- */
 
-/* The two points of its border in which the section parts a polygon, on a line; *count: how many were found. */
-static froe_status find_stops(view_sights *s, uint32_t object, uint32_t line, view_mark out[2], int *count) {
-    const froe_scene *scene = s->tree->scene;
-    const geom_plane plane = tree_plane_at(s->tree, 0);
-    const uint32_t n = scene_corners(scene, object);
-    froe_status status = FROE_OK;
-    int reached = 0, last = geom_side_vertex(&s->context, &plane, scene_point(scene, object, n - 1));
-    *count = 0;
-    for (uint32_t i = 0; i < n && !status; i++) {
-        const int side = geom_side_vertex(&s->context, &plane, scene_point(scene, object, i));
-        const uint32_t before = s->surface->edge_of[scene->starts[object] + (i ? i - 1 : n - 1)];
-        reached |= side > 0 ? 2 : side < 0 ? 1 : 0;
-        if (!side && *count < 2) out[(*count)++] = (view_mark){.vertex = scene_corner(scene, object, i)};
-        if (side * last < 0 && *count < 2) status = view_stop_edge(s, before, line, &out[(*count)++]);
-        last = side;
-    }
-    if (reached != 3) *count = 0; /* the section only touches it */
-    return status;
-}
-
 froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
     view_sights *s = &v->sights;
     const uint32_t *edges = s->surface->edge_of + s->tree->scene->starts[object];
+    const froe_scene *scene = s->tree->scene;
+    const geom_plane plane = tree_plane_at(s->tree, 0);
+    const uint32_t n = scene_corners(scene, object);
     view_mark mark[2];
-    int count;
     while (view_is_point(s, *edges)) edges++; /* all that are seen as lines lie on one */
     const uint32_t line = view_line_of_edge(s, *edges);
     if (line == FROE_NONE) return FROE_E_MEMORY;
-    const froe_status status = find_stops(s, object, line, mark, &count);
-    if (status || count < 2) return status;
+    /* The two points of its border in which the section parts the polygon. */
+    int count = 0, reached = 0, last = geom_side_vertex(&s->context, &plane, scene_point(scene, object, n - 1));
+    for (uint32_t i = 0; i < n; i++) {
+        const int side = geom_side_vertex(&s->context, &plane, scene_point(scene, object, i));
+        const uint32_t before = s->surface->edge_of[scene->starts[object] + (i ? i - 1 : n - 1)];
+        reached |= side > 0 ? 2 : side < 0 ? 1 : 0;
+        if (!side && count < 2) mark[count++] = (view_mark){.vertex = scene_corner(scene, object, i)};
+        if (side * last < 0 && count < 2 && view_stop_edge(s, before, line, &mark[count++])) return FROE_E_MEMORY;
+        last = side;
+    }
+    if (reached != 3 || count < 2) return FROE_OK; /* the section only touches it */
     view_stretch part = {line, {view_end_at(s, line, mark[0]), view_end_at(s, line, mark[1])}};
     const int order = view_compare_ends(s, line, &part.end[0], &part.end[1]);
     if (!order) return FROE_OK;

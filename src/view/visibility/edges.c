@@ -2,39 +2,10 @@
 #include "base/radix.h"
 #include "view/visibility/surface.h"
 
-/* One pair (lower vertex, higher vertex) and the corner its edge leaves, for all edges of polygons. */
-static uint32_t list_pairs(const froe_scene *s, base_pair *pairs) {
-    uint32_t count = 0;
-    for (uint32_t o = 0; o < s->object_count; o++) {
-        if (scene_form(s, o) != FROE_POLYGON) continue;
-        const uint32_t n = scene_corners(s, o);
-        for (uint32_t i = 0; i < n; i++) {
-            const uint32_t a = scene_corner(s, o, i), b = scene_corner(s, o, i + 1 < n ? i + 1 : 0);
-            pairs[count++] = (base_pair){(uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a), s->starts[o] + i};
-        }
-    }
-    return count;
-}
-
 static uint32_t *take_numbers(const froe_allocator *alloc, size_t count, bool *ok) {
     uint32_t *out = support_calloc(alloc, count ? count : 1, sizeof *out);
     *ok = *ok && out;
     return out;
-}
-
-static void fill_edges(froe_surface *out, const base_pair *pairs, const uint32_t *object_of) {
-    uint32_t edge = 0;
-    for (uint32_t i = 0; i < out->use_count; i++) {
-        if (i == 0 || pairs[i].key != pairs[i - 1].key) {
-            edge += i > 0;
-            out->edge_starts[edge] = i;
-            out->vertices[2 * edge] = (uint32_t)(pairs[i].key >> 32);
-            out->vertices[2 * edge + 1] = (uint32_t)pairs[i].key;
-        }
-        out->edge_of[pairs[i].value] = edge;
-        out->uses[i] = object_of[pairs[i].value];
-    }
-    out->edge_starts[out->edge_count] = out->use_count;
 }
 
 froe_status surface_find_edges(froe_surface *out) {
@@ -46,7 +17,14 @@ froe_status surface_find_edges(froe_surface *out) {
     uint32_t *object_of = take_numbers(alloc, most, &ok);
     out->edge_of = take_numbers(alloc, most, &ok);
     if (ok) {
-        out->use_count = list_pairs(s, pairs);
+        for (uint32_t o = 0; o < s->object_count; o++) {
+            const uint32_t n = scene_form(s, o) == FROE_POLYGON ? scene_corners(s, o) : 0;
+            for (uint32_t i = 0; i < n; i++) { /* lower vertex, higher vertex; the corner that the edge leaves */
+                const uint32_t a = scene_corner(s, o, i), b = scene_corner(s, o, i + 1 < n ? i + 1 : 0);
+                const uint64_t key = (uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a);
+                pairs[out->use_count++] = (base_pair){key, s->starts[o] + i};
+            }
+        }
         base_radix_sort(pairs, pairs + most, out->use_count);
         for (uint32_t i = 0; i < out->use_count; i++) out->edge_count += !i || pairs[i].key != pairs[i - 1].key;
     }
@@ -57,7 +35,18 @@ froe_status surface_find_edges(froe_surface *out) {
         for (uint32_t i = 0; i < corners; i++) out->edge_of[i] = FROE_NONE;
         for (uint32_t o = 0; o < s->object_count; o++)
             for (uint32_t i = s->starts[o]; i < s->starts[o + 1]; i++) object_of[i] = o;
-        fill_edges(out, pairs, object_of);
+        uint32_t edge = 0;
+        for (uint32_t i = 0; i < out->use_count; i++) {
+            if (i == 0 || pairs[i].key != pairs[i - 1].key) {
+                edge += i > 0;
+                out->edge_starts[edge] = i;
+                out->vertices[2 * edge] = (uint32_t)(pairs[i].key >> 32);
+                out->vertices[2 * edge + 1] = (uint32_t)pairs[i].key;
+            }
+            out->edge_of[pairs[i].value] = edge;
+            out->uses[i] = object_of[pairs[i].value];
+        }
+        out->edge_starts[out->edge_count] = out->use_count;
     }
     support_free(alloc, object_of, most * sizeof *object_of);
     support_free(alloc, pairs, 2 * (size_t)most * sizeof *pairs);

@@ -49,25 +49,6 @@ static int by_interval_start(void *user, uint32_t a, uint32_t b) {
     return view_compare_ends(&j->v->sights, j->line, &j->stretches[a].end[0], &j->stretches[b].end[0]);
 }
 
-/* Appends the union of the sorted stretches of one edge; rounding keeps the order. */
-static void join_intervals(interval_joiner *j, const uint32_t *items, uint32_t count) {
-    froe_visibility *v = j->v;
-    double last = 0;
-    for (uint32_t i = 0; i < count;) {
-        const view_end *from = &j->stretches[items[i]].end[0], *to = &j->stretches[items[i]].end[1];
-        for (i++; i < count && view_compare_ends(&v->sights, j->line, &j->stretches[items[i]].end[0], to) <= 0; i++)
-            if (view_compare_ends(&v->sights, j->line, &j->stretches[items[i]].end[1], to) > 0)
-                to = &j->stretches[items[i]].end[1];
-        const view_mark marks[2] = {view_mark_of(from), view_mark_of(to)};
-        froe_interval x = {view_share_of(&v->sights, j->edge, marks[0]), view_share_of(&v->sights, j->edge, marks[1])};
-        if (x.from < last) x.from = last;
-        if (x.to < x.from) x.to = x.from;
-        last = x.to;
-        memcpy(v->interval_marks + 2 * (size_t)v->interval_count, marks, sizeof marks);
-        v->intervals[v->interval_count++] = x;
-    }
-}
-
 froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches) {
     const froe_allocator *alloc = &v->alloc;
     const uint32_t edges = v->surface->edge_count;
@@ -90,7 +71,23 @@ froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretc
         interval_joiner j = {v, stretches->data, e, count ? view_line_of_edge(&v->sights, e) : FROE_NONE};
         starts[e] = v->interval_count;
         base_merge_sort(items + first, items + n, count, by_interval_start, &j);
-        join_intervals(&j, items + first, count);
+        /* Appends the union of the sorted stretches; rounding keeps the order. */
+        double last = 0;
+        for (uint32_t i = first; i < first + count;) {
+            const view_end *from = &j.stretches[items[i]].end[0], *to = &j.stretches[items[i]].end[1];
+            for (i++; i < first + count; i++) {
+                const view_end *next = j.stretches[items[i]].end;
+                if (view_compare_ends(&v->sights, j.line, &next[0], to) > 0) break;
+                if (view_compare_ends(&v->sights, j.line, &next[1], to) > 0) to = &next[1];
+            }
+            const view_mark marks[2] = {view_mark_of(from), view_mark_of(to)};
+            froe_interval x = {view_share_of(&v->sights, e, marks[0]), view_share_of(&v->sights, e, marks[1])};
+            if (x.from < last) x.from = last;
+            if (x.to < x.from) x.to = x.from;
+            last = x.to;
+            memcpy(v->interval_marks + 2 * (size_t)v->interval_count, marks, sizeof marks);
+            v->intervals[v->interval_count++] = x;
+        }
     }
     if (ok) starts[edges] = v->interval_count;
     support_free(alloc, items, (2 * n + 1) * sizeof *items);

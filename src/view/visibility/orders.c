@@ -6,7 +6,7 @@
 #include "support/fail.h"
 #include "view/visibility/order.h"
 
-enum { EYES_PER_WORD = 32, NODES_PER_JOB = 4096 }; /* eyes a word, nodes a job */
+enum { EYES_PER_WORD = 32, NODES_PER_TASK = 4096 }; /* eyes a word, nodes a job */
 
 froe_order_options froe_order_defaults(void) {
     return (froe_order_options){.size = sizeof(froe_order_options)};
@@ -95,9 +95,9 @@ typedef struct eye_batch {
 
 static froe_status sides_of_nodes(void *user, unsigned worker, size_t job) {
     eye_batch *b = user;
-    uint32_t end = (uint32_t)(job + 1) * NODES_PER_JOB < b->tree->node_count ? (uint32_t)(job + 1) * NODES_PER_JOB
-                                                                             : b->tree->node_count;
-    for (uint32_t node = (uint32_t)job * NODES_PER_JOB; node < end; node++) {
+    uint32_t end = (uint32_t)(job + 1) * NODES_PER_TASK < b->tree->node_count ? (uint32_t)(job + 1) * NODES_PER_TASK
+                                                                              : b->tree->node_count;
+    for (uint32_t node = (uint32_t)job * NODES_PER_TASK; node < end; node++) {
         b->sides[node] = 0;
         if (tree_is_leaf(b->tree->nodes + node)) continue;
         for (size_t e = 0; e < b->count; e++)
@@ -119,24 +119,6 @@ static froe_status order_of_eye(void *user, unsigned worker, size_t job) {
     return view_order_end(&order) ? FROE_E_MEMORY : status;
 }
 
-static froe_status run_batches(eye_batch *b, base_task *task, const froe_eye *eyes, size_t count,
-                               froe_diagnostic *diag) {
-    geom_eye from[EYES_PER_WORD];
-    froe_status status = FROE_OK;
-    b->eyes = from;
-    for (size_t i = 0; i < count && !status; i += EYES_PER_WORD) {
-        b->count = count - i < EYES_PER_WORD ? count - i : EYES_PER_WORD;
-        for (size_t e = 0; e < b->count && !status; e++) status = view_eye_of(b->tree, eyes + i + e, from + e, diag);
-        if (status) return status;
-        double share = (double)b->count / (double)count;
-        status =
-            base_run(task, 0.3 * share, (b->tree->node_count + NODES_PER_JOB - 1) / NODES_PER_JOB, sides_of_nodes, b);
-        if (!status) status = base_run(task, 0.7 * share, b->count, order_of_eye, b);
-        b->pieces += b->count * b->tree->piece_count;
-    }
-    return status == FROE_E_MEMORY ? support_fail_memory(diag) : status ? support_fail_cancelled(diag) : FROE_OK;
-}
-
 froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t count,
                              const froe_order_options *options, uint32_t *pieces, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -145,6 +127,7 @@ froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t
     froe_status status = check_orders(tree, &options, &standard, diag);
     if (!status) status = view_order_check(tree, diag);
     if (status) return status;
+    froe_status bad = FROE_OK; /* of an eye */
     base_task task;
     base_task_init(&task, options->threads, options->progress, options->user);
     eye_batch b = {.tree = tree, .options = options, .pieces = pieces};
@@ -152,12 +135,22 @@ froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t
     b.contexts = support_calloc(&tree->alloc, task.threads, sizeof *b.contexts);
     for (unsigned i = 0; b.contexts && i < task.threads && !status; i++)
         status = geom_context_new(&tree->alloc, b.contexts + i);
-    if (!b.sides || !b.contexts || status)
-        status = support_fail_memory(diag);
-    else
-        status = run_batches(&b, &task, eyes, count, diag);
+    if (!b.sides || !b.contexts) status = FROE_E_MEMORY;
+    geom_eye from[EYES_PER_WORD];
+    b.eyes = from;
+    for (size_t i = 0; i < count && !status && !bad; i += EYES_PER_WORD) {
+        b.count = count - i < EYES_PER_WORD ? count - i : EYES_PER_WORD;
+        for (size_t e = 0; e < b.count && !bad; e++) bad = view_eye_of(tree, eyes + i + e, from + e, diag);
+        if (bad) break;
+        const double share = (double)b.count / (double)count;
+        status =
+            base_run(&task, 0.3 * share, (tree->node_count + NODES_PER_TASK - 1) / NODES_PER_TASK, sides_of_nodes, &b);
+        if (!status) status = base_run(&task, 0.7 * share, b.count, order_of_eye, &b);
+        b.pieces += b.count * tree->piece_count;
+    }
+    if (status) status == FROE_E_MEMORY ? support_fail_memory(diag) : support_fail_cancelled(diag);
     for (unsigned i = 0; b.contexts && i < task.threads; i++) num_context_free(b.contexts + i);
     support_free(&tree->alloc, b.contexts, task.threads * sizeof *b.contexts);
     support_free(&tree->alloc, b.sides, tree->node_count * sizeof *b.sides);
-    return status;
+    return bad ? bad : status;
 }

@@ -8,17 +8,6 @@ static uint32_t find_patch_root(uint32_t *parent, uint32_t i) {
     return i;
 }
 
-/* Do two polygons of one plane turn the same way, seen from the same side? */
-static bool same_turn(num_context *context, const geom_plane *a, const geom_plane *b) {
-    for (int k = 0; k < 3; k++) {
-        const double direction[3] = {k == 0, k == 1, k == 2};
-        const geom_eye eye = geom_eye_make(true, direction, NULL);
-        const int side = geom_side_of_eye(context, a, &eye);
-        if (side) return side == geom_side_of_eye(context, b, &eye);
-    }
-    return false;
-}
-
 /* One plane, and the two sides of the edge: then each is left of the edge as it runs, so they run in opposite ways
  * if they turn the same way. */
 static bool continues(const froe_surface *s, num_context *context, uint32_t edge, uint32_t a, uint32_t b) {
@@ -27,24 +16,18 @@ static bool continues(const froe_surface *s, num_context *context, uint32_t edge
     for (uint32_t i = 0; i < scene_corners(s->scene, b); i++)
         if (geom_side_vertex(context, &plane, scene_point(s->scene, b, i)) != 0) return false;
     scene_support(s->scene, b, &other);
-    return same_turn(context, &plane, &other) == (surface_ascends(s, a, edge) != surface_ascends(s, b, edge));
+    bool same = false; /* do they turn the same way, seen from the same side? */
+    for (int k = 0, side = 0; k < 3 && !side; k++) {
+        const double direction[3] = {k == 0, k == 1, k == 2};
+        const geom_eye eye = geom_eye_make(true, direction, NULL);
+        side = geom_side_of_eye(context, &plane, &eye);
+        same = side && side == geom_side_of_eye(context, &other, &eye);
+    }
+    return same == (surface_ascends(s, a, edge) != surface_ascends(s, b, edge));
 }
 
 static uint32_t group_of(const froe_scene *s, uint32_t object) {
     return s->groups ? s->groups[object] : FROE_NONE;
-}
-
-static void unite_neighbours(froe_surface *s, num_context *context, uint32_t *parent) {
-    for (uint32_t e = 0; e < s->edge_count; e++) {
-        const uint32_t *use = s->uses + s->edge_starts[e];
-        if (s->edge_starts[e + 1] - s->edge_starts[e] != 2 || use[0] == use[1]) continue;
-        s->inside[e] =
-            group_of(s->scene, use[0]) == group_of(s->scene, use[1]) && continues(s, context, e, use[0], use[1]);
-        if (!s->inside[e]) continue;
-        /* The lower number stays the root, so that a patch is named by its first object. */
-        const uint32_t a = find_patch_root(parent, use[0]), b = find_patch_root(parent, use[1]);
-        parent[a < b ? b : a] = a < b ? a : b;
-    }
 }
 
 /* Numbers the roots in ascending order and lists the members of each. */
@@ -67,21 +50,6 @@ static void number(froe_surface *s, uint32_t *parent) {
     starts[s->patch_count] = s->member_count;
 }
 
-/* Corners where a polygon of more than three corners goes straight on. */
-static void find_straight(froe_surface *s, num_context *context) {
-    const froe_scene *scene = s->scene;
-    for (uint32_t o = 0; o < scene->object_count; o++) {
-        const uint32_t n = scene_corners(scene, o);
-        if (scene_form(scene, o) != FROE_POLYGON || n == 3) continue;
-        for (uint32_t i = 0; i < n; i++) {
-            const double *const p[3] = {scene_point(scene, o, i ? i - 1 : n - 1), scene_point(scene, o, i),
-                                        scene_point(scene, o, i + 1 < n ? i + 1 : 0)};
-            const geom_plane plane = geom_plane_points(3, p);
-            s->straight[scene->starts[o] + i] = !geom_plane_valid(context, &plane);
-        }
-    }
-}
-
 froe_status surface_find_patches(froe_surface *s, num_context *context) {
     const size_t n = s->scene->object_count, corners = n ? s->scene->starts[n] : 0;
     uint32_t *parent = support_calloc(&s->alloc, n + 1, sizeof *parent);
@@ -93,9 +61,28 @@ froe_status surface_find_patches(froe_surface *s, num_context *context) {
     const bool ok = parent && s->patch_of && s->patch_starts && s->members && s->straight && s->inside;
     if (ok) {
         for (uint32_t o = 0; o < n; o++) parent[o] = o;
-        unite_neighbours(s, context, parent);
+        for (uint32_t e = 0; e < s->edge_count; e++) {
+            const uint32_t *use = s->uses + s->edge_starts[e];
+            if (s->edge_starts[e + 1] - s->edge_starts[e] != 2 || use[0] == use[1]) continue;
+            s->inside[e] =
+                group_of(s->scene, use[0]) == group_of(s->scene, use[1]) && continues(s, context, e, use[0], use[1]);
+            if (!s->inside[e]) continue;
+            /* The lower number stays the root, so that a patch is named by its first object. */
+            const uint32_t a = find_patch_root(parent, use[0]), b = find_patch_root(parent, use[1]);
+            parent[a < b ? b : a] = a < b ? a : b;
+        }
         number(s, parent);
-        find_straight(s, context);
+    }
+    for (uint32_t o = 0; ok && o < n; o++) { /* corners where a polygon of more than three goes straight on */
+        const froe_scene *scene = s->scene;
+        const uint32_t count = scene_corners(scene, o);
+        if (scene_form(scene, o) != FROE_POLYGON || count == 3) continue;
+        for (uint32_t i = 0; i < count; i++) {
+            const double *const p[3] = {scene_point(scene, o, i ? i - 1 : count - 1), scene_point(scene, o, i),
+                                        scene_point(scene, o, i + 1 < count ? i + 1 : 0)};
+            const geom_plane plane = geom_plane_points(3, p);
+            s->straight[scene->starts[o] + i] = !geom_plane_valid(context, &plane);
+        }
     }
     support_free(&s->alloc, parent, (n + 1) * sizeof *parent);
     return ok ? FROE_OK : FROE_E_MEMORY;

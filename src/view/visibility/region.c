@@ -126,31 +126,28 @@ static uint32_t take_border(region_maker *m, uint32_t corner) {
     return border;
 }
 
-static bool chain(region_maker *m) {
-    view_region *r = m->r;
-    for (uint32_t b = 0; b < r->borders.count; b++) {
-        uint32_t *first = r->first_border.data + find_point_root(r->point.data, r->borders.data[b].from);
-        r->borders.data[b].next = *first;
-        *first = b;
-    }
-    r->corners.count = r->starts.count = 0;
-    if (!array_reserve(m->alloc, &r->corners, r->borders.count) ||
-        !array_reserve(m->alloc, &r->starts, r->borders.count + 1))
-        return false;
-    for (uint32_t b = 0; b < r->borders.count; b++) {
-        uint32_t border = take_border(m, r->borders.data[b].from);
-        if (border == FROE_NONE) continue;
-        r->starts.data[r->starts.count++] = (uint32_t)r->corners.count;
-        for (; border != FROE_NONE; border = take_border(m, r->borders.data[border].to))
-            r->corners.data[r->corners.count++] = r->corner_of.data[r->borders.data[border].from];
-    }
-    r->starts.data[r->starts.count++] = (uint32_t)r->corners.count;
-    return true;
-}
-
 froe_status view_region_make(view_region *region, const froe_visibility *v, view_sights *sights, uint32_t patch) {
     region_maker m = {region, v, sights, &v->alloc};
-    return list_sides(&m, patch) && sweep_lines(&m) && chain(&m) ? FROE_OK : FROE_E_MEMORY;
+    if (!list_sides(&m, patch) || !sweep_lines(&m)) return FROE_E_MEMORY;
+    /* Chains borders to rings. */
+    for (uint32_t b = 0; b < region->borders.count; b++) {
+        uint32_t *first = region->first_border.data + find_point_root(region->point.data, region->borders.data[b].from);
+        region->borders.data[b].next = *first;
+        *first = b;
+    }
+    region->corners.count = region->starts.count = 0;
+    if (!array_reserve(m.alloc, &region->corners, region->borders.count) ||
+        !array_reserve(m.alloc, &region->starts, region->borders.count + 1))
+        return FROE_E_MEMORY;
+    for (uint32_t b = 0; b < region->borders.count; b++) {
+        uint32_t border = take_border(&m, region->borders.data[b].from);
+        if (border == FROE_NONE) continue;
+        region->starts.data[region->starts.count++] = (uint32_t)region->corners.count;
+        for (; border != FROE_NONE; border = take_border(&m, region->borders.data[border].to))
+            region->corners.data[region->corners.count++] = region->corner_of.data[region->borders.data[border].from];
+    }
+    region->starts.data[region->starts.count++] = (uint32_t)region->corners.count;
+    return FROE_OK;
 }
 
 void view_region_free(const froe_allocator *alloc, view_region *r) {

@@ -10,21 +10,6 @@ typedef struct giver {
     ARRAY(size_t) starts;
 } giver;
 
-static bool give(giver *g, const froe_visibility *v, uint32_t patch, froe_region_fn *fn, void *user, bool *go_on) {
-    const view_region *r = &g->region;
-    const geom_plane plane = view_plane_of(&v->sights, patch);
-    g->coords.count = g->starts.count = 0;
-    if (!array_reserve(&v->alloc, &g->coords, 3 * r->corners.count) ||
-        !array_reserve(&v->alloc, &g->starts, r->starts.count))
-        return false;
-    for (size_t i = 0; i < r->starts.count; i++) g->starts.data[i] = r->starts.data[i];
-    for (size_t i = 0; i < r->corners.count; i++)
-        view_point_on(&v->sights, &plane, v->corners.data[r->corners.data[i]].ray.x, g->coords.data + 3 * i);
-    const size_t rings = r->starts.count - 1;
-    *go_on = base_callback(fn(user, patch, g->coords.data, g->starts.data, rings));
-    return true;
-}
-
 froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, uint32_t count, froe_region_fn *fn,
                                     void *user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -36,7 +21,16 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
     bool ok = true;
     for (uint32_t p = first; ok && go_on && p < v->surface->patch_count && p - first < count; p++) {
         if (v->patch_starts[p] == v->patch_starts[p + 1]) continue;
-        ok = view_region_make(&g.region, v, &sights, p) == FROE_OK && give(&g, v, p, fn, user, &go_on);
+        const view_region *r = &g.region;
+        g.coords.count = g.starts.count = 0;
+        ok = !view_region_make(&g.region, v, &sights, p) && array_reserve(&v->alloc, &g.coords, 3 * r->corners.count) &&
+             array_reserve(&v->alloc, &g.starts, r->starts.count);
+        if (!ok) break;
+        const geom_plane plane = view_plane_of(&v->sights, p);
+        for (size_t i = 0; i < r->starts.count; i++) g.starts.data[i] = r->starts.data[i];
+        for (size_t i = 0; i < r->corners.count; i++)
+            view_point_on(&v->sights, &plane, v->corners.data[r->corners.data[i]].ray.x, g.coords.data + 3 * i);
+        go_on = base_callback(fn(user, p, g.coords.data, g.starts.data, r->starts.count - 1));
     }
     view_region_free(&v->alloc, &g.region);
     array_free(&v->alloc, &g.coords);

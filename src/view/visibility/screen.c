@@ -60,19 +60,6 @@ void view_screen_free(view_screen *s) {
 
 /* ---------------------------------------------------------------------- beams -- */
 
-/* The sides of all corners of the topmost beam; bit 0: some negative, bit 1: some positive. */
-static unsigned find_sides(view_screen *s, uint32_t line, const view_corner *ring, uint32_t count) {
-    unsigned reached = 0;
-    view_way before = ring[count - 1].way;
-    for (uint32_t i = 0; i < count; i++) {
-        const int side = view_side(s->sights, line, &ring[i].ray, ring[i].vertex, before, ring[i].way);
-        s->sides.data[i] = (int8_t)side;
-        reached |= side < 0 ? 1u : side > 0 ? 2u : 0u;
-        before = ring[i].way;
-    }
-    return reached;
-}
-
 static void put_corner(view_screen *s, const view_corner *corner, view_way way, uint32_t bound) {
     view_corner k = *corner;
     k.way = way;
@@ -118,19 +105,6 @@ static bool divide_beam(view_screen *s, uint32_t node, size_t first, uint32_t co
     return true;
 }
 
-/* Covers a beam in an open leaf: a chain of those of its sides that the tree does not have yet. */
-static bool cover(view_screen *s, uint32_t slot, const view_corner *ring, uint32_t count) {
-    s->open--;
-    set_child(s, slot, VIEW_COVERED);
-    for (uint32_t i = 0; i < count; i++) {
-        if (ring[i].bound) continue;
-        slot = put_node(s, slot, ring[i].way, VIEW_COVERED, VIEW_OPEN);
-        if (slot == FROE_NONE) return false;
-        s->open++;
-    }
-    return true;
-}
-
 /* Follows the topmost beam down until it ends or is divided. */
 static bool send(view_screen *s, bool covers, view_beam_fn *fn, void *user) {
     const view_pending top = s->beams.data[--s->beams.count];
@@ -140,7 +114,14 @@ static bool send(view_screen *s, bool covers, view_beam_fn *fn, void *user) {
     view_corner *ring = s->corners.data + top.first;
     while (node < VIEW_COVERED) {
         const view_screen_node *n = s->nodes.data + node;
-        const unsigned reached = find_sides(s, n->line, ring, count);
+        unsigned reached = 0; /* bit 0: some corners are on the negative side, bit 1: some on the positive */
+        view_way before = ring[count - 1].way;
+        for (uint32_t i = 0; i < count; i++) {
+            const int side = view_side(s->sights, n->line, &ring[i].ray, ring[i].vertex, before, ring[i].way);
+            s->sides.data[i] = (int8_t)side;
+            reached |= side < 0 ? 1u : side > 0 ? 2u : 0u;
+            before = ring[i].way;
+        }
         if (reached == 3) return divide_beam(s, node, top.first, count);
         for (uint32_t i = 0; i < count; i++) /* a beam on one side of a line may have a side on it */
             if (!s->sides.data[i] && !s->sides.data[i + 1 < count ? i + 1 : 0]) ring[i].bound = 1;
@@ -149,7 +130,18 @@ static bool send(view_screen *s, bool covers, view_beam_fn *fn, void *user) {
     }
     s->corners.count = top.first;
     if (node == VIEW_COVERED) return true;
-    return fn(user, ring, count) && (!covers || cover(s, slot, ring, count));
+    if (!fn(user, ring, count)) return false;
+    if (!covers) return true;
+    /* Covers the open leaf: a chain of those sides of the beam that the tree does not have yet. */
+    s->open--;
+    set_child(s, slot, VIEW_COVERED);
+    for (uint32_t i = 0; i < count; i++) {
+        if (ring[i].bound) continue;
+        slot = put_node(s, slot, ring[i].way, VIEW_COVERED, VIEW_OPEN);
+        if (slot == FROE_NONE) return false;
+        s->open++;
+    }
+    return true;
 }
 
 froe_status view_screen_insert(view_screen *s, const view_corner *ring, uint32_t count, bool covers, view_beam_fn *fn,
@@ -195,34 +187,31 @@ static bool push_stretch(view_screen *s, uint32_t node, const view_stretch *part
     return true;
 }
 
-static bool pass_stretch(view_screen *s, const view_screen_node *n, uint32_t own, const view_stretch *part,
-                         const view_corner *ring, uint32_t count) {
-    const int from = side_of_end(s->sights, n->line, &part->end[0], own),
-              to = side_of_end(s->sights, n->line, &part->end[1], own);
-    if (from * to >= 0) {
-        int side = from ? from : to;
-        for (uint32_t i = 0; i < count && !side; i++) { /* on the line: the side on which the beam is */
-            const view_way before = ring[i ? i - 1 : count - 1].way;
-            side = view_side(s->sights, n->line, &ring[i].ray, ring[i].vertex, before, ring[i].way);
-        }
-        return push_stretch(s, n->child[side > 0], part);
-    }
-    view_end middle = {.vertex = FROE_NONE, .way = 2 * n->line + (from < 0)}; /* leaving: edge x line */
-    middle.ray = view_meeting(s->sights, 2 * own, middle.way);
-    view_stretch first = {part->edge, {part->end[0], middle}}, last = {part->edge, {middle, part->end[1]}};
-    return push_stretch(s, n->child[from > 0], &first) && push_stretch(s, n->child[to > 0], &last);
-}
-
 froe_status view_screen_classify(view_screen *s, const view_stretch *stretch, uint32_t own, const view_corner *ring,
                                  uint32_t count, view_stretch_fn *fn, void *user) {
     s->stretches.count = 0;
     bool ok = push_stretch(s, s->root, stretch);
     while (ok && s->stretches.count) {
         const view_pending_stretch top = s->stretches.data[--s->stretches.count];
-        if (top.node < VIEW_COVERED)
-            ok = pass_stretch(s, s->nodes.data + top.node, own, &top.part, ring, count);
-        else if (top.node == VIEW_OPEN)
-            ok = fn(user, &top.part);
+        if (top.node == VIEW_OPEN) ok = fn(user, &top.part);
+        if (top.node >= VIEW_COVERED) continue;
+        const view_screen_node n = s->nodes.data[top.node];
+        const view_end *ends = top.part.end;
+        const int from = side_of_end(s->sights, n.line, &ends[0], own),
+                  to = side_of_end(s->sights, n.line, &ends[1], own);
+        if (from * to >= 0) {
+            int side = from ? from : to;
+            for (uint32_t i = 0; i < count && !side; i++) { /* on the line: the side on which the beam is */
+                const view_way before = ring[i ? i - 1 : count - 1].way;
+                side = view_side(s->sights, n.line, &ring[i].ray, ring[i].vertex, before, ring[i].way);
+            }
+            ok = push_stretch(s, n.child[side > 0], &top.part);
+            continue;
+        }
+        view_end middle = {.vertex = FROE_NONE, .way = 2 * n.line + (from < 0)}; /* leaving: edge x line */
+        middle.ray = view_meeting(s->sights, 2 * own, middle.way);
+        const view_stretch first = {top.part.edge, {ends[0], middle}}, last = {top.part.edge, {middle, ends[1]}};
+        ok = push_stretch(s, n.child[from > 0], &first) && push_stretch(s, n.child[to > 0], &last);
     }
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

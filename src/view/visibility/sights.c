@@ -72,28 +72,25 @@ static geom_line resolve(view_sights *s, uint32_t line, geom_plane planes[2]) {
     return (geom_line){.kind = GEOM_SIGHT_CUT, .s = &planes[0], .a = &planes[1]};
 }
 
-/* From the rays of its ends, if that is fine enough; else by balls; else from exact numbers, which costs as much as
- * one exact decision and spares many: planes that differ by little more than rounding are common in models. */
-static filter_vector image_of(view_sights *s, const view_line *l, const geom_line *exact) {
-    filter_vector image = {.e = INFINITY};
-    if (s->context.first != NUM_FILTER) return image;
-    if (l->kind == VIEW_EDGE) image = filter_cross(&s->rays[l->a], &s->rays[l->b]);
-    if (!filter_is_fine(&image, FINE)) image = geom_line_image(&s->eye, exact);
-    if (!filter_is_fine(&image, COARSE)) {
-        geom_line_round(&s->context, &s->eye, exact, image.x);
-        image.most = 1;
-        image.e = 0x1p-52;
-    }
-    return image;
-}
-
 static uint32_t add_sight_line(view_sights *s, uint32_t kind, uint32_t a, uint32_t b) {
     const uint32_t line = (uint32_t)s->lines.count;
     geom_plane planes[2];
     if (line >= INT32_MAX || !array_push(&s->alloc, &s->lines, (view_line){.kind = kind, .a = a, .b = b}))
         return FROE_NONE;
     const geom_line exact = resolve(s, line, planes);
-    s->lines.data[line].image = image_of(s, s->lines.data + line, &exact);
+    /* The image is from the rays of its ends, if that is fine enough; else by balls; else from exact numbers, which costs
+     * as much as one exact decision and spares many: planes that differ by little more than rounding are common in
+     * models. */
+    filter_vector image = {.e = INFINITY};
+    const bool filtered = s->context.first == NUM_FILTER;
+    if (filtered && kind == VIEW_EDGE) image = filter_cross(&s->rays[a], &s->rays[b]);
+    if (filtered && !filter_is_fine(&image, FINE)) image = geom_line_image(&s->eye, &exact);
+    if (filtered && !filter_is_fine(&image, COARSE)) {
+        geom_line_round(&s->context, &s->eye, &exact, image.x);
+        image.most = 1;
+        image.e = 0x1p-52;
+    }
+    s->lines.data[line].image = image;
     return line;
 }
 

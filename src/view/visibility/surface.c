@@ -24,16 +24,6 @@ void froe_surface_free(froe_surface *s) {
     support_free(&alloc, s, sizeof *s);
 }
 
-static froe_status fill_surface(froe_surface *s) {
-    num_context context;
-    froe_status status = surface_find_edges(s);
-    if (!status) status = geom_context_new(&s->alloc, &context);
-    if (status) return status;
-    status = surface_find_patches(s, &context);
-    num_context_free(&context);
-    return status;
-}
-
 froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *alloc, froe_surface **out,
                              froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -45,7 +35,14 @@ froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *allo
     if (!s) return support_fail_memory(diag);
     s->alloc = own;
     s->scene = scene;
-    if (fill_surface(s)) {
+    num_context context;
+    froe_status status = surface_find_edges(s);
+    if (!status) status = geom_context_new(&own, &context);
+    if (!status) {
+        status = surface_find_patches(s, &context);
+        num_context_free(&context);
+    }
+    if (status) {
         froe_surface_free(s);
         return support_fail_memory(diag);
     }
