@@ -153,11 +153,11 @@ static bool keep(const page *p, const double *a, const double *b, double share[2
 static void find_kinds(const page *p, uint8_t *kinds) {
     const froe_allocator alloc = support_allocator(NULL);
     geom_eye eye;
-    view_sights s;
+    view_sightlines s;
     assert_int_equal(view_eye_of(p->tree, &p->view.eye, &eye, NULL), FROE_OK);
-    assert_int_equal(view_sights_new(&s, p->tree, p->surface, &eye, NULL, 0, &alloc), FROE_OK);
+    assert_int_equal(view_sightlines_new(&s, p->tree, p->surface, &eye, NULL, 0, &alloc), FROE_OK);
     view_line_kinds(&s, p->options.lines, p->options.crease, kinds);
-    view_sights_free(&s);
+    view_sightlines_free(&s);
 }
 
 /* All that is seen of each edge and crossing, and, with hidden lines, all of each. */

@@ -92,15 +92,15 @@ static void a_patch_may_lie_over_itself(void **state) {
     assert_int_equal(froe_surface_patch_count(p.surface), 2);
     uint8_t kinds[32];
     for (uint32_t e = 0; e < 6; e++) {
-        view_sights sights;
+        view_sightlines sights;
         geom_eye eye;
         set_view(&p, e);
         assert_int_equal(view_eye_of(tree, &p.view.eye, &eye, NULL), FROE_OK);
-        assert_int_equal(view_sights_new(&sights, tree, p.surface, &eye, NULL, 0, &tree->alloc), FROE_OK);
+        assert_int_equal(view_sightlines_new(&sights, tree, p.surface, &eye, NULL, 0, &tree->alloc), FROE_OK);
         assert_true(froe_surface_edge_count(p.surface) <= sizeof kinds);
         view_line_kinds(&sights, FROE_LINE_SILHOUETTE, 30, kinds);
         assert_int_equal(kinds[0], FROE_LINE_SILHOUETTE); /* A B */
-        view_sights_free(&sights);
+        view_sightlines_free(&sights);
     }
     close_page(&p);
     check_tree(tree, 6, 200, FROE_PAINT_WHOLE, false);

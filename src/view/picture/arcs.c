@@ -9,7 +9,7 @@
 
 typedef struct finder {
     view_parts *parts;
-    view_sights *sights;
+    view_sightlines *sights;
     view_arcs *arcs;
     view_grid grid;
     print_ring piece;
@@ -21,7 +21,7 @@ typedef struct finder {
 
 /* ---------------------------------------------------------------------- overlap -- */
 
-static bool ring_is_beyond(view_sights *s, const view_corner *a, uint32_t a_count, const view_corner *b,
+static bool ring_is_beyond(view_sightlines *s, const view_corner *a, uint32_t a_count, const view_corner *b,
                            uint32_t b_count) {
     for (uint32_t i = 0; i < a_count; i++) {
         const view_way way = a[i].way;
@@ -89,7 +89,8 @@ static const print_point *arc_points(const void *user, size_t i, size_t *points)
     return p->points.data + p->parts.data[i].first;
 }
 
-froe_status view_find_arcs(view_parts *parts, view_sights *sights, uint64_t most, view_arcs *arcs, uint64_t *tests) {
+froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, uint64_t most, view_arcs *arcs,
+                           uint64_t *tests) {
     const froe_allocator *alloc = &parts->v->alloc;
     finder f = {.parts = parts, .sights = sights, .arcs = arcs, .most = most, .tests = tests};
     const size_t part_count = parts->parts.count, node_count = parts->nodes.count;

@@ -24,7 +24,7 @@ static double cosine(const froe_scene *s, uint32_t a, uint32_t b) {
 }
 
 /* The kind of an edge between two polygons across which no patch goes on. */
-static froe_line kind_of_pair(view_sights *sights, uint32_t edge, uint32_t a, uint32_t b, uint32_t wanted,
+static froe_line kind_of_pair(view_sightlines *sights, uint32_t edge, uint32_t a, uint32_t b, uint32_t wanted,
                               double limit) {
     const froe_surface *s = sights->surface;
     const bool turned = surface_ascends(s, a, edge) ==
@@ -50,7 +50,7 @@ int view_strength(uint8_t kind, bool hidden) {
     return i + (hidden ? 0 : (int)sizeof kinds);
 }
 
-void view_line_kinds(view_sights *sights, uint32_t wanted, double crease, uint8_t *kinds) {
+void view_line_kinds(view_sightlines *sights, uint32_t wanted, double crease, uint8_t *kinds) {
     const froe_surface *s = sights->surface;
     const double t = crease < 180 ? view_tan(crease / 2) : INFINITY; /* cos a = (1 - t^2) / (1 + t^2) */
     const double limit = crease < 180 ? (1 - t * t) / (1 + t * t) : -1;

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-froe_status view_outliner_new(view_outliner *o, view_sights *sights, const froe_projection *view, bool cull_back) {
+froe_status view_outliner_new(view_outliner *o, view_sightlines *sights, const froe_projection *view, bool cull_back) {
     const size_t n = (size_t)sights->tree->scene->vertex_count + 1;
     *o = (view_outliner){.alloc = sights->alloc, .sights = sights, .view = view, .cull_back = cull_back};
     o->press = (print_press){.alloc = sights->alloc, .view = view};

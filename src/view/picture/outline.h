@@ -25,7 +25,7 @@ typedef struct outline_detour {
 /** The state that the outlines of all patches share. */
 typedef struct view_outliner {
     froe_allocator alloc;
-    view_sights *sights;
+    view_sightlines *sights;
     const froe_projection *view;
     bool cull_back;
     double underlap;      /**< width on the page; 0: none */
@@ -41,7 +41,7 @@ typedef struct view_outliner {
     ARRAY(outline_detour) detours;
 } view_outliner;
 
-froe_status view_outliner_new(view_outliner *outliner, view_sights *sights, const froe_projection *view,
+froe_status view_outliner_new(view_outliner *outliner, view_sightlines *sights, const froe_projection *view,
                               bool cull_back);
 void view_outliner_free(view_outliner *outliner);
 /** Appends the rings of a whole patch, outer ones turning left as the eye sees them: their points, and after each ring

@@ -28,7 +28,7 @@ typedef struct overlay_place {
 } overlay_place;
 
 typedef struct overlayer {
-    view_sights *sights;
+    view_sightlines *sights;
     bool depths;
     ARRAY(overlay_line) lines;
     uint32_t line; /* the current one, and what is on it: */
@@ -178,7 +178,7 @@ static bool put_segments(overlayer *o, view_segments *out) {
 
 /* ---------------------------------------------------------------------- calling -- */
 
-froe_status view_overlay(view_sights *sights, const view_items *items, bool depths, view_segments *out) {
+froe_status view_overlay(view_sightlines *sights, const view_items *items, bool depths, view_segments *out) {
     overlayer o = {.sights = sights, .depths = depths};
     overlay_ids lines = {0};
     if (items->count > INT32_MAX) return FROE_E_LIMIT;

@@ -21,5 +21,5 @@ typedef ARRAY(view_item) view_items;
 
 /** Appends their drawn parts as segments, which have at most points in common where they lie on one line.
  * `depths`: parts at which different items are nearest to the eye stay apart. FROE_E_MEMORY, FROE_E_LIMIT. */
-froe_status view_overlay(view_sights *sights, const view_items *items, bool depths, view_segments *out);
+froe_status view_overlay(view_sightlines *sights, const view_items *items, bool depths, view_segments *out);
 #endif

@@ -70,7 +70,7 @@ static bool is_clear(const view_painter *p, uint32_t patch) {
 static bool put_region(view_painter *p, uint32_t patch, uint32_t node) {
     froe_picture *picture = p->picture;
     const view_region *r = &p->region;
-    const view_sights *s = p->sights;
+    const view_sightlines *s = p->sights;
     const bool strips = node != FROE_NONE && !is_clear(p, patch);
     if (view_region_make(&p->region, p->v, p->sights, patch) || !view_begin_shape(picture, patch, false)) return false;
     for (size_t i = 0; i + 1 < r->starts.count; i++) {

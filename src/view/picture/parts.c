@@ -46,14 +46,14 @@ bool view_print_visible(view_parts *p, uint32_t visible, print_ring *out) {
     return print_ring_of(p, piece->patch, p->v->corners.data + piece->first, piece->count, out);
 }
 
-bool view_print_piece(view_parts *p, view_sights *sights, uint32_t piece, print_ring *out) {
+bool view_print_piece(view_parts *p, view_sightlines *sights, uint32_t piece, print_ring *out) {
     const uint32_t patch = p->v->surface->patch_of[p->v->tree->pieces[piece].object];
     return view_beam_of(sights, piece, &p->ring) && print_ring_of(p, patch, p->ring.data, p->ring.count, out);
 }
 
 /* ------------------------------------------------------------------------ parts -- */
 
-static bool add_part(view_parts *p, view_sights *sights, uint32_t node, int kind, uint32_t source, uint32_t place) {
+static bool add_part(view_parts *p, view_sightlines *sights, uint32_t node, int kind, uint32_t source, uint32_t place) {
     const froe_allocator *alloc = &p->v->alloc;
     paint_part part = {.node = node, .place = place, .source = source, .first = (uint32_t)p->points.count};
     bool cut, ok = true;
@@ -77,12 +77,12 @@ static bool add_part(view_parts *p, view_sights *sights, uint32_t node, int kind
     return array_push(alloc, &p->parts, part) && array_push(alloc, &p->kinds, (uint8_t)kind);
 }
 
-static bool is_drawn(const view_parts *p, view_sights *sights, uint32_t object) {
+static bool is_drawn(const view_parts *p, view_sightlines *sights, uint32_t object) {
     const int facing = view_facing(sights, object);
     return facing > 0 || (facing < 0 && !p->cull_back);
 }
 
-froe_status view_parts_make(view_parts *p, view_sights *sights) {
+froe_status view_parts_make(view_parts *p, view_sightlines *sights) {
     const froe_visibility *v = p->v;
     const froe_surface *s = v->surface;
     const froe_tree *t = v->tree;

@@ -49,14 +49,14 @@ froe_status view_parts_new(view_parts *parts, const froe_visibility *v, const fr
                            bool cull_back);
 void view_parts_free(view_parts *parts);
 /** Makes nodes and parts anew, as `split` says. */
-froe_status view_parts_make(view_parts *parts, view_sights *sights);
+froe_status view_parts_make(view_parts *parts, view_sightlines *sights);
 /** Appends the ring of a visible piece on the page. */
 bool view_print_visible(view_parts *parts, uint32_t visible, print_ring *out);
 /** Appends the ring of a tree's piece. */
-bool view_print_piece(view_parts *parts, view_sights *sights, uint32_t piece, print_ring *out);
+bool view_print_piece(view_parts *parts, view_sightlines *sights, uint32_t piece, print_ring *out);
 
 /** Finds the pairs of nodes whose order matters: all arcs of the graph. *tests counts pairs that were compared;
  * FROE_E_BUDGET when they would exceed `most`. Overlaps are decided exactly. */
 typedef ARRAY(graph_arc) view_arcs;
-froe_status view_find_arcs(view_parts *parts, view_sights *sights, uint64_t most, view_arcs *arcs, uint64_t *tests);
+froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, uint64_t most, view_arcs *arcs, uint64_t *tests);
 #endif

@@ -98,12 +98,12 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
     if (p->options->lines) {
         /* Kinds depend on the eye. They use sightlines of their own, as those of the visibility do not exist yet. */
         geom_eye eye;
-        view_sights sights = {.alloc = p->picture->alloc};
+        view_sightlines sights = {.alloc = p->picture->alloc};
         status = view_eye_of(tree, &p->options->view->eye, &eye, diag);
-        if (!status && view_sights_new(&sights, tree, surface, &eye, NULL, 0, &p->picture->alloc))
+        if (!status && view_sightlines_new(&sights, tree, surface, &eye, NULL, 0, &p->picture->alloc))
             status = support_fail_memory(diag);
         if (!status) view_line_kinds(&sights, p->options->lines, p->options->crease, kinds);
-        if (sights.tree) view_sights_free(&sights);
+        if (sights.tree) view_sightlines_free(&sights);
     }
     if (!status) status = look_for_picture(p, tree, surface, kinds, diag);
     if (!status) {

@@ -33,7 +33,7 @@ typedef struct view_painter {
     froe_picture *picture;
     const froe_picture_options *options;
     froe_visibility *v;
-    view_sights *sights; /**< of v */
+    view_sightlines *sights; /**< of v */
     view_parts parts;
     view_arcs arcs;
     view_graph graph;
@@ -68,7 +68,7 @@ bool view_begin_shape(froe_picture *picture, uint32_t patch, bool whole);
 void view_end_shape(froe_picture *picture);
 
 /** Which edges are lines, and of which kind: 0 none. One byte an edge. */
-void view_line_kinds(view_sights *sights, uint32_t wanted, double crease, uint8_t *kinds);
+void view_line_kinds(view_sightlines *sights, uint32_t wanted, double crease, uint8_t *kinds);
 /** Makes segments of all visible (and hidden) intervals, cut as wished. FROE_E_MEMORY. */
 froe_status view_make_segments(view_painter *painter, const uint8_t *kinds);
 /** Appends the segments as strokes, chained. FROE_E_MEMORY. */

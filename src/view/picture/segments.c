@@ -25,7 +25,7 @@ static bool add_view_item(view_painter *p, view_item *item, const double *a, con
 }
 
 static bool add_stretch(view_painter *p, uint32_t edge, uint8_t kind, bool hidden, const view_mark mark[2]) {
-    view_sights *s = p->sights;
+    view_sightlines *s = p->sights;
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     view_item item = {.run = {view_line_of_edge(s, edge), {mark[0], mark[1]}}, .kind = kind, .hidden = hidden};
     return add_view_item(p, &item, view_vertex(s, v[0]), view_vertex(s, v[1]), view_share_of(s, edge, mark[0]),
@@ -34,7 +34,7 @@ static bool add_stretch(view_painter *p, uint32_t edge, uint8_t kind, bool hidde
 
 /* Adds all of an edge on the page as hidden: its visible parts are drawn over that. */
 static froe_status add_hidden(view_painter *p, uint32_t edge, uint8_t kind) {
-    view_sights *s = p->sights;
+    view_sightlines *s = p->sights;
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     view_mark mark[2] = {{.vertex = v[0]}, {.vertex = v[1]}};
     if (view_is_point(s, edge)) return FROE_OK;

@@ -17,14 +17,14 @@ static uint32_t entry(const piece_ring *o, uint32_t i) {
     return o->ring ? o->ring[i] : i;
 }
 
-static uint32_t edge_of(const view_sights *s, uint32_t object, uint32_t side) {
+static uint32_t edge_of(const view_sightlines *s, uint32_t object, uint32_t side) {
     return s->surface->edge_of[s->tree->scene->starts[object] + side];
 }
 
 /* The way along an entry, the piece on its positive side; `facing` is the side of the eye. For an own edge the ring
  * turns left as the eye sees it when the eye is in front. On the support s of a patch the covector of a cut line is
  * -s(E) a(x). */
-static view_way way_of(view_sights *s, uint32_t piece, uint32_t object, uint32_t side, int facing) {
+static view_way way_of(view_sightlines *s, uint32_t piece, uint32_t object, uint32_t side, int facing) {
     const froe_scene *scene = s->tree->scene;
     if (!(side & TREE_EDGE_CUT)) {
         const uint32_t n = scene_corners(scene, object), line = view_line_of_edge(s, edge_of(s, object, side));
@@ -40,7 +40,7 @@ static view_way way_of(view_sights *s, uint32_t piece, uint32_t object, uint32_t
 }
 
 /* Corners in the order of turning left; a corner lies between entries i - 1 and i of the ring. */
-static bool make_ring(view_sights *s, uint32_t piece, const piece_ring *o, view_ring *ring) {
+static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, view_ring *ring) {
     const int facing = view_facing(s, o->object);
     ring->count = 0;
     if (!array_reserve(&s->alloc, ring, o->count)) return false;
@@ -62,25 +62,25 @@ static bool make_ring(view_sights *s, uint32_t piece, const piece_ring *o, view_
     return true;
 }
 
-bool view_beam_of(view_sights *s, uint32_t piece, view_ring *ring) {
+bool view_beam_of(view_sightlines *s, uint32_t piece, view_ring *ring) {
     const piece_ring o = ring_of_piece(s->tree, piece);
     return make_ring(s, piece, &o, ring);
 }
 
-bool view_beam_of_object(view_sights *s, uint32_t object, view_ring *ring) {
+bool view_beam_of_object(view_sightlines *s, uint32_t object, view_ring *ring) {
     const piece_ring o = {object, scene_corners(s->tree->scene, object), NULL};
     return make_ring(s, 0, &o, ring);
 }
 
 /* ------------------------------------------------------------------ stretches -- */
 
-uint32_t view_side_count(const view_sights *s, uint32_t piece) {
+uint32_t view_side_count(const view_sightlines *s, uint32_t piece) {
     return ring_of_piece(s->tree, piece).count;
 }
 
 /* The end of a stretch of an edge: a vertex, or where the cut of a node ends it. The cut's way then has the edge's lower
  * vertex on its positive side. */
-static bool set_end(view_sights *s, uint32_t object, uint32_t edge, uint32_t neighbour, uint32_t vertex,
+static bool set_end(view_sightlines *s, uint32_t object, uint32_t edge, uint32_t neighbour, uint32_t vertex,
                     view_end *out) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     *out = (view_end){.ray = s->rays[vertex], .vertex = vertex};
@@ -96,7 +96,7 @@ static bool set_end(view_sights *s, uint32_t object, uint32_t edge, uint32_t nei
     return true;
 }
 
-bool view_stretch_of(view_sights *s, uint32_t piece, uint32_t i, view_stretch *out, froe_status *status) {
+bool view_stretch_of(view_sightlines *s, uint32_t piece, uint32_t i, view_stretch *out, froe_status *status) {
     const piece_ring o = ring_of_piece(s->tree, piece);
     const uint32_t side = entry(&o, i);
     if (side & TREE_EDGE_CUT) return false;

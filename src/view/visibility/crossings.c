@@ -26,7 +26,7 @@ static bool keep_open(void *user, const view_stretch *part) {
 
 /* Appends the parts of the open stretches inside the list of a cut, or all where the cut is the section. */
 static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_stretches *out) {
-    view_sights *s = c->sights;
+    view_sightlines *s = c->sights;
     const tree_objects list = tree_list(s->tree, node);
     const bool section = node == 0 && c->section;
     bool ok = true;
@@ -47,7 +47,7 @@ static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_st
 }
 
 froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_ring *ring) {
-    view_sights *s = c->sights;
+    view_sightlines *s = c->sights;
     const uint32_t patch = s->surface->patch_of[s->tree->pieces[piece].object];
     for (uint32_t i = 0; i < ring->count; i++) {
         const view_line *l = s->lines.data + (ring->data[i].way >> 1);
@@ -102,7 +102,7 @@ static crossing_line line_of_crossing(const froe_visibility *v, uint32_t line, b
 /* -------------------------------------------------------------- along the section -- */
 
 froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
-    view_sights *s = &v->sights;
+    view_sightlines *s = &v->sights;
     const uint32_t *edges = s->surface->edge_of + s->tree->scene->starts[object];
     const froe_scene *scene = s->tree->scene;
     const geom_plane plane = tree_plane_at(s->tree, 0);
@@ -135,7 +135,7 @@ froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
 /* ---------------------------------------------------------------------- joining -- */
 
 typedef struct stretch_joiner {
-    view_sights *sights;
+    view_sightlines *sights;
     const view_stretch *stretches;
 } stretch_joiner;
 
@@ -147,7 +147,7 @@ static int by_line(void *user, uint32_t a, uint32_t b) {
 }
 
 /* Sorts the stretches of each line and unites those that touch or overlap. */
-static froe_status join_stretches(view_sights *s, view_stretches *stretches) {
+static froe_status join_stretches(view_sightlines *s, view_stretches *stretches) {
     const size_t n = stretches->count;
     if (n > INT32_MAX) return FROE_E_LIMIT;
     uint32_t *items = support_calloc(&s->alloc, 2 * n + 1, sizeof *items);
@@ -177,7 +177,7 @@ static froe_status join_stretches(view_sights *s, view_stretches *stretches) {
 /* Appends the hidden parts of a stretch, between visible ones from *seen on and before `end`. *seen moves on. */
 static bool put_hidden(froe_visibility *v, const view_stretch *part, const view_stretch **seen,
                        const view_stretch *end) {
-    view_sights *s = &v->sights;
+    view_sightlines *s = &v->sights;
     const uint32_t line = part->edge;
     const view_end *from = &part->end[0], *to = &part->end[1];
     while (*seen < end && (*seen)->edge < line) ++*seen;

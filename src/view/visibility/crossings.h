@@ -9,7 +9,7 @@
 #include "view/visibility/visibility.h"
 
 typedef struct view_crosser {
-    view_sights *sights;
+    view_sightlines *sights;
     view_screen *screen;
     bool section;        /**< sides in the root's cut count, too */
     bool hidden;         /**< hidden parts are wanted, too */

@@ -7,18 +7,18 @@
 #include <string.h>
 
 /* b is a meeting. */
-int view_compare_along(view_sights *s, uint32_t line, const view_end *a, const view_end *b) {
+int view_compare_along(view_sightlines *s, uint32_t line, const view_end *a, const view_end *b) {
     const int side = view_side(s, b->way >> 1, &a->ray, a->vertex, 2 * line, a->way);
     return b->way & 1 ? side : -side;
 }
 
-int view_compare_ends(view_sights *s, uint32_t line, const view_end *a, const view_end *b) {
+int view_compare_ends(view_sightlines *s, uint32_t line, const view_end *a, const view_end *b) {
     if (b->vertex == FROE_NONE) return view_compare_along(s, line, a, b);
     if (a->vertex == FROE_NONE) return -view_compare_along(s, line, b, a);
     return view_compare_vertices(s, line, a->vertex, b->vertex);
 }
 
-view_end view_end_at(view_sights *s, uint32_t line, view_mark mark) {
+view_end view_end_at(view_sightlines *s, uint32_t line, view_mark mark) {
     if (mark.vertex != FROE_NONE) return (view_end){.ray = s->rays[mark.vertex], .vertex = mark.vertex};
     return (view_end){view_meeting(s, 2 * line, mark.way), FROE_NONE, mark.way};
 }
@@ -26,7 +26,7 @@ view_end view_end_at(view_sights *s, uint32_t line, view_mark mark) {
 /* ------------------------------------------------------------------- parameters -- */
 
 /* t with h(u + t (v - u)) = 0: all rays of a picture have the same scale, so that h is linear along the edge. */
-double view_share_of(view_sights *s, uint32_t edge, view_mark mark) {
+double view_share_of(view_sightlines *s, uint32_t edge, view_mark mark) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     if (mark.vertex != FROE_NONE) return mark.vertex == v[1];
     const filter_vector *h = &s->lines.data[mark.way >> 1].image;

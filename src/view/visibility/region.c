@@ -8,7 +8,7 @@
 typedef struct region_maker {
     view_region *r;
     const froe_visibility *v;
-    view_sights *sights;
+    view_sightlines *sights;
     const froe_allocator *alloc;
 } region_maker;
 
@@ -126,7 +126,7 @@ static uint32_t take_border(region_maker *m, uint32_t corner) {
     return border;
 }
 
-froe_status view_region_make(view_region *region, const froe_visibility *v, view_sights *sights, uint32_t patch) {
+froe_status view_region_make(view_region *region, const froe_visibility *v, view_sightlines *sights, uint32_t patch) {
     region_maker m = {region, v, sights, &v->alloc};
     if (!list_sides(&m, patch) || !sweep_lines(&m)) return FROE_E_MEMORY;
     /* Chains borders to rings. */

@@ -40,6 +40,6 @@ typedef struct view_region {
 
 /** Makes the rings of a patch; outer rings turn left as the eye sees them, holes right. `sights` are those of the
  * visibility with a number context of the caller's. FROE_E_MEMORY. */
-froe_status view_region_make(view_region *region, const froe_visibility *v, view_sights *sights, uint32_t patch);
+froe_status view_region_make(view_region *region, const froe_visibility *v, view_sightlines *sights, uint32_t patch);
 void view_region_free(const froe_allocator *alloc, view_region *region);
 #endif

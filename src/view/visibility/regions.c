@@ -16,7 +16,7 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
     giver g = {.coords = {0}};
     bool go_on = true;
     if (!v || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
-    view_sights sights = v->sights; /* with a number context of its own: the rest is only read */
+    view_sightlines sights = v->sights; /* with a number context of its own: the rest is only read */
     if (geom_context_new(&v->alloc, &sights.context)) return support_fail_memory(diag);
     bool ok = true;
     for (uint32_t p = first; ok && go_on && p < v->surface->patch_count && p - first < count; p++) {

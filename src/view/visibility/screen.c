@@ -25,7 +25,7 @@ static uint32_t put_node(view_screen *s, uint32_t slot, view_way way, uint32_t i
 
 /* --------------------------------------------------------------------- window -- */
 
-froe_status view_screen_new(view_screen *s, view_sights *sights) {
+froe_status view_screen_new(view_screen *s, view_sightlines *sights) {
     const uint32_t n = sights->window_count, first = sights->tree->scene->vertex_count;
     uint32_t lines[FROE_WINDOW_MOST], slot = ROOT_SLOT;
     int turn = 0;
@@ -159,11 +159,11 @@ froe_status view_screen_insert(view_screen *s, const view_corner *ring, uint32_t
 
 /* ------------------------------------------------------------------ stretches -- */
 
-static int side_of_end(view_sights *s, uint32_t line, const view_end *end, uint32_t own) {
+static int side_of_end(view_sightlines *s, uint32_t line, const view_end *end, uint32_t own) {
     return view_side(s, line, &end->ray, end->vertex, 2 * own, end->way);
 }
 
-bool view_cut_stretch(view_sights *s, uint32_t own, view_way way, view_stretch *part) {
+bool view_cut_stretch(view_sightlines *s, uint32_t own, view_way way, view_stretch *part) {
     const uint32_t line = way >> 1;
     const int turn = way & 1 ? -1 : 1, from = side_of_end(s, line, &part->end[0], own),
               to = side_of_end(s, line, &part->end[1], own);
@@ -175,7 +175,7 @@ bool view_cut_stretch(view_sights *s, uint32_t own, view_way way, view_stretch *
     return true;
 }
 
-bool view_cut_to_window(view_sights *s, uint32_t own, view_stretch *part) {
+bool view_cut_to_window(view_sightlines *s, uint32_t own, view_stretch *part) {
     bool left = true;
     for (uint32_t i = 0; left && i < s->window_count; i++) left = view_cut_stretch(s, own, s->window_ways[i], part);
     return left;

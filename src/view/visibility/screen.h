@@ -11,7 +11,7 @@
  * positive side is inside, that leaves it. Corner i is the meeting of ways i - 1 and i, or a vertex. */
 #ifndef FROE_VIEW_VISIBILITY_SCREEN_H
 #define FROE_VIEW_VISIBILITY_SCREEN_H
-#include "view/visibility/sights.h"
+#include "view/visibility/sightlines.h"
 
 typedef struct view_corner {
     filter_vector ray;
@@ -54,7 +54,7 @@ typedef struct view_pending_stretch {
 } view_pending_stretch;
 
 typedef struct view_screen {
-    view_sights *sights;
+    view_sightlines *sights;
     ARRAY(view_screen_node) nodes;
     uint32_t root;
     uint64_t open; /**< leaves */
@@ -66,7 +66,7 @@ typedef struct view_screen {
 } view_screen;
 
 /** Everything open, or only what lies in the window of `sights`. */
-froe_status view_screen_new(view_screen *screen, view_sights *sights);
+froe_status view_screen_new(view_screen *screen, view_sightlines *sights);
 void view_screen_free(view_screen *screen);
 
 /** Receives a visible beam, `count` corners that live until it returns; false: without memory. */
@@ -76,8 +76,8 @@ froe_status view_screen_insert(view_screen *screen, const view_corner *ring, uin
                                view_beam_fn *fn, void *user);
 /** Cuts a stretch of a line to the positive side of a way, or to the window; false: nothing is left, or it runs along
  * the way. */
-bool view_cut_stretch(view_sights *sights, uint32_t line, view_way way, view_stretch *part);
-bool view_cut_to_window(view_sights *sights, uint32_t line, view_stretch *part);
+bool view_cut_stretch(view_sightlines *sights, uint32_t line, view_way way, view_stretch *part);
+bool view_cut_to_window(view_sightlines *sights, uint32_t line, view_stretch *part);
 /** Receives an open stretch. */
 typedef bool view_stretch_fn(void *user, const view_stretch *part);
 /** Sends a stretch of a line `own` beside a face, such as one of its edges, down the tree; `ring` is the face's beam.

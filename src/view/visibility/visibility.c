@@ -106,8 +106,8 @@ static froe_status sort_pieces(looker *k) {
 
 static froe_status look_from_eye(looker *k, const geom_eye *eye) {
     froe_visibility *v = k->v;
-    froe_status status = view_sights_new(&v->sights, v->tree, v->surface, eye, k->options->window,
-                                         (uint32_t)k->options->window_corners, &v->alloc);
+    froe_status status = view_sightlines_new(&v->sights, v->tree, v->surface, eye, k->options->window,
+                                             (uint32_t)k->options->window_corners, &v->alloc);
     if (!status) status = view_screen_new(&k->screen, &v->sights);
     k->crosser = (view_crosser){
         .sights = &v->sights, .screen = &k->screen, .section = v->section != 0, .hidden = k->options->hidden_crossings};
@@ -200,7 +200,7 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
 void froe_visibility_free(froe_visibility *v) {
     if (!v) return;
     const froe_allocator alloc = v->alloc;
-    if (v->sights.surface) view_sights_free(&v->sights);
+    if (v->sights.surface) view_sightlines_free(&v->sights);
     if (v->pieces) support_free(&alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
     array_free(&alloc, &v->corners);
     support_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);

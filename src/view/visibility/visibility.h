@@ -19,7 +19,7 @@ struct froe_visibility {
     froe_allocator alloc;
     const froe_tree *tree;
     const froe_surface *surface;
-    view_sights sights;
+    view_sightlines sights;
     int section;        /**< see froe_visibility_options */
     view_piece *pieces; /**< ordered by patch, then place */
     uint32_t piece_count;
@@ -48,11 +48,11 @@ void view_tally(froe_visibility *v, bool cull_back);
 /** Joins the visible stretches of each edge to intervals. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches);
 /** The end of a stretch of a line at a mark. */
-view_end view_end_at(view_sights *sights, uint32_t line, view_mark mark);
+view_end view_end_at(view_sightlines *sights, uint32_t line, view_mark mark);
 /** Compares two meetings, or a vertex with a meeting, along a line of sight: -1 the first comes first. Exact. */
-int view_compare_along(view_sights *sights, uint32_t line, const view_end *a, const view_end *b);
+int view_compare_along(view_sightlines *sights, uint32_t line, const view_end *a, const view_end *b);
 /** The same for any two ends. */
-int view_compare_ends(view_sights *sights, uint32_t line, const view_end *a, const view_end *b);
+int view_compare_ends(view_sightlines *sights, uint32_t line, const view_end *a, const view_end *b);
 /** Where an end lies on an edge, as its share from the lower vertex (0) to the higher (1), rounded. */
-double view_share_of(view_sights *sights, uint32_t edge, view_mark mark);
+double view_share_of(view_sightlines *sights, uint32_t edge, view_mark mark);
 #endif

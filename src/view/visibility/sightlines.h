@@ -1,4 +1,4 @@
-/* sights.h: the sightlines of one picture, and the sides of them on which points of the picture lie.
+/* sightlines.h: the sightlines of one picture, and the sides of them on which points of the picture lie.
  *
  *     EDGE    through an edge of the surface, or a side of the window
  *     CUT     where the cut of a node divides a patch
@@ -6,8 +6,8 @@
  *
  * A way is a line with a direction: 2 * line, + 1 for its other side. Corners of the picture are vertices, or the
  * meeting a x b of two ways (geom/eye.h); images of them decide most questions, and exact signs the rest. */
-#ifndef FROE_VIEW_VISIBILITY_SIGHTS_H
-#define FROE_VIEW_VISIBILITY_SIGHTS_H
+#ifndef FROE_VIEW_VISIBILITY_SIGHTLINES_H
+#define FROE_VIEW_VISIBILITY_SIGHTLINES_H
 #include "geom/eye.h"
 #include "scene/table.h"
 #include "tree/tree.h"
@@ -29,7 +29,7 @@ typedef struct view_mark {
     view_way way;
 } view_mark;
 
-typedef struct view_sights {
+typedef struct view_sightlines {
     froe_allocator alloc;
     const froe_tree *tree;
     const froe_surface *surface;
@@ -43,52 +43,52 @@ typedef struct view_sights {
     uint32_t *of_edge;                      /**< per edge: its line + 1; 0: not made yet */
     ARRAY(view_line) lines;
     scene_table made; /**< CUT lines */
-} view_sights;
+} view_sightlines;
 
-froe_status view_sights_new(view_sights *sights, const froe_tree *tree, const froe_surface *surface,
-                            const geom_eye *eye, const double *window, uint32_t window_count,
-                            const froe_allocator *alloc);
-void view_sights_free(view_sights *sights);
+froe_status view_sightlines_new(view_sightlines *sights, const froe_tree *tree, const froe_surface *surface,
+                                const geom_eye *eye, const double *window, uint32_t window_count,
+                                const froe_allocator *alloc);
+void view_sightlines_free(view_sightlines *sights);
 
-static inline const double *view_vertex(const view_sights *s, uint32_t vertex) {
+static inline const double *view_vertex(const view_sightlines *s, uint32_t vertex) {
     const uint32_t own = s->tree->scene->vertex_count;
     return vertex < own ? scene_vertex(s->tree->scene, vertex) : s->window + 3 * (size_t)(vertex - own);
 }
 /** Side of an object's plane on which the eye is; exact. */
-int view_facing(view_sights *sights, uint32_t object);
+int view_facing(view_sightlines *sights, uint32_t object);
 
 /** Each gives the line that there is, or makes it; FROE_NONE without memory. */
-uint32_t view_line_of_edge(view_sights *sights, uint32_t edge);
-uint32_t view_line_of_window(view_sights *sights, uint32_t side);
-uint32_t view_line_of_cut(view_sights *sights, uint32_t patch, uint32_t node);
+uint32_t view_line_of_edge(view_sightlines *sights, uint32_t edge);
+uint32_t view_line_of_window(view_sightlines *sights, uint32_t side);
+uint32_t view_line_of_cut(view_sightlines *sights, uint32_t patch, uint32_t node);
 /** Where the root's cut, which parts its vertices, stops an edge: the mark of that point on a line through it.
  * FROE_E_MEMORY. */
-froe_status view_stop_edge(view_sights *sights, uint32_t edge, uint32_t line, view_mark *out);
+froe_status view_stop_edge(view_sightlines *sights, uint32_t edge, uint32_t line, view_mark *out);
 /** What is the same for equal lines, whatever their directions, and hardly ever for others; *turned: a line of the
  * opposite direction has the same. False: an edge that the eye sees as a point makes no line. */
-bool view_line_key(view_sights *sights, uint32_t line, double key[3], bool *turned);
+bool view_line_key(view_sightlines *sights, uint32_t line, double key[3], bool *turned);
 /** Orders lines of equal keys: 0: they are equal. Exact. */
-int view_compare_lines(view_sights *sights, uint32_t a, uint32_t b, const double key[3]);
+int view_compare_lines(view_sightlines *sights, uint32_t a, uint32_t b, const double key[3]);
 /** Does the eye see an edge as a point? Exact. */
-bool view_is_point(view_sights *sights, uint32_t edge);
+bool view_is_point(view_sightlines *sights, uint32_t edge);
 
-static inline filter_vector view_way_image(const view_sights *s, view_way way) {
+static inline filter_vector view_way_image(const view_sightlines *s, view_way way) {
     filter_vector n = s->lines.data[way >> 1].image;
     for (int k = 0; k < 3 && way & 1; k++) n.x[k] = -n.x[k];
     return n;
 }
 /** The image of a meeting from exact numbers, for those that are too coarse for a filter. */
-filter_vector view_meeting_round(view_sights *sights, view_way a, view_way b);
+filter_vector view_meeting_round(view_sightlines *sights, view_way a, view_way b);
 #define VIEW_COARSE 0x1p-32 /**< relative error of an image above which it is made anew */
-static inline filter_vector view_meeting(view_sights *s, view_way a, view_way b) {
+static inline filter_vector view_meeting(view_sightlines *s, view_way a, view_way b) {
     const filter_vector n_a = view_way_image(s, a), n_b = view_way_image(s, b), ray = filter_cross(&n_a, &n_b);
     return filter_is_fine(&ray, VIEW_COARSE) ? ray : view_meeting_round(s, a, b);
 }
 
 /** The side when the image does not decide it. */
-int view_side_exactly(view_sights *sights, uint32_t line, uint32_t vertex, view_way a, view_way b);
+int view_side_exactly(view_sightlines *sights, uint32_t line, uint32_t vertex, view_way a, view_way b);
 /** Side of a line on which a point with that image is: the vertex, or (FROE_NONE) the meeting of a and b. */
-static inline int view_side(view_sights *s, uint32_t line, const filter_vector *ray, uint32_t vertex, view_way a,
+static inline int view_side(view_sightlines *s, uint32_t line, const filter_vector *ray, uint32_t vertex, view_way a,
                             view_way b) {
     const int sure = geom_line_image_side(&s->lines.data[line].image, ray);
     s->context.stats.filtered += sure != NUM_UNSURE;
@@ -96,10 +96,10 @@ static inline int view_side(view_sights *s, uint32_t line, const filter_vector *
 }
 
 /** Compares two vertices on a line: -1 the first comes first. Exact. */
-int view_compare_vertices(view_sights *sights, uint32_t line, uint32_t u, uint32_t v);
+int view_compare_vertices(view_sightlines *sights, uint32_t line, uint32_t u, uint32_t v);
 /** Where a line meets the segment from vertex u (0) to vertex v (1), rounded. */
-double view_share_round(view_sights *sights, uint32_t line, uint32_t u, uint32_t v);
+double view_share_round(view_sightlines *sights, uint32_t line, uint32_t u, uint32_t v);
 /** The plane of a patch, and the point of it that is seen along a ray, in doubles. */
-geom_plane view_plane_of(const view_sights *sights, uint32_t patch);
-void view_point_on(const view_sights *sights, const geom_plane *plane, const double ray[3], double out[3]);
+geom_plane view_plane_of(const view_sightlines *sights, uint32_t patch);
+void view_point_on(const view_sightlines *sights, const geom_plane *plane, const double ray[3], double out[3]);
 #endif

@@ -1,5 +1,5 @@
-/* sights.c: the table of sightlines, and the sides that images do not decide. */
-#include "view/visibility/sights.h"
+/* sightlines.c: the table of sightlines, and the sides that images do not decide. */
+#include "view/visibility/sightlines.h"
 #include "base/random.h"
 #include "geom/predicates.h"
 #include "geom/selftest.h"
@@ -12,18 +12,19 @@
 
 /* ------------------------------------------------------------------ begin, end -- */
 
-static uint32_t sight_point_count(const view_sights *s) {
+static uint32_t sightline_point_count(const view_sightlines *s) {
     return s->tree->scene->vertex_count + s->window_count;
 }
 
-froe_status view_sights_new(view_sights *s, const froe_tree *tree, const froe_surface *surface, const geom_eye *eye,
-                            const double *window, uint32_t window_count, const froe_allocator *alloc) {
-    *s = (view_sights){.alloc = *alloc, .tree = tree, .surface = surface, .eye = *eye};
+froe_status view_sightlines_new(view_sightlines *s, const froe_tree *tree, const froe_surface *surface,
+                                const geom_eye *eye, const double *window, uint32_t window_count,
+                                const froe_allocator *alloc) {
+    *s = (view_sightlines){.alloc = *alloc, .tree = tree, .surface = surface, .eye = *eye};
     s->window = window;
     s->window_count = window_count;
     froe_status status = geom_context_new(alloc, &s->context);
     if (status) return status;
-    const uint32_t objects = tree->scene->object_count, points = sight_point_count(s);
+    const uint32_t objects = tree->scene->object_count, points = sightline_point_count(s);
     s->rays = support_calloc(alloc, (size_t)points + 1, sizeof *s->rays);
     s->eye_sides = support_calloc(alloc, (size_t)objects + 1, sizeof *s->eye_sides);
     s->of_edge = support_calloc(alloc, (size_t)surface->edge_count + 1, sizeof *s->of_edge);
@@ -33,8 +34,8 @@ froe_status view_sights_new(view_sights *s, const froe_tree *tree, const froe_su
     return FROE_OK;
 }
 
-void view_sights_free(view_sights *s) {
-    if (s->rays) support_free(&s->alloc, s->rays, ((size_t)sight_point_count(s) + 1) * sizeof *s->rays);
+void view_sightlines_free(view_sightlines *s) {
+    if (s->rays) support_free(&s->alloc, s->rays, ((size_t)sightline_point_count(s) + 1) * sizeof *s->rays);
     if (s->eye_sides) support_free(&s->alloc, s->eye_sides, (size_t)s->tree->scene->object_count + 1);
     if (s->of_edge) support_free(&s->alloc, s->of_edge, ((size_t)s->surface->edge_count + 1) * sizeof *s->of_edge);
     array_free(&s->alloc, &s->lines);
@@ -42,7 +43,7 @@ void view_sights_free(view_sights *s) {
     num_context_free(&s->context);
 }
 
-int view_facing(view_sights *s, uint32_t object) {
+int view_facing(view_sightlines *s, uint32_t object) {
     if (s->eye_sides[object] == 2) {
         geom_plane plane;
         scene_support(s->tree->scene, object, &plane);
@@ -54,7 +55,7 @@ int view_facing(view_sights *s, uint32_t object) {
 /* ----------------------------------------------------------------------- lines -- */
 
 /* The line as a geom_line; `planes` receives the planes that it refers to. */
-static geom_line resolve(view_sights *s, uint32_t line, geom_plane planes[2]) {
+static geom_line resolve(view_sightlines *s, uint32_t line, geom_plane planes[2]) {
     const view_line *l = s->lines.data + line;
     if (l->kind == VIEW_EDGE)
         return (geom_line){.kind = GEOM_SIGHT_EDGE, .u = view_vertex(s, l->a), .v = view_vertex(s, l->b)};
@@ -72,7 +73,7 @@ static geom_line resolve(view_sights *s, uint32_t line, geom_plane planes[2]) {
     return (geom_line){.kind = GEOM_SIGHT_CUT, .s = &planes[0], .a = &planes[1]};
 }
 
-static uint32_t add_sight_line(view_sights *s, uint32_t kind, uint32_t a, uint32_t b) {
+static uint32_t add_sight_line(view_sightlines *s, uint32_t kind, uint32_t a, uint32_t b) {
     const uint32_t line = (uint32_t)s->lines.count;
     geom_plane planes[2];
     if (line >= INT32_MAX || !array_push(&s->alloc, &s->lines, (view_line){.kind = kind, .a = a, .b = b}))
@@ -94,18 +95,18 @@ static uint32_t add_sight_line(view_sights *s, uint32_t kind, uint32_t a, uint32
     return line;
 }
 
-uint32_t view_line_of_edge(view_sights *s, uint32_t edge) {
+uint32_t view_line_of_edge(view_sightlines *s, uint32_t edge) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     if (!s->of_edge[edge]) s->of_edge[edge] = add_sight_line(s, VIEW_EDGE, v[0], v[1]) + 1;
     return s->of_edge[edge] - 1;
 }
 
-uint32_t view_line_of_window(view_sights *s, uint32_t side) {
+uint32_t view_line_of_window(view_sightlines *s, uint32_t side) {
     const uint32_t first = s->tree->scene->vertex_count;
     return add_sight_line(s, VIEW_EDGE, first + side, first + (side + 1) % s->window_count);
 }
 
-uint32_t view_line_of_cut(view_sights *s, uint32_t patch, uint32_t node) {
+uint32_t view_line_of_cut(view_sightlines *s, uint32_t patch, uint32_t node) {
     const uint32_t tag = (uint32_t)base_hash(0, patch, node);
     if (!scene_table_reserve(&s->alloc, &s->made, 1)) return FROE_NONE;
     size_t at = scene_table_home(&s->made, tag);
@@ -119,7 +120,7 @@ uint32_t view_line_of_cut(view_sights *s, uint32_t patch, uint32_t node) {
     return line;
 }
 
-bool view_is_point(view_sights *s, uint32_t edge) {
+bool view_is_point(view_sightlines *s, uint32_t edge) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     const filter_vector image = filter_cross(&s->rays[v[0]], &s->rays[v[1]]);
     double out[3];
@@ -133,7 +134,7 @@ static int axis_of(const double key[3]) {
     return fabs(key[0]) == 1 ? 0 : fabs(key[1]) == 1 ? 1 : 2;
 }
 
-bool view_line_key(view_sights *s, uint32_t line, double key[3], bool *turned) {
+bool view_line_key(view_sightlines *s, uint32_t line, double key[3], bool *turned) {
     geom_plane planes[2];
     const geom_line exact = resolve(s, line, planes);
     if (!geom_line_round(&s->context, &s->eye, &exact, key)) return false;
@@ -142,7 +143,7 @@ bool view_line_key(view_sights *s, uint32_t line, double key[3], bool *turned) {
     return true;
 }
 
-int view_compare_lines(view_sights *s, uint32_t a, uint32_t b, const double key[3]) {
+int view_compare_lines(view_sightlines *s, uint32_t a, uint32_t b, const double key[3]) {
     geom_plane planes[4];
     if (a == b) return 0;
     const geom_line x = resolve(s, a, planes), y = resolve(s, b, planes + 2);
@@ -151,7 +152,7 @@ int view_compare_lines(view_sights *s, uint32_t a, uint32_t b, const double key[
 
 /* The point X = a(v) r(u) - a(u) r(v) (or its opposite, with a(v) < 0) and the axis e make the line X x e, and
  * l x (X x e) = X (l . e). */
-froe_status view_stop_edge(view_sights *s, uint32_t edge, uint32_t line, view_mark *out) {
+froe_status view_stop_edge(view_sightlines *s, uint32_t edge, uint32_t line, view_mark *out) {
     const uint32_t v = s->surface->vertices[2 * (size_t)edge + 1];
     const geom_plane plane = tree_plane_at(s->tree, 0);
     double key[3];
@@ -165,12 +166,12 @@ froe_status view_stop_edge(view_sights *s, uint32_t edge, uint32_t line, view_ma
 
 /* ----------------------------------------------------------------------- sides -- */
 
-static int known(view_sights *s) {
+static int known(view_sightlines *s) {
     s->context.stats.calls++;
     return num_by_id(&s->context, 0);
 }
 
-int view_side_exactly(view_sights *s, uint32_t line, uint32_t vertex, view_way a, view_way b) {
+int view_side_exactly(view_sightlines *s, uint32_t line, uint32_t vertex, view_way a, view_way b) {
     const view_line *l = s->lines.data + line;
     geom_plane planes[6];
     if (vertex == FROE_NONE && (a >> 1 == line || b >> 1 == line)) return known(s);
@@ -182,7 +183,7 @@ int view_side_exactly(view_sights *s, uint32_t line, uint32_t vertex, view_way a
     return (a ^ b) & 1 ? -side : side;
 }
 
-int view_compare_vertices(view_sights *s, uint32_t line, uint32_t u, uint32_t v) {
+int view_compare_vertices(view_sightlines *s, uint32_t line, uint32_t u, uint32_t v) {
     if (u == v) return 0;
     const filter_vector through = filter_cross(&s->rays[u], &s->rays[v]);
     const int sure = geom_line_image_side(&s->lines.data[line].image, &through);
@@ -195,7 +196,7 @@ int view_compare_vertices(view_sights *s, uint32_t line, uint32_t u, uint32_t v)
 
 /* ---------------------------------------------------------------------- output -- */
 
-filter_vector view_meeting_round(view_sights *s, view_way a, view_way b) {
+filter_vector view_meeting_round(view_sightlines *s, view_way a, view_way b) {
     geom_plane planes[4];
     const geom_line first = resolve(s, a >> 1, planes), second = resolve(s, b >> 1, planes + 2);
     filter_vector ray = {.most = 1, .e = s->context.first == NUM_FILTER ? 0x1p-52 : INFINITY};
@@ -204,7 +205,7 @@ filter_vector view_meeting_round(view_sights *s, view_way a, view_way b) {
     return ray;
 }
 
-double view_share_round(view_sights *s, uint32_t line, uint32_t u, uint32_t v) {
+double view_share_round(view_sightlines *s, uint32_t line, uint32_t u, uint32_t v) {
     geom_plane planes[2];
     const geom_line h = resolve(s, line, planes);
     return geom_share_round(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
@@ -212,7 +213,7 @@ double view_share_round(view_sights *s, uint32_t line, uint32_t u, uint32_t v) {
 
 /* Its normal to a largest component of 1/2 .. 1, by an exact multiplication: products with coordinates do not overflow.
  * The normal itself has done so where its points are further from one another than 2^500. */
-geom_plane view_plane_of(const view_sights *s, uint32_t patch) {
+geom_plane view_plane_of(const view_sightlines *s, uint32_t patch) {
     geom_plane plane;
     int exponent;
     scene_support(s->tree->scene, surface_first(s->surface, patch), &plane);
@@ -232,7 +233,7 @@ geom_plane view_plane_of(const view_sights *s, uint32_t patch) {
 }
 
 /* x = e - t r, or for a parallel eye x = y + t d with y the point of the ray in the plane w_k = 0. */
-void view_point_on(const view_sights *s, const geom_plane *plane, const double ray[3], double out[3]) {
+void view_point_on(const view_sightlines *s, const geom_plane *plane, const double ray[3], double out[3]) {
     const geom_eye *eye = &s->eye;
     double start[3], way[3], at = 0, slope = 0;
     for (int k = 0; k < 3; k++) {
