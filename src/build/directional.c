@@ -40,26 +40,22 @@ static const froe_option_info options[] = {
     {0},
 };
 
-/** All objects along a curve: fragments that meet in cells lie near each other in memory. */
-static void order_boxes(const froe_scene *scene, base_pair *pairs, uint32_t *objects) {
-    uint32_t n = scene->object_count;
-    for (uint32_t i = 0; i < n; i++) {
-        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-        scene_object_bounds(scene, i, lo, hi);
-        pairs[i] = (base_pair){base_curve_place(scene->dim, lo, hi, scene->lo, scene->hi), i};
-    }
-    base_radix_sort(pairs, pairs + n, n);
-    for (uint32_t i = 0; i < n; i++) objects[i] = pairs[i].value;
-}
-
+/** The root cell: all objects along a curve, so that fragments that meet in cells lie near each other in memory. */
 static froe_status prepare_boxes(build_job *job, boxes *b) {
-    uint32_t n = job->scene->object_count;
+    const froe_scene *scene = job->scene;
+    uint32_t n = scene->object_count;
     boxes_cell root = {.cover = FROE_NONE};
     for (int k = 0; k < b->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
     uint32_t *objects = support_calloc(&job->alloc, n, sizeof *objects);
     base_pair *pairs = support_calloc(&job->alloc, 2 * (size_t)n, sizeof *pairs);
-    if (objects && pairs && n) order_boxes(job->scene, pairs, objects);
     froe_status status = objects && pairs ? FROE_OK : FROE_E_MEMORY;
+    for (uint32_t i = 0; i < n && !status; i++) {
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        scene_object_bounds(scene, i, lo, hi);
+        pairs[i] = (base_pair){base_curve_place(scene->dim, lo, hi, scene->lo, scene->hi), i};
+    }
+    if (n && !status) base_radix_sort(pairs, pairs + n, n);
+    for (uint32_t i = 0; i < n && !status; i++) objects[i] = pairs[i].value;
     support_free(&job->alloc, pairs, n ? 2 * (size_t)n * sizeof *pairs : 1);
     if (!status) status = boxes_open(b, root, objects, n);
     support_free(&job->alloc, objects, n ? n * sizeof *objects : 1);
@@ -93,22 +89,21 @@ static bool worth_trees(const build_job *job, const boxes_cell *cell, const boxe
     return cell->count >= CARVE_LEAST && less + cut->divided < cell->count / CARVE_SHARE;
 }
 
-static froe_status do_box_cell(const build_job *job, boxes *b, const boxes_cell *cell) {
-    uint32_t load = cell->count + cell->covers;
-    if (!cell->count || (!b->options.faces && load <= job->leaf)) return end_box_leaf(job, b, cell);
-    boxes_cut cut = boxes_sweep(b, cell);
-    if (!cut.found) return end_box_leaf(job, b, cell);
-    froe_status status = worth_trees(job, cell, &cut) ? boxes_carve(b, cell, job->task) : boxes_divide(b, cell, &cut);
-    return status ? status : check_budget(job, b, 0);
-}
-
 /** All cells; the progress shown is the share of boxes that are in leaves. */
 static froe_status do_box_cells(const build_job *job, boxes *b) {
     double n = job->scene->object_count, from = job->task->done, left;
     froe_status status = FROE_OK;
     for (uint32_t turn = 0; b->cells.count && !status; turn++) {
         boxes_cell cell = b->cells.data[--b->cells.count];
-        status = do_box_cell(job, b, &cell);
+        bool small = !cell.count || (!b->options.faces && cell.count + cell.covers <= job->leaf);
+        boxes_cut cut = small ? (boxes_cut){.found = false} : boxes_sweep(b, &cell);
+        if (!cut.found) {
+            status = end_box_leaf(job, b, &cell);
+        } else {
+            bool trees = worth_trees(job, &cell, &cut);
+            status = trees ? boxes_carve(b, &cell, job->task) : boxes_divide(b, &cell, &cut);
+            if (!status) status = check_budget(job, b, 0);
+        }
         if (status || turn % 256) continue;
         left = (double)b->fragments.count < n ? (double)b->fragments.count / n : 1;
         if (!base_progress(job->task, from + 0.9 * (1 - left) * (1 - from))) status = FROE_E_CANCELLED;

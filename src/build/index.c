@@ -157,11 +157,6 @@ static froe_status cut_grid_node(index_work *w, const index_cell *cell) {
     return push_index_cells(w, side);
 }
 
-static void end_grid(index_work *w, const index_cell *cell) {
-    grid_free(&w->job->alloc, w->grids.data + --w->grids.count);
-    w->items.count = cell->first;
-}
-
 /* Lays a grid over a cell, of fragments or, fragments NULL, of all objects. */
 static froe_status begin_grid(index_work *w, const index_cell *cell, const packed_fragment *fragments, bool *made) {
     const double *option = w->job->option;
@@ -237,9 +232,6 @@ static bool count_sides(index_work *w, const index_cell *cell, halve_cut *cut, i
     return halve_count(&w->axis, &cell->box, w->items.data + cell->first, cell->count, cut, w->classes[which].data);
 }
 
-/* The middle cut across the longer side, or the other one where that divides most fragments; false where both divide
- * all. *which: whose classes. */
-
 /* Is it time for medians? */
 static bool is_deep(const index_work *w, const index_cell *cell) {
     return w->height > 0 && cell->depth > w->height;
@@ -252,7 +244,8 @@ static bool choose_halving(index_work *w, const index_cell *cell, halve_cut *cut
     if (cell->growth >= w->job->option[GROWTH] || cell->barren >= BARREN) return false;
     if (cell->lonely >= LONELY && shrink_cut(cell, f, cut) && count_sides(w, cell, cut, 0)) return true;
     if (is_deep(w, cell) && median_cut(w, cell, f, cut) && count_sides(w, cell, cut, 0)) return true;
-    /* across the longer side, unless that splits half and the other fewer */
+    /* The middle cut across the longer side, or the other one where that divides most fragments; false where both
+     * divide all. *which: whose classes. */
     const double *lo = cell->box.lo, *hi = cell->box.hi;
     int axis = 0.5 * hi[1] - 0.5 * lo[1] > 0.5 * hi[0] - 0.5 * lo[0];
     halve_cut other = middle_cut(&cell->box, 1 - axis);
@@ -284,37 +277,7 @@ static froe_status deal_fragments(index_work *w, const index_cell *cell, const h
     return FROE_OK;
 }
 
-static froe_status cut_cell(index_work *w, const index_cell *cell) {
-    halve_cut cut = {0};
-    index_cell side[2];
-    int which;
-    for (int i = 0; i < 2; i++) {
-        w->classes[i].count = 0;
-        if (!array_reserve(&w->job->alloc, &w->classes[i], cell->count)) return FROE_E_MEMORY;
-    }
-    if (!choose_halving(w, cell, &cut, &which)) return end_packed_leaf(w, cell);
-    froe_status status = split_index_node(w, cell, cut.axis, cut.value, side);
-    if (!status) status = deal_fragments(w, cell, &cut, which, side);
-    if (status) return status;
-    bool lonely = !cut.sides[0] || !cut.sides[1], barren = 5 * (uint64_t)cut.both > 4 * (uint64_t)cell->count;
-    for (int i = 0; i < 2; i++) {
-        side[i].growth = cell->growth * (1 + (double)cut.both / cell->count);
-        side[i].lonely = lonely ? cell->lonely + 1 : 0;
-        side[i].barren = barren ? cell->barren + 1 : 0;
-    }
-    return push_index_cells(w, side);
-}
-
 /* -------------------------------------------------------------------- loop -- */
-
-static froe_status do_fragments(index_work *w, const index_cell *cell) {
-    bool made = false;
-    froe_status status = FROE_OK;
-    if (cell->count <= w->job->leaf) return end_packed_leaf(w, cell);
-    if (cell->count >= w->job->option[LEAST] && !is_deep(w, cell) && cell->growth < w->job->option[GROWTH])
-        status = begin_grid(w, cell, w->items.data + cell->first, &made);
-    return status || made ? status : cut_cell(w, cell);
-}
 
 /* A node of the grid that is to be cut by it. */
 static bool is_inner(const index_work *w, const index_cell *cell) {
@@ -326,28 +289,38 @@ static bool is_inner(const index_work *w, const index_cell *cell) {
 static froe_status do_index_cell(index_work *w, index_cell *cell) {
     froe_status status = FROE_OK;
     if (cell->heap == GRID_END) {
-        end_grid(w, cell);
+        grid_free(&w->job->alloc, w->grids.data + --w->grids.count);
+        w->items.count = cell->first;
         return FROE_OK;
     }
     if (cell->heap && is_inner(w, cell)) return cut_grid_node(w, cell);
     if (cell->heap) status = gather_fragments(w, cell);
     w->items.count = cell->first + cell->count;
-    return status ? status : do_fragments(w, cell);
-}
-
-static bool index_may_go_on(index_work *w) {
-    double share = (double)w->packer.owners.count / (w->job->scene->object_count + 1.0);
-    return base_progress(w->job->task, 0.1 + 0.8 * share);
-}
-
-static froe_status do_index_cells(index_work *w) {
-    froe_status status = FROE_OK;
-    while (w->cells.count && !status) {
-        index_cell cell = w->cells.data[--w->cells.count];
-        status = do_index_cell(w, &cell);
-        if (!status && !index_may_go_on(w)) status = FROE_E_CANCELLED;
+    if (status) return status;
+    bool made = false;
+    if (cell->count <= w->job->leaf) return end_packed_leaf(w, cell);
+    if (cell->count >= w->job->option[LEAST] && !is_deep(w, cell) && cell->growth < w->job->option[GROWTH])
+        status = begin_grid(w, cell, w->items.data + cell->first, &made);
+    if (status || made) return status;
+    /* no grid: one cut */
+    halve_cut cut = {0};
+    index_cell side[2];
+    int which;
+    for (int i = 0; i < 2; i++) {
+        w->classes[i].count = 0;
+        if (!array_reserve(&w->job->alloc, &w->classes[i], cell->count)) return FROE_E_MEMORY;
     }
-    return status;
+    if (!choose_halving(w, cell, &cut, &which)) return end_packed_leaf(w, cell);
+    status = split_index_node(w, cell, cut.axis, cut.value, side);
+    if (!status) status = deal_fragments(w, cell, &cut, which, side);
+    if (status) return status;
+    bool lonely = !cut.sides[0] || !cut.sides[1], barren = 5 * (uint64_t)cut.both > 4 * (uint64_t)cell->count;
+    for (int i = 0; i < 2; i++) {
+        side[i].growth = cell->growth * (1 + (double)cut.both / cell->count);
+        side[i].lonely = lonely ? cell->lonely + 1 : 0;
+        side[i].barren = barren ? cell->barren + 1 : 0;
+    }
+    return push_index_cells(w, side);
 }
 
 static froe_status find_ends(index_work *w) {
@@ -362,13 +335,6 @@ static froe_status find_ends(index_work *w) {
     return FROE_OK;
 }
 
-/* All objects as fragments, where no grid can be laid over them. */
-static froe_status take_all(index_work *w, index_cell *root) {
-    if (!array_reserve(&w->job->alloc, &w->items, root->count)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < root->count; i++) axis_clip(&w->axis, i, &root->box, w->items.data + w->items.count++);
-    return array_push(&w->job->alloc, &w->cells, *root) ? FROE_OK : FROE_E_MEMORY;
-}
-
 static froe_status push_root(index_work *w) {
     const froe_scene *s = w->job->scene;
     index_cell root = {.box = root_box(s), .growth = 1, .count = s->object_count};
@@ -377,30 +343,26 @@ static froe_status push_root(index_work *w) {
     memcpy(w->job->meta.root_lo, root.box.lo, sizeof root.box.lo);
     memcpy(w->job->meta.root_hi, root.box.hi, sizeof root.box.hi);
     if (root.count >= w->job->option[LEAST]) status = begin_grid(w, &root, NULL, &made);
-    return status || made ? status : take_all(w, &root);
+    if (status || made) return status;
+    /* all objects as fragments, where no grid can be laid over them */
+    if (!array_reserve(&w->job->alloc, &w->items, root.count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < root.count; i++) axis_clip(&w->axis, i, &root.box, w->items.data + w->items.count++);
+    return array_push(&w->job->alloc, &w->cells, root) ? FROE_OK : FROE_E_MEMORY;
 }
 
 /* -------------------------------------------------------------------- whole -- */
-
-static void free_index_work(index_work *w) {
-    const froe_allocator *alloc = &w->job->alloc;
-    size_t objects = w->job->scene->object_count;
-    while (w->grids.count) grid_free(alloc, w->grids.data + --w->grids.count);
-    support_free(alloc, w->axis.ends, (objects ? objects : 1) * sizeof *w->axis.ends);
-    array_free(alloc, &w->grids);
-    array_free(alloc, &w->cells);
-    array_free(alloc, &w->items);
-    array_free(alloc, &w->spare);
-    array_free(alloc, &w->middles);
-    for (int i = 0; i < 2; i++) array_free(alloc, &w->classes[i]);
-}
 
 static froe_status grow_index(index_work *w, froe_tree **out) {
     build_job *job = w->job;
     w->height = job->option[HEIGHT] > 0 ? job->option[HEIGHT] * base_log2(job->scene->object_count + 2.0) + 16 : 0;
     froe_status status = find_ends(w);
     if (!status) status = push_root(w);
-    if (!status) status = do_index_cells(w);
+    while (w->cells.count && !status) {
+        index_cell cell = w->cells.data[--w->cells.count];
+        status = do_index_cell(w, &cell);
+        double share = (double)w->packer.owners.count / (job->scene->object_count + 1.0);
+        if (!status && !base_progress(job->task, 0.1 + 0.8 * share)) status = FROE_E_CANCELLED;
+    }
     if (status) return status;
     status = packer_seal(&w->packer, job->scene, &job->meta, out);
     if (!status) (*out)->predicates = (*out)->report.predicates = w->context.stats;
@@ -417,7 +379,16 @@ static froe_status build_in_plane(build_job *job, froe_tree **out) {
         status = grow_index(&w, out);
         packer_free(&w.packer);
     }
-    free_index_work(&w);
+    const froe_allocator *alloc = &w.job->alloc;
+    size_t objects = w.job->scene->object_count;
+    while (w.grids.count) grid_free(alloc, w.grids.data + --w.grids.count);
+    support_free(alloc, w.axis.ends, (objects ? objects : 1) * sizeof *w.axis.ends);
+    array_free(alloc, &w.grids);
+    array_free(alloc, &w.cells);
+    array_free(alloc, &w.items);
+    array_free(alloc, &w.spare);
+    array_free(alloc, &w.middles);
+    for (int i = 0; i < 2; i++) array_free(alloc, &w.classes[i]);
     num_context_free(&w.context);
     return status;
 }

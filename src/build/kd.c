@@ -113,27 +113,23 @@ static surface surface_across(const double *width, int dim, int axis) {
     return (surface){s.ends / whole, s.side * (width[axis] / most) / whole};
 }
 
-static bool surface_on(split_axes *a, const split_work *work, const split_cell *cell, const double *width, int axis,
-                       best_cut *best) {
-    surface s = surface_across(width, work->set.scene->dim, axis);
-    if (!split_axes_fill(a, &work->set, cell, axis)) return false;
-    double from = a->low.data[0], size = 2 * width[axis];
-    while (split_axes_next(a)) {
-        const split_tally *t = &a->tally;
-        if (!split_tally_useful(*t)) continue;
-        double share = size > 0 ? (0.5 * a->value - 0.5 * from) / (0.5 * size) : 0;
-        double below = (double)t->negative + t->both, above = (double)t->positive + t->both;
-        enter_kd_cut(best, (s.ends + s.side * share) * below + (s.ends + s.side * (1 - share)) * above, axis, a->value);
-    }
-    return true;
-}
-
 static bool find_surface(split_work *work, const split_cell *cell, best_cut *best) {
-    split_scratch *s = work->scratch;
+    split_axes *a = &((split_scratch *)work->scratch)->axes;
     double width[FROE_MAX_DIM];
     find_widths(work, cell, width);
-    for (int k = 0; k < work->set.scene->dim; k++)
-        if (!surface_on(&s->axes, work, cell, width, k, best)) return false;
+    for (int axis = 0; axis < work->set.scene->dim; axis++) {
+        surface s = surface_across(width, work->set.scene->dim, axis);
+        if (!split_axes_fill(a, &work->set, cell, axis)) return false;
+        double from = a->low.data[0], size = 2 * width[axis];
+        while (split_axes_next(a)) {
+            const split_tally t = a->tally;
+            if (!split_tally_useful(t)) continue;
+            double share = size > 0 ? (0.5 * a->value - 0.5 * from) / (0.5 * size) : 0;
+            double below = (double)t.negative + t.both, above = (double)t.positive + t.both;
+            double cost = (s.ends + s.side * share) * below + (s.ends + s.side * (1 - share)) * above;
+            enter_kd_cut(best, cost, axis, a->value);
+        }
+    }
     return true;
 }
 

@@ -5,31 +5,32 @@
 
 enum { PREFETCH = 64 }; /* objects asked for at once, at most */
 
-/** Puts the cell's fragments into the list of its node. */
-static froe_status emit_all(split_set *set, const split_cell *cell) {
-    if (!cell->count) return FROE_OK;
+/** Puts the cell's fragments into the list of its node, all or, `on`, those that lie in the cut; so many. */
+static froe_status emit_fragments(split_set *set, const split_cell *cell, uint32_t count, bool on) {
+    if (!count) return FROE_OK;
     froe_status status = draft_list(set->draft, cell->node - set->draft->outer);
     for (uint32_t i = 0; i < cell->count && !status; i++)
-        status = split_emit(set, cell->node, set->items.data + cell->first + i);
+        if (!on || set->classes.data[i] == SPLIT_ON)
+            status = split_emit(set, cell->node, set->items.data + cell->first + i);
     return status;
 }
 
 froe_status cell_leaf(split_work *work, const split_cell *cell, uint8_t flags) {
     draft_leaf(work->set.draft, cell->node - work->set.draft->outer, flags);
-    froe_status status = emit_all(&work->set, cell);
+    froe_status status = emit_fragments(&work->set, cell, cell->count, false);
     work->set.items.count = cell->first;
     return status;
 }
 
-typedef struct counts {
+typedef struct class_counts {
     uint32_t of[4]; /**< fragments per class */
-} counts;
+} class_counts;
 
 typedef int classify_fn(split_set *set, const split_plane *plane, const split_fragment *fragment);
 
 /** Classifies all fragments of the cell; classes, and sides where they are found, are left in the set. */
 static froe_status classify_all(split_set *set, const split_cell *cell, const split_plane *plane, classify_fn *classify,
-                                counts *out) {
+                                class_counts *out) {
     memset(out, 0, sizeof *out);
     set->classes.count = set->sides.count = 0;
     if (!array_reserve(&set->alloc, &set->classes, cell->count)) return FROE_E_MEMORY;
@@ -56,7 +57,7 @@ static bool prefer_lowest(const split_set *set, const split_cell *cell, froe_cut
 
 /** Classifies by the cut, or by its lowest equal, which may face the other way. */
 static froe_status classify(split_set *set, const split_cell *cell, const froe_cut *cut, split_plane *plane,
-                            counts *out) {
+                            class_counts *out) {
     *plane = split_plane_of(set->scene, cut);
     froe_status status = classify_all(set, cell, plane, split_classify, out);
     if (status || !prefer_lowest(set, cell, &plane->cut)) return status;
@@ -66,25 +67,16 @@ static froe_status classify(split_set *set, const split_cell *cell, const froe_c
 
 froe_status cell_tally(split_work *work, const split_cell *cell, const froe_cut *cut, split_tally *out) {
     split_plane plane = split_plane_of(work->set.scene, cut);
-    counts n;
+    class_counts n;
     froe_status status = classify_all(&work->set, cell, &plane, split_class, &n);
     *out = (split_tally){n.of[SPLIT_NEG], n.of[SPLIT_POS], n.of[SPLIT_ON], n.of[SPLIT_BOTH]};
-    return status;
-}
-
-/** Lists the ON fragments in the cut. */
-static froe_status emit_fragments_in_cut(split_set *set, const split_cell *cell, uint32_t count) {
-    if (!count) return FROE_OK;
-    froe_status status = draft_list(set->draft, cell->node - set->draft->outer);
-    for (uint32_t i = 0; i < cell->count && !status; i++)
-        if (set->classes.data[i] == SPLIT_ON) status = split_emit(set, cell->node, set->items.data + cell->first + i);
     return status;
 }
 
 /** Replaces the cell's fragments by those of its children: positive below, negative on top. A fragment leaves at
  * most one on the positive side, so these close up in place while the negative ones wait aside. */
 static froe_status deal_fragments_of_cell(split_set *set, const split_cell *cell, const split_plane *plane,
-                                          const counts *n) {
+                                          const class_counts *n) {
     if (!cell->count) { /* the arrays may not be there yet */
         set->items.count = cell->first;
         return FROE_OK;
@@ -121,14 +113,14 @@ static froe_status cut_in_two(split_work *work, const split_cell *cell, const fr
                               bool *useless, split_cell side[2], uint32_t *in_cut) {
     split_set *set = &work->set;
     split_plane plane;
-    counts n;
+    class_counts n;
     uint32_t child, local = cell->node - set->draft->outer;
     froe_status status = classify(set, cell, cut, &plane, &n);
     if (status) return status;
     if (useless) *useless = !n.of[SPLIT_ON] && (!n.of[SPLIT_NEG] || !n.of[SPLIT_POS]);
     if (useless && *useless) return FROE_OK;
     status = draft_split(set->draft, local, &plane.cut, flags, &child);
-    if (!status) status = emit_fragments_in_cut(set, cell, n.of[SPLIT_ON]);
+    if (!status) status = emit_fragments(set, cell, n.of[SPLIT_ON], true);
     if (!status) status = deal_fragments_of_cell(set, cell, &plane, &n);
     if (status) return status;
     /* the children, with their fragments where they were left just now */

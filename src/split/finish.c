@@ -9,19 +9,19 @@ enum { ROOM = 64 }; /* columns: as many as a mask has bits */
 typedef uint64_t mask; /* a set of columns */
 
 /** The line of a piece that was there at the start, and its row. */
-typedef struct row {
+typedef struct table_row {
     filter_line line;
     mask known;        /* pieces for which the row is filled */
     mask below, above; /* with an end there, by more than rounding could do */
     mask sure;         /* for which below and above are the exact answer */
-} row;
+} table_row;
 
 /** A cell that is still to be cut. */
-typedef struct part {
+typedef struct table_part {
     mask set;
     uint64_t path;
     uint32_t node, depth, corner_top, columns;
-} part;
+} table_part;
 
 struct split_table {
     split_fragment piece[ROOM];
@@ -32,8 +32,8 @@ struct split_table {
     mask free;                     /* pieces that cross their cell from border to border */
     uint8_t line[ROOM];            /* the row of the piece's own line */
     uint32_t columns;
-    row rows[FINISH_MOST];
-    part stack[ROOM + 2]; /* a cut takes a piece out, so no path is longer than ROOM */
+    table_row rows[FINISH_MOST];
+    table_part stack[ROOM + 2]; /* a cut takes a piece out, so no path is longer than ROOM */
     uint32_t parts;
 };
 
@@ -122,7 +122,7 @@ static double farthest(double lo, double hi, double x) {
 
 /** Fills a row for all columns, with one bound on all errors of values. Two pieces go at a time, or more, where the
  * machine can. */
-static void fill_row(const split_table *t, row *r) {
+static void fill_row(const split_table *t, table_row *r) {
     const filter_line h = r->line;
     const double reach = filter_line_reach(&h);
     const double bound =
@@ -142,32 +142,32 @@ static void fill_row(const split_table *t, row *r) {
     r->sure = (below[0] | above[0]) & (below[1] | above[1]);
 }
 
-/** One place of a row. */
-static void fill_place(const split_table *t, row *r, uint32_t column) {
-    const filter_line *h = &r->line;
-    bool below = false, above = false, sure = true;
-    for (int i = 0; i < 2; i++) {
-        double x = t->x[i][column], y = t->y[i][column], value = filter_line_value(h, x, y);
-        double e = filter_line_bound(h, fabs(x - h->o[0]), fabs(y - h->o[1])) + filter_line_reach(h) * t->error[column];
-        below |= value < -e;
-        above |= value > e;
-        sure &= (value < -e) | (value > e);
-    }
-    put_columns(&r->below, bit(column), below);
-    put_columns(&r->above, bit(column), above);
-    put_columns(&r->sure, bit(column), sure);
-}
-
 /** The row of a piece's line, filled for all pieces of a set. */
-static row *row_of(finish *f, uint32_t piece, mask set) {
+static table_row *row_of(finish *f, uint32_t piece, mask set) {
     split_table *t = f->t;
-    row *r = t->rows + t->line[piece];
+    table_row *r = t->rows + t->line[piece];
     mask missing = set & ~r->known;
     if (!missing) return r;
     if (4 * size(missing) >= t->columns)
         fill_row(t, r);
     else
-        while (missing) fill_place(t, r, take_column(&missing));
+        while (missing) {
+            /* one place of a row */
+            uint32_t column = take_column(&missing);
+            const filter_line *h = &r->line;
+            bool below = false, above = false, sure = true;
+            for (int i = 0; i < 2; i++) {
+                double x = t->x[i][column], y = t->y[i][column], value = filter_line_value(h, x, y);
+                double e = filter_line_bound(h, fabs(x - h->o[0]), fabs(y - h->o[1])) +
+                           filter_line_reach(h) * t->error[column];
+                below |= value < -e;
+                above |= value > e;
+                sure &= (value < -e) | (value > e);
+            }
+            put_columns(&r->below, bit(column), below);
+            put_columns(&r->above, bit(column), above);
+            put_columns(&r->sure, bit(column), sure);
+        }
     if (f->set->context.first != NUM_FILTER) r->sure = 0;
     r->known |= set;
     r->below &= ~bit(piece);
@@ -177,7 +177,7 @@ static row *row_of(finish *f, uint32_t piece, mask set) {
 }
 
 /** A piece was divided into columns `one`, its own, and `other`: both lie where it lay, unless that is both sides. */
-static void inherit(row *r, uint32_t one, uint32_t other) {
+static void inherit(table_row *r, uint32_t one, uint32_t other) {
     bool known = r->known & ~(r->below & r->above) & bit(one);
     put_columns(&r->known, bit(one) | bit(other), known);
     put_columns(&r->below, bit(other), r->below & bit(one));
@@ -188,7 +188,7 @@ static void inherit(row *r, uint32_t one, uint32_t other) {
 /* ------------------------------------------------------------------- choice -- */
 
 /** The piece whose line is the best cut of a part that is not empty. */
-static uint32_t choose_piece(finish *f, const part *p) {
+static uint32_t choose_piece(finish *f, const table_part *p) {
     const split_table *t = f->t;
     const double *xl = f->xlog2;
     uint32_t m = size(p->set), best = 0;
@@ -198,7 +198,7 @@ static uint32_t choose_piece(finish *f, const part *p) {
     mask left = f->config->free_cuts && p->set & t->free ? p->set & t->free : p->set;
     while (left) {
         uint32_t i = take_column(&left);
-        const row *r = row_of(f, i, p->set);
+        const table_row *r = row_of(f, i, p->set);
         uint32_t splits = size(r->below & r->above & p->set);
         uint32_t a = size(r->below & p->set), b = size(r->above & p->set), larger = a > b ? a : b;
         double cost = splits - f->config->weight * split_gain(whole, m, xl[a], xl[b], splits);
@@ -222,7 +222,7 @@ static froe_status list(finish *f, uint32_t node, mask set) {
 }
 
 /** Makes a row the exact answer for the pieces of a set. */
-static froe_status make_sure(finish *f, row *r, const froe_cut *by, mask set) {
+static froe_status make_sure(finish *f, table_row *r, const froe_cut *by, mask set) {
     num_context *context = &f->set->context;
     mask left = set & ~r->sure;
     uint32_t known = 2 * size(set & r->sure);
@@ -242,25 +242,22 @@ static froe_status make_sure(finish *f, row *r, const froe_cut *by, mask set) {
     return FROE_OK;
 }
 
-/** Of equal objects the lowest id serves as the cut. */
-static uint32_t lowest_equal(const finish *f, uint32_t piece, mask on) {
-    const split_fragment *all = f->t->piece;
-    uint32_t best = piece;
-    for (on &= ~bit(piece); on;) {
-        uint32_t i = take_column(&on);
-        if (all[i].object < all[best].object && scene_equal(f->set->scene, all[i].object, all[best].object)) best = i;
-    }
-    return best;
-}
-
 /** The cut along a piece, or along its lowest equal; its row, exact for this part. */
-static froe_status find_exact_row(finish *f, const part *p, uint32_t piece, froe_cut *by, row **out) {
+static froe_status find_exact_row(finish *f, const table_part *p, uint32_t piece, froe_cut *by, table_row **out) {
     for (;;) {
-        row *r = row_of(f, piece, p->set);
+        table_row *r = row_of(f, piece, p->set);
         *by = (froe_cut){.kind = FROE_CUT_OBJECT, .id = {f->t->piece[piece].object}};
         *out = r;
         froe_status status = make_sure(f, r, by, p->set);
-        uint32_t lowest = lowest_equal(f, piece, p->set & ~(r->below | r->above));
+        /* of equal objects the lowest id serves as the cut */
+        mask on = p->set & ~(r->below | r->above);
+        const split_fragment *all = f->t->piece;
+        uint32_t lowest = piece;
+        for (on &= ~bit(piece); on;) {
+            uint32_t i = take_column(&on);
+            if (all[i].object < all[lowest].object && scene_equal(f->set->scene, all[i].object, all[lowest].object))
+                lowest = i;
+        }
         if (status || lowest == piece) return status;
         piece = lowest;
     }
@@ -297,15 +294,15 @@ static froe_status divide_all(finish *f, const froe_cut *by, uint32_t node, mask
     return status;
 }
 
-static void push_parts(finish *f, const part *p, uint32_t child, const mask side[2]) {
+static void push_parts(finish *f, const table_part *p, uint32_t child, const mask side[2]) {
     split_table *t = f->t;
     for (int k = 1; k >= 0; k--)
-        t->stack[t->parts++] = (part){.set = side[k],
-                                      .path = base_path(p->path, k),
-                                      .node = child + (uint32_t)k,
-                                      .depth = p->depth + 1,
-                                      .corner_top = (uint32_t)f->set->corners.count,
-                                      .columns = t->columns};
+        t->stack[t->parts++] = (table_part){.set = side[k],
+                                            .path = base_path(p->path, k),
+                                            .node = child + (uint32_t)k,
+                                            .depth = p->depth + 1,
+                                            .corner_top = (uint32_t)f->set->corners.count,
+                                            .columns = t->columns};
 }
 
 /** Pushes all parts, the topmost too, as ordinary cells. */
@@ -315,7 +312,7 @@ static froe_status give_back(finish *f, split_work *work) {
     if (!array_reserve(&s->alloc, &work->cells, t->parts) || !array_reserve(&s->alloc, &s->items, ROOM))
         return FROE_E_MEMORY;
     for (uint32_t i = 0; i < t->parts; i++) {
-        const part *p = t->stack + i;
+        const table_part *p = t->stack + i;
         work->cells.data[work->cells.count++] = (split_cell){.node = p->node,
                                                              .depth = p->depth,
                                                              .path = p->path,
@@ -328,14 +325,14 @@ static froe_status give_back(finish *f, split_work *work) {
     return FROE_OK;
 }
 
-static froe_status do_part(finish *f, const part *p, bool *full) {
+static froe_status do_part(finish *f, const table_part *p, bool *full) {
     f->set->corners.count = p->corner_top;
     f->t->columns = p->columns;
     if (size(p->set) > f->config->leaf) {
         /* too few columns: nothing is done */
         tree_draft *draft = f->set->draft;
         froe_cut by;
-        row *r;
+        table_row *r;
         uint32_t child;
         froe_status status = find_exact_row(f, p, choose_piece(f, p), &by, &r);
         if (status) return status;
@@ -364,7 +361,7 @@ static froe_status do_parts(finish *f, bool *full) {
     split_table *t = f->t;
     froe_status status = FROE_OK;
     while (t->parts && !*full && !status) {
-        part p = t->stack[--t->parts];
+        table_part p = t->stack[--t->parts];
         status = do_part(f, &p, full);
     }
     t->parts += *full; /* p is still there */
@@ -380,12 +377,12 @@ froe_status split_finish(const split_refine *config, split_work *work, const spl
     if (!*done) return FROE_OK;
     load_table(&f, cell);
     t->parts = 1;
-    t->stack[0] = (part){.set = ~(mask)0 >> (ROOM - cell->count),
-                         .path = cell->path,
-                         .node = cell->node,
-                         .depth = cell->depth,
-                         .corner_top = (uint32_t)work->set.corners.count,
-                         .columns = cell->count};
+    t->stack[0] = (table_part){.set = ~(mask)0 >> (ROOM - cell->count),
+                               .path = cell->path,
+                               .node = cell->node,
+                               .depth = cell->depth,
+                               .corner_top = (uint32_t)work->set.corners.count,
+                               .columns = cell->count};
     froe_status status = do_parts(&f, &full);
     *done = !full || t->stack[0].node != cell->node; /* else its very first cut splits too much for the table */
     if (*done) work->set.items.count = cell->first;

@@ -30,15 +30,6 @@ typedef struct grow {
 
 /* --------------------------------------------------------------- one cell -- */
 
-/** Each pending fragment will be one piece at least, and a subtree grown again has half as many as before at least: a
- * refusal here is a refusal in any order of work. */
-static froe_status check_budget(const grow *g, const split_work *work) {
-    uint64_t most = g->job->max_fragments, count = work->set.draft->pieces.count + work->set.items.count;
-    if (work->most) return count > work->most ? FROE_E_BUDGET : FROE_OK;
-    if (g->method->height > 0 && work->set.draft != &g->main) count /= 2;
-    return most && atomic_load(&g->emitted) + count > most ? FROE_E_BUDGET : FROE_OK;
-}
-
 /** A draft is final. */
 static froe_status count_pieces(grow *g, const tree_draft *draft) {
     uint64_t most = g->job->max_fragments, count = draft->pieces.count;
@@ -99,7 +90,13 @@ static froe_status grow_cell(grow *g, split_work *work, split_cell *cell) {
     bool guard = cell->guard != FROE_NONE && g->method->in_guard_stage(g->method->config, cell);
     if (cell->guard != FROE_NONE && !guard) work->guarded += split_load(cell);
     froe_status status = guard ? cell_cut_guard(work, g->job, cell) : refine_cell(g, work, cell);
-    return status ? status : check_budget(g, work);
+    if (status) return status;
+    /* each pending fragment will be one piece at least, and a subtree grown again has half as many as before at
+     * least: a refusal here is a refusal in any order of work */
+    uint64_t most = g->job->max_fragments, count = work->set.draft->pieces.count + work->set.items.count;
+    if (work->most) return count > work->most ? FROE_E_BUDGET : FROE_OK;
+    if (g->method->height > 0 && work->set.draft != &g->main) count /= 2;
+    return most && atomic_load(&g->emitted) + count > most ? FROE_E_BUDGET : FROE_OK;
 }
 
 /** Moves a small cell's fragments to the store, for a task. */
@@ -236,32 +233,30 @@ static uint32_t levels_over(const grow *g, const split_work *work, uint32_t sunk
     return g->method->height > 0 && deepest > g->method->height ? (uint32_t)ceil(deepest - g->method->height) : 0;
 }
 
-/** A subtree that is `over` levels too deep is grown again, each time as if it began as much further down as the last
- * reached too far, while that helps. The lowest stays. */
-static froe_status regrow(grow *g, split_work *work, grow_task *task, uint32_t over) {
-    froe_status status = FROE_OK;
-    for (uint32_t turn = 0, sunk = 0; turn < REGROWN && over && !status; turn++) {
-        tree_draft before = task->draft;
-        size_t pieces = before.pieces.count;
-        sunk += over;
-        work->most = 2 * (uint64_t)pieces;
-        status = grow_task_from(g, work, task, sunk);
-        work->most = 0;
-        bool lower = !status && levels_over(g, work, sunk) < over && 2 * task->draft.pieces.count >= pieces;
-        if (status == FROE_E_BUDGET) status = FROE_OK;
-        draft_free(lower ? &before : &task->draft);
-        if (!lower) task->draft = before;
-        over = lower ? levels_over(g, work, sunk) : 0;
-    }
-    return status;
-}
-
 static froe_status do_task(void *user, unsigned worker, size_t index) {
     grow *g = user;
     split_work *work = g->workers + worker;
     grow_task *task = g->tasks.data + index;
     froe_status status = grow_task_from(g, work, task, 0);
-    if (!status) status = regrow(g, work, task, levels_over(g, work, 0));
+    if (!status) {
+        /* A subtree that is `over` levels too deep is grown again, each time as if it began as much further down as
+         * the last reached too far, while that helps. The lowest stays. */
+        uint32_t over = levels_over(g, work, 0);
+        status = FROE_OK;
+        for (uint32_t turn = 0, sunk = 0; turn < REGROWN && over && !status; turn++) {
+            tree_draft before = task->draft;
+            size_t pieces = before.pieces.count;
+            sunk += over;
+            work->most = 2 * (uint64_t)pieces;
+            status = grow_task_from(g, work, task, sunk);
+            work->most = 0;
+            bool lower = !status && levels_over(g, work, sunk) < over && 2 * task->draft.pieces.count >= pieces;
+            if (status == FROE_E_BUDGET) status = FROE_OK;
+            draft_free(lower ? &before : &task->draft);
+            if (!lower) task->draft = before;
+            over = lower ? levels_over(g, work, sunk) : 0;
+        }
+    }
     return status ? status : count_pieces(g, &task->draft);
 }
 

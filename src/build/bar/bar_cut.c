@@ -12,9 +12,9 @@ enum {
 
 #define FLOOR 0x1p-40
 
-typedef struct counts {
+typedef struct key_counts {
     uint32_t below, above;
-} counts;
+} key_counts;
 
 static const double *rows(const bar_search *s, const bar_step *step) {
     return s->keys.data + step->row;
@@ -24,10 +24,10 @@ static bool key_is_above(const bar_rule *rule, double key, double value) {
     return key > value || (!rule->through && key == value);
 }
 
-static counts count_sides(const bar_rule *rule, const bar_search *s, const bar_step *step, int direction,
-                          double value) {
+static key_counts count_sides(const bar_rule *rule, const bar_search *s, const bar_step *step, int direction,
+                              double value) {
     const double *key = rows(s, step) + direction;
-    counts n = {0, 0};
+    key_counts n = {0, 0};
     for (uint32_t i = 0; i < step->count; i++, key += rule->directions.count) {
         n.below += *key < value;
         n.above += key_is_above(rule, *key, value);
@@ -84,7 +84,7 @@ static bool move_to_fit(const bar_rule *rule, const bar_search *s, bar_candidate
 static bar_candidate candidate(const bar_rule *rule, bar_search *s, const bar_step *step, int direction) {
     bar_candidate c = {.direction = direction, .value = middle_of(rule, s, step, direction)};
     if (!fits_aspect(rule, s, &c) && !move_to_fit(rule, s, &c)) return (bar_candidate){.direction = -1};
-    const counts n = count_sides(rule, s, step, direction, c.value);
+    const key_counts n = count_sides(rule, s, step, direction, c.value);
     c.larger = (n.below > n.above ? n.below : n.above) * step->weight;
     return c;
 }
@@ -106,7 +106,7 @@ static bool push_bar_step(const bar_rule *rule, const froe_allocator *alloc, bar
                           const bar_candidate *c) {
     bar_step from = s->steps.data[at], to = from;
     const size_t g = (size_t)rule->directions.count;
-    const counts n = count_sides(rule, s, &from, c->direction, c->value);
+    const key_counts n = count_sides(rule, s, &from, c->direction, c->value);
     const bool above = n.above > n.below;
     const uint32_t stride = 1 + (above ? n.above : n.below) / LOOK;
     (above ? to.region.lo : to.region.hi)[c->direction] = c->value;

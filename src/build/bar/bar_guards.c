@@ -6,11 +6,11 @@
 enum { GRID = 4 }; /* directions inside sectors are sought among whole numbers up to this */
 
 /* Least and largest n . x of the object, for each direction. */
-typedef struct support {
+typedef struct bar_support {
     double lo[DIRECTIONS_MOST], hi[DIRECTIONS_MOST];
-} support;
+} bar_support;
 
-static void take_point(const split_directions *d, const double *x, double radius, bool first, support *s) {
+static void take_point(const split_directions *d, const double *x, double radius, bool first, bar_support *s) {
     for (int i = 0; i < d->count; i++) {
         double key = split_key(d, i, x), lo = key - radius * d->lengths[i], hi = key + radius * d->lengths[i];
         s->lo[i] = first || lo < s->lo[i] ? lo : s->lo[i];
@@ -18,23 +18,20 @@ static void take_point(const split_directions *d, const double *x, double radius
     }
 }
 
-static void take_box(const split_directions *d, const double *lo, const double *hi, support *s) {
-    for (int i = 0; i < d->count; i++) {
-        double least[3] = {0}, most[3] = {0};
-        for (int k = 0; k < d->dim; k++) {
-            bool falls = d->normals[i][k] < 0;
-            least[k] = falls ? hi[k] : lo[k];
-            most[k] = falls ? lo[k] : hi[k];
-        }
-        s->lo[i] = split_key(d, i, least);
-        s->hi[i] = split_key(d, i, most);
-    }
-}
-
-static void support_of(const split_directions *d, const froe_scene *scene, uint32_t object, support *s) {
+static void support_of(const split_directions *d, const froe_scene *scene, uint32_t object, bar_support *s) {
     const froe_kind form = scene_form(scene, object);
     if (form == FROE_BOX) {
-        take_box(d, scene_point(scene, object, 0), scene_point(scene, object, 1), s);
+        const double *lo = scene_point(scene, object, 0), *hi = scene_point(scene, object, 1);
+        for (int i = 0; i < d->count; i++) {
+            double least[3] = {0}, most[3] = {0};
+            for (int k = 0; k < d->dim; k++) {
+                bool falls = d->normals[i][k] < 0;
+                least[k] = falls ? hi[k] : lo[k];
+                most[k] = falls ? lo[k] : hi[k];
+            }
+            s->lo[i] = split_key(d, i, least);
+            s->hi[i] = split_key(d, i, most);
+        }
         return;
     }
     uint32_t corners = form == FROE_BALL ? 1 : scene_corners(scene, object);
@@ -98,7 +95,7 @@ static void meet(const double *n, double a, const double *m, double b, double x[
     x[1] = (b * n[0] - a * m[0]) / det + 0.0;
 }
 
-static uint32_t pairs_of(const split_directions *d, const support *s, double *out) {
+static uint32_t pairs_of(const split_directions *d, const bar_support *s, double *out) {
     uint32_t count = 0;
     for (int i = 0; i < d->count; i++)
         for (int j = i + 1; j < d->count; j++)
@@ -113,7 +110,7 @@ static uint32_t pairs_of(const split_directions *d, const support *s, double *ou
 
 /* Signed directions of the plane by angle: x, (x + y), y, -(x - y), and their opposites: half a turn is `count` of
  * them. The supporting line of n facing the sector is n . x = least. */
-static uint32_t half_circles_of(const split_directions *d, const support *s, double *out) {
+static uint32_t half_circles_of(const split_directions *d, const bar_support *s, double *out) {
     static const int order[2][4] = {{0, 1, 2, 0}, {0, 3, 1, 2}}, sign[2][4] = {{1, 1, -1, 0}, {1, 1, 1, -1}};
     const int g = d->count, *by = order[g == 4], *to = sign[g == 4];
     uint32_t count = 0;
@@ -132,7 +129,7 @@ static uint32_t half_circles_of(const split_directions *d, const support *s, dou
 }
 
 uint32_t bar_guards_of(const bar_guards *g, const froe_scene *scene, uint32_t object, double *out) {
-    support s;
+    bar_support s;
     if (scene_form(scene, object) == FROE_POINT) {
         memcpy(out, scene_point(scene, object, 0), (size_t)scene->dim * sizeof *out);
         return 1;

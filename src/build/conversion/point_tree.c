@@ -140,20 +140,6 @@ static froe_status sort_junctions(point_tree *t, const junction_list *found) {
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status find_junctions(point_tree *t) {
-    region_walk w = {.tree = t};
-    region root = {.count = 0};
-    t->starts = support_calloc(&t->alloc, 2 * t->nodes.count + 1, sizeof *t->starts);
-    if (t->scene->object_count) region_around(t->scene->lo, t->scene->hi, FROE_NONE, &root);
-    bool ok = t->starts && push_region(&w, 0, &root);
-    while (w.steps.count && ok) ok = do_region(&w, w.steps.data[--w.steps.count]);
-    froe_status status = ok ? sort_junctions(t, &w.found) : FROE_E_MEMORY;
-    array_free(&t->alloc, &w.steps);
-    array_free(&t->alloc, &w.corners);
-    array_free(&t->alloc, &w.found);
-    return status;
-}
-
 froe_status point_tree_finish(point_tree *t, num_context *context) {
     /* times of entering and leaving, in depth-first order */
     ARRAY(walk_step) stack = {0};
@@ -177,7 +163,18 @@ froe_status point_tree_finish(point_tree *t, num_context *context) {
     array_free(&t->alloc, &stack);
     froe_status status = room ? FROE_OK : FROE_E_MEMORY;
     if (!status) status = locate_endpoints(t, context);
-    return status ? status : find_junctions(t);
+    if (status) return status;
+    region_walk w = {.tree = t};
+    region root = {.count = 0};
+    t->starts = support_calloc(&t->alloc, 2 * t->nodes.count + 1, sizeof *t->starts);
+    if (t->scene->object_count) region_around(t->scene->lo, t->scene->hi, FROE_NONE, &root);
+    bool ok = t->starts && push_region(&w, 0, &root);
+    while (w.steps.count && ok) ok = do_region(&w, w.steps.data[--w.steps.count]);
+    status = ok ? sort_junctions(t, &w.found) : FROE_E_MEMORY;
+    array_free(&t->alloc, &w.steps);
+    array_free(&t->alloc, &w.corners);
+    array_free(&t->alloc, &w.found);
+    return status;
 }
 
 bool point_tree_junction(const point_tree *t, uint32_t node, int side, double from, double to) {

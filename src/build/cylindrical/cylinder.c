@@ -34,13 +34,13 @@ typedef struct stretch {
 /* ------------------------------------------------------------------ frames -- */
 
 /** The walls left and right of a cell, and in space the edges below and above. Kept in the cell's room. */
-typedef struct frame {
+typedef struct cell_frame {
     uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
-} frame;
-_Static_assert(sizeof(frame) <= sizeof(split_room), "a frame has room in a cell");
+} cell_frame;
+_Static_assert(sizeof(cell_frame) <= sizeof(split_room), "a frame has room in a cell");
 
-static frame frame_of(const split_cell *cell) {
-    frame f = {{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
+static cell_frame frame_of(const split_cell *cell) {
+    cell_frame f = {{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
     if (cell->depth) memcpy(&f, &cell->room, sizeof f);
     return f;
 }
@@ -89,7 +89,7 @@ static froe_cut crossing_cut(split_set *set, uint32_t a, uint32_t b) {
 
 /** In space: the edge below or above on which the end of the stretch lies; FROE_NONE: neither. */
 static uint32_t edge_through(split_set *set, const split_cell *cell, const stretch *s, int side) {
-    const frame f = frame_of(cell);
+    const cell_frame f = frame_of(cell);
     for (int i = 0; i < 2; i++) {
         uint32_t edge = f.edge[i];
         if (edge == FROE_NONE) continue;
@@ -161,7 +161,7 @@ static split_verdict cut_segment(split_set *set, const split_cell *cell, const s
 
 /** Does an edge, by its number, lie in the vertical plane below or above the cell? */
 static bool is_border(split_set *set, const split_cell *cell, uint32_t edge) {
-    const frame f = frame_of(cell);
+    const cell_frame f = frame_of(cell);
     uint32_t v[2];
     froe_scene_edge(set->scene, edge, v);
     for (int i = 0; i < 2; i++) {
@@ -184,21 +184,17 @@ static double edge_length(const froe_scene *scene, uint32_t edge) {
     return x > y ? x : y;
 }
 
-/** Would the vertical plane through an edge leave all fragments on one side? Where polygons cut each other, an edge on
- * the border of the cell need not be the one below or above, and to cut along it again would not end. */
-static froe_status is_idle(split_work *work, const split_cell *cell, uint32_t edge, bool *idle) {
-    froe_cut cut = edge_cut(work->set.scene, edge);
-    split_tally n;
-    froe_status status = cell_tally(work, cell, &cut, &n);
-    *idle = !status && !n.on && !n.both && (!n.negative || !n.positive);
-    return status;
-}
-
-/** Would a cut along the edge, by its number, change nothing? */
+/** Would a cut along the edge, by its number, change nothing? Where polygons cut each other, an edge on the border of
+ * the cell need not be the one below or above, and to cut along it again would not end. */
 static froe_status is_done(const split_cylinder *c, split_work *work, const split_cell *cell, uint32_t edge,
                            bool *done) {
+    froe_cut cut = edge_cut(work->set.scene, edge);
+    split_tally n;
     *done = is_border(&work->set, cell, edge);
-    return *done || c->refuse ? FROE_OK : is_idle(work, cell, edge, done);
+    if (*done || c->refuse) return FROE_OK;
+    froe_status status = cell_tally(work, cell, &cut, &n);
+    *done = !status && !split_tally_useful(n) && !n.both;
+    return status;
 }
 
 /** The longest of the polygon's own edges that reaches into the cell, as the number of a corner of the fragment;
@@ -295,7 +291,7 @@ void split_cylinder_divided(const void *config, const split_work *work, const sp
     (void)config;
     (void)work;
     (void)guard;
-    frame above = frame_of(cell), below = above;
+    cell_frame above = frame_of(cell), below = above;
     if (is_wall(cut->kind)) {
         above.wall[LEFT] = below.wall[RIGHT] = cell->node;
     } else if (cut->kind == FROE_CUT_EDGE) { /* runs to the right: its positive side is above */

@@ -11,8 +11,6 @@ static uint32_t distinct(const boxes_event *e, uint32_t count) {
     return size;
 }
 
-/* Numbers the coordinates, and notes where each box has its ends. */
-
 /* Orders the boxes by one end, by counting. first[p] becomes the number of boxes that have it before p. */
 static void order_box_ends(boxes_axis *a, boxes_end end, uint32_t *first, uint32_t *sorted) {
     for (uint32_t i = 0; i < a->count; i++) first[a->places[i].at[end] + 2]++;
@@ -46,7 +44,7 @@ froe_status boxes_axis_new(const boxes *b, const boxes_cell *cell, int axis, box
           !base_max_tree_new(&b->alloc, out->count, &out->before) &&
           !base_max_tree_new(&b->alloc, out->count, &out->after)))
         return FROE_E_MEMORY;
-    /* places are ranks of coordinates, from 1 */
+    /* numbers the coordinates, and notes where each box has its ends */
     uint32_t position = 0;
     for (uint32_t i = 0; i < out->count; i++) out->places[i].at[BOXES_HI] = out->size + 1;
     for (uint32_t i = 0; i < events; i++) {
@@ -123,12 +121,12 @@ void boxes_axis_forget_room(boxes_axis *a, uint32_t box, int room) {
 /* ------------------------------------------------------------------ searching -- */
 
 /* The positions searched, the last one where not more boxes lie below than above, and the level to be reached. */
-typedef struct search {
+typedef struct axis_search {
     const boxes_axis *a;
     const base_max_tree *in;
     uint32_t from, end, middle; /* [from, end) is searched; the median side ends before `middle` */
     int64_t level;
-} search;
+} axis_search;
 
 /* The first position where more boxes lie below than above. */
 static uint32_t beyond_median(const boxes_axis *a, uint32_t from, uint32_t end) {
@@ -142,7 +140,7 @@ static uint32_t beyond_median(const boxes_axis *a, uint32_t from, uint32_t end) 
     return from;
 }
 
-static bool spot_at(const search *s, int axis, uint32_t at, boxes_spot *out) {
+static bool spot_at(const axis_search *s, int axis, uint32_t at, boxes_spot *out) {
     if (at == BASE_MAX_TREE_NONE) return false;
     int64_t divided = -base_max_tree_max(&s->a->least, at, at + 1);
     out->at = at;
@@ -156,7 +154,7 @@ static bool spot_at(const search *s, int axis, uint32_t at, boxes_spot *out) {
 }
 
 /* Up to the median: the best balance is nearest to it, and the first position that has the same number below it. */
-static bool search_below(const search *s, int axis, boxes_spot *out) {
+static bool search_below(const axis_search *s, int axis, boxes_spot *out) {
     uint32_t at = base_max_tree_last(s->in, s->from, s->middle, s->level);
     if (at == BASE_MAX_TREE_NONE) return false;
     uint32_t below = boxes_axis_below(s->a, at), first = below ? base_fenwick_select(&s->a->ends[1], below) : 0;
@@ -164,7 +162,7 @@ static bool search_below(const search *s, int axis, boxes_spot *out) {
 }
 
 /* Beyond it: the last position that has the same number above. */
-static bool search_above(const search *s, int axis, boxes_spot *out) {
+static bool search_above(const axis_search *s, int axis, boxes_spot *out) {
     uint32_t at = base_max_tree_first(s->in, s->middle, s->end, s->level);
     if (at == BASE_MAX_TREE_NONE) return false;
     const base_fenwick *begins = &s->a->ends[0];
@@ -173,7 +171,7 @@ static bool search_above(const search *s, int axis, boxes_spot *out) {
     return spot_at(s, axis, base_max_tree_last(s->in, at, last < s->end ? last + 1 : s->end, s->level), out);
 }
 
-static void find_box_spot(const search *s, int axis, bool fewest, boxes_spot *best) {
+static void find_box_spot(const axis_search *s, int axis, bool fewest, boxes_spot *best) {
     boxes_spot other;
     if (s->from >= s->end) return;
     search_below(s, axis, best);
@@ -181,16 +179,16 @@ static void find_box_spot(const search *s, int axis, bool fewest, boxes_spot *be
 }
 
 /* Positions with so many boxes on both sides, between two others; at least 1. */
-static search around(const boxes_axis *a, const base_max_tree *in, uint32_t lo, uint32_t hi, uint32_t least) {
+static axis_search around(const boxes_axis *a, const base_max_tree *in, uint32_t lo, uint32_t hi, uint32_t least) {
     const base_fenwick *begins = &a->ends[0];
     uint32_t first = base_fenwick_select(&a->ends[1], least);
     uint32_t last = begins->total >= least ? base_fenwick_select(begins, begins->total - least + 1) : 0;
     uint32_t from = first > lo ? first : lo + 1, end = last < hi ? last + 1 : hi;
-    return (search){.a = a, .in = in, .from = from, .end = end, .middle = beyond_median(a, from, end)};
+    return (axis_search){.a = a, .in = in, .from = from, .end = end, .middle = beyond_median(a, from, end)};
 }
 
 /* Sets the level to the fewest divided; is there a face at all? */
-static bool fewest_divided(search *s) {
+static bool fewest_divided(axis_search *s) {
     s->in = &s->a->least;
     if (s->from >= s->end) return false;
     s->level = base_max_tree_max(s->in, s->from, s->end);
@@ -200,14 +198,14 @@ static bool fewest_divided(search *s) {
 void boxes_axis_best(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, bool anywhere, boxes_spot *least,
                      boxes_spot *lemma) {
     *least = *lemma = (boxes_spot){.at = 0};
-    search s = around(a, &a->slack, lo, hi, 1);
+    axis_search s = around(a, &a->slack, lo, hi, 1);
     find_box_spot(&s, axis, false, lemma);
     if (anywhere) s.from = lo + 1, s.end = hi, s.middle = beyond_median(a, s.from, s.end);
     if (fewest_divided(&s)) find_box_spot(&s, axis, true, least);
 }
 
 void boxes_axis_narrow(const boxes_axis *a, int axis, uint32_t lo, uint32_t hi, uint32_t least, boxes_spot *out) {
-    search s = around(a, &a->least, lo, hi, least);
+    axis_search s = around(a, &a->least, lo, hi, least);
     *out = (boxes_spot){.at = 0};
     if (fewest_divided(&s)) find_box_spot(&s, axis, true, out);
     if (out->cut.found && base_max_tree_max(&a->slack, out->at, out->at + 1) < 0) out->cut.found = false;

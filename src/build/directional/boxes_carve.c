@@ -126,8 +126,6 @@ static froe_status emit_carved_in_cut(carve *c, const boxes_axis *a, uint32_t at
     return status;
 }
 
-/* The boxes across the cut, and all on the smaller side, these among them. */
-
 /* What the cut does to the boxes that stay: rooms that it touches die, faces in it are faces inside no more. */
 static bool touch_rooms(carve *c, int axis, uint32_t at, bool above) {
     boxes_axis *a = c->axis + axis;
@@ -150,8 +148,6 @@ static bool touch_rooms(carve *c, int axis, uint32_t at, bool above) {
     return ok && sort_carve_list(c, &c->covers);
 }
 
-/* Takes the smaller side out. */
-
 /* The rest goes on as the larger child. */
 static bool shrink_carved(carve *c, const boxes_spot *spot, bool above, uint32_t child) {
     int axis = spot->cut.axis;
@@ -172,7 +168,7 @@ static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
     froe_status status = boxes_split_node(c->b, c->cell.node, &spot->cut, &child);
     if (!status) status = emit_carved_in_cut(c, a, at);
     if (status) return status;
-    /* what the cut divides, and what lies on the small side */
+    /* the boxes across the cut, and all on the smaller side, these among them */
     uint32_t begun = a->first[0][at], ended = a->first[1][at + 1];
     c->small.count = c->divided.count = 0;
     bool ok = collect_boxes(c, a, &a->reach, 0, 0, begun, (int64_t)at + 1, &c->divided);
@@ -190,7 +186,7 @@ static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
     (above ? small.lo : small.hi)[spot->cut.axis] = spot->cut.c;
     status = open_cell(c, &small, &c->small);
     if (status) return status;
-    /* the small side is taken out */
+    /* takes the smaller side out */
     for (size_t i = 0; i < c->small.count; i++) {
         const uint32_t *p = a->places[c->small.data[i]].at;
         bool divided = above ? p[BOXES_LO] < at : p[BOXES_HI] > at;

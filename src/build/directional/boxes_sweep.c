@@ -21,10 +21,10 @@
 
 enum { NARROW_MOST = 4096 }; /* boxes: what larger cells divide is a small part of all, but reading them is not */
 
-typedef struct sweep {
+typedef struct axis_sweep {
     int64_t slack; /* trade * rooms - boxes divided, weighted */
     uint32_t divided, below, above;
-} sweep;
+} axis_sweep;
 
 typedef struct sweep_found {
     boxes_cut least, lemma;
@@ -74,11 +74,9 @@ boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *
 
 /* ------------------------------------------------------------------ sweeping -- */
 
-/* Before the first event on each axis: boxes that begin at the border of the cell or before. */
-
 /* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. The kinds of
  * ends are unpredictable, so branch-free. */
-static const boxes_event *arrive_at_boxes(const boxes_change *changes, sweep *s, const boxes_event *e,
+static const boxes_event *arrive_at_boxes(const boxes_change *changes, axis_sweep *s, const boxes_event *e,
                                           const boxes_event *end, bool *face) {
     unsigned kinds = 0;
     double x = e->x;
@@ -94,7 +92,7 @@ static const boxes_event *arrive_at_boxes(const boxes_change *changes, sweep *s,
 }
 
 /* Leaves them behind. */
-static void leave_boxes(const boxes_change *changes, sweep *s, const boxes_event *e, const boxes_event *end) {
+static void leave_boxes(const boxes_change *changes, axis_sweep *s, const boxes_event *e, const boxes_event *end) {
     for (; e < end; e++) {
         const boxes_change *change = changes + e->change;
         s->slack += change->slack[1];
@@ -104,18 +102,16 @@ static void leave_boxes(const boxes_change *changes, sweep *s, const boxes_event
 }
 
 /* The balance of a cut at the place of the sweep. */
-static uint32_t smaller(const sweep *s) {
+static uint32_t smaller(const axis_sweep *s) {
     return s->below < s->above ? s->below : s->above;
 }
 
-static boxes_cut cut_at(const sweep *s, int axis, double x) {
+static boxes_cut cut_at(const axis_sweep *s, int axis, double x) {
     return (boxes_cut){true, false, axis, x, s->below, s->above, s->divided};
 }
 
-/* A quick test of two numbers first: hardly any cut is better than all before. */
-
 /* The second time: a face that divides fewest, and leaves enough boxes on both sides; is it paid for? */
-static void consider_narrow(const sweep *s, int axis, double x, bool face, sweep_found *best) {
+static void consider_narrow(const axis_sweep *s, int axis, double x, bool face, sweep_found *best) {
     if (s->divided > best->most || !face || smaller(s) < best->enough) return;
     boxes_cut cut = cut_at(s, axis, x);
     if (!boxes_better_on_axis(&cut, &best->least, true)) return;
@@ -125,7 +121,7 @@ static void consider_narrow(const sweep *s, int axis, double x, bool face, sweep
 }
 
 /* narrow: 0, or how many boxes are enough for what is looked for the second time. */
-static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, sweep s, uint32_t narrow) {
+static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, axis_sweep s, uint32_t narrow) {
     sweep_found best = {.enough = narrow ? narrow : 1, .most = UINT32_MAX};
     const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
     while (e < end) {
@@ -134,7 +130,7 @@ static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, 
         if (narrow)
             consider_narrow(&s, axis, e->x, face, &best);
         else {
-            /* the cut at this event, as the best in use and as the best by the lemma */
+            /* a quick test of two numbers first: hardly any cut is better than all before */
             uint32_t less = smaller(&s);
             if (s.divided <= best.most && face && (less || b->options.faces)) {
                 boxes_cut cut = cut_at(&s, axis, e->x);
@@ -161,10 +157,10 @@ static bool perfect(const boxes *b, const boxes_cell *cell, const boxes_cut *lea
 boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
     boxes_cut least = {.found = false}, lemma = {.found = false};
     uint32_t narrow = 0;
-    sweep from[FROE_MAX_DIM];
-    /* where sweeps begin: below all boxes */
+    axis_sweep from[FROE_MAX_DIM];
+    /* before the first event on each axis: boxes that begin at the border of the cell or before */
     const boxes_fragment *f = b->fragments.data + cell->first, *end = f + cell->count;
-    for (int k = 0; k < b->dim; k++) from[k] = (sweep){0};
+    for (int k = 0; k < b->dim; k++) from[k] = (axis_sweep){0};
     for (; f < end; f++) {
         uint32_t some, both;
         boxes_count_rooms(f->alive, &some, &both);

@@ -39,8 +39,6 @@ static uint32_t line_count(const split_grid *g, int axis) {
     return 1u << g->rest[0][axis];
 }
 
-/* Which axis each level halves: that of the longer side. */
-
 /* Midpoints of midpoints; false where doubles run out. */
 static bool lay_lines(split_grid *g, int axis) {
     uint32_t n = line_count(g, axis);
@@ -166,8 +164,6 @@ static bool row_first(dealing *d, const axis_ends *ends, const uint32_t at[2], b
     return (exact > 0) == up;
 }
 
-/* Notes the crossing from a cell to the next in the node where they part. */
-
 /* All further cells of a fragment. */
 static froe_status walk_grid_cells(dealing *d, const grid_crosser *c) {
     split_grid *g = d->grid;
@@ -178,6 +174,7 @@ static froe_status walk_grid_cells(dealing *d, const grid_crosser *c) {
         bool row = at[0] == c->to[0] || (at[1] != c->to[1] && row_first(d, d->work->ends + object, at, up));
         at[row] += !row || up ? 1u : UINT32_MAX; /* up, or down by one */
         uint32_t next = cell_of(g, at[0], at[1]);
+        /* notes the crossing from a cell to the next in the node where they part */
         uint32_t bit = 31 - (uint32_t)__builtin_clz(cell ^ next), level = g->levels - 1 - bit;
         g->count[(1u << level) | (cell >> (bit + 1))]++;
         cell = next;
@@ -198,8 +195,6 @@ static froe_status walk_all(dealing *d) {
 }
 
 /* ------------------------------------------------------------------ sorting -- */
-
-/* starts[c] becomes where the run of cell c ends; filling moves it to where it begins. */
 
 /* From the last to the first, so that runs ascend. */
 static void fill_cells(dealing *d) {
@@ -227,6 +222,7 @@ static froe_status sort_ids(dealing *d) {
     g->ids = support_calloc(d->alloc, g->id_room, sizeof *g->ids);
     if (!g->ids) return FROE_E_MEMORY;
     uint32_t *starts = d->grid->starts, cells = 1u << d->grid->levels;
+    /* starts[c] becomes where the run of cell c ends; filling moves it to where it begins */
     for (uint32_t i = 0; i < d->source->count; i++) starts[d->first_cells[i]]++;
     for (size_t i = 0; i < d->records.count; i++) starts[d->records.data[i].cell]++;
     for (uint32_t c = 1; c <= cells; c++) starts[c] += starts[c - 1];
@@ -247,7 +243,7 @@ static bool nudge(const dealing *d) {
 /* One attempt with the levels that the grid has. *made false: steps are too many, or lines cannot be laid. */
 static froe_status attempt(dealing *d, bool *made) {
     split_grid *g = d->grid;
-    /* each level halves the longer side */
+    /* which axis each level halves: that of the longer side */
     double side[2] = {g->box.hi[0] - g->box.lo[0], g->box.hi[1] - g->box.lo[1]};
     for (uint32_t l = 0; l < g->levels; l++) {
         g->axis[l] = side[1] > side[0];

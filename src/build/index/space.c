@@ -16,23 +16,23 @@
 enum { BARREN = 3, THOROUGH = 256 };
 
 /* Its items are on top of all others when its turn comes. */
-typedef struct space_cell {
+typedef struct index_space_cell {
     uint32_t node, first, count, barren;
     double growth;
-} space_cell;
+} index_space_cell;
 
-typedef struct space_work {
+typedef struct index_space_work {
     build_job *job;
     double growth;
     tree_packer packer;
-    ARRAY(space_cell) cells;
+    ARRAY(index_space_cell) cells;
     ARRAY(space_item) items, spare;
     ARRAY(uint8_t) classes;
     double done; /* share of the objects in finished leaves */
-} space_work;
+} index_space_work;
 
 /* Names the cut of a cell and tells on which sides its items are; false: it is to be a leaf. */
-static bool choose_surface_cut(space_work *w, const space_cell *cell, surface_cut *cut) {
+static bool choose_surface_cut(index_space_work *w, const index_space_cell *cell, surface_cut *cut) {
     const space_item *items = w->items.data + cell->first;
     if (cell->count <= w->job->leaf || cell->growth >= w->growth || cell->barren >= BARREN) return false;
     if (!surface_choose(items, cell->count, cut)) return false;
@@ -41,7 +41,8 @@ static bool choose_surface_cut(space_work *w, const space_cell *cell, surface_cu
 }
 
 /* The positive items take the place of all, the negative ones lie on top. */
-static froe_status deal_space_items(space_work *w, const space_cell *cell, surface_cut *cut, space_cell side[2]) {
+static froe_status deal_space_items(index_space_work *w, const index_space_cell *cell, surface_cut *cut,
+                                    index_space_cell side[2]) {
     w->items.count = cell->first + cell->count;
     w->spare.count = 0;
     if (!array_reserve(&w->job->alloc, &w->items, cut->sides[0] + cut->sides[1] - cell->count) ||
@@ -58,9 +59,9 @@ static froe_status deal_space_items(space_work *w, const space_cell *cell, surfa
     return FROE_OK;
 }
 
-static froe_status cut_cell(space_work *w, const space_cell *cell) {
+static froe_status cut_cell(index_space_work *w, const index_space_cell *cell) {
     surface_cut cut;
-    space_cell side[2] = {*cell, *cell};
+    index_space_cell side[2] = {*cell, *cell};
     uint32_t child;
     w->classes.count = 0;
     if (!array_reserve(&w->job->alloc, &w->classes, cell->count)) return FROE_E_MEMORY;
@@ -88,20 +89,20 @@ static froe_status cut_cell(space_work *w, const space_cell *cell) {
     return array_push(alloc, &w->cells, side[1]) && array_push(alloc, &w->cells, side[0]) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status do_space_cells(space_work *w) {
+static froe_status do_space_cells(index_space_work *w) {
     const double objects = w->job->scene->object_count + 1.0;
     froe_status status = FROE_OK;
     while (w->cells.count && !status) {
-        const space_cell cell = w->cells.data[--w->cells.count];
+        const index_space_cell cell = w->cells.data[--w->cells.count];
         status = cut_cell(w, &cell);
         if (!status && !base_progress(w->job->task, 0.05 + 0.9 * fmin(w->done / objects, 1))) return FROE_E_CANCELLED;
     }
     return status;
 }
 
-static froe_status begin_space(space_work *w) {
+static froe_status begin_space(index_space_work *w) {
     const froe_scene *s = w->job->scene;
-    space_cell root = {.count = s->object_count, .growth = 1};
+    index_space_cell root = {.count = s->object_count, .growth = 1};
     if (!array_reserve(&w->job->alloc, &w->items, (size_t)s->object_count + s->object_count / 2)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < s->object_count; i++) {
         space_item *item = w->items.data + w->items.count++;
@@ -117,7 +118,7 @@ static froe_status begin_space(space_work *w) {
 }
 
 froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
-    space_work w = {.job = job, .growth = growth};
+    index_space_work w = {.job = job, .growth = growth};
     froe_status status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
     if (status) return status;
     status = begin_space(&w);

@@ -176,13 +176,12 @@ static void clip_listed(const froe_scene *s, const surface_cut *cut, bool thorou
     for (int i = 0; i < 2; i++) left[i] = left[i] && !misses(&a, out[i]);
 }
 
-/* Differences of coordinates do not overflow: only then parts can be told. */
-
 void surface_deal(const froe_scene *s, const space_item *items, uint32_t count, surface_cut *cut,
                   const uint8_t *classes, bool thorough, space_item *negative, space_item *positive) {
     uint32_t below = 0, above = 0;
     double most = 0;
     for (int k = 0; k < 3; k++) most = fmax(most, fmax(fabs(s->lo[k]), fabs(s->hi[k])));
+    /* differences of coordinates do not overflow: only then parts can be told */
     const bool tame = most <= 0x1p1000;
     for (uint32_t i = 0; i < count; i++) {
         const space_item item = items[i]; /* positive may be items */

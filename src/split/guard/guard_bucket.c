@@ -121,8 +121,6 @@ static froe_status count_chunk(void *user, unsigned worker, size_t chunk) {
     return FROE_OK;
 }
 
-/* All counts into the first sum, and every level into the one above. */
-
 /* ---- decisions */
 
 /* Guards of the cell with these codes go to one item, or nowhere. */
@@ -293,7 +291,7 @@ static froe_status reserve_bucket(bucket *b, uint32_t most_chunks) {
 static froe_status count_guards(bucket *b) {
     froe_status status = share(b, b->chunks, count_chunk);
     if (!status) {
-        /* sums over chunks, then over levels from the finest up */
+        /* all counts into the first sum, and every level into the one above */
         uint32_t total = b->grid.starts[b->levels + 1], *sums = b->sums;
         for (uint32_t chunk = 1; chunk < b->chunks; chunk++)
             for (uint32_t i = 0; i < total; i++) sums[i] += sums[chunk * (size_t)total + i];
@@ -336,8 +334,6 @@ static froe_status split_scene(bucket *b, double **main, size_t *bytes) {
     return b->to ? move_guards(b) : FROE_E_MEMORY;
 }
 
-/* The bits of an axis in all codes are those of its last slice. */
-
 froe_status guard_bucket_scene(guard_worker *w, const split_grid_boxes *grid_boxes, double **main, size_t *bytes,
                                uint32_t *count) {
     bucket b = {
@@ -345,6 +341,7 @@ froe_status guard_bucket_scene(guard_worker *w, const split_grid_boxes *grid_box
     uint32_t threads = w->plan->task->threads;
     b.dim = grid_boxes->grid.dim;
     b.levels = grid_boxes->grid.levels;
+    /* the bits of an axis in all codes are those of its last slice */
     for (uint32_t high = 1; high < 1u << b.dim; high++) {
         const guard_axis *t = &b.grid.axes[__builtin_ctz(high)];
         b.axes[high] = b.axes[high & (high - 1)] | t->codes[t->last];

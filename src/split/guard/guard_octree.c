@@ -11,17 +11,6 @@ typedef struct octree {
     uint16_t *codes;                  /* [guard] */
 } octree;
 
-static inline void move_guards(const octree *o, const double *points, uint32_t count, double *to, int dim) {
-    uint32_t at[GUARD_CELLS + 1];
-    for (uint32_t code = 0, sum = 0; code <= 1u << dim; code++) {
-        at[code] = sum;
-        sum += o->counts[code];
-    }
-    for (uint32_t p = 0; p < count; p++)
-        memcpy(to + (size_t)at[o->codes[p]]++ * (size_t)dim, points + (size_t)p * (size_t)dim,
-               (size_t)dim * sizeof *to);
-}
-
 /* Items and leaves for the orthants, the first on top of the stack; *any: some are items. */
 static froe_status push_orthants(guard_worker *w, const guard_item *item, const guard_cube *cube, const octree *o,
                                  bool *any) {
@@ -76,9 +65,17 @@ static inline froe_status octree_step(guard_worker *w, const guard_item *item, c
     if (item->count - o.counts[best] < plan->kill && o.counts[best] > plan->k) return guard_shrink(w, item, cube, best);
     bool any = false;
     froe_status status = push_orthants(w, item, cube, &o, &any);
-    if (any && !status)
-        move_guards(&o, points, item->count, w->side[guard_other_side(item->side)] + (size_t)item->begin * (size_t)dim,
-                    dim);
+    if (any && !status) {
+        double *to = w->side[guard_other_side(item->side)] + (size_t)item->begin * (size_t)dim;
+        uint32_t at[GUARD_CELLS + 1];
+        for (uint32_t code = 0, sum = 0; code <= 1u << dim; code++) {
+            at[code] = sum;
+            sum += o.counts[code];
+        }
+        for (uint32_t p = 0; p < item->count; p++)
+            memcpy(to + (size_t)at[o.codes[p]]++ * (size_t)dim, points + (size_t)p * (size_t)dim,
+                   (size_t)dim * sizeof *to);
+    }
     return status;
 }
 

@@ -17,12 +17,12 @@
 enum { ALIVE, DEAD, LISTED, FIRST };
 
 /* The side of a middle plane that has fewer places. */
-typedef struct side {
+typedef struct minor_side {
     bool above;
     uint32_t begin, end;       /* its places */
     uint32_t on_begin, on_end; /* places on the plane */
     uint32_t here, on;         /* guards alive there */
-} side;
+} minor_side;
 
 typedef struct phase {
     guard_peeler peeler;
@@ -57,18 +57,18 @@ static const double *point_of(const phase *ph, uint32_t guard) {
 /* ---- sides and the decision */
 
 /* Walks from both ends until one side is finished. */
-static side smaller_side(const phase *ph, int axis) {
+static minor_side smaller_side(const phase *ph, int axis) {
     const base_pair *order = ph->order[axis];
     uint64_t middle = base_double_key(ph->mid[axis]);
     uint32_t first = ph->first[axis], last = ph->last[axis], low = first, high = last;
     for (;; low++, high--) {
         if (low == last || order[low].key >= middle) {
             for (high = low; high < last && order[high].key == middle;) high++;
-            return (side){.above = false, .begin = first, .end = low, .on_begin = low, .on_end = high};
+            return (minor_side){.above = false, .begin = first, .end = low, .on_begin = low, .on_end = high};
         }
         if (high == first || order[high - 1].key <= middle) {
             for (low = high; low > first && order[low - 1].key == middle;) low--;
-            return (side){.above = true, .begin = high, .end = last, .on_begin = low, .on_end = high};
+            return (minor_side){.above = true, .begin = high, .end = last, .on_begin = low, .on_end = high};
         }
     }
 }
@@ -88,11 +88,8 @@ static void list_alive(phase *ph, int axis, uint32_t begin, uint32_t end) {
     }
 }
 
-/* Lists the guards that are not on the fuller side of the axis. When that is the one with fewer places, then half of
- * all guards are there at least, and the phase is about to end: walking over the others is no loss. */
-
 /* Is a shrink due? Then *corner is where. */
-static bool must_shrink(phase *ph, const side *sides, uint32_t *corner) {
+static bool must_shrink(phase *ph, const minor_side *sides, uint32_t *corner) {
     uint32_t kill = ph->w->plan->kill;
     bool few = true;
     *corner = 0;
@@ -102,7 +99,9 @@ static bool must_shrink(phase *ph, const side *sides, uint32_t *corner) {
         bool above = (sides[i].here > there) == sides[i].above;
         few = (sides[i].here > there ? there : sides[i].here) + sides[i].on < kill;
         if (few) {
-            /* lists those in the cut and on the smaller side */
+            /* Lists the guards that are not on the fuller side of the axis. When that is the one with fewer places,
+             * then half of all guards are there at least, and the phase is about to end: walking over the others is
+             * no loss. */
             list_alive(ph, i, sides[i].on_begin, sides[i].on_end);
             if (above != sides[i].above)
                 list_alive(ph, i, sides[i].begin, sides[i].end);
@@ -142,11 +141,9 @@ static froe_status push_guard_part(phase *ph, uint32_t node, uint32_t count, con
 
 /* ---- octree split */
 
-/* Lists the guards on smaller sides and planes, with the codes of their orthants (dead: one more). */
-
-static froe_status split_into_octants(phase *ph, const side *sides) {
+static froe_status split_into_octants(phase *ph, const minor_side *sides) {
     uint32_t counts[GUARD_CELLS + 1] = {0}, labels[GUARD_CELLS + 1], first, cells = 1u << ph->dim, rest = 0;
-    /* numbers of the octants, and the guards in each */
+    /* lists the guards on smaller sides and planes, with the codes of their orthants (dead: one more) */
     ph->listed = 0;
     for (int i = 0; i < ph->dim; i++) {
         list_alive(ph, i, sides[i].begin, sides[i].end);
@@ -212,8 +209,6 @@ static void phase_peel(guard_peeler *self, int axis) {
     ph->alive--;
 }
 
-/* Guards on the planes of the inner cube die. */
-
 static froe_status shrink_cube(phase *ph, uint32_t corner) {
     guard_shrunk shrunk;
     guard_item here = part_of(ph, ph->node, ph->alive);
@@ -224,7 +219,7 @@ static froe_status shrink_cube(phase *ph, uint32_t corner) {
     froe_status status = guard_shrink_nodes(ph->w, &here, &shrunk, &inner);
     if (status) return status;
     for (uint32_t at = 0; at < ph->listed; at++) guard_count(ph->w, ph->node, point_of(ph, ph->list[at]), inner);
-    /* guards on the border of the new cube are dropped */
+    /* guards on the planes of the inner cube die */
     for (int c = 0; c < shrunk.count; c++) {
         int i = shrunk.axes[c];
         const double *point;
@@ -241,7 +236,7 @@ static froe_status shrink_cube(phase *ph, uint32_t corner) {
 static froe_status follow_phase(phase *ph) {
     uint32_t half = ph->item->count / 2;
     for (bool begun = false;; begun = true) {
-        side sides[FROE_MAX_DIM];
+        minor_side sides[FROE_MAX_DIM];
         uint32_t corner;
         if (ph->alive <= ph->w->plan->k || (begun && ph->alive <= half))
             return push_guard_part(ph, ph->node, ph->alive, &ph->cube, &ph->rest);

@@ -16,8 +16,6 @@
 #include "split/guard/guard_shrink.h"
 #include <string.h>
 
-/* Peels one guard: the farthest on an axis with the largest rounded distance. */
-
 /* Where axis i is cut: v +- s between the farthest guard left and the nearest one peeled on i. */
 static double place_between(double at, const double *left, const double *peeled, bool above) {
     if (left && (above ? *left < at : *left > at)) at = *left;
@@ -32,7 +30,7 @@ void guard_shrink_rule(const guard_cube *cube, int dim, uint32_t corner, uint32_
     int last = -1;
     for (uint32_t n = 0; n < kill; n++) {
         double value = 0;
-        /* takes off the guard that is farthest from the corner, on the axis where it is */
+        /* peels one guard: the farthest on an axis with the largest rounded distance */
         int best = -1;
         for (int i = 0; i < dim; i++) {
             const double *point = peeler->farthest(peeler, i);

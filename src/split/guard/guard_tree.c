@@ -241,20 +241,6 @@ static void add_up(split_guard_tree *out, const guard_worker *w) {
     if (w->height > out->height) out->height = w->height;
 }
 
-static froe_status finish_guard_tree(building *b) {
-    froe_status status = FROE_OK;
-    add_up(b->out, &b->foreman);
-    for (unsigned i = 0; i < b->hand_count; i++) add_up(b->out, &b->hands[i].work);
-    if (b->jobs.count) {
-        status = splice(b);
-    } else {
-        memcpy(&b->out->nodes, &b->nodes, sizeof b->nodes);
-        b->nodes = (guard_nodes){0};
-    }
-    b->out->leaves = (b->out->nodes.count + 1) / 2;
-    return status;
-}
-
 static froe_status build_guard_tree(building *b, double span, const split_grid_boxes *grid_boxes, const double *guards,
                                     size_t count) {
     const base_task *task = b->plan.task;
@@ -269,7 +255,18 @@ static froe_status build_guard_tree(building *b, double span, const split_grid_b
     b->out->promised = promised_leaves(&b->plan, b->count);
     status = oversee(b);
     if (!status) status = base_run(b->plan.task, b->jobs.count ? span : 0, b->jobs.count, run_job, b);
-    return status ? status : finish_guard_tree(b);
+    if (status) return status;
+    status = FROE_OK;
+    add_up(b->out, &b->foreman);
+    for (unsigned i = 0; i < b->hand_count; i++) add_up(b->out, &b->hands[i].work);
+    if (b->jobs.count) {
+        status = splice(b);
+    } else {
+        memcpy(&b->out->nodes, &b->nodes, sizeof b->nodes);
+        b->nodes = (guard_nodes){0};
+    }
+    b->out->leaves = (b->out->nodes.count + 1) / 2;
+    return status;
 }
 
 static void free_building(building *b) {

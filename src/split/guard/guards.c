@@ -36,27 +36,23 @@ static froe_status count_chunk(void *user, unsigned worker, size_t chunk) {
     return FROE_OK;
 }
 
-/* Doubles the list of vertices for every axis on which the box is not flat. */
-static size_t write_vertices(const double *lo, const double *hi, int dim, double *to) {
-    size_t count = 1, size = (size_t)dim;
-    memcpy(to, lo, size * sizeof *to);
-    for (int i = 0; i < dim; i++) {
-        if (!(lo[i] < hi[i])) continue;
-        memcpy(to + count * size, to, count * size * sizeof *to);
-        for (size_t v = count; v < 2 * count; v++) to[v * size + (size_t)i] = hi[i];
-        count *= 2;
-    }
-    return count;
-}
-
 static froe_status write_chunk(void *user, unsigned worker, size_t chunk) {
     (void)worker;
     collection *c = user;
     size_t dim = (size_t)c->scene->dim;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], *to = c->points + c->starts[chunk] * dim;
     for (size_t at = chunk * CHUNK; at < chunk_end(c, chunk); at++) {
+        size_t count = 1;
         bounds_of(c, at, lo, hi);
-        to += write_vertices(lo, hi, c->scene->dim, to) * dim;
+        memcpy(to, lo, dim * sizeof *to);
+        for (size_t i = 0; i < dim;
+             i++) { /* doubles the list of vertices for every axis on which the box is not flat */
+            if (!(lo[i] < hi[i])) continue;
+            memcpy(to + count * dim, to, count * dim * sizeof *to);
+            for (size_t v = count; v < 2 * count; v++) to[v * dim + i] = hi[i];
+            count *= 2;
+        }
+        to += count * dim;
     }
     return FROE_OK;
 }

@@ -7,9 +7,9 @@
 
 enum { CHUNK = 8192, ABREAST = 8 }; /* objects per job, and going down together */
 
-typedef struct box {
+typedef struct object_box {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-} box;
+} object_box;
 
 #define ASTRAY 0x80000000u /* of a node in the map: what is below does not follow the grid */
 
@@ -78,7 +78,7 @@ static inline uint32_t look_up(const descent *d, const uint32_t code[2]) {
 }
 
 static void empty(const descent *d, queue *q) {
-    box boxes[ABREAST];
+    object_box boxes[ABREAST];
     for (size_t k = 0; k < q->count; k++)
         scene_object_bounds(d->grid_boxes->scene, q->object[k], boxes[k].lo, boxes[k].hi);
     /* For each box the lowest node whose cell holds it, or the first whose cut it lies across, or in, from a node
