@@ -3,8 +3,8 @@
  * Where solids overlap, a cut between two of them runs through many others, and each of these has one more entry
  * from then on. A leaf is crowded when at least half of the pairs of its objects cannot be separated by any cut: to
  * compare all of them is then at most twice the work that remains with any partition. In long lists each object is
- * compared with the TREE_CROWD_REACH before it. Builder and audit go through the same pairs. Each decides by a method of
- * its own which can be separated. */
+ * compared with the TREE_CROWD_REACH before it. Builder and audit go through the same pairs. Each decides by a method
+ * of its own which can be separated. */
 #ifndef FROE_TREE_CROWD_H
 #define FROE_TREE_CROWD_H
 #include <stdbool.h>

@@ -8,8 +8,6 @@
 #include "tree/draft.h"
 #include <string.h>
 
-#define DRAFT_MOST_NODES 0x7ffffffeu /* so that a ring entry has a bit to spare */
-
 void draft_free(tree_draft *draft) {
     array_free(&draft->alloc, &draft->nodes);
     array_free(&draft->alloc, &draft->cuts);
@@ -57,7 +55,7 @@ static froe_status table_cut(tree_draft *draft, const froe_cut *cut, uint32_t *i
 
 froe_status draft_split(tree_draft *draft, uint32_t node, const froe_cut *cut, uint8_t flags, uint32_t *child) {
     tree_node inner = {.child = (uint32_t)draft->nodes.count, .flags = flags, .type = TREE_TABLED};
-    if (draft->nodes.count + 2 + draft->outer > DRAFT_MOST_NODES) return FROE_E_LIMIT;
+    if (draft->nodes.count + 2 + draft->outer > TREE_MOST) return FROE_E_LIMIT;
     if (!array_reserve(&draft->alloc, &draft->nodes, 2)) return FROE_E_MEMORY;
     if (cut->kind == FROE_CUT_AXIS) {
         inner.type = TREE_PLAIN;
@@ -98,7 +96,7 @@ froe_status draft_list(tree_draft *draft, uint32_t node) {
 froe_status draft_piece(tree_draft *draft, uint32_t node, uint32_t object, const uint32_t *ring, uint32_t count) {
     tree_node *n = draft->nodes.data + node;
     tree_piece piece = {.object = object};
-    if (draft->pieces.count >= DRAFT_MOST_NODES || draft->bounds.count + count >= UINT32_MAX) return FROE_E_LIMIT;
+    if (draft->pieces.count >= TREE_MOST || draft->bounds.count + count >= UINT32_MAX) return FROE_E_LIMIT;
     if (!array_reserve(&draft->alloc, &draft->pieces, 1)) return FROE_E_MEMORY;
     if (ring) {
         if (!array_reserve(&draft->alloc, &draft->bounds, (size_t)count + 1)) return FROE_E_MEMORY;

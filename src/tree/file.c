@@ -37,59 +37,59 @@ uint64_t file_checksum(const void *bytes, size_t size, uint64_t seed) {
     return sum;
 }
 
-typedef struct part {
+typedef struct file_array {
     const void *data;
     uint64_t count;
     uint32_t item_size;
-} part;
+} file_array;
 
-static part array_of(const froe_tree *t, file_id id) {
+static file_array array_of(const froe_tree *t, file_id id) {
     const froe_scene *s = t->scene;
     const uint64_t objects = s->object_count;
     switch (id) {
     case FILE_META:
-        return (part){&t->meta, 1, sizeof t->meta};
+        return (file_array){&t->meta, 1, sizeof t->meta};
     case FILE_NODES:
-        return (part){t->nodes, t->node_count, sizeof *t->nodes};
+        return (file_array){t->nodes, t->node_count, sizeof *t->nodes};
     case FILE_CUTS:
-        return (part){t->cuts, t->cut_count, sizeof *t->cuts};
+        return (file_array){t->cuts, t->cut_count, sizeof *t->cuts};
     case FILE_PIECES:
-        return (part){t->pieces, tree_is_packed(t) ? 0 : t->piece_count, sizeof *t->pieces};
+        return (file_array){t->pieces, tree_is_packed(t) ? 0 : t->piece_count, sizeof *t->pieces};
     case FILE_BOUNDS:
-        return (part){t->bounds, t->bound_count, sizeof *t->bounds};
+        return (file_array){t->bounds, t->bound_count, sizeof *t->bounds};
     case FILE_NORMALS:
-        return (part){t->normals, t->normal_count, sizeof *t->normals};
+        return (file_array){t->normals, t->normal_count, sizeof *t->normals};
     case FILE_COORDS:
-        return (part){s->coords, (uint64_t)s->vertex_count * (uint64_t)s->dim, sizeof *s->coords};
+        return (file_array){s->coords, (uint64_t)s->vertex_count * (uint64_t)s->dim, sizeof *s->coords};
     case FILE_KINDS:
-        return (part){s->kinds, objects, sizeof *s->kinds};
+        return (file_array){s->kinds, objects, sizeof *s->kinds};
     case FILE_FORMS:
-        return (part){s->forms, objects, sizeof *s->forms};
+        return (file_array){s->forms, objects, sizeof *s->forms};
     case FILE_STARTS:
-        return (part){s->starts, objects + 1, sizeof *s->starts};
+        return (file_array){s->starts, objects + 1, sizeof *s->starts};
     case FILE_CORNERS:
-        return (part){s->corners, s->corner_count, sizeof *s->corners};
+        return (file_array){s->corners, s->corner_count, sizeof *s->corners};
     case FILE_RADII:
-        return (part){s->radii, s->radius_count, sizeof *s->radii};
+        return (file_array){s->radii, s->radius_count, sizeof *s->radii};
     case FILE_TAGS:
-        return (part){s->tags, s->tags ? objects : 0, sizeof *s->tags};
+        return (file_array){s->tags, s->tags ? objects : 0, sizeof *s->tags};
     case FILE_FACES:
-        return (part){s->faces, s->faces ? objects : 0, sizeof *s->faces};
+        return (file_array){s->faces, s->faces ? objects : 0, sizeof *s->faces};
     case FILE_GROUPS:
-        return (part){s->groups, s->groups ? objects : 0, sizeof *s->groups};
+        return (file_array){s->groups, s->groups ? objects : 0, sizeof *s->groups};
     case FILE_GROUP_TABLE:
-        return (part){s->group_table, s->group_count, sizeof *s->group_table};
+        return (file_array){s->group_table, s->group_count, sizeof *s->group_table};
     case FILE_BLOCKS:
-        return (part){t->packed.blocks, t->packed.block_count, PACKED_BLOCK};
+        return (file_array){t->packed.blocks, t->packed.block_count, PACKED_BLOCK};
     case FILE_OWNERS:
-        return (part){t->packed.owners, t->packed.owner_count, sizeof *t->packed.owners};
+        return (file_array){t->packed.owners, t->packed.owner_count, sizeof *t->packed.owners};
     default:
-        return (part){s->text, s->text_size, 1};
+        return (file_array){s->text, s->text_size, 1};
     }
 }
 
 uint32_t file_part(const froe_tree *tree, file_id id, const void **data, uint64_t *size) {
-    const part p = array_of(tree, id);
+    const file_array p = array_of(tree, id);
     *data = p.data;
     *size = p.count * p.item_size;
     return p.item_size;

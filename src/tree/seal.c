@@ -10,8 +10,6 @@
 #include "tree/draft.h"
 #include <string.h>
 
-#define SEAL_MOST 0x7ffffffeu
-
 typedef struct seal_visit {
     uint32_t source, from, to; /* draft; node in it; node in the tree */
 } seal_visit;
@@ -104,7 +102,7 @@ static froe_status take_memory(seal *s) {
         bounds += draft->bounds.count - 1;
         normals += draft->normals.count;
     }
-    if (nodes > SEAL_MOST || pieces > SEAL_MOST || bounds > UINT32_MAX || normals > UINT32_MAX) return FROE_E_LIMIT;
+    if (nodes > TREE_MOST || pieces > TREE_MOST || bounds > UINT32_MAX || normals > UINT32_MAX) return FROE_E_LIMIT;
     t->node_count = (uint32_t)nodes;
     t->cut_count = (uint32_t)cuts;
     t->piece_count = (uint32_t)pieces;

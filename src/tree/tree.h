@@ -24,6 +24,7 @@
 #include "scene/scene.h"
 
 #define TREE_EDGE_CUT 0x80000000u /**< ring entry: the rest is a node id; otherwise an own edge or end */
+#define TREE_MOST 0x7ffffffeu     /**< nodes, and pieces: ids leave a bit for TREE_EDGE_CUT */
 
 enum { TREE_LEAF = 0, TREE_PLAIN = 1, TREE_TABLED = 2 };         /* tree_node.type */
 enum { TREE_GUARD = 1, TREE_INSEPARABLE = 2, TREE_CROWDED = 4 }; /* tree_node.flags */

@@ -30,7 +30,7 @@
 #include "tree/walk.h"
 #include <string.h>
 
-enum { CHUNK = 256 }; /* objects a job */
+enum { JOB_OBJECTS = 256 };
 
 typedef struct finding {
     size_t job;
@@ -44,7 +44,7 @@ typedef struct audit {
     froe_diagnostic *diag;
     bool exact_only;
     uint32_t *starts, *pieces; /* object o has the pieces pieces[starts[o] .. starts[o+1]), ascending */
-    trace *traces;             /* per worker */
+    tree_trace *traces;        /* per worker */
     finding *findings;         /* per worker */
 } audit;
 
@@ -112,8 +112,8 @@ static froe_status check_guard_stage(const audit *a) {
 /* One object being compared with its stored pieces. */
 typedef struct comparison {
     const froe_tree *tree;
-    trace *trace;
-    num_context *context;       /* of the trace */
+    tree_trace *trace;
+    num_context *context;       /* of the tree_trace */
     const uint32_t *next, *end; /* its pieces not met yet */
     uint32_t object;
     froe_diagnostic *diag;
@@ -192,9 +192,9 @@ static bool compare_place(void *user, const trace_place *place) {
 /* Objects of one job, each compared with its pieces, up to the first violation. */
 static froe_status check_chunk(void *user, unsigned worker, size_t job) {
     audit *a = user;
-    trace *t = a->traces + worker;
+    tree_trace *t = a->traces + worker;
     const bool space = tree_is_space(a->tree);
-    uint64_t begin = (uint64_t)job * CHUNK, end = begin + CHUNK, objects = a->tree->scene->object_count;
+    uint64_t begin = (uint64_t)job * JOB_OBJECTS, end = begin + JOB_OBJECTS, objects = a->tree->scene->object_count;
     froe_diagnostic diag;
     froe_status status = FROE_OK;
     for (uint64_t i = begin; i < end && i < objects && !status; i++) {
@@ -241,7 +241,7 @@ static froe_status check_lists(audit *a) {
         a->findings[i].job = SIZE_MAX;
         if (trace_new(a->tree, a->exact_only, a->traces + i)) return support_fail_memory(a->diag);
     }
-    froe_status status = base_run(a->task, 0.8, (objects + CHUNK - 1) / CHUNK, check_chunk, a);
+    froe_status status = base_run(a->task, 0.8, (objects + JOB_OBJECTS - 1) / JOB_OBJECTS, check_chunk, a);
     if (status == FROE_E_CANCELLED) return support_fail_cancelled(a->diag);
     const finding *first = a->findings;
     for (unsigned i = 1; i < threads; i++)

@@ -6,16 +6,16 @@
 #include "tree/crowd.h"
 #include <math.h>
 
-typedef struct pair {
+typedef struct solid_pair {
     num_context *context;
     base_task *task;
     const froe_scene *scene;
     normals *normals;
     uint32_t a, b;
-} pair;
+} solid_pair;
 
 /* False: cancelled. For long loops. */
-static bool pair_may_go_on(const pair *p) {
+static bool pair_may_go_on(const solid_pair *p) {
     return base_progress(p->task, p->task->done);
 }
 
@@ -37,7 +37,7 @@ static double largest_coordinate(const froe_scene *s, uint32_t object) {
 }
 
 /* Are they so far apart that builders have to find a plane, or is there one between two hulls that touch? */
-static froe_status separated(const pair *p, bool *out) {
+static froe_status separated(const solid_pair *p, bool *out) {
     const froe_scene *s = p->scene;
     normals *m = p->normals;
     *out = false;
@@ -118,7 +118,7 @@ froe_status inseparable_refuted(num_context *context, base_task *task, const fro
     *why = NULL;
     if (s->dim > 3 || share_a_point(s, list)) return FROE_OK;
     normals m = {.context = context, .alloc = tree->alloc, .dim = s->dim};
-    pair p = {.context = context, .task = task, .scene = s, .normals = &m};
+    solid_pair p = {.context = context, .task = task, .scene = s, .normals = &m};
     bool found = false;
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < list->count && !found && !status && pair_may_go_on(&p); i++) {
@@ -141,7 +141,7 @@ froe_status crowded_refuted(num_context *context, base_task *task, const froe_tr
     for (uint32_t i = 0; i < list->count; i++)
         if (scene_form(s, tree_object(list, i)) <= FROE_POLYGON) return FROE_OK;
     normals m = {.context = context, .alloc = tree->alloc, .dim = s->dim};
-    pair p = {.context = context, .task = task, .scene = s, .normals = &m};
+    solid_pair p = {.context = context, .task = task, .scene = s, .normals = &m};
     tree_crowd crowd = tree_crowd_of(list->count);
     froe_status status = FROE_OK;
     while (!status && !tree_crowd_known(&crowd) && pair_may_go_on(&p)) {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-froe_status trace_new(const froe_tree *tree, bool exact_only, trace *out) {
+froe_status trace_new(const froe_tree *tree, bool exact_only, tree_trace *out) {
     memset(out, 0, sizeof *out);
     out->alloc = tree->alloc;
     froe_status status = geom_context_new(&tree->alloc, &out->context);
@@ -15,7 +15,7 @@ froe_status trace_new(const froe_tree *tree, bool exact_only, trace *out) {
     return out->planes ? FROE_OK : FROE_E_MEMORY;
 }
 
-void trace_free(trace *t) {
+void trace_free(tree_trace *t) {
     array_free(&t->alloc, &t->corners);
     array_free(&t->alloc, &t->parts);
     array_free(&t->alloc, &t->solids);
@@ -25,7 +25,7 @@ void trace_free(trace *t) {
     if (t->tree) num_context_free(&t->context);
 }
 
-const geom_plane *trace_plane(trace *t, uint32_t node) {
+const geom_plane *trace_plane(tree_trace *t, uint32_t node) {
     uint32_t slot = node % TRACE_PLANES;
     if (t->planes->id1[slot] != node + 1) {
         t->planes->plane[slot] = tree_plane_at(t->tree, node);
@@ -37,7 +37,7 @@ const geom_plane *trace_plane(trace *t, uint32_t node) {
 /* ------------------------------------------------------------------- sides -- */
 
 /* The side of a corner of a part: by its image, or exactly by what meets there. */
-static int corner_side(trace *t, const geom_plane *plane, const trace_part *part, uint32_t i) {
+static int corner_side(tree_trace *t, const geom_plane *plane, const trace_part *part, uint32_t i) {
     const froe_scene *s = t->tree->scene;
     const trace_corner *c = t->corners.data + part->first;
     if (t->context.first == NUM_FILTER && isfinite(c[i].error)) {
@@ -58,7 +58,7 @@ static int corner_side(trace *t, const geom_plane *plane, const trace_part *part
 
 /* The one side of a plain node on which all corners surely are, as bits; 0: not known. An axis-parallel cut needs no
  * plane, as long as the images are sure. */
-static unsigned plain_side(const trace *t, const trace_part *part) {
+static unsigned plain_side(const tree_trace *t, const trace_part *part) {
     const tree_node *n = t->tree->nodes + part->node;
     unsigned reached = 0;
     if (n->type != TREE_PLAIN || t->context.first != NUM_FILTER || t->tree->scene->dim > 3) return 0;
@@ -74,7 +74,7 @@ static unsigned plain_side(const trace *t, const trace_part *part) {
 /* ---------------------------------------------------------------- dividing -- */
 
 /* Where the own edge that begins at `corner` crosses the plane. */
-static trace_corner own_crossing(const trace *t, const geom_plane *plane, uint32_t corner, uint32_t edge) {
+static trace_corner own_crossing(const tree_trace *t, const geom_plane *plane, uint32_t corner, uint32_t edge) {
     const froe_scene *s = t->tree->scene;
     uint32_t next = corner + 1 < scene_corners(s, t->object) ? corner + 1 : 0;
     trace_corner c = {.edge = edge};
@@ -83,7 +83,7 @@ static trace_corner own_crossing(const trace *t, const geom_plane *plane, uint32
 }
 
 /* Where an edge of the part, own or made by a cut, crosses the plane. */
-static trace_corner edge_crossing(const trace *t, const geom_plane *plane, uint32_t crossed, uint32_t edge) {
+static trace_corner edge_crossing(const tree_trace *t, const geom_plane *plane, uint32_t crossed, uint32_t edge) {
     if (!(crossed & TREE_EDGE_CUT)) return own_crossing(t, plane, crossed, edge);
     trace_corner c = {.edge = edge};
     geom_plane support, a = tree_plane_at(t->tree, crossed & ~TREE_EDGE_CUT);
@@ -92,13 +92,13 @@ static trace_corner edge_crossing(const trace *t, const geom_plane *plane, uint3
     return c;
 }
 
-static void put_trace_corner(trace *t, trace_corner c, uint32_t edge) {
+static void put_trace_corner(tree_trace *t, trace_corner c, uint32_t edge) {
     c.edge = edge;
     t->corners.data[t->corners.count++] = c;
 }
 
 /* Appends the polygon's part on one side. The edge in the plane comes where the ring leaves that side. */
-static void polygon_side(trace *t, const geom_plane *plane, const trace_part *part, uint32_t cut, int side) {
+static void polygon_side(tree_trace *t, const geom_plane *plane, const trace_part *part, uint32_t cut, int side) {
     const int8_t *sides = t->sides.data;
     for (uint32_t i = 0; i < part->count; i++) {
         trace_corner c = t->corners.data[part->first + i];
@@ -110,7 +110,7 @@ static void polygon_side(trace *t, const geom_plane *plane, const trace_part *pa
     }
 }
 
-static void segment_side(trace *t, const geom_plane *plane, const trace_part *part, uint32_t cut, int side) {
+static void segment_side(tree_trace *t, const geom_plane *plane, const trace_part *part, uint32_t cut, int side) {
     for (uint32_t i = 0; i < 2; i++) {
         trace_corner c = t->corners.data[part->first + i];
         put_trace_corner(t, t->sides.data[i] * side > 0 ? c : own_crossing(t, plane, 0, cut),
@@ -119,7 +119,7 @@ static void segment_side(trace *t, const geom_plane *plane, const trace_part *pa
 }
 
 /* Replaces a part by its two sides: the positive one waits, the negative one is next. */
-static froe_status divide_trace(trace *t, const geom_plane *plane, trace_part *part) {
+static froe_status divide_trace(tree_trace *t, const geom_plane *plane, trace_part *part) {
     uint32_t room = part->count + 2, top = part->first + part->count, cut = TREE_EDGE_CUT | part->node;
     uint32_t child = t->tree->nodes[part->node].child, middle;
     bool segment = scene_form(t->tree->scene, t->object) == FROE_SEGMENT;
@@ -140,7 +140,7 @@ static froe_status divide_trace(trace *t, const geom_plane *plane, trace_part *p
 /* ----------------------------------------------------------------- tracing -- */
 
 /* Follows one part until it arrives; what is cut off on the way waits. Sides of corners are kept in t->sides. */
-static froe_status follow_object(trace *t, trace_part part) {
+static froe_status follow_object(tree_trace *t, trace_part part) {
     while (!tree_is_leaf(t->tree->nodes + part.node)) {
         unsigned reached = plain_side(t, &part);
         if (reached) {
@@ -172,7 +172,7 @@ static froe_status follow_object(trace *t, trace_part part) {
     return FROE_OK;
 }
 
-froe_status trace_object(trace *t, uint32_t object, trace_fn *fn, void *user) {
+froe_status trace_object(tree_trace *t, uint32_t object, trace_fn *fn, void *user) {
     const froe_scene *s = t->tree->scene;
     const uint32_t count = scene_corners(s, object);
     const size_t bytes = (size_t)(s->dim < 3 ? s->dim : 3) * sizeof(double);

@@ -56,7 +56,7 @@ typedef struct trace_planes {
 } trace_planes;
 
 /** What tracing works with; one per thread. */
-typedef struct trace {
+typedef struct tree_trace {
     const froe_tree *tree;
     froe_allocator alloc;
     num_context context;
@@ -70,18 +70,18 @@ typedef struct trace {
     ARRAY(trace_solid) solids;
     ARRAY(int8_t) sides;
     ARRAY(uint32_t) ring;
-} trace;
+} tree_trace;
 
-froe_status trace_new(const froe_tree *tree, bool exact_only, trace *out);
-void trace_free(trace *t);
+froe_status trace_new(const froe_tree *tree, bool exact_only, tree_trace *out);
+void trace_free(tree_trace *t);
 /** Visits all places of one object, in the order of the lists. FROE_E_MEMORY. */
-froe_status trace_object(trace *t, uint32_t object, trace_fn *fn, void *user);
+froe_status trace_object(tree_trace *t, uint32_t object, trace_fn *fn, void *user);
 
 /** The plane of a node's cut; good until the next call. */
-const geom_plane *trace_plane(trace *t, uint32_t node);
+const geom_plane *trace_plane(tree_trace *t, uint32_t node);
 /** Does the object, a solid, certainly meet the open cell of a leaf? *meets is not changed above dimension 3, and where
  * images of cuts are too rough. FROE_E_MEMORY. */
-froe_status trace_cell_meets(trace *t, uint32_t leaf, bool *meets);
+froe_status trace_cell_meets(tree_trace *t, uint32_t leaf, bool *meets);
 /** The same as trace_object for boxes, balls and hulls; called by it. */
-froe_status trace_solid_object(trace *t);
+froe_status trace_solid_object(tree_trace *t);
 #endif

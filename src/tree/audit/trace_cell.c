@@ -14,12 +14,12 @@
 #include <math.h>
 
 typedef struct trace_cell {
-    trace *t;
+    tree_trace *t;
     double lo[3], hi[3]; /* the solid's bounding box, within the cuts and walls across an axis */
     ARRAY(double) normals, offsets;
 } trace_cell;
 
-static bool divides(trace *t, const geom_plane *plane, const geom_convex *solid) {
+static bool divides(tree_trace *t, const geom_plane *plane, const geom_convex *solid) {
     if (solid->radius > 0) return geom_side_ball(&t->context, plane, geom_convex_point(solid, 0), solid->radius) == 2;
     unsigned reached = 0;
     for (uint32_t i = 0; i < solid->count && reached != 3; i++) {
@@ -54,7 +54,7 @@ static bool keep_side(trace_cell *c, const geom_plane *plane, int side) {
     return room && array_push(alloc, &c->offsets, offset);
 }
 
-froe_status trace_cell_meets(trace *t, uint32_t leaf, bool *meets) {
+froe_status trace_cell_meets(tree_trace *t, uint32_t leaf, bool *meets) {
     const froe_scene *s = t->tree->scene;
     const tree_node *nodes = t->tree->nodes;
     trace_cell c = {.t = t};

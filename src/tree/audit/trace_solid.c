@@ -17,7 +17,8 @@
 /* ------------------------------------------------------------------- boxes -- */
 
 /* The sides of an oblique plane that a box reaches, and for each a corner strictly there. */
-static unsigned box_reach(trace *t, const geom_plane *plane, const double *lo, const double *hi, double strict[2][3]) {
+static unsigned box_reach(tree_trace *t, const geom_plane *plane, const double *lo, const double *hi,
+                          double strict[2][3]) {
     unsigned reached = 0;
     int dim = t->tree->scene->dim;
     for (unsigned i = 0; i < 1u << dim && reached != 3; i++) {
@@ -36,7 +37,7 @@ static unsigned interval_reach(double lo, double hi, double c) {
 }
 
 /* Below an oblique cut the whole box may be listed on every side it reaches; the part says where it must be. */
-static unsigned cut_box(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+static unsigned cut_box(tree_trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
     const int axis = plane->axis;
     const double c = plane->c;
     double strict[2][3], any[2][3], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -68,7 +69,7 @@ static unsigned cut_box(trace *t, const geom_plane *plane, const trace_solid *at
 /* ------------------------------------------------------------------- balls -- */
 
 /* Does the closed ball, r > 0, meet the open cell? */
-static bool ball_meets(trace *t, const trace_solid *at) {
+static bool ball_meets(tree_trace *t, const trace_solid *at) {
     const froe_scene *s = t->tree->scene;
     const double *c = scene_point(s, t->object, 0);
     double from[FROE_MAX_DIM], to[FROE_MAX_DIM];
@@ -82,7 +83,7 @@ static bool ball_meets(trace *t, const trace_solid *at) {
     return geom_reach_over_gaps(&t->context, gaps, from, to, scene_radius(s, t->object), 0) > 0;
 }
 
-static unsigned cut_ball(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+static unsigned cut_ball(tree_trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
     const froe_scene *s = t->tree->scene;
     const double *centre = scene_point(s, t->object, 0);
     int side = geom_side_ball(&t->context, plane, centre, scene_radius(s, t->object));
@@ -104,7 +105,7 @@ static unsigned cut_ball(trace *t, const geom_plane *plane, const trace_solid *a
 
 /* Corners of the hull on each side of the cut; those strictly on a side, of the corners known to be inside, follow
  * one another behind the waiting ones: first the positive, then the negative. */
-static unsigned cut_hull(trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
+static unsigned cut_hull(tree_trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
     const froe_scene *s = t->tree->scene;
     uint32_t n = scene_corners(s, t->object);
     unsigned reached = 0;
@@ -130,7 +131,7 @@ static unsigned cut_hull(trace *t, const geom_plane *plane, const trace_solid *a
 
 /* ----------------------------------------------------------------- tracing -- */
 
-static void arrive_solid(trace *t, const trace_solid *at, bool leaf) {
+static void arrive_solid(tree_trace *t, const trace_solid *at, bool leaf) {
     trace_place place = {.node = at->node, .must = at->exact || at->inside};
     const bool ball = leaf && scene_form(t->tree->scene, t->object) == FROE_BALL && at->exact;
     if (ball && !at->inside) place.must = ball_meets(t, at);
@@ -139,7 +140,7 @@ static void arrive_solid(trace *t, const trace_solid *at, bool leaf) {
 }
 
 /* Carries a waiting solid on; what is on the positive side of cuts on its way waits. False without memory. */
-static bool follow_solid(trace *t, trace_solid at) {
+static bool follow_solid(tree_trace *t, trace_solid at) {
     const froe_kind form = scene_form(t->tree->scene, t->object);
     while (!tree_is_leaf(t->tree->nodes + at.node)) {
         const geom_plane *plane = trace_plane(t, at.node);
@@ -161,7 +162,7 @@ static bool follow_solid(trace *t, trace_solid at) {
     return true;
 }
 
-froe_status trace_solid_object(trace *t) {
+froe_status trace_solid_object(tree_trace *t) {
     const froe_scene *s = t->tree->scene;
     const froe_kind form = scene_form(s, t->object);
     trace_solid root = {.exact = true, .inside = true};

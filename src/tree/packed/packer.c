@@ -3,8 +3,6 @@
 #include "tree/draft.h"
 #include <string.h>
 
-enum { MOST_NODES = 0x7ffffffe };
-
 /* Blocks begin at the first multiple of their size. */
 static size_t gap(const void *memory) {
     return (PACKED_BLOCK - (uintptr_t)memory % PACKED_BLOCK) % PACKED_BLOCK;
@@ -48,7 +46,7 @@ void packer_free(tree_packer *p) {
 }
 
 froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, uint32_t *child) {
-    if (p->nodes.count + 2 > MOST_NODES) return FROE_E_LIMIT;
+    if (p->nodes.count + 2 > TREE_MOST) return FROE_E_LIMIT;
     if (!array_reserve(&p->alloc, &p->nodes, 2)) return FROE_E_MEMORY;
     *child = (uint32_t)p->nodes.count;
     p->nodes.data[node] = (tree_node){.u.value = value, .child = *child, .type = TREE_PLAIN, .axis = (uint8_t)axis};
@@ -61,7 +59,7 @@ froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, 
 static froe_status take_leaf(tree_packer *p, uint32_t node, uint32_t count, uint32_t size, uint8_t flags,
                              void **block) {
     uint64_t need = (uint64_t)p->block_count + size, room = p->block_room + p->block_room / 2 + 16;
-    if (count > MOST_NODES - p->piece_count) return FROE_E_LIMIT;
+    if (count > TREE_MOST - p->piece_count) return FROE_E_LIMIT;
     if (need > p->block_room) {
         if (need >= UINT32_MAX - 1) return FROE_E_LIMIT;
         if (room < need || room >= UINT32_MAX - 1) room = need;

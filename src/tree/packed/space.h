@@ -88,7 +88,7 @@ uint32_t space_sort(space_item *items, uint32_t count);
 void space_write(space_header *block, const froe_scene *s, const space_item *items, uint32_t count, uint32_t triangles);
 /** Checks what is special of a packed tree of space whose nodes have been checked (tree/validate.h). */
 froe_status space_validate(const froe_tree *t, froe_diagnostic *diag);
-/** What a block stores of a piece: may its object meet the cell, are its numbers right, and does the box of the leaf hold
- * what the object has there? Exact. NULL, or what is wrong, as a clause. */
+/** Checks a piece in its block: its object may meet the cell, its numbers are right, and the box of the leaf holds the
+ * part of the object in the cell. Exact. NULL, or what is wrong, as a clause. */
 const char *space_refuted(num_context *context, const froe_tree *t, uint32_t piece);
 #endif

@@ -13,9 +13,9 @@
 #include "tree/packed/space.h"
 #include <math.h>
 
-typedef struct space_cell {
+typedef struct audited_cell {
     double lo[3], hi[3];
-} space_cell;
+} audited_cell;
 
 /* The sign of (x - lo) scale - unit. */
 static int beside(num_context *context, const space_header *h, int k, double x, double unit) {
@@ -37,7 +37,7 @@ static double outside(num_context *context, const space_header *h, int k, double
 }
 
 /* Is nothing of the object in the cell outside of the box? */
-static bool is_within_cell(num_context *context, const froe_tree *t, const space_header *h, const space_cell *cell,
+static bool is_within_cell(num_context *context, const froe_tree *t, const space_header *h, const audited_cell *cell,
                            uint32_t object, const uint16_t box[2][3]) {
     const geom_convex set = scene_convex(t->scene, object);
     double least[3], most[3];
@@ -58,7 +58,7 @@ static bool is_within_cell(num_context *context, const froe_tree *t, const space
 }
 
 const char *space_refuted(num_context *context, const froe_tree *t, uint32_t piece) {
-    space_cell cell;
+    audited_cell cell;
     const tree_node *leaf = t->nodes + packed_leaf_in(t, piece, cell.lo, cell.hi);
     const space_header *h = space_block(t, leaf->child);
     const uint32_t i = piece - leaf->u.list.first, id = space_ids(h)[i], object = id & PACKED_OBJECT;
