@@ -66,8 +66,9 @@ static inline num_ball filter_value(const geom_plane *h, const double *x) {
     }
     if (h->form == GEOM_VECTOR) return filter_sum(h, x, h->c);
     const double *o = h->p[0];
-    const double w[3] = {x[0] - o[0], x[1] - o[1], h->dim == 3 ? x[2] - o[2] : 0};
-    return filter_sum(h, w, 0);
+    const double w0 = x[0] - o[0], w1 = x[1] - o[1];
+    if (h->dim == 2) return filter_sum_in(2, h, (const double[2]){w0, w1}, 0);
+    return filter_sum_in(3, h, (const double[3]){w0, w1, x[2] - o[2]}, 0);
 }
 
 /* The sign of f(x) in the plane, form POINTS, or NUM_UNSURE: the filter_value that builders use most. */
