@@ -87,8 +87,8 @@ geom_answer geom_between(num_context *context, int dim, geom_member *members, ui
         if (done && !s.depth) break;
         if (!done && !step_walk(&s)) return GEOM_NO;
         if (!done) continue;
-        /* Back to the planes through one point less; the plane found is right for the point that was wrong, too. That is
-         * likely to be wrong again: it is looked at first from now on. */
+        /* Back to the planes through one point less; the plane found is right for the point that was wrong, too. Such a
+         * point is likely to be wrong again: it is looked at first from now on. */
         const bool strict = s.levels[s.depth--].strict;
         level *l = s.levels + s.depth;
         const uint32_t at = l->next++;

@@ -91,22 +91,18 @@ geom_plane geom_plane_at_vertex(int dim, const double *p) {
     return plane;
 }
 
-/* Fills c and c_err. The lines may cross anywhere, so nothing confines the image to a segment. */
-static void image_crossing(geom_plane *plane) {
-    const double *points[2] = {plane->p[2], plane->p[3]}, *u = plane->p[0], *v = plane->p[1];
-    const geom_plane line = geom_plane_points(2, points);
-    num_ball share = filter_div(filter_value(&line, u), filter_slope(&line, u, v));
-    num_ball x = filter_add(num_ball_from(u[0]), filter_mul(filter_difference(u[0], v[0]), share));
-    bool certain = num_rounding_trusted() && fabs(x.x) <= 0x1p1000 && x.e <= 0x1p1000; /* false for NaN */
-    plane->c = certain ? x.x : u[0];
-    plane->c_err = certain ? x.e * FILTER_UP : (double)INFINITY;
-}
-
 geom_plane geom_plane_at_crossing(int dim, const double *const ends[4]) {
     geom_plane plane = geom_plane_axis(dim, 0, 0);
     plane.form = GEOM_AT_CROSSING;
     for (int i = 0; i < 4; i++) plane.p[i][0] = ends[i][0], plane.p[i][1] = ends[i][1];
-    image_crossing(&plane);
+    /* c and c_err. The lines may cross anywhere, so nothing confines the image to a segment. */
+    const double *points[2] = {plane.p[2], plane.p[3]}, *u = plane.p[0], *v = plane.p[1];
+    const geom_plane line = geom_plane_points(2, points);
+    num_ball share = filter_div(filter_value(&line, u), filter_slope(&line, u, v));
+    num_ball x = filter_add(num_ball_from(u[0]), filter_mul(filter_difference(u[0], v[0]), share));
+    bool certain = num_rounding_trusted() && fabs(x.x) <= 0x1p1000 && x.e <= 0x1p1000; /* false for NaN */
+    plane.c = certain ? x.x : u[0];
+    plane.c_err = certain ? x.e * FILTER_UP : (double)INFINITY;
     return plane;
 }
 

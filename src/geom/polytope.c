@@ -67,18 +67,6 @@ static bool cut_line(polytope_line *l, uint32_t plane) {
     return other == FROE_NONE || is_within_line(l, plane, other) >= 0;
 }
 
-/* The box ends every line. */
-static bool find_ends(polytope_line *l, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++)
-        if (i != l->a && i != l->b && !cut_line(l, i)) return false;
-    for (uint32_t i = 0; i < count && l->put_off; i++) {
-        const geom_plane *planes = l->polytope->planes.data;
-        if (i == l->a || i == l->b || turn_of_planes(l->context, planes + i, planes + l->a, planes + l->b)) continue;
-        if (is_within_line(l, i, l->after[0]) < 0) return false;
-    }
-    return true;
-}
-
 static int by_number(const void *a, const void *b) {
     uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
     return (x > y) - (x < y);
@@ -90,18 +78,22 @@ static bool add_polytope_corner(const froe_allocator *alloc, geom_polytope *p, u
     return array_push(alloc, &p->corners, corner);
 }
 
-static bool parallel(num_context *context, const geom_plane *a, const geom_plane *b) {
-    for (int k = 0; k < 3; k++) {
-        geom_plane axis = geom_plane_axis(3, k, 0);
-        if (turn_of_planes(context, a, b, &axis)) return false;
-    }
-    return true;
-}
-
 static bool add_polytope_line(num_context *context, const froe_allocator *alloc, geom_polytope *p, uint32_t a,
                               uint32_t b, uint32_t count) {
     polytope_line l = {.context = context, .polytope = p, .a = a, .b = b, .after = {FROE_NONE, FROE_NONE}};
-    if (parallel(context, p->planes.data + a, p->planes.data + b) || !find_ends(&l, count)) return true;
+    const geom_plane *planes = p->planes.data;
+    bool parallel = true;
+    for (int k = 0; k < 3 && parallel; k++) {
+        geom_plane axis = geom_plane_axis(3, k, 0);
+        parallel = !turn_of_planes(context, planes + a, planes + b, &axis);
+    }
+    if (parallel) return true;
+    for (uint32_t i = 0; i < count; i++) /* the box ends every line */
+        if (i != a && i != b && !cut_line(&l, i)) return true;
+    for (uint32_t i = 0; i < count && l.put_off; i++) {
+        if (i == a || i == b || turn_of_planes(context, planes + i, planes + a, planes + b)) continue;
+        if (is_within_line(&l, i, l.after[0]) < 0) return true;
+    }
     return add_polytope_corner(alloc, p, a, b, l.after[0]) && add_polytope_corner(alloc, p, a, b, l.after[1]);
 }
 

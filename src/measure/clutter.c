@@ -47,26 +47,6 @@ static double draw_share(clutter_survey *s) {
 
 /* ------------------------------------------------------------------ growing -- */
 
-/* The largest cube around a point without a guard inside. */
-static cube grow_around(clutter_survey *s, const double *centre) {
-    cube c = {.blocked = 0};
-    double half = s->limit / 2;
-    for (int k = 0; k < s->dim; k++) c.lo[k] = centre[k] - half, c.hi[k] = centre[k] + half;
-    measure_search search = measure_search_begin(&s->guards, c.lo, c.hi, 0);
-    for (uint32_t g; (g = measure_search_next(&search)) != FROE_NONE;) {
-        const double *p = s->points + (size_t)g * (size_t)s->dim;
-        int axis = 0;
-        for (int k = 1; k < s->dim; k++)
-            if (fabs(p[k] - centre[k]) > fabs(p[axis] - centre[axis])) axis = k;
-        double far = fabs(p[axis] - centre[axis]);
-        if (far >= half) continue;
-        half = far; /* the search goes on in the smaller cube */
-        c.blocked = 1u << (2 * axis + (p[axis] > centre[axis]));
-        for (int k = 0; k < s->dim; k++) c.lo[k] = centre[k] - half, c.hi[k] = centre[k] + half;
-    }
-    return c;
-}
-
 /* Moves the corner between the free sides outwards, until the next guard is in one of them. */
 static void grow_away(clutter_survey *s, cube *c) {
     unsigned up = 0;
@@ -101,7 +81,21 @@ static void grow_away(clutter_survey *s, cube *c) {
 }
 
 static cube grow_cube(clutter_survey *s, const double *centre) {
-    cube c = grow_around(s, centre);
+    cube c = {.blocked = 0};
+    double half = s->limit / 2; /* of the largest cube around the point without a guard inside */
+    for (int k = 0; k < s->dim; k++) c.lo[k] = centre[k] - half, c.hi[k] = centre[k] + half;
+    measure_search search = measure_search_begin(&s->guards, c.lo, c.hi, 0);
+    for (uint32_t g; (g = measure_search_next(&search)) != FROE_NONE;) {
+        const double *p = s->points + (size_t)g * (size_t)s->dim;
+        int axis = 0;
+        for (int k = 1; k < s->dim; k++)
+            if (fabs(p[k] - centre[k]) > fabs(p[axis] - centre[axis])) axis = k;
+        double far = fabs(p[axis] - centre[axis]);
+        if (far >= half) continue;
+        half = far; /* the search goes on in the smaller cube */
+        c.blocked = 1u << (2 * axis + (p[axis] > centre[axis]));
+        for (int k = 0; k < s->dim; k++) c.lo[k] = centre[k] - half, c.hi[k] = centre[k] + half;
+    }
     for (int turn = 0; turn <= s->dim; turn++) {
         bool locked = !c.blocked; /* between opposite sides */
         for (int k = 0; k < s->dim; k++) locked |= (c.blocked >> 2 * k & 3) == 3;
@@ -161,23 +155,6 @@ static void keep_cube(clutter_survey *s, const cube *c, uint32_t met) {
     s->keys[at] = s->key;
 }
 
-/* Tries cubes around places within a good one, until CLIMB in a row meet no more objects. */
-static void climb_from(clutter_survey *s, cube *best, uint32_t *most) {
-    for (int try = 0; try < CLIMB; try++) {
-        double centre[FROE_MAX_DIM];
-        for (int k = 0; k < s->dim; k++) {
-            double share = try % 2 ? draw_share(s) : 0.35 + 0.3 * draw_share(s);
-            centre[k] = best->lo[k] * (1 - share) + best->hi[k] * share;
-        }
-        cube c = grow_cube(s, centre);
-        uint32_t met = count(s, &c);
-        if (met <= *most) continue;
-        *most = met;
-        *best = c;
-        try = -1;
-    }
-}
-
 /* Cubes around places near objects, at a distance of any order of magnitude. */
 static froe_status look_everywhere(clutter_survey *s) {
     for (uint32_t i = 0; i < s->sample.count; i++) {
@@ -205,7 +182,19 @@ static froe_status look_for_clutter(clutter_survey *s, froe_clutter *out) {
     uint32_t best = 0;
     for (uint32_t i = 0; i < BEST && !status; i++) {
         s->key = s->keys[i];
-        climb_from(s, s->cubes + i, s->met + i);
+        for (int try = 0; try < CLIMB; try++) { /* cubes around places within it, until CLIMB in a row meet no more */
+            double centre[FROE_MAX_DIM];
+            for (int k = 0; k < s->dim; k++) {
+                double share = try % 2 ? draw_share(s) : 0.35 + 0.3 * draw_share(s);
+                centre[k] = s->cubes[i].lo[k] * (1 - share) + s->cubes[i].hi[k] * share;
+            }
+            cube c = grow_cube(s, centre);
+            uint32_t met = count(s, &c);
+            if (met <= s->met[i]) continue;
+            s->met[i] = met;
+            s->cubes[i] = c;
+            try = -1;
+        }
         if (s->met[i] > s->met[best]) best = i;
     }
     if (status) return status;

@@ -51,31 +51,21 @@ static void look_at_objects(defect_survey *v, froe_defects *out) {
 /* ------------------------------------------------------------------- pairs -- */
 
 /* Is the way in which two segments, or two polygons, meet odd? */
-static oddity look_closely(tally *t, const froe_scene *s, uint32_t a, uint32_t b) {
+static bool look_at_pair(void *user, unsigned worker, uint32_t i, uint32_t j) {
     static const oddity by_touch[] = {[GEOM_TOUCH_AT_CORNER] = APART,
                                       [GEOM_TOUCH_ALONG] = APART,
                                       [GEOM_TOUCH_JUNCTION] = T_JUNCTION,
                                       [GEOM_TOUCH_EDGES] = CROSSING};
-    geom_body p = scene_body(s, a), q = scene_body(s, b);
-    geom_contact m =
-        s->dim == 2 ? geom_contact_segments(&t->context, &p, &q) : geom_contact_polygons(&t->context, &p, &q, t->sides);
-    switch (m.kind) {
-    case GEOM_CROSS:
-        return CROSSING;
-    case GEOM_OVERLAP:
-        return OVERLAP;
-    case GEOM_TOUCH:
-        return by_touch[m.touch];
-    default:
-        return APART;
-    }
-}
-
-static bool look_at_pair(void *user, unsigned worker, uint32_t i, uint32_t j) {
     defect_survey *v = user;
     tally *t = v->tallies + worker;
-    uint32_t a = v->objects[i < j ? i : j], b = v->objects[i < j ? j : i];
-    oddity contact = look_closely(t, v->scene, a, b);
+    const uint32_t a = v->objects[i < j ? i : j], b = v->objects[i < j ? j : i];
+    const geom_body p = scene_body(v->scene, a), q = scene_body(v->scene, b);
+    const geom_contact m = v->scene->dim == 2 ? geom_contact_segments(&t->context, &p, &q)
+                                              : geom_contact_polygons(&t->context, &p, &q, t->sides);
+    const oddity contact = m.kind == GEOM_CROSS     ? CROSSING
+                           : m.kind == GEOM_OVERLAP ? OVERLAP
+                           : m.kind == GEOM_TOUCH   ? by_touch[m.touch]
+                                                    : APART;
     uint32_t *first = t->first[contact];
     if (!t->counts[contact]++ || a < first[0] || (a == first[0] && b < first[1])) first[0] = a, first[1] = b;
     return true;

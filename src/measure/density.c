@@ -116,17 +116,6 @@ static void keep_candidate(density_survey *s, candidate c) {
     if (at < TRIED) s->best[at] = c;
 }
 
-static froe_status note_object(density_survey *s, uint32_t object) {
-    measure_ball ball;
-    double radius;
-    if (!look_around(s, object, &ball, &radius)) return FROE_E_MEMORY;
-    uint32_t count = (uint32_t)s->near.count;
-    if (count > s->out.upper) s->out.upper = count;
-    if (count > s->out.lower) try_ball(s, ball.centre, radius);
-    keep_candidate(s, (candidate){count, object, s->keys[object]});
-    return array_push(&s->sample.alloc, &s->sample.values[0], count) ? FROE_OK : FROE_E_MEMORY;
-}
-
 static froe_status begin_density(density_survey *s) {
     const froe_scene *scene = s->sample.scene;
     const froe_allocator *alloc = &s->sample.alloc;
@@ -151,9 +140,21 @@ froe_status froe_measure_density(const froe_scene *scene, froe_size size, const 
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;
     status = begin_density(&s);
-    for (uint32_t i = 0; i < s.sample.count && !status; i++)
-        status = measure_sample_go_on(&s.sample, i) ? note_object(&s, measure_sample_object(&s.sample, i))
-                                                    : FROE_E_CANCELLED;
+    for (uint32_t i = 0; i < s.sample.count && !status; i++) {
+        const uint32_t object = measure_sample_object(&s.sample, i);
+        measure_ball ball;
+        double radius;
+        if (!measure_sample_go_on(&s.sample, i)) {
+            status = FROE_E_CANCELLED;
+            break;
+        }
+        bool ok = look_around(&s, object, &ball, &radius);
+        const uint32_t count = (uint32_t)s.near.count;
+        if (ok && count > s.out.upper) s.out.upper = count;
+        if (ok && count > s.out.lower) try_ball(&s, ball.centre, radius);
+        if (ok) keep_candidate(&s, (candidate){count, object, s.keys[object]});
+        if (!ok || !array_push(&s.sample.alloc, &s.sample.values[0], count)) status = FROE_E_MEMORY;
+    }
     for (uint32_t i = 0; i < s.best_count && s.best[i].load > s.out.lower && !status; i++) {
         measure_ball ball;
         double radius;

@@ -97,25 +97,6 @@ static bool make_node(maker *m, int axis, const size_t *from, uint32_t count) {
     return axis < d->dim - 2 || make_plane(m, d->nodes.count - 1);
 }
 
-/* Axis by axis: the children of each node are the nodes of a Fenwick tree over its points. */
-static bool make_tree(maker *m) {
-    measure_dominance *d = m->d;
-    bool ok = make_node(m, 0, NULL, m->count);
-    size_t at = 0;
-    for (int axis = 0; axis < d->dim - 2 && ok; axis++)
-        for (size_t end = d->nodes.count; at < end && ok; at++) {
-            const uint32_t count = d->nodes.data[at].count;
-            const size_t keys = d->nodes.data[at].keys;
-            d->nodes.data[at].next = d->nodes.count;
-            for (uint32_t j = 1; j <= count && ok; j++) {
-                const uint32_t low = j & -j;
-                const size_t from = keys + j - low;
-                ok = make_node(m, axis + 1, &from, low);
-            }
-        }
-    return ok;
-}
-
 froe_status measure_dominance_new(const froe_allocator *alloc, int dim, uint32_t count, uint32_t *const rank[],
                                   measure_dominance *out) {
     size_t dims = (size_t)dim, numbers = (dims + 3) * count;
@@ -128,7 +109,19 @@ froe_status measure_dominance_new(const froe_allocator *alloc, int dim, uint32_t
         m.at[k] = scratch + k * count;
         for (uint32_t i = 0; i < count; i++) m.at[k][rank[k][i]] = i;
     }
-    bool ok = make_tree(&m);
+    bool ok = make_node(&m, 0, NULL, count);
+    size_t at = 0;
+    for (int axis = 0; axis < dim - 2 && ok; axis++) /* the children of each node are those of a Fenwick tree */
+        for (size_t end = out->nodes.count; at < end && ok; at++) {
+            const uint32_t points = out->nodes.data[at].count;
+            const size_t keys = out->nodes.data[at].keys;
+            out->nodes.data[at].next = out->nodes.count;
+            for (uint32_t j = 1; j <= points && ok; j++) {
+                const uint32_t low = j & -j;
+                const size_t from = keys + j - low;
+                ok = make_node(&m, axis + 1, &from, low);
+            }
+        }
     support_free(alloc, scratch, (numbers ? numbers : 1) * sizeof *scratch);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

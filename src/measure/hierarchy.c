@@ -34,23 +34,6 @@ static void copy_entry(measure_hierarchy *h, uint32_t to, const double *lo, cons
     h->size[to] = size;
 }
 
-static void fill_level(measure_hierarchy *h, uint32_t level) {
-    uint32_t below = h->first[level - 1], end = h->first[level];
-    for (uint32_t child = below; child < end; child++) {
-        uint32_t node = end + (child - below) / MEASURE_FAN;
-        size_t a = (size_t)node * (size_t)h->dim, b = (size_t)child * (size_t)h->dim;
-        if ((child - below) % MEASURE_FAN == 0) {
-            copy_entry(h, node, h->lo + b, h->hi + b, h->size[child]);
-            continue;
-        }
-        for (int k = 0; k < h->dim; k++, a++, b++) {
-            if (h->lo[b] < h->lo[a]) h->lo[a] = h->lo[b];
-            if (h->hi[b] > h->hi[a]) h->hi[a] = h->hi[b];
-        }
-        if (h->size[child] > h->size[node]) h->size[node] = h->size[child];
-    }
-}
-
 froe_status measure_hierarchy_new(const froe_allocator *alloc, int dim, uint32_t count, const double *lo,
                                   const double *hi, const double *size, measure_hierarchy *out) {
     *out = (measure_hierarchy){.alloc = *alloc, .dim = dim, .count = count};
@@ -74,7 +57,20 @@ froe_status measure_hierarchy_new(const froe_allocator *alloc, int dim, uint32_t
         size_t at = (size_t)out->ids[i] * (size_t)dim;
         copy_entry(out, i, lo + at, hi + at, size ? size[out->ids[i]] : 0);
     }
-    for (uint32_t level = 1; level < out->levels; level++) fill_level(out, level);
+    for (uint32_t level = 1, child = 0; level < out->levels; level++)
+        for (uint32_t below = child, end = out->first[level]; child < end; child++) {
+            const uint32_t node = end + (child - below) / MEASURE_FAN;
+            size_t a = (size_t)node * (size_t)dim, b = (size_t)child * (size_t)dim;
+            if ((child - below) % MEASURE_FAN == 0) {
+                copy_entry(out, node, out->lo + b, out->hi + b, out->size[child]);
+                continue;
+            }
+            for (int k = 0; k < dim; k++, a++, b++) {
+                if (out->lo[b] < out->lo[a]) out->lo[a] = out->lo[b];
+                if (out->hi[b] > out->hi[a]) out->hi[a] = out->hi[b];
+            }
+            if (out->size[child] > out->size[node]) out->size[node] = out->size[child];
+        }
     return FROE_OK;
 }
 

@@ -141,25 +141,20 @@ static froe_status make_trees(sheet_search *s) {
 }
 
 /* A loose object visits all sheets, an object of a sheet visits the sheets before it. */
-static bool visit_sheets(sheet_search *s, unsigned worker, uint32_t visitor) {
-    size_t at = (size_t)visitor * (size_t)s->of->scene->dim;
-    measure_search sheets = measure_search_begin(&s->bounds, s->lo + at, s->hi + at, 0);
-    for (uint32_t i; (i = measure_search_next(&sheets)) != FROE_NONE;) {
-        const sheet *t = s->sheets.data + i;
-        if (visitor < t->end) continue;
-        measure_search in = measure_search_begin(&t->boxes, s->lo + at, s->hi + at, 0);
-        for (uint32_t k; (k = measure_search_next(&in)) != FROE_NONE;)
-            if (base_cancelled(s->task) || !s->fn(s->user, worker, s->order[visitor], s->order[t->first + k]))
-                return false;
+static froe_status visit_sheets(void *user, unsigned worker, size_t job) {
+    const sheet_search *s = user;
+    const size_t dim = (size_t)s->of->scene->dim, end = (job + 1) * VISITORS;
+    for (size_t i = job * VISITORS; i < end && i < s->of->count; i++) {
+        const double *lo = s->lo + i * dim, *hi = s->hi + i * dim;
+        measure_search sheets = measure_search_begin(&s->bounds, lo, hi, 0);
+        for (uint32_t t; (t = measure_search_next(&sheets)) != FROE_NONE;) {
+            const sheet *visited = s->sheets.data + t;
+            measure_search in = measure_search_begin(&visited->boxes, lo, hi, 0);
+            for (uint32_t k; i >= visited->end && (k = measure_search_next(&in)) != FROE_NONE;)
+                if (base_cancelled(s->task) || !s->fn(s->user, worker, s->order[i], s->order[visited->first + k]))
+                    return FROE_E_CANCELLED;
+        }
     }
-    return true;
-}
-
-static froe_status visit_job(void *user, unsigned worker, size_t job) {
-    sheet_search *s = user;
-    size_t end = (job + 1) * VISITORS;
-    for (size_t i = job * VISITORS; i < end && i < s->of->count; i++)
-        if (!visit_sheets(s, worker, (uint32_t)i)) return FROE_E_CANCELLED;
     return FROE_OK;
 }
 
@@ -199,7 +194,7 @@ static froe_status search_sheets(sheet_search *s) {
     if (!status)
         status = geom_box_pairs(s->alloc, s->task, 0.25, s->of->scene->dim, count - s->straight, s->lo + first,
                                 s->hi + first, loose_pair, s);
-    if (!status) status = base_run(s->task, 0.25, (count + (size_t)VISITORS - 1) / VISITORS, visit_job, s);
+    if (!status) status = base_run(s->task, 0.25, (count + (size_t)VISITORS - 1) / VISITORS, visit_sheets, s);
     support_free(s->alloc, s->pairs, 2 * (size_t)count * sizeof *s->pairs);
     support_free(s->alloc, s->order, count * sizeof *s->order);
     support_free(s->alloc, s->lo, numbers * sizeof *s->lo);

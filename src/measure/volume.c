@@ -130,18 +130,6 @@ static bool begin_hull(hull *h) {
     return true;
 }
 
-static double sum_of_tetrahedra(const hull *h, double scale) {
-    const double *o = hull_corner(h, 0);
-    double sum = 0, v[3][3];
-    for (size_t i = 0; i < h->facets.count; i++) {
-        for (int j = 0; j < 3; j++)
-            for (int k = 0; k < 3; k++) v[j][k] = h->facets.data[i].p[j][k] * scale - o[k] * scale;
-        sum += v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
-               v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
-    }
-    return sum / 6;
-}
-
 froe_status measure_hull_volume(num_context *context, const froe_allocator *alloc, const froe_scene *scene,
                                 uint32_t object, double scale, double *out) {
     hull h = {.context = context, .alloc = alloc, .scene = scene, .object = object};
@@ -152,7 +140,15 @@ froe_status measure_hull_volume(num_context *context, const froe_allocator *allo
     bool ok = begin_hull(&h);
     for (uint32_t i = 0; i < scene_corners(scene, object) && ok && h.facets.count; i++)
         ok = add_hull_corner(&h, hull_corner(&h, i));
-    if (ok) *out = sum_of_tetrahedra(&h, scale);
+    const double *o = hull_corner(&h, 0);
+    double sum = 0, v[3][3]; /* of the tetrahedra between o and the facets, six times */
+    for (size_t i = 0; i < h.facets.count && ok; i++) {
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) v[j][k] = h.facets.data[i].p[j][k] * scale - o[k] * scale;
+        sum += v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
+               v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+    }
+    if (ok) *out = sum / 6;
     array_free(alloc, &h.facets);
     array_free(alloc, &h.border);
     return ok ? FROE_OK : FROE_E_MEMORY;

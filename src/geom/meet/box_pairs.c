@@ -209,22 +209,6 @@ static void step_frame(worker *w, box_frame *f) {
     }
 }
 
-static froe_status run_box_search(const box_search *s, worker *w) {
-    while (w->depth) {
-        box_frame *f = &w->stack[w->depth - 1];
-        if (f->step != 1) w->arena.count = f->top; /* step 1 uses what step 0 copied */
-        size_t less = f->interval_count < f->point_count ? f->interval_count : f->point_count;
-        if (f->axis && less >= SMALL) {
-            if (!array_reserve(s->alloc, &w->arena, f->interval_count + f->point_count)) return FROE_E_MEMORY;
-            step_frame(w, f);
-            continue;
-        }
-        w->depth--;
-        if (less && !(f->axis ? scan_both(s, w, f) : scan(s, w, f))) return FROE_E_CANCELLED;
-    }
-    return FROE_OK;
-}
-
 /* -------------------------------------------------------------------- jobs -- */
 
 /* One slab of the last axis: the boxes that begin in it against all that meet it. */
@@ -248,7 +232,19 @@ static froe_status run_slab(void *user, unsigned number, size_t slab) {
     }
     all.point_count = w->arena.count - all.points;
     push_frame(w, all);
-    return run_box_search(s, w);
+    while (w->depth) {
+        box_frame *f = &w->stack[w->depth - 1];
+        if (f->step != 1) w->arena.count = f->top; /* step 1 uses what step 0 copied */
+        size_t less = f->interval_count < f->point_count ? f->interval_count : f->point_count;
+        if (f->axis && less >= SMALL) {
+            if (!array_reserve(s->alloc, &w->arena, f->interval_count + f->point_count)) return FROE_E_MEMORY;
+            step_frame(w, f);
+            continue;
+        }
+        w->depth--;
+        if (less && !(f->axis ? scan_both(s, w, f) : scan(s, w, f))) return FROE_E_CANCELLED;
+    }
+    return FROE_OK;
 }
 
 froe_status geom_box_pairs(const froe_allocator *alloc, base_task *task, double span, int dim, uint32_t count,
