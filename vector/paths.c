@@ -26,13 +26,15 @@ static bool shares_path(const vector_render *r, const froe_shape *first, const f
 
 /* ----------------------------------------------------------------------- showing -- */
 
+__extension__ typedef __int128 step_area; /* products of steps on a page of any size */
+
 bool vector_ring_shows(const vector_render *r, const froe_outline *ring) {
     const double *points = ring->points;
-    int64_t area = 0;
+    step_area area = 0;
     for (size_t i = 1; i + 1 < ring->count; i++) {
         const int64_t x = vector_step(r, points[0]), y = vector_step(r, points[1]);
-        const int64_t a = vector_step(r, points[2 * i]) - x, b = vector_step(r, points[2 * i + 1]) - y,
-                      c = vector_step(r, points[2 * i + 2]) - x, d = vector_step(r, points[2 * i + 3]) - y;
+        const step_area a = vector_step(r, points[2 * i]) - x, b = vector_step(r, points[2 * i + 1]) - y,
+                        c = vector_step(r, points[2 * i + 2]) - x, d = vector_step(r, points[2 * i + 3]) - y;
         area += a * d - b * c;
     }
     return area != 0;

@@ -66,7 +66,7 @@ static froe_status find_picture(vector_render *r, froe_diagnostic *diag) {
     return froe_picture_new(r->tree, r->surface, &p, &r->picture, diag);
 }
 
-/* Everything but the bytes. What it returns with any status, render_free() gives back. */
+/* Everything but the bytes. Whatever its status, free_render() gives back what it has made. */
 static froe_status prepare(vector_render *r, const froe_camera *camera, froe_diagnostic *diag) {
     r->alloc = support_allocator(r->options->alloc);
     froe_status status = froe_camera_place(camera, r->scene, &r->view, diag);

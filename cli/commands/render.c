@@ -116,7 +116,7 @@ static const cli_option file[] = {
      .help = "SVG: none (default) or object: a group with data-layer around each run of faces of one object",
      .choices = layers},
     {"title", 0, CLI_TEXT, offsetof(render_args, title), "TEXT", .help = "SVG, PDF: title of the picture"},
-    {"desc", 0, CLI_TEXT, offsetof(render_args, description), "TEXT", .help = "SVG: description of the picture"},
+    {"desc", 0, CLI_TEXT, offsetof(render_args, description), "TEXT", .help = "SVG, PDF: description of the picture"},
     {"pixels", 0, CLI_REAL, offsetof(render_args, pixels), "S", .help = "PNG: pixels per unit of the page (default 1)"},
     {0},
 };

@@ -218,6 +218,57 @@ static void opacity_is_a_state_that_the_page_defines(void **state) {
     froe_tree_free(tree);
 }
 
+typedef struct path_tally {
+    uint64_t paths, rings, points; /* of faces */
+} path_tally;
+
+static bool tally_path(void *user, const froe_render_path *path) {
+    path_tally *t = user;
+    for (size_t i = 0; !path->lines && i < path->count; i++) t->rings++, t->points += path->outlines[i].count;
+    t->paths += !path->lines;
+    return true;
+}
+
+/* Also of shapes with holes, and once more of each where faces are painted twice. */
+static void paths_hold_every_ring_of_every_shape(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(random_triangles(200, 0.6), "density", 1);
+    bool holes = false;
+    for (int paint = 0; paint <= FROE_PAINT_FRAGMENTS; paint++) {
+        path_tally once = {0, 0, 0}, twice = once;
+        froe_render_options o = froe_render_defaults();
+        froe_render_report r;
+        o.paint = (froe_paint)paint;
+        o.seams = FROE_SEAMS_NONE;
+        o.shading = FROE_SHADE_WHITE; /* so that a shape too thin to show shares the path of one that shows */
+        o.lines = 0;
+        assert_int_equal(froe_render_paths(tree, 1e6, tally_path, &once, &o, &r, NULL), FROE_OK);
+        assert_int_equal(once.points, r.picture.points);
+        holes = holes || once.rings > r.picture.shapes;
+        o.seams = FROE_SEAMS_TWICE;
+        assert_int_equal(froe_render_paths(tree, 1e6, tally_path, &twice, &o, NULL, NULL), FROE_OK);
+        assert_int_equal(twice.paths, 2 * once.paths);
+        assert_int_equal(twice.points, 2 * once.points);
+    }
+    assert_true(holes);
+    froe_tree_free(tree);
+}
+
+/* Areas in squares of the finest steps of the largest page exceed 64 bits: UndefinedBehaviorSanitizer sees to that. */
+static void the_largest_page_takes_the_finest_steps(void **state) {
+    (void)state;
+    froe_tree *tree = triangles();
+    froe_render_options o = froe_render_defaults();
+    froe_render_report r;
+    o.camera.width = o.camera.height = 32000;
+    o.decimals = 6;
+    page_bytes p = page_of(tree, FROE_RENDER_SVG, &o, &r);
+    assert_int_equal(r.thin_shapes, 0);
+    assert_true(r.shapes > 10);
+    free(p.text);
+    froe_tree_free(tree);
+}
+
 /* ------------------------------------------------------------------------- receiving -- */
 
 static bool stop_at_second(void *user, const void *bytes, size_t count) {
@@ -333,6 +384,8 @@ int main(void) {
         cmocka_unit_test(an_eps_file_has_the_comments_that_programs_look_for),
         cmocka_unit_test(pages_paint_the_paths_of_the_picture),
         cmocka_unit_test(opacity_is_a_state_that_the_page_defines),
+        cmocka_unit_test(paths_hold_every_ring_of_every_shape),
+        cmocka_unit_test(the_largest_page_takes_the_finest_steps),
         cmocka_unit_test(bytes_come_as_they_stand_in_a_file),
         cmocka_unit_test(what_cannot_be_written_is_refused),
         cmocka_unit_test(every_allocation_may_fail),
