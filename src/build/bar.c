@@ -303,23 +303,19 @@ static void note_bar(const void *config) {
         build_promise(job, "height", most_height(b->share, job->scene->object_count, job->leaf), 0);
 }
 
-static froe_status refuse_directions(build_job *job) {
-    const int asked = (int)job->option[DIRECTIONS];
-    if (has_keys(job->scene))
-        return support_fail(job->diag, FROE_E_OPTIONS, "option 'directions': there are no %d in dimension %d", asked,
-                            job->scene->dim);
-    return support_fail(job->diag, FROE_E_UNSUPPORTED, "method 'bar' has no directions for coordinates of %g",
-                        largest_coordinate(job->scene));
-}
-
 /** What does not depend on objects one by one. */
 static froe_status prepare_bar(bar *b) {
     build_job *job = b->job;
     const int asked = (int)job->option[DIRECTIONS];
     b->points = points_only(job->scene);
     b->cubes = asked == 0;
-    if (!b->cubes && (!has_keys(job->scene) || !split_directions_of(job->scene->dim, asked, &b->rule.directions)))
-        return refuse_directions(job);
+    if (!b->cubes && (!has_keys(job->scene) || !split_directions_of(job->scene->dim, asked, &b->rule.directions))) {
+        if (has_keys(job->scene))
+            return support_fail(job->diag, FROE_E_OPTIONS, "option 'directions': there are no %d in dimension %d",
+                                asked, job->scene->dim);
+        return support_fail(job->diag, FROE_E_UNSUPPORTED, "method 'bar' has no directions for coordinates of %g",
+                            largest_coordinate(job->scene));
+    }
     b->share = job->scene->dim == 2 ? 0.67 : 0.75;
     b->rule.aspect = job->option[ASPECT] * (1 - 0x1p-30); /* pays for all rounding */
     b->rule.through = !b->points;

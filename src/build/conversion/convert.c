@@ -67,17 +67,6 @@ static froe_status cut_by_plan(convert *c, const split_cell *cell, uint32_t at, 
     return status ? status : push_planned_cells(c, cell->node, r, n->child, n->child + 1);
 }
 
-static froe_status cut_along_chord(convert *c, const split_cell *cell, uint32_t at, const region *r) {
-    const split_set *set = &c->work.set;
-    uint32_t item = chord_choose(&c->chords, set, cell, c->job->seed);
-    froe_cut cut = scene_support_cut(set->scene, set->items.data[cell->first + item].object);
-    uint64_t before = pieces(c);
-    froe_status status = cell_cut(&c->work, cell, &cut, 0, NULL);
-    if (status) return status;
-    c->crossings += pieces(c) - before;
-    return push_planned_cells(c, cell->node, r, at, at);
-}
-
 static split_verdict choose_in_star(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     return split_refine_choose(config, work, cell, cut);
 }
@@ -122,7 +111,15 @@ static froe_status follow_plan(convert *c, split_cell *cell, uint32_t at, const 
         if (!chord_begin(&c->chords, set, cell)) return FROE_E_MEMORY;
         for (uint32_t i = 0; i < cell->count; i++)
             chord_add(&c->chords, set, cell, i, !is_short(c, set->items.data + cell->first + i, at));
-        if (c->chords.chords.count) return cut_along_chord(c, cell, at, r);
+        if (c->chords.chords.count) {
+            uint32_t item = chord_choose(&c->chords, set, cell, c->job->seed);
+            froe_cut cut = scene_support_cut(set->scene, set->items.data[cell->first + item].object);
+            uint64_t before = pieces(c);
+            froe_status status = cell_cut(&c->work, cell, &cut, 0, NULL);
+            if (status) return status;
+            c->crossings += pieces(c) - before;
+            return push_planned_cells(c, cell->node, r, at, at);
+        }
         if (n->cut.kind == FROE_CUT_NONE) return do_star(c, cell);
         /* The only side of the cut on which there is anything: 0, 1, or -1 where it is not so simple. Exact. */
         split_tally t;

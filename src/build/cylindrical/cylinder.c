@@ -217,18 +217,14 @@ static froe_status own_edge(const split_cylinder *c, split_work *work, const spl
     return FROE_OK;
 }
 
-/** Is the polygon a segment, as seen from above? */
-static bool is_upright(split_set *set, uint32_t object) {
-    const froe_scene *scene = set->scene;
-    geom_plane side = geom_plane_vertical(scene_point(scene, object, 0), scene_point(scene, object, 1));
-    return !geom_side_vertex(&set->context, &side, scene_point(scene, object, 2));
-}
-
 /** The polygon's plane; or, of an upright one whose own edges do not reach into the cell, the same by an edge. */
 static froe_cut polygon_cut(split_set *set, uint32_t object) {
     const froe_scene *scene = set->scene;
     uint32_t edge = scene->starts[object];
-    if (!is_upright(set, object)) return (froe_cut){.kind = FROE_CUT_OBJECT, .id = {object}};
+    /* a segment, as seen from above, is upright */
+    geom_plane side = geom_plane_vertical(scene_point(scene, object, 0), scene_point(scene, object, 1));
+    if (geom_side_vertex(&set->context, &side, scene_point(scene, object, 2)))
+        return (froe_cut){.kind = FROE_CUT_OBJECT, .id = {object}};
     while (!(edge_length(scene, edge) > 0)) edge++;
     return edge_cut(scene, edge);
 }

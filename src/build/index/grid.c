@@ -197,38 +197,11 @@ static froe_status walk_all(dealing *d) {
 /* ------------------------------------------------------------------ sorting -- */
 
 /* From the last to the first, so that runs ascend. */
-static void fill_cells(dealing *d) {
-    split_grid *g = d->grid;
-    size_t crosser = d->crossers.count;
-    for (size_t i = d->records.count; i--;) g->ids[--g->starts[d->records.data[i].cell]] = d->records.data[i].id;
-    for (uint32_t i = d->source->count; i--;) {
-        bool shared = crosser && d->crossers.data[crosser - 1].index == i;
-        uint32_t object = d->source->fragments ? d->source->fragments[i].id & PACKED_OBJECT : i;
-        crosser -= shared;
-        g->ids[--g->starts[d->first_cells[i]]] = object | (shared ? GRID_SHARED : 0);
-    }
-}
 
 static void count_nodes(split_grid *g) {
     uint32_t cells = 1u << g->levels;
     for (uint32_t c = 0; c < cells; c++) g->count[cells + c] = g->starts[c + 1] - g->starts[c];
     for (uint32_t h = cells - 1; h; h--) g->count[h] = g->count[2 * h] + g->count[2 * h + 1] - g->count[h];
-}
-
-static froe_status sort_ids(dealing *d) {
-    split_grid *g = d->grid;
-    g->id_room = (size_t)d->source->count + d->records.count;
-    if (g->id_room > INT32_MAX) return FROE_E_LIMIT;
-    g->ids = support_calloc(d->alloc, g->id_room, sizeof *g->ids);
-    if (!g->ids) return FROE_E_MEMORY;
-    uint32_t *starts = d->grid->starts, cells = 1u << d->grid->levels;
-    /* starts[c] becomes where the run of cell c ends; filling moves it to where it begins */
-    for (uint32_t i = 0; i < d->source->count; i++) starts[d->first_cells[i]]++;
-    for (size_t i = 0; i < d->records.count; i++) starts[d->records.data[i].cell]++;
-    for (uint32_t c = 1; c <= cells; c++) starts[c] += starts[c - 1];
-    fill_cells(d);
-    count_nodes(g);
-    return FROE_OK;
 }
 
 /* ------------------------------------------------------------------- whole -- */
@@ -268,7 +241,27 @@ static froe_status attempt(dealing *d, bool *made) {
         if ((double)d->steps > (d->source->growth - 1) * d->source->count) *made = false;
         if (!status && *made && d->bad_axis < 0) status = walk_all(d);
     }
-    return status || !*made ? status : sort_ids(d);
+    if (status || !*made) return status;
+    g->id_room = (size_t)d->source->count + d->records.count;
+    if (g->id_room > INT32_MAX) return FROE_E_LIMIT;
+    g->ids = support_calloc(d->alloc, g->id_room, sizeof *g->ids);
+    if (!g->ids) return FROE_E_MEMORY;
+    uint32_t *starts = d->grid->starts, cells = 1u << d->grid->levels;
+    /* starts[c] becomes where the run of cell c ends; filling moves it to where it begins */
+    for (uint32_t i = 0; i < d->source->count; i++) starts[d->first_cells[i]]++;
+    for (size_t i = 0; i < d->records.count; i++) starts[d->records.data[i].cell]++;
+    for (uint32_t c = 1; c <= cells; c++) starts[c] += starts[c - 1];
+    /* the runs of objects, filled from behind */
+    size_t crosser = d->crossers.count;
+    for (size_t i = d->records.count; i--;) g->ids[--g->starts[d->records.data[i].cell]] = d->records.data[i].id;
+    for (uint32_t i = d->source->count; i--;) {
+        bool shared = crosser && d->crossers.data[crosser - 1].index == i;
+        uint32_t object = d->source->fragments ? d->source->fragments[i].id & PACKED_OBJECT : i;
+        crosser -= shared;
+        g->ids[--g->starts[d->first_cells[i]]] = object | (shared ? GRID_SHARED : 0);
+    }
+    count_nodes(g);
+    return FROE_OK;
 }
 
 /* Levels that leave about `load` objects in a cell. */

@@ -42,21 +42,6 @@ static uint32_t part_node(const descent *d, uint32_t node, const double *mid, ui
     return at;
 }
 
-static void fill_map(const descent *d) {
-    const guard_grid *grid = &d->grid_boxes->grid;
-    int dim = grid->dim;
-    d->map[0] = 0;
-    for (int level = 0; level < grid->levels; level++)
-        for (uint32_t code = 0; code < 1u << (dim * level); code++) {
-            guard_cube cube;
-            double mid[FROE_MAX_DIM];
-            uint32_t node = d->map[grid->starts[level] + code], *parts = d->map + grid->starts[level + 1];
-            guard_grid_cell(grid, level, code, &cube, mid);
-            for (uint32_t part = 0; part < 1u << dim; part++)
-                parts[(code << dim) + part] = part_node(d, node, mid, part, dim);
-        }
-}
-
 /* ---------------------------------------------------------------- the descent -- */
 
 /** The lowest containing node of an object, if its codes tell; or a node above it, ASTRAY. */
@@ -138,7 +123,18 @@ static froe_status descend_to_lowest(const froe_allocator *alloc, descent *d) {
         d->map_count = grid->starts[grid->levels + 1];
         d->map = numbers(alloc, d->map_count);
         if (!d->map) return FROE_E_MEMORY;
-        fill_map(d);
+        /* the node of each cell of the grid, level by level */
+        int dim = grid->dim;
+        d->map[0] = 0;
+        for (int level = 0; level < grid->levels; level++)
+            for (uint32_t code = 0; code < 1u << (dim * level); code++) {
+                guard_cube cube;
+                double mid[FROE_MAX_DIM];
+                uint32_t node = d->map[grid->starts[level] + code], *parts = d->map + grid->starts[level + 1];
+                guard_grid_cell(grid, level, code, &cube, mid);
+                for (uint32_t part = 0; part < 1u << dim; part++)
+                    parts[(code << dim) + part] = part_node(d, node, mid, part, dim);
+            }
     }
     froe_status status = base_run(d->task, 0, (n + CHUNK - 1) / CHUNK, descend_chunk, d);
     support_free(alloc, d->map, d->map_count * sizeof *d->map);
