@@ -1,4 +1,6 @@
-/* workers.h: several contexts for one call: the caller's own and forks of it, one a thread. */
+/* workers.h: several contexts for one call: the caller's own and forks of it, one a thread.
+ *
+ * It speaks for workers.c and batch.c, the public calls with many questions. */
 #ifndef FROE_QUERY_WORKERS_H
 #define FROE_QUERY_WORKERS_H
 #include "base/task.h"

@@ -1,4 +1,6 @@
-/* camera.h: coordinates of the camera: (right, up, depth) with depth growing away from the eye. */
+/* camera.h: coordinates of the camera: (right, up, depth) with depth growing away from the eye.
+ *
+ * It speaks for camera.c and turntable.c (cameras around a scene). */
 #ifndef FROE_VIEW_CAMERA_H
 #define FROE_VIEW_CAMERA_H
 #include <froe/view.h>

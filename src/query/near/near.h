@@ -1,9 +1,10 @@
-/* near.h: regions of a tree in the order of their distance.
+/* near.h: the objects nearest to a point, by regions of a tree in the order of their distance.
  *
  *     near_walk.c     the lists of a tree, those of the nearest regions first: an iterator
  *     near_points.c   where all objects are points: candidates, few more than k, by doubles side by side
  *     near.c          the k nearest objects in them
- */
+ *
+ * It speaks for these. */
 #ifndef FROE_QUERY_NEAR_NEAR_H
 #define FROE_QUERY_NEAR_NEAR_H
 #include "geom/meet/distance.h"

@@ -3,7 +3,9 @@
  *     jump table -> walk -> [leaf, leaf, slice, leaf ...] -> kernels -> sure answers, unsure ones -> exact predicates
  *
  * Walks compare doubles, so nothing about them is uncertain. Blocks are prefetched while the walk goes on and
- * tested after it, so that their cache misses overlap. */
+ * tested after it, so that their cache misses overlap.
+ *
+ * It speaks for packed_window.c, packed_vertical.c and packed_pairs.c. */
 #ifndef FROE_QUERY_PACKED_PACKED_H
 #define FROE_QUERY_PACKED_PACKED_H
 #include "query/context.h"

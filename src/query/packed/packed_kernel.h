@@ -9,7 +9,8 @@
  *
  * The same source (packed_kernel.inc) is compiled three times, over lanes of AVX-512, of AVX2 and of what any compiler
  * has. Its floating-point operations are the same, one by one, and none is fused, so all three give the same answers in
- * the same order and leave the same ones unsure. */
+ * the same order and leave the same ones unsure. The header speaks for packed_avx512.c, packed_avx2.c and
+ * packed_plain.c. */
 #ifndef FROE_QUERY_PACKED_PACKED_KERNEL_H
 #define FROE_QUERY_PACKED_PACKED_KERNEL_H
 #include "tree/packed/packed.h"

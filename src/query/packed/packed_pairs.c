@@ -15,8 +15,8 @@
 #include "query/segment.h"
 
 enum { PAIRS_EACH = 16, PAIRS_MORE = 1 << 20 }; /* gathered for each object at most, and some more */
-enum { NODES_PER_JOB = 512 };                   /* nodes a job */
-enum { OBJECTS_AHEAD = 256 };                   /* objects whose coordinates are prefetched together */
+enum { NODES_PER_JOB = 512 };
+enum { OBJECTS_AHEAD = 256 }; /* objects whose coordinates are prefetched together */
 
 typedef struct packed_search {
     query_workers *workers;

@@ -5,7 +5,9 @@
  * A walk takes the entry on top. It replaces a node by those of its children that may be met, and a leaf by those of
  * its objects. An object is handed out, and the caller decides it exactly. Keys are lower bounds, of a ray's parameter
  * or of squared distances. So objects come nearly in order, few of them are not the answer, and none that may be the
- * answer is missed. */
+ * answer is missed.
+ *
+ * It speaks for space_walk.c, space_rays.c and space_window.c. */
 #ifndef FROE_QUERY_PACKED_SPACE_H
 #define FROE_QUERY_PACKED_SPACE_H
 #include "query/context.h"
@@ -24,13 +26,13 @@ typedef struct space_walk {
     ARRAY(uint64_t) stack;
 } space_walk;
 
-typedef struct space_runner space_runner; /* space_rays.c */
+typedef struct space_ray_state space_ray_state; /* space_rays.c */
 
 /** What a context has for packed trees of space. */
 typedef struct space_work {
     const space_kernels *kernels;
     space_walk walk;
-    space_runner *batch;             /**< NULL until a batch of rays comes */
+    space_ray_state *batch;          /**< NULL until a batch of rays comes */
     ARRAY(uint32_t) objects, others; /**< from kernels */
     ARRAY(float) keys;
 } space_work;
@@ -55,7 +57,7 @@ space_step space_walk_step(froe_query *query, space_walk *walk, double limit);
  * froe_query_ray_any(), for query->tree->packed.wide. FROE_E_MEMORY. */
 froe_status space_rays(froe_query *query, const double *origins, const double *directions, size_t count, double t_max,
                        froe_hit *hits, uint32_t *objects, froe_diagnostic *diag);
-void space_batch_free(space_runner *batch, const froe_allocator *alloc);
+void space_batch_free(space_ray_state *batch, const froe_allocator *alloc);
 
 /** Objects that meet a closed box, or, with `any`, some of them if there are any: they are query->found. The caller
  * has begun the query and called query_range_of_box(). FROE_E_MEMORY. */

@@ -14,7 +14,7 @@
 enum { RAYS_AT_ONCE = 12 };
 
 /** A ray in progress. */
-struct space_runner {
+struct space_ray_state {
     space_walk walk;
     geom_ray ray;
     double limit;
@@ -33,14 +33,14 @@ typedef struct ray_batch {
     froe_diagnostic *diag;
 } ray_batch;
 
-void space_batch_free(space_runner *running, const froe_allocator *alloc) {
-    if (!running) return;
-    for (int i = 0; i < RAYS_AT_ONCE; i++) array_free(alloc, &running[i].walk.stack);
-    support_free(alloc, running, RAYS_AT_ONCE * sizeof *running);
+void space_batch_free(space_ray_state *rays, const froe_allocator *alloc) {
+    if (!rays) return;
+    for (int i = 0; i < RAYS_AT_ONCE; i++) array_free(alloc, &rays[i].walk.stack);
+    support_free(alloc, rays, RAYS_AT_ONCE * sizeof *rays);
 }
 
 /* Begins the next ray; *flies false: none is left. */
-static froe_status launch_ray(ray_batch *f, space_runner *r, bool *flies) {
+static froe_status launch_ray(ray_batch *f, space_ray_state *r, bool *flies) {
     *flies = false;
     while (f->next < f->count && !*flies) {
         r->at = f->next++;
@@ -62,7 +62,7 @@ static froe_status launch_ray(ray_batch *f, space_runner *r, bool *flies) {
 }
 
 /* Decides the object that is pending exactly, then takes a step. SPACE_END: the ray is answered. */
-static space_step step_ray(const ray_batch *f, space_runner *r) {
+static space_step step_ray(const ray_batch *f, space_ray_state *r) {
     const uint32_t object = r->pending;
     query_met met;
     r->pending = FROE_NONE;
@@ -87,14 +87,13 @@ froe_status space_rays(froe_query *q, const double *origins, const double *direc
     if (!q->space->batch) q->space->batch = support_calloc(&q->alloc, RAYS_AT_ONCE, sizeof *q->space->batch);
     if (!q->space->batch) return support_fail_memory(diag);
     /* The next ray takes the place of one that is answered; where none is left, the last ray of the batch does. */
-    space_runner *running = q->space->batch;
+    space_ray_state *rays = q->space->batch;
     size_t flying = 0;
     bool flies = true;
     froe_status status = FROE_OK;
-    for (; flying < RAYS_AT_ONCE && flies && !status; flying += flies)
-        status = launch_ray(&f, running + flying, &flies);
+    for (; flying < RAYS_AT_ONCE && flies && !status; flying += flies) status = launch_ray(&f, rays + flying, &flies);
     for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
-        space_runner *r = running + i;
+        space_ray_state *r = rays + i;
         const space_step did = step_ray(&f, r);
         if (did == SPACE_NO_MEMORY) return support_fail_memory(diag);
         if (did != SPACE_END) continue;
@@ -103,9 +102,9 @@ froe_status space_rays(froe_query *q, const double *origins, const double *direc
         if (hits && r->best.object != FROE_NONE) hits[r->at].t = geom_hit_round(&q->numbers, &r->ray, &r->best.hit);
         status = launch_ray(&f, r, &flies);
         if (flies || status) continue;
-        const space_runner gone = *r;
-        *r = running[--flying];
-        running[flying] = gone;
+        const space_ray_state gone = *r;
+        *r = rays[--flying];
+        rays[flying] = gone;
         if (i == flying) i = 0;
     }
     q->stats.exact += q->numbers.stats.exact - exact;

@@ -6,7 +6,8 @@
  *                  sorted     sorted            each part by one thread: counted by the first id, then by the second
  *                     `----------'-----> reported
  *
- * Each pair is added once, so that their order does not depend on which thread found which pair. */
+ * Each pair is added once, so that their order does not depend on which thread found which pair. It speaks for
+ * pair_lists.c and pairs.c (the public calls). */
 #ifndef FROE_QUERY_PAIRS_PAIR_LISTS_H
 #define FROE_QUERY_PAIRS_PAIR_LISTS_H
 #include "base/task.h"

@@ -13,27 +13,27 @@
 #include "support/fail.h"
 #include <string.h>
 
-enum { OBJECTS_PER_JOB = 64, JOBS_PER_WAVE = 32 }; /* objects a job; jobs a thread in a wave */
+enum { OBJECTS_PER_JOB = 64, JOBS_PER_WAVE = 32 };
 
 /* What a thread needs beside its context. */
-typedef struct desk {
+typedef struct pair_worker {
     froe_query *q;
     ARRAY(double) points;     /* of the object as a range */
     ARRAY(signed char) sides; /* for geom_contact_of() */
-} desk;
+} pair_worker;
 
 typedef ARRAY(froe_pair) object_pairs;
 
 typedef struct pair_search {
     query_workers *workers;
     bool shared;
-    desk *desks;          /* [thread] */
-    object_pairs *chunks; /* of a wave */
-    uint32_t first;       /* object of the wave */
+    pair_worker *of_worker; /* [thread] */
+    object_pairs *chunks;   /* of a wave */
+    uint32_t first;         /* object of the wave */
 } pair_search;
 
 /* An object as a range. False without memory. */
-static bool take_body(desk *d, const geom_body *b, froe_range *range) {
+static bool take_body(pair_worker *d, const geom_body *b, froe_range *range) {
     const size_t dim = (size_t)b->dim, count = b->form == FROE_POINT ? 2 : b->count;
     d->points.count = 0;
     if (!array_reserve(&d->q->alloc, &d->points, count * dim)) return false;
@@ -60,7 +60,7 @@ static froe_status find_partners(void *user, unsigned worker, size_t job) {
     static const froe_meeting kinds[GEOM_CONTACTS] = {
         [GEOM_CROSS] = FROE_MEET_CROSS, [GEOM_TOUCH] = FROE_MEET_TOUCH, [GEOM_OVERLAP] = FROE_MEET_OVERLAP};
     pair_search *s = user;
-    desk *d = s->desks + worker;
+    pair_worker *d = s->of_worker + worker;
     object_pairs *out = s->chunks + job;
     froe_query *q = d->q;
     const froe_scene *scene = q->tree->scene;
@@ -100,10 +100,10 @@ static froe_status search_objects(query_workers *workers, bool shared, froe_pair
     pair_search s = {.workers = workers, .shared = shared};
     const size_t wave = threads > 1 ? (size_t)threads * JOBS_PER_WAVE : 1;
     bool more = true;
-    s.desks = support_calloc(alloc, threads, sizeof *s.desks);
+    s.of_worker = support_calloc(alloc, threads, sizeof *s.of_worker);
     s.chunks = support_calloc(alloc, wave, sizeof *s.chunks);
-    froe_status status = s.desks && s.chunks ? FROE_OK : FROE_E_MEMORY;
-    for (unsigned i = 0; s.desks && i < threads; i++) s.desks[i].q = workers->queries[i];
+    froe_status status = s.of_worker && s.chunks ? FROE_OK : FROE_E_MEMORY;
+    for (unsigned i = 0; s.of_worker && i < threads; i++) s.of_worker[i].q = workers->queries[i];
     for (uint64_t done = 0; !status && more && done < jobs; done += wave) {
         const size_t count = jobs - done < wave ? (size_t)(jobs - done) : wave;
         s.first = (uint32_t)done * OBJECTS_PER_JOB;
@@ -111,12 +111,12 @@ static froe_status search_objects(query_workers *workers, bool shared, froe_pair
         for (size_t i = 0; !status && i < count; i++)
             for (size_t n = 0; more && n < s.chunks[i].count; n++) more = base_callback(fn(user, s.chunks[i].data + n));
     }
-    for (unsigned i = 0; s.desks && i < threads; i++) {
-        array_free(alloc, &s.desks[i].points);
-        array_free(alloc, &s.desks[i].sides);
+    for (unsigned i = 0; s.of_worker && i < threads; i++) {
+        array_free(alloc, &s.of_worker[i].points);
+        array_free(alloc, &s.of_worker[i].sides);
     }
     for (size_t i = 0; s.chunks && i < wave; i++) array_free(alloc, &s.chunks[i]);
-    support_free(alloc, s.desks, threads * sizeof *s.desks);
+    support_free(alloc, s.of_worker, threads * sizeof *s.of_worker);
     support_free(alloc, s.chunks, wave * sizeof *s.chunks);
     return status;
 }

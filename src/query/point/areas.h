@@ -13,7 +13,10 @@
  * on the way from there are found by a range query.
  *
  * What a point needs of its leaf lies in one place, each border with its ends, and borders of two areas once. Where the
- * list has none, only the number of the set is stored. */
+ * list has none, only the number of the set is stored.
+ *
+ * It speaks for areas.c (references), areas_assign.c (which segments bound areas), areas_pass.c (the way from a
+ * reference to a point) and groups.c (the public call). */
 #ifndef FROE_QUERY_POINT_AREAS_H
 #define FROE_QUERY_POINT_AREAS_H
 #include "query/context.h"

@@ -90,7 +90,8 @@ froe_status query_areas_enter(froe_query *q, const query_areas *areas, const que
                 return FROE_E_MEMORY;
     }
     if (!leaf->on_cut) return FROE_OK;
-    /* What a point on the border of a cell lies on may be listed elsewhere. Other borders are crossed within the cell. */
+    /* What a point on the border of a cell lies on may be listed elsewhere. Other borders are crossed within the
+     * cell. */
     const double ends[4] = {point[0], point[1], point[0], point[1]};
     froe_range range = froe_range_defaults();
     range.points = ends;

@@ -104,15 +104,15 @@ enum {
 };
 
 /** A point in progress, and its number. */
-typedef struct flyer {
+typedef struct leaf_search {
     descent_point p;
     uint32_t steps;
     bool on_cut;
     size_t number;
-} flyer;
+} leaf_search;
 
 /* Passes a cut: by floats, or, where these are in doubt, by the exact cut of the tree. */
-static void pass_cut(froe_query *q, const query_descent *d, flyer *f, const double *x) {
+static void pass_cut(froe_query *q, const query_descent *d, leaf_search *f, const double *x) {
     const descent_cut *cut = d->cuts + f->p.next;
     const float value = query_descent_value(cut, f->p.at);
     bool right = value > 0;
@@ -128,21 +128,21 @@ static void pass_cut(froe_query *q, const query_descent *d, flyer *f, const doub
 }
 
 /* Has the point come to its leaf, or passed MOST_FLOAT_CUTS cuts? Centroids say nothing of oblique cuts. */
-static bool has_come(const ways *w, const flyer *f) {
+static bool has_come(const ways *w, const leaf_search *f) {
     return f->p.next & DESCENT_LEAF ||
            (f->steps >= MOST_FLOAT_CUTS && w->centroids && !(w->centroids->root & CENTROID_END));
 }
 
-static query_leaf arrive_at_leaf(froe_query *q, const ways *w, const flyer *f, const double *x) {
+static query_leaf arrive_at_leaf(froe_query *q, const ways *w, const leaf_search *f, const double *x) {
     if (!(f->p.next & DESCENT_LEAF)) return find_by_tree(q, w, x);
     return (query_leaf){.place = f->p.next & DESCENT_NODE, .on_cut = f->on_cut, .empty = f->p.next & DESCENT_EMPTY};
 }
 
 /* Begins the next of the points that are in the scene. */
 static inline size_t launch_points(froe_query *q, const ways *w, const double *points, size_t count, size_t next,
-                                   flyer *f, query_leaf *leaves, bool *flies) {
+                                   leaf_search *f, query_leaf *leaves, bool *flies) {
     for (*flies = false; next < count && !*flies; next++) {
-        *f = (flyer){.number = next};
+        *f = (leaf_search){.number = next};
         if (next + POINTS_AHEAD < count) query_descent_ask(w->descent, points + 2 * (next + POINTS_AHEAD));
         *flies = query_descent_begin(w->descent, points + 2 * next, &f->p);
         if (!*flies) leaves[next] = find_by_tree(q, w, points + 2 * next);
@@ -153,7 +153,7 @@ static inline size_t launch_points(froe_query *q, const ways *w, const double *p
 /* ------------------------------------------------------------------- whole -- */
 
 froe_status query_leaf_find(froe_query *q, const double *point, query_leaf *out) {
-    flyer f = {.number = 0};
+    leaf_search f = {.number = 0};
     ways w = {.planes = NULL};
     const froe_status status = find_ways(q, &w);
     if (status) return status;
@@ -171,7 +171,7 @@ froe_status query_leaf_find(froe_query *q, const double *point, query_leaf *out)
 froe_status query_leaf_find_all(froe_query *q, const double *points, size_t count, query_leaf *leaves) {
     const size_t dim = (size_t)q->tree->scene->dim;
     ways w = {.planes = NULL};
-    flyer batch[POINTS_AT_ONCE];
+    leaf_search batch[POINTS_AT_ONCE];
     size_t next = 0, flying = 0;
     const froe_status status = find_ways(q, &w);
     if (status) return status;
@@ -180,7 +180,7 @@ froe_status query_leaf_find_all(froe_query *q, const double *points, size_t coun
     for (bool flies = w.descends; flying < POINTS_AT_ONCE && flies; flying += flies)
         next = launch_points(q, &w, points, count, next, batch + flying, leaves, &flies);
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
-        flyer *f = batch + i;
+        leaf_search *f = batch + i;
         const double *x = points + 2 * f->number;
         bool flies;
         if (!has_come(&w, f)) {

@@ -5,7 +5,9 @@
  *     the root in space ------------'
  *     any other in the plane            query/point/descent.h
  *
- * A point on a cut goes either way: it lies in the closed cell of the leaf all the same. */
+ * A point on a cut goes either way: it lies in the closed cell of the leaf all the same.
+ *
+ * It speaks for leaf.c and locate.c (the objects that contain a point). */
 #ifndef FROE_QUERY_POINT_LEAF_H
 #define FROE_QUERY_POINT_LEAF_H
 #include "query/context.h"

@@ -12,7 +12,9 @@
  * classes whose objects are smaller than the range the tree is searched for the range's bounds.
  *
  * Boxes are a little larger still, so that the centre is not on their border: then every leaf whose closed cell has the
- * centre lists them. */
+ * centre lists them.
+ *
+ * It speaks for classes.c (their trees) and class_search.c (a range is searched for in them). */
 #ifndef FROE_QUERY_RANGE_CLASSES_H
 #define FROE_QUERY_RANGE_CLASSES_H
 #include "query/context.h"

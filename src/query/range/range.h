@@ -1,9 +1,11 @@
-/* range.h: range queries from inside.
+/* range.h: what meets a window, or any other range?
  *
  *     froe_range --range_take.c--> query_range        checked; bounds, facets, the set itself
  *                --range_walk.c--> lists of nodes     whose closed regions the range may meet
  *                --range_meet.c--> objects            that it does meet, exactly
- */
+ *
+ * It speaks for these and range.c, the public calls, which send windows on packed trees to packed_window.c or
+ * space_window.c. */
 #ifndef FROE_QUERY_RANGE_RANGE_H
 #define FROE_QUERY_RANGE_RANGE_H
 #include "geom/polytope.h"

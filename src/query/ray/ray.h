@@ -1,8 +1,10 @@
-/* ray.h: rays through a tree.
+/* ray.h: what does a ray meet?
  *
  *     ray_walk.c    the lists along a ray, nearest first: an iterator
  *     ray.c         the objects in them that it meets: the first one, any, or all in order
- */
+ *     vertical.c    the segment above or below a point
+ *
+ * It speaks for these. Where a ray meets one segment, triangle, box or ball is decided in geom/ray/ray.c. */
 #ifndef FROE_QUERY_RAY_RAY_H
 #define FROE_QUERY_RAY_RAY_H
 #include "geom/ray/ray.h"

@@ -55,7 +55,7 @@ void view_graph_free(const froe_allocator *alloc, view_graph *g) {
 /* --------------------------------------------------------------------- circles -- */
 
 /* Sets of nodes yet to be searched lie on a stack, one after the other; `set` holds for each node its set, so
- * that a search_components stays in its own. Every component of more than one node loses some nodes and is a new set. */
+ * that a search stays in its own. Every component of more than one node loses some nodes and is a new set. */
 typedef struct breaker {
     const froe_allocator *alloc;
     view_graph *g;
@@ -78,7 +78,7 @@ static bool enter_vertex(breaker *b, uint32_t v) {
     return array_push(b->alloc, &b->stack, v) && array_push(b->alloc, &b->calls, (base_pair){b->g->out_starts[v], v});
 }
 
-/* All components that v reaches within its set; those of several nodes are kept. */
+/* All components that the root reaches within its set; those of several nodes are kept. */
 static bool search_components(breaker *b, uint32_t root) {
     if (!enter_vertex(b, root)) return false;
     while (b->calls.count) {
@@ -119,7 +119,7 @@ static uint64_t degree(const breaker *b, const uint32_t *starts, const uint32_t 
     return count;
 }
 
-/* Makes the best nodes of a component late: one, and of large components some more, since each round costs a search_components. */
+/* Makes the best nodes of a component late: one, and of large components some more, since each round costs a search. */
 static bool choose_late(breaker *b, const uint32_t *nodes, size_t count) {
     const view_graph *g = b->g;
     const size_t wanted = 1 + count / 512;

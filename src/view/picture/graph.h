@@ -4,7 +4,9 @@
  *
  * Where arcs form cycles, some nodes are made late: their outgoing arcs are dropped, because they will be painted
  * clipped and then cover nothing visible. A small set is searched (a feedback vertex set of each strongly connected
- * component) by taking the node with the greatest product of arcs in and arcs out, repeatedly. */
+ * component) by taking the node with the greatest product of arcs in and arcs out, repeatedly.
+ *
+ * It speaks for graph.c and topological.c (the order itself). */
 #ifndef FROE_VIEW_PICTURE_GRAPH_H
 #define FROE_VIEW_PICTURE_GRAPH_H
 #include "support/array.h"

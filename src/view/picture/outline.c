@@ -148,8 +148,8 @@ bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, print_en
         const uint32_t object = s->members[m], n = scene_corners(scene, object);
         const bool front = view_facing(o->sights, object) > 0;
         if (!is_drawn(o, object)) continue;
-        for (uint32_t i = 0; ok && i < n;
-             i++) { /* sides as they turn left, but for those that the patch goes on across */
+        /* Sides as they turn left, but for those that the patch goes on across. */
+        for (uint32_t i = 0; ok && i < n; i++) {
             const uint32_t edge = s->edge_of[scene->starts[object] + i], *use = s->uses + s->edge_starts[edge];
             const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
             const uint32_t from = front ? a : b, to = front ? b : a, side = (uint32_t)o->sides.count;

@@ -2,7 +2,9 @@
  * that each of them paints.
  *
  * A node is a whole patch, painted with all its polygons, or the visible part of one that a section cuts, or of a
- * single piece of the tree. Pieces are nodes only where something is clear and whole patches would form cycles. */
+ * single piece of the tree. Pieces are nodes only where something is clear and whole patches would form cycles.
+ *
+ * It speaks for parts.c and arcs.c (which pairs of nodes have an order). */
 #ifndef FROE_VIEW_PICTURE_PARTS_H
 #define FROE_VIEW_PICTURE_PARTS_H
 #include "view/picture/graph.h"

@@ -1,4 +1,11 @@
-/* picture.h: shapes and lines in the order in which they are painted: the internal types. */
+/* picture.h: shapes and lines in the order in which they are painted: the internal types.
+ *
+ *     picture.c      the public calls: look, plan, paint
+ *     plan.c         the order of painting; interleave.c: the places of lines in it
+ *     paint.c        shapes: whole patches and clipped ones, visible regions, fragments
+ *     kinds.c        which edges are lines; segments.c: where they are on the page
+ *
+ * It speaks for these. */
 #ifndef FROE_VIEW_PICTURE_PICTURE_H
 #define FROE_VIEW_PICTURE_PICTURE_H
 #include "view/picture/outline.h"

@@ -1,4 +1,6 @@
-/* strokes.h: lines on the page on their way to strokes: straight segments first. */
+/* strokes.h: lines on the page on their way to strokes: straight segments first.
+ *
+ * It speaks for gaps.c (what segments leave of each other) and strokes.c (polylines). */
 #ifndef FROE_VIEW_PICTURE_STROKES_H
 #define FROE_VIEW_PICTURE_STROKES_H
 #include "view/print.h"

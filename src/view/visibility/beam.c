@@ -78,8 +78,8 @@ uint32_t view_side_count(const view_sightlines *s, uint32_t piece) {
     return ring_of_piece(s->tree, piece).count;
 }
 
-/* The end of a stretch of an edge: a vertex, or where the cut of a node ends it. The cut's way then has the edge's lower
- * vertex on its positive side. */
+/* The end of a stretch of an edge: a vertex, or where the cut of a node ends it. The cut's way then has the edge's
+ * lower vertex on its positive side. */
 static bool set_end(view_sightlines *s, uint32_t object, uint32_t edge, uint32_t neighbour, uint32_t vertex,
                     view_end *out) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;

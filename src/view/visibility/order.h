@@ -9,7 +9,9 @@
  *     while (view_order_next(&order, &piece)) ...
  *     status = view_order_end(&order);
  *
- * With the eye in a cut its two sides cannot hide each other; the positive one counts as near. */
+ * With the eye in a cut its two sides cannot hide each other; the positive one counts as near.
+ *
+ * It speaks for order.c and orders.c (the public calls). */
 #ifndef FROE_VIEW_VISIBILITY_ORDER_H
 #define FROE_VIEW_VISIBILITY_ORDER_H
 #include "base/radix.h"

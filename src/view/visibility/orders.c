@@ -6,7 +6,7 @@
 #include "support/fail.h"
 #include "view/visibility/order.h"
 
-enum { EYES_PER_WORD = 32, NODES_PER_TASK = 4096 }; /* eyes a word, nodes a job */
+enum { EYES_PER_WORD = 32, NODES_PER_TASK = 4096 };
 
 froe_order_options froe_order_defaults(void) {
     return (froe_order_options){.size = sizeof(froe_order_options)};

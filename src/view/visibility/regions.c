@@ -4,16 +4,16 @@
 #include "support/fail.h"
 #include "view/visibility/region.h"
 
-typedef struct giver {
+typedef struct region_rings {
     view_region region;
     ARRAY(double) coords;
     ARRAY(size_t) starts;
-} giver;
+} region_rings;
 
 froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, uint32_t count, froe_region_fn *fn,
                                     void *user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    giver g = {.coords = {0}};
+    region_rings g = {.coords = {0}};
     bool go_on = true;
     if (!v || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
     view_sightlines sights = v->sights; /* with a number context of its own: the rest is only read */

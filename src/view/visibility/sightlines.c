@@ -79,9 +79,9 @@ static uint32_t add_sight_line(view_sightlines *s, uint32_t kind, uint32_t a, ui
     if (line >= INT32_MAX || !array_push(&s->alloc, &s->lines, (view_line){.kind = kind, .a = a, .b = b}))
         return FROE_NONE;
     const geom_line exact = resolve(s, line, planes);
-    /* The image is from the rays of its ends, if that is fine enough; else by balls; else from exact numbers, which costs
-     * as much as one exact decision and spares many: planes that differ by little more than rounding are common in
-     * models. */
+    /* The image is from the rays of its ends, if that is fine enough; else by balls; else from exact numbers, which
+     * costs as much as one exact decision and spares many: planes that differ by little more than rounding are common
+     * in models. */
     filter_vector image = {.e = INFINITY};
     const bool filtered = s->context.first == NUM_FILTER;
     if (filtered && kind == VIEW_EDGE) image = filter_cross(&s->rays[a], &s->rays[b]);

@@ -5,7 +5,8 @@
  *      |   .  `    |  group,   |
  *      | `  patch  |  other    |         edge_of[corner of the scene]  ->  vertices[2 e], [2 e + 1]
  *      +-----------+-----------+         uses[edge_starts[e] .. edge_starts[e+1])  ->  corners of the scene
- */
+ *
+ * It speaks for surface.c (the public calls), edges.c and patches.c (how these are found). */
 #ifndef FROE_VIEW_VISIBILITY_SURFACE_H
 #define FROE_VIEW_VISIBILITY_SURFACE_H
 #include "num/context.h"

@@ -10,7 +10,7 @@ froe_visibility_options froe_visibility_defaults(void) {
     return (froe_visibility_options){.size = sizeof(froe_visibility_options)};
 }
 
-typedef struct looker {
+typedef struct visibility_search {
     froe_visibility *v;
     const froe_visibility_options *options;
     base_task task;
@@ -21,17 +21,17 @@ typedef struct looker {
     ARRAY(view_piece) pieces;
     uint32_t *ranks; /* per object */
     view_piece now;
-} looker;
+} visibility_search;
 
 /* --------------------------------------------------------------------- looking -- */
 
 static bool keep_stretch(void *user, const view_stretch *part) {
-    looker *k = user;
+    visibility_search *k = user;
     return array_push(&k->v->alloc, &k->stretches, *part);
 }
 
 static bool keep_beam(void *user, const view_corner *ring, uint32_t count) {
-    looker *k = user;
+    visibility_search *k = user;
     froe_visibility *v = k->v;
     if (!array_reserve(&v->alloc, &v->corners, count) || !array_reserve(&v->alloc, &k->pieces, 1)) return false;
     k->now.first = (uint32_t)v->corners.count;
@@ -42,7 +42,7 @@ static bool keep_beam(void *user, const view_corner *ring, uint32_t count) {
     return v->corners.count <= INT32_MAX;
 }
 
-static froe_status look_at(looker *k, uint32_t piece, uint32_t place) {
+static froe_status look_at(visibility_search *k, uint32_t piece, uint32_t place) {
     froe_visibility *v = k->v;
     const froe_visibility_options *o = k->options;
     const uint32_t object = v->tree->pieces[piece].object, patch = v->surface->patch_of[object];
@@ -67,7 +67,7 @@ static froe_status look_at(looker *k, uint32_t piece, uint32_t place) {
     return view_screen_insert(&k->screen, k->ring.data, corners, opaque, keep_beam, k);
 }
 
-static froe_status look_at_all(looker *k) {
+static froe_status look_at_all(visibility_search *k) {
     froe_visibility *v = k->v;
     view_order order;
     uint32_t piece, place = 0;
@@ -88,7 +88,7 @@ static froe_status look_at_all(looker *k) {
 /* -------------------------------------------------------------------- finishing -- */
 
 /* Pieces by patch, in their order. */
-static froe_status sort_pieces(looker *k) {
+static froe_status sort_pieces(visibility_search *k) {
     froe_visibility *v = k->v;
     const uint32_t patches = v->surface->patch_count, n = (uint32_t)k->pieces.count;
     uint32_t *starts = support_calloc(&v->alloc, (size_t)patches + 1, sizeof *starts);
@@ -104,7 +104,7 @@ static froe_status sort_pieces(looker *k) {
     return FROE_OK;
 }
 
-static froe_status look_from_eye(looker *k, const geom_eye *eye) {
+static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
     froe_visibility *v = k->v;
     froe_status status = view_sightlines_new(&v->sights, v->tree, v->surface, eye, k->options->window,
                                              (uint32_t)k->options->window_corners, &v->alloc);
@@ -177,7 +177,7 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     v->tree = tree;
     v->surface = surface;
     v->section = options->section;
-    looker k = {.v = v, .options = options};
+    visibility_search k = {.v = v, .options = options};
     base_task_init(&k.task, 1, options->progress, options->user);
     status = look_from_eye(&k, &eye);
     if (!status) {

@@ -1,4 +1,7 @@
-/* visibility.h: what one eye sees: the internal type. */
+/* visibility.h: what one eye sees: the internal type.
+ *
+ * It speaks for visibility.c (pieces front to back, each sent down the beam tree), intervals.c (visible stretches of an
+ * edge), ranks.c (the order within one plane) and tally.c (counts of what is visible and what is not). */
 #ifndef FROE_VIEW_VISIBILITY_VISIBILITY_H
 #define FROE_VIEW_VISIBILITY_VISIBILITY_H
 #include "base/task.h"
