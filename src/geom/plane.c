@@ -1,4 +1,5 @@
 /* plane.c: planes from points, axes and vectors, with certified images of their normals. */
+#include "geom/plane.h"
 #include "geom/filter.h"
 #include "geom/formulas.h"
 #include <math.h>

@@ -64,7 +64,7 @@ int geom_side_corner(num_context *context, const geom_plane *plane, const geom_p
  *   (B5) A plane without a normal: 0, whatever the radius. */
 int geom_side_ball(num_context *context, const geom_plane *plane, const double *centre, double radius);
 
-/** The coordinates of such points, rounded to the nearest double. Output only. */
+/** The coordinates of such points, rounded to the nearest double. Output only. These and the images are in image.c. */
 void geom_round_crossing(num_context *context, const double *u, const double *v, const geom_plane *a, double *out);
 void geom_round_corner(num_context *context, const geom_plane *s, const geom_plane *a, const geom_plane *b,
                        double *out);

@@ -144,16 +144,14 @@ froe_status froe_measure_density(const froe_scene *scene, froe_size size, const 
         const uint32_t object = measure_sample_object(&s.sample, i);
         measure_ball ball;
         double radius;
-        if (!measure_sample_go_on(&s.sample, i)) {
-            status = FROE_E_CANCELLED;
-            break;
-        }
-        bool ok = look_around(&s, object, &ball, &radius);
+        if (!measure_sample_go_on(&s.sample, i)) status = FROE_E_CANCELLED;
+        if (!status && !look_around(&s, object, &ball, &radius)) status = FROE_E_MEMORY;
+        if (status) break;
         const uint32_t count = (uint32_t)s.near.count;
-        if (ok && count > s.out.upper) s.out.upper = count;
-        if (ok && count > s.out.lower) try_ball(&s, ball.centre, radius);
-        if (ok) keep_candidate(&s, (candidate){count, object, s.keys[object]});
-        if (!ok || !array_push(&s.sample.alloc, &s.sample.values[0], count)) status = FROE_E_MEMORY;
+        if (count > s.out.upper) s.out.upper = count;
+        if (count > s.out.lower) try_ball(&s, ball.centre, radius);
+        keep_candidate(&s, (candidate){count, object, s.keys[object]});
+        if (!array_push(&s.sample.alloc, &s.sample.values[0], count)) status = FROE_E_MEMORY;
     }
     for (uint32_t i = 0; i < s.best_count && s.best[i].load > s.out.lower && !status; i++) {
         measure_ball ball;

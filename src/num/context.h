@@ -26,7 +26,7 @@ static inline num_arena *num_fresh(num_context *context) {
 }
 void num_stats_add(froe_predicate_stats *sum, const froe_predicate_stats *more);
 
-/** Round to nearest, gradual underflow, no contraction, double evaluation: checked by
+/** These three are in selftest.c. Round to nearest, gradual underflow, no contraction, double evaluation: checked by
  * computing with values the compiler cannot see. */
 bool num_machine_trusted(void);
 /** Of these only what a program can change while it runs: the rounding mode, and whether

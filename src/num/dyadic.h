@@ -34,6 +34,6 @@ num_dyadic num_dyadic_add(num_arena *arena, num_dyadic a, num_dyadic b);
 num_dyadic num_dyadic_sub(num_arena *arena, num_dyadic a, num_dyadic b);
 num_dyadic num_dyadic_mul(num_arena *arena, num_dyadic a, num_dyadic b);
 int num_dyadic_compare(num_dyadic a, num_dyadic b); /**< sign of a - b */
-/** The double nearest to a / b, ties to even, b != 0; infinity when out of range; never -0. */
+/** In quotient.c. The double nearest to a / b, ties to even, b != 0; infinity when out of range; never -0. */
 double num_dyadic_quotient(num_arena *arena, num_dyadic a, num_dyadic b);
 #endif

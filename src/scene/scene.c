@@ -1,4 +1,5 @@
 /* scene.c: making, holding and freeing scenes, and their public readers. */
+#include "scene/scene.h"
 #include "base/floats.h"
 #include "num/context.h"
 #include "scene/store.h"

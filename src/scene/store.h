@@ -5,7 +5,8 @@
  *     scene_store  the growing arrays behind them, and the table that finds equal vertices
  *
  * A call that adds writes behind the published counts and publishes at its end. A call
- * that fails drops its new vertices, and readers have seen nothing of it. */
+ * that fails drops its new vertices, and readers have seen nothing of it. In vertices.c (vertices), add.c (objects) and
+ * groups.c (groups). */
 #ifndef FROE_SCENE_STORE_H
 #define FROE_SCENE_STORE_H
 #include "scene/scene.h"

@@ -1,4 +1,4 @@
-/* contact.h: how do two bodies meet? Exact for every pair of kinds.
+/* contact.h: how do two bodies meet? Exact for every pair of kinds. In contact.c; polygons in contact_polygons.c.
  *
  *     cross     their relative interiors meet, in less than either's own dimension
  *     overlap   their relative interiors meet, in a piece of the lower one's dimension

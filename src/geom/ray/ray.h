@@ -7,7 +7,8 @@
  *     LINE         2D cross products, (p - o) x e / d x e  with  e = q - p    degree 2 / 2
  *     PLANE        n (p - o) / n d                                            degree 3 / 3
  *     SPHERE       (-b - sqrt(b^2 - a c)) / a,  a = d^2, b = d (o - m), c = (o - m)^2 - r^2
- */
+ *
+ * In ray.c; hulls, and what lies in one plane with the ray, in ray_hull.c. */
 #ifndef FROE_GEOM_RAY_RAY_H
 #define FROE_GEOM_RAY_RAY_H
 #include "geom/body.h"
