@@ -31,13 +31,12 @@ int cli_refuse_command(const char *name) {
     const char *names[COMMANDS];
     for (size_t i = 0; i < COMMANDS; i++) names[i] = commands[i]->name;
     const char *hint = cli_nearest(name, names, COMMANDS);
-    if (hint) return cli_fail(CLI_USE, NULL, "unknown command '%s'; did you mean '%s'?", name, hint);
-    return cli_fail(CLI_USE, NULL, "unknown command '%s'; froe --help lists what there is", name);
+    return cli_fail_unknown("command", name, hint, hint ? NULL : "froe --help lists what there is.");
 }
 
 int cli_run(const cli_command *command, int argc, char **argv, json_t **report) {
     void *args = malloc(command->size);
-    if (!args) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (!args) return cli_fail_memory();
     memcpy(args, command->defaults, command->size);
     int code = cli_parse(command->parts, argc, argv, args);
     if (!code && ((cli_common *)args)->help) {

@@ -1,6 +1,7 @@
 /* exit.c: statuses to exit codes, in one table, and error messages. */
 #include "exit.h"
 #include "support/fail.h"
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,25 +23,50 @@ static const unsigned char codes[FROE_STATUS_COUNT][3] = {
     [FROE_E_AUDIT] = {CLI_NO, CLI_NO, CLI_NO},
 };
 
-static void say(const char *file, const char *format, va_list args) {
+int cli_fail(int code, const char *file, const char *sentence, ...) {
+    va_list args;
     fputs("froe: ", stderr);
     if (file) fprintf(stderr, "%s: ", file);
-    vfprintf(stderr, format, args);
-    fputc('\n', stderr);
-}
-
-int cli_fail(int code, const char *file, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    say(file, format, args);
+    va_start(args, sentence);
+    vfprintf(stderr, sentence, args);
     va_end(args);
+    fputc('\n', stderr);
     return code;
 }
 
+int cli_fail_memory(void) {
+    return cli_fail(CLI_RESOURCES, NULL, "Out of memory.");
+}
+
+int cli_fail_file(int code, const char *file, const char *done) {
+    const int error = errno;
+    return cli_fail(code, file, "The file cannot be %s: %s.", done, support_errno(error).text);
+}
+
+int cli_fail_count(const char *option, size_t given, size_t needed) {
+    return cli_fail(CLI_USE, NULL, "--%s: There are %zu numbers, and %zu are needed.", option, given, needed);
+}
+
+int cli_fail_unknown(const char *what, const char *name, const char *meant, const char *sentence) {
+    if (!meant) return cli_fail(CLI_USE, NULL, "There is no %s '%s'. %s", what, name, sentence);
+    if (!sentence) return cli_fail(CLI_USE, NULL, "There is no %s '%s'. Did you mean '%s'?", what, name, meant);
+    return cli_fail(CLI_USE, NULL, "There is no %s '%s'. Did you mean '%s'? %s", what, name, meant, sentence);
+}
+
+/* Is the object named already, as such or as "segment 17: "? */
+static bool names_object(const char *sentence) {
+    for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
+        const char *name = froe_kind_name((froe_kind)kind);
+        const size_t length = strlen(name);
+        if (strncmp(sentence, name, length) == 0 && sentence[length] == ' ') return true;
+    }
+    return strstr(sentence, "object ") != NULL;
+}
+
 /* "object 17, corner 2: ", as far as it is known and the sentence does not name it already. */
-static void place(char *out, size_t size, const froe_diagnostic *diag) {
+static void place(char *out, size_t size, const froe_diagnostic *diag, const char *sentence) {
     *out = '\0';
-    if (diag->object == FROE_NONE || strstr(diag->message, "object ")) return;
+    if (diag->object == FROE_NONE || names_object(sentence)) return;
     if (diag->corner == FROE_NONE)
         snprintf(out, size, "object %u: ", diag->object);
     else
@@ -48,28 +74,21 @@ static void place(char *out, size_t size, const froe_diagnostic *diag) {
 }
 
 /* The library names a file by the end of its path. A message that begins with it, as readers' do: what comes after. */
-static const char *without_file(const char *reason, const char *file) {
+static const char *without_file(const char *sentence, const char *file) {
     const char *end = support_short(file);
     const size_t length = strlen(end);
-    return strncmp(reason, end, length) == 0 && strncmp(reason + length, ": ", 2) == 0 ? reason + length + 2 : reason;
-}
-
-/* Is the file in the message already, in quotes? */
-static bool quotes(const char *reason, const char *file) {
-    const char *end = support_short(file), *at = strstr(reason, end);
-    return at && at > reason && at[-1] == '\'' && at[strlen(end)] == '\'';
+    return strncmp(sentence, end, length) == 0 && strncmp(sentence + length, ": ", 2) == 0 ? sentence + length + 2
+                                                                                           : sentence;
 }
 
 int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag) {
     const int code = (unsigned)status < FROE_STATUS_COUNT ? codes[status][stage] : CLI_USE;
-    const bool told = diag && diag->status == status && diag->message[0];
-    char where[64] = "";
-    if (told) place(where, sizeof where, diag);
-    const char *reason = told ? diag->message : froe_status_text(status);
-    if (file) reason = without_file(reason, file);
-    if (file && quotes(reason, file)) file = NULL;
-    if (status == FROE_E_OPTIONS && stage != CLI_READING) file = NULL; /* the command line is wrong, not the file */
-    int length = (int)strlen(reason);
-    if (length && reason[length - 1] == '.') length--;
-    return cli_fail(code, file, "%s%.*s", where, length, reason);
+    if (!diag || diag->status != status || !diag->message[0])
+        return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));
+    const char *sentence = file ? without_file(diag->message, file) : diag->message;
+    char where[64];
+    place(where, sizeof where, diag, sentence);
+    if (status == FROE_E_OPTIONS && stage != CLI_READING && sentence == diag->message)
+        file = NULL; /* the command line is wrong, not the file */
+    return cli_fail(code, file, "%s%s", where, sentence);
 }

@@ -1,6 +1,6 @@
 /* exit.h: how a command ends, and what it says when it fails.
  *
- *     froe: FILE: object 17, corner 2: reason */
+ *     froe: FILE: object 17, corner 2: Reason as a sentence. */
 #ifndef FROE_CLI_EXIT_H
 #define FROE_CLI_EXIT_H
 #include <froe/froe.h>
@@ -20,7 +20,16 @@ enum {
 typedef enum cli_stage { CLI_READING, CLI_WORKING, CLI_WRITING } cli_stage;
 
 /** Prints "froe: FILE: sentence" on stderr (file may be NULL) and returns `code`. */
-int cli_fail(int code, const char *file, const char *format, ...) __attribute__((format(printf, 3, 4)));
+int cli_fail(int code, const char *file, const char *sentence, ...) __attribute__((format(printf, 3, 4)));
+/** CLI_RESOURCES, for memory that was refused. */
+int cli_fail_memory(void);
+/** The same for a file that cannot be read or written (`done`), with the reason in errno. */
+int cli_fail_file(int code, const char *file, const char *done);
+/** CLI_USE, for an option of numbers that got `given` of them instead of `needed`. */
+int cli_fail_count(const char *option, size_t given, size_t needed);
+/** CLI_USE, for a name that is none: "There is no WHAT 'NAME'." and the name that was perhaps
+ * meant, or the sentence that says what there is, or both. */
+int cli_fail_unknown(const char *what, const char *name, const char *meant, const char *sentence);
 /** The same for a failed call of the library: says object, corner and reason and
  * returns the exit code of the status. */
 int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag);

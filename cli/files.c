@@ -17,11 +17,10 @@ int cli_write_text(const char *path, cli_write_fn *fn, const void *user) {
     char *text = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
-    if (!out) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (!out) return cli_fail_memory();
     fn(out, user);
     const bool whole = !ferror(out);
-    const int code =
-        fclose(out) || !whole ? cli_fail(CLI_RESOURCES, NULL, "out of memory") : cli_write_file(path, text, length);
+    const int code = fclose(out) || !whole ? cli_fail_memory() : cli_write_file(path, text, length);
     free(text);
     return code;
 }
@@ -38,10 +37,10 @@ int cli_check_outputs(const char *const *inputs, size_t input_count, const char 
     for (size_t i = 0; i < output_count; i++) {
         for (size_t k = 0; k < input_count; k++)
             if (same_file(outputs[i], inputs[k]))
-                return cli_fail(CLI_USE, outputs[i], "is read as well; what is written needs a file of its own");
+                return cli_fail(CLI_USE, outputs[i], "The file is read as well. An output needs a file of its own.");
         for (size_t k = 0; k < i; k++)
             if (same_file(outputs[i], outputs[k]))
-                return cli_fail(CLI_USE, outputs[i], "is to be written twice; each output needs a file of its own");
+                return cli_fail(CLI_USE, outputs[i], "The file is written twice. An output needs a file of its own.");
     }
     return 0;
 }

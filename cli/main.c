@@ -36,11 +36,11 @@ int main(int argc, char **argv) {
     if (is(word, "--help", "-h") || strcmp(word, "help") == 0) return run_help(argc - 2, argv + 2, false);
     if (strcmp(word, "--manual") == 0) return run_help(argc - 2, argv + 2, true);
     if (is(word, "--version", "-V")) return cli_version(argc > 2 && strcmp(argv[2], "--json") == 0);
-    if (word[0] == '-') return cli_fail(CLI_USE, NULL, "unknown option '%s' before a command; try froe --help", word);
+    if (word[0] == '-') return cli_fail_unknown("option", word, NULL, "froe --help lists what there is.");
     const cli_command *command = cli_command_named(word);
     if (!command) return cli_refuse_command(word);
     cli_catch_signals();
     const int code = cli_run(command, argc - 2, argv + 2, NULL);
     if (code || !cli_interrupted()) return code;
-    return cli_fail(CLI_CANCELLED, NULL, "cancelled when all was done: what was written is whole");
+    return cli_fail(CLI_CANCELLED, NULL, "Cancelled when all was done, and what was written is whole.");
 }

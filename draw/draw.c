@@ -71,16 +71,14 @@ static bool all_finite(const double *x, int count) {
 }
 
 static froe_status check_options(const froe_draw_options *o, int dim, froe_diagnostic *diag) {
-    if (o->size != sizeof *o)
-        return support_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_draw_defaults().");
-    if (dim > 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "Pictures have 2 or 3 dimensions; this tree has %d.", dim);
+    if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_draw_defaults");
+    if (dim > 3) return support_fail(diag, FROE_E_UNSUPPORTED, "Pictures exist in 2 and 3 dimensions, not in %d.", dim);
     if (o->style < 0 || o->style >= FROE_DRAW_STYLE_COUNT)
-        return support_fail(diag, FROE_E_OPTIONS, "There is no picture style number %d.", (int)o->style);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no style %d.", (int)o->style);
     if (o->style != FROE_DRAW_AUTO && (o->style == FROE_DRAW_FLAT) != (dim == 2))
         return support_fail(diag, FROE_E_OPTIONS, "Style '%s' does not suit a tree of dimension %d.",
                             froe_draw_style_name(o->style), dim);
-    if (o->show > 15) return support_fail(diag, FROE_E_OPTIONS, "Option 'show' of a picture has unknown bits.");
+    if (o->show > 15) return support_fail(diag, FROE_E_OPTIONS, "option 'show': It has unknown bits.");
     if (!all_finite(o->lo, 3) || !all_finite(o->hi, 3) || !all_finite(o->view, 3))
         return support_fail(diag, FROE_E_OPTIONS, "The window and the direction of view must be finite.");
     for (size_t i = 0; i < o->mark_count; i++)
@@ -89,7 +87,7 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
     /* Cairo would refuse it too, but only after looking for fonts. */
     size_t length = 1;
     for (const char *text = o->title; text && *text && length; text += length) length = support_utf8_length(text);
-    if (!length) return support_fail(diag, FROE_E_OPTIONS, "The title of a picture is not UTF-8.");
+    if (!length) return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
     const draw_range ranges[] = {{"width", o->width, 16, 32000},
                                  {"height", o->height, o->height == 0 ? 0 : 16, 32000},
                                  {"margin", o->margin, -HUGE_VAL, o->width / 2},
@@ -104,10 +102,10 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
         const draw_range *r = ranges + i;
         if (r->value >= r->lo && r->value <= r->hi) continue;
         if (r->lo == -HUGE_VAL)
-            return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be at most %g.",
-                                r->name, r->value, r->hi);
-        return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
-                            r->value, r->lo, r->hi);
+            return support_fail(diag, FROE_E_OPTIONS, "option '%s': '%g' is not a number up to %g.", r->name, r->value,
+                                r->hi);
+        return support_fail(diag, FROE_E_OPTIONS, "option '%s': '%g' is not a number from %g to %g.", r->name, r->value,
+                            r->lo, r->hi);
     }
     return FROE_OK;
 }
@@ -121,7 +119,8 @@ static froe_status paint_page(draw_picture *picture, froe_draw_format format, dr
     bool solid = page->options->style == FROE_DRAW_EXPLODED;
     froe_status status = solid ? draw_solid_plan(picture) : draw_plane_plan(picture);
     if (status == FROE_OK && format == FROE_DRAW_PNG && !(page->width * scale <= most && page->height * scale <= most))
-        return support_fail(diag, FROE_E_OPTIONS, "A PNG of %.0f x %.0f pixels is too large: at most %.0f either way.",
+        return support_fail(diag, FROE_E_OPTIONS,
+                            "A PNG of %.0f x %.0f pixels is too large. There are at most %.0f either way.",
                             page->width * scale, page->height * scale, most);
     if (status == FROE_OK) {
         status = draw_output_begin(output, &page->alloc, format, page->width, page->height, page->options->scale,
@@ -130,7 +129,7 @@ static froe_status paint_page(draw_picture *picture, froe_draw_format format, dr
         status = solid ? draw_solid_paint(picture, output->cr) : draw_plane_paint(picture, output->cr);
     }
     if (status == FROE_E_MEMORY) support_fail_memory(diag);
-    if (status == FROE_E_CANCELLED) support_fail(diag, status, "cancelled");
+    if (status == FROE_E_CANCELLED) support_fail_cancelled(diag);
     return status == FROE_OK ? draw_output_finish(output, diag) : status;
 }
 
@@ -167,16 +166,16 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     status = paint_page(&picture, format, output, diag);
     draw_picture_free(&picture);
     if (status == FROE_OK && o.progress && !support_callback(o.progress(o.user, 1)))
-        return support_fail(diag, FROE_E_CANCELLED, "cancelled");
+        return support_fail_cancelled(diag);
     return status;
 }
 
 froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_draw_write_fn *fn, void *user,
                             const froe_draw_options *options, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!tree || !fn) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
+    if (!tree || !fn) return support_fail_null(diag, __func__);
     if (format < 0 || format >= FROE_DRAW_FORMAT_COUNT)
-        return support_fail(diag, FROE_E_OPTIONS, "There is no picture format number %d.", (int)format);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no format %d.", (int)format);
     draw_output output;
     froe_status status = make(tree, format, options, &output, diag);
     if (status == FROE_OK && !support_callback(fn(user, output.bytes.data, output.bytes.count)))
@@ -189,10 +188,9 @@ froe_status froe_draw(const froe_tree *tree, const char *path, const froe_draw_o
                       froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     froe_draw_format format;
-    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
+    if (!tree || !path) return support_fail_null(diag, __func__);
     if (!froe_draw_format_of(path, &format))
-        return support_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf or .png.",
-                            path);
+        return support_fail_ending(diag, FROE_E_OPTIONS, path, "pictures", ".svg, .pdf or .png");
     draw_output output;
     froe_status status = make(tree, format, options, &output, diag);
     if (status == FROE_OK) status = support_write(path, output.bytes.data, output.bytes.count, &output.alloc, diag);

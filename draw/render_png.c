@@ -37,9 +37,8 @@ froe_status froe_render_png(const froe_tree *tree, const char *path, const froe_
     const froe_render_options standard = froe_render_defaults(), *o = options ? options : &standard;
     froe_render_report found;
     draw_output output = {.alloc = support_allocator(o->alloc)};
-    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
-    if (o->size != sizeof *o)
-        return support_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_render_defaults().");
+    if (!tree || !path) return support_fail_null(diag, __func__);
+    if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_render_defaults");
     /* What froe_render_paths() leaves to its caller: the size in pixels. */
     const struct {
         const char *name;
@@ -49,7 +48,7 @@ froe_status froe_render_png(const froe_tree *tree, const char *path, const froe_
                   {"height", o->camera.height * o->pixels, 1, 32000}};
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)
         if (!(ranges[i].value >= ranges[i].lo && ranges[i].value <= ranges[i].hi))
-            return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.",
+            return support_fail(diag, FROE_E_OPTIONS, "option '%s': '%g' is not a number from %g to %g.",
                                 ranges[i].name, ranges[i].value, ranges[i].lo, ranges[i].hi);
     froe_status status = draw_output_begin(&output, &output.alloc, FROE_DRAW_PNG, o->camera.width, o->camera.height,
                                            o->pixels, NULL, diag);

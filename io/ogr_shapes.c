@@ -7,15 +7,11 @@ void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes) {
     array_free(alloc, &shapes->points);
 }
 
-static froe_status shapes_out_of_memory(formats_sink *sink) {
-    return formats_sink_fail(sink, FROE_E_MEMORY, "out of memory");
-}
-
 /* The vertices of a line or ring as xy pairs. */
 static froe_status load_points(formats_sink *sink, io_shapes *shapes, OGRGeometryH line, size_t *count) {
     int n = OGR_G_GetPointCount(line);
     *count = n > 0 ? (size_t)n : 0;
-    if (!array_reserve(&sink->alloc, &shapes->points, (*count + 1) * 2)) return shapes_out_of_memory(sink);
+    if (!array_reserve(&sink->alloc, &shapes->points, (*count + 1) * 2)) return support_fail_memory(sink->diag);
     double *xy = shapes->points.data;
     if (*count) OGR_G_GetPoints(line, xy, 2 * sizeof *xy, xy + 1, 2 * sizeof *xy, NULL, 0);
     return FROE_OK;
@@ -28,7 +24,7 @@ typedef froe_status part_fn(void *user, formats_sink *sink, io_shapes *shapes, O
 static froe_status each_part(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry, part_fn *fn, void *user) {
     const froe_allocator *alloc = &sink->alloc;
     shapes->stack.count = 0;
-    if (!array_push(alloc, &shapes->stack, geometry)) return shapes_out_of_memory(sink);
+    if (!array_push(alloc, &shapes->stack, geometry)) return support_fail_memory(sink->diag);
     froe_status status = FROE_OK;
     while (shapes->stack.count && !status) {
         OGRGeometryH part = shapes->stack.data[--shapes->stack.count];
@@ -41,7 +37,7 @@ static froe_status each_part(formats_sink *sink, io_shapes *shapes, OGRGeometryH
         }
         for (int i = OGR_G_GetGeometryCount(part); i-- > 0;) {
             OGRGeometryH child = OGR_G_GetGeometryRef(part, i);
-            if (!array_push(alloc, &shapes->stack, child)) return shapes_out_of_memory(sink);
+            if (!array_push(alloc, &shapes->stack, child)) return support_fail_memory(sink->diag);
         }
     }
     return status;

@@ -56,17 +56,14 @@ typedef struct model {
     bool linear; /* colours are shares of light (glTF), not of sRGB */
 } model;
 
-static froe_status assimp_out_of_memory(model *w) {
-    return support_fail(w->sink->diag, FROE_E_MEMORY, "%s: out of memory", support_short(w->sink->path));
-}
-
-static froe_status corrupt(model *w, const char *what) {
-    return support_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(w->sink->path), what);
+static froe_status corrupt(model *w, const char *sentence) {
+    return support_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(w->sink->path), sentence);
 }
 
 /* The vertices of a mesh in space: m holds the rows of a 3 x 4 matrix. */
 static froe_status transform(model *w, const struct aiMesh *mesh, const double *m) {
-    if (!array_reserve(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3)) return assimp_out_of_memory(w);
+    if (!array_reserve(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3))
+        return support_fail_memory(w->sink->diag);
     double *to = w->points.data;
     for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
         const double p[3] = {mesh->mVertices[i].x, mesh->mVertices[i].y, mesh->mVertices[i].z};
@@ -80,9 +77,9 @@ static froe_status add_face(model *w, const struct aiMesh *mesh, const struct ai
     w->corners.count = 0;
     for (unsigned i = 0; i < face->mNumIndices; ++i) {
         unsigned at = face->mIndices[i];
-        if (at >= mesh->mNumVertices) return corrupt(w, "a face names a vertex that does not exist");
+        if (at >= mesh->mNumVertices) return corrupt(w, "A face names a vertex that does not exist.");
         if (!array_append(&w->sink->alloc, &w->corners, w->points.data + 3 * (size_t)at, 3))
-            return assimp_out_of_memory(w);
+            return support_fail_memory(w->sink->diag);
     }
     if (!face->mNumIndices) return ++w->sink->report.skipped, FROE_OK;
     return formats_sink_face(w->sink, w->corners.data, face->mNumIndices);
@@ -133,12 +130,12 @@ static froe_status enter_node_group(model *w, const struct aiNode *node, unsigne
     froe_status status = formats_sink_group(w->sink, &group);
     if (status) return status;
     const material_group added = {material, w->sink->group};
-    return array_push(&w->sink->alloc, &w->groups, added) ? FROE_OK : assimp_out_of_memory(w);
+    return array_push(&w->sink->alloc, &w->groups, added) ? FROE_OK : support_fail_memory(w->sink->diag);
 }
 
 /* A mesh without faces is a cloud of points. */
 static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index, const double *m) {
-    if (index >= w->scene->mNumMeshes) return corrupt(w, "a node names a mesh that does not exist");
+    if (index >= w->scene->mNumMeshes) return corrupt(w, "A node names a mesh that does not exist.");
     const struct aiMesh *mesh = w->scene->mMeshes[index];
     enum { FACES_PER_REPORT = 8192 };
     const bool cloud = !mesh->mNumFaces;
@@ -158,7 +155,7 @@ static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index,
 static froe_status push(model *w, const struct aiNode *node, const double *parent) {
     visit next = {.node = node};
     memcpy(next.parent, parent, sizeof next.parent);
-    return array_push(&w->sink->alloc, &w->stack, next) ? FROE_OK : assimp_out_of_memory(w);
+    return array_push(&w->sink->alloc, &w->stack, next) ? FROE_OK : support_fail_memory(w->sink->diag);
 }
 
 static froe_status walk_nodes(model *w) {
@@ -207,10 +204,12 @@ static froe_status refuse_import(const formats_source *source, formats_sink *sin
     const char *said = aiGetErrorString();
     snprintf(reason, sizeof reason, "%.150s", strstr(said, source->path) ? "" : said);
     reason[strcspn(reason, "\r\n")] = '\0';
-    if (strstr(reason, "bad_alloc"))
-        return support_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory", support_short(source->path));
-    return support_fail(sink->diag, FROE_E_FORMAT, "%s: %s", support_short(source->path),
-                        *reason ? reason : "is of no type that can be read");
+    if (strstr(reason, "bad_alloc")) return support_fail_memory(sink->diag);
+    if (*reason)
+        return support_fail(sink->diag, FROE_E_FORMAT, "%s: The reader assimp reports '%.120s'.",
+                            support_short(source->path), reason);
+    return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file is of no type that can be read.",
+                        support_short(source->path));
 }
 
 froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
@@ -229,7 +228,7 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     w.linear = !strncmp(sink->report.format, "glTF", 4);
     sink->unit = "face";
     sink->report.layers = 1;
-    status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "has no nodes");
+    status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "The file has no nodes.");
     if (!status) status = formats_sink_end_feature(sink);
     sink->inside = NULL; /* it belongs to assimp's scene */
     array_free(&sink->alloc, &w.stack);

@@ -47,9 +47,11 @@ typedef struct map {
     uint64_t features_done;
 } map;
 
-static froe_status map_fail(map *m, froe_status status, const char *otherwise) {
-    return support_fail(m->sink->diag, status, "%s: %s", support_short(m->source->path),
-                        m->heard.failed && *m->heard.text ? m->heard.text : otherwise);
+static froe_status map_fail(map *m, froe_status status, const char *sentence) {
+    const char *path = support_short(m->source->path);
+    if (m->heard.failed && *m->heard.text)
+        return support_fail(m->sink->diag, status, "%s: OGR reports '%.120s'.", path, m->heard.text);
+    return support_fail(m->sink->diag, status, "%s: %s", path, sentence);
 }
 
 static int find_field(OGRFeatureDefnH fields, const char *const *names) {
@@ -91,7 +93,7 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
         geometry = OGR_G_GetLinearGeometry(geometry, 0, NULL);
     }
     if (!geometry)
-        return curved ? formats_sink_fail(sink, FROE_E_FORMAT, "its curves cannot be linearised")
+        return curved ? formats_sink_fail(sink, FROE_E_FORMAT, "Its curves cannot be linearised.")
                       : (++sink->report.no_geometry, FROE_OK);
     sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
     io_sides sides;
@@ -143,7 +145,7 @@ static froe_status filter(map *m, OGRLayerH layer) {
     if (!where) return FROE_OK;
     m->heard.failed = false;
     if (OGR_L_SetAttributeFilter(layer, where) == OGRERR_NONE) return FROE_OK;
-    return map_fail(m, FROE_E_OPTIONS, "the attribute filter cannot be applied");
+    return map_fail(m, FROE_E_OPTIONS, "The attribute filter cannot be applied.");
 }
 
 static froe_status add_layers(map *m) {
@@ -158,7 +160,7 @@ static froe_status add_layers(map *m) {
             const int wrote = snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", name);
             used += wrote > 0 ? (size_t)wrote : 0;
         }
-        return support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: has no layer '%.40s'; it has: %s",
+        return support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: There is no layer '%.40s'. There are: %s.",
                             support_short(m->source->path), wanted, names);
     }
     /* the layers of a topology are views of the same arcs: all of them would be the same lines again */
@@ -170,7 +172,7 @@ static froe_status add_layers(map *m) {
     m->sink->report.layers_left = (uint64_t)layers - m->sink->report.layers;
     m->heard.failed = false; /* earlier failures did not keep the file from opening */
     if (!status) status = add_features(m, one);
-    if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "cannot be read to its end");
+    if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "The file cannot be read to its end.");
     if (!status) status = formats_sink_end_feature(m->sink);
     m->sink->inside = NULL;
     return status;
@@ -191,7 +193,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     pthread_once(&once, register_drivers);
     m.data = GDALOpenEx(source->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
                         is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
-    if (!m.data) status = map_fail(&m, FROE_E_FORMAT, "is of no type that can be read");
+    if (!m.data) status = map_fail(&m, FROE_E_FORMAT, "The file is of no type that can be read.");
     if (!status) {
         formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
         status = add_layers(&m);

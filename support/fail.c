@@ -6,38 +6,46 @@
 #include <string.h>
 
 static void fill(froe_diagnostic *diag, froe_status status, uint32_t object, uint32_t corner, uint32_t axis,
-                 const char *format, va_list args) {
+                 const char *sentence, va_list args) {
     if (!diag) return;
     diag->status = status;
     diag->object = object;
     diag->corner = corner;
     diag->axis = axis;
-    vsnprintf(diag->message, sizeof diag->message, format, args);
+    vsnprintf(diag->message, sizeof diag->message, sentence, args);
 }
 
-froe_status support_fail(froe_diagnostic *diag, froe_status status, const char *format, ...) {
+froe_status support_fail(froe_diagnostic *diag, froe_status status, const char *sentence, ...) {
     va_list args;
-    va_start(args, format);
-    fill(diag, status, FROE_NONE, FROE_NONE, FROE_NONE, format, args);
+    va_start(args, sentence);
+    fill(diag, status, FROE_NONE, FROE_NONE, FROE_NONE, sentence, args);
     va_end(args);
     return status;
 }
 
 froe_status support_fail_at(froe_diagnostic *diag, froe_status status, uint32_t object, uint32_t corner, uint32_t axis,
-                            const char *format, ...) {
+                            const char *sentence, ...) {
     va_list args;
-    va_start(args, format);
-    fill(diag, status, object, corner, axis, format, args);
+    va_start(args, sentence);
+    fill(diag, status, object, corner, axis, sentence, args);
     va_end(args);
     return status;
 }
 
 froe_status support_fail_memory(froe_diagnostic *diag) {
-    return support_fail(diag, FROE_E_MEMORY, "out of memory");
+    return support_fail(diag, FROE_E_MEMORY, "Out of memory.");
 }
 
 froe_status support_fail_cancelled(froe_diagnostic *diag) {
-    return support_fail(diag, FROE_E_CANCELLED, "cancelled");
+    return support_fail(diag, FROE_E_CANCELLED, "Cancelled.");
+}
+
+froe_status support_fail_null(froe_diagnostic *diag, const char *function) {
+    return support_fail(diag, FROE_E_ARG, "An argument of %s is NULL.", function);
+}
+
+froe_status support_fail_defaults(froe_diagnostic *diag, const char *maker) {
+    return support_fail(diag, FROE_E_OPTIONS, "The options do not come from %s().", maker);
 }
 
 const char *support_short(const char *path) {
@@ -53,7 +61,13 @@ support_reason support_errno(int error) {
     return reason;
 }
 
-froe_status support_fail_file(froe_diagnostic *diag, const char *doing, const char *path, int error) {
+froe_status support_fail_file(froe_diagnostic *diag, const char *done, const char *path, int error) {
     if (error == ENOMEM) return support_fail_memory(diag);
-    return support_fail(diag, FROE_E_IO, "cannot %s '%s': %s", doing, support_short(path), support_errno(error).text);
+    return support_fail(diag, FROE_E_IO, "%s: The file cannot be %s: %s.", support_short(path), done,
+                        support_errno(error).text);
+}
+
+froe_status support_fail_ending(froe_diagnostic *diag, froe_status status, const char *path, const char *what,
+                                const char *endings) {
+    return support_fail(diag, status, "%s: The ending of %s is %s.", support_short(path), what, endings);
 }

@@ -1,22 +1,35 @@
-/* fail.h: how a failure gets its sentence. */
+/* fail.h: how a failure gets its sentence.
+ *
+ * Every message has one form, which scripts/check-messages holds: places, each with a colon, then whole sentences,
+ *
+ *     map.csv: object 2: row 3: '1e' is not a number.
+ *     There is no method 'x'. There are: bar, density.
+ *
+ * and each cause has one wording. A parameter called `sentence` is a message, or what stands at the end of one. */
 #ifndef FROE_SUPPORT_FAIL_H
 #define FROE_SUPPORT_FAIL_H
 #include "support/arithmetic.h"
 #include <froe/froe.h>
 
 /** Fills `diag` (unless NULL) with a printf-formatted sentence and returns `status`. */
-froe_status support_fail(froe_diagnostic *diag, froe_status status, const char *format, ...)
+froe_status support_fail(froe_diagnostic *diag, froe_status status, const char *sentence, ...)
     __attribute__((format(printf, 3, 4)));
 /** The same, with the place of the fault. FROE_NONE stands for what does not apply. */
 froe_status support_fail_at(froe_diagnostic *diag, froe_status status, uint32_t object, uint32_t corner, uint32_t axis,
-                            const char *format, ...) __attribute__((format(printf, 6, 7)));
-/** FROE_E_MEMORY with its standard sentence. */
+                            const char *sentence, ...) __attribute__((format(printf, 6, 7)));
+/** FROE_E_MEMORY: "Out of memory." */
 froe_status support_fail_memory(froe_diagnostic *diag);
-/** FROE_E_CANCELLED with its standard sentence. */
+/** FROE_E_CANCELLED: "Cancelled." */
 froe_status support_fail_cancelled(froe_diagnostic *diag);
-
-/** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: "cannot DO 'PATH': REASON", of an errno value. */
-froe_status support_fail_file(froe_diagnostic *diag, const char *doing, const char *path, int error);
+/** FROE_E_ARG: "An argument of FUNCTION is NULL." */
+froe_status support_fail_null(froe_diagnostic *diag, const char *function);
+/** FROE_E_OPTIONS: "The options do not come from MAKER()." */
+froe_status support_fail_defaults(froe_diagnostic *diag, const char *maker);
+/** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: "PATH: The file cannot be DONE: REASON.", of an errno value. */
+froe_status support_fail_file(froe_diagnostic *diag, const char *done, const char *path, int error);
+/** `status` for an extension that is not among those that there are: "PATH: The ending of WHAT is ENDINGS." */
+froe_status support_fail_ending(froe_diagnostic *diag, froe_status status, const char *path, const char *what,
+                                const char *endings);
 
 /** The end of a path, short enough to leave room for the reason in a diagnostic. */
 const char *support_short(const char *path);

@@ -188,7 +188,7 @@ froe_status support_writer_open(support_writer *w, const char *path, const froe_
     int error = open_file(w);
     if (!error) return FROE_OK;
     support_free(&w->alloc, w->room, sizeof *w->room);
-    return support_fail_file(diag, "write", path, error);
+    return support_fail_file(diag, "written", path, error);
 }
 
 froe_status support_writer_close(support_writer *w, froe_status status) {
@@ -197,7 +197,7 @@ froe_status support_writer_close(support_writer *w, froe_status status) {
     /* An interrupted close() has closed the file, whose bytes are on the disk. */
     if (close(w->file) && errno != EINTR && !w->error) w->error = errno;
     if (!status && !w->error && *temporary && rename(temporary, target)) w->error = errno;
-    if (!status && w->error) status = support_fail_file(w->diag, "write", w->path, w->error);
+    if (!status && w->error) status = support_fail_file(w->diag, "written", w->path, w->error);
     if (*temporary && status) unlink(temporary);
     if (*temporary && !status) sync_folder(target);
     support_free(&w->alloc, w->room, sizeof *w->room);

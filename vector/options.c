@@ -37,14 +37,13 @@ typedef struct render_range {
 static froe_status check_in_range(const render_range *r, size_t count, froe_diagnostic *diag) {
     for (; count--; r++)
         if (!(r->value >= r->lo && r->value <= r->hi))
-            return support_fail(diag, FROE_E_OPTIONS, "Option '%s' of a picture is %g, but must be %g to %g.", r->name,
+            return support_fail(diag, FROE_E_OPTIONS, "option '%s': '%g' is not a number from %g to %g.", r->name,
                                 r->value, r->lo, r->hi);
     return FROE_OK;
 }
 
 froe_status vector_check(const froe_scene *scene, const froe_render_options *o, froe_diagnostic *diag) {
-    if (o->size != sizeof *o)
-        return support_fail(diag, FROE_E_OPTIONS, "The picture's options do not come from froe_render_defaults().");
+    if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_render_defaults");
     const render_range ranges[] = {{"shading", o->shading, 0, FROE_SHADING_COUNT - 1},
                                    {"cel_levels", o->cel_levels, 2, 64},
                                    {"seams", o->seams, 0, FROE_SEAMS_COUNT - 1},
@@ -59,14 +58,15 @@ froe_status vector_check(const froe_scene *scene, const froe_render_options *o, 
     if (status) return status;
     if (o->seams == FROE_SEAMS_TWICE && o->interleaved)
         return support_fail(diag, FROE_E_OPTIONS,
-                            "Shapes with lines among them cannot be painted twice: use other seams.");
+                            "Shapes with lines among them cannot be painted twice. Other seams paint them once.");
     for (uint32_t g = 0; g < froe_scene_group_count(scene); g++) {
         const double opacity = vector_opacity(scene, o, g);
         if (!(opacity >= 0 && opacity <= 1))
-            return support_fail(diag, FROE_E_OPTIONS, "The opacity of group %u is %g, not 0 to 1.", g, opacity);
+            return support_fail(diag, FROE_E_OPTIONS, "group %u: Its opacity is %g, not a number from 0 to 1.", g,
+                                opacity);
         if (opacity < 1 && o->seams == FROE_SEAMS_TWICE)
             return support_fail(diag, FROE_E_OPTIONS,
-                                "What one sees through cannot be painted twice: use other seams.");
+                                "Transparent shapes cannot be painted twice. Other seams paint them once.");
     }
     return FROE_OK;
 }
@@ -89,10 +89,10 @@ froe_status vector_check_format(const froe_scene *scene, const froe_render_optio
         return support_fail(diag, FROE_E_OPTIONS, "The description of the picture is not UTF-8.");
     for (uint32_t g = 0; format == FROE_RENDER_EPS && g < froe_scene_group_count(scene); g++)
         if (vector_opacity(scene, o, g) < 1)
-            return support_fail(
-                diag, FROE_E_OPTIONS,
-                "EPS has no opacity, and '%s' (group %u) has: use .svg, .pdf or .png, or make everything opaque.",
-                froe_scene_group(scene, g).material, g);
+            return support_fail(diag, FROE_E_OPTIONS,
+                                "group %u ('%s'): EPS has no opacity, and the group has. Pictures with opacity are "
+                                "written as .svg, .pdf or .png.",
+                                g, froe_scene_group(scene, g).material);
     return FROE_OK;
 }
 

@@ -16,11 +16,9 @@ static froe_status format_of(const char *path, froe_render_format *format, froe_
         }
     if (strcmp(extension.text, "png") == 0)
         return support_fail(diag, FROE_E_UNSUPPORTED,
-                            "PNG is not among the formats of froe_render(): '%.140s' is made by froe_render_png() of "
-                            "the library froe-draw.",
-                            path);
-    return support_fail(diag, FROE_E_OPTIONS, "Cannot tell from '%.140s' what to draw: use .svg, .pdf, .eps or .png.",
-                        path);
+                            "%s: A PNG is made by froe_render_png() of the library froe-draw, not by froe_render().",
+                            support_short(path));
+    return support_fail_ending(diag, FROE_E_OPTIONS, path, "pictures", ".svg, .pdf, .eps or .png");
 }
 
 /* ----------------------------------------------------------------------- making -- */
@@ -95,11 +93,13 @@ static void free_render(vector_render *r) {
 
 /* ---------------------------------------------------------------------- writing -- */
 
-static const char refused[] = "The receiver of the picture refused it.";
+static const char refused_sentence[] = "The receiver of the picture refused it.";
 
 static froe_status end_output(vector_output *output, froe_diagnostic *diag) {
     const froe_status status = vector_flush(output);
-    return status == FROE_E_MEMORY ? support_fail_memory(diag) : status ? support_fail(diag, status, refused) : FROE_OK;
+    return status == FROE_E_MEMORY ? support_fail_memory(diag)
+           : status                ? support_fail(diag, status, refused_sentence)
+                                   : FROE_OK;
 }
 
 /* A whole picture; the options are checked. */
@@ -132,7 +132,7 @@ froe_status froe_render(const froe_tree *tree, const char *path, const froe_rend
     support_writer file;
     vector_output output = {.fn = put_to_file, .user = &file};
     froe_render_format format = FROE_RENDER_SVG;
-    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and a path.");
+    if (!tree || !path) return support_fail_null(diag, __func__);
     vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options ? options : &standard};
     froe_status status = format_of(path, &format, diag);
     if (!status) status = vector_check_format(r.scene, r.options, format, diag);
@@ -150,9 +150,9 @@ froe_status froe_render_write(const froe_tree *tree, froe_render_format format, 
     SUPPORT_FLOATS_OWN;
     const froe_render_options standard = froe_render_defaults();
     vector_output output = {.fn = fn, .user = user};
-    if (!tree || !fn) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
+    if (!tree || !fn) return support_fail_null(diag, __func__);
     if (format < 0 || format >= FROE_RENDER_FORMAT_COUNT)
-        return support_fail(diag, FROE_E_OPTIONS, "There is no picture format number %d.", (int)format);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no format %d.", (int)format);
     vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options ? options : &standard};
     froe_status status = vector_check_format(r.scene, r.options, format, diag);
     if (status) return status;
@@ -177,10 +177,9 @@ froe_status froe_render_paths(const froe_tree *tree, double steps, froe_render_p
     SUPPORT_FLOATS_OWN;
     const froe_render_options standard = froe_render_defaults();
     path_receiver to = {fn, user};
-    if (!tree || !fn) return support_fail(diag, FROE_E_ARG, "A picture needs a tree and somewhere to go.");
+    if (!tree || !fn) return support_fail_null(diag, __func__);
     if (!(steps > 0 && steps <= 1e6))
-        return support_fail(diag, FROE_E_OPTIONS, "A picture has more than 0 and at most 1e6 steps a unit, not %g.",
-                            steps);
+        return support_fail(diag, FROE_E_OPTIONS, "option 'steps': '%g' is not a number above 0 and up to 1e6.", steps);
     vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options ? options : &standard};
     r.grid = steps;
     froe_status status = vector_check(r.scene, r.options, diag);
@@ -200,12 +199,12 @@ froe_status froe_render_animation(const froe_tree *tree, const char *path, const
     support_writer file;
     vector_output output = {.fn = put_to_file, .user = &file};
     froe_render_report last = {.paths = 0};
-    if (!tree || !path || !cameras || !count)
-        return support_fail(diag, FROE_E_ARG, "An animation needs a tree, a path and cameras.");
+    if (!tree || !path || !cameras || !count) return support_fail_null(diag, __func__);
     if (strcmp(support_path_extension(path).text, "svg") != 0)
-        return support_fail(diag, FROE_E_OPTIONS, "Only SVG moves: '%.140s' does not end in .svg.", path);
+        return support_fail_ending(diag, FROE_E_OPTIONS, path, "animations", ".svg");
     if (!(seconds > 0 && seconds <= 1e6))
-        return support_fail(diag, FROE_E_OPTIONS, "A round of %g seconds is none.", seconds);
+        return support_fail(diag, FROE_E_OPTIONS, "option 'seconds': '%g' is not a number above 0 and up to 1e6.",
+                            seconds);
     froe_status status = vector_check_format(froe_tree_scene(tree), o, FROE_RENDER_SVG, diag);
     if (!status) status = support_writer_open(&file, path, o->alloc, diag);
     if (status) return status;

@@ -11,6 +11,6 @@ int cli_fail_build(const char *file, uint64_t given, const froe_scene *scene, fr
                    const froe_diagnostic *diag) {
     if (status != FROE_E_BUDGET) return cli_fail_status(CLI_WORKING, file, status, diag);
     return cli_fail(CLI_RESOURCES, file,
-                    "more than %" PRIu64 " pieces are needed; --max-fragments N allows more, and 0 any number",
+                    "More than %" PRIu64 " pieces are needed. --max-fragments N allows more, and 0 any number.",
                     cli_budget(given, scene));
 }

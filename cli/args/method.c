@@ -9,7 +9,7 @@ int cli_check_method(const char *name, bool may_be_auto) {
     enum { MOST = 64 };
     const char *names[MOST];
     size_t count = 0;
-    char list[400] = "";
+    char list[400] = "", sentence[sizeof list + 16];
     const froe_method_info *info;
     if (may_be_auto) names[count++] = "auto";
     for (size_t i = 0; (info = froe_method_at(i)) != NULL && count < MOST; i++) names[count++] = info->name;
@@ -19,6 +19,6 @@ int cli_check_method(const char *name, bool may_be_auto) {
         snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
     }
     const char *hint = cli_nearest(name, names, count);
-    if (!hint) return cli_fail(CLI_USE, NULL, "unknown method '%s'; there are %s", name, list);
-    return cli_fail(CLI_USE, NULL, "unknown method '%s', did you mean '%s'? There are %s", name, hint, list);
+    snprintf(sentence, sizeof sentence, "There are: %s.", list);
+    return cli_fail_unknown("method", name, hint, sentence);
 }

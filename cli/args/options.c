@@ -100,14 +100,15 @@ static int refuse_unknown(const cli_part *parts, const char *word) {
     const char *bare = word + strspn(word, "-");
     memcpy(name, bare, strcspn(bare, "=") < NAME_MAX_LENGTH ? strcspn(bare, "=") : NAME_MAX_LENGTH);
     const char *hint = cli_nearest(name, names, count);
-    if (hint) return cli_fail(CLI_USE, NULL, "unknown option '%s'; did you mean --%s?", word, hint);
-    return cli_fail(CLI_USE, NULL, "unknown option '%s'; --help lists what there is", word);
+    if (!hint) return cli_fail_unknown("option", word, NULL, "--help lists what there is.");
+    snprintf(name, sizeof name, "--%.*s", NAME_MAX_LENGTH - 2, hint);
+    return cli_fail_unknown("option", word, name, NULL);
 }
 
 /* ----------------------------------------------------------------- values -- */
 
 static int refuse_value(const cli_option *option, const char *text, const char *wanted) {
-    return cli_fail(CLI_USE, NULL, "%s%s: '%s' is not %s", option->name ? "--" : "",
+    return cli_fail(CLI_USE, NULL, "%s%s: '%s' is not %s.", option->name ? "--" : "",
                     option->name ? option->name : option->value, text, wanted);
 }
 
@@ -172,7 +173,7 @@ static int set_choice(const cli_option *option, int *field, const char *text) {
 static int add_word(char **field, const char *text) {
     const size_t before = *field ? strlen(*field) + 1 : 0, length = strlen(text);
     char *joined = realloc(*field, before + length + 1);
-    if (!joined) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (!joined) return cli_fail_memory();
     if (before) joined[before - 1] = ' ';
     memcpy(joined + before, text, length + 1);
     *field = joined;
@@ -195,7 +196,7 @@ static int set_text(const cli_option *option, const char **field, const char *te
 
 static int add_text(const cli_option *option, cli_texts *field, const char *text) {
     const size_t most = sizeof field->at / sizeof *field->at;
-    if (field->count == most) return cli_fail(CLI_USE, NULL, "more than %zu times %s", most, option->value);
+    if (field->count == most) return cli_fail(CLI_USE, NULL, "%s: There are more than %zu.", option->value, most);
     const int code = set_text(option, &field->at[field->count], text);
     field->count += !code;
     return code;
@@ -240,11 +241,11 @@ typedef struct reader {
 static int take_value(reader *r, place found, const char *attached) {
     const cli_option *option = found.option;
     if (option->type == CLI_FLAG) {
-        if (attached) return cli_fail(CLI_USE, NULL, "--%s takes no value", option->name);
+        if (attached) return cli_fail(CLI_USE, NULL, "--%s: It takes no value.", option->name);
         return set_value(found, NULL);
     }
     if (!attached && r->next == r->argc)
-        return cli_fail(CLI_USE, NULL, "--%s needs a value: %s", option->name, option->value);
+        return cli_fail(CLI_USE, NULL, "--%s: It needs a value, %s.", option->name, option->value);
     return set_value(found, attached ? attached : r->argv[r->next++]);
 }
 
@@ -263,7 +264,7 @@ static int take_short(reader *r, const char *word) {
 
 static int take_operand(reader *r, const char *word) {
     const place found = find_operand(r->parts, r->args, r->operands++);
-    if (!found.option) return cli_fail(CLI_USE, NULL, "'%s' is one operand too many", word);
+    if (!found.option) return cli_fail(CLI_USE, NULL, "'%s' is one operand too many.", word);
     return set_value(found, word);
 }
 
@@ -287,10 +288,13 @@ static int check_required(const cli_part *parts, void *args) {
     for (const cli_part *part = parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++) {
             if (!option->required || is_set(option, (char *)args + part->at)) continue;
-            if (!option->name) return cli_fail(CLI_USE, NULL, "%s is missing; try --help", option->value);
+            if (!option->name)
+                return cli_fail(CLI_USE, NULL, "%s: It is missing. --help lists what there is.", option->value);
             if (!option->letter)
-                return cli_fail(CLI_USE, NULL, "--%s %s is missing; try --help", option->name, option->value);
-            return cli_fail(CLI_USE, NULL, "-%c %s is missing; try --help", option->letter, option->value);
+                return cli_fail(CLI_USE, NULL, "--%s %s: It is missing. --help lists what there is.", option->name,
+                                option->value);
+            return cli_fail(CLI_USE, NULL, "-%c %s: It is missing. --help lists what there is.", option->letter,
+                            option->value);
         }
     return 0;
 }

@@ -11,7 +11,7 @@ static int add(cli_order *order, size_t *capacity, uint32_t id) {
     if (order->count == *capacity) {
         size_t larger = *capacity ? 2 * *capacity : 1024;
         uint32_t *ids = realloc(order->ids, larger * sizeof *ids);
-        if (!ids) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+        if (!ids) return cli_fail_memory();
         order->ids = ids;
         *capacity = larger;
     }
@@ -38,20 +38,20 @@ static int read_lines(FILE *file, const char *path, cli_order *out) {
         line[strcspn(line, " \t\r\n")] = 0;
         if (whole && (!line[0] || line[0] == '#')) continue;
         if (!whole || !parse_id(line, &id))
-            return cli_fail(CLI_INPUT, path, "line %zu: one object id a line is needed", number);
+            return cli_fail(CLI_INPUT, path, "line %zu: It is not one object id.", number);
         int code = add(out, &capacity, id);
         if (code) return code;
     }
-    return ferror(file) ? cli_fail(CLI_INPUT, path, "%s", strerror(errno)) : 0;
+    return ferror(file) ? cli_fail_file(CLI_INPUT, path, "read") : 0;
 }
 
 int cli_read_order(const char *path, cli_order *out) {
     *out = (cli_order){NULL, 0};
     FILE *file = fopen(path, "r");
-    if (!file) return cli_fail(CLI_INPUT, path, "%s", strerror(errno));
+    if (!file) return cli_fail_file(CLI_INPUT, path, "read");
     int code = read_lines(file, path, out);
     fclose(file);
-    if (!code && !out->count) code = cli_fail(CLI_INPUT, path, "holds no object ids");
+    if (!code && !out->count) code = cli_fail(CLI_INPUT, path, "The file holds no object ids.");
     if (!code) return 0;
     free(out->ids);
     *out = (cli_order){NULL, 0};

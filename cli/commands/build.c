@@ -89,7 +89,7 @@ static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
     int code = args->order ? cli_read_order(args->order, &order) : 0;
     if (code) return code;
     char *settings = settings_of(args);
-    code = settings ? build_with(args, &order, settings, scene, tree) : cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    code = settings ? build_with(args, &order, settings, scene, tree) : cli_fail_memory();
     free(settings);
     free(order.ids);
     return code;

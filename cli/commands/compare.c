@@ -85,8 +85,8 @@ static bool is_wanted(const char *list, const char *method) {
 }
 
 static int check(const compare_args *args) {
-    if (!(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds: a number above 0 is needed");
-    if (!(args->pieces > 0)) return cli_fail(CLI_USE, NULL, "--pieces: a number above 0 is needed");
+    if (!(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds: '%g' is not a number above 0.", args->seconds);
+    if (!(args->pieces > 0)) return cli_fail(CLI_USE, NULL, "--pieces: '%g' is not a number above 0.", args->pieces);
     return check_methods(args->methods);
 }
 
@@ -185,8 +185,8 @@ static int write(const compare_args *args, json_t *comparison) {
 static int compare_and_write(const compare_args *args, froe_scene *const *scenes, meter *meters) {
     json_t *comparison = compare(args, scenes, meters);
     if (comparison) return write(args, comparison);
-    if (cli_interrupted()) return cli_fail(CLI_CANCELLED, NULL, "cancelled");
-    return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (cli_interrupted()) return cli_fail(CLI_CANCELLED, NULL, "Cancelled.");
+    return cli_fail_memory();
 }
 
 static int run_compare(const void *given) {

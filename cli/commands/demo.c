@@ -32,7 +32,7 @@ static const cli_part parts[] = {{"Demo", options, 0}, {"Options", cli_common_op
 
 static int make_folder(const char *path) {
     char *prefix = malloc(strlen(path) + 1);
-    if (!prefix) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (!prefix) return cli_fail_memory();
     strcpy(prefix, path);
     bool made = true;
     for (char *c = prefix + 1; made && *c; c++) {
@@ -43,12 +43,12 @@ static int make_folder(const char *path) {
     }
     made = made && (mkdir(path, 0777) == 0 || errno == EEXIST);
     free(prefix);
-    return made ? 0 : cli_fail(CLI_RESOURCES, path, "%s", strerror(errno));
+    return made ? 0 : cli_fail_file(CLI_RESOURCES, path, "made");
 }
 
 static int unpack(const char *name) {
     const cli_embedded *file = cli_embedded_named(name);
-    if (!file) return cli_fail(CLI_INPUT, name, "this program was built without it");
+    if (!file) return cli_fail(CLI_INPUT, name, "The program was built without this file.");
     return cli_write_file(name, file->bytes, file->size);
 }
 
@@ -62,7 +62,7 @@ static int run_line(const cli_common *common, const char *text, bool loud, json_
     int count = 0;
     if (snprintf(line, sizeof line, "%s --seed %llu --threads %llu%s", text, (unsigned long long)common->seed,
                  (unsigned long long)common->threads, loud ? "" : " --quiet") >= LINE)
-        return cli_fail(CLI_USE, NULL, "a line of the demo is too long");
+        return cli_fail(CLI_USE, NULL, "A line of the demo is too long.");
     for (char *rest = line, *word; count < WORDS && (word = strtok_r(rest, " ", &rest)) != NULL;) words[count++] = word;
     if (loud) printf("$ froe %s\n", text);
     const cli_command *command = cli_command_named(words[0]);
@@ -103,8 +103,7 @@ static int compare_methods(const cli_common *common, const demo_scene *scene, de
         json_t *report;
         snprintf(line, sizeof line, "build %s --method %s", scene->file, method->name);
         const int code = run_line(common, line, false, &report);
-        if (code || json_array_append_new(result->methods, report) != 0)
-            return code ? code : cli_fail(CLI_RESOURCES, NULL, "out of memory");
+        if (code || json_array_append_new(result->methods, report) != 0) return code ? code : cli_fail_memory();
     }
     return 0;
 }
@@ -139,7 +138,7 @@ static int run_demo(const void *given) {
     const demo_args *args = given;
     int code = make_folder(args->output);
     if (code) return code;
-    if (chdir(args->output) != 0) return cli_fail(CLI_RESOURCES, args->output, "%s", strerror(errno));
+    if (chdir(args->output) != 0) return cli_fail_file(CLI_RESOURCES, args->output, "entered");
     demo_result results[SCENES] = {0};
     const double start = cli_seconds();
     code = run_scenes(&args->common, results);

@@ -81,7 +81,7 @@ static int set_show(const char *list, uint32_t *show) {
         const size_t length = strcspn(list, ",");
         const uint32_t bit = layer_bit(list, length);
         if (!bit)
-            return cli_fail(CLI_USE, NULL, "--show: '%.*s' is not one of cells, cuts, fragments, objects", (int)length,
+            return cli_fail(CLI_USE, NULL, "--show: '%.*s' is not one of cells, cuts, fragments, objects.", (int)length,
                             list);
         *show |= bit;
         list += length + (list[length] == ',');
@@ -96,7 +96,7 @@ static int set_background(const char *text, uint32_t *background) {
         return 0;
     }
     if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
-        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear", text);
+        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear.", text);
     *background = (uint32_t)strtoul(text, NULL, 16);
     return 0;
 }
@@ -107,7 +107,7 @@ static int set_section(const char *text, froe_draw_options *o) {
     char *end = NULL;
     const double at = text[0] && text[1] == '=' ? strtod(text + 2, &end) : 0;
     if (!text[0] || !axis || !end || end == text + 2 || *end || !isfinite(at))
-        return cli_fail(CLI_USE, NULL, "--section: '%s' is not like x=1.5", text);
+        return cli_fail(CLI_USE, NULL, "--section: '%s' is not like x=1.5.", text);
     o->axis = (int)(axis - "xyz");
     o->at = at;
     return 0;
@@ -115,12 +115,11 @@ static int set_section(const char *text, froe_draw_options *o) {
 
 static int set_window(const cli_reals *window, size_t dim, froe_draw_options *o) {
     if (!window->count) return 0;
-    if (window->count != 2 * dim)
-        return cli_fail(CLI_USE, NULL, "--window: %zu numbers given, but this tree needs %zu", window->count, 2 * dim);
+    if (window->count != 2 * dim) return cli_fail_count("window", window->count, 2 * dim);
     for (size_t k = 0; k < dim; k++)
         if (!(window->at[k] < window->at[dim + k]))
-            return cli_fail(CLI_USE, NULL, "--window: the lower corner, %g on axis %zu, is not below the upper, %g",
-                            window->at[k], k, window->at[dim + k]);
+            return cli_fail(CLI_USE, NULL, "--window: Its low corner %g is not below its high corner %g on axis %zu.",
+                            window->at[k], window->at[dim + k], k);
     memcpy(o->lo, window->at, dim * sizeof(double));
     memcpy(o->hi, window->at + dim, dim * sizeof(double));
     return 0;
@@ -128,7 +127,7 @@ static int set_window(const cli_reals *window, size_t dim, froe_draw_options *o)
 
 static int set_view(const cli_reals *view, froe_draw_options *o) {
     if (!view->count) return 0;
-    if (view->count != 3) return cli_fail(CLI_USE, NULL, "--view: %zu numbers given, 3 needed", view->count);
+    if (view->count != 3) return cli_fail_count("view", view->count, 3);
     memcpy(o->view, view->at, sizeof o->view);
     return 0;
 }
@@ -175,7 +174,7 @@ static int run_draw(const void *given) {
     const draw_args *args = given;
     froe_draw_format format;
     if (!froe_draw_format_of(args->output, &format))
-        return cli_fail(CLI_USE, args->output, "the extension must be .svg, .pdf or .png");
+        return cli_fail(CLI_USE, args->output, "The ending of pictures is .svg, .pdf or .png.");
     froe_tree *tree;
     int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
     if (!code) code = cli_open_tree(args->tree, &tree);

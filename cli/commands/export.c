@@ -32,7 +32,7 @@ static const cli_part parts[] = {{"Export", options, 0}, {"Options", cli_common_
 static int check_window(const export_args *args, const froe_tree *tree) {
     const size_t dim = (size_t)froe_scene_dim(froe_tree_scene(tree));
     if (!args->window.count || args->window.count == 2 * dim) return 0;
-    return cli_fail(CLI_USE, NULL, "--window: %zu numbers given, but this tree needs %zu", args->window.count, 2 * dim);
+    return cli_fail_count("window", args->window.count, 2 * dim);
 }
 
 static int export_tree(const export_args *args, const froe_tree *tree) {

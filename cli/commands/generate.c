@@ -3,6 +3,7 @@
 #include "exit.h"
 #include "progress.h"
 #include "report/report.h"
+#include "support/fail.h"
 #include <froe/io.h>
 #include <string.h>
 
@@ -32,8 +33,7 @@ static void append_kind(json_t *kinds, const char *name, int dim, const char *ki
 
 static int list_kinds(const generate_args *args) {
     const bool all = args->kind != NULL;
-    if (all && strcmp(args->kind, "all") != 0)
-        return cli_fail(CLI_USE, NULL, "--list takes no KIND but 'all', not '%s'", args->kind);
+    if (all && strcmp(args->kind, "all") != 0) return cli_fail(CLI_USE, NULL, "--list: '%s' is not 'all'.", args->kind);
     json_t *kinds = json_array();
     const froe_generator_info *g;
     for (size_t i = 0; (g = froe_generator_at(i)) != NULL; i++)
@@ -59,8 +59,7 @@ static int check_kind(const char *kind) {
         names[count++] = moving->name;
     }
     const char *hint = cli_nearest(kind, names, count);
-    if (hint) return cli_fail(CLI_USE, NULL, "unknown kind '%s'; did you mean '%s'?", kind, hint);
-    return cli_fail(CLI_USE, NULL, "unknown kind '%s'; froe generate --list all tells what there is", kind);
+    return cli_fail_unknown("kind", kind, hint, hint ? NULL : "froe generate --list all lists what there is.");
 }
 
 static bool is_moving(const char *kind) {
@@ -82,7 +81,7 @@ static int generate_motion(const generate_args *args) {
     froe_diagnostic diag = {0};
     froe_status status = froe_generate_motion(args->kind, (size_t)args->n, args->common.seed, NULL, &motion, &diag);
     if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
-    status = cli_interrupted() ? FROE_E_CANCELLED : froe_write_motion(motion, args->output, &diag);
+    status = cli_interrupted() ? support_fail_cancelled(&diag) : froe_write_motion(motion, args->output, &diag);
     const int code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag)
                             : report(args, 2, froe_motion_object_count(motion));
     froe_motion_free(motion);
@@ -94,7 +93,7 @@ static int generate(const generate_args *args) {
     froe_diagnostic diag = {0};
     froe_status status = froe_generate(args->kind, (size_t)args->n, args->common.seed, NULL, &scene, &diag);
     if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
-    status = cli_interrupted() ? FROE_E_CANCELLED : froe_write_scene(scene, args->output, &diag);
+    status = cli_interrupted() ? support_fail_cancelled(&diag) : froe_write_scene(scene, args->output, &diag);
     const int code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag)
                             : report(args, froe_scene_dim(scene), froe_scene_object_count(scene));
     froe_scene_free(scene);
@@ -104,10 +103,10 @@ static int generate(const generate_args *args) {
 static int run_generate(const void *given) {
     const generate_args *args = given;
     if (args->list) return list_kinds(args);
-    if (!args->kind) return cli_fail(CLI_USE, NULL, "KIND is missing; froe generate --list tells what there is");
+    if (!args->kind) return cli_fail(CLI_USE, NULL, "KIND: It is missing. froe generate --list lists what there is.");
     const int code = check_kind(args->kind);
     if (code) return code;
-    if (!args->output) return cli_fail(CLI_USE, NULL, "-o FILE is missing; try --help");
+    if (!args->output) return cli_fail(CLI_USE, NULL, "-o FILE: It is missing. --help lists what there is.");
     return is_moving(args->kind) ? generate_motion(args) : generate(args);
 }
 

@@ -134,9 +134,9 @@ static const char *header(const locate_args *args) {
 
 static int run_locate(const void *given) {
     const locate_args *args = given;
-    if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above and --below exclude each other");
+    if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above: It excludes --below.");
     if (args->groups && (args->above || args->below))
-        return cli_fail(CLI_USE, NULL, "--groups excludes --above and --below");
+        return cli_fail(CLI_USE, NULL, "--groups: It excludes --above and --below.");
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns,

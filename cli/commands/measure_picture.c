@@ -36,8 +36,7 @@ static int draw(const cli_common *common, const char *path, froe_scene *scene, c
 }
 
 static int refuse_dimension(const char *path, const froe_scene *scene) {
-    return cli_fail(CLI_USE, path, "only scenes of two or three dimensions can be drawn, not of %d",
-                    froe_scene_dim(scene));
+    return cli_fail(CLI_USE, path, "Pictures exist in 2 and 3 dimensions, not in %d.", froe_scene_dim(scene));
 }
 
 int measure_draw_cube(const cli_common *common, const char *path, froe_scene *scene, const froe_clutter *clutter,

@@ -136,7 +136,7 @@ static int run_methods(const void *given) {
     bool known = !args->name;
     const froe_method_info *m;
     for (size_t i = 0; !known && (m = froe_method_at(i)) != NULL; i++) known = is_wanted(args, m);
-    if (!known) return cli_fail(CLI_USE, NULL, "unknown method '%s'; froe methods lists what there is", args->name);
+    if (!known) return cli_fail_unknown("method", args->name, NULL, "froe methods lists what there is.");
     if (args->common.json) return print_json(args);
     return args->common.quiet ? 0 : print_text(args);
 }

@@ -52,7 +52,7 @@ static froe_status answer_near(const void *given, const cli_asked *asked, const 
 
 static int run_near(const void *given) {
     const near_args *args = given;
-    if (args->bound < 0) return cli_fail(CLI_USE, NULL, "--within must not be negative");
+    if (args->bound < 0) return cli_fail(CLI_USE, NULL, "--within: '%g' is not a number >= 0.", args->bound);
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns,

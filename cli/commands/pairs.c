@@ -75,14 +75,14 @@ static int ask(const pairs_args *args, const froe_tree *tree, writing *w) {
     cli_progress_end(&w->bar);
     const int code = status ? cli_fail_status(CLI_WORKING, args->tree, status, &diag) : finish(args, query, w);
     froe_query_free(query);
-    return w->stopped && !status ? cli_fail(CLI_CANCELLED, NULL, "interrupted") : code;
+    return w->stopped && !status ? cli_fail(CLI_CANCELLED, NULL, "Cancelled.") : code;
 }
 
 static int run_pairs(const void *given) {
     const pairs_args *args = given;
     froe_tree *tree;
     writing *w = calloc(1, sizeof *w);
-    if (!w) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (!w) return cli_fail_memory();
     int code = cli_open_tree(args->tree, &tree);
     if (!code) {
         code = ask(args, tree, w);

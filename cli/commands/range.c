@@ -2,6 +2,7 @@
 #include "command.h"
 #include "exit.h"
 #include "queries/queries.h"
+#include "support/fail.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -124,9 +125,10 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
         const size_t count = lay_ranges(&r, block);
         status = froe_batch_range(asked->query, r.ranges, count, &asked->batch, &answers, diag);
         if (!status && count < block->count)
-            status = cli_diagnose(diag, FROE_E_INPUT, count, "a simplex has one corner more than there are dimensions");
+            status = support_fail_at(diag, FROE_E_INPUT, (uint32_t)count, FROE_NONE, FROE_NONE,
+                                     "A simplex has one corner more than there are dimensions.");
     } else {
-        status = cli_diagnose(diag, FROE_E_MEMORY, FROE_NONE, "out of memory");
+        status = support_fail_memory(diag);
     }
     if (!status) cli_answers_lists(out, block->ids, &answers, args->query.count);
     froe_answers_free(&answers);
@@ -136,7 +138,7 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
 
 static int run_range(const void *given) {
     const range_args *args = given;
-    if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps must not be negative");
+    if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps: '%g' is not a number >= 0.", args->eps);
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns[args->shape],

@@ -2,6 +2,7 @@
 #include "command.h"
 #include "exit.h"
 #include "queries/queries.h"
+#include "support/fail.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,17 +99,16 @@ static froe_status answer_ray(const void *given, const cli_asked *asked, const c
                               froe_diagnostic *diag) {
     const ray_args *args = given;
     flight f;
-    const froe_status status = !take_rays(&f, block, asked->dim)
-                                   ? cli_diagnose(diag, FROE_E_MEMORY, FROE_NONE, "out of memory")
-                               : args->all ? answer_all(args, asked, block, &f, out, diag)
-                                           : answer_first(args, asked, block, &f, out, diag);
+    const froe_status status = !take_rays(&f, block, asked->dim) ? support_fail_memory(diag)
+                               : args->all                       ? answer_all(args, asked, block, &f, out, diag)
+                                                                 : answer_first(args, asked, block, &f, out, diag);
     give_rays(&f);
     return status;
 }
 
 static int run_ray(const void *given) {
     const ray_args *args = given;
-    if (args->t_max < 0) return cli_fail(CLI_USE, NULL, "--t-max must not be negative");
+    if (args->t_max < 0) return cli_fail(CLI_USE, NULL, "--t-max: '%g' is not a number >= 0.", args->t_max);
     const cli_queries queries = {.common = &args->common,
                                  .args = &args->query,
                                  .columns = columns,

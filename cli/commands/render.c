@@ -6,6 +6,7 @@
 #include "files.h"
 #include "progress.h"
 #include "report/tree_report.h"
+#include "support/fail.h"
 #include <froe/draw.h>
 #include <math.h>
 #include <stdio.h>
@@ -164,18 +165,19 @@ static void warn_of_objects(const render_args *args, const froe_visibility_repor
     put_count(text, sizeof text, v->points, "point", "points");
     put_count(text, sizeof text, v->segments, "segment", "segments");
     if (*text)
-        (void)cli_fail(0, args->output, "note: only faces are drawn; these objects of the scene are not: %s", text);
+        (void)cli_fail(0, args->output, "note: Only faces are drawn, and these objects of the scene are not: %s.",
+                       text);
 }
 
 static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {
     if (r->view.up_axis >= 0 && !args->common.quiet)
-        (void)cli_fail(0, args->output, "note: up lies along the line of view; axis %s points up instead",
+        (void)cli_fail(0, args->output, "note: Up lies along the line of view, and axis %s points up instead.",
                        axes[r->view.up_axis]);
     if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
         (void)cli_fail(0, args->output,
-                       "note: too many faces overlap for an order of whole ones; fragments were painted");
+                       "note: Too many faces overlap for an order of whole ones, and fragments were painted.");
     warn_of_objects(args, &r->picture.visibility);
-    if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output, "note: nothing is visible from here");
+    if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output, "note: Nothing is visible from here.");
 }
 
 /* The name of frame i: "pic-%03d.svg" has one %d, perhaps with a width; false: it has not. */
@@ -217,10 +219,7 @@ static froe_status render_frames(const render_args *args, const froe_tree *tree,
 static froe_status render_turning(const render_args *args, const froe_tree *tree, froe_render_options *o,
                                   froe_render_report *report, froe_diagnostic *diag) {
     froe_camera *cameras = calloc(args->turntable, sizeof *cameras);
-    if (!cameras) {
-        snprintf(diag->message, sizeof diag->message, "out of memory");
-        return FROE_E_MEMORY;
-    }
+    if (!cameras) return support_fail_memory(diag);
     froe_status status = froe_camera_turn(&o->camera, froe_tree_scene(tree), args->turntable, cameras, diag);
     if (!status) status = render_frames(args, tree, o, cameras, report, diag);
     free(cameras);
@@ -229,13 +228,12 @@ static froe_status render_turning(const render_args *args, const froe_tree *tree
 
 static int check_turning(const render_args *args) {
     char path[4096];
-    if (args->animate && !args->turntable) return cli_fail(CLI_USE, NULL, "--animate needs --turntable");
+    if (args->animate && !args->turntable) return cli_fail(CLI_USE, NULL, "--animate: It needs --turntable.");
     if (args->turntable && (args->eye.count || args->target.count))
         return cli_fail(CLI_USE, NULL,
-                        "--turntable goes around the middle of the scene: --eye and --target do not apply");
+                        "--turntable: It goes around the middle of the scene, and excludes --eye and --target.");
     if (args->turntable && !args->animate && !name_frame(args->output, 0, path, sizeof path))
-        return cli_fail(CLI_USE, NULL, "--turntable: the file must be called like pic-%%03d.svg, not '%s'",
-                        args->output);
+        return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output);
     return 0;
 }
 
@@ -262,14 +260,13 @@ static int render_groups(const render_args *args, const froe_tree *tree) {
     froe_render_options o = froe_render_defaults();
     double *values = calloc(2 * groups + 1, sizeof *values);
     int32_t *priorities = calloc(groups + 1, sizeof *priorities);
-    int code =
-        values && priorities ? render_set_options(args, scene, &o) : cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    int code = values && priorities ? render_set_options(args, scene, &o) : cli_fail_memory();
     for (size_t g = 0; !code && g < groups; g++) values[g] = NAN;
     if (!code) code = render_set_groups("opacity", args->opacity, scene, values);
     if (!code) code = render_set_groups("priority", args->priority, scene, values + groups);
     for (size_t g = 0; !code && g < groups; g++) {
         if (fabs(values[groups + g]) > 1e9)
-            code = cli_fail(CLI_USE, NULL, "--priority: %g is too large", values[groups + g]);
+            code = cli_fail(CLI_USE, NULL, "--priority: '%g' is too large.", values[groups + g]);
         priorities[g] = (int32_t)values[groups + g];
     }
     if (args->opacity) o.opacity = values;
@@ -285,8 +282,7 @@ static int cut_section(const render_args *args, froe_tree **tree) {
     froe_diagnostic diag;
     froe_tree *whole = *tree;
     if (!args->section.count || froe_scene_dim(froe_tree_scene(whole)) != 3) return 0;
-    if (args->section.count != 4)
-        return cli_fail(CLI_USE, NULL, "--section: %zu numbers given, 4 needed", args->section.count);
+    if (args->section.count != 4) return cli_fail_count("section", args->section.count, 4);
     cli_progress bar = cli_progress_begin(&args->common, "cutting");
     o.threads = (unsigned)args->common.threads;
     o.max_fragments = cli_budget(args->max_fragments, froe_tree_scene(whole));
@@ -313,7 +309,7 @@ static int run_render(const void *given) {
         return code;
     }
     if (froe_scene_dim(froe_tree_scene(tree)) != 3)
-        code = cli_fail(CLI_USE, args->tree, "a scene in the plane has no hidden surfaces: use froe draw");
+        code = cli_fail(CLI_USE, args->tree, "A scene in the plane has no hidden surfaces. froe draw draws it.");
     else
         code = render_groups(args, tree);
     froe_tree_free(tree);

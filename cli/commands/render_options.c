@@ -37,7 +37,7 @@ static int set_size(const char *text, froe_render_options *o) {
     if (times) o->camera.height = strtod(second, &end);
     const bool mm = strcmp(end, "mm") == 0;
     if (!times || end == second || (*end && !mm))
-        return cli_fail(CLI_USE, NULL, "--size: '%s' is not like 1000x800 or 160x120mm", text);
+        return cli_fail(CLI_USE, NULL, "--size: '%s' is not like 1000x800 or 160x120mm.", text);
     if (mm && !o->millimetres) o->seam_width = o->line_width = 0.2;
     o->millimetres = mm;
     return 0;
@@ -45,7 +45,7 @@ static int set_size(const char *text, froe_render_options *o) {
 
 static int set_point(const char *name, const cli_reals *given, double out[3]) {
     if (!given->count) return 0;
-    if (given->count != 3) return cli_fail(CLI_USE, NULL, "--%s: %zu numbers given, 3 needed", name, given->count);
+    if (given->count != 3) return cli_fail_count(name, given->count, 3);
     memcpy(out, given->at, 3 * sizeof *out);
     return 0;
 }
@@ -91,16 +91,16 @@ static int set_scale(const render_args *args, froe_render_options *o) {
         const char *second = end + 1;
         const double to = strtod(second, &end);
         if (end == second || !o->millimetres)
-            return cli_fail(CLI_USE, NULL, "--scale: '%s' needs a page in millimetres, such as --size 160x120mm",
+            return cli_fail(CLI_USE, NULL, "--scale: '%s' needs a page in millimetres, such as --size 160x120mm.",
                             args->scale);
         scale = scale / to * 1000 * (isnan(args->unit) ? 1 : args->unit);
     }
     if (end == args->scale || *end)
-        return cli_fail(CLI_USE, NULL, "--scale: '%s' is not like 2.5 or 1:50", args->scale);
+        return cli_fail(CLI_USE, NULL, "--scale: '%s' is not like 2.5 or 1:50.", args->scale);
     if (!(scale > 0) || isinf(scale))
-        return cli_fail(CLI_USE, NULL, "--scale: %s is no scale: it must be more than 0", args->scale);
+        return cli_fail(CLI_USE, NULL, "--scale: '%s' is not a number above 0.", args->scale);
     if (!o->camera.parallel)
-        return cli_fail(CLI_USE, NULL, "--scale: perspective has none: add --parallel, or use --fov");
+        return cli_fail(CLI_USE, NULL, "--scale: Perspective has none. It needs --parallel, or --fov instead.");
     o->camera.scale = scale;
     return 0;
 }
@@ -111,14 +111,14 @@ static int set_style(const char *text, froe_render_options *o) {
     if (strncmp(text, "cel:", 4) == 0) {
         o->shading = FROE_SHADE_CEL;
         o->cel_levels = (unsigned)strtoul(text + 4, &end, 10);
-        return end != text + 4 && !*end ? 0 : cli_fail(CLI_USE, NULL, "--style: '%s' is not like cel:4", text);
+        return end != text + 4 && !*end ? 0 : cli_fail(CLI_USE, NULL, "--style: '%s' is not like cel:4.", text);
     }
     for (int s = 0; s < FROE_SHADING_COUNT; s++)
         if (strcmp(text, froe_shading_name((froe_shading)s)) == 0) {
             o->shading = (froe_shading)s;
             return 0;
         }
-    return cli_fail(CLI_USE, NULL, "--style: '%s' is not one of flat, cel, cel:N, plain, white, none", text);
+    return cli_fail(CLI_USE, NULL, "--style: '%s' is not one of flat, cel, cel:N, plain, white, none.", text);
 }
 
 static uint32_t line_bit(const char *name, size_t length) {
@@ -138,7 +138,7 @@ static int set_lines(const char *list, uint32_t *lines) {
         if (!bit)
             return cli_fail(CLI_USE, NULL,
                             "--line-kinds: '%.*s' is not one of border, silhouette, object, material, crease, "
-                            "crossing, section, mesh",
+                            "crossing, section, mesh.",
                             (int)length, list);
         *lines |= bit;
         list += length + (list[length] == ',');
@@ -149,7 +149,7 @@ static int set_lines(const char *list, uint32_t *lines) {
 static int set_background(const char *text, uint32_t *background) {
     if (!text || strcmp(text, "clear") == 0) return 0;
     if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
-        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear", text);
+        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear.", text);
     *background = (uint32_t)strtoul(text, NULL, 16);
     return 0;
 }
@@ -163,7 +163,7 @@ int render_set_groups(const char *option, const char *list, const froe_scene *sc
         const double value = equals ? strtod(equals + 1, &end) : 0;
         bool any = false;
         if (!equals || end != list + length || end == equals + 1)
-            return cli_fail(CLI_USE, NULL, "--%s: '%.*s' is not like NAME=1", option, (int)length, list);
+            return cli_fail(CLI_USE, NULL, "--%s: '%.*s' is not like NAME=1.", option, (int)length, list);
         const size_t name = (size_t)(equals - list);
         for (uint32_t g = 0; g < groups; g++) {
             const froe_group group = froe_scene_group(scene, g);
@@ -172,7 +172,7 @@ int render_set_groups(const char *option, const char *list, const froe_scene *sc
             if (same) values[g] = value, any = true;
         }
         if (!any)
-            return cli_fail(CLI_USE, NULL, "--%s: no group or material is called '%.*s'", option, (int)name, list);
+            return cli_fail(CLI_USE, NULL, "--%s: There is no group or material '%.*s'.", option, (int)name, list);
         list += length + (list[length] == ',');
     }
     return 0;

@@ -97,7 +97,7 @@ static int find_contacts(simulation *s) {
     const froe_status status = froe_motion_contacts(s->motion, &o, keep, s, &diag);
     s->seconds = cli_seconds() - start;
     cli_progress_end(&bar);
-    if (s->full) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (s->full) return cli_fail_memory();
     return status ? cli_fail_status(CLI_WORKING, s->args->path, status, &diag) : 0;
 }
 
@@ -143,12 +143,14 @@ static int report(const simulation *s) {
 
 static int check(const simulate_args *args) {
     if (!isnan(args->from) && !isnan(args->to) && !(args->from < args->to))
-        return cli_fail(CLI_USE, NULL, "--from must be before --to");
+        return cli_fail(CLI_USE, NULL, "--from: '%g' is not before --to, '%g'.", args->from, args->to);
     if (isnan(args->follow.at) != !args->follow.tree)
-        return cli_fail(CLI_USE, NULL, "--at and --output go together: a time, and a file for its tree");
+        return cli_fail(CLI_USE, NULL,
+                        "--at: It needs --output, a file for the tree of that time, and --output needs it.");
     if ((args->follow.places || args->follow.unrounded) && !args->follow.tree)
-        return cli_fail(CLI_USE, NULL, "--places and --unrounded are about the tree of --output");
-    if (!isnan(args->seconds) && !(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds must be above 0");
+        return cli_fail(CLI_USE, NULL, "--places, --unrounded: They need --output.");
+    if (!isnan(args->seconds) && !(args->seconds > 0))
+        return cli_fail(CLI_USE, NULL, "--seconds: '%g' is not a number above 0.", args->seconds);
     const char *const outputs[] = {args->contacts,      args->animate,     args->player,
                                    args->follow.events, args->follow.tree, args->follow.places};
     return cli_check_outputs(&args->path, 1, outputs, sizeof outputs / sizeof *outputs);

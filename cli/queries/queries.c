@@ -35,11 +35,9 @@ typedef struct run {
 
 /* -------------------------------------------------------------------- bad -- */
 
-static void refuse(run *r, uint64_t line, const char *reason) {
-    size_t length = strlen(reason);
-    if (length && reason[length - 1] == '.') length--;
+static void refuse(run *r, uint64_t line, const char *sentence) {
     r->refused = true;
-    cli_fail(CLI_INPUT, r->rows.path, "line %llu: %.*s", (unsigned long long)line, (int)length, reason);
+    cli_fail(CLI_INPUT, r->rows.path, "line %llu: %s", (unsigned long long)line, sentence);
     if (!r->q->args->keep_going) r->code = CLI_INPUT;
 }
 
@@ -54,7 +52,7 @@ static bool make_room(run *r) {
     const size_t room = 2 * r->room + CLI_BLOCK;
     double *numbers = realloc(r->numbers, room * r->width * sizeof *numbers);
     if (!numbers) {
-        r->code = cli_fail(CLI_RESOURCES, NULL, "out of memory");
+        r->code = cli_fail_memory();
         return false;
     }
     r->numbers = numbers;
@@ -88,7 +86,7 @@ static bool is_id(double x) {
 static void add_row(run *r, const double *values) {
     const size_t skip = r->grouped;
     if (r->grouped && !is_id(values[0])) {
-        refuse(r, r->rows.line, "the column query holds no whole number");
+        refuse(r, r->rows.line, "The column query holds no whole number.");
         r->spoilt = true;
         return;
     }
@@ -103,7 +101,7 @@ static void add_row(run *r, const double *values) {
 static void add_bad_row(run *r, const double *values) {
     if (r->grouped && is_id(values[0])) open_query(r, (uint64_t)values[0]);
     r->spoilt = r->open;
-    refuse(r, r->rows.line, r->rows.reason);
+    refuse(r, r->rows.line, r->rows.sentence);
 }
 
 /* Reads until the block is full or the file ends. */
@@ -176,7 +174,7 @@ static void work(run *r) {
         answer_block(r, count);
         if (!r->code) r->code = code;
         empty_block(r, count);
-        if (!r->code && cli_interrupted()) r->code = cli_fail(CLI_CANCELLED, NULL, "interrupted");
+        if (!r->code && cli_interrupted()) r->code = cli_fail(CLI_CANCELLED, NULL, "Cancelled.");
     }
 }
 
@@ -197,15 +195,9 @@ static int summarise(run *r, double seconds) {
                                 cli_statistics_json(r->asked->query)));
 }
 
-froe_status cli_diagnose(froe_diagnostic *diag, froe_status status, size_t object, const char *message) {
-    *diag = (froe_diagnostic){.status = status, .object = (uint32_t)object, .corner = FROE_NONE, .axis = FROE_NONE};
-    snprintf(diag->message, sizeof diag->message, "%s", message);
-    return status;
-}
-
 static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
     run *r = calloc(1, sizeof *r);
-    if (!r) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (!r) return cli_fail_memory();
     r->q = queries;
     r->asked = asked;
     r->grouped = !strcmp(queries->columns[0].name, "query");

@@ -60,8 +60,6 @@ typedef struct cli_queries {
 
 /** What a context has visited, for --json; begins again at 0. query NULL: nothing. */
 json_t *cli_statistics_json(froe_query *query);
-/** Describes a failure that is the command's own finding; returns the status. */
-froe_status cli_diagnose(froe_diagnostic *diag, froe_status status, size_t object, const char *message);
 
 /** Opens the tree, reads, asks, writes. Returns an exit code. */
 int cli_queries_run(const cli_queries *queries);

@@ -91,7 +91,7 @@ static bool names_one_more(const cli_column *columns, int dim, const char *name)
     return false;
 }
 
-/* Finds the columns in the header line; false: some number has none, or two, or rows->reason says what it is. */
+/* Finds the columns in the header line; false: some number has none, or two, or rows->sentence says what it is. */
 static bool read_header(cli_rows *rows, const cli_column *columns, int dim) {
     unsigned found = 0;
     char *at = rows->text;
@@ -102,8 +102,8 @@ static bool read_header(cli_rows *rows, const cli_column *columns, int dim) {
         const char *name = next_field(&at, rows->separator);
         int number = number_of(columns, dim, name);
         if (number < 0 && names_one_more(columns, dim, name)) {
-            snprintf(rows->reason, sizeof rows->reason, "the header names %.40s, the tree has %d dimensions", name,
-                     dim);
+            snprintf(rows->sentence, sizeof rows->sentence, "The header names %.40s, and the tree has %d dimensions.",
+                     name, dim);
             return false;
         }
         if (number >= 0 && found >> number & 1) return false;
@@ -118,15 +118,15 @@ int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows
     char expected[200];
     *out = (cli_rows){.path = standard ? "standard input" : path, .numbers = count_numbers(columns, dim)};
     out->file = standard ? stdin : fopen(path, "r");
-    if (!out->file) return cli_fail(CLI_INPUT, path, "%s", strerror(errno));
+    if (!out->file) return cli_fail_file(CLI_INPUT, path, "read");
     header_text(columns, dim, expected, sizeof expected);
     int code = 0;
     if (!next_line(out))
-        code = cli_fail(CLI_INPUT, out->path, "no header line; %s was expected", expected);
+        code = cli_fail(CLI_INPUT, out->path, "line 1: The header must name the columns %s, each once.", expected);
     else if (!read_header(out, columns, dim))
-        code = out->reason[0]
-                   ? cli_fail(CLI_INPUT, out->path, "line 1: %s", out->reason)
-                   : cli_fail(CLI_INPUT, out->path, "line 1: the header must name the columns %s, each once", expected);
+        code = out->sentence[0] ? cli_fail(CLI_INPUT, out->path, "line 1: %s", out->sentence)
+                                : cli_fail(CLI_INPUT, out->path,
+                                           "line 1: The header must name the columns %s, each once.", expected);
     if (code) cli_rows_close(out);
     return code;
 }
@@ -148,14 +148,15 @@ static bool read_numbers(cli_rows *rows, double *values) {
         values[rows->place[column]] = strtod(field, &end);
         if (end != field && !*end) continue;
         if (*field)
-            snprintf(rows->reason, sizeof rows->reason, "'%.40s' is not a number", field);
+            snprintf(rows->sentence, sizeof rows->sentence, "'%.40s' is not a number.", field);
         else
-            snprintf(rows->reason, sizeof rows->reason, "column %zu is empty", column + 1);
+            snprintf(rows->sentence, sizeof rows->sentence, "Column %zu is empty.", column + 1);
         return false;
     }
     if (!at && column == rows->columns) return true;
     while (at) next_field(&at, rows->separator), column++;
-    snprintf(rows->reason, sizeof rows->reason, "it has %zu columns, the header %zu", column, rows->columns);
+    snprintf(rows->sentence, sizeof rows->sentence, "The row has %zu columns, and the header %zu.", column,
+             rows->columns);
     return false;
 }
 
@@ -163,7 +164,8 @@ cli_row cli_rows_next(cli_rows *rows, double *values) {
     do {
         if (next_line(rows)) continue;
         if (!ferror(rows->file)) return CLI_ROWS_END;
-        cli_fail(CLI_INPUT, rows->path, "line %llu: %s", (unsigned long long)rows->line + 1, strerror(errno));
+        cli_fail(CLI_INPUT, rows->path, "line %llu: The file cannot be read: %s.", (unsigned long long)rows->line + 1,
+                 strerror(errno));
         return CLI_ROWS_FAILED;
     } while (is_blank(rows->text));
     rows->row = rows->rows++;

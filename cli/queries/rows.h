@@ -35,12 +35,12 @@ typedef struct cli_rows {
     size_t columns;
     signed char place[CLI_ROW_COLUMNS]; /**< which number a column holds, -1: none */
     char separator;
-    char reason[120]; /**< what is wrong with a bad row */
+    char sentence[120]; /**< what is wrong with a bad row */
 } cli_rows;
 
 /** Opens a file ("-": standard input) and reads its header. Returns 0, or an exit code after saying why. */
 int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows *out);
-/** Reads the next row's numbers, in the order of the columns asked for. CLI_ROW_BAD: `reason` says why, and the next
+/** Reads the next row's numbers, in the order of the columns asked for. CLI_ROW_BAD: `sentence` says why, and the next
  * call goes on behind it. CLI_ROWS_FAILED: the file cannot be read on, and that has been said. */
 cli_row cli_rows_next(cli_rows *rows, double *values);
 void cli_rows_close(cli_rows *rows);

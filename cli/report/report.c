@@ -65,7 +65,8 @@ double cli_thread_seconds(void) {
 
 int cli_flush(void) {
     if (fflush(stdout) == 0 && !ferror(stdout)) return 0;
-    return cli_fail(CLI_RESOURCES, "standard output", "%s", errno ? strerror(errno) : "cannot be written");
+    if (!errno) errno = EIO;
+    return cli_fail_file(CLI_RESOURCES, "standard output", "written");
 }
 
 void cli_wrap(FILE *out, const char *text, size_t length, int column, int indent) {
@@ -340,7 +341,7 @@ static int width_of_report(const json_t *report) {
 }
 
 int cli_report(const cli_common *common, const char *headline, json_t *report) {
-    if (!report) return cli_fail(CLI_RESOURCES, NULL, "out of memory");
+    if (!report) return cli_fail_memory();
     if (common->json) {
         put_json(report, 0);
         putchar('\n');

@@ -112,12 +112,12 @@ const froe_generator_info *froe_generator_at(size_t i) {
 froe_status froe_generate(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc, froe_scene **out,
                           froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!kind || !out) return support_fail(diag, FROE_E_ARG, "froe_generate: kind and out must not be NULL");
+    if (!kind || !out) return support_fail_null(diag, __func__);
     const scene_generator *g = generators, *end = generators + GENERATORS;
     while (g != end && strcmp(g->info.name, kind)) ++g;
-    if (g == end) return support_fail(diag, FROE_E_OPTIONS, "'%.60s' is no kind of scene that can be generated", kind);
-    if (!n) return support_fail(diag, FROE_E_ARG, "a scene of 0 objects cannot be generated");
-    if (n >= (1u << 31) - 2) return support_fail(diag, FROE_E_LIMIT, "%zu objects are more than a scene can hold", n);
+    if (g == end) return support_fail(diag, FROE_E_OPTIONS, "There is no kind of scene '%.60s'.", kind);
+    if (!n) return support_fail(diag, FROE_E_ARG, "A scene of 0 objects cannot be generated.");
+    if (n >= (1u << 31) - 2) return support_fail(diag, FROE_E_LIMIT, "There are more than 2^31 - 3 objects.");
     formats_maker m = {.sink = {.alloc = support_allocator(alloc), .diag = diag, .path = kind, .unit = "object"},
                        .n = n,
                        .seed = seed};

@@ -186,12 +186,12 @@ const froe_motion_generator_info *froe_motion_generator_at(size_t i) {
 froe_status froe_generate_motion(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc,
                                  froe_motion **out, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!kind || !out) return support_fail(diag, FROE_E_ARG, "froe_generate_motion: kind and out must not be NULL");
+    if (!kind || !out) return support_fail_null(diag, __func__);
     size_t i = 0;
     while (i < GENERATORS && strcmp(generators[i].info.name, kind) != 0) i++;
-    if (i == GENERATORS) return support_fail(diag, FROE_E_OPTIONS, "'%.60s' is no kind of motion", kind);
-    if (!n) return support_fail(diag, FROE_E_ARG, "a motion of 0 objects cannot be generated");
-    if (n >= (1u << 31) - 2) return support_fail(diag, FROE_E_LIMIT, "%zu objects are more than a motion can hold", n);
+    if (i == GENERATORS) return support_fail(diag, FROE_E_OPTIONS, "There is no kind of motion '%.60s'.", kind);
+    if (!n) return support_fail(diag, FROE_E_ARG, "A motion of 0 objects cannot be generated.");
+    if (n >= (1u << 31) - 2) return support_fail(diag, FROE_E_LIMIT, "There are more than 2^31 - 3 objects.");
     motion_maker m = {.random = {.sink = {.diag = diag}, .n = n, .seed = seed}, .side = 0.5 / sqrt((double)n)};
     froe_motion_options w = froe_motion_defaults();
     w.begin = 0;

@@ -13,7 +13,7 @@ froe_status formats_sink_open(formats_sink *sink, int dim) {
     sink->dim = dim;
     sink->group = sink->face = FROE_NONE;
     froe_status status = froe_scene_new(dim, &sink->alloc, &sink->scene);
-    return status ? support_fail(sink->diag, status, "%s: no scene of dimension %d can be made",
+    return status ? support_fail(sink->diag, status, "%s: No scene of dimension %d can be made.",
                                  support_short(sink->path), dim)
                   : FROE_OK;
 }
@@ -29,15 +29,15 @@ void formats_sink_free(formats_sink *sink) {
     sink->scene = NULL;
 }
 
-froe_status formats_sink_fail(formats_sink *sink, froe_status status, const char *format, ...) {
-    char reason[160], inside[72] = "";
+froe_status formats_sink_fail(formats_sink *sink, froe_status status, const char *sentence, ...) {
+    char own_sentence[160], inside[72] = "";
     va_list args;
-    va_start(args, format);
-    vsnprintf(reason, sizeof reason, format, args);
+    va_start(args, sentence);
+    vsnprintf(own_sentence, sizeof own_sentence, sentence, args);
     va_end(args);
     if (sink->inside && *sink->inside) snprintf(inside, sizeof inside, " of '%.60s'", sink->inside);
     support_fail(sink->diag, status, "%s: %s %llu%s: %s", support_short(sink->path), sink->unit ? sink->unit : "object",
-                 (unsigned long long)sink->number, inside, reason);
+                 (unsigned long long)sink->number, inside, own_sentence);
     if (sink->diag) sink->diag->object = sink->total < FROE_NONE ? (uint32_t)sink->total : FROE_NONE;
     return status;
 }
@@ -45,7 +45,7 @@ froe_status formats_sink_fail(formats_sink *sink, froe_status status, const char
 froe_status formats_sink_progress(formats_sink *sink, double done) {
     volatile const double share = done < 1 ? done : 1;
     if (!sink->progress || support_callback(sink->progress(sink->user, share))) return FROE_OK;
-    return support_fail(sink->diag, FROE_E_CANCELLED, "%s: cancelled", support_short(sink->path));
+    return support_fail_cancelled(sink->diag);
 }
 
 /* ------------------------------------------------------------- the batch -- */
@@ -65,7 +65,7 @@ static froe_status flush(formats_sink *sink) {
     froe_status status = froe_scene_add(sink->scene, &batch, &why);
     if (status) {
         size_t first = sink->total - sink->count;
-        support_fail(sink->diag, status, "%s: %s (objects from %zu)", support_short(sink->path), why.message, first);
+        support_fail(sink->diag, status, "%s: objects from %zu: %s", support_short(sink->path), first, why.message);
         if (sink->diag) sink->diag->object = why.object, sink->diag->corner = why.corner, sink->diag->axis = why.axis;
         return status;
     }
@@ -75,18 +75,14 @@ static froe_status flush(formats_sink *sink) {
     return FROE_OK;
 }
 
-static froe_status sink_out_of_memory(formats_sink *sink) {
-    return support_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory after %zu objects", support_short(sink->path),
-                        sink->total);
-}
-
 static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
     bool full = sink->count == BATCH_OBJECTS || sink->coords.count > BATCH_DOUBLES;
     if (full || (sink->count && kind != sink->kind)) {
         froe_status status = flush(sink);
         if (status) return status;
     }
-    if (sink->total >= FROE_NONE - 1) return formats_sink_fail(sink, FROE_E_LIMIT, "more than 2^32 - 2 objects");
+    if (sink->total >= FROE_NONE - 1)
+        return formats_sink_fail(sink, FROE_E_LIMIT, "There are more than 2^32 - 2 objects.");
     const froe_allocator *alloc = &sink->alloc;
     sink->kind = kind;
     const uint32_t id = (uint32_t)sink->total;
@@ -98,7 +94,7 @@ static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double 
         !array_push(alloc, &sink->object_faces, sink->face == FROE_NONE ? id : sink->face) ||
         !array_push(alloc, &sink->groups, sink->group) ||
         !array_push(alloc, &sink->tags, sink->tagged ? sink->tag : id))
-        return sink_out_of_memory(sink);
+        return support_fail_memory(sink->diag);
     ++sink->count;
     ++sink->total;
     return FROE_OK;
@@ -135,9 +131,9 @@ froe_status formats_sink_end_feature(formats_sink *sink) {
 
 froe_status formats_sink_group(formats_sink *sink, const froe_group *group) {
     froe_status status = froe_scene_add_group(sink->scene, group, &sink->group);
-    if (status == FROE_E_MEMORY) return sink_out_of_memory(sink);
+    if (status == FROE_E_MEMORY) return support_fail_memory(sink->diag);
     if (status)
-        return formats_sink_fail(sink, status, "its group '%.60s' cannot be added", group->name ? group->name : "");
+        return formats_sink_fail(sink, status, "Its group '%.60s' cannot be added.", group->name ? group->name : "");
     ++sink->report.groups;
     return FROE_OK;
 }
@@ -159,8 +155,9 @@ static froe_status finite(formats_sink *sink, const double *coords, size_t corne
         if (isfinite(coords[i])) continue;
         int axis = (int)(i % (size_t)sink->dim);
         size_t corner = i / (size_t)sink->dim;
-        froe_status status = formats_sink_fail(sink, FROE_E_INPUT, "%s of corner %zu of the object is %s",
-                                               axis_name(axis), corner, isnan(coords[i]) ? "not a number" : "infinite");
+        froe_status status =
+            formats_sink_fail(sink, FROE_E_INPUT, "Coordinate %s of corner %zu is %g, not a finite number.",
+                              axis_name(axis), corner, coords[i]);
         if (sink->diag) sink->diag->corner = (uint32_t)corner, sink->diag->axis = (uint32_t)axis;
         return status;
     }
@@ -200,8 +197,9 @@ froe_status formats_sink_segment(formats_sink *sink, const double *a, const doub
 froe_status formats_sink_box(formats_sink *sink, const double *lo, const double *hi) {
     for (int k = 0; k < sink->dim; ++k)
         if (lo[k] > hi[k])
-            return formats_sink_fail(sink, FROE_E_INPUT, "lo_%s = %.17g is above hi_%s = %.17g", axis_name(k), lo[k],
-                                     axis_name(k), hi[k]);
+            return formats_sink_fail(sink, FROE_E_INPUT,
+                                     "Its low corner %.17g is above its high corner %.17g on axis %s.", lo[k], hi[k],
+                                     axis_name(k));
     return add_pair(sink, FROE_BOX, lo, hi);
 }
 
@@ -209,8 +207,7 @@ froe_status formats_sink_ball(formats_sink *sink, const double *centre, double r
     froe_status status = finite(sink, centre, 1);
     if (status) return status;
     if (!(radius >= 0) || !isfinite(radius))
-        return formats_sink_fail(sink, FROE_E_INPUT, "the radius is %.17g; it must be 0 or positive, and finite",
-                                 radius);
+        return formats_sink_fail(sink, FROE_E_INPUT, "Its radius is %.17g, not a finite number >= 0.", radius);
     if (sink->boxes) { /* one unit in the last place outwards, so that the box contains the ball */
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
         for (int k = 0; k < sink->dim; ++k) {
@@ -220,7 +217,7 @@ froe_status formats_sink_ball(formats_sink *sink, const double *centre, double r
         return add_pair(sink, FROE_BOX, lo, hi);
     }
     status = put_in_sink(sink, FROE_BALL, centre, 1);
-    if (!status && !array_push(&sink->alloc, &sink->radii, radius)) return sink_out_of_memory(sink);
+    if (!status && !array_push(&sink->alloc, &sink->radii, radius)) return support_fail_memory(sink->diag);
     return status;
 }
 
@@ -235,7 +232,7 @@ froe_status formats_sink_triangle(formats_sink *sink, const double *a, const dou
 static froe_status polygon_fits(formats_sink *sink, const double *corners, size_t count, bool *fits) {
     froe_scene *trial;
     froe_status status = froe_scene_new(sink->dim, &sink->alloc, &trial);
-    if (status) return sink_out_of_memory(sink);
+    if (status) return support_fail_memory(sink->diag);
     size_t starts[2] = {0, count};
     froe_objects one = froe_objects_defaults();
     one.kind = FROE_POLYGON;
@@ -245,7 +242,7 @@ static froe_status polygon_fits(formats_sink *sink, const double *corners, size_
     status = froe_scene_add(trial, &one, NULL);
     froe_scene_free(trial);
     *fits = !status;
-    if (status == FROE_E_MEMORY) return sink_out_of_memory(sink);
+    if (status == FROE_E_MEMORY) return support_fail_memory(sink->diag);
     return FROE_OK;
 }
 
@@ -262,7 +259,7 @@ froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t 
     if (whole)
         status = put_in_sink(sink, FROE_POLYGON, corners, count);
     else if (++sink->report.triangulated, !formats_triangulate(&sink->alloc, corners, count, &triangles))
-        status = sink_out_of_memory(sink);
+        status = support_fail_memory(sink->diag);
     for (const uint32_t *at = triangles.data, *end = at + triangles.count; at != end && !status; at += 3)
         status = formats_sink_triangle(sink, corners + 3 * at[0], corners + 3 * at[1], corners + 3 * at[2]);
     array_free(&sink->alloc, &triangles);

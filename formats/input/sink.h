@@ -70,7 +70,7 @@ froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t 
 /** Reports progress; FROE_E_CANCELLED. */
 froe_status formats_sink_progress(formats_sink *sink, double done);
 /** A failure that names file, unit, number and container before the sentence. */
-froe_status formats_sink_fail(formats_sink *sink, froe_status status, const char *format, ...)
+froe_status formats_sink_fail(formats_sink *sink, froe_status status, const char *sentence, ...)
     __attribute__((format(printf, 3, 4)));
 
 #endif

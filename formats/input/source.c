@@ -23,11 +23,6 @@ static ssize_t read_fully(int file, char *to, size_t size) {
     return (ssize_t)done;
 }
 
-froe_status formats_fail_file(froe_diagnostic *diag, const char *path, int error) {
-    if (error == ENOMEM) return support_fail_memory(diag);
-    return support_fail(diag, FROE_E_IO, "%s: %s", support_short(path), support_errno(error).text);
-}
-
 double formats_seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -39,7 +34,7 @@ froe_status formats_source_open(const char *path, formats_source *source, froe_d
     const char *name = support_short(path);
     struct stat about;
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return formats_fail_file(diag, path, errno);
+    if (file < 0) return support_fail_file(diag, "read", path, errno);
     ssize_t got = -1;
     int error = fstat(file, &about) ? errno : 0;
     bool regular = !error && S_ISREG(about.st_mode), directory = !error && S_ISDIR(about.st_mode);
@@ -48,10 +43,10 @@ froe_status formats_source_open(const char *path, formats_source *source, froe_d
         if (got < 0) error = errno;
     }
     close(file);
-    if (error) return formats_fail_file(diag, path, error);
+    if (error) return support_fail_file(diag, "read", path, error);
     if (!regular)
-        return support_fail(diag, FROE_E_IO, "%s: is %s, not a file", name, directory ? "a directory" : "a device");
-    if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: is empty", name);
+        return support_fail(diag, FROE_E_IO, "%s: It is %s, not a file.", name, directory ? "a directory" : "a device");
+    if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: The file is empty.", name);
     source->head_size = (size_t)got;
     source->head[got] = '\0';
     source->size = (uint64_t)about.st_size;
@@ -68,18 +63,17 @@ bool formats_is_moving(const formats_source *source) {
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text) {
     const bool room = source->size < SIZE_MAX && array_reserve(&sink->alloc, text, (size_t)source->size + 1);
     char *to = text->data;
-    if (!room)
-        return support_fail(sink->diag, FROE_E_MEMORY, "%s: out of memory for the text", support_short(source->path));
+    if (!room) return support_fail_memory(sink->diag);
     int file = open(source->path, O_RDONLY | O_CLOEXEC);
     ssize_t got = file < 0 ? -1 : read_fully(file, to, (size_t)source->size);
     int error = errno;
     if (file >= 0) close(file);
-    if (got < 0) return formats_fail_file(sink->diag, source->path, error);
+    if (got < 0) return support_fail_file(sink->diag, "read", source->path, error);
     to[got] = '\0';
     text->count = (size_t)got;
     if (!binary && memchr(to, '\0', (size_t)got))
-        return support_fail(sink->diag, FROE_E_FORMAT, "%s: is not text: byte %zu is zero", support_short(source->path),
-                            strlen(to));
+        return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file is not text, because byte %zu is zero.",
+                            support_short(source->path), strlen(to));
     return FROE_OK;
 }
 
@@ -98,34 +92,34 @@ static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, c
     const char *name = support_short(source->path);
     const froe_read_options *o = source->options;
     if (formats_is_moving(source))
-        return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: holds moving features, which are no scene at rest",
-                            name);
+        return support_fail(sink->diag, FROE_E_UNSUPPORTED,
+                            "%s: The file holds moving features, which are no scene at rest.", name);
     formats_reader *reader = choose(source);
-    if (!reader) return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: is neither CSV nor OFF, OBJ or PLY", name);
+    if (!reader)
+        return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The file is neither CSV nor OFF, OBJ or PLY.", name);
     if (reader != maps && (o->layer || o->where))
-        return support_fail(sink->diag, FROE_E_OPTIONS, "%s: is not a map: it has no %s", name,
+        return support_fail(sink->diag, FROE_E_OPTIONS, "%s: The file is not a map, and has no %s.", name,
                             o->layer ? "layers" : "attributes to filter by");
     froe_status status = reader(source, sink);
     if (!status) status = formats_sink_end_feature(sink);
     if (!status && !sink->total)
-        status = support_fail(sink->diag, FROE_E_INPUT,
-                              "%s: holds no objects (%llu features without geometry, %llu skipped)%s", name,
-                              (unsigned long long)sink->report.no_geometry, (unsigned long long)sink->report.skipped,
-                              reader == maps && !strcmp(source->extension.text, "csv")
-                                  ? "; a CSV begins with a line like x,y or x,y,r or lo_x,lo_y,hi_x,hi_y"
-                                  : "");
+        status =
+            support_fail(sink->diag, FROE_E_INPUT,
+                         reader == maps && !strcmp(source->extension.text, "csv")
+                             ? "%s: The file holds no objects (%llu features without geometry, %llu skipped). "
+                               "A CSV begins with a line like x,y or x,y,r or lo_x,lo_y,hi_x,hi_y."
+                             : "%s: The file holds no objects (%llu features without geometry, %llu skipped).",
+                         name, (unsigned long long)sink->report.no_geometry, (unsigned long long)sink->report.skipped);
     if (!status) status = formats_sink_progress(sink, 1);
     return status ? status : formats_sink_take(sink, out);
 }
 
 froe_status formats_check_reading(const char *name, const char *path, const froe_read_options *options,
                                   froe_scene **out, froe_diagnostic *diag) {
-    if (!path || !out) return support_fail(diag, FROE_E_ARG, "%s: path and out must not be NULL", name);
-    if (options && options->size != sizeof *options)
-        return support_fail(diag, FROE_E_OPTIONS, "%s: the options do not come from froe_read_defaults()", name);
+    if (!path || !out) return support_fail_null(diag, name);
+    if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_read_defaults");
     if (options && options->faces != FROE_FACES_TRIANGLES && options->faces != FROE_FACES_POLYGONS)
-        return support_fail(diag, FROE_E_OPTIONS, "%s: faces are triangles or polygons, not %d", name,
-                            (int)options->faces);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no way of reading faces %d.", (int)options->faces);
     return FROE_OK;
 }
 

@@ -40,8 +40,6 @@ typedef ARRAY(char) formats_text;
 /** The whole file and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text holds a NUL. */
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text);
 
-/** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: what an errno value says about a file. */
-froe_status formats_fail_file(froe_diagnostic *diag, const char *path, int error);
 /** Seconds of a clock that only goes forward. */
 double formats_seconds(void);
 

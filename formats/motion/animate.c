@@ -50,25 +50,23 @@ static void deal(formats_animation *a) {
 froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
                          const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!motion || !path || (count && !contacts))
-        return support_fail(diag, FROE_E_ARG, "froe_animate: motion, contacts and path must not be NULL");
+    if (!motion || !path || (count && !contacts)) return support_fail_null(diag, __func__);
     formats_animation a = {.motion = motion, .contacts = contacts, .count = count};
     a.options = options ? *options : froe_animation_defaults();
     a.begin = froe_motion_window(motion).begin;
     a.end = froe_motion_window(motion).end;
-    if (a.options.size != sizeof a.options || !(a.options.width > 4 * FORMATS_ANIMATION_MARGIN) ||
-        !isfinite(a.options.width) || !(a.options.seconds > 0) || !isfinite(a.options.seconds))
-        return support_fail(
-            diag, FROE_E_OPTIONS,
-            "froe_animate: options not from froe_animation_defaults(), or a width below 64, or no time");
+    if (a.options.size != sizeof a.options) return support_fail_defaults(diag, "froe_animation_defaults");
+    if (!(a.options.width > 4 * FORMATS_ANIMATION_MARGIN) || !isfinite(a.options.width) || !(a.options.seconds > 0) ||
+        !isfinite(a.options.seconds))
+        return support_fail(diag, FROE_E_OPTIONS, "The width of the animation is below 64, or its time is none.");
     const size_t objects = froe_motion_object_count(motion), starts = objects + 2;
     for (size_t i = 0; i < count; i++)
         if (contacts[i].a >= objects || contacts[i].b >= objects)
-            return support_fail(diag, FROE_E_ARG, "froe_animate: contact %zu is of objects that are not there", i);
+            return support_fail(diag, FROE_E_ARG, "contact %zu: Its objects do not exist.", i);
     support_extension extension = support_path_extension(path);
     bool svg = strcmp(extension.text, "svg") == 0;
     if (!svg && strcmp(extension.text, "html") != 0)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: motions are shown as .svg or .html", support_short(path));
+        return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, "motions", ".svg or .html");
     const froe_allocator alloc = support_allocator(NULL);
     formats_writer w;
     a.starts = support_calloc(&alloc, starts, sizeof *a.starts);

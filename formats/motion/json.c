@@ -19,9 +19,9 @@ static froe_status expected(const parser *p, const char *what) {
     int near = (int)strcspn(p->at, " \t\r\n,:[]{}");
     p->error->line = p->line;
     if (p->at == p->end)
-        snprintf(p->error->reason, sizeof p->error->reason, "%s expected near end of file", what);
+        snprintf(p->error->sentence, sizeof p->error->sentence, "JSON needs %s near the end of the file.", what);
     else
-        snprintf(p->error->reason, sizeof p->error->reason, "%s expected near '%.*s'", what,
+        snprintf(p->error->sentence, sizeof p->error->sentence, "JSON needs %s near '%.*s'.", what,
                  near > 30 ? 30
                  : near    ? near
                            : 1,
@@ -155,7 +155,7 @@ static froe_status read_value(parser *p) {
 static froe_status read_key(parser *p) {
     formats_json *object = p->values->data + p->open - 1;
     skip_blanks(p);
-    if (*p->at != '"') return expected(p, object->count ? "string" : "string or '}'");
+    if (*p->at != '"') return expected(p, object->count ? "a string" : "a string or '}'");
     froe_status status = read_string(p);
     skip_blanks(p);
     if (!status && !take_byte(p, ':')) status = expected(p, "':'");
@@ -193,7 +193,7 @@ froe_status formats_json_read(const froe_allocator *alloc, char *text, size_t le
         if (!status) more = goes_on(&p, p.open != outer, &status);
     }
     skip_blanks(&p);
-    return !status && p.at != p.end ? expected(&p, "end of file") : status;
+    return !status && p.at != p.end ? expected(&p, "the end of the file") : status;
 }
 
 const formats_json *formats_json_get(const formats_json *object, const char *name) {

@@ -28,7 +28,7 @@ typedef ARRAY(formats_json) formats_json_values;
 /** What is wrong with a text, and in which line, counted from 1. */
 typedef struct formats_json_error {
     size_t line;
-    char reason[100];
+    char sentence[100];
 } formats_json_error;
 
 /** Reads `text` (RFC 8259), which lasts as long as the values: strings are decoded in it. text[length] is 0; a string may

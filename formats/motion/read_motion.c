@@ -42,15 +42,15 @@ typedef struct reading {
 typedef enum form { POINT, LINE, POLYGON, FORMS } form;
 static const char *const forms[FORMS] = {"MovingPoint", "MovingLineString", "MovingPolygon"};
 
-static froe_status fail_feature(const reading *r, froe_status status, const char *format, ...)
+static froe_status fail_feature(const reading *r, froe_status status, const char *sentence, ...)
     __attribute__((format(printf, 3, 4)));
-static froe_status fail_feature(const reading *r, froe_status status, const char *format, ...) {
-    char reason[160];
+static froe_status fail_feature(const reading *r, froe_status status, const char *sentence, ...) {
+    char own_sentence[160];
     va_list args;
-    va_start(args, format);
-    vsnprintf(reason, sizeof reason, format, args);
+    va_start(args, sentence);
+    vsnprintf(own_sentence, sizeof own_sentence, sentence, args);
     va_end(args);
-    return support_fail(r->diag, status, "%s: feature %zu: %s", support_short(r->path), r->number, reason);
+    return support_fail(r->diag, status, "%s: feature %zu: %s", support_short(r->path), r->number, own_sentence);
 }
 
 static froe_status no_memory(const reading *r) {
@@ -63,13 +63,13 @@ static froe_status take_instants(reading *r, const formats_json *geometry) {
     const formats_json *datetimes = formats_json_get(geometry, "datetimes");
     r->times.count = 0;
     r->instants = formats_json_size(datetimes);
-    if (!r->instants) return fail_feature(r, FROE_E_FORMAT, "datetimes are missing");
+    if (!r->instants) return fail_feature(r, FROE_E_FORMAT, "Datetimes are missing.");
     FORMATS_JSON_EACH(value, datetimes) {
         double t = value->number;
         const bool known = formats_json_is(value, FORMATS_JSON_NUMBER) ||
                            (formats_json_string(value) && formats_datetime(formats_json_string(value), &t));
         if (!known)
-            return fail_feature(r, FROE_E_FORMAT, "datetime %zu is neither a number nor an ISO 8601 instant",
+            return fail_feature(r, FROE_E_FORMAT, "Datetime %zu is neither a number nor an ISO 8601 instant.",
                                 r->times.count);
         if (!array_push(&r->alloc, &r->times, t)) return no_memory(r);
         if (t < r->first) r->first = t;
@@ -81,11 +81,11 @@ static froe_status take_instants(reading *r, const formats_json *geometry) {
 static froe_status take_position(reading *r, const formats_json *position, size_t instant, doubles *to) {
     double p[2];
     if (formats_json_size(position) < 2)
-        return fail_feature(r, FROE_E_FORMAT, "at instant %zu a position is no array of two numbers", instant);
+        return fail_feature(r, FROE_E_FORMAT, "At instant %zu a position is no array of two numbers.", instant);
     const formats_json *x = position + 1;
     for (size_t k = 0; k < 2; k++, x = formats_json_next(x)) {
         if (!formats_json_is(x, FORMATS_JSON_NUMBER))
-            return fail_feature(r, FROE_E_FORMAT, "at instant %zu a coordinate is no number", instant);
+            return fail_feature(r, FROE_E_FORMAT, "At instant %zu a coordinate is not a number.", instant);
         p[k] = x->number;
     }
     if (formats_json_size(position) > 2) r->flat = false;
@@ -101,7 +101,7 @@ static froe_status take_ring(reading *r, const formats_json *ring, size_t instan
     for (size_t i = 0; closed && i < last->span; i++)
         closed = ring[1 + i].kind == last[i].kind && ring[1 + i].number == last[i].number;
     if (!closed)
-        return fail_feature(r, FROE_E_INPUT, "at instant %zu a ring is not closed, or has less than three corners",
+        return fail_feature(r, FROE_E_INPUT, "At instant %zu a ring is not closed, or has less than three corners.",
                             instant);
     froe_status status = FROE_OK;
     for (const formats_json *position = ring + 1; position != last && !status; position = formats_json_next(position))
@@ -116,7 +116,7 @@ static froe_status take_geometry(reading *r, form kind, const formats_json *geom
     const size_t count = formats_json_size(geometry);
     r->here.count = 0;
     if (kind == POINT) return take_position(r, geometry, instant, to);
-    if (!count) return fail_feature(r, FROE_E_INPUT, "at instant %zu there is no geometry", instant);
+    if (!count) return fail_feature(r, FROE_E_INPUT, "At instant %zu there is no geometry.", instant);
     FORMATS_JSON_EACH(item, geometry) {
         status = kind == LINE ? take_position(r, item, instant, to) : take_ring(r, item, instant, to);
         if (status) return status;
@@ -129,7 +129,8 @@ static froe_status take_geometry(reading *r, form kind, const formats_json *geom
 static froe_status take_all(reading *r, form kind, const formats_json *array, const char *what, size_t count,
                             doubles *to, bool first) {
     if (formats_json_size(array) != count)
-        return fail_feature(r, FROE_E_FORMAT, "%zu %s for %zu instants", formats_json_size(array), what, r->instants);
+        return fail_feature(r, FROE_E_FORMAT, "There are %zu %s for %zu instants.", formats_json_size(array), what,
+                            r->instants);
     to->count = 0;
     const formats_json *geometry = array + 1;
     for (size_t i = 0; i < count; i++, geometry = formats_json_next(geometry)) {
@@ -142,7 +143,7 @@ static froe_status take_all(reading *r, form kind, const formats_json *array, co
             if (!array_append(&r->alloc, &r->rings, r->here.data, lines)) return no_memory(r);
         } else if (lines != r->rings.count || points != r->points ||
                    (lines && memcmp(r->here.data, r->rings.data, lines * sizeof *r->here.data) != 0)) {
-            return fail_feature(r, FROE_E_INPUT, "at instant %zu it has not as many points as at instant 0", i);
+            return fail_feature(r, FROE_E_INPUT, "At instant %zu it has not as many points as at instant 0.", i);
         }
     }
     return FROE_OK;
@@ -155,7 +156,7 @@ static froe_status take_all(reading *r, form kind, const formats_json *array, co
 static froe_status make_spline(reading *r) {
     const double *t = r->times.data, *p = r->coords.data;
     size_t n = r->instants, width = 2 * r->points;
-    if (n < 3) return fail_feature(r, FROE_E_INPUT, "quadratic interpolation needs three instants");
+    if (n < 3) return fail_feature(r, FROE_E_INPUT, "Quadratic interpolation needs three instants.");
     r->controls.count = 0;
     if (!array_reserve(&r->alloc, &r->controls, (n - 1) * width)) return no_memory(r);
     double *c = r->controls.data;
@@ -217,7 +218,7 @@ static froe_status add_geometry(reading *r, form kind, const formats_json *geome
     const char *name = formats_json_string(said) ? formats_json_string(said) : "Linear";
     const bool parabolas = strcmp(name, "Quadratic") == 0;
     if (!parabolas && strcmp(name, "Linear") != 0)
-        return fail_feature(r, FROE_E_UNSUPPORTED, "interpolation '%.40s': froe knows Linear and Quadratic motion",
+        return fail_feature(r, FROE_E_UNSUPPORTED, "There is no interpolation '%.40s'. There are: Linear, Quadratic.",
                             name);
     if (parabolas)
         status = given ? take_all(r, kind, given, "controls", r->instants - 1, &r->controls, false) : make_spline(r);
@@ -249,8 +250,8 @@ static froe_status take_moving(reading *r, const formats_json *geometry) {
     int which = 0;
     while (which < FORMS && type && strcmp(type, forms[which]) != 0) which++;
     if (!type || which == FORMS)
-        return fail_feature(r, type ? FROE_E_UNSUPPORTED : FROE_E_FORMAT, "geometry of the type '%.40s'",
-                            type ? type : "");
+        return fail_feature(r, type ? FROE_E_UNSUPPORTED : FROE_E_FORMAT,
+                            "There is no moving geometry of type '%.40s'.", type ? type : "");
     froe_status status = take_instants(r, geometry);
     return status || !r->motion ? status : add_geometry(r, (form)which, geometry);
 }
@@ -290,7 +291,7 @@ static froe_status take_feature(reading *r, const formats_json *feature) {
         r->report.features++;
         status = froe_motion_add_group(r->motion, &group, &r->group);
         if (status == FROE_E_MEMORY) return no_memory(r);
-        if (status) return fail_feature(r, status, "has no room for its name");
+        if (status) return fail_feature(r, status, "There is no room for its name.");
     }
     if (!prisms) status = take_moving(r, geometry);
     FORMATS_JSON_EACH(prism, prisms) if (!status) status = take_moving(r, prism);
@@ -304,7 +305,7 @@ static froe_status take_features(reading *r, const formats_json *root) {
     r->number = 0;
     if (type && strcmp(type, "Feature") == 0) return take_feature(r, root);
     if (!formats_json_is(features, FORMATS_JSON_ARRAY))
-        return support_fail(r->diag, FROE_E_FORMAT, "%s: is neither a Feature nor a FeatureCollection",
+        return support_fail(r->diag, FROE_E_FORMAT, "%s: The file is neither a Feature nor a FeatureCollection.",
                             support_short(r->path));
     FORMATS_JSON_EACH(feature, features) {
         froe_status status = take_feature(r, feature);
@@ -320,15 +321,15 @@ static froe_status open_window(reading *r) {
     froe_diagnostic why;
     froe_motion_options w = froe_motion_defaults();
     if (!(r->first <= r->last))
-        return support_fail(r->diag, FROE_E_INPUT, "%s: nothing moves in it", support_short(r->path));
+        return support_fail(r->diag, FROE_E_INPUT, "%s: Nothing in the file moves.", support_short(r->path));
     if (r->first == r->last)
-        return support_fail(r->diag, FROE_E_INPUT, "%s: all of it is at one instant, %.17g", support_short(r->path),
-                            r->first);
+        return support_fail(r->diag, FROE_E_INPUT, "%s: All of the file is at one instant, %.17g.",
+                            support_short(r->path), r->first);
     w.begin = isnan(r->options.from) ? r->first : r->options.from;
     w.end = isnan(r->options.to) ? r->last : r->options.to;
     if (w.begin > r->last || w.end < r->first)
         return support_fail(r->diag, FROE_E_INPUT,
-                            "%s: nothing is there from %.17g to %.17g: all is from %.17g to %.17g",
+                            "%s: Nothing is there from %.17g to %.17g, for all is from %.17g to %.17g.",
                             support_short(r->path), w.begin, w.end, r->first, r->last);
     froe_status status = froe_motion_new(&w, r->options.alloc, &r->motion, &why);
     if (status == FROE_E_MEMORY) return no_memory(r);
@@ -338,7 +339,7 @@ static froe_status open_window(reading *r) {
 static froe_status load(const reading *r, formats_text *text) {
     enum { PART = 1 << 16 };
     FILE *file = fopen(r->path, "r");
-    if (!file) return formats_fail_file(r->diag, r->path, errno);
+    if (!file) return support_fail_file(r->diag, "read", r->path, errno);
     size_t got = PART;
     while (got == PART && array_reserve(&r->alloc, text, PART)) {
         got = fread(text->data + text->count, 1, PART, file);
@@ -346,7 +347,7 @@ static froe_status load(const reading *r, formats_text *text) {
     }
     int error = ferror(file) ? errno : 0;
     fclose(file);
-    if (error) return formats_fail_file(r->diag, r->path, error);
+    if (error) return support_fail_file(r->diag, "read", r->path, error);
     return got < PART && array_push(&r->alloc, text, '\0') ? FROE_OK : no_memory(r);
 }
 
@@ -363,7 +364,7 @@ static froe_status read_file(reading *r) {
         support_locale_leave(&locale);
         if (status == FROE_E_MEMORY) no_memory(r);
         if (status == FROE_E_FORMAT)
-            support_fail(r->diag, status, "%s: line %zu: %s", support_short(r->path), error.line, error.reason);
+            support_fail(r->diag, status, "%s: line %zu: %s", support_short(r->path), error.line, error.sentence);
     }
     if (!status) status = take_features(r, values.data);
     if (!status) status = open_window(r);
@@ -389,11 +390,8 @@ froe_status froe_read_motion(const char *path, const froe_motion_read_options *o
                              froe_motion_report *report, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     double start = formats_seconds();
-    if (!path || !out) return support_fail(diag, FROE_E_ARG, "froe_read_motion: path and out must not be NULL");
-    if (options && options->size != sizeof *options)
-        return support_fail(diag, FROE_E_OPTIONS,
-                            "froe_read_motion: the options do not come from "
-                            "froe_motion_read_defaults()");
+    if (!path || !out) return support_fail_null(diag, __func__);
+    if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_motion_read_defaults");
     reading r = {.path = path, .options = options ? *options : froe_motion_read_defaults(), .diag = diag};
     r.alloc = support_allocator(r.options.alloc);
     r.first = (double)INFINITY;

@@ -30,12 +30,11 @@ static void put_contact_cell(formats_writer *w, const froe_motion *m, const froe
 froe_status froe_write_contacts(const froe_motion *motion, const froe_contact *contacts, size_t count, const char *path,
                                 froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!motion || !path || (count && !contacts))
-        return support_fail(diag, FROE_E_ARG, "froe_write_contacts: motion, contacts and path must not be NULL");
+    if (!motion || !path || (count && !contacts)) return support_fail_null(diag, __func__);
     support_extension extension = support_path_extension(path);
     bool json = strcmp(extension.text, "json") == 0;
     if (!json && strcmp(extension.text, "csv") != 0)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: contacts are written as .csv or .json", support_short(path));
+        return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, "contacts", ".csv or .json");
     formats_writer w;
     froe_status status = formats_writer_open(&w, path, diag);
     if (status) return status;

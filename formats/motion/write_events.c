@@ -39,9 +39,9 @@ static void flush_events(froe_event_writer *writer) {
 froe_status froe_event_writer_new(const char *path, const froe_allocator *given, froe_event_writer **out,
                                   froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!path || !out) return support_fail(diag, FROE_E_ARG, "froe_event_writer_new: path and out must not be NULL");
+    if (!path || !out) return support_fail_null(diag, __func__);
     if (strcmp(support_path_extension(path).text, "csv") != 0)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: events are written as .csv", support_short(path));
+        return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, "events", ".csv");
     const froe_allocator alloc = support_allocator(given);
     froe_event_writer *w = support_calloc(&alloc, 1, sizeof *w);
     if (!w) return support_fail_memory(diag);

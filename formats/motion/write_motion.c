@@ -49,8 +49,8 @@ static froe_status check_motion(const chain *c, froe_diagnostic *diag) {
     }
     if (fits && count > 1) return FROE_OK;
     return support_fail(diag, FROE_E_UNSUPPORTED,
-                        "segment %u: the instants of its vertices are not the same, or not those of its life: MF-JSON "
-                        "cannot say that",
+                        "segment %u: The instants of its vertices are not the same, or not those of its life, which "
+                        "MF-JSON cannot say.",
                         c->first);
 }
 
@@ -117,7 +117,7 @@ static void put_feature(formats_writer *w, const chain *c) {
 
 froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!motion || !path) return support_fail(diag, FROE_E_ARG, "froe_write_motion: motion and path must not be NULL");
+    if (!motion || !path) return support_fail_null(diag, __func__);
     uint32_t count = (uint32_t)froe_motion_object_count(motion);
     for (uint32_t i = 0; i < count;) {
         chain c = chain_at(motion, i);

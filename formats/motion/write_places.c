@@ -16,9 +16,9 @@ static void put_whole(formats_writer *w, const froe_whole *number) {
 
 froe_status froe_write_places(const froe_places *places, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!places || !path) return support_fail(diag, FROE_E_ARG, "froe_write_places: places and path must not be NULL");
+    if (!places || !path) return support_fail_null(diag, __func__);
     if (strcmp(support_path_extension(path).text, "csv") != 0)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: exact places are written as .csv", support_short(path));
+        return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, "exact places", ".csv");
     formats_writer w;
     froe_status status = formats_writer_open(&w, path, diag);
     if (status) return status;

@@ -19,8 +19,8 @@ static froe_status read_csv_number(formats_sink *sink, const char *field, double
     char *end;
     *value = strtod(field, &end); /* correctly rounded, in the C locale of this thread */
     if (end != field && !*end) return FROE_OK;
-    if (!*field) return formats_sink_fail(sink, FROE_E_FORMAT, "a coordinate is missing");
-    return formats_sink_fail(sink, FROE_E_FORMAT, "'%.40s' is not a number", field);
+    if (!*field) return formats_sink_fail(sink, FROE_E_FORMAT, "A coordinate is missing.");
+    return formats_sink_fail(sink, FROE_E_FORMAT, "'%.40s' is not a number.", field);
 }
 
 static froe_status read_field(formats_sink *sink, const formats_csv_table *t, int role, const char *field, csv_row *r) {
@@ -35,7 +35,7 @@ static froe_status read_field(formats_sink *sink, const formats_csv_table *t, in
     r->tag = strtoull(field, &end, 10);
     r->tagged = true;
     if (end == field || *end || errno || *field == '-')
-        return formats_sink_fail(sink, FROE_E_FORMAT, "the tag '%.40s' is not a whole number below 2^64", field);
+        return formats_sink_fail(sink, FROE_E_FORMAT, "The tag '%.40s' is not a whole number below 2^64.", field);
     return FROE_OK;
 }
 
@@ -52,7 +52,7 @@ static froe_status read_row(formats_sink *sink, const formats_csv_table *t, char
     }
     if (status) return status;
     if (column != t->columns)
-        return formats_sink_fail(sink, FROE_E_FORMAT, "it has %d columns, the header %d", column, t->columns);
+        return formats_sink_fail(sink, FROE_E_FORMAT, "The row has %d columns, and the header %d.", column, t->columns);
     sink->tagged = r.tagged;
     sink->tag = r.tag;
     if (t->kind == FROE_BOX) return formats_sink_box(sink, r.corners, r.corners + t->dim);
@@ -69,13 +69,14 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     const formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &t);
     const char *name = support_short(source->path);
     if (what == FORMATS_CSV_BEYOND)
-        status = support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: has more than %d axes", name, FROE_MAX_DIM);
+        status =
+            support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The header has more than %d axes.", name, FROE_MAX_DIM);
     else if (what == FORMATS_CSV_HALVES)
         status = support_fail(
             sink->diag, FROE_E_FORMAT,
-            "%s: columns of boxes are lo_ and hi_ of the same two or more axes, as in lo_x,lo_y,hi_x,hi_y", name);
+            "%s: Columns of boxes are lo_ and hi_ of the same two or more axes, as in lo_x,lo_y,hi_x,hi_y.", name);
     else if (what == FORMATS_CSV_OTHER)
-        status = support_fail(sink->diag, FROE_E_IO, "%s: changed while it was read", name);
+        status = support_fail(sink->diag, FROE_E_IO, "%s: The file changed while it was read.", name);
     if (!status) status = formats_sink_open(sink, t.dim);
     sink->unit = "row";
     sink->report.layers = 1;

@@ -34,14 +34,13 @@ typedef struct obj {
     bool regroup, refeature; /* name or material, name changed since the last element */
 } obj;
 
-static froe_status broken_obj(obj *o, const char *what) {
+static froe_status broken_obj(obj *o, const char *sentence) {
     return support_fail(o->sink->diag, FROE_E_FORMAT, "%s: line %llu: %s", support_short(o->sink->path),
-                        (unsigned long long)o->number, what);
+                        (unsigned long long)o->number, sentence);
 }
 
 static froe_status out_of_memory(obj *o) {
-    return support_fail(o->sink->diag, FROE_E_MEMORY, "%s: line %llu: out of memory", support_short(o->sink->path),
-                        (unsigned long long)o->number);
+    return support_fail_memory(o->sink->diag);
 }
 
 /* ---------------------------------------------------------------- groups -- */
@@ -90,9 +89,9 @@ static froe_status read_corners(obj *o, const char *at, size_t *count) {
     for (*count = 0; at += strspn(at, " \t\r"), *at; ++*count) {
         char *end;
         int64_t index = strtoll(at, &end, 10);
-        if (end == at) return broken_obj(o, "an index is not a number");
+        if (end == at) return broken_obj(o, "An index is not a number.");
         if (index < 0) index += vertices + 1;
-        if (index < 1 || index > vertices) return broken_obj(o, "an index names a vertex that does not exist");
+        if (index < 1 || index > vertices) return broken_obj(o, "An index names a vertex that does not exist.");
         if (!array_append(&o->sink->alloc, &o->corners, o->points.data + 3 * (index - 1), 3)) return out_of_memory(o);
         at = end + strcspn(end, " \t\r"); /* texture and normal */
     }
@@ -130,7 +129,7 @@ static froe_status read_line(obj *o) {
         for (int k = 0; k < 3; ++k) {
             const char *from = end;
             p[k] = strtod(from, &end);
-            if (end == from) return broken_obj(o, "a vertex needs three coordinates");
+            if (end == from) return broken_obj(o, "A vertex needs three coordinates.");
         }
         return array_append(&o->sink->alloc, &o->points, p, 3) ? FROE_OK : out_of_memory(o);
     }
@@ -189,7 +188,7 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
             status = formats_sink_progress(sink, (double)(at - text.data) / (double)text.count);
         }
         if (!status && !o->points.count)
-            status = support_fail(sink->diag, FROE_E_FORMAT, "%s: has no vertices: it is not OBJ",
+            status = support_fail(sink->diag, FROE_E_FORMAT, "%s: The file has no vertices, and is not OBJ.",
                                   support_short(source->path));
         array_free(alloc, &o->points);
         array_free(alloc, &o->corners);

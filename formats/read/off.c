@@ -15,10 +15,11 @@ typedef struct off {
     ARRAY(double) points, corners; /* 3 each */
 } off;
 
-static froe_status broken_off(off *o, const char *what) {
+static froe_status broken_off(off *o, const char *sentence) {
     size_t line = 1;
     for (const char *c = o->begin; c < o->at; ++c) line += *c == '\n';
-    return support_fail(o->sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(o->source->path), line, what);
+    return support_fail(o->sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(o->source->path), line,
+                        sentence);
 }
 
 static void skip_blanks(off *o) {
@@ -55,29 +56,30 @@ static froe_status read_off_header(off *o) {
     skip_blanks(o);
     size_t prefix = strspn(o->at, "STCN4n");
     if (memchr(o->at, '4', prefix) || memchr(o->at, 'n', prefix))
-        return support_fail(o->sink->diag, FROE_E_UNSUPPORTED, "%s: vertices with more than 3 coordinates are not read",
-                            support_short(o->source->path));
+        return support_fail(o->sink->diag, FROE_E_UNSUPPORTED,
+                            "%s: Vertices with more than 3 coordinates are not read.", support_short(o->source->path));
     o->extras = prefix > 0;
     o->at += prefix + strlen("OFF");
     skip_blanks(o);
     if (!strncmp(o->at, "BINARY", 6))
-        return support_fail(o->sink->diag, FROE_E_UNSUPPORTED, "%s: binary OFF is not read",
+        return support_fail(o->sink->diag, FROE_E_UNSUPPORTED, "%s: Binary OFF is not read.",
                             support_short(o->source->path));
     uint64_t edges;
     if (!whole(o, &o->vertices) || !whole(o, &o->faces) || !whole(o, &edges))
-        return broken_off(o, "the counts of vertices, faces and edges are missing");
+        return broken_off(o, "The counts of vertices, faces and edges are missing.");
     if (o->vertices > o->length || o->faces > o->length)
-        return broken_off(o, "the file is shorter than its counts say");
+        return broken_off(o, "The file is shorter than its counts say.");
     return FROE_OK;
 }
 
 static froe_status read_face(off *o) {
     uint64_t corners, vertex;
     o->corners.count = 0;
-    if (!whole(o, &corners)) return broken_off(o, *o->at ? "a count of corners is not a number" : "faces are missing");
+    if (!whole(o, &corners))
+        return broken_off(o, *o->at ? "A count of corners is not a number." : "Faces are missing.");
     for (uint64_t i = 0; i < corners; ++i) {
-        if (!whole(o, &vertex)) return broken_off(o, *o->at ? "an index is not a number" : "faces are missing");
-        if (vertex >= o->vertices) return broken_off(o, "a face names a vertex that does not exist");
+        if (!whole(o, &vertex)) return broken_off(o, *o->at ? "An index is not a number." : "Faces are missing.");
+        if (vertex >= o->vertices) return broken_off(o, "A face names a vertex that does not exist.");
         if (!array_append(&o->sink->alloc, &o->corners, o->points.data + 3 * vertex, 3))
             return support_fail_memory(o->sink->diag);
     }
@@ -98,7 +100,7 @@ froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
     for (uint64_t i = 0; i < o.vertices && !status; ++i) {
         for (int k = 0; k < 3 && !status; ++k)
             if (!number(&o, &o.points.data[o.points.count++]))
-                status = broken_off(&o, *o.at ? "a coordinate is not a number" : "vertices are missing");
+                status = broken_off(&o, *o.at ? "A coordinate is not a number." : "Vertices are missing.");
         if (o.extras) skip_line(&o);
     }
     formats_report_format(sink, "float64", "OFF");

@@ -37,12 +37,12 @@ typedef struct ply {
     bool shapes;        /* there are faces or edges */
 } ply;
 
-static froe_status broken(ply *p, const char *what) {
-    return support_fail(p->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(p->sink->path), what);
+static froe_status broken(ply *p, const char *sentence) {
+    return support_fail(p->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(p->sink->path), sentence);
 }
 
 static froe_status out_of_memory(ply *p) {
-    return support_fail(p->sink->diag, FROE_E_MEMORY, "%s: out of memory", support_short(p->sink->path));
+    return support_fail_memory(p->sink->diag);
 }
 
 /* ---------------------------------------------------------------- header -- */
@@ -77,9 +77,9 @@ static ply_type type_of(const char *name) {
 
 static froe_status read_property(ply *p) {
     char word[WORD_ROOM];
-    if (!p->elements.count) return broken(p, "a property belongs to no element");
+    if (!p->elements.count) return broken(p, "A property belongs to no element.");
     element *e = p->elements.data + p->elements.count - 1;
-    if (e->properties == MOST_PROPERTIES) return broken(p, "an element has more than 64 properties");
+    if (e->properties == MOST_PROPERTIES) return broken(p, "An element has more than 64 properties.");
     property *to = &e->property[e->properties++];
     *to = (property){.count = NO_TYPE};
     bool list = !strcmp(next_word(p, word), "list");
@@ -89,7 +89,7 @@ static froe_status read_property(ply *p) {
     }
     to->type = type_of(word);
     if (to->type == NO_TYPE || (list && (to->count == NO_TYPE || to->count >= FLOAT32)))
-        return broken(p, "a property is of unknown type");
+        return broken(p, "A property is of unknown type.");
     next_word(p, word);
     to->role = LEFT_ALONE;
     if (e->kind == VERTEX && !list && word[0] >= 'x' && word[0] <= 'z' && !word[1])
@@ -111,8 +111,8 @@ static froe_status read_element(ply *p) {
     e->kind = !strcmp(word, "vertex") ? VERTEX : !strcmp(word, "face") ? FACE : !strcmp(word, "edge") ? EDGE : OTHER;
     next_word(p, word);
     e->count = strtoull(word, &end, 10);
-    if (*word < '0' || *word > '9' || *end) return broken(p, "an element has no count");
-    if (e->count > (uint64_t)(p->end - p->at)) return broken(p, "the file is shorter than its counts say");
+    if (*word < '0' || *word > '9' || *end) return broken(p, "An element has no count.");
+    if (e->count > (uint64_t)(p->end - p->at)) return broken(p, "The file is shorter than its counts say.");
     p->shapes = p->shapes || ((e->kind == FACE || e->kind == EDGE) && e->count);
     p->all += e->count;
     return FROE_OK;
@@ -123,7 +123,7 @@ static froe_status read_ply_header(ply *p) {
     bool formatted = false;
     char word[WORD_ROOM];
     while (!status) {
-        if (!next_line(p)) return broken(p, "the header has no end");
+        if (!next_line(p)) return broken(p, "The header has no end.");
         next_word(p, word);
         if (!strcmp(word, "end_header")) break;
         if (!strcmp(word, "format")) {
@@ -131,7 +131,7 @@ static froe_status read_ply_header(ply *p) {
             p->text = !strcmp(word, "ascii");
             p->big = !strcmp(word, "binary_big_endian");
             formatted = p->text || p->big || !strcmp(word, "binary_little_endian");
-            if (!formatted) return broken(p, "its format is neither ascii nor binary");
+            if (!formatted) return broken(p, "Its format is neither ascii nor binary.");
         } else if (!strcmp(word, "element")) {
             status = read_element(p);
         } else if (!strcmp(word, "property")) {
@@ -139,7 +139,7 @@ static froe_status read_ply_header(ply *p) {
         }
     }
     next_line(p); /* data begins behind the line, even when it is empty */
-    return status || formatted ? status : broken(p, "the header names no format");
+    return status || formatted ? status : broken(p, "The header names no format.");
 }
 
 /* ------------------------------------------------------------------ data -- */
@@ -176,10 +176,10 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
     for (int i = 0; i < e->properties; ++i) {
         const property *to = &e->property[i];
         double count = 1, value;
-        if (to->count && !read_number(p, to->count, &count)) return broken(p, "the data end too early");
-        if (!(count >= 0) || count > (double)(p->end - p->at)) return broken(p, "a list is longer than the file");
+        if (to->count && !read_number(p, to->count, &count)) return broken(p, "The data end too early.");
+        if (!(count >= 0) || count > (double)(p->end - p->at)) return broken(p, "A list is longer than the file.");
         for (double k = 0; k < count; ++k) {
-            if (!read_number(p, to->type, &value)) return broken(p, "the data end too early, or hold no number");
+            if (!read_number(p, to->type, &value)) return broken(p, "The data end too early, or hold no number.");
             by_role[to->role] = value;
             if (to->role == INDICES && !array_push(&p->sink->alloc, &p->indices, value)) return out_of_memory(p);
         }
@@ -189,7 +189,7 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
 
 static froe_status add_corner(ply *p, double index) {
     if (!(index >= 0 && index < (double)(p->points.count / 3)) || index != (double)(uint64_t)index)
-        return broken(p, "a face or edge names a vertex that does not exist (or comes later)");
+        return broken(p, "A face or edge names a vertex that does not exist (or comes later).");
     const double *at = p->points.data + 3 * (size_t)index;
     return array_append(&p->sink->alloc, &p->corners, at, 3) ? FROE_OK : out_of_memory(p);
 }
@@ -221,7 +221,7 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_load(source, sink, true, &file);
     p.at = file.data;
     p.end = p.at + file.count;
-    if (!status && strncmp(p.at, "ply", 3) != 0) status = broken(&p, "does not begin like PLY");
+    if (!status && strncmp(p.at, "ply", 3) != 0) status = broken(&p, "The file does not begin like PLY.");
     if (!status) status = read_ply_header(&p);
     if (!status) status = formats_sink_open(sink, 3);
     formats_report_format(sink, p.text || p.doubles ? "float64" : "float32", "PLY");

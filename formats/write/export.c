@@ -3,6 +3,7 @@
 #include "support/array.h"
 #include "support/floats.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 froe_export_options froe_export_defaults(void) {
@@ -172,7 +173,7 @@ static froe_status run_export(export_job *j, const char *path) {
     formats_put(&j->writer, j->file->head);
     if (j->file->columns) j->file->columns(&j->writer, &like);
     status = j->what == FROE_EXPORT_FRAGMENTS ? write_fragments(j) : write_cells(j);
-    if (j->cancelled) status = support_fail(j->diag, FROE_E_CANCELLED, "%s: cancelled", support_short(path));
+    if (j->cancelled) status = support_fail_cancelled(j->diag);
     if (!status) formats_put(&j->writer, j->file->foot);
     array_free(&j->alloc, &j->coords);
     array_free(&j->alloc, &j->stack);
@@ -183,11 +184,10 @@ froe_status froe_export(const froe_tree *tree, const char *path, froe_export_wha
                         const froe_export_options *options, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     froe_export_options defaults = froe_export_defaults();
-    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "froe_export: tree and path must not be NULL");
+    if (!tree || !path) return support_fail_null(diag, __func__);
     if (what != FROE_EXPORT_FRAGMENTS && what != FROE_EXPORT_CELLS && what != FROE_EXPORT_CUTS)
-        return support_fail(diag, FROE_E_ARG, "froe_export: %d is neither fragments, cells nor cuts", (int)what);
-    if (options && options->size != sizeof *options)
-        return support_fail(diag, FROE_E_OPTIONS, "froe_export: the options do not come from froe_export_defaults()");
+        return support_fail(diag, FROE_E_ARG, "There is nothing of number %d to export.", (int)what);
+    if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_export_defaults");
     const froe_scene *scene = froe_tree_scene(tree);
     export_job j = {.tree = tree,
                     .scene = scene,
@@ -199,13 +199,15 @@ froe_status froe_export(const froe_tree *tree, const char *path, froe_export_wha
                     .diag = diag};
     const bool fits = j.file && j.dim >= j.file->least_dim && j.dim <= j.file->most_dim;
     if (fits && j.dim > 3 && what != FROE_EXPORT_FRAGMENTS)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: cells and cuts have coordinates in dimensions 2 and 3 only",
-                            support_short(path));
-    if (!fits)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: a tree of dimension %d is exported to %s",
-                            support_short(path), j.dim,
-                            j.dim == 2   ? ".geojson or .csv"
-                            : j.dim == 3 ? ".obj or .csv"
-                                         : ".csv");
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: Cells and cuts exist in 2 and 3 dimensions, not in %d.",
+                            support_short(path), j.dim);
+    if (!fits) {
+        char trees[40];
+        snprintf(trees, sizeof trees, "trees of dimension %d", j.dim);
+        return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, trees,
+                                   j.dim == 2   ? ".geojson or .csv"
+                                   : j.dim == 3 ? ".obj or .csv"
+                                                : ".csv");
+    }
     return run_export(&j, path);
 }

@@ -31,12 +31,12 @@ static const double *place_of_corner(const pen *p, uint32_t object, const froe_o
 static froe_status check_kinds(const pen *p, const char *format, uint32_t kinds, bool dim_fits) {
     uint32_t other = 0;
     if (!dim_fits)
-        return support_fail(p->diag, FROE_E_UNSUPPORTED, "%s: a scene of dimension %d cannot be written as %s",
+        return support_fail(p->diag, FROE_E_UNSUPPORTED, "%s: A scene of dimension %d cannot be written as %s.",
                             support_short(p->path), p->dim, format);
     while (other < p->objects && kinds >> froe_scene_object(p->scene, other).kind & 1) ++other;
     if (other == p->objects) return FROE_OK;
     froe_status status =
-        support_fail(p->diag, FROE_E_UNSUPPORTED, "%s: object %u, a %s, cannot be written as %s",
+        support_fail(p->diag, FROE_E_UNSUPPORTED, "%s: object %u: A %s cannot be written as %s.",
                      support_short(p->path), other, froe_kind_name(froe_scene_object(p->scene, other).kind), format);
     if (p->diag) p->diag->object = other;
     return status;
@@ -216,7 +216,7 @@ static const kind_of_file files[] = {
 
 froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!scene || !path) return support_fail(diag, FROE_E_ARG, "froe_write_scene: scene and path must not be NULL");
+    if (!scene || !path) return support_fail_null(diag, __func__);
     pen p = {.scene = scene,
              .path = path,
              .diag = diag,
@@ -226,8 +226,7 @@ froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_dia
     const kind_of_file *file = files, *end = files + sizeof files / sizeof *files;
     while (file != end && strcmp(file->extension, extension.text)) ++file;
     if (file == end)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: a scene is written to .geojson, .csv, .off or .obj",
-                            support_short(path));
+        return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, "scenes", ".geojson, .csv, .off or .obj");
     froe_status status = check_kinds(&p, file->name, file->kinds, p.dim >= file->least_dim && p.dim <= file->most_dim);
     if (!status && file->write == write_csv && p.objects)
         status =

@@ -311,9 +311,9 @@ static froe_status prepare_bar(bar *b) {
     b->cubes = asked == 0;
     if (!b->cubes && (!has_keys(job->scene) || !split_directions_of(job->scene->dim, asked, &b->rule.directions))) {
         if (has_keys(job->scene))
-            return support_fail(job->diag, FROE_E_OPTIONS, "option 'directions': there are no %d in dimension %d",
+            return support_fail(job->diag, FROE_E_OPTIONS, "option 'directions': There are no %d in dimension %d.",
                                 asked, job->scene->dim);
-        return support_fail(job->diag, FROE_E_UNSUPPORTED, "method 'bar' has no directions for coordinates of %g",
+        return support_fail(job->diag, FROE_E_UNSUPPORTED, "Method 'bar' has no directions for coordinates of %g.",
                             largest_coordinate(job->scene));
     }
     b->share = job->scene->dim == 2 ? 0.67 : 0.75;

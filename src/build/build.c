@@ -65,7 +65,7 @@ static froe_status refuse_method(const char *name, froe_diagnostic *diag) {
         size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, ", %s", methods[i]->info.name);
     }
-    return support_fail(diag, FROE_E_OPTIONS, "unknown method '%s'; there are: %s", name, list);
+    return support_fail(diag, FROE_E_OPTIONS, "There is no method '%s'. There are: %s.", name, list);
 }
 
 /* Grain takes about 40 us a segment, eight to fifteen times as long as density, for a tenth fewer pieces. */
@@ -102,7 +102,8 @@ static froe_status choose_method(const froe_build_options *o, const froe_scene *
                                  froe_diagnostic *diag) {
     const char *name = o->method ? o->method : "auto", *best = froe_method_auto(scene, o->purpose);
     if (!best)
-        return support_fail(diag, FROE_E_OPTIONS, "unknown purpose '%s'; there are: pieces, query, draw", o->purpose);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no purpose '%s'. There are: pieces, query, draw.",
+                            o->purpose);
     if (!strcmp(name, "auto")) name = best;
     *out = find_method(name);
     return *out ? FROE_OK : refuse_method(name, diag);
@@ -131,16 +132,17 @@ static froe_status check_scene(const build_method *method, const froe_scene *sce
     uint32_t kinds = kinds_of(scene), alien = kinds & ~info->kinds[scene->dim];
     if (froe_method_serves(info, scene, leaf)) return FROE_OK;
     if (!info->kinds[scene->dim])
-        return support_fail(diag, FROE_E_UNSUPPORTED, "method '%s' does not serve dimension %d", info->name,
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Method '%s' does not serve dimension %d.", info->name,
                             scene->dim);
     if (alien)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "method '%s' does not serve objects of kind '%s' in dimension %d",
-                            info->name, froe_kind_name((froe_kind)__builtin_ctz(alien)), scene->dim);
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "Method '%s' does not serve objects of kind '%s' in dimension %d.", info->name,
+                            froe_kind_name((froe_kind)__builtin_ctz(alien)), scene->dim);
     if (leaf < info->least_leaf)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "method '%s' serves leaf %u at least", info->name,
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Method '%s' needs a leaf capacity of %u at least.", info->name,
                             info->least_leaf);
     return support_fail(diag, FROE_E_UNSUPPORTED,
-                        "leaf 0 is for scenes of segments in the plane or of polygons in space only");
+                        "A leaf capacity of 0 is for scenes of segments in the plane or of polygons in space only.");
 }
 
 /** Is it an order of all objects, for a method that takes one? */
@@ -149,9 +151,9 @@ static froe_status check_order(const froe_build_options *o, const build_method *
     size_t n = scene->object_count;
     if (!o->order && !o->order_count) return FROE_OK;
     if (!method->ordered)
-        return support_fail(diag, FROE_E_OPTIONS, "method '%s' does not go by an order of objects", method->info.name);
+        return support_fail(diag, FROE_E_OPTIONS, "Method '%s' takes no order of objects.", method->info.name);
     if (!o->order || o->order_count != n)
-        return support_fail(diag, FROE_E_OPTIONS, "the order has %zu entries for %zu objects",
+        return support_fail(diag, FROE_E_OPTIONS, "The order has %zu entries for %zu objects.",
                             o->order ? o->order_count : 0, n);
     bool *seen = support_calloc(&scene->alloc, n, sizeof *seen);
     if (!seen) return support_fail_memory(diag);
@@ -159,9 +161,10 @@ static froe_status check_order(const froe_build_options *o, const build_method *
     for (size_t i = 0; i < n && !status; i++) {
         uint32_t id = o->order[i];
         if (id >= n)
-            status = support_fail(diag, FROE_E_OPTIONS, "entry %zu of the order is no object: %u", i, id);
+            status =
+                support_fail(diag, FROE_E_OPTIONS, "Entry %zu of the order is %u, and there is no such object.", i, id);
         else if (seen[id])
-            status = support_fail(diag, FROE_E_OPTIONS, "object %u comes twice in the order", id);
+            status = support_fail(diag, FROE_E_OPTIONS, "The order has object %u twice.", id);
         else
             seen[id] = true;
     }
@@ -196,18 +199,18 @@ static froe_status build_by_method(froe_scene *scene, const froe_build_options *
                                    const froe_cut *root, froe_tree **out, froe_diagnostic *diag) {
     const build_method *method;
     base_task task;
-    if (!scene || !out) return support_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
+    if (!scene || !out) return support_fail_null(diag, "froe_build");
     froe_build_options o = options ? *options : froe_build_defaults();
-    if (o.size != sizeof o) return support_fail(diag, FROE_E_OPTIONS, "options do not come from froe_build_defaults()");
+    if (o.size != sizeof o) return support_fail_defaults(diag, "froe_build_defaults");
     if (o.leaf > INT32_MAX && o.leaf != FROE_LEAF_OWN)
-        return support_fail(diag, FROE_E_OPTIONS, "leaf capacity %u is above %d, the largest there is", o.leaf,
+        return support_fail(diag, FROE_E_OPTIONS, "A leaf capacity of %u is above %d, the largest there is.", o.leaf,
                             INT32_MAX);
     froe_status status = choose_method(&o, scene, &method, diag);
     if (!status) o.leaf = leaf_of(&method->info, o.leaf);
     if (!status) status = check_scene(method, scene, o.leaf, diag);
     if (!status) status = check_order(&o, method, scene, diag);
     if (!status && root && !method->rooted)
-        status = support_fail(diag, FROE_E_UNSUPPORTED, "method '%s' takes no first cut", method->info.name);
+        status = support_fail(diag, FROE_E_UNSUPPORTED, "Method '%s' takes no first cut.", method->info.name);
     if (status) return status;
     build_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag, .root = root};
     base_task_init(&task, o.threads, o.progress, o.user);
@@ -235,20 +238,20 @@ static froe_status check_plane(int dim, const double *plane, froe_cut *out, froe
     for (int k = 0; k <= dim; k++) {
         if (!isfinite(plane[k]))
             return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
-                                   "number %d of the plane is not finite", k);
+                                   "Number %d of the plane is %g, not a finite number.", k, plane[k]);
         if (k < dim) most = fmax(most, fabs(plane[k]));
     }
-    return most > 0 ? FROE_OK : support_fail(diag, FROE_E_ARG, "the normal of the plane has length 0");
+    return most > 0 ? FROE_OK : support_fail(diag, FROE_E_ARG, "The normal of the plane has length 0.");
 }
 
 froe_status froe_tree_section(const froe_tree *tree, const double *plane, const froe_build_options *options,
                               froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !plane || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!tree || !plane || !out) return support_fail_null(diag, __func__);
     const int dim = tree->scene->dim;
     froe_build_options o = options ? *options : froe_build_defaults();
     froe_cut root;
-    if (dim > 3) return support_fail(diag, FROE_E_UNSUPPORTED, "sections exist in 2 and 3 dimensions, not in %d", dim);
+    if (dim > 3) return support_fail(diag, FROE_E_UNSUPPORTED, "Sections exist in 2 and 3 dimensions, not in %d.", dim);
     const froe_status status = check_plane(dim, plane, &root, diag);
     if (status) return status;
     o.method = tree->meta.method;

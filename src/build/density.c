@@ -133,7 +133,8 @@ typedef struct guard_stage {
 } guard_stage;
 
 static froe_status explain_guard_stage(const guard_stage *g, froe_status status) {
-    if (status == FROE_E_LIMIT) return support_fail(g->job->diag, status, "more than 2^31 guards or fragments");
+    if (status == FROE_E_LIMIT)
+        return support_fail(g->job->diag, status, "More than 2^31 guards or fragments are needed.");
     if (status == FROE_E_CANCELLED) return support_fail_cancelled(g->job->diag);
     return status ? support_fail_memory(g->job->diag) : FROE_OK;
 }

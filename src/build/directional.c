@@ -123,7 +123,7 @@ static froe_status build_directional(build_job *job, froe_tree **out) {
     double bound = boxes_bound(&b, n);
     if (!status && n && bound == 0)
         status =
-            support_fail(job->diag, FROE_E_OPTIONS, "option 'trade': %u is too much in dimension %d", trade, b.dim);
+            support_fail(job->diag, FROE_E_OPTIONS, "option 'trade': '%u' is too large in dimension %d.", trade, b.dim);
     else {
         if (!status) status = prepare_boxes(job, &b);
         if (!status) status = do_box_cells(job, &b);

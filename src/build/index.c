@@ -396,7 +396,7 @@ static froe_status build_in_plane(build_job *job, froe_tree **out) {
 static froe_status build_index(build_job *job, froe_tree **out) {
     const froe_scene *s = job->scene;
     if (s->object_count > PACKED_OBJECT)
-        return support_fail(job->diag, FROE_E_LIMIT, "method 'index' serves at most 2^30 objects");
+        return support_fail(job->diag, FROE_E_LIMIT, "Method 'index' serves at most 2^30 objects.");
     build_promise(job, "fragments", 2 * job->option[GROWTH] * s->object_count, 0);
     froe_status status = s->dim == 3 ? build_in_space(job, job->option[GROWTH], out) : build_in_plane(job, out);
     return split_explain(job->diag, job->max_fragments, status);

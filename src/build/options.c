@@ -67,7 +67,7 @@ froe_status options_parse(const build_method *method, const char *settings, bool
         const froe_option_info *o = find_option(options, w.text, name);
         if (!o && tuned) o = find_option(tuning, w.text, name);
         if (!o)
-            return support_fail(diag, FROE_E_OPTIONS, "method '%s' has no option '%.*s'", method->info.name, (int)name,
+            return support_fail(diag, FROE_E_OPTIONS, "Method '%s' has no option '%.*s'.", method->info.name, (int)name,
                                 w.text);
         if (!equal || !parse_value(o, equal + 1, (size_t)w.length - name - 1, &value[o - options])) {
             /* says which values there are */
@@ -77,9 +77,10 @@ froe_status options_parse(const build_method *method, const char *settings, bool
                 snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", o->choices[i]);
             }
             if (o->choices)
-                return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': choose one of %s", w.length, w.text, list);
-            return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': a %snumber from %g to %g is needed", w.length,
-                                w.text, o->whole ? "whole " : "", o->lo, o->hi);
+                return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': Its value is not one of %s.", w.length,
+                                    w.text, list);
+            return support_fail(diag, FROE_E_OPTIONS, "option '%.*s': Its value is not a %snumber from %g to %g.",
+                                w.length, w.text, o->whole ? "whole " : "", o->lo, o->hi);
         }
     }
     return FROE_OK;

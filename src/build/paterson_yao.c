@@ -120,7 +120,8 @@ static froe_status build_paterson_yao(build_job *job, froe_tree **out) {
     int rule = (int)job->option[RULE];
     bool segments = has_segments_alone(job->scene);
     if (rule == SLABS && !segments)
-        return support_fail(job->diag, FROE_E_UNSUPPORTED, "rule=slabs is for segments and points of the plane only");
+        return support_fail(job->diag, FROE_E_UNSUPPORTED,
+                            "option 'rule=slabs': It is for segments and points of the plane only.");
     if (rule == AUTO) rule = segments && !is_orthogonal(job->scene) ? SLABS : ORTHOGONAL;
     return rule == SLABS ? build_converted(job, &slabs, out) : build_orthogonal(job, out);
 }

@@ -11,10 +11,10 @@
 
 static froe_status check_question(froe_kinetic *k, const double *at, const double *to, const void *out,
                                   froe_diagnostic *diag) {
-    if (!k || !at || !to || !out) return support_fail(diag, FROE_E_ARG, "a question to a kinetic partition: NULL");
+    if (!k || !at || !to || !out) return support_fail_null(diag, "a question to a kinetic partition");
     for (int i = 0; i < 2; i++)
         if (!isfinite(at[i]) || !isfinite(to[i]))
-            return support_fail(diag, FROE_E_ARG, "a coordinate is NaN or infinite");
+            return support_fail(diag, FROE_E_ARG, "A coordinate of the question is not a finite number.");
     return kinetic_begin(k, diag);
 }
 
@@ -208,7 +208,7 @@ froe_status froe_kinetic_order(froe_kinetic *k, const double eye[2], froe_kineti
                                froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     froe_status status = check_question(k, eye, eye, (const void *)&visit, diag);
-    if (!status && !visit) status = support_fail(diag, FROE_E_ARG, "froe_kinetic_order: NULL");
+    if (!status && !visit) status = support_fail_null(diag, __func__);
     if (status) return status;
     name_point point = end_name(&k->now, now_ask(&k->now, eye, eye), 0);
     ktree_cell plane = ktree_plane();

@@ -62,15 +62,14 @@ static froe_status tell_difference(const froe_kinetic *k, const froe_kinetic *fr
     const ktree_node *m = ktree_node_at(&k->tree, node[0]), *n = ktree_node_at(&fresh->tree, node[1]);
     if (same_node(&k->tree, node[0], &fresh->tree, node[1]))
         return support_fail_at(diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
-                               "a node of segment %u has not the certificates that it has from scratch", m->segment);
+                               "A node of segment %u has not the certificates that it has from scratch.", m->segment);
     unsigned has[2] = {0, 0};
     for (unsigned i = 0; i < 4; i++)
         has[0] |= (m->child[i] != KTREE_LEAF) << i, has[1] |= (n->child[i] != KTREE_LEAF) << i;
-    return support_fail_at(
-        diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
-        "a node of segment %u with walls %x %x and children %x is, from scratch, one of segment %u with "
-        "walls %x %x and children %x",
-        m->segment, m->wall[0], m->wall[1], has[0], n->segment, n->wall[0], n->wall[1], has[1]);
+    return support_fail_at(diag, FROE_E_INPUT, m->segment, FROE_NONE, FROE_NONE,
+                           "A node of segment %u with walls %x %x and children %x is, from scratch, one of segment %u "
+                           "with walls %x %x and children %x.",
+                           m->segment, m->wall[0], m->wall[1], has[0], n->segment, n->wall[0], n->wall[1], has[1]);
 }
 
 /* Is the queue in order, does each certificate in it hold, and does each fail when the same one from scratch does? A
@@ -84,11 +83,11 @@ static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
         const cert_record *c = k->certs.all.data + cert;
         const int kind = certify_kind(&k->tree, &k->certs, cert);
         if (queue->places.data[cert] != i || c->tick != entries[i].tick || c->tick < entries[i ? (i - 1) / 4 : 0].tick)
-            return support_fail(diag, FROE_E_INPUT, "the queue is not in order at place %zu", i);
+            return support_fail(diag, FROE_E_INPUT, "The queue is not in order at place %zu.", i);
         if (c->tick <= k->now.tick)
-            return support_fail(diag, FROE_E_INPUT, "a certificate of kind %d is overdue", kind);
+            return support_fail(diag, FROE_E_INPUT, "A certificate of kind %d is overdue.", kind);
         if (kind <= CERT_TURN && now_holds(&k->now, &c->claim) < 0)
-            return support_fail(diag, FROE_E_INPUT, "a certificate of kind %d does not hold", kind);
+            return support_fail(diag, FROE_E_INPUT, "A certificate of kind %d does not hold.", kind);
     }
     for (uint32_t i = 0; i < k->certs.all.count; i++) {
         const cert_record *c = k->certs.all.data + i;
@@ -100,7 +99,8 @@ static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
                                  : now_first_failure(&k->now, &c->claim);
         const bool may_be_early = k->tree.augmented && c->kind <= CERT_RIGHT;
         if (c->tick > tick || (c->tick < tick && !may_be_early))
-            return support_fail(diag, FROE_E_INPUT, "a certificate of kind %d fails at tick %lld, from scratch at %lld",
+            return support_fail(diag, FROE_E_INPUT,
+                                "A certificate of kind %d fails at tick %lld, and from scratch at tick %lld.",
                                 (int)certify_kind(&k->tree, &k->certs, i), (long long)c->tick, (long long)tick);
     }
     return FROE_OK;
@@ -108,7 +108,7 @@ static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k) return support_fail(diag, FROE_E_ARG, "froe_kinetic_audit: NULL");
+    if (!k) return support_fail_null(diag, __func__);
     froe_kinetic *fresh = NULL;
     froe_status status = kinetic_begin(k, diag);
     if (!status) status = kinetic_copy(k, &fresh, diag);
@@ -120,8 +120,8 @@ froe_status froe_kinetic_audit(froe_kinetic *k, froe_diagnostic *diag) {
     else if (node[0])
         status = tell_difference(k, fresh, node, diag);
     else if (k->tree.node_count != fresh->tree.node_count)
-        status =
-            support_fail(diag, FROE_E_INPUT, "%zu nodes, %zu from scratch", k->tree.node_count, fresh->tree.node_count);
+        status = support_fail(diag, FROE_E_INPUT, "There are %zu nodes, and from scratch %zu.", k->tree.node_count,
+                              fresh->tree.node_count);
     else
         status = audit_certificates(k, diag);
     froe_kinetic_free(fresh);

@@ -126,10 +126,11 @@ static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
     const size_t n = k->tree.segments.count;
     const uint32_t *order = k->options.order;
     if (order && k->options.epoch)
-        return support_fail(diag, FROE_E_OPTIONS, "a given order cannot be drawn anew in epochs");
+        return support_fail(diag, FROE_E_OPTIONS, "A given order cannot be drawn anew in epochs.");
     for (size_t i = 0; order && i < n; i++) {
         if (order[i] >= n || ktree_segment_at(&k->tree, order[i])->key != UINT64_MAX)
-            return support_fail(diag, FROE_E_OPTIONS, "the order has object %u twice, or there is none", order[i]);
+            return support_fail(diag, FROE_E_OPTIONS, "The order has object %u twice, or there is no such object.",
+                                order[i]);
         ktree_segment_at(&k->tree, order[i])->key = i;
     }
     for (uint32_t s = 0; s < n; s++) {
@@ -146,9 +147,8 @@ static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
 froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options, const froe_allocator *alloc,
                              froe_kinetic **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!motion || !options || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_new: NULL");
-    if (options->size != sizeof *options)
-        return support_fail(diag, FROE_E_OPTIONS, "options that do not come from froe_kinetic_defaults()");
+    if (!motion || !options || !out) return support_fail_null(diag, __func__);
+    if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_kinetic_defaults");
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
     if (new_at(motion, &memory, options, 1, &k)) return support_fail_memory(diag);
@@ -214,10 +214,10 @@ static void end_epoch(froe_kinetic *k) {
 froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *visit, void *user,
                                  froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || !(time <= k->now.motion->end)) return support_fail(diag, FROE_E_ARG, "that time is not in the window");
+    if (!k || !(time <= k->now.motion->end)) return support_fail(diag, FROE_E_ARG, "The time is not in the window.");
     int64_t tick = motion_tick_after(k->now.motion, time) | 1, last = now_last_tick(&k->now);
     if (tick > last) tick = last;
-    if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "time %g has passed", time);
+    if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "Time %g has passed.", time);
     const event_watcher watcher = {visit, user};
     const int64_t from = k->now.tick;
     froe_status status = kinetic_begin(k, diag);
@@ -227,7 +227,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
         bool go_on = event_step(k, tick, &watcher);
         status = kinetic_settle(k, diag);
         if (!status) end_epoch(k), status = kinetic_settle(k, diag);
-        if (!go_on && !status) return support_fail(diag, FROE_E_CANCELLED, "stopped by the visitor");
+        if (!go_on && !status) return support_fail(diag, FROE_E_CANCELLED, "The visitor stopped the call.");
     }
     return status;
 }
@@ -236,7 +236,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
 
 froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k) return support_fail(diag, FROE_E_ARG, "froe_kinetic_update: NULL");
+    if (!k) return support_fail_null(diag, __func__);
     uint32_t first = (uint32_t)k->tree.segments.count;
     if (grow_tables(k)) return support_fail_memory(diag);
     froe_status status = kinetic_begin(k, diag);
@@ -251,7 +251,7 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || object >= k->tree.segments.count) return support_fail(diag, FROE_E_ARG, "there is no object %u", object);
+    if (!k || object >= k->tree.segments.count) return support_fail(diag, FROE_E_ARG, "There is no object %u.", object);
     froe_status status = kinetic_begin(k, diag);
     if (status) return status;
     motion_object *o = k->now.motion->objects.data + object;
@@ -265,7 +265,7 @@ froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnosti
 froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, const double *times,
                                 const double *coords, const double *controls, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || vertex >= k->tree.vertices.count) return support_fail(diag, FROE_E_ARG, "there is no vertex %u", vertex);
+    if (!k || vertex >= k->tree.vertices.count) return support_fail(diag, FROE_E_ARG, "There is no vertex %u.", vertex);
     const double now = now_time_of(&k->now, k->now.tick);
     double life[2] = {now, now}; /* to the end of the last life of a segment at the vertex */
     froe_status status = kinetic_begin(k, diag), settled;

@@ -182,7 +182,7 @@ static froe_status make_snapshot(snapshot_work *p, bool refuse, froe_snapshot *o
     if (refuse && p->rounded)
         return support_fail_at(
             diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
-            "segment %u ends where no double is at this tick; vertices that would have to be rounded: %zu",
+            "segment %u: It ends where no double is at this tick. %zu vertices would have to be rounded.",
             p->first_rounded, p->rounded);
     froe_status status = build_snapshot_tree(p, &out->tree, diag);
     if (status) return status;
@@ -200,8 +200,8 @@ froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *
                                   froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const froe_snapshot_options standard = froe_snapshot_defaults(), *o = options ? options : &standard;
-    if (!k || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_snapshot: NULL");
-    if (o->size != sizeof *o) return support_fail(diag, FROE_E_OPTIONS, "options not from froe_snapshot_defaults()");
+    if (!k || !out) return support_fail_null(diag, __func__);
+    if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_snapshot_defaults");
     snapshot_work p;
     froe_snapshot made = {0};
     froe_status status = kinetic_begin(k, diag);

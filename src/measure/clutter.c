@@ -236,7 +236,7 @@ froe_status froe_measure_clutter(const froe_scene *scene, const froe_measure_opt
     if (status) return status;
     s.dim = scene->dim;
     status = begin_clutter(&s);
-    if (status == FROE_E_LIMIT) support_fail(diag, status, "more than 2^31 corners of bounding boxes");
+    if (status == FROE_E_LIMIT) support_fail(diag, status, "There are more than 2^31 corners of bounding boxes.");
     if (!status) status = look_for_clutter(&s, out);
     if (s.context.alloc.fn) num_context_free(&s.context);
     measure_bounds_free(&s.sample, &s.bounds);

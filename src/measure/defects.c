@@ -108,8 +108,9 @@ static uint64_t sum(const defect_survey *v, oddity contact, uint32_t first[2]) {
 froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_progress_fn *progress, void *user,
                                froe_defects *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!scene || !out) return support_fail(diag, FROE_E_ARG, "scene or out is null");
-    if (out->size != sizeof *out) return support_fail(diag, FROE_E_OPTIONS, "out->size must be sizeof(froe_defects)");
+    if (!scene || !out) return support_fail_null(diag, __func__);
+    if (out->size != sizeof *out)
+        return support_fail(diag, FROE_E_OPTIONS, "The size of the report is not sizeof(froe_defects).");
     defect_survey v = {.scene = scene, .alloc = &scene->alloc};
     froe_defects defects = {.size = sizeof defects};
     base_task_init(&v.task, threads, progress, user);

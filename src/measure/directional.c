@@ -133,7 +133,7 @@ froe_status froe_measure_directional(const froe_scene *scene, double delta, cons
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;
     if (!(delta >= 0) || !isfinite(delta))
-        return support_fail(diag, FROE_E_ARG, "delta = %g: a finite number >= 0 is needed", delta);
+        return support_fail(diag, FROE_E_ARG, "option 'delta': '%g' is not a finite number >= 0.", delta);
     status = look_for_directional(&s, counting);
     if (!status) *out = (froe_directional){.delta = delta, .count = s.sample.count};
     if (!status) status = measure_sample_spread(&s.sample, 0, &out->simple);

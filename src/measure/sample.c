@@ -12,11 +12,10 @@ froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_opt
                                  measure_sample *sample, froe_diagnostic *diag) {
     froe_measure_options o = options ? *options : froe_measure_defaults();
     *sample = (measure_sample){.scene = scene, .seed = o.seed};
-    if (!scene || !out) return support_fail(diag, FROE_E_ARG, "scene and out must not be NULL");
-    if (o.size != sizeof o)
-        return support_fail(diag, FROE_E_OPTIONS, "options do not come from froe_measure_defaults()");
+    if (!scene || !out) return support_fail_null(diag, "a measure");
+    if (o.size != sizeof o) return support_fail_defaults(diag, "froe_measure_defaults");
     if (o.counting != FROE_COUNT_SEARCH && o.counting != FROE_COUNT_TREES)
-        return support_fail(diag, FROE_E_OPTIONS, "counting = %d is no way to count", (int)o.counting);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no way of counting %d.", (int)o.counting);
     sample->alloc = scene->alloc;
     sample->count = o.samples && o.samples < scene->object_count ? o.samples : scene->object_count;
     base_task_init(&sample->task, 1, o.progress, o.user);

@@ -65,10 +65,9 @@ static bool keeps_residues(void) {
 
 froe_status num_rounding_check(froe_diagnostic *diag) {
     if (num_rounding_trusted()) return FROE_OK;
-    return support_fail(
-        diag, FROE_E_UNSUPPORTED,
-        "the processor rounds doubles otherwise than to nearest, or flushes denormal numbers, and cannot be "
-        "set to do as froe needs it");
+    return support_fail(diag, FROE_E_UNSUPPORTED,
+                        "The processor rounds doubles otherwise than to nearest, or flushes denormal numbers, and "
+                        "cannot be set to do as froe needs it.");
 }
 
 bool num_machine_trusted(void) {

@@ -108,7 +108,7 @@ static froe_status ask_groups_in(const batch *b, froe_query *q, size_t i, const 
 /* Without borders no leaf is searched for. */
 static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
     const double *x = point_of(b, b->points, i);
-    const froe_status status = query_check_point(x, q->tree->scene->dim, "A point", diag);
+    const froe_status status = query_check_point(x, q->tree->scene->dim, "a point", diag);
     return status ? status : ask_groups_in(b, q, i, NULL, diag);
 }
 
@@ -143,7 +143,7 @@ static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t
         const double *x = point_of(b, b->points, i);
         const froe_status status = b->ask == ask_vertical ? query_vertical_check(q, x, b->direction, diag)
                                    : b->directions ? query_ray_take(q, x, point_of(b, b->directions, i), b->limit, diag)
-                                                   : query_check_point(x, q->tree->scene->dim, "A point", diag);
+                                                   : query_check_point(x, q->tree->scene->dim, "a point", diag);
         if (status) diag->object = (uint32_t)i;
         if (status) return status;
     }
@@ -248,7 +248,7 @@ static froe_status run_batch(batch *b, const froe_batch_options *options, froe_a
 froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t count,
                              const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out || (count && !ranges)) return support_fail(diag, FROE_E_ARG, "froe_batch_range: NULL argument.");
+    if (!query || !out || (count && !ranges)) return support_fail_null(diag, __func__);
     batch b = {.query = query, .ask = ask_range, .ranges = ranges, .count = count};
     return run_batch(&b, options, out, diag);
 }
@@ -256,8 +256,7 @@ froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t
 froe_status froe_batch_locate(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
                               froe_answers *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out || (count && !points))
-        return support_fail(diag, FROE_E_ARG, "froe_batch_locate: NULL argument.");
+    if (!query || !out || (count && !points)) return support_fail_null(diag, __func__);
     batch b = {.query = query, .ask = ask_locate, .points = points, .count = count};
     if (!tree_is_packed(query->tree)) b.ask_in = ask_locate_in;
     return run_batch(&b, options, out, diag);
@@ -266,8 +265,7 @@ froe_status froe_batch_locate(froe_query *query, const double *points, size_t co
 froe_status froe_batch_groups(froe_query *query, const double *points, size_t count, const froe_batch_options *options,
                               froe_answers *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out || (count && !points))
-        return support_fail(diag, FROE_E_ARG, "froe_batch_groups: NULL argument.");
+    if (!query || !out || (count && !points)) return support_fail_null(diag, __func__);
     batch b = {.query = query, .points = points, .count = count};
     const froe_status status = query_groups_prepare(query, &b.areas, diag); /* once for all threads */
     if (status) return status;
@@ -281,8 +279,7 @@ froe_status froe_batch_groups(froe_query *query, const double *points, size_t co
 froe_status froe_batch_vertical(froe_query *query, const double *points, size_t count, int direction,
                                 const froe_batch_options *options, uint32_t *objects, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || (count && (!points || !objects)))
-        return support_fail(diag, FROE_E_ARG, "froe_batch_vertical: NULL argument.");
+    if (!query || (count && (!points || !objects))) return support_fail_null(diag, __func__);
     batch b = {.query = query, .ask = ask_vertical, .points = points, .count = count};
     b.direction = direction;
     b.objects = objects;
@@ -294,7 +291,7 @@ static froe_status run_rays(froe_query *query, const double *origins, const doub
                             double t_max, batch *b, const froe_batch_options *options, froe_answers *out,
                             froe_diagnostic *diag) {
     if (!query || (count && (!origins || !directions || (!b->hits && !b->objects && !out))))
-        return support_fail(diag, FROE_E_ARG, "A batch of rays: NULL argument.");
+        return support_fail_null(diag, "a batch of rays");
     b->query = query;
     b->points = origins;
     b->directions = directions;
@@ -323,14 +320,14 @@ froe_status froe_batch_ray_all(froe_query *query, const double *origins, const d
                                froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     batch b = {.ask = ask_ray_all, .value = parameter_of};
-    if (!out) return support_fail(diag, FROE_E_ARG, "froe_batch_ray_all: NULL argument.");
+    if (!out) return support_fail_null(diag, __func__);
     return run_rays(query, origins, directions, count, t_max, &b, options, out, diag);
 }
 
 froe_status froe_batch_near(froe_query *query, const double *points, size_t count, size_t k, double bound,
                             const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out || (count && !points)) return support_fail(diag, FROE_E_ARG, "froe_batch_near: NULL argument.");
+    if (!query || !out || (count && !points)) return support_fail_null(diag, __func__);
     batch b = {.query = query, .ask = ask_near, .points = points, .count = count, .k = k, .limit = bound};
     b.value = distance_of;
     return run_batch(&b, options, out, diag);

@@ -4,12 +4,12 @@
 #include "support/fail.h"
 #include <math.h>
 
-/** FROE_OK, or FROE_E_INPUT with "`what` has nan as coordinate 1." */
+/** FROE_OK, or FROE_E_INPUT with "Coordinate 1 of `what` is nan, not a finite number." */
 static inline froe_status query_check_point(const double *x, int dim, const char *what, froe_diagnostic *diag) {
     for (int k = 0; k < dim; k++)
         if (!isfinite(x[k]))
-            return support_fail_at(diag, FROE_E_INPUT, FROE_NONE, FROE_NONE, (uint32_t)k, "%s has %g as coordinate %d.",
-                                   what, x[k], k);
+            return support_fail_at(diag, FROE_E_INPUT, FROE_NONE, FROE_NONE, (uint32_t)k,
+                                   "Coordinate %d of %s is %g, not a finite number.", k, what, x[k]);
     return FROE_OK;
 }
 #endif

@@ -31,7 +31,7 @@ static froe_status take_context(const froe_tree *tree, query_shared *shared, fro
 
 froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !out) return support_fail(diag, FROE_E_ARG, "froe_query_new: NULL argument.");
+    if (!tree || !out) return support_fail_null(diag, __func__);
     query_shared *shared = support_calloc(&tree->alloc, 1, sizeof *shared);
     if (!shared) return support_fail_memory(diag);
     if (take_context(tree, shared, out)) {
@@ -44,7 +44,7 @@ froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnos
 
 froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !out) return support_fail(diag, FROE_E_ARG, "froe_query_fork: NULL argument.");
+    if (!query || !out) return support_fail_null(diag, __func__);
     if (take_context(query->tree, query->shared, out)) return support_fail_memory(diag);
     (*out)->numbers.first = query->numbers.first;
     if (query->packed) (*out)->packed->kernels = query->packed->kernels;

@@ -7,7 +7,7 @@ froe_batch_options froe_batch_defaults(void) {
 }
 
 froe_status query_workers_refuse(froe_diagnostic *diag) {
-    return support_fail(diag, FROE_E_OPTIONS, "Batch options must come from froe_batch_defaults().");
+    return support_fail_defaults(diag, "froe_batch_defaults");
 }
 
 froe_status query_workers_take(froe_query *query, const froe_batch_options *options, size_t jobs, query_workers *out,

@@ -27,36 +27,36 @@ static froe_status check_limits(scene_adding *a) {
     const froe_objects *b = a->batch;
     const froe_scene *s = a->scene;
     if (b->count > SCENE_LIMIT - s->object_count)
-        return support_fail(a->diag, FROE_E_LIMIT, "more than %u objects", SCENE_LIMIT);
+        return support_fail(a->diag, FROE_E_LIMIT, "There are more than %u objects.", SCENE_LIMIT);
     if (b->starts && b->starts[b->count] < b->starts[0])
-        return support_fail(a->diag, FROE_E_INPUT, "starts end before they begin");
+        return support_fail(a->diag, FROE_E_INPUT, "The starts end before they begin.");
     a->each = b->starts ? 0 : corners_of[b->kind];
     a->first = b->starts ? b->starts[0] : 0;
     a->corners = b->starts ? b->starts[b->count] - a->first : b->count * a->each;
     a->gap = b->kind == FROE_BALL ? b->count : 0;
     if (a->corners + a->gap > SCENE_CORNER_LIMIT - s->corner_count)
-        return support_fail(a->diag, FROE_E_LIMIT, "more than %u corners", SCENE_CORNER_LIMIT);
+        return support_fail(a->diag, FROE_E_LIMIT, "There are more than %u corners.", SCENE_CORNER_LIMIT);
     return FROE_OK;
 }
 
 /** The batch itself, and whether the scene can take such objects. */
 static froe_status check_batch(const froe_scene *s, const froe_objects *b, froe_diagnostic *diag) {
-    if (!s || !b) return support_fail(diag, FROE_E_ARG, "scene or batch is null");
+    if (!s || !b) return support_fail_null(diag, "froe_scene_add");
     if (b->size != sizeof *b) /* once the struct has grown: its older sizes too, with defaults for what they lack */
-        return support_fail(diag, FROE_E_OPTIONS, "the batch does not come from froe_objects_defaults()");
+        return support_fail_defaults(diag, "froe_objects_defaults");
     froe_status status = scene_growable(s, diag);
     if (status) return status;
     if ((unsigned)b->kind >= FROE_KIND_COUNT)
-        return support_fail(diag, FROE_E_ARG, "there is no kind %d", (int)b->kind);
+        return support_fail(diag, FROE_E_ARG, "There is no kind %d.", (int)b->kind);
     bool plane_or_space = b->kind == FROE_SEGMENT || b->kind == FROE_HULL;
     if ((plane_or_space && s->dim > 3) || (b->kind == FROE_POLYGON && s->dim != 3))
-        return support_fail(diag, FROE_E_UNSUPPORTED, "there are no %ss in dimension %d", froe_kind_name(b->kind),
+        return support_fail(diag, FROE_E_UNSUPPORTED, "There are no %ss in dimension %d.", froe_kind_name(b->kind),
                             s->dim);
-    if (b->count && !b->coords) return support_fail(diag, FROE_E_ARG, "coords is null");
+    if (b->count && !b->coords) return support_fail(diag, FROE_E_ARG, "The batch has no coordinates.");
     if (b->starts && b->kind != FROE_POLYGON && b->kind != FROE_HULL)
-        return support_fail(diag, FROE_E_ARG, "starts is for polygons and hulls only");
+        return support_fail(diag, FROE_E_ARG, "Only polygons and hulls have starts.");
     if (b->count && (b->kind == FROE_BALL) != (b->radii != NULL))
-        return support_fail(diag, FROE_E_ARG, "balls need radii, and only they have them");
+        return support_fail(diag, FROE_E_ARG, "Balls need radii, and only they have them.");
     return FROE_OK;
 }
 
@@ -66,16 +66,15 @@ static froe_status check_lists(const froe_scene *s, const froe_objects *b, froe_
     for (size_t j = 0; b->starts && j < b->count; j++) {
         if (b->starts[j + 1] >= b->starts[j] && b->starts[j + 1] - b->starts[j] >= least) continue;
         return support_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
-                               "%s %zu needs at least %zu corners: starts go from %zu to %zu", froe_kind_name(b->kind),
-                               j, least, b->starts[j], b->starts[j + 1]);
+                               "%s %zu: It needs at least %zu corners, and its starts go from %zu to %zu.",
+                               froe_kind_name(b->kind), j, least, b->starts[j], b->starts[j + 1]);
     }
     if (b->group != FROE_NONE && b->group >= s->group_count)
-        return support_fail(diag, FROE_E_INPUT, "there is no group %u", b->group);
+        return support_fail(diag, FROE_E_INPUT, "There is no group %u.", b->group);
     for (size_t j = 0; b->groups && j < b->count; j++)
         if (b->groups[j] != FROE_NONE && b->groups[j] >= s->group_count)
             return support_fail_at(diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
-                                   "%s %zu belongs to group %u, which does not exist", froe_kind_name(b->kind), j,
-                                   b->groups[j]);
+                                   "%s %zu: There is no group %u.", froe_kind_name(b->kind), j, b->groups[j]);
     return FROE_OK;
 }
 
@@ -113,8 +112,8 @@ static froe_status progress(const scene_adding *a, size_t done, size_t work) {
     return support_fail_cancelled(a->diag);
 }
 
-/** Names the object and the corner of it that a corner of the batch is. */
-static froe_status fail_at_corner(const scene_adding *a, size_t corner, int axis, const char *what, double value) {
+/** Names the object and the corner of it that a corner of the batch is. axis -1: it names a point that is not there. */
+static froe_status fail_at_corner(const scene_adding *a, size_t corner, int axis, double value) {
     size_t lo = 0, hi = a->batch->count; /* the object is in lo .. hi - 1 */
     while (hi - lo > 1) {
         size_t middle = lo + (hi - lo) / 2;
@@ -124,8 +123,12 @@ static froe_status fail_at_corner(const scene_adding *a, size_t corner, int axis
             hi = middle;
     }
     size_t i = corner - scene_adding_corner(a, lo);
-    return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)lo, (uint32_t)i, axis < 0 ? FROE_NONE : (uint32_t)axis,
-                           "corner %zu of %s %zu: %s %g", i, froe_kind_name(a->batch->kind), lo, what, value);
+    const char *kind = froe_kind_name(a->batch->kind);
+    if (axis < 0)
+        return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)lo, (uint32_t)i, FROE_NONE,
+                               "corner %zu of %s %zu: There is no point %g.", i, kind, lo, value);
+    return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)lo, (uint32_t)i, (uint32_t)axis,
+                           "corner %zu of %s %zu: Coordinate %d is %g, not a finite number.", i, kind, lo, axis, value);
 }
 
 /** Copies a chunk of corners, checked; -0 becomes +0 by adding +0. */
@@ -134,11 +137,10 @@ static froe_status gather_points(scene_adding *a, size_t done, size_t count, dou
     int dim = a->scene->dim;
     for (size_t i = 0; i < count; i++) {
         size_t corner = a->first + done + i, point = b->indices ? b->indices[corner] : corner;
-        if (b->indices && point >= b->point_count)
-            return fail_at_corner(a, corner, -1, "there is no point", (double)point);
+        if (b->indices && point >= b->point_count) return fail_at_corner(a, corner, -1, (double)point);
         for (int k = 0; k < dim; k++) {
             double x = b->coords[point * (size_t)dim + (size_t)k] + 0.0;
-            if (!isfinite(x)) return fail_at_corner(a, corner, k, "a coordinate is", x);
+            if (!isfinite(x)) return fail_at_corner(a, corner, k, x);
             if (x < a->lo[k]) a->lo[k] = x;
             if (x > a->hi[k]) a->hi[k] = x;
             points[i * (size_t)dim + (size_t)k] = x;
@@ -156,7 +158,8 @@ static froe_status take_vertices(scene_adding *a) {
         froe_status status = gather_points(a, done, count, points);
         if (status) return status;
         status = scene_vertices_add(a->scene, points, count, ids + done);
-        if (status == FROE_E_LIMIT) return support_fail(a->diag, status, "more than %u vertices", SCENE_LIMIT);
+        if (status == FROE_E_LIMIT)
+            return support_fail(a->diag, status, "There are more than %u vertices.", SCENE_LIMIT);
         if (status) return support_fail_memory(a->diag);
         if (chunks % REPORT_EVERY == 0) status = progress(a, done, a->corners + a->batch->count);
         if (status) return status;

@@ -13,13 +13,13 @@ static froe_status ball_form(scene_adding *a, size_t j, uint32_t *ring, uint32_t
     struct scene_store *store = a->scene->store;
     double radius = a->batch->radii[j] + 0.0, lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     if (!(radius >= 0 && radius < INFINITY))
-        return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE, "ball %zu: its radius is %g",
-                               j, radius);
+        return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, FROE_NONE, FROE_NONE,
+                               "ball %zu: Its radius is %g, not a finite number >= 0.", j, radius);
     scene_ball_bounds(a->scene->dim, store_vertex(a, ring[0]), radius, lo, hi);
     for (int k = 0; k < a->scene->dim; k++) {
         if (isinf(lo[k]) || isinf(hi[k]))
             return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, 0, (uint32_t)k,
-                                   "ball %zu reaches beyond the range of doubles", j);
+                                   "ball %zu: It reaches beyond the range of doubles.", j);
         a->lo[k] = fmin(a->lo[k], lo[k]);
         a->hi[k] = fmax(a->hi[k], hi[k]);
     }
@@ -44,8 +44,8 @@ static froe_status polygon_form(scene_adding *a, size_t j, uint32_t *ring, uint3
         if (same == dim) corner = (uint32_t)(c - begin);
     }
     return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, corner, FROE_NONE,
-                           "polygon %zu %s: see its corner %u at (%.17g, %.17g, %.17g)", j, fault.reason, corner, x[0],
-                           x[1], x[2]);
+                           "polygon %zu: It %s, as at its corner %u at (%.17g, %.17g, %.17g).", j, fault.reason, corner,
+                           x[0], x[1], x[2]);
 }
 
 /** Restores the heap order below `root` of a heap with the largest on top. */
@@ -91,7 +91,7 @@ froe_status scene_form_object(scene_adding *a, size_t j, uint32_t *ring, uint32_
         for (int k = 0; k < a->scene->dim; k++)
             if (lo[k] > hi[k])
                 return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)j, 1, (uint32_t)k,
-                                       "box %zu: its low corner %g is above its high corner %g", j, lo[k], hi[k]);
+                                       "box %zu: Its low corner %g is above its high corner %g.", j, lo[k], hi[k]);
         return FROE_OK;
     case FROE_BALL:
         return ball_form(a, j, ring, count);

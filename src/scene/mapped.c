@@ -7,12 +7,12 @@
 #include <string.h>
 
 static froe_status bad_scene(froe_diagnostic *diag, const char *what) {
-    return support_fail(diag, FROE_E_FORMAT, "the scene of the file is corrupted: %s", what);
+    return support_fail(diag, FROE_E_FORMAT, "The scene of the file is corrupted: %s.", what);
 }
 
 static froe_status bad_object(froe_diagnostic *diag, uint32_t object, const char *what) {
     return support_fail_at(diag, FROE_E_FORMAT, object, FROE_NONE, FROE_NONE,
-                           "the scene of the file is corrupted: %s, object %u", what, object);
+                           "object %u: The scene of the file is corrupted: %s.", object, what);
 }
 
 /* ---------------------------------------------------------------- vertices -- */
@@ -79,17 +79,17 @@ static froe_status check_object(const froe_scene *s, uint32_t object, num_contex
     const bool exists = flat ? s->dim <= 3 : kind == FROE_POLYGON ? s->dim == 3 : kind < FROE_KIND_COUNT;
     const bool lesser = (kind == FROE_SEGMENT && form == FROE_POINT) ||
                         (kind == FROE_POLYGON && (form == FROE_POINT || form == FROE_SEGMENT));
-    if (!exists || (form != kind && !lesser)) return bad_object(diag, object, "wrong kind or form");
+    if (!exists || (form != kind && !lesser)) return bad_object(diag, object, "it has a wrong kind or form");
     const uint32_t least = form == FROE_POINT || form == FROE_HULL ? 1 : form == FROE_POLYGON ? 3 : 2;
     const bool more = form == FROE_POLYGON || form == FROE_HULL;
     if (end < begin || end > s->corner_count || (more ? end - begin < least : end - begin != least))
-        return bad_object(diag, object, "wrong number of corners");
+        return bad_object(diag, object, "it has a wrong number of corners");
     for (uint32_t i = begin; i < end; i++) {
         bool radius = form == FROE_BALL && i > begin;
         if (s->corners[i] >= (radius ? s->radius_count : s->vertex_count))
             return bad_object(diag, object, "a corner does not exist");
     }
-    if (!shape_fits(s, object, context)) return bad_object(diag, object, "not a valid shape");
+    if (!shape_fits(s, object, context)) return bad_object(diag, object, "it has no valid shape");
     if (s->groups && s->groups[object] != FROE_NONE && s->groups[object] >= s->group_count)
         return bad_object(diag, object, "its group does not exist");
     return FROE_OK;
@@ -98,7 +98,7 @@ static froe_status check_object(const froe_scene *s, uint32_t object, num_contex
 static froe_status check_objects(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
     num_context context;
     if (!s->starts || s->starts[0] != 0 || s->starts[s->object_count] != s->corner_count)
-        return bad_scene(diag, "the offsets of the corners");
+        return bad_scene(diag, "the offsets of the corners are wrong");
     if (geom_context_new(alloc, &context)) return support_fail_memory(diag);
     froe_status status = FROE_OK;
     for (uint32_t i = 0; !status && i < s->object_count; i++) status = check_object(s, i, &context, diag);
@@ -109,10 +109,10 @@ static froe_status check_objects(const froe_scene *s, const froe_allocator *allo
 /* ------------------------------------------------------------------- whole -- */
 
 froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
-    if (s->dim < 2 || s->dim > FROE_MAX_DIM) return bad_scene(diag, "its dimension");
+    if (s->dim < 2 || s->dim > FROE_MAX_DIM) return bad_scene(diag, "its dimension is wrong");
     if (s->object_count > SCENE_LIMIT || s->vertex_count > SCENE_LIMIT || s->group_count > SCENE_LIMIT ||
         s->corner_count > SCENE_CORNER_LIMIT)
-        return bad_scene(diag, "its counts");
+        return bad_scene(diag, "its counts are wrong");
     bool objects = !s->object_count || (s->kinds && s->forms && s->corners);
     bool vertices = (!s->vertex_count || s->coords) && (!s->radius_count || s->radii);
     bool groups = !s->group_count || (s->group_table && s->text);
@@ -120,12 +120,13 @@ froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, fro
     froe_status status = check_vertices(s, alloc, diag);
     if (!status) status = check_objects(s, alloc, diag);
     if (status || !s->group_count) return status;
-    if (!s->text_size || s->text[0] || s->text[s->text_size - 1]) return bad_scene(diag, "the strings of the groups");
+    if (!s->text_size || s->text[0] || s->text[s->text_size - 1])
+        return bad_scene(diag, "the strings of the groups are wrong");
     for (uint32_t i = 0; i < s->group_count; i++) {
         const scene_group *g = s->group_table + i;
         if (g->name >= s->text_size || g->material >= s->text_size || g->left >= s->text_size ||
             g->right >= s->text_size)
-            return bad_scene(diag, "the strings of a group");
+            return bad_scene(diag, "the strings of a group are wrong");
     }
     return FROE_OK;
 }

@@ -67,7 +67,7 @@ void scene_hold(froe_scene *scene) {
 
 froe_status scene_growable(const froe_scene *s, froe_diagnostic *diag) {
     if (s->store && atomic_load_explicit(&s->holds, memory_order_acquire) == 1) return FROE_OK;
-    return support_fail(diag, FROE_E_FROZEN, "a tree holds the scene, which can no longer grow");
+    return support_fail(diag, FROE_E_FROZEN, "A tree holds the scene, which can no longer grow.");
 }
 
 void scene_publish(froe_scene *s) {

@@ -103,15 +103,15 @@ static bool visit_cell(cell_walk *w) {
 froe_status froe_tree_cells(const froe_tree *tree, const double *lo, const double *hi, froe_cell_fn *fn, void *user,
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !lo || !hi || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!tree || !lo || !hi || !fn) return support_fail_null(diag, __func__);
     cell_walk w = {.tree = tree, .alloc = tree->alloc, .dim = tree->scene->dim, .fn = fn, .user = user};
     double most = 0;
     if (w.dim > 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "cells can be made in 2 and 3 dimensions, not in %d", w.dim);
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Cells exist in 2 and 3 dimensions, not in %d.", w.dim);
     for (int k = 0; k < w.dim; k++) {
         if (!(lo[k] <= hi[k]) || !isfinite(lo[k]) || !isfinite(hi[k]))
             return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
-                                   "the box has no extent on axis %d: lo %g, hi %g", k, lo[k], hi[k]);
+                                   "The box has no extent on axis %d, from %g to %g.", k, lo[k], hi[k]);
         most = fmax(most, fmax(fabs(lo[k]), fabs(hi[k])));
     }
     frexp(most, &w.exponent);

@@ -29,7 +29,8 @@ typedef struct opening {
 } opening;
 
 static froe_status bad_file(const opening *o, const char *what) {
-    return support_fail(o->diag, FROE_E_FORMAT, "'%s' is no valid tree file: %s", support_short(o->path), what);
+    return support_fail(o->diag, FROE_E_FORMAT, "%s: It is no valid tree file, because %s.", support_short(o->path),
+                        what);
 }
 
 static froe_status unreadable(const opening *o, int error) {
@@ -74,12 +75,12 @@ static froe_status check_layout(opening *o) {
     if (memcmp(h->magic, FILE_MAGIC, sizeof h->magic) != 0) return bad_file(o, "it does not begin as one");
     if (h->version != FILE_VERSION) return bad_file(o, "its version is not one this froe reads");
     if (h->size != o->size) return bad_file(o, h->size > o->size ? "it is truncated" : "something follows its end");
-    if (h->sections != FILE_SECTIONS || o->size < sizeof *h + table) return bad_file(o, "its section table");
+    if (h->sections != FILE_SECTIONS || o->size < sizeof *h + table) return bad_file(o, "its section table is wrong");
     o->table = (const file_section *)(const void *)(o->bytes + sizeof *h);
     if (h->checksum != file_checksum(o->table, table, file_checksum(h, offsetof(file_header, checksum), 0)))
-        return bad_file(o, "the checksum of its header");
-    if (h->unused || h->spare[0] || h->spare[1] || h->spare[2]) return bad_file(o, "an unused field that is not 0");
-    if (h->dim < 2 || h->dim > FROE_MAX_DIM) return bad_file(o, "its dimension");
+        return bad_file(o, "the checksum of its header is wrong");
+    if (h->unused || h->spare[0] || h->spare[1] || h->spare[2]) return bad_file(o, "an unused field is not 0");
+    if (h->dim < 2 || h->dim > FROE_MAX_DIM) return bad_file(o, "its dimension is wrong");
     const froe_scene none = {.dim = 0};
     const froe_tree empty = {.scene = (froe_scene *)&none};
     uint64_t end = sizeof *h + table, size;
@@ -88,13 +89,14 @@ static froe_status check_layout(opening *o) {
         const file_section *s = o->table + i;
         uint64_t offset = file_align(end);
         if (s->id != i + 1 || s->item_size != file_part(&empty, (file_id)s->id, &data, &size))
-            return bad_file(o, "a section it does not know");
+            return bad_file(o, "it has a section of unknown kind");
         if (s->offset != offset || offset > o->size || s->size > o->size - offset)
-            return bad_file(o, "a section out of place");
-        if (s->size % s->item_size || s->size / s->item_size > UINT32_MAX) return bad_file(o, "a section of odd size");
-        if (!is_zero_between(o->bytes, end, offset)) return bad_file(o, "bytes between sections");
+            return bad_file(o, "a section is out of place");
+        if (s->size % s->item_size || s->size / s->item_size > UINT32_MAX)
+            return bad_file(o, "a section is of odd size");
+        if (!is_zero_between(o->bytes, end, offset)) return bad_file(o, "it has bytes between sections");
         if (s->checksum != file_checksum(o->bytes + offset, s->size, 0))
-            return bad_file(o, "the checksum of a section");
+            return bad_file(o, "the checksum of a section is wrong");
         end = offset + s->size;
     }
     if (file_align(end) != o->size || !is_zero_between(o->bytes, end, o->size))
@@ -133,9 +135,9 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
     s->vertex_count = coords / o->header->dim;
     bool fits = coords % o->header->dim == 0 && forms == s->object_count && starts == (uint64_t)s->object_count + 1 &&
                 optional(tags, forms) && optional(faces, forms) && optional(groups, forms);
-    if (!fits) return bad_file(o, "sections that do not fit together");
+    if (!fits) return bad_file(o, "its sections do not fit together");
     const void *meta = section(o, FILE_META, &count);
-    if (count != 1) return bad_file(o, "its description");
+    if (count != 1) return bad_file(o, "its description is wrong");
     memcpy(&t->meta, meta, sizeof t->meta);
     t->nodes = section(o, FILE_NODES, &t->node_count);
     t->cuts = section(o, FILE_CUTS, &t->cut_count);
@@ -144,7 +146,7 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
     t->normals = section(o, FILE_NORMALS, &t->normal_count);
     t->packed.blocks = section(o, FILE_BLOCKS, &t->packed.block_count);
     t->packed.owners = section(o, FILE_OWNERS, &t->packed.owner_count);
-    if (tree_is_packed(t) && t->piece_count) return bad_file(o, "sections that do not fit together");
+    if (tree_is_packed(t) && t->piece_count) return bad_file(o, "its sections do not fit together");
     if (tree_is_packed(t)) t->piece_count = packed_count(t);
     return FROE_OK;
 }
@@ -154,9 +156,9 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
 froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     opening o = {.path = path, .diag = diag};
-    if (!path || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!path || !out) return support_fail_null(diag, __func__);
     if (!file_machine_fits())
-        return support_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Tree files are little-endian, and this machine is not.");
     froe_status status = num_rounding_check(diag);
     if (!status) status = map_file(&o);
     if (status) return status;

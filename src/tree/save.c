@@ -13,9 +13,9 @@ typedef struct file_head {
 
 froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !path) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!tree || !path) return support_fail_null(diag, __func__);
     if (!file_machine_fits())
-        return support_fail(diag, FROE_E_UNSUPPORTED, "tree files are little-endian, this machine is not");
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Tree files are little-endian, and this machine is not.");
     support_writer out;
     froe_status status = support_writer_open(&out, path, &tree->alloc, diag);
     if (status) return status;

@@ -20,13 +20,13 @@ typedef struct check {
 } check;
 
 static froe_status bad_node(const check *c, const char *what) {
-    return support_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, c->walk.node);
+    return support_fail(c->diag, FROE_E_FORMAT, "node %u: The tree is corrupted: %s.", c->walk.node, what);
 }
 
 static froe_status bad_piece(const check *c, uint32_t object, const char *what) {
     return support_fail_at(c->diag, FROE_E_FORMAT, object < c->tree->scene->object_count ? object : FROE_NONE,
-                           FROE_NONE, FROE_NONE, "the tree is corrupted: %s, node %u, object %u", what, c->walk.node,
-                           object);
+                           FROE_NONE, FROE_NONE, "object %u, node %u: The tree is corrupted: %s.", object, c->walk.node,
+                           what);
 }
 
 /* -------------------------------------------------------------------- cuts -- */
@@ -167,17 +167,17 @@ froe_status tree_validate(const froe_tree *tree, froe_diagnostic *diag) {
     const bool packed = tree_is_packed(tree);
     check c = {.tree = tree, .walk = {.tree = tree}, .nodes = 1, .bounds = packed ? 0 : 1, .diag = diag};
     froe_status status = FROE_OK;
-    if (!meta_fits(tree)) return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: its description");
+    if (!meta_fits(tree)) return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: its description is wrong.");
     bool begun = packed ? !tree->bound_count : tree->bound_count && tree->bounds[0] == 0;
     if (geom_context_new(&tree->alloc, &c.context)) return support_fail_memory(diag);
     if (!tree->node_count || !begun)
-        status = support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: it has no root");
+        status = support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: it has no root.");
     while (!status && tree_walk_next(&c.walk)) status = check_node(&c);
     if (tree_walk_end(&c.walk)) status = support_fail_memory(diag);
     num_context_free(&c.context);
     if (status) return status;
     if (c.nodes != tree->node_count || c.cuts != tree->cut_count || c.pieces != tree->piece_count ||
         c.bounds != tree->bound_count || c.normals != tree->normal_count)
-        return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: something that no node uses");
+        return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: something that no node uses.");
     return packed ? packed_validate(tree, diag) : FROE_OK;
 }

@@ -93,7 +93,7 @@ static froe_status set_axes(const froe_camera *c, froe_projection *out, froe_dia
     double up[3] = {c->up[0], c->up[1], c->up[2]};
     for (int k = 0; k < 3; k++) out->back[k] = c->eye[k] - c->target[k];
     if (!normalize(out->back))
-        return support_fail(diag, FROE_E_ARG, "the eye is where it looks at: there is no direction");
+        return support_fail(diag, FROE_E_ARG, "The eye is where it looks at, which is no direction.");
     out->up_axis = -1;
     for (int axis = -1; axis < 3; axis++) {
         if (axis >= 0)
@@ -175,7 +175,7 @@ static froe_status fill_page(const froe_camera *c, const fit_points *points, fro
             hi[k] = i ? fmax(hi[k], page[k]) : page[k];
         }
     }
-    if (!before) return support_fail(diag, FROE_E_INPUT, "there is nothing before the eye to fit");
+    if (!before) return support_fail(diag, FROE_E_INPUT, "There is nothing before the eye to fit.");
     if (!(c->parallel && c->scale > 0)) {
         const double x = hi[0] - lo[0], y = hi[1] - lo[1], room_x = c->width - 2 * c->margin,
                      room_y = c->height - 2 * c->margin;
@@ -215,11 +215,10 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
     if (status) return status;
     const double extent = extent_of(scene);
     if (!(extent >= LEAST_EXTENT && extent <= MOST_EXTENT))
-        return support_fail(
-            diag, FROE_E_UNSUPPORTED,
-            "The scene extends over %g, and cameras look at scenes of 2^-1000 to 2^1000 only: multiply its "
-            "coordinates by a power of two.",
-            extent);
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "The scene extends over %g, and cameras look at scenes of 2^-1000 to 2^1000 only. Multiply "
+                            "its coordinates by a power of two.",
+                            extent);
     double distance = extent;
     for (int k = 0; k < 3; k++) {
         const double middle = scene->object_count ? 0.5 * scene->lo[k] + 0.5 * scene->hi[k] : 0;
@@ -252,8 +251,8 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
     for (int i = 0; i < 12; i++)
         if (!isfinite(view.window[i]))
             return support_fail(diag, FROE_E_ARG,
-                                "The page, put where the scene is, has corners beyond all doubles: the "
-                                "eye is too far away, or the scale of %g is too small.",
+                                "The page, put where the scene is, has corners beyond all doubles. The eye is too far "
+                                "away, or the scale of %g is too small.",
                                 view.scale);
     *out = view;
     return FROE_OK;
@@ -263,25 +262,24 @@ froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene
                               froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     fit_points points;
-    if (!camera || !scene || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!camera || !scene || !out) return support_fail_null(diag, __func__);
     if (scene->dim != 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "cameras look at scenes in space, not in R^%d", scene->dim);
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Cameras exist in 3 dimensions, not in %d.", scene->dim);
     const froe_camera *c = camera;
-    if (c->size != sizeof *c)
-        return support_fail(diag, FROE_E_OPTIONS, "the camera is not from froe_camera_defaults()");
+    if (c->size != sizeof *c) return support_fail_defaults(diag, "froe_camera_defaults");
     for (int k = 0; k < 3; k++)
         if (!isfinite(c->eye[k]) || !isfinite(c->target[k]) || !isfinite(c->up[k]))
             return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
-                                   "coordinate %d of eye, target or up is not a finite number", k);
+                                   "Coordinate %d of eye, target or up is not a finite number.", k);
     if (!(c->width > 0 && c->height > 0 && c->width <= 1e9 && c->height <= 1e9))
-        return support_fail(diag, FROE_E_OPTIONS, "a page of %g x %g is none", c->width, c->height);
+        return support_fail(diag, FROE_E_OPTIONS, "A page of %g x %g is none.", c->width, c->height);
     if (!(c->margin >= 0 && 2 * c->margin < fmin(c->width, c->height)))
-        return support_fail(diag, FROE_E_OPTIONS, "a margin of %g leaves nothing of a page of %g x %g", c->margin,
+        return support_fail(diag, FROE_E_OPTIONS, "A margin of %g leaves nothing of a page of %g x %g.", c->margin,
                             c->width, c->height);
     if (!c->parallel && !(c->fov >= 1 && c->fov <= 170))
-        return support_fail(diag, FROE_E_OPTIONS, "an angle of view of %g degrees is not in 1 .. 170", c->fov);
+        return support_fail(diag, FROE_E_OPTIONS, "An angle of view of %g degrees is not in 1 .. 170.", c->fov);
     if (!(c->scale >= 0) || !isfinite(c->scale))
-        return support_fail(diag, FROE_E_OPTIONS, "a scale of %g is none", c->scale);
+        return support_fail(diag, FROE_E_OPTIONS, "A scale of %g is none.", c->scale);
     const bool ok = fit_points_new(camera, scene, &points);
     const froe_status status = ok ? put_in_place(camera, scene, &points, out, diag) : support_fail_memory(diag);
     array_free(&scene->alloc, &points.own);

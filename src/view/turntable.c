@@ -42,10 +42,10 @@ froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene,
                              froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!camera || !scene || !cameras || !count)
-        return support_fail(diag, FROE_E_ARG, "a required argument is NULL or 0");
+        return support_fail(diag, FROE_E_ARG, "An argument of froe_camera_turn is NULL or 0.");
     double middle[3] = {0, 0, 0}, axis[3], way[3], distance = 0, scale = INFINITY;
     const double up = length_of(camera->up);
-    if (!(up > 0) || !isfinite(up)) return support_fail(diag, FROE_E_ARG, "a turntable needs an axis: up is none");
+    if (!(up > 0) || !isfinite(up)) return support_fail(diag, FROE_E_ARG, "A turntable needs an axis, and up is none.");
     for (int k = 0; k < 3; k++) {
         if (scene->object_count) middle[k] = 0.5 * scene->lo[k] + 0.5 * scene->hi[k];
         axis[k] = camera->up[k] / up;

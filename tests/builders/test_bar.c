@@ -432,10 +432,10 @@ static void directions_that_do_not_exist_are_refused(void **state) {
         const char *kind, *settings, *why;
         froe_status status;
     } cases[] = {
-        {"points", "directions=7", "option 'directions': there are no 7 in dimension 2", FROE_E_OPTIONS},
-        {"points-3d", "directions=4", "option 'directions': there are no 4 in dimension 3", FROE_E_OPTIONS},
-        {"points-8d", "directions=7", "option 'directions': there are no 7 in dimension 8", FROE_E_OPTIONS},
-        {"denormal", "directions=4", "method 'bar' has no directions for coordinates of ", FROE_E_UNSUPPORTED},
+        {"points", "directions=7", "option 'directions': There are no 7 in dimension 2.", FROE_E_OPTIONS},
+        {"points-3d", "directions=4", "option 'directions': There are no 4 in dimension 3.", FROE_E_OPTIONS},
+        {"points-8d", "directions=7", "option 'directions': There are no 7 in dimension 8.", FROE_E_OPTIONS},
+        {"denormal", "directions=4", "Method 'bar' has no directions for coordinates of ", FROE_E_UNSUPPORTED},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

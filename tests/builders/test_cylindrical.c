@@ -296,14 +296,14 @@ static void orders_must_name_every_object_once(void **state) {
     o.order_count = 3;
     froe_tree_free(build(scene, &o));
     o.order_count = 2;
-    assert_refused(scene, &o, FROE_E_OPTIONS, "the order has 2 entries for 3 objects");
+    assert_refused(scene, &o, FROE_E_OPTIONS, "The order has 2 entries for 3 objects.");
     o.order_count = 3;
     o.order = (const uint32_t[]){2, 2, 1};
-    assert_refused(scene, &o, FROE_E_OPTIONS, "object 2 comes twice in the order");
+    assert_refused(scene, &o, FROE_E_OPTIONS, "The order has object 2 twice.");
     o.order = (const uint32_t[]){2, 0, 3};
-    assert_refused(scene, &o, FROE_E_OPTIONS, "entry 2 of the order is no object: 3");
+    assert_refused(scene, &o, FROE_E_OPTIONS, "Entry 2 of the order is 3, and there is no such object.");
     o.method = "density";
-    assert_refused(scene, &o, FROE_E_OPTIONS, "method 'density' does not go by an order of objects");
+    assert_refused(scene, &o, FROE_E_OPTIONS, "Method 'density' takes no order of objects.");
     froe_scene_free(scene);
 }
 
@@ -385,7 +385,7 @@ static void polygons_that_cross_are_named(void **state) {
     for (o.seed = 1; o.seed < 20; o.seed++) {
         assert_int_equal(froe_build(scene, &o, &tree, &why), FROE_E_INPUT);
         assert_true(why.object == 1 || why.object == 2);
-        assert_non_null(strstr(why.message, why.object == 1 ? "crosses object 2;" : "crosses object 1;"));
+        assert_non_null(strstr(why.message, why.object == 1 ? "It crosses object 2." : "It crosses object 1."));
     }
     o.settings = "crossing=split";
     tree = build(scene, &o);

@@ -275,7 +275,7 @@ static void long_work_on_one_cell_can_be_cancelled(void **state) {
     o.progress = count_to_fifty;
     o.user = &calls;
     assert_int_equal(build_tuned(scene, &o, &tree, &diag), FROE_E_CANCELLED);
-    assert_string_equal(diag.message, "cancelled");
+    assert_string_equal(diag.message, "Cancelled.");
     o.progress = NULL;
     tree = build(scene, &o);
     assert_int_equal(froe_tree_report(tree).inseparable, 1);
@@ -310,7 +310,7 @@ static void every_cancelled_build_says_so(void **state) {
         assert_int_equal(froe_generate("segments", MANY, 7, NULL, &scene, NULL), FROE_OK);
         froe_status status = build_tuned(scene, &o, &tree, &diag);
         assert_int_equal(diag.status, status);
-        assert_string_equal(diag.message, status ? "cancelled" : "");
+        assert_string_equal(diag.message, status ? "Cancelled." : "");
         froe_tree_free(tree);
         froe_scene_free(scene);
     }

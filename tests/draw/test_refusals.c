@@ -47,7 +47,7 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(flat, width, 1e300, "width");
     REFUSED(flat, height, -1, "height");
     REFUSED(flat, height, 40000, "height");
-    REFUSED(flat, margin, 1000, "at most 480");
+    REFUSED(flat, margin, 1000, "up to 480");
     REFUSED(flat, scale, 0, "scale");
     REFUSED(flat, detail, 0.0 / 0.0, "detail");
     REFUSED(solid, axis, 3, "axis");
@@ -250,7 +250,7 @@ static void cancelling_writes_nothing(void **state) {
         for (int left = 0; left < endless.heard; left++) {
             patience p = {left, 0, 0};
             o.user = &p;
-            assert_int_equal(draw(trees[i > 0], "part.png", &o, "cancelled"), FROE_E_CANCELLED);
+            assert_int_equal(draw(trees[i > 0], "part.png", &o, "Cancelled."), FROE_E_CANCELLED);
             assert_int_equal(p.heard, left + 1);
         }
         assert_int_equal(files_here(), before);

@@ -126,32 +126,32 @@ static void quadratic_interpolation_continues_its_velocity(void **state) {
 
 static void what_is_wrong_is_said_with_the_feature(void **state) {
     (void)state;
-    assert_refused("{", FROE_E_FORMAT, "bad.mfjson: line 1: string or '}' expected near end of file");
-    assert_refused("{}", FROE_E_FORMAT, "bad.mfjson: is neither a Feature nor a FeatureCollection");
-    assert_refused("{\"features\":[]}", FROE_E_INPUT, "bad.mfjson: nothing moves in it");
-    assert_refused(LINE("[]", "[]", ""), FROE_E_FORMAT, "bad.mfjson: feature 0: datetimes are missing");
+    assert_refused("{", FROE_E_FORMAT, "bad.mfjson: line 1: JSON needs a string or '}' near the end of the file.");
+    assert_refused("{}", FROE_E_FORMAT, "bad.mfjson: The file is neither a Feature nor a FeatureCollection.");
+    assert_refused("{\"features\":[]}", FROE_E_INPUT, "bad.mfjson: Nothing in the file moves.");
+    assert_refused(LINE("[]", "[]", ""), FROE_E_FORMAT, "bad.mfjson: feature 0: Datetimes are missing.");
     assert_refused(LINE("[0,\"noon\"]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_FORMAT,
-                   "bad.mfjson: feature 0: datetime 1 is neither a number nor an ISO 8601 instant");
+                   "bad.mfjson: feature 0: Datetime 1 is neither a number nor an ISO 8601 instant.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]]]", ""), FROE_E_FORMAT,
-                   "bad.mfjson: feature 0: 1 geometries for 2 instants");
+                   "bad.mfjson: feature 0: There are 1 geometries for 2 instants.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1],[2,2]]]", ""), FROE_E_INPUT,
-                   "bad.mfjson: feature 0: at instant 1 it has not as many points as at instant 0");
+                   "bad.mfjson: feature 0: At instant 1 it has not as many points as at instant 0.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,\"x\"]],[[0,0],[1,1]]]", ""), FROE_E_FORMAT,
-                   "bad.mfjson: feature 0: at instant 0 a coordinate is no number");
+                   "bad.mfjson: feature 0: At instant 0 a coordinate is not a number.");
     assert_refused(LINE("[0,2,2]", "[[[0,0],[1,1]],[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_INPUT,
-                   "bad.mfjson: feature 0: vertex 0: time 2, 2, is not after time 1, 2");
+                   "bad.mfjson: feature 0: vertex 0: Time 2, 2, is not after time 1, 2.");
     assert_refused(LINE("[2,2]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_INPUT,
-                   "bad.mfjson: all of it is at one instant, 2");
+                   "bad.mfjson: All of the file is at one instant, 2.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Step\""), FROE_E_UNSUPPORTED,
-                   "bad.mfjson: feature 0: interpolation 'Step': froe knows Linear and Quadratic motion");
+                   "bad.mfjson: feature 0: There is no interpolation 'Step'. There are: Linear, Quadratic.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Quadratic\""), FROE_E_INPUT,
-                   "bad.mfjson: feature 0: quadratic interpolation needs three instants");
+                   "bad.mfjson: feature 0: Quadratic interpolation needs three instants.");
     assert_refused("{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPolygon\",\"datetimes\":[0,1],"
                    "\"coordinates\":[[[[0,0],[1,1],[2,0]]],[]]}}",
                    FROE_E_INPUT,
-                   "bad.mfjson: feature 0: at instant 0 a ring is not closed, or has less than three corners");
+                   "bad.mfjson: feature 0: At instant 0 a ring is not closed, or has less than three corners.");
     assert_refused("{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingSolid\"}}", FROE_E_UNSUPPORTED,
-                   "bad.mfjson: feature 0: geometry of the type 'MovingSolid'");
+                   "bad.mfjson: feature 0: There is no moving geometry of type 'MovingSolid'.");
     froe_motion *m = NULL;
     froe_diagnostic diag;
     assert_int_equal(froe_read_motion("missing.mfjson", NULL, &m, NULL, &diag), FROE_E_IO);
@@ -160,7 +160,7 @@ static void what_is_wrong_is_said_with_the_feature(void **state) {
     o.from = 5;
     o.to = 6;
     assert_int_equal(froe_read_motion("late.mfjson", &o, &m, NULL, &diag), FROE_E_INPUT);
-    assert_string_equal(diag.message, "late.mfjson: nothing is there from 5 to 6: all is from 0 to 1");
+    assert_string_equal(diag.message, "late.mfjson: Nothing is there from 5 to 6, for all is from 0 to 1.");
 }
 
 /* -------------------------------------------------------------------- writing -- */
@@ -220,8 +220,8 @@ static void motions_that_the_format_cannot_say_are_refused(void **state) {
     b.coords = (const double[]){0, 0, 1, 1, 2, 2, 3, 3, 4, 4};
     assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
     assert_int_equal(froe_write_motion(m, "never.mfjson", &diag), FROE_E_UNSUPPORTED);
-    assert_string_equal(diag.message, "segment 0: the instants of its vertices are not the same, or not those of its "
-                                      "life: MF-JSON cannot say that");
+    assert_string_equal(diag.message, "segment 0: The instants of its vertices are not the same, or not those of its "
+                                      "life, which MF-JSON cannot say.");
     froe_motion_free(m);
 }
 
@@ -236,7 +236,7 @@ static void pictures_and_tables_refuse_what_they_cannot_show(void **state) {
     assert_int_equal(froe_animate(m, NULL, 0, &o, "a.html", NULL), FROE_OK);
     assert_int_equal(froe_animate(m, NULL, 1, &o, "a.html", NULL), FROE_E_ARG);
     assert_int_equal(froe_animate(m, &strange, 1, &o, "a.html", &diag), FROE_E_ARG);
-    assert_string_equal(diag.message, "froe_animate: contact 0 is of objects that are not there");
+    assert_string_equal(diag.message, "contact 0: Its objects do not exist.");
     assert_int_equal(froe_animate(m, NULL, 0, &o, "a.png", NULL), FROE_E_UNSUPPORTED);
     o.seconds = NAN;
     assert_int_equal(froe_animate(m, NULL, 0, &o, "a.svg", NULL), FROE_E_OPTIONS);

@@ -9,10 +9,10 @@
 
 static void missing_files_and_folders_are_refused(void **state) {
     (void)state;
-    refuse("nowhere.geojson", FROE_E_IO, "nowhere.geojson: No such file");
+    refuse("nowhere.geojson", FROE_E_IO, "nowhere.geojson: The file cannot be read: No such file or directory.");
     mkdir("folder.glb", 0777);
-    refuse("folder.glb", FROE_E_IO, "folder.glb: is a directory");
-    refuse("/dev/null", FROE_E_IO, "/dev/null: is a device");
+    refuse("folder.glb", FROE_E_IO, "folder.glb: It is a directory");
+    refuse("/dev/null", FROE_E_IO, "/dev/null: It is a device");
     if (geteuid() == 0) return; /* root reads everything */
     write_text("secret.csv", "x,y\n1,2\n");
     chmod("secret.csv", 0);
@@ -59,7 +59,7 @@ static void numbers_that_are_none_name_their_feature(void **state) {
                               "\"coordinates\":[[0,0],[1,1]]}},"
                               "{\"type\":\"Feature\",\"id\":8,\"properties\":{},\"geometry\":{\"type\":\"LineString\","
                               "\"coordinates\":[[2,2],[3,NaN]]}}]}");
-    refuse("nan.geojson", FROE_E_INPUT, "feature 8 of 'nan': y of corner 1 of the object is not a number");
+    refuse("nan.geojson", FROE_E_INPUT, "feature 8 of 'nan': Coordinate y of corner 1 is nan, not a finite number.");
     froe_diagnostic why;
     froe_scene *scene;
     assert_int_equal(froe_read("nan.geojson", NULL, &scene, NULL, &why), FROE_E_INPUT);
@@ -67,11 +67,11 @@ static void numbers_that_are_none_name_their_feature(void **state) {
     assert_int_equal(why.corner, 1);
     assert_int_equal(why.axis, 1);
     write_text("inf.geojson", "{\"type\":\"LineString\",\"coordinates\":[[0,0],[1e999,1]]}");
-    refuse("inf.geojson", FROE_E_INPUT, "x of corner 1 of the object is infinite");
+    refuse("inf.geojson", FROE_E_INPUT, "Coordinate x of corner 1 is inf, not a finite number.");
     write_text("nan.off", "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n");
-    refuse("nan.off", FROE_E_INPUT, "face 0: z of corner 1");
+    refuse("nan.off", FROE_E_INPUT, "face 0: Coordinate z of corner 1");
     write_text("nan.obj", "v 0 0 0\nv 1 0 inf\nv 0 1 0\nf 1 2 3\n");
-    refuse("nan.obj", FROE_E_INPUT, "line 4: z of corner 1 of the object is infinite");
+    refuse("nan.obj", FROE_E_INPUT, "line 4: Coordinate z of corner 1 is inf, not a finite number.");
 }
 
 static void broken_models_are_refused(void **state) {
@@ -110,7 +110,7 @@ static void broken_models_are_refused(void **state) {
     }
     static const char zero[] = "ply\nformat ascii 1.0\0element vertex 1\nend_header\n";
     write_bytes("zero.ply", zero, sizeof zero - 1);
-    refuse("zero.ply", FROE_E_FORMAT, "the header has no end");
+    refuse("zero.ply", FROE_E_FORMAT, "The header has no end.");
     write_text("b.off", "4OFF\n1 0 0\n0 0 0 0\n");
     refuse("b.off", FROE_E_UNSUPPORTED, "b.off");
     write_text("b.obj", "v 0 0 0\n");
@@ -131,7 +131,7 @@ static void wrong_calls_are_refused(void **state) {
     assert_null(scene);
     options = froe_read_defaults();
     options.layer = "roof";
-    refuse_with(FROE_TEST_DATA "/fzk-haus.glb", &options, FROE_E_OPTIONS, "it has no layers");
+    refuse_with(FROE_TEST_DATA "/fzk-haus.glb", &options, FROE_E_OPTIONS, "and has no layers.");
     options.layer = NULL;
     options.where = "x > 3";
     refuse_with(FROE_TEST_DATA "/fzk-haus-boxes.csv", &options, FROE_E_OPTIONS, "no attributes");
@@ -190,7 +190,7 @@ static void check_cancel(const char *path) {
     int calls = p.calls;
     for (int most = 0; most < calls; most++) {
         p = (patience){.most = most};
-        refuse_with(path, &options, FROE_E_CANCELLED, "cancelled");
+        refuse_with(path, &options, FROE_E_CANCELLED, "Cancelled.");
         assert_int_equal(p.calls, most + 1);
     }
     test_memory_end(&memory);

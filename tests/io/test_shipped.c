@@ -54,7 +54,7 @@ static void another_layer_is_read_when_it_is_named(void **state) {
     assert_int_equal(distinct_edges(nation), froe_scene_object_count(nation));
     froe_scene_free(nation);
     options.layer = "moon";
-    refuse_with(DATA("states-albers-10m.json"), &options, FROE_E_OPTIONS, "it has: states, nation");
+    refuse_with(DATA("states-albers-10m.json"), &options, FROE_E_OPTIONS, "There are: states, nation.");
 }
 
 static void a_filter_leaves_the_features_that_pass(void **state) {

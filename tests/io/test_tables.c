@@ -91,17 +91,18 @@ static void refuse_table(const char *text, froe_status status, const char *words
 
 static void bad_rows_are_named(void **state) {
     (void)state;
-    refuse_table("x,y\n1,2\n3,nan\n", FROE_E_INPUT, "row 2: y of corner 0 of the object is not a number");
-    refuse_table("x,y\n1,-inf\n", FROE_E_INPUT, "row 1: y of corner 0 of the object is infinite");
-    refuse_table("x,y\n1,1e309\n", FROE_E_INPUT, "infinite");
+    refuse_table("x,y\n1,2\n3,nan\n", FROE_E_INPUT, "row 2: Coordinate y of corner 0 is nan, not a finite number.");
+    refuse_table("x,y\n1,-inf\n", FROE_E_INPUT, "row 1: Coordinate y of corner 0 is -inf, not a finite number.");
+    refuse_table("x,y\n1,1e309\n", FROE_E_INPUT, "is inf");
     refuse_table("x,y\n1,two\n", FROE_E_FORMAT, "'two' is not a number");
     refuse_table("x,y\n1,2 3\n", FROE_E_FORMAT, "'2 3' is not a number");
     refuse_table("x,y\n1,\n", FROE_E_FORMAT, "missing");
-    refuse_table("x,y\n1\n", FROE_E_FORMAT, "it has 1 columns, the header 2");
-    refuse_table("x,y\n1,2,3\n", FROE_E_FORMAT, "it has 3 columns, the header 2");
+    refuse_table("x,y\n1\n", FROE_E_FORMAT, "The row has 1 columns, and the header 2.");
+    refuse_table("x,y\n1,2,3\n", FROE_E_FORMAT, "The row has 3 columns, and the header 2.");
     refuse_table("x,y,tag\n1,2,-1\n", FROE_E_FORMAT, "tag");
     refuse_table("x,y,tag\n1,2,18446744073709551616\n", FROE_E_FORMAT, "tag");
-    refuse_table("lo_x,lo_y,hi_x,hi_y\n0,0,-1,1\n", FROE_E_INPUT, "lo_x = 0 is above hi_x = -1");
+    refuse_table("lo_x,lo_y,hi_x,hi_y\n0,0,-1,1\n", FROE_E_INPUT,
+                 "Its low corner 0 is above its high corner -1 on axis x.");
     refuse_table("x,y,r\n0,0,-1\n", FROE_E_INPUT, "radius is -1");
     refuse_table("x,y,r\n0,0,inf\n", FROE_E_INPUT, "radius");
     refuse_table("lo_x,lo_y,hi_x\n0,0,1\n", FROE_E_FORMAT, "lo_ and hi_ of the same");

@@ -48,7 +48,7 @@ static void test_a_new_partition(void **state) {
         froe_diagnostic why = {0};
         o.progress = go_on, o.user = &p;
         assert_int_equal(froe_kinetic_new(m, &o, &alloc, &k, &why), FROE_E_CANCELLED);
-        assert_non_null(strstr(why.message, "cancelled"));
+        assert_non_null(strstr(why.message, "Cancelled."));
         assert_null(k);
         assert_int_equal(p.asked, last); /* no more after it was told */
         test_memory_end(&memory);
@@ -115,7 +115,7 @@ static void cancel(const char *name, call *what, int least) {
         m = moving_new(&crowd, 2, NULL);
         k = made(m, &p);
         p.asked = 0, p.last = last;
-        if (what(k, &why) != FROE_E_CANCELLED || !strstr(why.message, "cancelled"))
+        if (what(k, &why) != FROE_E_CANCELLED || !strstr(why.message, "Cancelled."))
             fail_msg("%s, cancelled at %d of %d: %s", name, last, all.asked, why.message);
         froe_kinetic_watch(k, NULL, NULL);
         if (froe_kinetic_audit(k, &why)) fail_msg("%s, cancelled: %s", name, why.message);

@@ -225,7 +225,7 @@ static void bad_options_are_refused_and_calls_can_be_stopped(void **state) {
     froe_contact_options o = froe_contact_defaults();
     o.from = 9;
     assert_int_equal(froe_motion_contacts(m, &o, stop_at_once, &told, &diag), FROE_E_OPTIONS);
-    assert_string_equal(diag.message, "the time 9 .. 8 does not lie in the window 0 .. 8");
+    assert_string_equal(diag.message, "The time 9 .. 8 does not lie in the window 0 .. 8.");
     o = froe_contact_defaults();
     o.progress = no_progress;
     assert_int_equal(froe_motion_contacts(m, &o, stop_at_once, &told, NULL), FROE_E_CANCELLED);

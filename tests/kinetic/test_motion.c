@@ -343,21 +343,24 @@ typedef struct bad_plan {
 } bad_plan;
 
 static const bad_plan bad_plans[] = {
-    {{0, 5, 5}, {0, 1, 2, 3, 4, 5}, {NAN, NAN, NAN, NAN}, "vertex 1: time 2, 5, is not after time 1, 5"},
-    {{0, NAN, 10}, {0, 1, 2, 3, 4, 5}, {NAN, NAN, NAN, NAN}, "vertex 1: time 1 is nan"},
-    {{0, 5, 10}, {0, 1, 2, INFINITY, 4, 5}, {NAN, NAN, NAN, NAN}, "vertex 1: y 1 is inf"},
-    {{0, 5, 10}, {0, 1, 2, 3, NAN, 5}, {NAN, NAN, NAN, NAN}, "vertex 1: x 2 is nan"},
-    {{0, 5, 10}, {0, 1, 2, 3, 4, 5}, {NAN, NAN, NAN, 1}, "vertex 1: the x of control point 1 is nan"},
+    {{0, 5, 5}, {0, 1, 2, 3, 4, 5}, {NAN, NAN, NAN, NAN}, "vertex 1: Time 2, 5, is not after time 1, 5."},
+    {{0, NAN, 10}, {0, 1, 2, 3, 4, 5}, {NAN, NAN, NAN, NAN}, "vertex 1: Its time 1 is nan, not a finite number."},
+    {{0, 5, 10}, {0, 1, 2, INFINITY, 4, 5}, {NAN, NAN, NAN, NAN}, "vertex 1: Its y 1 is inf, not a finite number."},
+    {{0, 5, 10}, {0, 1, 2, 3, NAN, 5}, {NAN, NAN, NAN, NAN}, "vertex 1: Its x 2 is nan, not a finite number."},
+    {{0, 5, 10},
+     {0, 1, 2, 3, 4, 5},
+     {NAN, NAN, NAN, 1},
+     "vertex 1: Its x of control point 1 is nan, not a finite number."},
     {{0, 5, 9},
      {0, 1, 2, 3, 4, 5},
      {NAN, NAN, NAN, NAN},
-     "segment 0: the plan of its vertex 1 ends at 9, before "
-     "the segment's time in the window does, at 10"},
+     "segment 0: The plan of its vertex 1 ends at 9, before "
+     "the segment's time in the window does, at 10."},
     {{1, 5, 10},
      {0, 1, 2, 3, 4, 5},
      {NAN, NAN, NAN, NAN},
-     "segment 0: the plan of its vertex 1 begins at 1, after "
-     "the segment's time in the window does, at 0"},
+     "segment 0: The plan of its vertex 1 begins at 1, after "
+     "the segment's time in the window does, at 0."},
 };
 
 static void assert_fails(froe_motion *m, const froe_moving *b, froe_status status, const char *message) {
@@ -400,21 +403,21 @@ static void bad_batches_are_refused(void **state) {
     good.times = times;
     good.coords = xy;
     b = good, b.starts = (const size_t[]){0, 0, 1};
-    assert_fails(m, &b, FROE_E_INPUT, "vertex 0 has no flight plan");
+    assert_fails(m, &b, FROE_E_INPUT, "vertex 0: It has no flight plan.");
     b = good, b.starts = (const size_t[]){0, 2, 1};
-    assert_fails(m, &b, FROE_E_ARG, "the plan of vertex 1 ends before it starts");
+    assert_fails(m, &b, FROE_E_ARG, "The plan of vertex 1 ends before it starts.");
     b = good, b.vertices = (const uint32_t[]){0, 2};
-    assert_fails(m, &b, FROE_E_INPUT, "segment 0: there is no vertex 2");
+    assert_fails(m, &b, FROE_E_INPUT, "segment 0: There is no vertex 2.");
     b = good, b.births = (const double[]){5}, b.deaths = (const double[]){4};
-    assert_fails(m, &b, FROE_E_INPUT, "segment 0 lives from 5 to 4");
+    assert_fails(m, &b, FROE_E_INPUT, "segment 0: Its life from 5 to 4 is none.");
     b = good, b.births = (const double[]){NAN};
-    assert_fails(m, &b, FROE_E_INPUT, "segment 0 lives from nan to 10");
+    assert_fails(m, &b, FROE_E_INPUT, "segment 0: Its life from nan to 10 is none.");
     b = good, b.group = 0;
-    assert_fails(m, &b, FROE_E_INPUT, "segment 0 belongs to group 0, which does not exist");
+    assert_fails(m, &b, FROE_E_INPUT, "segment 0: There is no group 0.");
     b = good, b.size = 0;
-    assert_fails(m, &b, FROE_E_OPTIONS, "batch not from froe_moving_defaults()");
+    assert_fails(m, &b, FROE_E_OPTIONS, "The options do not come from froe_moving_defaults().");
     b = good, b.times = NULL;
-    assert_fails(m, &b, FROE_E_ARG, "segments without flight plans");
+    assert_fails(m, &b, FROE_E_ARG, "The batch has segments without flight plans.");
     assert_int_equal(froe_motion_add(m, &good, NULL), FROE_OK);
     assert_int_equal(froe_motion_object_count(m), 1);
     froe_motion_free(m);
@@ -468,7 +471,7 @@ static void lives_are_clipped_to_the_window(void **state) {
     const double life[] = {2, 8}, short_times[] = {2, 7}, long_times[] = {1, 9}, at[] = {0, 0, 9, 9};
     froe_diagnostic diag;
     assert_int_equal(motion_replan(m, 1, 2, short_times, at, NULL, life, &diag), FROE_E_INPUT);
-    assert_string_equal(diag.message, "the plan of vertex 1 ends at 7, before 8");
+    assert_string_equal(diag.message, "The plan of vertex 1 ends at 7, before 8.");
     assert_int_equal(froe_motion_knot(m, 1, 1).time, 8);
     assert_int_equal(motion_replan(m, 1, 2, long_times, at, NULL, life, &diag), FROE_OK);
     assert_true(froe_motion_knot(m, 1, 1).time == 9);

@@ -308,8 +308,9 @@ static void rings_that_do_not_close_are_refused(void **state) {
     world w = world_begin("broken", scene);
     for (int again = 0; again < 2; again++) {
         assert_int_equal(froe_query_groups(w.queries[0], ring, &got, &why), FROE_E_UNSUPPORTED);
-        assert_string_equal(why.message,
-                            "Group 1 (Atlantis) bounds no area: an odd number of its segments ends at (0, 0).");
+        assert_string_equal(
+            why.message,
+            "group 1 (Atlantis): It bounds no area, because an odd number of its segments ends at (0, 0).");
         assert_int_equal(why.object, 4);
     }
     world_end(&w);
@@ -324,7 +325,7 @@ static void bad_questions_are_refused(void **state) {
     world w = world_begin("rings", random_rings(3, 5, 1, 1)),
           space = world_begin("space", world_mixture(3, 2, 3, 0, 1, 1));
     assert_int_equal(froe_query_groups(w.queries[0], bad + 4, &got, &why), FROE_E_INPUT);
-    assert_string_equal(why.message, "A point has inf as coordinate 0.");
+    assert_string_equal(why.message, "Coordinate 0 of a point is inf, not a finite number.");
     assert_int_equal(froe_query_groups(w.queries[0], NULL, &got, NULL), FROE_E_ARG);
     assert_int_equal(froe_query_groups(NULL, bad, &got, NULL), FROE_E_ARG);
     assert_int_equal(froe_query_groups(space.queries[0], bad, &got, &why), FROE_E_UNSUPPORTED);

@@ -113,7 +113,7 @@ static void points_outside_and_bad_points(void **state) {
             assert_int_equal(list.count, 0);
         }
     assert_int_equal(froe_query_locate(worlds[0].queries[0], bad, &list, &diag), FROE_E_INPUT);
-    assert_string_equal(diag.message, "A point has nan as coordinate 1.");
+    assert_string_equal(diag.message, "Coordinate 1 of a point is nan, not a finite number.");
     assert_int_equal(froe_query_locate(worlds[0].queries[0], NULL, &list, NULL), FROE_E_ARG);
 }
 

@@ -157,9 +157,9 @@ static void bad_questions_are_refused_and_change_nothing(void **state) {
     assert_int_equal(froe_query_near(q, x, 3, INFINITY, &before, NULL), FROE_OK);
     const uint32_t first = before.items[0].object;
     assert_int_equal(froe_query_near(q, nan, 3, INFINITY, &got, &why), FROE_E_INPUT);
-    assert_string_equal(why.message, "A point has nan as coordinate 0.");
+    assert_string_equal(why.message, "Coordinate 0 of a point is nan, not a finite number.");
     assert_int_equal(froe_query_near(q, x, 3, -1, &got, &why), FROE_E_INPUT);
-    assert_string_equal(why.message, "Neighbours are to be within -1.");
+    assert_string_equal(why.message, "The distance of neighbours, -1, is not a number >= 0.");
     assert_int_equal(froe_query_near(q, x, 3, NAN, &got, NULL), FROE_E_INPUT);
     assert_int_equal(froe_query_near(NULL, x, 3, 1, &got, NULL), FROE_E_ARG);
     assert_int_equal(froe_query_near(q, NULL, 3, 1, &got, NULL), FROE_E_ARG);

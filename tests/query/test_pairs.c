@@ -264,7 +264,7 @@ static void the_first_bad_question_of_a_batch_is_named(void **state) {
     assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
     assert_int_equal(froe_batch_ray(q, origins, directions, QUERIES, 1, NULL, hits, &why), FROE_E_INPUT);
     assert_int_equal(why.object, 700);
-    assert_string_equal(why.message, "The origin of a ray has nan as coordinate 1.");
+    assert_string_equal(why.message, "Coordinate 1 of the origin of a ray is nan, not a finite number.");
     assert_int_equal(froe_batch_near(q, origins, QUERIES, 1, 1, NULL, &near, &why), FROE_E_INPUT);
     assert_int_equal(why.object, 700);
     assert_int_equal(froe_batch_vertical(q, origins, QUERIES, -1, NULL, above, &why), FROE_E_INPUT);

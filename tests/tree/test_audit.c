@@ -166,7 +166,7 @@ static void a_torn_guard_stage_is_found(void **state) {
     assert_true(t->nodes[0].flags & TREE_GUARD);
     uint32_t tabled = find_node(t, TREE_TABLED, 1);
     t->nodes[0].flags = 0;
-    assert_wrong(t, "in the guard stage, but not its parent");
+    assert_wrong(t, "a node of the guard stage whose parent is not");
     t->nodes[0].flags = TREE_GUARD;
     for (uint32_t i = 0; i < t->node_count; i++)
         if (!tree_is_leaf(t->nodes + i)) t->nodes[i].flags = TREE_GUARD;
@@ -243,7 +243,7 @@ static void every_missing_piece_is_found(void **state) {
         size_t count = 0;
         for (size_t i = 0; i < RIGHT; i++)
             if (i != gone) entries[count++] = right_lists[i];
-        check_lists(entries, count, "a piece is missing");
+        check_lists(entries, count, "no piece where the object is");
     }
 }
 
@@ -292,7 +292,7 @@ static void a_piece_listed_twice_is_found(void **state) {
     entry entries[RIGHT + 1];
     memcpy(entries, right_lists, RIGHT * sizeof *entries);
     entries[RIGHT] = right_lists[RIGHT - 1];
-    check_lists(entries, RIGHT + 1, "twice");
+    check_lists(entries, RIGHT + 1, "two pieces of the object");
 }
 
 static void the_lowest_object_is_told_whatever_the_threads(void **state) {
@@ -396,7 +396,7 @@ static void balls_must_be_listed_exactly_where_their_distance_says(void **state)
         froe_tree *without = disc_beside_corner(cases[i].radius, false, FROE_BALL);
         assert_right(with); /* a superset is allowed: no single cut excludes the corner cell */
         if (cases[i].must)
-            assert_wrong(without, "a piece is missing");
+            assert_wrong(without, "no piece where the object is");
         else
             assert_right(without);
         froe_tree_free(with);
@@ -411,7 +411,7 @@ static void boxes_among_axis_parallel_cuts_are_exact(void **state) {
     (void)state;
     froe_tree *with = disc_beside_corner(0, true, FROE_BOX), *without = disc_beside_corner(0, false, FROE_BOX);
     assert_right(with);
-    assert_wrong(without, "a piece is missing");
+    assert_wrong(without, "no piece where the object is");
     froe_tree_free(with);
     froe_tree_free(without);
 }
@@ -442,7 +442,7 @@ static void hulls_must_be_listed_in_cells_without_a_corner_of_theirs(void **stat
         froe_tree *with = hull_beside_corner(cases[i].sum, true), *without = hull_beside_corner(cases[i].sum, false);
         assert_right(with);
         if (cases[i].must)
-            assert_wrong(without, "a piece is missing");
+            assert_wrong(without, "no piece where the object is");
         else
             assert_right(without);
         froe_tree_free(with);
@@ -468,7 +468,7 @@ static void balls_beside_oblique_planes_must_be_listed_where_they_reach(void **s
         froe_tree *without = hand_made(scene, cuts, splits, 2, entries, 3, &by_hand);
         assert_right(with);
         if (must)
-            assert_wrong(without, "a piece is missing");
+            assert_wrong(without, "no piece where the object is");
         else
             assert_right(without);
         froe_tree_free(with);
@@ -516,7 +516,7 @@ static void solids_beside_cuts_through_vertices_must_be_listed_where_they_reach(
         froe_tree *without = solid_before_wedge(cuts[cut].dim, cuts[cut].cut, kinds[kind], tips[tip], false);
         assert_right(with); /* a superset is allowed: no single cut excludes the wedge */
         if (tips[tip] < 2)
-            assert_wrong(without, "a piece is missing");
+            assert_wrong(without, "no piece where the object is");
         else
             assert_right(without);
         froe_tree_free(with);
@@ -552,7 +552,7 @@ static void solids_beside_oblique_cuts_are_enclosed(void **state) {
         froe_tree_free(tree);
         tree = hand_made(scene, cuts, splits, 2, half, 2, &by_hand);
         if (kinds[k] != FROE_BALL)
-            assert_wrong(tree, "a piece is missing"); /* a disc's centre is in the cut: no witness */
+            assert_wrong(tree, "no piece where the object is"); /* a disc's centre is in the cut: no witness */
         froe_tree_free(tree);
         froe_scene_free(scene);
     }

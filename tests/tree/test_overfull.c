@@ -35,7 +35,7 @@ static void assert_crowd(froe_tree *tree, const char *what) {
 static void overfull_leaves_are_found(void **state) {
     (void)state;
     const double points[4] = {0, 0, 1, 0}, same[4] = {2, 2, 2, 2}, segments[8] = {0, 0, 1, 1, 0, 1, 1, 0};
-    assert_crowd(crowd(2, FROE_POINT, 2, points, NULL, NULL, 0), "2 pieces in a leaf for at most 1");
+    assert_crowd(crowd(2, FROE_POINT, 2, points, NULL, NULL, 0), "The leaf has 2 pieces, and room for 1.");
     assert_crowd(crowd(2, FROE_POINT, 2, points, NULL, NULL, TREE_INSEPARABLE), "called inseparable");
     assert_crowd(crowd(2, FROE_POINT, 2, same, NULL, NULL, TREE_INSEPARABLE), NULL);
     assert_crowd(crowd(2, FROE_POINT, 1, same, NULL, NULL, TREE_INSEPARABLE), "not over capacity");
@@ -51,7 +51,7 @@ static void crowds_that_are_none_are_found(void **state) {
     assert_crowd(crowd(2, FROE_BOX, 3, most, NULL, NULL, TREE_CROWDED), NULL);
     assert_crowd(crowd(2, FROE_BOX, 3, few, NULL, NULL, TREE_CROWDED), "called crowded, but most pairs");
     assert_crowd(crowd(2, FROE_BOX, 2, flat, NULL, NULL, TREE_CROWDED), "called crowded, but most pairs");
-    assert_crowd(crowd(2, FROE_BOX, 1, most, NULL, NULL, TREE_CROWDED), "called crowded, but not over capacity");
+    assert_crowd(crowd(2, FROE_BOX, 1, most, NULL, NULL, TREE_CROWDED), "called crowded, but is not over capacity");
     assert_crowd(crowd(2, FROE_POINT, 2, points, NULL, NULL, TREE_CROWDED), "called crowded, but the support");
     assert_crowd(crowd(2, FROE_BALL, 3, centres, radii, NULL, TREE_CROWDED), NULL);
     assert_crowd(crowd(2, FROE_BALL, 3, centres, small, NULL, TREE_CROWDED), "called crowded, but most pairs");
@@ -107,7 +107,7 @@ static void leaf_zero_means_empty_leaves(void **state) {
     froe_tree_free(t);
     t = trees_grow(2, FROE_SEGMENT, 30, 0, 0.5, "autopartition", 1);
     t->meta.leaf = t->report.leaf = 0;
-    assert_wrong(t, "for at most 0");
+    assert_wrong(t, "room for 0.");
     froe_tree_free(t);
 }
 

@@ -320,10 +320,10 @@ static void what_cannot_be_written_is_refused(void **state) {
     REFUSED(froe_render(tree, "none.pdf", &o, NULL, &why), FROE_E_OPTIONS, "description");
     o = froe_render_defaults();
     REFUSED(froe_render_write(tree, FROE_RENDER_FORMAT_COUNT, keep_bytes, NULL, &o, NULL, &why), FROE_E_OPTIONS, "3");
-    REFUSED(froe_render_write(tree, FROE_RENDER_SVG, NULL, NULL, &o, NULL, &why), FROE_E_ARG, "tree");
+    REFUSED(froe_render_write(tree, FROE_RENDER_SVG, NULL, NULL, &o, NULL, &why), FROE_E_ARG, "NULL");
     REFUSED(froe_render_paths(tree, 0, stop_at_third_path, &calls, &o, NULL, &why), FROE_E_OPTIONS, "steps");
     REFUSED(froe_render_paths(tree, NAN, stop_at_third_path, &calls, &o, NULL, &why), FROE_E_OPTIONS, "steps");
-    REFUSED(froe_render_paths(tree, 1, NULL, &calls, &o, NULL, &why), FROE_E_ARG, "tree");
+    REFUSED(froe_render_paths(tree, 1, NULL, &calls, &o, NULL, &why), FROE_E_ARG, "NULL");
     o.halo = -1;
     REFUSED(froe_render_paths(tree, 1, stop_at_third_path, &calls, &o, NULL, &why), FROE_E_OPTIONS, "halo");
 #undef REFUSED

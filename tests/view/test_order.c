@@ -264,11 +264,11 @@ static void nodes_come_in_the_order_of_their_pieces(void **state) {
 static void what_has_no_order_is_refused(void **state) {
     (void)state;
     froe_tree *tree = trees_grow(3, FROE_POLYGON, 30, 0, 1, "density", 1);
-    refuse(tree, (froe_eye){.at = {0, (double)NAN, 0}}, "coordinate 1", FROE_E_ARG);
+    refuse(tree, (froe_eye){.at = {0, (double)NAN, 0}}, "Coordinate 1", FROE_E_ARG);
     refuse(tree, (froe_eye){.at = {0, 0, 0}, .parallel = true}, "length 0", FROE_E_ARG);
     froe_tree_free(tree);
     tree = trees_grow(3, FROE_POLYGON, 30, 0, 1, "density", 4);
-    refuse(tree, (froe_eye){.at = {0, 0, 3}}, "leaf 1 or 0", FROE_E_UNSUPPORTED);
+    refuse(tree, (froe_eye){.at = {0, 0, 3}}, "capacity of 1 or 0", FROE_E_UNSUPPORTED);
     froe_tree_free(tree);
     tree = trees_grow(3, FROE_BALL, 10, 0, 0.1, "density", 1);
     refuse(tree, (froe_eye){.at = {0, 0, 3}}, "ball", FROE_E_UNSUPPORTED);

@@ -201,8 +201,8 @@ static void bad_sections_are_refused(void **state) {
     const double bad[3][4] = {{0, 0, 0, 1}, {1, NAN, 0, 1}, {1, 0, 0, INFINITY}}, good[4] = {1, 0, 0, 5};
     froe_tree *tree = box(), *other = trees_build(tree->scene, "index", 8);
     refuse(tree, bad[0], FROE_E_ARG, "length 0");
-    refuse(tree, bad[1], FROE_E_ARG, "number 1");
-    refuse(tree, bad[2], FROE_E_ARG, "number 3");
+    refuse(tree, bad[1], FROE_E_ARG, "Number 1");
+    refuse(tree, bad[2], FROE_E_ARG, "Number 3");
     refuse(tree, NULL, FROE_E_ARG, "NULL");
     refuse(other, good, FROE_E_UNSUPPORTED, "'index' takes no first cut");
     froe_visibility_options o = froe_visibility_defaults();

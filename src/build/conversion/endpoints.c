@@ -62,7 +62,7 @@ static froe_status plan_by_method(converter *c, const convert_plan *plan) {
         if (cut.kind == FROE_CUT_NONE) continue;
         if (cut.kind != FROE_CUT_AXIS && cut.kind != FROE_CUT_PLANE)
             status = support_fail(c->job->diag, FROE_E_UNSUPPORTED,
-                                  "method '%s' cuts points in another way than by planes", c->tree->meta.method);
+                                  "Method '%s' cuts points in another way than by planes.", c->tree->meta.method);
         if (!status) status = point_tree_split(&c->plan, at, &cut, &child);
         for (uint32_t s = 0; s < 2 && !status; s++)
             if (!array_push(alloc, &stack, c->tree->nodes[node].child + s) || !array_push(alloc, &stack, child + s))

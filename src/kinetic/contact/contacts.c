@@ -106,7 +106,7 @@ static froe_status find_spans(contact_search *s, froe_diagnostic *diag) {
         const contact_worker *w = s->workers + i;
         if (w->status == FROE_E_LIMIT)
             return support_fail_at(diag, w->status, w->failed[0], FROE_NONE, FROE_NONE,
-                                   "segments %u and %u: two things happen too close to be told apart", w->failed[0],
+                                   "segments %u and %u: Two events happen too close to be told apart.", w->failed[0],
                                    w->failed[1]);
         if (w->status) status = w->status;
     }
@@ -219,11 +219,11 @@ static froe_status tell_contacts(contact_search *s, froe_contact_fn *fn, void *u
 
 static froe_status check_contact_search(contact_search *s, froe_diagnostic *diag) {
     const froe_contact_options *o = s->o;
-    if (o->size != sizeof *o) return support_fail(diag, FROE_E_OPTIONS, "options not from froe_contact_defaults()");
+    if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_contact_defaults");
     s->from = isnan(o->from) ? s->m->begin : o->from;
     s->to = isnan(o->to) ? s->m->end : o->to;
     if (s->from > s->to || s->from < s->m->begin || s->to > s->m->end)
-        return support_fail(diag, FROE_E_OPTIONS, "the time %.17g .. %.17g does not lie in the window %.17g .. %.17g",
+        return support_fail(diag, FROE_E_OPTIONS, "The time %.17g .. %.17g does not lie in the window %.17g .. %.17g.",
                             s->from, s->to, s->m->begin, s->m->end);
     return FROE_OK;
 }
@@ -244,14 +244,14 @@ froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_o
                                  void *user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const froe_contact_options standard = froe_contact_defaults();
-    if (!motion || !fn)
-        return support_fail(diag, FROE_E_ARG, "no motion, or the function that receives contacts is NULL");
+    if (!motion || !fn) return support_fail_null(diag, __func__);
     contact_search s = {.m = motion, .o = options ? options : &standard};
     froe_status status = check_contact_search(&s, diag);
     if (status) return status;
     base_task_init(&s.task, s.o->threads, s.o->progress, s.o->user);
     status = slices_find(motion, s.from, s.to, &s.slices);
-    if (status == FROE_E_LIMIT) return support_fail(diag, status, "more than 2^31 boxes in the plane and in time");
+    if (status == FROE_E_LIMIT)
+        return support_fail(diag, status, "More than 2^31 boxes in the plane and in time are needed.");
     if (!status) status = find_spans(&s, diag);
     if (!status) status = make_contacts(&s);
     if (!status) status = tell_contacts(&s, fn, user);

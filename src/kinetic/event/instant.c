@@ -66,8 +66,8 @@ static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
 
 froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || !out) return support_fail(diag, FROE_E_ARG, "froe_kinetic_instant: NULL");
-    if (!k->events.reporting) return support_fail(diag, FROE_E_ARG, "no event is being reported");
+    if (!k || !out) return support_fail_null(diag, __func__);
+    if (!k->events.reporting) return support_fail(diag, FROE_E_ARG, "No event is being reported.");
     now_catch_up(&k->now);
     num_arena *arena = &k->now.context.arena;
     arena->top = 0;

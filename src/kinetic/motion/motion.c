@@ -59,27 +59,26 @@ static froe_status set_window(froe_motion *m, const froe_motion_options *o, froe
     int top, power;
     double length = o->end - o->begin;
     if (!isfinite(length) || !(length > 0))
-        return support_fail(diag, FROE_E_INPUT, "the window %g .. %g is empty, endless or not a number", o->begin,
+        return support_fail(diag, FROE_E_INPUT, "The window %g .. %g is empty, endless or not a number.", o->begin,
                             o->end);
     if (o->tick < 0 || !isfinite(o->tick) || (o->tick > 0 && frexp(o->tick, &power) != 0.5))
-        return support_fail(diag, FROE_E_OPTIONS, "a tick of %g is not a power of 2", o->tick);
+        return support_fail(diag, FROE_E_OPTIONS, "A tick of %g is not a power of 2.", o->tick);
     frexp(length, &top); /* length < 2^top */
     m->power = o->tick > 0 ? power - 1 : usual_power(top);
     m->begin = o->begin + 0.0;
     m->end = o->end + 0.0;
     if (top - m->power > MOST_TICK_BITS)
-        return support_fail(diag, FROE_E_OPTIONS, "ticks of %g: more than 2^52 of them in the window", o->tick);
+        return support_fail(diag, FROE_E_OPTIONS, "The window has more than 2^52 ticks of %g.", o->tick);
     m->last_tick = motion_tick_before(m, m->end);
-    if (m->last_tick < 1) return support_fail(diag, FROE_E_OPTIONS, "a tick of %g is longer than the window", o->tick);
+    if (m->last_tick < 1) return support_fail(diag, FROE_E_OPTIONS, "A tick of %g is longer than the window.", o->tick);
     return FROE_OK;
 }
 
 froe_status froe_motion_new(const froe_motion_options *options, const froe_allocator *alloc, froe_motion **out,
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!options || !out) return support_fail(diag, FROE_E_ARG, "no options, or no place for the motion");
-    if (options->size != sizeof *options)
-        return support_fail(diag, FROE_E_OPTIONS, "options not from froe_motion_defaults()");
+    if (!options || !out) return support_fail_null(diag, __func__);
+    if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_motion_defaults");
     if (num_rounding_check(diag)) return FROE_E_UNSUPPORTED;
     froe_motion window = {.alloc = support_allocator(alloc), .unit = INT16_MAX, .top = INT16_MIN}; /* nothing yet */
     window.time_unit = INT16_MAX;

@@ -66,8 +66,8 @@ typedef struct plan_input {
 } plan_input;
 
 static froe_status fail_at_knot(plan_adding *a, const plan_input *p, size_t i, const char *what, double value) {
-    return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u: %s %zu is %g", p->vertex,
-                           what, i, value);
+    return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
+                           "vertex %u: Its %s %zu is %g, not a finite number.", p->vertex, what, i, value);
 }
 
 /* One finite number of the plan; -0 becomes +0. */
@@ -90,7 +90,7 @@ static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, moti
     if (!isfinite(knot->time)) return fail_at_knot(a, p, i, "time", knot->time);
     if (i && !(knot->time > knot[-1].time))
         return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
-                               "vertex %u: time %zu, %.17g, is not after time %zu, %.17g", p->vertex, i, knot->time,
+                               "vertex %u: Time %zu, %.17g, is not after time %zu, %.17g.", p->vertex, i, knot->time,
                                i - 1, knot[-1].time);
     knot->tick = motion_tick_after(a->motion, knot->time);
     take_time(a, knot->time);
@@ -98,16 +98,17 @@ static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, moti
     if (!status) status = take_number(a, p, i, "y", p->coords[2 * i + 1], &knot->at[1]);
     const double *c = p->controls && i + 1 < p->count ? p->controls + 2 * i : knot->control;
     if (status || (isnan(c[0]) && isnan(c[1]))) return status;
-    status = take_number(a, p, i, "the x of control point", c[0], &knot->control[0]);
-    return status ? status : take_number(a, p, i, "the y of control point", c[1], &knot->control[1]);
+    status = take_number(a, p, i, "x of control point", c[0], &knot->control[0]);
+    return status ? status : take_number(a, p, i, "y of control point", c[1], &knot->control[1]);
 }
 
 /* Appends the knots of a plan. REQUIRES: room. */
 static froe_status take_plan(plan_adding *a, const plan_input *p, motion_plan *plan) {
     if (!p->count)
-        return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "vertex %u has no flight plan",
-                               p->vertex);
-    if (p->count > LIMIT) return support_fail(a->diag, FROE_E_LIMIT, "vertex %u: more than %u times", p->vertex, LIMIT);
+        return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
+                               "vertex %u: It has no flight plan.", p->vertex);
+    if (p->count > LIMIT)
+        return support_fail(a->diag, FROE_E_LIMIT, "vertex %u: There are more than %u times.", p->vertex, LIMIT);
     *plan = (motion_plan){a->motion->knots.count + a->knots, (uint32_t)p->count};
     motion_knot *knots = a->motion->knots.data + plan->first;
     for (size_t i = 0; i < p->count; i++) {
@@ -129,12 +130,11 @@ static froe_status check_cover(const plan_adding *a, const motion_plan *plan, ui
     const char *begins = late ? "begins" : "ends", *after = late ? "after" : "before";
     if (object == FROE_NONE)
         return support_fail_at(a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
-                               "the plan of vertex %u %s at %.17g, %s %.17g", vertex, begins, plan_end, after,
+                               "The plan of vertex %u %s at %.17g, %s %.17g.", vertex, begins, plan_end, after,
                                life_end);
     return support_fail_at(
         a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
-        "segment %u: the plan of its vertex %u %s at %.17g, %s the segment's time in the window does, "
-        "at %.17g",
+        "segment %u: The plan of its vertex %u %s at %.17g, %s the segment's time in the window does, at %.17g.",
         object, vertex, begins, plan_end, after, life_end);
 }
 
@@ -142,20 +142,20 @@ static froe_status check_cover(const plan_adding *a, const motion_plan *plan, ui
 
 static froe_status check_batch(const plan_adding *a) {
     const froe_moving *b = a->batch;
-    if (b->size != sizeof *b) return support_fail(a->diag, FROE_E_OPTIONS, "batch not from froe_moving_defaults()");
+    if (b->size != sizeof *b) return support_fail_defaults(a->diag, "froe_moving_defaults");
     if ((b->vertex_count && (!b->starts || !b->times || !b->coords)) || (b->count && !b->vertex_count))
-        return support_fail(a->diag, FROE_E_ARG, "segments without flight plans");
+        return support_fail(a->diag, FROE_E_ARG, "The batch has segments without flight plans.");
     const froe_motion *m = a->motion;
     if (b->vertex_count > LIMIT - m->plans.count || b->count > LIMIT - m->objects.count)
-        return support_fail(a->diag, FROE_E_LIMIT, "more than %u vertices or segments", LIMIT);
+        return support_fail(a->diag, FROE_E_LIMIT, "There are more than %u vertices or segments.", LIMIT);
     for (size_t v = 0; v < b->vertex_count; v++)
         if (b->starts[v] > b->starts[v + 1])
-            return support_fail(a->diag, FROE_E_ARG, "the plan of vertex %zu ends before it starts", v);
+            return support_fail(a->diag, FROE_E_ARG, "The plan of vertex %zu ends before it starts.", v);
     for (uint32_t j = 0; j < b->count; j++) {
         uint32_t group = b->groups ? b->groups[j] : b->group;
         if (group != FROE_NONE && group >= m->names->group_count)
-            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE,
-                                   "segment %u belongs to group %u, which does not exist", j, group);
+            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u: There is no group %u.",
+                                   j, group);
     }
     return FROE_OK;
 }
@@ -177,8 +177,8 @@ static froe_status take_segment(plan_adding *a, uint32_t j, motion_object *o) {
     const froe_motion *m = a->motion;
     const double birth = b->births ? b->births[j] : m->begin, death = b->deaths ? b->deaths[j] : m->end;
     if (!(birth <= death) || birth == (double)INFINITY || death == -(double)INFINITY)
-        return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u lives from %g to %g", j,
-                               birth, death);
+        return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE,
+                               "segment %u: Its life from %g to %g is none.", j, birth, death);
     o->birth = birth > m->begin ? birth + 0.0 : m->begin;
     o->death = death < m->end ? death + 0.0 : m->end;
     take_time(a, o->birth);
@@ -189,7 +189,7 @@ static froe_status take_segment(plan_adding *a, uint32_t j, motion_object *o) {
     for (int k = 0; k < 2 && !status; k++) {
         uint32_t v = b->vertices ? b->vertices[2 * (size_t)j + (size_t)k] : 2 * j + (uint32_t)k;
         if (v >= b->vertex_count)
-            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u: there is no vertex %u",
+            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u: There is no vertex %u.",
                                    j, v);
         o->vertices[k] = (uint32_t)m->plans.count + v;
         status = check_cover(a, m->plans.data + o->vertices[k], v, j, o->birth, o->death);
@@ -217,7 +217,7 @@ static void commit(const plan_adding *a) {
 
 froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!motion || !batch) return support_fail(diag, FROE_E_ARG, "no motion or no batch");
+    if (!motion || !batch) return support_fail_null(diag, __func__);
     plan_adding a = begin_adding(motion, batch, diag);
     froe_status status = check_batch(&a);
     if (status) return status;

@@ -116,12 +116,13 @@ static froe_status find_points(froe_query *q, size_t k, double bound, bool *done
 froe_status froe_query_near(froe_query *query, const double *point, size_t k, double bound, froe_neighbours *out,
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !point || !out) return support_fail(diag, FROE_E_ARG, "froe_query_near: NULL argument.");
+    if (!query || !point || !out) return support_fail_null(diag, __func__);
     query_near *n = &query->near;
     const int dim = query->tree->scene->dim;
-    froe_status status = query_check_point(point, dim, "A point", diag);
+    froe_status status = query_check_point(point, dim, "a point", diag);
     if (status) return status;
-    if (!(bound >= 0)) return support_fail(diag, FROE_E_INPUT, "Neighbours are to be within %g.", bound);
+    if (!(bound >= 0))
+        return support_fail(diag, FROE_E_INPUT, "The distance of neighbours, %g, is not a number >= 0.", bound);
     const uint64_t exact = query->numbers.stats.exact;
     query_begin(query);
     n->found.count = n->order.count = 0;

@@ -124,7 +124,7 @@ static froe_status search_objects(query_workers *workers, bool shared, froe_pair
 froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options, froe_pair_fn *fn,
                              void *fn_user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !fn) return support_fail(diag, FROE_E_ARG, "A search for pairs: NULL argument.");
+    if (!query || !fn) return support_fail_null(diag, __func__);
     const size_t jobs = ((size_t)query->tree->scene->object_count + OBJECTS_PER_JOB - 1) / OBJECTS_PER_JOB;
     const uint64_t queries = query->stats.queries;
     query_workers workers;

@@ -58,8 +58,8 @@ static froe_status check_ends(border_search *v, froe_diagnostic *diag) {
             const double *x = scene_vertex(v->scene, (uint32_t)v->pairs[i].key);
             return support_fail_at(
                 diag, FROE_E_UNSUPPORTED, v->pairs[i].value, FROE_NONE, FROE_NONE,
-                "Group %u (%.80s) bounds no area: an odd number of its segments ends at (%.17g, %.17g).", id,
-                froe_scene_group(v->scene, id).name, x[0], x[1]);
+                "group %u (%.80s): It bounds no area, because an odd number of its segments ends at (%.17g, %.17g).",
+                id, froe_scene_group(v->scene, id).name, x[0], x[1]);
         }
         *group = GROUP_OPEN;
     }

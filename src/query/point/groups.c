@@ -40,9 +40,9 @@ froe_status froe_query_groups(froe_query *query, const double *point, froe_list 
     BASE_FLOATS_OWN;
     const query_areas *areas;
     query_leaf leaf = {0};
-    if (!query || !point || !out) return support_fail(diag, FROE_E_ARG, "froe_query_groups: NULL argument.");
+    if (!query || !point || !out) return support_fail_null(diag, __func__);
     froe_status status = query_groups_prepare(query, &areas, diag);
-    if (!status) status = query_check_point(point, 2, "A point", diag);
+    if (!status) status = query_check_point(point, 2, "a point", diag);
     if (status) return status;
     if (areas->borders && query_leaf_find(query, point, &leaf)) return support_fail_memory(diag);
     status = query_groups_in(query, areas, point, &leaf, diag);

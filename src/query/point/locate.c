@@ -42,7 +42,7 @@ static froe_status take_point(const froe_query *q, const double *point, point_ra
     out->range = froe_range_defaults();
     out->range.points = out->ends;
     for (size_t k = 0; k < dim; k++) out->ends[k] = out->ends[dim + k] = point[k];
-    return query_check_point(point, (int)dim, "A point", diag);
+    return query_check_point(point, (int)dim, "a point", diag);
 }
 
 froe_status query_locate_in(froe_query *q, const double *point, const query_leaf *leaf, froe_diagnostic *diag) {
@@ -67,7 +67,7 @@ froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *di
 
 froe_status froe_query_locate(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !point || !out) return support_fail(diag, FROE_E_ARG, "froe_query_locate: NULL argument.");
+    if (!query || !point || !out) return support_fail_null(diag, __func__);
     const froe_status status = query_locate(query, point, diag);
     if (!status) *out = query_list(query);
     return status;

@@ -33,7 +33,7 @@ froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, fr
 
 froe_status froe_query_range(froe_query *query, const froe_range *range, froe_list *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !range || !out) return support_fail(diag, FROE_E_ARG, "froe_query_range: NULL argument.");
+    if (!query || !range || !out) return support_fail_null(diag, __func__);
     const froe_status status = query_range_ask(query, range, false, diag);
     if (!status) *out = query_list(query);
     return status;
@@ -41,7 +41,7 @@ froe_status froe_query_range(froe_query *query, const froe_range *range, froe_li
 
 froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_t *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !range || !out) return support_fail(diag, FROE_E_ARG, "froe_query_count: NULL argument.");
+    if (!query || !range || !out) return support_fail_null(diag, __func__);
     if (!is_packed_window(query, range)) {
         const froe_status status = query_range_ask(query, range, false, diag);
         if (!status) *out = query->found.count;
@@ -56,7 +56,7 @@ froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_
 
 froe_status froe_query_any(froe_query *query, const froe_range *range, uint32_t *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !range || !out) return support_fail(diag, FROE_E_ARG, "froe_query_any: NULL argument.");
+    if (!query || !range || !out) return support_fail_null(diag, __func__);
     const froe_status status = query_range_ask(query, range, true, diag);
     if (!status) *out = query->found.count ? query->found.data[0] : FROE_NONE;
     return status;

@@ -48,8 +48,9 @@ static bool has_radius(froe_range_shape shape) {
 }
 
 froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *diag) {
-    if (r->size != sizeof *r || (unsigned)r->shape >= FROE_SHAPE_COUNT)
-        return support_fail(diag, FROE_E_OPTIONS, "A range must come from froe_range_defaults() and have a shape.");
+    if (r->size != sizeof *r) return support_fail_defaults(diag, "froe_range_defaults");
+    if ((unsigned)r->shape >= FROE_SHAPE_COUNT)
+        return support_fail(diag, FROE_E_OPTIONS, "There is no shape of number %u.", (unsigned)r->shape);
     if ((unsigned)r->walk >= FROE_WALK_COUNT)
         return support_fail(diag, FROE_E_OPTIONS, "There is no walk of number %u.", (unsigned)r->walk);
     if (dim > 3 && r->shape != FROE_SHAPE_BOX && r->shape != FROE_SHAPE_BALL)
@@ -57,26 +58,31 @@ froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *dia
     const size_t count = range_point_count(r, (size_t)dim);
     const bool halfspaces = r->shape == FROE_SHAPE_HALFSPACES;
     if ((count && !r->points) || (halfspaces && count && !r->offsets))
-        return support_fail(diag, FROE_E_ARG, "A %s without points.", names[r->shape]);
-    if (!count && !halfspaces) return support_fail(diag, FROE_E_INPUT, "A hull of no points.");
-    if (count > UINT32_MAX / 8) return support_fail(diag, FROE_E_ARG, "A %s of too many points.", names[r->shape]);
+        return support_fail(diag, FROE_E_ARG, "A %s has no points.", names[r->shape]);
+    if (!count && !halfspaces) return support_fail(diag, FROE_E_INPUT, "A hull has no points.");
+    if (count > UINT32_MAX / 8) return support_fail(diag, FROE_E_ARG, "A %s has too many points.", names[r->shape]);
     const size_t n = (size_t)dim;
     for (size_t i = 0; i < count * n; i++) {
         const double x = r->points[i];
         if (isfinite(x)) continue;
         if (r->shape != FROE_SHAPE_BOX || x != (i < n ? -INFINITY : INFINITY)) /* boxes may be unbounded */
-            return support_fail(diag, FROE_E_INPUT, "A %s has %g as a coordinate.", names[r->shape], x);
+            return support_fail(diag, FROE_E_INPUT, "A coordinate of a %s is %g, not a finite number.", names[r->shape],
+                                x);
     }
     for (size_t i = 0; halfspaces && i < count; i++)
         if (!isfinite(r->offsets[i]))
-            return support_fail(diag, FROE_E_INPUT, "A halfspace has the offset %g.", r->offsets[i]);
+            return support_fail(diag, FROE_E_INPUT, "The offset of a halfspace is %g, not a finite number.",
+                                r->offsets[i]);
     for (size_t k = 0; r->shape == FROE_SHAPE_BOX && k < n; k++)
         if (r->points[k] > r->points[n + k])
-            return support_fail(diag, FROE_E_INPUT, "A box has lo %g > hi %g on axis %zu.", r->points[k],
+            return support_fail(diag, FROE_E_INPUT,
+                                "The low corner %g of a box is above its high corner %g on axis %zu.", r->points[k],
                                 r->points[n + k], k);
     if (has_radius(r->shape) && !(r->radius >= 0 && isfinite(r->radius)))
-        return support_fail(diag, FROE_E_INPUT, "A %s has the radius %g.", names[r->shape], r->radius);
-    if (!(r->eps >= 0 && isfinite(r->eps))) return support_fail(diag, FROE_E_INPUT, "A range has eps %g.", r->eps);
+        return support_fail(diag, FROE_E_INPUT, "The radius of a %s is %g, not a finite number >= 0.", names[r->shape],
+                            r->radius);
+    if (!(r->eps >= 0 && isfinite(r->eps)))
+        return support_fail(diag, FROE_E_INPUT, "The eps of a range, %g, is not a finite number >= 0.", r->eps);
     size_t zeros = 0;
     while (r->shape == FROE_SHAPE_RAY && zeros < n && r->points[n + zeros] == 0) zeros++;
     if (zeros == n) return support_fail(diag, FROE_E_INPUT, "A ray has no direction.");

@@ -22,10 +22,11 @@ void query_ray_free(query_ray *r, const froe_allocator *alloc) {
 froe_status query_ray_take(froe_query *q, const double *origin, const double *direction, double t_max,
                            froe_diagnostic *diag) {
     const int dim = q->tree->scene->dim;
-    froe_status status = query_check_point(origin, dim, "The origin of a ray", diag);
-    if (!status) status = query_check_point(direction, dim, "The direction of a ray", diag);
+    froe_status status = query_check_point(origin, dim, "the origin of a ray", diag);
+    if (!status) status = query_check_point(direction, dim, "the direction of a ray", diag);
     if (status) return status;
-    if (!(t_max >= 0)) return support_fail(diag, FROE_E_INPUT, "A ray ends at t = %g.", t_max);
+    if (!(t_max >= 0))
+        return support_fail(diag, FROE_E_INPUT, "The end of a ray, t = %g, is not a number >= 0.", t_max);
     bool goes = false;
     for (int k = 0; k < dim; k++) goes = goes || direction[k] != 0;
     if (!goes) return support_fail(diag, FROE_E_INPUT, "The direction of a ray is 0.");
@@ -99,8 +100,7 @@ froe_status query_ray_first(froe_query *q, double t_max, uint32_t kinds, froe_di
 froe_status froe_query_ray(froe_query *query, const double *origin, const double *direction, double t_max,
                            froe_hit *hit, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !origin || !direction || !hit)
-        return support_fail(diag, FROE_E_ARG, "froe_query_ray: NULL argument.");
+    if (!query || !origin || !direction || !hit) return support_fail_null(diag, __func__);
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
     if (!status) status = query_ray_first(query, t_max, UINT32_MAX, diag);
     if (status) return status;
@@ -116,8 +116,7 @@ froe_status froe_query_ray(froe_query *query, const double *origin, const double
 froe_status froe_query_ray_any(froe_query *query, const double *origin, const double *direction, double t_max,
                                uint32_t *object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !origin || !direction || !object)
-        return support_fail(diag, FROE_E_ARG, "froe_query_ray_any: NULL argument.");
+    if (!query || !origin || !direction || !object) return support_fail_null(diag, __func__);
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
     if (!status) status = gather_met(query, t_max, UINT32_MAX, RAY_ANY, diag);
     if (!status) *object = query->ray.met.count ? query->ray.met.data[0].object : FROE_NONE;
@@ -135,8 +134,7 @@ static bool hit_is_later(void *user, uint32_t a, uint32_t b) {
 froe_status froe_query_ray_all(froe_query *query, const double *origin, const double *direction, double t_max,
                                froe_hits *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !origin || !direction || !out)
-        return support_fail(diag, FROE_E_ARG, "froe_query_ray_all: NULL argument.");
+    if (!query || !origin || !direction || !out) return support_fail_null(diag, __func__);
     froe_status status = query_ray_take(query, origin, direction, t_max, diag);
     if (!status) status = gather_met(query, t_max, UINT32_MAX, RAY_ALL, diag);
     if (status) return status;

@@ -1,5 +1,6 @@
 /* vertical.c: the segment above or below a point of the plane: a vertical ray. */
 #include "base/floats.h"
+#include "query/check.h"
 #include "query/packed/packed.h"
 #include "support/fail.h"
 
@@ -8,15 +9,13 @@ froe_status query_vertical_check(const froe_query *query, const double *point, i
         return support_fail(diag, FROE_E_UNSUPPORTED, "Above and below are asked in the plane only.");
     if (direction != 1 && direction != -1)
         return support_fail(diag, FROE_E_ARG, "The direction %d is neither 1, up, nor -1, down.", direction);
-    for (int k = 0; k < 2; k++)
-        if (!isfinite(point[k])) return support_fail(diag, FROE_E_INPUT, "A point has %g as a coordinate.", point[k]);
-    return FROE_OK;
+    return query_check_point(point, 2, "a point", diag);
 }
 
 froe_status froe_query_vertical(froe_query *query, const double *point, int direction, uint32_t *object,
                                 froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!query || !point || !object) return support_fail(diag, FROE_E_ARG, "froe_query_vertical: NULL argument.");
+    if (!query || !point || !object) return support_fail_null(diag, __func__);
     froe_status status = query_vertical_check(query, point, direction, diag);
     if (status) return status;
     if (query->packed) return packed_vertical(query, point, 1, direction, object) ? support_fail_memory(diag) : FROE_OK;

@@ -53,7 +53,7 @@ froe_audit_options froe_audit_defaults(void) {
 }
 
 static froe_status bad_node(const audit *a, uint32_t node, const char *what) {
-    return support_fail(a->diag, FROE_E_AUDIT, "node %u: %s", node, what);
+    return support_fail(a->diag, FROE_E_AUDIT, "node %u: The audit finds %s.", node, what);
 }
 
 /* ---------------------------------------------------------------- structure -- */
@@ -89,7 +89,7 @@ static froe_status check_report(const audit *a) {
                 r->fragments == again.fragments && r->in_cut == again.in_cut && r->size == r->nodes + again.fragments &&
                 r->height == again.height && r->mean_depth == again.mean_depth && r->max_leaf == again.max_leaf &&
                 r->inseparable == again.inseparable && r->crowded == again.crowded;
-    return same ? FROE_OK : support_fail(a->diag, FROE_E_AUDIT, "the report does not tell what is in the tree");
+    return same ? FROE_OK : support_fail(a->diag, FROE_E_AUDIT, "The report does not tell what is in the tree.");
 }
 
 static froe_status check_guard_stage(const audit *a) {
@@ -99,9 +99,10 @@ static froe_status check_guard_stage(const audit *a) {
         if (tree_is_leaf(n)) continue;
         if (!(n->flags & TREE_GUARD)) {
             for (uint32_t c = n->child; c < n->child + 2; c++)
-                if (t->nodes[c].flags & TREE_GUARD) return bad_node(a, c, "in the guard stage, but not its parent");
+                if (t->nodes[c].flags & TREE_GUARD)
+                    return bad_node(a, c, "a node of the guard stage whose parent is not");
         } else if (tree_cut_at(t, i).kind != FROE_CUT_AXIS && tree_cut_at(t, i).kind != FROE_CUT_PLANE) {
-            return bad_node(a, i, "in the guard stage, but its cut depends on the objects");
+            return bad_node(a, i, "a node of the guard stage whose cut depends on the objects");
         }
     }
     return FROE_OK;
@@ -122,8 +123,8 @@ typedef struct comparison {
 
 /* Notes the violation; false, to stop the trace. */
 static bool differs(comparison *c, uint32_t node, const char *what) {
-    support_fail_at(c->diag, FROE_E_AUDIT, c->object, FROE_NONE, FROE_NONE, "object %u, node %u: %s", c->object, node,
-                    what);
+    support_fail_at(c->diag, FROE_E_AUDIT, c->object, FROE_NONE, FROE_NONE, "object %u, node %u: The audit finds %s.",
+                    c->object, node, what);
     c->failed = true;
     return false;
 }
@@ -177,7 +178,7 @@ static bool compare_place(void *user, const trace_place *place) {
         bool must = place->must;
         c->no_memory = place->unsure && trace_cell_meets(c->trace, place->node, &must) != FROE_OK;
         if (c->no_memory) return false;
-        return !must || differs(c, place->node, "a piece is missing");
+        return !must || differs(c, place->node, "no piece where the object is");
     }
     if (space) return true;
     const char *why = tree_is_packed(c->tree) ? packed_wrong(c, place, *c->next - list.first)
@@ -185,7 +186,8 @@ static bool compare_place(void *user, const trace_place *place) {
                                                                           : "a piece of the wrong shape";
     if (why) return differs(c, place->node, why);
     c->next++;
-    if (c->next < c->end && *c->next - list.first < list.count) return differs(c, place->node, "listed twice");
+    if (c->next < c->end && *c->next - list.first < list.count)
+        return differs(c, place->node, "two pieces of the object");
     return true;
 }
 
@@ -263,15 +265,15 @@ static froe_status check_leaves(audit *a) {
         bool crowded = t->nodes[i].flags & TREE_CROWDED, flagged = t->nodes[i].flags & TREE_INSEPARABLE;
         const char *name = crowded ? "crowded" : "inseparable", *why = NULL;
         if (list.count <= most && (crowded || flagged))
-            return support_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but not over capacity", i, name);
+            return support_fail(a->diag, FROE_E_AUDIT, "node %u: It is called %s, but is not over capacity.", i, name);
         if (list.count <= most || (crowded && tree_is_packed(t))) continue;
         if (!crowded && !flagged)
-            return support_fail(a->diag, FROE_E_AUDIT, "node %u: %u pieces in a leaf for at most %u", i, list.count,
-                                most);
+            return support_fail(a->diag, FROE_E_AUDIT, "node %u: The leaf has %u pieces, and room for %u.", i,
+                                list.count, most);
         froe_status status =
             (crowded ? crowded_refuted : inseparable_refuted)(&a->traces[0].context, a->task, t, &list, &why);
         if (status) return support_fail_memory(a->diag);
-        if (why) return support_fail(a->diag, FROE_E_AUDIT, "node %u: called %s, but %s", i, name, why);
+        if (why) return support_fail(a->diag, FROE_E_AUDIT, "node %u: It is called %s, but %s.", i, name, why);
     }
     return base_cancelled(a->task) ? support_fail_cancelled(a->diag) : FROE_OK;
 }
@@ -302,11 +304,12 @@ static froe_status check_all(audit *a) {
         double again = p->measured;
         if (tree_measure(t, p->name, &again) == FROE_E_MEMORY) return support_fail_memory(a->diag);
         if (!(p->measured <= p->promised))
-            return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': %.17g at most, measured %.17g", p->name,
-                                p->promised, p->measured);
+            return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': It is %.17g at most, but measured %.17g.",
+                                p->name, p->promised, p->measured);
         if (!(again <= p->measured))
-            return support_fail(a->diag, FROE_E_AUDIT, "promise '%s': said to be measured as %.17g, but is %.17g",
-                                p->name, p->measured, again);
+            return support_fail(a->diag, FROE_E_AUDIT,
+                                "promise '%s': It is said to be measured as %.17g, but is %.17g.", p->name, p->measured,
+                                again);
     }
     if (!status) base_progress(a->task, 1);
     return status;
@@ -316,8 +319,8 @@ froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_options *opt
     BASE_FLOATS_OWN;
     froe_audit_options o = options ? *options : froe_audit_defaults();
     base_task task;
-    if (!tree) return support_fail(diag, FROE_E_ARG, "tree must not be NULL");
-    if (o.size != sizeof o) return support_fail(diag, FROE_E_OPTIONS, "options do not come from froe_audit_defaults()");
+    if (!tree) return support_fail_null(diag, __func__);
+    if (o.size != sizeof o) return support_fail_defaults(diag, "froe_audit_defaults");
     base_task_init(&task, o.threads, o.progress, o.user);
     audit a = {.tree = tree, .alloc = tree->alloc, .task = &task, .diag = diag, .exact_only = o.exact_only};
     froe_status status = check_all(&a);

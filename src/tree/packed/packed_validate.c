@@ -15,7 +15,7 @@ typedef struct packed_check {
 } packed_check;
 
 static froe_status bad_block(const packed_check *c, uint32_t node, const char *what) {
-    return support_fail(c->diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, node);
+    return support_fail(c->diag, FROE_E_FORMAT, "node %u: The tree is corrupted: %s.", node, what);
 }
 
 static bool bytes_are_zero(const uint8_t *from, const uint8_t *to) {
@@ -60,7 +60,7 @@ froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
     tree_walk walk = {.tree = t};
     const tree_meta *m = &t->meta;
     bool fits = t->scene->dim == 2 && m->root_lo[0] <= m->root_hi[0] && m->root_lo[1] <= m->root_hi[1];
-    froe_status status = fits && !t->cut_count ? FROE_OK : bad_block(&c, 0, "not a tree that can be packed");
+    froe_status status = fits && !t->cut_count ? FROE_OK : bad_block(&c, 0, "blocks that such a tree cannot have");
     while (!status && tree_walk_next(&walk))
         if (tree_is_leaf(t->nodes + walk.node)) status = check_block(&c, walk.node);
     if (tree_walk_end(&walk)) return support_fail_memory(diag);
@@ -71,6 +71,6 @@ froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
     if (c.blocks + 1 != t->packed.block_count || c.owners != t->packed.owner_count || h->owner != c.owners ||
         h->lo[0] != 0 || h->lo[1] != 0 || h->scale != 0 || h->error != 0 ||
         !bytes_are_zero(bytes + sizeof *h, bytes + PACKED_BLOCK))
-        return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: blocks or owners that no leaf uses");
+        return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: blocks or owners that no leaf uses.");
     return FROE_OK;
 }

@@ -9,7 +9,7 @@
 #include <math.h>
 
 static froe_status bad_space_block(froe_diagnostic *diag, uint32_t node, const char *what) {
-    return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: %s, node %u", what, node);
+    return support_fail(diag, FROE_E_FORMAT, "node %u: The tree is corrupted: %s.", node, what);
 }
 
 static bool range_is_zero(const uint8_t *from, const uint8_t *to) {
@@ -60,7 +60,7 @@ froe_status space_validate(const froe_tree *t, froe_diagnostic *diag) {
     uint32_t blocks = 0;
     bool fits = !t->cut_count && !t->packed.owner_count;
     for (int k = 0; k < 3; k++) fits = fits && t->meta.root_lo[k] <= t->meta.root_hi[k];
-    froe_status status = fits ? FROE_OK : bad_space_block(diag, 0, "not a tree that can be packed");
+    froe_status status = fits ? FROE_OK : bad_space_block(diag, 0, "blocks that such a tree cannot have");
     while (!status && tree_walk_next(&walk)) {
         const tree_node *n = t->nodes + walk.node;
         const char *why = tree_is_leaf(n) ? check_block(t, n, &blocks) : NULL;
@@ -70,6 +70,6 @@ froe_status space_validate(const froe_tree *t, froe_diagnostic *diag) {
     if (status) return status;
     const uint8_t *sentinel = t->packed.blocks + (size_t)blocks * PACKED_BLOCK;
     if (blocks + 1 != t->packed.block_count || !range_is_zero(sentinel, sentinel + PACKED_BLOCK))
-        return support_fail(diag, FROE_E_FORMAT, "the tree is corrupted: blocks that no leaf uses");
+        return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: blocks that no leaf uses.");
     return FROE_OK;
 }

@@ -125,7 +125,7 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
         picture->report.points = picture->points.count;
         picture->report.strokes = picture->strokes.count;
         if (status == FROE_E_MEMORY) support_fail_memory(diag);
-        if (status == FROE_E_LIMIT) support_fail(diag, status, "the picture has more than 2^31 points or demands");
+        if (status == FROE_E_LIMIT) support_fail(diag, status, "More than 2^31 points or arcs are needed.");
     }
     support_free(&p->picture->alloc, kinds, (size_t)surface->edge_count + 1);
     return status;
@@ -134,28 +134,27 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
 /* --------------------------------------------------------------------- calling -- */
 
 static froe_status check_picture_options(const froe_picture_options *o, froe_diagnostic *diag) {
-    if (!o || o->size != sizeof *o)
-        return support_fail(diag, FROE_E_OPTIONS, "the options are not from froe_picture_defaults()");
-    if (!o->view) return support_fail(diag, FROE_E_ARG, "there is no view");
+    if (!o || o->size != sizeof *o) return support_fail_defaults(diag, "froe_picture_defaults");
+    if (!o->view) return support_fail(diag, FROE_E_ARG, "The options name no view.");
     if (o->paint < 0 || o->paint >= FROE_PAINT_COUNT)
-        return support_fail(diag, FROE_E_OPTIONS, "no such paint: %d", (int)o->paint);
+        return support_fail(diag, FROE_E_OPTIONS, "There is no paint %d.", (int)o->paint);
     if (!(o->underlap >= 0) || !isfinite(o->underlap))
-        return support_fail(diag, FROE_E_OPTIONS, "an underlap of %g is none", o->underlap);
+        return support_fail(diag, FROE_E_OPTIONS, "An underlap of %g is none.", o->underlap);
     if (!(o->min_area >= 0) || !isfinite(o->min_area))
-        return support_fail(diag, FROE_E_OPTIONS, "a least area of %g is none", o->min_area);
+        return support_fail(diag, FROE_E_OPTIONS, "A least area of %g is none.", o->min_area);
     if (!(o->halo >= 0) || !isfinite(o->halo))
-        return support_fail(diag, FROE_E_OPTIONS, "a halo of %g is none", o->halo);
+        return support_fail(diag, FROE_E_OPTIONS, "A halo of %g is none.", o->halo);
     if (!(o->interleave >= 0) || !isfinite(o->interleave))
-        return support_fail(diag, FROE_E_OPTIONS, "lines that reach %g cannot be interleaved", o->interleave);
+        return support_fail(diag, FROE_E_OPTIONS, "Lines that reach %g cannot be interleaved.", o->interleave);
     if (!(o->crease >= 0 && o->crease <= 180))
-        return support_fail(diag, FROE_E_OPTIONS, "a crease angle of %g degrees is not in 0 .. 180", o->crease);
+        return support_fail(diag, FROE_E_OPTIONS, "A crease angle of %g degrees is not in 0 .. 180.", o->crease);
     return FROE_OK;
 }
 
 froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface, const froe_picture_options *options,
                              froe_picture **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!tree || !surface || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!tree || !surface || !out) return support_fail_null(diag, __func__);
     froe_status status = check_picture_options(options, diag);
     if (status) return status;
     const froe_allocator alloc = support_allocator(options->alloc);

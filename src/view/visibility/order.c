@@ -123,13 +123,13 @@ froe_status view_eye_of(const froe_tree *tree, const froe_eye *eye, geom_eye *ou
     for (int k = 0; k < tree->scene->dim && k < 3; k++) {
         if (!isfinite(eye->at[k]))
             return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
-                                   "coordinate %d of the eye is not a finite number", k);
+                                   "Coordinate %d of the eye is not a finite number.", k);
         at[k] = eye->at[k];
         most = fmax(most, fabs(at[k]));
         if (tree->scene->object_count) origin[k] = 0.5 * tree->scene->lo[k] + 0.5 * tree->scene->hi[k];
     }
     if (eye->parallel && most == 0)
-        return support_fail(diag, FROE_E_ARG, "the direction of a parallel eye has length 0");
+        return support_fail(diag, FROE_E_ARG, "The direction of a parallel eye has length 0.");
     *out = geom_eye_make(eye->parallel, at, origin);
     return FROE_OK;
 }
@@ -156,13 +156,15 @@ froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < scene->object_count; i++)
         if (scene_form(scene, i) > FROE_POLYGON)
-            return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
-                                   "object %u is a %s, which no cut divides: its place in a depth order is not known",
-                                   i, froe_kind_name(scene_form(scene, i)));
+            return support_fail_at(
+                diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
+                "object %u: It is a %s, which no cut divides, and has no certain place in a depth order.", i,
+                froe_kind_name(scene_form(scene, i)));
     if (tree_is_space(tree))
-        return support_fail(diag, FROE_E_UNSUPPORTED,
-                            "a tree of method '%s' lists whole objects, which are in no depth order: build another one",
-                            tree->meta.method);
+        return support_fail(
+            diag, FROE_E_UNSUPPORTED,
+            "A tree of method '%s' lists whole objects, which are in no depth order. Other methods make pieces.",
+            tree->meta.method);
     if (tree->report.max_leaf <= 1) return FROE_OK;
     if (geom_context_new(&tree->alloc, &context)) return support_fail_memory(diag);
     for (uint32_t node = 0; node < tree->node_count && !status; node++) {
@@ -170,8 +172,8 @@ froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
         const tree_objects list = tree_list(tree, node);
         if (list.count > 1 && !in_one_plane(&context, tree->scene, &list))
             status = support_fail_at(diag, FROE_E_UNSUPPORTED, tree_object(&list, 0), FROE_NONE, FROE_NONE,
-                                     "a leaf holds %u pieces (one of object %u) without a cut between them: build the "
-                                     "tree with leaf 1 or 0",
+                                     "A leaf holds %u pieces (one of object %u) without a cut between them. A leaf "
+                                     "capacity of 1 or 0 leaves none.",
                                      list.count, tree_object(&list, 0));
     }
     num_context_free(&context);

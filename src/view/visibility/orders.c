@@ -14,12 +14,11 @@ froe_order_options froe_order_defaults(void) {
 
 static froe_status check_orders(const froe_tree *tree, const froe_order_options **options,
                                 const froe_order_options *standard, froe_diagnostic *diag) {
-    if (!tree) return support_fail(diag, FROE_E_ARG, "the tree is NULL");
+    if (!tree) return support_fail_null(diag, "a depth order");
     if (!*options) *options = standard;
-    if ((*options)->size != sizeof **options)
-        return support_fail(diag, FROE_E_OPTIONS, "the options are not from froe_order_defaults()");
+    if ((*options)->size != sizeof **options) return support_fail_defaults(diag, "froe_order_defaults");
     if (tree->scene->dim > 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "depth orders exist in 2 and 3 dimensions, not in %d",
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Depth orders exist in 2 and 3 dimensions, not in %d.",
                             tree->scene->dim);
     return FROE_OK;
 }
@@ -31,7 +30,7 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
     geom_eye from;
     view_order order;
     uint32_t piece;
-    if (!eye || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!eye || !fn) return support_fail_null(diag, __func__);
     froe_status status = check_orders(tree, &options, &standard, diag);
     if (!status) status = view_order_check(tree, diag);
     if (!status) status = view_eye_of(tree, eye, &from, diag);
@@ -55,7 +54,7 @@ froe_status froe_tree_order_nodes(const froe_tree *tree, const froe_eye *eye, co
     geom_eye from;
     num_context context;
     ARRAY(order_frame) frames = {0};
-    if (!eye || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!eye || !fn) return support_fail_null(diag, __func__);
     froe_status status = check_orders(tree, &options, &standard, diag);
     if (!status) status = view_eye_of(tree, eye, &from, diag);
     if (status) return status;
@@ -123,7 +122,7 @@ froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t
                              const froe_order_options *options, uint32_t *pieces, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const froe_order_options standard = froe_order_defaults();
-    if (count && (!eyes || !pieces)) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (count && (!eyes || !pieces)) return support_fail_null(diag, __func__);
     froe_status status = check_orders(tree, &options, &standard, diag);
     if (!status) status = view_order_check(tree, diag);
     if (status) return status;

@@ -15,7 +15,7 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
     BASE_FLOATS_OWN;
     region_rings g = {.coords = {0}};
     bool go_on = true;
-    if (!v || !fn) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!v || !fn) return support_fail_null(diag, __func__);
     view_sightlines sights = v->sights; /* with a number context of its own: the rest is only read */
     if (geom_context_new(&v->alloc, &sights.context)) return support_fail_memory(diag);
     bool ok = true;

@@ -27,9 +27,9 @@ void froe_surface_free(froe_surface *s) {
 froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *alloc, froe_surface **out,
                              froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!scene || !out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!scene || !out) return support_fail_null(diag, __func__);
     if (scene->dim != 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "surfaces are in 3 dimensions, this scene has %d", scene->dim);
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Surfaces exist in 3 dimensions, not in %d.", scene->dim);
     const froe_allocator own = support_allocator(alloc);
     froe_surface *s = support_calloc(&own, 1, sizeof *s);
     if (!s) return support_fail_memory(diag);

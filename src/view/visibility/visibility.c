@@ -144,21 +144,20 @@ static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
 
 static froe_status check_visibility_options(const froe_tree *tree, const froe_surface *surface,
                                             const froe_visibility_options *o, froe_diagnostic *diag) {
-    if (!tree || !surface) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
-    if (!o || o->size != sizeof *o)
-        return support_fail(diag, FROE_E_OPTIONS, "the options are not from froe_visibility_defaults()");
-    if (surface->scene != tree->scene) return support_fail(diag, FROE_E_ARG, "the surface is not of the tree's scene");
+    if (!tree || !surface) return support_fail_null(diag, "froe_visibility_new");
+    if (!o || o->size != sizeof *o) return support_fail_defaults(diag, "froe_visibility_defaults");
+    if (surface->scene != tree->scene) return support_fail(diag, FROE_E_ARG, "The surface is not of the tree's scene.");
     if (o->section < -1 || o->section > 1)
-        return support_fail(diag, FROE_E_OPTIONS, "a section is -1, 0 or 1, not %d", o->section);
+        return support_fail(diag, FROE_E_OPTIONS, "A section is -1, 0 or 1, not %d.", o->section);
     if (o->section && tree_is_leaf(tree->nodes))
-        return support_fail(diag, FROE_E_OPTIONS, "a tree of a single leaf has no cut to be its section");
+        return support_fail(diag, FROE_E_OPTIONS, "A tree of a single leaf has no cut to be its section.");
     if (o->window && (o->window_corners < 3 || o->window_corners > FROE_WINDOW_MOST))
-        return support_fail(diag, FROE_E_OPTIONS, "a window has 3 to %d corners, not %zu", FROE_WINDOW_MOST,
+        return support_fail(diag, FROE_E_OPTIONS, "A window has 3 to %d corners, not %zu.", FROE_WINDOW_MOST,
                             o->window_corners);
     for (size_t i = 0; o->window && i < 3 * o->window_corners; i++)
         if (!isfinite(o->window[i]))
             return support_fail_at(diag, FROE_E_OPTIONS, FROE_NONE, (uint32_t)(i / 3), (uint32_t)(i % 3),
-                                   "corner %zu of the window is not finite", i / 3);
+                                   "Corner %zu of the window is not a finite point.", i / 3);
     return view_order_check(tree, diag);
 }
 
@@ -166,7 +165,7 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
                                 const froe_visibility_options *options, froe_visibility **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     geom_eye eye;
-    if (!out) return support_fail(diag, FROE_E_ARG, "a required argument is NULL");
+    if (!out) return support_fail_null(diag, __func__);
     froe_status status = check_visibility_options(tree, surface, options, diag);
     if (!status) status = view_eye_of(tree, &options->eye, &eye, diag);
     if (status) return status;
@@ -189,11 +188,11 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     case FROE_E_MEMORY:
         return support_fail_memory(diag);
     case FROE_E_INPUT:
-        return support_fail(diag, status, "the window, as the eye sees it, is not strictly convex");
+        return support_fail(diag, status, "The window, as the eye sees it, is not strictly convex.");
     case FROE_E_CANCELLED:
         return support_fail_cancelled(diag);
     default:
-        return support_fail(diag, status, "more than 2^31 lines, corners or intervals are visible");
+        return support_fail(diag, status, "More than 2^31 lines, corners or intervals are visible.");
     }
 }
 
