@@ -87,10 +87,11 @@ static bool compare_all(gapper *g, uint32_t i) {
             if (stretch_near(s, t, g->same[wide], &x) && (x.to - x.from) * length_of(s) >= 8 * g->same[wide] &&
                 !array_push(g->alloc, &g->gaps, x)) /* lines with shorter stretches only cross */
                 return false;
+        if (s->hidden || t->hidden || !(g->halo > 0)) continue;
         bool meet = false; /* then they leave no halo in each other */
         for (int e = 0; e < 4; e++)
             meet = meet || (s->vertex[e / 2] != FROE_NONE && s->vertex[e / 2] == t->vertex[e % 2]);
-        if (s->hidden || t->hidden || !(g->halo > 0) || meet || !stretch_near(s, t, g->halo, &x)) continue;
+        if (meet || !stretch_near(s, t, g->halo, &x)) continue;
         if (depth_between(g, s, t, x) >= g->halo && !array_push(g->alloc, &g->gaps, x)) return false;
     }
     return true;
