@@ -35,25 +35,31 @@ view_cells view_grid_cells(const view_grid *grid, const print_point *points, siz
 typedef struct view_grid_walk {
     const view_grid *grid;
     view_cells cells;
-    uint32_t x, y;  /**< the cell of the thing found last, and ... */
-    uint32_t entry; /**< ... the entry after it */
+    uint32_t x, y;       /**< the cell of the thing found last */
+    uint32_t entry, end; /**< what is left of it */
 } view_grid_walk;
 
+static inline void view_grid_enter(view_grid_walk *w, uint32_t x, uint32_t y) {
+    const uint32_t *starts = w->grid->starts + (size_t)y * w->grid->cells + x;
+    w->x = x, w->y = y;
+    w->entry = starts[0], w->end = starts[1];
+}
 static inline view_grid_walk view_grid_begin(const view_grid *g, view_cells c) {
-    const bool none = c.x0 > c.x1 || c.y0 > c.y1;
-    return (view_grid_walk){g, c, c.x0, none ? c.y1 + 1 : c.y0, none ? 0 : g->starts[(size_t)c.y0 * g->cells + c.x0]};
+    view_grid_walk w = {.grid = g, .cells = c, .x = c.x1, .y = c.y1};
+    if (c.x0 <= c.x1 && c.y0 <= c.y1) view_grid_enter(&w, c.x0, c.y0);
+    return w;
 }
 /** The next thing, which comes once for each of its cells. False: there is none left. */
 static inline bool view_grid_next(view_grid_walk *w, uint32_t *thing) {
-    const view_grid *g = w->grid;
-    while (w->y <= w->cells.y1) {
-        if (w->entry < g->starts[(size_t)w->y * g->cells + w->x + 1]) {
-            *thing = g->entries[w->entry++];
-            return true;
-        }
-        if (w->x++ == w->cells.x1) w->x = w->cells.x0, w->y++;
-        if (w->y <= w->cells.y1) w->entry = g->starts[(size_t)w->y * g->cells + w->x];
+    while (w->entry == w->end) {
+        if (w->x < w->cells.x1)
+            view_grid_enter(w, w->x + 1, w->y);
+        else if (w->y < w->cells.y1)
+            view_grid_enter(w, w->cells.x0, w->y + 1);
+        else
+            return false;
     }
-    return false;
+    *thing = w->grid->entries[w->entry++];
+    return true;
 }
 #endif
