@@ -63,14 +63,11 @@ typedef struct place {
     char *base;
 } place;
 
-static bool is_named(const cli_option *option, const char *name, size_t length) {
-    return option->name && strlen(option->name) == length && memcmp(option->name, name, length) == 0;
-}
-
 static place find_name(const cli_part *parts, void *args, const char *name, size_t length) {
     for (const cli_part *part = parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++)
-            if (is_named(option, name, length)) return (place){option, (char *)args + part->at};
+            if (option->name && strlen(option->name) == length && memcmp(option->name, name, length) == 0)
+                return (place){option, (char *)args + part->at};
     return (place){0};
 }
 
@@ -133,14 +130,6 @@ static const char *read_real(const char *text, double *value) {
     if (!strchr("+-.0123456789", *text)) return NULL;
     *value = strtod(text, &end);
     return end != text && isfinite(*value) ? end : NULL;
-}
-
-static int set_real(const cli_option *option, double *field, const char *text) {
-    double value;
-    const char *end = read_real(text, &value);
-    if (!end || *end) return refuse_value(option, text, "a finite number");
-    *field = value;
-    return 0;
 }
 
 static int set_reals(const cli_option *option, cli_reals *field, const char *text) {
@@ -211,8 +200,13 @@ static int set_value(place found, const char *text) {
         return add_word(field, text);
     case CLI_WHOLE:
         return set_whole(found.option, field, text);
-    case CLI_REAL:
-        return set_real(found.option, field, text);
+    case CLI_REAL: {
+        double value;
+        const char *end = read_real(text, &value);
+        if (!end || *end) return refuse_value(found.option, text, "a finite number");
+        *(double *)field = value;
+        return 0;
+    }
     case CLI_CHOICE:
         return set_choice(found.option, field, text);
     case CLI_REALS:
@@ -249,25 +243,6 @@ static int take_value(reader *r, place found, const char *attached) {
     return set_value(found, attached ? attached : r->argv[r->next++]);
 }
 
-static int take_long(reader *r, const char *word) {
-    const size_t length = strcspn(word + 2, "=");
-    const place found = find_name(r->parts, r->args, word + 2, length);
-    if (!found.option) return refuse_unknown(r->parts, word);
-    return take_value(r, found, word[2 + length] ? word + 2 + length + 1 : NULL);
-}
-
-static int take_short(reader *r, const char *word) {
-    const place found = find_letter(r->parts, r->args, word[1]);
-    if (!found.option) return refuse_unknown(r->parts, word);
-    return take_value(r, found, word[2] ? word + 2 : NULL);
-}
-
-static int take_operand(reader *r, const char *word) {
-    const place found = find_operand(r->parts, r->args, r->operands++);
-    if (!found.option) return cli_fail(CLI_USE, NULL, "'%s' is one operand too many.", word);
-    return set_value(found, word);
-}
-
 static bool is_set(const cli_option *option, const char *base) {
     const void *field = base + option->at;
     switch (option->type) {
@@ -299,20 +274,31 @@ static int check_required(const cli_part *parts, void *args) {
     return 0;
 }
 
+/* An option "--name", "--name=value", "-n" or "-nvalue". */
+static int take_option(reader *r, const char *word) {
+    const bool is_long = word[1] == '-';
+    const size_t length = is_long ? 2 + strcspn(word + 2, "=") : 2;
+    const place found =
+        is_long ? find_name(r->parts, r->args, word + 2, length - 2) : find_letter(r->parts, r->args, word[1]);
+    if (!found.option) return refuse_unknown(r->parts, word);
+    return take_value(r, found, word[length] ? word + length + is_long : NULL);
+}
+
 int cli_parse(const cli_part *parts, int argc, char **argv, void *args) {
     reader r = {.parts = parts, .args = args, .argc = argc, .argv = argv};
     bool only_operands = false;
     while (r.next < argc) {
         const char *word = argv[r.next++];
-        int code;
-        if (only_operands || word[0] != '-' || !word[1])
-            code = take_operand(&r, word);
-        else if (strcmp(word, "--") == 0)
-            code = 0, only_operands = true;
-        else if (word[1] == '-')
-            code = take_long(&r, word);
-        else
-            code = take_short(&r, word);
+        int code = 0;
+        if (only_operands || word[0] != '-' || !word[1]) {
+            const place found = find_operand(parts, args, r.operands++);
+            code =
+                found.option ? set_value(found, word) : cli_fail(CLI_USE, NULL, "'%s' is one operand too many.", word);
+        } else if (strcmp(word, "--") == 0) {
+            only_operands = true;
+        } else {
+            code = take_option(&r, word);
+        }
         if (code) return code;
     }
     return ((cli_common *)args)->help ? 0 : check_required(parts, args);

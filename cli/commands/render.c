@@ -39,6 +39,8 @@ static const cli_option what[] = {
      .help = "of the page: 1000x1000 (default), or in millimetres, 160x120mm"},
     {"margin", 0, CLI_REAL, offsetof(render_args, margin), "M",
      .help = "around the picture (default 1/50 of the width)"},
+    {"background", 0, CLI_TEXT, offsetof(render_args, background), "RRGGBB",
+     .help = "colour of the page (default: clear)"},
     {0},
 };
 
@@ -69,7 +71,7 @@ static const cli_option camera[] = {
     {0},
 };
 
-static const cli_option look[] = {
+static const cli_option faces[] = {
     {"style", 0, CLI_TEXT, offsetof(render_args, shading), "STYLE",
      .help = "flat (default), cel, cel:N with N steps, plain, white, or none (lines only)"},
     {"colours", 0, CLI_CHOICE, offsetof(render_args, colours), "FROM",
@@ -85,6 +87,14 @@ static const cli_option look[] = {
     {"seam-width", 0, CLI_REAL, offsetof(render_args, seam_width), "U", .help = "of underlap and strokes (default 1)"},
     {"min-area", 0, CLI_REAL, offsetof(render_args, min_area), "A",
      .help = "leave out faces of which less is visible, in square units of the page (default 0)"},
+    {"opacity", 0, CLI_TEXT, offsetof(render_args, opacity), "NAME=A,...", .help = "of a material or group, 0 to 1"},
+    {"priority", 0, CLI_TEXT, offsetof(render_args, priority), "NAME=K,...",
+     .help = "of faces that overlap in one plane the one with the higher K is seen (default 0, then the later)"},
+    {"cull-back", 0, CLI_FLAG, offsetof(render_args, cull_back), .help = "leave out faces seen from behind"},
+    {0},
+};
+
+static const cli_option line_options[] = {
     {"lines", 0, CLI_CHOICE, offsetof(render_args, over), "WHERE",
      .help = "top (default): over all faces; interleaved: under what is nearer", .choices = over},
     {"line-kinds", 0, CLI_TEXT, offsetof(render_args, lines), "KINDS",
@@ -98,12 +108,6 @@ static const cli_option look[] = {
     {"halo", 0, CLI_REAL, offsetof(render_args, halo), "G", .help = "gap in lines before nearer lines (default 0)"},
     {"hidden", 0, CLI_CHOICE, offsetof(render_args, hidden), "HOW", .help = "hidden lines: none (default) or dashed",
      .choices = hiddens},
-    {"opacity", 0, CLI_TEXT, offsetof(render_args, opacity), "NAME=A,...", .help = "of a material or group, 0 to 1"},
-    {"priority", 0, CLI_TEXT, offsetof(render_args, priority), "NAME=K,...",
-     .help = "of faces that overlap in one plane the one with the higher K is seen (default 0, then the later)"},
-    {"cull-back", 0, CLI_FLAG, offsetof(render_args, cull_back), .help = "leave out faces seen from behind"},
-    {"background", 0, CLI_TEXT, offsetof(render_args, background), "RRGGBB",
-     .help = "colour of the page (default: clear)"},
     {0},
 };
 
@@ -124,7 +128,8 @@ static const cli_option file[] = {
 
 static const cli_part parts[] = {{"Picture", what, 0},
                                  {"Camera", camera, 0},
-                                 {"Look", look, 0},
+                                 {"Faces", faces, 0},
+                                 {"Lines", line_options, 0},
                                  {"File", file, 0},
                                  {"Options", cli_common_options, 0},
                                  {0}};
