@@ -141,21 +141,7 @@ static uint32_t count(clutter_survey *s, const cube *c) {
     return met;
 }
 
-/* Keeps the best cubes in order; of those that meet as many objects, that of the lower key. */
-static void keep_cube(clutter_survey *s, const cube *c, uint32_t met) {
-    int at = BEST;
-    while (at && (met > s->met[at - 1] || (met == s->met[at - 1] && s->key < s->keys[at - 1]))) at--;
-    if (at == BEST) return;
-    size_t more = (size_t)(BEST - 1 - at);
-    memmove(s->cubes + at + 1, s->cubes + at, more * sizeof *s->cubes);
-    memmove(s->met + at + 1, s->met + at, more * sizeof *s->met);
-    memmove(s->keys + at + 1, s->keys + at, more * sizeof *s->keys);
-    s->cubes[at] = *c;
-    s->met[at] = met;
-    s->keys[at] = s->key;
-}
-
-/* Cubes around places near objects, at a distance of any order of magnitude. */
+/* Cubes around places near objects, at a distance of any order of magnitude. The best ones are kept, in order. */
 static froe_status look_everywhere(clutter_survey *s) {
     for (uint32_t i = 0; i < s->sample.count; i++) {
         double centre[FROE_MAX_DIM], away = s->limit;
@@ -171,37 +157,19 @@ static froe_status look_everywhere(clutter_survey *s) {
         }
         cube c = grow_cube(s, centre);
         uint32_t met = count(s, &c);
-        keep_cube(s, &c, met);
         if (!array_push(&s->sample.alloc, &s->sample.values[0], met)) return FROE_E_MEMORY;
+        int at = BEST; /* the place of the cube: of those that meet as many objects, that of the lower key is better */
+        while (at && (met > s->met[at - 1] || (met == s->met[at - 1] && s->key < s->keys[at - 1]))) at--;
+        if (at == BEST) continue;
+        size_t more = (size_t)(BEST - 1 - at);
+        memmove(s->cubes + at + 1, s->cubes + at, more * sizeof *s->cubes);
+        memmove(s->met + at + 1, s->met + at, more * sizeof *s->met);
+        memmove(s->keys + at + 1, s->keys + at, more * sizeof *s->keys);
+        s->cubes[at] = c;
+        s->met[at] = met;
+        s->keys[at] = s->key;
     }
     return FROE_OK;
-}
-
-static froe_status look_for_clutter(clutter_survey *s, froe_clutter *out) {
-    froe_status status = look_everywhere(s);
-    uint32_t best = 0;
-    for (uint32_t i = 0; i < BEST && !status; i++) {
-        s->key = s->keys[i];
-        for (int try = 0; try < CLIMB; try++) { /* cubes around places within it, until CLIMB in a row meet no more */
-            double centre[FROE_MAX_DIM];
-            for (int k = 0; k < s->dim; k++) {
-                double share = try % 2 ? draw_share(s) : 0.35 + 0.3 * draw_share(s);
-                centre[k] = s->cubes[i].lo[k] * (1 - share) + s->cubes[i].hi[k] * share;
-            }
-            cube c = grow_cube(s, centre);
-            uint32_t met = count(s, &c);
-            if (met <= s->met[i]) continue;
-            s->met[i] = met;
-            s->cubes[i] = c;
-            try = -1;
-        }
-        if (s->met[i] > s->met[best]) best = i;
-    }
-    if (status) return status;
-    *out = (froe_clutter){.lower = s->met[best], .count = s->sample.count};
-    memcpy(out->lo, s->cubes[best].lo, sizeof out->lo);
-    memcpy(out->hi, s->cubes[best].hi, sizeof out->hi);
-    return measure_sample_spread(&s->sample, 0, &out->load);
 }
 
 /* -------------------------------------------------------------------- making -- */
@@ -237,7 +205,31 @@ froe_status froe_measure_clutter(const froe_scene *scene, const froe_measure_opt
     s.dim = scene->dim;
     status = begin_clutter(&s);
     if (status == FROE_E_LIMIT) support_fail(diag, status, "There are more than 2^31 corners of bounding boxes.");
-    if (!status) status = look_for_clutter(&s, out);
+    if (!status) status = look_everywhere(&s);
+    uint32_t best = 0;
+    for (uint32_t i = 0; i < BEST && !status; i++) {
+        s.key = s.keys[i];
+        for (int try = 0; try < CLIMB; try++) { /* cubes around places within it, until CLIMB in a row meet no more */
+            double centre[FROE_MAX_DIM];
+            for (int k = 0; k < s.dim; k++) {
+                double share = try % 2 ? draw_share(&s) : 0.35 + 0.3 * draw_share(&s);
+                centre[k] = s.cubes[i].lo[k] * (1 - share) + s.cubes[i].hi[k] * share;
+            }
+            cube c = grow_cube(&s, centre);
+            uint32_t met = count(&s, &c);
+            if (met <= s.met[i]) continue;
+            s.met[i] = met;
+            s.cubes[i] = c;
+            try = -1;
+        }
+        if (s.met[i] > s.met[best]) best = i;
+    }
+    if (!status) {
+        *out = (froe_clutter){.lower = s.met[best], .count = s.sample.count};
+        memcpy(out->lo, s.cubes[best].lo, sizeof out->lo);
+        memcpy(out->hi, s.cubes[best].hi, sizeof out->hi);
+        status = measure_sample_spread(&s.sample, 0, &out->load);
+    }
     if (s.context.alloc.fn) num_context_free(&s.context);
     measure_bounds_free(&s.sample, &s.bounds);
     support_free(&s.sample.alloc, s.points, s.guard_numbers ? s.guard_numbers * sizeof *s.points : 1);

@@ -31,23 +31,6 @@ typedef struct defect_survey {
     double *boxes; /* low corners, then high corners */
 } defect_survey;
 
-/* ----------------------------------------------------------------- singles -- */
-
-/* Counts defects of single objects, and keeps the candidates in place of the originals. */
-static void look_at_objects(defect_survey *v, froe_defects *out) {
-    const froe_scene *s = v->scene;
-    const froe_kind form = s->dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
-    for (uint32_t i = 0; i < s->object_count; i++) {
-        bool original = v->objects[i] == i;
-        out->duplicates += !original;
-        out->zero_length += s->kinds[i] == FROE_SEGMENT && s->forms[i] != FROE_SEGMENT;
-        out->zero_area += s->kinds[i] == FROE_POLYGON && s->forms[i] != FROE_POLYGON;
-        if (!original || s->forms[i] != form || s->dim > 3) continue;
-        v->objects[v->count++] = i;
-        if (2 * (size_t)scene_corners(s, i) > v->side_count) v->side_count = 2 * (size_t)scene_corners(s, i);
-    }
-}
-
 /* ------------------------------------------------------------------- pairs -- */
 
 /* Is the way in which two segments, or two polygons, meet odd? */
@@ -116,8 +99,17 @@ froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_p
     base_task_init(&v.task, threads, progress, user);
     v.objects = support_calloc(v.alloc, scene->object_count + (size_t)1, sizeof *v.objects);
     froe_status status = v.objects ? scene_originals(scene, v.alloc, v.objects) : FROE_E_MEMORY;
+    const froe_kind form = scene->dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
+    for (uint32_t i = 0; i < scene->object_count && !status; i++) { /* candidates take the place of originals */
+        const bool original = v.objects[i] == i;
+        defects.duplicates += !original;
+        defects.zero_length += scene->kinds[i] == FROE_SEGMENT && scene->forms[i] != FROE_SEGMENT;
+        defects.zero_area += scene->kinds[i] == FROE_POLYGON && scene->forms[i] != FROE_POLYGON;
+        if (!original || scene->forms[i] != form || scene->dim > 3) continue;
+        v.objects[v.count++] = i;
+        if (2 * (size_t)scene_corners(scene, i) > v.side_count) v.side_count = 2 * (size_t)scene_corners(scene, i);
+    }
     if (!status) {
-        look_at_objects(&v, &defects);
         status = look_at_pairs(&v);
         defects.crossings = sum(&v, CROSSING, defects.first_crossing);
         defects.t_junctions = sum(&v, T_JUNCTION, defects.first_t_junction);

@@ -66,24 +66,19 @@ static void try_ball(density_survey *s, const double *centre, double radius) {
     memcpy(s->out.centre, centre, (size_t)s->objects.dim * sizeof(double));
 }
 
-/* One of N(o), at random and independent of their order: the one with the least hash. */
-static uint32_t random_near(const density_survey *s, uint64_t key) {
-    uint32_t chosen = s->near.data[0];
-    uint64_t least = UINT64_MAX;
-    for (size_t i = 0; i < s->near.count; i++) {
-        uint64_t hash = base_mix(s->keys[s->near.data[i]] ^ key);
-        if (hash < least) least = hash, chosen = s->near.data[i];
-    }
-    return chosen;
-}
-
 /* Balls half-way to points of the objects near by, and around points of the object. */
 static void try_balls(density_survey *s, uint32_t object, const double *centre, double radius) {
     double at[FROE_MAX_DIM];
     for (uint64_t try = 0; try < TRIES && s->near.count > s->out.lower; try++) {
         uint64_t key = base_hash(s->keys[object], 0, try);
         bool between = try % 3 != 0;
-        size_t of = (size_t)(between ? random_near(s, key) : object) * (size_t)s->objects.dim;
+        uint32_t chosen = object;
+        uint64_t least = UINT64_MAX;
+        for (size_t i = 0; i < s->near.count && between; i++) { /* of N(o) that with the least hash: in no order */
+            uint64_t hash = base_mix(s->keys[s->near.data[i]] ^ key);
+            if (hash < least || !i) least = hash, chosen = s->near.data[i];
+        }
+        size_t of = (size_t)chosen * (size_t)s->objects.dim;
         for (size_t k = 0; k < (size_t)s->objects.dim; k++) { /* a point of its box, at random */
             double share = (double)(base_hash(key, 1, k) >> 11) * 0x1p-53;
             at[k] = s->bounds.lo[of + k] * (1 - share) + s->bounds.hi[of + k] * share;
@@ -105,15 +100,6 @@ static bool look_around(density_survey *s, uint32_t object, measure_ball *ball, 
     for (uint32_t i; (i = measure_search_next(&search)) != FROE_NONE;)
         if (is_within_radius(s, ball->centre, reach, i) && !array_push(&s->sample.alloc, &s->near, i)) return false;
     return true;
-}
-
-static void keep_candidate(density_survey *s, candidate c) {
-    uint32_t at = s->best_count < TRIED ? s->best_count++ : TRIED;
-    while (at && (s->best[at - 1].load < c.load || (s->best[at - 1].load == c.load && s->best[at - 1].key > c.key))) {
-        if (at < TRIED) s->best[at] = s->best[at - 1];
-        at--;
-    }
-    if (at < TRIED) s->best[at] = c;
 }
 
 static froe_status begin_density(density_survey *s) {
@@ -150,8 +136,15 @@ froe_status froe_measure_density(const froe_scene *scene, froe_size size, const 
         const uint32_t count = (uint32_t)s.near.count;
         if (count > s.out.upper) s.out.upper = count;
         if (count > s.out.lower) try_ball(&s, ball.centre, radius);
-        keep_candidate(&s, (candidate){count, object, s.keys[object]});
         if (!array_push(&s.sample.alloc, &s.sample.values[0], count)) status = FROE_E_MEMORY;
+        const candidate new = {count, object, s.keys[object]};
+        uint32_t at = s.best_count < TRIED ? s.best_count++ : TRIED;
+        for (; at; at--) { /* behind all that are better */
+            const candidate *c = s.best + at - 1;
+            if (c->load > new.load || (c->load == new.load && c->key <= new.key)) break;
+            if (at < TRIED) s.best[at] = *c;
+        }
+        if (at < TRIED) s.best[at] = new;
     }
     for (uint32_t i = 0; i < s.best_count && s.best[i].load > s.out.lower && !status; i++) {
         measure_ball ball;

@@ -93,38 +93,6 @@ static uint32_t worst_face(const directional_survey *s, uint32_t i, size_t form)
     return most;
 }
 
-static bool note_box(directional_survey *s, uint32_t i) {
-    double side[FROE_MAX_DIM];
-    int longest = longest_side(s, measure_sample_object(&s->sample, i), side);
-    uint32_t paired = UINT32_MAX, directed = UINT32_MAX;
-    for (int thin = 0; thin < s->sample.scene->dim; thin++) {
-        size_t form = EVEN + (size_t)thin;
-        uint32_t pair = worse_face(s, i, thin, form), all = worst_face(s, i, form);
-        if (thin == longest) continue;
-        if (pair < paired) paired = pair;
-        if (all < directed) directed = all;
-    }
-    const uint32_t counts[4] = {worst_face(s, i, SIMPLE), worst_face(s, i, EXTENDED), directed, paired};
-    for (int k = 0; k < 4; k++)
-        if (!array_push(&s->sample.alloc, &s->sample.values[k], counts[k])) return false;
-    return true;
-}
-
-static froe_status look_for_directional(directional_survey *s, froe_counting counting) {
-    measure_windows windows = {&s->bounds, s->sample.count * windows_each(s->sample.scene->dim), window, s};
-    froe_status status = measure_bounds_new(&s->sample, &s->bounds);
-    s->counts = support_calloc(&s->sample.alloc, windows.count, sizeof *s->counts);
-    if (!status && !s->counts) status = FROE_E_MEMORY;
-    if (!status && windows.count)
-        status = (counting == FROE_COUNT_TREES ? measure_count_by_trees : measure_count_by_search)(&s->sample, &windows,
-                                                                                                   s->counts);
-    for (uint32_t i = 0; i < s->sample.count && !status; i++)
-        if (!note_box(s, i)) status = FROE_E_MEMORY;
-    support_free(&s->sample.alloc, s->counts, (windows.count ? windows.count : 1) * sizeof *s->counts);
-    measure_bounds_free(&s->sample, &s->bounds);
-    return status;
-}
-
 froe_status froe_measure_directional(const froe_scene *scene, double delta, const froe_measure_options *options,
                                      froe_directional *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -134,7 +102,30 @@ froe_status froe_measure_directional(const froe_scene *scene, double delta, cons
     if (status) return status;
     if (!(delta >= 0) || !isfinite(delta))
         return support_fail(diag, FROE_E_ARG, "option 'delta': '%g' is not a finite number >= 0.", delta);
-    status = look_for_directional(&s, counting);
+    measure_windows windows = {&s.bounds, s.sample.count * windows_each(scene->dim), window, &s};
+    status = measure_bounds_new(&s.sample, &s.bounds);
+    s.counts = support_calloc(&s.sample.alloc, windows.count, sizeof *s.counts);
+    if (!status && !s.counts) status = FROE_E_MEMORY;
+    if (!status && windows.count)
+        status = (counting == FROE_COUNT_TREES ? measure_count_by_trees : measure_count_by_search)(&s.sample, &windows,
+                                                                                                   s.counts);
+    for (uint32_t i = 0; i < s.sample.count && !status; i++) {
+        double side[FROE_MAX_DIM];
+        int longest = longest_side(&s, measure_sample_object(&s.sample, i), side);
+        uint32_t paired = UINT32_MAX, directed = UINT32_MAX; /* the least of all thin axes but the longest one */
+        for (int thin = 0; thin < scene->dim; thin++) {
+            if (thin == longest) continue;
+            size_t form = EVEN + (size_t)thin;
+            uint32_t pair = worse_face(&s, i, thin, form), all = worst_face(&s, i, form);
+            if (pair < paired) paired = pair;
+            if (all < directed) directed = all;
+        }
+        const uint32_t counts[4] = {worst_face(&s, i, SIMPLE), worst_face(&s, i, EXTENDED), directed, paired};
+        for (int k = 0; k < 4; k++)
+            if (!array_push(&s.sample.alloc, &s.sample.values[k], counts[k])) status = FROE_E_MEMORY;
+    }
+    support_free(&s.sample.alloc, s.counts, (windows.count ? windows.count : 1) * sizeof *s.counts);
+    measure_bounds_free(&s.sample, &s.bounds);
     if (!status) *out = (froe_directional){.delta = delta, .count = s.sample.count};
     if (!status) status = measure_sample_spread(&s.sample, 0, &out->simple);
     if (!status) status = measure_sample_spread(&s.sample, 1, &out->extended);

@@ -35,9 +35,24 @@ static size_t words_of(uint32_t count) {
     return (size_t)count / 64 + 1;
 }
 
-/* Splits a list, level by level, stably: places that have the level's bit go right, behind all others. */
-static bool split_list(maker *m, measure_dominance_node *node, uint32_t *places) {
+static int compare_ranks(void *user, uint32_t a, uint32_t b) {
+    (void)user;
+    return a < b ? -1 : a > b;
+}
+
+/* Appends the ranks, on the last axis, of a node's points, and splits them by their places on the axis before. */
+static bool make_plane(maker *m, size_t at) {
     measure_dominance *d = m->d;
+    measure_dominance_node *node = d->nodes.data + at;
+    int axis = d->dim - 2;
+    if (!array_reserve(&d->alloc, &d->keys, node->count)) return false;
+    uint32_t *first = d->keys.data + node->keys, *last = first + node->count, *places = m->spare;
+    for (uint32_t i = 0; i < node->count; i++) last[i] = m->rank[axis + 1][m->at[axis][first[i]]];
+    base_merge_sort(last, m->spare, node->count, compare_ranks, NULL);
+    for (uint32_t i = 0; i < node->count; i++)
+        places[i] = lower_bound(first, node->count, m->rank[axis][m->at[axis + 1][last[i]]]);
+    d->keys.count += node->count;
+    /* Splits the list, level by level, stably: places that have the level's bit go right, behind all others. */
     int levels = levels_of(node->count);
     size_t words = words_of(node->count);
     uint32_t *right = m->spare + m->count;
@@ -61,26 +76,6 @@ static bool split_list(maker *m, measure_dominance_node *node, uint32_t *places)
         d->bits.count += words;
     }
     return true;
-}
-
-static int compare_ranks(void *user, uint32_t a, uint32_t b) {
-    (void)user;
-    return a < b ? -1 : a > b;
-}
-
-/* Appends the ranks, on the last axis, of a node's points, and splits them by their places on the axis before. */
-static bool make_plane(maker *m, size_t at) {
-    measure_dominance *d = m->d;
-    measure_dominance_node *node = d->nodes.data + at;
-    int axis = d->dim - 2;
-    if (!array_reserve(&d->alloc, &d->keys, node->count)) return false;
-    uint32_t *first = d->keys.data + node->keys, *last = first + node->count, *places = m->spare;
-    for (uint32_t i = 0; i < node->count; i++) last[i] = m->rank[axis + 1][m->at[axis][first[i]]];
-    base_merge_sort(last, m->spare, node->count, compare_ranks, NULL);
-    for (uint32_t i = 0; i < node->count; i++)
-        places[i] = lower_bound(first, node->count, m->rank[axis][m->at[axis + 1][last[i]]]);
-    d->keys.count += node->count;
-    return split_list(m, node, places);
 }
 
 /* ------------------------------------------------------------------- the others -- */

@@ -39,9 +39,19 @@ static double square_distance(int dim, const double *a, const double *b, double 
     return sum;
 }
 
-/* Solves a symmetric system of m <= 3 unknowns by elimination with pivots; false: (nearly) singular. */
-static bool solve(int m, double a[3][4]) {
+/* The ball with all these points on its surface and its centre among them: centre = p0 + sum t_i v_i, v_i = p_i - p0,
+ * where 2 v_j . sum t_i v_i = |v_j|^2. */
+static bool circumscribe(int dim, const support_points *s, double scale, measure_ball *out) {
+    double v[3][3] = {{0}}, a[3][4] = {{0}};
+    int m = s->count - 1;
+    for (int i = 0; i < m; i++)
+        for (int k = 0; k < dim; k++) v[i][k] = s->point[i + 1][k] * scale - s->point[0][k] * scale;
     for (int i = 0; i < m; i++) {
+        for (int j = 0; j < m; j++)
+            for (int k = 0; k < dim; k++) a[i][j] += 2 * v[i][k] * v[j][k];
+        a[i][m] = a[i][i] / 2;
+    }
+    for (int i = 0; i < m; i++) { /* solves a t = b by elimination with pivots; a zero pivot: (nearly) singular */
         int pivot = i;
         for (int j = i + 1; j < m; j++)
             if (fabs(a[j][i]) > fabs(a[pivot][i])) pivot = j;
@@ -57,22 +67,6 @@ static bool solve(int m, double a[3][4]) {
         }
     }
     for (int i = 0; i < m; i++) a[i][m] /= a[i][i];
-    return true;
-}
-
-/* The ball with all these points on its surface and its centre among them: centre = p0 + sum t_i v_i, v_i = p_i - p0,
- * where 2 v_j . sum t_i v_i = |v_j|^2. */
-static bool circumscribe(int dim, const support_points *s, double scale, measure_ball *out) {
-    double v[3][3] = {{0}}, a[3][4] = {{0}};
-    int m = s->count - 1;
-    for (int i = 0; i < m; i++)
-        for (int k = 0; k < dim; k++) v[i][k] = s->point[i + 1][k] * scale - s->point[0][k] * scale;
-    for (int i = 0; i < m; i++) {
-        for (int j = 0; j < m; j++)
-            for (int k = 0; k < dim; k++) a[i][j] += 2 * v[i][k] * v[j][k];
-        a[i][m] = a[i][i] / 2;
-    }
-    if (!solve(m, a)) return false;
     for (int k = 0; k < dim; k++) {
         out->centre[k] = s->point[0][k];
         for (int i = 0; i < m; i++) out->centre[k] += a[i][m] * v[i][k] / scale;
@@ -103,29 +97,11 @@ static bool exchange(int dim, support_points *s, double scale, measure_ball *bal
     return true;
 }
 
-/* The radius times scale. */
-static measure_ball enclose_corners(const froe_scene *scene, uint32_t object, double scale) {
-    support_points s = {{scene_point(scene, object, 0)}, 1};
-    measure_ball ball = {.radius = 0};
-    memcpy(ball.centre, s.point[0], (size_t)scene->dim * sizeof(double));
-    for (int round = 0; round < ROUNDS; round++) {
-        double most = 0;
-        for (uint32_t i = 0; i < scene_corners(scene, object); i++) {
-            const double *p = scene_point(scene, object, i);
-            double far = square_distance(scene->dim, ball.centre, p, scale);
-            if (far > most) most = far, s.point[s.count] = p;
-        }
-        if (sqrt(most) <= ball.radius * SLACK) break;
-        s.count++;
-        if (!exchange(scene->dim, &s, scale, &ball)) return (ball.radius = sqrt(most), ball);
-    }
-    return ball;
-}
-
 measure_ball measure_enclosing(const froe_scene *scene, uint32_t object) {
     const double scale = measure_scale(scene, object);
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    measure_ball ball;
+    measure_ball ball = {.radius = 0}; /* the radius times scale, until the end */
+    support_points s = {.count = 0};
     switch (scene_form(scene, object)) {
     case FROE_BOX:
     case FROE_POINT:
@@ -138,7 +114,21 @@ measure_ball measure_enclosing(const froe_scene *scene, uint32_t object) {
         ball.radius = scene_radius(scene, object);
         return ball;
     default:
-        ball = enclose_corners(scene, object, scale);
+        s.point[s.count++] = scene_point(scene, object, 0);
+        memcpy(ball.centre, s.point[0], (size_t)scene->dim * sizeof(double));
+    }
+    for (int round = 0; round < ROUNDS && s.count; round++) {
+        double most = 0;
+        for (uint32_t i = 0; i < scene_corners(scene, object); i++) {
+            const double *p = scene_point(scene, object, i);
+            double far = square_distance(scene->dim, ball.centre, p, scale);
+            if (far > most) most = far, s.point[s.count] = p;
+        }
+        if (sqrt(most) <= ball.radius * SLACK) break;
+        s.count++;
+        if (exchange(scene->dim, &s, scale, &ball)) continue;
+        ball.radius = sqrt(most);
+        break;
     }
     ball.radius /= scale;
     return ball;

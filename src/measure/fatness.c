@@ -67,35 +67,36 @@ static bool note_full(measure_sample *s, uint32_t object, double scale, double v
     return note(s, FULL, volume > 0 ? volume / ball_volume(s->scene->dim, ball.radius * scale) : 0);
 }
 
-static froe_status note_hull(measure_sample *s, num_context *context, uint32_t object, froe_fatness *out) {
-    const double scale = measure_scale(s->scene, object);
-    double volume;
-    froe_status status = measure_hull_volume(context, &s->alloc, s->scene, object, scale, &volume);
-    return status ? status : note_full(s, object, scale, volume, out) ? FROE_OK : FROE_E_MEMORY;
-}
-
-static bool note_object(measure_sample *s, uint32_t object, froe_fatness *out) {
+static froe_status note_object(measure_sample *s, num_context *context, uint32_t object, froe_fatness *out) {
     const froe_scene *scene = s->scene;
     const double scale = measure_scale(scene, object);
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], volume = 1;
-    measure_ball ball;
+    bool ok = true;
+    froe_status status = FROE_OK;
     switch (scene_form(scene, object)) {
     case FROE_BALL:
         out->thin += scene_radius(scene, object) == 0;
-        return note(s, FULL, scene_radius(scene, object) > 0);
+        ok = note(s, FULL, scene_radius(scene, object) > 0);
+        break;
     case FROE_BOX:
         scene_object_bounds(scene, object, lo, hi);
         for (int k = 0; k < scene->dim; k++) volume *= hi[k] * scale - lo[k] * scale;
-        return note_full(s, object, scale, volume, out);
+        ok = note_full(s, object, scale, volume, out);
+        break;
+    case FROE_HULL:
+        status = measure_hull_volume(context, &s->alloc, scene, object, scale, &volume);
+        ok = status || note_full(s, object, scale, volume, out);
+        break;
     case FROE_POLYGON:
         out->thin++;
-        ball = measure_enclosing(scene, object);
-        return note(s, FLAT, polygon_area(scene, object, scale) / ball_volume(2, ball.radius * scale)) &&
-               note(s, SLIVER, sliver_ratio(scene, object, scale));
+        const double disc = ball_volume(2, measure_enclosing(scene, object).radius * scale);
+        ok = note(s, FLAT, polygon_area(scene, object, scale) / disc) &&
+             note(s, SLIVER, sliver_ratio(scene, object, scale));
+        break;
     default:
         out->thin++;
-        return true;
     }
+    return ok ? status : FROE_E_MEMORY;
 }
 
 froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_options *options, froe_fatness *out,
@@ -110,12 +111,7 @@ froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_opt
     const bool made = !status;
     for (uint32_t i = 0; i < s.count && !status; i++) {
         uint32_t object = measure_sample_object(&s, i);
-        if (!measure_sample_go_on(&s, i))
-            status = FROE_E_CANCELLED;
-        else if (scene_form(scene, object) == FROE_HULL)
-            status = note_hull(&s, &context, object, &found);
-        else if (!note_object(&s, object, &found))
-            status = FROE_E_MEMORY;
+        status = measure_sample_go_on(&s, i) ? note_object(&s, &context, object, &found) : FROE_E_CANCELLED;
     }
     if (made) num_context_free(&context);
     if (!status) status = measure_sample_spread(&s, FULL, &found.full);

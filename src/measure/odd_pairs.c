@@ -59,56 +59,56 @@ static bool count_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
 
 /* ------------------------------------------------------------------- sheets -- */
 
-/* Sweeps over a run of s->pairs; straight objects come into the order, s->crooked is set for all. `objects` is scratch.
- */
-static froe_status sweep_run(sheet_search *s, size_t first, uint32_t count, uint32_t *objects) {
-    const froe_scene *scene = s->of->scene;
-    for (uint32_t i = 0; i < count; i++) objects[i] = s->of->objects[s->pairs[first + i].value];
-    int axis = -1;
-    if (scene->dim ==
-        3) { /* along which the polygons look largest, by the sum of their areas in doubles: any is right */
-        double areas[3] = {0, 0, 0};
-        for (uint32_t i = 0; i < count; i++) {
-            const double *a = scene_point(scene, objects[i], 0), *b = scene_point(scene, objects[i], 1);
-            const double *c = scene_point(scene, objects[i], 2);
-            for (int k = 0; k < 3; k++) {
-                int u = (k + 1) % 3, v = (k + 2) % 3;
-                areas[k] += fabs((b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]));
-            }
+/* The axis along which polygons look largest, by the sum of their areas in doubles: any would be right. */
+static int widest_axis(const froe_scene *scene, const uint32_t *objects, uint32_t count) {
+    double areas[3] = {0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        const double *a = scene_point(scene, objects[i], 0), *b = scene_point(scene, objects[i], 1);
+        const double *c = scene_point(scene, objects[i], 2);
+        for (int k = 0; k < 3; k++) {
+            int u = (k + 1) % 3, v = (k + 2) % 3;
+            areas[k] += fabs((b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]));
         }
-        axis = areas[1] > areas[0] ? 1 : 0;
-        axis = areas[2] > areas[axis] ? 2 : axis;
     }
-    measure_sheet made = {.crooked = s->crooked + first};
-    froe_status status = measure_sheet_sweep(s->context, s->task, scene, axis, objects, count, &made);
-    for (size_t i = 0; i < made.touches.count && !status; i++) {
-        measure_touch t = made.touches.data[i];
-        if (made.crooked[t.a] || made.crooked[t.b]) continue;
-        uint32_t a = s->pairs[first + t.a].value, b = s->pairs[first + t.b].value;
-        if (!array_push(s->alloc, &s->touches, (measure_touch){a < b ? a : b, a < b ? b : a})) status = FROE_E_MEMORY;
-    }
-    array_free(s->alloc, &made.touches);
-    sheet new = {.first = s->straight};
-    for (uint32_t i = 0; i < count && !status; i++)
-        if (!made.crooked[i]) s->order[s->straight++] = s->pairs[first + i].value;
-    new.end = s->straight;
-    if (!status && new.end > new.first && !array_push(s->alloc, &s->sheets, new)) status = FROE_E_MEMORY;
-    return status;
+    const int axis = areas[1] > areas[0] ? 1 : 0;
+    return areas[2] > areas[axis] ? 2 : axis;
 }
 
+/* Sweeps over the objects of each source polygon, which come next to each other in s->pairs; straight objects come into
+ * the order. */
 static froe_status sweep_all(sheet_search *s) {
     const froe_scene *scene = s->of->scene;
     uint32_t count = s->of->count, *objects = support_calloc(s->alloc, count, sizeof *objects);
     froe_status status = objects ? FROE_OK : FROE_E_MEMORY;
-    for (uint32_t i = 0; i < count; i++) { /* by source polygon; all segments of the plane have one */
+    for (uint32_t i = 0; i < count; i++) { /* all segments of the plane have one source polygon */
         const uint32_t object = s->of->objects[i];
         s->pairs[i] = (base_pair){scene->dim == 2 ? 0 : scene->faces ? scene->faces[object] : object, i};
     }
     base_radix_sort(s->pairs, s->pairs + count, count);
     memset(s->crooked, true, count);
     for (uint32_t first = 0, end; first < count && !status; first = end) {
-        for (end = first + 1; end < count && s->pairs[end].key == s->pairs[first].key;) end++;
-        if (end - first >= LEAST) status = sweep_run(s, first, end - first, objects);
+        const base_pair *run = s->pairs + first;
+        for (end = first + 1; end < count && s->pairs[end].key == run->key;) end++;
+        const uint32_t length = end - first;
+        if (length < LEAST) continue;
+        for (uint32_t i = 0; i < length; i++) objects[i] = s->of->objects[run[i].value];
+        measure_sheet made = {.crooked = s->crooked + first};
+        status =
+            measure_sheet_sweep(s->context, s->task, scene, scene->dim == 3 ? widest_axis(scene, objects, length) : -1,
+                                objects, length, &made);
+        for (size_t i = 0; i < made.touches.count && !status; i++) {
+            const measure_touch t = made.touches.data[i];
+            if (made.crooked[t.a] || made.crooked[t.b]) continue;
+            const uint32_t a = run[t.a].value, b = run[t.b].value;
+            const measure_touch both = {a < b ? a : b, a < b ? b : a};
+            if (!array_push(s->alloc, &s->touches, both)) status = FROE_E_MEMORY;
+        }
+        array_free(s->alloc, &made.touches);
+        sheet new = {.first = s->straight};
+        for (uint32_t i = 0; i < length && !status; i++)
+            if (!made.crooked[i]) s->order[s->straight++] = run[i].value;
+        new.end = s->straight;
+        if (!status && new.end > new.first && !array_push(s->alloc, &s->sheets, new)) status = FROE_E_MEMORY;
     }
     for (uint32_t i = 0, at = s->straight; i < count && !status; i++)
         if (s->crooked[i]) s->order[at++] = s->pairs[i].value;
@@ -165,20 +165,6 @@ static bool loose_pair(void *user, unsigned worker, uint32_t a, uint32_t b) {
 
 /* -------------------------------------------------------------------- pairs -- */
 
-static froe_status tell_touches(sheet_search *s) {
-    size_t count = s->touches.count;
-    base_pair *pairs = support_calloc(s->alloc, 2 * count + 1, sizeof *pairs);
-    if (!pairs) return FROE_E_MEMORY;
-    for (size_t i = 0; i < count; i++) pairs[i].key = (uint64_t)s->touches.data[i].a << 32 | s->touches.data[i].b;
-    base_radix_sort(pairs, pairs + count, count);
-    bool go_on = true;
-    for (size_t i = 0; i < count && go_on; i++)
-        if (!i || pairs[i].key != pairs[i - 1].key)
-            go_on = s->fn(s->user, 0, (uint32_t)(pairs[i].key >> 32), (uint32_t)pairs[i].key);
-    support_free(s->alloc, pairs, (2 * count + 1) * sizeof *pairs);
-    return go_on ? FROE_OK : FROE_E_CANCELLED;
-}
-
 static froe_status search_sheets(sheet_search *s) {
     uint32_t count = s->of->count;
     size_t numbers = (size_t)count * (size_t)s->of->scene->dim;
@@ -188,7 +174,17 @@ static froe_status search_sheets(sheet_search *s) {
     s->hi = support_calloc(s->alloc, numbers, sizeof *s->hi);
     s->crooked = support_calloc(s->alloc, count, sizeof *s->crooked);
     froe_status status = s->pairs && s->order && s->lo && s->hi && s->crooked ? sweep_all(s) : FROE_E_MEMORY;
-    if (!status) status = tell_touches(s);
+    const size_t touches = s->touches.count;
+    base_pair *pairs = support_calloc(s->alloc, 2 * touches + 1, sizeof *pairs); /* in order, to pass each touch once */
+    if (!status && !pairs) status = FROE_E_MEMORY;
+    for (size_t i = 0; i < touches && !status; i++)
+        pairs[i].key = (uint64_t)s->touches.data[i].a << 32 | s->touches.data[i].b;
+    if (!status) base_radix_sort(pairs, pairs + touches, touches);
+    for (size_t i = 0; i < touches && !status; i++)
+        if ((!i || pairs[i].key != pairs[i - 1].key) &&
+            !s->fn(s->user, 0, (uint32_t)(pairs[i].key >> 32), (uint32_t)pairs[i].key))
+            status = FROE_E_CANCELLED;
+    support_free(s->alloc, pairs, (2 * touches + 1) * sizeof *pairs);
     if (!status) status = make_trees(s);
     size_t first = (size_t)s->straight * (size_t)s->of->scene->dim;
     if (!status)

@@ -132,20 +132,6 @@ static const double *event_place(const sheet_sweep *s, const base_pair *event) {
     return event->value % 2 ? e->p : e->q;
 }
 
-static froe_status sort_events(sheet_sweep *s) {
-    s->event_count = 2 * (s->edges.count - 1);
-    s->event_room = 2 * s->event_count + 1;
-    s->events = support_calloc(s->alloc, s->event_room, sizeof *s->events);
-    if (!s->events) return FROE_E_MEMORY;
-    for (size_t i = 0; i < s->event_count; i++) s->events[i].value = (uint32_t)i + 2;
-    for (int k = 2; k--;) {
-        for (size_t i = 0; i < s->event_count; i++)
-            s->events[i].key = base_double_key(event_place(s, s->events + i)[k]);
-        base_radix_sort(s->events, s->events + s->event_count, s->event_count);
-    }
-    return FROE_OK;
-}
-
 /* ---------------------------------------------------------------------- tree -- */
 
 /* Brings an edge beside `key` to the top, top down. */
@@ -257,20 +243,6 @@ static void settle(sheet_sweep *s, const sheet_edge *point, bool for_good) {
     }
 }
 
-/* Notes that objects with a corner at events first .. end touch the objects beside an edge there. */
-static froe_status touch(sheet_sweep *s, const sheet_edge *on, size_t first, size_t end) {
-    for (size_t i = first; i < end; i++) {
-        const sheet_edge *e = s->edges.data + s->events[i].value / 2;
-        for (int k = 0; k < 4; k++) {
-            measure_touch t = {on->beside[k / 2], e->beside[k % 2]};
-            if (t.a == FROE_NONE || t.b == FROE_NONE || t.a == t.b || s->sheet->crooked[t.a] || s->sheet->crooked[t.b])
-                continue;
-            if (!array_push(s->alloc, &s->sheet->touches, t)) return FROE_E_MEMORY;
-        }
-    }
-    return FROE_OK;
-}
-
 /* Handles all edges that end or begin at one point. Of edges that only pass, at most one is left before others begin,
  * since two would cross there. */
 static froe_status pass(sheet_sweep *s, size_t first, size_t end) {
@@ -283,8 +255,15 @@ static froe_status pass(sheet_sweep *s, size_t first, size_t end) {
     settle(s, &point, false);
     if (s->root) s->root = splay(s, s->root, &point);
     if (s->root && !place_on_sheet(s, e + s->root, &point)) {
-        froe_status status = touch(s, e + s->root, first, end);
-        if (status) return status;
+        /* Objects with a corner at the point touch the objects beside the edge that passes. */
+        for (size_t i = first; i < end; i++)
+            for (int k = 0; k < 4; k++) {
+                const measure_touch t = {e[s->root].beside[k / 2], e[s->events[i].value / 2].beside[k % 2]};
+                if (t.a == FROE_NONE || t.b == FROE_NONE || t.a == t.b || s->sheet->crooked[t.a] ||
+                    s->sheet->crooked[t.b])
+                    continue;
+                if (!array_push(s->alloc, &s->sheet->touches, t)) return FROE_E_MEMORY;
+            }
     }
     for (size_t i = first; i < end; i++)
         if (s->events[i].value % 2) insert(s, s->events[i].value / 2);
@@ -298,7 +277,17 @@ froe_status measure_sheet_sweep(num_context *context, base_task *task, const fro
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < count && !status; i++) status = add_object(&s, i, objects[i]);
     if (!status) status = join_sides(&s);
-    if (!status) status = sort_events(&s);
+    if (!status) {
+        s.event_count = 2 * (s.edges.count - 1);
+        s.event_room = 2 * s.event_count + 1;
+        s.events = support_calloc(s.alloc, s.event_room, sizeof *s.events);
+        if (!s.events) status = FROE_E_MEMORY;
+    }
+    for (size_t i = 0; i < s.event_count && !status; i++) s.events[i].value = (uint32_t)i + 2;
+    for (int k = 2; k-- && !status;) { /* by the first coordinate, then by the second */
+        for (size_t i = 0; i < s.event_count; i++) s.events[i].key = base_double_key(event_place(&s, s.events + i)[k]);
+        base_radix_sort(s.events, s.events + s.event_count, s.event_count);
+    }
     size_t looked = 0;
     for (size_t first = 0, end; first < s.event_count && !status; first = end) {
         const double *at = event_place(&s, s.events + first);
