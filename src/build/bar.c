@@ -111,77 +111,65 @@ static void resolve_bar(const froe_scene *scene, uint32_t leaf, double *option) 
 
 /* ------------------------------------------------------------ guards of a cell -- */
 
-/** Is the point strictly between all facets? */
-static bool is_inside_region(const bar_rule *rule, const bar_region *region, const double *keys) {
-    for (int i = 0; i < rule->directions.count; i++)
-        if (!(keys[i] > region->lo[i] && keys[i] < region->hi[i])) return false;
-    return true;
-}
-
-/** Appends the keys of those guards of an object that are inside. */
-static bool add_guards(const bar *b, const froe_allocator *alloc, bar_search *s, const bar_region *region,
-                       uint32_t object) {
-    double guards[BAR_GUARDS_MOST * 3], *keys;
-    const froe_scene *scene = b->job->scene;
-    const int dim = scene->dim, g = b->rule.directions.count;
-    const uint32_t count = bar_guards_of(&b->guards, scene, object, guards);
-    const bool point = scene_form(scene, object) == FROE_POINT; /* it is inside, whatever keys say */
-    if (!array_reserve(alloc, &s->keys, count * (size_t)g)) return false;
-    for (uint32_t j = 0; j < count; j++) {
-        keys = s->keys.data + s->keys.count;
-        for (int i = 0; i < g; i++) keys[i] = split_key(&b->rule.directions, i, guards + j * (size_t)dim);
-        if (point || is_inside_region(&b->rule, region, keys)) s->keys.count += (size_t)g;
-    }
-    return true;
-}
-
 /** The keys of all guards inside, or of those of a sample of the objects. */
 static bool gather_guards(const bar *b, const split_work *work, const split_cell *cell, const bar_region *region) {
     bar_scratch *scratch = work->scratch;
     bar_search *s = &scratch->search;
     const split_set *set = &work->set;
+    const froe_scene *scene = b->job->scene;
+    const split_directions *directions = &b->rule.directions;
     const uint64_t all = (uint64_t)cell->count * b->guards.count;
     const uint32_t stride = b->points ? 1 : (uint32_t)(all / SAMPLE) + 1;
     s->keys.count = 0;
     for (uint32_t i = 0; i < cell->count; i += stride) {
         const uint32_t object = set->items.data[cell->first + i].object;
-        if (b->originals[object] == object && !add_guards(b, &set->alloc, s, region, object)) return false;
+        if (b->originals[object] != object) continue;
+        double guards[BAR_GUARDS_MOST * 3];
+        const uint32_t count = bar_guards_of(&b->guards, scene, object, guards);
+        const bool point = scene_form(scene, object) == FROE_POINT; /* it is inside, whatever keys say */
+        if (!array_reserve(&set->alloc, &s->keys, count * (size_t)directions->count)) return false;
+        for (uint32_t j = 0; j < count; j++) {
+            double *keys = s->keys.data + s->keys.count;
+            bool inside = true; /* strictly between all facets */
+            for (int n = 0; n < directions->count; n++) {
+                keys[n] = split_key(directions, n, guards + j * (size_t)scene->dim);
+                inside = inside && keys[n] > region->lo[n] && keys[n] < region->hi[n];
+            }
+            if (point || inside) s->keys.count += (size_t)directions->count;
+        }
     }
-    scratch->count = (uint32_t)(s->keys.count / (size_t)b->rule.directions.count);
+    scratch->count = (uint32_t)(s->keys.count / (size_t)directions->count);
     return true;
-}
-
-/** Takes the corners of the object's box that are strictly inside: as many as the ends that are, multiplied. */
-static uint64_t take_corners(const bar *b, const bar_region *box, uint32_t object, cube_guards *g) {
-    const int dim = b->job->scene->dim;
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    bool in[2][FROE_MAX_DIM];
-    uint64_t count = 1;
-    scene_object_bounds(b->job->scene, object, lo, hi);
-    for (int k = 0; k < dim; k++) {
-        in[0][k] = lo[k] > box->lo[k] && lo[k] < box->hi[k];
-        in[1][k] = hi[k] > box->lo[k] && hi[k] < box->hi[k];
-        count *= (uint64_t)in[0][k] + (in[1][k] && hi[k] > lo[k]);
-    }
-    for (int k = 0; k < dim && count; k++) {
-        g->lo[k] = fmin(g->lo[k], in[0][k] ? lo[k] : hi[k]);
-        g->hi[k] = fmax(g->hi[k], in[1][k] ? hi[k] : lo[k]);
-    }
-    return count;
 }
 
 /* -------------------------------------------------------------- the next cut -- */
 
 static bool plan_cube(const bar *b, const split_work *work, const split_cell *cell, const bar_region *box,
                       froe_cut *cut) {
+    const int dim = b->job->scene->dim;
     cube_guards g;
     uint64_t count = 0;
-    for (int k = 0; k < b->job->scene->dim; k++) g.lo[k] = INFINITY, g.hi[k] = -INFINITY;
+    for (int k = 0; k < dim; k++) g.lo[k] = INFINITY, g.hi[k] = -INFINITY;
     for (uint32_t i = 0; i < cell->count; i++) {
         const uint32_t object = work->set.items.data[cell->first + i].object;
-        if (b->originals[object] == object) count += take_corners(b, box, object, &g);
+        if (b->originals[object] != object) continue;
+        /* the corners of the object's box that are strictly inside: as many as the ends that are, multiplied */
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        bool in[2][FROE_MAX_DIM];
+        uint64_t corners = 1;
+        scene_object_bounds(b->job->scene, object, lo, hi);
+        for (int k = 0; k < dim; k++) {
+            in[0][k] = lo[k] > box->lo[k] && lo[k] < box->hi[k];
+            in[1][k] = hi[k] > box->lo[k] && hi[k] < box->hi[k];
+            corners *= (uint64_t)in[0][k] + (in[1][k] && hi[k] > lo[k]);
+        }
+        for (int k = 0; k < dim && corners; k++) {
+            g.lo[k] = fmin(g.lo[k], in[0][k] ? lo[k] : hi[k]);
+            g.hi[k] = fmax(g.hi[k], in[1][k] ? hi[k] : lo[k]);
+        }
+        count += corners;
     }
-    return count > b->k && cube_cut(box, b->job->scene->dim, &g, !b->points, cut);
+    return count > b->k && cube_cut(box, dim, &g, !b->points, cut);
 }
 
 static froe_status plan_bar(const bar *b, const split_work *work, const split_cell *cell, const bar_region *region,
@@ -211,30 +199,25 @@ static bar_region region_of(const bar *b, const split_cell *cell) {
     return region;
 }
 
-/** Finds the cut of the guard stage, if the cell is still in it. */
-static froe_status plan(const bar *b, const split_work *work, const split_cell *cell) {
+static froe_status finish_bar_cell(const void *config, split_work *work, const split_cell *cell, bool *done) {
     bar_scratch *s = work->scratch;
+    const bar *b = config;
     const bar_region region = region_of(b, cell);
     const double growth = b->job->option[GROWTH];
+    if (cell->count >= LONG && !split_go_on(work)) return FROE_E_CANCELLED;
     s->planned = false;
     s->count = cell->count;
-    if (isnan(region.lo[0]) || cell->count <= b->refine.leaf) return FROE_OK;
     froe_status status = FROE_OK;
-    if (cell->count > b->stop && !(growth > 0 && cell->growth >= growth)) {
-        if (b->cubes)
-            s->planned = plan_cube(b, work, cell, &region, &s->cut);
-        else
-            status = plan_bar(b, work, cell, &region, s);
+    /* finds the cut of the guard stage, if the cell is still in it */
+    if (!isnan(region.lo[0]) && cell->count > b->refine.leaf) {
+        if (cell->count > b->stop && !(growth > 0 && cell->growth >= growth)) {
+            if (b->cubes)
+                s->planned = plan_cube(b, work, cell, &region, &s->cut);
+            else
+                status = plan_bar(b, work, cell, &region, s);
+        }
+        if (!s->planned && s->count > 1) atomic_fetch_add(&b->notes->unbalanced, 1);
     }
-    if (!s->planned && s->count > 1) atomic_fetch_add(&b->notes->unbalanced, 1);
-    return status;
-}
-
-static froe_status finish_bar_cell(const void *config, split_work *work, const split_cell *cell, bool *done) {
-    const bar_scratch *s = work->scratch;
-    const bar *b = config;
-    if (cell->count >= LONG && !split_go_on(work)) return FROE_E_CANCELLED;
-    froe_status status = plan(b, work, cell);
     return status || s->planned ? status : split_finish(&b->refine, work, cell, done);
 }
 

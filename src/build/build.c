@@ -59,15 +59,6 @@ static const build_method *find_method(const char *name) {
     return NULL;
 }
 
-static froe_status refuse_method(const char *name, froe_diagnostic *diag) {
-    char list[160] = "auto";
-    for (size_t i = 0; i < METHOD_COUNT; i++) {
-        size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, ", %s", methods[i]->info.name);
-    }
-    return support_fail(diag, FROE_E_OPTIONS, "There is no method '%s'. There are: %s.", name, list);
-}
-
 /* Grain takes about 40 us a segment, eight to fifteen times as long as density, for a tenth fewer pieces. */
 enum { SEGMENTS_FOR_GRAIN = 1 << 16 };
 
@@ -81,21 +72,15 @@ static bool suits_grain(const froe_scene *scene, uint32_t kinds) {
 
 /** What "auto" stands for: it serves every dimension and kind. Index answers queries several times faster, where it
  * serves. Directional has the fewest pieces of boxes, and is no slower. (docs/compare.md measures this choice.) */
-static const char *automatic(const froe_scene *scene, const char *purpose) {
+const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
+    const bool query = purpose && !strcmp(purpose, "query");
+    const bool known = !purpose || query || !strcmp(purpose, "pieces") || !strcmp(purpose, "draw");
+    if (!scene || !known) return NULL;
     const uint32_t kinds = kinds_of(scene);
-    const bool query = !strcmp(purpose, "query");
     if (query && froe_method_serves(&find_method("index")->info, scene, FROE_LEAF_OWN)) return "index";
     if (kinds == 1u << FROE_POINT && query) return "kd"; /* four times as fast as density in dimension 8 */
     if (kinds == 1u << FROE_BOX) return "directional";
     return !query && suits_grain(scene, kinds) ? "grain" : "density";
-}
-
-const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
-    static const char *const purposes[] = {"pieces", "query", "draw"};
-    if (!scene) return NULL;
-    for (size_t i = 0; i < sizeof purposes / sizeof *purposes; i++)
-        if (!strcmp(purpose ? purpose : purposes[0], purposes[i])) return automatic(scene, purposes[i]);
-    return NULL;
 }
 
 static froe_status choose_method(const froe_build_options *o, const froe_scene *scene, const build_method **out,
@@ -106,12 +91,13 @@ static froe_status choose_method(const froe_build_options *o, const froe_scene *
                             o->purpose);
     if (!strcmp(name, "auto")) name = best;
     *out = find_method(name);
-    return *out ? FROE_OK : refuse_method(name, diag);
-}
-
-/* Leaf 0: every object ends in a cut. */
-static uint32_t kinds_in_cuts(const froe_scene *scene) {
-    return scene->dim == 2 ? 1u << FROE_SEGMENT : scene->dim == 3 ? 1u << FROE_POLYGON : 0;
+    if (*out) return FROE_OK;
+    char list[160] = "auto";
+    for (size_t i = 0; i < METHOD_COUNT; i++) {
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, ", %s", methods[i]->info.name);
+    }
+    return support_fail(diag, FROE_E_OPTIONS, "There is no method '%s'. There are: %s.", name, list);
 }
 
 static uint32_t leaf_of(const froe_method_info *info, uint32_t leaf) {
@@ -121,8 +107,10 @@ static uint32_t leaf_of(const froe_method_info *info, uint32_t leaf) {
 bool froe_method_serves(const froe_method_info *method, const froe_scene *scene, uint32_t leaf) {
     if (!method || !scene) return false;
     uint32_t kinds = kinds_of(scene), capacity = leaf_of(method, leaf);
+    /* leaf 0: every object ends in a cut */
+    uint32_t kinds_in_cuts = scene->dim == 2 ? 1u << FROE_SEGMENT : scene->dim == 3 ? 1u << FROE_POLYGON : 0;
     return method->kinds[scene->dim] && !(kinds & ~method->kinds[scene->dim]) && capacity >= method->least_leaf &&
-           (capacity || !(kinds & ~kinds_in_cuts(scene)));
+           (capacity || !(kinds & ~kinds_in_cuts));
 }
 
 /* Says why a method does not serve. */
@@ -172,25 +160,21 @@ static froe_status check_order(const froe_build_options *o, const build_method *
     return status;
 }
 
-static froe_status prepare(const froe_build_options *o, const build_method *method, bool tuned, build_job *job) {
-    froe_status status = options_parse(method, o->settings, tuned, job->option, job->diag);
-    if (status) return status;
-    if (method->resolve) method->resolve(job->scene, o->leaf, job->option);
-    snprintf(job->meta.method, sizeof job->meta.method, "%s", method->info.name);
-    options_print(method, job->option, job->meta.settings, sizeof job->meta.settings);
-    job->meta.leaf = job->leaf = o->leaf;
-    job->meta.seed = job->seed = o->seed;
-    job->max_fragments = o->max_fragments;
-    job->order = o->order;
-    return FROE_OK;
-}
-
 /** In the C locale: a decimal comma would make settings invalid, or get into trees. */
 static froe_status prepare_in_any_locale(const froe_build_options *o, const build_method *method, bool tuned,
                                          build_job *job) {
     support_locale locale;
     if (!support_locale_enter(&locale)) return support_fail_memory(job->diag);
-    const froe_status status = prepare(o, method, tuned, job);
+    const froe_status status = options_parse(method, o->settings, tuned, job->option, job->diag);
+    if (!status) {
+        if (method->resolve) method->resolve(job->scene, o->leaf, job->option);
+        snprintf(job->meta.method, sizeof job->meta.method, "%s", method->info.name);
+        options_print(method, job->option, job->meta.settings, sizeof job->meta.settings);
+        job->meta.leaf = job->leaf = o->leaf;
+        job->meta.seed = job->seed = o->seed;
+        job->max_fragments = o->max_fragments;
+        job->order = o->order;
+    }
     support_locale_leave(&locale);
     return status;
 }
@@ -231,29 +215,22 @@ froe_status build_tuned(froe_scene *scene, const froe_build_options *options, fr
     return build_by_method(scene, options, true, NULL, out, diag);
 }
 
-/** A plane of doubles, as a cut. */
-static froe_status check_plane(int dim, const double *plane, froe_cut *out, froe_diagnostic *diag) {
-    double most = 0;
-    *out = (froe_cut){.kind = FROE_CUT_PLANE, .value = plane[dim], .normal = plane};
-    for (int k = 0; k <= dim; k++) {
-        if (!isfinite(plane[k]))
-            return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
-                                   "Number %d of the plane is %g, not a finite number.", k, plane[k]);
-        if (k < dim) most = fmax(most, fabs(plane[k]));
-    }
-    return most > 0 ? FROE_OK : support_fail(diag, FROE_E_ARG, "The normal of the plane has length 0.");
-}
-
 froe_status froe_tree_section(const froe_tree *tree, const double *plane, const froe_build_options *options,
                               froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!tree || !plane || !out) return support_fail_null(diag, __func__);
     const int dim = tree->scene->dim;
     froe_build_options o = options ? *options : froe_build_defaults();
-    froe_cut root;
+    double most = 0;
     if (dim > 3) return support_fail(diag, FROE_E_UNSUPPORTED, "Sections exist in 2 and 3 dimensions, not in %d.", dim);
-    const froe_status status = check_plane(dim, plane, &root, diag);
-    if (status) return status;
+    for (int k = 0; k <= dim; k++) {
+        if (!isfinite(plane[k]))
+            return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
+                                   "Number %d of the plane is %g, not a finite number.", k, plane[k]);
+        if (k < dim) most = fmax(most, fabs(plane[k]));
+    }
+    if (!(most > 0)) return support_fail(diag, FROE_E_ARG, "The normal of the plane has length 0.");
+    const froe_cut root = {.kind = FROE_CUT_PLANE, .value = plane[dim], .normal = plane};
     o.method = tree->meta.method;
     o.settings = tree->meta.settings;
     o.leaf = tree->meta.leaf;

@@ -63,23 +63,9 @@ typedef struct index_work {
     double height; /* levels from which on medians are taken */
 } index_work;
 
-/* ---------------------------------------------------------------- root box -- */
-
 static double widened(double x, double by) {
     double y = x + by;
     return y < -DBL_MAX ? -DBL_MAX : y > DBL_MAX ? DBL_MAX : y;
-}
-
-static packed_box root_box(const froe_scene *s) {
-    static const double odd[2][2] = {{0.00217339, 0.00293507}, {0.00251103, 0.00197911}};
-    packed_box box = {{0, 0}, {0, 0}};
-    if (!s->object_count) return box;
-    double x = 0.5 * s->hi[0] - 0.5 * s->lo[0], y = 0.5 * s->hi[1] - 0.5 * s->lo[1], side = 2 * (x > y ? x : y);
-    for (int k = 0; k < 2; k++) {
-        box.lo[k] = widened(s->lo[k], -side * odd[k][0]);
-        box.hi[k] = widened(s->hi[k], side * odd[k][1]);
-    }
-    return box;
 }
 
 /* --------------------------------------------------------------- fragments -- */
@@ -279,27 +265,25 @@ static froe_status deal_fragments(index_work *w, const index_cell *cell, const h
 
 /* -------------------------------------------------------------------- loop -- */
 
-/* A node of the grid that is to be cut by it. */
-static bool is_inner(const index_work *w, const index_cell *cell) {
-    const split_grid *g = w->grids.data + w->grids.count - 1;
-    bool inner = grid_level(cell->heap) < g->levels && cell->growth < w->job->option[GROWTH];
-    return inner && g->count[cell->heap] > w->job->leaf;
-}
-
 static froe_status do_index_cell(index_work *w, index_cell *cell) {
     froe_status status = FROE_OK;
+    const bool grown = cell->growth >= w->job->option[GROWTH];
     if (cell->heap == GRID_END) {
         grid_free(&w->job->alloc, w->grids.data + --w->grids.count);
         w->items.count = cell->first;
         return FROE_OK;
     }
-    if (cell->heap && is_inner(w, cell)) return cut_grid_node(w, cell);
-    if (cell->heap) status = gather_fragments(w, cell);
+    if (cell->heap) {
+        const split_grid *g = w->grids.data + w->grids.count - 1;
+        const bool inner = grid_level(cell->heap) < g->levels && !grown;
+        if (inner && g->count[cell->heap] > w->job->leaf) return cut_grid_node(w, cell);
+        status = gather_fragments(w, cell);
+    }
     w->items.count = cell->first + cell->count;
     if (status) return status;
     bool made = false;
     if (cell->count <= w->job->leaf) return end_packed_leaf(w, cell);
-    if (cell->count >= w->job->option[LEAST] && !is_deep(w, cell) && cell->growth < w->job->option[GROWTH])
+    if (cell->count >= w->job->option[LEAST] && !is_deep(w, cell) && !grown)
         status = begin_grid(w, cell, w->items.data + cell->first, &made);
     if (status || made) return status;
     /* no grid: one cut */
@@ -323,23 +307,25 @@ static froe_status do_index_cell(index_work *w, index_cell *cell) {
     return push_index_cells(w, side);
 }
 
-static froe_status find_ends(index_work *w) {
+/* The ends of all objects, and the root box with all of them in it, or a grid over it. */
+static froe_status begin_index(index_work *w) {
+    static const double odd[2][2] = {{0.00217339, 0.00293507}, {0.00251103, 0.00197911}};
     const froe_scene *s = w->job->scene;
     const double *ends[2];
+    index_cell root = {.box = {{0, 0}, {0, 0}}, .growth = 1, .count = s->object_count};
+    bool made = false;
+    froe_status status = FROE_OK;
     w->axis.ends = support_calloc(&w->job->alloc, s->object_count, sizeof *w->axis.ends);
     if (!w->axis.ends) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < s->object_count; i++) {
         packed_ends(s, i, ends);
         w->axis.ends[i] = (axis_ends){{ends[0][0], ends[0][1]}, {ends[1][0], ends[1][1]}};
     }
-    return FROE_OK;
-}
-
-static froe_status push_root(index_work *w) {
-    const froe_scene *s = w->job->scene;
-    index_cell root = {.box = root_box(s), .growth = 1, .count = s->object_count};
-    bool made = false;
-    froe_status status = FROE_OK;
+    double x = 0.5 * s->hi[0] - 0.5 * s->lo[0], y = 0.5 * s->hi[1] - 0.5 * s->lo[1], side = 2 * (x > y ? x : y);
+    for (int k = 0; s->object_count && k < 2; k++) {
+        root.box.lo[k] = widened(s->lo[k], -side * odd[k][0]);
+        root.box.hi[k] = widened(s->hi[k], side * odd[k][1]);
+    }
     memcpy(w->job->meta.root_lo, root.box.lo, sizeof root.box.lo);
     memcpy(w->job->meta.root_hi, root.box.hi, sizeof root.box.hi);
     if (root.count >= w->job->option[LEAST]) status = begin_grid(w, &root, NULL, &made);
@@ -352,35 +338,27 @@ static froe_status push_root(index_work *w) {
 
 /* -------------------------------------------------------------------- whole -- */
 
-static froe_status grow_index(index_work *w, froe_tree **out) {
-    build_job *job = w->job;
-    w->height = job->option[HEIGHT] > 0 ? job->option[HEIGHT] * base_log2(job->scene->object_count + 2.0) + 16 : 0;
-    froe_status status = find_ends(w);
-    if (!status) status = push_root(w);
-    while (w->cells.count && !status) {
-        index_cell cell = w->cells.data[--w->cells.count];
-        status = do_index_cell(w, &cell);
-        double share = (double)w->packer.owners.count / (job->scene->object_count + 1.0);
-        if (!status && !base_progress(job->task, 0.1 + 0.8 * share)) status = FROE_E_CANCELLED;
-    }
-    if (status) return status;
-    status = packer_seal(&w->packer, job->scene, &job->meta, out);
-    if (!status) (*out)->predicates = (*out)->report.predicates = w->context.stats;
-    return status;
-}
-
 static froe_status build_in_plane(build_job *job, froe_tree **out) {
     index_work w = {.job = job, .axis = {.context = &w.context}};
     froe_status status = geom_context_new(&job->alloc, &w.context);
     if (status) return status;
     if (job->first > w.context.first) w.context.first = job->first;
+    const size_t objects = job->scene->object_count;
+    w.height = job->option[HEIGHT] > 0 ? job->option[HEIGHT] * base_log2((double)objects + 2.0) + 16 : 0;
     status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
     if (!status) {
-        status = grow_index(&w, out);
+        status = begin_index(&w);
+        while (w.cells.count && !status) {
+            index_cell cell = w.cells.data[--w.cells.count];
+            status = do_index_cell(&w, &cell);
+            const double share = (double)w.packer.owners.count / ((double)objects + 1.0);
+            if (!status && !base_progress(job->task, 0.1 + 0.8 * share)) status = FROE_E_CANCELLED;
+        }
+        if (!status) status = packer_seal(&w.packer, job->scene, &job->meta, out);
+        if (!status) (*out)->predicates = (*out)->report.predicates = w.context.stats;
         packer_free(&w.packer);
     }
-    const froe_allocator *alloc = &w.job->alloc;
-    size_t objects = w.job->scene->object_count;
+    const froe_allocator *alloc = &job->alloc;
     while (w.grids.count) grid_free(alloc, w.grids.data + --w.grids.count);
     support_free(alloc, w.axis.ends, (objects ? objects : 1) * sizeof *w.axis.ends);
     array_free(alloc, &w.grids);

@@ -87,27 +87,6 @@ static froe_cut crossing_cut(split_set *set, uint32_t a, uint32_t b) {
     return (froe_cut){.kind = FROE_CUT_CROSSING, .id = {to > from ? a : b, to > from ? b : a}};
 }
 
-/** In space: the edge below or above on which the end of the stretch lies; FROE_NONE: neither. */
-static uint32_t edge_through(split_set *set, const split_cell *cell, const stretch *s, int side) {
-    const cell_frame f = frame_of(cell);
-    for (int i = 0; i < 2; i++) {
-        uint32_t edge = f.edge[i];
-        if (edge == FROE_NONE) continue;
-        froe_cut cut = edge_cut(set->scene, edge);
-        split_plane plane = split_plane_of(set->scene, &cut);
-        if (!split_corner_side(set, &plane, s->fragment->object, s->end + side)) return edge;
-    }
-    return FROE_NONE;
-}
-
-/** What ends the stretch here: the first cut through that point; a wall if there is one among them. */
-static froe_cut end_cut(const split_set *set, const split_corner *end) {
-    froe_cut cut = split_cut_at(set, end->type == SPLIT_CROSSING ? end->c : end->a);
-    if (end->type != SPLIT_CORNER || is_wall(cut.kind)) return cut;
-    froe_cut second = split_cut_at(set, end->b);
-    return is_wall(second.kind) || cut.kind != FROE_CUT_EDGE ? second : cut;
-}
-
 /** Names the wall that the stretch needs at one end. False: none, it ends on one, or on another polygon. */
 static bool wall_at(split_set *set, const split_cell *cell, const stretch *s, int side, froe_cut *cut) {
     const split_corner *end = s->end + side;
@@ -115,10 +94,23 @@ static bool wall_at(split_set *set, const split_cell *cell, const stretch *s, in
         *cut = (froe_cut){.kind = FROE_CUT_VERTEX, .id = {end->a}};
         return !is_on_wall(set, cell, s, side);
     }
-    froe_cut by = end_cut(set, end);
+    /* what ends the stretch here: the first cut through that point; a wall if there is one among them */
+    froe_cut by = split_cut_at(set, end->type == SPLIT_CROSSING ? end->c : end->a);
+    if (end->type == SPLIT_CORNER && !is_wall(by.kind)) {
+        froe_cut second = split_cut_at(set, end->b);
+        if (is_wall(second.kind) || by.kind != FROE_CUT_EDGE) by = second;
+    }
     bool space = set->scene->dim == 3;
     if (is_wall(by.kind) || (space && by.kind != FROE_CUT_EDGE) || is_on_wall(set, cell, s, side)) return false;
-    uint32_t other = space ? edge_through(set, cell, s, side) : by.id[0];
+    uint32_t other = space ? FROE_NONE : by.id[0];
+    /* in space: the edge below or above on which the end of the stretch lies */
+    const cell_frame f = frame_of(cell);
+    for (int i = 0; i < 2 && space && other == FROE_NONE; i++) {
+        if (f.edge[i] == FROE_NONE) continue;
+        froe_cut border = edge_cut(set->scene, f.edge[i]);
+        split_plane plane = split_plane_of(set->scene, &border);
+        if (!split_corner_side(set, &plane, s->fragment->object, end)) other = f.edge[i];
+    }
     if (other == FROE_NONE) return false;
     *cut = crossing_cut(set, other, s->edge); /* the stretch has its ends on both sides of the other line */
     return true;
@@ -159,22 +151,6 @@ static split_verdict cut_segment(split_set *set, const split_cell *cell, const s
     return cut_stretch(set, cell, &s, &line, cut);
 }
 
-/** Does an edge, by its number, lie in the vertical plane below or above the cell? */
-static bool is_border(split_set *set, const split_cell *cell, uint32_t edge) {
-    const cell_frame f = frame_of(cell);
-    uint32_t v[2];
-    froe_scene_edge(set->scene, edge, v);
-    for (int i = 0; i < 2; i++) {
-        if (f.edge[i] == FROE_NONE) continue;
-        froe_cut border = edge_cut(set->scene, f.edge[i]);
-        geom_plane plane = scene_cut_plane(set->scene, &border);
-        if (!geom_side_vertex(&set->context, &plane, scene_vertex(set->scene, v[0])) &&
-            !geom_side_vertex(&set->context, &plane, scene_vertex(set->scene, v[1])))
-            return true;
-    }
-    return false;
-}
-
 /** Length of an edge as seen from above, to choose by. */
 static double edge_length(const froe_scene *scene, uint32_t edge) {
     uint32_t v[2];
@@ -188,9 +164,21 @@ static double edge_length(const froe_scene *scene, uint32_t edge) {
  * the cell need not be the one below or above, and to cut along it again would not end. */
 static froe_status is_done(const split_cylinder *c, split_work *work, const split_cell *cell, uint32_t edge,
                            bool *done) {
-    froe_cut cut = edge_cut(work->set.scene, edge);
+    split_set *set = &work->set;
+    froe_cut cut = edge_cut(set->scene, edge);
     split_tally n;
-    *done = is_border(&work->set, cell, edge);
+    uint32_t v[2];
+    /* does it lie in the vertical plane below or above the cell? */
+    const cell_frame f = frame_of(cell);
+    froe_scene_edge(set->scene, edge, v);
+    *done = false;
+    for (int i = 0; i < 2 && !*done; i++) {
+        if (f.edge[i] == FROE_NONE) continue;
+        froe_cut border = edge_cut(set->scene, f.edge[i]);
+        geom_plane plane = scene_cut_plane(set->scene, &border);
+        *done = !geom_side_vertex(&set->context, &plane, scene_vertex(set->scene, v[0])) &&
+                !geom_side_vertex(&set->context, &plane, scene_vertex(set->scene, v[1]));
+    }
     if (*done || c->refuse) return FROE_OK;
     froe_status status = cell_tally(work, cell, &cut, &n);
     *done = !status && !split_tally_useful(n) && !n.both;
@@ -217,18 +205,6 @@ static froe_status own_edge(const split_cylinder *c, split_work *work, const spl
     return FROE_OK;
 }
 
-/** The polygon's plane; or, of an upright one whose own edges do not reach into the cell, the same by an edge. */
-static froe_cut polygon_cut(split_set *set, uint32_t object) {
-    const froe_scene *scene = set->scene;
-    uint32_t edge = scene->starts[object];
-    /* a segment, as seen from above, is upright */
-    geom_plane side = geom_plane_vertical(scene_point(scene, object, 0), scene_point(scene, object, 1));
-    if (geom_side_vertex(&set->context, &side, scene_point(scene, object, 2)))
-        return (froe_cut){.kind = FROE_CUT_OBJECT, .id = {object}};
-    while (!(edge_length(scene, edge) > 0)) edge++;
-    return edge_cut(scene, edge);
-}
-
 /** The first polygon of the cell that crosses the plane of `cut`, which is that of `object`. */
 static split_verdict refuse_crossing(split_work *work, const split_cell *cell, uint32_t object, const froe_cut *cut) {
     const split_set *set = &work->set;
@@ -244,21 +220,31 @@ static split_verdict refuse_crossing(split_work *work, const split_cell *cell, u
 
 static split_verdict cut_polygon(const split_cylinder *c, split_work *work, const split_cell *cell,
                                  const split_fragment *f, froe_cut *cut) {
-    uint32_t at;
+    split_set *set = &work->set;
+    const froe_scene *scene = set->scene;
+    uint32_t at, edge = scene->starts[f->object];
     if (own_edge(c, work, cell, f, &at)) return SPLIT_MEMORY;
     if (at != FROE_NONE) {
         /* the edge from the corner, turned so that it runs to the right */
-        stretch s = {.fragment = f, .end = {split_corner_of(&work->set, f, at)}};
-        uint32_t next = at + 1 < split_corner_count(&work->set, f) ? at + 1 : 0, v[2];
-        s.end[1] = split_corner_of(&work->set, f, next);
-        s.edge = work->set.scene->starts[f->object] + s.end[0].edge;
-        froe_scene_edge(work->set.scene, s.edge, v);
+        stretch s = {.fragment = f, .end = {split_corner_of(set, f, at)}};
+        uint32_t next = at + 1 < split_corner_count(set, f) ? at + 1 : 0, v[2];
+        s.end[1] = split_corner_of(set, f, next);
+        s.edge = edge + s.end[0].edge;
+        froe_scene_edge(scene, s.edge, v);
         s.u = v[0], s.v = v[1];
-        turn_right(work->set.scene, &s);
-        froe_cut line = edge_cut(work->set.scene, s.edge);
-        return cut_stretch(&work->set, cell, &s, &line, cut);
+        turn_right(scene, &s);
+        froe_cut line = edge_cut(scene, s.edge);
+        return cut_stretch(set, cell, &s, &line, cut);
     }
-    *cut = polygon_cut(&work->set, f->object);
+    /* The polygon's plane; or, of an upright one whose own edges do not reach into the cell, the same by an edge. A
+     * segment, as seen from above, is upright. */
+    geom_plane side = geom_plane_vertical(scene_point(scene, f->object, 0), scene_point(scene, f->object, 1));
+    if (geom_side_vertex(&set->context, &side, scene_point(scene, f->object, 2))) {
+        *cut = (froe_cut){.kind = FROE_CUT_OBJECT, .id = {f->object}};
+    } else {
+        while (!(edge_length(scene, edge) > 0)) edge++;
+        *cut = edge_cut(scene, edge);
+    }
     return c->refuse ? refuse_crossing(work, cell, f->object, cut) : SPLIT_CUT_ANYWAY;
 }
 
