@@ -35,14 +35,6 @@ typedef struct draw {
     base_pair *keys; /**< two for each object */
 } draw;
 
-static froe_status draw_new(const build_job *job, draw *d) {
-    size_t n = job->scene->object_count;
-    if (job->order) return FROE_OK;
-    d->order = support_calloc(&job->alloc, n, sizeof *d->order);
-    d->keys = support_calloc(&job->alloc, 2 * n, sizeof *d->keys);
-    return d->order && d->keys ? FROE_OK : support_fail_memory(job->diag);
-}
-
 /** The order for an attempt. */
 static const uint32_t *draw_order(const build_job *job, draw *d, uint32_t attempt) {
     uint32_t n = job->scene->object_count;
@@ -69,11 +61,6 @@ static froe_status grow_cylindrical(build_job *job, const uint32_t *order, uint3
     return status;
 }
 
-/** A bound on the height: no wall, edge or plane comes twice on a path. */
-static double any_height(const froe_scene *scene) {
-    return 3.0 * scene->corner_count + scene->object_count;
-}
-
 static froe_status attempts(build_job *job, draw *d, froe_diagnostic *why, froe_tree **out) {
     uint32_t draws = job->order ? 0 : (uint32_t)job->option[DRAWS];
     double height = job->option[HEIGHT] * base_log2((double)job->scene->object_count + 2) + 24;
@@ -84,19 +71,26 @@ static froe_status attempts(build_job *job, draw *d, froe_diagnostic *why, froe_
     for (uint32_t i = 0; i < draws && too_deep; i++)
         status = grow_cylindrical(job, draw_order(job, d, i), (uint32_t)height, &too_deep, why, out);
     if (!too_deep) return status;
-    *promised = any_height(job->scene);
+    /* a bound on the height: no wall, edge or plane comes twice on a path */
+    *promised = 3.0 * job->scene->corner_count + job->scene->object_count;
     return grow_cylindrical(job, draw_order(job, d, 0), 0, &too_deep, why, out);
 }
 
 static froe_status build_cylindrical(build_job *job, froe_tree **out) {
     draw d = {NULL, NULL};
     froe_diagnostic why = {0};
-    froe_status status = draw_new(job, &d);
-    if (!status) {
+    froe_status status;
+    const size_t n = job->scene->object_count;
+    if (!job->order) {
+        d.order = support_calloc(&job->alloc, n, sizeof *d.order);
+        d.keys = support_calloc(&job->alloc, 2 * n, sizeof *d.keys);
+    }
+    if (job->order || (d.order && d.keys)) {
         status = attempts(job, &d, &why, out);
         if (status && job->diag) *job->diag = why;
+    } else {
+        status = support_fail_memory(job->diag);
     }
-    size_t n = job->scene->object_count;
     support_free(&job->alloc, d.order, n ? n * sizeof *d.order : 1);
     support_free(&job->alloc, d.keys, n ? 2 * n * sizeof *d.keys : 1);
     return status;

@@ -31,21 +31,15 @@ static const froe_option_info options[] = {
 
 /* ------------------------------------------------------------ the scene's kind -- */
 
-/** In how many axes has the object an extent? */
-static int extents(const froe_scene *s, uint32_t object) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    int count = 0;
-    scene_object_bounds(s, object, lo, hi);
-    for (int k = 0; k < s->dim; k++) count += lo[k] < hi[k];
-    return count;
-}
-
 /** Segments and polygons are when they lie in axis-parallel lines and planes; all other kinds are. */
 static bool is_orthogonal(const froe_scene *s) {
     for (uint32_t i = 0; i < s->object_count; i++) {
         froe_kind form = scene_form(s, i);
-        int most = form == FROE_SEGMENT ? 1 : form == FROE_POLYGON ? 2 : s->dim;
-        if (extents(s, i) > most) return false;
+        int most = form == FROE_SEGMENT ? 1 : form == FROE_POLYGON ? 2 : s->dim, extents = 0;
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        scene_object_bounds(s, i, lo, hi);
+        for (int k = 0; k < s->dim; k++) extents += lo[k] < hi[k];
+        if (extents > most) return false;
     }
     return true;
 }
@@ -58,46 +52,31 @@ static bool has_segments_alone(const froe_scene *s) {
 
 /* ------------------------------------------------------------------ orthogonal -- */
 
-typedef struct orthogonal_search {
-    froe_cut free, middle;
-    uint32_t heavier; /**< side of the best free cut; UINT32_MAX: there is none */
-    uint32_t uneven;  /**< by how much the sides of the middle cut differ */
-    uint32_t choice;  /**< candidates on its axis; 0: there are none */
-} orthogonal_search;
-
-static uint32_t larger(uint32_t a, uint32_t b) {
-    return a > b ? a : b;
-}
-
-/** Looks at all ends on an axis. */
-static void search_axis(split_axes *a, int axis, orthogonal_search *s) {
-    froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = axis}, middle = cut;
-    uint32_t choice = 0, least = UINT32_MAX;
-    while (split_axes_next(a)) {
-        const split_tally *t = &a->tally;
-        if (!split_tally_useful(*t) || !isfinite(a->value)) continue;
-        uint32_t heavier = larger(t->negative, t->positive), uneven = 2 * heavier - t->negative - t->positive;
-        choice++;
-        cut.value = a->value;
-        if (!t->both && heavier < s->heavier) s->heavier = heavier, s->free = cut;
-        if (uneven < least) least = uneven, middle = cut;
-    }
-    if (choice <= s->choice) return;
-    s->choice = choice;
-    s->middle = middle;
-}
-
 static split_verdict choose_orthogonal(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const split_axial *axial = config;
-    split_axes *axes = &((split_scratch *)work->scratch)->axes;
-    orthogonal_search s = {.heavier = UINT32_MAX};
+    split_axes *a = &((split_scratch *)work->scratch)->axes;
+    froe_cut free_cut = {.kind = FROE_CUT_NONE}, middle = free_cut;
+    uint32_t lightest = UINT32_MAX; /* heavier side of the best free cut; UINT32_MAX: there is none */
+    uint32_t most = 0;              /* candidates on the axis of the middle cut; 0: there are none */
     if (split_axial_over(axial, cell)) return split_refine_choose(&axial->refine, work, cell, cut);
     for (int k = 0; k < work->set.scene->dim; k++) {
-        if (!split_axes_fill(axes, &work->set, cell, k)) return SPLIT_MEMORY;
-        search_axis(axes, k, &s);
+        froe_cut here = {.kind = FROE_CUT_AXIS, .axis = k}, evenest = here;
+        uint32_t choice = 0, least = UINT32_MAX;
+        if (!split_axes_fill(a, &work->set, cell, k)) return SPLIT_MEMORY;
+        while (split_axes_next(a)) {
+            const split_tally t = a->tally;
+            if (!split_tally_useful(t) || !isfinite(a->value)) continue;
+            uint32_t heavier = t.negative > t.positive ? t.negative : t.positive;
+            uint32_t uneven = 2 * heavier - t.negative - t.positive;
+            choice++;
+            here.value = a->value;
+            if (!t.both && heavier < lightest) lightest = heavier, free_cut = here;
+            if (uneven < least) least = uneven, evenest = here;
+        }
+        if (choice > most) most = choice, middle = evenest;
     }
-    if (!s.choice) return split_refine_choose(&axial->refine, work, cell, cut);
-    *cut = s.heavier < UINT32_MAX ? s.free : s.middle;
+    if (!most) return split_refine_choose(&axial->refine, work, cell, cut);
+    *cut = lightest < UINT32_MAX ? free_cut : middle;
     return SPLIT_CUT;
 }
 

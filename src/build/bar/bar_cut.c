@@ -54,13 +54,6 @@ static double number_between(const double *column, uint32_t count, double median
     return middle > a ? middle : b;
 }
 
-static double middle_of(const bar_rule *rule, bar_search *s, const bar_step *step, int direction) {
-    const double *key = rows(s, step) + direction;
-    for (uint32_t i = 0; i < step->count; i++, key += rule->directions.count) s->column.data[i] = *key;
-    const double median = base_select(s->column.data, step->count, step->count / 2);
-    return rule->through ? median : number_between(s->column.data, step->count, median);
-}
-
 /* --------------------------------------------------------------- candidates -- */
 
 static bool fits_aspect(const bar_rule *rule, const bar_search *s, bar_candidate *c) {
@@ -82,7 +75,11 @@ static bool move_to_fit(const bar_rule *rule, const bar_search *s, bar_candidate
 }
 
 static bar_candidate candidate(const bar_rule *rule, bar_search *s, const bar_step *step, int direction) {
-    bar_candidate c = {.direction = direction, .value = middle_of(rule, s, step, direction)};
+    const double *key = rows(s, step) + direction;
+    for (uint32_t i = 0; i < step->count; i++, key += rule->directions.count) s->column.data[i] = *key;
+    const double median = base_select(s->column.data, step->count, step->count / 2);
+    bar_candidate c = {.direction = direction, .value = median};
+    if (!rule->through) c.value = number_between(s->column.data, step->count, median);
     if (!fits_aspect(rule, s, &c) && !move_to_fit(rule, s, &c)) return (bar_candidate){.direction = -1};
     const key_counts n = count_sides(rule, s, step, direction, c.value);
     c.larger = (n.below > n.above ? n.below : n.above) * step->weight;
@@ -127,27 +124,19 @@ static bool push_bar_step(const bar_rule *rule, const froe_allocator *alloc, bar
     return !to.count || array_push(alloc, &s->steps, to);
 }
 
-/** Has the cell no room for cuts between doubles? */
-static bool is_too_small(const bar_rule *rule, const bar_shape *shape) {
-    return shape->width < rule->floor || shape->width < FLOOR * bar_shape_reach(shape);
-}
-
-static bool ready(const bar_rule *rule, const froe_allocator *alloc, bar_search *s, const bar_region *region,
-                  uint32_t count) {
-    bar_step first = {.region = *region, .count = count, .weight = 1};
-    s->keys.count = (size_t)count * (size_t)rule->directions.count;
-    s->steps.count = s->column.count = 0;
-    return array_reserve(alloc, &s->column, count) && array_push(alloc, &s->steps, first);
-}
-
 bar_found bar_search_cut(const bar_rule *rule, const froe_allocator *alloc, bar_search *s, const bar_region *region,
                          uint32_t count, double target, bar_candidate *out) {
     bar_candidate all[DIRECTIONS_MOST], first[DIRECTIONS_MOST];
-    if (!ready(rule, alloc, s, region, count)) return BAR_MEMORY;
+    bar_step whole = {.region = *region, .count = count, .weight = 1};
+    s->keys.count = (size_t)count * (size_t)rule->directions.count;
+    s->steps.count = s->column.count = 0;
+    if (!array_reserve(alloc, &s->column, count) || !array_push(alloc, &s->steps, whole)) return BAR_MEMORY;
     out->direction = -1;
     for (size_t at = 0; at < s->steps.count; at++) {
         bar_step step = s->steps.data[at];
-        if (!bar_shape_of(&rule->directions, &step.region, &s->shape) || is_too_small(rule, &s->shape)) continue;
+        if (!bar_shape_of(&rule->directions, &step.region, &s->shape)) continue;
+        const double width = s->shape.width;
+        if (width < rule->floor || width < FLOOR * bar_shape_reach(&s->shape)) continue; /* no cut between doubles */
         /* All candidates of the step. Where one along an axis is good enough the others are left out (direction -1):
          * their cuts cost more to store and to ask. */
         bar_candidate best = {.direction = -1};

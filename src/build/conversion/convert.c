@@ -61,12 +61,6 @@ static uint64_t pieces(const convert *c) {
     return c->work.set.items.count + c->draft.pieces.count;
 }
 
-static froe_status cut_by_plan(convert *c, const split_cell *cell, uint32_t at, const region *r) {
-    const point_node *n = c->job->plan->nodes.data + at;
-    froe_status status = cell_cut(&c->work, cell, &n->cut, 0, NULL);
-    return status ? status : push_planned_cells(c, cell->node, r, n->child, n->child + 1);
-}
-
 static split_verdict choose_in_star(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     return split_refine_choose(config, work, cell, cut);
 }
@@ -126,28 +120,29 @@ static froe_status follow_plan(convert *c, split_cell *cell, uint32_t at, const 
         froe_status status = cell_tally(&c->work, cell, &n->cut, &t);
         side = t.on || t.both || (t.negative && t.positive) ? -1 : t.positive > 0;
         if (status) return status;
-        if (!may_prune(c, at, side, r)) return cut_by_plan(c, cell, at, r);
+        if (!may_prune(c, at, side, r)) {
+            status = cell_cut(&c->work, cell, &n->cut, 0, NULL);
+            return status ? status : push_planned_cells(c, cell->node, r, n->child, n->child + 1);
+        }
         at = n->child + (uint32_t)side;
     }
-}
-
-static froe_status do_planned_cell(convert *c) {
-    split_cell cell = c->work.cells.data[--c->work.cells.count];
-    convert_cell own = c->cells.data[--c->cells.count];
-    region r;
-    c->work.set.corners.count = cell.corner_top;
-    r.count = own.corners;
-    c->corners.count -= own.corners;
-    if (own.corners) memcpy(r.corner, c->corners.data + c->corners.count, own.corners * sizeof *r.corner);
-    if (cell.count <= c->job->leaf) return cell_leaf(&c->work, &cell, 0);
-    return own.at == FROE_NONE ? do_star(c, &cell) : follow_plan(c, &cell, own.at, &r);
 }
 
 static froe_status do_planned_cells(convert *c) {
     uint64_t most = c->job->max_fragments;
     froe_status status = FROE_OK;
     while (c->work.cells.count && !status) {
-        status = do_planned_cell(c);
+        split_cell cell = c->work.cells.data[--c->work.cells.count];
+        convert_cell own = c->cells.data[--c->cells.count];
+        region r;
+        c->work.set.corners.count = cell.corner_top;
+        r.count = own.corners;
+        c->corners.count -= own.corners;
+        if (own.corners) memcpy(r.corner, c->corners.data + c->corners.count, own.corners * sizeof *r.corner);
+        if (cell.count <= c->job->leaf)
+            status = cell_leaf(&c->work, &cell, 0);
+        else
+            status = own.at == FROE_NONE ? do_star(c, &cell) : follow_plan(c, &cell, own.at, &r);
         if (!status && most && pieces(c) > most) status = FROE_E_BUDGET;
         if (!status && !split_go_on(&c->work)) status = FROE_E_CANCELLED;
     }

@@ -25,18 +25,16 @@ static bool tell_share(void *user, double done) {
     return base_progress(task, task->done + 0.2 * done * (1 - task->done));
 }
 
-/** All vertices that objects have, as points. */
-static froe_status make_points(converter *c) {
-    const froe_scene *s = c->job->scene;
+static froe_status plan_by_method(converter *c, const convert_plan *plan) {
+    const froe_scene *scene = c->job->scene;
+    /* all vertices that objects have, as points */
     froe_objects batch = froe_objects_defaults();
     batch.kind = FROE_POINT;
-    batch.count = s->vertex_count;
-    batch.coords = s->coords;
-    froe_status status = froe_scene_new(s->dim, &c->job->alloc, &c->points);
-    return status || !batch.count ? status : froe_scene_add(c->points, &batch, c->job->diag);
-}
-
-static froe_status partition(converter *c, const convert_plan *plan) {
+    batch.count = scene->vertex_count;
+    batch.coords = scene->coords;
+    froe_status status = froe_scene_new(scene->dim, &c->job->alloc, &c->points);
+    if (!status && batch.count) status = froe_scene_add(c->points, &batch, c->job->diag);
+    if (status) return status;
     froe_build_options o = froe_build_defaults();
     o.method = plan->method;
     o.settings = plan->settings;
@@ -45,12 +43,7 @@ static froe_status partition(converter *c, const convert_plan *plan) {
     o.threads = c->job->task->threads;
     o.progress = tell_share;
     o.user = c->job->task;
-    return build_tuned(c->points, &o, &c->tree, c->job->diag);
-}
-
-static froe_status plan_by_method(converter *c, const convert_plan *plan) {
-    froe_status status = make_points(c);
-    if (!status) status = partition(c, plan);
+    status = build_tuned(c->points, &o, &c->tree, c->job->diag);
     if (status) return status;
     /* cuts of points are axis-parallel or have normals: others would name objects of another scene */
     ARRAY(uint32_t) stack = {0}; /* nodes of the tree, and behind each the one of the plan */
@@ -87,24 +80,6 @@ static froe_status make_plan(converter *c, const convert_plan *plan) {
     return split_explain(c->job->diag, 0, status);
 }
 
-/** Each segment is split twice at most on each level of the plan, and by cuts along others as often as those count. */
-static froe_status follow_plan(converter *c, bool prune, froe_tree **out) {
-    build_job *job = c->job;
-    build_promise(job, "fragments", job->scene->object_count * (1 + 2 * (double)c->plan.height), 0);
-    convert_job convert = {.scene = job->scene,
-                           .alloc = job->alloc,
-                           .task = job->task,
-                           .plan = &c->plan,
-                           .leaf = job->leaf,
-                           .seed = job->seed,
-                           .max_fragments = job->max_fragments,
-                           .first = job->first,
-                           .prune = prune,
-                           .fragments = &job->meta.promises[job->meta.promise_count - 1].promised,
-                           .meta = &job->meta};
-    return split_explain(job->diag, job->max_fragments, split_convert(&convert, out));
-}
-
 froe_status build_converted(build_job *job, const convert_plan *plan, froe_tree **out) {
     converter c = {.job = job};
     froe_status status = geom_context_new(&job->alloc, &c.context);
@@ -112,7 +87,23 @@ froe_status build_converted(build_job *job, const convert_plan *plan, froe_tree 
     if (job->first > c.context.first) c.context.first = job->first;
     c.plan.scene = job->scene;
     status = make_plan(&c, plan);
-    if (!status) status = follow_plan(&c, plan->prune, out);
+    if (!status) {
+        /* each segment is split twice at most on each level of the plan, and by cuts along others as often as those
+         * count */
+        build_promise(job, "fragments", job->scene->object_count * (1 + 2 * (double)c.plan.height), 0);
+        convert_job convert = {.scene = job->scene,
+                               .alloc = job->alloc,
+                               .task = job->task,
+                               .plan = &c.plan,
+                               .leaf = job->leaf,
+                               .seed = job->seed,
+                               .max_fragments = job->max_fragments,
+                               .first = job->first,
+                               .prune = plan->prune,
+                               .fragments = &job->meta.promises[job->meta.promise_count - 1].promised,
+                               .meta = &job->meta};
+        status = split_explain(job->diag, job->max_fragments, split_convert(&convert, out));
+    }
     point_tree_free(&c.plan);
     froe_tree_free(c.tree);
     froe_scene_free(c.points);

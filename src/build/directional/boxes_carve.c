@@ -148,19 +148,6 @@ static bool touch_rooms(carve *c, int axis, uint32_t at, bool above) {
     return ok && sort_carve_list(c, &c->covers);
 }
 
-/* The rest goes on as the larger child. */
-static bool shrink_carved(carve *c, const boxes_spot *spot, bool above, uint32_t child) {
-    int axis = spot->cut.axis;
-    (above ? c->cell.hi : c->cell.lo)[axis] = spot->cut.c;
-    (above ? c->hi : c->lo)[axis] = spot->at;
-    c->cell.node = child + !above;
-    for (size_t i = 0; i < c->covers.count; i++) {
-        give(c, c->covers.data[i], false);
-        if (!boxes_add_cover(c->b, &c->cell, c->fragments[c->covers.data[i]].object)) return false;
-    }
-    return true;
-}
-
 static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
     boxes_axis *a = c->axis + spot->cut.axis;
     uint32_t child = 0, at = spot->at;
@@ -193,16 +180,15 @@ static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
         if (!divided) give(c, c->small.data[i], false);
     }
     if (!touch_rooms(c, spot->cut.axis, at, above)) return FROE_E_MEMORY;
-    return shrink_carved(c, spot, above, child) ? FROE_OK : FROE_E_MEMORY;
-}
-
-/* What is left becomes a cell again. */
-static froe_status reopen(carve *c) {
-    c->small.count = 0;
-    if (!array_reserve(&c->b->alloc, &c->small, c->left)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < c->count; i++)
-        if (!c->gone[i]) c->small.data[c->small.count++] = i;
-    return open_cell(c, &c->cell, &c->small);
+    /* the rest goes on as the larger child */
+    (above ? c->cell.hi : c->cell.lo)[spot->cut.axis] = spot->cut.c;
+    (above ? c->hi : c->lo)[spot->cut.axis] = at;
+    c->cell.node = child + !above;
+    for (size_t i = 0; i < c->covers.count; i++) {
+        give(c, c->covers.data[i], false);
+        if (!boxes_add_cover(c->b, &c->cell, c->fragments[c->covers.data[i]].object)) return FROE_E_MEMORY;
+    }
+    return FROE_OK;
 }
 
 froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task) {
@@ -230,8 +216,13 @@ froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task) {
         if (!spot.cut.found) break;
         status = base_progress(task, task->done) ? cut_off_side(&c, &spot) : FROE_E_CANCELLED;
     }
-    if (!status) status = reopen(&c);
+    /* what is left becomes a cell again */
     const froe_allocator *alloc = &c.b->alloc;
+    c.small.count = 0;
+    if (!status && !array_reserve(alloc, &c.small, c.left)) status = FROE_E_MEMORY;
+    for (uint32_t i = 0; i < c.count && !status; i++)
+        if (!c.gone[i]) c.small.data[c.small.count++] = i;
+    if (!status) status = open_cell(&c, &c.cell, &c.small);
     for (int k = 0; k < c.b->dim; k++) boxes_axis_free(alloc, c.axis + k);
     support_free(alloc, c.fragments, c.count * sizeof *c.fragments);
     support_free(alloc, c.gone, c.count * sizeof *c.gone);

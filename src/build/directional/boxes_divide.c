@@ -58,46 +58,35 @@ static size_t hand_on(const boxes_event *e, const boxes_parts *parts, int side, 
     return parts->name[side] != FROE_NONE;
 }
 
-/** On the axis of the cut, where each goes to the side on which it lies. */
-static void deal_across(const boxes *b, double c, boxes_event *item, size_t count, size_t dealt[2]) {
-    boxes_event *spare = b->spare_events.data;
-    size_t above = 0, below = 0, i = 0;
-    for (; i < count && item[i].x < c; i++)
-        below += hand_on(item + i, b->parts.data + item[i].fragment, 0, true, spare + below);
-    while (i < count && item[i].x == c) i++;
-    for (; i < count; i++) {
-        boxes_event e = item[i];
-        above += hand_on(&e, b->parts.data + e.fragment, 1, true, item + above);
-    }
-    dealt[0] = below, dealt[1] = above;
-}
-
 static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, int axis, boxes_cell side[2]) {
     uint32_t count = cell->events[axis];
-    size_t dealt[2];
     b->spare_events.count = 0;
     if (!array_reserve(&b->alloc, &b->spare_events, (size_t)count + 1) ||
         !array_reserve(&b->alloc, &b->events[axis], count))
         return false;
-    boxes_event *item = b->events[axis].data + cell->event[axis];
-    if (axis == cut->axis)
-        deal_across(b, cut->c, item, count, dealt);
-    else {
-        /* to both sides: those above close up in place, the others go aside */
-        boxes_event *spare = b->spare_events.data;
-        size_t above = 0, below = 0;
-        for (size_t i = 0; i < count; i++) {
+    /* those above close up in place, the others go aside */
+    boxes_event *item = b->events[axis].data + cell->event[axis], *spare = b->spare_events.data;
+    size_t above = 0, below = 0, i = 0;
+    if (axis == cut->axis) { /* each to the side on which it lies */
+        for (; i < count && item[i].x < cut->c; i++)
+            below += hand_on(item + i, b->parts.data + item[i].fragment, 0, true, spare + below);
+        while (i < count && item[i].x == cut->c) i++;
+        for (; i < count; i++) {
             boxes_event e = item[i];
-            const boxes_parts *parts = b->parts.data + e.fragment;
-            above += hand_on(&e, parts, 1, false, item + above); /* at most item[i] */
-            below += hand_on(&e, parts, 0, false, spare + below);
+            above += hand_on(&e, b->parts.data + e.fragment, 1, true, item + above);
         }
-        dealt[0] = below, dealt[1] = above;
     }
-    for (int s = 0; s < 2; s++) side[s].events[axis] = (uint32_t)dealt[s];
-    side[0].event[axis] = cell->event[axis] + dealt[1];
-    if (dealt[0]) memcpy(item + dealt[1], b->spare_events.data, dealt[0] * sizeof *item);
-    b->events[axis].count = side[0].event[axis] + dealt[0];
+    for (; i < count; i++) { /* on other axes each to both sides */
+        boxes_event e = item[i];
+        const boxes_parts *parts = b->parts.data + e.fragment;
+        above += hand_on(&e, parts, 1, false, item + above); /* at most item[i] */
+        below += hand_on(&e, parts, 0, false, spare + below);
+    }
+    side[0].events[axis] = (uint32_t)below;
+    side[1].events[axis] = (uint32_t)above;
+    side[0].event[axis] = cell->event[axis] + above;
+    if (below) memcpy(item + above, spare, below * sizeof *item);
+    b->events[axis].count = side[0].event[axis] + below;
     return true;
 }
 

@@ -18,17 +18,13 @@ typedef struct binning {
     uint32_t samples;
 } binning;
 
-/* Borders of bins lie off the round numbers of which models are made. */
-static double border(const binning *b, int axis, int i) {
-    return b->lo[axis] + b->size[axis] * ((i + 0.0173) / b->bins);
-}
-
 static int bin_of(const binning *b, int axis, double x) {
     double place = (x - b->lo[axis]) * b->per_bin[axis] - 0.0173;
     return place > 0 ? place < b->bins ? (int)place : b->bins - 1 : 0;
 }
 
-/* Cuts that leave one side empty are worth more than their surface says. */
+/* Cuts that leave one side empty are worth more than their surface says. Borders of bins lie off the round numbers of
+ * which models are made. */
 static void try_axis(const binning *b, int k, surface_cut *best) {
     double most = b->size[0] > b->size[1] ? b->size[0] : b->size[1];
     most = most > b->size[2] ? most : b->size[2];
@@ -41,7 +37,7 @@ static void try_axis(const binning *b, int k, surface_cut *best) {
         right -= b->end[k][i - 1];
         double cost = (cap + (u + v) * w * share) * left + (cap + (u + v) * w * (1 - share)) * right;
         cost /= whole;
-        if (cost < best->cost) *best = (surface_cut){.axis = k, .value = border(b, k, i), .cost = cost};
+        if (cost < best->cost) *best = (surface_cut){.axis = k, .value = b->lo[k] + b->size[k] * share, .cost = cost};
     }
 }
 
@@ -140,25 +136,22 @@ static bool misses(const plane *a, const space_item *b) {
     return fabs(value) - reach > a->doubt * size + 0x1p-900;
 }
 
-/* Cuts an item down to its part; false: nothing is left. */
-static bool shrink_item(space_item *item, const space_item *part, int axis) {
-    bool left = true;
-    for (int k = 0; k < 3; k++) {
-        if (k == axis) continue;
-        item->lo[k] = part->lo[k] > item->lo[k] ? part->lo[k] : item->lo[k];
-        item->hi[k] = part->hi[k] < item->hi[k] ? part->hi[k] : item->hi[k];
-        left = left && item->lo[k] <= item->hi[k];
-    }
-    return left;
-}
-
 /* Clips both copies of a triangle, one for each side; is anything left there? */
 static void clip_listed(const froe_scene *s, const surface_cut *cut, bool thorough, space_item *const out[2],
                         bool left[2]) {
     const double *const p[3] = {space_corner(s, out[0], 0), space_corner(s, out[0], 1), space_corner(s, out[0], 2)};
     space_item part[2];
     divide_triangle(p, cut->axis, cut->value, part);
-    for (int i = 0; i < 2; i++) left[i] = shrink_item(out[i], part + i, cut->axis);
+    /* cuts each item down to its part */
+    for (int i = 0; i < 2; i++) {
+        left[i] = true;
+        for (int k = 0; k < 3; k++) {
+            if (k == cut->axis) continue;
+            out[i]->lo[k] = part[i].lo[k] > out[i]->lo[k] ? part[i].lo[k] : out[i]->lo[k];
+            out[i]->hi[k] = part[i].hi[k] < out[i]->hi[k] ? part[i].hi[k] : out[i]->hi[k];
+            left[i] = left[i] && out[i]->lo[k] <= out[i]->hi[k];
+        }
+    }
     if (!thorough) return;
     /* the plane of the triangle, and how far its sides may be trusted */
     plane a = {.doubt = 0};
