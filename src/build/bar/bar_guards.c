@@ -10,14 +10,6 @@ typedef struct bar_support {
     double lo[DIRECTIONS_MOST], hi[DIRECTIONS_MOST];
 } bar_support;
 
-static void take_point(const split_directions *d, const double *x, double radius, bool first, bar_support *s) {
-    for (int i = 0; i < d->count; i++) {
-        double key = split_key(d, i, x), lo = key - radius * d->lengths[i], hi = key + radius * d->lengths[i];
-        s->lo[i] = first || lo < s->lo[i] ? lo : s->lo[i];
-        s->hi[i] = first || hi > s->hi[i] ? hi : s->hi[i];
-    }
-}
-
 static void support_of(const split_directions *d, const froe_scene *scene, uint32_t object, bar_support *s) {
     const froe_kind form = scene_form(scene, object);
     if (form == FROE_BOX) {
@@ -36,7 +28,13 @@ static void support_of(const split_directions *d, const froe_scene *scene, uint3
     }
     uint32_t corners = form == FROE_BALL ? 1 : scene_corners(scene, object);
     double radius = form == FROE_BALL ? scene_radius(scene, object) : 0;
-    for (uint32_t i = 0; i < corners; i++) take_point(d, scene_point(scene, object, i), radius, i == 0, s);
+    for (uint32_t c = 0; c < corners; c++)
+        for (int i = 0; i < d->count; i++) {
+            double key = split_key(d, i, scene_point(scene, object, c));
+            double lo = key - radius * d->lengths[i], hi = key + radius * d->lengths[i];
+            s->lo[i] = !c || lo < s->lo[i] ? lo : s->lo[i];
+            s->hi[i] = !c || hi > s->hi[i] ? hi : s->hi[i];
+        }
 }
 
 /* ------------------------------------------------------------------- sectors -- */

@@ -66,19 +66,23 @@ static void bound_by_two(const split_directions *d, int i, int j, int sign, bar_
     lower(&r->hi[axis], 1, turn * (above[0] + above[1]), fabs(above[0]) + fabs(above[1]));
 }
 
-static void find_shift(bar_shape *s, const bar_region *r) {
+/** Moves the cell to the middle of its box, and begins with the corners of that; false: the box is empty. *size: its
+ * longest side. */
+static bool begin_box(bar_shape *s, const bar_region *r, double *size) {
     const split_directions *d = s->directions;
-    double o[3] = {0};
+    double o[3] = {0}, lo[3], hi[3];
     for (int k = 0; k < d->dim; k++) o[k] = 0.5 * r->lo[k] + 0.5 * r->hi[k];
     for (int i = 0; i < d->count; i++) {
         const double *n = d->normals[i];
         s->shift[i] = num_pair_add(num_pair_sum(n[0] * o[0], n[1] * o[1]), (num_pair){n[2] * o[2], 0});
     }
-}
-
-/** The corners of the box. */
-static void begin_box(bar_shape *s, const double *lo, const double *hi) {
-    const split_directions *d = s->directions;
+    *size = 0;
+    for (int k = 0; k < d->dim; k++) {
+        lo[k] = bar_shape_local(s, k, r->lo[k]);
+        hi[k] = bar_shape_local(s, k, r->hi[k]);
+        if (!(lo[k] < hi[k])) return false;
+        if (hi[k] - lo[k] > *size) *size = hi[k] - lo[k];
+    }
     s->count = 1u << d->dim;
     for (uint32_t c = 0; c < s->count; c++) {
         double x[3] = {0};
@@ -90,6 +94,7 @@ static void begin_box(bar_shape *s, const double *lo, const double *hi) {
         }
         for (int i = 0; i < d->count; i++) s->corners[c].at[i] = split_key(d, i, x);
     }
+    return true;
 }
 
 static bool joined(const bar_shape *s, uint32_t a, uint32_t b) {
@@ -142,18 +147,6 @@ static bool clip_bar_shape(bar_shape *s, int direction, double at, int sign, dou
     return kept > 0;
 }
 
-static bool find_edges(bar_shape *s) {
-    s->edge_count = 0;
-    for (uint32_t a = 0; a < s->count; a++)
-        for (uint32_t b = a + 1; b < s->count; b++) {
-            if (!joined(s, a, b)) continue;
-            if (s->edge_count == BAR_EDGES) return false;
-            s->edges[s->edge_count][0] = (uint8_t)a;
-            s->edges[s->edge_count++][1] = (uint8_t)b;
-        }
-    return true;
-}
-
 /* Least and largest values in all directions. */
 typedef struct extent {
     double lo[DIRECTIONS_MOST], hi[DIRECTIONS_MOST];
@@ -185,7 +178,7 @@ static double aspect_of(const split_directions *d, const extent *e, double *leas
 }
 
 bool bar_shape_of(const split_directions *d, const bar_region *region, bar_shape *s) {
-    double lo[3], hi[3], size = 0;
+    double size;
     bar_region near = *region, *r = &near;
     s->directions = d;
     s->width = 0;
@@ -199,14 +192,7 @@ bool bar_shape_of(const split_directions *d, const bar_region *region, bar_shape
                 bound_by_two(d, i, j, -1, r);
             }
         }
-    find_shift(s, r);
-    for (int k = 0; k < d->dim; k++) {
-        lo[k] = bar_shape_local(s, k, r->lo[k]);
-        hi[k] = bar_shape_local(s, k, r->hi[k]);
-        if (!(lo[k] < hi[k])) return false;
-        if (hi[k] - lo[k] > size) size = hi[k] - lo[k];
-    }
-    begin_box(s, lo, hi);
+    if (!begin_box(s, r, &size)) return false;
     for (int i = d->dim; i < d->count; i++) {
         if (r->lo[i] > -INFINITY && !clip_bar_shape(s, i, bar_shape_local(s, i, r->lo[i]), 1, size)) return false;
         if (r->hi[i] < INFINITY && !clip_bar_shape(s, i, bar_shape_local(s, i, r->hi[i]), -1, size)) return false;
@@ -216,7 +202,16 @@ bool bar_shape_of(const split_directions *d, const bar_region *region, bar_shape
     memcpy(s->lo, all.lo, sizeof all.lo);
     memcpy(s->hi, all.hi, sizeof all.hi);
     s->aspect = aspect_of(d, &all, &s->width);
-    return s->width > 0 && find_edges(s);
+    if (!(s->width > 0)) return false;
+    s->edge_count = 0;
+    for (uint32_t a = 0; a < s->count; a++)
+        for (uint32_t b = a + 1; b < s->count; b++) {
+            if (!joined(s, a, b)) continue;
+            if (s->edge_count == BAR_EDGES) return false;
+            s->edges[s->edge_count][0] = (uint8_t)a;
+            s->edges[s->edge_count++][1] = (uint8_t)b;
+        }
+    return true;
 }
 
 double bar_shape_reach(const bar_shape *s) {

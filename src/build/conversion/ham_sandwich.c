@@ -144,19 +144,16 @@ static froe_status cut_ham_cell(ham *h, const ham_cell *cell) {
     return status;
 }
 
-/** All endpoints of the scene, each once, below the root. */
-static froe_status begin_ham(ham *h) {
-    const froe_scene *s = h->tree->scene;
-    if (!array_reserve(&h->tree->alloc, &h->side[0], s->vertex_count)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < s->vertex_count; i++) h->side[0].data[h->side[0].count++] = (ham_point){.vertex = i};
-    if (h->side[0].count < 2) return FROE_OK;
-    froe_cut cut = halve_points(h, h->side[0].data, h->side[0].count);
-    return push_child(h, 0, 0, &cut);
-}
-
 froe_status point_tree_by_ham_sandwich(point_tree *tree, num_context *context, base_task *task) {
     ham h = {.tree = tree, .context = context};
-    froe_status status = begin_ham(&h);
+    /* all endpoints of the scene, each once, below the root */
+    const uint32_t vertices = tree->scene->vertex_count;
+    froe_status status = array_reserve(&tree->alloc, &h.side[0], vertices) ? FROE_OK : FROE_E_MEMORY;
+    for (uint32_t i = 0; i < vertices && !status; i++) h.side[0].data[h.side[0].count++] = (ham_point){.vertex = i};
+    if (h.side[0].count > 1) {
+        froe_cut cut = halve_points(&h, h.side[0].data, h.side[0].count);
+        status = push_child(&h, 0, 0, &cut);
+    }
     for (uint32_t turn = 0; h.cells.count && !status; turn++) {
         ham_cell cell = h.cells.data[--h.cells.count];
         status = cut_ham_cell(&h, &cell);

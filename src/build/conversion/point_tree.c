@@ -41,18 +41,6 @@ typedef struct walk_step {
     bool left; /**< its children have been walked */
 } walk_step;
 
-static uint32_t locate_vertex(const point_tree *t, num_context *context, uint32_t vertex) {
-    uint32_t node = 0;
-    while (!is_leaf(t->nodes.data + node)) {
-        const point_node *n = t->nodes.data + node;
-        geom_plane plane = scene_cut_plane(t->scene, &n->cut);
-        int side = geom_side_vertex(context, &plane, scene_vertex(t->scene, vertex));
-        if (!side) break;
-        node = n->child + (side > 0);
-    }
-    return t->nodes.data[node].enter;
-}
-
 static froe_status locate_endpoints(point_tree *t, num_context *context) {
     const froe_scene *s = t->scene;
     t->locations = support_calloc(&t->alloc, s->vertex_count, sizeof *t->locations);
@@ -60,8 +48,16 @@ static froe_status locate_endpoints(point_tree *t, num_context *context) {
     for (uint32_t i = 0; i < s->vertex_count; i++) t->locations[i] = FROE_NONE;
     for (uint32_t i = 0; i < s->object_count; i++)
         for (uint32_t j = 0; j < scene_corners(s, i); j++) {
-            uint32_t vertex = scene_corner(s, i, j);
-            if (t->locations[vertex] == FROE_NONE) t->locations[vertex] = locate_vertex(t, context, vertex);
+            uint32_t vertex = scene_corner(s, i, j), node = 0;
+            if (t->locations[vertex] != FROE_NONE) continue;
+            while (!is_leaf(t->nodes.data + node)) {
+                const point_node *n = t->nodes.data + node;
+                geom_plane plane = scene_cut_plane(s, &n->cut);
+                int side = geom_side_vertex(context, &plane, scene_vertex(s, vertex));
+                if (!side) break;
+                node = n->child + (side > 0);
+            }
+            t->locations[vertex] = t->nodes.data[node].enter;
         }
     return FROE_OK;
 }
@@ -94,18 +90,6 @@ static bool push_region(region_walk *w, uint32_t node, const region *r) {
     return array_push(&w->tree->alloc, &w->steps, (region_step){node, r->count});
 }
 
-static bool note_junctions(region_walk *w, const region *r, const geom_plane *line) {
-    region_corner end[2];
-    if (!region_section(r, line, end)) return true;
-    for (int i = 0; i < 2; i++) {
-        if (end[i].side == FROE_NONE) continue;
-        geom_plane on = scene_cut_plane(w->tree->scene, &w->tree->nodes.data[end[i].side / 2].cut);
-        junction j = {end[i].side, end[i].x[region_along(&on)]};
-        if (!array_push(&w->tree->alloc, &w->found, j)) return false;
-    }
-    return true;
-}
-
 /** Regions of nodes from above; unknown ones have no junctions. */
 static bool do_region(region_walk *w, region_step step) {
     const point_node *n = w->tree->nodes.data + step.node;
@@ -114,7 +98,14 @@ static bool do_region(region_walk *w, region_step step) {
     if (r.count) memcpy(r.corner, w->corners.data + w->corners.count, r.count * sizeof *r.corner);
     if (is_leaf(n)) return true;
     geom_plane line = scene_cut_plane(w->tree->scene, &n->cut);
-    bool ok = note_junctions(w, &r, &line);
+    region_corner end[2];
+    bool ok = true, met = region_section(&r, &line, end);
+    for (int i = 0; i < 2 && met && ok; i++) {
+        if (end[i].side == FROE_NONE) continue;
+        geom_plane on = scene_cut_plane(w->tree->scene, &w->tree->nodes.data[end[i].side / 2].cut);
+        junction j = {end[i].side, end[i].x[region_along(&on)]};
+        ok = array_push(&w->tree->alloc, &w->found, j);
+    }
     for (int s = 1; s >= 0 && ok; s--) {
         region_clip(&r, &line, s ? 1 : -1, 2 * step.node + (uint32_t)s, &part);
         ok = push_region(w, n->child + (uint32_t)s, &part);

@@ -32,15 +32,6 @@ static boxes_change change(boxes_end end, unsigned rooms, int64_t weight, int64_
     return (boxes_change){.below = 0};
 }
 
-static bool make_changes(boxes *b) {
-    b->changes = support_calloc(&b->alloc, CHANGES, sizeof *b->changes);
-    for (uint32_t i = 0; i < CHANGES && b->changes; i++) {
-        uint32_t some = i / BOXES_SOME, both = i % BOXES_SOME / BOXES_BOTH, rooms = i % BOXES_BOTH / BOXES_ROOMS;
-        b->changes[i] = change((boxes_end)(i % BOXES_ROOMS), rooms, b->weight[some][both], b->options.trade);
-    }
-    return b->changes;
-}
-
 froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, const boxes_options *options, boxes *out) {
     *out = (boxes){.scene = scene, .alloc = *alloc, .dim = scene->dim, .options = *options};
     for (int some = 0; some <= scene->dim; some++) {
@@ -48,7 +39,14 @@ froe_status boxes_new(const froe_scene *scene, const froe_allocator *alloc, cons
         for (int both = 1; both <= some; both++) out->weight[some][both] = 2 * out->weight[some][both - 1];
     }
     froe_status status = draft_new(alloc, scene->dim, 0, &out->draft);
-    return status || make_changes(out) ? status : FROE_E_MEMORY;
+    if (status) return status;
+    out->changes = support_calloc(alloc, CHANGES, sizeof *out->changes);
+    if (!out->changes) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < CHANGES; i++) {
+        uint32_t some = i / BOXES_SOME, both = i % BOXES_SOME / BOXES_BOTH, rooms = i % BOXES_BOTH / BOXES_ROOMS;
+        out->changes[i] = change((boxes_end)(i % BOXES_ROOMS), rooms, out->weight[some][both], options->trade);
+    }
+    return FROE_OK;
 }
 
 void boxes_free(boxes *b) {

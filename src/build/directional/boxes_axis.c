@@ -5,12 +5,6 @@
 
 /* --------------------------------------------------------------- positions -- */
 
-static uint32_t distinct(const boxes_event *e, uint32_t count) {
-    uint32_t size = 0;
-    for (uint32_t i = 0; i < count; i++) size += !i || e[i].x != e[i - 1].x;
-    return size;
-}
-
 /* Orders the boxes by one end, by counting. first[p] becomes the number of boxes that have it before p. */
 static void order_box_ends(boxes_axis *a, boxes_end end, uint32_t *first, uint32_t *sorted) {
     for (uint32_t i = 0; i < a->count; i++) first[a->places[i].at[end] + 2]++;
@@ -27,7 +21,8 @@ static void order_box_ends(boxes_axis *a, boxes_end end, uint32_t *first, uint32
 froe_status boxes_axis_new(const boxes *b, const boxes_cell *cell, int axis, boxes_axis *out) {
     const boxes_event *e = b->events[axis].data + cell->event[axis];
     uint32_t events = cell->events[axis];
-    *out = (boxes_axis){.count = cell->count, .size = distinct(e, events)};
+    *out = (boxes_axis){.count = cell->count};
+    for (uint32_t i = 0; i < events; i++) out->size += !i || e[i].x != e[i - 1].x;
     size_t positions = (size_t)out->size + 4;
     out->x = support_calloc(&b->alloc, positions, sizeof *out->x);
     out->faces = support_calloc(&b->alloc, positions, sizeof *out->faces);
@@ -85,13 +80,6 @@ void boxes_axis_weigh(boxes_axis *a, uint32_t box, unsigned alive, int64_t weigh
     if (alive & 2) base_max_tree_raise(&a->slack, at[BOXES_HI], at[BOXES_AFTER] + 1, trade * weight);
 }
 
-static void list_face(boxes_axis *a, uint32_t at, bool there) {
-    if (!at || at > a->size) return;
-    bool changes = a->faces[at] == !there;
-    a->faces[at] += there ? 1 : UINT32_MAX;
-    if (changes) base_max_tree_raise(&a->least, at, at + 1, there ? NO_FACE : -NO_FACE);
-}
-
 static void set(base_max_tree *s, uint32_t at, uint32_t value, bool there) {
     base_max_tree_raise(s, at, at + 1, there ? (int64_t)value : -(int64_t)value);
 }
@@ -101,8 +89,11 @@ void boxes_axis_list(boxes_axis *a, uint32_t box, unsigned alive, bool there) {
     base_max_tree_raise(&a->least, p->at[BOXES_LO] + 1, p->at[BOXES_HI], there ? -1 : 1);
     for (int i = 0; i < 2; i++) {
         uint32_t at = p->at[i ? BOXES_HI : BOXES_LO];
-        list_face(a, at, there);
-        if (at && at <= a->size) base_fenwick_add(&a->ends[i], at, there ? 1 : UINT32_MAX);
+        if (!at || at > a->size) continue;
+        const bool changes = a->faces[at] == !there;
+        a->faces[at] += there ? 1 : UINT32_MAX;
+        if (changes) base_max_tree_raise(&a->least, at, at + 1, there ? NO_FACE : -NO_FACE);
+        base_fenwick_add(&a->ends[i], at, there ? 1 : UINT32_MAX);
     }
     set(&a->reach, p->rank[0], p->at[BOXES_HI], there);
     if (alive & 1) set(&a->before, p->rank[0], a->size + 1 - p->at[BOXES_BEFORE], there);

@@ -91,16 +91,6 @@ static const boxes_event *arrive_at_boxes(const boxes_change *changes, axis_swee
     return e;
 }
 
-/* Leaves them behind. */
-static void leave_boxes(const boxes_change *changes, axis_sweep *s, const boxes_event *e, const boxes_event *end) {
-    for (; e < end; e++) {
-        const boxes_change *change = changes + e->change;
-        s->slack += change->slack[1];
-        s->divided += (uint32_t)change->divided[1];
-        s->above -= change->above;
-    }
-}
-
 /* The balance of a cut at the place of the sweep. */
 static uint32_t smaller(const axis_sweep *s) {
     return s->below < s->above ? s->below : s->above;
@@ -110,16 +100,6 @@ static boxes_cut cut_at(const axis_sweep *s, int axis, double x) {
     return (boxes_cut){true, false, axis, x, s->below, s->above, s->divided};
 }
 
-/* The second time: a face that divides fewest, and leaves enough boxes on both sides; is it paid for? */
-static void consider_narrow(const axis_sweep *s, int axis, double x, bool face, sweep_found *best) {
-    if (s->divided > best->most || !face || smaller(s) < best->enough) return;
-    boxes_cut cut = cut_at(s, axis, x);
-    if (!boxes_better_on_axis(&cut, &best->least, true)) return;
-    best->least = cut;
-    best->most = cut.divided;
-    best->paid = s->slack >= 0;
-}
-
 /* narrow: 0, or how many boxes are enough for what is looked for the second time. */
 static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, axis_sweep s, uint32_t narrow) {
     sweep_found best = {.enough = narrow ? narrow : 1, .most = UINT32_MAX};
@@ -127,24 +107,33 @@ static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, 
     while (e < end) {
         bool face;
         const boxes_event *next = arrive_at_boxes(b->changes, &s, e, end, &face);
-        if (narrow)
-            consider_narrow(&s, axis, e->x, face, &best);
-        else {
-            /* a quick test of two numbers first: hardly any cut is better than all before */
-            uint32_t less = smaller(&s);
-            if (s.divided <= best.most && face && (less || b->options.faces)) {
-                boxes_cut cut = cut_at(&s, axis, e->x);
-                if (boxes_better_on_axis(&cut, &best.least, true)) best.least = cut;
-                best.most = best.least.divided;
-            }
-            if (less >= best.enough && s.slack >= 0) {
-                boxes_cut cut = cut_at(&s, axis, e->x);
-                if (boxes_better_on_axis(&cut, &best.lemma, false)) best.lemma = cut;
-                best.enough = balance(&best.lemma);
+        const uint32_t less = smaller(&s);
+        /* The second time: a face that divides fewest, and leaves enough boxes on both sides; is it paid for? A quick
+         * test of two numbers comes first, both times: hardly any cut is better than all before. */
+        if (narrow && s.divided <= best.most && face && less >= best.enough) {
+            boxes_cut cut = cut_at(&s, axis, e->x);
+            if (boxes_better_on_axis(&cut, &best.least, true)) {
+                best.least = cut;
+                best.most = cut.divided;
+                best.paid = s.slack >= 0;
             }
         }
-        leave_boxes(b->changes, &s, e, next);
-        e = next;
+        if (!narrow && s.divided <= best.most && face && (less || b->options.faces)) {
+            boxes_cut cut = cut_at(&s, axis, e->x);
+            if (boxes_better_on_axis(&cut, &best.least, true)) best.least = cut;
+            best.most = best.least.divided;
+        }
+        if (!narrow && less >= best.enough && s.slack >= 0) {
+            boxes_cut cut = cut_at(&s, axis, e->x);
+            if (boxes_better_on_axis(&cut, &best.lemma, false)) best.lemma = cut;
+            best.enough = balance(&best.lemma);
+        }
+        for (; e < next; e++) { /* leaves them behind */
+            const boxes_change *change = b->changes + e->change;
+            s.slack += change->slack[1];
+            s.divided += (uint32_t)change->divided[1];
+            s.above -= change->above;
+        }
     }
     return best;
 }

@@ -20,19 +20,15 @@ static int cut_axis(axis_work *work, const packed_fragment *f, bool last, const 
     return beyond == (top ? 1 : -1) ? 1 : 0;
 }
 
-static int exact_side(axis_work *work, const packed_fragment *f, bool last, const packed_box *box, int axis,
-                      double value) {
+int axis_side(axis_work *work, const packed_fragment *f, bool last, const packed_box *box, int axis, double value) {
+    int side = work->context->first == NUM_FILTER ? axis_sure_side(f, last, axis, value) : 0;
+    if (side) return side;
     const double *x = last ? f->q : f->p;
     const axis_ends *ends = work->ends + (f->id & PACKED_OBJECT);
     bool own = f->id & (last ? PACKED_END : PACKED_START);
     int made = own ? axis : cut_axis(work, f, last, box);
     if (made == axis) return (x[axis] > value) - (x[axis] < value);
     return axis_crossing_side(work->context, ends->p, ends->q, axis, x[made], value);
-}
-
-int axis_side(axis_work *work, const packed_fragment *f, bool last, const packed_box *box, int axis, double value) {
-    int side = work->context->first == NUM_FILTER ? axis_sure_side(f, last, axis, value) : 0;
-    return side ? side : exact_side(work, f, last, box, axis, value);
 }
 
 /* --------------------------------------------------------------- dividing -- */

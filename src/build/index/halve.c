@@ -4,21 +4,16 @@
 
 enum { NUDGES = 8 };
 
-/* 1, 2 or 3; 0: an end lies in the cut. */
-static uint8_t class_of_halving(axis_work *work, const packed_box *box, const packed_fragment *f,
-                                const halve_cut *cut) {
-    int first = axis_side(work, f, false, box, cut->axis, cut->value);
-    int last = axis_side(work, f, true, box, cut->axis, cut->value);
-    if (!first || !last) return 0;
-    return (uint8_t)((first < 0 || last < 0 ? 1 : 0) | (first > 0 || last > 0 ? 2 : 0));
-}
-
+/* Classes are 1, 2 or 3; false: an end lies in the cut. */
 static bool count_once(axis_work *work, const packed_box *box, const packed_fragment *f, uint32_t count, halve_cut *cut,
                        uint8_t *classes) {
     uint32_t of[4] = {0};
     for (uint32_t i = 0; i < count; i++) {
-        of[classes[i] = class_of_halving(work, box, f + i, cut)]++;
-        if (!classes[i]) return false;
+        const int first = axis_side(work, f + i, false, box, cut->axis, cut->value);
+        const int last = axis_side(work, f + i, true, box, cut->axis, cut->value);
+        if (!first || !last) return false;
+        classes[i] = (uint8_t)((first < 0 || last < 0 ? 1 : 0) | (first > 0 || last > 0 ? 2 : 0));
+        of[classes[i]]++;
     }
     cut->both = of[3];
     cut->sides[0] = of[1] + of[3];

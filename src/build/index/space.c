@@ -40,25 +40,6 @@ static bool choose_surface_cut(index_space_work *w, const index_space_cell *cell
     return cut->both < cell->count;
 }
 
-/* The positive items take the place of all, the negative ones lie on top. */
-static froe_status deal_space_items(index_space_work *w, const index_space_cell *cell, surface_cut *cut,
-                                    index_space_cell side[2]) {
-    w->items.count = cell->first + cell->count;
-    w->spare.count = 0;
-    if (!array_reserve(&w->job->alloc, &w->items, cut->sides[0] + cut->sides[1] - cell->count) ||
-        !array_reserve(&w->job->alloc, &w->spare, cut->sides[0]))
-        return FROE_E_MEMORY;
-    space_item *items = w->items.data + cell->first;
-    const bool thorough = cell->count <= THOROUGH;
-    surface_deal(w->job->scene, items, cell->count, cut, w->classes.data, thorough, w->spare.data, items);
-    if (cut->sides[0]) memcpy(items + cut->sides[1], w->spare.data, cut->sides[0] * sizeof *items);
-    w->items.count = cell->first + cut->sides[0] + cut->sides[1];
-    side[0].first = cell->first + cut->sides[1];
-    side[1].first = cell->first;
-    for (int i = 0; i < 2; i++) side[i].count = cut->sides[i];
-    return FROE_OK;
-}
-
 static froe_status cut_cell(index_space_work *w, const index_space_cell *cell) {
     surface_cut cut;
     index_space_cell side[2] = {*cell, *cell};
@@ -76,28 +57,30 @@ static froe_status cut_cell(index_space_work *w, const index_space_cell *cell) {
                                  flags);
     }
     froe_status status = packer_split(&w->packer, cell->node, cut.axis, cut.value, &child);
-    if (!status) status = deal_space_items(w, cell, &cut, side);
     if (status) return status;
+    /* the positive items take the place of all, the negative ones lie on top */
+    const froe_allocator *alloc = &w->job->alloc;
+    w->items.count = cell->first + cell->count;
+    w->spare.count = 0;
+    if (!array_reserve(alloc, &w->items, cut.sides[0] + cut.sides[1] - cell->count) ||
+        !array_reserve(alloc, &w->spare, cut.sides[0]))
+        return FROE_E_MEMORY;
+    space_item *items = w->items.data + cell->first;
+    const bool thorough = cell->count <= THOROUGH;
+    surface_deal(w->job->scene, items, cell->count, &cut, w->classes.data, thorough, w->spare.data, items);
+    if (cut.sides[0]) memcpy(items + cut.sides[1], w->spare.data, cut.sides[0] * sizeof *items);
+    w->items.count = cell->first + cut.sides[0] + cut.sides[1];
+    side[0].first = cell->first + cut.sides[1];
     const uint64_t listed = (uint64_t)cut.sides[0] + cut.sides[1];
     const bool barren = cut.cost > 0.98 || 5 * (listed - cell->count) > 4 * (uint64_t)cell->count;
     for (uint32_t i = 0; i < 2; i++) {
         side[i].node = child + i;
+        side[i].count = cut.sides[i];
         side[i].growth = listed > cell->count ? cell->growth * (double)listed / cell->count : cell->growth;
         side[i].barren = barren ? cell->barren + 1 : 0;
     }
-    const froe_allocator *alloc = &w->job->alloc; /* the negative child last, so that it comes first */
+    /* the negative child last, so that it comes first */
     return array_push(alloc, &w->cells, side[1]) && array_push(alloc, &w->cells, side[0]) ? FROE_OK : FROE_E_MEMORY;
-}
-
-static froe_status do_space_cells(index_space_work *w) {
-    const double objects = w->job->scene->object_count + 1.0;
-    froe_status status = FROE_OK;
-    while (w->cells.count && !status) {
-        const index_space_cell cell = w->cells.data[--w->cells.count];
-        status = cut_cell(w, &cell);
-        if (!status && !base_progress(w->job->task, 0.05 + 0.9 * fmin(w->done / objects, 1))) return FROE_E_CANCELLED;
-    }
-    return status;
 }
 
 static froe_status begin_space(index_space_work *w) {
@@ -122,7 +105,12 @@ froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
     froe_status status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
     if (status) return status;
     status = begin_space(&w);
-    if (!status) status = do_space_cells(&w);
+    while (w.cells.count && !status) {
+        const index_space_cell cell = w.cells.data[--w.cells.count];
+        status = cut_cell(&w, &cell);
+        const double share = fmin(w.done / (job->scene->object_count + 1.0), 1);
+        if (!status && !base_progress(job->task, 0.05 + 0.9 * share)) status = FROE_E_CANCELLED;
+    }
     array_free(&job->alloc, &w.cells);
     array_free(&job->alloc, &w.items);
     array_free(&job->alloc, &w.spare);
