@@ -70,7 +70,6 @@ static bool settle(formats_csv_table *t, bool sided) {
 }
 
 formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
-    if (!strncmp(*at, "\xef\xbb\xbf", 3)) *at += 3;
     size_t length = strcspn(*at, "\r\n");
     char *line = *at;
     t->separator = memchr(line, ',', length) ? ',' : memchr(line, ';', length) ? ';' : '\t';

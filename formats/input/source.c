@@ -29,6 +29,15 @@ double formats_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Takes the byte order mark of UTF-8 (RFC 3629, section 6) from the beginning of a text: it is no part of it, and a
+ * word behind it would not be recognised. No binary format begins with these bytes. Returns how many bytes are left. */
+static size_t drop_mark(char *text, size_t size) {
+    static const char mark[] = {'\xef', '\xbb', '\xbf'};
+    if (size < sizeof mark || memcmp(text, mark, sizeof mark) != 0) return size;
+    memmove(text, text + sizeof mark, size - sizeof mark);
+    return size - sizeof mark;
+}
+
 froe_status formats_source_open(const char *path, formats_source *source, froe_diagnostic *diag) {
     *source = (formats_source){.path = path};
     const char *name = support_short(path);
@@ -47,8 +56,7 @@ froe_status formats_source_open(const char *path, formats_source *source, froe_d
     if (!regular)
         return support_fail(diag, FROE_E_IO, "%s: It is %s, not a file.", name, directory ? "a directory" : "a device");
     if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: The file is empty.", name);
-    source->head_size = (size_t)got;
-    source->head[got] = '\0';
+    source->head[drop_mark(source->head, (size_t)got)] = '\0';
     source->size = (uint64_t)about.st_size;
     source->extension = support_path_extension(path);
     return FROE_OK;
@@ -69,9 +77,9 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
     int error = errno;
     if (file >= 0) close(file);
     if (got < 0) return support_fail_file(sink->diag, "read", source->path, error);
-    to[got] = '\0';
-    text->count = (size_t)got;
-    if (!binary && memchr(to, '\0', (size_t)got))
+    text->count = drop_mark(to, (size_t)got);
+    to[text->count] = '\0';
+    if (!binary && memchr(to, '\0', text->count))
         return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file is not text, because byte %zu is zero.",
                             support_short(source->path), strlen(to));
     return FROE_OK;

@@ -9,9 +9,8 @@
 typedef struct formats_source {
     const char *path;
     support_extension extension;
-    uint64_t size; /**< bytes */
-    char head[4096 + 1];
-    size_t head_size; /**< bytes of the file's beginning in `head`, which ends with a NUL */
+    uint64_t size;       /**< bytes */
+    char head[4096 + 1]; /**< the first bytes behind a byte order mark, and a NUL */
     const froe_read_options *options;
 } formats_source;
 
@@ -37,7 +36,7 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
                          froe_diagnostic *diag);
 
 typedef ARRAY(char) formats_text;
-/** The whole file and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text holds a NUL. */
+/** The whole file but for a byte order mark, and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text holds a NUL. */
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text);
 
 /** Seconds of a clock that only goes forward. */

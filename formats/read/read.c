@@ -8,11 +8,16 @@ froe_read_options froe_read_defaults(void) {
     return (froe_read_options){.size = sizeof(froe_read_options), .faces = FROE_FACES_TRIANGLES};
 }
 
+/* Is the first word behind blanks and comments OFF, behind letters for what vertices carry? */
+static bool is_off(const char *at) {
+    for (; at += strspn(at, " \t\r\n"), *at == '#';) at += strcspn(at, "\n");
+    at += strspn(at, "STCN4n");
+    return !strncmp(at, "OFF", 3) && strchr(" \t\n\v\f\r", at[3]) /* or the end */;
+}
+
 static formats_reader *choose_own(const formats_source *source) {
     if (formats_csv_recognise(source)) return formats_read_csv;
-    const char *word = source->head + strspn(source->head, " \t\r\n"); /* OFF, behind letters for what vertices carry */
-    word += strspn(word, "STCN4n");
-    if (!strncmp(word, "OFF", 3) && strchr(" \t\n\v\f\r", word[3]) /* or the end */) return formats_read_off;
+    if (is_off(source->head)) return formats_read_off;
     if (!strncmp(source->head, "ply\n", 4) || !strncmp(source->head, "ply\r", 4)) return formats_read_ply;
     if (!strcmp(source->extension.text, "ply")) return formats_read_ply;
     return strcmp(source->extension.text, "obj") ? NULL : formats_read_obj;

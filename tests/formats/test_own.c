@@ -16,6 +16,7 @@ static void each_format_that_needs_no_library_is_read(void **state) {
          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
          "PLY", 3, 1},
         {"own", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1}, /* by its content */
+        {"own", " # one\n# OFF\n\nOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1},
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         froe_read_report report;
@@ -25,6 +26,31 @@ static void each_format_that_needs_no_library_is_read(void **state) {
         assert_string_equal(report.format, files[i].format);
         assert_int_equal(froe_scene_dim(scene), files[i].dim);
         assert_int_equal(froe_scene_object_count(scene), files[i].objects);
+        froe_scene_free(scene);
+    }
+}
+
+/* The mark is no part of the text: a word, a number or a header behind it is read as without it. */
+static void a_byte_order_mark_before_a_text_is_passed_over(void **state) {
+    (void)state;
+    static const char *const files[][2] = {
+        {"mark.csv", "\xef\xbb\xbfx,y,z\n0,0,0\n1,1,1\n"},
+        {"mark.obj", "\xef\xbb\xbfv 0 0 0\nv 1 0 1\nv 0 1 0\nv 7 7 7\nmtllib mark.mtl\nusemtl red\nf 1 2 3\n"},
+        {"mark.off", "\xef\xbb\xbfOFF\n3 1 0\n0 0 0\n1 0 1\n0 1 0\n3 0 1 2\n"},
+        {"mark.ply", "\xef\xbb\xbfply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                     "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                     "0 0 0\n1 0 1\n0 1 0\n3 0 1 2\n"},
+    };
+    write_text("mark.mtl", "\xef\xbb\xbfnewmtl red\nKd 1 0 0\n");
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        froe_read_report report;
+        double lo[3], hi[3];
+        write_text(files[i][0], files[i][1]);
+        assert_true(froe_reads_own(files[i][0]));
+        froe_scene *scene = read_scene(files[i][0], &report);
+        assert_true(froe_scene_bounds(scene, lo, hi));
+        for (int k = 0; k < 3; k++) assert_true(lo[k] == 0 && hi[k] == 1);
+        if (froe_scene_group_count(scene)) assert_int_equal(froe_scene_group(scene, 0).colour, 0xff0000ff);
         froe_scene_free(scene);
     }
 }
@@ -70,6 +96,7 @@ static void what_cannot_be_read_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_format_that_needs_no_library_is_read),
+        cmocka_unit_test(a_byte_order_mark_before_a_text_is_passed_over),
         cmocka_unit_test(other_formats_are_refused),
         cmocka_unit_test(what_cannot_be_read_is_refused),
     };
