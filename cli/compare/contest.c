@@ -9,85 +9,79 @@ enum { PURPOSES = sizeof purposes / sizeof *purposes };
 static const char *const kinds[] = {"point", "window", "ray", "approximate"};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-/* Leaves of one object, or none, unless nothing can separate them: what makes pieces comparable. */
-static double pieces(const json_t *row) {
-    return field_number(row, "leaf") <= 1 && field_number(row, "crowded") == 0 ? field_number(row, "fragments") : NAN;
+/* Of a kind of query, in the mean; NaN: it was not measured. */
+static double microseconds(const json_t *row, const char *kind) {
+    return field_number(json_object_get(json_object_get(row, "queries"), kind), "microseconds");
 }
 
-static double least_time(const json_t *rows, const char *kind) {
-    double least = INFINITY;
-    size_t i;
-    json_t *row;
-    json_array_foreach((json_t *)rows, i, row) {
-        const double e = field_number(json_object_get(json_object_get(row, "queries"), kind), "microseconds");
-        if (e < least) least = e; /* not for NaN */
-    }
-    return least;
-}
-
-/* Mean over the kinds, each relative to the quickest method at it. */
-static double query_cost(const json_t *rows, const json_t *row) {
+/* What the tree of a row costs for a purpose; NaN: it cannot be compared. */
+static double cost_of(const json_t *rows, const json_t *row, const char *purpose) {
+    /* Leaves of one object, or none, unless nothing can separate them: what makes pieces comparable. */
+    if (strcmp(purpose, "query") != 0)
+        return field_number(row, "leaf") <= 1 && field_number(row, "crowded") == 0 ? field_number(row, "fragments")
+                                                                                   : NAN;
+    /* Mean over the kinds, each relative to the quickest method at it. */
     double sum = 0;
     int count = 0;
     for (int k = 0; k < KINDS; k++) {
-        const double least = least_time(rows, kinds[k]);
+        double least = INFINITY;
+        size_t i;
+        json_t *other;
+        json_array_foreach((json_t *)rows, i, other) {
+            const double e = microseconds(other, kinds[k]);
+            if (e < least) least = e; /* not for NaN */
+        }
         if (!isfinite(least) || !(least > 0)) continue;
-        sum += field_number(json_object_get(json_object_get(row, "queries"), kinds[k]), "microseconds") / least;
+        sum += microseconds(row, kinds[k]) / least;
         count++;
     }
     return count ? sum / count : NAN;
 }
 
-static json_t *contest(const char *chosen, const char *purpose, const json_t *rows) {
-    double best = INFINITY, own = NAN;
-    const char *winner = NULL;
-    size_t i;
-    json_t *row;
-    json_array_foreach((json_t *)rows, i, row) {
-        const double cost = strcmp(purpose, "query") == 0 ? query_cost(rows, row) : pieces(row);
-        const char *name = json_string_value(json_object_get(row, "method"));
-        if (cost < best) best = cost, winner = name;
-        if (strcmp(name, chosen) == 0) own = cost;
-    }
-    return json_pack("{s:s, s:s?, s:o}", "auto", chosen, "best", winner, "ratio",
-                     own >= best ? json_real(own / best) : json_null());
-}
-
 json_t *contest_json(const froe_scene *scene, const json_t *rows) {
     json_t *out = json_object();
-    for (int p = 0; p < PURPOSES; p++)
-        json_object_set_new(out, purposes[p], contest(froe_method_auto(scene, purposes[p]), purposes[p], rows));
-    return out;
-}
-
-/* Did the method that auto takes fail, and another succeed? */
-static bool has_failed(const json_t *scene, const json_t *choice) {
-    const json_t *row =
-        field_row(json_object_get(scene, "methods"), json_string_value(json_object_get(choice, "auto")));
-    return row && json_is_string(json_object_get(choice, "best")) && !field_is_built(row);
-}
-
-static json_t *sum_json(const json_t *scenes, const char *purpose) {
-    int count = 0, best = 0, near = 0, failed = 0;
-    double worst = 1;
-    size_t i;
-    json_t *scene;
-    json_array_foreach((json_t *)scenes, i, scene) {
-        const json_t *choice = json_object_get(json_object_get(scene, "auto"), purpose);
-        const double ratio = field_number(choice, "ratio");
-        const bool fails = has_failed(scene, choice);
-        count += fails || !isnan(ratio);
-        failed += fails;
-        best += ratio <= 1; /* not for NaN */
-        near += ratio <= 1.1;
-        worst = fmax(worst, ratio);
+    for (int p = 0; p < PURPOSES; p++) {
+        const char *chosen = froe_method_auto(scene, purposes[p]), *winner = NULL;
+        double best = INFINITY, own = NAN;
+        size_t i;
+        json_t *row;
+        json_array_foreach((json_t *)rows, i, row) {
+            const double cost = cost_of(rows, row, purposes[p]);
+            const char *name = json_string_value(json_object_get(row, "method"));
+            if (cost < best) best = cost, winner = name;
+            if (strcmp(name, chosen) == 0) own = cost;
+        }
+        json_object_set_new(out, purposes[p],
+                            json_pack("{s:s, s:s?, s:o}", "auto", chosen, "best", winner, "ratio",
+                                      own >= best ? json_real(own / best) : json_null()));
     }
-    return json_pack("{s:i, s:i, s:i, s:i, s:o}", "scenes", count, "best", best, "within_10_percent", near, "failed",
-                     failed, "worst_ratio", count > failed ? json_real(worst) : json_null());
+    return out;
 }
 
 json_t *contest_sum_json(const json_t *scenes) {
     json_t *out = json_object();
-    for (int p = 0; p < PURPOSES; p++) json_object_set_new(out, purposes[p], sum_json(scenes, purposes[p]));
+    for (int p = 0; p < PURPOSES; p++) {
+        int count = 0, best = 0, near = 0, failed = 0;
+        double worst = 1;
+        size_t i;
+        json_t *scene;
+        json_array_foreach((json_t *)scenes, i, scene) {
+            const json_t *choice = json_object_get(json_object_get(scene, "auto"), purposes[p]);
+            const char *chosen = json_string_value(json_object_get(choice, "auto"));
+            const json_t *row = field_row(json_object_get(scene, "methods"), chosen);
+            const double ratio = field_number(choice, "ratio");
+            /* The method that auto takes failed, and another succeeded. */
+            const bool fails = row && json_is_string(json_object_get(choice, "best")) && !field_is_built(row);
+            count += fails || !isnan(ratio);
+            failed += fails;
+            best += ratio <= 1; /* not for NaN */
+            near += ratio <= 1.1;
+            worst = fmax(worst, ratio);
+        }
+        json_object_set_new(out, purposes[p],
+                            json_pack("{s:i, s:i, s:i, s:i, s:o}", "scenes", count, "best", best, "within_10_percent",
+                                      near, "failed", failed, "worst_ratio",
+                                      count > failed ? json_real(worst) : json_null()));
+    }
     return out;
 }

@@ -35,22 +35,6 @@ static void put_methods(FILE *out, const json_t *rows) {
     fputs("</table></div>\n", out);
 }
 
-static void put_promises(FILE *out, const json_t *rows) {
-    size_t i;
-    json_t *row;
-    fputs("<h3>What methods promise, and what came out</h3>\n<div class=\"cards\">\n", out);
-    json_array_foreach((json_t *)rows, i, row) {
-        const json_t *bounds = json_object_get(row, "bounds");
-        if (!json_object_size(bounds)) continue;
-        fputs("<div class=\"card promise\"><h3>", out);
-        html_text(out, json_string_value(json_object_get(row, "method")));
-        fputs("</h3>\n", out);
-        html_bounds(out, bounds);
-        fputs("</div>\n", out);
-    }
-    fputs("</div>\n", out);
-}
-
 static void put_choices(FILE *out, const json_t *choices) {
     const char *purpose;
     json_t *choice;
@@ -80,22 +64,12 @@ static void put_picture(FILE *out, const json_t *of, const char *alt, const char
             picture, caption);
 }
 
-static void put_pictures(FILE *out, const json_t *rows) {
-    size_t i;
-    json_t *row;
-    if (!json_is_string(json_object_get(json_array_get(rows, 0), "picture"))) return;
-    fputs("<h3>Cells, dark where the tree is deep, and the scene in ink</h3>\n<div class=\"plots small\">\n", out);
-    json_array_foreach((json_t *)rows, i, row) {
-        const char *method = json_string_value(json_object_get(row, "method"));
-        put_picture(out, row, method, method);
-    }
-    fputs("</div>\n", out);
-}
-
 /* -------------------------------------------------------------------- scenes -- */
 
 static void put_scene(FILE *out, const json_t *scene) {
     const json_t *rows = json_object_get(scene, "methods");
+    size_t i;
+    json_t *row;
     fputs("<section>\n<h2>", out);
     html_text(out, json_string_value(json_object_get(scene, "scene")));
     fputs("</h2>\n<div class=\"cards\"><div class=\"card scene\"><h3>What the scene is like</h3>\n", out);
@@ -106,34 +80,46 @@ static void put_scene(FILE *out, const json_t *scene) {
     put_choices(out, json_object_get(scene, "auto"));
     put_methods(out, rows);
     if (!figures_put(out, rows)) fputs("<p>There was no memory for figures.</p>\n", out);
-    put_promises(out, rows);
-    put_pictures(out, rows);
+    fputs("<h3>What methods promise, and what came out</h3>\n<div class=\"cards\">\n", out);
+    json_array_foreach((json_t *)rows, i, row) {
+        const json_t *bounds = json_object_get(row, "bounds");
+        if (!json_object_size(bounds)) continue;
+        fputs("<div class=\"card promise\"><h3>", out);
+        html_text(out, json_string_value(json_object_get(row, "method")));
+        fputs("</h3>\n", out);
+        html_bounds(out, bounds);
+        fputs("</div>\n", out);
+    }
+    fputs("</div>\n", out);
+    if (json_is_string(json_object_get(json_array_get(rows, 0), "picture"))) {
+        fputs("<h3>Cells, dark where the tree is deep, and the scene in ink</h3>\n<div class=\"plots small\">\n", out);
+        json_array_foreach((json_t *)rows, i, row) {
+            const char *method = json_string_value(json_object_get(row, "method"));
+            put_picture(out, row, method, method);
+        }
+        fputs("</div>\n", out);
+    }
     fputs("</section>\n", out);
 }
 
-static void put_sum(FILE *out, const json_t *sums) {
-    static const char *const keys[] = {"scenes", "best", "within_10_percent", "failed", "worst_ratio", NULL};
-    const char *purpose;
-    json_t *sum;
-    fputs("<section>\n<h2>How well auto chose</h2>\n<div class=\"cards\">\n", out);
-    json_object_foreach((json_t *)sums, purpose, sum) {
-        fprintf(out, "<div class=\"card\"><h3>--for %s</h3>\n", purpose);
-        html_pairs(out, sum, keys);
-        fputs("</div>\n", out);
-    }
-    fputs("</div>\n</section>\n", out);
-}
-
 void page_put(FILE *out, const void *user) {
+    static const char *const sum_keys[] = {"scenes", "best", "within_10_percent", "failed", "worst_ratio", NULL};
     const json_t *comparison = user;
     size_t i;
-    json_t *scene;
+    const char *purpose;
+    json_t *scene, *sum;
     html_begin(out, "froe compare", "compare.css");
     fputs("<header>\n<h1>froe compare</h1>\n<p>Partitions of the same scenes by every method that serves them. Numbers "
           "of "
           "nodes are means over queries near objects; kept: promises of the method that hold.</p>\n</header>\n<main>\n",
           out);
     json_array_foreach(json_object_get(comparison, "scenes"), i, scene) put_scene(out, scene);
-    put_sum(out, json_object_get(comparison, "auto"));
+    fputs("<section>\n<h2>How well auto chose</h2>\n<div class=\"cards\">\n", out);
+    json_object_foreach(json_object_get(comparison, "auto"), purpose, sum) {
+        fprintf(out, "<div class=\"card\"><h3>--for %s</h3>\n", purpose);
+        html_pairs(out, sum, sum_keys);
+        fputs("</div>\n", out);
+    }
+    fputs("</div>\n</section>\n", out);
     html_end(out);
 }

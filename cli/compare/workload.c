@@ -39,22 +39,18 @@ static void draw_place(run *r, double away, double *out) {
     for (int k = 0; k < r->dim; k++) out[k] = corner[k] + away * (2 * draw_workload(r) - 1) * r->side[k];
 }
 
-static void draw_window(run *r, double share, double *points) {
-    draw_place(r, 0.5 * share, points);
-    for (int k = 0; k < r->dim; k++) {
-        const double half = 0.5 * share * r->side[k], middle = points[k];
-        points[k] = middle - half;
-        points[r->dim + k] = middle + half;
-    }
-}
-
 /* -------------------------------------------------------------------- asking -- */
 
 static froe_status ask_range(run *r, double share, double eps, uint64_t *found) {
     double points[2 * FROE_MAX_DIM];
     froe_range window = froe_range_defaults();
     froe_list list;
-    draw_window(r, share, points);
+    draw_place(r, 0.5 * share, points);
+    for (int k = 0; k < r->dim; k++) {
+        const double half = 0.5 * share * r->side[k], middle = points[k];
+        points[k] = middle - half;
+        points[r->dim + k] = middle + half;
+    }
     window.points = points;
     window.eps = eps;
     const froe_status status = froe_query_range(r->query, &window, &list, r->diag);
@@ -62,33 +58,28 @@ static froe_status ask_range(run *r, double share, double eps, uint64_t *found) 
     return status;
 }
 
-static froe_status ask_ray(run *r, uint64_t *found) {
-    double origin[FROE_MAX_DIM], direction[FROE_MAX_DIM];
-    froe_hit hit;
-    draw_place(r, 0.1, origin);
-    for (int k = 0; k < r->dim; k++) direction[k] = draw_workload(r) - 0.5;
-    if (direction[0] == 0) direction[0] = 1;
-    const froe_status status = froe_query_ray(r->query, origin, direction, INFINITY, &hit, r->diag);
-    if (!status) *found += hit.object != FROE_NONE;
-    return status;
-}
-
 static froe_status ask_workload(run *r, query_kind kind, double eps, uint64_t i, uint64_t *found) {
-    double point[FROE_MAX_DIM];
+    double place[FROE_MAX_DIM], direction[FROE_MAX_DIM];
     froe_list list;
+    froe_hit hit;
     froe_status status;
     r->key = r->load->seed * 0xD1342543DE82EF95u + (uint64_t)kind;
     r->draws = i << 8;
     switch (kind) {
     case POINT:
-        draw_place(r, 0.01, point);
-        status = froe_query_locate(r->query, point, &list, r->diag);
+        draw_place(r, 0.01, place);
+        status = froe_query_locate(r->query, place, &list, r->diag);
         if (!status) *found += list.count;
         return status;
     case WINDOW:
         return ask_range(r, 1.0 / 32, 0, found);
     case RAY:
-        return ask_ray(r, found);
+        draw_place(r, 0.1, place);
+        for (int k = 0; k < r->dim; k++) direction[k] = draw_workload(r) - 0.5;
+        if (direction[0] == 0) direction[0] = 1;
+        status = froe_query_ray(r->query, place, direction, INFINITY, &hit, r->diag);
+        if (!status) *found += hit.object != FROE_NONE;
+        return status;
     case APPROXIMATE:
         break;
     }
@@ -102,34 +93,26 @@ static int by_value(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-static json_t *costs_json(run *r, uint64_t asked, const froe_query_stats *sum, uint64_t found) {
-    const double each = asked ? 1 / (double)asked : 0;
-    qsort(r->nodes, asked, sizeof *r->nodes, by_value);
-    return json_pack("{s:I, s:f, s:I, s:f, s:f, s:f}", "asked", (json_int_t)asked, "nodes", each * (double)sum->nodes,
-                     "nodes_p99", (json_int_t)(asked ? r->nodes[asked * 99 / 100] : 0), "leaves",
-                     each * (double)sum->leaves, "tests", each * (double)sum->tests, "found", each * (double)found);
-}
-
-/* Does a kind of query end here: out of time, or interrupted? */
-static bool over(const run *r, double started) {
-    return cli_interrupted() || cli_thread_seconds() - started > r->load->seconds;
-}
-
 /* Counts first, then times: those of this thread, which runs all queries, so that other work of the machine counts
- * less. */
+ * less. Counting ends early when the time is over or the program is interrupted. */
 static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe_status *status) {
     froe_query_stats sum = {.queries = 0};
     uint64_t found = 0, asked = 0;
     const double started = cli_thread_seconds();
     froe_query_statistics(r->query);
-    while (asked < count && !*status && !over(r, started)) {
+    while (asked < count && !*status && !cli_interrupted() && cli_thread_seconds() - started <= r->load->seconds) {
         *status = ask_workload(r, kind, eps, asked, &found);
         const froe_query_stats one = froe_query_statistics(r->query);
         sum.nodes += one.nodes, sum.leaves += one.leaves, sum.tests += one.tests;
         r->nodes[asked++] = one.nodes;
     }
     if (*status) return NULL;
-    json_t *out = costs_json(r, asked, &sum, found);
+    const double each = asked ? 1 / (double)asked : 0;
+    qsort(r->nodes, asked, sizeof *r->nodes, by_value);
+    json_t *out =
+        json_pack("{s:I, s:f, s:I, s:f, s:f, s:f}", "asked", (json_int_t)asked, "nodes", each * (double)sum.nodes,
+                  "nodes_p99", (json_int_t)(asked ? r->nodes[asked * 99 / 100] : 0), "leaves",
+                  each * (double)sum.leaves, "tests", each * (double)sum.tests, "found", each * (double)found);
     if (!r->load->times || !asked) return out;
     const double start = cli_thread_seconds();
     for (uint64_t i = 0; i < asked && !*status; i++) *status = ask_workload(r, kind, eps, i, &found);
@@ -137,26 +120,21 @@ static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe
     return out;
 }
 
-static json_t *measure_eps(run *r, froe_status *status) {
-    json_t *list = json_array();
-    for (int i = 0; i <= 7 && !*status; i++) {
-        const double eps = i < 7 ? ldexp(1, -i) : 0;
-        json_t *costs = measure(r, APPROXIMATE, eps, r->load->count / 4 + 1, status);
-        json_object_set_new(costs, "eps", json_real(eps));
-        json_array_append_new(list, costs);
-    }
-    return list;
-}
-
 static json_t *measure_all(run *r, froe_status *status) {
-    json_t *out = json_object();
+    json_t *out = json_object(), *by_eps = json_array();
     const uint64_t count = r->load->count;
     json_object_set_new(out, "point", measure(r, POINT, 0, count, status));
     if (!*status) json_object_set_new(out, "window", measure(r, WINDOW, 0, count, status));
     if (!*status && r->dim <= 3) json_object_set_new(out, "ray", measure(r, RAY, 0, count, status));
-    if (!*status) json_object_set_new(out, "by_eps", measure_eps(r, status));
-    if (!*status)
-        json_object_set(out, "approximate", json_array_get(json_object_get(out, "by_eps"), 3)); /* eps = 1/8 */
+    for (int i = 0; i <= 7 && !*status; i++) {
+        const double eps = i < 7 ? ldexp(1, -i) : 0;
+        json_t *costs = measure(r, APPROXIMATE, eps, count / 4 + 1, status);
+        json_object_set_new(costs, "eps", json_real(eps));
+        json_array_append_new(by_eps, costs);
+    }
+    json_object_set(out, "by_eps", by_eps);
+    json_object_set(out, "approximate", json_array_get(by_eps, 3)); /* eps = 1/8 */
+    json_decref(by_eps);
     if (!*status) return out;
     json_decref(out);
     return NULL;
