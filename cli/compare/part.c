@@ -2,6 +2,7 @@
  * (A random sample would be sparser: another kind of scene.) */
 #include "compare/part.h"
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 const double *part_corner(const froe_scene *scene, uint32_t object, uint32_t corner) {
@@ -25,16 +26,6 @@ static double place(const froe_scene *scene, uint32_t object, int axis) {
     return 0.25 * part_corner(scene, object, 0)[axis] + 0.25 * part_corner(scene, object, 1)[axis];
 }
 
-/* The middle is that of the objects, axis by axis: half of them lie below it. */
-static void find_middle(const froe_scene *scene, ranked *work, double *middle) {
-    const size_t n = froe_scene_object_count(scene);
-    for (int k = 0; k < froe_scene_dim(scene); k++) {
-        for (uint32_t i = 0; i < n; i++) work[i] = (ranked){place(scene, i, k), i};
-        qsort(work, n, sizeof *work, by_key);
-        middle[k] = n ? work[n / 2].key : 0;
-    }
-}
-
 uint32_t *part_order(const froe_scene *scene) {
     const size_t n = froe_scene_object_count(scene);
     const int dim = froe_scene_dim(scene);
@@ -47,7 +38,12 @@ uint32_t *part_order(const froe_scene *scene) {
         return NULL;
     }
     froe_scene_bounds(scene, lo, hi);
-    find_middle(scene, work, middle);
+    /* The middle is that of the objects, axis by axis: half of them lie below it. */
+    for (int k = 0; k < dim; k++) {
+        for (uint32_t i = 0; i < n; i++) work[i] = (ranked){place(scene, i, k), i};
+        qsort(work, n, sizeof *work, by_key);
+        middle[k] = n ? work[n / 2].key : 0;
+    }
     for (uint32_t i = 0; i < n; i++) {
         double far = 0;
         for (int k = 0; k < dim; k++) {
@@ -62,19 +58,13 @@ uint32_t *part_order(const froe_scene *scene) {
     return order;
 }
 
-/* As many corners as the kind has, or more; those of a degenerate object are repeated. */
-static uint32_t corners_of(const froe_object *object) {
-    static const uint32_t least[FROE_KIND_COUNT] = {1, 2, 3, 2, 1, 1};
-    const uint32_t fixed = least[object->kind];
-    if (object->kind == FROE_POLYGON || object->kind == FROE_HULL)
-        return object->corners > fixed ? object->corners : fixed;
-    return fixed;
-}
-
+/* Copies as many corners as the kind has, or more; those of a degenerate object are repeated. */
 static froe_status copy_object(const froe_scene *from, uint32_t id, froe_scene *to, double *coords,
                                froe_diagnostic *diag) {
+    static const uint32_t least[FROE_KIND_COUNT] = {1, 2, 3, 2, 1, 1};
     const froe_object object = froe_scene_object(from, id);
-    const uint32_t corners = corners_of(&object);
+    const bool any = object.kind == FROE_POLYGON || object.kind == FROE_HULL; /* number of corners, from the least on */
+    const uint32_t fixed = least[object.kind], corners = any && object.corners > fixed ? object.corners : fixed;
     const size_t dim = (size_t)froe_scene_dim(from), starts[2] = {0, corners};
     for (uint32_t i = 0; i < corners; i++) {
         const uint32_t there = i < object.corners ? i : object.corners - 1;
@@ -84,24 +74,20 @@ static froe_status copy_object(const froe_scene *from, uint32_t id, froe_scene *
     o.kind = object.kind;
     o.count = 1;
     o.coords = coords;
-    o.starts = object.kind == FROE_POLYGON || object.kind == FROE_HULL ? starts : NULL;
+    o.starts = any ? starts : NULL;
     o.radii = object.kind == FROE_BALL ? &object.radius : NULL;
     return froe_scene_add(to, &o, diag);
-}
-
-static size_t most_corners(const froe_scene *scene) {
-    size_t most = 3;
-    for (uint32_t i = 0; i < froe_scene_object_count(scene); i++) {
-        const size_t corners = froe_scene_object(scene, i).corners;
-        if (corners > most) most = corners;
-    }
-    return most;
 }
 
 froe_status part_new(const froe_scene *scene, const uint32_t *order, size_t count, froe_scene **out,
                      froe_diagnostic *diag) {
     const int dim = froe_scene_dim(scene);
-    double *coords = calloc(most_corners(scene) * (size_t)dim, sizeof *coords);
+    size_t most = 3;
+    for (uint32_t i = 0; i < froe_scene_object_count(scene); i++) {
+        const size_t corners = froe_scene_object(scene, i).corners;
+        if (corners > most) most = corners;
+    }
+    double *coords = calloc(most * (size_t)dim, sizeof *coords);
     froe_status status = coords ? froe_scene_new(dim, NULL, out) : FROE_E_MEMORY;
     for (size_t i = 0; i < count && !status; i++) {
         status = copy_object(scene, order[i], *out, coords, diag);

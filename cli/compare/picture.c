@@ -1,37 +1,26 @@
 /* picture.c: PNG as base64 (RFC 4648), made by the draw library. */
 #include "compare/picture.h"
 #include "args/budget.h"
+#include "support/array.h"
 #include <froe/draw.h>
 #include <stdlib.h>
-#include <string.h>
 
-typedef struct buffer {
-    unsigned char *bytes;
-    size_t count, capacity;
-} buffer;
+typedef ARRAY(unsigned char) byte_array;
 
 static bool take(void *user, const void *bytes, size_t count) {
-    buffer *b = user;
-    if (b->capacity - b->count < count) {
-        const size_t capacity = 2 * b->capacity + count;
-        unsigned char *more = realloc(b->bytes, capacity);
-        if (!more) return false;
-        b->bytes = more;
-        b->capacity = capacity;
-    }
-    memcpy(b->bytes + b->count, bytes, count);
-    b->count += count;
-    return true;
+    const froe_allocator alloc = support_allocator(NULL);
+    byte_array *all = user;
+    return array_append(&alloc, all, bytes, count);
 }
 
-static json_t *base64_json(const buffer *b) {
+static json_t *base64_json(const unsigned char *bytes, size_t count) {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    char *text = malloc(4 * (b->count / 3 + 1) + 1), *to = text;
+    char *text = malloc(4 * (count / 3 + 1) + 1), *to = text;
     if (!text) return NULL;
-    for (size_t i = 0; i < b->count; i += 3) {
-        const size_t left = b->count - i;
+    for (size_t i = 0; i < count; i += 3) {
+        const size_t left = count - i;
         const unsigned word =
-            (unsigned)b->bytes[i] << 16 | (left > 1 ? b->bytes[i + 1] : 0u) << 8 | (left > 2 ? b->bytes[i + 2] : 0u);
+            (unsigned)bytes[i] << 16 | (left > 1 ? bytes[i + 1] : 0u) << 8 | (left > 2 ? bytes[i + 2] : 0u);
         *to++ = letters[word >> 18];
         *to++ = letters[word >> 12 & 63];
         *to++ = left > 1 ? letters[word >> 6 & 63] : '=';
@@ -43,15 +32,16 @@ static json_t *base64_json(const buffer *b) {
 }
 
 json_t *picture_json(const froe_tree *tree, bool cells) {
+    const froe_allocator alloc = support_allocator(NULL);
     froe_draw_options o = froe_draw_defaults();
-    buffer b = {.count = 0};
+    byte_array png = {0};
     o.width = 480;
     o.legend = false;
     if (!cells) o.show = FROE_DRAW_OBJECTS;
     o.margin = 8;
-    const froe_status status = froe_draw_write(tree, FROE_DRAW_PNG, take, &b, &o, NULL);
-    json_t *json = status ? json_null() : base64_json(&b);
-    free(b.bytes);
+    const froe_status status = froe_draw_write(tree, FROE_DRAW_PNG, take, &png, &o, NULL);
+    json_t *json = status ? json_null() : base64_json(png.data, png.count);
+    array_free(&alloc, &png);
     return json;
 }
 

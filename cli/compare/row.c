@@ -31,16 +31,6 @@ typedef struct outcome {
     char note[300];
 } outcome;
 
-static void explain(const compare_plan *plan, froe_status status, const froe_diagnostic *diag, bool late,
-                    outcome *out) {
-    if (late)
-        snprintf(out->note, sizeof out->note, "more than %g s", plan->seconds);
-    else if (status == FROE_E_BUDGET)
-        snprintf(out->note, sizeof out->note, "more than %g pieces per object", plan->pieces);
-    else
-        snprintf(out->note, sizeof out->note, "%s", diag->message);
-}
-
 static outcome build(const compare_plan *plan, froe_scene *scene, meter *memory, const char *method) {
     attempt a = {.bar = cli_progress_begin(plan->common, method), .seconds = plan->seconds};
     const double most = plan->pieces * (double)froe_scene_object_count(scene), start = cli_seconds();
@@ -62,12 +52,17 @@ static outcome build(const compare_plan *plan, froe_scene *scene, meter *memory,
     cli_progress_end(&a.bar);
     if (status) {
         out.tree = NULL;
-        explain(plan, status, &diag, a.late, &out);
+        if (a.late)
+            snprintf(out.note, sizeof out.note, "more than %g s", plan->seconds);
+        else if (status == FROE_E_BUDGET)
+            snprintf(out.note, sizeof out.note, "more than %g pieces per object", plan->pieces);
+        else
+            snprintf(out.note, sizeof out.note, "%s", diag.message);
     }
     return out;
 }
 
-/* ------------------------------------------------------------------- looking -- */
+/* ----------------------------------------------------------------- measuring -- */
 
 /* Every node once, without recursion: nodes are numbered from 1, children after their parents. */
 static json_t *loads_json(const froe_tree *tree) {
@@ -114,19 +109,6 @@ static json_t *growth_json(const compare_plan *plan, const compare_scene *scene,
     return list;
 }
 
-static void look(const compare_plan *plan, const outcome *out, json_t *row) {
-    const workload load = {plan->queries, plan->common->seed, plan->seconds, plan->times};
-    froe_diagnostic diag = {.message = ""};
-    froe_status status = FROE_OK;
-    json_t *queries = workload_run(out->tree, &load, &status, &diag);
-    json_object_set_new(row, "leaf_loads", loads_json(out->tree));
-    if (queries)
-        json_object_set_new(row, "queries", queries);
-    else
-        json_object_set_new(row, "note", json_sprintf("no queries: %s", diag.message));
-    if (plan->pictures) json_object_set_new(row, "picture", picture_json(out->tree, true));
-}
-
 static json_t *built_json(const compare_plan *plan, const outcome *out) {
     json_t *row = json_pack("{s:s, s:s}", "status", "ok", "note", ""), *tree = cli_tree_json(out->tree);
     if (!row || !tree || json_object_update_missing(row, tree) != 0) {
@@ -139,7 +121,16 @@ static json_t *built_json(const compare_plan *plan, const outcome *out) {
         json_object_set_new(row, "seconds", json_pack("{s:f}", "build", out->seconds));
         json_object_set_new(row, "peak_bytes", json_integer((json_int_t)out->peak));
     }
-    look(plan, out, row);
+    const workload load = {plan->queries, plan->common->seed, plan->seconds, plan->times};
+    froe_diagnostic diag = {.message = ""};
+    froe_status status = FROE_OK;
+    json_t *queries = workload_run(out->tree, &load, &status, &diag);
+    json_object_set_new(row, "leaf_loads", loads_json(out->tree));
+    if (queries)
+        json_object_set_new(row, "queries", queries);
+    else
+        json_object_set_new(row, "note", json_sprintf("no queries: %s", diag.message));
+    if (plan->pictures) json_object_set_new(row, "picture", picture_json(out->tree, true));
     return row;
 }
 

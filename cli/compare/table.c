@@ -52,12 +52,6 @@ static json_t *kept_json(const json_t *row) {
     return json_sprintf("%d of %d", kept, (int)json_object_size(bounds));
 }
 
-static double rounded(double value, int digits) {
-    if (!digits || value == 0 || !isfinite(value)) return value;
-    const double unit = pow(10, floor(log10(fabs(value))) - digits + 1);
-    return unit >= 1 ? round(value / unit) * unit : round(value / unit) / round(1 / unit);
-}
-
 json_t *table_value(const json_t *row, const table_column *column) {
     if (strcmp(column->path, "?kept") == 0) return kept_json(row);
     const bool each = *column->path == '/';
@@ -66,7 +60,9 @@ json_t *table_value(const json_t *row, const table_column *column) {
     if (!json_is_number(value)) return json_incref((json_t *)value);
     const double n = json_number_value(json_object_get(row, "objects"));
     const double number = json_number_value(value) / (each && n > 0 ? n : 1);
-    return json_real(rounded(number, column->digits));
+    if (!column->digits || number == 0 || !isfinite(number)) return json_real(number);
+    const double unit = pow(10, floor(log10(fabs(number))) - column->digits + 1);
+    return json_real(unit >= 1 ? round(number / unit) * unit : round(number / unit) / round(1 / unit));
 }
 
 /* Columns that no row fills are left out. */
@@ -116,44 +112,30 @@ static json_t *promises_report(const json_t *rows) {
     return table;
 }
 
-/* What the scene is like, and the tables of its methods. */
-static json_t *scene_report(const json_t *scene) {
-    json_t *out = json_copy(json_object_get(scene, "measures"));
-    const json_t *rows = json_object_get(scene, "methods");
-    json_t *const tables[] = {rows_report(rows, TABLE_TREE), rows_report(rows, TABLE_QUERY), promises_report(rows)};
+json_t *table_report(const json_t *comparison) {
     static const char *const names[] = {"trees", "queries", "promises"};
-    for (int i = 0; i < 3; i++) {
-        if (json_array_size(tables[i])) json_object_set(out, names[i], tables[i]);
-        json_decref(tables[i]);
-    }
-    return out;
-}
-
-static json_t *choices_report(const json_t *scenes) {
-    json_t *table = json_array();
+    json_t *out = json_object(), *choices = json_array();
+    const json_t *scenes = json_object_get(comparison, "scenes");
     size_t i;
     json_t *scene, *choice;
-    json_array_foreach((json_t *)scenes, i, scene) {
+    json_array_foreach((json_t *)scenes, i, scene) { /* what it is like, and the tables of its methods */
+        json_t *report = json_copy(json_object_get(scene, "measures"));
+        const json_t *rows = json_object_get(scene, "methods");
+        json_t *const tables[] = {rows_report(rows, TABLE_TREE), rows_report(rows, TABLE_QUERY), promises_report(rows)};
+        for (int k = 0; k < 3; k++) {
+            if (json_array_size(tables[k])) json_object_set(report, names[k], tables[k]);
+            json_decref(tables[k]);
+        }
+        json_object_set_new(out, json_string_value(json_object_get(scene, "scene")), report);
         const char *purpose;
         json_object_foreach(json_object_get(scene, "auto"), purpose, choice) {
             json_t *row = json_pack("{s:O, s:s}", "scene", json_object_get(scene, "scene"), "for", purpose);
             json_object_update(row, choice);
             json_object_set_new(row, "ratio", table_value(choice, &(table_column){"", "ratio", 3, TABLE_TREE}));
-            json_array_append_new(table, row);
+            json_array_append_new(choices, row);
         }
     }
-    return table;
-}
-
-json_t *table_report(const json_t *comparison) {
-    json_t *out = json_object();
-    const json_t *scenes = json_object_get(comparison, "scenes");
-    size_t i;
-    json_t *scene;
-    json_array_foreach((json_t *)scenes, i, scene) {
-        json_object_set_new(out, json_string_value(json_object_get(scene, "scene")), scene_report(scene));
-    }
-    json_object_set_new(out, "what auto chose", choices_report(scenes));
+    json_object_set_new(out, "what auto chose", choices);
     json_object_set(out, "auto in all", json_object_get(comparison, "auto"));
     return out;
 }
@@ -185,49 +167,22 @@ static void put_cell(FILE *out, const json_t *value) {
     fputc(',', out);
 }
 
-/* Names of all promises of all methods, as the keys of an object. */
-static json_t *promise_names(const json_t *comparison) {
-    json_t *names = json_object(), *scene, *row, *bound;
-    size_t i, j;
-    json_array_foreach(json_object_get(comparison, "scenes"), i, scene)
-        json_array_foreach(json_object_get(scene, "methods"), j, row) {
-        const char *name;
-        json_object_foreach(json_object_get(row, "bounds"), name, bound) json_object_set(names, name, json_true());
-    }
-    return names;
-}
-
-static void put_heading(FILE *out, json_t *promises) {
+static void put_row(FILE *out, const json_t *scene, const json_t *row, json_t *promises) {
     const char *name;
     json_t *ignored;
-    fputs("scene,", out);
-    for (int i = 0; csv_paths[i]; i++) fprintf(out, "%s,", csv_paths[i]);
+    put_cell(out, scene);
+    for (int i = 0; csv_paths[i]; i++) put_cell(out, find(row, csv_paths[i]));
     for (int k = 0; csv_kinds[k]; k++)
-        for (int c = 0; csv_costs[c]; c++) fprintf(out, "%s.%s,", csv_kinds[k], csv_costs[c]);
-    json_object_foreach(promises, name, ignored) fprintf(out, "%s.promised,%s.measured,", name, name);
-    fputs("promises_kept,note\n", out);
-}
-
-static void put_bounds(FILE *out, const json_t *row, json_t *promises) {
-    const char *name;
-    json_t *ignored;
+        for (int c = 0; csv_costs[c]; c++) {
+            char path[64];
+            snprintf(path, sizeof path, "queries.%s.%s", csv_kinds[k], csv_costs[c]);
+            put_cell(out, find(row, path));
+        }
     json_object_foreach(promises, name, ignored) {
         const json_t *bound = json_object_get(json_object_get(row, "bounds"), name);
         put_cell(out, json_object_get(bound, "promised"));
         put_cell(out, json_object_get(bound, "measured"));
     }
-}
-
-static void put_row(FILE *out, const json_t *scene, const json_t *row, json_t *promises) {
-    char path[64];
-    put_cell(out, scene);
-    for (int i = 0; csv_paths[i]; i++) put_cell(out, find(row, csv_paths[i]));
-    for (int k = 0; csv_kinds[k]; k++)
-        for (int c = 0; csv_costs[c]; c++) {
-            snprintf(path, sizeof path, "queries.%s.%s", csv_kinds[k], csv_costs[c]);
-            put_cell(out, find(row, path));
-        }
-    put_bounds(out, row, promises);
     json_t *kept = kept_json(row);
     put_cell(out, kept);
     json_decref(kept);
@@ -237,11 +192,19 @@ static void put_row(FILE *out, const json_t *scene, const json_t *row, json_t *p
 }
 
 void table_put_csv(FILE *out, const void *user) {
+    const json_t *scenes = json_object_get((const json_t *)user, "scenes");
     size_t i, j;
-    json_t *scene, *row, *promises = promise_names(user);
-    put_heading(out, promises);
-    json_array_foreach(json_object_get((const json_t *)user, "scenes"), i, scene)
-        json_array_foreach(json_object_get(scene, "methods"), j, row)
-            put_row(out, json_object_get(scene, "scene"), row, promises);
+    const char *name;
+    json_t *scene, *row, *bound, *promises = json_object(); /* names of all promises of all methods, as keys */
+    json_array_foreach((json_t *)scenes, i, scene) json_array_foreach(json_object_get(scene, "methods"), j, row)
+        json_object_foreach(json_object_get(row, "bounds"), name, bound) json_object_set(promises, name, json_true());
+    fputs("scene,", out);
+    for (int k = 0; csv_paths[k]; k++) fprintf(out, "%s,", csv_paths[k]);
+    for (int k = 0; csv_kinds[k]; k++)
+        for (int c = 0; csv_costs[c]; c++) fprintf(out, "%s.%s,", csv_kinds[k], csv_costs[c]);
+    json_object_foreach(promises, name, bound) fprintf(out, "%s.promised,%s.measured,", name, name);
+    fputs("promises_kept,note\n", out);
+    json_array_foreach((json_t *)scenes, i, scene) json_array_foreach(json_object_get(scene, "methods"), j, row)
+        put_row(out, json_object_get(scene, "scene"), row, promises);
     json_decref(promises);
 }
