@@ -61,35 +61,6 @@ static const cli_part parts[] = {
     {0},
 };
 
-/* ------------------------------------------------------------------ checking -- */
-
-/* Calls cli_check_method() for each name of a list parted by commas. */
-static int check_methods(const char *list) {
-    while (list && *list) {
-        char name[64];
-        const size_t length = strcspn(list, ",");
-        snprintf(name, sizeof name, "%.*s", (int)length, list);
-        const int code = cli_check_method(name, false);
-        if (code) return code;
-        list += length + (list[length] == ',');
-    }
-    return 0;
-}
-
-static bool is_wanted(const char *list, const char *method) {
-    if (!list) return true;
-    const size_t length = strlen(method);
-    for (const char *at = list; (at = strstr(at, method)) != NULL; at += length)
-        if ((at == list || at[-1] == ',') && (at[length] == '\0' || at[length] == ',')) return true;
-    return false;
-}
-
-static int check(const compare_args *args) {
-    if (!(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds: '%g' is not a number above 0.", args->seconds);
-    if (!(args->pieces > 0)) return cli_fail(CLI_USE, NULL, "--pieces: '%g' is not a number above 0.", args->pieces);
-    return check_methods(args->methods);
-}
-
 /* ----------------------------------------------------------------- measuring -- */
 
 /* A few cheap measures, to tell scenes apart. */
@@ -117,24 +88,27 @@ static json_t *measures_json(const compare_args *args, const froe_scene *scene) 
     return out;
 }
 
-static json_t *rows_json(const compare_args *args, const compare_plan *plan, const compare_scene *scene) {
-    json_t *rows = json_array();
-    const froe_method_info *method;
-    for (size_t i = 0; (method = froe_method_at(i)) != NULL; i++) {
-        const uint32_t own = method->leaf ? method->leaf : 1;
-        const uint32_t leaf = plan->leaf == FROE_LEAF_OWN ? own : plan->leaf;
-        if (!is_wanted(args->methods, method->name) || !froe_method_serves(method, scene->scene, leaf)) continue;
-        if (json_array_append_new(rows, compare_row(plan, scene, method->name)) == 0) continue;
-        json_decref(rows);
-        return NULL;
-    }
-    return rows;
+static bool is_wanted(const char *list, const char *method) {
+    if (!list) return true;
+    const size_t length = strlen(method);
+    for (const char *at = list; (at = strstr(at, method)) != NULL; at += length)
+        if ((at == list || at[-1] == ',') && (at[length] == '\0' || at[length] == ',')) return true;
+    return false;
 }
 
 static json_t *scene_json(const compare_args *args, const compare_plan *plan, const char *path, froe_scene *scene,
                           meter *memory) {
     const compare_scene both = {scene, part_order(scene), memory};
-    json_t *rows = both.order ? rows_json(args, plan, &both) : NULL;
+    json_t *rows = both.order ? json_array() : NULL;
+    const froe_method_info *method;
+    for (size_t i = 0; rows && (method = froe_method_at(i)) != NULL; i++) {
+        const uint32_t own = method->leaf ? method->leaf : 1;
+        const uint32_t leaf = plan->leaf == FROE_LEAF_OWN ? own : plan->leaf;
+        if (!is_wanted(args->methods, method->name) || !froe_method_serves(method, scene, leaf)) continue;
+        if (json_array_append_new(rows, compare_row(plan, &both, method->name)) == 0) continue;
+        json_decref(rows);
+        rows = NULL;
+    }
     free(both.order);
     if (!rows) return NULL;
     return json_pack("{s:o, s:i, s:o, s:o, s:o, s:o*}", "scene", cli_name_json(path), "dim", froe_scene_dim(scene),
@@ -163,37 +137,34 @@ static json_t *compare(const compare_args *args, froe_scene *const *scenes, mete
 
 /* ------------------------------------------------------------------- writing -- */
 
-/* Pictures are for the page alone. */
-static void drop_pictures(json_t *comparison) {
-    size_t i, j;
-    json_t *scene, *row;
-    json_array_foreach(json_object_get(comparison, "scenes"), i, scene) {
-        json_object_del(scene, "picture");
-        json_array_foreach(json_object_get(scene, "methods"), j, row) json_object_del(row, "picture");
-    }
-}
-
 static int write(const compare_args *args, json_t *comparison) {
     int code = args->page ? cli_write_text(args->page, page_put, comparison) : 0;
     if (!code && args->csv) code = cli_write_text(args->csv, table_put_csv, comparison);
-    drop_pictures(comparison);
+    size_t i, j;
+    json_t *scene, *row;
+    json_array_foreach(json_object_get(comparison, "scenes"), i, scene) { /* pictures are for the page alone */
+        json_object_del(scene, "picture");
+        json_array_foreach(json_object_get(scene, "methods"), j, row) json_object_del(row, "picture");
+    }
     json_t *report = code ? NULL : args->common.json ? json_incref(comparison) : table_report(comparison);
     json_decref(comparison);
     return code ? code : cli_report(&args->common, NULL, report);
-}
-
-static int compare_and_write(const compare_args *args, froe_scene *const *scenes, meter *meters) {
-    json_t *comparison = compare(args, scenes, meters);
-    if (comparison) return write(args, comparison);
-    if (cli_interrupted()) return cli_fail(CLI_CANCELLED, NULL, "Cancelled.");
-    return cli_fail_memory();
 }
 
 static int run_compare(const void *given) {
     const compare_args *args = given;
     froe_scene *scenes[sizeof args->scenes.at / sizeof *args->scenes.at] = {NULL};
     meter meters[sizeof args->scenes.at / sizeof *args->scenes.at] = {{0}};
-    int code = check(args);
+    if (!(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds: '%g' is not a number above 0.", args->seconds);
+    if (!(args->pieces > 0)) return cli_fail(CLI_USE, NULL, "--pieces: '%g' is not a number above 0.", args->pieces);
+    int code = 0;
+    for (const char *at = args->methods; !code && at && *at;) { /* names parted by commas */
+        char name[64];
+        const size_t length = strcspn(at, ",");
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        code = cli_check_method(name, false);
+        at += length + (at[length] == ',');
+    }
     if (!code)
         code = cli_check_outputs(args->scenes.at, args->scenes.count, (const char *[]){args->page, args->csv}, 2);
     for (size_t i = 0; i < args->scenes.count && !code; i++) { /* all, before hours of work */
@@ -205,7 +176,11 @@ static int run_compare(const void *given) {
         code = cli_read_scene(&args->common, &scene, &scenes[i], &reader);
         if (code) scenes[i] = NULL;
     }
-    if (!code) code = compare_and_write(args, scenes, meters);
+    json_t *comparison = code ? NULL : compare(args, scenes, meters);
+    if (comparison)
+        code = write(args, comparison);
+    else if (!code)
+        code = cli_interrupted() ? cli_fail(CLI_CANCELLED, NULL, "Cancelled.") : cli_fail_memory();
     for (size_t i = 0; i < args->scenes.count; i++) froe_scene_free(scenes[i]);
     return code;
 }

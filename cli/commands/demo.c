@@ -28,8 +28,6 @@ static const cli_option options[] = {
 
 static const cli_part parts[] = {{"Demo", options, 0}, {"Options", cli_common_options, 0}, {0}};
 
-/* ------------------------------------------------------------------ files -- */
-
 static int make_folder(const char *path) {
     char *prefix = malloc(strlen(path) + 1);
     if (!prefix) return cli_fail_memory();
@@ -46,15 +44,7 @@ static int make_folder(const char *path) {
     return made ? 0 : cli_fail_file(CLI_RESOURCES, path, "made");
 }
 
-static int unpack(const char *name) {
-    const cli_embedded *file = cli_embedded_named(name);
-    if (!file) return cli_fail(CLI_INPUT, name, "The program was built without this file.");
-    return cli_write_file(name, file->bytes, file->size);
-}
-
-/* --------------------------------------------------------------- commands -- */
-
-enum { LINE = 400, WORDS = 40 };
+enum { LINE = 400, WORDS = 40, SCENES = 8 };
 
 /* Runs a line as if it stood after "froe", with the demo's own seed, threads and --quiet. */
 static int run_line(const cli_common *common, const char *text, bool loud, json_t **report) {
@@ -73,18 +63,6 @@ static int run_line(const cli_common *common, const char *text, bool loud, json_
     return code;
 }
 
-static bool is_loud(const cli_common *common) {
-    return !common->json && !common->quiet;
-}
-
-static int run_steps(const cli_common *common, const demo_scene *scene, demo_result *result) {
-    for (int i = 0; scene->steps[i].command; i++) {
-        const int code = run_line(common, scene->steps[i].command, is_loud(common), &result->report[i]);
-        if (code) return code;
-    }
-    return 0;
-}
-
 /* The method serves the dimension and the objects of the scene: segments in the plane, polygons in space; and without
  * being asked to cut them by each other, which in a house of many storeys would take a minute. */
 static bool serves(const froe_method_info *method, int dim) {
@@ -94,7 +72,14 @@ static bool serves(const froe_method_info *method, int dim) {
     return (method->kinds[dim] >> kind & 1) && !(dim == 3 && o && o->name);
 }
 
-static int compare_methods(const cli_common *common, const demo_scene *scene, demo_result *result) {
+/* Unpacks the file of the scene, runs the commands of its page, and builds a tree of it by every method. */
+static int run_scene(const cli_common *common, const demo_scene *scene, demo_result *result) {
+    const cli_embedded *file = cli_embedded_named(scene->file);
+    if (!file) return cli_fail(CLI_INPUT, scene->file, "The program was built without this file.");
+    int code = cli_write_file(scene->file, file->bytes, file->size);
+    for (int i = 0; !code && scene->steps[i].command; i++)
+        code = run_line(common, scene->steps[i].command, !common->json && !common->quiet, &result->report[i]);
+    if (code) return code;
     result->methods = json_array();
     const froe_method_info *method;
     for (size_t i = 0; (method = froe_method_at(i)) != NULL; i++) {
@@ -102,36 +87,10 @@ static int compare_methods(const cli_common *common, const demo_scene *scene, de
         char line[LINE];
         json_t *report;
         snprintf(line, sizeof line, "build %s --method %s", scene->file, method->name);
-        const int code = run_line(common, line, false, &report);
+        code = run_line(common, line, false, &report);
         if (code || json_array_append_new(result->methods, report) != 0) return code ? code : cli_fail_memory();
     }
     return 0;
-}
-
-static int run_scene(const cli_common *common, const demo_scene *scene, demo_result *result) {
-    int code = unpack(scene->file);
-    if (!code) code = run_steps(common, scene, result);
-    if (!code) code = compare_methods(common, scene, result);
-    return code;
-}
-
-/* -------------------------------------------------------------------- run -- */
-
-enum { SCENES = 8 };
-
-static void release(demo_result *results) {
-    for (int i = 0; i < SCENES; i++) {
-        for (int j = 0; j < DEMO_STEPS; j++) json_decref(results[i].report[j]);
-        json_decref(results[i].methods);
-    }
-}
-
-static int run_scenes(const cli_common *common, demo_result *results) {
-    int code = 0;
-    for (int i = 0; !code && i < SCENES && demo_scenes[i].title; i++)
-        code = run_scene(common, &demo_scenes[i], &results[i]);
-    if (!code) code = demo_write_page("index.html", results);
-    return code;
 }
 
 static int run_demo(const void *given) {
@@ -141,8 +100,13 @@ static int run_demo(const void *given) {
     if (chdir(args->output) != 0) return cli_fail_file(CLI_RESOURCES, args->output, "entered");
     demo_result results[SCENES] = {0};
     const double start = cli_seconds();
-    code = run_scenes(&args->common, results);
-    release(results);
+    for (int i = 0; !code && i < SCENES && demo_scenes[i].title; i++)
+        code = run_scene(&args->common, &demo_scenes[i], &results[i]);
+    if (!code) code = demo_write_page("index.html", results);
+    for (int i = 0; i < SCENES; i++) {
+        for (int j = 0; j < DEMO_STEPS; j++) json_decref(results[i].report[j]);
+        json_decref(results[i].methods);
+    }
     if (code) return code;
     char index[400];
     snprintf(index, sizeof index, "%.300s/index.html", args->output);

@@ -1,4 +1,5 @@
 /* draw.c: froe draw, a partition as a picture. */
+#include "args/picture.h"
 #include "command.h"
 #include "exit.h"
 #include "files.h"
@@ -67,37 +68,21 @@ static const cli_option page[] = {
 static const cli_part parts[] = {
     {"Picture", what, 0}, {"Trees in space", space, 0}, {"Page", page, 0}, {"Options", cli_common_options, 0}, {0}};
 
-/* One name of a list parted by commas; 0: there is no such layer. */
-static uint32_t layer_bit(const char *name, size_t length) {
-    for (uint32_t bit = 1; bit <= FROE_DRAW_OBJECTS; bit <<= 1) {
-        const char *known = froe_draw_layer_name((froe_draw_layer)bit);
-        if (known && strlen(known) == length && memcmp(known, name, length) == 0) return bit;
-    }
-    return 0;
-}
-
+/* Layers of a list parted by commas. */
 static int set_show(const char *list, uint32_t *show) {
     while (list && *list) {
         const size_t length = strcspn(list, ",");
-        const uint32_t bit = layer_bit(list, length);
-        if (!bit)
+        uint32_t found = 0;
+        for (uint32_t bit = 1; !found && bit <= FROE_DRAW_OBJECTS; bit <<= 1) {
+            const char *known = froe_draw_layer_name((froe_draw_layer)bit);
+            if (known && strlen(known) == length && memcmp(known, list, length) == 0) found = bit;
+        }
+        if (!found)
             return cli_fail(CLI_USE, NULL, "--show: '%.*s' is not one of cells, cuts, fragments, objects.", (int)length,
                             list);
-        *show |= bit;
+        *show |= found;
         list += length + (list[length] == ',');
     }
-    return 0;
-}
-
-static int set_background(const char *text, uint32_t *background) {
-    if (!text) return 0;
-    if (strcmp(text, "clear") == 0) {
-        *background = FROE_DRAW_CLEAR;
-        return 0;
-    }
-    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
-        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear.", text);
-    *background = (uint32_t)strtoul(text, NULL, 16);
     return 0;
 }
 
@@ -113,61 +98,34 @@ static int set_section(const char *text, froe_draw_options *o) {
     return 0;
 }
 
-static int set_window(const cli_reals *window, size_t dim, froe_draw_options *o) {
-    if (!window->count) return 0;
-    if (window->count != 2 * dim) return cli_fail_count("window", window->count, 2 * dim);
-    for (size_t k = 0; k < dim; k++)
-        if (!(window->at[k] < window->at[dim + k]))
-            return cli_fail(CLI_USE, NULL, "--window: Its low corner %g is not below its high corner %g on axis %zu.",
-                            window->at[k], window->at[dim + k], k);
-    memcpy(o->lo, window->at, dim * sizeof(double));
-    memcpy(o->hi, window->at + dim, dim * sizeof(double));
-    return 0;
-}
-
-static int set_view(const cli_reals *view, froe_draw_options *o) {
-    if (!view->count) return 0;
-    if (view->count != 3) return cli_fail_count("view", view->count, 3);
-    memcpy(o->view, view->at, sizeof o->view);
-    return 0;
-}
-
-static void set_number(double given, double *field) {
-    if (!isnan(given)) *field = given;
-}
-
 static int set_options(const draw_args *args, size_t dim, froe_draw_options *o) {
+    const cli_reals *window = &args->window, *view = &args->view;
     o->style = (froe_draw_style)args->style;
     o->up = args->up;
     o->title = args->title;
     o->legend = !args->no_legend;
-    set_number(args->width, &o->width);
-    set_number(args->height, &o->height);
-    set_number(args->margin, &o->margin);
-    set_number(args->scale, &o->scale);
-    set_number(args->detail, &o->detail);
-    set_number(args->explode, &o->explode);
+    cli_set_number(args->width, &o->width);
+    cli_set_number(args->height, &o->height);
+    cli_set_number(args->margin, &o->margin);
+    cli_set_number(args->scale, &o->scale);
+    cli_set_number(args->detail, &o->detail);
+    cli_set_number(args->explode, &o->explode);
     if (args->max_depth != UINT64_MAX) o->max_depth = (uint32_t)args->max_depth;
     if (args->explode_depth != UINT64_MAX) o->explode_depth = (uint32_t)args->explode_depth;
     int code = set_show(args->show, &o->show);
-    if (!code) code = set_background(args->background, &o->background);
+    if (!code) code = cli_set_background(args->background, &o->background);
     if (!code) code = set_section(args->section, o);
-    if (!code) code = set_window(&args->window, dim, o);
-    if (!code) code = set_view(&args->view, o);
-    return code;
-}
-
-static int draw_tree(const draw_args *args, const froe_tree *tree) {
-    froe_draw_options o = froe_draw_defaults();
-    int code = set_options(args, (size_t)froe_scene_dim(froe_tree_scene(tree)), &o);
     if (code) return code;
-    cli_progress bar = cli_progress_begin(&args->common, "drawing");
-    o.progress = cli_progress_step;
-    o.user = &bar;
-    froe_diagnostic diag;
-    const froe_status status = froe_draw(tree, args->output, &o, &diag);
-    cli_progress_end(&bar);
-    return status ? cli_fail_status(CLI_WRITING, args->output, status, &diag) : 0;
+    if (window->count && window->count != 2 * dim) return cli_fail_count("window", window->count, 2 * dim);
+    for (size_t k = 0; window->count && k < dim; k++) {
+        o->lo[k] = window->at[k], o->hi[k] = window->at[dim + k];
+        if (!(o->lo[k] < o->hi[k]))
+            return cli_fail(CLI_USE, NULL, "--window: Its low corner %g is not below its high corner %g on axis %zu.",
+                            o->lo[k], o->hi[k], k);
+    }
+    if (view->count && view->count != 3) return cli_fail_count("view", view->count, 3);
+    if (view->count) memcpy(o->view, view->at, sizeof o->view);
+    return 0;
 }
 
 static int run_draw(const void *given) {
@@ -179,7 +137,17 @@ static int run_draw(const void *given) {
     int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
     if (!code) code = cli_open_tree(args->tree, &tree);
     if (code) return code;
-    code = draw_tree(args, tree);
+    froe_draw_options o = froe_draw_defaults();
+    code = set_options(args, (size_t)froe_scene_dim(froe_tree_scene(tree)), &o);
+    if (!code) {
+        cli_progress bar = cli_progress_begin(&args->common, "drawing");
+        froe_diagnostic diag;
+        o.progress = cli_progress_step;
+        o.user = &bar;
+        const froe_status status = froe_draw(tree, args->output, &o, &diag);
+        cli_progress_end(&bar);
+        if (status) code = cli_fail_status(CLI_WRITING, args->output, status, &diag);
+    }
     if (!code)
         code = cli_report(
             &args->common, NULL,

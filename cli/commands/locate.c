@@ -35,13 +35,6 @@ static void put_group(cli_answers *out, uint32_t group) {
         cli_answers_whole(out, group);
 }
 
-/* Does one of the objects belong to the group? */
-static bool is_told(const froe_scene *scene, const uint32_t *objects, size_t count, uint32_t group) {
-    for (size_t i = 0; i < count; i++)
-        if (froe_scene_object(scene, objects[i]).group == group) return true;
-    return false;
-}
-
 /* "query,object,group": objects with the groups they belong to, then the other groups that the point lies in. */
 static void put_all(const froe_scene *scene, const cli_block *block, const froe_answers *objects,
                     const froe_answers *groups, cli_answers *out) {
@@ -55,24 +48,16 @@ static void put_all(const froe_scene *scene, const cli_block *block, const froe_
             cli_answers_end(out);
         }
         for (size_t j = groups->queries ? groups->starts[i] : 0; groups->queries && j < groups->starts[i + 1]; j++) {
-            if (is_told(scene, found, count, groups->ids[j])) continue;
+            bool told = false; /* does one of the objects belong to the group? */
+            for (size_t k = 0; k < count && !told; k++)
+                told = froe_scene_object(scene, found[k]).group == groups->ids[j];
+            if (told) continue;
             cli_answers_whole(out, block->ids[i]);
             cli_answers_none(out);
             put_group(out, groups->ids[j]);
             cli_answers_end(out);
         }
     }
-}
-
-/* "query,group,name" */
-static void put_groups(const froe_scene *scene, const cli_block *block, const froe_answers *groups, cli_answers *out) {
-    for (size_t i = 0; i < block->count; i++)
-        for (size_t j = groups->starts[i]; j < groups->starts[i + 1]; j++) {
-            cli_answers_whole(out, block->ids[i]);
-            cli_answers_whole(out, groups->ids[j]);
-            cli_answers_name(out, froe_scene_group(scene, groups->ids[j]).name);
-            cli_answers_end(out);
-        }
 }
 
 static froe_status answer_point(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
@@ -102,10 +87,14 @@ static froe_status answer_groups(const void *given, const cli_asked *asked, cons
     const froe_status status =
         froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
     if (status) return status;
-    if (args->query.count)
-        cli_answers_lists(out, block->ids, &groups, true);
-    else
-        put_groups(asked->scene, block, &groups, out);
+    if (args->query.count) cli_answers_lists(out, block->ids, &groups, true);
+    for (size_t i = 0; i < block->count && !args->query.count; i++)
+        for (size_t j = groups.starts[i]; j < groups.starts[i + 1]; j++) { /* "query,group,name" */
+            cli_answers_whole(out, block->ids[i]);
+            cli_answers_whole(out, groups.ids[j]);
+            cli_answers_name(out, froe_scene_group(asked->scene, groups.ids[j]).name);
+            cli_answers_end(out);
+        }
     froe_answers_free(&groups);
     return FROE_OK;
 }
@@ -126,25 +115,19 @@ static froe_status answer_vertical(const void *given, const cli_asked *asked, co
     return status;
 }
 
-static const char *header(const locate_args *args) {
-    if (args->query.count) return "query,count";
-    if (args->groups) return "query,group,name";
-    return args->above || args->below ? "query,object" : "query,object,group";
-}
-
 static int run_locate(const void *given) {
     const locate_args *args = given;
     if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above: It excludes --below.");
     if (args->groups && (args->above || args->below))
         return cli_fail(CLI_USE, NULL, "--groups: It excludes --above and --below.");
-    const cli_queries queries = {.common = &args->common,
-                                 .args = &args->query,
-                                 .columns = columns,
-                                 .header = header(args),
-                                 .answer = args->above || args->below ? answer_vertical
-                                           : args->groups             ? answer_groups
-                                                                      : answer_point,
-                                 .given = args};
+    cli_queries queries = {.common = &args->common, .args = &args->query, .columns = columns, .given = args};
+    if (args->above || args->below)
+        queries.answer = answer_vertical, queries.header = "query,object";
+    else if (args->groups)
+        queries.answer = answer_groups, queries.header = "query,group,name";
+    else
+        queries.answer = answer_point, queries.header = "query,object,group";
+    if (args->query.count) queries.header = "query,count";
     return cli_queries_run(&queries);
 }
 

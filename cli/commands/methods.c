@@ -17,29 +17,6 @@ static const cli_option options[] = {
 
 static const cli_part parts[] = {{"Methods", options, 0}, {"Options", cli_common_options, 0}, {0}};
 
-/* ------------------------------------------------------------------- JSON -- */
-
-static json_t *dims_json(const uint32_t *kinds) {
-    json_t *list = json_array();
-    for (int d = 0; d <= FROE_MAX_DIM; d++)
-        if (kinds[d]) json_array_append_new(list, json_integer(d));
-    return list;
-}
-
-/* By dimension. */
-static json_t *kinds_json(const uint32_t *kinds) {
-    json_t *all = json_object();
-    for (int d = 0; d <= FROE_MAX_DIM; d++) {
-        json_t *list = json_array();
-        for (int k = 0; k < FROE_KIND_COUNT; k++)
-            if (kinds[d] >> k & 1) json_array_append_new(list, json_string(froe_kind_name((froe_kind)k)));
-        const char name[] = {(char)('0' + d), 0};
-        if (kinds[d]) json_object_set(all, name, list);
-        json_decref(list);
-    }
-    return all;
-}
-
 static json_t *option_json(const froe_option_info *o) {
     if (!o->choices)
         return json_pack("{s:s, s:s, s:f, s:f, s:f, s:b}", "name", o->name, "summary", o->summary, "default",
@@ -51,35 +28,26 @@ static json_t *option_json(const froe_option_info *o) {
 }
 
 static json_t *method_json(const froe_method_info *m) {
-    json_t *list = json_array();
+    json_t *dims = json_array(), *kinds = json_object(), *list = json_array();
+    for (int d = 0; d <= FROE_MAX_DIM; d++) {
+        if (!m->kinds[d]) continue;
+        const char name[] = {(char)('0' + d), 0};
+        json_t *served = json_array();
+        for (int k = 0; k < FROE_KIND_COUNT; k++)
+            if (m->kinds[d] >> k & 1) json_array_append_new(served, json_string(froe_kind_name((froe_kind)k)));
+        json_array_append_new(dims, json_integer(d));
+        json_object_set_new(kinds, name, served);
+    }
     for (const froe_option_info *o = m->options; o && o->name; o++) json_array_append_new(list, option_json(o));
     return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:i, s:o}", "name", m->name, "summary", m->summary, "source",
-                     m->source, "guarantee", m->guarantee, "dims", dims_json(m->kinds), "kinds", kinds_json(m->kinds),
-                     "leaf", m->leaf ? (int)m->leaf : 1, "options", list);
+                     m->source, "guarantee", m->guarantee, "dims", dims, "kinds", kinds, "leaf",
+                     m->leaf ? (int)m->leaf : 1, "options", list);
 }
-
-/* ------------------------------------------------------------------- text -- */
 
 enum { COLUMN = 14 };
 
 static void put_line(const char *label, const char *text) {
     cli_wrap(stdout, text, strlen(text), printf("  %s", label), COLUMN);
-}
-
-/* A line for all dimensions with the same kinds. */
-static void put_kinds(const froe_method_info *m) {
-    for (int d = 0, last; d <= FROE_MAX_DIM; d = last + 1) {
-        char label[32], list[100] = "";
-        for (last = d; last < FROE_MAX_DIM && m->kinds[last + 1] == m->kinds[d];) last++;
-        if (!m->kinds[d]) continue;
-        snprintf(label, sizeof label, d < last ? "in R^%d..R^%d" : "in R^%d", d, last);
-        for (int k = 0; k < FROE_KIND_COUNT; k++) {
-            const size_t used = strlen(list);
-            if (m->kinds[d] >> k & 1)
-                snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", froe_kind_name((froe_kind)k));
-        }
-        put_line(label, list);
-    }
 }
 
 static void put_option(const froe_option_info *o) {
@@ -102,43 +70,43 @@ static void put_method(const froe_method_info *m) {
     put_line("", m->summary);
     put_line("source", m->source);
     put_line("guarantee", m->guarantee);
-    put_kinds(m);
+    for (int d = 0, last; d <= FROE_MAX_DIM; d = last + 1) { /* a line for all dimensions with the same kinds */
+        char label[32], list[100] = "";
+        for (last = d; last < FROE_MAX_DIM && m->kinds[last + 1] == m->kinds[d];) last++;
+        if (!m->kinds[d]) continue;
+        snprintf(label, sizeof label, d < last ? "in R^%d..R^%d" : "in R^%d", d, last);
+        for (int k = 0; k < FROE_KIND_COUNT; k++) {
+            const size_t used = strlen(list);
+            if (m->kinds[d] >> k & 1)
+                snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", froe_kind_name((froe_kind)k));
+        }
+        put_line(label, list);
+    }
     if (m->options && m->options->name) printf("  options, with their defaults:\n");
     for (const froe_option_info *o = m->options; o && o->name; o++) put_option(o);
 }
 
-/* -------------------------------------------------------------------- run -- */
-
-static bool is_wanted(const methods_args *args, const froe_method_info *m) {
-    return !args->name || strcmp(args->name, m->name) == 0;
-}
-
-static int print_text(const methods_args *args) {
-    const froe_method_info *m;
-    for (size_t i = 0, printed = 0; (m = froe_method_at(i)) != NULL; i++) {
-        if (!is_wanted(args, m)) continue;
-        if (printed++) putchar('\n');
-        put_method(m);
-    }
-    return cli_flush();
-}
-
-static int print_json(const methods_args *args) {
-    json_t *list = json_array();
-    const froe_method_info *m;
-    for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++)
-        if (is_wanted(args, m)) json_array_append_new(list, method_json(m));
-    return cli_report(&args->common, NULL, json_pack("{s:o}", "methods", list));
-}
-
 static int run_methods(const void *given) {
     const methods_args *args = given;
-    bool known = !args->name;
     const froe_method_info *m;
-    for (size_t i = 0; !known && (m = froe_method_at(i)) != NULL; i++) known = is_wanted(args, m);
-    if (!known) return cli_fail_unknown("method", args->name, NULL, "froe methods lists what there is.");
-    if (args->common.json) return print_json(args);
-    return args->common.quiet ? 0 : print_text(args);
+    json_t *list = args->common.json ? json_array() : NULL;
+    size_t found = 0;
+    for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++) {
+        if (args->name && strcmp(args->name, m->name) != 0) continue;
+        found++;
+        if (list) {
+            json_array_append_new(list, method_json(m));
+        } else if (!args->common.quiet) {
+            if (found > 1) putchar('\n');
+            put_method(m);
+        }
+    }
+    if (!found) {
+        json_decref(list);
+        return cli_fail_unknown("method", args->name, NULL, "froe methods lists what there is.");
+    }
+    if (list) return cli_report(&args->common, NULL, json_pack("{s:o}", "methods", list));
+    return args->common.quiet ? 0 : cli_flush();
 }
 
 const cli_command cli_command_methods = {

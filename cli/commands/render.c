@@ -136,42 +136,30 @@ static const cli_part parts[] = {{"Picture", what, 0},
 
 /* --------------------------------------------------------------------- rendering -- */
 
-/* What the picture does not show, and why: faces, then objects that are none, then what is too small for the file. */
-static json_t *not_drawn_json(const froe_render_report *r) {
-    const froe_visibility_report *v = &r->picture.visibility;
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "hidden_faces", (json_int_t)v->hidden,
-                     "edge_on_faces", (json_int_t)v->edge_on, "culled_faces", (json_int_t)v->culled, "cut_away_faces",
-                     (json_int_t)v->cut_away, "flat_polygons", (json_int_t)v->flat, "segments", (json_int_t)v->segments,
-                     "points", (json_int_t)v->points, "thin_shapes", (json_int_t)r->thin_shapes, "short_lines",
-                     (json_int_t)r->short_strokes);
-}
-
 static json_t *report_json(const render_args *args, const froe_render_report *r) {
     const froe_picture_report *p = &r->picture;
-    return json_pack(
-        "{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "tree",
-        cli_name_json(args->tree), "output", cli_name_json(args->output), "paint", froe_paint_name(p->paint),
-        "fragments", (json_int_t)p->visibility.pieces, "visible_fragments", (json_int_t)p->visibility.visible_pieces,
-        "visible_faces", (json_int_t)p->visibility.visible_patches, "arcs", (json_int_t)p->arcs, "late_faces",
-        (json_int_t)p->late, "shapes", (json_int_t)r->shapes, "lines", (json_int_t)r->strokes, "paths",
-        (json_int_t)r->paths, "bytes", (json_int_t)r->bytes, "exact_calls", (json_int_t)p->visibility.predicates.exact,
-        "left_out_faces", (json_int_t)p->left_out, "left_out_area", p->left_out_area, "not_drawn", not_drawn_json(r));
+    const froe_visibility_report *v = &p->visibility;
+    /* What the picture does not show, and why: faces, then objects that are none, then what is too small for the file.
+     */
+    json_t *not_drawn = json_pack(
+        "{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "hidden_faces", (json_int_t)v->hidden, "edge_on_faces",
+        (json_int_t)v->edge_on, "culled_faces", (json_int_t)v->culled, "cut_away_faces", (json_int_t)v->cut_away,
+        "flat_polygons", (json_int_t)v->flat, "segments", (json_int_t)v->segments, "points", (json_int_t)v->points,
+        "thin_shapes", (json_int_t)r->thin_shapes, "short_lines", (json_int_t)r->short_strokes);
+    return json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "tree",
+                     cli_name_json(args->tree), "output", cli_name_json(args->output), "paint",
+                     froe_paint_name(p->paint), "fragments", (json_int_t)v->pieces, "visible_fragments",
+                     (json_int_t)v->visible_pieces, "visible_faces", (json_int_t)v->visible_patches, "arcs",
+                     (json_int_t)p->arcs, "late_faces", (json_int_t)p->late, "shapes", (json_int_t)r->shapes, "lines",
+                     (json_int_t)r->strokes, "paths", (json_int_t)r->paths, "bytes", (json_int_t)r->bytes,
+                     "exact_calls", (json_int_t)v->predicates.exact, "left_out_faces", (json_int_t)p->left_out,
+                     "left_out_area", p->left_out_area, "not_drawn", not_drawn);
 }
 
 static void put_count(char *text, size_t room, uint64_t count, const char *one, const char *more) {
     const size_t at = strlen(text);
     if (count)
         snprintf(text + at, room - at, "%s%llu %s", at ? ", " : "", (unsigned long long)count, count > 1 ? more : one);
-}
-
-/* Objects of which no picture shows anything. */
-static void warn_of_objects(const render_args *args, const froe_visibility_report *v) {
-    char text[160] = "";
-    put_count(text, sizeof text, v->points, "point", "points");
-    put_count(text, sizeof text, v->segments, "segment", "segments");
-    if (*text)
-        (void)cli_fail(0, args->output, "note: Only faces are drawn, and these objects of the scene are not: %s.",
-                       text);
 }
 
 static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {
@@ -181,7 +169,12 @@ static void warn(const render_args *args, const froe_render_options *o, const fr
     if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
         (void)cli_fail(0, args->output,
                        "note: Too many faces overlap for an order of whole ones, and fragments were painted.");
-    warn_of_objects(args, &r->picture.visibility);
+    char objects[160] = "";
+    put_count(objects, sizeof objects, r->picture.visibility.points, "point", "points");
+    put_count(objects, sizeof objects, r->picture.visibility.segments, "segment", "segments");
+    if (*objects)
+        (void)cli_fail(0, args->output, "note: Only faces are drawn, and these objects of the scene are not: %s.",
+                       objects);
     if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output, "note: Nothing is visible from here.");
 }
 
@@ -206,32 +199,26 @@ static froe_status render_file(const froe_tree *tree, const char *path, const fr
     return (png ? froe_render_png : froe_render)(tree, path, o, report, diag);
 }
 
-static froe_status render_frames(const render_args *args, const froe_tree *tree, froe_render_options *o,
-                                 const froe_camera *cameras, froe_render_report *report, froe_diagnostic *diag) {
-    const double seconds = isnan(args->seconds) ? 8 : args->seconds;
-    if (args->animate)
-        return froe_render_animation(tree, args->output, o, cameras, args->turntable, seconds, report, diag);
-    froe_status status = FROE_OK;
-    for (size_t i = 0; !status && i < args->turntable; i++) {
-        char path[4096];
-        if (!name_frame(args->output, i, path, sizeof path)) return FROE_E_ARG;
-        o->camera = cameras[i];
-        status = render_file(tree, path, o, report, diag);
-    }
-    return status;
-}
-
 static froe_status render_turning(const render_args *args, const froe_tree *tree, froe_render_options *o,
                                   froe_render_report *report, froe_diagnostic *diag) {
     froe_camera *cameras = calloc(args->turntable, sizeof *cameras);
     if (!cameras) return support_fail_memory(diag);
+    const double seconds = isnan(args->seconds) ? 8 : args->seconds;
     froe_status status = froe_camera_turn(&o->camera, froe_tree_scene(tree), args->turntable, cameras, diag);
-    if (!status) status = render_frames(args, tree, o, cameras, report, diag);
+    if (!status && args->animate)
+        status = froe_render_animation(tree, args->output, o, cameras, args->turntable, seconds, report, diag);
+    for (size_t i = 0; !status && !args->animate && i < args->turntable; i++) {
+        char path[4096];
+        o->camera = cameras[i];
+        status = name_frame(args->output, i, path, sizeof path) ? render_file(tree, path, o, report, diag) : FROE_E_ARG;
+    }
     free(cameras);
     return status;
 }
 
-static int check_turning(const render_args *args) {
+static int render(const render_args *args, const froe_tree *tree, froe_render_options *o) {
+    froe_diagnostic diag;
+    froe_render_report report;
     char path[4096];
     if (args->animate && !args->turntable) return cli_fail(CLI_USE, NULL, "--animate: It needs --turntable.");
     if (args->turntable && (args->eye.count || args->target.count))
@@ -239,14 +226,6 @@ static int check_turning(const render_args *args) {
                         "--turntable: It goes around the middle of the scene, and excludes --eye and --target.");
     if (args->turntable && !args->animate && !name_frame(args->output, 0, path, sizeof path))
         return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output);
-    return 0;
-}
-
-static int render(const render_args *args, const froe_tree *tree, froe_render_options *o) {
-    froe_diagnostic diag;
-    froe_render_report report;
-    const int code = check_turning(args);
-    if (code) return code;
     cli_progress bar = cli_progress_begin(&args->common, "looking");
     o->progress = cli_progress_step;
     o->user = &bar;
@@ -257,28 +236,6 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
     if (status) return cli_fail_status(CLI_WRITING, args->output, status, &diag);
     warn(args, o, &report);
     return cli_report(&args->common, NULL, report_json(args, &report));
-}
-
-static int render_groups(const render_args *args, const froe_tree *tree) {
-    const froe_scene *scene = froe_tree_scene(tree);
-    const size_t groups = froe_scene_group_count(scene);
-    froe_render_options o = froe_render_defaults();
-    double *values = calloc(2 * groups + 1, sizeof *values);
-    int32_t *priorities = calloc(groups + 1, sizeof *priorities);
-    int code = values && priorities ? render_set_options(args, scene, &o) : cli_fail_memory();
-    for (size_t g = 0; !code && g < groups; g++) values[g] = NAN;
-    if (!code) code = render_set_groups("opacity", args->opacity, scene, values);
-    if (!code) code = render_set_groups("priority", args->priority, scene, values + groups);
-    for (size_t g = 0; !code && g < groups; g++) {
-        if (fabs(values[groups + g]) > 1e9)
-            code = cli_fail(CLI_USE, NULL, "--priority: '%g' is too large.", values[groups + g]);
-        priorities[g] = (int32_t)values[groups + g];
-    }
-    if (args->opacity) o.opacity = values;
-    if (args->priority) o.priorities = priorities;
-    if (!code) code = render(args, tree, &o);
-    free(values), free(priorities);
-    return code;
 }
 
 /* The tree once more, cut by the section first. */
@@ -309,14 +266,30 @@ static int run_render(const void *given) {
     if (!code) code = cli_open_tree(args->tree, &tree);
     if (code) return code;
     code = cut_section(args, &tree);
+    const froe_scene *scene = froe_tree_scene(tree);
+    if (!code && froe_scene_dim(scene) != 3)
+        code = cli_fail(CLI_USE, args->tree, "A scene in the plane has no hidden surfaces. froe draw draws it.");
     if (code) {
         froe_tree_free(tree);
         return code;
     }
-    if (froe_scene_dim(froe_tree_scene(tree)) != 3)
-        code = cli_fail(CLI_USE, args->tree, "A scene in the plane has no hidden surfaces. froe draw draws it.");
-    else
-        code = render_groups(args, tree);
+    const size_t groups = froe_scene_group_count(scene);
+    froe_render_options o = froe_render_defaults();
+    double *values = calloc(2 * groups + 1, sizeof *values);
+    int32_t *priorities = calloc(groups + 1, sizeof *priorities);
+    code = values && priorities ? render_set_options(args, scene, &o) : cli_fail_memory();
+    for (size_t g = 0; !code && g < groups; g++) values[g] = NAN;
+    if (!code) code = render_set_groups("opacity", args->opacity, scene, values);
+    if (!code) code = render_set_groups("priority", args->priority, scene, values + groups);
+    for (size_t g = 0; !code && g < groups; g++) {
+        if (fabs(values[groups + g]) > 1e9)
+            code = cli_fail(CLI_USE, NULL, "--priority: '%g' is too large.", values[groups + g]);
+        priorities[g] = (int32_t)values[groups + g];
+    }
+    if (args->opacity) o.opacity = values;
+    if (args->priority) o.priorities = priorities;
+    if (!code) code = render(args, tree, &o);
+    free(values), free(priorities);
     froe_tree_free(tree);
     return code;
 }

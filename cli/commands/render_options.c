@@ -1,32 +1,11 @@
 /* render_options.c: each part of the command line, checked. */
 #include "commands/render_options.h"
+#include "args/picture.h"
 #include "exit.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static void set_number(double given, double *field) {
-    if (!isnan(given)) *field = given;
-}
-
-static void set_preset(int preset, froe_render_options *o) {
-    if (preset == TECHNICAL) {
-        o->shading = FROE_SHADE_NONE;
-        o->camera.parallel = true;
-        o->hidden = true;
-    } else if (preset == PLOTTER) {
-        o->shading = FROE_SHADE_WHITE;
-        o->paint = FROE_PAINT_REGIONS;
-    } else if (preset == WEB) {
-        o->decimals = 1;
-    } else if (preset == PRINT) {
-        o->millimetres = true;
-        o->camera.width = 160, o->camera.height = 120;
-        o->seam_width = o->line_width = 0.2;
-        o->decimals = 3;
-    }
-}
 
 static int set_size(const char *text, froe_render_options *o) {
     char *end = NULL;
@@ -50,22 +29,18 @@ static int set_point(const char *name, const cli_reals *given, double out[3]) {
     return 0;
 }
 
-/* Directions of the views, for z up: right, towards the front (-y), up. */
-static void set_direction(int direction, int up, double eye[3]) {
+static int set_camera(const render_args *args, const froe_scene *scene, froe_camera *c) {
+    /* Directions of the views, for z up: right, towards the front (-y), up. */
     static const double from[][3] = {{3, -5, 2}, {1, -1, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0},
                                      {1, 0, 0},  {0, 0, 1},  {0, 0, -1}, {1, -4, 2}};
-    const double *d = from[direction];
-    for (int k = 0; k < 3; k++) eye[k] = 0;
-    eye[up] = d[2];
-    eye[(up + 1) % 3] = up == 1 ? -d[1] : d[0]; /* y up: z points at the viewer */
-    eye[(up + 2) % 3] = up == 1 ? d[0] : d[1];
-}
-
-static int set_camera(const render_args *args, const froe_scene *scene, froe_camera *c) {
+    const double *d = from[args->direction];
+    const int up = args->up_axis;
     double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
     froe_scene_bounds(scene, lo, hi);
-    for (int k = 0; k < 3; k++) c->up[k] = k == args->up_axis, c->target[k] = 0;
-    set_direction(args->direction, args->up_axis, c->eye);
+    for (int k = 0; k < 3; k++) c->up[k] = k == up, c->target[k] = 0;
+    c->eye[up] = d[2];
+    c->eye[(up + 1) % 3] = up == 1 ? -d[1] : d[0]; /* y up: z points at the viewer */
+    c->eye[(up + 2) % 3] = up == 1 ? d[0] : d[1];
     if (args->eye.count || args->target.count) {
         for (int k = 0; k < 3; k++) c->target[k] = 0.5 * lo[k] + 0.5 * hi[k];
         int code = set_point("target", &args->target, c->target);
@@ -76,9 +51,9 @@ static int set_camera(const render_args *args, const froe_scene *scene, froe_cam
     }
     if (args->section.count) c->section = args->section.at;
     if (args->parallel || args->direction > 0) c->parallel = true;
-    set_number(args->fov, &c->fov);
+    cli_set_number(args->fov, &c->fov);
     c->margin = c->width / 50;
-    set_number(args->margin, &c->margin);
+    cli_set_number(args->margin, &c->margin);
     return 0;
 }
 
@@ -121,36 +96,25 @@ static int set_style(const char *text, froe_render_options *o) {
     return cli_fail(CLI_USE, NULL, "--style: '%s' is not one of flat, cel, cel:N, plain, white, none.", text);
 }
 
-static uint32_t line_bit(const char *name, size_t length) {
-    for (uint32_t bit = 1; bit < FROE_LINE_END; bit <<= 1) {
-        const char *known = froe_line_name((froe_line)bit);
-        if (known && strlen(known) == length && memcmp(known, name, length) == 0) return bit;
-    }
-    return 0;
-}
-
+/* Kinds of lines of a list parted by commas. */
 static int set_lines(const char *list, uint32_t *lines) {
     if (!list) return 0;
     *lines = 0;
     while (*list && strcmp(list, "none") != 0) {
         const size_t length = strcspn(list, ",");
-        const uint32_t bit = line_bit(list, length);
-        if (!bit)
+        uint32_t found = 0;
+        for (uint32_t bit = 1; !found && bit < FROE_LINE_END; bit <<= 1) {
+            const char *known = froe_line_name((froe_line)bit);
+            if (known && strlen(known) == length && memcmp(known, list, length) == 0) found = bit;
+        }
+        if (!found)
             return cli_fail(CLI_USE, NULL,
                             "--line-kinds: '%.*s' is not one of border, silhouette, object, material, crease, "
                             "crossing, section, mesh.",
                             (int)length, list);
-        *lines |= bit;
+        *lines |= found;
         list += length + (list[length] == ',');
     }
-    return 0;
-}
-
-static int set_background(const char *text, uint32_t *background) {
-    if (!text || strcmp(text, "clear") == 0) return 0;
-    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6)
-        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear.", text);
-    *background = (uint32_t)strtoul(text, NULL, 16);
     return 0;
 }
 
@@ -179,19 +143,33 @@ int render_set_groups(const char *option, const char *list, const froe_scene *sc
 }
 
 int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o) {
-    set_preset(args->preset, o);
+    if (args->preset == TECHNICAL) {
+        o->shading = FROE_SHADE_NONE;
+        o->camera.parallel = true;
+        o->hidden = true;
+    } else if (args->preset == PLOTTER) {
+        o->shading = FROE_SHADE_WHITE;
+        o->paint = FROE_PAINT_REGIONS;
+    } else if (args->preset == WEB) {
+        o->decimals = 1;
+    } else if (args->preset == PRINT) {
+        o->millimetres = true;
+        o->camera.width = 160, o->camera.height = 120;
+        o->seam_width = o->line_width = 0.2;
+        o->decimals = 3;
+    }
     int code = set_size(args->size, o);
     if (!code) code = set_camera(args, scene, &o->camera);
     if (!code) code = set_scale(args, o);
     if (!code) code = set_style(args->shading, o);
     if (!code) code = set_lines(args->lines, &o->lines);
-    if (!code) code = set_background(args->background, &o->background);
+    if (!code) code = cli_set_background(args->background, &o->background);
     if (args->paint) o->paint = (froe_paint)args->paint;
-    set_number(args->seam_width, &o->seam_width);
-    set_number(args->line_width, &o->line_width);
-    set_number(args->crease, &o->crease);
-    set_number(args->halo, &o->halo);
-    set_number(args->pixels, &o->pixels);
+    cli_set_number(args->seam_width, &o->seam_width);
+    cli_set_number(args->line_width, &o->line_width);
+    cli_set_number(args->crease, &o->crease);
+    cli_set_number(args->halo, &o->halo);
+    cli_set_number(args->pixels, &o->pixels);
     if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
     if (args->hidden >= 0) o->hidden = args->hidden > 0;
     o->cull_back = args->cull_back;
@@ -201,7 +179,7 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     o->ids = (froe_ids)args->ids;
     o->layers = args->layers > 0;
     o->seams = (froe_seams)args->seams;
-    set_number(args->min_area, &o->min_area);
+    cli_set_number(args->min_area, &o->min_area);
     o->title = args->title, o->description = args->description;
     return code;
 }

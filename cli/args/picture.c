@@ -1,0 +1,23 @@
+/* picture.c: numbers and colours. */
+#include "args/picture.h"
+#include "exit.h"
+#include <froe/render.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void cli_set_number(double given, double *field) {
+    if (!isnan(given)) *field = given;
+}
+
+int cli_set_background(const char *given, uint32_t *field) {
+    if (!given) return 0;
+    if (strcmp(given, "clear") == 0) {
+        *field = FROE_DRAW_CLEAR;
+        return 0;
+    }
+    if (strlen(given) != 6 || strspn(given, "0123456789abcdefABCDEF") != 6)
+        return cli_fail(CLI_USE, NULL, "--background: '%s' is neither six hexadecimal digits nor clear.", given);
+    *field = (uint32_t)strtoul(given, NULL, 16);
+    return 0;
+}
