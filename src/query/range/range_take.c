@@ -130,7 +130,8 @@ static bool add_facets(geom_range *r, const froe_allocator *alloc, const froe_ra
         return ok;
     case FROE_SHAPE_HULL: /* in the directions between the axes */
         for (int i = 0; i < 27 && ok; i++) {
-            n[0] = i % 3 - 1, n[1] = i / 3 % 3 - 1, n[2] = i / 9 - 1;
+            const int step[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+            for (int k = 0; k < 3; k++) n[k] = step[k];
             const int axes = (n[0] != 0) + (n[1] != 0) + (n[2] != 0);
             if (axes > 1 && (r->dim == 3 || n[2] == 0)) ok = geom_range_add_facet(r, alloc, n);
         }
