@@ -4,8 +4,8 @@
  *     | .   . | ./|    |               at most three of them leave no more than two thirds (space: three quarters) of
  *     |      /| / |  . |               the points. A convex range meets O(1/eps^(d-1)) cells of its size, and O(1) of
  *     |    /  |/  |----|               each larger size.
- *     | ./    | . | .  |      objects: the same on guards (build/bar/bar_guards.h). Objects are carried down, and guards
- *     +-------+---+----+               of objects that a cell has lost are forgotten, before its cut is chosen.
+ *     | ./    | . | .  |      objects: the same on guards (build/bar/bar_guards.h). Objects are carried down, and
+ *     +-------+---+----+               guards of objects that a cell has lost are forgotten, before its cut is chosen.
  *
  * Duncan, Goodrich and Kobourov (1999); de Berg and Streppel, "Approximate range searching using binary space
  * partitions", section 4, theorem 3. The guards of a cell are made from the objects in it: that is all the pruning

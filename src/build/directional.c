@@ -7,10 +7,10 @@
  *         cut
  *
  * Tobola and Nechvile, "Linear size BSP trees for scenes with low directional density", with their cuts weighted, so
- * that the bound on fragments can be proved (build/directional/boxes.h), and cuts that divide nothing first. The stages are those
- * of build/directional/boxes_sweep.c. A cell is swept in time linear in its events; where a cut leaves one side with less than 1/8,
- * the cell goes on in trees that pay for the smaller side alone (build/directional/boxes_carve.c): O(N log^2 N) for N fragments
- * however unbalanced. Both choose the same cuts. */
+ * that the bound on fragments can be proved (build/directional/boxes.h), and cuts that divide nothing first. The stages
+ * are those of build/directional/boxes_sweep.c. A cell is swept in time linear in its events; where a cut leaves one
+ * side with less than 1/8, the cell goes on in trees that pay for the smaller side alone
+ * (build/directional/boxes_carve.c): O(N log^2 N) for N fragments however unbalanced. Both choose the same cuts. */
 #include "base/curve.h"
 #include "build/directional/boxes.h"
 #include "build/method.h"

@@ -45,8 +45,8 @@ static void resolve_grain(const froe_scene *scene, uint32_t leaf, double *option
     if (option[HEIGHT] < 0) option[HEIGHT] = option[EFFORT] == EFFORT_MIN ? 5 : LOW;
 }
 
-/** See the head of this file. Every cut leaves fewer fragments on either side, so n is a bound, too; but for a first cut
- * that is given, below which all of them may be on one side. */
+/** See the head of this file. Every cut leaves fewer fragments on either side, so n is a bound, too; but for a first
+ * cut that is given, below which all of them may be on one side. */
 static double promised_height(const build_job *job, const split_grain *grain) {
     double n = job->scene->object_count, v = job->scene->vertex_count;
     double need = split_grain_need(job->leaf, n), bound = grain->height > need ? grain->height : need;

@@ -1,10 +1,10 @@
 /* index.c: trees to be queried: middle cuts, packed leaves. In space: build/index/space.c.
  *
  *     +-------+---+---+    Cells are halved across their longer side until they hold at most `leaf` fragments: the
- *     |       | \ |   |    octree rule, with binary cuts. Large cells are halved many times at once (build/index/grid.h),
- *     |   /   +-\-+---+    small ones one by one (build/index/halve.h). Nothing but segments and points of the plane, which
- *     |  /    |  \| / |    become fragments of their cells; a leaf is written as a block as soon as it is reached
- *     +-------+---+---+    (tree/packed/packer.h).
+ *     |       | \ |   |    octree rule, with binary cuts. Large cells are halved many times at once
+ *     |   /   +-\-+---+    (build/index/grid.h), small ones one by one (build/index/halve.h). The objects are segments
+ *     |  /    |  \| / |    and points of the plane, which become fragments of their cells; a leaf is written as a
+ *     +-------+---+---+    block as soon as it is reached (tree/packed/packer.h).
  *
  * The root box is the bounds of the scene, widened by odd shares of its size, so that cuts do not fall on the round
  * numbers of which maps are made; a cut that meets a corner all the same is moved by a hair.

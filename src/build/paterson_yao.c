@@ -2,7 +2,7 @@
  *
  *     slabs          segments of the plane: medians of the x of endpoints; where a segment crosses a slab, along it.
  *                    O(n log n) for n disjoint ones (Efficient binary space partitions for hidden-surface removal and
- *                    solid modeling, 1990). It is the conversion of a plan of vertical lines (build/conversion/convert.h).
+ *                    solid modeling, 1990). It converts a plan of vertical lines (build/conversion/convert.h).
  *     orthogonal     axis-parallel objects: a cut that divides nothing, if there is one, the best balanced; else,
  *                    across the axis with most ends to choose from, through the middle of them (Optimal binary space
  *                    partitions for orthogonal objects, 1992; Murali, Agarwal and Vitter: Constructing binary space

@@ -1,7 +1,7 @@
 /* contest.h: candidates for one cell's cut, of which the cheapest wins.
  *
- * They are scored on what is shown of the cell (view.h). Planes through three vertices often pass others so closely that
- * doubles cannot tell on which side, and where they do not run through them, as all around the pole of a sphere in
+ * They are scored on what is shown of the cell (view.h). Planes through three vertices often pass others so closely
+ * that doubles cannot tell on which side, and where they do not run through them, as all around the pole of a sphere in
  * rounded coordinates, each split is real. So in an exact contest no candidate becomes the best before its exact count
  * says so; and on a sample, where counts are uncertain, several of the best are kept to be entered again when all is
  * shown. Other contests trust the view: their winner is counted exactly when the cell is cut (cell.c). */

@@ -10,8 +10,8 @@
  * represented by a sample. Coordinates are relative to the middle of the cell and of size at most 1/2, so a score does
  * not depend on where the scene lies, nor, for powers of two, on its scale.
  *
- * For sweeps (build/grain/sweep.h) vertices of the same objects that lie outside the cell come behind the corners: where
- * large polygons cross a small cell there may be no others to lay planes through. */
+ * For sweeps (build/grain/sweep.h) vertices of the same objects that lie outside the cell come behind the corners:
+ * where large polygons cross a small cell there may be no others to lay planes through. */
 #ifndef FROE_SPLIT_VIEW_H
 #define FROE_SPLIT_VIEW_H
 #include "split/grow.h"

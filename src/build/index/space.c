@@ -1,8 +1,8 @@
 /* space.c: trees of space to be queried: cuts by surface area, whole objects in packed leaves.
  *
- * Cells are cut where that saves a search most (build/index/surface.h), one by one, depth first; a leaf is written as a block
- * as soon as it is reached. Objects are listed whole in all leaves they reach; while cells are cut each has the bounds
- * of its part, so that none comes into a cell it does not meet, and boxes of leaves are tight.
+ * Cells are cut where that saves a search most (build/index/surface.h), one by one, depth first; a leaf is written as a
+ * block as soon as it is reached. Objects are listed whole in all leaves they reach; while cells are cut each has the
+ * bounds of its part, so that none comes into a cell it does not meet, and boxes of leaves are tight.
  *
  * Where cuts do not pay, leaves stay over capacity: below cells that the cuts above have multiplied into `growth`
  * listings for each, and where three cuts in a row would save less than a fiftieth, or divide nearly all. As in the
