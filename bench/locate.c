@@ -3,9 +3,9 @@
  *     bench_locate
  *
  * Points a second of processor time, one thread; `doubt`: the share of them that are too near to a cut of their way for
- * floats. `tree`: from the root, cut by cut. `laid out`: query/point/descent.h without
- * a look at cuts in doubt. `centroids`: query/range/centroids.h, in trees that are deep. `chosen`: what queries do, exactly,
- * one at a time, and many together. */
+ * floats. `tree`: from the root, cut by cut. `laid out`: query/point/descent.h without a look at cuts in doubt.
+ * `centroids`: query/range/centroids.h, in trees that are deep. `chosen`: what queries do, exactly, one at a time, and
+ * many together. */
 #include "bench.h"
 #include "build/options.h"
 #include "geom/predicates.h"

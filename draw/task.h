@@ -1,4 +1,4 @@
-/* task.h: a call in progress: it reports its progress now and then, and stops if the caller's function returns false. */
+/* task.h: a call in progress: it reports progress now and then, and stops if the caller's function returns false. */
 #ifndef FROE_DRAW_TASK_H
 #define FROE_DRAW_TASK_H
 #include "support/array.h"

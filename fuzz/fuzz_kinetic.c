@@ -1,6 +1,6 @@
-/* fuzz_kinetic.c: bytes as what happens to a partition in motion: segments come, go, and get other plans, several at one
- * instant. After each change it is what the oracle of tests/oracle/present.h makes of the same segments, and so are its
- * answers. */
+/* fuzz_kinetic.c: bytes as what happens to a partition in motion: segments come, go, and get other plans, several at
+ * one instant. After each change it is what the oracle of tests/oracle/present.h makes of the same segments, and so are
+ * its answers. */
 #include "kinetic/changing.h"
 #include "support.h"
 

@@ -1,6 +1,6 @@
-/* fuzz_open.c: any bytes as a tree file, and what follows the file's end as questions. Checksums are made right, so that
- * what lies behind them is reached. What opens must be safe to look at and to ask, all of it, even when it is wrong; and
- * when it passes the audit its answers must agree. */
+/* fuzz_open.c: any bytes as a tree file, and what follows the file's end as questions. Checksums are made right, so
+ * that what lies behind them is reached. What opens must be safe to look at and to ask, all of it, even when it is
+ * wrong; and when it passes the audit its answers must agree. */
 #include "ask.h"
 #include "look.h"
 #include "support/forge.h"

@@ -4,8 +4,8 @@
  *     replay FLOOR PATH...     fails if the inputs reach fewer than FLOOR places of the library
  *
  * A place is a basic block of the library as it is compiled for this (-fsanitize-coverage=trace-pc, by gcc and clang
- * alike): each calls __sanitizer_cov_trace_pc() with its own return address. So a corpus that the library has grown away
- * from fails. */
+ * alike): each calls __sanitizer_cov_trace_pc() with its own return address. So a corpus that the library has grown
+ * away from fails. */
 #include "support.h"
 #include <dirent.h>
 #include <stdatomic.h>

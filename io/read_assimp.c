@@ -105,7 +105,7 @@ static uint32_t material_colour(model *w, unsigned index) {
         return 0;
     struct aiString blending = {.length = 0};
     float opacity = 1;
-    /* aiGetMaterialFloat() is inline in the header and nowhere in the library: without optimisation it does not link. */
+    /* aiGetMaterialFloat() is inline in the header and not in the library: without optimisation it does not link. */
     if (aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &blending))
         aiGetMaterialFloatArray(material, AI_MATKEY_OPACITY, &opacity, NULL);
     else if (!strcmp(blending.data, "BLEND")) /* in glTF only these materials are transparent */

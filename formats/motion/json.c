@@ -1,4 +1,4 @@
-/* json.c: reading a JSON text (RFC 8259). A container that is not yet closed keeps in its `span` which one it lies in. */
+/* json.c: reads a JSON text (RFC 8259). The `span` of a container that is not yet closed says which one it lies in. */
 #include "formats/motion/json.h"
 #include "support/utf8.h"
 #include <math.h>
@@ -162,7 +162,7 @@ static froe_status read_key(parser *p) {
     return status;
 }
 
-/* Goes on behind a value, or behind the beginning of a container: closes what ends there. True: another value follows. */
+/* Goes on behind a value, or behind the beginning of a container: closes what ends there. True: a value follows. */
 static bool goes_on(parser *p, bool begun, froe_status *status) {
     while (p->open) {
         formats_json *container = p->values->data + p->open - 1;

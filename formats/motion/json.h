@@ -2,8 +2,8 @@
  *
  *     [[1, 2], {"a": 3}]     array, array, 1, 2, object, "a", 3
  *
- * (jansson takes a number or a string that it has no memory for as a shorter one, or as bad syntax; its allocator is one
- * for the whole process. So this is read here.) */
+ * (jansson takes a number or a string that it has no memory for as a shorter one, or as bad syntax; its allocator is
+ * one for the whole process. So this is read here.) */
 #ifndef FROE_FORMATS_JSON_H
 #define FROE_FORMATS_JSON_H
 #include "support/array.h"
@@ -31,8 +31,8 @@ typedef struct formats_json_error {
     char sentence[100];
 } formats_json_error;
 
-/** Reads `text` (RFC 8259), which lasts as long as the values: strings are decoded in it. text[length] is 0; a string may
- * not hold U+0000. Numbers are rounded to the nearest double in the locale of the thread, which is to be "C"; those
+/** Reads `text` (RFC 8259), which lasts as long as the values: strings are decoded in it. text[length] is 0; a string
+ * may not hold U+0000. Numbers are rounded to the nearest double in the locale of the thread, which is to be "C"; those
  * beyond the largest are refused. Without recursion, at any depth. FROE_E_MEMORY, FROE_E_FORMAT with `error`. */
 froe_status formats_json_read(const froe_allocator *alloc, char *text, size_t length, formats_json_values *values,
                               formats_json_error *error);

@@ -1,4 +1,4 @@
-/* write_events.c: froe_event_writer: what happens in a kinetic partition, as a table that is written while it happens. */
+/* write_events.c: froe_event_writer: the events of a kinetic partition, as a table written while they happen. */
 #include "formats/write/writer.h"
 #include "support/alloc.h"
 #include "support/floats.h"

@@ -1,4 +1,4 @@
-/* write_places.c: froe_write_places: where the ends of a snapshot's objects are exactly, as a table: x / w and y / w. */
+/* write_places.c: froe_write_places: the exact places of the ends of a snapshot's objects, as a table: x / w, y / w. */
 #include "formats/write/writer.h"
 #include "support/floats.h"
 #include <string.h>

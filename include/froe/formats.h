@@ -67,13 +67,13 @@ typedef struct froe_read_report {
  * proportional to the bytes of the file, which is held in memory.
  *
  * FROE_E_IO: missing, unreadable, a directory. FROE_E_FORMAT: empty, truncated or broken. FROE_E_INPUT: NaN or infinite
- * coordinates, or no objects at all; the message names the feature. FROE_E_UNSUPPORTED: another format, moving features,
- * more than 8 axes. FROE_E_OPTIONS: a layer or a filter, which only maps have. FROE_E_ARG, FROE_E_MEMORY,
+ * coordinates, or no objects at all; the message names the feature. FROE_E_UNSUPPORTED: another format, moving
+ * features, more than 8 axes. FROE_E_OPTIONS: a layer or a filter, which only maps have. FROE_E_ARG, FROE_E_MEMORY,
  * FROE_E_CANCELLED, FROE_E_LIMIT. */
 FROE_API froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,
                                    froe_read_report *report, froe_diagnostic *diag);
-/** Is this a file that froe_read_own() reads? By its first 4096 bytes, then its extension. False, too: NULL, or it cannot
- * be read. */
+/** Is this a file that froe_read_own() reads? By its first 4096 bytes, then its extension. False, too: NULL, or it
+ * cannot be read. */
 FROE_API bool froe_reads_own(const char *path);
 
 /* ------------------------------------------------------------------- write -- */
@@ -155,16 +155,17 @@ FROE_API froe_status froe_write_contacts(const froe_motion *motion, const froe_c
 
 /** Events on their way to a .csv with the header
  *     tick,early,late,kind,objects,a,b,c,d
- * with the number of segments that an event is about, and the first four of them. They are written while they happen. */
+ * with the number of segments that an event is about, and the first four of these. Each is written as it happens. */
 typedef struct froe_event_writer froe_event_writer;
 /** Begins a file; froe_event_writer_close() must follow, and `path` last until then. alloc NULL: malloc.
  * FROE_E_UNSUPPORTED: another extension. FROE_E_IO, FROE_E_MEMORY. */
 FROE_API froe_status froe_event_writer_new(const char *path, const froe_allocator *alloc, froe_event_writer **out,
                                            froe_diagnostic *diag);
-/** Adds an event. False: something has failed, which froe_event_writer_close() tells, and there is no use in going on. */
+/** Adds an event. False: something has failed, which froe_event_writer_close() tells, and further calls add nothing. */
 FROE_API bool froe_event_writer_put(froe_event_writer *writer, const froe_event *event);
-/** With FROE_OK: brings the file to its place, whole. Otherwise, or where something has failed, no file is left, and what
- * was there before stays. Returns `status`, or what has failed: FROE_E_IO, FROE_E_MEMORY. NULL: returns `status`. */
+/** With FROE_OK: brings the file to its place, whole. Otherwise, or where something has failed, no file is left, and
+ * what was there before stays. Returns `status`, or what has failed: FROE_E_IO, FROE_E_MEMORY. NULL: returns
+ * `status`. */
 FROE_API froe_status froe_event_writer_close(froe_event_writer *writer, froe_status status, froe_diagnostic *diag);
 
 /** Writes where the ends of a snapshot's objects are, exactly, as .csv with the header

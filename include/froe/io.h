@@ -4,10 +4,9 @@
  *     froe_read_options o = froe_read_defaults();
  *     if (froe_read("floor.geojson", &o, &scene, &report, &diag)) puts(diag.message);
  *
- * A companion library (link froe-io) on top of froe/formats.h. Plane maps are read by GDAL's OGR, solid models by assimp,
- * numbers in CSV, OFF, OBJ and PLY by the core. Nothing is
- * printed: messages of those libraries go into the diagnostic. All
- * functions may be called from several threads at once. */
+ * A companion library (link froe-io) on top of froe/formats.h. Plane maps are read by GDAL's OGR, solid models by
+ * assimp, numbers in CSV, OFF, OBJ and PLY by the core. Nothing is printed: messages of those libraries go into the
+ * diagnostic. All functions may be called from several threads at once. */
 #ifndef FROE_IO_H
 #define FROE_IO_H
 

@@ -303,10 +303,9 @@ typedef struct froe_snapshot {
                         i of the scene is the i-th of those that are there; tags are the motion's. The caller's */
     froe_places *places; /**< NULL if not asked for. The caller's */
     size_t rounded;      /**< vertices that are not where the tree has them, but less than a double's last place off */
-    bool
-        alike; /**< the tree has, node for node, the cuts of the partition, as if nothing had been rounded, and as if the
-                   partition stood at the tick. Not where something coincides at the tick and not just after it, and not if there
-                   are segments without length: they are in the tree, and not in the partition */
+    bool alike; /**< the tree has, node for node, the cuts of the partition, as if nothing had been rounded, and as if
+                   the partition stood at the tick. Not where something coincides at the tick and not just after it, and
+                   not if there are segments without length: they are in the tree, and not in the partition */
 } froe_snapshot;
 
 /** The present as an ordinary tree, for all other questions: the segments where they are at the tick itself, not just

@@ -1,4 +1,4 @@
-/* max_tree.h: a range-maximum tree: numbers at 0 .. size - 1, raised over ranges; the first or last that is high enough.
+/* max_tree.h: a range-maximum tree: numbers at 0 .. size - 1, raised over ranges; finds the first or last >= a bound.
  *
  *             max                    each node: what was added to its whole range, and the maximum of what
  *            /    \                  its children have on top of that. Sums commute with maxima, so a raise

@@ -5,9 +5,9 @@
  *     ball     doubles with running error bounds (num/ball.h)              nearly all zeros of lattices
  *     exact    dyadic numbers (num/dyadic.h)                               the rest
  *
- * A stage answers -1, 0, 1 or NUM_UNSURE, and where it is unsure, the next is asked. `known` stands second because it can
- * do no more than prove a zero or lead to a simpler question, and there no filter is sure: so it costs nothing where the
- * filter decides. The context says which stage is the first, and counts which one gave the answer. */
+ * A stage answers -1, 0, 1 or NUM_UNSURE, and where it is unsure, the next is asked. `known` stands second because it
+ * can do no more than prove a zero or lead to a simpler question, and there no filter is sure: so it costs nothing
+ * where the filter decides. The context says which stage is the first, and counts which one gave the answer. */
 #ifndef FROE_NUM_LADDER_H
 #define FROE_NUM_LADDER_H
 #include "num/ball.h"
@@ -38,8 +38,9 @@ static inline int num_filtered_call(num_context *context, int sign) {
     return sign;
 }
 
-/** The first sure answer. Each of the last four arguments is an expression that is computed only when it is asked. `sign`
- * is a variable of the caller's. `known` and `otherwise` count their answers themselves, and `otherwise` is sure. */
+/** The first sure answer. Each of the last four arguments is an expression that is computed only when it is asked.
+ * `sign` is a variable of the caller's. `known` and `otherwise` count their answers themselves, and `otherwise` is
+ * sure. */
 #define NUM_STAGES(context, sign, filter, known, ball, otherwise)                                                      \
     ((context)->first == NUM_FILTER && ((sign) = (filter)) != NUM_UNSURE  ? num_filtered(context, sign)                \
      : (context)->first == NUM_FILTER && ((sign) = (known)) != NUM_UNSURE ? (sign)                                     \

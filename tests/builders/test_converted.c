@@ -1,5 +1,5 @@
-/* test_converted.c: plans of endpoints, their locations and T-junctions, by brute force; what a converted tree owes to its
- * plan: size, height, cells met; balance along chords; every way to plan, on every kind of scene. */
+/* test_converted.c: plans of endpoints, their locations and T-junctions, by brute force; what a converted tree owes to
+ * its plan: size, height, cells met; balance along chords; every way to plan, on every kind of scene. */
 #include "build/conversion/chord.h"
 #include "build/conversion/convert.h"
 #include "build/conversion/ham_sandwich.h"

@@ -1,5 +1,5 @@
-/* test_directional_choice.c: the cut of each cell beside the one that the stages of build/directional/boxes_sweep.c describe, found
- * from the coordinates alone: all ends are sorted anew, and every box is looked at for each of them. */
+/* test_directional_choice.c: the cut of each cell beside the one that the stages of build/directional/boxes_sweep.c
+ * describe, found from the coordinates alone: all ends are sorted anew, and every box is looked at for each of them. */
 #include "base/sort.h"
 #include "build/directional/boxes.h"
 #include <froe/io.h>

@@ -2,7 +2,7 @@
  * them alone shows here if it does not. A tree is hashed as the bytes of its file, so a new format changes every line.
  *
  *     test_conformance_hashes            compares; the lines that differ are printed, both ways
- *     test_conformance_hashes --write    prints the list as it is now: let it become hashes.txt, and say why it changed */
+ *     test_conformance_hashes --write    prints the list as it is now, for hashes.txt; the commit says why */
 #include "base/random.h"
 #include "build/options.h"
 #include <froe/io.h>

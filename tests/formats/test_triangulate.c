@@ -1,4 +1,4 @@
-/* Ears of polygons, against clipping them by looking at every corner for every ear, and against areas in whole numbers. */
+/* test_triangulate.c: ears of polygons, against a search of all corners for each ear, and areas in whole numbers. */
 #include "support/scenes.h"
 
 #include "base/random.h"
@@ -149,7 +149,7 @@ static void any_ring_keeps_its_area_and_its_corners(void **state) {
 
 enum { LARGE = 100000 };
 
-/** Teeth at an odd angle, far from the origin; a spiral; a rectangle of straight corners; a star that crosses itself. */
+/** Askew teeth, far from the origin; a spiral; a rectangle with straight corners; a star that crosses itself. */
 static void large_corner(int shape, int64_t i, int64_t *x) {
     const int64_t half = LARGE / 2, turn = i < half ? i : LARGE - 1 - i, side = turn / 16 % 4;
     const int64_t r = 4 * (turn / 16) + (i < half ? 8 : 10), along = 2 * r * (turn % 16) / 16 - r;

@@ -1,5 +1,5 @@
-/* test_apart.c: planes between bodies, against contacts by brute force in rationals. Planes that are found are checked by
- * plain rational arithmetic. */
+/* test_apart.c: planes between bodies, against contacts by brute force in rationals. Planes that are found are checked
+ * by plain rational arithmetic. */
 #include "geom/bodies.h"
 #include "geom/meet/apart.h"
 #include <gmp.h>

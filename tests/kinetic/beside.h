@@ -185,7 +185,7 @@ static inline bool beside_same_nodes(const present *p, const present *q) {
     return true;
 }
 
-/** A snapshot is alike if what it has, where it has it, is cut as the present is. Not asked where segments are points. */
+/** Is a snapshot alike, that is, is what it has cut as the present is? Not tested where segments are points. */
 static inline bool beside_snapshot(beside *b, present *p) {
     froe_snapshot s;
     if (froe_kinetic_snapshot(b->kinetic, NULL, &s, NULL)) return BESIDE_FAIL(b, "snapshot");

@@ -1,5 +1,6 @@
-/* test_change.c: segments come, go and get other plans while a partition follows them, against the oracle of the present:
- * several changes at one instant, plans that jump and plans that go on, on lattices, where all happens at once. */
+/* test_change.c: segments come, go and get other plans while a partition follows them, against the oracle of the
+ * present: several changes at one instant, plans that jump and plans that go on, on lattices, where all happens at
+ * once. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

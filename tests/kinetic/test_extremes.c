@@ -1,5 +1,5 @@
-/* test_extremes.c: motions at the ends of what doubles are: coordinates next to the largest and the smallest, windows of
- * one tick, of 2^52 and of any length. All is answered, or refused with a sentence. */
+/* test_extremes.c: motions at the ends of what doubles are: coordinates next to the largest and the smallest, windows
+ * of one tick, of 2^52 and of any length. All is answered, or refused with a sentence. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

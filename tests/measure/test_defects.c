@@ -477,9 +477,9 @@ static void every_failing_allocation_is_survived(void **state) {
 
 enum { SLIVERS = 240, FACE = 80 };
 
-/** Long thin triangles side by side, askew, whose boxes all meet; three source polygons, the second beside the first and
- * the third on top of both. `odd` of 16 are something else: half as long, so that others have T-junctions with them,
- * moved, or anywhere. */
+/** Long thin triangles side by side, askew, whose boxes all meet; three source polygons, the second beside the first
+ * and the third on top of both. `odd` of 16 are something else: half as long, so that others have T-junctions with
+ * them, moved, or anywhere. */
 static froe_scene *slivers(uint64_t seed, uint32_t odd, double scale) {
     double xyz[9 * SLIVERS], *out = xyz;
     uint32_t faces[SLIVERS];

@@ -244,8 +244,8 @@ static void enclosing_balls_enclose_and_touch(void **state) {
 
 /* --------------------------------------------------------------- order and scale -- */
 
-/* Polygons and hulls with three corners in one line, the middle one first, so small or so large that no square of theirs
- * is a normal number. */
+/* Polygons and hulls with three corners in one line, the middle one first, so small or so large that no square of
+ * theirs is a normal number. */
 static void shapes_are_as_fat_at_every_scale(void **state) {
     static const double plane[] = {1, 0, 0, 0, 2, 0, 2, 2, 0, 2, 1, 2}, space[] = {0, 0, 0, 2, 0, 1, 0, 2, 3};
     static const double tent[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0.5, 0.5, 1};

@@ -336,7 +336,8 @@ static inline void answers_groups(answers *a, const double *x) {
 
 /* ------------------------------------------------------------------- whole -- */
 
-/* Shapes of ranges for a dimension, by turns. In space the oracle takes minutes for some boxes and halfspaces or hulls. */
+/* Shapes of ranges for a dimension, by turns. The oracle takes minutes for some boxes, halfspaces and hulls of
+ * space. */
 static inline froe_range_shape answers_shape(const world *w, int round) {
     const int dim = w->dim;
     static const froe_range_shape exact[] = {FROE_SHAPE_BOX, FROE_SHAPE_BALL,    FROE_SHAPE_SEGMENT,

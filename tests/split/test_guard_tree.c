@@ -518,7 +518,7 @@ static void check_lowest_nodes(const froe_scene *scene, const staged *s) {
     free(lowest);
 }
 
-/* The tree of a scene is that of its guards written down, and its objects' lowest containing nodes are where comparisons lead. */
+/* The tree of a scene is that of its guards written down. Comparisons lead to the lowest nodes that contain objects. */
 static void check_scene(const froe_scene *scene, split_guard_options options) {
     froe_allocator alloc = support_allocator(NULL);
     base_task task;

@@ -1,4 +1,4 @@
-/* test_overfull.c: leaves with more objects than they may hold, and the reasons that they give: audits find the false ones. */
+/* test_overfull.c: leaves with more objects than they may hold, and their reasons: audits find the false ones. */
 #include "audits.h"
 
 /* All objects in one leaf of capacity 1. Takes the scene. */

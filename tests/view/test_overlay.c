@@ -1,10 +1,10 @@
 /* test_overlay.c: where lines lie on each other one is drawn, the strongest, and nothing else goes away.
  *
- * The oracle lists, edge by edge, what the visibility says is seen of each, which may lie on each other as it likes, and
- * samples both: every point of an edge has to lie on a stroke, every point of a stroke on an edge, of the strongest kind
- * there, and no two strokes may have a stretch in common. All coordinates are small whole numbers at odd angles, so that
- * lines that are not equal are far apart. On a page where the whole scene is a hundredth of a pixel wide no line is
- * taken for another because they are near: what is drawn once there was found to be equal exactly. */
+ * The oracle lists, edge by edge, what the visibility says is seen of each, which may lie on each other as it likes,
+ * and samples both: every point of an edge has to lie on a stroke, every point of a stroke on an edge, of the strongest
+ * kind there, and no two strokes may have a stretch in common. All coordinates are small whole numbers at odd angles,
+ * so that lines that are not equal are far apart. On a page where the whole scene is a hundredth of a pixel wide no
+ * line is taken for another because they are near: what is drawn once there was found to be equal exactly. */
 #include "pages.h"
 #include "view/visibility/order.h"
 

@@ -10,8 +10,8 @@
  * If there is another wall in a thin part, as of a vertex that has the same x for ever, it passes, too, and this case
  * is refused. The far cell is found by walking down on the other side of the wall, past all segments before s in
  * order. Each of these is on the way to the near cell, too, or ends before the wall. Segments after s are in the far
- * cell. Source: the paper shaves transient cells off (its section 3.1.2 and figure 3); that a thin part is a treap is not
- * in the paper. */
+ * cell. Source: the paper shaves transient cells off (its section 3.1.2 and figure 3); that a thin part is a treap is
+ * not in the paper. */
 #ifndef FROE_KINETIC_PASS_H
 #define FROE_KINETIC_PASS_H
 #include "kinetic/event/slab.h"
