@@ -188,7 +188,8 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
 }
 
 static froe_status add_corner(ply *p, double index) {
-    if (!(index >= 0 && index < (double)(p->points.count / 3)) || index != (double)(uint64_t)index)
+    const size_t vertices = p->points.count / 3;
+    if (!(index >= 0 && index < (double)vertices) || index != (double)(uint64_t)index)
         return broken(p, "A face or edge names a vertex that does not exist (or comes later).");
     const double *at = p->points.data + 3 * (size_t)index;
     return array_append(&p->sink->alloc, &p->corners, at, 3) ? FROE_OK : out_of_memory(p);
