@@ -36,7 +36,8 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
                          froe_diagnostic *diag);
 
 typedef ARRAY(char) formats_text;
-/** The whole file but for a byte order mark, and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text holds a NUL. */
+/** The whole file but for a byte order mark, and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text
+ * holds a NUL. */
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text);
 
 /** Seconds of a clock that only goes forward. */
