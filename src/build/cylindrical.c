@@ -61,32 +61,28 @@ static froe_status grow_cylindrical(build_job *job, const uint32_t *order, uint3
     return status;
 }
 
-static froe_status attempts(build_job *job, draw *d, froe_diagnostic *why, froe_tree **out) {
-    uint32_t draws = job->order ? 0 : (uint32_t)job->option[DRAWS];
-    double height = job->option[HEIGHT] * base_log2((double)job->scene->object_count + 2) + 24;
-    double *promised = &job->meta.promises[job->meta.promise_count].promised;
-    bool too_deep = true;
-    froe_status status = FROE_OK;
-    build_promise(job, "height", height, 0);
-    for (uint32_t i = 0; i < draws && too_deep; i++)
-        status = grow_cylindrical(job, draw_order(job, d, i), (uint32_t)height, &too_deep, why, out);
-    if (!too_deep) return status;
-    /* a bound on the height: no wall, edge or plane comes twice on a path */
-    *promised = 3.0 * job->scene->corner_count + job->scene->object_count;
-    return grow_cylindrical(job, draw_order(job, d, 0), 0, &too_deep, why, out);
-}
-
 static froe_status build_cylindrical(build_job *job, froe_tree **out) {
     draw d = {NULL, NULL};
     froe_diagnostic why = {0};
-    froe_status status;
+    froe_status status = FROE_OK;
     const size_t n = job->scene->object_count;
+    const uint32_t draws = job->order ? 0 : (uint32_t)job->option[DRAWS];
+    const double height = job->option[HEIGHT] * base_log2((double)n + 2) + 24;
     if (!job->order) {
         d.order = support_calloc(&job->alloc, n, sizeof *d.order);
         d.keys = support_calloc(&job->alloc, 2 * n, sizeof *d.keys);
     }
     if (job->order || (d.order && d.keys)) {
-        status = attempts(job, &d, &why, out);
+        double *promised = &job->meta.promises[job->meta.promise_count].promised;
+        bool too_deep = true;
+        build_promise(job, "height", height, 0);
+        for (uint32_t i = 0; i < draws && too_deep; i++)
+            status = grow_cylindrical(job, draw_order(job, &d, i), (uint32_t)height, &too_deep, &why, out);
+        if (too_deep) {
+            /* a bound on the height: no wall, edge or plane comes twice on a path */
+            *promised = 3.0 * job->scene->corner_count + job->scene->object_count;
+            status = grow_cylindrical(job, draw_order(job, &d, 0), 0, &too_deep, &why, out);
+        }
         if (status && job->diag) *job->diag = why;
     } else {
         status = support_fail_memory(job->diag);

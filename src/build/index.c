@@ -77,24 +77,6 @@ static bool taken(const index_work *w, size_t from, uint32_t object) {
     return false;
 }
 
-/* The fragments of a node of the grid. */
-static froe_status gather_fragments(index_work *w, index_cell *cell) {
-    const split_grid *g = w->grids.data + w->grids.count - 1;
-    uint32_t from = grid_first(g, cell->heap), to = grid_end(g, cell->heap);
-    bool many = grid_level(cell->heap) < g->levels;
-    if (!array_reserve(&w->job->alloc, &w->items, to - from)) return FROE_E_MEMORY;
-    cell->first = (uint32_t)w->items.count;
-    for (uint32_t i = from; i < to; i++) {
-        uint32_t object = g->ids[i] & PACKED_OBJECT;
-        if (i + AHEAD < g->id_room) __builtin_prefetch(w->axis.ends + (g->ids[i + AHEAD] & PACKED_OBJECT));
-        if (many && g->ids[i] & GRID_SHARED && taken(w, cell->first, object)) continue;
-        axis_clip(&w->axis, object, &cell->box, w->items.data + w->items.count++);
-    }
-    cell->count = (uint32_t)w->items.count - cell->first;
-    cell->heap = 0;
-    return FROE_OK;
-}
-
 static froe_status end_packed_leaf(index_work *w, const index_cell *cell) {
     uint64_t most = w->job->max_fragments;
     uint8_t flags = cell->count > w->job->leaf ? TREE_CROWDED : 0;
@@ -243,24 +225,38 @@ static bool choose_halving(index_work *w, const index_cell *cell, halve_cut *cut
     return found && cut->both < cell->count;
 }
 
-/* Deals the fragments: the positive ones take the place of all, the negative ones lie on top. */
-static froe_status deal_fragments(index_work *w, const index_cell *cell, const halve_cut *cut, int which,
-                                  index_cell side[2]) {
-    uint32_t negative = cut->sides[0], positive = cut->sides[1];
+/* One cut of a cell of fragments; a leaf, where none pays. */
+static froe_status halve_cell(index_work *w, const index_cell *cell) {
+    const froe_allocator *alloc = &w->job->alloc;
+    halve_cut cut = {0};
+    index_cell side[2];
+    int which;
+    for (int i = 0; i < 2; i++) {
+        w->classes[i].count = 0;
+        if (!array_reserve(alloc, &w->classes[i], cell->count)) return FROE_E_MEMORY;
+    }
+    if (!choose_halving(w, cell, &cut, &which)) return end_packed_leaf(w, cell);
+    froe_status status = split_index_node(w, cell, cut.axis, cut.value, side);
+    if (status) return status;
+    /* deals the fragments: the positive ones take the place of all, the negative ones lie on top */
+    uint32_t negative = cut.sides[0], positive = cut.sides[1];
     w->items.count = cell->first + cell->count;
     w->spare.count = 0;
-    if (!array_reserve(&w->job->alloc, &w->items, cut->both + 1) ||
-        !array_reserve(&w->job->alloc, &w->spare, negative + 1))
+    if (!array_reserve(alloc, &w->items, cut.both + 1) || !array_reserve(alloc, &w->spare, negative + 1))
         return FROE_E_MEMORY;
     packed_fragment *items = w->items.data + cell->first;
-    halve_deal(w->axis.ends, items, cell->count, cut, w->classes[which].data, w->spare.data, items);
+    halve_deal(w->axis.ends, items, cell->count, &cut, w->classes[which].data, w->spare.data, items);
     if (negative) memcpy(items + positive, w->spare.data, negative * sizeof *items);
     w->items.count = cell->first + positive + negative;
-    side[0].first = cell->first + positive;
-    side[0].count = negative;
-    side[1].first = cell->first;
-    side[1].count = positive;
-    return FROE_OK;
+    bool lonely = !negative || !positive, barren = 5 * (uint64_t)cut.both > 4 * (uint64_t)cell->count;
+    for (int i = 0; i < 2; i++) {
+        side[i].first = i ? cell->first : cell->first + positive;
+        side[i].count = cut.sides[i];
+        side[i].growth = cell->growth * (1 + (double)cut.both / cell->count);
+        side[i].lonely = lonely ? cell->lonely + 1 : 0;
+        side[i].barren = barren ? cell->barren + 1 : 0;
+    }
+    return push_index_cells(w, side);
 }
 
 /* -------------------------------------------------------------------- loop -- */
@@ -277,34 +273,26 @@ static froe_status do_index_cell(index_work *w, index_cell *cell) {
         const split_grid *g = w->grids.data + w->grids.count - 1;
         const bool inner = grid_level(cell->heap) < g->levels && !grown;
         if (inner && g->count[cell->heap] > w->job->leaf) return cut_grid_node(w, cell);
-        status = gather_fragments(w, cell);
+        /* the fragments of a node of the grid */
+        const uint32_t from = grid_first(g, cell->heap), to = grid_end(g, cell->heap);
+        const bool many = grid_level(cell->heap) < g->levels;
+        if (!array_reserve(&w->job->alloc, &w->items, to - from)) return FROE_E_MEMORY;
+        cell->first = (uint32_t)w->items.count;
+        for (uint32_t i = from; i < to; i++) {
+            const uint32_t object = g->ids[i] & PACKED_OBJECT;
+            if (i + AHEAD < g->id_room) __builtin_prefetch(w->axis.ends + (g->ids[i + AHEAD] & PACKED_OBJECT));
+            if (many && g->ids[i] & GRID_SHARED && taken(w, cell->first, object)) continue;
+            axis_clip(&w->axis, object, &cell->box, w->items.data + w->items.count++);
+        }
+        cell->count = (uint32_t)w->items.count - cell->first;
+        cell->heap = 0;
     }
     w->items.count = cell->first + cell->count;
-    if (status) return status;
     bool made = false;
     if (cell->count <= w->job->leaf) return end_packed_leaf(w, cell);
     if (cell->count >= w->job->option[LEAST] && !is_deep(w, cell) && !grown)
         status = begin_grid(w, cell, w->items.data + cell->first, &made);
-    if (status || made) return status;
-    /* no grid: one cut */
-    halve_cut cut = {0};
-    index_cell side[2];
-    int which;
-    for (int i = 0; i < 2; i++) {
-        w->classes[i].count = 0;
-        if (!array_reserve(&w->job->alloc, &w->classes[i], cell->count)) return FROE_E_MEMORY;
-    }
-    if (!choose_halving(w, cell, &cut, &which)) return end_packed_leaf(w, cell);
-    status = split_index_node(w, cell, cut.axis, cut.value, side);
-    if (!status) status = deal_fragments(w, cell, &cut, which, side);
-    if (status) return status;
-    bool lonely = !cut.sides[0] || !cut.sides[1], barren = 5 * (uint64_t)cut.both > 4 * (uint64_t)cell->count;
-    for (int i = 0; i < 2; i++) {
-        side[i].growth = cell->growth * (1 + (double)cut.both / cell->count);
-        side[i].lonely = lonely ? cell->lonely + 1 : 0;
-        side[i].barren = barren ? cell->barren + 1 : 0;
-    }
-    return push_index_cells(w, side);
+    return status || made ? status : halve_cell(w, cell);
 }
 
 /* The ends of all objects, and the root box with all of them in it, or a grid over it. */

@@ -59,23 +59,17 @@ static void find_widths(const split_work *work, const split_cell *cell, double *
     }
 }
 
-/** The axis to be tried next; width < 0: tried already. */
-static int next_axis(const kd *d, const split_cell *cell, const double *width, int dim, int turn) {
-    int best = -1;
-    if (d->axes == FIRST) return turn;
-    if (d->axes == CYCLE) return (int)((cell->depth + (uint32_t)turn) % (uint32_t)dim);
-    for (int k = 0; k < dim; k++)
-        if (width[k] >= 0 && (best < 0 || width[k] > width[best])) best = k;
-    return best < 0 ? 0 : best;
-}
-
 static bool find_median(const kd *d, split_work *work, const split_cell *cell, best_cut *best) {
     split_scratch *s = work->scratch;
     int dim = work->set.scene->dim;
     double width[FROE_MAX_DIM];
     if (d->axes == WIDEST) find_widths(work, cell, width);
     for (int turn = 0; turn < dim && best->cost == INFINITY; turn++) {
-        int axis = next_axis(d, cell, width, dim, turn);
+        int axis = turn, widest = -1; /* width < 0: tried already */
+        for (int k = 0; k < dim && d->axes == WIDEST; k++)
+            if (width[k] >= 0 && (widest < 0 || width[k] > width[widest])) widest = k;
+        if (d->axes == WIDEST) axis = widest < 0 ? 0 : widest;
+        if (d->axes == CYCLE) axis = (int)((cell->depth + (uint32_t)turn) % (uint32_t)dim);
         /* ends of extents, the most even cut */
         if (!split_axes_fill(&s->axes, &work->set, cell, axis)) return false;
         while (split_axes_next(&s->axes)) {

@@ -80,18 +80,6 @@ static split_verdict choose_orthogonal(const void *config, split_work *work, con
     return SPLIT_CUT;
 }
 
-static froe_status build_orthogonal(build_job *job, froe_tree **out) {
-    double growth = job->option[GROWTH] > 0 ? job->option[GROWTH] : is_orthogonal(job->scene) ? (double)INFINITY : 4;
-    split_axial axial = split_axial_of(job->scene, job->leaf, job->seed, growth);
-    split_method method = {.config = &axial,
-                           .choose = choose_orthogonal,
-                           .scratch_new = split_scratch_new,
-                           .scratch_free = split_scratch_free};
-    split_job split = build_split_job(job);
-    build_promise(job, "height", job->scene->object_count, 0); /* each cut leaves less on both sides */
-    return split_grow(&split, &method, out);
-}
-
 /* ----------------------------------------------------------------------- build -- */
 
 static froe_status build_paterson_yao(build_job *job, froe_tree **out) {
@@ -102,7 +90,16 @@ static froe_status build_paterson_yao(build_job *job, froe_tree **out) {
         return support_fail(job->diag, FROE_E_UNSUPPORTED,
                             "option 'rule=slabs': It is for segments and points of the plane only.");
     if (rule == AUTO) rule = segments && !is_orthogonal(job->scene) ? SLABS : ORTHOGONAL;
-    return rule == SLABS ? build_converted(job, &slabs, out) : build_orthogonal(job, out);
+    if (rule == SLABS) return build_converted(job, &slabs, out);
+    double growth = job->option[GROWTH] > 0 ? job->option[GROWTH] : is_orthogonal(job->scene) ? (double)INFINITY : 4;
+    split_axial axial = split_axial_of(job->scene, job->leaf, job->seed, growth);
+    split_method method = {.config = &axial,
+                           .choose = choose_orthogonal,
+                           .scratch_new = split_scratch_new,
+                           .scratch_free = split_scratch_free};
+    split_job split = build_split_job(job);
+    build_promise(job, "height", job->scene->object_count, 0); /* each cut leaves less on both sides */
+    return split_grow(&split, &method, out);
 }
 
 const build_method build_method_paterson_yao = {

@@ -63,24 +63,23 @@ static bool fits_aspect(const bar_rule *rule, const bar_search *s, bar_candidate
     return c->aspect[0] <= rule->aspect && c->aspect[1] <= rule->aspect;
 }
 
-/** Moves the value to the nearest one that leaves both parts fat. */
-static bool move_to_fit(const bar_rule *rule, const bar_search *s, bar_candidate *c) {
-    double lo, hi, at = bar_shape_local(&s->shape, c->direction, c->value);
-    if (!bar_shape_interval(&s->shape, c->direction, rule->aspect, &lo, &hi)) return false;
-    const bool up = at < 0.5 * lo + 0.5 * hi;
-    c->value = bar_shape_global(&s->shape, c->direction, up ? lo : hi);
-    for (int i = 0; i <= MOVES; i++, c->value = nextafter(c->value, up ? INFINITY : -INFINITY))
-        if (fits_aspect(rule, s, c)) return true;
-    return false;
-}
-
 static bar_candidate candidate(const bar_rule *rule, bar_search *s, const bar_step *step, int direction) {
     const double *key = rows(s, step) + direction;
     for (uint32_t i = 0; i < step->count; i++, key += rule->directions.count) s->column.data[i] = *key;
     const double median = base_select(s->column.data, step->count, step->count / 2);
     bar_candidate c = {.direction = direction, .value = median};
     if (!rule->through) c.value = number_between(s->column.data, step->count, median);
-    if (!fits_aspect(rule, s, &c) && !move_to_fit(rule, s, &c)) return (bar_candidate){.direction = -1};
+    if (!fits_aspect(rule, s, &c)) {
+        /* moves the value to the nearest one that leaves both parts fat */
+        double lo, hi, at = bar_shape_local(&s->shape, direction, c.value);
+        if (!bar_shape_interval(&s->shape, direction, rule->aspect, &lo, &hi)) return (bar_candidate){.direction = -1};
+        const bool up = at < 0.5 * lo + 0.5 * hi;
+        int moves = 0;
+        c.value = bar_shape_global(&s->shape, direction, up ? lo : hi);
+        for (; moves <= MOVES && !fits_aspect(rule, s, &c); moves++)
+            c.value = nextafter(c.value, up ? INFINITY : -INFINITY);
+        if (moves > MOVES) return (bar_candidate){.direction = -1};
+    }
     const key_counts n = count_sides(rule, s, step, direction, c.value);
     c.larger = (n.below > n.above ? n.below : n.above) * step->weight;
     return c;

@@ -128,27 +128,6 @@ static froe_status follow_plan(convert *c, split_cell *cell, uint32_t at, const 
     }
 }
 
-static froe_status do_planned_cells(convert *c) {
-    uint64_t most = c->job->max_fragments;
-    froe_status status = FROE_OK;
-    while (c->work.cells.count && !status) {
-        split_cell cell = c->work.cells.data[--c->work.cells.count];
-        convert_cell own = c->cells.data[--c->cells.count];
-        region r;
-        c->work.set.corners.count = cell.corner_top;
-        r.count = own.corners;
-        c->corners.count -= own.corners;
-        if (own.corners) memcpy(r.corner, c->corners.data + c->corners.count, own.corners * sizeof *r.corner);
-        if (cell.count <= c->job->leaf)
-            status = cell_leaf(&c->work, &cell, 0);
-        else
-            status = own.at == FROE_NONE ? do_star(c, &cell) : follow_plan(c, &cell, own.at, &r);
-        if (!status && most && pieces(c) > most) status = FROE_E_BUDGET;
-        if (!status && !split_go_on(&c->work)) status = FROE_E_CANCELLED;
-    }
-    return status;
-}
-
 /* -------------------------------------------------------------------- whole -- */
 
 static froe_status begin_conversion(convert *c) {
@@ -176,7 +155,20 @@ froe_status split_convert(const convert_job *job, froe_tree **out) {
     froe_status status = draft_new(&job->alloc, job->scene->dim, 0, &c.draft);
     if (status) return status;
     status = begin_conversion(&c);
-    if (!status) status = do_planned_cells(&c);
+    while (c.work.cells.count && !status) {
+        split_cell cell = c.work.cells.data[--c.work.cells.count];
+        convert_cell own = c.cells.data[--c.cells.count];
+        region r = {.count = own.corners};
+        c.work.set.corners.count = cell.corner_top;
+        c.corners.count -= own.corners;
+        if (own.corners) memcpy(r.corner, c.corners.data + c.corners.count, own.corners * sizeof *r.corner);
+        if (cell.count <= job->leaf)
+            status = cell_leaf(&c.work, &cell, 0);
+        else
+            status = own.at == FROE_NONE ? do_star(&c, &cell) : follow_plan(&c, &cell, own.at, &r);
+        if (!status && job->max_fragments && pieces(&c) > job->max_fragments) status = FROE_E_BUDGET;
+        if (!status && !split_go_on(&c.work)) status = FROE_E_CANCELLED;
+    }
     if (!status) {
         *job->fragments += (double)c.crossings;
         num_stats_add(&c.draft.predicates, &c.work.set.context.stats);

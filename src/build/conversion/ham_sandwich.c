@@ -128,22 +128,6 @@ static froe_status push_child(ham *h, uint32_t node, int side, const froe_cut *c
     return array_push(alloc, &h->cells, (ham_cell){node, (uint32_t)count}) ? FROE_OK : FROE_E_MEMORY;
 }
 
-/** Splits the node by the cut it was given, and names one for both children. */
-static froe_status cut_ham_cell(ham *h, const ham_cell *cell) {
-    froe_cut cut = h->tree->nodes.data[cell->node].cut, next[2];
-    uint32_t child;
-    froe_status status = deal_points(h, cell, &cut);
-    if (!status) status = point_tree_split(h->tree, cell->node, &cut, &child);
-    if (status) return status;
-    if (h->side[0].count > 1 && h->side[1].count > 1)
-        next[0] = next[1] = sandwich(h);
-    else
-        for (int s = 0; s < 2; s++)
-            if (h->side[s].count > 1) next[s] = halve_points(h, h->side[s].data, h->side[s].count);
-    for (int s = 1; s >= 0 && !status; s--) status = push_child(h, child + (uint32_t)s, s, &next[s]);
-    return status;
-}
-
 froe_status point_tree_by_ham_sandwich(point_tree *tree, num_context *context, base_task *task) {
     ham h = {.tree = tree, .context = context};
     /* all endpoints of the scene, each once, below the root */
@@ -156,7 +140,18 @@ froe_status point_tree_by_ham_sandwich(point_tree *tree, num_context *context, b
     }
     for (uint32_t turn = 0; h.cells.count && !status; turn++) {
         ham_cell cell = h.cells.data[--h.cells.count];
-        status = cut_ham_cell(&h, &cell);
+        /* splits the node by the cut it was given, and names one for both children */
+        froe_cut cut = tree->nodes.data[cell.node].cut, next[2];
+        uint32_t child;
+        status = deal_points(&h, &cell, &cut);
+        if (!status) status = point_tree_split(tree, cell.node, &cut, &child);
+        if (status) break;
+        if (h.side[0].count > 1 && h.side[1].count > 1)
+            next[0] = next[1] = sandwich(&h);
+        else
+            for (int s = 0; s < 2; s++)
+                if (h.side[s].count > 1) next[s] = halve_points(&h, h.side[s].data, h.side[s].count);
+        for (int s = 1; s >= 0 && !status; s--) status = push_child(&h, child + (uint32_t)s, s, &next[s]);
         if (!status && turn % 16 == 0 && !base_progress(task, task->done)) status = FROE_E_CANCELLED;
     }
     array_free(&tree->alloc, &h.cells);

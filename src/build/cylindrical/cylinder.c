@@ -205,19 +205,6 @@ static froe_status own_edge(const split_cylinder *c, split_work *work, const spl
     return FROE_OK;
 }
 
-/** The first polygon of the cell that crosses the plane of `cut`, which is that of `object`. */
-static split_verdict refuse_crossing(split_work *work, const split_cell *cell, uint32_t object, const froe_cut *cut) {
-    const split_set *set = &work->set;
-    split_tally n;
-    if (cell_tally(work, cell, cut, &n)) return SPLIT_MEMORY;
-    if (!n.both) return SPLIT_CUT_ANYWAY;
-    uint32_t i = 0;
-    while (set->classes.data[i] != SPLIT_BOTH) i++;
-    work->crossing[0] = object;
-    work->crossing[1] = set->items.data[cell->first + i].object;
-    return SPLIT_REFUSE;
-}
-
 static split_verdict cut_polygon(const split_cylinder *c, split_work *work, const split_cell *cell,
                                  const split_fragment *f, froe_cut *cut) {
     split_set *set = &work->set;
@@ -245,7 +232,16 @@ static split_verdict cut_polygon(const split_cylinder *c, split_work *work, cons
         while (!(edge_length(scene, edge) > 0)) edge++;
         *cut = edge_cut(scene, edge);
     }
-    return c->refuse ? refuse_crossing(work, cell, f->object, cut) : SPLIT_CUT_ANYWAY;
+    if (!c->refuse) return SPLIT_CUT_ANYWAY;
+    /* the first polygon of the cell that crosses that plane */
+    split_tally n;
+    if (cell_tally(work, cell, cut, &n)) return SPLIT_MEMORY;
+    if (!n.both) return SPLIT_CUT_ANYWAY;
+    uint32_t i = 0;
+    while (set->classes.data[i] != SPLIT_BOTH) i++;
+    work->crossing[0] = f->object;
+    work->crossing[1] = set->items.data[cell->first + i].object;
+    return SPLIT_REFUSE;
 }
 
 /* ------------------------------------------------------------------- cells -- */

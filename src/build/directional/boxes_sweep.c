@@ -91,11 +91,6 @@ static const boxes_event *arrive_at_boxes(const boxes_change *changes, axis_swee
     return e;
 }
 
-/* The balance of a cut at the place of the sweep. */
-static uint32_t smaller(const axis_sweep *s) {
-    return s->below < s->above ? s->below : s->above;
-}
-
 static boxes_cut cut_at(const axis_sweep *s, int axis, double x) {
     return (boxes_cut){true, false, axis, x, s->below, s->above, s->divided};
 }
@@ -107,7 +102,7 @@ static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, 
     while (e < end) {
         bool face;
         const boxes_event *next = arrive_at_boxes(b->changes, &s, e, end, &face);
-        const uint32_t less = smaller(&s);
+        const uint32_t less = s.below < s.above ? s.below : s.above; /* the balance of a cut here */
         /* The second time: a face that divides fewest, and leaves enough boxes on both sides; is it paid for? A quick
          * test of two numbers comes first, both times: hardly any cut is better than all before. */
         if (narrow && s.divided <= best.most && face && less >= best.enough) {

@@ -86,24 +86,15 @@ static void note_bad(dealing *d, int axis, uint32_t line) {
     d->bad_line = line;
 }
 
-/* Column or row of a number, by its image. */
-static uint32_t grid_place(const split_grid *g, int axis, double x) {
-    const double *line = g->lines[axis];
-    double guess = (x - line[0]) * g->scale[axis];
-    uint32_t n = line_count(g, axis), i = guess > 0 ? guess < n ? (uint32_t)guess : n - 1 : 0;
-    while (i && x < line[i]) i--;
-    while (i + 1 < n && x > line[i + 1]) i++;
-    return i;
-}
-
 /* Column and row of an end of a fragment: of a corner of the object, or of an end that a cut made. */
 static void place_end(dealing *d, const packed_fragment *f, bool last, uint16_t out[2]) {
     const split_grid *g = d->grid;
     bool own = f->id & (last ? PACKED_END : PACKED_START);
     for (int k = 0; k < 2; k++) {
-        double x = (last ? f->q : f->p)[k];
-        const double *line = g->lines[k];
-        uint32_t n = line_count(g, k), i = grid_place(g, k, x);
+        const double x = (last ? f->q : f->p)[k], *line = g->lines[k], guess = (x - line[0]) * g->scale[k];
+        uint32_t n = line_count(g, k), i = guess > 0 ? guess < n ? (uint32_t)guess : n - 1 : 0;
+        while (i && x < line[i]) i--;
+        while (i + 1 < n && x > line[i + 1]) i++;
         if (own && x == line[i] && i) note_bad(d, k, i);
         if (own && x == line[i + 1] && i + 1 < n) note_bad(d, k, i + 1);
         for (int way = 0; way < 2 && !own; way++) {
