@@ -46,15 +46,14 @@ static void sort_ends(split_axes *a, double *x, size_t n) {
     if (n) memcpy(x, a->spare.data, n * sizeof *x);
 }
 
-static bool reserve_ends(split_axes *a, const froe_allocator *alloc, size_t n) {
+bool split_axes_fill(split_axes *a, const split_set *set, const split_cell *cell, int axis) {
+    const froe_allocator *alloc = &set->alloc;
+    const size_t n = cell->count;
     a->low.count = a->high.count = a->flat.count = a->spare.count = a->pairs.count = 0;
     a->begun = a->ended = a->flats = 0;
-    return array_reserve(alloc, &a->low, n) && array_reserve(alloc, &a->high, n) && array_reserve(alloc, &a->flat, n) &&
-           array_reserve(alloc, &a->spare, n) && array_reserve(alloc, &a->pairs, 2 * n);
-}
-
-bool split_axes_fill(split_axes *a, const split_set *set, const split_cell *cell, int axis) {
-    if (!reserve_ends(a, &set->alloc, cell->count)) return false;
+    if (!array_reserve(alloc, &a->low, n) || !array_reserve(alloc, &a->high, n) || !array_reserve(alloc, &a->flat, n) ||
+        !array_reserve(alloc, &a->spare, n) || !array_reserve(alloc, &a->pairs, 2 * n))
+        return false;
     for (uint32_t i = 0; i < cell->count; i++) {
         double low, high;
         extent(set, set->items.data + cell->first + i, axis, &low, &high);

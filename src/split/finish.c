@@ -176,15 +176,6 @@ static table_row *row_of(finish *f, uint32_t piece, mask set) {
     return r;
 }
 
-/** A piece was divided into columns `one`, its own, and `other`: both lie where it lay, unless that is both sides. */
-static void inherit(table_row *r, uint32_t one, uint32_t other) {
-    bool known = r->known & ~(r->below & r->above) & bit(one);
-    put_columns(&r->known, bit(one) | bit(other), known);
-    put_columns(&r->below, bit(other), r->below & bit(one));
-    put_columns(&r->above, bit(other), r->above & bit(one));
-    put_columns(&r->sure, bit(other), r->sure & bit(one));
-}
-
 /* ------------------------------------------------------------------- choice -- */
 
 /** The piece whose line is the best cut of a part that is not empty. */
@@ -277,7 +268,15 @@ static froe_status divide_piece(finish *f, const split_plane *plane, uint32_t no
     load_piece(f, column, &below);
     load_piece(f, other, &above);
     t->line[other] = t->line[column];
-    while (set) inherit(t->rows + t->line[take_column(&set)], column, other);
+    /* a row knows where both halves lie if it knew that for the whole, unless that was both sides */
+    const mask one = bit(column), half = bit(other);
+    while (set) {
+        table_row *r = t->rows + t->line[take_column(&set)];
+        put_columns(&r->known, one | half, r->known & ~(r->below & r->above) & one);
+        put_columns(&r->below, half, r->below & one);
+        put_columns(&r->above, half, r->above & one);
+        put_columns(&r->sure, half, r->sure & one);
+    }
     return FROE_OK;
 }
 
@@ -292,17 +291,6 @@ static froe_status divide_all(finish *f, const froe_cut *by, uint32_t node, mask
         status = divide_piece(f, &plane, node, take_column(&both), set);
     }
     return status;
-}
-
-static void push_parts(finish *f, const table_part *p, uint32_t child, const mask side[2]) {
-    split_table *t = f->t;
-    for (int k = 1; k >= 0; k--)
-        t->stack[t->parts++] = (table_part){.set = side[k],
-                                            .path = base_path(p->path, k),
-                                            .node = child + (uint32_t)k,
-                                            .depth = p->depth + 1,
-                                            .corner_top = (uint32_t)f->set->corners.count,
-                                            .columns = t->columns};
 }
 
 /** Pushes all parts, the topmost too, as ordinary cells. */
@@ -326,8 +314,9 @@ static froe_status give_back(finish *f, split_work *work) {
 }
 
 static froe_status do_part(finish *f, const table_part *p, bool *full) {
+    split_table *t = f->t;
     f->set->corners.count = p->corner_top;
-    f->t->columns = p->columns;
+    t->columns = p->columns;
     if (size(p->set) > f->config->leaf) {
         /* too few columns: nothing is done */
         tree_draft *draft = f->set->draft;
@@ -337,12 +326,18 @@ static froe_status do_part(finish *f, const table_part *p, bool *full) {
         froe_status status = find_exact_row(f, p, choose_piece(f, p), &by, &r);
         if (status) return status;
         mask below = r->below & p->set, above = r->above & p->set, both = below & above, upper;
-        *full = f->t->columns + size(both) > ROOM;
+        *full = t->columns + size(both) > ROOM;
         if (*full) return FROE_OK;
         status = draft_split(draft, p->node - draft->outer, &by, 0, &child);
         if (!status) status = list(f, p->node, p->set & ~(below | above));
         if (!status) status = divide_all(f, &by, p->node, both, below | above, &upper);
-        if (!status) push_parts(f, p, draft->outer + child, (const mask[2]){below, (above & ~both) | upper});
+        for (int k = 1; k >= 0 && !status; k--)
+            t->stack[t->parts++] = (table_part){.set = k ? (above & ~both) | upper : below,
+                                                .path = base_path(p->path, k),
+                                                .node = draft->outer + child + (uint32_t)k,
+                                                .depth = p->depth + 1,
+                                                .corner_top = (uint32_t)f->set->corners.count,
+                                                .columns = t->columns};
         return status;
     }
     draft_leaf(f->set->draft, p->node - f->set->draft->outer, 0);
@@ -354,18 +349,6 @@ static bool fits_table(const split_refine *config, const split_set *set, const s
     for (uint32_t i = 0; i < cell->count; i++)
         if (scene_form(set->scene, set->items.data[cell->first + i].object) != FROE_SEGMENT) return false;
     return true;
-}
-
-/** Does parts until none is left, or one has no columns for its halves. */
-static froe_status do_parts(finish *f, bool *full) {
-    split_table *t = f->t;
-    froe_status status = FROE_OK;
-    while (t->parts && !*full && !status) {
-        table_part p = t->stack[--t->parts];
-        status = do_part(f, &p, full);
-    }
-    t->parts += *full; /* p is still there */
-    return status;
 }
 
 froe_status split_finish(const split_refine *config, split_work *work, const split_cell *cell, bool *done) {
@@ -383,7 +366,12 @@ froe_status split_finish(const split_refine *config, split_work *work, const spl
                                .depth = cell->depth,
                                .corner_top = (uint32_t)work->set.corners.count,
                                .columns = cell->count};
-    froe_status status = do_parts(&f, &full);
+    froe_status status = FROE_OK;
+    while (t->parts && !full && !status) {
+        table_part p = t->stack[--t->parts];
+        status = do_part(&f, &p, &full);
+    }
+    t->parts += full;                                /* p is still there: it has no columns for its halves */
     *done = !full || t->stack[0].node != cell->node; /* else its very first cut splits too much for the table */
     if (*done) work->set.items.count = cell->first;
     return *done && full && !status ? give_back(&f, work) : status;

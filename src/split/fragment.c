@@ -113,12 +113,6 @@ static int corner_side(split_set *set, const split_plane *plane, uint32_t object
     return geom_side_corner(&set->context, &plane->plane, &own, &first, &second);
 }
 
-/** The same, but by the sides of the corners of the object where these tell. */
-static int derived_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
-    int side = k->type == SPLIT_CORNER ? object_side(set, plane, object) : NUM_UNSURE;
-    return side == NUM_UNSURE ? corner_side(set, plane, object, k) : side;
-}
-
 /** By the image of a corner that is no vertex; NUM_UNSURE: it is too near. */
 static int image_sign(const split_set *set, const split_plane *plane, const split_corner *k) {
     return set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, k->x, k->error) : NUM_UNSURE;
@@ -131,7 +125,9 @@ static int image_side(split_set *set, const split_plane *plane, const split_corn
 int split_corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
     if (k->type == SPLIT_VERTEX) return vertex_side(set, plane, k->x);
     int side = image_side(set, plane, k);
-    return side == NUM_UNSURE ? derived_side(set, plane, object, k) : side;
+    /* by the sides of the corners of the object where these tell */
+    if (side == NUM_UNSURE && k->type == SPLIT_CORNER) side = object_side(set, plane, object);
+    return side == NUM_UNSURE ? corner_side(set, plane, object, k) : side;
 }
 
 static int class_of_sides(bool negative, bool positive) {

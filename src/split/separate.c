@@ -37,25 +37,22 @@ static void add_corners(const froe_scene *scene, uint32_t object, int set, split
     }
 }
 
-static bool between_hulls(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
-    const froe_scene *scene = work->set.scene;
-    geom_member *corners = separator->corners.data;
-    separator->corners.count = 0;
-    add_corners(scene, a, -1, separator);
-    add_corners(scene, b, 1, separator);
-    uint32_t count = (uint32_t)separator->corners.count;
-    if (geom_between(&work->set.context, scene->dim, corners, count) != GEOM_YES) return false;
-    *cut = (froe_cut){.kind = FROE_CUT_VERTICES};
-    for (int k = 0; k < scene->dim; k++) cut->id[k] = corners[k].id;
-    return true;
-}
-
 bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
     const froe_scene *scene = work->set.scene;
     const bool boxes = scene_form(scene, a) == FROE_BOX && scene_form(scene, b) == FROE_BOX;
     if (scene->dim > 3 || boxes) return false; /* axis-parallel planes do */
-    const bool hulls = scene_form(scene, a) == FROE_HULL && scene_form(scene, b) == FROE_HULL;
-    if (hulls && between_hulls(work, a, b, separator, cut)) return true;
+    if (scene_form(scene, a) == FROE_HULL && scene_form(scene, b) == FROE_HULL) {
+        geom_member *corners = separator->corners.data;
+        separator->corners.count = 0;
+        add_corners(scene, a, -1, separator);
+        add_corners(scene, b, 1, separator);
+        const uint32_t count = (uint32_t)separator->corners.count;
+        if (geom_between(&work->set.context, scene->dim, corners, count) == GEOM_YES) {
+            *cut = (froe_cut){.kind = FROE_CUT_VERTICES};
+            for (int k = 0; k < scene->dim; k++) cut->id[k] = corners[k].id;
+            return true;
+        }
+    }
     const geom_body one = scene_body(scene, a), other = scene_body(scene, b);
     *cut = (froe_cut){.kind = FROE_CUT_PLANE, .normal = separator->normal};
     return geom_apart(&work->set.context, &one, &other, separator->normal, &cut->value);

@@ -4,27 +4,22 @@
 
 enum { CHUNK = 8192 }; /* objects per job */
 
-/** Codes of a box, as in grid_boxes.h. */
-static inline void place_on_grid(const guard_grid *grid, const double *lo, const double *hi, int dim,
-                                 uint32_t code[2]) {
-    uint32_t first = 0, last = 0, flat = 0, apart = 0;
-    for (int i = 0; i < dim; i++) {
-        const guard_axis *t = &grid->axes[i];
-        uint32_t from = guard_slice(t, lo[i]), to = guard_slice(t, hi[i]);
-        first |= t->codes[from];
-        last |= t->codes[to];
-        flat |= (uint32_t)(lo[i] == hi[i]) << i;
-        apart |= (lo[i] == t->bounds[from]) | (hi[i] == t->bounds[to]);
-    }
-    code[0] = first | flat << GRID_BOXES_FLAT | (apart ? GRID_BOXES_APART : 0);
-    code[1] = last;
-}
-
+/** Codes of boxes, as in grid_boxes.h. */
 static inline void place_objects(const split_grid_boxes *p, uint32_t begin, uint32_t end, int dim) {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    for (uint32_t i = begin; i < end; i++) {
-        scene_bounds_in(p->scene, dim, i, lo, hi);
-        place_on_grid(&p->grid, lo, hi, dim, p->codes[i]);
+    for (uint32_t object = begin; object < end; object++) {
+        uint32_t first = 0, last = 0, flat = 0, apart = 0;
+        scene_bounds_in(p->scene, dim, object, lo, hi);
+        for (int i = 0; i < dim; i++) {
+            const guard_axis *t = &p->grid.axes[i];
+            uint32_t from = guard_slice(t, lo[i]), to = guard_slice(t, hi[i]);
+            first |= t->codes[from];
+            last |= t->codes[to];
+            flat |= (uint32_t)(lo[i] == hi[i]) << i;
+            apart |= (lo[i] == t->bounds[from]) | (hi[i] == t->bounds[to]);
+        }
+        p->codes[object][0] = first | flat << GRID_BOXES_FLAT | (apart ? GRID_BOXES_APART : 0);
+        p->codes[object][1] = last;
     }
 }
 

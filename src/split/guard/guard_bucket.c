@@ -319,21 +319,6 @@ froe_status guard_bucket(guard_worker *w, const guard_item *item, const guard_cu
     return status || !b.items ? status : move_guards(&b);
 }
 
-/* What follows when all guards of a scene are counted. */
-static froe_status split_scene(bucket *b, double **main, size_t *bytes) {
-    guard_item item = {.side = GUARD_INPUT, .count = b->sums[0]};
-    guard_cube cube;
-    froe_status status = guard_push(b->w, NULL, &item, &b->grid_boxes->root);
-    if (status || !b->w->items.count) return status; /* a leaf */
-    guard_pop(b->w, &item, &cube);
-    b->item = &item;
-    status = split_cells(b);
-    if (status || !b->items) return status;
-    *bytes = b->moved * (size_t)b->dim * sizeof **main;
-    *main = b->to = support_realloc(b->w->plan->alloc, NULL, 0, *bytes);
-    return b->to ? move_guards(b) : FROE_E_MEMORY;
-}
-
 froe_status guard_bucket_scene(guard_worker *w, const split_grid_boxes *grid_boxes, double **main, size_t *bytes,
                                uint32_t *count) {
     bucket b = {
@@ -351,5 +336,15 @@ froe_status guard_bucket_scene(guard_worker *w, const split_grid_boxes *grid_box
     if (!status) status = count_guards(&b);
     if (status || (b.sums[0] > w->plan->k && shrinks(&b, &whole, b.sums[0]))) return status;
     *count = b.sums[0];
-    return split_scene(&b, main, bytes);
+    guard_item item = {.side = GUARD_INPUT, .count = b.sums[0]};
+    guard_cube cube;
+    status = guard_push(w, NULL, &item, &grid_boxes->root);
+    if (status || !w->items.count) return status; /* a leaf */
+    guard_pop(w, &item, &cube);
+    b.item = &item;
+    status = split_cells(&b);
+    if (status || !b.items) return status;
+    *bytes = b.moved * (size_t)b.dim * sizeof **main;
+    *main = b.to = support_realloc(w->plan->alloc, NULL, 0, *bytes);
+    return b.to ? move_guards(&b) : FROE_E_MEMORY;
 }

@@ -257,15 +257,6 @@ static froe_status follow_phase(phase *ph) {
     }
 }
 
-static void distribute(phase *ph) {
-    size_t dim = (size_t)ph->dim;
-    double *to = ph->w->side[guard_other_side(ph->item->side)] + ph->item->begin * dim;
-    for (uint32_t guard = 0; guard < ph->item->count; guard++) {
-        uint32_t label = ph->labels[guard] == ALIVE ? ph->rest : ph->labels[guard];
-        if (label >= FIRST) memcpy(to + ph->ends[label - FIRST]++ * dim, point_of(ph, guard), dim * sizeof *to);
-    }
-}
-
 froe_status guard_phase(guard_worker *w, const guard_item *item, const guard_cube *cube) {
     size_t count = item->count, dim = (size_t)w->plan->dim;
     base_pair *room = guard_scratch(w, count * ((dim + 1) * sizeof *room + 3 * sizeof(uint32_t) + sizeof(uint16_t)));
@@ -290,6 +281,11 @@ froe_status guard_phase(guard_worker *w, const guard_item *item, const guard_cub
     ph.codes = (uint16_t *)(ph.ends + count);
     w->phases++;
     froe_status status = follow_phase(&ph);
-    if (!status) distribute(&ph);
+    /* the guards of all items to where those begin */
+    double *to = w->side[guard_other_side(item->side)] + item->begin * dim;
+    for (uint32_t guard = 0; guard < item->count && !status; guard++) {
+        uint32_t label = ph.labels[guard] == ALIVE ? ph.rest : ph.labels[guard];
+        if (label >= FIRST) memcpy(to + ph.ends[label - FIRST]++ * dim, point_of(&ph, guard), dim * sizeof *to);
+    }
     return status;
 }

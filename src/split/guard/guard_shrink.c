@@ -121,43 +121,19 @@ static void heap_peel(guard_peeler *self, int axis) {
     h->peeled[h->heap[axis][0]] = true;
 }
 
-static void heaps_init(heaps *h, const double *points, uint32_t count, int dim, uint32_t corner, uint32_t *room) {
-    *h = (heaps){.peeler = {heap_farthest, heap_peel}, .points = points, .dim = dim, .corner = corner};
-    for (int i = 0; i < dim; i++) {
-        h->heap[i] = room + (size_t)i * count;
-        h->count[i] = count;
-        for (uint32_t p = 0; p < count; p++) h->heap[i][p] = p;
-        for (uint32_t at = count / 2; at-- > 0;) sift_down(h, i, at);
-    }
-    h->peeled = memset(room + (size_t)dim * count, 0, count);
-}
-
-/* Moves the guards strictly inside to the other side, counts the others in the leaves outside. */
-static uint32_t keep_inner(guard_worker *w, const guard_item *item, const guard_shrunk *shrunk, uint32_t inner) {
-    size_t dim = (size_t)w->plan->dim;
-    const double *points = guard_points(w, item);
-    double *to = w->side[guard_other_side(item->side)] + item->begin * dim;
-    uint32_t kept = 0;
-    for (uint32_t p = 0; p < item->count; p++, points += dim) {
-        bool inside = true;
-        for (int c = 0; c < shrunk->count; c++) {
-            int i = shrunk->axes[c];
-            inside &= shrunk->cube.lo[i] < points[i] && points[i] < shrunk->cube.hi[i];
-        }
-        memcpy(to + kept * dim, points, dim * sizeof *to);
-        kept += inside;
-        if (!inside && w->plan->kill > 1) guard_count(w, item->node, points, inner);
-    }
-    return kept;
-}
-
 froe_status guard_shrink(guard_worker *w, const guard_item *item, const guard_cube *cube, uint32_t corner) {
     int dim = w->plan->dim;
     uint32_t *room = guard_scratch(w, item->count * ((size_t)dim * sizeof *room + sizeof(bool))), inner;
     if (!room) return FROE_E_MEMORY;
-    heaps h;
+    heaps h = {.peeler = {heap_farthest, heap_peel}, .points = guard_points(w, item), .dim = dim, .corner = corner};
     guard_shrunk shrunk;
-    heaps_init(&h, guard_points(w, item), item->count, dim, corner, room);
+    h.peeled = memset(room + (size_t)dim * item->count, 0, item->count);
+    for (int i = 0; i < dim; i++) {
+        h.heap[i] = room + (size_t)i * item->count;
+        h.count[i] = item->count;
+        for (uint32_t p = 0; p < item->count; p++) h.heap[i][p] = p;
+        for (uint32_t at = item->count / 2; at-- > 0;) sift_down(&h, i, at);
+    }
     guard_shrink_rule(cube, dim, corner, w->plan->kill, &h.peeler, &shrunk);
     froe_status status = guard_shrink_nodes(w, item, &shrunk, &inner);
     if (status) return status;
@@ -165,6 +141,19 @@ froe_status guard_shrink(guard_worker *w, const guard_item *item, const guard_cu
                        .height = item->height + (uint32_t)shrunk.count,
                        .begin = item->begin,
                        .side = guard_other_side(item->side)};
-    part.count = keep_inner(w, item, &shrunk, inner);
+    /* the guards strictly inside move to the other side, the others are counted in the leaves outside */
+    const size_t size = (size_t)dim;
+    const double *points = guard_points(w, item);
+    double *to = w->side[guard_other_side(item->side)] + item->begin * size;
+    for (uint32_t p = 0; p < item->count; p++, points += size) {
+        bool inside = true;
+        for (int c = 0; c < shrunk.count; c++) {
+            int i = shrunk.axes[c];
+            inside &= shrunk.cube.lo[i] < points[i] && points[i] < shrunk.cube.hi[i];
+        }
+        memcpy(to + part.count * size, points, size * sizeof *to);
+        part.count += inside;
+        if (!inside && w->plan->kill > 1) guard_count(w, item->node, points, inner);
+    }
     return guard_push(w, item, &part, &shrunk.cube);
 }

@@ -4,23 +4,17 @@
 
 enum { SMALL = 48 }; /* pairs that insertion sorts faster */
 
-static void insertion_sort(base_pair *pairs, size_t count) {
-    for (size_t i = 1; i < count; i++) {
-        base_pair moving = pairs[i];
-        size_t at = i;
-        for (; at > 0 && pairs[at - 1].key > moving.key; at--) pairs[at] = pairs[at - 1];
-        pairs[at] = moving;
-    }
-}
-
 /* Stably by the coordinate on an axis. */
 static void sort_by(const double *points, size_t count, int dim, int axis, base_pair *order, base_pair *spare) {
     for (size_t i = 0; i < count; i++)
         order[i].key = base_double_key(points[order[i].value * (size_t)dim + (size_t)axis]);
-    if (count <= SMALL)
-        insertion_sort(order, count);
-    else
-        base_radix_sort(order, spare, count);
+    if (count > SMALL) base_radix_sort(order, spare, count);
+    for (size_t i = 1; i < count && count <= SMALL; i++) {
+        base_pair moving = order[i];
+        size_t at = i;
+        for (; at > 0 && order[at - 1].key > moving.key; at--) order[at] = order[at - 1];
+        order[at] = moving;
+    }
 }
 
 static bool has_ties(const base_pair *order, size_t count) {

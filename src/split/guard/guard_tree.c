@@ -45,16 +45,6 @@ typedef struct building {
 
 /* ---- root */
 
-/* Rounding may put the border on guards, at 1e308 or where the scene is tiny and far from the origin: then
- * the others are copied. Returns their number. */
-static size_t drop_border(building *b, const double *guards, size_t count, const guard_cube *root) {
-    size_t dim = (size_t)b->plan.dim, kept = 0;
-    for (size_t p = 0; p < count; p++, guards += dim)
-        if (guard_strictly_inside(guards, guards, root, b->plan.dim))
-            memcpy(b->main + kept++ * dim, guards, dim * sizeof *guards);
-    return kept;
-}
-
 static double promised_leaves(const guard_plan *plan, double guards) {
     double cells = (double)((1u << plan->dim) - 1);
     if (guards <= plan->k) return 1;
@@ -87,8 +77,14 @@ static froe_status plant(building *b, const double *guards, size_t count) {
     guard_root(&box, b->plan.dim, &root);
     froe_status status = start_guard_tree(b, &root);
     bool all = guard_strictly_inside(box.lo, box.hi, &root, b->plan.dim);
+    size_t dim = (size_t)b->plan.dim, kept = all ? count : 0;
+    /* Rounding may put the border on guards, at 1e308 or where the scene is tiny and far from the origin: then the
+     * others are copied. */
+    for (size_t p = 0; p < count && !all; p++, guards += dim)
+        if (guard_strictly_inside(guards, guards, &root, b->plan.dim))
+            memcpy(b->main + kept++ * dim, guards, dim * sizeof *guards);
     guard_item item = {.side = all ? GUARD_INPUT : GUARD_MAIN};
-    item.count = b->count = (uint32_t)(all ? count : drop_border(b, guards, count, &root));
+    item.count = b->count = (uint32_t)kept;
     return status ? status : guard_push(&b->foreman, NULL, &item, &root);
 }
 
@@ -106,23 +102,18 @@ static froe_status plant_scene(building *b, const split_grid_boxes *grid_boxes) 
     return status ? status : plant(b, b->guards.points, b->guards.count);
 }
 
-/* ---- jobs */
-
-static bool reserve_room(building *b, hand *h, size_t guards) {
-    size_t need = guards * (size_t)b->plan.dim * sizeof(double);
-    if (need <= h->capacity) return true;
-    support_free(b->plan.alloc, h->room, h->capacity);
-    h->room = support_realloc(b->plan.alloc, NULL, 0, need);
-    h->capacity = h->room ? need : 0;
-    return h->room;
-}
-
 /* Does a job with the worker's nodes from `origin` on. */
 static froe_status do_job(building *b, hand *h, guard_nodes *nodes, uint32_t origin, guard_item item,
                           const guard_cube *cube) {
     size_t offset = (size_t)item.begin * (size_t)b->plan.dim;
+    size_t need = item.count * (size_t)b->plan.dim * sizeof(double);
     guard_worker *w = &h->work;
-    if (item.side == GUARD_MAIN && !reserve_room(b, h, item.count)) return FROE_E_MEMORY;
+    if (item.side == GUARD_MAIN && need > h->capacity) {
+        support_free(b->plan.alloc, h->room, h->capacity);
+        h->room = support_realloc(b->plan.alloc, NULL, 0, need);
+        h->capacity = h->room ? need : 0;
+        if (!h->room) return FROE_E_MEMORY;
+    }
     w->side[GUARD_MAIN] = b->main + offset;
     w->side[GUARD_SPARE] = item.side == GUARD_MAIN ? h->room : b->spare + offset;
     w->nodes = nodes;
@@ -157,20 +148,20 @@ static froe_status hand_out(building *b, const guard_item *item, const guard_cub
     return array_push(b->plan.alloc, &b->jobs, j) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status split_large(building *b, const guard_item *item, const guard_cube *cube) {
-    if (item->side == GUARD_MAIN && !b->spare && !(b->spare = support_realloc(b->plan.alloc, NULL, 0, b->bytes)))
-        return FROE_E_MEMORY;
-    b->foreman.side[GUARD_SPARE] = b->spare;
-    return guard_step(&b->foreman, item, cube);
-}
-
 static froe_status oversee(building *b) {
     while (b->foreman.items.count) {
         guard_item item;
         guard_cube cube;
         guard_pop(&b->foreman, &item, &cube);
-        bool small = item.side != GUARD_INPUT && item.count <= b->job_count;
-        froe_status status = small ? hand_out(b, &item, &cube) : split_large(b, &item, &cube);
+        froe_status status;
+        if (item.side != GUARD_INPUT && item.count <= b->job_count) {
+            status = hand_out(b, &item, &cube);
+        } else {
+            if (item.side == GUARD_MAIN && !b->spare) b->spare = support_realloc(b->plan.alloc, NULL, 0, b->bytes);
+            if (item.side == GUARD_MAIN && !b->spare) return FROE_E_MEMORY;
+            b->foreman.side[GUARD_SPARE] = b->spare;
+            status = guard_step(&b->foreman, &item, &cube);
+        }
         if (status) return status;
         if (base_cancelled(b->plan.task)) return FROE_E_CANCELLED;
     }
@@ -269,22 +260,6 @@ static froe_status build_guard_tree(building *b, double span, const split_grid_b
     return status;
 }
 
-static void free_building(building *b) {
-    const froe_allocator *alloc = b->plan.alloc;
-    for (unsigned i = 0; i < b->hand_count; i++) {
-        guard_worker_free(&b->hands[i].work);
-        array_free(alloc, &b->hands[i].nodes);
-        support_free(alloc, b->hands[i].room, b->hands[i].capacity);
-    }
-    support_free(alloc, b->hands, b->plan.task->threads * sizeof *b->hands);
-    guard_worker_free(&b->foreman);
-    array_free(alloc, &b->nodes);
-    array_free(alloc, &b->jobs);
-    support_free(alloc, b->main, b->bytes);
-    support_free(alloc, b->spare, b->bytes);
-    split_guards_free(alloc, &b->guards);
-}
-
 static uint32_t cell_load(int dim) { /* ceil(sqrt dim)^dim */
     uint32_t root = 1, load = 1;
     while (root * root < (uint32_t)dim) root++;
@@ -313,7 +288,18 @@ static froe_status build_tree(const froe_allocator *alloc, base_task *task, doub
     double done = task->done + span * task->scale;
     froe_status status = build_guard_tree(&b, span, grid_boxes, guards, count);
     if (!status && !base_progress(task, done)) status = FROE_E_CANCELLED;
-    free_building(&b);
+    for (unsigned i = 0; i < b.hand_count; i++) {
+        guard_worker_free(&b.hands[i].work);
+        array_free(alloc, &b.hands[i].nodes);
+        support_free(alloc, b.hands[i].room, b.hands[i].capacity);
+    }
+    support_free(alloc, b.hands, task->threads * sizeof *b.hands);
+    guard_worker_free(&b.foreman);
+    array_free(alloc, &b.nodes);
+    array_free(alloc, &b.jobs);
+    support_free(alloc, b.main, b.bytes);
+    support_free(alloc, b.spare, b.bytes);
+    split_guards_free(alloc, &b.guards);
     if (status)
         array_free(alloc, &tree.nodes);
     else
