@@ -224,8 +224,8 @@ static void settle(sheet_sweep *s, const sheet_edge *point, bool for_good) {
     while (low && place_on_sheet(s, e + low, point) <= 0) low = e[low].neighbour[0];
     for (bool here = true; here;) {
         uint32_t high = e[low].neighbour[1];
-        if (cross(s, low,
-                  high)) { /* an edge of crooked objects alone goes, or else the longer one, which may cross more */
+        if (cross(s, low, high)) {
+            /* An edge of crooked objects alone goes, or else the longer one, which may cross more. */
             const sheet_edge *a = e + low, *b = e + high;
             const bool one = condemned(s, a), longer = a->q[0] - a->p[0] > b->q[0] - b->p[0];
             const uint32_t gone = (one != condemned(s, b) ? one : longer) ? low : high;

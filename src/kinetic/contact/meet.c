@@ -5,7 +5,7 @@
 #define T num_ball
 #define CURVE motion_ball_curve
 #define POLY num_ball_poly
-#define NAME(f) ball_##f
+#define FORMULA(f) f##_ball
 #define ADD(a, b) num_ball_add(a, b)
 #define SUB(a, b) num_ball_sub(a, b)
 #define MUL(a, b) num_ball_mul(a, b)
@@ -14,7 +14,7 @@
 #define T num_dyadic
 #define CURVE motion_dyadic_curve
 #define POLY num_poly
-#define NAME(f) dyadic_##f
+#define FORMULA(f) f##_dyadic
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
 #define MUL(a, b) num_dyadic_mul(arena, a, b)
@@ -66,9 +66,9 @@ static bool surely_apart(const meeting *g) {
     motion_ball_curve v[4];
     num_ball_poly gap[MEET_GAPS], turn[MEET_TURNS];
     for (int i = 0; i < 4; i++) motion_span_ball(g->m, &g->piece[i], g->a, g->b, &v[i]);
-    ball_gaps(NULL, v, v + 2, gap);
+    gaps_ball(NULL, v, v + 2, gap);
     if (all_alike(gap, 4) || all_alike(gap + 4, 4)) return true;
-    ball_turns(NULL, v, v + 2, gap, turn);
+    turns_ball(NULL, v, v + 2, gap, turn);
     return all_alike(turn, 2) || all_alike(turn + 2, 2);
 }
 
@@ -78,8 +78,8 @@ static void take_polynomials(meeting *g) {
     meet_worker *w = g->w;
     motion_dyadic_curve v[4];
     for (int i = 0; i < 4; i++) motion_span_dyadic(&w->arena, g->m, &g->piece[i], g->a, g->b, &v[i]);
-    dyadic_gaps(&w->arena, v, v + 2, w->gap);
-    dyadic_turns(&w->arena, v, v + 2, w->gap, w->turn);
+    gaps_dyadic(&w->arena, v, v + 2, w->gap);
+    turns_dyadic(&w->arena, v, v + 2, w->gap, w->turn);
     bool flat = true;
     for (int i = 0; i < MEET_TURNS; i++) {
         num_poly_trim(&w->turn[i], 4);

@@ -9,7 +9,7 @@
 
 #define T num_dyadic
 #define CURVE motion_dyadic_curve
-#define NAME(f) dyadic_##f
+#define FORMULA(f) f##_dyadic
 #define POINT(x) num_dyadic_from(arena, x)
 #define TIME(x) num_dyadic_from(arena, x)
 #define ONE num_dyadic_scaled(arena, 1, 1, 0)
@@ -20,7 +20,7 @@
 
 #define T num_ball
 #define CURVE motion_ball_curve
-#define NAME(f) ball_##f
+#define FORMULA(f) f##_ball
 #define POINT(x) num_ball_from(x)
 #define TIME(x) num_ball_from(x)
 #define ONE num_ball_from(1)
@@ -47,7 +47,7 @@ static num_short whole_of(double x, int unit) {
 
 #define T num_short
 #define CURVE motion_whole_curve
-#define NAME(f) whole_##f
+#define FORMULA(f) f##_whole
 #define POINT(x) whole_of(x, m->unit)
 #define TIME(x) whole_of(x, piece->from->unit)
 #define ONE 1
@@ -63,7 +63,7 @@ static num_short whole_ticks(const froe_motion *m, const motion_piece *piece, in
 bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, num_short out[3]) {
     enum { MOST = 125 }; /* a sum of three products with weights whose sum is W */
     if (m->top - m->unit + piece->degree * piece->from->bits > MOST) return false;
-    whole_place(NULL, m, piece, whole_ticks(m, piece, tick), out);
+    place_at_whole(NULL, m, piece, whole_ticks(m, piece, tick), out);
     return true;
 }
 
@@ -72,7 +72,7 @@ bool motion_curve_whole(const froe_motion *m, const motion_piece *piece, int64_t
     const motion_knot *from = piece->from;
     if (piece->degree && m->power - from->unit > from->bits) return false;
     if (m->top - m->unit + piece->degree * from->bits > MOST) return false;
-    whole_curve(NULL, m, piece, whole_ticks(m, piece, tick), whole_ticks(m, piece, 1), out);
+    curve_whole(NULL, m, piece, whole_ticks(m, piece, tick), whole_ticks(m, piece, 1), out);
     return true;
 }
 
@@ -85,32 +85,32 @@ static num_ball ball_ticks(const froe_motion *m, int64_t ticks) {
 }
 
 void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic out[3]) {
-    dyadic_place(arena, m, piece, dyadic_ticks(arena, m, tick), out);
+    place_at_dyadic(arena, m, piece, dyadic_ticks(arena, m, tick), out);
 }
 
 void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball out[3]) {
-    ball_place(NULL, m, piece, ball_ticks(m, tick), out);
+    place_at_ball(NULL, m, piece, ball_ticks(m, tick), out);
 }
 
 void motion_curve_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
                          motion_dyadic_curve *out) {
-    dyadic_curve(arena, m, piece, dyadic_ticks(arena, m, tick), dyadic_ticks(arena, m, 1), out);
+    curve_dyadic(arena, m, piece, dyadic_ticks(arena, m, tick), dyadic_ticks(arena, m, 1), out);
 }
 
 void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_ball_curve *out) {
-    ball_curve(NULL, m, piece, ball_ticks(m, tick), ball_ticks(m, 1), out);
+    curve_ball(NULL, m, piece, ball_ticks(m, tick), ball_ticks(m, 1), out);
 }
 
 void motion_span_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
                         motion_dyadic_curve *out) {
     num_dyadic a = num_dyadic_from(arena, from), b = num_dyadic_from(arena, to);
     num_dyadic begin = num_dyadic_from(arena, m->begin);
-    dyadic_curve(arena, m, piece, num_dyadic_sub(arena, a, begin), num_dyadic_sub(arena, b, a), out);
+    curve_dyadic(arena, m, piece, num_dyadic_sub(arena, a, begin), num_dyadic_sub(arena, b, a), out);
 }
 
 void motion_span_ball(const froe_motion *m, const motion_piece *piece, double from, double to, motion_ball_curve *out) {
     num_ball a = num_ball_from(from), b = num_ball_from(to);
-    ball_curve(NULL, m, piece, num_ball_sub(a, num_ball_from(m->begin)), num_ball_sub(b, a), out);
+    curve_ball(NULL, m, piece, num_ball_sub(a, num_ball_from(m->begin)), num_ball_sub(b, a), out);
 }
 
 /* --------------------------------------------------------------- in doubles -- */
@@ -138,7 +138,7 @@ static num_ball along(const motion_piece *piece, num_ball s, num_ball t, int k) 
 /* How much of the piece has passed. */
 static num_ball share_of_piece(const froe_motion *m, const motion_piece *piece, num_ball passed) {
     if (!piece->degree) return num_ball_from(0);
-    ball_weights w = ball_weigh(NULL, m, piece, passed);
+    weights_ball w = weigh_ball(NULL, m, piece, passed);
     return divide_place(w.b, num_ball_add(w.a, w.b));
 }
 

@@ -1,11 +1,11 @@
 /* poly.c: polynomials in time. */
 #include "kinetic/motion/poly.h"
 
-static num_ball ball_minus(num_ball a) {
+static num_ball minus_ball(num_ball a) {
     return (num_ball){-a.x, a.e};
 }
 
-static num_dyadic exact_minus(num_dyadic a) {
+static num_dyadic minus_exact(num_dyadic a) {
     a.sign = -a.sign;
     return a;
 }
@@ -13,34 +13,34 @@ static num_dyadic exact_minus(num_dyadic a) {
 #define T num_ball
 #define POLY poly_ball
 #define POINT ball_point
-#define NAME(f) ball_##f
+#define FORMULA(f) f##_ball
 #define ADD(a, b) num_ball_add(a, b)
 #define SUB(a, b) num_ball_sub(a, b)
 #define MUL(a, b) num_ball_mul(a, b)
 #include "kinetic/motion/poly_body.inc"
 
-static num_short short_minus(num_short a) {
+static num_short minus_short(num_short a) {
     return -a;
 }
 
 #define T num_short
 #define POLY poly_short
 #define POINT short_point
-#define NAME(f) short_##f
+#define FORMULA(f) f##_short
 #define ADD(a, b) ((a) + (b))
 #define SUB(a, b) ((a) - (b))
 #define MUL(a, b) ((a) * (b))
 #define SIGN(a) (((a) > 0) - ((a) < 0))
 #include "kinetic/motion/poly_body.inc"
 
-static num_wide wide_minus(num_wide a) {
+static num_wide minus_wide(num_wide a) {
     return num_wide_sub((num_wide){{0}}, a);
 }
 
 #define T num_wide
 #define POLY poly_wide
 #define POINT wide_point
-#define NAME(f) wide_##f
+#define FORMULA(f) f##_wide
 #define ADD(a, b) num_wide_add(a, b)
 #define SUB(a, b) num_wide_sub(a, b)
 #define MUL(a, b) num_wide_mul(a, b)
@@ -52,7 +52,7 @@ static num_wide wide_minus(num_wide a) {
 #define T num_dyadic
 #define POLY poly_exact
 #define POINT exact_point
-#define NAME(f) exact_##f
+#define FORMULA(f) f##_exact
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
 #define MUL(a, b) num_dyadic_mul(arena, a, b)
@@ -88,107 +88,107 @@ void exact_vertex_at(num_arena *arena, const froe_motion *m, const motion_piece 
 }
 
 void ball_crossing(const ball_point p[4], ball_point *out) {
-    ball_cross_lines(NULL, p, out);
+    cross_lines_ball(NULL, p, out);
 }
 
 void exact_crossing(num_arena *arena, const exact_point p[4], exact_point *out) {
-    exact_cross_lines(arena, p, out);
+    cross_lines_exact(arena, p, out);
 }
 
 void ball_order(const ball_point *p, const ball_point *q, int axis, poly_ball *out) {
-    ball_order_points(NULL, p, q, axis, out);
+    order_points_ball(NULL, p, q, axis, out);
 }
 
 void ball_turn(const ball_point *a, const ball_point *b, const ball_point *q, poly_ball *out) {
-    ball_turn_points(NULL, a, b, q, out);
+    turn_points_ball(NULL, a, b, q, out);
 }
 
 void exact_turn(num_arena *arena, const exact_point v[3], poly_exact *out) {
-    exact_turn_points(arena, v, v + 1, v + 2, out);
+    turn_points_exact(arena, v, v + 1, v + 2, out);
 }
 
 void ball_determinant(const poly_ball p[2], const poly_ball q[2], poly_ball *out) {
-    ball_det(NULL, p, q + 1, q, p + 1, out);
+    det_ball(NULL, p, q + 1, q, p + 1, out);
 }
 
 void exact_determinant(num_arena *arena, const poly_exact p[2], const poly_exact q[2], poly_exact *out) {
-    exact_det(arena, p, q + 1, q, p + 1, out);
+    det_exact(arena, p, q + 1, q, p + 1, out);
 }
 
 int exact_sign(const poly_exact *p) {
-    return exact_first_sign(p);
+    return first_sign_exact(p);
 }
 
 int wide_sign(const poly_wide *p) {
-    return wide_first_sign(p);
+    return first_sign_wide(p);
 }
 
 int exact_variations(num_arena *arena, const poly_exact *p, int64_t low, int power, int *sign) {
-    return exact_count_changes(arena, p, low, power, sign);
+    return count_changes_exact(arena, p, low, power, sign);
 }
 
 int wide_variations(const poly_wide *p, int64_t low, int power, int *sign) {
-    return wide_count_changes(NULL, p, low, power, sign);
+    return count_changes_wide(NULL, p, low, power, sign);
 }
 
 int short_order_sign(const short_point *v, const int count[2], bool both) {
-    return short_compare_points(NULL, v, count, both);
+    return compare_points_short(NULL, v, count, both);
 }
 
 int wide_order_sign(const wide_point *v, const int count[2], bool both) {
-    return wide_compare_points(NULL, v, count, both);
+    return compare_points_wide(NULL, v, count, both);
 }
 
 int exact_order_sign(num_arena *arena, const exact_point *v, const int count[2], bool both) {
-    return exact_compare_points(arena, v, count, both);
+    return compare_points_exact(arena, v, count, both);
 }
 
 int short_turn_sign(const short_point v[3]) {
-    return short_side_of(NULL, v);
+    return side_of_short(NULL, v);
 }
 
 int wide_turn_sign(const wide_point v[3]) {
-    return wide_side_of(NULL, v);
+    return side_of_wide(NULL, v);
 }
 
 int exact_turn_sign(num_arena *arena, const exact_point v[3]) {
-    return exact_side_of(arena, v);
+    return side_of_exact(arena, v);
 }
 
 void wide_order(const wide_point *v, const int count[2], int axis, poly_wide *out) {
-    wide_claim_order(NULL, v, count, axis, out);
+    claim_order_wide(NULL, v, count, axis, out);
 }
 
 void exact_order(num_arena *arena, const exact_point *v, const int count[2], int axis, poly_exact *out) {
-    exact_claim_order(arena, v, count, axis, out);
+    claim_order_exact(arena, v, count, axis, out);
 }
 
 void wide_turn(const wide_point v[3], poly_wide *out) {
-    wide_turn_points(NULL, v, v + 1, v + 2, out);
+    turn_points_wide(NULL, v, v + 1, v + 2, out);
 }
 
 void ball_lines(const ball_point p[4], poly_ball *out) {
-    ball_turn_lines(NULL, p, out);
+    turn_lines_ball(NULL, p, out);
 }
 
 void wide_lines(const wide_point v[4], poly_wide *out) {
-    wide_turn_lines(NULL, v, out);
+    turn_lines_wide(NULL, v, out);
 }
 
 void exact_lines(num_arena *arena, const exact_point v[4], poly_exact *out) {
-    exact_turn_lines(arena, v, out);
+    turn_lines_exact(arena, v, out);
 }
 
 int short_lines_sign(const short_point v[4]) {
-    return short_turn_of_lines(NULL, v);
+    return turn_of_lines_short(NULL, v);
 }
 
 int wide_lines_sign(const wide_point v[4]) {
-    return wide_turn_of_lines(NULL, v);
+    return turn_of_lines_wide(NULL, v);
 }
 
 int exact_lines_sign(num_arena *arena, const exact_point v[4]) {
-    return exact_turn_of_lines(arena, v);
+    return turn_of_lines_exact(arena, v);
 }
 
 void ball_negate(poly_ball *p) {

@@ -2,7 +2,7 @@
 #include "split/guard/grid_boxes.h"
 #include <string.h>
 
-enum { CHUNK = 8192 }; /* objects per job */
+enum { PLACED_PER_JOB = 8192 }; /* objects */
 
 /** Codes of boxes, as in grid_boxes.h. */
 static inline void place_objects(const split_grid_boxes *p, uint32_t begin, uint32_t end, int dim) {
@@ -25,17 +25,17 @@ static inline void place_objects(const split_grid_boxes *p, uint32_t begin, uint
 
 static froe_status place_chunk(void *user, unsigned worker, size_t chunk) {
     const split_grid_boxes *p = user;
-    size_t end = (chunk + 1) * CHUNK < p->object_count ? (chunk + 1) * CHUNK : p->object_count;
+    size_t end = (chunk + 1) * PLACED_PER_JOB < p->object_count ? (chunk + 1) * PLACED_PER_JOB : p->object_count;
     (void)worker;
     switch (p->grid.dim) { /* one source, compiled for the common dimensions */
     case 2:
-        place_objects(p, (uint32_t)(chunk * CHUNK), (uint32_t)end, 2);
+        place_objects(p, (uint32_t)(chunk * PLACED_PER_JOB), (uint32_t)end, 2);
         break;
     case 3:
-        place_objects(p, (uint32_t)(chunk * CHUNK), (uint32_t)end, 3);
+        place_objects(p, (uint32_t)(chunk * PLACED_PER_JOB), (uint32_t)end, 3);
         break;
     default:
-        place_objects(p, (uint32_t)(chunk * CHUNK), (uint32_t)end, p->grid.dim);
+        place_objects(p, (uint32_t)(chunk * PLACED_PER_JOB), (uint32_t)end, p->grid.dim);
     }
     return FROE_OK;
 }
@@ -51,7 +51,7 @@ static froe_status fill_places(const froe_allocator *alloc, base_task *task, int
     }
     p->codes = support_realloc(alloc, NULL, 0, p->object_count * sizeof *p->codes);
     if (!p->codes) return FROE_E_MEMORY;
-    return base_run(task, 0, (p->object_count + CHUNK - 1) / CHUNK, place_chunk, p);
+    return base_run(task, 0, (p->object_count + PLACED_PER_JOB - 1) / PLACED_PER_JOB, place_chunk, p);
 }
 
 froe_status split_grid_boxes_make(const froe_allocator *alloc, base_task *task, const froe_scene *scene,

@@ -2,7 +2,7 @@
 #include "split/guard/guards.h"
 #include <string.h>
 
-enum { CHUNK = 1 << 14 }; /* objects */
+enum { OBJECTS_PER_CHUNK = 1 << 14 };
 
 typedef struct collection {
     const froe_scene *scene;
@@ -17,7 +17,7 @@ static void bounds_of(const collection *c, size_t at, double *lo, double *hi) {
 }
 
 static size_t chunk_end(const collection *c, size_t chunk) {
-    size_t end = (chunk + 1) * CHUNK;
+    size_t end = (chunk + 1) * OBJECTS_PER_CHUNK;
     return end < c->objects ? end : c->objects;
 }
 
@@ -26,7 +26,7 @@ static froe_status count_chunk(void *user, unsigned worker, size_t chunk) {
     collection *c = user;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     size_t count = 0;
-    for (size_t at = chunk * CHUNK; at < chunk_end(c, chunk); at++) {
+    for (size_t at = chunk * OBJECTS_PER_CHUNK; at < chunk_end(c, chunk); at++) {
         size_t vertices = 1;
         bounds_of(c, at, lo, hi);
         for (int i = 0; i < c->scene->dim; i++) vertices <<= lo[i] < hi[i];
@@ -41,12 +41,12 @@ static froe_status write_chunk(void *user, unsigned worker, size_t chunk) {
     collection *c = user;
     size_t dim = (size_t)c->scene->dim;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], *to = c->points + c->starts[chunk] * dim;
-    for (size_t at = chunk * CHUNK; at < chunk_end(c, chunk); at++) {
+    for (size_t at = chunk * OBJECTS_PER_CHUNK; at < chunk_end(c, chunk); at++) {
         size_t count = 1;
         bounds_of(c, at, lo, hi);
         memcpy(to, lo, dim * sizeof *to);
-        for (size_t i = 0; i < dim;
-             i++) { /* doubles the list of vertices for every axis on which the box is not flat */
+        /* Doubles the list of vertices for every axis on which the box is not flat. */
+        for (size_t i = 0; i < dim; i++) {
             if (!(lo[i] < hi[i])) continue;
             memcpy(to + count * dim, to, count * dim * sizeof *to);
             for (size_t v = count; v < 2 * count; v++) to[v * dim + i] = hi[i];
@@ -76,7 +76,7 @@ static froe_status collect_guards(const froe_allocator *alloc, base_task *task, 
 
 froe_status split_guards_of(const froe_allocator *alloc, base_task *task, double span, const froe_scene *scene,
                             const uint32_t *ids, size_t count, split_guards *out) {
-    size_t chunks = (count + CHUNK - 1) / CHUNK;
+    size_t chunks = (count + OBJECTS_PER_CHUNK - 1) / OBJECTS_PER_CHUNK;
     collection c = {.scene = scene, .ids = ids, .objects = count};
     c.starts = support_calloc(alloc, chunks + 1, sizeof *c.starts);
     if (!c.starts) return FROE_E_MEMORY;

@@ -5,7 +5,7 @@
  * the grid, or when it touches a plane, does an object have to be compared with cuts. */
 #include "split/guard/lowest_nodes.h"
 
-enum { CHUNK = 8192, ABREAST = 8 }; /* objects per job, and going down together */
+enum { DESCENTS_PER_JOB = 8192, ABREAST = 8 }; /* objects of a job; objects that go down together */
 
 typedef struct object_box {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -84,7 +84,7 @@ static void empty(const descent *d, queue *q) {
 
 static froe_status descend_chunk(void *user, unsigned worker, size_t job) {
     const descent *d = user;
-    size_t first = job * CHUNK, last = first + CHUNK;
+    size_t first = job * DESCENTS_PER_JOB, last = first + DESCENTS_PER_JOB;
     queue q = {.count = 0};
     (void)worker;
     if (base_cancelled(d->task)) return FROE_E_CANCELLED;
@@ -136,7 +136,7 @@ static froe_status descend_to_lowest(const froe_allocator *alloc, descent *d) {
                     parts[(code << dim) + part] = part_node(d, node, mid, part, dim);
             }
     }
-    froe_status status = base_run(d->task, 0, (n + CHUNK - 1) / CHUNK, descend_chunk, d);
+    froe_status status = base_run(d->task, 0, (n + DESCENTS_PER_JOB - 1) / DESCENTS_PER_JOB, descend_chunk, d);
     support_free(alloc, d->map, d->map_count * sizeof *d->map);
     return status;
 }
