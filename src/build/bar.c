@@ -267,14 +267,6 @@ static void scratch_free(split_work *work) {
     work->scratch = NULL;
 }
 
-/** Cuts of three until a part has `share` of the points, and so on until there is one; with leaves of no object one
- * more, through that. */
-static double most_height(double share, uint32_t points, uint32_t leaf) {
-    double height = points && !leaf;
-    for (double n = points; n > 1; n = floor(share * n)) height += SEQUENCE;
-    return height;
-}
-
 static void note_bar(const void *config) {
     const bar *b = config;
     build_job *job = b->job;
@@ -282,8 +274,12 @@ static void note_bar(const void *config) {
         build_promise(job, "guard_fragments", 2 * job->option[GROWTH] * job->scene->object_count, 0);
     if (b->cubes) return;
     build_promise(job, "aspect", job->option[ASPECT], atomic_load(&b->notes->aspect));
-    if (b->points && !atomic_load(&b->notes->unbalanced))
-        build_promise(job, "height", most_height(b->share, job->scene->object_count, job->leaf), 0);
+    if (!b->points || atomic_load(&b->notes->unbalanced)) return;
+    /* Cuts of three until a part has `share` of the points, and so on until there is one; with leaves of no object one
+     * more, through that. */
+    double height = job->scene->object_count && !job->leaf;
+    for (double n = job->scene->object_count; n > 1; n = floor(b->share * n)) height += SEQUENCE;
+    build_promise(job, "height", height, 0);
 }
 
 /** What does not depend on objects one by one. */

@@ -34,23 +34,20 @@ static const froe_option_info *find_option(const froe_option_info *table, const 
     return NULL;
 }
 
-/** A plain decimal number that fills the word: only digits, sign, point, e. */
-static bool parse_number(const char *text, size_t length, double *out) {
-    char copy[64], *end;
-    if (!length || length >= sizeof copy || strspn(text, "+-.0123456789eE") < length) return false;
-    memcpy(copy, text, length);
-    copy[length] = 0;
-    *out = strtod(copy, &end);
-    return !*end;
-}
-
 static bool parse_value(const froe_option_info *option, const char *text, size_t length, double *out) {
     for (size_t i = 0; option->choices && option->choices[i]; i++)
         if (is_word(option->choices[i], text, length)) {
             *out = (double)i;
             return true;
         }
-    if (option->choices || !parse_number(text, length, out)) return false;
+    /* a plain decimal number that fills the word: only digits, sign, point, e */
+    char copy[64], *end;
+    if (option->choices || !length || length >= sizeof copy) return false;
+    if (strspn(text, "+-.0123456789eE") < length) return false;
+    memcpy(copy, text, length);
+    copy[length] = 0;
+    *out = strtod(copy, &end);
+    if (*end) return false;
     bool whole = *out >= -0x1p53 && *out <= 0x1p53 && *out == (double)(int64_t)*out;
     return *out >= option->lo && *out <= option->hi && (whole || !option->whole);
 }

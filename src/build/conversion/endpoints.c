@@ -67,26 +67,17 @@ static froe_status plan_by_method(converter *c, const convert_plan *plan) {
 
 /* ------------------------------------------------------------------- build -- */
 
-static froe_status make_plan(converter *c, const convert_plan *plan) {
-    froe_status status = point_tree_new(&c->job->alloc, c->job->scene, &c->plan);
-    if (status) return support_fail_memory(c->job->diag);
-    if (plan->method) {
-        status = plan_by_method(c, plan);
-        if (status) return status;
-    } else {
-        status = point_tree_by_ham_sandwich(&c->plan, &c->context, c->job->task);
-    }
-    if (!status) status = point_tree_finish(&c->plan, &c->context);
-    return split_explain(c->job->diag, 0, status);
-}
-
 froe_status build_converted(build_job *job, const convert_plan *plan, froe_tree **out) {
     converter c = {.job = job};
-    froe_status status = geom_context_new(&job->alloc, &c.context);
-    if (status) return support_fail_memory(job->diag);
+    if (geom_context_new(&job->alloc, &c.context)) return support_fail_memory(job->diag);
     if (job->first > c.context.first) c.context.first = job->first;
     c.plan.scene = job->scene;
-    status = make_plan(&c, plan);
+    froe_status status = point_tree_new(&job->alloc, job->scene, &c.plan) ? support_fail_memory(job->diag) : FROE_OK;
+    if (!status && plan->method)
+        status = plan_by_method(&c, plan);
+    else if (!status)
+        status = split_explain(job->diag, 0, point_tree_by_ham_sandwich(&c.plan, &c.context, job->task));
+    if (!status) status = split_explain(job->diag, 0, point_tree_finish(&c.plan, &c.context));
     if (!status) {
         /* each segment is split twice at most on each level of the plan, and by cuts along others as often as those
          * count */

@@ -42,13 +42,6 @@ static boxes_fragment part(boxes_fragment f, unsigned mark, bool above, int axis
     return f;
 }
 
-/** From the numbers of its changes to those of a fragment with other rooms on the axis of a cut. */
-static void shift_changes(unsigned was, unsigned alive, int axis, int16_t shift[2]) {
-    int from = (int)(was >> 2 * axis & 3), to = (int)(alive >> 2 * axis & 3);
-    shift[0] = (int16_t)(((to > 0) - (from > 0)) * BOXES_SOME + ((to == 3) - (from == 3)) * BOXES_BOTH);
-    shift[1] = (int16_t)((to - from) * BOXES_ROOMS);
-}
-
 /** Writes the event as a side sees it; returns 1 if its fragment is there. That is unpredictable, so
  * branch-free: the next event overwrites one whose fragment is not there. */
 static size_t hand_on(const boxes_event *e, const boxes_parts *parts, int side, bool across, boxes_event *to) {
@@ -90,33 +83,60 @@ static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, 
     return true;
 }
 
-/** The weight of what a forced cut divides, but for boxes with both rooms: those pay for themselves. */
-static void pay(boxes *b, const boxes_cell *cell, const boxes_cut *cut) {
-    for (uint32_t i = 0; i < cell->count && cut->forced; i++) {
-        uint16_t alive = b->fragments.data[cell->first + i].alive;
-        bool divided = (b->marks.data[i] & 3) == 3, both = (alive >> 2 * cut->axis & 3) == 3;
-        if (divided && !both) b->paid += (uint64_t)boxes_weight(b, alive, cut->axis);
-    }
-}
-
 froe_status boxes_split_node(boxes *b, uint32_t node, const boxes_cut *cut, uint32_t *child) {
     froe_cut plane = {.kind = FROE_CUT_AXIS, .axis = cut->axis, .value = cut->c};
     return draft_split(&b->draft, node, &plane, 0, child);
 }
 
-static bool reserve_boxes(boxes *b, const boxes_cell *cell) {
-    b->marks.count = b->parts.count = b->spare.count = 0;
-    return array_reserve(&b->alloc, &b->marks, cell->count) && array_reserve(&b->alloc, &b->parts, cell->count) &&
-           array_reserve(&b->alloc, &b->spare, cell->count) && array_reserve(&b->alloc, &b->fragments, cell->count) &&
-           array_reserve(&b->alloc, &b->cells, 2);
+/** Deals the fragments: those above close up in place, those below go on top of them. */
+static bool deal_boxes(boxes *b, const boxes_cell *cell, const boxes_cut *cut, boxes_cell side[2]) {
+    boxes_fragment *item = b->fragments.data + cell->first;
+    boxes_parts *parts = b->parts.data;
+    bool ok = true;
+    b->fragments.count = cell->first;
+    for (uint32_t i = 0; i < cell->count && ok; i++) {
+        boxes_fragment whole = item[i];
+        unsigned mark = b->marks.data[i];
+        for (int s = 0; s < 2; s++) {
+            parts[i].name[s] = FROE_NONE;
+            if (!(mark & (s ? MARK_ABOVE : MARK_BELOW))) continue;
+            boxes_fragment f = part(whole, mark, s, cut->axis);
+            if (!f.inside) {
+                ok = ok && boxes_add_cover(b, &side[s], f.object);
+                continue;
+            }
+            parts[i].name[s] = side[s].count++;
+            (s ? item : b->spare.data)[parts[i].name[s]] = f;
+            /* from the numbers of its changes to those of a fragment with other rooms on the axis of the cut */
+            int from = (int)(whole.alive >> 2 * cut->axis & 3), to = (int)(f.alive >> 2 * cut->axis & 3);
+            int some = (to > 0) - (from > 0), both = (to == 3) - (from == 3);
+            parts[i].shift[s][0] = (int16_t)(some * BOXES_SOME + both * BOXES_BOTH);
+            parts[i].shift[s][1] = (int16_t)((to - from) * BOXES_ROOMS);
+        }
+    }
+    if (side[0].count) memcpy(item + side[1].count, b->spare.data, side[0].count * sizeof *item);
+    side[0].first = side[1].first + side[1].count;
+    b->fragments.count = (size_t)side[0].first + side[0].count;
+    return ok;
 }
 
 froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut) {
+    const froe_allocator *alloc = &b->alloc;
+    const uint32_t count = cell->count;
     uint32_t child = 0;
-    if (b->fragments.count + cell->count > BOXES_MOST) return FROE_E_LIMIT;
-    if (!reserve_boxes(b, cell)) return FROE_E_MEMORY;
+    if (b->fragments.count + count > BOXES_MOST) return FROE_E_LIMIT;
+    b->marks.count = b->parts.count = b->spare.count = 0;
+    if (!array_reserve(alloc, &b->marks, count) || !array_reserve(alloc, &b->parts, count) ||
+        !array_reserve(alloc, &b->spare, count) || !array_reserve(alloc, &b->fragments, count) ||
+        !array_reserve(alloc, &b->cells, 2))
+        return FROE_E_MEMORY;
     mark(b, cell, cut);
-    pay(b, cell, cut);
+    /* the weight of what a forced cut divides, but for boxes with both rooms: those pay for themselves */
+    for (uint32_t i = 0; i < count && cut->forced; i++) {
+        uint16_t alive = b->fragments.data[cell->first + i].alive;
+        bool divided = (b->marks.data[i] & 3) == 3, both = (alive >> 2 * cut->axis & 3) == 3;
+        if (divided && !both) b->paid += (uint64_t)boxes_weight(b, alive, cut->axis);
+    }
     froe_status status = boxes_split_node(b, cell->node, cut, &child);
     if (!status) {
         /* lists the boxes without extent that lie in the cut */
@@ -136,30 +156,7 @@ froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut)
         side[s].count = 0;
         (s ? side[s].lo : side[s].hi)[cut->axis] = cut->c;
     }
-    /* deals the fragments: those above close up in place, those below go on top of them */
-    boxes_fragment *item = b->fragments.data + cell->first;
-    boxes_parts *parts = b->parts.data;
-    bool ok = true;
-    b->fragments.count = cell->first;
-    for (uint32_t i = 0; i < cell->count && ok; i++) {
-        boxes_fragment whole = item[i];
-        unsigned mark = b->marks.data[i];
-        for (int s = 0; s < 2; s++) {
-            parts[i].name[s] = FROE_NONE;
-            if (!(mark & (s ? MARK_ABOVE : MARK_BELOW))) continue;
-            boxes_fragment f = part(whole, mark, s, cut->axis);
-            if (!f.inside) {
-                ok = ok && boxes_add_cover(b, &side[s], f.object);
-                continue;
-            }
-            parts[i].name[s] = side[s].count++;
-            shift_changes(whole.alive, f.alive, cut->axis, parts[i].shift[s]);
-            (s ? item : b->spare.data)[parts[i].name[s]] = f;
-        }
-    }
-    if (side[0].count) memcpy(item + side[1].count, b->spare.data, side[0].count * sizeof *item);
-    side[0].first = side[1].first + side[1].count;
-    b->fragments.count = (size_t)side[0].first + side[0].count;
+    bool ok = deal_boxes(b, cell, cut, side);
     for (int k = 0; k < b->dim && ok; k++) ok = deal_events(b, cell, cut, k, side);
     if (!ok) return FROE_E_MEMORY;
     b->cells.data[b->cells.count++] = side[1];

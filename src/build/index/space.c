@@ -31,30 +31,24 @@ typedef struct index_space_work {
     double done; /* share of the objects in finished leaves */
 } index_space_work;
 
-/* Names the cut of a cell and tells on which sides its items are; false: it is to be a leaf. */
-static bool choose_surface_cut(index_space_work *w, const index_space_cell *cell, surface_cut *cut) {
-    const space_item *items = w->items.data + cell->first;
-    if (cell->count <= w->job->leaf || cell->growth >= w->growth || cell->barren >= BARREN) return false;
-    if (!surface_choose(items, cell->count, cut)) return false;
-    if (!surface_count(items, cell->count, cut, w->classes.data)) return false;
-    return cut->both < cell->count;
-}
-
 static froe_status cut_cell(index_space_work *w, const index_space_cell *cell) {
     surface_cut cut;
     index_space_cell side[2] = {*cell, *cell};
     uint32_t child;
     w->classes.count = 0;
     if (!array_reserve(&w->job->alloc, &w->classes, cell->count)) return FROE_E_MEMORY;
-    if (!choose_surface_cut(w, cell, &cut)) {
-        /* nothing separates them: a leaf */
+    /* names the cut, and tells on which sides the items are */
+    space_item *items = w->items.data + cell->first;
+    const bool may_cut = cell->count > w->job->leaf && cell->growth < w->growth && cell->barren < BARREN;
+    if (!may_cut || !surface_choose(items, cell->count, &cut) ||
+        !surface_count(items, cell->count, &cut, w->classes.data) || cut.both >= cell->count) {
+        /* nothing separates them, or it does not pay: a leaf */
         const uint64_t most = w->job->max_fragments;
         const uint8_t flags = cell->count > w->job->leaf ? TREE_CROWDED : 0;
         if (most && (uint64_t)w->packer.piece_count + cell->count > most) return FROE_E_BUDGET;
         w->items.count = cell->first;
         w->done += cell->count / cell->growth;
-        return packer_space_leaf(&w->packer, cell->node, w->job->scene, w->items.data + cell->first, cell->count,
-                                 flags);
+        return packer_space_leaf(&w->packer, cell->node, w->job->scene, items, cell->count, flags);
     }
     froe_status status = packer_split(&w->packer, cell->node, cut.axis, cut.value, &child);
     if (status) return status;
@@ -65,7 +59,7 @@ static froe_status cut_cell(index_space_work *w, const index_space_cell *cell) {
     if (!array_reserve(alloc, &w->items, cut.sides[0] + cut.sides[1] - cell->count) ||
         !array_reserve(alloc, &w->spare, cut.sides[0]))
         return FROE_E_MEMORY;
-    space_item *items = w->items.data + cell->first;
+    items = w->items.data + cell->first;
     const bool thorough = cell->count <= THOROUGH;
     surface_deal(w->job->scene, items, cell->count, &cut, w->classes.data, thorough, w->spare.data, items);
     if (cut.sides[0]) memcpy(items + cut.sides[1], w->spare.data, cut.sides[0] * sizeof *items);
@@ -83,39 +77,36 @@ static froe_status cut_cell(index_space_work *w, const index_space_cell *cell) {
     return array_push(alloc, &w->cells, side[1]) && array_push(alloc, &w->cells, side[0]) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status begin_space(index_space_work *w) {
-    const froe_scene *s = w->job->scene;
-    index_space_cell root = {.count = s->object_count, .growth = 1};
-    if (!array_reserve(&w->job->alloc, &w->items, (size_t)s->object_count + s->object_count / 2)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < s->object_count; i++) {
-        space_item *item = w->items.data + w->items.count++;
+froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
+    index_space_work w = {.job = job, .growth = growth};
+    froe_scene *s = job->scene;
+    const size_t objects = s->object_count;
+    const index_space_cell root = {.count = s->object_count, .growth = 1};
+    froe_status status = packer_new(&job->alloc, s->dim, s->object_count, job->leaf, &w.packer);
+    if (status) return status;
+    if (!array_reserve(&job->alloc, &w.items, objects + objects / 2) || !array_push(&job->alloc, &w.cells, root))
+        status = FROE_E_MEMORY;
+    for (uint32_t i = 0; i < objects && !status; i++) {
+        space_item *item = w.items.data + w.items.count++;
         scene_bounds_in(s, 3, i, item->lo, item->hi);
         item->object = i;
         item->corner = space_is_triangle(s, i) ? s->starts[i] : FROE_NONE;
     }
-    for (int k = 0; s->object_count && k < 3; k++) {
-        w->job->meta.root_lo[k] = s->lo[k] + 0.0;
-        w->job->meta.root_hi[k] = s->hi[k] + 0.0;
+    for (int k = 0; objects && k < 3; k++) {
+        job->meta.root_lo[k] = s->lo[k] + 0.0;
+        job->meta.root_hi[k] = s->hi[k] + 0.0;
     }
-    return array_push(&w->job->alloc, &w->cells, root) ? FROE_OK : FROE_E_MEMORY;
-}
-
-froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
-    index_space_work w = {.job = job, .growth = growth};
-    froe_status status = packer_new(&job->alloc, job->scene->dim, job->scene->object_count, job->leaf, &w.packer);
-    if (status) return status;
-    status = begin_space(&w);
     while (w.cells.count && !status) {
         const index_space_cell cell = w.cells.data[--w.cells.count];
         status = cut_cell(&w, &cell);
-        const double share = fmin(w.done / (job->scene->object_count + 1.0), 1);
+        const double share = fmin(w.done / ((double)objects + 1.0), 1);
         if (!status && !base_progress(job->task, 0.05 + 0.9 * share)) status = FROE_E_CANCELLED;
     }
     array_free(&job->alloc, &w.cells);
     array_free(&job->alloc, &w.items);
     array_free(&job->alloc, &w.spare);
     array_free(&job->alloc, &w.classes);
-    if (!status) status = packer_seal(&w.packer, job->scene, &job->meta, out);
+    if (!status) status = packer_seal(&w.packer, s, &job->meta, out);
     packer_free(&w.packer);
     return status;
 }
