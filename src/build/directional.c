@@ -82,13 +82,6 @@ static froe_status end_box_leaf(const build_job *job, boxes *b, const boxes_cell
     return status;
 }
 
-/** Is the cut so far off balance that the cell is worth trees? */
-static bool worth_trees(const build_job *job, const boxes_cell *cell, const boxes_cut *cut) {
-    if (job->option[STRUCTURE] != AUTO) return job->option[STRUCTURE] == TREES && cell->count > 1;
-    uint32_t less = cut->below < cut->above ? cut->below : cut->above;
-    return cell->count >= CARVE_LEAST && less + cut->divided < cell->count / CARVE_SHARE;
-}
-
 /** All cells; the progress shown is the share of boxes that are in leaves. */
 static froe_status do_box_cells(const build_job *job, boxes *b) {
     double n = job->scene->object_count, from = job->task->done, left;
@@ -100,7 +93,10 @@ static froe_status do_box_cells(const build_job *job, boxes *b) {
         if (!cut.found) {
             status = end_box_leaf(job, b, &cell);
         } else {
-            bool trees = worth_trees(job, &cell, &cut);
+            /* is the cut so far off balance that the cell is worth trees? */
+            const uint32_t less = cut.below < cut.above ? cut.below : cut.above;
+            bool trees = cell.count >= CARVE_LEAST && less + cut.divided < cell.count / CARVE_SHARE;
+            if (job->option[STRUCTURE] != AUTO) trees = job->option[STRUCTURE] == TREES && cell.count > 1;
             status = trees ? boxes_carve(b, &cell, job->task) : boxes_divide(b, &cell, &cut);
             if (!status) status = check_budget(job, b, 0);
         }

@@ -99,22 +99,6 @@ static void load_piece(finish *f, uint32_t column, const split_fragment *piece) 
     put_columns(&t->free, bit(column), piece->count && ring[0].edge & ring[1].edge & TREE_EDGE_CUT);
 }
 
-static void load_table(finish *f, const split_cell *cell) {
-    const froe_scene *scene = f->set->scene;
-    split_table *t = f->t;
-    bool trusted = num_rounding_trusted();
-    t->columns = cell->count;
-    for (int k = 0; k < 2; k++) t->lo[k] = INFINITY, t->hi[k] = -INFINITY;
-    for (uint32_t i = 0; i < cell->count; i++) {
-        const split_fragment *piece = f->set->items.data + cell->first + i;
-        const double *p = scene_point(scene, piece->object, 0), *q = scene_point(scene, piece->object, 1);
-        load_piece(f, i, piece);
-        t->line[i] = (uint8_t)i;
-        t->rows[i].line = filter_line_through(p, q, trusted);
-        t->rows[i].known = 0;
-    }
-}
-
 /** The greater distance of x from the ends of an interval. */
 static double farthest(double lo, double hi, double x) {
     return filter_greater(fabs(lo - x), fabs(hi - x));
@@ -280,19 +264,6 @@ static froe_status divide_piece(finish *f, const split_plane *plane, uint32_t no
     return FROE_OK;
 }
 
-/** Divides what the cut splits: lower halves stay in their columns, *upper are the others. */
-static froe_status divide_all(finish *f, const froe_cut *by, uint32_t node, mask both, mask set, mask *upper) {
-    froe_status status = FROE_OK;
-    *upper = 0;
-    if (!both) return FROE_OK;
-    split_plane plane = split_plane_of(f->set->scene, by);
-    while (both && !status) {
-        *upper |= bit(f->t->columns);
-        status = divide_piece(f, &plane, node, take_column(&both), set);
-    }
-    return status;
-}
-
 /** Pushes all parts, the topmost too, as ordinary cells. */
 static froe_status give_back(finish *f, split_work *work) {
     split_set *s = f->set;
@@ -325,12 +296,19 @@ static froe_status do_part(finish *f, const table_part *p, bool *full) {
         uint32_t child;
         froe_status status = find_exact_row(f, p, choose_piece(f, p), &by, &r);
         if (status) return status;
-        mask below = r->below & p->set, above = r->above & p->set, both = below & above, upper;
+        mask below = r->below & p->set, above = r->above & p->set, both = below & above, upper = 0;
         *full = t->columns + size(both) > ROOM;
         if (*full) return FROE_OK;
         status = draft_split(draft, p->node - draft->outer, &by, 0, &child);
         if (!status) status = list(f, p->node, p->set & ~(below | above));
-        if (!status) status = divide_all(f, &by, p->node, both, below | above, &upper);
+        /* divides what the cut splits: lower halves stay in their columns, `upper` are the others */
+        if (both) {
+            const split_plane plane = split_plane_of(f->set->scene, &by);
+            for (mask left = both; left && !status;) {
+                upper |= bit(t->columns);
+                status = divide_piece(f, &plane, p->node, take_column(&left), below | above);
+            }
+        }
         for (int k = 1; k >= 0 && !status; k--)
             t->stack[t->parts++] = (table_part){.set = k ? (above & ~both) | upper : below,
                                                 .path = base_path(p->path, k),
@@ -358,7 +336,17 @@ froe_status split_finish(const split_refine *config, split_work *work, const spl
     bool full = false;
     *done = fits_table(config, &work->set, cell);
     if (!*done) return FROE_OK;
-    load_table(&f, cell);
+    const bool trusted = num_rounding_trusted();
+    t->columns = cell->count;
+    for (int k = 0; k < 2; k++) t->lo[k] = INFINITY, t->hi[k] = -INFINITY;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const split_fragment *piece = work->set.items.data + cell->first + i;
+        const double *p = scene_point(work->set.scene, piece->object, 0);
+        load_piece(&f, i, piece);
+        t->line[i] = (uint8_t)i;
+        t->rows[i].line = filter_line_through(p, scene_point(work->set.scene, piece->object, 1), trusted);
+        t->rows[i].known = 0;
+    }
     t->parts = 1;
     t->stack[0] = (table_part){.set = ~(mask)0 >> (ROOM - cell->count),
                                .path = cell->path,

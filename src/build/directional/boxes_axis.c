@@ -144,29 +144,24 @@ static bool spot_at(const axis_search *s, int axis, uint32_t at, boxes_spot *out
     return true;
 }
 
-/* Up to the median: the best balance is nearest to it, and the first position that has the same number below it. */
-static bool search_below(const axis_search *s, int axis, boxes_spot *out) {
-    uint32_t at = base_max_tree_last(s->in, s->from, s->middle, s->level);
-    if (at == BASE_MAX_TREE_NONE) return false;
-    uint32_t below = boxes_axis_below(s->a, at), first = below ? base_fenwick_select(&s->a->ends[1], below) : 0;
-    return spot_at(s, axis, base_max_tree_first(s->in, first > s->from ? first : s->from, at + 1, s->level), out);
-}
-
-/* Beyond it: the last position that has the same number above. */
-static bool search_above(const axis_search *s, int axis, boxes_spot *out) {
-    uint32_t at = base_max_tree_first(s->in, s->middle, s->end, s->level);
-    if (at == BASE_MAX_TREE_NONE) return false;
-    const base_fenwick *begins = &s->a->ends[0];
-    uint32_t above = boxes_axis_above(s->a, at);
-    uint32_t last = above ? base_fenwick_select(begins, begins->total - above + 1) : s->end - 1;
-    return spot_at(s, axis, base_max_tree_last(s->in, at, last < s->end ? last + 1 : s->end, s->level), out);
-}
-
 static void find_box_spot(const axis_search *s, int axis, bool fewest, boxes_spot *best) {
+    const base_fenwick *begins = &s->a->ends[0], *ends = &s->a->ends[1];
     boxes_spot other;
     if (s->from >= s->end) return;
-    search_below(s, axis, best);
-    if (search_above(s, axis, &other) && boxes_better_on_axis(&other.cut, &best->cut, fewest)) *best = other;
+    /* Up to the median: the best balance is nearest to it, and the first position that has the same number below it. */
+    uint32_t at = base_max_tree_last(s->in, s->from, s->middle, s->level);
+    if (at != BASE_MAX_TREE_NONE) {
+        const uint32_t below = boxes_axis_below(s->a, at), first = below ? base_fenwick_select(ends, below) : 0;
+        at = base_max_tree_first(s->in, first > s->from ? first : s->from, at + 1, s->level);
+        spot_at(s, axis, at, best);
+    }
+    /* Beyond it: the last position that has the same number above. */
+    at = base_max_tree_first(s->in, s->middle, s->end, s->level);
+    if (at == BASE_MAX_TREE_NONE) return;
+    const uint32_t above = boxes_axis_above(s->a, at);
+    const uint32_t last = above ? base_fenwick_select(begins, begins->total - above + 1) : s->end - 1;
+    at = base_max_tree_last(s->in, at, last < s->end ? last + 1 : s->end, s->level);
+    if (spot_at(s, axis, at, &other) && boxes_better_on_axis(&other.cut, &best->cut, fewest)) *best = other;
 }
 
 /* Positions with so many boxes on both sides, between two others; at least 1. */

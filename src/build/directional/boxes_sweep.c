@@ -74,23 +74,6 @@ boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *
 
 /* ------------------------------------------------------------------ sweeping -- */
 
-/* Arrives at the events of one coordinate; *face: is one of them a face? Returns the event behind them. The kinds of
- * ends are unpredictable, so branch-free. */
-static const boxes_event *arrive_at_boxes(const boxes_change *changes, axis_sweep *s, const boxes_event *e,
-                                          const boxes_event *end, bool *face) {
-    unsigned kinds = 0;
-    double x = e->x;
-    do {
-        const boxes_change *change = changes + e->change;
-        s->slack += change->slack[0];
-        s->divided += (uint32_t)change->divided[0];
-        s->below += change->below;
-        kinds |= 1u << e->end;
-    } while (++e < end && e->x == x);
-    *face = kinds & (1u << BOXES_LO | 1u << BOXES_HI | 1u << BOXES_FLAT);
-    return e;
-}
-
 static boxes_cut cut_at(const axis_sweep *s, int axis, double x) {
     return (boxes_cut){true, false, axis, x, s->below, s->above, s->divided};
 }
@@ -100,8 +83,17 @@ static sweep_found sweep_axis(const boxes *b, const boxes_cell *cell, int axis, 
     sweep_found best = {.enough = narrow ? narrow : 1, .most = UINT32_MAX};
     const boxes_event *e = b->events[axis].data + cell->event[axis], *end = e + cell->events[axis];
     while (e < end) {
-        bool face;
-        const boxes_event *next = arrive_at_boxes(b->changes, &s, e, end, &face);
+        /* Arrives at the events of one coordinate; the kinds of ends are unpredictable, so branch-free. */
+        const boxes_event *next = e;
+        unsigned kinds = 0;
+        do {
+            const boxes_change *change = b->changes + next->change;
+            s.slack += change->slack[0];
+            s.divided += (uint32_t)change->divided[0];
+            s.below += change->below;
+            kinds |= 1u << next->end;
+        } while (++next < end && next->x == e->x);
+        const bool face = kinds & (1u << BOXES_LO | 1u << BOXES_HI | 1u << BOXES_FLAT);
         const uint32_t less = s.below < s.above ? s.below : s.above; /* the balance of a cut here */
         /* The second time: a face that divides fewest, and leaves enough boxes on both sides; is it paid for? A quick
          * test of two numbers comes first, both times: hardly any cut is better than all before. */

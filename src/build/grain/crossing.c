@@ -21,25 +21,11 @@ static bool clip_chord(double chord[2][3], const double at[3], const double inwa
     return true;
 }
 
-/** What bounds an object in its plane at its i-th corner: the edge from there, or the end of a segment. */
-static void border_of(const split_view *f, const froe_scene *scene, uint32_t object, const split_view_plane *plane,
-                      uint32_t i, double at[3], double inward[3]) {
-    uint32_t corners = scene_corners(scene, object);
-    double next[3], e[3];
-    const double *n = plane->n;
-    split_view_local(f, scene_point(scene, object, i), at);
-    split_view_local(f, scene_point(scene, object, i + 1 < corners ? i + 1 : 0), next);
-    for (int k = 0; k < 3; k++) e[k] = inward[k] = next[k] - at[k];
-    if (f->dim == 2) return;
-    inward[0] = n[1] * e[2] - n[2] * e[1];
-    inward[1] = n[2] * e[0] - n[0] * e[2];
-    inward[2] = n[0] * e[1] - n[1] * e[0];
-}
-
 static bool crosses(const split_view *f, const froe_scene *scene, uint32_t object, const split_view_plane *plane,
                     uint32_t fragment) {
-    double chord[2][3], at[3], inward[3];
-    uint32_t corners = scene_corners(scene, object);
+    double chord[2][3];
+    const uint32_t corners = scene_corners(scene, object);
+    const double *n = plane->n;
     bool some = true;
     /* where the plane meets a fragment that has corners on both sides; in the plane a point, twice */
     const double *const x[3] = {f->x.data, f->y.data, f->z.data};
@@ -48,14 +34,23 @@ static bool crosses(const split_view *f, const froe_scene *scene, uint32_t objec
     for (uint32_t j = from; j < to && found < 2; j++) {
         uint32_t a = f->corner.data[j], b = f->corner.data[j + 1 < to ? j + 1 : from];
         double p[3] = {x[0][a], x[1][a], x[2][a]}, q[3] = {x[0][b], x[1][b], x[2][b]};
-        double u = dot_3(plane->n, p) - plane->d, v = dot_3(plane->n, q) - plane->d;
+        double u = dot_3(n, p) - plane->d, v = dot_3(n, q) - plane->d;
         if ((u > 0) == (v > 0)) continue;
         for (int k = 0; k < 3; k++) chord[found][k] = p[k] + (q[k] - p[k]) * (u / (u - v));
         found++;
     }
     if (found == 1) memcpy(chord[1], chord[0], sizeof chord[1]);
     for (uint32_t i = 0; i < corners && some; i++) {
-        border_of(f, scene, object, plane, i, at, inward);
+        /* what bounds the object in its plane at its i-th corner: the edge from there, or the end of a segment */
+        double at[3], next[3], e[3], inward[3];
+        split_view_local(f, scene_point(scene, object, i), at);
+        split_view_local(f, scene_point(scene, object, i + 1 < corners ? i + 1 : 0), next);
+        for (int k = 0; k < 3; k++) e[k] = inward[k] = next[k] - at[k];
+        if (f->dim == 3) {
+            inward[0] = n[1] * e[2] - n[2] * e[1];
+            inward[1] = n[2] * e[0] - n[0] * e[2];
+            inward[2] = n[0] * e[1] - n[1] * e[0];
+        }
         some = clip_chord(chord, at, inward);
     }
     return some;
