@@ -17,20 +17,19 @@ static int sign_at(num_arena *arena, const poly_exact *p, num_dyadic s) {
     return y.sign;
 }
 
-/* The times s[0] and s[1] ticks after a tick, rounded down and up. */
-static void bracket_of(const now_state *now, num_arena *arena, int64_t tick, const num_dyadic s[2], double out[2]) {
+/* The time s ticks after a tick, rounded down (side 0) or up (side 1). */
+static double time_beside(const now_state *now, num_arena *arena, int64_t tick, num_dyadic s, int side) {
     const froe_motion *m = now->motion;
-    for (int i = 0; i < 2; i++) {
-        const num_dyadic ticks = num_dyadic_add(arena, num_dyadic_scaled(arena, 1, (uint64_t)tick, 0), s[i]);
-        const num_dyadic since = num_dyadic_mul(arena, ticks, num_dyadic_scaled(arena, 1, 1, m->power));
-        const num_dyadic time = num_dyadic_add(arena, num_dyadic_from(arena, m->begin), since);
-        const double t = num_dyadic_quotient(arena, time, num_dyadic_scaled(arena, 1, 1, 0));
-        const int way = i ? 1 : -1, off = num_dyadic_compare(num_dyadic_from(arena, t), time);
-        out[i] = off * way < 0 ? nextafter(t, way * (double)INFINITY) : t;
-    }
+    const num_dyadic ticks = num_dyadic_add(arena, num_dyadic_scaled(arena, 1, (uint64_t)tick, 0), s);
+    const num_dyadic since = num_dyadic_mul(arena, ticks, num_dyadic_scaled(arena, 1, 1, m->power));
+    const num_dyadic time = num_dyadic_add(arena, num_dyadic_from(arena, m->begin), since);
+    const double t = num_dyadic_quotient(arena, time, num_dyadic_scaled(arena, 1, 1, 0));
+    const int way = side ? 1 : -1, off = num_dyadic_compare(num_dyadic_from(arena, t), time);
+    return off * way < 0 ? nextafter(t, way * (double)INFINITY) : t;
 }
 
-/* The arena holds the polynomial up to `top`; what is above is for each step anew, but for the two ends. */
+/* A step moves one end to the middle; the time of the other end is known. The arena holds the polynomial up to `top`;
+ * what is above is for each step anew. */
 static void narrow(now_state *now, const poly_exact *p, int64_t tick, double out[2]) {
     num_arena *arena = &now->context.arena;
     const size_t top = arena->top;
@@ -38,14 +37,13 @@ static void narrow(now_state *now, const poly_exact *p, int64_t tick, double out
     int bits = 0; /* the root is in low / 2^bits .. (low + 2) / 2^bits */
     for (int i = 0; i < HALVINGS && nextafter(out[0], (double)INFINITY) < out[1] && low < UINT64_MAX / 4; i++) {
         arena->top = top;
-        num_dyadic middle = num_dyadic_scaled(arena, 1, low + 1, -bits);
-        int sign = sign_at(arena, p, middle);
+        const num_dyadic middle = num_dyadic_scaled(arena, 1, low + 1, -bits);
+        const int sign = sign_at(arena, p, middle);
+        if (sign >= 0) out[0] = time_beside(now, arena, tick, middle, 0);
+        if (sign <= 0) out[1] = time_beside(now, arena, tick, middle, 1);
+        if (!sign) break;
         low = 2 * low + (sign > 0 ? 2 : 0);
         bits++;
-        num_dyadic s[2] = {num_dyadic_scaled(arena, 1, low, -bits), num_dyadic_scaled(arena, 1, low + 2, -bits)};
-        if (!sign) s[0] = s[1] = middle;
-        bracket_of(now, arena, tick, s, out);
-        if (!sign) break;
     }
 }
 
@@ -72,10 +70,11 @@ froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic
     num_arena *arena = &k->now.context.arena;
     arena->top = 0;
     const int64_t before = k->now.tick > 2 ? k->now.tick - 2 : 0;
-    const num_dyadic s[2] = {num_dyadic_scaled(arena, 1, 0, 0),
-                             num_dyadic_scaled(arena, 1, (uint64_t)(k->now.tick - before), 0)};
     double bracket[2];
-    bracket_of(&k->now, arena, before, s, bracket);
+    for (int side = 0; side < 2; side++) {
+        const int64_t tick = side ? k->now.tick : before;
+        bracket[side] = time_beside(&k->now, arena, tick, (num_dyadic){0}, side);
+    }
     if (k->events.reported.q.b != NAME_NONE) refine(k, k->events.reported, bracket);
     out[0] = bracket[0], out[1] = bracket[1];
     return FROE_OK;
