@@ -1,4 +1,4 @@
-/* area_map.h: a scene of areas as others want it: rings of polygons, and every border once. */
+/* area_map.h: a scene of areas in the form that other libraries read: rings of polygons, and every border once. */
 #ifndef FROE_BENCH_AREA_MAP_H
 #define FROE_BENCH_AREA_MAP_H
 #include "peers/areas.h"

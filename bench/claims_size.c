@@ -87,7 +87,7 @@ static double linear_size_in_the_plane(void) {
     return worst_growth(kinds, 4000, 4, "density", size);
 }
 
-/* Groups of `each` thin triangles along the lines of two saddles z = x y, one a hair above the other: between each two
+/* Groups of `each` thin triangles along the lines of two saddles z = x y, one just above the other: between each two
  * lines of one kind and each two of the other no plane has room (after Chazelle). The gap shrinks with n; a fixed one
  * would let few planes separate many. */
 static froe_scene *saddles(size_t n, size_t each) {

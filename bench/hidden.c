@@ -97,7 +97,7 @@ static double ours(subject *s) {
     return bench_median(seconds, RUNS);
 }
 
-/* Triangles as OpenGL would hand them over: z linear in 1 / depth, 0.01 the nearest, 0.99 the farthest. */
+/* Triangles in the window coordinates of OpenGL: z linear in 1 / depth, 0.01 the nearest, 0.99 the farthest. */
 static size_t window_coordinates(const subject *s, double *out, unsigned *colours) {
     double near = INFINITY, far = 0;
     size_t n = 0;

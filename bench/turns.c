@@ -3,7 +3,7 @@
  *
  *     bench_turns [K...]                default: 10, 100, 1,000 and 10,000 crossings
  *
- * A hand turns over K bars once, in an order of cuts that is random; the median of five orders. */
+ * A segment turns over K bars once, in an order of cuts that is random; the median of five orders. */
 #include "bench.h"
 #include <froe/kinetic.h>
 #include <stdio.h>
@@ -16,14 +16,14 @@ static froe_motion *hand_over_bars(size_t bars) {
     const size_t n = bars + 1;
     size_t *starts = bench_take(2 * n + 1, sizeof *starts);
     double *times = bench_take(2 * n + 2, sizeof *times), *xy = bench_take(4 * n + 4, sizeof *xy);
-    const double hand[] = {-7, -1, 9, -2, 3, (double)bars + 1, -6, (double)bars + 2};
+    const double turning[] = {-7, -1, 9, -2, 3, (double)bars + 1, -6, (double)bars + 2};
     froe_motion_options w = froe_motion_defaults();
     froe_moving b = froe_moving_defaults();
     froe_motion *m = NULL;
     froe_diagnostic diag = {0};
     uint64_t state = 1;
     w.begin = 0, w.end = 8;
-    memcpy(xy, hand, sizeof hand);
+    memcpy(xy, turning, sizeof turning);
     starts[1] = 2, starts[2] = 4, times[1] = times[3] = 8;
     for (size_t i = 0; i < 2 * bars; i++) {
         xy[8 + 2 * i] = (i % 2 ? 20 : -20) + bench_unit(&state);

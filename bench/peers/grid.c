@@ -1,4 +1,4 @@
-/* grid.c: a plain uniform grid of our own, the index that one writes in an afternoon: cells of about one segment, ids
+/* grid.c: a plain uniform grid, written for this comparison as the simplest index: cells of about one segment, ids
  * cell by cell in one array (CSR), stamps against duplicates. */
 #include "index.h"
 #include <stdlib.h>

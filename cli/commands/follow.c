@@ -9,7 +9,7 @@ typedef struct walk {
     const char *file; /* of the motion */
     cli_progress bar;
     froe_kinetic *kinetic;
-    froe_event_writer *writer; /* NULL: nobody asked for events */
+    froe_event_writer *writer; /* NULL: no events are asked for */
     bool stuck;                /* the writer has failed */
 } walk;
 

@@ -7,7 +7,7 @@
  *     +-------+---+---+    block as soon as it is reached (tree/packed/packer.h).
  *
  * The root box is the bounds of the scene, widened by odd shares of its size, so that cuts do not fall on the round
- * numbers of which maps are made; a cut that meets a corner all the same is moved by a hair.
+ * numbers of which maps are made; a cut that meets a corner all the same is moved to the next double.
  *
  * Where middle cuts do not pay: cells that the cuts before have multiplied into `growth` fragments for each are left as
  * they are, and so are those that two cuts in a row have left nearly whole on both sides (a star, parallels). growth is

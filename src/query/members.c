@@ -55,7 +55,7 @@ bool query_sets_keep(query_sets *sets, const froe_allocator *alloc, const query_
     for (size_t i = 0; i < set->count; i++) sum = base_mix(sum + set->data[i]);
     const uint32_t tag = (uint32_t)(sum >> 32);
     if (!scene_table_reserve(alloc, &sets->table, 1)) return false;
-    size_t at = scene_table_home(&sets->table, tag);
+    size_t at = scene_table_first(&sets->table, tag);
     *out = scene_table_find(&sets->table, tag, &at);
     while (*out != FROE_NONE && !is_equal(sets, *out, set)) *out = scene_table_find_next(&sets->table, tag, &at);
     if (*out != FROE_NONE) return true;

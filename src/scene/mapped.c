@@ -30,7 +30,7 @@ static froe_status check_vertices(const froe_scene *s, const froe_allocator *all
     froe_status status = scene_table_reserve(alloc, &table, s->vertex_count) ? FROE_OK : support_fail_memory(diag);
     for (uint32_t v = 0; !status && v < s->vertex_count; v++) {
         uint32_t tag = scene_vertex_tag(scene_vertex(s, v), s->dim);
-        size_t at = scene_table_home(&table, tag);
+        size_t at = scene_table_first(&table, tag);
         uint32_t other = scene_table_find(&table, tag, &at);
         while (other != FROE_NONE && memcmp(scene_vertex(s, v), scene_vertex(s, other), bytes) != 0)
             other = scene_table_find_next(&table, tag, &at);

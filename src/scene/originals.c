@@ -51,7 +51,7 @@ froe_status scene_originals(const froe_scene *s, const froe_allocator *alloc, ui
             return FROE_E_MEMORY;
         }
         uint32_t tag = tag_of(s, object);
-        size_t at = scene_table_home(&table, tag);
+        size_t at = scene_table_first(&table, tag);
         uint32_t other = scene_table_find(&table, tag, &at);
         while (other != FROE_NONE && !scene_equal(s, object, other)) other = scene_table_find_next(&table, tag, &at);
         if (other == FROE_NONE) scene_table_put(&table, at, tag, object);

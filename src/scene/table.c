@@ -4,7 +4,7 @@
 static void move_entries(const scene_table *from, scene_table *to) {
     for (size_t i = 0; i < from->size; i++) {
         if (!from->slots[i].next_id) continue;
-        size_t at = scene_table_home(to, from->slots[i].tag);
+        size_t at = scene_table_first(to, from->slots[i].tag);
         while (to->slots[at].next_id) at = (at + 1) & (to->size - 1);
         to->slots[at] = from->slots[i];
     }
@@ -33,11 +33,11 @@ void scene_table_free(const froe_allocator *alloc, scene_table *table) {
 }
 
 void scene_table_remove(scene_table *table, uint32_t tag, uint32_t id) {
-    size_t mask = table->size - 1, hole = scene_table_home(table, tag);
+    size_t mask = table->size - 1, hole = scene_table_first(table, tag);
     while (table->slots[hole].next_id != id + 1) hole = (hole + 1) & mask;
     for (size_t i = (hole + 1) & mask; table->slots[i].next_id; i = (i + 1) & mask) {
-        size_t home = scene_table_home(table, table->slots[i].tag);
-        if (((i - home) & mask) < ((i - hole) & mask)) continue; /* it would land before its home */
+        size_t first = scene_table_first(table, table->slots[i].tag);
+        if (((i - first) & mask) < ((i - hole) & mask)) continue; /* it would land before its first slot */
         table->slots[hole] = table->slots[i];
         hole = i;
     }

@@ -1,6 +1,6 @@
 /* table.h: a hash table of ids: open addressing, linear probing.
  *
- *     slots   [ tag | id ]  [ tag | id ]  [ free ]  [ tag | id ] ...      home of an entry: tag & mask
+ *     slots   [ tag | id ]  [ tag | id ]  [ free ]  [ tag | id ] ...      first slot of an entry: tag & mask
  *
  * It stores no keys. The owner keeps them by id and compares candidates whose whole
  * 32-bit tag agrees, so a miss hardly ever touches a key. Removal shifts later entries back
@@ -23,7 +23,7 @@ bool scene_table_reserve(const froe_allocator *alloc, scene_table *table, size_t
 void scene_table_free(const froe_allocator *alloc, scene_table *table);
 
 /** Where the search for `tag` starts. REQUIRES: room for one entry, as reserve makes. */
-static inline size_t scene_table_home(const scene_table *table, uint32_t tag) {
+static inline size_t scene_table_first(const scene_table *table, uint32_t tag) {
     return tag & (table->size - 1);
 }
 /** The id of the next entry with this tag from *at on, which moves to it; FROE_NONE with *at at a free slot. */

@@ -25,14 +25,14 @@ froe_status scene_vertices_add(froe_scene *s, const double *points, size_t count
     if (!array_reserve(&s->alloc, &store->coords, count * dim)) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) tags[i] = scene_vertex_tag(points + i * dim, s->dim);
     for (size_t i = 0; i < count; i++)
-        __builtin_prefetch(store->table.slots + scene_table_home(&store->table, tags[i]));
+        __builtin_prefetch(store->table.slots + scene_table_first(&store->table, tags[i]));
     for (size_t i = 0; i < count; i++) {
-        uint32_t next_id = store->table.slots[scene_table_home(&store->table, tags[i])].next_id;
+        uint32_t next_id = store->table.slots[scene_table_first(&store->table, tags[i])].next_id;
         if (next_id) __builtin_prefetch(store->coords.data + (size_t)(next_id - 1) * dim);
     }
     for (size_t i = 0; i < count; i++) {
         const double *point = points + i * dim;
-        size_t at = scene_table_home(&store->table, tags[i]);
+        size_t at = scene_table_first(&store->table, tags[i]);
         ids[i] = scene_table_find(&store->table, tags[i], &at);
         while (ids[i] != FROE_NONE &&
                memcmp(store->coords.data + (size_t)ids[i] * dim, point, dim * sizeof *point) != 0)

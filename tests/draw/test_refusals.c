@@ -1,5 +1,5 @@
-/* test_refusals.c: options out of range, files that cannot be written, memory that runs out, callers
- * who change their mind: a status, a sentence, nothing half-written. */
+/* test_refusals.c: options out of range, files that cannot be written, memory that runs out, calls
+ * that are cancelled: a status, a sentence, nothing half-written. */
 #include "pictures.h"
 #include <dirent.h>
 #include <signal.h>

@@ -291,7 +291,7 @@ static void modes_and_owners_are_kept(void **state) {
     clear();
 }
 
-/* What had the file opened to its group is not opened to another: tried as a user who belongs to no other. */
+/* What had the file opened to its group is not opened to another: tried as a user that belongs to no other. */
 static void a_group_that_cannot_be_kept_gets_no_more_than_all(void **state) {
     (void)state;
     if (geteuid() != 0) skip();

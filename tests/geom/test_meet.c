@@ -120,7 +120,7 @@ static void check(num_context *context, dice *d, int dim, geom_core core_a, geom
     sample a, b;
     make(d, dim, core_a, &a);
     make(d, dim, core_b, &b);
-    if (b.set.count) { /* nothing meets the empty set, and nobody asks */
+    if (b.set.count) { /* nothing meets the empty set, which no caller passes */
         bool truth = oracle_meet(&a.oracle, &b.oracle);
         bool right = meets(context, &a, &b, NUM_FILTER) == truth && meets(context, &b, &a, NUM_FILTER) == truth &&
                      meets(context, &a, &b, NUM_EXACT) == truth;

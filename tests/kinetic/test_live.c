@@ -257,7 +257,7 @@ static bool count_three(void *user, const froe_event *event) {
 }
 
 /* A wall at the crossing of two segments, which become parallel and stay so from the next piece on; a vertex that would
- * come to it a tick later if they did not. Whoever looks there asks where parallel lines cross. */
+ * come to it a tick later if they did not. A test of that tick has to find where parallel lines cross. */
 static void test_trials_within_pieces(void **state) {
     (void)state;
     const size_t starts[] = {0, 1, 2, 3, 6, 8, 9};
@@ -358,7 +358,7 @@ static void test_memory_runs_out(void **state) {
 
 /* ---------------------------------------------------------------------- turns -- */
 
-/* A hand that turns upright over bars, at the end of it first in order or last. */
+/* A segment that turns upright over bars, at the end of it first in order or last. */
 static froe_motion *spinner(size_t bars) {
     enum { MOST = 300 };
     static size_t starts[2 * MOST + 3];
@@ -366,9 +366,9 @@ static froe_motion *spinner(size_t bars) {
     froe_motion_options w = froe_motion_defaults();
     froe_moving b = froe_moving_defaults();
     froe_motion *m = NULL;
-    const double hand[] = {-7, -1, 9, -2, 3, (double)bars + 1, -6, (double)bars + 2};
+    const double turning[] = {-7, -1, 9, -2, 3, (double)bars + 1, -6, (double)bars + 2};
     w.begin = 0, w.end = 8;
-    memcpy(xy, hand, sizeof hand);
+    memcpy(xy, turning, sizeof turning);
     starts[1] = 2, starts[2] = 4, times[1] = times[3] = 8;
     for (size_t i = 0; i < bars; i++)
         for (size_t e = 0; e < 2; e++) {

@@ -64,7 +64,7 @@ static int by_place(const void *a, const void *b) {
 }
 
 static void put(oracle_canvas *c, size_t sample, uint32_t patch, bool clear) {
-    if (!clear && c->top[sample] != FROE_NONE) { /* nobody needs what was there */
+    if (!clear && c->top[sample] != FROE_NONE) { /* what was there is hidden for good */
         c->layers[c->top[sample]] = (oracle_layer){patch, FROE_NONE};
         return;
     }

@@ -1,5 +1,5 @@
-/* canvas.h: the oracle for pictures: what a painter leaves at each sample of a page who fills one shape after the
- * other, by the nonzero rule. Clear shapes leave what is under them. */
+/* canvas.h: the oracle for pictures: what is left at each sample of a page when one shape after the other is
+ * filled by the nonzero rule. Clear shapes leave what is under them. */
 #ifndef FROE_TESTS_ORACLE_CANVAS_H
 #define FROE_TESTS_ORACLE_CANVAS_H
 #include "oracle/hits.h"

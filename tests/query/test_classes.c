@@ -189,7 +189,7 @@ static void a_small_range_is_one_point_location(void **state) {
     froe_scene_free(scene);
 }
 
-/* Boxes of half sizes 1/8 to 1/4 with corners on a lattice, some of them a hair beside it. */
+/* Boxes of half sizes 1/8 to 1/4 with corners on a lattice, some of them one double beside it. */
 static void scatter_on_lattice(froe_scene *scene, double (*boxes)[6], uint32_t count, size_t dim) {
     for (uint32_t i = 0; i < count; i++) {
         for (size_t k = 0; k < dim; k++) {
@@ -209,8 +209,8 @@ static bool boxes_meet(const double *a, const double *b, size_t dim) {
     return meet;
 }
 
-/* Windows that reach as far as the class of the boxes, a hair more or less, so that they touch them and their centres
- * lie on cuts: few are larger than a leaf. */
+/* Windows that reach as far as the class of the boxes, one double more or less, so that they touch them and their
+ * centres lie on cuts: few are larger than a leaf. */
 static void check_touching(size_t dim, uint32_t queries) {
     enum { COUNT = 2000 };
     static double boxes[COUNT][6];

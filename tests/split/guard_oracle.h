@@ -2,8 +2,8 @@
  *
  * Walks a tree cube by cube. In each it counts the guards strictly inside, decides by the rule
  * whether there is a leaf, an octree split or a shrink and where its planes are, and looks whether the nodes say
- * the same. So whoever passes has leaves with at most k guards strictly inside, cubes for cells, and the
- * one tree that the rule describes. */
+ * the same. So a tree that passes has leaves with at most k guards strictly inside, cubes for cells, and
+ * is the one that the rule describes. */
 #ifndef FROE_TESTS_SPLIT_GUARD_ORACLE_H
 #define FROE_TESTS_SPLIT_GUARD_ORACLE_H
 #include "split/guard/guard_tree.h"

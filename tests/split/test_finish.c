@@ -20,7 +20,7 @@ static froe_scene *scene_of(const double *coords, size_t count) {
     return scene;
 }
 
-/** Predicates start at a stage of our choice. */
+/** Predicates start at the stage `first`. */
 static froe_tree *build(froe_scene *scene, uint32_t leaf, const char *settings, num_stage first) {
     base_task task;
     froe_tree *tree = NULL;

@@ -233,8 +233,8 @@ static uint64_t overlaps(const froe_scene *scene) {
     return count;
 }
 
-/** No partition spares anybody the pairs that overlap; with less than three entries for each, and for each object,
- * nobody can complain. (All separable pairs told apart: up to 10^6 pieces and more.) */
+/** Pairs that overlap are in the leaves of any partition. So at most three entries for each of them, and for each
+ * object, are few: to tell all separable pairs apart takes up to 10^6 pieces and more. */
 static void assert_few_pieces(solids *s) {
     uint64_t most = 3 * (s->scene->object_count + overlaps(s->scene));
     froe_tree *tree = build(s, 1, most);

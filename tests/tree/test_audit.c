@@ -386,7 +386,7 @@ static froe_tree *disc_beside_corner(double radius, bool listed, froe_kind kind)
 
 static void balls_must_be_listed_exactly_where_their_distance_says(void **state) {
     (void)state;
-    const double near = sqrt(2); /* a hair more than the true root: 1.4142135623730951^2 > 2 */
+    const double near = sqrt(2); /* just more than the true root: 1.4142135623730951^2 > 2 */
     struct {
         double radius;
         bool must;

@@ -173,7 +173,7 @@ static void what_is_saved_is_opened(void **state) {
     unlink("again.froe");
 }
 
-/* By the offsets of docs/format.md, not by our structs. */
+/* By the offsets of docs/format.md, not by the structs of the code under test. */
 static uint64_t number(const uint8_t *bytes, size_t offset, size_t size) {
     uint64_t value = 0;
     for (size_t i = 0; i < size; i++) value |= (uint64_t)bytes[offset + i] << 8 * i;

@@ -322,7 +322,7 @@ static void halos_part_lines_and_hidden_ones_are_drawn_once(void **state) {
     froe_tree_free(tree);
 }
 
-/* Two walls, the far one beginning a hair beyond the side of the near one: what begins there goes under the near wall,
+/* Two walls, the far one beginning just beyond the side of the near one: what begins there goes under the near wall,
  * whose own lines stay on top. On a landscape lines are as long as before, and come in the order of their places. */
 static void lines_may_go_under_what_is_nearer(void **state) {
     (void)state;

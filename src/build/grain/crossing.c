@@ -9,7 +9,7 @@ static double dot_3(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/** Shortens a chord to a halfspace, less a hair. False: nothing is left. */
+/** Shortens a chord to a halfspace that is smaller by TOUCHING. False: nothing is left. */
 static bool clip_chord(double chord[2][3], const double at[3], const double inward[3]) {
     double border = dot_3(at, inward) + TOUCHING * sqrt(dot_3(inward, inward));
     double u = dot_3(chord[0], inward) - border, v = dot_3(chord[1], inward) - border;

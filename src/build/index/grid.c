@@ -1,7 +1,7 @@
 /* grid.c: laying the lines, finding the cells, sorting.
  *
- * A line that would run through a corner of an object or of a fragment is moved by a hair, and everything done once
- * more: that takes special data, for the box has no round numbers. */
+ * A line that would run through a corner of an object or of a fragment is moved to the next double, and everything
+ * is done once more: that is rare, for the box has no round numbers. */
 #include "build/index/grid.h"
 #include <math.h>
 #include <stdlib.h>
@@ -184,7 +184,7 @@ static froe_status attempt(dealing *d, bool *made) {
     for (int i = 0; *made && !status && d->bad_axis >= 0; i++) {
         if (i > NUDGES) *made = false;
         if (i && *made) {
-            /* moves the bad line by a hair */
+            /* moves the bad line to the next double */
             double *line = g->lines[d->bad_axis] + d->bad_line;
             *line = nextafter(*line, INFINITY);
             *made = *line < line[1];

@@ -11,7 +11,7 @@ typedef struct halve_cut {
 } halve_cut;
 
 /** Counts the fragments of the box beside cut->axis, cut->value, and leaves their classes in `classes`: 1 negative,
- * 2 positive, 3 both. A value that a corner lies at is moved by a hair. False: no value in the box will do. */
+ * 2 positive, 3 both. A value that a corner lies at is moved to the next double. False: no value in the box will do. */
 bool halve_count(axis_work *work, const packed_box *box, const packed_fragment *fragments, uint32_t count,
                  halve_cut *cut, uint8_t *classes);
 /** Deals fragments to two runs, by their classes. */

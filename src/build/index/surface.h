@@ -16,7 +16,7 @@ typedef struct surface_cut {
 /** The best cut by samples of the items. False: nothing can be cut. */
 bool surface_choose(const space_item *items, uint32_t count, surface_cut *cut);
 /** Counts the items beside the cut, and leaves their classes in `classes`: 1 negative, 2 positive, 3 both. A value at
- * which an item is flat is moved by a hair. False: no value will do. */
+ * which an item is flat is moved to the next double. False: no value will do. */
 bool surface_count(const space_item *items, uint32_t count, surface_cut *cut, uint8_t *classes);
 /** Deals items to two runs, by their classes; those on both sides are clipped, and left out where nothing of them
  * remains. thorough: triangles are compared with boxes by their planes, too. Updates the counts of the cut. */

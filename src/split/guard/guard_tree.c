@@ -1,10 +1,10 @@
 /* guard_tree.c: the guard tree as a whole: root cube, jobs for threads, and their splicing.
  *
- * One worker, the foreman, splits items that are large; the others become jobs. The nodes of a job
- * belong behind the nodes that the foreman has made when it takes the job's item off its stack:
+ * One worker splits items that are large, which makes the upper part of the tree; the others become jobs. The nodes of
+ * a job belong behind the nodes that the upper part has when the job's item is taken off its stack:
  *
- *     foreman   [ root's split ][ split of A ]  ^  [ split of C ]         ^: job B, job D
- *     tree      [ root's split ][ split of A ][ subtree of B ][ split of C ][ subtree of D ]
+ *     upper part   [ root's split ][ split of A ]  ^  [ split of C ]         ^: job B, job D
+ *     tree         [ root's split ][ split of A ][ subtree of B ][ split of C ][ subtree of D ]
  *
  * With one thread the jobs write there directly. Either way the array is the same. */
 #include "split/guard/guard_work.h"
@@ -14,31 +14,31 @@
 typedef struct job {
     guard_item item;
     guard_cube cube;
-    uint32_t place;         /* foreman's nodes before it */
+    uint32_t place;         /* nodes of the upper part before it */
     uint32_t worker, first; /* the worker that did it; its nodes there, the first stands for the item's own node */
     uint32_t count;         /* nodes, without the first */
     uint32_t final;         /* number of its nodes[1] in the tree */
 } job;
 
-typedef struct hand { /* a thread's own */
+typedef struct tree_worker { /* of a thread */
     guard_worker work;
     guard_nodes nodes;
     double *room; /* other side of the guards of a job */
     size_t capacity;
-} hand;
+} tree_worker;
 
 typedef struct building {
     guard_plan plan;
-    guard_worker foreman;
-    guard_nodes nodes;    /* foreman's */
-    double *main, *spare; /* count guards; spare only if the foreman needs it */
+    guard_worker upper;   /* builds the upper part */
+    guard_nodes nodes;    /* of the upper part */
+    double *main, *spare; /* count guards; spare only if the upper part needs it */
     size_t bytes;         /* of each */
     split_guards guards;  /* of a scene, where they had to be written down */
     uint32_t count;       /* guards in all, without those on the border */
     uint32_t job_count;   /* items with at most so many guards are jobs */
     ARRAY(job) jobs;
-    hand *hands;
-    unsigned hand_count;
+    tree_worker *workers;
+    unsigned worker_count;
     double start, share; /* of progress: before, and per guard */
     split_guard_tree *out;
 } building;
@@ -63,8 +63,8 @@ static froe_status plant(building *b, const double *guards, size_t count) {
     b->bytes = (count ? count : 1) * (size_t)b->plan.dim * sizeof(double);
     b->main = support_realloc(b->plan.alloc, NULL, 0, b->bytes);
     if (!b->main) return FROE_E_MEMORY;
-    b->foreman.side[GUARD_MAIN] = b->main;
-    b->foreman.input = guards;
+    b->upper.side[GUARD_MAIN] = b->main;
+    b->upper.input = guards;
     /* the bounding box of the guards */
     for (int i = 0; i < b->plan.dim; i++) box.lo[i] = box.hi[i] = count ? guards[i] : 0;
     for (size_t p = 1; p < count; p++) {
@@ -85,7 +85,7 @@ static froe_status plant(building *b, const double *guards, size_t count) {
             memcpy(b->main + kept++ * dim, guards, dim * sizeof *guards);
     guard_item item = {.side = all ? GUARD_INPUT : GUARD_MAIN};
     item.count = b->count = (uint32_t)kept;
-    return status ? status : guard_push(&b->foreman, NULL, &item, &root);
+    return status ? status : guard_push(&b->upper, NULL, &item, &root);
 }
 
 /* The same, for the guards of a scene: most of them, as a rule, need not be written down. */
@@ -93,8 +93,8 @@ static froe_status plant_scene(building *b, const split_grid_boxes *grid_boxes) 
     const froe_scene *scene = grid_boxes->scene;
     if (grid_boxes->grid.levels && (uint64_t)scene->object_count << b->plan.dim <= GUARD_LIMIT) {
         froe_status status = start_guard_tree(b, &grid_boxes->root);
-        if (!status) status = guard_bucket_scene(&b->foreman, grid_boxes, &b->main, &b->bytes, &b->count);
-        b->foreman.side[GUARD_MAIN] = b->main;
+        if (!status) status = guard_bucket_scene(&b->upper, grid_boxes, &b->main, &b->bytes, &b->count);
+        b->upper.side[GUARD_MAIN] = b->main;
         if (status || b->count) return status;
         b->nodes.count = 0;
     }
@@ -103,19 +103,19 @@ static froe_status plant_scene(building *b, const split_grid_boxes *grid_boxes) 
 }
 
 /* Does a job with the worker's nodes from `origin` on. */
-static froe_status do_job(building *b, hand *h, guard_nodes *nodes, uint32_t origin, guard_item item,
+static froe_status do_job(building *b, tree_worker *own, guard_nodes *nodes, uint32_t origin, guard_item item,
                           const guard_cube *cube) {
     size_t offset = (size_t)item.begin * (size_t)b->plan.dim;
     size_t need = item.count * (size_t)b->plan.dim * sizeof(double);
-    guard_worker *w = &h->work;
-    if (item.side == GUARD_MAIN && need > h->capacity) {
-        support_free(b->plan.alloc, h->room, h->capacity);
-        h->room = support_realloc(b->plan.alloc, NULL, 0, need);
-        h->capacity = h->room ? need : 0;
-        if (!h->room) return FROE_E_MEMORY;
+    guard_worker *w = &own->work;
+    if (item.side == GUARD_MAIN && need > own->capacity) {
+        support_free(b->plan.alloc, own->room, own->capacity);
+        own->room = support_realloc(b->plan.alloc, NULL, 0, need);
+        own->capacity = own->room ? need : 0;
+        if (!own->room) return FROE_E_MEMORY;
     }
     w->side[GUARD_MAIN] = b->main + offset;
-    w->side[GUARD_SPARE] = item.side == GUARD_MAIN ? h->room : b->spare + offset;
+    w->side[GUARD_SPARE] = item.side == GUARD_MAIN ? own->room : b->spare + offset;
     w->nodes = nodes;
     w->origin = origin;
     item.begin = 0;
@@ -126,21 +126,21 @@ static froe_status do_job(building *b, hand *h, guard_nodes *nodes, uint32_t ori
 static froe_status run_job(void *user, unsigned worker, size_t number) {
     building *b = user;
     job *j = &b->jobs.data[number];
-    hand *h = &b->hands[worker];
+    tree_worker *own = &b->workers[worker];
     guard_item item = j->item;
     j->worker = worker;
-    j->first = (uint32_t)h->nodes.count;
-    if (!array_push(b->plan.alloc, &h->nodes, (split_guard_node){0})) return FROE_E_MEMORY;
+    j->first = (uint32_t)own->nodes.count;
+    if (!array_push(b->plan.alloc, &own->nodes, (split_guard_node){0})) return FROE_E_MEMORY;
     item.node = 0;
-    froe_status status = do_job(b, h, &h->nodes, j->first, item, &j->cube);
-    j->count = (uint32_t)h->nodes.count - j->first - 1;
+    froe_status status = do_job(b, own, &own->nodes, j->first, item, &j->cube);
+    j->count = (uint32_t)own->nodes.count - j->first - 1;
     return status;
 }
 
 /* A small item becomes a job, which a single thread does at once. */
-static froe_status hand_out(building *b, const guard_item *item, const guard_cube *cube) {
+static froe_status take_job(building *b, const guard_item *item, const guard_cube *cube) {
     if (b->plan.task->threads == 1) {
-        froe_status status = do_job(b, b->hands, &b->nodes, 0, *item, cube);
+        froe_status status = do_job(b, b->workers, &b->nodes, 0, *item, cube);
         b->start += b->share * item->count;
         return status || base_progress(b->plan.task, b->start) ? status : FROE_E_CANCELLED;
     }
@@ -148,19 +148,19 @@ static froe_status hand_out(building *b, const guard_item *item, const guard_cub
     return array_push(b->plan.alloc, &b->jobs, j) ? FROE_OK : FROE_E_MEMORY;
 }
 
-static froe_status oversee(building *b) {
-    while (b->foreman.items.count) {
+static froe_status build_upper_part(building *b) {
+    while (b->upper.items.count) {
         guard_item item;
         guard_cube cube;
-        guard_pop(&b->foreman, &item, &cube);
+        guard_pop(&b->upper, &item, &cube);
         froe_status status;
         if (item.side != GUARD_INPUT && item.count <= b->job_count) {
-            status = hand_out(b, &item, &cube);
+            status = take_job(b, &item, &cube);
         } else {
             if (item.side == GUARD_MAIN && !b->spare) b->spare = support_realloc(b->plan.alloc, NULL, 0, b->bytes);
             if (item.side == GUARD_MAIN && !b->spare) return FROE_E_MEMORY;
-            b->foreman.side[GUARD_SPARE] = b->spare;
-            status = guard_step(&b->foreman, &item, &cube);
+            b->upper.side[GUARD_SPARE] = b->spare;
+            status = guard_step(&b->upper, &item, &cube);
         }
         if (status) return status;
         if (base_cancelled(b->plan.task)) return FROE_E_CANCELLED;
@@ -170,7 +170,7 @@ static froe_status oversee(building *b) {
 
 /* ---- splicing */
 
-/* Number in the tree of a foreman's node: later by the nodes of all jobs placed before it. */
+/* Number in the tree of a node of the upper part: later by the nodes of all jobs placed before it. */
 static uint32_t final_number(const building *b, uint32_t node) {
     size_t low = 0, high = b->jobs.count;
     while (low < high) {
@@ -193,7 +193,7 @@ static froe_status splice_job(void *user, unsigned worker, size_t number) {
     (void)worker;
     building *b = user;
     const job *j = &b->jobs.data[number];
-    const split_guard_node *from = b->hands[j->worker].nodes.data + j->first;
+    const split_guard_node *from = b->workers[j->worker].nodes.data + j->first;
     for (uint32_t i = 1; i <= j->count; i++) b->out->nodes.data[j->final + i - 1] = moved(from[i], j);
     return FROE_OK;
 }
@@ -218,7 +218,7 @@ static froe_status splice(building *b) {
     }
     for (size_t i = 0; i < b->jobs.count; i++) {
         const job *j = &b->jobs.data[i];
-        b->out->nodes.data[final_number(b, j->item.node)] = moved(b->hands[j->worker].nodes.data[j->first], j);
+        b->out->nodes.data[final_number(b, j->item.node)] = moved(b->workers[j->worker].nodes.data[j->first], j);
     }
     return base_run(b->plan.task, 0, b->jobs.count, splice_job, b);
 }
@@ -235,21 +235,21 @@ static void add_up(split_guard_tree *out, const guard_worker *w) {
 static froe_status build_guard_tree(building *b, double span, const split_grid_boxes *grid_boxes, const double *guards,
                                     size_t count) {
     const base_task *task = b->plan.task;
-    b->hands = support_calloc(b->plan.alloc, task->threads, sizeof *b->hands);
-    if (!b->hands) return FROE_E_MEMORY;
-    b->hand_count = task->threads;
-    for (unsigned i = 0; i < b->hand_count; i++) b->hands[i].work.plan = &b->plan;
+    b->workers = support_calloc(b->plan.alloc, task->threads, sizeof *b->workers);
+    if (!b->workers) return FROE_E_MEMORY;
+    b->worker_count = task->threads;
+    for (unsigned i = 0; i < b->worker_count; i++) b->workers[i].work.plan = &b->plan;
     froe_status status = grid_boxes ? plant_scene(b, grid_boxes) : plant(b, guards, count);
     if (status) return status;
     b->job_count = task->threads == 1 ? UINT32_MAX : b->count / task->threads / 8 + (1 << 12);
     b->share = span * task->scale / (b->count ? b->count : 1);
     b->out->promised = promised_leaves(&b->plan, b->count);
-    status = oversee(b);
+    status = build_upper_part(b);
     if (!status) status = base_run(b->plan.task, b->jobs.count ? span : 0, b->jobs.count, run_job, b);
     if (status) return status;
     status = FROE_OK;
-    add_up(b->out, &b->foreman);
-    for (unsigned i = 0; i < b->hand_count; i++) add_up(b->out, &b->hands[i].work);
+    add_up(b->out, &b->upper);
+    for (unsigned i = 0; i < b->worker_count; i++) add_up(b->out, &b->workers[i].work);
     if (b->jobs.count) {
         status = splice(b);
     } else {
@@ -282,19 +282,19 @@ static froe_status build_tree(const froe_allocator *alloc, base_task *task, doub
                            .way = options->way},
                   .start = task->done,
                   .out = &tree};
-    b.foreman.plan = &b.plan;
-    b.foreman.nodes = &b.nodes;
-    b.foreman.parallel = task->threads > 1;
+    b.upper.plan = &b.plan;
+    b.upper.nodes = &b.nodes;
+    b.upper.parallel = task->threads > 1;
     double done = task->done + span * task->scale;
     froe_status status = build_guard_tree(&b, span, grid_boxes, guards, count);
     if (!status && !base_progress(task, done)) status = FROE_E_CANCELLED;
-    for (unsigned i = 0; i < b.hand_count; i++) {
-        guard_worker_free(&b.hands[i].work);
-        array_free(alloc, &b.hands[i].nodes);
-        support_free(alloc, b.hands[i].room, b.hands[i].capacity);
+    for (unsigned i = 0; i < b.worker_count; i++) {
+        guard_worker_free(&b.workers[i].work);
+        array_free(alloc, &b.workers[i].nodes);
+        support_free(alloc, b.workers[i].room, b.workers[i].capacity);
     }
-    support_free(alloc, b.hands, task->threads * sizeof *b.hands);
-    guard_worker_free(&b.foreman);
+    support_free(alloc, b.workers, task->threads * sizeof *b.workers);
+    guard_worker_free(&b.upper);
     array_free(alloc, &b.nodes);
     array_free(alloc, &b.jobs);
     support_free(alloc, b.main, b.bytes);

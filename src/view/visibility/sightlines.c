@@ -109,7 +109,7 @@ uint32_t view_line_of_window(view_sightlines *s, uint32_t side) {
 uint32_t view_line_of_cut(view_sightlines *s, uint32_t patch, uint32_t node) {
     const uint32_t tag = (uint32_t)base_hash(0, patch, node);
     if (!scene_table_reserve(&s->alloc, &s->made, 1)) return FROE_NONE;
-    size_t at = scene_table_home(&s->made, tag);
+    size_t at = scene_table_first(&s->made, tag);
     for (uint32_t id = scene_table_find(&s->made, tag, &at); id != FROE_NONE;
          id = scene_table_find_next(&s->made, tag, &at)) {
         const view_line *l = s->lines.data + id;
