@@ -3,6 +3,7 @@
 #include "base/floats.h"
 #include "scene/scene.h"
 #include "support/fail.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -189,18 +190,21 @@ static froe_status fill_page(const froe_camera *c, const fit_points *points, fro
 }
 
 /* The diagonal of the scene's box: sides are multiplied by a power of two, so that no square underflows or overflows.
- * 1 for a scene of a single point, or of none. */
+ * Halves are taken only where whole sides overflow: half of the least double is 0. 1 for a scene of a single point, or
+ * of none. */
 static double extent_of(const froe_scene *scene) {
     double most = 0, sum = 0;
-    int exponent;
-    for (int k = 0; k < 3 && scene->object_count; k++) most = fmax(most, 0.5 * scene->hi[k] - 0.5 * scene->lo[k]);
+    int exponent = DBL_MAX_EXP;
+    for (int k = 0; k < 3 && scene->object_count; k++) most = fmax(most, scene->hi[k] - scene->lo[k]);
     if (!(most > 0)) return 1;
-    frexp(most, &exponent);
+    const bool halved = !isfinite(most);
+    const double share = halved ? 0.5 : 1;
+    if (!halved) frexp(most, &exponent);
     for (int k = 0; k < 3; k++) {
-        const double side = ldexp(0.5 * scene->hi[k] - 0.5 * scene->lo[k], -exponent);
+        const double side = ldexp(share * scene->hi[k] - share * scene->lo[k], -exponent);
         sum += side * side;
     }
-    return ldexp(sqrt(sum), exponent + 1);
+    return ldexp(sqrt(sum), exponent + halved);
 }
 
 /* Extents whose projections on any page neither overflow nor lose visible bits: the camera multiplies and divides

@@ -102,11 +102,27 @@ static void scenes_beyond_cameras_are_refused(void **state) {
     froe_scene_free(unit);
 }
 
+/* Half of the least double is 0, so an extent computed from halves would be that of a point. */
+static void a_scene_as_large_as_the_least_double_is_no_point(void **state) {
+    static const double corners[] = {0, 0, 0, 0x1p-1074, 0, 0, 0, 0x1p-1074, 0};
+    const froe_camera c = froe_camera_defaults();
+    froe_scene *scene;
+    froe_projection view;
+    froe_diagnostic why;
+    (void)state;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_POLYGON, 1, corners, NULL, NULL), FROE_OK);
+    assert_int_equal(froe_camera_place(&c, scene, &view, &why), FROE_E_UNSUPPORTED);
+    assert_non_null(strstr(why.message, "2^-1000 to 2^1000"));
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_times_a_power_of_two_looks_the_same),
         cmocka_unit_test(tiny_faces_beside_huge_ones_are_painted),
         cmocka_unit_test(scenes_beyond_cameras_are_refused),
+        cmocka_unit_test(a_scene_as_large_as_the_least_double_is_no_point),
     };
     return cmocka_run_group_tests_name("view/extremes", tests, NULL, NULL);
 }
