@@ -67,6 +67,11 @@ froe_status support_fail_file(froe_diagnostic *diag, const char *done, const cha
                         support_errno(error).text);
 }
 
+froe_status support_fail_irregular(froe_diagnostic *diag, const char *path, bool directory) {
+    return support_fail(diag, FROE_E_IO, "%s: It is %s, not a file.", support_short(path),
+                        directory ? "a directory" : "a device");
+}
+
 froe_status support_fail_ending(froe_diagnostic *diag, froe_status status, const char *path, const char *what,
                                 const char *endings) {
     return support_fail(diag, status, "%s: The ending of %s is %s.", support_short(path), what, endings);

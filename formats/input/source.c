@@ -40,7 +40,6 @@ static size_t drop_mark(char *text, size_t size) {
 
 froe_status formats_source_open(const char *path, formats_source *source, froe_diagnostic *diag) {
     *source = (formats_source){.path = path};
-    const char *name = support_short(path);
     struct stat about;
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) return support_fail_file(diag, "read", path, errno);
@@ -53,9 +52,8 @@ froe_status formats_source_open(const char *path, formats_source *source, froe_d
     }
     close(file);
     if (error) return support_fail_file(diag, "read", path, error);
-    if (!regular)
-        return support_fail(diag, FROE_E_IO, "%s: It is %s, not a file.", name, directory ? "a directory" : "a device");
-    if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: The file is empty.", name);
+    if (!regular) return support_fail_irregular(diag, path, directory);
+    if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: The file is empty.", support_short(path));
     source->head[drop_mark(source->head, (size_t)got)] = '\0';
     source->size = (uint64_t)about.st_size;
     source->extension = support_path_extension(path);

@@ -47,7 +47,7 @@ static froe_status map_file(opening *o) {
     if (fstat(fd, &info)) {
         status = unreadable(o, errno);
     } else if (!S_ISREG(info.st_mode)) {
-        status = unreadable(o, S_ISDIR(info.st_mode) ? EISDIR : ENODEV);
+        status = support_fail_irregular(o->diag, o->path, S_ISDIR(info.st_mode));
     } else if ((uint64_t)info.st_size < sizeof(file_header)) {
         status = bad_file(o, info.st_size ? "it is too short" : "it is empty");
     } else {
