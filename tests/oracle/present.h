@@ -29,7 +29,7 @@ enum { PRESENT_LEFT, PRESENT_RIGHT, PRESENT_UP, PRESENT_DOWN };
 #define PRESENT_NO_WALL 0xffffffffu
 
 /** A segment cuts a cell; walls are through its ends, or where it crosses another segment; children are nodes, -1: none
- * (see live.h, whose words these are). */
+ * (see src/kinetic/tree/ktree.h, whose words these are). */
 typedef struct present_node {
     uint32_t segment, wall[2];
     int child[4];
