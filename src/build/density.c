@@ -14,11 +14,14 @@
  * therefore weighs its cells: growth = product of (fragments after / fragments before) over the
  * guard cuts above. Sum over cells of fragments / growth never exceeds n, so stopping where growth
  * reaches a limit G keeps the stage below 2 G n fragments, whatever the scene. It also leaves
- * cells of few objects that it cannot thin out any more: the star around a common vertex. */
+ * cells of few objects that it cannot thin out any more: the star around a common vertex.
+ *
+ * Cells that it leaves before the leaves of the guard tree may have many objects. There, refinement has no bound of
+ * size: it is on trial, and where it makes too many pieces the guard stage goes on (guard/trial.h). */
 #include "base/log2.h"
 #include "build/method.h"
 #include "split/finish.h"
-#include "split/guard/guard_tree.h"
+#include "split/guard/trial.h"
 #include "split/refine.h"
 #include "support/fail.h"
 #include <stdatomic.h>
@@ -240,6 +243,22 @@ static double *promise(build_job *job, const split_guard_tree *guard) {
     return &job->meta.promises[job->meta.promise_count - 1].measured;
 }
 
+/** The fragments of the guard stage may be more than promised by what trials allow. */
+static froe_status grow_on_trial(const guard_stage *g, const split_method *method, froe_tree **out) {
+    build_job *job = g->job;
+    double first = 2 * job->option[GROWTH] * job->scene->object_count, allowed = 0;
+    uint32_t *leaves = trial_leaves(&job->alloc, &g->tree);
+    if (!leaves) return support_fail_memory(job->diag);
+    split_job split = guard_job(g);
+    split.guard_fragments = promise(job, &g->tree);
+    split.guard_allowed = &allowed;
+    split.guard_leaves = leaves;
+    froe_status status = split_grow(&split, method, out);
+    if (!status && first > 0) tree_promise_anew(*out, "guard_fragments", first + allowed);
+    trial_leaves_free(&job->alloc, &g->tree, leaves);
+    return status;
+}
+
 static froe_status build_density(build_job *job, froe_tree **out) {
     guard_stage g = {.job = job};
     froe_status status = find_k(&g);
@@ -253,9 +272,7 @@ static froe_status build_density(build_job *job, froe_tree **out) {
                                .in_guard_stage = in_guard_stage,
                                .scratch_new = split_scratch_new,
                                .scratch_free = split_scratch_free};
-        split_job split = guard_job(&g);
-        split.guard_fragments = promise(job, &g.tree);
-        status = split_grow(&split, &method, out);
+        status = grow_on_trial(&g, &method, out);
     }
     split_lowest_nodes_free(&job->alloc, &g.lowest);
     split_grid_boxes_free(&job->alloc, &g.grid_boxes);

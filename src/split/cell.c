@@ -195,6 +195,7 @@ froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *c
     if (status) return status;
     for (uint32_t s = 0; s < 2; s++) {
         side[s].guard = node->child + s;
+        side[s].tried = cell->tried;
         side[s].whole = job->lowest->at[node->child + s];
         side[s].wholes = job->lowest->end[node->child + s] - side[s].whole;
     }

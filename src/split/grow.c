@@ -1,5 +1,6 @@
 /* grow.c: the shared loop, in one thread down to small cells, then one task per small cell. */
 #include "split/cell.h"
+#include "split/guard/trial.h"
 #include "support/fail.h"
 #include <math.h>
 #include <string.h>
@@ -87,10 +88,18 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
 }
 
 static froe_status grow_cell(grow *g, split_work *work, split_cell *cell) {
-    bool guard = cell->guard != FROE_NONE && g->method->in_guard_stage(g->method->config, cell);
-    if (cell->guard != FROE_NONE && !guard) work->guarded += split_load(cell);
-    froe_status status = guard ? cell_cut_guard(work, g->job, cell) : refine_cell(g, work, cell);
-    if (status) return status;
+    froe_status status = FROE_OK;
+    if (trial_cuts_by_guard(g->job, g->method, cell)) {
+        status = cell_cut_guard(work, g->job, cell);
+    } else {
+        if (trial_is_due(g->job, cell))
+            status = trial_begin(g->job, work, cell);
+        else if (cell->guard != FROE_NONE)
+            work->guarded += split_load(cell);
+        if (!status) status = refine_cell(g, work, cell);
+    }
+    if (!status && work->first.open) status = trial_judge(g->job, work);
+    if (status || work->first.open) return status;
     /* each pending fragment will be one piece at least, and a subtree grown again has half as many as before at
      * least: a refusal here is a refusal in any order of work */
     uint64_t most = g->job->max_fragments, count = work->set.draft->pieces.count + work->set.items.count;
@@ -131,7 +140,8 @@ static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
         work->set.corners.count = cell.corner_top;
         work->deepest = cell.depth > work->deepest ? cell.depth : work->deepest;
         uint32_t load = split_load(&cell);
-        if (main_part && load <= g->task_size && load > TASK_TINY)
+        bool whole = trial_is_due(g->job, &cell) && !trial_cuts_by_guard(g->job, g->method, &cell);
+        if (main_part && !work->first.open && (load <= g->task_size || whole) && load > TASK_TINY)
             status = put_off(g, work, &cell);
         else
             status = grow_cell(g, work, &cell);
@@ -266,9 +276,13 @@ static froe_status seal(grow *g, froe_tree **out) {
     tree_graft *grafts = support_calloc(alloc, count, sizeof *grafts);
     if (!grafts) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
-    uint64_t guarded = 0;
-    for (unsigned i = 0; i < g->worker_count; i++) guarded += g->workers[i].guarded;
+    uint64_t guarded = 0, allowed = 0;
+    for (unsigned i = 0; i < g->worker_count; i++) {
+        guarded += g->workers[i].guarded;
+        allowed += g->workers[i].allowed;
+    }
     if (g->job->guard_fragments) *g->job->guard_fragments = (double)guarded;
+    if (g->job->guard_allowed) *g->job->guard_allowed = (double)allowed;
     if (g->method->note) g->method->note(g->method->config);
     for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
@@ -308,6 +322,7 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
         if (g.method->scratch_free) g.method->scratch_free(work);
         split_set_free(&work->set);
         array_free(alloc, &work->cells);
+        trial_free(alloc, work);
     }
     support_free(alloc, g.workers, g.job->task->threads * sizeof *g.workers);
     for (size_t i = 0; i < g.tasks.count; i++) draft_free(&g.tasks.data[i].draft);

@@ -28,6 +28,8 @@ typedef struct split_cell {
     uint32_t guard;         /**< node of the guard tree that this cell is, or FROE_NONE */
     float growth;           /**< fragmentation by the cuts so far: see density.c */
     uint32_t barren;        /**< cuts in a row that left nearly all fragments in this cell */
+    uint32_t tried;         /**< load at which refinement was last taken back, here or above: guard/trial.h */
+    bool settled;           /**< refinement is final */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
     split_room room;
 } split_cell;
@@ -45,13 +47,27 @@ typedef enum split_verdict {
     SPLIT_CANCELLED    /**< split_go_on() returned false */
 } split_verdict;
 
+/** What may still be taken back: the subtree of a cell of the guard stage (guard/trial.h). */
+typedef struct split_trial {
+    bool open, by_guard;    /**< by_guard: it begins with guard cuts */
+    uint64_t most;          /**< pieces */
+    split_cell cell;        /**< as it was before, with its fragments in items; */
+    tree_draft_mark before; /**< the draft, */
+    size_t pending;         /**< the number of other cells, */
+    uint32_t deepest;       /**< and two of split_work */
+    uint64_t guarded;
+    ARRAY(split_fragment) items;
+} split_trial;
+
 /** One thread's working state; `scratch` is the builder's, one per worker. */
 typedef struct split_work {
     split_set set;
     ARRAY(split_cell) cells;
     void *scratch;
     base_task *task;
-    uint64_t guarded;     /**< fragments in cells where the guard stage ended, and in its own cuts */
+    uint64_t guarded; /**< fragments in cells where the guard stage ended, and in its own cuts */
+    uint64_t allowed; /**< sum of `most` over trials that succeeded with guard cuts */
+    split_trial first, later;
     uint32_t crossing[2]; /**< on SPLIT_REFUSE; otherwise FROE_NONE */
     uint32_t deepest;     /**< depth of the deepest cell of the current subtree */
     uint64_t most;        /**< pieces that a subtree grown again may have; 0: the first time, max_fragments counts */
@@ -96,9 +112,11 @@ typedef struct split_job {
                                         method's choice */
     const split_guard_tree *guard; /**< NULL: no guard stage */
     const split_lowest_nodes *lowest; /**< with guard */
+    const uint32_t *guard_leaves;     /**< below every guard node: refinement is on trial (guard/trial.h); or NULL */
     double span;                      /**< share of the task's progress */
     const tree_meta *meta;
     double *guard_fragments; /**< receives the sum of split_work.guarded, before meta is read; may be NULL */
+    double *guard_allowed;   /**< and that of split_work.allowed; may be NULL */
     num_stage first;         /**< where predicates start: NUM_FILTER, later ones for tests */
     froe_diagnostic *diag;
 } split_job;

@@ -76,6 +76,20 @@ void draft_leaf(tree_draft *draft, uint32_t node, uint8_t flags) {
     draft->nodes.data[node] = (tree_node){.type = TREE_LEAF, .flags = flags};
 }
 
+tree_draft_mark draft_mark(const tree_draft *draft) {
+    return (tree_draft_mark){draft->nodes.count, draft->cuts.count, draft->pieces.count, draft->bounds.count,
+                             draft->normals.count};
+}
+
+void draft_cut_back(tree_draft *draft, const tree_draft_mark *mark, uint32_t node) {
+    draft->nodes.count = mark->nodes;
+    draft->cuts.count = mark->cuts;
+    draft->pieces.count = mark->pieces;
+    draft->bounds.count = mark->bounds;
+    draft->normals.count = mark->normals;
+    draft->nodes.data[node] = (tree_node){0};
+}
+
 froe_status draft_list(tree_draft *draft, uint32_t node) {
     tree_node *n = draft->nodes.data + node;
     uint32_t first = (uint32_t)draft->pieces.count;

@@ -40,6 +40,14 @@ froe_status draft_list(tree_draft *draft, uint32_t node);
  * `count` ring entries as in tree.h, nodes numbered as said above (+ outer). */
 froe_status draft_piece(tree_draft *draft, uint32_t node, uint32_t object, const uint32_t *ring, uint32_t count);
 
+/** How much of a draft there is. */
+typedef struct tree_draft_mark {
+    size_t nodes, cuts, pieces, bounds, normals;
+} tree_draft_mark;
+tree_draft_mark draft_mark(const tree_draft *draft);
+/** Removes what was added since the mark, all of it below `node`, which was not finished then and is not again. */
+void draft_cut_back(tree_draft *draft, const tree_draft_mark *mark, uint32_t node);
+
 /** A tree without arrays, which holds the scene; to be filled and finished. FROE_E_MEMORY. */
 froe_status draft_shell(const froe_allocator *alloc, froe_scene *scene, const tree_meta *meta, froe_tree **out);
 
