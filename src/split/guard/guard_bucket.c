@@ -336,6 +336,7 @@ froe_status guard_bucket_scene(guard_worker *w, const split_grid_boxes *grid_box
     if (!status) status = count_guards(&b);
     if (status || (b.sums[0] > w->plan->k && shrinks(&b, &whole, b.sums[0]))) return status;
     *count = b.sums[0];
+    /* all guards of the scene are counted: the cells are split, and the guards that go on are written down */
     guard_item item = {.side = GUARD_INPUT, .count = b.sums[0]};
     guard_cube cube;
     status = guard_push(w, NULL, &item, &grid_boxes->root);

@@ -102,6 +102,8 @@ static froe_status plant_scene(building *b, const split_grid_boxes *grid_boxes) 
     return status ? status : plant(b, b->guards.points, b->guards.count);
 }
 
+/* ---- jobs */
+
 /* Does a job with the worker's nodes from `origin` on. */
 static froe_status do_job(building *b, tree_worker *own, guard_nodes *nodes, uint32_t origin, guard_item item,
                           const guard_cube *cube) {
