@@ -53,41 +53,30 @@ int cli_fail_unknown(const char *what, const char *name, const char *meant, cons
     return cli_fail(CLI_USE, NULL, "There is no %s '%s'. Did you mean '%s'? %s", what, name, meant, sentence);
 }
 
-/* Is the object named already, as such or as "segment 17: "? */
-static bool names_object(const char *sentence) {
-    for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
-        const char *name = froe_kind_name((froe_kind)kind);
-        const size_t length = strlen(name);
-        if (strncmp(sentence, name, length) == 0 && sentence[length] == ' ') return true;
-    }
-    return strstr(sentence, "object ") != NULL;
-}
-
-/* "object 17, corner 2: ", as far as it is known and the sentence does not name it already. */
-static void place(char *out, size_t size, const froe_diagnostic *diag, const char *sentence) {
-    *out = '\0';
-    if (diag->object == FROE_NONE || names_object(sentence)) return;
-    if (diag->corner == FROE_NONE)
-        snprintf(out, size, "object %u: ", diag->object);
-    else
-        snprintf(out, size, "object %u, corner %u: ", diag->object, diag->corner);
-}
-
-/* The library names a file by the end of its path. A message that begins with it, as readers' do: what comes after. */
-static const char *without_file(const char *sentence, const char *file) {
-    const char *end = support_short(file);
-    const size_t length = strlen(end);
-    return strncmp(sentence, end, length) == 0 && strncmp(sentence + length, ": ", 2) == 0 ? sentence + length + 2
-                                                                                           : sentence;
-}
-
 int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag) {
     const int code = (unsigned)status < FROE_STATUS_COUNT ? codes[status][stage] : CLI_USE;
     if (!diag || diag->status != status || !diag->message[0])
         return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));
-    const char *sentence = file ? without_file(diag->message, file) : diag->message;
-    char where[64];
-    place(where, sizeof where, diag, sentence);
+    const char *sentence = diag->message;
+    if (file) { /* The library names a file by the end of its path. Messages of readers begin with it. */
+        const char *end = support_short(file);
+        const size_t length = strlen(end);
+        if (strncmp(sentence, end, length) == 0 && strncmp(sentence + length, ": ", 2) == 0) sentence += length + 2;
+    }
+    /* The sentence may name the object already, as such or as "segment 17: ". */
+    bool named = strstr(sentence, "object ") != NULL;
+    for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
+        const char *name = froe_kind_name((froe_kind)kind);
+        const size_t length = strlen(name);
+        named = named || (strncmp(sentence, name, length) == 0 && sentence[length] == ' ');
+    }
+    char where[64] = ""; /* "object 17, corner 2: ", as far as it is known */
+    if (diag->object != FROE_NONE && !named) {
+        if (diag->corner == FROE_NONE)
+            snprintf(where, sizeof where, "object %u: ", diag->object);
+        else
+            snprintf(where, sizeof where, "object %u, corner %u: ", diag->object, diag->corner);
+    }
     if (status == FROE_E_OPTIONS && stage != CLI_READING && sentence == diag->message)
         file = NULL; /* the command line is wrong, not the file */
     return cli_fail(code, file, "%s%s", where, sentence);

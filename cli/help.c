@@ -48,15 +48,6 @@ static void print_entry(FILE *out, const char *label, const char *help) {
     cli_wrap(out, help, strlen(help), at, OPTION_COLUMN);
 }
 
-static void print_part(FILE *out, const cli_part *part) {
-    fprintf(out, "\n%s:\n", part->title);
-    for (const cli_option *option = part->options; option->type; option++) {
-        char label[64];
-        option_label(option, label, sizeof label);
-        print_entry(out, label, option->help);
-    }
-}
-
 /* "SCENE [-o TREE] [options]": operands, then options that must be there. */
 static void synopsis(FILE *out, const cli_command *command) {
     for (const cli_part *part = command->parts; part->title; part++)
@@ -111,19 +102,22 @@ void cli_help(FILE *out) {
     each_exit(out, print_entry);
 }
 
-static void print_examples(FILE *out, const char *examples) {
-    fputs("\nExamples:\n", out);
-    for (const char *line = examples; *line; line += strcspn(line, "\n") + 1)
-        fprintf(out, "  %.*s\n", (int)strcspn(line, "\n"), line);
-}
-
 void cli_help_command(FILE *out, const cli_command *command) {
     fprintf(out, "froe %s: %s\n\nUsage: froe %s", command->name, command->summary, command->name);
     synopsis(out, command);
     fputc('\n', out);
     each_paragraph(out, command->about, print_paragraph);
-    for (const cli_part *part = command->parts; part->title; part++) print_part(out, part);
-    print_examples(out, command->examples);
+    for (const cli_part *part = command->parts; part->title; part++) {
+        fprintf(out, "\n%s:\n", part->title);
+        for (const cli_option *option = part->options; option->type; option++) {
+            char label[64];
+            option_label(option, label, sizeof label);
+            print_entry(out, label, option->help);
+        }
+    }
+    fputs("\nExamples:\n", out);
+    for (const char *line = command->examples; *line; line += strcspn(line, "\n") + 1)
+        fprintf(out, "  %.*s\n", (int)strcspn(line, "\n"), line);
 }
 
 /* ----------------------------------------------------------------- manual -- */
@@ -156,20 +150,6 @@ static void roff_entry(FILE *out, const char *label, const char *help) {
     fputc('\n', out);
 }
 
-static void roff_title(FILE *out, const cli_command *command) {
-    char upper[32] = "FROE", name[32] = "froe";
-    if (command) {
-        snprintf(name, sizeof name, "froe-%s", command->name);
-        for (size_t i = 0; name[i]; i++) upper[i] = (char)toupper((unsigned char)name[i]), upper[i + 1] = '\0';
-    }
-    fprintf(out, ".TH %s 1 \"\" \"froe %s\" \"User Commands\"\n.SH NAME\n", upper, froe_version());
-    put_roff(out, name, strlen(name));
-    const char *summary = command ? command->summary : "small, exact binary space partitions";
-    fputs(" \\- ", out);
-    put_roff(out, summary, strlen(summary));
-    fputs("\n.SH SYNOPSIS\n", out);
-}
-
 static void roff_exits(FILE *out) {
     fputs(".SH EXIT STATUS\n", out);
     each_exit(out, roff_entry);
@@ -196,22 +176,28 @@ static void manual_of_command(FILE *out, const cli_command *command) {
     fputs(".fi\n.SH SEE ALSO\n.BR froe (1)\n", out);
 }
 
-static void manual_of_all(FILE *out) {
+void cli_manual(FILE *out, const cli_command *command) {
+    char upper[32] = "FROE", name[32] = "froe";
+    const char *summary = command ? command->summary : "small, exact binary space partitions";
+    if (command) {
+        snprintf(name, sizeof name, "froe-%s", command->name);
+        for (size_t i = 0; name[i]; i++) upper[i] = (char)toupper((unsigned char)name[i]), upper[i + 1] = '\0';
+    }
+    fprintf(out, ".TH %s 1 \"\" \"froe %s\" \"User Commands\"\n.SH NAME\n", upper, froe_version());
+    put_roff(out, name, strlen(name));
+    fputs(" \\- ", out);
+    put_roff(out, summary, strlen(summary));
+    fputs("\n.SH SYNOPSIS\n", out);
+    if (command) {
+        manual_of_command(out, command);
+        return;
+    }
     fputs("\\fBfroe\\fR COMMAND [options]\n.SH DESCRIPTION\n", out);
     put_roff(out, introduction, strlen(introduction));
     fputs("\n.SH COMMANDS\n", out);
-    const cli_command *command;
     for (size_t i = 0; (command = cli_command_at(i)) != NULL; i++) roff_entry(out, command->name, command->summary);
     roff_exits(out);
     fputs(".SH SEE ALSO\n", out);
     for (size_t i = 0; (command = cli_command_at(i)) != NULL; i++)
         fprintf(out, ".BR froe\\-%s (1)%s\n", command->name, cli_command_at(i + 1) ? "," : "");
-}
-
-void cli_manual(FILE *out, const cli_command *command) {
-    roff_title(out, command);
-    if (command)
-        manual_of_command(out, command);
-    else
-        manual_of_all(out);
 }

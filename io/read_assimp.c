@@ -60,19 +60,6 @@ static froe_status corrupt(model *w, const char *sentence) {
     return support_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(w->sink->path), sentence);
 }
 
-/* The vertices of a mesh in space: m holds the rows of a 3 x 4 matrix. */
-static froe_status transform(model *w, const struct aiMesh *mesh, const double *m) {
-    if (!array_reserve(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3))
-        return support_fail_memory(w->sink->diag);
-    double *to = w->points.data;
-    for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
-        const double p[3] = {mesh->mVertices[i].x, mesh->mVertices[i].y, mesh->mVertices[i].z};
-        for (int k = 0; k < 3; ++k, ++to)
-            *to = m[4 * k] * p[0] + m[4 * k + 1] * p[1] + m[4 * k + 2] * p[2] + m[4 * k + 3];
-    }
-    return FROE_OK;
-}
-
 static froe_status add_face(model *w, const struct aiMesh *mesh, const struct aiFace *face) {
     w->corners.count = 0;
     for (unsigned i = 0; i < face->mNumIndices; ++i) {
@@ -133,14 +120,22 @@ static froe_status enter_node_group(model *w, const struct aiNode *node, unsigne
     return array_push(&w->sink->alloc, &w->groups, added) ? FROE_OK : support_fail_memory(w->sink->diag);
 }
 
-/* A mesh without faces is a cloud of points. */
+/* m holds the rows of a 3 x 4 matrix. A mesh without faces is a cloud of points. */
 static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index, const double *m) {
     if (index >= w->scene->mNumMeshes) return corrupt(w, "A node names a mesh that does not exist.");
     const struct aiMesh *mesh = w->scene->mMeshes[index];
     enum { FACES_PER_REPORT = 8192 };
     const bool cloud = !mesh->mNumFaces;
     froe_status status = enter_node_group(w, node, mesh->mMaterialIndex);
-    if (!status) status = transform(w, mesh, m);
+    if (status) return status;
+    if (!array_reserve(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3))
+        return support_fail_memory(w->sink->diag);
+    double *to = w->points.data;
+    for (unsigned i = 0; i < mesh->mNumVertices; ++i) { /* into space */
+        const double p[3] = {mesh->mVertices[i].x, mesh->mVertices[i].y, mesh->mVertices[i].z};
+        for (int k = 0; k < 3; ++k, ++to)
+            *to = m[4 * k] * p[0] + m[4 * k + 1] * p[1] + m[4 * k + 2] * p[2] + m[4 * k + 3];
+    }
     for (unsigned i = 0; i < (cloud ? mesh->mNumVertices : mesh->mNumFaces) && !status; ++i) {
         if (!cloud) w->sink->number = i;
         status =
@@ -184,20 +179,6 @@ static froe_status walk_nodes(model *w) {
 
 /* --------------------------------------------------------------- import -- */
 
-/* "glTF2 Importer" becomes "glTF2 (assimp)". */
-static void set_format(const formats_source *source, formats_sink *sink, const struct aiScene *scene) {
-    char format[48];
-    snprintf(format, sizeof format, "%s", source->extension.text);
-    for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
-        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
-        if (strcmp(scene->mMetaData->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) || entry->mType != AI_AISTRING) continue;
-        snprintf(format, sizeof format, "%.40s", ((const struct aiString *)entry->mData)->data);
-    }
-    char *suffix = strstr(format, " Importer");
-    if (suffix) *suffix = '\0';
-    formats_report_format(sink, "float32", "%s (assimp)", format);
-}
-
 /* assimp reports the exception that ended an import by its text alone. */
 static froe_status refuse_import(const formats_source *source, formats_sink *sink) {
     char reason[160];
@@ -224,7 +205,16 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     model w = {.scene = scene, .sink = sink};
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) /* instances count once: only the progress bar depends on it */
         w.faces += scene->mMeshes[i]->mNumFaces ? scene->mMeshes[i]->mNumFaces : scene->mMeshes[i]->mNumVertices;
-    set_format(source, sink, scene);
+    char format[48];
+    snprintf(format, sizeof format, "%s", source->extension.text);
+    for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
+        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
+        if (strcmp(scene->mMetaData->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) || entry->mType != AI_AISTRING) continue;
+        snprintf(format, sizeof format, "%.40s", ((const struct aiString *)entry->mData)->data);
+    }
+    char *suffix = strstr(format, " Importer"); /* "glTF2 Importer" becomes "glTF2 (assimp)" */
+    if (suffix) *suffix = '\0';
+    formats_report_format(sink, "float32", "%s (assimp)", format);
     w.linear = !strncmp(sink->report.format, "glTF", 4);
     sink->unit = "face";
     sink->report.layers = 1;

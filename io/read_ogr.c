@@ -65,20 +65,6 @@ static const char *text_of(OGRFeatureH feature, int field) {
     return field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field) ? OGR_F_GetFieldAsString(feature, field) : "";
 }
 
-/* OGR keeps the text of a number in one place per feature: names are copied before the next is asked. */
-static froe_status enter_group(map *m, OGRFeatureH feature, const io_sides *sides) {
-    char name[256], material[256];
-    snprintf(name, sizeof name, "%s", text_of(feature, m->name_field));
-    if (!*name && !sides->polygons) return FROE_OK;
-    if (!*name) snprintf(name, sizeof name, "%s", text_of(feature, m->id_field));
-    if (!*name) snprintf(name, sizeof name, "%lld", (long long)OGR_F_GetFID(feature));
-    snprintf(material, sizeof material, "%s", text_of(feature, m->layer_field));
-    froe_group group = {.name = name, .material = *material ? material : m->layer_name};
-    group.left = sides->left ? name : NULL;
-    group.right = sides->right ? name : NULL;
-    return formats_sink_group(m->sink, &group);
-}
-
 static froe_status add_feature(map *m, OGRFeatureH feature) {
     formats_sink *sink = m->sink;
     GIntBig id = OGR_F_GetFID(feature);
@@ -98,7 +84,18 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
     sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
     io_sides sides;
     status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
-    if (!status) status = enter_group(m, feature, &sides);
+    /* OGR keeps the text of a number in one place per feature: names are copied before the next is asked. */
+    char name[256], material[256];
+    snprintf(name, sizeof name, "%s", text_of(feature, m->name_field));
+    if (!status && (*name || sides.polygons)) {
+        if (!*name) snprintf(name, sizeof name, "%s", text_of(feature, m->id_field));
+        if (!*name) snprintf(name, sizeof name, "%lld", (long long)id);
+        snprintf(material, sizeof material, "%s", text_of(feature, m->layer_field));
+        froe_group group = {.name = name, .material = *material ? material : m->layer_name};
+        group.left = sides.left ? name : NULL;
+        group.right = sides.right ? name : NULL;
+        status = formats_sink_group(sink, &group);
+    }
     if (!status) status = io_shapes_add(sink, &m->shapes, geometry);
     if (curved) OGR_G_DestroyGeometry(geometry);
     return status;

@@ -63,18 +63,18 @@ typedef struct place {
     char *base;
 } place;
 
-static place find_name(const cli_part *parts, void *args, const char *name, size_t length) {
+/* The option of a word "--name", "--name=value", "-n" or "-nvalue". `value` is what is attached to it, or NULL. */
+static place find_option(const cli_part *parts, void *args, const char *word, const char **value) {
+    const bool is_long = word[1] == '-';
+    const char *name = word + 1 + is_long;
+    const size_t length = is_long ? strcspn(name, "=") : 1;
+    *value = name[length] ? name + length + is_long : NULL;
     for (const cli_part *part = parts; part->title; part++)
-        for (const cli_option *option = part->options; option->type; option++)
-            if (option->name && strlen(option->name) == length && memcmp(option->name, name, length) == 0)
-                return (place){option, (char *)args + part->at};
-    return (place){0};
-}
-
-static place find_letter(const cli_part *parts, void *args, char letter) {
-    for (const cli_part *part = parts; part->title; part++)
-        for (const cli_option *option = part->options; option->type; option++)
-            if (option->letter && option->letter == letter) return (place){option, (char *)args + part->at};
+        for (const cli_option *option = part->options; option->type; option++) {
+            const bool same_name =
+                option->name && strlen(option->name) == length && !memcmp(option->name, name, length);
+            if (is_long ? same_name : option->letter == *name) return (place){option, (char *)args + part->at};
+        }
     return (place){0};
 }
 
@@ -159,36 +159,13 @@ static int set_choice(const cli_option *option, int *field, const char *text) {
     return refuse_value(option, text, wanted);
 }
 
-static int add_word(char **field, const char *text) {
-    const size_t before = *field ? strlen(*field) + 1 : 0, length = strlen(text);
-    char *joined = realloc(*field, before + length + 1);
-    if (!joined) return cli_fail_memory();
-    if (before) joined[before - 1] = ' ';
-    memcpy(joined + before, text, length + 1);
-    *field = joined;
-    return 0;
-}
-
-/* Where a file is to be named, nothing is no name; other texts may be empty. */
-static bool names_a_file(const cli_option *option) {
+static int set_text(const cli_option *option, const char **field, const char *text) {
+    /* Where a file is to be named, nothing is no name; other texts may be empty. */
     static const char *const files[] = {"TREE", "FILE", "CSV", "DIR", "SCENE"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-        if (!strcmp(option->value, files[i])) return true;
-    return false;
-}
-
-static int set_text(const cli_option *option, const char **field, const char *text) {
-    if (!*text && names_a_file(option)) return refuse_value(option, text, "the name of a file");
+        if (!*text && !strcmp(option->value, files[i])) return refuse_value(option, text, "the name of a file");
     *field = text;
     return 0;
-}
-
-static int add_text(const cli_option *option, cli_texts *field, const char *text) {
-    const size_t most = sizeof field->at / sizeof *field->at;
-    if (field->count == most) return cli_fail(CLI_USE, NULL, "%s: There are more than %zu.", option->value, most);
-    const int code = set_text(option, &field->at[field->count], text);
-    field->count += !code;
-    return code;
 }
 
 static int set_value(place found, const char *text) {
@@ -196,8 +173,25 @@ static int set_value(place found, const char *text) {
     switch (found.option->type) {
     case CLI_TEXT:
         return set_text(found.option, field, text);
-    case CLI_WORDS:
-        return add_word(field, text);
+    case CLI_TEXTS: {
+        cli_texts *list = field;
+        const size_t most = sizeof list->at / sizeof *list->at;
+        if (list->count == most)
+            return cli_fail(CLI_USE, NULL, "%s: There are more than %zu.", found.option->value, most);
+        const int code = set_text(found.option, &list->at[list->count], text);
+        list->count += !code;
+        return code;
+    }
+    case CLI_WORDS: {
+        char **words = field;
+        const size_t before = *words ? strlen(*words) + 1 : 0, length = strlen(text);
+        char *joined = realloc(*words, before + length + 1);
+        if (!joined) return cli_fail_memory();
+        if (before) joined[before - 1] = ' ';
+        memcpy(joined + before, text, length + 1);
+        *words = joined;
+        return 0;
+    }
     case CLI_WHOLE:
         return set_whole(found.option, field, text);
     case CLI_REAL: {
@@ -211,8 +205,6 @@ static int set_value(place found, const char *text) {
         return set_choice(found.option, field, text);
     case CLI_REALS:
         return set_reals(found.option, field, text);
-    case CLI_TEXTS:
-        return add_text(found.option, field, text);
     case CLI_FLAG:
     case CLI_END:
         break;
@@ -222,26 +214,6 @@ static int set_value(place found, const char *text) {
 }
 
 /* ------------------------------------------------------------------ words -- */
-
-/* The words not read yet. */
-typedef struct reader {
-    const cli_part *parts;
-    void *args;
-    int argc, next, operands;
-    char **argv;
-} reader;
-
-/* Sets `option`, whose value is `attached` or else the next word. */
-static int take_value(reader *r, place found, const char *attached) {
-    const cli_option *option = found.option;
-    if (option->type == CLI_FLAG) {
-        if (attached) return cli_fail(CLI_USE, NULL, "--%s: It takes no value.", option->name);
-        return set_value(found, NULL);
-    }
-    if (!attached && r->next == r->argc)
-        return cli_fail(CLI_USE, NULL, "--%s: It needs a value, %s.", option->name, option->value);
-    return set_value(found, attached ? attached : r->argv[r->next++]);
-}
 
 static bool is_set(const cli_option *option, const char *base) {
     const void *field = base + option->at;
@@ -274,31 +246,31 @@ static int check_required(const cli_part *parts, void *args) {
     return 0;
 }
 
-/* An option "--name", "--name=value", "-n" or "-nvalue". */
-static int take_option(reader *r, const char *word) {
-    const bool is_long = word[1] == '-';
-    const size_t length = is_long ? 2 + strcspn(word + 2, "=") : 2;
-    const place found =
-        is_long ? find_name(r->parts, r->args, word + 2, length - 2) : find_letter(r->parts, r->args, word[1]);
-    if (!found.option) return refuse_unknown(r->parts, word);
-    return take_value(r, found, word[length] ? word + length + is_long : NULL);
-}
-
 int cli_parse(const cli_part *parts, int argc, char **argv, void *args) {
-    reader r = {.parts = parts, .args = args, .argc = argc, .argv = argv};
     bool only_operands = false;
-    while (r.next < argc) {
-        const char *word = argv[r.next++];
-        int code = 0;
+    int next = 0, operands = 0;
+    while (next < argc) {
+        const char *word = argv[next++], *value = word;
+        place found;
         if (only_operands || word[0] != '-' || !word[1]) {
-            const place found = find_operand(parts, args, r.operands++);
-            code =
-                found.option ? set_value(found, word) : cli_fail(CLI_USE, NULL, "'%s' is one operand too many.", word);
+            found = find_operand(parts, args, operands++);
+            if (!found.option) return cli_fail(CLI_USE, NULL, "'%s' is one operand too many.", word);
         } else if (strcmp(word, "--") == 0) {
             only_operands = true;
+            continue;
         } else {
-            code = take_option(&r, word);
+            found = find_option(parts, args, word, &value);
+            if (!found.option) return refuse_unknown(parts, word);
+            const bool is_flag = found.option->type == CLI_FLAG;
+            if (is_flag && value) return cli_fail(CLI_USE, NULL, "--%s: It takes no value.", found.option->name);
+            if (!is_flag && !value) { /* it is the next word */
+                if (next == argc)
+                    return cli_fail(CLI_USE, NULL, "--%s: It needs a value, %s.", found.option->name,
+                                    found.option->value);
+                value = argv[next++];
+            }
         }
+        const int code = set_value(found, value);
         if (code) return code;
     }
     return ((cli_common *)args)->help ? 0 : check_required(parts, args);

@@ -5,14 +5,16 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-static int read_lines(FILE *file, const char *path, cli_order *out) {
+int cli_read_order(const char *path, cli_order *out) {
     const froe_allocator alloc = support_allocator(NULL);
     ARRAY(uint32_t) ids = {0};
     char line[64];
     int code = 0;
+    *out = (cli_order){NULL, 0};
+    FILE *file = fopen(path, "r");
+    if (!file) return cli_fail_file(CLI_INPUT, path, "read");
     for (size_t number = 1; !code && fgets(line, sizeof line, file); number++) {
         const bool whole = strchr(line, '\n') || feof(file);
         line[strcspn(line, " \t\r\n")] = 0;
@@ -27,19 +29,11 @@ static int read_lines(FILE *file, const char *path, cli_order *out) {
             code = cli_fail_memory();
     }
     if (!code && ferror(file)) code = cli_fail_file(CLI_INPUT, path, "read");
-    *out = (cli_order){ids.data, ids.count};
-    return code;
-}
-
-int cli_read_order(const char *path, cli_order *out) {
-    *out = (cli_order){NULL, 0};
-    FILE *file = fopen(path, "r");
-    if (!file) return cli_fail_file(CLI_INPUT, path, "read");
-    int code = read_lines(file, path, out);
     fclose(file);
-    if (!code && !out->count) code = cli_fail(CLI_INPUT, path, "The file holds no object ids.");
-    if (!code) return 0;
-    free(out->ids);
-    *out = (cli_order){NULL, 0};
+    if (!code && !ids.count) code = cli_fail(CLI_INPUT, path, "The file holds no object ids.");
+    if (code)
+        array_free(&alloc, &ids);
+    else
+        *out = (cli_order){ids.data, ids.count};
     return code;
 }

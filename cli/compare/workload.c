@@ -11,7 +11,7 @@
 
 typedef enum query_kind { POINT, WINDOW, RAY, APPROXIMATE } query_kind;
 
-typedef struct run {
+typedef struct workload_state {
     const workload *load;
     const froe_scene *scene;
     froe_query *query;
@@ -20,12 +20,12 @@ typedef struct run {
     double side[FROE_MAX_DIM]; /* of the scene */
     uint64_t key, draws;       /* of random numbers */
     uint64_t *nodes;           /* by each query */
-} run;
+} workload_state;
 
 /* ------------------------------------------------------------------- drawing -- */
 
 /* A random number in [0, 1) (Steele, Lea and Flood 2014: splitmix64). */
-static double draw_workload(run *r) {
+static double draw_workload(workload_state *r) {
     uint64_t x = r->key + ++r->draws * 0x9E3779B97F4A7C15u;
     x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
     x = (x ^ x >> 27) * 0x94D049BB133111EBu;
@@ -33,7 +33,7 @@ static double draw_workload(run *r) {
 }
 
 /* A place near a corner of an object, `away` sides of the scene from it at most. */
-static void draw_place(run *r, double away, double *out) {
+static void draw_place(workload_state *r, double away, double *out) {
     const uint32_t object = (uint32_t)(draw_workload(r) * (double)froe_scene_object_count(r->scene));
     const double *corner = part_corner(r->scene, object, (uint32_t)(draw_workload(r) * 8));
     for (int k = 0; k < r->dim; k++) out[k] = corner[k] + away * (2 * draw_workload(r) - 1) * r->side[k];
@@ -41,7 +41,7 @@ static void draw_place(run *r, double away, double *out) {
 
 /* -------------------------------------------------------------------- asking -- */
 
-static froe_status ask_range(run *r, double share, double eps, uint64_t *found) {
+static froe_status ask_range(workload_state *r, double share, double eps, uint64_t *found) {
     double points[2 * FROE_MAX_DIM];
     froe_range window = froe_range_defaults();
     froe_list list;
@@ -58,7 +58,7 @@ static froe_status ask_range(run *r, double share, double eps, uint64_t *found) 
     return status;
 }
 
-static froe_status ask_workload(run *r, query_kind kind, double eps, uint64_t i, uint64_t *found) {
+static froe_status ask_workload(workload_state *r, query_kind kind, double eps, uint64_t i, uint64_t *found) {
     double place[FROE_MAX_DIM], direction[FROE_MAX_DIM];
     froe_list list;
     froe_hit hit;
@@ -95,7 +95,7 @@ static int by_value(const void *a, const void *b) {
 
 /* Counts first, then times: those of this thread, which runs all queries, so that other work of the machine counts
  * less. Counting ends early when the time is over or the program is interrupted. */
-static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe_status *status) {
+static json_t *measure(workload_state *r, query_kind kind, double eps, uint64_t count, froe_status *status) {
     froe_query_stats sum = {.queries = 0};
     uint64_t found = 0, asked = 0;
     const double started = cli_thread_seconds();
@@ -120,7 +120,7 @@ static json_t *measure(run *r, query_kind kind, double eps, uint64_t count, froe
     return out;
 }
 
-static json_t *measure_all(run *r, froe_status *status) {
+static json_t *measure_all(workload_state *r, froe_status *status) {
     json_t *out = json_object(), *by_eps = json_array();
     const uint64_t count = r->load->count;
     json_object_set_new(out, "point", measure(r, POINT, 0, count, status));
@@ -141,7 +141,7 @@ static json_t *measure_all(run *r, froe_status *status) {
 }
 
 json_t *workload_run(const froe_tree *tree, const workload *load, froe_status *status, froe_diagnostic *diag) {
-    run r = {.load = load, .scene = froe_tree_scene(tree), .diag = diag};
+    workload_state r = {.load = load, .scene = froe_tree_scene(tree), .diag = diag};
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     r.dim = froe_scene_dim(r.scene);
     if (!froe_scene_bounds(r.scene, lo, hi)) return json_object();

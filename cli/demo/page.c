@@ -27,42 +27,17 @@ static const char *const exactness_keys[] = {"predicates.calls",
 static const char *const method_keys[] = {"method", "fragments", "pieces_per_object", "height",
                                           "nodes",  "bytes",     "seconds.build",     NULL};
 
-static bool is_step(const demo_step *step, const char *command) {
-    return strncmp(step->command, command, strlen(command)) == 0;
-}
-
 /* The report of the first step of that sort. */
 static const json_t *report_of(const demo_scene *scene, const demo_result *result, const char *command) {
     for (int i = 0; scene->steps[i].command; i++)
-        if (is_step(&scene->steps[i], command)) return result->report[i];
+        if (strncmp(scene->steps[i].command, command, strlen(command)) == 0) return result->report[i];
     return NULL;
-}
-
-static void put_picture(FILE *out, const demo_step *step, const char *title) {
-    const char *name = strstr(step->command, "-o ");
-    if (!name) return;
-    name += 3;
-    const int length = (int)strcspn(name, " ");
-    fprintf(out, "<figure><a href=\"%.*s\"><img src=\"%.*s\" loading=\"lazy\" alt=\"", length, name, length, name);
-    html_text(out, title);
-    fputs("\"></a><figcaption>", out);
-    html_text(out, step->caption);
-    fputs("</figcaption></figure>\n", out);
 }
 
 static void put_card(FILE *out, const char *title, const json_t *report, const char *const *keys) {
     fprintf(out, "<div class=\"card\"><h3>%s</h3>\n", title);
     html_pairs(out, report, keys);
     fputs("</div>\n", out);
-}
-
-static void put_methods(FILE *out, const json_t *methods) {
-    fputs("<div class=\"card wide\"><h3>All methods, same scene, same seed</h3>\n<table class=\"columns\">\n", out);
-    html_headings(out, method_keys);
-    size_t i;
-    json_t *report;
-    json_array_foreach((json_t *)methods, i, report) html_row(out, report, method_keys);
-    fputs("</table></div>\n", out);
 }
 
 static void put_cards(FILE *out, const demo_scene *scene, const demo_result *result) {
@@ -77,48 +52,52 @@ static void put_cards(FILE *out, const demo_scene *scene, const demo_result *res
         html_bounds(out, bounds);
         fputs("</div>\n", out);
     }
-    put_methods(out, result->methods);
-    fputs("</div>\n", out);
+    fputs("<div class=\"card wide\"><h3>All methods, same scene, same seed</h3>\n<table class=\"columns\">\n", out);
+    html_headings(out, method_keys);
+    size_t i;
+    json_t *report;
+    json_array_foreach(result->methods, i, report) html_row(out, report, method_keys);
+    fputs("</table></div>\n</div>\n", out);
 }
 
-static void put_commands(FILE *out, const demo_scene *scene) {
+static void put_scene(FILE *out, const demo_scene *scene, const demo_result *result) {
+    static const struct {
+        const char *key, *after;
+    } figures[] = {
+        {"objects", "objects"}, {"fragments", "pieces"}, {"pieces_per_object", "per object"}, {"height", "levels"}};
+    const json_t *build = report_of(scene, result, "build ");
+    fputs("<section>\n<h2>", out);
+    html_text(out, scene->title);
+    fputs("</h2>\n<p class=\"figures\">", out);
+    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++) {
+        fputs(i ? " <b>" : "<b>", out);
+        html_value(out, json_object_get(build, figures[i].key));
+        fprintf(out, "</b> %s", figures[i].after);
+    }
+    if (json_is_true(json_object_get(report_of(scene, result, "check "), "ok"))) fputs(" <em>audit passed</em>", out);
+    fputs("</p>\n<p>", out);
+    html_text(out, scene->text);
+    fputs("</p>\n<div class=\"pictures\">\n", out);
+    for (const demo_step *step = scene->steps; step->command; step++) {
+        const char *name = step->caption ? strstr(step->command, "-o ") : NULL;
+        if (!name) continue;
+        name += 3;
+        const int length = (int)strcspn(name, " ");
+        fprintf(out, "<figure><a href=\"%.*s\"><img src=\"%.*s\" loading=\"lazy\" alt=\"", length, name, length, name);
+        html_text(out, scene->title);
+        fputs("\"></a><figcaption>", out);
+        html_text(out, step->caption);
+        fputs("</figcaption></figure>\n", out);
+    }
+    fputs("</div>\n", out);
+    put_cards(out, scene, result);
     fputs("<p>The same again, in this folder:</p>\n<pre>", out);
     for (const demo_step *step = scene->steps; step->command; step++) {
         fputs("froe ", out);
         html_text(out, step->command);
         fputc('\n', out);
     }
-    fputs("</pre>\n", out);
-}
-
-static void put_headline(FILE *out, const json_t *build, const json_t *check) {
-    fputs("<p class=\"figures\"><b>", out);
-    html_value(out, json_object_get(build, "objects"));
-    fputs("</b> objects <b>", out);
-    html_value(out, json_object_get(build, "fragments"));
-    fputs("</b> pieces <b>", out);
-    html_value(out, json_object_get(build, "pieces_per_object"));
-    fputs("</b> per object <b>", out);
-    html_value(out, json_object_get(build, "height"));
-    fputs("</b> levels", out);
-    if (json_is_true(json_object_get(check, "ok"))) fputs(" <em>audit passed</em>", out);
-    fputs("</p>\n", out);
-}
-
-static void put_scene(FILE *out, const demo_scene *scene, const demo_result *result) {
-    fputs("<section>\n<h2>", out);
-    html_text(out, scene->title);
-    fputs("</h2>\n", out);
-    put_headline(out, report_of(scene, result, "build "), report_of(scene, result, "check "));
-    fputs("<p>", out);
-    html_text(out, scene->text);
-    fputs("</p>\n<div class=\"pictures\">\n", out);
-    for (const demo_step *step = scene->steps; step->command; step++)
-        if (step->caption) put_picture(out, step, scene->title);
-    fputs("</div>\n", out);
-    put_cards(out, scene, result);
-    put_commands(out, scene);
-    fputs("<p class=\"credit\">", out);
+    fputs("</pre>\n<p class=\"credit\">", out);
     html_text(out, scene->credit);
     fputs("</p>\n</section>\n", out);
 }

@@ -46,18 +46,15 @@ double plot_axis_at(const plot_axis *axis, double value) {
     return axis->from + share * (axis->to - axis->from);
 }
 
-static size_t linear_ticks(const plot_axis *axis, double *out) {
-    const double step = step_of(axis), first = ceil(axis->lo / step - 1e-9);
-    size_t count = 0;
-    for (double i = first; count < PLOT_TICKS && i * step <= axis->hi + 1e-9 * step; i++) out[count++] = i * step;
-    return count;
-}
-
 size_t plot_axis_ticks(const plot_axis *axis, double *out) {
-    if (!axis->log) return linear_ticks(axis, out);
+    size_t count = 0;
+    if (!axis->log) {
+        const double step = step_of(axis), first = ceil(axis->lo / step - 1e-9);
+        for (double i = first; count < PLOT_TICKS && i * step <= axis->hi + 1e-9 * step; i++) out[count++] = i * step;
+        return count;
+    }
     const double decades = log10(axis->hi / axis->lo);
     const int each = decades < 2.5 ? 3 : 1, stride = decades < 9 ? 1 : 3;
-    size_t count = 0;
     for (int e = (int)floor(log10(axis->lo)); e <= (int)ceil(log10(axis->hi)); e++)
         for (int i = 0; i < each && e % stride == 0; i++) {
             const double value = (i == 0 ? 1 : i == 1 ? 2 : 5) * pow(10, e);

@@ -22,19 +22,14 @@ static void put_whole(FILE *out, json_int_t value) {
     }
 }
 
-static void put_real(FILE *out, double value) {
-    const double size = value < 0 ? -value : value;
-    if (size < 1e15 && (size >= 1000 || value == (double)(json_int_t)value))
-        put_whole(out, (json_int_t)value);
-    else
-        fprintf(out, "%.4g", value);
-}
-
 void html_value(FILE *out, const json_t *value) {
+    const double number = json_number_value(value), size = number < 0 ? -number : number;
     if (json_is_integer(value))
         put_whole(out, json_integer_value(value));
+    else if (json_is_real(value) && size < 1e15 && (size >= 1000 || number == (double)(json_int_t)number))
+        put_whole(out, (json_int_t)number);
     else if (json_is_real(value))
-        put_real(out, json_real_value(value));
+        fprintf(out, "%.4g", number);
     else if (json_is_string(value))
         html_text(out, json_string_value(value));
     else if (json_is_boolean(value))

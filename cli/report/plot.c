@@ -157,35 +157,27 @@ static bool place_on_plot(const plot *p, const plot_series *s, size_t i, double 
     return true;
 }
 
-static void put_lines(plot *p, size_t series) {
-    const plot_series *s = p->series + series;
-    double x, y;
-    bool joined = false;
-    put_markup(p, "<path d=\"");
-    for (size_t i = 0; i < s->count; i++) {
-        const bool shown = place_on_plot(p, s, i, &x, &y);
-        if (shown) put_pair(p, joined ? "L" : "M", x, y);
-        joined = shown;
-    }
-    put_series_style(p, series, true);
-}
-
-static void put_markers(plot *p, size_t series) {
-    const plot_series *s = p->series + series;
-    double x, y;
-    put_markup(p, "<path d=\"");
-    for (size_t i = 0; i < s->count; i++)
-        if (place_on_plot(p, s, i, &x, &y)) put_marker(p, series, x, y);
-    put_series_style(p, series, false);
-}
-
-static void put_columns(plot *p, size_t series) {
+static void put_series(plot *p, size_t series) {
     const plot_series *s = p->series + series;
     const double each = p->o->column / (double)p->count;
     double x, y;
+    if (p->o->kind == PLOT_LINES) {
+        bool joined = false;
+        put_markup(p, "<path d=\"");
+        for (size_t i = 0; i < s->count; i++) {
+            const bool shown = place_on_plot(p, s, i, &x, &y);
+            if (shown) put_pair(p, joined ? "L" : "M", x, y);
+            joined = shown;
+        }
+        put_series_style(p, series, true);
+    }
     put_markup(p, "<path d=\"");
     for (size_t i = 0; i < s->count; i++) {
         if (!place_on_plot(p, s, i, &x, &y)) continue;
+        if (p->o->kind != PLOT_COLUMNS) {
+            put_marker(p, series, x, y);
+            continue;
+        }
         const double from = s->x[i] - p->o->column / 2 + each * (double)series;
         const double left = plot_axis_at(&p->x, from), right = plot_axis_at(&p->x, from + each);
         put_pair(p, "M", left, p->y.from);
@@ -199,27 +191,19 @@ static void put_columns(plot *p, size_t series) {
 
 /* ---------------------------------------------------------------------- key -- */
 
-/* Width of an entry; letters count by their first bytes. */
-static double entry_width(const char *name) {
-    double width = 26;
-    for (; *name; name++) width += ((unsigned char)*name & 0xC0) != 0x80 ? LETTER : 0;
-    return width;
-}
-
-static bool has_key(const plot *p) {
+/* Lays the key out below the figure; draws it if asked to. Returns its height. A figure of one series, or with a series
+ * that has points but no name, has no key. */
+static double key(plot *p, bool draw) {
     bool named = p->count > 1;
     for (size_t s = 0; s < p->count && named; s++)
         named = !p->series[s].count || (p->series[s].name && *p->series[s].name);
-    return named;
-}
-
-/* Lays the key out below the figure; draws it if asked to. Returns its height. */
-static double key(plot *p, bool draw) {
-    if (!has_key(p)) return 0;
+    if (!named) return 0;
     double x = p->x.from, y = p->o->height + 12;
     for (size_t s = 0; s < p->count; s++) {
         if (!p->series[s].count) continue; /* it only keeps its place among the colours */
-        const double width = entry_width(p->series[s].name);
+        double width = 26;
+        for (const char *c = p->series[s].name; *c; c++) /* letters count by their first bytes */
+            width += ((unsigned char)*c & 0xC0) != 0x80 ? LETTER : 0;
         if (x + width > p->o->width && x > p->x.from) x = p->x.from, y += ROW;
         if (draw) {
             put_markup(p, "<path d=\"");
@@ -252,8 +236,7 @@ void plot_put(FILE *out, const plot_series *series, size_t count, const plot_opt
     size_t points = 0;
     for (size_t s = 0; s < p->count; s++) {
         points += p->series[s].count;
-        if (p->o->kind == PLOT_LINES) put_lines(p, s);
-        p->o->kind == PLOT_COLUMNS ? put_columns(p, s) : put_markers(p, s);
+        put_series(p, s);
     }
     if (!points) put_label(p, (p->x.from + p->x.to) / 2, (p->y.from + p->y.to) / 2, "middle", "", "nothing to show");
     key(p, true);

@@ -170,28 +170,10 @@ static bool is_table(const json_t *value) {
     return json_is_object(json_object_iter_value(json_object_iter((json_t *)value)));
 }
 
-/* A number that was measured needs six digits for reading; --json has them all. */
-static void rounded_text(double value, char *out, size_t size) {
-    if (is_whole(value))
-        cli_number(out, value);
-    else
-        snprintf(out, size, "%.6g", value);
-}
-
-/* Items with blanks between, numbers in full: they are coordinates. */
-static void items_text(const json_t *array, char *out, size_t size) {
-    for (size_t i = 0; i < json_array_size(array); i++) {
-        char number[32] = "";
-        const json_t *item = json_array_get(array, i);
-        if (json_is_number(item)) cli_number(number, json_number_value(item));
-        const size_t used = strlen(out);
-        snprintf(out + used, size - used, "%s%s", i ? " " : "",
-                 json_is_string(item) ? json_string_value(item) : number);
-    }
-}
-
-/* A plain value, or the plain items of an array. */
+/* A plain value, or the plain items of an array with blanks between. A number that was measured needs six digits for
+ * reading, and --json has them all; items are coordinates, with all their digits. */
 static void cell_text(const json_t *value, char *out, size_t size) {
+    const double number = json_number_value(value);
     *out = '\0';
     if (!value || json_is_null(value))
         snprintf(out, size, "-");
@@ -199,12 +181,20 @@ static void cell_text(const json_t *value, char *out, size_t size) {
         snprintf(out, size, "%s", json_string_value(value));
     else if (json_is_integer(value))
         snprintf(out, size, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    else if (json_is_real(value) && is_whole(number))
+        cli_number(out, number);
     else if (json_is_real(value))
-        rounded_text(json_real_value(value), out, size);
+        snprintf(out, size, "%.6g", number);
     else if (json_is_boolean(value))
         snprintf(out, size, "%s", json_is_true(value) ? "yes" : "no");
-    else if (json_is_array(value))
-        items_text(value, out, size);
+    for (size_t i = 0; i < json_array_size(value); i++) {
+        char item_number[32] = "";
+        const json_t *item = json_array_get(value, i);
+        if (json_is_number(item)) cli_number(item_number, json_number_value(item));
+        const size_t used = strlen(out);
+        snprintf(out + used, size - used, "%s%s", i ? " " : "",
+                 json_is_string(item) ? json_string_value(item) : item_number);
+    }
 }
 
 /* "in_cut" reads "in cut"; names of files stay. */
@@ -326,28 +316,23 @@ static void put_text(const json_t *object, int indent, int width) { // NOLINT(mi
     }
 }
 
-/* Values of all levels share one column. */
-static int width_of_report(const json_t *report) {
-    int width = width_of_keys(report);
-    const char *key;
-    json_t *member;
-    json_object_foreach((json_t *)report, key, member) {
-        (void)key;
-        if (!json_is_object(member) || is_table(member)) continue;
-        const int inner = width_of_keys(member) + 2;
-        if (inner > width) width = inner;
-    }
-    return width;
-}
-
 int cli_report(const cli_common *common, const char *headline, json_t *report) {
     if (!report) return cli_fail_memory();
     if (common->json) {
         put_json(report, 0);
         putchar('\n');
     } else if (!common->quiet) {
+        int width = width_of_keys(report); /* values of all levels share one column */
+        const char *key;
+        json_t *member;
+        json_object_foreach(report, key, member) {
+            (void)key;
+            if (!json_is_object(member) || is_table(member)) continue;
+            const int inner = width_of_keys(member) + 2;
+            if (inner > width) width = inner;
+        }
         if (headline) printf("%s\n\n", headline);
-        put_text(report, 0, width_of_report(report));
+        put_text(report, 0, width);
     }
     if (common->report)
         *common->report = report;

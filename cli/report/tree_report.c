@@ -32,23 +32,18 @@ static json_t *settings_json(const char *text) {
     return settings;
 }
 
-static json_t *predicates_json(const froe_predicate_stats *p) {
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I}", "calls", (json_int_t)p->calls, "by_id", (json_int_t)p->by_id,
-                     "filtered", (json_int_t)p->filtered, "refined", (json_int_t)p->refined, "exact",
-                     (json_int_t)p->exact, "exact_zero", (json_int_t)p->exact_zero);
-}
-
-static json_t *bounds_json(const froe_promise *promise) {
-    json_t *bounds = json_object();
-    for (; promise && promise->name; promise++)
-        json_object_set_new(bounds, promise->name,
-                            json_pack("{s:f, s:f}", "promised", promise->promised, "measured", promise->measured));
-    return bounds;
-}
-
 json_t *cli_tree_json(const froe_tree *tree) {
     const froe_report r = froe_tree_report(tree);
+    const froe_predicate_stats *p = &r.predicates;
     const double each = r.objects ? (double)r.fragments / (double)r.objects : 0;
+    json_t *bounds = json_object();
+    for (const froe_promise *promise = r.promises; promise && promise->name; promise++)
+        json_object_set_new(bounds, promise->name,
+                            json_pack("{s:f, s:f}", "promised", promise->promised, "measured", promise->measured));
+    json_t *predicates =
+        json_pack("{s:I, s:I, s:I, s:I, s:I, s:I}", "calls", (json_int_t)p->calls, "by_id", (json_int_t)p->by_id,
+                  "filtered", (json_int_t)p->filtered, "refined", (json_int_t)p->refined, "exact", (json_int_t)p->exact,
+                  "exact_zero", (json_int_t)p->exact_zero);
     return json_pack(
         "{s:s, s:o, s:i, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:o, s:o}",
         "method", r.method, "settings", settings_json(r.settings ? r.settings : ""), "dim", r.dim, "leaf",
@@ -56,7 +51,7 @@ json_t *cli_tree_json(const froe_tree *tree) {
         "leaves", (json_int_t)r.leaves, "fragments", (json_int_t)r.fragments, "pieces_per_object", each, "in_cut",
         (json_int_t)r.in_cut, "size", (json_int_t)r.size, "height", (json_int_t)r.height, "mean_depth", r.mean_depth,
         "max_leaf", (json_int_t)r.max_leaf, "inseparable", (json_int_t)r.inseparable, "crowded", (json_int_t)r.crowded,
-        "bytes", (json_int_t)r.bytes, "predicates", predicates_json(&r.predicates), "bounds", bounds_json(r.promises));
+        "bytes", (json_int_t)r.bytes, "predicates", predicates, "bounds", bounds);
 }
 
 int cli_report_build(const cli_common *common, const char *scene, const char *output, const froe_tree *tree,
