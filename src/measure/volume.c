@@ -108,28 +108,6 @@ static bool add_hull_corner(hull *h, const double *x) {
     return true;
 }
 
-/* A tetrahedron of four corners that are not in one plane; none: no facets. */
-static bool begin_hull(hull *h) {
-    const uint32_t n = scene_corners(h->scene, h->object);
-    const double *p[3] = {hull_corner(h, 0), n > 1 ? hull_corner(h, 1) : NULL, NULL};
-    geom_plane plane;
-    uint32_t i = 2;
-    bool spans = false;
-    for (; i < n && !spans; i++) {
-        p[2] = hull_corner(h, i);
-        plane = geom_plane_points(3, p);
-        spans = geom_plane_valid(h->context, &plane);
-    }
-    for (; i < n; i++) {
-        const double *x = hull_corner(h, i);
-        const int side = geom_side_vertex(h->context, &plane, x);
-        if (!side) continue;
-        const double *a = p[0], *b = side > 0 ? p[2] : p[1], *c = side > 0 ? p[1] : p[2]; /* x is behind a, b, c */
-        return add_facet(h, a, b, c) && add_facet(h, b, a, x) && add_facet(h, c, b, x) && add_facet(h, a, c, x);
-    }
-    return true;
-}
-
 froe_status measure_hull_volume(num_context *context, const froe_allocator *alloc, const froe_scene *scene,
                                 uint32_t object, double scale, double *out) {
     hull h = {.context = context, .alloc = alloc, .scene = scene, .object = object};
@@ -137,10 +115,25 @@ froe_status measure_hull_volume(num_context *context, const froe_allocator *allo
         *out = area(&h, scale);
         return FROE_OK;
     }
-    bool ok = begin_hull(&h);
-    for (uint32_t i = 0; i < scene_corners(scene, object) && ok && h.facets.count; i++)
-        ok = add_hull_corner(&h, hull_corner(&h, i));
-    const double *o = hull_corner(&h, 0);
+    /* begins with a tetrahedron of four corners that are not in one plane; none: no facets */
+    const uint32_t n = scene_corners(scene, object);
+    const double *o = hull_corner(&h, 0), *p[3] = {o, n > 1 ? hull_corner(&h, 1) : NULL, NULL};
+    geom_plane plane;
+    uint32_t next = 2;
+    bool spans = false, ok = true;
+    for (; next < n && !spans; next++) {
+        p[2] = hull_corner(&h, next);
+        plane = geom_plane_points(3, p);
+        spans = geom_plane_valid(context, &plane);
+    }
+    for (; next < n && ok && !h.facets.count; next++) {
+        const double *x = hull_corner(&h, next);
+        const int side = geom_side_vertex(context, &plane, x);
+        if (!side) continue;
+        const double *a = p[0], *b = side > 0 ? p[2] : p[1], *c = side > 0 ? p[1] : p[2]; /* x is behind a, b, c */
+        ok = add_facet(&h, a, b, c) && add_facet(&h, b, a, x) && add_facet(&h, c, b, x) && add_facet(&h, a, c, x);
+    }
+    for (uint32_t i = 0; i < n && ok && h.facets.count; i++) ok = add_hull_corner(&h, hull_corner(&h, i));
     double sum = 0, v[3][3]; /* of the tetrahedra between o and the facets, six times */
     for (size_t i = 0; i < h.facets.count && ok; i++) {
         for (int j = 0; j < 3; j++)
