@@ -54,75 +54,60 @@ static const cli_part parts[] = {
     {0},
 };
 
-/* The settings with what other options stand for; to be freed. */
-static char *settings_of(const build_args *args) {
-    const char *more = args->split_intersections ? "crossing=split" : "", *given = args->settings ? args->settings : "";
-    const size_t size = strlen(given) + strlen(more) + 2;
-    char *text = malloc(size);
-    if (text) snprintf(text, size, "%s %s", given, more);
-    return text;
-}
-
-static int build_with(const build_args *args, const cli_order *order, const char *settings, froe_scene *scene,
-                      froe_tree **tree) {
-    cli_progress bar = cli_progress_begin(&args->common, "building");
-    froe_build_options o = froe_build_defaults();
-    o.method = args->method;
-    o.purpose = purposes[args->purpose];
-    o.settings = settings;
-    o.order = order->ids;
-    o.order_count = order->count;
-    o.leaf = (uint32_t)args->leaf;
-    o.seed = args->common.seed;
-    o.max_fragments = cli_budget(args->max_fragments, scene);
-    o.threads = (unsigned)args->common.threads;
-    o.progress = cli_progress_step;
-    o.user = &bar;
-    froe_diagnostic diag;
-    const froe_status status = froe_build(scene, &o, tree, &diag);
-    cli_progress_end(&bar);
-    return status ? cli_fail_build(args->scene.path, args->max_fragments, scene, status, &diag) : 0;
-}
-
 static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
     cli_order order = {NULL, 0};
     int code = args->order ? cli_read_order(args->order, &order) : 0;
     if (code) return code;
-    char *settings = settings_of(args);
-    code = settings ? build_with(args, &order, settings, scene, tree) : cli_fail_memory();
+    /* The settings with what other options stand for. */
+    const char *more = args->split_intersections ? "crossing=split" : "", *given = args->settings ? args->settings : "";
+    const size_t size = strlen(given) + strlen(more) + 2;
+    char *settings = malloc(size);
+    if (settings) {
+        snprintf(settings, size, "%s %s", given, more);
+        cli_progress bar = cli_progress_begin(&args->common, "building");
+        froe_build_options o = froe_build_defaults();
+        o.method = args->method;
+        o.purpose = purposes[args->purpose];
+        o.settings = settings;
+        o.order = order.ids;
+        o.order_count = order.count;
+        o.leaf = (uint32_t)args->leaf;
+        o.seed = args->common.seed;
+        o.max_fragments = cli_budget(args->max_fragments, scene);
+        o.threads = (unsigned)args->common.threads;
+        o.progress = cli_progress_step;
+        o.user = &bar;
+        froe_diagnostic diag;
+        const froe_status status = froe_build(scene, &o, tree, &diag);
+        cli_progress_end(&bar);
+        if (status) code = cli_fail_build(args->scene.path, args->max_fragments, scene, status, &diag);
+    } else {
+        code = cli_fail_memory();
+    }
     free(settings);
     free(order.ids);
     return code;
 }
 
-static int save(const char *path, const froe_tree *tree) {
-    froe_diagnostic diag;
-    const froe_status status = froe_tree_save(tree, path, &diag);
-    return status ? cli_fail_status(CLI_WRITING, path, status, &diag) : 0;
-}
-
-static int build_and_report(const build_args *args, froe_scene *scene, double seconds_read) {
-    const double start = cli_seconds();
-    froe_tree *tree;
-    int code = build(args, scene, &tree);
-    if (code) return code;
-    const cli_build_seconds seconds = {.read = seconds_read, .build = cli_seconds() - start};
-    if (args->output) code = save(args->output, tree);
-    if (!code) code = cli_report_build(&args->common, args->scene.path, args->output, tree, seconds);
-    froe_tree_free(tree);
-    return code;
-}
-
 static int run_build(const void *given) {
     const build_args *args = given;
+    froe_scene *scene;
+    froe_tree *tree = NULL;
+    froe_read_report reader;
     int code = cli_check_method(args->method, true);
     if (!code) code = cli_check_outputs((const char *[]){args->scene.path, args->order}, 2, &args->output, 1);
+    if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
-    froe_scene *scene;
-    froe_read_report reader;
-    code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
-    if (code) return code;
-    code = build_and_report(args, scene, reader.seconds);
+    const double start = cli_seconds();
+    code = build(args, scene, &tree);
+    const cli_build_seconds seconds = {.read = reader.seconds, .build = cli_seconds() - start};
+    if (!code && args->output) {
+        froe_diagnostic diag;
+        const froe_status status = froe_tree_save(tree, args->output, &diag);
+        if (status) code = cli_fail_status(CLI_WRITING, args->output, status, &diag);
+    }
+    if (!code) code = cli_report_build(&args->common, args->scene.path, args->output, tree, seconds);
+    froe_tree_free(tree);
     froe_scene_free(scene);
     return code;
 }

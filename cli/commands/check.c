@@ -19,43 +19,8 @@ static const cli_option options[] = {
 
 static const cli_part parts[] = {{"Check", options, 0}, {"Options", cli_common_options, 0}, {0}};
 
-static froe_status audit(const check_args *args, const froe_tree *tree, froe_diagnostic *diag) {
-    cli_progress bar = cli_progress_begin(&args->common, "auditing");
-    froe_audit_options o = froe_audit_defaults();
-    o.exact_only = args->exact;
-    o.threads = (unsigned)args->common.threads;
-    o.progress = cli_progress_step;
-    o.user = &bar;
-    const froe_status status = froe_tree_audit(tree, &o, diag);
-    cli_progress_end(&bar);
-    return status;
-}
-
 static json_t *id_json(uint32_t id) {
     return id == FROE_NONE ? json_null() : json_integer((json_int_t)id);
-}
-
-/* The violation goes to stderr like any error; --json puts it on stdout, too. */
-static int report_violation(const check_args *args, const froe_diagnostic *diag) {
-    const int code = cli_fail_status(CLI_WORKING, args->tree, FROE_E_AUDIT, diag);
-    if (!args->common.json) return code;
-    const int written =
-        cli_report(&args->common, NULL,
-                   json_pack("{s:o, s:b, s:{s:s, s:o, s:o, s:o}}", "tree", cli_name_json(args->tree), "ok", 0,
-                             "violation", "message", diag->message, "object", id_json(diag->object), "corner",
-                             id_json(diag->corner), "axis", id_json(diag->axis)));
-    return written ? written : code;
-}
-
-static int report_success(const check_args *args, const froe_tree *tree, double seconds) {
-    const froe_report r = froe_tree_report(tree);
-    char headline[400];
-    snprintf(headline, sizeof headline, "%.200s: every invariant holds", args->tree);
-    return cli_report(&args->common, headline,
-                      json_pack("{s:o, s:b, s:s, s:i, s:I, s:I, s:I, s:I, s:f}", "tree", cli_name_json(args->tree),
-                                "ok", 1, "method", r.method, "dim", r.dim, "objects", (json_int_t)r.objects, "nodes",
-                                (json_int_t)r.nodes, "fragments", (json_int_t)r.fragments, "height",
-                                (json_int_t)r.height, "seconds", seconds));
 }
 
 static int run_check(const void *given) {
@@ -64,14 +29,36 @@ static int run_check(const void *given) {
     int code = cli_open_tree(args->tree, &tree);
     if (code) return code;
     const double start = cli_seconds();
+    cli_progress bar = cli_progress_begin(&args->common, "auditing");
+    froe_audit_options o = froe_audit_defaults();
+    o.exact_only = args->exact;
+    o.threads = (unsigned)args->common.threads;
+    o.progress = cli_progress_step;
+    o.user = &bar;
     froe_diagnostic diag;
-    const froe_status status = audit(args, tree, &diag);
-    if (status == FROE_OK)
-        code = report_success(args, tree, cli_seconds() - start);
-    else if (status == FROE_E_AUDIT)
-        code = report_violation(args, &diag);
-    else
+    const froe_status status = froe_tree_audit(tree, &o, &diag);
+    cli_progress_end(&bar);
+    const double seconds = cli_seconds() - start;
+    if (status == FROE_OK) {
+        const froe_report r = froe_tree_report(tree);
+        char headline[400];
+        snprintf(headline, sizeof headline, "%.200s: every invariant holds", args->tree);
+        code = cli_report(&args->common, headline,
+                          json_pack("{s:o, s:b, s:s, s:i, s:I, s:I, s:I, s:I, s:f}", "tree", cli_name_json(args->tree),
+                                    "ok", 1, "method", r.method, "dim", r.dim, "objects", (json_int_t)r.objects,
+                                    "nodes", (json_int_t)r.nodes, "fragments", (json_int_t)r.fragments, "height",
+                                    (json_int_t)r.height, "seconds", seconds));
+    } else {
         code = cli_fail_status(CLI_WORKING, args->tree, status, &diag);
+    }
+    if (status == FROE_E_AUDIT && args->common.json) { /* a violation goes to stdout, too */
+        const int written =
+            cli_report(&args->common, NULL,
+                       json_pack("{s:o, s:b, s:{s:s, s:o, s:o, s:o}}", "tree", cli_name_json(args->tree), "ok", 0,
+                                 "violation", "message", diag.message, "object", id_json(diag.object), "corner",
+                                 id_json(diag.corner), "axis", id_json(diag.axis)));
+        if (written) code = written;
+    }
     froe_tree_free(tree);
     return code;
 }

@@ -29,35 +29,27 @@ static const cli_option options[] = {
 
 static const cli_part parts[] = {{"Export", options, 0}, {"Options", cli_common_options, 0}, {0}};
 
-static int check_window(const export_args *args, const froe_tree *tree) {
-    const size_t dim = (size_t)froe_scene_dim(froe_tree_scene(tree));
-    if (!args->window.count || args->window.count == 2 * dim) return 0;
-    return cli_fail_count("window", args->window.count, 2 * dim);
-}
-
-static int export_tree(const export_args *args, const froe_tree *tree) {
-    cli_progress bar = cli_progress_begin(&args->common, "exporting");
-    froe_export_options o = froe_export_defaults();
-    if (args->window.count) {
-        o.lo = args->window.at;
-        o.hi = args->window.at + args->window.count / 2;
-    }
-    o.progress = cli_progress_step;
-    o.user = &bar;
-    froe_diagnostic diag;
-    const froe_status status = froe_export(tree, args->output, (froe_export_what)args->what, &o, &diag);
-    cli_progress_end(&bar);
-    return status ? cli_fail_status(CLI_WRITING, args->output, status, &diag) : 0;
-}
-
 static int run_export(const void *given) {
     const export_args *args = given;
     froe_tree *tree;
     int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
     if (!code) code = cli_open_tree(args->tree, &tree);
     if (code) return code;
-    code = check_window(args, tree);
-    if (!code) code = export_tree(args, tree);
+    const size_t numbers = 2 * (size_t)froe_scene_dim(froe_tree_scene(tree));
+    froe_export_options o = froe_export_defaults();
+    if (args->window.count && args->window.count != numbers)
+        code = cli_fail_count("window", args->window.count, numbers);
+    else if (args->window.count)
+        o.lo = args->window.at, o.hi = args->window.at + numbers / 2;
+    if (!code) {
+        cli_progress bar = cli_progress_begin(&args->common, "exporting");
+        froe_diagnostic diag;
+        o.progress = cli_progress_step;
+        o.user = &bar;
+        const froe_status status = froe_export(tree, args->output, (froe_export_what)args->what, &o, &diag);
+        cli_progress_end(&bar);
+        if (status) code = cli_fail_status(CLI_WRITING, args->output, status, &diag);
+    }
     if (!code)
         code = cli_report(&args->common, NULL,
                           json_pack("{s:o, s:s, s:o}", "tree", cli_name_json(args->tree), "what", whats[args->what],

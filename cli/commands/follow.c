@@ -29,17 +29,6 @@ static int finish_following(walk *w, froe_status status, const froe_diagnostic *
     return !status || w->stuck ? 0 : cli_fail_status(CLI_WORKING, w->file, status, diag);
 }
 
-static int begin_following(walk *w, const cli_common *common, froe_motion *motion) {
-    froe_diagnostic diag;
-    froe_kinetic_options o = froe_kinetic_defaults();
-    o.seed = common->seed;
-    o.augmented = w->asked->augmented;
-    o.progress = cli_progress_step;
-    o.user = &w->bar;
-    w->bar.what = "building";
-    return finish_following(w, froe_kinetic_new(motion, &o, NULL, &w->kinetic, &diag), &diag);
-}
-
 static int advance(walk *w, double time) {
     froe_diagnostic diag;
     w->bar.what = "following";
@@ -80,15 +69,6 @@ static void count_events(const walk *w, json_t *report) {
     json_object_set_new(report, "height", json_integer((json_int_t)s.height));
 }
 
-static int go_through(walk *w, const cli_common *common, froe_motion *motion, json_t *report) {
-    int code = begin_following(w, common, motion);
-    if (!code && w->asked->tree) code = advance(w, w->asked->at);
-    if (!code && w->asked->tree && !w->stuck) code = snapshot(w, report);
-    if (!code && w->writer && !w->stuck) code = advance(w, froe_motion_window(motion).end);
-    if (!code) count_events(w, report);
-    return code;
-}
-
 int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,
                       json_t **report) {
     froe_diagnostic diag;
@@ -98,7 +78,17 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     froe_status status = asked->events ? froe_event_writer_new(asked->events, NULL, &w.writer, &diag) : FROE_OK;
     if (status) return cli_fail_status(CLI_WRITING, asked->events, status, &diag);
     *report = json_object();
-    const int code = go_through(&w, common, motion, *report);
+    froe_kinetic_options o = froe_kinetic_defaults();
+    o.seed = common->seed;
+    o.augmented = asked->augmented;
+    o.progress = cli_progress_step;
+    o.user = &w.bar;
+    w.bar.what = "building";
+    int code = finish_following(&w, froe_kinetic_new(motion, &o, NULL, &w.kinetic, &diag), &diag);
+    if (!code && asked->tree) code = advance(&w, asked->at);
+    if (!code && asked->tree && !w.stuck) code = snapshot(&w, *report);
+    if (!code && w.writer && !w.stuck) code = advance(&w, froe_motion_window(motion).end);
+    if (!code) count_events(&w, *report);
     status = froe_event_writer_close(w.writer, code ? FROE_E_CANCELLED : FROE_OK, &diag);
     froe_kinetic_free(w.kinetic);
     return code || !status ? code : cli_fail_status(CLI_WRITING, asked->events, status, &diag);

@@ -44,70 +44,52 @@ static int list_kinds(const generate_args *args) {
     return cli_report(&args->common, NULL, json_pack("{s:o}", "kinds", kinds));
 }
 
-static int check_kind(const char *kind) {
+/* Is there such a kind, and are its objects moving? Returns an exit code. */
+static int find_kind(const char *kind, bool *moving) {
     enum { MOST = 128 };
     const char *names[MOST];
-    size_t count = 0;
+    size_t count = 0, still;
     const froe_generator_info *g;
-    for (size_t i = 0; (g = froe_generator_at(i)) != NULL && count < MOST; i++) {
-        if (strcmp(g->name, kind) == 0) return 0;
-        names[count++] = g->name;
-    }
-    const froe_motion_generator_info *moving;
-    for (size_t i = 0; (moving = froe_motion_generator_at(i)) != NULL && count < MOST; i++) {
-        if (strcmp(moving->name, kind) == 0) return 0;
-        names[count++] = moving->name;
-    }
+    for (size_t i = 0; (g = froe_generator_at(i)) != NULL && count < MOST; i++) names[count++] = g->name;
+    still = count;
+    const froe_motion_generator_info *m;
+    for (size_t i = 0; (m = froe_motion_generator_at(i)) != NULL && count < MOST; i++) names[count++] = m->name;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(names[i], kind) == 0) {
+            *moving = i >= still;
+            return 0;
+        }
     const char *hint = cli_nearest(kind, names, count);
     return cli_fail_unknown("kind", kind, hint, hint ? NULL : "froe generate --list all lists what there is.");
-}
-
-static bool is_moving(const char *kind) {
-    const froe_motion_generator_info *g;
-    for (size_t i = 0; (g = froe_motion_generator_at(i)) != NULL; i++)
-        if (strcmp(g->name, kind) == 0) return true;
-    return false;
-}
-
-static int report(const generate_args *args, int dim, size_t objects) {
-    return cli_report(&args->common, NULL,
-                      json_pack("{s:s, s:i, s:I, s:I, s:o}", "kind", args->kind, "dim", dim, "objects",
-                                (json_int_t)objects, "seed", (json_int_t)args->common.seed, "output",
-                                cli_name_json(args->output)));
-}
-
-static int generate_motion(const generate_args *args) {
-    froe_motion *motion;
-    froe_diagnostic diag = {0};
-    froe_status status = froe_generate_motion(args->kind, (size_t)args->n, args->common.seed, NULL, &motion, &diag);
-    if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
-    status = cli_interrupted() ? support_fail_cancelled(&diag) : froe_write_motion(motion, args->output, &diag);
-    const int code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag)
-                            : report(args, 2, froe_motion_object_count(motion));
-    froe_motion_free(motion);
-    return code;
-}
-
-static int generate(const generate_args *args) {
-    froe_scene *scene;
-    froe_diagnostic diag = {0};
-    froe_status status = froe_generate(args->kind, (size_t)args->n, args->common.seed, NULL, &scene, &diag);
-    if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
-    status = cli_interrupted() ? support_fail_cancelled(&diag) : froe_write_scene(scene, args->output, &diag);
-    const int code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag)
-                            : report(args, froe_scene_dim(scene), froe_scene_object_count(scene));
-    froe_scene_free(scene);
-    return code;
 }
 
 static int run_generate(const void *given) {
     const generate_args *args = given;
     if (args->list) return list_kinds(args);
     if (!args->kind) return cli_fail(CLI_USE, NULL, "KIND: It is missing. froe generate --list lists what there is.");
-    const int code = check_kind(args->kind);
+    bool moving = false;
+    int code = find_kind(args->kind, &moving);
     if (code) return code;
     if (!args->output) return cli_fail(CLI_USE, NULL, "-o FILE: It is missing. --help lists what there is.");
-    return is_moving(args->kind) ? generate_motion(args) : generate(args);
+    froe_motion *motion = NULL;
+    froe_scene *scene = NULL;
+    froe_diagnostic diag = {0};
+    const size_t n = (size_t)args->n;
+    froe_status status = moving ? froe_generate_motion(args->kind, n, args->common.seed, NULL, &motion, &diag)
+                                : froe_generate(args->kind, n, args->common.seed, NULL, &scene, &diag);
+    if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
+    status = cli_interrupted() ? support_fail_cancelled(&diag)
+             : moving          ? froe_write_motion(motion, args->output, &diag)
+                               : froe_write_scene(scene, args->output, &diag);
+    const size_t objects = moving ? froe_motion_object_count(motion) : froe_scene_object_count(scene);
+    code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag)
+                  : cli_report(&args->common, NULL,
+                               json_pack("{s:s, s:i, s:I, s:I, s:o}", "kind", args->kind, "dim",
+                                         moving ? 2 : froe_scene_dim(scene), "objects", (json_int_t)objects, "seed",
+                                         (json_int_t)args->common.seed, "output", cli_name_json(args->output)));
+    froe_motion_free(motion);
+    froe_scene_free(scene);
+    return code;
 }
 
 const cli_command cli_command_generate = {

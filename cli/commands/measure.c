@@ -118,13 +118,6 @@ static int measure_fatness(survey *s, json_t *report) {
     return end(s, status, out);
 }
 
-static json_t *directional_json(const froe_directional *d) {
-    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "delta", d->delta, "simple 95 %", d->simple.q95,
-                     "simple most", d->simple.most, "extended 95 %", d->extended.q95, "extended most", d->extended.most,
-                     "two-directional 95 %", d->two_directional.q95, "two-directional most", d->two_directional.most,
-                     "paired 95 %", d->paired.q95, "paired most", d->paired.most);
-}
-
 static int measure_directional(survey *s, json_t *report) {
     static const cli_reals usual = {3, {0.25, 0.5, 1}};
     const cli_reals *deltas = s->args->deltas.count ? &s->args->deltas : &usual;
@@ -134,19 +127,17 @@ static int measure_directional(survey *s, json_t *report) {
         froe_directional d = {.delta = 0};
         begin(s, "looking across faces");
         code = end(s, froe_measure_directional(s->scene, deltas->at[i], &s->options, &d, &s->diag), seconds);
-        if (!code) json_array_append_new(rows, directional_json(&d));
+        if (code) continue;
+        json_array_append_new(rows,
+                              json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "delta", d.delta,
+                                        "simple 95 %", d.simple.q95, "simple most", d.simple.most, "extended 95 %",
+                                        d.extended.q95, "extended most", d.extended.most, "two-directional 95 %",
+                                        d.two_directional.q95, "two-directional most", d.two_directional.most,
+                                        "paired 95 %", d.paired.q95, "paired most", d.paired.most));
     }
     json_decref(seconds);
     json_object_set_new(report, "directional density", rows);
     return code;
-}
-
-static int measure(survey *s, json_t *report) {
-    int code = measure_clutter(s, report);
-    if (!code) code = measure_density(s, FROE_SIZE_RADIUS, report);
-    if (!code) code = measure_density(s, FROE_SIZE_DIAMETER, report);
-    if (!code) code = measure_fatness(s, report);
-    return code ? code : measure_directional(s, report);
 }
 
 static int run_measure(const void *given) {
@@ -163,7 +154,11 @@ static int run_measure(const void *given) {
     json_t *report = json_pack("{s:o, s:I, s:I, s:I, s:{}}", "file", cli_name_json(args->scene.path), "objects",
                                (json_int_t)froe_scene_object_count(scene), "samples", (json_int_t)args->samples, "seed",
                                (json_int_t)args->common.seed, "distributions");
-    code = measure(&s, report);
+    code = measure_clutter(&s, report);
+    if (!code) code = measure_density(&s, FROE_SIZE_RADIUS, report);
+    if (!code) code = measure_density(&s, FROE_SIZE_DIAMETER, report);
+    if (!code) code = measure_fatness(&s, report);
+    if (!code) code = measure_directional(&s, report);
     json_t *spreads = json_incref(json_object_get(report, "distributions"));
     json_object_del(report, "distributions"); /* tables come last */
     json_object_set_new(report, "distributions", spreads);

@@ -48,18 +48,6 @@ static bool put_pair(void *user, const froe_pair *pair) {
     return !w->stopped;
 }
 
-static int finish(const pairs_args *args, froe_query *query, writing *w) {
-    if (args->common.json)
-        return cli_report(&args->common, NULL,
-                          json_pack("{s:o, s:I, s:I, s:I, s:o}", "tree", cli_name_json(args->tree), kinds[0],
-                                    (json_int_t)w->counts[0], kinds[1], (json_int_t)w->counts[1], kinds[2],
-                                    (json_int_t)w->counts[2], "visited", cli_statistics_json(query)));
-    if (args->count)
-        for (int i = 0; i < 3; i++) printf("%s,%" PRIu64 "\n", kinds[i], w->counts[i]);
-    cli_answers_flush(&w->out);
-    return cli_flush();
-}
-
 static int ask(const pairs_args *args, const froe_tree *tree, writing *w) {
     froe_query *query;
     froe_diagnostic diag;
@@ -73,7 +61,19 @@ static int ask(const pairs_args *args, const froe_tree *tree, writing *w) {
     o.threads = (unsigned)args->common.threads;
     status = froe_batch_pairs(query, !args->no_corners, &o, put_pair, w, &diag);
     cli_progress_end(&w->bar);
-    const int code = status ? cli_fail_status(CLI_WORKING, args->tree, status, &diag) : finish(args, query, w);
+    int code = 0;
+    if (status) {
+        code = cli_fail_status(CLI_WORKING, args->tree, status, &diag);
+    } else if (args->common.json) {
+        code = cli_report(&args->common, NULL,
+                          json_pack("{s:o, s:I, s:I, s:I, s:o}", "tree", cli_name_json(args->tree), kinds[0],
+                                    (json_int_t)w->counts[0], kinds[1], (json_int_t)w->counts[1], kinds[2],
+                                    (json_int_t)w->counts[2], "visited", cli_statistics_json(query)));
+    } else {
+        for (int i = 0; i < 3 && args->count; i++) printf("%s,%" PRIu64 "\n", kinds[i], w->counts[i]);
+        cli_answers_flush(&w->out);
+        code = cli_flush();
+    }
     froe_query_free(query);
     return w->stopped && !status ? cli_fail(CLI_CANCELLED, NULL, "Cancelled.") : code;
 }

@@ -57,73 +57,45 @@ static const cli_part parts[] = {{"Range", options, 0},
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
-/* What a block needs beside the rows. */
-typedef struct ranges {
-    const range_args *args;
-    size_t dim;
-    froe_range *ranges;
-    double *normals, *offsets; /* halfspaces */
-} ranges;
-
-/* ------------------------------------------------------------------- ranges -- */
-
-static void split_halfspaces(ranges *r, const cli_block *block) {
-    for (size_t i = block->starts[0]; i < block->starts[block->count]; i++) {
-        const double *row = block->numbers + i * block->width;
-        memcpy(r->normals + i * r->dim, row, r->dim * sizeof *row);
-        r->offsets[i] = row[r->dim];
+/* Makes froe_ranges of a block. Returns how many can be asked about: the one behind them has not as many rows as it
+ * must. normals, offsets: room for the halfspaces of all rows. */
+static size_t lay_ranges(const range_args *args, size_t dim, const cli_block *block, double *normals, double *offsets,
+                         froe_range *ranges) {
+    for (size_t i = 0; i < block->count; i++) {
+        const size_t first = block->starts[i], end = block->starts[i + 1];
+        const double *row = block->numbers + first * block->width;
+        froe_range *r = &ranges[i];
+        *r = froe_range_defaults();
+        r->shape = (froe_range_shape)args->shape;
+        r->points = row;
+        r->count = end - first;
+        r->eps = args->eps;
+        r->walk = (froe_walk)args->walk;
+        if (r->shape == FROE_SHAPE_BALL || r->shape == FROE_SHAPE_CAPSULE) r->radius = row[block->width - 1];
+        if (r->shape == FROE_SHAPE_HALFSPACES) {
+            r->points = normals + first * dim;
+            r->offsets = offsets + first;
+            for (size_t j = first; j < end; j++, row += block->width) {
+                memcpy(normals + j * dim, row, dim * sizeof *row);
+                offsets[j] = row[dim];
+            }
+        }
+        if (r->shape == FROE_SHAPE_SIMPLEX && r->count != dim + 1) return i;
     }
-}
-
-/* Range i of the block. False: it has not as many rows as it must. */
-static bool lay_range(const ranges *r, const cli_block *block, size_t i, froe_range *out) {
-    const size_t first = block->starts[i], rows = block->starts[i + 1] - first;
-    const double *row = block->numbers + first * block->width;
-    *out = froe_range_defaults();
-    out->shape = (froe_range_shape)r->args->shape;
-    out->points = row;
-    out->count = rows;
-    out->eps = r->args->eps;
-    out->walk = (froe_walk)r->args->walk;
-    if (out->shape == FROE_SHAPE_BALL || out->shape == FROE_SHAPE_CAPSULE) out->radius = row[block->width - 1];
-    if (out->shape == FROE_SHAPE_HALFSPACES) {
-        out->points = r->normals + first * r->dim;
-        out->offsets = r->offsets + first;
-    }
-    return out->shape != FROE_SHAPE_SIMPLEX || rows == r->dim + 1;
-}
-
-static bool take_memory(ranges *r, const cli_block *block) {
-    const size_t rows = block->starts[block->count];
-    r->ranges = calloc(block->count, sizeof *r->ranges);
-    r->normals = calloc(rows * r->dim, sizeof *r->normals);
-    r->offsets = calloc(rows, sizeof *r->offsets);
-    return r->ranges && r->normals && r->offsets;
-}
-
-static void give_memory(ranges *r) {
-    free(r->ranges);
-    free(r->normals);
-    free(r->offsets);
-}
-
-/* How many ranges of the block can be asked about. */
-static size_t lay_ranges(ranges *r, const cli_block *block) {
-    if (r->args->shape == FROE_SHAPE_HALFSPACES) split_halfspaces(r, block);
-    for (size_t i = 0; i < block->count; i++)
-        if (!lay_range(r, block, i, &r->ranges[i])) return i;
     return block->count;
 }
 
 static froe_status answer_range(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
                                 froe_diagnostic *diag) {
     const range_args *args = given;
-    ranges r = {.args = args, .dim = asked->dim};
+    const size_t rows = block->starts[block->count];
+    froe_range *ranges = calloc(block->count, sizeof *ranges);
+    double *normals = calloc(rows * asked->dim, sizeof *normals), *offsets = calloc(rows, sizeof *offsets);
     froe_answers answers = {0};
     froe_status status;
-    if (take_memory(&r, block)) {
-        const size_t count = lay_ranges(&r, block);
-        status = froe_batch_range(asked->query, r.ranges, count, &asked->batch, &answers, diag);
+    if (ranges && normals && offsets) {
+        const size_t count = lay_ranges(args, asked->dim, block, normals, offsets, ranges);
+        status = froe_batch_range(asked->query, ranges, count, &asked->batch, &answers, diag);
         if (!status && count < block->count)
             status = support_fail_at(diag, FROE_E_INPUT, (uint32_t)count, FROE_NONE, FROE_NONE,
                                      "A simplex has one corner more than there are dimensions.");
@@ -132,7 +104,7 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
     }
     if (!status) cli_answers_lists(out, block->ids, &answers, args->query.count);
     froe_answers_free(&answers);
-    give_memory(&r);
+    free(ranges), free(normals), free(offsets);
     return status;
 }
 

@@ -32,77 +32,36 @@ static const cli_part parts[] = {{"Ray", options, 0},
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
-/* The rays of a block, and what they meet first. */
-typedef struct flight {
-    double *origins, *directions;
-    froe_hit *hits;
-} flight;
-
-static void put_hit(cli_answers *out, uint64_t id, const froe_hit *hit) {
-    cli_answers_whole(out, id);
-    cli_answers_whole(out, hit->object);
-    cli_answers_real(out, hit->t);
-    cli_answers_end(out);
-}
-
-static bool take_rays(flight *f, const cli_block *block, size_t dim) {
-    const double *row = cli_block_numbers(block);
-    f->origins = malloc(block->count * dim * sizeof *f->origins);
-    f->directions = malloc(block->count * dim * sizeof *f->directions);
-    f->hits = malloc(block->count * sizeof *f->hits);
-    if (!f->origins || !f->directions || !f->hits) return false;
-    for (size_t i = 0; i < block->count; i++, row += block->width) {
-        memcpy(f->origins + i * dim, row, dim * sizeof *row);
-        memcpy(f->directions + i * dim, row + dim, dim * sizeof *row);
-    }
-    return true;
-}
-
-static void give_rays(flight *f) {
-    free(f->origins);
-    free(f->directions);
-    free(f->hits);
-}
-
-static froe_status answer_first(const ray_args *args, const cli_asked *asked, const cli_block *block, const flight *f,
-                                cli_answers *out, froe_diagnostic *diag) {
-    const froe_status status = froe_batch_ray(asked->query, f->origins, f->directions, block->count, args->t_max,
-                                              &asked->batch, f->hits, diag);
-    if (status) return status;
-    for (size_t i = 0; i < block->count; i++) {
-        if (args->query.count)
-            cli_answers_pair(out, block->ids[i], f->hits[i].object != FROE_NONE);
-        else if (f->hits[i].object != FROE_NONE)
-            put_hit(out, block->ids[i], &f->hits[i]);
-    }
-    return FROE_OK;
-}
-
-static froe_status answer_all(const ray_args *args, const cli_asked *asked, const cli_block *block, const flight *f,
-                              cli_answers *out, froe_diagnostic *diag) {
-    froe_answers met = {0};
-    const froe_status status = froe_batch_ray_all(asked->query, f->origins, f->directions, block->count, args->t_max,
-                                                  &asked->batch, &met, diag);
-    if (status) return status;
-    if (args->query.count) {
-        cli_answers_lists(out, block->ids, &met, true);
-    } else {
-        for (size_t i = 0; i < block->count; i++)
-            for (size_t j = met.starts[i]; j < met.starts[i + 1]; j++)
-                put_hit(out, block->ids[i], &(froe_hit){met.ids[j], met.values[j]});
-    }
-    froe_answers_free(&met);
-    return FROE_OK;
-}
-
 static froe_status answer_ray(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
                               froe_diagnostic *diag) {
     const ray_args *args = given;
-    flight f;
-    const froe_status status = !take_rays(&f, block, asked->dim) ? support_fail_memory(diag)
-                               : args->all                       ? answer_all(args, asked, block, &f, out, diag)
-                                                                 : answer_first(args, asked, block, &f, out, diag);
-    give_rays(&f);
+    const size_t count = block->count, dim = asked->dim;
+    const double *row = cli_block_numbers(block);
+    double *origins = malloc(count * dim * sizeof *origins), *directions = malloc(count * dim * sizeof *directions);
+    froe_hit *first = malloc(count * sizeof *first); /* what each ray meets first */
+    froe_answers all = {0};
+    froe_status status = origins && directions && first ? FROE_OK : support_fail_memory(diag);
+    for (size_t i = 0; i < count && !status; i++, row += block->width) {
+        memcpy(origins + i * dim, row, dim * sizeof *row);
+        memcpy(directions + i * dim, row + dim, dim * sizeof *row);
+    }
+    if (!status && args->all)
+        status = froe_batch_ray_all(asked->query, origins, directions, count, args->t_max, &asked->batch, &all, diag);
+    else if (!status)
+        status = froe_batch_ray(asked->query, origins, directions, count, args->t_max, &asked->batch, first, diag);
+    for (size_t i = 0; i < count && !status; i++) {
+        const size_t begin = args->all ? all.starts[i] : 0;
+        const size_t end = args->all ? all.starts[i + 1] : first[i].object != FROE_NONE;
+        if (args->query.count) cli_answers_pair(out, block->ids[i], end - begin);
+        for (size_t j = begin; j < end && !args->query.count; j++) {
+            cli_answers_whole(out, block->ids[i]);
+            cli_answers_whole(out, args->all ? all.ids[j] : first[i].object);
+            cli_answers_real(out, args->all ? all.values[j] : first[i].t);
+            cli_answers_end(out);
+        }
+    }
+    froe_answers_free(&all);
+    free(origins), free(directions), free(first);
     return status;
 }
 

@@ -74,15 +74,6 @@ static bool keep(void *user, const froe_contact *contact) {
     return true;
 }
 
-static int read_motion(simulation *s) {
-    froe_diagnostic diag;
-    froe_motion_read_options o = froe_motion_read_defaults();
-    o.from = s->args->from;
-    o.to = s->args->to;
-    const froe_status status = froe_read_motion(s->args->path, &o, &s->motion, &s->read, &diag);
-    return status ? cli_fail_status(CLI_READING, NULL, status, &diag) : 0;
-}
-
 static int find_contacts(simulation *s) {
     froe_diagnostic diag;
     cli_progress bar = cli_progress_begin(&s->args->common, "searching");
@@ -110,28 +101,18 @@ static int animate(const simulation *s, const char *path) {
     return status ? cli_fail_status(CLI_WRITING, path, status, &diag) : 0;
 }
 
-static int write_contacts(const simulation *s) {
-    froe_diagnostic diag;
-    if (!s->args->contacts) return 0;
-    const froe_status status = froe_write_contacts(s->motion, s->contacts, s->count, s->args->contacts, &diag);
-    return status ? cli_fail_status(CLI_WRITING, s->args->contacts, status, &diag) : 0;
-}
-
-static json_t *first_contact(const simulation *s) {
-    if (!s->count) return json_null();
-    const froe_contact *c = s->contacts;
-    return json_pack("{s:I, s:I, s:f, s:f}", "a", (json_int_t)c->a, "b", (json_int_t)c->b, "begin_low", c->begin[0],
-                     "begin_high", c->begin[1]);
-}
-
 static int report(const simulation *s) {
     const froe_motion_options window = froe_motion_window(s->motion);
+    const froe_contact *c = s->contacts;
     json_t *all = json_pack(
         "{s:I, s:I, s:I, s:I, s:I, s:I}", "objects", (json_int_t)froe_motion_object_count(s->motion), "vertices",
         (json_int_t)froe_motion_vertex_count(s->motion), "features", (json_int_t)s->read.features, "still",
         (json_int_t)s->read.still, "pieces", (json_int_t)s->read.pieces, "flattened", (json_int_t)s->read.flattened);
-    json_t *found = json_pack("{s:I, s:I, s:o}", "all", (json_int_t)s->count, "instants", (json_int_t)s->instants,
-                              "first", first_contact(s));
+    json_t *first = !s->count ? json_null()
+                              : json_pack("{s:I, s:I, s:f, s:f}", "a", (json_int_t)c->a, "b", (json_int_t)c->b,
+                                          "begin_low", c->begin[0], "begin_high", c->begin[1]);
+    json_t *found =
+        json_pack("{s:I, s:I, s:o}", "all", (json_int_t)s->count, "instants", (json_int_t)s->instants, "first", first);
     json_t *work = json_pack("{s:I, s:I, s:I}", "boxes", (json_int_t)s->statistics.boxes, "candidates",
                              (json_int_t)s->statistics.candidates, "exact", (json_int_t)s->statistics.exact);
     json_t *seconds = json_pack("{s:f, s:f}", "read", s->read.seconds, "contacts", s->seconds);
@@ -156,15 +137,25 @@ static int check(const simulate_args *args) {
     return cli_check_outputs(&args->path, 1, outputs, sizeof outputs / sizeof *outputs);
 }
 
-static int run(const void *given) {
-    simulation s = {.args = given};
-    int code = check(s.args);
-    if (!code) code = read_motion(&s);
-    if (!code) code = find_contacts(&s);
-    if (!code) code = write_contacts(&s);
-    if (!code) code = animate(&s, s.args->animate);
-    if (!code) code = animate(&s, s.args->player);
-    if (!code) code = cli_follow_motion(&s.args->common, &s.args->follow, s.args->path, s.motion, &s.events);
+static int run_simulate(const void *given) {
+    const simulate_args *args = given;
+    simulation s = {.args = args};
+    int code = check(args);
+    if (code) return code;
+    froe_diagnostic diag;
+    froe_motion_read_options o = froe_motion_read_defaults();
+    o.from = args->from;
+    o.to = args->to;
+    froe_status status = froe_read_motion(args->path, &o, &s.motion, &s.read, &diag);
+    if (status) return cli_fail_status(CLI_READING, NULL, status, &diag);
+    code = find_contacts(&s);
+    if (!code && args->contacts) {
+        status = froe_write_contacts(s.motion, s.contacts, s.count, args->contacts, &diag);
+        if (status) code = cli_fail_status(CLI_WRITING, args->contacts, status, &diag);
+    }
+    if (!code) code = animate(&s, args->animate);
+    if (!code) code = animate(&s, args->player);
+    if (!code) code = cli_follow_motion(&args->common, &args->follow, args->path, s.motion, &s.events);
     if (!code) code = report(&s);
     json_decref(s.events);
     froe_motion_free(s.motion);
@@ -195,5 +186,5 @@ const cli_command cli_command_simulate = {
     .defaults =
         &(const simulate_args){.common = CLI_COMMON_DEFAULTS, .from = NAN, .to = NAN, .seconds = NAN, .follow.at = NAN},
     .size = sizeof(simulate_args),
-    .run = run,
+    .run = run_simulate,
 };

@@ -16,7 +16,7 @@ const cli_option cli_query_options[] = {
 };
 
 /* A run in progress. Rows of the query being gathered lie behind those of the `count` whole ones. */
-typedef struct run {
+typedef struct query_run {
     const cli_queries *q;
     const cli_asked *asked;
     cli_rows rows;
@@ -31,11 +31,11 @@ typedef struct run {
     size_t room; /* for rows */
     uint64_t answered;
     cli_answers out;
-} run;
+} query_run;
 
 /* -------------------------------------------------------------------- bad -- */
 
-static void refuse(run *r, uint64_t line, const char *sentence) {
+static void refuse(query_run *r, uint64_t line, const char *sentence) {
     r->refused = true;
     cli_fail(CLI_INPUT, r->rows.path, "line %llu: %s", (unsigned long long)line, sentence);
     if (!r->q->args->keep_going) r->code = CLI_INPUT;
@@ -43,25 +43,12 @@ static void refuse(run *r, uint64_t line, const char *sentence) {
 
 /* ---------------------------------------------------------------- reading -- */
 
-static size_t rows_held(const run *r) {
+static size_t rows_held(const query_run *r) {
     return r->starts[r->count] + r->gathered;
 }
 
-static bool make_room(run *r) {
-    if (rows_held(r) < r->room) return true;
-    const size_t room = 2 * r->room + CLI_BLOCK;
-    double *numbers = realloc(r->numbers, room * r->width * sizeof *numbers);
-    if (!numbers) {
-        r->code = cli_fail_memory();
-        return false;
-    }
-    r->numbers = numbers;
-    r->room = room;
-    return true;
-}
-
 /* The query being gathered is whole. */
-static void close_query(run *r) {
+static void close_query(query_run *r) {
     if (r->gathered && !r->spoilt) {
         r->starts[r->count + 1] = rows_held(r);
         r->count++;
@@ -71,7 +58,7 @@ static void close_query(run *r) {
 }
 
 /* The query that a row belongs to is the one being gathered, or a new one. */
-static void open_query(run *r, uint64_t id) {
+static void open_query(query_run *r, uint64_t id) {
     if (r->open && r->ids[r->count] == id) return;
     close_query(r);
     r->open = true;
@@ -83,7 +70,7 @@ static bool is_id(double x) {
     return x >= 0 && x < 0x1p53 && x == floor(x);
 }
 
-static void add_row(run *r, const double *values) {
+static void add_row(query_run *r, const double *values) {
     const size_t skip = r->grouped;
     if (r->grouped && !is_id(values[0])) {
         refuse(r, r->rows.line, "The column query holds no whole number.");
@@ -91,21 +78,23 @@ static void add_row(run *r, const double *values) {
         return;
     }
     open_query(r, r->grouped ? (uint64_t)values[0] : r->rows.row);
-    if (!make_room(r)) return;
+    if (rows_held(r) == r->room) {
+        const size_t room = 2 * r->room + CLI_BLOCK;
+        double *numbers = realloc(r->numbers, room * r->width * sizeof *numbers);
+        if (!numbers) {
+            r->code = cli_fail_memory();
+            return;
+        }
+        r->numbers = numbers;
+        r->room = room;
+    }
     memcpy(r->numbers + rows_held(r) * r->width, values + skip, r->width * sizeof *values);
     r->gathered++;
     if (!r->grouped) close_query(r);
 }
 
-/* A bad row spoils its query, which is the one being gathered if the row names none. */
-static void add_bad_row(run *r, const double *values) {
-    if (r->grouped && is_id(values[0])) open_query(r, (uint64_t)values[0]);
-    r->spoilt = r->open;
-    refuse(r, r->rows.line, r->rows.sentence);
-}
-
 /* Reads until the block is full or the file ends. */
-static void read_block(run *r) {
+static void read_block(query_run *r) {
     double values[CLI_ROW_NUMBERS];
     while (!r->code && !r->ended && r->count < CLI_BLOCK) {
         values[0] = NAN;
@@ -113,8 +102,10 @@ static void read_block(run *r) {
         case CLI_ROW_READ:
             add_row(r, values);
             break;
-        case CLI_ROW_BAD:
-            add_bad_row(r, values);
+        case CLI_ROW_BAD: /* it spoils its query, which is the one being gathered if the row names none */
+            if (r->grouped && is_id(values[0])) open_query(r, (uint64_t)values[0]);
+            r->spoilt = r->open;
+            refuse(r, r->rows.line, r->rows.sentence);
             break;
         case CLI_ROWS_END:
             r->ended = true;
@@ -130,7 +121,7 @@ static void read_block(run *r) {
 /* -------------------------------------------------------------- answering -- */
 
 /* The queries first .. first + count of the block. */
-static froe_status answer_rows(run *r, size_t first, size_t count, froe_diagnostic *diag) {
+static froe_status answer_rows(query_run *r, size_t first, size_t count, froe_diagnostic *diag) {
     const cli_block block = {
         .count = count, .width = r->width, .starts = r->starts + first, .numbers = r->numbers, .ids = r->ids + first};
     if (!count) return FROE_OK;
@@ -139,7 +130,7 @@ static froe_status answer_rows(run *r, size_t first, size_t count, froe_diagnost
     return status;
 }
 
-static void answer_block(run *r, size_t count) {
+static void answer_block(query_run *r, size_t count) {
     size_t first = 0;
     while (first < count) {
         froe_diagnostic diag = {0};
@@ -156,24 +147,19 @@ static void answer_block(run *r, size_t count) {
     }
 }
 
-/* Moves the query being gathered to the front. */
-static void empty_block(run *r, size_t count) {
-    if (r->gathered)
-        memmove(r->numbers, r->numbers + r->starts[count] * r->width, r->gathered * r->width * sizeof *r->numbers);
-    r->ids[0] = r->ids[count];
-    r->lines[0] = r->lines[count];
-    r->count = 0;
-}
-
-static void work(run *r) {
+static void work(query_run *r) {
     while (!r->ended && !r->code) {
         read_block(r);
         const int code = r->code; /* what was read before a bad row is answered all the same */
-        const size_t count = r->count;
+        const size_t count = r->count, width = r->width;
         r->code = 0;
         answer_block(r, count);
         if (!r->code) r->code = code;
-        empty_block(r, count);
+        if (r->gathered) /* the query being gathered moves to the front */
+            memmove(r->numbers, r->numbers + r->starts[count] * width, r->gathered * width * sizeof *r->numbers);
+        r->ids[0] = r->ids[count];
+        r->lines[0] = r->lines[count];
+        r->count = 0;
         if (!r->code && cli_interrupted()) r->code = cli_fail(CLI_CANCELLED, NULL, "Cancelled.");
     }
 }
@@ -187,16 +173,8 @@ json_t *cli_statistics_json(froe_query *query) {
                      "steps", (json_int_t)s.steps);
 }
 
-static int summarise(run *r, double seconds) {
-    return cli_report(r->q->common, NULL,
-                      json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(r->q->args->tree), "queries",
-                                cli_name_json(r->rows.path), "answered", (json_int_t)r->answered, "rows",
-                                (json_int_t)r->out.rows, "seconds", seconds, "visited",
-                                cli_statistics_json(r->asked->query)));
-}
-
 static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
-    run *r = calloc(1, sizeof *r);
+    query_run *r = calloc(1, sizeof *r);
     if (!r) return cli_fail_memory();
     r->q = queries;
     r->asked = asked;
@@ -211,7 +189,12 @@ static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
         cli_answers_flush(&r->out);
         code = r->code ? r->code : r->refused ? CLI_INPUT : 0;
         if (queries->common->json && !r->code) {
-            const int written = summarise(r, cli_seconds() - start);
+            const int written =
+                cli_report(queries->common, NULL,
+                           json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(queries->args->tree),
+                                     "queries", cli_name_json(r->rows.path), "answered", (json_int_t)r->answered,
+                                     "rows", (json_int_t)r->out.rows, "seconds", cli_seconds() - start, "visited",
+                                     cli_statistics_json(asked->query)));
             if (written) code = written;
         }
         const int flushed = cli_flush();

@@ -32,18 +32,7 @@ static char *next_field(char **at, char separator) {
     return field;
 }
 
-static bool is_blank(const char *text) {
-    return !text[strspn(text, " \t")];
-}
-
 /* ------------------------------------------------------------------ header -- */
-
-static void axis_name(const char *prefix, int axis, char *out) {
-    if (axis >= 4)
-        snprintf(out, NAME, "%sx%d", prefix, axis + 1);
-    else
-        snprintf(out, NAME, "%s%c", prefix, "xyzw"[axis]);
-}
 
 /* As in scenes: x or x1, behind a prefix like lo_ also 1; in small letters or capitals. */
 static bool names_axis(const char *name, const char *prefix, int axis) {
@@ -66,29 +55,21 @@ static int number_of(const cli_column *columns, int dim, const char *name) {
     return -1;
 }
 
-/* "x,y,r": the header that was expected. */
-static void header_text(const cli_column *columns, int dim, char *out, size_t size) {
-    size_t length = 0;
-    char name[NAME];
+/* "x,y,r": the header that was expected. Returns how many numbers it names. */
+static size_t header_text(const cli_column *columns, int dim, char *out, size_t size) {
+    size_t length = 0, count = 0;
     for (; columns->name; columns++)
-        for (int axis = 0; axis < (columns->axes ? dim : 1) && length < size; axis++) {
-            snprintf(name, NAME, "%s", columns->name);
-            if (columns->axes) axis_name(columns->name, axis, name);
-            length += (size_t)snprintf(out + length, size - length, "%s%s", length ? "," : "", name);
+        for (int axis = 0; axis < (columns->axes ? dim : 1); axis++, count++) {
+            char name[NAME];
+            if (!columns->axes)
+                snprintf(name, NAME, "%s", columns->name);
+            else if (axis >= 4)
+                snprintf(name, NAME, "%sx%d", columns->name, axis + 1);
+            else
+                snprintf(name, NAME, "%s%c", columns->name, "xyzw"[axis]);
+            if (length < size) length += (size_t)snprintf(out + length, size - length, "%s%s", count ? "," : "", name);
         }
-}
-
-static size_t count_numbers(const cli_column *columns, int dim) {
-    size_t count = 0;
-    for (; columns->name; columns++) count += columns->axes ? (size_t)dim : 1;
     return count;
-}
-
-/* Does a column hold the axis behind the last? Then rows are of another dimension than the tree. */
-static bool names_one_more(const cli_column *columns, int dim, const char *name) {
-    for (; columns->name; columns++)
-        if (columns->axes && names_axis(name, columns->name, dim)) return true;
-    return false;
 }
 
 /* Finds the columns in the header line; false: some number has none, or two, or rows->sentence says what it is. */
@@ -100,12 +81,14 @@ static bool read_header(cli_rows *rows, const cli_column *columns, int dim) {
     for (rows->columns = 0; at; rows->columns++) {
         if (rows->columns == CLI_ROW_COLUMNS) return false;
         const char *name = next_field(&at, rows->separator);
-        int number = number_of(columns, dim, name);
-        if (number < 0 && names_one_more(columns, dim, name)) {
-            snprintf(rows->sentence, sizeof rows->sentence, "The header names %.40s, and the tree has %d dimensions.",
-                     name, dim);
-            return false;
-        }
+        const int number = number_of(columns, dim, name);
+        /* A column that holds the axis behind the last: rows are of another dimension than the tree. */
+        for (const cli_column *c = columns; c->name && number < 0; c++)
+            if (c->axes && names_axis(name, c->name, dim)) {
+                snprintf(rows->sentence, sizeof rows->sentence,
+                         "The header names %.40s, and the tree has %d dimensions.", name, dim);
+                return false;
+            }
         if (number >= 0 && found >> number & 1) return false;
         if (number >= 0) found |= 1u << number;
         rows->place[rows->columns] = (signed char)number;
@@ -116,10 +99,10 @@ static bool read_header(cli_rows *rows, const cli_column *columns, int dim) {
 int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows *out) {
     const bool standard = !strcmp(path, "-");
     char expected[200];
-    *out = (cli_rows){.path = standard ? "standard input" : path, .numbers = count_numbers(columns, dim)};
+    *out = (cli_rows){.path = standard ? "standard input" : path};
     out->file = standard ? stdin : fopen(path, "r");
     if (!out->file) return cli_fail_file(CLI_INPUT, path, "read");
-    header_text(columns, dim, expected, sizeof expected);
+    out->numbers = header_text(columns, dim, expected, sizeof expected);
     int code = 0;
     if (!next_line(out))
         code = cli_fail(CLI_INPUT, out->path, "line 1: The header must name the columns %s, each once.", expected);
@@ -167,7 +150,7 @@ cli_row cli_rows_next(cli_rows *rows, double *values) {
         cli_fail(CLI_INPUT, rows->path, "line %llu: The file cannot be read: %s.", (unsigned long long)rows->line + 1,
                  strerror(errno));
         return CLI_ROWS_FAILED;
-    } while (is_blank(rows->text));
+    } while (!rows->text[strspn(rows->text, " \t")]); /* blank lines are no rows */
     rows->row = rows->rows++;
     return read_numbers(rows, values) ? CLI_ROW_READ : CLI_ROW_BAD;
 }
