@@ -38,7 +38,7 @@ int cli_run(const cli_command *command, int argc, char **argv, json_t **report) 
     void *args = malloc(command->size);
     if (!args) return cli_fail_memory();
     memcpy(args, command->defaults, command->size);
-    int code = cli_parse(command->parts, argc, argv, args);
+    int code = cli_parse(command->name, command->parts, argc, argv, args);
     if (!code && ((cli_common *)args)->help) {
         cli_help_command(stdout, command);
         code = cli_flush();

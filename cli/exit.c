@@ -63,16 +63,16 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
         const size_t length = strlen(end);
         if (strncmp(sentence, end, length) == 0 && strncmp(sentence + length, ": ", 2) == 0) sentence += length + 2;
     }
-    /* The sentence may name the object already, as such or as "segment 17: ". */
-    bool named = strstr(sentence, "object ") != NULL;
+    /* The sentence may name the object already, as such or as "segment 17: ". A row of a CSV file is an object. */
+    bool named = strncmp(sentence, "row ", 4) == 0 || strstr(sentence, "object ") != NULL;
     for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
         const char *name = froe_kind_name((froe_kind)kind);
         const size_t length = strlen(name);
         named = named || (strncmp(sentence, name, length) == 0 && sentence[length] == ' ');
     }
-    char where[64] = ""; /* "object 17, corner 2: ", as far as it is known */
+    char where[64] = ""; /* "object 17, corner 2: ", as far as it is known and the sentence does not say it */
     if (diag->object != FROE_NONE && !named) {
-        if (diag->corner == FROE_NONE)
+        if (diag->corner == FROE_NONE || strstr(sentence, "corner "))
             snprintf(where, sizeof where, "object %u: ", diag->object);
         else
             snprintf(where, sizeof where, "object %u, corner %u: ", diag->object, diag->corner);

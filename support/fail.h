@@ -2,7 +2,7 @@
  *
  * Every message has one form, which scripts/check-messages holds: places, each with a colon, then whole sentences,
  *
- *     map.csv: object 2: row 3: '1e' is not a number.
+ *     map.csv: row 3: '1e' is not a number.
  *     There is no method 'x'. There are: bar, density.
  *
  * and each cause has one wording. A parameter called `sentence` is a message, or what stands at the end of one. */

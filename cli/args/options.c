@@ -231,22 +231,23 @@ static bool is_set(const cli_option *option, const char *base) {
     }
 }
 
-static int check_required(const cli_part *parts, void *args) {
+static int check_required(const char *command, const cli_part *parts, void *args) {
     for (const cli_part *part = parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++) {
             if (!option->required || is_set(option, (char *)args + part->at)) continue;
             if (!option->name)
-                return cli_fail(CLI_USE, NULL, "%s: It is missing. --help lists what there is.", option->value);
+                return cli_fail(CLI_USE, NULL, "%s is missing. froe %s --help lists what there is.", option->value,
+                                command);
             if (!option->letter)
-                return cli_fail(CLI_USE, NULL, "--%s %s: It is missing. --help lists what there is.", option->name,
-                                option->value);
-            return cli_fail(CLI_USE, NULL, "-%c %s: It is missing. --help lists what there is.", option->letter,
-                            option->value);
+                return cli_fail(CLI_USE, NULL, "--%s %s is missing. froe %s --help lists what there is.", option->name,
+                                option->value, command);
+            return cli_fail(CLI_USE, NULL, "-%c %s is missing. froe %s --help lists what there is.", option->letter,
+                            option->value, command);
         }
     return 0;
 }
 
-int cli_parse(const cli_part *parts, int argc, char **argv, void *args) {
+int cli_parse(const char *command, const cli_part *parts, int argc, char **argv, void *args) {
     bool only_operands = false;
     int next = 0, operands = 0;
     while (next < argc) {
@@ -273,7 +274,7 @@ int cli_parse(const cli_part *parts, int argc, char **argv, void *args) {
         const int code = set_value(found, value);
         if (code) return code;
     }
-    return ((cli_common *)args)->help ? 0 : check_required(parts, args);
+    return ((cli_common *)args)->help ? 0 : check_required(command, parts, args);
 }
 
 void cli_release(const cli_part *parts, void *args) {

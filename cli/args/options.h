@@ -71,8 +71,9 @@ extern const cli_option cli_common_options[];
     { .seed = 1 }
 
 /** Fills `args` from the words after the command's name. Returns 0, or an exit
- * code after saying on stderr what is wrong. --help excuses missing operands. */
-int cli_parse(const cli_part *parts, int argc, char **argv, void *args);
+ * code after saying on stderr what is wrong. --help excuses missing operands.
+ * Messages name the command that tells more. */
+int cli_parse(const char *command, const cli_part *parts, int argc, char **argv, void *args);
 /** Frees what cli_parse() allocated within `args`. */
 void cli_release(const cli_part *parts, void *args);
 

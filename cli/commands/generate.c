@@ -66,11 +66,11 @@ static int find_kind(const char *kind, bool *moving) {
 static int run_generate(const void *given) {
     const generate_args *args = given;
     if (args->list) return list_kinds(args);
-    if (!args->kind) return cli_fail(CLI_USE, NULL, "KIND: It is missing. froe generate --list lists what there is.");
+    if (!args->kind) return cli_fail(CLI_USE, NULL, "KIND is missing. froe generate --list lists what there is.");
     bool moving = false;
     int code = find_kind(args->kind, &moving);
     if (code) return code;
-    if (!args->output) return cli_fail(CLI_USE, NULL, "-o FILE: It is missing. --help lists what there is.");
+    if (!args->output) return cli_fail(CLI_USE, NULL, "-o FILE is missing. froe generate --help lists what there is.");
     froe_motion *motion = NULL;
     froe_scene *scene = NULL;
     froe_diagnostic diag = {0};
