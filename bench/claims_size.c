@@ -398,6 +398,23 @@ static double promises(void) {
     return worst;
 }
 
+/** Most pieces per triangle of 1,000 to 4,000 triangles of cubes, one in the other. */
+static double nested_cubes(const char *method) {
+    double worst = 0;
+    for (size_t n = 1000; n <= 4000; n *= 2) {
+        claims_tree t = claims_build("nested-3d", n, method, NULL, 1);
+        worst = fmax(worst, pieces(&t) / (double)t.report.objects);
+        claims_free(&t);
+    }
+    return worst;
+}
+static double nested_cubes_by_guards(void) {
+    return nested_cubes("density");
+}
+static double nested_cubes_without(void) {
+    return nested_cubes("autopartition");
+}
+
 static double painters(void) {
     static const char *const kinds[] = {"city", "rooms-3d", "cuboids", NULL};
     double worst = 0;
@@ -414,6 +431,10 @@ const claim claims_size[] = {
      "exponent of nodes + pieces in n; worst of cuboids, city, terrain", 0.9, 1.05, linear_size},
     {"de Berg, theorem 2.5", "the same in the plane", "density",
      "exponent of nodes + pieces in n; worst of scatter, rooms, blocks", 0.9, 1.05, linear_size_in_the_plane},
+    {"de Berg, theorem 2.5", "few pieces of objects of all scales", "density",
+     "pieces / n, 1000, 2000 and 4000 triangles of nested cubes", 1, 5.5, nested_cubes_by_guards},
+    {"the same, for comparison", "refinement without guards makes many", "autopartition",
+     "pieces / n, the same triangles", 15, 200, nested_cubes_without},
     {"de Berg, introduction (Chazelle)", "some scenes are quadratic for every partition", "density",
      "exponent of pieces in n, lines of two saddles", 1.8, 2.2, saddles_are_quadratic},
     {"de Berg, introduction (Chazelle)", "the same", "grain", "exponent of pieces in n, lines of two saddles", 1.8, 2.2,
