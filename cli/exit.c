@@ -24,13 +24,16 @@ static const unsigned char codes[FROE_STATUS_COUNT][3] = {
 };
 
 int cli_fail(int code, const char *file, const char *sentence, ...) {
+    enum { ROOM = 8192 }; /* a path of 4096 bytes, and more than any sentence has */
+    char text[ROOM];
     va_list args;
-    fputs("froe: ", stderr);
-    if (file) fprintf(stderr, "%s: ", file);
+    const int length = file ? snprintf(text, ROOM, "%s: ", file) : 0;
+    const size_t at = length < ROOM ? (size_t)length : ROOM - 1;
     va_start(args, sentence);
-    vfprintf(stderr, sentence, args);
+    vsnprintf(text + at, ROOM - at, sentence, args);
     va_end(args);
-    fputc('\n', stderr);
+    support_one_line(text);
+    fprintf(stderr, "froe: %s\n", text);
     return code;
 }
 
@@ -59,7 +62,9 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
         return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));
     const char *sentence = diag->message;
     if (file) { /* The library names a file by the end of its path. Messages of readers begin with it. */
-        const char *end = support_short(file);
+        char end[sizeof diag->message];
+        snprintf(end, sizeof end, "%s", support_short(file));
+        support_one_line(end);
         const size_t length = strlen(end);
         if (strncmp(sentence, end, length) == 0 && strncmp(sentence + length, ": ", 2) == 0) sentence += length + 2;
     }

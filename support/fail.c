@@ -5,6 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
+void support_one_line(char *text) {
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 0x7f) *text = '?';
+}
+
 static void fill(froe_diagnostic *diag, froe_status status, uint32_t object, uint32_t corner, uint32_t axis,
                  const char *sentence, va_list args) {
     if (!diag) return;
@@ -13,6 +18,7 @@ static void fill(froe_diagnostic *diag, froe_status status, uint32_t object, uin
     diag->corner = corner;
     diag->axis = axis;
     vsnprintf(diag->message, sizeof diag->message, sentence, args);
+    support_one_line(diag->message);
 }
 
 froe_status support_fail(froe_diagnostic *diag, froe_status status, const char *sentence, ...) {

@@ -33,6 +33,9 @@ froe_status support_fail_irregular(froe_diagnostic *diag, const char *path, bool
 froe_status support_fail_ending(froe_diagnostic *diag, froe_status status, const char *path, const char *what,
                                 const char *endings);
 
+/** Replaces control characters, which a message may quote from a file or have from its name, by question marks: they
+ * would end the line, or command a terminal. support_fail() does so. */
+void support_one_line(char *text);
 /** The end of a path, short enough to leave room for the reason in a diagnostic. */
 const char *support_short(const char *path);
 /** What an errno value means, in words of the system, from the calling thread's own buffer. */

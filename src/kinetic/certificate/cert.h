@@ -23,7 +23,7 @@ typedef struct cert_record {
     int64_t tick; /**< first odd tick after which it does not hold */
     uint32_t owner;
     uint32_t next;  /**< free certificates */
-    cert_kind kind; /**< of a region: which one it was when it was made; which it is now, certify_region() tells */
+    cert_kind kind; /**< of a region: which one it was when it was made; which it is now, certify_kind() tells */
     now_claim claim;
     uint32_t covered[2]; /**< walls that will be borders when their segments have turned, or FROE_NONE: it is about
                             them, too, and `claim` may be about what the borders were when it was made */
