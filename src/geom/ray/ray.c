@@ -203,7 +203,7 @@ static bool meets_box(num_context *context, const geom_ray *ray, const double *l
 
 static bool meets_ball(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
     const double *centre = geom_body_point(body, 0);
-    bool inside;
+    bool inside = false;
     int meets;
     context->stats.calls++;
     meets = NUM_DECIDE(context, meets, NUM_UNSURE, NUM_UNSURE, ray_meets_sphere, ray, centre, body->radius, &inside);
