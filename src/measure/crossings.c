@@ -87,7 +87,7 @@ froe_status measure_count_by_trees(measure_sample *sample, const measure_windows
     const int dim = sample->scene->dim;
     const uint32_t n = sample->scene->object_count;
     const size_t products = (size_t)1 << dim;
-    box_ends ends[FROE_MAX_DIM][2] = {{{NULL}}}; /* lower, upper */
+    box_ends ends[FROE_MAX_DIM][2] = {{{0}}}; /* lower, upper */
     froe_status status = FROE_OK;
     for (size_t i = 0; i < windows->count; i++) out[i] = 0;
     for (int k = 0; k < 2 * dim && !status; k++)
