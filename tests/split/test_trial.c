@@ -1,4 +1,5 @@
 /* test_trial.c: refinement that costs too much is taken back where guard cuts cost less, and only there. */
+#include "support/memory.h"
 #include <froe/formats.h>
 #include <froe/froe.h>
 #include <setjmp.h>
@@ -47,12 +48,33 @@ static void a_trial_ends_alike_on_any_number_of_threads(void **state) {
     assert_true(one == pieces_each("nested-3d", 2000, 3));
 }
 
+/** In these squares refinement is taken back. */
+static froe_status build_nested(void *user, const froe_allocator *alloc) {
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_build_options o = froe_build_defaults();
+    (void)user;
+    o.method = "density";
+    o.threads = 1;
+    froe_status status = froe_generate("nested", 300, 1, alloc, &scene, NULL);
+    if (!status) status = froe_build(scene, &o, &tree, NULL);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    return status;
+}
+
+static void trials_survive_every_failing_allocation(void **state) {
+    (void)state;
+    test_memory_each(build_nested, NULL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nested_cubes_have_few_pieces_whatever_their_number),
         cmocka_unit_test(nested_squares_have_few_pieces),
         cmocka_unit_test(where_every_partition_is_quadratic_refinement_stays),
         cmocka_unit_test(a_trial_ends_alike_on_any_number_of_threads),
+        cmocka_unit_test(trials_survive_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
