@@ -1,14 +1,19 @@
 /* pdf.c: a PDF 1.4 file: six objects, of which one holds what the page shows, and the table of where they are
- * (ISO 32000-1, 7.5). Nothing is compressed, and nothing differs between two runs. */
+ * (ISO 32000-1, 7.5). Nothing is compressed, and nothing differs between two runs.
+ *
+ * A page has at most 14,400 units (Annex C.2). A longer one has units of several points, which is PDF 1.6. */
 #include "page.h"
 #include "render.h"
+#include <math.h>
 #include <string.h>
 
 enum { CATALOG = 1, PAGES, PAGE, CONTENT, LENGTH, INFO, OBJECTS };
+enum { MOST_UNITS = 14400 };
 
 typedef struct pdf_writer {
     vector_output *output;
     uint64_t begins[OBJECTS]; /* where each object begins */
+    int unit;                 /* points to a unit of the page: 1, 2, 4 ... */
 } pdf_writer;
 
 static void begin_object(pdf_writer *w, int number) {
@@ -41,6 +46,8 @@ static void put_content(pdf_writer *w, vector_render *render, bool alphas[256]) 
     begin_object(w, CONTENT);
     vector_print(w->output, "<</Length %d 0 R>>\nstream\n", LENGTH);
     const uint64_t begin = w->output->count;
+    const vector_digits scale = vector_real(10, 1.0 / w->unit);
+    if (w->unit > 1) vector_print(w->output, "%s 0 0 %s 0 0 cm\n", scale.text, scale.text);
     vector_put_page(render, w->output, alphas);
     const uint64_t length = w->output->count - begin;
     vector_print(w->output, "endstream\n");
@@ -55,7 +62,9 @@ static void put_page(pdf_writer *w, const vector_render *render, const bool alph
     const froe_camera *camera = &render->options->camera;
     begin_object(w, PAGE);
     vector_print(w->output, "<</Type/Page/Parent %d 0 R/MediaBox[0 0 %s %s]/Contents %d 0 R\n", PAGES,
-                 vector_points(render, camera->width).text, vector_points(render, camera->height).text, CONTENT);
+                 vector_points(render, camera->width / w->unit).text,
+                 vector_points(render, camera->height / w->unit).text, CONTENT);
+    if (w->unit > 1) vector_print(w->output, "/UserUnit %d\n", w->unit);
     vector_print(w->output, "/Group<</S/Transparency/CS/DeviceRGB/I true>>\n/Resources<</ExtGState<<");
     for (unsigned a = 0; a < 256; a++)
         if (alphas[a])
@@ -66,10 +75,13 @@ static void put_page(pdf_writer *w, const vector_render *render, const bool alph
 }
 
 void vector_pdf(vector_render *render, vector_output *output) {
-    pdf_writer w = {.output = output};
+    const froe_camera *camera = &render->options->camera;
+    pdf_writer w = {.output = output, .unit = 1};
     bool alphas[256] = {false};
-    vector_print(output,
-                 "%%PDF-1.4\n%%\xE2\xE3\xCF\xD3\n"); /* bytes above 127 tell transports that the file is binary */
+    while (fmax(camera->width, camera->height) * vector_unit(render->options) > (double)MOST_UNITS * w.unit)
+        w.unit *= 2;
+    /* bytes above 127 tell transports that the file is binary */
+    vector_print(output, "%%PDF-1.%d\n%%\xE2\xE3\xCF\xD3\n", w.unit > 1 ? 6 : 4);
     begin_object(&w, CATALOG);
     vector_print(output, "<</Type/Catalog/Pages %d 0 R>>\n", PAGES);
     end_object(&w);

@@ -59,6 +59,27 @@ static void every_object_of_a_pdf_is_where_its_table_says(void **state) {
     froe_tree_free(tree);
 }
 
+/* Viewers show no more than 14,400 units. */
+static void a_large_page_has_large_units(void **state) {
+    (void)state;
+    froe_tree *tree = triangles();
+    froe_render_options o = rich_options();
+    o.millimetres = false;
+    o.camera.width = 14400;
+    page_bytes p = page_of(tree, FROE_RENDER_PDF, &o, NULL);
+    assert_memory_equal(p.text, "%PDF-1.4\n", 9);
+    assert_null(strstr(p.text, "/UserUnit"));
+    free(p.text);
+    o.camera.width = 32000;
+    p = page_of(tree, FROE_RENDER_PDF, &o, NULL);
+    assert_memory_equal(p.text, "%PDF-1.6\n", 9);
+    assert_non_null(strstr(p.text, "/MediaBox[0 0 8000 "));
+    assert_non_null(strstr(p.text, "/UserUnit 4\n"));
+    assert_non_null(strstr(p.text, "stream\n0.25 0 0 0.25 0 0 cm\n"));
+    free(p.text);
+    froe_tree_free(tree);
+}
+
 static void an_eps_file_has_the_comments_that_programs_look_for(void **state) {
     (void)state;
     froe_tree *tree = triangles();
@@ -381,6 +402,7 @@ static void a_locale_with_commas_changes_no_byte(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_object_of_a_pdf_is_where_its_table_says),
+        cmocka_unit_test(a_large_page_has_large_units),
         cmocka_unit_test(an_eps_file_has_the_comments_that_programs_look_for),
         cmocka_unit_test(pages_paint_the_paths_of_the_picture),
         cmocka_unit_test(opacity_is_a_state_that_the_page_defines),
