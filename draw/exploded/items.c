@@ -6,6 +6,7 @@
  * Only pieces that share a leaf have no cut between them: they are listed in the order of
  * their centres, and so are boxes, balls and hulls, which no cut divides. */
 #include "exploded/solid.h"
+#include "support/axes.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -93,7 +94,7 @@ static bool add_faces(item_walk *w, draw_matter matter) {
         normal_of(corners, count, n);
         centre(corners, count, out);
         for (int k = 0; k < 3; k++) out[k] -= part->middle[k];
-        bool front = (draw_dot(n, solid->camera.eye) > 0) == (draw_dot(n, out) >= 0);
+        bool front = (support_dot(n, solid->camera.eye) > 0) == (support_dot(n, out) >= 0);
         draw_item item = {.part = w->part - 1, .matter = (uint8_t)matter};
         if (front == (matter == DRAW_FRONT) && !add_area(w, item, corners, count, part->middle, NULL)) return false;
     }
@@ -198,7 +199,7 @@ static bool add_list(item_walk *w, const froe_node_info *info) {
             double middle[3];
             if (!draw_corners_of_object(shaper, froe_tree_piece(w->tree, at.piece).object)) return false;
             centre(shaper->solid.data, shaper->solid.count / 3, middle);
-            at.key = draw_dot(middle, w->solid->camera.eye);
+            at.key = support_dot(middle, w->solid->camera.eye);
         }
         if (!array_push(w->alloc, &w->list, at)) return false;
     }

@@ -16,7 +16,6 @@ draw_camera draw_camera_from(const draw_space *space, const double *view);
 draw_point draw_camera_project(const draw_camera *camera, const double *p);
 /** How light a face with this normal (any length, either way round) is: 0 .. 1. */
 double draw_camera_shade(const draw_camera *camera, const double *normal);
-double draw_dot(const double *a, const double *b);
 
 typedef struct draw_part {
     froe_node node;

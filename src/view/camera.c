@@ -2,6 +2,7 @@
 #include "view/camera.h"
 #include "base/floats.h"
 #include "scene/scene.h"
+#include "support/axes.h"
 #include "support/fail.h"
 #include <float.h>
 #include <math.h>
@@ -20,27 +21,6 @@ froe_camera froe_camera_defaults(void) {
 
 /* ---------------------------------------------------------------------- vectors -- */
 
-static double dot(const double *a, const double *b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross_vectors(const double *a, const double *b, double *out) {
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        out[k] = a[i] * b[j] - a[j] * b[i];
-    }
-}
-
-/* To length 1, first to largest component 1 against overflow; false for (nearly) no length. */
-static bool normalize(double *v) {
-    const double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (!(most > 0) || !isfinite(most)) return false;
-    for (int k = 0; k < 3; k++) v[k] /= most;
-    const double length = sqrt(dot(v, v));
-    for (int k = 0; k < 3; k++) v[k] /= length;
-    return true;
-}
-
 /* tan x = x / (1 - x^2 / (3 - x^2 / (5 - ...))) (Lambert 1761): converges for every x, fast below pi / 2. */
 double view_tan(double degrees) {
     const double x = degrees * (3.14159265358979323846 / 180), square = x * x;
@@ -54,9 +34,9 @@ double view_tan(double degrees) {
 void view_camera_point(const froe_projection *view, const double *point, double out[3]) {
     double w[3];
     for (int k = 0; k < 3; k++) w[k] = point[k] - view->origin[k];
-    out[0] = dot(w, view->right);
-    out[1] = dot(w, view->up);
-    out[2] = -dot(w, view->back);
+    out[0] = support_dot(w, view->right);
+    out[1] = support_dot(w, view->up);
+    out[2] = -support_dot(w, view->back);
 }
 
 void view_camera_page(const froe_projection *view, const double at[3], double page[2]) {
@@ -82,30 +62,19 @@ void view_camera_ray(const froe_projection *view, const double origin[3], int ax
         for (int c = 0; c < 2; c++) point[(axis + 1 + c) % 3] += ray[c] / ray[2];
         view_camera_point(view, point, at);
     } else { /* the ray runs from the point to the eye */
-        at[0] = -dot(ray, view->right), at[1] = -dot(ray, view->up), at[2] = dot(ray, view->back);
+        at[0] = -support_dot(ray, view->right), at[1] = -support_dot(ray, view->up),
+        at[2] = support_dot(ray, view->back);
     }
     view_camera_page(view, at, page);
 }
 
 /* ---------------------------------------------------------------------- placing -- */
 
-/* The page's axes. An up along the line of view is replaced by the first axis that is not along it. */
 static froe_status set_axes(const froe_camera *c, froe_projection *out, froe_diagnostic *diag) {
-    double up[3] = {c->up[0], c->up[1], c->up[2]};
     for (int k = 0; k < 3; k++) out->back[k] = c->eye[k] - c->target[k];
-    if (!normalize(out->back))
+    if (!support_normalize(out->back))
         return support_fail(diag, FROE_E_ARG, "The eye is where it looks at, which is no direction.");
-    out->up_axis = -1;
-    for (int axis = -1; axis < 3; axis++) {
-        if (axis >= 0)
-            for (int k = 0; k < 3; k++) up[k] = k == axis;
-        if (!normalize(up)) continue;
-        cross_vectors(up, out->back, out->right);
-        out->up_axis = axis;
-        if (dot(out->right, out->right) > 1e-12) break;
-    }
-    normalize(out->right);
-    cross_vectors(out->back, out->right, out->up);
+    out->up_axis = support_page_axes(out->back, c->up, out->right, out->up);
     return FROE_OK;
 }
 
@@ -132,7 +101,8 @@ static bool fit_points_new(const froe_camera *c, const froe_scene *scene, fit_po
         if (scene_form(scene, o) > FROE_POLYGON) continue; /* such pictures do not show it */
         for (uint32_t i = 0; i < n; i++) {                 /* what the section leaves of an edge */
             const double *a = scene_point(scene, o, i), *b = scene_point(scene, o, i + 1 < n ? i + 1 : 0);
-            const double at_a = dot(c->section, a) - c->section[3], at_b = dot(c->section, b) - c->section[3];
+            const double at_a = support_dot(c->section, a) - c->section[3],
+                         at_b = support_dot(c->section, b) - c->section[3];
             double x[3];
             if (at_a <= 0 && !keep_fit_point(alloc, out, a)) return false;
             if ((at_a <= 0) == (at_b <= 0)) continue;
@@ -154,9 +124,9 @@ static double distance_for(const froe_projection *view, const froe_camera *c, co
     for (size_t i = 0; i < points->count; i++) {
         double w[3];
         for (int k = 0; k < 3; k++) w[k] = points->at[3 * i + (size_t)k] - aim[k];
-        const double out = dot(w, view->back);
-        distance = fmax(distance, out + fabs(dot(w, view->right)) / most_x);
-        distance = fmax(distance, out + fabs(dot(w, view->up)) / most_y);
+        const double out = support_dot(w, view->back);
+        distance = fmax(distance, out + fabs(support_dot(w, view->right)) / most_x);
+        distance = fmax(distance, out + fabs(support_dot(w, view->up)) / most_y);
     }
     return distance;
 }

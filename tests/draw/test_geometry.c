@@ -5,6 +5,7 @@
 #include "partition.h"
 #include "pictures.h"
 #include "shape.h"
+#include "support/axes.h"
 #include <math.h>
 
 static draw_view view_of(const froe_tree *tree, int axis, double at, int up) {
@@ -85,7 +86,7 @@ static void planes_in_drawing_coordinates_keep_their_sides(void **state) {
                 for (size_t i = 0; i < child.piece_count; i++) {
                     assert_true(draw_corners_of_piece(&shaper, child.first_piece + i));
                     for (size_t k = 0; k + 2 < shaper.solid.count; k += 3) {
-                        double d = draw_dot(plane.n, shaper.solid.data + k) - plane.c;
+                        double d = support_dot(plane.n, shaper.solid.data + k) - plane.c;
                         assert_true(side ? d > -1e-9 : d < 1e-9);
                         tested++;
                     }
@@ -130,10 +131,10 @@ static void plane_equations_of_every_kind_of_cut_agree(void **state) {
             draw_plane p = draw_space_plane(&view.space, s, &cut);
             double x[3] = {1, 1, 1}, y[3] = {1, 1, 1}, u[3];
             draw_space_point(&view.space, x, u);
-            assert_true(draw_dot(p.n, u) == p.c);
+            assert_true(support_dot(p.n, u) == p.c);
             y[axis] = 2;
             draw_space_point(&view.space, y, u);
-            assert_true(draw_dot(p.n, u) > p.c);
+            assert_true(support_dot(p.n, u) > p.c);
         }
     }
     froe_tree_free(tree);
@@ -209,8 +210,8 @@ static double first_hit(const froe_scene *scene, const draw_space *space, const 
             n[k] = (p[1][a] - p[0][a]) * (p[2][b] - p[0][b]) - (p[1][b] - p[0][b]) * (p[2][a] - p[0][a]);
         }
         /* at.x right + at.y up + d eye lies in the triangle's plane. */
-        double d = draw_dot(n, p[0]) - at.x * draw_dot(n, camera->right) - at.y * draw_dot(n, camera->up);
-        d /= draw_dot(n, camera->eye);
+        double d = support_dot(n, p[0]) - at.x * support_dot(n, camera->right) - at.y * support_dot(n, camera->up);
+        d /= support_dot(n, camera->eye);
         if (d > nearest) nearest = d, shade = draw_camera_shade(camera, n);
     }
     return shade;
@@ -280,11 +281,11 @@ static void parts_pulled_apart_stay_separated_by_their_cuts(void **state) {
     for (size_t i = 0; i < solid->parts.count; i++) {
         const draw_part *part = solid->parts.data + i;
         size_t corners = solid->face_ends.data[part->first_face + part->face_count - 1];
-        int side = draw_dot(plane.n, part->middle) > plane.c;
+        int side = support_dot(plane.n, part->middle) > plane.c;
         sides[side]++;
         for (size_t k = 0; k < corners; k++) {
-            double at = draw_dot(plane.n, solid->corners.data + part->first_corner + 3 * k) +
-                        o.explode * draw_dot(plane.n, part->middle);
+            double at = support_dot(plane.n, solid->corners.data + part->first_corner + 3 * k) +
+                        o.explode * support_dot(plane.n, part->middle);
             gap[side] = side ? fmin(gap[1], at) : fmax(gap[0], at);
         }
     }

@@ -1,0 +1,50 @@
+/* axes.h: directions of space in plain doubles, and the axes of a page that is seen along one of them, for pictures.
+ *
+ *        up |
+ *           |____ right        back points from the page to the eye: the three are a right-handed frame
+ *          /
+ *         back                 No sine is in it, so that pictures are the same on every machine. */
+#ifndef FROE_SUPPORT_AXES_H
+#define FROE_SUPPORT_AXES_H
+#include <math.h>
+#include <stdbool.h>
+
+static inline double support_dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void support_cross(const double *a, const double *b, double *out) {
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        out[k] = a[i] * b[j] - a[j] * b[i];
+    }
+}
+
+/** Gives a vector the length 1, first the largest component 1, against overflow. False: it is zero or not finite. */
+static inline bool support_normalize(double *v) {
+    const double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    if (!(most > 0) || !isfinite(most)) return false;
+    for (int k = 0; k < 3; k++) v[k] /= most;
+    const double length = sqrt(support_dot(v, v));
+    for (int k = 0; k < 3; k++) v[k] /= length;
+    return true;
+}
+
+/** The axes of the page for an eye in the direction `back`, of length 1, with `up`, of any length, upwards. An up along
+ * the line of view is replaced by the first axis that is not along it, which is returned; -1: none had to be. */
+static inline int support_page_axes(const double back[3], const double up[3], double right[3], double page_up[3]) {
+    double upwards[3] = {up[0], up[1], up[2]};
+    int axis = -1;
+    while (true) {
+        if (support_normalize(upwards)) {
+            support_cross(upwards, back, right);
+            if (axis == 2 || support_dot(right, right) > 1e-12) break;
+        }
+        axis++;
+        for (int k = 0; k < 3; k++) upwards[k] = k == axis;
+    }
+    support_normalize(right);
+    support_cross(back, right, page_up);
+    return axis;
+}
+#endif
