@@ -248,24 +248,21 @@ static froe_status do_task(void *user, unsigned worker, size_t index) {
     split_work *work = g->workers + worker;
     grow_task *task = g->tasks.data + index;
     froe_status status = grow_task_from(g, work, task, 0);
-    if (!status) {
-        /* A subtree that is `over` levels too deep is grown again, each time as if it began as much further down as
-         * the last reached too far, while that helps. The lowest stays. */
-        uint32_t over = levels_over(g, work, 0);
-        status = FROE_OK;
-        for (uint32_t turn = 0, sunk = 0; turn < REGROWN && over && !status; turn++) {
-            tree_draft before = task->draft;
-            size_t pieces = before.pieces.count;
-            sunk += over;
-            work->most = 2 * (uint64_t)pieces;
-            status = grow_task_from(g, work, task, sunk);
-            work->most = 0;
-            bool lower = !status && levels_over(g, work, sunk) < over && 2 * task->draft.pieces.count >= pieces;
-            if (status == FROE_E_BUDGET) status = FROE_OK;
-            draft_free(lower ? &before : &task->draft);
-            if (!lower) task->draft = before;
-            over = lower ? levels_over(g, work, sunk) : 0;
-        }
+    /* A subtree that is `over` levels too deep is grown again, each time as if it began as much further down as the
+     * last reached too far, while that helps. The lowest stays. */
+    uint32_t over = levels_over(g, work, 0);
+    for (uint32_t turn = 0, sunk = 0; turn < REGROWN && over && !status; turn++) {
+        tree_draft before = task->draft;
+        size_t pieces = before.pieces.count;
+        sunk += over;
+        work->most = 2 * (uint64_t)pieces;
+        status = grow_task_from(g, work, task, sunk);
+        work->most = 0;
+        bool lower = !status && levels_over(g, work, sunk) < over && 2 * task->draft.pieces.count >= pieces;
+        if (status == FROE_E_BUDGET) status = FROE_OK;
+        draft_free(lower ? &before : &task->draft);
+        if (!lower) task->draft = before;
+        over = lower ? levels_over(g, work, sunk) : 0;
     }
     return status ? status : count_pieces(g, &task->draft);
 }
