@@ -1,4 +1,5 @@
-/* axes.h: directions of space in plain doubles, and the axes of a page that is seen along one of them, for pictures.
+/* axes.h: directions of space in plain doubles, for pictures, measures and scores, which decide nothing; and the
+ * axes of a page that is seen along one of them.
  *
  *        up |
  *           |____ right        back points from the page to the eye: the three are a right-handed frame

@@ -4,6 +4,7 @@
 #include "measure/enclosing.h"
 #include "measure/sample.h"
 #include "measure/volume.h"
+#include "support/axes.h"
 #include "support/fail.h"
 #include <math.h>
 
@@ -20,13 +21,11 @@ static double ball_volume(int dim, double radius) {
 static void cross_of_points(const double *a, const double *b, const double *c, double scale, double *out) {
     double u[3], v[3];
     for (int k = 0; k < 3; k++) u[k] = b[k] * scale - a[k] * scale, v[k] = c[k] * scale - a[k] * scale;
-    out[0] = u[1] * v[2] - u[2] * v[1];
-    out[1] = u[2] * v[0] - u[0] * v[2];
-    out[2] = u[0] * v[1] - u[1] * v[0];
+    support_cross(u, v, out);
 }
 
 static double length(const double *v) {
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return sqrt(support_dot(v, v));
 }
 
 static double polygon_area(const froe_scene *scene, uint32_t object, double scale) {

@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "base/sort.h"
 #include "split/axes.h"
+#include "support/axes.h"
 #include <math.h>
 #include <string.h>
 
@@ -189,10 +190,6 @@ void split_view_local(const split_view *v, const double *x, double out[3]) {
     for (int k = 0; k < 3; k++) out[k] = k < v->dim ? (0.5 * x[k] - v->middle[k]) * v->scale : 0;
 }
 
-static double dot_3(const double *a, const double *b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /** Planes that agree up to the rounding of the scene's coordinates are meant as one. Views for sweeps are stricter:
  * their best is counted again. */
 static double slack_of(const split_view *v, const split_view_plane *plane) {
@@ -205,7 +202,7 @@ static double slack_of(const split_view *v, const split_view_plane *plane) {
 static double edge(const split_view *v, const froe_scene *scene, uint32_t a, uint32_t b, int dim, double out[3]) {
     const double *x = scene_vertex(scene, a), *y = scene_vertex(scene, b);
     for (int k = 0; k < 3; k++) out[k] = k < dim ? (0.5 * y[k] - 0.5 * x[k]) * v->scale : 0;
-    return dot_3(out, out);
+    return support_dot(out, out);
 }
 
 /** Through three vertices, or through two and upright, as a line of the plane is. */
@@ -222,13 +219,13 @@ static bool plane_through(const split_view *v, const froe_scene *scene, const ui
     n[0] = u[1] * w[2] - u[2] * w[1];
     n[1] = u[2] * w[0] - u[0] * w[2];
     n[2] = u[0] * w[1] - u[1] * w[0];
-    double length = sqrt(dot_3(n, n)), over = 1 / length;
+    double length = sqrt(support_dot(n, n)), over = 1 / length;
     if (!(length > thin * longest) || !(length > 0x1p-900) || !(length < 0x1p900)) return false; /* NaN, too */
     split_view_local(v, scene_vertex(scene, id[0]), at);
     for (int k = 0; k < 3; k++) n[k] *= over, out->known[k] = k < span && !v->pairs ? v->place[id[k]] : FROE_NONE;
-    out->d = dot_3(n, at);
+    out->d = support_dot(n, at);
     /* a few roundings of the normal, which weigh more the thinner the triangle, and of the sums */
-    out->slack = v->swept ? 0x1p-48 * (1 + longest * over) * (1 + sqrt(dot_3(at, at))) : slack_of(v, out);
+    out->slack = v->swept ? 0x1p-48 * (1 + longest * over) * (1 + sqrt(support_dot(at, at))) : slack_of(v, out);
     return true;
 }
 

@@ -1,5 +1,6 @@
 /* print.c: cutting and projecting. */
 #include "view/print.h"
+#include "support/axes.h"
 #include "support/clip.h"
 #include <math.h>
 
@@ -49,15 +50,14 @@ bool print_end(print_press *press, print_ring *out, bool *cut) {
         side_of_view(press->view, side, PRINT_BEYOND, n, &c);
         for (size_t i = 0; i < press->at[0].count && !needed; i += 3) {
             const double *a = press->at[0].data + i;
-            needed = !(n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c >= 0);
+            needed = !(support_dot(n, a) + c >= 0);
         }
         if (!needed) continue;
         *cut = true; /* from at[0] to one half-space into at[1] */
         press->at[1].count = 0;
         for (size_t i = 0, count = press->at[0].count; i < count; i += 3) {
             const double *a = press->at[0].data + i, *b = press->at[0].data + (i + 3 < count ? i + 3 : 0);
-            const double at_a = n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c,
-                         at_b = n[0] * b[0] + n[1] * b[1] + n[2] * b[2] + c;
+            const double at_a = support_dot(n, a) + c, at_b = support_dot(n, b) + c;
             if (at_a >= 0 && !put_on_page(press, 1, a[0], a[1], a[2])) return false;
             if ((at_a >= 0) == (at_b >= 0)) continue;
             const double t = at_a / (at_a - at_b);
@@ -85,8 +85,7 @@ bool print_clip_segment(const froe_projection *view, const double *from, const d
     view_camera_point(view, to, b);
     for (int side = 0; side < 5; side++) {
         side_of_view(view, side, beyond, n, &c);
-        const double at_a = n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + c,
-                     at_b = n[0] * b[0] + n[1] * b[1] + n[2] * b[2] + c;
+        const double at_a = support_dot(n, a) + c, at_b = support_dot(n, b) + c;
         if (!support_clip_shares(at_a, at_b, share)) return false;
     }
     return share[0] < share[1];

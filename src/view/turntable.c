@@ -3,6 +3,7 @@
  * Angles come from tan(angle / 4) and doubled angles: the same on every machine. */
 #include "base/floats.h"
 #include "scene/scene.h"
+#include "support/axes.h"
 #include "support/fail.h"
 #include "view/camera.h"
 #include <math.h>
@@ -18,7 +19,7 @@ static void turn_about(const double *axis, double cosine, double sine, const dou
 }
 
 static double length_of(const double *v) {
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return sqrt(support_dot(v, v));
 }
 
 /* One camera turned and fitted: the distance or the scale that it needs. */

@@ -2,6 +2,7 @@
  * by plain rational arithmetic. */
 #include "geom/bodies.h"
 #include "geom/meet/apart.h"
+#include "support/context.h"
 #include <gmp.h>
 
 /* --------------------------------------------------------------- rationals -- */
@@ -90,20 +91,9 @@ static void planes_are_between_nasty_bodies(void **state) {
     assert_true(counts.found > 30000 / BODIES_SHARE && counts.meeting > 9000 / BODIES_SHARE);
 }
 
-static int open_context(void **state) {
-    static num_context context;
-    *state = &context;
-    return num_context_new(NULL, &context);
-}
-
-static int close_context(void **state) {
-    num_context_free(*state);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(planes_are_between_nasty_bodies),
     };
-    return cmocka_run_group_tests_name("geom/apart", tests, open_context, close_context);
+    return cmocka_run_group_tests_name("geom/apart", tests, context_open, context_close);
 }

@@ -1,6 +1,7 @@
 /* test_between.c: planes between two sets of points, against trying all planes through dim of them in rationals. */
 #include "geom/between.h"
 #include "geom/sets.h"
+#include "support/context.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -114,17 +115,6 @@ static void large_hulls_take_few_questions(void **state) {
     assert_true(calls < 100 * CORNERS);
 }
 
-static int open_context(void **state) {
-    static num_context context;
-    *state = &context;
-    return num_context_new(NULL, &context);
-}
-
-static int close_context(void **state) {
-    num_context_free(*state);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(answers_are_those_of_brute_force_on_nasty_points),
@@ -134,5 +124,5 @@ int main(void) {
         cmocka_unit_test(what_lies_in_one_plane_is_flat),
         cmocka_unit_test(large_hulls_take_few_questions),
     };
-    return cmocka_run_group_tests(tests, open_context, close_context);
+    return cmocka_run_group_tests(tests, context_open, context_close);
 }

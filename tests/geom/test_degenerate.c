@@ -2,6 +2,7 @@
  * known by definition, balls that touch. A test begins with the numbers of the laws that it checks. Each question is
  * asked from every stage on. */
 #include "geom/sides.h"
+#include "support/context.h"
 
 static geom_plane plane_of(int dim, const double *p, const double *q, const double *r) {
     return geom_plane_points(dim, (const double *const[]){p, q, r});
@@ -179,17 +180,6 @@ static void b4_balls_that_touch_are_beside_planes_and_cut_by_walls(void **state)
     }
 }
 
-static int setup(void **state) {
-    static num_context context;
-    *state = &context;
-    return num_context_new(NULL, &context) != FROE_OK;
-}
-
-static int teardown(void **state) {
-    num_context_free(*state);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(v2_the_points_of_a_plane_are_on_it_and_others_are_not),
@@ -201,5 +191,5 @@ int main(void) {
         cmocka_unit_test(b1_b2_b3_balls_grow_from_their_centre),
         cmocka_unit_test(b4_balls_that_touch_are_beside_planes_and_cut_by_walls),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, context_open, context_close);
 }

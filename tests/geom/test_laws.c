@@ -3,6 +3,7 @@
  * others, and A1, X5 and C5 are checked by test_sides.c and test_walls.c against rationals. And how often which stage
  * is needed. */
 #include "geom/sides.h"
+#include "support/context.h"
 #include <fenv.h>
 
 typedef struct answers {
@@ -256,19 +257,8 @@ static void filters_know_no_scale(void **state) {
     }
 }
 
-static int setup(void **state) {
-    static num_context context;
-    *state = &context;
-    return num_context_new(NULL, &context) != FROE_OK;
-}
-
-static int teardown(void **state) {
-    num_context_free(*state);
-    return 0;
-}
-
 int main(void) {
-#define LAW(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+#define LAW(name) cmocka_unit_test_setup_teardown(name, context_open, context_close)
     const struct CMUnitTest tests[] = {
         LAW(filters_know_no_scale),
         LAW(a2_scaling_by_a_power_of_two_changes_nothing),

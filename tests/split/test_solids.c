@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "support/fuzz.h"
+#include "support/scatter.h"
 
 typedef struct solids {
     froe_scene *scene;
@@ -24,13 +25,7 @@ static solids begin(int dim) {
 
 static void add(solids *s, froe_kind kind, size_t count, const double *coords, const double *radii,
                 const size_t *starts) {
-    froe_objects objects = froe_objects_defaults();
-    objects.kind = kind;
-    objects.count = count;
-    objects.coords = coords;
-    objects.radii = radii;
-    objects.starts = starts;
-    assert_int_equal(froe_scene_add(s->scene, &objects, NULL), FROE_OK);
+    assert_int_equal(trees_add(s->scene, kind, count, coords, radii, starts), FROE_OK);
 }
 
 /** A hull of n random points of a sphere. */

@@ -1,18 +1,15 @@
 /* crossing.c: chords of fragments in the plane of an object, clipped by its edges. */
 #include "build/grain/crossing.h"
+#include "support/axes.h"
 #include <math.h>
 #include <string.h>
 
 #define TOUCHING 0x1p-36 /* neighbours in a mesh have a vertex in common, or an edge: they do not cross */
 
-static double dot_3(const double *a, const double *b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /** Shortens a chord to a halfspace that is smaller by TOUCHING. False: nothing is left. */
 static bool clip_chord(double chord[2][3], const double at[3], const double inward[3]) {
-    double border = dot_3(at, inward) + TOUCHING * sqrt(dot_3(inward, inward));
-    double u = dot_3(chord[0], inward) - border, v = dot_3(chord[1], inward) - border;
+    double border = support_dot(at, inward) + TOUCHING * sqrt(support_dot(inward, inward));
+    double u = support_dot(chord[0], inward) - border, v = support_dot(chord[1], inward) - border;
     if (!(u > 0) && !(v > 0)) return false;
     if (u > 0 && v > 0) return true;
     double *outer = chord[u > 0];
@@ -34,7 +31,7 @@ static bool crosses(const split_view *f, const froe_scene *scene, uint32_t objec
     for (uint32_t j = from; j < to && found < 2; j++) {
         uint32_t a = f->corner.data[j], b = f->corner.data[j + 1 < to ? j + 1 : from];
         double p[3] = {x[0][a], x[1][a], x[2][a]}, q[3] = {x[0][b], x[1][b], x[2][b]};
-        double u = dot_3(n, p) - plane->d, v = dot_3(n, q) - plane->d;
+        double u = support_dot(n, p) - plane->d, v = support_dot(n, q) - plane->d;
         if ((u > 0) == (v > 0)) continue;
         for (int k = 0; k < 3; k++) chord[found][k] = p[k] + (q[k] - p[k]) * (u / (u - v));
         found++;
