@@ -63,6 +63,10 @@ typedef struct place {
     char *base;
 } place;
 
+static bool is_name(const char *known, const char *name, size_t length) {
+    return known && strlen(known) == length && !memcmp(known, name, length);
+}
+
 /* The option of a word "--name", "--name=value", "-n" or "-nvalue". `value` is what is attached to it, or NULL. */
 static place find_option(const cli_part *parts, void *args, const char *word, const char **value) {
     const bool is_long = word[1] == '-';
@@ -71,8 +75,7 @@ static place find_option(const cli_part *parts, void *args, const char *word, co
     *value = name[length] ? name + length + is_long : NULL;
     for (const cli_part *part = parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++) {
-            const bool same_name =
-                option->name && strlen(option->name) == length && !memcmp(option->name, name, length);
+            const bool same_name = is_name(option->name, name, length) || is_name(option->alias, name, length);
             if (is_long ? same_name : option->letter == *name) return (place){option, (char *)args + part->at};
         }
     return (place){0};

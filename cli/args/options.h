@@ -50,6 +50,7 @@ typedef struct cli_option {
     bool required;
     uint64_t min, max;          /**< CLI_WHOLE; max 0: no limit */
     const char *const *choices; /**< CLI_CHOICE; ended by NULL */
+    const char *alias;          /**< another long name, or NULL */
 } cli_option;
 
 /** A table and where its struct lies within the command's arguments, so that

@@ -23,7 +23,7 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
     froe_read_options options = froe_read_defaults();
     options.layer = args->layer;
     options.where = args->where;
-    options.faces = (froe_faces)args->faces;
+    if (args->faces >= 0) options.faces = (froe_faces)args->faces;
     options.boxes = args->boxes;
     options.alloc = args->alloc;
     options.progress = cli_progress_step;

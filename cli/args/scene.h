@@ -7,7 +7,7 @@
 
 typedef struct cli_scene_args {
     const char *path, *layer, *where;
-    int faces;
+    int faces; /**< -1: not given */
     bool boxes;
     const froe_allocator *alloc; /**< of the scene; NULL: malloc */
 } cli_scene_args;

@@ -1,23 +1,27 @@
-/* check.c: froe check, the exact audit of a saved tree. */
+/* check.c: froe check, the exact audit of a tree. */
+#include "args/tree.h"
 #include "command.h"
 #include "exit.h"
 #include "progress.h"
-#include "report/tree_report.h"
+#include "report/report.h"
 
 typedef struct check_args {
     cli_common common;
-    const char *tree;
+    cli_tree_args tree;
     bool exact;
 } check_args;
 
 static const cli_option options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(check_args, tree), "TREE", .help = "a tree that froe build saved", .required = true},
     {"exact", 0, CLI_FLAG, offsetof(check_args, exact),
      .help = "bypass every floating-point filter: slow, and the answer must be the same"},
     {0},
 };
 
-static const cli_part parts[] = {{"Check", options, 0}, {"Options", cli_common_options, 0}, {0}};
+static const cli_part parts[] = {CLI_TREE_PART(check_args),
+                                 {"Check", options, 0},
+                                 CLI_TREE_BUILD_PARTS(check_args),
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
 
 static json_t *id_json(uint32_t id) {
     return id == FROE_NONE ? json_null() : json_integer((json_int_t)id);
@@ -26,7 +30,7 @@ static json_t *id_json(uint32_t id) {
 static int run_check(const void *given) {
     const check_args *args = given;
     froe_tree *tree;
-    int code = cli_open_tree(args->tree, &tree);
+    int code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     const double start = cli_seconds();
     cli_progress bar = cli_progress_begin(&args->common, "auditing");
@@ -42,21 +46,21 @@ static int run_check(const void *given) {
     if (status == FROE_OK) {
         const froe_report r = froe_tree_report(tree);
         char headline[400];
-        snprintf(headline, sizeof headline, "%.200s: every invariant holds", args->tree);
+        snprintf(headline, sizeof headline, "%.200s: every invariant holds", args->tree.scene.path);
         code = cli_report(&args->common, headline,
-                          json_pack("{s:o, s:b, s:s, s:i, s:I, s:I, s:I, s:I, s:f}", "tree", cli_name_json(args->tree),
-                                    "ok", 1, "method", r.method, "dim", r.dim, "objects", (json_int_t)r.objects,
-                                    "nodes", (json_int_t)r.nodes, "fragments", (json_int_t)r.fragments, "height",
-                                    (json_int_t)r.height, "seconds", seconds));
+                          json_pack("{s:o, s:b, s:s, s:i, s:I, s:I, s:I, s:I, s:f}", "tree",
+                                    cli_name_json(args->tree.scene.path), "ok", 1, "method", r.method, "dim", r.dim,
+                                    "objects", (json_int_t)r.objects, "nodes", (json_int_t)r.nodes, "fragments",
+                                    (json_int_t)r.fragments, "height", (json_int_t)r.height, "seconds", seconds));
     } else {
-        code = cli_fail_status(CLI_WORKING, args->tree, status, &diag);
+        code = cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag);
     }
     if (status == FROE_E_AUDIT && args->common.json) { /* a violation goes to stdout, too */
         const int written =
             cli_report(&args->common, NULL,
-                       json_pack("{s:o, s:b, s:{s:s, s:o, s:o, s:o}}", "tree", cli_name_json(args->tree), "ok", 0,
-                                 "violation", "message", diag.message, "object", id_json(diag.object), "corner",
-                                 id_json(diag.corner), "axis", id_json(diag.axis)));
+                       json_pack("{s:o, s:b, s:{s:s, s:o, s:o, s:o}}", "tree", cli_name_json(args->tree.scene.path),
+                                 "ok", 0, "violation", "message", diag.message, "object", id_json(diag.object),
+                                 "corner", id_json(diag.corner), "axis", id_json(diag.axis)));
         if (written) code = written;
     }
     froe_tree_free(tree);
@@ -70,9 +74,9 @@ const cli_command cli_command_check = {
              "list holds exactly the pieces that brute force puts there; that in-cut pieces lie in their cuts; leaf "
              "capacity; and the promises of the method that built the tree.\n\n"
              "The exit code is 0 when all of it holds and 1, with the first violation, when it does not.",
-    .examples = "froe check floor.froe\nfroe check house.froe --exact --json\n",
+    .examples = "froe check floor.froe\nfroe check house.glb --method density --exact --json\n",
     .parts = parts,
-    .defaults = &(const check_args){.common = CLI_COMMON_DEFAULTS},
+    .defaults = &(const check_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS},
     .size = sizeof(check_args),
     .run = run_check,
 };

@@ -1,10 +1,11 @@
 /* draw.c: froe draw, a partition as a picture. */
 #include "args/picture.h"
+#include "args/tree.h"
 #include "command.h"
 #include "exit.h"
 #include "files.h"
 #include "progress.h"
-#include "report/tree_report.h"
+#include "report/report.h"
 #include <froe/draw.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +13,8 @@
 
 typedef struct draw_args {
     cli_common common;
-    const char *tree, *output, *show, *background, *title, *section;
+    cli_tree_args tree;
+    const char *output, *show, *background, *title, *section;
     int style, up;
     double width, height, margin, scale, detail, explode; /**< NaN: the library's default */
     uint64_t max_depth, explode_depth;                    /**< UINT64_MAX: the library's default */
@@ -24,7 +26,6 @@ static const char *const styles[] = {"auto", "flat", "sections", "exploded", NUL
 static const char *const axes[] = {"x", "y", "z", NULL};
 
 static const cli_option what[] = {
-    {NULL, 0, CLI_TEXT, offsetof(draw_args, tree), "TREE", .help = "a tree that froe build saved", .required = true},
     {"output", 'o', CLI_TEXT, offsetof(draw_args, output), "FILE", .help = ".svg, .pdf or .png", .required = true},
     {"show", 0, CLI_TEXT, offsetof(draw_args, show), "LAYERS",
      .help = "cells, cuts, fragments, objects, parted by commas (default: what suits the style)"},
@@ -65,8 +66,13 @@ static const cli_option page[] = {
     {0},
 };
 
-static const cli_part parts[] = {
-    {"Picture", what, 0}, {"Trees in space", space, 0}, {"Page", page, 0}, {"Options", cli_common_options, 0}, {0}};
+static const cli_part parts[] = {CLI_TREE_PART(draw_args),
+                                 {"Picture", what, 0},
+                                 {"Trees in space", space, 0},
+                                 {"Page", page, 0},
+                                 CLI_TREE_BUILD_PARTS(draw_args),
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
 
 /* Layers of a list parted by commas. */
 static int set_show(const char *list, uint32_t *show) {
@@ -134,8 +140,8 @@ static int run_draw(const void *given) {
     if (!froe_draw_format_of(args->output, &format))
         return cli_fail(CLI_USE, args->output, "The ending of pictures is .svg, .pdf or .png.");
     froe_tree *tree;
-    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
-    if (!code) code = cli_open_tree(args->tree, &tree);
+    int code = cli_check_tree_outputs(&args->tree, args->output);
+    if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     froe_draw_options o = froe_draw_defaults();
     code = set_options(args, (size_t)froe_scene_dim(froe_tree_scene(tree)), &o);
@@ -149,9 +155,9 @@ static int run_draw(const void *given) {
         if (status) code = cli_fail_status(CLI_WRITING, args->output, status, &diag);
     }
     if (!code)
-        code = cli_report(
-            &args->common, NULL,
-            json_pack("{s:o, s:o}", "tree", cli_name_json(args->tree), "output", cli_name_json(args->output)));
+        code = cli_report(&args->common, NULL,
+                          json_pack("{s:o, s:o}", "tree", cli_name_json(args->tree.scene.path), "output",
+                                    cli_name_json(args->output)));
     froe_tree_free(tree);
     return code;
 }
@@ -162,12 +168,14 @@ const cli_command cli_command_draw = {
     .about = "Shows cells coloured by depth (pale near the root), cuts, the fragments into which objects fell, and the "
              "objects. Trees in the plane are drawn flat; trees in space as plane sections or pulled apart. The same "
              "tree and options give the same bytes.",
-    .examples = "froe draw floor.froe -o floor.svg\n"
-                "froe draw floor.froe -o corner.png --window 0,0,512,512 --show cells,fragments --scale 2\n"
-                "froe draw house.froe -o house.pdf --style exploded --explode 1 --up y\n"
-                "froe draw house.froe -o cut.svg --section z=1.2\n",
+    .examples =
+        "froe draw floor.geojson -o floor.svg\n"
+        "froe draw floor.geojson -o corner.png --method density --window 0,0,512,512 --show cells,fragments --scale 2\n"
+        "froe draw house.glb -o house.pdf --style exploded --explode 1 --up y\n"
+        "froe draw house.glb -o cut.svg --section z=1.2\n",
     .parts = parts,
     .defaults = &(const draw_args){.common = CLI_COMMON_DEFAULTS,
+                                   .tree = CLI_TREE_DEFAULTS,
                                    .up = 2,
                                    .width = NAN,
                                    .height = NAN,

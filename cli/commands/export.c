@@ -1,14 +1,16 @@
 /* export.c: froe export, parts of a tree for other programs. */
+#include "args/tree.h"
 #include "command.h"
 #include "exit.h"
 #include "files.h"
 #include "progress.h"
-#include "report/tree_report.h"
+#include "report/report.h"
 #include <froe/io.h>
 
 typedef struct export_args {
     cli_common common;
-    const char *tree, *output;
+    cli_tree_args tree;
+    const char *output;
     int what;
     cli_reals window;
 } export_args;
@@ -17,7 +19,6 @@ static const char *const whats[] = {
     [FROE_EXPORT_FRAGMENTS] = "fragments", [FROE_EXPORT_CELLS] = "cells", [FROE_EXPORT_CUTS] = "cuts", NULL};
 
 static const cli_option options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(export_args, tree), "TREE", .help = "a tree that froe build saved", .required = true},
     {"output", 'o', CLI_TEXT, offsetof(export_args, output), "FILE",
      .help = ".geojson (plane), .obj (space) or .csv (any dimension)", .required = true},
     {"what", 0, CLI_CHOICE, offsetof(export_args, what), "PART", .help = "fragments (default), cells or cuts",
@@ -27,13 +28,17 @@ static const cli_option options[] = {
     {0},
 };
 
-static const cli_part parts[] = {{"Export", options, 0}, {"Options", cli_common_options, 0}, {0}};
+static const cli_part parts[] = {CLI_TREE_PART(export_args),
+                                 {"Export", options, 0},
+                                 CLI_TREE_BUILD_PARTS(export_args),
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
 
 static int run_export(const void *given) {
     const export_args *args = given;
     froe_tree *tree;
-    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
-    if (!code) code = cli_open_tree(args->tree, &tree);
+    int code = cli_check_tree_outputs(&args->tree, args->output);
+    if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     const size_t numbers = 2 * (size_t)froe_scene_dim(froe_tree_scene(tree));
     froe_export_options o = froe_export_defaults();
@@ -52,8 +57,8 @@ static int run_export(const void *given) {
     }
     if (!code)
         code = cli_report(&args->common, NULL,
-                          json_pack("{s:o, s:s, s:o}", "tree", cli_name_json(args->tree), "what", whats[args->what],
-                                    "output", cli_name_json(args->output)));
+                          json_pack("{s:o, s:s, s:o}", "tree", cli_name_json(args->tree.scene.path), "what",
+                                    whats[args->what], "output", cli_name_json(args->output)));
     froe_tree_free(tree);
     return code;
 }
@@ -64,9 +69,9 @@ const cli_command cli_command_export = {
     .about = "Fragments carry object, face, group and tag of what they are pieces of, and the node they lie in. Cells "
              "are the leaves' regions, cuts the parts of cuts within their regions, both clipped to a box. Coordinates "
              "are rounded to doubles on output only.",
-    .examples = "froe export floor.froe -o pieces.geojson\nfroe export house.froe -o cells.obj --what cells\n",
+    .examples = "froe export floor.geojson -o pieces.geojson\nfroe export house.glb -o cells.obj --what cells\n",
     .parts = parts,
-    .defaults = &(const export_args){.common = CLI_COMMON_DEFAULTS},
+    .defaults = &(const export_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS},
     .size = sizeof(export_args),
     .run = run_export,
 };

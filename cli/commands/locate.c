@@ -5,6 +5,7 @@
 
 typedef struct locate_args {
     cli_common common;
+    cli_tree_args tree;
     cli_query_args query;
     bool groups, above, below;
 } locate_args;
@@ -12,10 +13,8 @@ typedef struct locate_args {
 static const cli_column columns[] = {{"", true}, {0}};
 
 static const cli_option options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(locate_args, query.tree), "TREE", .help = "a tree that froe build saved",
-     .required = true},
-    {"points", 0, CLI_TEXT, offsetof(locate_args, query.input), "CSV",
-     .help = "the points, x,y[,z...]; - for standard input", .required = true},
+    {"queries", 0, CLI_TEXT, offsetof(locate_args, query.input), "CSV",
+     .help = "the points, x,y[,z...]; - for standard input", .required = true, .alias = "points"},
     {"groups", 0, CLI_FLAG, offsetof(locate_args, groups),
      .help = "the groups each point lies in, with their names, and no objects (plane)"},
     {"above", 0, CLI_FLAG, offsetof(locate_args, above), .help = "the first segment above each point instead (plane)"},
@@ -23,8 +22,10 @@ static const cli_option options[] = {
     {0},
 };
 
-static const cli_part parts[] = {{"Locate", options, 0},
+static const cli_part parts[] = {CLI_TREE_PART(locate_args),
+                                 {"Locate", options, 0},
                                  {"Queries", cli_query_options, offsetof(locate_args, query)},
+                                 CLI_TREE_BUILD_PARTS(locate_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
@@ -120,7 +121,8 @@ static int run_locate(const void *given) {
     if (args->above && args->below) return cli_fail(CLI_USE, NULL, "--above: It excludes --below.");
     if (args->groups && (args->above || args->below))
         return cli_fail(CLI_USE, NULL, "--groups: It excludes --above and --below.");
-    cli_queries queries = {.common = &args->common, .args = &args->query, .columns = columns, .given = args};
+    cli_queries queries = {
+        .common = &args->common, .tree = &args->tree, .args = &args->query, .columns = columns, .given = args};
     if (args->above || args->below)
         queries.answer = answer_vertical, queries.header = "query,object";
     else if (args->groups)
@@ -142,10 +144,11 @@ const cli_command cli_command_locate = {
              "--above or --below, one line query,object for each point that has a segment there. Objects are closed, "
              "and answers are exact. A query's number is that of its row, from 0.\n\n"
              "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
-    .examples = "froe locate house.froe --points sensors.csv\nfroe locate map.froe --points towns.csv --groups\n"
-                "froe locate map.froe --points towns.csv --above\n",
+    .examples =
+        "froe locate countries.geojson --queries towns.csv --groups\nfroe locate house.glb --queries sensors.csv\n"
+        "froe locate map.gpkg --layer roads --queries towns.csv --above\n",
     .parts = parts,
-    .defaults = &(const locate_args){.common = CLI_COMMON_DEFAULTS},
+    .defaults = &(const locate_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS},
     .size = sizeof(locate_args),
     .run = run_locate,
 };

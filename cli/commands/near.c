@@ -6,6 +6,7 @@
 
 typedef struct near_args {
     cli_common common;
+    cli_tree_args tree;
     cli_query_args query;
     uint64_t k;
     double bound;
@@ -14,18 +15,18 @@ typedef struct near_args {
 static const cli_column columns[] = {{"", true}, {0}};
 
 static const cli_option options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(near_args, query.tree), "TREE", .help = "a tree that froe build saved",
-     .required = true},
-    {"points", 0, CLI_TEXT, offsetof(near_args, query.input), "CSV",
-     .help = "the points, x,y[,z...]; - for standard input", .required = true},
+    {"queries", 0, CLI_TEXT, offsetof(near_args, query.input), "CSV",
+     .help = "the points, x,y[,z...]; - for standard input", .required = true, .alias = "points"},
     {"neighbours", 'k', CLI_WHOLE, offsetof(near_args, k), "K", .help = "how many objects (default 1)",
      .max = 2147483646},
     {"within", 0, CLI_REAL, offsetof(near_args, bound), "D", .help = "no object further away (default: no limit)"},
     {0},
 };
 
-static const cli_part parts[] = {{"Near", options, 0},
+static const cli_part parts[] = {CLI_TREE_PART(near_args),
+                                 {"Near", options, 0},
                                  {"Queries", cli_query_options, offsetof(near_args, query)},
+                                 CLI_TREE_BUILD_PARTS(near_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
@@ -54,6 +55,7 @@ static int run_near(const void *given) {
     const near_args *args = given;
     if (args->bound < 0) return cli_fail(CLI_USE, NULL, "--within: '%g' is not a number >= 0.", args->bound);
     const cli_queries queries = {.common = &args->common,
+                                 .tree = &args->tree,
                                  .args = &args->query,
                                  .columns = columns,
                                  .header = args->query.count ? "query,count" : "query,object,distance",
@@ -69,9 +71,10 @@ const cli_command cli_command_near = {
              "distances by object. Distances are compared exactly, and printed as the doubles nearest to them; 0 means "
              "that the point is in the object. A query's number is that of its row, from 0.\n\n"
              "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
-    .examples = "froe near map.froe --points towns.csv -k 3\nfroe near house.froe --points lamps.csv --within 0.5\n",
+    .examples =
+        "froe near map.geojson --queries towns.csv -k 3\nfroe near house.glb --queries lamps.csv --within 0.5\n",
     .parts = parts,
-    .defaults = &(const near_args){.common = CLI_COMMON_DEFAULTS, .k = 1, .bound = INFINITY},
+    .defaults = &(const near_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS, .k = 1, .bound = INFINITY},
     .size = sizeof(near_args),
     .run = run_near,
 };

@@ -8,6 +8,7 @@
 
 typedef struct range_args {
     cli_common common;
+    cli_tree_args tree;
     cli_query_args query;
     int shape, walk;
     double eps;
@@ -39,8 +40,6 @@ static const cli_column columns[FROE_SHAPE_COUNT][4] = {
 };
 
 static const cli_option options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(range_args, query.tree), "TREE", .help = "a tree that froe build saved",
-     .required = true},
     {"queries", 0, CLI_TEXT, offsetof(range_args, query.input), "CSV", .help = "the ranges; - for standard input",
      .required = true},
     {"shape", 0, CLI_CHOICE, offsetof(range_args, shape), "SHAPE",
@@ -52,8 +51,10 @@ static const cli_option options[] = {
     {0},
 };
 
-static const cli_part parts[] = {{"Range", options, 0},
+static const cli_part parts[] = {CLI_TREE_PART(range_args),
+                                 {"Range", options, 0},
                                  {"Queries", cli_query_options, offsetof(range_args, query)},
+                                 CLI_TREE_BUILD_PARTS(range_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
@@ -112,6 +113,7 @@ static int run_range(const void *given) {
     const range_args *args = given;
     if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps: '%g' is not a number >= 0.", args->eps);
     const cli_queries queries = {.common = &args->common,
+                                 .tree = &args->tree,
                                  .args = &args->query,
                                  .columns = columns[args->shape],
                                  .header = args->query.count ? "query,count" : "query,object",
@@ -132,10 +134,10 @@ const cli_command cli_command_range = {
         "each row is a corner; of halfspaces, query,nx,ny,c, each row is a halfspace n . x <= c; rows of one query "
         "follow each other.\n\n"
         "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
-    .examples = "froe range floor.froe --queries windows.csv\n"
-                "froe range floor.froe --queries discs.csv --shape ball --count\n",
+    .examples = "froe range floor.geojson --queries windows.csv\n"
+                "froe range floor.geojson --queries discs.csv --shape ball --count\n",
     .parts = parts,
-    .defaults = &(const range_args){.common = CLI_COMMON_DEFAULTS},
+    .defaults = &(const range_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS},
     .size = sizeof(range_args),
     .run = run_range,
 };

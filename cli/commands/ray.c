@@ -9,6 +9,7 @@
 
 typedef struct ray_args {
     cli_common common;
+    cli_tree_args tree;
     cli_query_args query;
     bool all;
     double t_max;
@@ -17,18 +18,18 @@ typedef struct ray_args {
 static const cli_column columns[] = {{"o", true}, {"d", true}, {0}};
 
 static const cli_option options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(ray_args, query.tree), "TREE", .help = "a tree that froe build saved",
-     .required = true},
-    {"rays", 0, CLI_TEXT, offsetof(ray_args, query.input), "CSV",
-     .help = "the rays, ox,oy[,oz...],dx,dy[,dz...]; - for standard input", .required = true},
+    {"queries", 0, CLI_TEXT, offsetof(ray_args, query.input), "CSV",
+     .help = "the rays, ox,oy[,oz...],dx,dy[,dz...]; - for standard input", .required = true, .alias = "rays"},
     {"all", 0, CLI_FLAG, offsetof(ray_args, all), .help = "all objects met, not only the first"},
     {"t-max", 0, CLI_REAL, offsetof(ray_args, t_max), "T",
      .help = "where rays end, in lengths of their directions (default: nowhere)"},
     {0},
 };
 
-static const cli_part parts[] = {{"Ray", options, 0},
+static const cli_part parts[] = {CLI_TREE_PART(ray_args),
+                                 {"Ray", options, 0},
                                  {"Queries", cli_query_options, offsetof(ray_args, query)},
+                                 CLI_TREE_BUILD_PARTS(ray_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
@@ -69,6 +70,7 @@ static int run_ray(const void *given) {
     const ray_args *args = given;
     if (args->t_max < 0) return cli_fail(CLI_USE, NULL, "--t-max: '%g' is not a number >= 0.", args->t_max);
     const cli_queries queries = {.common = &args->common,
+                                 .tree = &args->tree,
                                  .args = &args->query,
                                  .columns = columns,
                                  .header = args->query.count ? "query,count" : "query,object,t",
@@ -85,9 +87,9 @@ const cli_command cli_command_ray = {
              "each object met, by t, then object. Objects are closed, the order is decided exactly, and t is the "
              "double nearest to the exact parameter. A query's number is that of its row, from 0.\n\n"
              "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
-    .examples = "froe ray house.froe --rays sight.csv\nfroe ray floor.froe --rays beams.csv --all --t-max 1\n",
+    .examples = "froe ray house.glb --queries sight.csv\nfroe ray floor.geojson --queries beams.csv --all --t-max 1\n",
     .parts = parts,
-    .defaults = &(const ray_args){.common = CLI_COMMON_DEFAULTS, .t_max = INFINITY},
+    .defaults = &(const ray_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS, .t_max = INFINITY},
     .size = sizeof(ray_args),
     .run = run_ray,
 };

@@ -1,11 +1,10 @@
 /* render.c: froe render, hidden surfaces removed, exactly. */
-#include "args/budget.h"
 #include "command.h"
 #include "commands/render_options.h"
 #include "exit.h"
 #include "files.h"
 #include "progress.h"
-#include "report/tree_report.h"
+#include "report/report.h"
 #include "support/fail.h"
 #include <froe/draw.h>
 #include <math.h>
@@ -26,8 +25,6 @@ static const char *const paints[] = {"whole", "regions", "fragments", NULL};
 static const char *const presets[] = {"illustration", "technical", "plotter", "web", "print", NULL};
 
 static const cli_option what[] = {
-    {NULL, 0, CLI_TEXT, offsetof(render_args, tree), "TREE",
-     .help = "a tree of polygons in space, built with leaf 1 or 0", .required = true},
     {"output", 'o', CLI_TEXT, offsetof(render_args, output), "FILE", .help = ".svg, .pdf, .eps or .png",
      .required = true},
     {"preset", 0, CLI_CHOICE, offsetof(render_args, preset), "NAME",
@@ -61,7 +58,6 @@ static const cli_option camera[] = {
      .help = "for --scale 1:50: how long a unit of the scene is (default 1)"},
     {"section", 0, CLI_REALS, offsetof(render_args, section), "A,B,C,D",
      .help = "leave out what lies where a x + b y + c z > d, exactly; builds the tree anew for it"},
-    CLI_BUDGET_OPTION(render_args, max_fragments),
     {"turntable", 0, CLI_WHOLE, offsetof(render_args, turntable), "N",
      .help = "N pictures from all around; the name of the file says where their number goes, pic-%03d.svg", .min = 1,
      .max = 100000},
@@ -126,11 +122,13 @@ static const cli_option file[] = {
     {0},
 };
 
-static const cli_part parts[] = {{"Picture", what, 0},
+static const cli_part parts[] = {CLI_TREE_PART(render_args),
+                                 {"Picture", what, 0},
                                  {"Camera", camera, 0},
                                  {"Faces", faces, 0},
                                  {"Lines", line_options, 0},
                                  {"File", file, 0},
+                                 CLI_TREE_BUILD_PARTS(render_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
@@ -147,7 +145,7 @@ static json_t *report_json(const render_args *args, const froe_render_report *r)
         "flat_polygons", (json_int_t)v->flat, "segments", (json_int_t)v->segments, "points", (json_int_t)v->points,
         "thin_shapes", (json_int_t)r->thin_shapes, "short_lines", (json_int_t)r->short_strokes);
     return json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "tree",
-                     cli_name_json(args->tree), "output", cli_name_json(args->output), "paint",
+                     cli_name_json(args->tree.scene.path), "output", cli_name_json(args->output), "paint",
                      froe_paint_name(p->paint), "fragments", (json_int_t)v->pieces, "visible_fragments",
                      (json_int_t)v->visible_pieces, "visible_faces", (json_int_t)v->visible_patches, "arcs",
                      (json_int_t)p->arcs, "late_faces", (json_int_t)p->late, "shapes", (json_int_t)r->shapes, "lines",
@@ -247,14 +245,15 @@ static int cut_section(const render_args *args, froe_tree **tree) {
     if (args->section.count != 4) return cli_fail_count("section", args->section.count, 4);
     cli_progress bar = cli_progress_begin(&args->common, "cutting");
     o.threads = (unsigned)args->common.threads;
-    o.max_fragments = cli_budget(args->max_fragments, froe_tree_scene(whole));
+    o.max_fragments = cli_budget(args->tree.max_fragments, froe_tree_scene(whole));
     o.progress = cli_progress_step;
     o.user = &bar;
     const froe_status status = froe_tree_section(whole, args->section.at, &o, tree, &diag);
     cli_progress_end(&bar);
     if (status == FROE_E_ARG || status == FROE_E_UNSUPPORTED)
         return cli_fail(CLI_USE, NULL, "--section: %s", diag.message);
-    if (status) return cli_fail_build(args->tree, args->max_fragments, froe_tree_scene(whole), status, &diag);
+    if (status)
+        return cli_fail_build(args->tree.scene.path, args->tree.max_fragments, froe_tree_scene(whole), status, &diag);
     froe_tree_free(whole);
     return 0;
 }
@@ -262,13 +261,14 @@ static int cut_section(const render_args *args, froe_tree **tree) {
 static int run_render(const void *given) {
     const render_args *args = given;
     froe_tree *tree;
-    int code = cli_check_outputs(&args->tree, 1, &args->output, 1);
-    if (!code) code = cli_open_tree(args->tree, &tree);
+    int code = cli_check_tree_outputs(&args->tree, args->output);
+    if (!code) code = cli_open_tree(&args->common, &args->tree, "draw", &tree);
     if (code) return code;
     code = cut_section(args, &tree);
     const froe_scene *scene = froe_tree_scene(tree);
     if (!code && froe_scene_dim(scene) != 3)
-        code = cli_fail(CLI_USE, args->tree, "A scene in the plane has no hidden surfaces. froe draw draws it.");
+        code = cli_fail(CLI_USE, args->tree.scene.path,
+                        "A scene in the plane has no hidden surfaces. froe draw draws it.");
     if (code) {
         froe_tree_free(tree);
         return code;
@@ -300,13 +300,14 @@ const cli_command cli_command_render = {
     .about = "Finds, exactly, which parts of all faces and edges are visible, and paints whole faces in an order that "
              "shows just these: few shapes, no cracks, nothing sorted by distance. Faces that intersect are cut. The "
              "same tree and options give the same bytes.",
-    .examples = "froe render house.froe -o house.svg --up y\n"
-                "froe render house.froe -o front.pdf --preset technical --view front --up y --size 160x120mm\n"
-                "froe render house.froe -o turn.svg --up y --turntable 36 --animate\n"
-                "froe render house.froe -o glass.svg --up y --opacity 'Glass=0.3'\n"
-                "froe render house.froe -o room.svg --up y --eye 4,1.6,-3 --target 8,1.2,-6 --fov 70\n",
+    .examples = "froe render house.glb -o house.svg --up y\n"
+                "froe render house.glb -o front.pdf --preset technical --view front --up y --size 160x120mm\n"
+                "froe render house.glb -o turn.svg --up y --turntable 36 --animate\n"
+                "froe render house.glb -o glass.svg --up y --opacity 'Glass=0.3'\n"
+                "froe render house.glb -o room.svg --up y --eye 4,1.6,-3 --target 8,1.2,-6 --fov 70\n",
     .parts = parts,
     .defaults = &(const render_args){.common = CLI_COMMON_DEFAULTS,
+                                     .tree = CLI_TREE_DEFAULTS,
                                      .up_axis = 2,
                                      .hidden = -1,
                                      .halo = NAN,
@@ -319,8 +320,8 @@ const cli_command cli_command_render = {
                                      .line_width = NAN,
                                      .crease = NAN,
                                      .pixels = NAN,
-                                     .decimals = UINT64_MAX,
-                                     .max_fragments = CLI_BUDGET_OWN},
+                                     .decimals = UINT64_MAX},
+
     .size = sizeof(render_args),
     .run = run_render,
 };

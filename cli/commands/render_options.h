@@ -1,18 +1,19 @@
 /* render_options.h: what is said on the command line of froe render, as options of a picture. */
 #ifndef FROE_CLI_RENDER_OPTIONS_H
 #define FROE_CLI_RENDER_OPTIONS_H
+#include "args/tree.h"
 #include "command.h"
 #include <froe/draw.h>
 
 /** Indices into the lists of names in render.c, where no other type says so. */
 typedef struct render_args {
     cli_common common;
-    const char *tree, *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
+    cli_tree_args tree;
+    const char *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
     int direction, up_axis, paint, preset, seams, ids, layers, hidden, colours, over;
     double halo, fov, unit, min_area, seconds, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
     uint64_t decimals;  /**< UINT64_MAX: not given */
     uint64_t turntable; /**< frames; 0: none */
-    uint64_t max_fragments;
     cli_reals eye, target, section;
     bool parallel, cull_back, animate;
 } render_args;

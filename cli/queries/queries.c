@@ -3,7 +3,6 @@
 #include "exit.h"
 #include "progress.h"
 #include "report/report.h"
-#include "report/tree_report.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -142,7 +141,7 @@ static void answer_block(query_run *r, size_t count) {
             if (!status) refuse(r, r->lines[first + bad], diag.message);
             first += bad + 1;
         }
-        if (status) r->code = cli_fail_status(CLI_WORKING, r->q->args->tree, status, &diag);
+        if (status) r->code = cli_fail_status(CLI_WORKING, r->q->tree->scene.path, status, &diag);
         if (r->code) return;
     }
 }
@@ -191,7 +190,7 @@ static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
         if (queries->common->json && !r->code) {
             const int written =
                 cli_report(queries->common, NULL,
-                           json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(queries->args->tree),
+                           json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(queries->tree->scene.path),
                                      "queries", cli_name_json(r->rows.path), "answered", (json_int_t)r->answered,
                                      "rows", (json_int_t)r->out.rows, "seconds", cli_seconds() - start, "visited",
                                      cli_statistics_json(asked->query)));
@@ -209,13 +208,13 @@ static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
 int cli_queries_run(const cli_queries *queries) {
     froe_tree *tree;
     froe_diagnostic diag;
-    int code = cli_open_tree(queries->args->tree, &tree);
+    int code = cli_open_tree(queries->common, queries->tree, "query", &tree);
     if (code) return code;
     cli_asked asked = {.scene = froe_tree_scene(tree), .batch = froe_batch_defaults()};
     asked.dim = (size_t)froe_scene_dim(asked.scene);
     asked.batch.threads = (unsigned)queries->common->threads;
     const froe_status status = froe_query_new(tree, &asked.query, &diag);
-    code = status ? cli_fail_status(CLI_WORKING, queries->args->tree, status, &diag) : ask_batch(queries, &asked);
+    code = status ? cli_fail_status(CLI_WORKING, queries->tree->scene.path, status, &diag) : ask_batch(queries, &asked);
     froe_query_free(asked.query);
     froe_tree_free(tree);
     return code;

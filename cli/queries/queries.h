@@ -7,7 +7,7 @@
  * --keep-going is passed over; either way the exit code shows it. */
 #ifndef FROE_CLI_QUERIES_H
 #define FROE_CLI_QUERIES_H
-#include "args/options.h"
+#include "args/tree.h"
 #include "queries/answers.h"
 #include "queries/rows.h"
 #include <froe/query.h>
@@ -15,7 +15,7 @@
 
 /** Shared by all query commands; their own tables name the operand and the input. */
 typedef struct cli_query_args {
-    const char *tree, *input;
+    const char *input;
     bool keep_going, count;
 } cli_query_args;
 extern const cli_option cli_query_options[];
@@ -51,6 +51,7 @@ typedef froe_status cli_answer_fn(const void *args, const cli_asked *asked, cons
 
 typedef struct cli_queries {
     const cli_common *common;
+    const cli_tree_args *tree;
     const cli_query_args *args;
     const cli_column *columns; /**< if the first is "query", consecutive rows with the same number are one query */
     const char *header;        /**< of the answers */

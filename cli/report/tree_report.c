@@ -71,9 +71,3 @@ int cli_report_build(const cli_common *common, const char *scene, const char *ou
     json_decref(tree_report);
     return cli_report(common, headline, report);
 }
-
-int cli_open_tree(const char *path, froe_tree **tree) {
-    froe_diagnostic diag;
-    const froe_status status = froe_tree_open(path, NULL, tree, &diag);
-    return status ? cli_fail_status(CLI_READING, path, status, &diag) : 0;
-}

@@ -13,6 +13,4 @@ json_t *cli_tree_json(const froe_tree *tree);
 /** Prints the report of a build. `output` may be NULL. Returns 0 or an exit code. */
 int cli_report_build(const cli_common *common, const char *scene, const char *output, const froe_tree *tree,
                      cli_build_seconds seconds);
-/** Opens a saved tree. Returns 0, or an exit code after saying why. */
-int cli_open_tree(const char *path, froe_tree **tree);
 #endif

@@ -97,10 +97,7 @@ static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, c
                               formats_sink *sink, froe_scene **out) {
     const char *name = support_short(source->path);
     const froe_read_options *o = source->options;
-    if (!memcmp(source->head,
-                "\x89"
-                "froe",
-                5))
+    if (froe_is_tree(source->path))
         return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The file holds a tree, not a scene.", name);
     if (formats_is_moving(source))
         return support_fail(sink->diag, FROE_E_UNSUPPORTED,

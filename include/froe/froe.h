@@ -452,6 +452,8 @@ FROE_API froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_opt
 /** Writes the tree with its scene (docs/format.md), atomically: `path` holds the
  * old file or the new one, whole, whatever happens. FROE_E_IO. */
 FROE_API froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag);
+/** Does the file begin as a saved tree does? False as well for a file that cannot be read. */
+FROE_API bool froe_is_tree(const char *path);
 /** Opens a saved tree by mapping the file, which must not be shortened or written to in
  * place while the tree is open (replacing it, as froe_tree_save does, is fine).
  * Everything is validated first: FROE_E_FORMAT for any file that froe_tree_save could

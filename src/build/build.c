@@ -71,7 +71,8 @@ static bool suits_grain(const froe_scene *scene, uint32_t kinds) {
 }
 
 /** What "auto" stands for: it serves every dimension and kind. Index answers queries several times faster, where it
- * serves. Directional has the fewest pieces of boxes, and is no slower. (docs/compare.md measures this choice.) */
+ * serves. Directional has the fewest pieces of boxes, and is no slower. In space, density and one picture together take
+ * a third to two thirds of the time that grain and the same picture take. (docs/compare.md measures this choice.) */
 const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
     const bool query = purpose && !strcmp(purpose, "query");
     const bool known = !purpose || query || !strcmp(purpose, "pieces") || !strcmp(purpose, "draw");
@@ -80,7 +81,8 @@ const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
     if (query && froe_method_serves(&find_method("index")->info, scene, FROE_LEAF_OWN)) return "index";
     if (kinds == 1u << FROE_POINT && query) return "kd"; /* four times as fast as density in dimension 8 */
     if (kinds == 1u << FROE_BOX) return "directional";
-    return !query && suits_grain(scene, kinds) ? "grain" : "density";
+    const bool picture = scene->dim == 3 && purpose && !strcmp(purpose, "draw");
+    return !query && !picture && suits_grain(scene, kinds) ? "grain" : "density";
 }
 
 static froe_status choose_method(const froe_build_options *o, const froe_scene *scene, const build_method **out,

@@ -153,6 +153,18 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
 
 /* ------------------------------------------------------------------- whole -- */
 
+bool froe_is_tree(const char *path) {
+    enum { WORD = 5 }; /* bytes of the magic that no transfer of text changes */
+    char head[WORD];
+    struct stat about;
+    const int file = path ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK) : -1;
+    if (file < 0) return false;
+    const bool is = !fstat(file, &about) && S_ISREG(about.st_mode) && pread(file, head, WORD, 0) == WORD &&
+                    !memcmp(head, FILE_MAGIC, WORD);
+    close(file);
+    return is;
+}
+
 froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     opening o = {.path = path, .diag = diag};

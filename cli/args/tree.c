@@ -1,0 +1,80 @@
+/* tree.c: see tree.h. */
+#include "args/tree.h"
+#include "args/budget.h"
+#include "args/method.h"
+#include "exit.h"
+#include "files.h"
+#include "progress.h"
+#include "support/path.h"
+#include <string.h>
+
+const cli_option cli_tree_options[] = {
+    {NULL, 0, CLI_TEXT, offsetof(cli_tree_args, scene.path), "SCENE",
+     .help = "map, model or CSV file; or a tree that froe build saved", .required = true},
+    {0},
+};
+
+const cli_option cli_tree_build_options[] = {
+    {"method", 'm', CLI_TEXT, offsetof(cli_tree_args, method), "M",
+     .help = "the builder of the tree, one that froe methods lists (default: the one that suits the command)"},
+    CLI_BUDGET_OPTION(cli_tree_args, max_fragments),
+    {"save-tree", 0, CLI_TEXT, offsetof(cli_tree_args, save), "FILE",
+     .help = "save the tree here; the command is quicker when it is given this file instead of the scene"},
+    {0},
+};
+
+int cli_check_tree_outputs(const cli_tree_args *args, const char *output) {
+    return cli_check_outputs(&args->scene.path, 1, (const char *[]){output, args->save}, 2);
+}
+
+/* Is the file a tree by its content, or by its name, when it was damaged? */
+static bool is_tree(const char *path) {
+    return froe_is_tree(path) || !strcmp(support_path_extension(path).text, "froe");
+}
+
+/* The options that only a scene that is read and built can obey. */
+static int open_saved(const cli_tree_args *args, froe_tree **tree) {
+    const struct {
+        bool given;
+        const char *name;
+    } options[] = {{args->scene.layer, "layer"}, {args->scene.where, "where"}, {args->scene.faces >= 0, "faces"},
+                   {args->scene.boxes, "boxes"}, {args->method, "method"},     {args->save, "save-tree"}};
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (options[i].given)
+            return cli_fail(CLI_USE, args->scene.path,
+                            "The file is a saved tree, and --%s is for files from which a tree is built.",
+                            options[i].name);
+    froe_diagnostic diag;
+    const froe_status status = froe_tree_open(args->scene.path, NULL, tree, &diag);
+    return status ? cli_fail_status(CLI_READING, args->scene.path, status, &diag) : 0;
+}
+
+int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree) {
+    froe_scene *scene;
+    froe_read_report reader;
+    froe_diagnostic diag;
+    if (is_tree(args->scene.path)) return open_saved(args, tree);
+    int code = args->method ? cli_check_method(args->method, true) : 0;
+    if (!code) code = cli_read_scene(common, &args->scene, &scene, &reader);
+    if (code) return code;
+    cli_progress bar = cli_progress_begin(common, "building");
+    froe_build_options o = froe_build_defaults();
+    if (args->method) o.method = args->method;
+    o.purpose = purpose;
+    o.seed = common->seed;
+    o.max_fragments = cli_budget(args->max_fragments, scene);
+    o.threads = (unsigned)common->threads;
+    o.progress = cli_progress_step;
+    o.user = &bar;
+    froe_status status = froe_build(scene, &o, tree, &diag);
+    cli_progress_end(&bar);
+    if (status) code = cli_fail_build(args->scene.path, args->max_fragments, scene, status, &diag);
+    froe_scene_free(scene); /* the tree holds it */
+    if (code || !args->save) return code;
+    status = froe_tree_save(*tree, args->save, &diag);
+    if (status) {
+        code = cli_fail_status(CLI_WRITING, args->save, status, &diag);
+        froe_tree_free(*tree);
+    }
+    return code;
+}

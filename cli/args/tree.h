@@ -1,0 +1,31 @@
+/* tree.h: the SCENE of commands that work on a tree: a scene, for which a tree is built, or a saved tree. */
+#ifndef FROE_CLI_TREE_H
+#define FROE_CLI_TREE_H
+#include "args/budget.h"
+#include "args/scene.h"
+
+typedef struct cli_tree_args {
+    cli_scene_args scene; /**< faces: -1 when not given */
+    const char *method;   /**< NULL when not given */
+    const char *save;
+    uint64_t max_fragments;
+} cli_tree_args;
+#define CLI_TREE_DEFAULTS                                                                                              \
+    { .scene.faces = -1, .max_fragments = CLI_BUDGET_OWN }
+
+extern const cli_option cli_tree_options[]; /**< SCENE itself */
+extern const cli_option cli_tree_build_options[];
+/** The parts of a command whose arguments are the struct T, with the cli_tree_args `tree`: first, and last but one. */
+#define CLI_TREE_PART(T)                                                                                               \
+    { "Scene", cli_tree_options, offsetof(T, tree) }
+#define CLI_TREE_BUILD_PARTS(T)                                                                                        \
+    {"Reading the scene", cli_scene_options + 1, offsetof(T, tree.scene)}, {                                           \
+        "Building its tree", cli_tree_build_options, offsetof(T, tree)                                                 \
+    }
+
+/** Opens a saved tree, or reads a scene and builds a tree for `purpose` (one of froe_build_options), with progress
+ * bars, and saves it where --save-tree says. Returns 0, or an exit code after saying why. */
+int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree);
+/** cli_check_outputs() for a command that writes `output` (NULL: none) beside what --save-tree names. */
+int cli_check_tree_outputs(const cli_tree_args *args, const char *output);
+#endif
