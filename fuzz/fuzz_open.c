@@ -80,7 +80,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     forge_checksums(copy, file);
     fuzz_file("", ".froe", copy, file, path, sizeof path);
     free(copy);
+    const bool is_tree = froe_is_tree(path);
     if (froe_tree_open(path, NULL, &tree, NULL) == FROE_OK) {
+        if (!is_tree) abort();
         look_at_all(tree, &questions);
         froe_tree_free(tree);
     }
