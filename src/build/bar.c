@@ -193,16 +193,16 @@ static froe_status plan_bar(const bar *b, const split_work *work, const split_ce
 }
 
 /** Where a cell lies: kept in its room. */
-static bar_region region_of(const bar *b, const split_cell *cell) {
+static bar_region region_of(const bar *b, const split_work *work, const split_cell *cell) {
     bar_region region = b->root;
-    if (cell->depth) memcpy(&region, &cell->room, sizeof region);
+    if (cell->depth) memcpy(&region, split_room(work), sizeof region);
     return region;
 }
 
 static froe_status finish_bar_cell(const void *config, split_work *work, const split_cell *cell, bool *done) {
     bar_scratch *s = work->scratch;
     const bar *b = config;
-    const bar_region region = region_of(b, cell);
+    const bar_region region = region_of(b, work, cell);
     const double growth = b->job->option[GROWTH];
     if (cell->count >= LONG && !split_go_on(work)) return FROE_E_CANCELLED;
     s->planned = false;
@@ -229,10 +229,10 @@ static split_verdict choose_bar_cut(const void *config, split_work *work, const 
 }
 
 static void divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut, bool guard,
-                    split_cell *positive, split_cell *negative) {
+                    void *positive, void *negative) {
     const bar *b = config;
     const bar_scratch *s = work->scratch;
-    bar_region above = region_of(b, cell);
+    bar_region above = region_of(b, work, cell);
     if (guard && !b->cubes) {
         const uint32_t goal = (uint32_t)s->target;
         above.cuts = goal == above.goal ? above.cuts + 1 : 1;
@@ -245,8 +245,8 @@ static void divided(const void *config, const split_work *work, const split_cell
     } else { /* nothing is known of the shape of cells below */
         above.lo[0] = below.lo[0] = NAN;
     }
-    memcpy(&positive->room, &above, sizeof above);
-    memcpy(&negative->room, &below, sizeof below);
+    memcpy(positive, &above, sizeof above);
+    memcpy(negative, &below, sizeof below);
 }
 
 /* -------------------------------------------------------------------- build -- */
@@ -338,6 +338,7 @@ static froe_status build_bar(build_job *job, froe_tree **out) {
     split_method method = {.config = &b,
                            .choose = choose_bar_cut,
                            .finish = finish_bar_cell,
+                           .room = sizeof(bar_region),
                            .divided = divided,
                            .note = note_bar,
                            .scratch_new = scratch_new,

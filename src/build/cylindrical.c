@@ -52,7 +52,10 @@ static froe_status grow_cylindrical(build_job *job, const uint32_t *order, uint3
     atomic_init(&deep, false);
     split_cylinder cylinder = {
         .leaf = job->leaf, .deepest = deepest, .refuse = job->option[CROSSING] == 0, .too_deep = &deep};
-    split_method method = {.config = &cylinder, .choose = split_cylinder_choose, .divided = split_cylinder_divided};
+    split_method method = {.config = &cylinder,
+                           .choose = split_cylinder_choose,
+                           .room = sizeof(split_cylinder_frame),
+                           .divided = split_cylinder_divided};
     split_job split = build_split_job(job);
     split.order = order;
     split.diag = why;

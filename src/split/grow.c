@@ -10,7 +10,7 @@ enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_SHARE = 64, REGROWN = 4 };
 
 typedef struct grow_task {
     split_cell cell;
-    size_t first_item, first_corner; /**< in the store */
+    size_t first_item, first_corner, first_room; /**< in the store */
     uint32_t corner_count;
     uint32_t crossing[2]; /**< why it was refused */
     tree_draft draft;
@@ -25,6 +25,7 @@ typedef struct grow {
     ARRAY(grow_task) tasks;
     ARRAY(split_fragment) store_items;
     ARRAY(split_corner) store_corners; /**< fragments count from their task's first_corner */
+    ARRAY(unsigned char) store_rooms;
     uint32_t task_size;
     atomic_uint_least64_t emitted; /**< pieces in final drafts */
 } grow;
@@ -55,14 +56,24 @@ static uint8_t leaf_flags(split_verdict verdict) {
     return verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : verdict == SPLIT_CROWDED ? TREE_CROWDED : 0;
 }
 
+/** Makes the rooms of the cell at hand and of all pending cells as many as there are. */
+static bool fit_rooms(const split_method *method, split_work *work) {
+    const size_t bytes = method->room * (work->cells.count + 1), more = bytes - work->rooms.count;
+    if (bytes > work->rooms.count && !array_reserve(&work->set.alloc, &work->rooms, more)) return false;
+    work->rooms.count = bytes;
+    return true;
+}
+
 /** Cuts the cell and fills the rooms of its children. */
 static froe_status divide_cell(const split_method *method, split_work *work, const split_cell *cell,
                                const froe_cut *cut, bool guard, bool *useless) {
     froe_status status = cell_cut(work, cell, cut, guard ? TREE_GUARD : 0, useless);
     if (status || !method->divided || (useless && *useless)) return status;
-    split_cell *negative = work->cells.data + work->cells.count - 1;
-    negative->room = negative[-1].room = cell->room;
-    method->divided(method->config, work, cell, cut, guard, negative - 1, negative);
+    if (!fit_rooms(method, work)) return FROE_E_MEMORY;
+    unsigned char *negative = work->rooms.data + method->room * work->cells.count, *positive = negative - method->room;
+    memcpy(positive, work->rooms.data, method->room);
+    memcpy(negative, work->rooms.data, method->room);
+    method->divided(method->config, work, cell, cut, guard, positive, negative);
     return FROE_OK;
 }
 
@@ -112,7 +123,11 @@ static froe_status grow_cell(grow *g, split_work *work, split_cell *cell) {
 static froe_status put_off(grow *g, split_work *work, const split_cell *cell) {
     const froe_allocator *alloc = &g->job->alloc;
     const split_set *set = &work->set;
-    grow_task task = {.cell = *cell, .first_item = g->store_items.count, .first_corner = g->store_corners.count};
+    grow_task task = {.cell = *cell,
+                      .first_item = g->store_items.count,
+                      .first_corner = g->store_corners.count,
+                      .first_room = g->store_rooms.count};
+    if (!array_append(alloc, &g->store_rooms, work->rooms.data, g->method->room)) return FROE_E_MEMORY;
     if (!array_reserve(alloc, &g->store_items, cell->count)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < cell->count; i++) {
         split_fragment f = set->items.data[cell->first + i];
@@ -137,6 +152,8 @@ static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
     froe_status status = FROE_OK;
     for (uint32_t turn = 0; work->cells.count && !status; turn++) {
         split_cell cell = work->cells.data[--work->cells.count];
+        const size_t room = g->method->room;
+        if (room) memcpy(work->rooms.data, work->rooms.data + room * (work->cells.count + 1), room);
         work->set.corners.count = cell.corner_top;
         work->deepest = cell.depth > work->deepest ? cell.depth : work->deepest;
         uint32_t load = split_load(&cell);
@@ -183,7 +200,9 @@ static froe_status push_root(grow *g, split_work *work) {
         for (uint32_t i = 0; i < n; i++) work->set.items.data[i] = (split_fragment){.object = order ? order[i] : i};
         work->set.items.count = root.count = n;
     }
-    return array_push(&g->job->alloc, &work->cells, root) ? FROE_OK : FROE_E_MEMORY;
+    if (!array_push(&g->job->alloc, &work->cells, root) || !fit_rooms(g->method, work)) return FROE_E_MEMORY;
+    if (g->method->room) memset(work->rooms.data, 0, work->rooms.count);
+    return FROE_OK;
 }
 
 /** Makes the cut that the job begins with. */
@@ -231,7 +250,9 @@ static froe_status grow_task_from(grow *g, split_work *work, grow_task *task, ui
     cell.corner_top = task->corner_count;
     cell.depth += sunk;
     work->deepest = 0;
-    if (!array_push(alloc, &work->cells, cell)) return FROE_E_MEMORY;
+    if (!array_push(alloc, &work->cells, cell) || !fit_rooms(g->method, work)) return FROE_E_MEMORY;
+    const size_t room = g->method->room;
+    if (room) memcpy(work->rooms.data + room, g->store_rooms.data + task->first_room, room);
     status = grow_cells(g, work, false);
     if (status == FROE_E_INPUT) memcpy(task->crossing, work->crossing, sizeof task->crossing);
     return status;
@@ -319,6 +340,7 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
         if (g.method->scratch_free) g.method->scratch_free(work);
         split_set_free(&work->set);
         array_free(alloc, &work->cells);
+        array_free(alloc, &work->rooms);
         trial_free(alloc, work);
     }
     support_free(alloc, g.workers, g.job->task->threads * sizeof *g.workers);
@@ -326,6 +348,7 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
     array_free(alloc, &g.tasks);
     array_free(alloc, &g.store_items);
     array_free(alloc, &g.store_corners);
+    array_free(alloc, &g.store_rooms);
     draft_free(&g.main);
     return status == FROE_E_INPUT ? status : split_explain(job->diag, job->max_fragments, status);
 }

@@ -13,11 +13,6 @@
 #include "split/fragment.h"
 #include "split/guard/lowest_nodes.h"
 
-/** What a method keeps of a cell besides: bytes of its own, all zero at the root. */
-typedef struct split_room {
-    uint64_t words[2 * FROE_MAX_DIM + 1];
-} split_room;
-
 typedef struct split_cell {
     uint32_t node; /**< ring numbering */
     uint32_t depth;
@@ -31,7 +26,6 @@ typedef struct split_cell {
     uint32_t tried;         /**< load at which refinement was last taken back, here or above: guard/trial.h */
     bool settled;           /**< refinement is final */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
-    split_room room;
 } split_cell;
 
 typedef enum split_verdict {
@@ -63,6 +57,7 @@ typedef struct split_trial {
 typedef struct split_work {
     split_set set;
     ARRAY(split_cell) cells;
+    ARRAY(unsigned char) rooms; /**< split_method.room bytes each: of the cell at hand, then of those in cells */
     void *scratch;
     base_task *task;
     uint64_t guarded; /**< fragments in cells where the guard stage ended, and in its own cuts */
@@ -86,10 +81,12 @@ typedef struct split_method {
     split_verdict (*choose)(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
     /** Grows the whole subtree of a cell at once; *done false: the cell is to be cut. NULL: never done. */
     froe_status (*finish)(const void *config, split_work *work, const split_cell *cell, bool *done);
+    /** Bytes that the method keeps of a cell besides, its room: all zero at the root. */
+    size_t room;
     /** Fills the rooms of the children, positive and negative, of a cell that `cut` has just cut: so far they are
      * their parent's. NULL: the method uses no rooms. `guard`: it was a SPLIT_CUT_GUARD. */
     void (*divided)(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut, bool guard,
-                    split_cell *positive, split_cell *negative);
+                    void *positive, void *negative);
     /** Is the cell to be cut by its node of the guard tree? NULL: never. */
     bool (*in_guard_stage)(const void *config, const split_cell *cell);
     /** Called once all cells are done, before job->meta is read; may be NULL. */
@@ -120,6 +117,11 @@ typedef struct split_job {
     num_stage first;         /**< where predicates start: NUM_FILTER, later ones for tests */
     froe_diagnostic *diag;
 } split_job;
+
+/** The room of the cell at hand, aligned for any type. */
+static inline const void *split_room(const split_work *work) {
+    return work->rooms.data;
+}
 
 /** Fragments and whole objects of a cell. */
 static inline uint32_t split_load(const split_cell *cell) {

@@ -35,7 +35,6 @@ typedef struct bar_region {
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     uint32_t goal, cuts; /**< this many guards at most are to be left in it, and how many cuts that has taken so far */
 } bar_region;
-_Static_assert(sizeof(bar_region) <= sizeof(split_room), "a region has room in a cell");
 
 /** The region without any facet but those of a box of R^dim. */
 bar_region bar_region_of(int dim, const double *lo, const double *hi);

@@ -33,15 +33,9 @@ typedef struct stretch {
 
 /* ------------------------------------------------------------------ frames -- */
 
-/** The walls left and right of a cell, and in space the edges below and above. Kept in the cell's room. */
-typedef struct cell_frame {
-    uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
-} cell_frame;
-_Static_assert(sizeof(cell_frame) <= sizeof(split_room), "a frame has room in a cell");
-
-static cell_frame frame_of(const split_cell *cell) {
-    cell_frame f = {{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
-    if (cell->depth) memcpy(&f, &cell->room, sizeof f);
+static split_cylinder_frame frame_of(const split_work *work, const split_cell *cell) {
+    split_cylinder_frame f = {{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}};
+    if (cell->depth) memcpy(&f, split_room(work), sizeof f);
     return f;
 }
 
@@ -57,8 +51,8 @@ static bool is_wall(froe_cut_kind kind) {
 }
 
 /** Does the wall on this side of the cell run through the end of the stretch? */
-static bool is_on_wall(split_set *set, const split_cell *cell, const stretch *s, int side) {
-    uint32_t node = frame_of(cell).wall[side];
+static bool is_on_wall(split_set *set, const split_cylinder_frame *frame, const stretch *s, int side) {
+    uint32_t node = frame->wall[side];
     const split_corner *end = s->end + side;
     if (node == FROE_NONE) return false;
     froe_cut wall = split_cut_at(set, node);
@@ -88,11 +82,11 @@ static froe_cut crossing_cut(split_set *set, uint32_t a, uint32_t b) {
 }
 
 /** Names the wall that the stretch needs at one end. False: none, it ends on one, or on another polygon. */
-static bool wall_at(split_set *set, const split_cell *cell, const stretch *s, int side, froe_cut *cut) {
+static bool wall_at(split_set *set, const split_cylinder_frame *frame, const stretch *s, int side, froe_cut *cut) {
     const split_corner *end = s->end + side;
     if (end->type == SPLIT_VERTEX) {
         *cut = (froe_cut){.kind = FROE_CUT_VERTEX, .id = {end->a}};
-        return !is_on_wall(set, cell, s, side);
+        return !is_on_wall(set, frame, s, side);
     }
     /* what ends the stretch here: the first cut through that point; a wall if there is one among them */
     froe_cut by = split_cut_at(set, end->type == SPLIT_CROSSING ? end->c : end->a);
@@ -101,15 +95,14 @@ static bool wall_at(split_set *set, const split_cell *cell, const stretch *s, in
         if (is_wall(second.kind) || by.kind != FROE_CUT_EDGE) by = second;
     }
     bool space = set->scene->dim == 3;
-    if (is_wall(by.kind) || (space && by.kind != FROE_CUT_EDGE) || is_on_wall(set, cell, s, side)) return false;
+    if (is_wall(by.kind) || (space && by.kind != FROE_CUT_EDGE) || is_on_wall(set, frame, s, side)) return false;
     uint32_t other = space ? FROE_NONE : by.id[0];
     /* in space: the edge below or above on which the end of the stretch lies */
-    const cell_frame f = frame_of(cell);
     for (int i = 0; i < 2 && space && other == FROE_NONE; i++) {
-        if (f.edge[i] == FROE_NONE) continue;
-        froe_cut border = edge_cut(set->scene, f.edge[i]);
+        if (frame->edge[i] == FROE_NONE) continue;
+        froe_cut border = edge_cut(set->scene, frame->edge[i]);
         split_plane plane = split_plane_of(set->scene, &border);
-        if (!split_corner_side(set, &plane, s->fragment->object, end)) other = f.edge[i];
+        if (!split_corner_side(set, &plane, s->fragment->object, end)) other = frame->edge[i];
     }
     if (other == FROE_NONE) return false;
     *cut = crossing_cut(set, other, s->edge); /* the stretch has its ends on both sides of the other line */
@@ -128,9 +121,9 @@ static void turn_right(const froe_scene *scene, stretch *s) {
 }
 
 /** Left wall, right wall, line. */
-static split_verdict cut_stretch(split_set *set, const split_cell *cell, const stretch *s, const froe_cut *line,
-                                 froe_cut *cut) {
-    if (!wall_at(set, cell, s, LEFT, cut) && !wall_at(set, cell, s, RIGHT, cut)) *cut = *line;
+static split_verdict cut_stretch(split_set *set, const split_cylinder_frame *frame, const stretch *s,
+                                 const froe_cut *line, froe_cut *cut) {
+    if (!wall_at(set, frame, s, LEFT, cut) && !wall_at(set, frame, s, RIGHT, cut)) *cut = *line;
     return SPLIT_CUT_ANYWAY;
 }
 
@@ -139,7 +132,8 @@ static split_verdict cut_vertex(const split_set *set, const split_fragment *f, f
     return SPLIT_CUT_ANYWAY;
 }
 
-static split_verdict cut_segment(split_set *set, const split_cell *cell, const split_fragment *f, froe_cut *cut) {
+static split_verdict cut_segment(split_set *set, const split_cylinder_frame *frame, const split_fragment *f,
+                                 froe_cut *cut) {
     const froe_scene *scene = set->scene;
     bool space = scene->dim == 3;
     stretch s = {.fragment = f, .u = scene_corner(scene, f->object, 0), .v = scene_corner(scene, f->object, 1)};
@@ -148,7 +142,7 @@ static split_verdict cut_segment(split_set *set, const split_cell *cell, const s
     s.edge = space ? scene->starts[f->object] : f->object;
     turn_right(scene, &s);
     froe_cut line = space ? edge_cut(scene, s.edge) : (froe_cut){.kind = FROE_CUT_OBJECT, .id = {f->object}};
-    return cut_stretch(set, cell, &s, &line, cut);
+    return cut_stretch(set, frame, &s, &line, cut);
 }
 
 /** Length of an edge as seen from above, to choose by. */
@@ -169,7 +163,7 @@ static froe_status is_done(const split_cylinder *c, split_work *work, const spli
     split_tally n;
     uint32_t v[2];
     /* does it lie in the vertical plane below or above the cell? */
-    const cell_frame f = frame_of(cell);
+    const split_cylinder_frame f = frame_of(work, cell);
     froe_scene_edge(set->scene, edge, v);
     *done = false;
     for (int i = 0; i < 2 && !*done; i++) {
@@ -221,7 +215,8 @@ static split_verdict cut_polygon(const split_cylinder *c, split_work *work, cons
         s.u = v[0], s.v = v[1];
         turn_right(scene, &s);
         froe_cut line = edge_cut(scene, s.edge);
-        return cut_stretch(set, cell, &s, &line, cut);
+        const split_cylinder_frame frame = frame_of(work, cell);
+        return cut_stretch(set, &frame, &s, &line, cut);
     }
     /* The polygon's plane; or, of an upright one whose own edges do not reach into the cell, the same by an edge. A
      * segment, as seen from above, is upright. */
@@ -254,28 +249,28 @@ split_verdict split_cylinder_choose(const void *config, split_work *work, const 
         return SPLIT_GIVE_UP;
     }
     const split_fragment first = work->set.items.data[cell->first];
+    const split_cylinder_frame frame = frame_of(work, cell);
     switch (scene_form(work->set.scene, first.object)) {
     case FROE_POINT:
         return cut_vertex(&work->set, &first, cut);
     case FROE_SEGMENT:
-        return cut_segment(&work->set, cell, &first, cut);
+        return cut_segment(&work->set, &frame, &first, cut);
     default:
         return cut_polygon(c, work, cell, &first, cut);
     }
 }
 
 void split_cylinder_divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut,
-                            bool guard, split_cell *positive, split_cell *negative) {
+                            bool guard, void *positive, void *negative) {
     (void)config;
-    (void)work;
     (void)guard;
-    cell_frame above = frame_of(cell), below = above;
+    split_cylinder_frame above = frame_of(work, cell), below = above;
     if (is_wall(cut->kind)) {
         above.wall[LEFT] = below.wall[RIGHT] = cell->node;
     } else if (cut->kind == FROE_CUT_EDGE) { /* runs to the right: its positive side is above */
         above.edge[0] = cut->id[2];
         below.edge[1] = cut->id[2];
     }
-    memcpy(&positive->room, &above, sizeof above);
-    memcpy(&negative->room, &below, sizeof below);
+    memcpy(positive, &above, sizeof above);
+    memcpy(negative, &below, sizeof below);
 }

@@ -11,9 +11,14 @@ typedef struct split_cylinder {
     atomic_bool *too_deep; /**< set when `deepest` was why */
 } split_cylinder;
 
+/** What a cell keeps in its room: the walls left and right of it, and in space the edges below and above. */
+typedef struct split_cylinder_frame {
+    uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
+} split_cylinder_frame;
+
 /** split_method.choose for a split_cylinder: names the next cut for the first fragment of the cell. */
 split_verdict split_cylinder_choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
 /** split_method.divided: which walls and edges bound the children. */
 void split_cylinder_divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut,
-                            bool guard, split_cell *positive, split_cell *negative);
+                            bool guard, void *positive, void *negative);
 #endif
