@@ -54,7 +54,7 @@ froe_status froe_render_png(const froe_tree *tree, const char *path, const froe_
                                            o->pixels, NULL, diag);
     if (!status) {
         if (o->background != FROE_DRAW_CLEAR) {
-            set_colour(output.cr, o->background, 1);
+            set_colour(output.cr, o->background == FROE_DRAW_BY_FORMAT ? 0xFFFFFF : o->background, 1);
             cairo_paint(output.cr);
         }
         cairo_set_fill_rule(output.cr, CAIRO_FILL_RULE_WINDING);

@@ -13,7 +13,7 @@ froe_render_options froe_render_defaults(void) {
                  FROE_LINE_CROSSING | FROE_LINE_SECTION,
         .crease = 30,
         .line_width = 1,
-        .background = FROE_DRAW_CLEAR,
+        .background = FROE_DRAW_BY_FORMAT,
         .decimals = 2,
         .pixels = 1,
     };

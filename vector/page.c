@@ -56,7 +56,7 @@ vector_digits vector_points(const vector_render *render, double length) {
 void vector_put_page(vector_render *render, vector_output *output, bool alphas[256]) {
     const froe_render_options *o = render->options;
     page_writer w = {.render = render, .output = output, .alpha = 255, .alphas = alphas};
-    if (o->background != FROE_DRAW_CLEAR) {
+    if (o->background < FROE_DRAW_BY_FORMAT) {
         put_colour(output, o->background, "rg");
         vector_print(output, "0 0 %s %s re f\n", vector_points(render, o->camera.width).text,
                      vector_points(render, o->camera.height).text);

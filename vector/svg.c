@@ -235,7 +235,7 @@ void vector_svg_begin(const vector_render *render, vector_output *output) {
         vector_put_escaped(output, parts[i][1]);
         vector_print(output, "</%s>\n", parts[i][0]);
     }
-    if (o->background != FROE_DRAW_CLEAR) {
+    if (o->background < FROE_DRAW_BY_FORMAT) {
         vector_print(output, "<rect width=\"100%%\" height=\"100%%\" fill=\"");
         put_colour(output, o->background);
         vector_print(output, "\"/>\n");

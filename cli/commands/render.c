@@ -37,7 +37,7 @@ static const cli_option what[] = {
     {"margin", 0, CLI_REAL, offsetof(render_args, margin), "M",
      .help = "around the picture (default 1/50 of the width)"},
     {"background", 0, CLI_TEXT, offsetof(render_args, background), "RRGGBB",
-     .help = "colour of the page (default: clear)"},
+     .help = "colour of the page, or clear for none (default: white in PNG, clear in other files)"},
     {0},
 };
 

@@ -18,7 +18,8 @@
 extern "C" {
 #endif
 
-#define FROE_DRAW_CLEAR UINT32_MAX /**< background: none, transparent where the format can be */
+#define FROE_DRAW_CLEAR UINT32_MAX           /**< background: none, transparent where the format can be */
+#define FROE_DRAW_BY_FORMAT (UINT32_MAX - 1) /**< background: white in PNG, none in other files */
 
 /** How faces are filled. */
 typedef enum froe_shading {
@@ -72,7 +73,7 @@ typedef struct froe_render_options {
     const double *opacity;     /**< per group, 0 .. 1; NaN, or all NULL: that of its colour, or 1 */
     const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
     bool cull_back;
-    uint32_t background; /**< 0xRRGGBB, or FROE_DRAW_CLEAR (default) */
+    uint32_t background; /**< 0xRRGGBB, FROE_DRAW_CLEAR or FROE_DRAW_BY_FORMAT (default) */
     int decimals;        /**< SVG: digits after the point, 0 .. 6; default 2 */
     froe_ids ids;        /**< default NONE */
     bool layers; /**< SVG: shapes of one object (groups of one name) that follow each other are a group with data-layer;

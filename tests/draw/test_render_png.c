@@ -77,6 +77,7 @@ static void png_and_pdf_show_the_same_pixels(void **state) {
     froe_tree *tree = tree_of(random_triangles(40, 0.6), "density", 1);
     froe_render_options o = froe_render_defaults();
     o.camera.width = WIDTH, o.camera.height = HEIGHT;
+    o.background = FROE_DRAW_CLEAR;
     compare(tree, &o);
     o.hidden = true;
     o.line_width = 3;
@@ -88,6 +89,30 @@ static void png_and_pdf_show_the_same_pixels(void **state) {
     o.interleaved = false;
     o.seams = FROE_SEAMS_TWICE;
     compare(tree, &o);
+    froe_tree_free(tree);
+}
+
+/* The pixel in the upper left corner, which no face covers, as 0xAARRGGBB. */
+static uint32_t corner_pixel(const froe_tree *tree, const froe_render_options *o) {
+    uint32_t pixel;
+    assert_int_equal(froe_render_png(tree, "corner.png", o, NULL, NULL), FROE_OK);
+    cairo_surface_t *png = cairo_image_surface_create_from_png("corner.png");
+    const bool opaque = cairo_image_surface_get_format(png) == CAIRO_FORMAT_RGB24;
+    memcpy(&pixel, cairo_image_surface_get_data(png), sizeof pixel);
+    cairo_surface_destroy(png);
+    return opaque ? pixel | 0xFF000000 : pixel;
+}
+
+static void a_png_is_white_unless_it_is_to_be_clear(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(random_triangles(1, 0.01), "density", 1);
+    froe_render_options o = froe_render_defaults();
+    o.camera.width = WIDTH, o.camera.height = HEIGHT;
+    assert_int_equal(corner_pixel(tree, &o), 0xFFFFFFFF);
+    o.background = 0x010203;
+    assert_int_equal(corner_pixel(tree, &o), 0xFF010203);
+    o.background = FROE_DRAW_CLEAR;
+    assert_int_equal(corner_pixel(tree, &o), 0);
     froe_tree_free(tree);
 }
 
@@ -106,6 +131,7 @@ static void what_one_sees_through_has_the_same_pixels(void **state) {
     froe_tree *tree = tree_of(scene, "density", 1);
     froe_render_options o = froe_render_defaults();
     o.camera.width = WIDTH, o.camera.height = HEIGHT;
+    o.background = FROE_DRAW_CLEAR;
     compare(tree, &o);
     froe_tree_free(tree);
 }
@@ -162,6 +188,7 @@ static void pixels_out_of_range_are_refused_by_name(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(png_and_pdf_show_the_same_pixels),
+        cmocka_unit_test(a_png_is_white_unless_it_is_to_be_clear),
         cmocka_unit_test(what_one_sees_through_has_the_same_pixels),
         cmocka_unit_test(the_same_bytes_again),
         cmocka_unit_test(every_allocation_may_fail),
