@@ -52,6 +52,10 @@ static inline num_ball filter_sum(const geom_plane *h, const double *w, double c
     return filter_sum_in(h->dim, h, w, c);
 }
 
+/* The same in any dimension D, for planes given by a vector: D roundings of the sum make (D + 2) u P, of which P itself
+ * is computed to (1 +- (D + 2) u). Hence e = (2 D + 8) u P + n_err sum |w| + TINY. */
+num_ball filter_sum_far(const geom_plane *h, const double *w, double c);
+
 /* a - b for two doubles: one rounding, no underflow. */
 static inline num_ball filter_difference(double a, double b) {
     double x = a - b;
@@ -64,7 +68,7 @@ static inline num_ball filter_value(const geom_plane *h, const double *x) {
         num_ball f = filter_difference(x[h->axis], h->c);
         return (num_ball){f.x, (f.e + h->c_err) * FILTER_UP};
     }
-    if (h->form == GEOM_VECTOR) return filter_sum(h, x, h->c);
+    if (h->form == GEOM_VECTOR) return h->dim > 3 ? filter_sum_far(h, x, h->c) : filter_sum(h, x, h->c);
     const double *o = h->p[0];
     const double w0 = x[0] - o[0], w1 = x[1] - o[1];
     if (h->dim == 2) return filter_sum_in(2, h, (const double[2]){w0, w1}, 0);
@@ -112,6 +116,11 @@ static inline double filter_line_value(const filter_line *h, double x, double y)
 /* n . (v - u) */
 static inline num_ball filter_slope(const geom_plane *h, const double *u, const double *v) {
     if (h->form <= GEOM_AT_CROSSING) return filter_difference(v[h->axis], u[h->axis]);
+    if (h->dim > 3) {
+        double far[FROE_MAX_DIM];
+        for (int k = 0; k < h->dim; k++) far[k] = v[k] - u[k];
+        return filter_sum_far(h, far, 0);
+    }
     double w[3] = {v[0] - u[0], v[1] - u[1], h->dim == 3 ? v[2] - u[2] : 0};
     return filter_sum(h, w, 0);
 }
@@ -150,11 +159,16 @@ static inline double filter_capped(double square) {
     return square < 0x1p1023 ? square : 0x1p1023;
 }
 
-/* At least the length of a vector of 3 components, of which the squares may underflow or overflow. */
+/* At least the length of a vector of `dim` components, of which the squares may underflow or overflow. */
+static inline double filter_length_in(int dim, const double *n) {
+    double most = 0, sum = 0;
+    for (int k = 0; k < dim; k++) most = filter_greater(fabs(n[k]), most);
+    for (int k = 0; k < dim; k++) sum += n[k] / most * (n[k] / most);
+    return most > 0 ? most * (sqrt(sum) * (1 + 0x1p-48)) + 0x1p-1074 : most;
+}
+
 static inline double filter_length(const double n[3]) {
-    const double most = filter_greater(filter_greater(fabs(n[0]), fabs(n[1])), fabs(n[2]));
-    const double x = n[0] / most, y = n[1] / most, z = n[2] / most;
-    return most > 0 ? most * (sqrt(x * x + y * y + z * z) * (1 + 0x1p-48)) + 0x1p-1074 : most;
+    return filter_length_in(3, n);
 }
 
 /* A vector with one error bound for all components. */

@@ -78,11 +78,23 @@ geom_plane geom_plane_vector(int dim, const double *normal, double value) {
     geom_plane plane = blank(GEOM_VECTOR, dim);
     plane.c = value;
     for (int k = 0; k < dim; k++) {
-        plane.p[0][k] = plane.n[k] = normal[k];
+        plane.normal[k] = normal[k];
+        if (k < 3) plane.n[k] = normal[k];
         plane.n_max = filter_greater(plane.n_max, fabs(normal[k]));
     }
     if (!num_rounding_trusted()) plane.n_err = INFINITY;
     return plane;
+}
+
+num_ball filter_sum_far(const geom_plane *h, const double *w, double c) {
+    double x = 0, size = fabs(c), spread = 0;
+    for (int k = 0; k < h->dim; k++) {
+        const double product = h->normal[k] * w[k];
+        x += product;
+        size += fabs(product);
+        spread += fabs(w[k]);
+    }
+    return (num_ball){x - c, (2 * h->dim + 8) * FILTER_U * size + h->n_err * spread + h->dim * NUM_BALL_TINY};
 }
 
 geom_plane geom_plane_at_vertex(int dim, const double *p) {
@@ -113,7 +125,9 @@ bool geom_plane_valid(num_context *context, const geom_plane *plane) {
         return wall_turn_dyadic(num_fresh(context), plane).sign > 0;
     }
     if (context->first == NUM_FILTER && plane->n_max > plane->n_err) return true;
-    num_dyadic n[3];
+    num_dyadic n[FROE_MAX_DIM];
     plane_normal_dyadic(num_fresh(context), plane, n);
-    return n[0].sign || n[1].sign || n[2].sign;
+    bool valid = false;
+    for (int k = 0; k < plane->dim; k++) valid = valid || n[k].sign;
+    return valid;
 }

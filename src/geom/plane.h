@@ -1,4 +1,4 @@
-/* plane.h: an oriented hyperplane of R^2 or R^3, kept as the input that defines it.
+/* plane.h: an oriented hyperplane of R^2 .. R^8, kept as the input that defines it.
  *
  *     side(x) = sign of  n . (x - o) - c
  *
@@ -6,7 +6,12 @@
  *     2D  n = (-(q-p)_y, (q-p)_x)    positive left of p -> q
  *     3D  n = (q-p) x (r-p)          positive where p, q, r turn left
  * VERTICAL (3D) runs through p[0], p[1] and their vertical translates: n as in 2D, n_z = 0.
- * AXIS is x[axis] = c; VECTOR is p[0] . x = c. Here o = 0.
+ * AXIS is x[axis] = c; VECTOR is normal . x = c. Here o = 0.
+ *
+ * Above dimension 3 there are AXIS and VECTOR, and of the predicates those of vertices, crossings and balls:
+ *     geom_plane_vector, geom_plane_valid, filter_value, filter_slope (filter.h),
+ *     geom_side_vertex, geom_side_crossing, geom_side_ball (predicates.h)
+ * `n` has only three components, and nothing there reads it: geom_plane_normal() is the normal in any dimension.
  *
  * AT_VERTEX and AT_CROSSING are the walls of cylindrical partitions: the line x[0] = c (3D: the plane) through
  * p[0], or through the point where the line p[0]p[1] meets p[2]p[3] (3D: their projections), sheared by an
@@ -35,11 +40,14 @@ typedef enum geom_form {
 typedef struct geom_plane {
     geom_form form;
     int dim, axis;
-    double p[4][3];
+    union {
+        double p[4][3];
+        double normal[FROE_MAX_DIM]; /**< VECTOR */
+    };
     double c;     /**< AT_CROSSING: rounded */
     double c_err; /**< bound on |c - true c|, 0 but for AT_CROSSING */
-    double n[3];  /**< rounded normal */
-    double n_max; /**< max |n[k]| */
+    double n[3];  /**< rounded normal; dimension <= 3 */
+    double n_max; /**< max |n[k]|, in any dimension */
     double n_err; /**< bound on max |n[k] - true n[k]|; infinity: the filter does not apply */
 } geom_plane;
 
@@ -52,6 +60,10 @@ geom_plane geom_plane_at_vertex(int dim, const double *p);
 /** Through the crossing of the lines ends[0] ends[1] and ends[2] ends[3], of which only x and y count. The second
  * must cross the first from its right to its left (geom_plane_valid finds out). */
 geom_plane geom_plane_at_crossing(int dim, const double *const ends[4]);
+/** The image of the normal: dim numbers at least. Not for AXIS above dimension 3. */
+static inline const double *geom_plane_normal(const geom_plane *plane) {
+    return plane->dim > 3 ? plane->normal : plane->n;
+}
 /** Is it a wall of a cylindrical partition, sheared? */
 static inline bool geom_is_sheared(const geom_plane *plane) {
     return plane->form == GEOM_AT_VERTEX || plane->form == GEOM_AT_CROSSING;

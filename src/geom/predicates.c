@@ -43,6 +43,7 @@ static bool same_plane(const geom_plane *g, const geom_plane *h) {
     same = same && (crossing || g->c == h->c);
     for (int i = 0; i < (crossing ? 4 : 1); i++)
         for (int k = 0; k < (crossing ? 2 : 3); k++) same = same && g->p[i][k] == h->p[i][k];
+    for (int k = 3; k < g->dim; k++) same = same && g->normal[k] == h->normal[k];
     return same;
 }
 
@@ -199,7 +200,7 @@ static int tie_at_wall(num_context *context, const geom_plane *h, const double *
         return plain_crossing(context, h, u, v, &level);
     }
     if (u[0] == v[0]) return num_exact(context, sheared_crossing(context, h, u, v, a));
-    num_dyadic n[3];
+    num_dyadic n[FROE_MAX_DIM];
     plane_normal_dyadic(num_fresh(context), h, n);
     int rises = plane_slope_dyadic(&context->arena, h, n, u, v).sign;
     if (!rises) return num_exact(context, 0);
@@ -324,15 +325,28 @@ int geom_side_corner(num_context *context, const geom_plane *plane, const geom_p
 
 /* -------------------------------------------------------------------- ball -- */
 
+/* |n|^2 of a plane that is not parallel to an axis. */
+static num_ball square_of_normal(const geom_plane *h) {
+    if (h->dim <= 3) {
+        const filter_vector n = filter_normal(h);
+        return filter_dot(&n, &n);
+    }
+    num_ball sum = {0, 0};
+    for (int k = 0; k < h->dim; k++) {
+        const num_ball x = {h->normal[k], h->n_err};
+        sum = filter_add(sum, filter_mul(x, x));
+    }
+    return sum;
+}
+
 static int ball_filter(const geom_plane *h, const double *centre, double radius) {
     if (h->form == GEOM_AXIS) { /* rounding is monotone: fl(x - c) < r or > r tells the same of x - c */
         const double distance = fabs(centre[h->axis] - h->c);
         if (distance == radius) return NUM_UNSURE;
         return distance > radius ? sign_of(centre[h->axis], h->c) : GEOM_CUTS;
     }
-    filter_vector n = filter_normal(h);
     num_ball at = filter_value(h, centre), r = num_ball_from(radius);
-    num_ball reach = filter_sub(filter_mul(at, at), filter_mul(filter_mul(r, r), filter_dot(&n, &n)));
+    num_ball reach = filter_sub(filter_mul(at, at), filter_mul(filter_mul(r, r), square_of_normal(h)));
     return geom_ball_side(h, filter_sign(at), filter_sign(reach));
 }
 
@@ -343,4 +357,21 @@ int geom_side_ball(num_context *context, const geom_plane *plane, const double *
     sign =
         NUM_DECIDE(context, sign, ball_filter(plane, centre, radius), NUM_UNSURE, side_of_ball, plane, centre, radius);
     return sign == GEOM_CUTS ? 2 : sign;
+}
+
+/* --------------------------------------------------------------------- box -- */
+
+int geom_side_box(num_context *context, const geom_plane *plane, const double *lo, const double *hi) {
+    const bool vector = plane->form == GEOM_VECTOR, axis = plane->form == GEOM_AXIS;
+    unsigned reached = 0;
+    for (uint32_t i = 0; i < (vector || axis ? 2 : 1u << plane->dim) && reached != 3; i++) {
+        double x[FROE_MAX_DIM];
+        for (int k = 0; k < plane->dim; k++) { /* the least corner along the normal, then the greatest; or all */
+            const bool high = vector ? (plane->normal[k] > 0) == (i == 1) : axis ? i : i >> k & 1;
+            x[k] = high ? hi[k] : lo[k];
+        }
+        const int side = geom_side_vertex(context, plane, x);
+        if (side) reached |= side > 0 ? 2 : 1;
+    }
+    return reached == 3 ? 2 : reached == 2 ? 1 : -(int)reached;
 }

@@ -2,8 +2,8 @@
  *
  * Three kinds of points occur in a BSP, and no point is ever rounded to decide anything:
  *
- *   vertex    an input vertex x                             degree 2 (2D), 3 (3D)
- *   crossing  segment uv  x  plane a                        degree 4 (2D), 6 (3D)
+ *   vertex    an input vertex x                             degree 2 (2D, and above 3D), 3 (3D)
+ *   crossing  segment uv  x  plane a                        degree 4 (2D, and above 3D), 6 (3D)
  *   corner    support plane s  x  plane a  x  plane b       degree 9 (3D)
  *
  * Each answer is -1, 0 or 1, by the stages of num/ladder.h. A side is the sign of f(x) = n . (x - o) - c, see
@@ -53,7 +53,7 @@ int geom_side_corner(num_context *context, const geom_plane *plane, const geom_p
                      const geom_plane *b);
 /** Side of the closed ball, radius >= 0: -1 or 1 when its interior lies there (touching
  * included), 0 when its centre is on the plane and radius is 0, 2 when the plane cuts
- * its interior. Any dimension for AXIS planes, otherwise 2 or 3.
+ * its interior. Any dimension.
  *
  *   (B1) The plane turned round: the opposite side; 2 stays.
  *   (B2) Radius 0: the side of the centre as a vertex.
@@ -63,6 +63,10 @@ int geom_side_corner(num_context *context, const geom_plane *plane, const geom_p
  *        interior one.
  *   (B5) A plane without a normal: 0, whatever the radius. */
 int geom_side_ball(num_context *context, const geom_plane *plane, const double *centre, double radius);
+/** Side of the closed box lo .. hi: -1 or 1 when it lies there (touching included), 0 when it lies in the plane, 2 when
+ * both sides have some of it. Looks at two corners, at all of them beside planes through points. Any dimension; no
+ * walls. */
+int geom_side_box(num_context *context, const geom_plane *plane, const double *lo, const double *hi);
 
 /** The coordinates of such points, rounded to the nearest double. Output only. These and the images are in image.c. */
 void geom_round_crossing(num_context *context, const double *u, const double *v, const geom_plane *a, double *out);
@@ -73,7 +77,7 @@ void geom_round_corner(num_context *context, const geom_plane *s, const geom_pla
  * image of a crossing always lies in the bounding box of u and v. */
 double geom_image_crossing(const double *u, const double *v, const geom_plane *a, double *out);
 double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_plane *b, double *out);
-/** -1 or 1 when the image (x, error) is certainly on that side, NUM_UNSURE otherwise.
+/** Dimension 2 or 3: -1 or 1 when the image (x, error) is certainly on that side, NUM_UNSURE otherwise.
  * Input vertices have error 0. ~5 ns, so callers try it first.
  *
  *   (I1) A sure answer is the side of every point within `error` of x, so that of the point itself.

@@ -9,6 +9,18 @@ static void free_planes(const froe_allocator *alloc, query_part *part) {
     support_free(alloc, p, sizeof *p);
 }
 
+double query_far_value(const query_plane *h, int dim, const double *x, double c, double *error) {
+    double sum = 0, size = fabs(c), spread = 0;
+    for (int k = 0; k < dim; k++) {
+        const double product = h->far[k] * x[k];
+        sum += product;
+        size += fabs(product);
+        spread += fabs(x[k]);
+    }
+    *error = ((2 * dim + 8) * FILTER_U * size + h->n_err * spread + dim * NUM_BALL_TINY) * FILTER_UP;
+    return sum - c;
+}
+
 static froe_status make_cuts(froe_query *q, query_part **out, froe_diagnostic *diag) {
     const froe_tree *t = q->tree;
     query_planes *p = support_calloc(&q->alloc, 1, sizeof *p);
@@ -32,6 +44,10 @@ static froe_status make_cuts(froe_query *q, query_part **out, froe_diagnostic *d
              * for its rounding covers the error. */
             const double k = plane.c_err / (4 * FILTER_U) + fabs(plane.c) / 2;
             *h = (query_plane){.n = {1}, .o = {plane.c - k}, .c = k, .n_err = k < 0x1p1000 ? 0 : INFINITY};
+            continue;
+        }
+        if (plane.dim > 3) {
+            h->far = t->normals + t->cuts[node->u.cut].a;
             continue;
         }
         memcpy(h->n, plane.n, sizeof h->n);

@@ -10,7 +10,13 @@
 
 /** n . (x - o) - c, up to n_err for each component of n; one cache line. */
 typedef struct query_plane {
-    double n[3], o[3], c, n_err;
+    union {
+        struct {
+            double n[3], o[3];
+        };
+        const double *far; /**< above dimension 3: n; o is 0 */
+    };
+    double c, n_err;
 } query_plane;
 
 /** Planes of the tabled cuts that are not axis-parallel. */
@@ -38,8 +44,15 @@ static inline query_cut query_cut_at(const froe_tree *t, const query_planes *pla
     return (query_cut){-1, 0, planes->planes + node->u.cut};
 }
 
-/** n . d for a direction, and a bound of its error. */
-static inline double query_plane_slope(const query_plane *h, const double d[3], double *error) {
+static inline const double *query_plane_normal(const query_plane *h, int dim) {
+    return dim > 3 ? h->far : h->n;
+}
+/** n . x - c above dimension 3, and a bound of its error: as filter_sum_far (geom/filter.h). */
+double query_far_value(const query_plane *h, int dim, const double *x, double c, double *error);
+
+/** n . d for a direction (in the plane d[2] = 0), and a bound of its error. */
+static inline double query_plane_slope(const query_plane *h, int dim, const double *d, double *error) {
+    if (dim > 3) return query_far_value(h, dim, d, 0, error);
     double p0 = h->n[0] * d[0], p1 = h->n[1] * d[1], p2 = h->n[2] * d[2];
     double size = fabs(p0) + fabs(p1) + fabs(p2), spread = fabs(d[0]) + fabs(d[1]) + fabs(d[2]);
     *error = (8 * FILTER_U * size + h->n_err * spread + NUM_BALL_TINY) * FILTER_UP;
@@ -47,9 +60,10 @@ static inline double query_plane_slope(const query_plane *h, const double d[3], 
 }
 /** The value at a point (x[2] = 0 in the plane), and a bound of its error: as filter_sum (geom/filter.h).
  * Infinite or NaN when nothing is certain: compare so that this means "both sides". */
-static inline double query_plane_value(const query_plane *h, const double x[3], double *error) {
+static inline double query_plane_value(const query_plane *h, int dim, const double *x, double *error) {
+    if (dim > 3) return query_far_value(h, dim, x, h->c, error);
     const double w[3] = {x[0] - h->o[0], x[1] - h->o[1], x[2] - h->o[2]};
-    double sum = query_plane_slope(h, w, error) - h->c;
+    double sum = query_plane_slope(h, 3, w, error) - h->c;
     *error += 8 * FILTER_U * fabs(h->c);
     return sum;
 }

@@ -201,18 +201,10 @@ int split_classify(split_set *set, const split_plane *plane, const split_fragmen
         return side == 2 ? SPLIT_BOTH : class_beside(side);
     }
     if (form == FROE_BOX && plane->plane.form != GEOM_AXIS) {
-        /* by its corners */
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-        bool negative = false, positive = false;
         scene_object_bounds(set->scene, f->object, lo, hi);
-        for (unsigned corner = 0; corner < 1u << set->scene->dim && !(negative && positive); corner++) {
-            double x[3];
-            for (int k = 0; k < set->scene->dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
-            int side = geom_side_vertex(&set->context, &plane->plane, x);
-            negative |= side < 0;
-            positive |= side > 0;
-        }
-        return class_of_sides(negative, positive);
+        const int side = geom_side_box(&set->context, &plane->plane, lo, hi);
+        return side == 2 ? SPLIT_BOTH : class_beside(side);
     }
     return classify_corners(set, plane, f, split_is_cut(form));
 }

@@ -62,7 +62,7 @@ typedef struct split_set {
 froe_status split_set_new(const froe_scene *scene, const froe_allocator *alloc, split_set *out);
 void split_set_free(split_set *set);
 
-/** Makes a cut ready for use: its plane and known vertices. In R^d, d > 3, AXIS cuts only. */
+/** Makes a cut ready for use: its plane and known vertices. */
 split_plane split_plane_of(const froe_scene *scene, const froe_cut *cut);
 /** A node's cut, and its plane, by ring numbering. */
 froe_cut split_cut_at(const split_set *set, uint32_t node);

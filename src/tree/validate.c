@@ -55,7 +55,7 @@ static bool cut_fits(check *c, const tree_cut *cut) {
     case FROE_CUT_AXIS:
         return a < dim && isfinite(cut->u.value);
     case FROE_CUT_PLANE:
-        fits = fits && a == c->normals && t->normal_count - c->normals >= dim && isfinite(cut->u.value);
+        fits = a == c->normals && t->normal_count - c->normals >= dim && isfinite(cut->u.value);
         for (uint32_t k = 0; fits && k < dim; k++) fits = isfinite(t->normals[a + k]);
         if (fits) c->normals += dim;
         break;

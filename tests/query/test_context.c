@@ -138,7 +138,7 @@ static void check_cuts(const froe_tree *tree, uint64_t seed) {
                 assert_int_equal(side, (x[cut.axis] > cut.value) - (x[cut.axis] < cut.value));
                 continue;
             }
-            double value = query_plane_value(cut.plane, x, &error);
+            double value = query_plane_value(cut.plane, dim, x, &error);
             if (value > error) assert_int_equal(side, 1);
             if (value < -error) assert_int_equal(side, -1);
             sure += value > error || value < -error;

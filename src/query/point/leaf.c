@@ -26,7 +26,7 @@ static int side_in_plane(froe_query *q, const tree_cut *cut, const double *x) {
     }
 }
 
-/* Side of a point beside the cut of a node: -1, 0, 1. No planes are needed in the plane. */
+/* Side of a point beside the cut of a node: -1, 0, 1. No planes are needed but in space. */
 static int side_of_point(froe_query *q, const query_planes *planes, uint32_t node, const double *x) {
     const froe_tree *t = q->tree;
     const tree_node *n = t->nodes + node;
@@ -35,7 +35,7 @@ static int side_of_point(froe_query *q, const query_planes *planes, uint32_t nod
         const query_cut cut = query_cut_at(t, planes, n);
         double error;
         if (cut.axis >= 0) return (x[cut.axis] > cut.value) - (x[cut.axis] < cut.value);
-        const double value = query_plane_value(cut.plane, x, &error);
+        const double value = query_plane_value(cut.plane, 3, x, &error);
         if (q->numbers.first == NUM_FILTER && fabs(value) > error) return value > 0 ? 1 : -1;
     } else {
         const int side = side_in_plane(q, t->cuts + n->u.cut, x);
@@ -76,14 +76,14 @@ static query_leaf find_packed(froe_query *q, const query_planes *planes, const d
 typedef struct ways {
     const query_centroids *centroids; /* of deep trees; NULL for others */
     const query_descent *descent;
-    const query_planes *planes; /* in space */
+    const query_planes *planes; /* in space; elsewhere the planes of the tree do */
     bool descends;
 } ways;
 
 static froe_status find_ways(froe_query *q, ways *w) {
     froe_status status = query_is_deep(q->tree) ? query_centroids_of(q, &w->centroids, NULL) : FROE_OK;
     if (!status) status = query_descent_of(q, &w->descent, NULL);
-    if (!status && q->tree->scene->dim != 2) status = query_planes_of(q, &w->planes, NULL);
+    if (!status && q->tree->scene->dim == 3) status = query_planes_of(q, &w->planes, NULL);
     if (!status) w->descends = w->descent->there && q->numbers.first == NUM_FILTER;
     return status;
 }

@@ -182,12 +182,14 @@ static bool go_beside_axis(const range_walk *w, const query_cut *cut, int side, 
 
 /* n . x <= c for all points of a box on that side of the plane, rounded outwards. */
 static double plane_bound(const query_plane *h, int side, int dim, const double *lo, const double *hi) {
+    static const double origin[FROE_MAX_DIM];
+    const double *n = query_plane_normal(h, dim), *o = dim > 3 ? origin : h->o;
     double size = fabs(h->c), spread = 0, shift = 0;
     for (int k = 0; k < dim; k++) {
-        const double most = filter_greater(fabs(lo[k] - h->o[k]), fabs(hi[k] - h->o[k]));
+        const double most = filter_greater(fabs(lo[k] - o[k]), fabs(hi[k] - o[k]));
         spread += most;
-        size += fabs(h->n[k]) * (most + fabs(h->o[k]));
-        shift += h->n[k] * h->o[k];
+        size += fabs(n[k]) * (most + fabs(o[k]));
+        shift += n[k] * o[k];
     }
     const double error = (16 * FILTER_U * size + h->n_err * spread + NUM_BALL_TINY) * FILTER_UP;
     return (side ? -(h->c + shift) : h->c + shift) + error;
@@ -198,20 +200,22 @@ static bool go_beside_plane(const range_walk *w, const query_cut *cut, int side,
     const geom_range *range = &w->r->range;
     const query_plane *h = cut->plane;
     const solid_state p = solid_state_of(w, state);
-    double n[3];
-    for (int k = 0; k < 3; k++) n[k] = side ? -h->n[k] : h->n[k];
+    const double *normal = query_plane_normal(h, w->dim);
+    double n[FROE_MAX_DIM];
+    for (int k = 0; k < w->dim; k++) n[k] = side ? -normal[k] : normal[k];
     if (range->kind == GEOM_RANGE_BALL) { /* is it certainly on the other side? */
-        double x[3] = {0}, error;
+        double x[FROE_MAX_DIM], error;
+        x[2] = 0;
         for (int k = 0; k < w->dim; k++) x[k] = range->set.coords[k];
-        const double value = query_plane_value(h, x, &error);
-        const double reach =
-            range->set.radius * (filter_length(h->n) + 2 * h->n_err) * (1 + 0x1p-45) + error + NUM_BALL_TINY;
+        const double value = query_plane_value(h, w->dim, x, &error);
+        const double length = filter_length_in(w->dim, n) + 3 * h->n_err;
+        const double reach = range->set.radius * length * (1 + 0x1p-45) + error + NUM_BALL_TINY;
         if ((side ? -value : value) > reach) return false;
     }
     if (!geom_shrink_box(n, plane_bound(h, side, w->dim, p.lo, p.hi), w->dim, p.lo, p.hi)) return false;
     switch (range->kind) {
     case GEOM_RANGE_BOX: {
-        double lo[3], hi[3];
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
         for (int k = 0; k < w->dim; k++) {
             lo[k] = filter_greater(p.lo[k], range->lo[k]);
             hi[k] = p.hi[k] < range->hi[k] ? p.hi[k] : range->hi[k];
@@ -296,10 +300,11 @@ static unsigned divide_interval(const range_walk *w, const query_cut *cut, const
         value = filter_difference(o[cut->axis], cut->value);
         slope = (num_ball){d, set->core == GEOM_CORE_RAY ? 0 : 2 * FILTER_U * fabs(d)};
     } else {
-        double x[3] = {0}, d[3] = {0};
+        double x[FROE_MAX_DIM], d[FROE_MAX_DIM];
+        x[2] = d[2] = 0;
         for (int k = 0; k < w->dim; k++) x[k] = o[k], d[k] = set->core == GEOM_CORE_RAY ? e[k] : e[k] - o[k];
-        value.x = query_plane_value(cut->plane, x, &value.e);
-        slope.x = query_plane_slope(cut->plane, d, &slope.e);
+        value.x = query_plane_value(cut->plane, w->dim, x, &value.e);
+        slope.x = query_plane_slope(cut->plane, w->dim, d, &slope.e);
         slope.e += slope.e; /* pays for the differences in d, too */
     }
     if (fabs(slope.x) > slope.e) {

@@ -37,8 +37,8 @@ static crossing cross_axis(const geom_ray *ray, int axis, double value) {
 /* Up to the parameter `leave`. */
 static crossing cross_plane(const geom_ray *ray, const query_plane *plane, double leave) {
     double value_error, slope_error;
-    const double value = query_plane_value(plane, ray->o, &value_error);
-    const double slope = query_plane_slope(plane, ray->d, &slope_error);
+    const double value = query_plane_value(plane, ray->dim, ray->o, &value_error);
+    const double slope = query_plane_slope(plane, ray->dim, ray->d, &slope_error);
     const num_ball t = filter_div((num_ball){-value, value_error}, (num_ball){slope, slope_error});
     if (t.e < INFINITY && isfinite(t.x))
         return (crossing){t.x - t.e * (1 + 0x1p-50), t.x + t.e * (1 + 0x1p-50), slope < 0, false};

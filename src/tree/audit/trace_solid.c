@@ -18,11 +18,11 @@
 
 /* The sides of an oblique plane that a box reaches, and for each a corner strictly there. */
 static unsigned box_reach(tree_trace *t, const geom_plane *plane, const double *lo, const double *hi,
-                          double strict[2][3]) {
+                          double strict[2][FROE_MAX_DIM]) {
     unsigned reached = 0;
     int dim = t->tree->scene->dim;
     for (unsigned i = 0; i < 1u << dim && reached != 3; i++) {
-        double x[3] = {0};
+        double x[FROE_MAX_DIM] = {0};
         for (int k = 0; k < dim; k++) x[k] = i >> k & 1 ? hi[k] : lo[k];
         int side = geom_side_vertex(&t->context, plane, x);
         if (!side || reached >> (side > 0) & 1) continue;
@@ -40,7 +40,7 @@ static unsigned interval_reach(double lo, double hi, double c) {
 static unsigned cut_box(tree_trace *t, const geom_plane *plane, const trace_solid *at, trace_solid child[2]) {
     const int axis = plane->axis;
     const double c = plane->c;
-    double strict[2][3], any[2][3], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    double strict[2][FROE_MAX_DIM], any[2][FROE_MAX_DIM], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     unsigned part, whole;
     scene_object_bounds(t->tree->scene, t->object, lo, hi);
     if (plane->form == GEOM_AXIS) {
