@@ -97,6 +97,7 @@ void cli_help(FILE *out) {
     for (size_t i = 0; (command = cli_command_at(i)) != NULL; i++) print_entry(out, command->name, command->summary);
     fputs("\nOptions:\n", out);
     print_entry(out, "--version", "version, commit, and the libraries inside; --version --json as an object");
+    print_entry(out, "--completion SHELL", "a script: bash, zsh or fish completes command lines with it");
     print_entry(out, "-h, --help", "this text; froe COMMAND --help tells about one command");
     fputs("\nExit codes:\n", out);
     each_exit(out, print_entry);

@@ -1,5 +1,6 @@
 /* main.c: finds the command, reads its arguments, runs it. */
 #include "command.h"
+#include "completion.h"
 #include "exit.h"
 #include "help.h"
 #include "progress.h"
@@ -35,6 +36,7 @@ int main(int argc, char **argv) {
     const char *word = argv[1];
     if (is(word, "--help", "-h") || strcmp(word, "help") == 0) return run_help(argc - 2, argv + 2, false);
     if (strcmp(word, "--manual") == 0) return run_help(argc - 2, argv + 2, true);
+    if (strcmp(word, "--completion") == 0) return cli_completion(argc > 2 ? argv[2] : NULL);
     if (is(word, "--version", "-V")) return cli_version(argc > 2 && strcmp(argv[2], "--json") == 0);
     if (word[0] == '-') return cli_fail_unknown("option", word, NULL, "froe --help lists what there is.");
     const cli_command *command = cli_command_named(word);

@@ -1,4 +1,5 @@
-# Man pages: the program writes them itself, from the text of its --help.
+# Man pages and the scripts of shells that complete command lines: the program writes them itself, from the tables of
+# its --help.
 set(manual_pages "")
 if(CMAKE_CROSSCOMPILING)
   return()
@@ -18,4 +19,11 @@ foreach(line ${lines})
   string(REGEX REPLACE "^FROE_COMMAND\\((.*)\\).*" "\\1" command ${line})
   froe_manual_page(froe-${command} ${command})
 endforeach()
-add_custom_target(froe_manual ALL DEPENDS ${manual_pages})
+
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/completions)
+foreach(shell bash zsh fish)
+  set(file ${PROJECT_BINARY_DIR}/completions/froe.${shell})
+  add_custom_command(OUTPUT ${file} COMMAND froe_program --completion ${shell} > ${file} DEPENDS froe_program VERBATIM)
+  list(APPEND completions ${file})
+endforeach()
+add_custom_target(froe_manual ALL DEPENDS ${manual_pages} ${completions})
