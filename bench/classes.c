@@ -1,4 +1,4 @@
-/* classes.c: small ranges by one point location in each class of sizes, beside the search of a tree.
+/* classes.c: small ranges by one location in cubes of all sizes, beside the search of a tree.
  *
  *     bench_classes [N]        default: 100,000
  *
@@ -16,8 +16,7 @@
 enum { ROUNDS = 5, RANGES = 10000, WALKS = 2 };
 static const froe_walk walks[WALKS] = {FROE_WALK_AUTO, FROE_WALK_CLASSES};
 
-/* The greatest length: a power of two, about as long as it is from one segment to the next. Half the extents of
- * segments of one length are then in one class, whatever their direction. */
+/* The greatest length: just below a power of two, about as long as it is from one segment to the next. */
 static double longest(size_t n) {
     return 0.999 * exp2(ceil(-0.5 * log2((double)n)));
 }
@@ -130,7 +129,7 @@ static void bench(size_t n, int span, const char *method) {
 
 int main(int argc, char **argv) {
     const size_t n = argc > 1 ? strtoull(argv[1], NULL, 10) : 100000;
-    bench_head("classes of sizes, one thread, medians of 5 rounds by processor time", 1);
+    bench_head("cells of all classes of sizes, one thread, medians of 5 rounds by processor time", 1);
     for (int span = 0; span <= 8; span += 4) bench(n, span, "density");
     bench(n, 0, "index");
     return 0;

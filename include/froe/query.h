@@ -46,7 +46,7 @@ typedef struct froe_query_stats {
     uint64_t tests;                  /**< objects tested against a query; by index in space, one by one */
     uint64_t exact;                  /**< ... of these, decided by exact numbers */
     uint64_t slices;                 /**< lists reported without a test */
-    uint64_t steps;                  /**< of searches that lead past the cuts of deep trees, each like a node */
+    uint64_t steps;                  /**< of searches past the cuts of deep trees or among cubes, each like a node */
 } froe_query_stats;
 /** Returns the counts and starts again at 0. */
 FROE_API froe_query_stats froe_query_statistics(froe_query *query);
@@ -84,10 +84,10 @@ typedef enum froe_walk {
     FROE_WALK_LCA = 3, /**< the same by its extreme points and their lowest common ancestors (de Berg 2000, Lemma 3.4),
                             for comparison: several times slower than box. 16 bytes more for each node */
     FROE_WALK_CLASSES =
-        4, /**< not in the tree: objects in classes by size, each with a tree of its enlarged boxes. Where
-              the range is no larger than the class's objects, one point location; where it is larger,
-              a search of that tree; where it is larger than all classes, the tree itself (de Berg 2000,
-              Corollary 3.2). Building these trees takes as long as a `kd` tree of the boxes */
+        4, /**< not in the tree: cubes of all sizes, each with a list of those objects of its size and larger ones that
+              meet it. Where density is low, O(log n) for a range no larger than the objects near it, whatever other
+              sizes there are (de Berg 2000, Corollary 3.2); smaller objects near it are found as in a quadtree.
+              Unbounded ranges go down the tree. The cubes take 40 to 100 bytes for each object in the plane */
     FROE_WALK_COUNT = 5
 } froe_walk;
 /** "auto", "plain", ...; NULL for other numbers. */

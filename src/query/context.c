@@ -53,8 +53,8 @@ froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diag
     return FROE_OK;
 }
 
-/* Frees a context, but not its forks. */
-static void free_alone(froe_query *query) {
+void froe_query_free(froe_query *query) {
+    BASE_FLOATS_OWN;
     if (!query) return;
     froe_allocator alloc = query->alloc;
     query_shared *shared = query->shared;
@@ -76,18 +76,6 @@ static void free_alone(froe_query *query) {
     space_work_free(query->space, &alloc);
     array_free(&alloc, &query->found);
     support_free(&alloc, query, sizeof *query);
-}
-
-void query_classes_give(froe_query *q) {
-    for (uint32_t i = 0; q->classes.forks && i < q->classes.count; i++) free_alone(q->classes.forks[i]);
-    support_free(&q->alloc, q->classes.forks, q->classes.count * sizeof *q->classes.forks);
-    q->classes.forks = NULL;
-}
-
-void froe_query_free(froe_query *query) {
-    BASE_FLOATS_OWN;
-    if (query) query_classes_give(query);
-    free_alone(query);
 }
 
 froe_query_stats froe_query_statistics(froe_query *query) {

@@ -54,12 +54,7 @@ struct froe_query {
     struct space_work *space;   /**< packed trees of space only (query/packed/space.h) */
     struct {
         query_members inside, touched;
-    } groups; /**< of a point, while it is looked for (query/point/areas.h) */
-    struct {
-        froe_query *
-            *forks; /**< of the contexts of classes of sizes; NULL until they are asked (query/range/classes.h) */
-        uint32_t count;
-    } classes;
+    } groups;              /**< of a point, while it is looked for (query/point/areas.h) */
     ARRAY(uint32_t) found; /**< objects reported by the query in progress, or by the last one */
 };
 
@@ -68,9 +63,6 @@ typedef froe_status query_make_fn(froe_query *query, query_part **out, froe_diag
 /** The part, made by `make` unless it is there. */
 froe_status query_prepare(froe_query *query, query_part_id id, query_make_fn *make, const query_part **out,
                           froe_diagnostic *diag);
-
-/** Gives back the forks of its classes. */
-void query_classes_give(froe_query *query);
 
 /** Begins a query: forgets what the last one found. */
 static inline void query_begin(froe_query *q) {

@@ -1,5 +1,5 @@
-/* Small ranges by one point location in each class of sizes: the same answers as brute force in rationals, at the
- * borders of classes and wherever sizes are extreme. */
+/* Small ranges by one location in cubes of all sizes: the same answers as brute force in rationals, at the borders of
+ * classes and wherever sizes are extreme; and O(log n) steps, however many sizes there are. */
 #include "query/range/classes.h"
 #include "query/ranges.h"
 #include "support/memory.h"
@@ -162,33 +162,6 @@ static void numbers_of_any_size(void **state) {
     }
 }
 
-/* Where all objects are of one class, a small range looks at one leaf and nothing else. */
-static void a_small_range_is_one_point_location(void **state) {
-    froe_scene *scene = mixed(2, 1 << FROE_BOX, 2000, 1, false, 12);
-    froe_tree *tree = trees_build(scene, "density", 1);
-    froe_query *q;
-    (void)state;
-    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
-    for (uint32_t i = 0; i < 500; i++) {
-        const double centre[2] = {trees_unit(1, 2 * i), trees_unit(1, 2 * i + 1)};
-        froe_range range = froe_range_defaults();
-        uint64_t count, expected;
-        range.shape = FROE_SHAPE_BALL, range.points = centre, range.radius = 0.125;
-        assert_int_equal(froe_query_count(q, &range, &expected, NULL), FROE_OK);
-        froe_query_statistics(q);
-        range.walk = FROE_WALK_CLASSES;
-        assert_int_equal(froe_query_count(q, &range, &count, NULL), FROE_OK);
-        assert_int_equal(count, expected);
-        const froe_query_stats stats = froe_query_statistics(q);
-        assert_int_equal(stats.leaves, 1);
-        assert_int_equal(stats.queries, 1);
-        assert_true(stats.nodes < 24);
-    }
-    froe_query_free(q);
-    froe_tree_free(tree);
-    froe_scene_free(scene);
-}
-
 /* Boxes of half sizes 1/8 to 1/4 with corners on a lattice, some of them one double beside it. */
 static void scatter_on_lattice(froe_scene *scene, double (*boxes)[6], uint32_t count, size_t dim) {
     for (uint32_t i = 0; i < count; i++) {
@@ -250,30 +223,209 @@ static void what_touches_is_found(void **state) {
     check_touching(3, 6000);
 }
 
-/* Classes are by powers of two, and hold each object once. */
-static void classes_are_what_they_say(void **state) {
-    froe_scene *scene = mixed(2, SOME, 500, 9, false, 13);
-    froe_tree *tree = trees_build(scene, "density", 8);
+/* ---------------------------------------------------------------------- cells -- */
+
+/* The smallest cell before this one that holds it. */
+static uint32_t parent_of(const query_classes *p, uint32_t cell) {
+    for (uint32_t i = cell; i > 0; i--)
+        if (query_cell_holds(p, i - 1, query_cell_corner(p, cell))) return i - 1;
+    return FROE_NONE;
+}
+
+static size_t times_listed(const query_classes *p, uint32_t cell, uint32_t object) {
+    size_t times = 0;
+    for (; cell != FROE_NONE; cell = p->cells[cell].refers ? p->cells[cell].parent : FROE_NONE)
+        for (uint32_t i = 0; i < p->cells[cell].count; i++) times += p->ids.data[p->cells[cell].first + i] == object;
+    return times;
+}
+
+/* The class of an object by multiplying: the least power of two that is greater than its extent. */
+static int class_of_object(const froe_scene *scene, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], extent = 0;
+    int level = -1074;
+    scene_object_bounds(scene, object, lo, hi);
+    for (int k = 0; k < froe_scene_dim(scene); k++) extent = fmax(extent, hi[k] - lo[k]);
+    while (extent > 0 && ldexp(1, level) <= extent) level++;
+    return level;
+}
+
+/* Is the cube of the object's class around a corner, without its far sides, one that the bounds of the object meet? */
+static bool reaches_cube(const froe_scene *scene, uint32_t object, const double *corner, int level) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    bool reaches = true;
+    scene_object_bounds(scene, object, lo, hi);
+    for (int k = 0; k < froe_scene_dim(scene); k++) {
+        const double cube = cube_corner(corner[k], level);
+        reaches &= cube_digit(cube_corner(lo[k] + 0.0, level), cube) == CUBE_ALIKE ||
+                   cube_digit(cube_corner(hi[k] + 0.0, level), cube) == CUBE_ALIKE;
+    }
+    return reaches;
+}
+
+static void check_cell(froe_query *q, const query_classes *p, uint32_t cell, const int *classes) {
+    const query_cell *c = p->cells + cell;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    size_t own = 0;
+    if (cell)
+        assert_true(cube_compare(p->dim, query_cell_corner(p, cell - 1), c[-1].level, query_cell_corner(p, cell),
+                                 c->level) < 0);
+    assert_int_equal(c->parent, parent_of(p, cell));
+    cube_bounds(p->dim, query_cell_corner(p, cell), c->level, lo, hi);
+    for (uint32_t i = 0; i < froe_scene_object_count(q->tree->scene); i++) {
+        const bool near =
+            classes[i] >= c->level && reaches_cube(q->tree->scene, i, query_cell_corner(p, cell), classes[i]);
+        const bool there = near && query_object_meets_box(q, i, lo, hi);
+        const size_t times = times_listed(p, cell, i);
+        assert_true(times <= 1);
+        if (there) assert_int_equal(times, 1);
+        if (!there && !c->refers) assert_int_equal(times, 0);
+        own += times && classes[i] == c->level;
+    }
+    assert_int_equal(own, c->own);
+}
+
+/* Every list of every cell is that of a search of all objects; the bytes stay linear. */
+static void cells_list_what_their_cubes_meet(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 4; dim++) {
+        const uint32_t count = dim == 2 ? 400 : 150;
+        const unsigned kinds = dim == 4 ? SOLID_KINDS : SOME;
+        froe_scene *scene = mixed(dim, kinds, count, 7, dim == 3, 13);
+        froe_tree *tree = trees_build(scene, "kd", 8);
+        froe_query *q;
+        const query_classes *p;
+        int classes[400];
+        assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+        assert_int_equal(query_classes_of(q, &p, NULL), FROE_OK);
+        assert_true(p->count >= count / 4);
+        for (uint32_t i = 0; i < count; i++) classes[i] = class_of_object(scene, i);
+        for (uint32_t i = 0; i < p->count; i++) check_cell(q, p, i, classes);
+        froe_query_free(q);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
+/* ------------------------------------------------------------ logarithmic work -- */
+
+/* What a search took, all of it. */
+static uint64_t work_of(froe_query *q) {
+    const froe_query_stats s = froe_query_statistics(q);
+    return s.nodes + s.leaves + s.tests + s.steps;
+}
+
+/* A context for n objects, each of its own size, `spread` powers of two apart in all: squares along a diagonal, or
+ * segments across it, whose bounds have almost a corner in common, which no segment is near, and whose cells are nested
+ * n deep. */
+static froe_query *many_sizes(uint32_t n, double spread, bool across, froe_tree **tree) {
+    froe_scene *scene;
     froe_query *q;
-    const query_classes *p;
-    bool seen[500] = {false};
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < n; i++) {
+        const double s = exp2(-spread * i / n), next = exp2(-spread / n), off = s * 0x1p-20;
+        const double square[4] = {s, s, s * (1 + 0.4 * fmin(1, 1 / next - 1)), s * (1 + 0.4 * fmin(1, 1 / next - 1))};
+        const double line[4] = {off, 0.75 * s, 0.75 * s, off};
+        assert_int_equal(trees_add(scene, across ? FROE_SEGMENT : FROE_BOX, 1, across ? line : square, NULL, NULL),
+                         FROE_OK);
+    }
+    *tree = trees_build(scene, "kd", 8);
+    assert_int_equal(froe_query_new(*tree, &q, NULL), FROE_OK);
+    froe_scene_free(scene);
+    return q;
+}
+
+/* The most work of small windows at two places of every object, a corner of its bounds and one of its own; answers are
+ * those of the tree. */
+static uint64_t most_work(froe_query *q, double least) {
+    const froe_scene *scene = q->tree->scene;
+    uint64_t most = 0;
+    for (uint32_t i = 0; i < 2 * froe_scene_object_count(scene); i++) {
+        froe_range range = froe_range_defaults();
+        double lo[2], hi[2], window[4];
+        uint64_t count, expected;
+        scene_object_bounds(scene, i / 2, lo, hi);
+        const double *x = i % 2 ? lo : froe_scene_vertex(scene, froe_scene_corner(scene, i / 2, 0));
+        for (int k = 0; k < 2; k++) window[k] = x[k] - least / 4, window[2 + k] = x[k] + least / 4;
+        range.points = window;
+        assert_int_equal(froe_query_count(q, &range, &expected, NULL), FROE_OK);
+        range.walk = FROE_WALK_CLASSES;
+        assert_int_equal(froe_query_count(q, &range, &count, NULL), FROE_OK); /* the first makes the cells */
+        work_of(q);
+        assert_int_equal(froe_query_count(q, &range, &count, NULL), FROE_OK);
+        assert_int_equal(count, expected);
+        const uint64_t work = work_of(q);
+        if (work > most) most = work;
+    }
+    return most;
+}
+
+/* De Berg, Corollary 3.2, with 100 to 3,200 sizes: all work of a range no larger than any object is logarithmic, and
+ * what is kept for an object is bounded. */
+static void small_ranges_take_logarithmic_time_whatever_the_sizes(void **state) {
+    (void)state;
+    for (int across = 0; across < 2; across++)
+        for (uint32_t n = 100; n <= 3200; n *= 2) {
+            const double spread = fmin(n, across ? 900 : 1000);
+            froe_tree *tree;
+            froe_query *q = many_sizes(n, spread, across, &tree);
+            const query_classes *p;
+            assert_int_equal(query_classes_of(q, &p, NULL), FROE_OK);
+            const uint64_t most = most_work(q, exp2(-spread) * 0.1);
+            assert_true((double)most <= 16 * log2(n) + 8 * n / spread); /* so many of one class */
+            assert_true(p->count <= 4 * n && p->ids.count <= 40 * n);
+            froe_query_free(q);
+            froe_tree_free(tree);
+        }
+}
+
+/* One class: a range looks at one to four lists, of bounded length. */
+static void a_small_range_is_one_to_four_locations(void **state) {
+    froe_scene *scene = mixed(2, 1 << FROE_BOX, 2000, 1, false, 12);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    froe_query *q;
     (void)state;
     assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
-    assert_int_equal(query_classes_of(q, &p, NULL), FROE_OK);
-    assert_true(p->count >= 9);
-    for (uint32_t i = 0; i < p->count; i++) {
-        const query_class *c = p->classes + i;
-        if (i) assert_true(c->step > p->classes[i - 1].step);
-        for (uint32_t j = 0; j < c->count; j++) {
-            double lo[2], hi[2];
-            scene_object_bounds(scene, c->ids[j], lo, hi);
-            const double size = fmax(hi[0] - lo[0], hi[1] - lo[1]) / 2;
-            assert_true(size >= c->step && (c->step > 0 ? size < 2 * c->step : size == 0));
-            assert_false(seen[c->ids[j]]);
-            seen[c->ids[j]] = true;
-        }
+    for (uint32_t i = 0; i < 500; i++) {
+        const double centre[2] = {trees_unit(1, 2 * i), trees_unit(1, 2 * i + 1)};
+        froe_range range = froe_range_defaults();
+        uint64_t count, expected;
+        range.shape = FROE_SHAPE_BALL, range.points = centre, range.radius = 0.125;
+        assert_int_equal(froe_query_count(q, &range, &expected, NULL), FROE_OK);
+        range.walk = FROE_WALK_CLASSES;
+        froe_query_statistics(q);
+        assert_int_equal(froe_query_count(q, &range, &count, NULL), FROE_OK);
+        assert_int_equal(count, expected);
+        const froe_query_stats stats = froe_query_statistics(q);
+        assert_in_range(stats.leaves, 1, 4);
+        assert_int_equal(stats.nodes, 0);
+        assert_int_equal(stats.queries, 1);
     }
-    for (uint32_t i = 0; i < 500; i++) assert_true(seen[i]);
+    froe_query_free(q);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
+/* More objects across one cube than a cell copies: its cells refer to larger ones, and find the same. */
+static void crowded_cells_refer_to_larger_ones(void **state) {
+    froe_scene *scene;
+    froe_query *q;
+    const query_classes *p;
+    size_t refer = 0;
+    (void)state;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < 2 * CLASSES_MOST; i++) {
+        const double line[4] = {0, 0.25 + i * 0x1p-12, 0.9, 0.25 + i * 0x1p-12};
+        const double x = 0.5 + i * 0x1p-12, dot[4] = {x, 0.25, x + 0x1p-14, 0.25 + 0x1p-14};
+        assert_int_equal(trees_add(scene, FROE_SEGMENT, 1, line, NULL, NULL), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_BOX, 1, dot, NULL, NULL), FROE_OK);
+    }
+    froe_tree *tree = trees_build(scene, "kd", 8);
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    assert_int_equal(query_classes_of(q, &p, NULL), FROE_OK);
+    for (uint32_t i = 0; i < p->count; i++) refer += p->cells[i].refers;
+    assert_true(refer > CLASSES_MOST);
+    assert_true(p->ids.count < 8 * froe_scene_object_count(scene));
+    most_work(q, 0x1p-14);
     froe_query_free(q);
     froe_tree_free(tree);
     froe_scene_free(scene);
@@ -386,9 +538,11 @@ int main(void) {
         cmocka_unit_test(points_have_no_size),
         cmocka_unit_test(little_or_nothing),
         cmocka_unit_test(numbers_of_any_size),
-        cmocka_unit_test(a_small_range_is_one_point_location),
         cmocka_unit_test(what_touches_is_found),
-        cmocka_unit_test(classes_are_what_they_say),
+        cmocka_unit_test(cells_list_what_their_cubes_meet),
+        cmocka_unit_test(small_ranges_take_logarithmic_time_whatever_the_sizes),
+        cmocka_unit_test(a_small_range_is_one_to_four_locations),
+        cmocka_unit_test(crowded_cells_refer_to_larger_ones),
         cmocka_unit_test(threads_say_the_same),
         cmocka_unit_test(nothing_is_allocated_after_the_first_queries),
         cmocka_unit_test(classes_survive_every_failing_allocation),

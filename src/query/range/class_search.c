@@ -1,107 +1,144 @@
-/* class_search.c: a range is searched for in the classes, one after the other. */
-#include "query/point/leaf.h"
+/* class_search.c: a range is searched for in the cells of all classes. */
 #include "query/range/classes.h"
 #include "support/fail.h"
-#include "tree/list.h"
 
-/* The cube around a range. */
-typedef struct range_cube {
-    double centre[FROE_MAX_DIM], reach;
-} range_cube;
+typedef struct class_search {
+    froe_query *q;
+    const query_classes *p;
+    const double *lo, *hi; /* of the range */
+    bool memory;           /* ran out */
+} class_search;
 
-/* a - b, rounded up. */
-static double difference_above(double a, double b) {
-    const double x = a - b, b_about = a - x, rest = (a - (x + b_about)) + (b_about - b); /* Knuth: x + rest = a - b */
-    return rest <= 0 ? x : nextafter(x, INFINITY);
+static bool done(const class_search *s) {
+    return s->memory || (s->q->range.any && s->q->found.count);
 }
 
-/* Infinite for ranges without known bounds, halfspaces among them. */
-static range_cube cube_of(const query_range *r) {
-    const geom_range *range = &r->range;
-    range_cube c = {.reach = r->shape == FROE_SHAPE_BALL ? r->from->radius : 0};
-    for (int k = 0; k < range->dim; k++) {
-        const double lo = range->lo[k], hi = range->hi[k];
-        c.centre[k] = r->shape == FROE_SHAPE_BALL ? r->from->points[k] : 0.5 * lo + 0.5 * hi;
-        if (!isfinite(lo) || !isfinite(hi)) c.reach = INFINITY;
-        if (r->shape == FROE_SHAPE_BALL || c.reach == INFINITY) continue;
-        const double up = difference_above(hi, c.centre[k]), down = difference_above(c.centre[k], lo);
-        c.reach = fmax(c.reach, fmax(up, down));
+/* Tests ids that have not been tested yet. */
+static void test_objects(class_search *s, uint32_t first, uint32_t count) {
+    froe_query *q = s->q;
+    q->stats.leaves++;
+    if (!query_expect(q, count)) s->memory = true;
+    for (uint32_t i = 0; i < count && !done(s); i++) {
+        const uint32_t object = s->p->ids.data[first + i];
+        if (query_mark(&q->marks, object) && query_range_meets(q, object, &s->memory)) query_found(q, object);
     }
-    return c;
 }
 
-/* ------------------------------------------------------------------ asking -- */
+/* ------------------------------------------------------------------ places -- */
 
-static bool done(const froe_query *q) {
-    return q->range.any && q->found.count;
-}
-
-/* Tests one after the other what may meet the range. */
-static froe_status test_objects(froe_query *q, const query_class *c, const tree_objects *list) {
-    bool memory = false;
-    if (!array_reserve(&q->alloc, &q->found, list->count)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < list->count && !memory && !done(q); i++) {
-        const uint32_t object = c->ids[tree_object(list, i)];
-        if (query_range_meets(q, object, &memory)) query_found(q, object);
+/* The first cell of a run for which a test of the cube fails, which then fails for all that follow. */
+typedef bool place_test(const query_classes *p, uint32_t cell, const double *corner, int level);
+static uint32_t first_without(class_search *s, uint32_t cell, uint32_t end, place_test *test, const double *corner,
+                              int level) {
+    while (cell < end) {
+        const uint32_t middle = cell + (end - cell) / 2;
+        s->q->stats.steps++;
+        if (test(s->p, middle, corner, level))
+            cell = middle + 1;
+        else
+            end = middle;
     }
-    return memory ? FROE_E_MEMORY : FROE_OK;
+    return end;
 }
 
-/* One point location. */
-static froe_status locate(froe_query *q, const query_class *c, froe_query *fork, const range_cube *around) {
-    query_leaf leaf;
-    const froe_scene *s = c->tree->scene;
-    for (int k = 0; k < s->dim; k++)
-        if (around->centre[k] < s->lo[k] || around->centre[k] > s->hi[k]) return FROE_OK;
-    if (query_leaf_find(fork, around->centre, &leaf)) return FROE_E_MEMORY;
-    const tree_objects list = leaf.empty ? (tree_objects){0} : tree_list(c->tree, leaf.place);
-    return test_objects(q, c, &list);
+static bool is_not_after(const query_classes *p, uint32_t cell, const double *corner, int level) {
+    return cube_compare(p->dim, query_cell_corner(p, cell), p->cells[cell].level, corner, level) <= 0;
+}
+static bool is_within(const query_classes *p, uint32_t cell, const double *corner, int level) {
+    return cube_holds(p->dim, corner, level, query_cell_corner(p, cell));
 }
 
-/* A search for the bounds of the range. */
-static froe_status search(froe_query *q, const query_class *c, froe_query *fork) {
-    double ends[2 * FROE_MAX_DIM];
-    froe_range bounds = froe_range_defaults();
-    bounds.points = ends;
-    for (int k = 0; k < q->range.range.dim; k++) {
-        ends[k] = q->range.range.lo[k];
-        ends[q->range.range.dim + k] = q->range.range.hi[k];
+/* The smallest cell that holds the cube, where `cell` is the last one that does not come after it. */
+static uint32_t cell_around(class_search *s, uint32_t cell, const double *corner) {
+    const query_classes *p = s->p;
+    while (cell != FROE_NONE && !query_cell_holds(p, cell, corner)) {
+        const uint32_t far = p->cells[cell].jump;
+        s->q->stats.steps++;
+        cell = far == cell || query_cell_holds(p, far, corner) ? p->cells[cell].parent : far;
     }
-    froe_status status = query_range_take(fork, &bounds, NULL);
-    if (status) return status;
-    query_begin(fork);
-    fork->range.any = false;
-    status = query_range_walk(fork);
-    if (status) return status;
-    const tree_objects list = {
-        .at = fork->found.data, .count = (uint32_t)fork->found.count, .stride = 1, .mask = UINT32_MAX};
-    return test_objects(q, c, &list);
+    return cell;
+}
+
+/* ----------------------------------------------------------- smaller cells -- */
+
+static bool push_run(class_search *s, uint32_t first, uint32_t end) {
+    query_range *r = &s->q->range;
+    return first == end || (array_push(&s->q->alloc, &r->nodes, first) && array_push(&s->q->alloc, &r->nodes, end));
+}
+
+static bool range_meets_cube(const class_search *s, const double *corner, int level) {
+    double least[FROE_MAX_DIM], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    bool meets = true;
+    if (level > CUBE_SIGN) return true;
+    for (int k = 0; k < s->p->dim; k++) least[k] = cube_corner(corner[k], level);
+    cube_bounds(s->p->dim, least, level, lo, hi);
+    for (int k = 0; k < s->p->dim; k++) meets &= lo[k] <= s->hi[k] && s->lo[k] <= hi[k];
+    return meets;
+}
+
+/* Searches a run of cells, as far as the range meets the least cube around it: the first cell and the others, if it is
+ * that cube, otherwise those in the first of the 2^dim parts of the cube and those in the others. */
+static bool search_run(class_search *s, uint32_t first, uint32_t end) {
+    const query_classes *p = s->p;
+    const query_cell *c = p->cells + first;
+    const double *from = query_cell_corner(p, first);
+    const int digit = cube_highest_digit(p->dim, from, query_cell_corner(p, end - 1), NULL);
+    s->q->stats.nodes++;
+    if (!range_meets_cube(s, from, c->level > digit ? c->level : digit + 1)) return true;
+    if (c->level > digit) {
+        test_objects(s, c->first, c->own);
+        return push_run(s, first + 1, end);
+    }
+    const uint32_t upper = first_without(s, first + 1, end, is_within, from, digit);
+    return push_run(s, upper, end) && push_run(s, first, upper);
+}
+
+/* --------------------------------------------------------------- searching -- */
+
+/* What meets the range within a cube. */
+static void search_cube(class_search *s, const double *corner, int level) {
+    const query_classes *p = s->p;
+    query_range *r = &s->q->range;
+    const uint32_t after = first_without(s, 0, p->count, is_not_after, corner, level);
+    for (uint32_t at = after ? cell_around(s, after - 1, corner) : FROE_NONE; at != FROE_NONE && !done(s);) {
+        test_objects(s, p->cells[at].first, p->cells[at].count);
+        at = p->cells[at].refers ? p->cells[at].parent : FROE_NONE;
+    }
+    if (after == p->count || !is_within(p, after, corner, level)) return;
+    r->nodes.count = 0;
+    s->memory |= !push_run(s, after, first_without(s, after, p->count, is_within, corner, level));
+    while (r->nodes.count && !done(s)) {
+        r->nodes.count -= 2;
+        s->memory |= !search_run(s, r->nodes.data[r->nodes.count], r->nodes.data[r->nodes.count + 1]);
+    }
+}
+
+/* A range with finite bounds, in the cubes of its own class that they meet: at most two along each axis. */
+static void search_cubes(class_search *s) {
+    double ends[2][FROE_MAX_DIM], corner[FROE_MAX_DIM], extent = 0;
+    uint32_t divided = 0;
+    for (int k = 0; k < s->p->dim; k++) extent = fmax(extent, s->hi[k] - s->lo[k]);
+    const int level = cube_level(extent);
+    for (int k = 0; k < s->p->dim; k++) {
+        ends[0][k] = cube_corner(s->lo[k] + 0.0, level);
+        ends[1][k] = cube_corner(s->hi[k] + 0.0, level);
+        divided |= (uint32_t)(cube_digit(ends[0][k], ends[1][k]) != CUBE_ALIKE) << k;
+    }
+    for (uint32_t which = 0; which < 1u << s->p->dim && !done(s); which++) {
+        if (which & ~divided) continue;
+        for (int k = 0; k < s->p->dim; k++) corner[k] = ends[which >> k & 1][k];
+        search_cube(s, corner, level);
+    }
 }
 
 froe_status query_classes_search(froe_query *q, froe_diagnostic *diag) {
     const query_classes *p;
-    const range_cube around = cube_of(&q->range);
-    froe_status status = query_classes_of(q, &p, diag);
+    const froe_status status = query_classes_of(q, &p, diag);
     if (status) return status;
-    if (!q->classes.forks && p->count) {
-        q->classes.forks = support_calloc(&q->alloc, p->count, sizeof *q->classes.forks);
-        if (!q->classes.forks) return support_fail_memory(diag);
-        q->classes.count = p->count;
-        for (uint32_t i = 0; i < p->count && !status; i++)
-            status = froe_query_fork(p->classes[i].query, q->classes.forks + i, diag);
-        if (status) query_classes_give(q);
-        if (status) return status;
-    }
-    if (!p->count || !(around.reach <= p->classes[p->count - 1].step))
-        return query_range_walk(q) ? support_fail_memory(diag) : FROE_OK;
-    for (uint32_t i = 0; i < p->count && !status && !done(q); i++) {
-        const query_class *c = p->classes + i;
-        const bool small = c->step > 0 && around.reach <= c->step;
-        status = small ? locate(q, c, q->classes.forks[i], &around) : search(q, c, q->classes.forks[i]);
-        const froe_query_stats stats = froe_query_statistics(q->classes.forks[i]);
-        q->stats.nodes += stats.nodes; /* visits of a fork count as visits of the query */
-        q->stats.leaves += stats.leaves;
-        q->stats.steps += stats.steps;
-    }
-    return status ? support_fail_memory(diag) : FROE_OK;
+    class_search s = {.q = q, .p = p, .lo = q->range.range.lo, .hi = q->range.range.hi};
+    bool bounded = true;
+    for (int k = 0; k < p->dim; k++) bounded &= isfinite(s.lo[k]) && isfinite(s.hi[k]);
+    if (!bounded) return query_range_walk(q) ? support_fail_memory(diag) : FROE_OK;
+    search_cubes(&s);
+    return s.memory ? support_fail_memory(diag) : FROE_OK;
 }

@@ -1,107 +1,161 @@
-/* classes.c: a tree of enlarged boxes for the objects of each class. */
+/* classes.c: a cell for each cube that an object of its class meets, and the lists of all cells. */
 #include "query/range/classes.h"
-#include "base/radix.h"
+#include "base/sort.h"
 #include "support/fail.h"
-#include <float.h>
 
-/* Overlapping boxes do not make its trees large, as they do those of `directional`. A leaf holds about those boxes that
- * overlap there. */
-static const char METHOD[] = "kd";
-enum { BOXES_PER_LEAF = 2 }; /* times 2^dim */
+/* An object meets 2^dim cubes of its class at most, and (1 + its extent / their edge)^dim on average, which becomes
+ * many above four dimensions: there edges are 2 to 4 times as long. */
+static int class_of(int dim, double extent) {
+    const int level = cube_level(extent);
+    return dim > 4 && level > CUBE_LEAST && level < CUBE_MOST ? level + (dim - 3) / 2 : level;
+}
 
 static void free_classes(const froe_allocator *alloc, query_part *part) {
     query_classes *p = (query_classes *)part;
-    for (uint32_t i = 0; p->classes && i < p->count; i++) {
-        query_class *c = p->classes + i;
-        froe_query_free(c->query);
-        froe_tree_free(c->tree);
-        support_free(alloc, c->ids, c->count * sizeof *c->ids);
-    }
-    support_free(alloc, p->classes, p->count * sizeof *p->classes);
+    support_free(alloc, p->cells, p->count * sizeof *p->cells);
+    support_free(alloc, p->corners, (size_t)p->count * (size_t)p->dim * sizeof *p->corners);
+    array_free(alloc, &p->ids);
     support_free(alloc, p, sizeof *p);
 }
 
-/* ----------------------------------------------------------------- classes -- */
+/* ----------------------------------------------------------------- entries -- */
 
-/* Half the greatest extent of an object; those below the normal numbers count as none. */
-static double size_of_object(const froe_scene *s, uint32_t object) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], most = 0;
-    scene_object_bounds(s, object, lo, hi);
-    for (int k = 0; k < s->dim; k++) most = fmax(most, 0.5 * hi[k] - 0.5 * lo[k]);
-    return most < DBL_MIN ? 0 : most;
+/* An object at a cube that it meets. */
+typedef struct class_entry {
+    uint32_t object;
+    int16_t level;
+} class_entry;
+
+typedef struct class_draft {
+    froe_query *q;
+    int dim;
+    ARRAY(class_entry) entries;
+    ARRAY(double) corners;   /* [entry][axis] */
+    uint32_t *order, *spare; /* entries along the curve */
+} class_draft;
+
+static const double *entry_corner(const class_draft *d, uint32_t entry) {
+    return d->corners.data + (size_t)entry * (size_t)d->dim;
 }
 
-/* The greatest power of two that is no greater. */
-static double step_of_size(double size) {
-    int exponent;
-    if (size == 0) return 0;
-    frexp(size, &exponent);
-    return ldexp(1, exponent - 1);
+static int compare_entries(void *user, uint32_t a, uint32_t b) {
+    const class_draft *d = user;
+    return cube_compare(d->dim, entry_corner(d, a), d->entries.data[a].level, entry_corner(d, b),
+                        d->entries.data[b].level);
 }
 
-/* Beyond x by a step and a little more, but finite. */
-static double number_beyond(double x, double step, double direction) {
-    const double far = nextafter(x + direction * step, direction * INFINITY);
-    return fmin(fmax(far, -DBL_MAX), DBL_MAX);
+static bool meets_cube(froe_query *q, uint32_t object, const double *corner, int level) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    cube_bounds(q->tree->scene->dim, corner, level, lo, hi);
+    return query_object_meets_box(q, object, lo, hi);
 }
 
-/* A class of the objects first .. first + count, and the tree of their boxes. */
-static froe_status fill_class(query_class *c, const froe_tree *t, const base_pair *sorted, uint32_t count, double step,
-                              froe_diagnostic *diag) {
-    froe_scene *boxes = NULL;
-    froe_build_options o = froe_build_defaults();
-    *c = (query_class){.step = step, .count = count};
-    c->ids = support_calloc(&t->alloc, count, sizeof *c->ids);
-    if (!c->ids) return support_fail_memory(diag);
-    for (uint32_t i = 0; i < count; i++) c->ids[i] = sorted[i].value;
-    o.method = METHOD;
-    o.leaf = (uint32_t)BOXES_PER_LEAF << t->scene->dim;
-    o.threads = 1;
-    froe_status status = froe_scene_new(t->scene->dim, &t->alloc, &boxes);
-    if (status) return support_fail_memory(diag);
-    double ends[2 * FROE_MAX_DIM], *lo = ends, *hi = ends + t->scene->dim;
-    froe_objects box = froe_objects_defaults();
-    box.kind = FROE_BOX;
-    box.count = 1;
-    box.coords = ends;
-    for (uint32_t i = 0; i < count && !status; i++) {
-        scene_object_bounds(t->scene, c->ids[i], lo, hi);
-        for (int k = 0; k < t->scene->dim && step > 0; k++) {
-            lo[k] = number_beyond(lo[k], step, -1);
-            hi[k] = number_beyond(hi[k], step, 1);
-        }
-        status = froe_scene_add(boxes, &box, diag);
+/* An entry at each cube of its class that the object meets. */
+static bool enter_object(class_draft *d, uint32_t object) {
+    double ends[2][FROE_MAX_DIM], extent = 0;
+    uint32_t divided = 0;
+    bool ok = true;
+    scene_object_bounds(d->q->tree->scene, object, ends[0], ends[1]);
+    for (int k = 0; k < d->dim; k++) extent = fmax(extent, ends[1][k] - ends[0][k]);
+    const int level = class_of(d->dim, extent);
+    for (int k = 0; k < d->dim; k++) {
+        for (int side = 0; side < 2; side++) ends[side][k] = cube_corner(ends[side][k] + 0.0, level);
+        divided |= (uint32_t)(cube_digit(ends[0][k], ends[1][k]) != CUBE_ALIKE) << k;
     }
-    if (!status) status = froe_build(boxes, &o, &c->tree, diag);
-    if (!status) status = froe_query_new(c->tree, &c->query, diag);
-    froe_scene_free(boxes);
-    return status;
+    for (uint32_t which = 0; which < 1u << d->dim && ok; which++) {
+        double corner[FROE_MAX_DIM];
+        if (which & ~divided) continue;
+        for (int k = 0; k < d->dim; k++) corner[k] = ends[which >> k & 1][k];
+        if (divided && !meets_cube(d->q, object, corner, level)) continue;
+        ok = array_push(&d->q->alloc, &d->entries, (class_entry){object, (int16_t)level}) &&
+             array_append(&d->q->alloc, &d->corners, corner, (size_t)d->dim);
+    }
+    return ok && d->entries.count < FROE_NONE;
+}
+
+/* ------------------------------------------------------------------- cells -- */
+
+/* Copies the ids of the next larger cell that holds this one, and of those it refers to, as far as they meet it. */
+static bool inherit(class_draft *d, query_classes *p, uint32_t cell) {
+    query_cell *c = p->cells + cell;
+    size_t listed = 0;
+    for (uint32_t at = c->parent; at != FROE_NONE; at = p->cells[at].refers ? p->cells[at].parent : FROE_NONE) {
+        listed += p->cells[at].count;
+        if (listed > CLASSES_MOST) return c->refers = true;
+    }
+    for (uint32_t at = c->parent; at != FROE_NONE; at = p->cells[at].refers ? p->cells[at].parent : FROE_NONE)
+        for (uint32_t i = 0; i < p->cells[at].count; i++) {
+            const uint32_t object = p->ids.data[p->cells[at].first + i];
+            if (!meets_cube(d->q, object, query_cell_corner(p, cell), c->level)) continue;
+            if (!array_push(&d->q->alloc, &p->ids, object)) return false;
+            c->count++;
+        }
+    return true;
+}
+
+/* Where the jump of a cell below `parent` leads: as far as two equal jumps before it, or to the parent. */
+static uint32_t jump_from(const query_cell *cells, uint32_t parent) {
+    const uint32_t near = cells[parent].jump, far = cells[near].jump;
+    return cells[parent].depth - cells[near].depth == cells[near].depth - cells[far].depth ? far : parent;
+}
+
+/* The cell of the entries first .. end, in order, which have one cube. *above: the cell before it, which it becomes. */
+static bool make_cell(class_draft *d, query_classes *p, uint32_t cell, uint32_t first, uint32_t end, uint32_t *above) {
+    const double *corner = entry_corner(d, d->order[first]);
+    query_cell *c = p->cells + cell;
+    memcpy(p->corners + (size_t)cell * (size_t)p->dim, corner, (size_t)p->dim * sizeof *corner);
+    while (*above != FROE_NONE && !query_cell_holds(p, *above, corner)) *above = p->cells[*above].parent;
+    *c = (query_cell){.first = (uint32_t)p->ids.count,
+                      .own = end - first,
+                      .count = end - first,
+                      .parent = *above,
+                      .jump = *above == FROE_NONE ? cell : jump_from(p->cells, *above),
+                      .depth = *above == FROE_NONE ? 0 : p->cells[*above].depth + 1,
+                      .level = d->entries.data[d->order[first]].level};
+    *above = cell;
+    for (uint32_t i = first; i < end; i++)
+        if (!array_push(&d->q->alloc, &p->ids, d->entries.data[d->order[i]].object)) return false;
+    return inherit(d, p, cell) && p->ids.count < FROE_NONE;
+}
+
+static bool make_cells(class_draft *d, query_classes *p) {
+    const uint32_t entries = (uint32_t)d->entries.count;
+    uint32_t cell = 0, above = FROE_NONE, first = 0;
+    for (uint32_t i = 0; i < entries; i++) p->count += !i || compare_entries(d, d->order[i - 1], d->order[i]) != 0;
+    p->cells = support_calloc(&d->q->alloc, p->count, sizeof *p->cells);
+    p->corners = support_calloc(&d->q->alloc, (size_t)p->count * (size_t)p->dim, sizeof *p->corners);
+    bool ok = p->cells && p->corners;
+    for (uint32_t i = 1; i <= entries && ok; i++) {
+        if (i < entries && compare_entries(d, d->order[first], d->order[i]) == 0) continue;
+        ok = make_cell(d, p, cell++, first, i, &above);
+        first = i;
+    }
+    return ok;
 }
 
 static froe_status make_classes(froe_query *q, query_part **out, froe_diagnostic *diag) {
-    const froe_tree *t = q->tree;
-    const uint32_t objects = t->scene->object_count;
+    class_draft d = {.q = q, .dim = q->tree->scene->dim};
     query_classes *p = support_calloc(&q->alloc, 1, sizeof *p);
     if (!p) return support_fail_memory(diag);
     p->part.free = free_classes;
+    p->dim = d.dim;
     *out = &p->part;
-    base_pair *sorted = support_calloc(&q->alloc, 2 * (size_t)objects, sizeof *sorted);
-    if (!sorted) return support_fail_memory(diag);
-    for (uint32_t i = 0; i < objects; i++)
-        sorted[i] = (base_pair){base_double_key(step_of_size(size_of_object(t->scene, i))), i};
-    base_radix_sort(sorted, sorted + objects, objects);
-    uint32_t count = 0, next = 0, made = 0;
-    for (uint32_t i = 0; i < objects; i++) count += !i || sorted[i].key != sorted[i - 1].key;
-    p->classes = support_calloc(&t->alloc, count, sizeof *p->classes);
-    froe_status status = p->classes ? FROE_OK : support_fail_memory(diag);
-    if (p->classes) p->count = count;
-    for (uint32_t first = 0; first < objects && !status; first = next) {
-        const double step = step_of_size(size_of_object(t->scene, sorted[first].value));
-        for (next = first; next < objects && sorted[next].key == sorted[first].key;) next++;
-        status = fill_class(p->classes + made++, t, sorted + first, next - first, step, diag);
+    bool ok = true;
+    for (uint32_t i = 0; i < q->tree->scene->object_count && ok; i++) ok = enter_object(&d, i);
+    const size_t entries = d.entries.count;
+    d.order = ok ? support_calloc(&q->alloc, entries, sizeof *d.order) : NULL;
+    d.spare = ok ? support_calloc(&q->alloc, entries, sizeof *d.spare) : NULL;
+    if (d.order && d.spare) {
+        for (uint32_t i = 0; i < entries; i++) d.order[i] = i;
+        base_merge_sort(d.order, d.spare, entries, compare_entries, &d);
+        ok = make_cells(&d, p);
     }
-    support_free(&q->alloc, sorted, (objects ? 2 * (size_t)objects * sizeof *sorted : 1));
-    return status;
+    ok = ok && d.order && d.spare;
+    support_free(&q->alloc, d.order, entries * sizeof *d.order);
+    support_free(&q->alloc, d.spare, entries * sizeof *d.spare);
+    array_free(&q->alloc, &d.entries);
+    array_free(&q->alloc, &d.corners);
+    return ok ? FROE_OK : support_fail_memory(diag);
 }
 
 froe_status query_classes_of(froe_query *query, const query_classes **out, froe_diagnostic *diag) {

@@ -45,4 +45,6 @@ froe_status query_locate_in(struct froe_query *query, const double *point, const
 froe_status query_range_walk(struct froe_query *query);
 /** Does the object meet query->range? *memory: was there none to find out? */
 bool query_range_meets(struct froe_query *query, uint32_t object, bool *memory);
+/** Does it meet a closed box, whose bounds may be infinite? */
+bool query_object_meets_box(struct froe_query *query, uint32_t object, const double *lo, const double *hi);
 #endif

@@ -35,10 +35,28 @@ static bool segment_beside_box(num_context *context, int axis, const double *u, 
     return side && side == geom_side_vertex(context, &line, b);
 }
 
+/* Points, balls and boxes are boxes lo, hi, grown by a radius. */
+typedef struct boxlike {
+    bool is;
+    const double *lo, *hi;
+    double radius;
+} boxlike;
+
+static boxlike boxlike_of(const froe_scene *s, uint32_t object) {
+    const froe_kind form = scene_form(s, object);
+    boxlike b = {.is = form == FROE_POINT || form == FROE_BALL || form == FROE_BOX};
+    b.lo = scene_point(s, object, 0);
+    b.hi = form == FROE_BOX ? scene_point(s, object, 1) : b.lo;
+    b.radius = form == FROE_BALL ? scene_radius(s, object) : 0;
+    return b;
+}
+
 /* Only what lies within the bounds of the object counts, so that no bound is infinite. */
-static bool box_meets(froe_query *q, const double *lo, const double *hi, uint32_t object) {
+bool query_object_meets_box(froe_query *q, uint32_t object, const double *lo, const double *hi) {
     const froe_scene *s = q->tree->scene;
+    const boxlike box = boxlike_of(s, object);
     double ends[6], a[3], b[3];
+    if (box.is) return geom_meet_boxes(&q->numbers, s->dim, box.lo, box.hi, box.radius, lo, hi, 0);
     scene_object_bounds(s, object, a, b);
     if (boxes_apart(lo, hi, a, b, s->dim)) return false;
     for (int k = 0; k < s->dim; k++) {
@@ -55,9 +73,9 @@ static bool box_meets(froe_query *q, const double *lo, const double *hi, uint32_
     }
     for (uint32_t i = 0, n = scene_corners(s, object); i < n; i++)
         if (in_box(scene_point(s, object, i), lo, hi, s->dim)) return true;
-    const geom_convex box = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = ends};
+    const geom_convex part = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = ends};
     const geom_convex set = scene_convex(s, object);
-    return geom_meet(&q->numbers, &set, &box);
+    return geom_meet(&q->numbers, &set, &part);
 }
 
 /* -------------------------------------------------------------- halfspaces -- */
@@ -125,33 +143,27 @@ static bool set_meets(froe_query *q, uint32_t object) {
 static bool decide_object(froe_query *q, uint32_t object, bool *memory) {
     const froe_scene *s = q->tree->scene;
     const froe_range *from = q->range.from;
-    const froe_kind form = scene_form(s, object);
-    /* Points, balls and boxes are boxes lo, hi, grown by a radius. */
-    const bool boxlike = form == FROE_POINT || form == FROE_BALL || form == FROE_BOX;
-    const double *lo = scene_point(s, object, 0), *hi = form == FROE_BOX ? scene_point(s, object, 1) : lo;
-    const double radius = form == FROE_BALL ? scene_radius(s, object) : 0;
+    const boxlike b = boxlike_of(s, object);
     /* Is a corner of the object within the margin of the range for certain? Of boxes and balls. Then an object of many
      * corners need not be tested against the range itself. */
     const query_range *r = &q->range;
     const bool margin = r->range.kind == GEOM_RANGE_BALL || (r->range.kind == GEOM_RANGE_BOX && r->margin != 0);
-    for (uint32_t i = 0, n = !boxlike && margin ? scene_corners(s, object) : 0; i < n; i++) {
+    for (uint32_t i = 0, n = !b.is && margin ? scene_corners(s, object) : 0; i < n; i++) {
         const double *x = scene_point(s, object, i);
         if (geom_range_holds(&q->numbers, &r->range, r->margin, x, x)) return true;
     }
     switch (from->shape) {
     case FROE_SHAPE_BOX:
-        if (boxlike)
-            return geom_meet_boxes(&q->numbers, s->dim, lo, hi, radius, from->points, from->points + s->dim, 0);
-        return box_meets(q, from->points, from->points + s->dim, object);
+        return query_object_meets_box(q, object, from->points, from->points + s->dim);
     case FROE_SHAPE_BALL: {
         double least[FROE_MAX_DIM], most[FROE_MAX_DIM];
-        if (boxlike)
-            return geom_meet_boxes(&q->numbers, s->dim, lo, hi, radius, from->points, from->points, from->radius);
+        if (b.is)
+            return geom_meet_boxes(&q->numbers, s->dim, b.lo, b.hi, b.radius, from->points, from->points, from->radius);
         scene_object_bounds(s, object, least, most);
         return !geom_range_misses(&q->range.range, least, most) && set_meets(q, object);
     }
     case FROE_SHAPE_SEGMENT:
-        if (s->dim != 2 || form != FROE_SEGMENT) return set_meets(q, object);
+        if (s->dim != 2 || scene_form(s, object) != FROE_SEGMENT) return set_meets(q, object);
         return query_segments_meet(&q->numbers, from->points, from->points + 2, scene_point(s, object, 0),
                                    scene_point(s, object, 1));
     case FROE_SHAPE_HALFSPACES:
