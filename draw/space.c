@@ -132,6 +132,7 @@ draw_plane draw_space_plane(const draw_space *space, const froe_scene *scene, co
     case FROE_CUT_EDGE:
         return along(space, p[0], p[1]);
     case FROE_CUT_PLANE:
+    case FROE_CUT_FINE:
         break;
     default:
         return plane;

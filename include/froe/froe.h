@@ -364,7 +364,9 @@ typedef enum froe_cut_kind {
     FROE_CUT_VERTEX = 6,   /**< wall x[0] = ... through the vertex id[0], see below */
     FROE_CUT_CROSSING = 7, /**< wall through the point where id[1] crosses id[0], from its right to its left:
                                 objects in 2D, projected edges in 3D (froe_scene_edge) */
-    FROE_CUT_KIND_COUNT = 8
+    FROE_CUT_FINE = 8,     /**< finer than doubles: the sum of id[0] planes, the i-th times 2^(-53 i), each dim doubles
+                                normal and its value. Of the first, which is the sum rounded, is `value` */
+    FROE_CUT_KIND_COUNT = 9
 } froe_cut_kind;
 
 /* Walls are lines (2D) and planes (3D) x[0] = c that are sheared by an infinitesimal amount: points are
@@ -377,7 +379,7 @@ typedef struct froe_cut {
     int axis;
     double value;
     uint32_t id[3];
-    const double *normal; /**< FROE_CUT_PLANE: dim doubles inside the tree */
+    const double *normal; /**< FROE_CUT_PLANE, FROE_CUT_FINE: dim doubles, or all those, inside the tree */
 } froe_cut;
 
 /** A node opened up. Child 0 is the negative side (below the value; right of an

@@ -68,7 +68,10 @@ static inline num_ball filter_value(const geom_plane *h, const double *x) {
         num_ball f = filter_difference(x[h->axis], h->c);
         return (num_ball){f.x, (f.e + h->c_err) * FILTER_UP};
     }
-    if (h->form == GEOM_VECTOR) return h->dim > 3 ? filter_sum_far(h, x, h->c) : filter_sum(h, x, h->c);
+    if (geom_is_vector(h)) {
+        num_ball f = h->dim > 3 ? filter_sum_far(h, x, h->c) : filter_sum(h, x, h->c);
+        return (num_ball){f.x, f.e + h->c_err * FILTER_UP};
+    }
     const double *o = h->p[0];
     const double w0 = x[0] - o[0], w1 = x[1] - o[1];
     if (h->dim == 2) return filter_sum_in(2, h, (const double[2]){w0, w1}, 0);

@@ -86,6 +86,21 @@ geom_plane geom_plane_vector(int dim, const double *normal, double value) {
     return plane;
 }
 
+geom_plane geom_plane_fine(int dim, const double *rows, int row_count) {
+    geom_plane plane = geom_plane_vector(dim, rows, rows[dim]);
+    const int width = dim + 1;
+    plane.form = GEOM_FINE;
+    plane.rows = rows;
+    plane.row_count = row_count;
+    for (int i = 1; i < row_count; i++) {
+        double most = 0;
+        for (int k = 0; k < dim; k++) most = filter_greater(fabs(rows[i * width + k]), most);
+        plane.n_err += most * ldexp(1 + 0x1p-40, -53 * i) + NUM_BALL_TINY;
+        plane.c_err += fabs(rows[i * width + dim]) * ldexp(1 + 0x1p-40, -53 * i) + NUM_BALL_TINY;
+    }
+    return plane;
+}
+
 num_ball filter_sum_far(const geom_plane *h, const double *w, double c) {
     double x = 0, size = fabs(c), spread = 0;
     for (int k = 0; k < h->dim; k++) {
@@ -94,7 +109,8 @@ num_ball filter_sum_far(const geom_plane *h, const double *w, double c) {
         size += fabs(product);
         spread += fabs(w[k]);
     }
-    return (num_ball){x - c, (2 * h->dim + 8) * FILTER_U * size + h->n_err * spread + h->dim * NUM_BALL_TINY};
+    const double error = (2 * h->dim + 8) * FILTER_U * size + h->n_err * spread + h->dim * NUM_BALL_TINY;
+    return (num_ball){x - c, error * FILTER_UP};
 }
 
 geom_plane geom_plane_at_vertex(int dim, const double *p) {

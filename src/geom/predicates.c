@@ -44,6 +44,7 @@ static bool same_plane(const geom_plane *g, const geom_plane *h) {
     for (int i = 0; i < (crossing ? 4 : 1); i++)
         for (int k = 0; k < (crossing ? 2 : 3); k++) same = same && g->p[i][k] == h->p[i][k];
     for (int k = 3; k < g->dim; k++) same = same && g->normal[k] == h->normal[k];
+    if (same && g->form == GEOM_FINE) return g->rows == h->rows && g->row_count == h->row_count;
     return same;
 }
 

@@ -46,6 +46,8 @@ static froe_status make_cuts(froe_query *q, query_part **out, froe_diagnostic *d
             *h = (query_plane){.n = {1}, .o = {plane.c - k}, .c = k, .n_err = k < 0x1p1000 ? 0 : INFINITY};
             continue;
         }
+        /* rounding is charged for with 2 u |c| to spare, as FINE cuts need it that are in lowest terms */
+        if (plane.form == GEOM_FINE && !(plane.c_err <= 2 * FILTER_U * fabs(plane.c))) h->n_err = INFINITY;
         if (plane.dim > 3) {
             h->far = t->normals + t->cuts[node->u.cut].a;
             continue;

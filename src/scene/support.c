@@ -96,6 +96,8 @@ geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut) {
         return geom_plane_vertical(scene_vertex(s, cut->id[0]), scene_vertex(s, cut->id[1]));
     case FROE_CUT_PLANE:
         return geom_plane_vector(s->dim, cut->normal, cut->value);
+    case FROE_CUT_FINE:
+        return geom_plane_fine(s->dim, cut->normal, (int)cut->id[0]);
     case FROE_CUT_VERTEX:
         return geom_plane_at_vertex(s->dim, scene_vertex(s, cut->id[0]));
     case FROE_CUT_CROSSING:

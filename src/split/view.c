@@ -263,6 +263,7 @@ bool split_view_cut(const split_view *v, const froe_scene *scene, const froe_cut
         *out = split_view_axis(v, cut->axis, cut->value);
         return true;
     case FROE_CUT_PLANE:
+    case FROE_CUT_FINE:
         *out = plane_across(v, cut->normal, cut->value);
         return true;
     case FROE_CUT_EDGE:

@@ -29,7 +29,6 @@ froe_status draft_new(const froe_allocator *alloc, int dim, uint32_t outer, tree
 /* Appends `cut` to the table, its list empty. */
 static froe_status table_cut(tree_draft *draft, const froe_cut *cut, uint32_t *index) {
     tree_cut entry = {.kind = (uint32_t)cut->kind};
-    size_t dim = (size_t)draft->dim;
     if (!array_reserve(&draft->alloc, &draft->cuts, 1)) return FROE_E_MEMORY;
     switch (cut->kind) {
     case FROE_CUT_AXIS:
@@ -37,16 +36,21 @@ static froe_status table_cut(tree_draft *draft, const froe_cut *cut, uint32_t *i
         entry.u.value = cut->value;
         break;
     case FROE_CUT_PLANE:
-        if (!array_reserve(&draft->alloc, &draft->normals, dim)) return FROE_E_MEMORY;
-        entry.a = (uint32_t)draft->normals.count;
         entry.u.value = cut->value;
-        memcpy(draft->normals.data + draft->normals.count, cut->normal, dim * sizeof(double));
-        draft->normals.count += dim;
+        break;
+    case FROE_CUT_FINE:
+        entry.u.id.b = cut->id[0];
         break;
     default:
         entry.a = cut->id[0];
         entry.u.id.b = cut->kind == FROE_CUT_OBJECT || cut->kind == FROE_CUT_VERTEX ? 0 : cut->id[1];
         entry.u.id.c = cut->kind == FROE_CUT_VERTICES && draft->dim == 3 ? cut->id[2] : 0;
+    }
+    const size_t normals = tree_cut_normals(&entry, draft->dim);
+    if (normals) {
+        if (draft->normals.count + normals > UINT32_MAX) return FROE_E_LIMIT;
+        entry.a = (uint32_t)draft->normals.count;
+        if (!array_append(&draft->alloc, &draft->normals, cut->normal, normals)) return FROE_E_MEMORY;
     }
     *index = (uint32_t)draft->cuts.count;
     draft->cuts.data[draft->cuts.count++] = entry;

@@ -72,11 +72,11 @@ static bool place_node(seal *s, seal_visit *visit) {
             tree_cut *cut = s->tree->cuts + s->cuts;
             *cut = draft->cuts.data[node.u.cut];
             node.u.cut = s->cuts++;
-            if (cut->kind == FROE_CUT_PLANE) {
-                size_t dim = (size_t)draft->dim;
-                memcpy(s->tree->normals + s->normals, draft->normals.data + cut->a, dim * sizeof(double));
+            const size_t normals = tree_cut_normals(cut, draft->dim);
+            if (normals) {
+                memcpy(s->tree->normals + s->normals, draft->normals.data + cut->a, normals * sizeof(double));
                 cut->a = s->normals;
-                s->normals += (uint32_t)dim;
+                s->normals += (uint32_t)normals;
             }
             copy_list(s, visit->source, &cut->first, cut->count);
         }

@@ -99,8 +99,8 @@ shape_plane shape_plane_from(const geom_plane *plane, int exponent) {
         out.axis = plane->axis;
         out.n[plane->axis] = 1;
         out.c = ldexp(plane->c, -exponent);
-    } else if (plane->form == GEOM_VECTOR) {
-        for (int k = 0; k < plane->dim; k++) out.n[k] = plane->p[0][k];
+    } else if (geom_is_vector(plane)) {
+        for (int k = 0; k < plane->dim; k++) out.n[k] = plane->normal[k];
         out.c = ldexp(plane->c, -normalise(out.n) - exponent);
     } else {
         int scale = points_normal(plane, out.n, q);

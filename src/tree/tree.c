@@ -58,6 +58,10 @@ froe_cut tree_cut_view(const tree_node *n, const tree_cut *cuts, const double *n
         cut.normal = normals + c->a;
         cut.value = c->u.value;
         break;
+    case FROE_CUT_FINE:
+        cut.normal = normals + c->a;
+        cut.id[0] = c->u.id.b;
+        break;
     default:
         cut.id[0] = c->a;
         cut.id[1] = c->u.id.b;
@@ -149,6 +153,7 @@ froe_node_info froe_tree_node(const froe_tree *tree, froe_node node) {
     info.cut = tree_cut_at(tree, id);
     if (info.cut.kind == FROE_CUT_VERTEX || info.cut.kind == FROE_CUT_CROSSING)
         info.cut.value = tree_plane_at(tree, id).c;
+    if (info.cut.kind == FROE_CUT_FINE) info.cut.value = info.cut.normal[tree->scene->dim];
     tree_objects list = tree_list(tree, id);
     info.first_piece = list.first;
     info.piece_count = list.count;

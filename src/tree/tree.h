@@ -6,7 +6,7 @@
  *       leaf:               u.list -> pieces[first .. first+count), or, in packed trees, the block `child`
  *     pieces       object + where its fragment's ring starts in `bounds` (0: the whole object)
  *     bounds       rings:  count, edge, edge, ...   edge = own edge i | CUT | node
- *     normals      dim doubles per FROE_CUT_PLANE
+ *     normals      dim doubles per FROE_CUT_PLANE, dim + 1 per row of a FROE_CUT_FINE
  *
  * The ring of a segment is its two ends (own end 0 or 1, or the node whose cut ends it);
  * the ring of a polygon its edges in order: corner i is where edge i-1 meets edge i.
@@ -48,7 +48,7 @@ typedef struct tree_cut { /* 24 bytes */
         double value; /**< AXIS, PLANE */
         struct {
             uint32_t b, c;
-        } id; /**< VERTICES, EDGE, CROSSING */
+        } id; /**< VERTICES, EDGE, CROSSING; FINE: rows, 0 */
     } u;
     uint32_t first, count; /**< in-cut list */
 } tree_cut;
@@ -123,6 +123,11 @@ static inline bool tree_is_packed(const froe_tree *t) {
 static inline uint32_t tree_first_piece(const froe_tree *t, uint32_t node) {
     while (t->nodes[node].type == TREE_PLAIN) node = t->nodes[node].child;
     return tree_is_leaf(t->nodes + node) ? t->nodes[node].u.list.first : t->cuts[t->nodes[node].u.cut].first;
+}
+/** How many doubles of normals a cut has. */
+static inline size_t tree_cut_normals(const tree_cut *cut, int dim) {
+    if (cut->kind == FROE_CUT_FINE) return cut->u.id.b * ((size_t)dim + 1);
+    return cut->kind == FROE_CUT_PLANE ? (size_t)dim : 0;
 }
 /** A node's cut, given the tables it refers to; kind NONE at a leaf. */
 froe_cut tree_cut_view(const tree_node *node, const tree_cut *cuts, const double *normals);

@@ -44,6 +44,17 @@ static bool is_edge(const froe_scene *s, uint32_t id) {
     return froe_scene_edge(s, id, vertices);
 }
 
+/* The next doubles of normals are those of the cut, and finite. */
+static bool normals_fit(check *c, const tree_cut *cut) {
+    const froe_tree *t = c->tree;
+    const size_t count = tree_cut_normals(cut, t->scene->dim);
+    if (cut->a != c->normals || t->normal_count - c->normals < count) return false;
+    for (size_t k = 0; k < count; k++)
+        if (!isfinite(t->normals[cut->a + k])) return false;
+    c->normals += (uint32_t)count;
+    return true;
+}
+
 /* Kind, indices and numbers of a tabled cut; a plane must have a normal, and unused ids are 0. */
 static bool cut_fits(check *c, const tree_cut *cut) {
     const froe_tree *t = c->tree;
@@ -55,9 +66,10 @@ static bool cut_fits(check *c, const tree_cut *cut) {
     case FROE_CUT_AXIS:
         return a < dim && isfinite(cut->u.value);
     case FROE_CUT_PLANE:
-        fits = a == c->normals && t->normal_count - c->normals >= dim && isfinite(cut->u.value);
-        for (uint32_t k = 0; fits && k < dim; k++) fits = isfinite(t->normals[a + k]);
-        if (fits) c->normals += dim;
+        fits = isfinite(cut->u.value) && normals_fit(c, cut);
+        break;
+    case FROE_CUT_FINE:
+        fits = b - 1 < GEOM_FINE_ROWS && c_free && normals_fit(c, cut);
         break;
     case FROE_CUT_OBJECT:
         fits = fits && a < s->object_count && scene_form(s, a) == (space ? FROE_POLYGON : FROE_SEGMENT) && b_free &&

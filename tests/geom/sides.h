@@ -55,7 +55,7 @@ static inline geom_plane sides_plane(fuzz_source *r, int dim, const double *poin
     case 1:
         return geom_plane_axis(dim, fuzz_int(r, 0, dim - 1), points[fuzz_int(r, 0, dim - 1)]);
     case 2:
-        return geom_plane_vector(dim, points, points[dim]);
+        return fuzz_int(r, 0, 1) ? geom_plane_vector(dim, points, points[dim]) : geom_plane_fine(dim, points, 2);
     case 3:
         return dim == 3 ? geom_plane_vertical(p[0], p[1]) : geom_plane_points(dim, p);
     default:

@@ -145,6 +145,19 @@ static inline void rational_wall_set(rational_plane *h, const geom_plane *plane)
     rational_point_clear(&p), rational_point_clear(&q), rational_point_clear(&at);
 }
 
+/** Coefficient k of a FINE plane. */
+static inline void rational_sum_rows(mpq_t out, const geom_plane *plane, int k) {
+    mpq_t row;
+    mpq_init(row);
+    mpq_set_ui(out, 0, 1);
+    for (int i = 0; i < plane->row_count; i++) {
+        mpq_set_d(row, plane->rows[i * (plane->dim + 1) + k]);
+        mpq_div_2exp(row, row, 53 * (mp_bitcnt_t)i);
+        mpq_add(out, out, row);
+    }
+    mpq_clear(row);
+}
+
 /** From the definition in geom/plane.h, whatever image the plane carries. */
 static inline void rational_plane_set(rational_plane *h, const geom_plane *plane) {
     rational_point p[3];
@@ -153,13 +166,18 @@ static inline void rational_plane_set(rational_plane *h, const geom_plane *plane
         h->dim = plane->dim;
         return;
     }
-    for (int i = 0; i < 3; i++) rational_point_init(&p[i]), rational_point_set(&p[i], plane->dim, plane->p[i]);
+    for (int i = 0; i < 3; i++) rational_point_init(&p[i]);
+    for (int i = 0; i < 3 && plane->form <= GEOM_VERTICAL; i++) rational_point_set(&p[i], plane->dim, plane->p[i]);
     h->dim = plane->dim;
     for (int k = 0; k < 3; k++) mpq_set_ui(h->n[k], 0, 1);
     mpq_set_d(h->c, plane->c);
     if (plane->form == GEOM_AXIS) mpq_set_ui(h->n[plane->axis], 1, 1);
     if (plane->form == GEOM_VECTOR)
-        for (int k = 0; k < 3; k++) mpq_set(h->n[k], p[0].x[k]);
+        for (int k = 0; k < 3; k++) mpq_set_d(h->n[k], plane->normal[k]);
+    if (plane->form == GEOM_FINE) {
+        for (int k = 0; k < plane->dim; k++) rational_sum_rows(h->n[k], plane, k);
+        rational_sum_rows(h->c, plane, plane->dim);
+    }
     if (plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL) {
         for (int i = 1; i < 3; i++)
             for (int k = 0; k < 3; k++) mpq_sub(p[i].x[k], p[i].x[k], p[0].x[k]);

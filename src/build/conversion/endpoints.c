@@ -53,7 +53,7 @@ static froe_status plan_by_method(converter *c, const convert_plan *plan) {
         uint32_t at = stack.data[--stack.count], node = stack.data[--stack.count], child;
         froe_cut cut = tree_cut_at(c->tree, node);
         if (cut.kind == FROE_CUT_NONE) continue;
-        if (cut.kind != FROE_CUT_AXIS && cut.kind != FROE_CUT_PLANE)
+        if (cut.kind != FROE_CUT_AXIS && cut.kind != FROE_CUT_PLANE && cut.kind != FROE_CUT_FINE)
             status = support_fail(c->job->diag, FROE_E_UNSUPPORTED,
                                   "Method '%s' cuts points in another way than by planes.", c->tree->meta.method);
         if (!status) status = point_tree_split(&c->plan, at, &cut, &child);

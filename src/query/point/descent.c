@@ -65,10 +65,11 @@ static bool see_line(const query_descent *d, const geom_plane *h, int *major, do
     const int other = !*major;
     const double n = h->n[*major], along = d->lo[*major] - (h->form == GEOM_POINTS ? o[*major] : 0),
                  across = d->lo[other] - (h->form == GEOM_POINTS ? o[other] : 0),
-                 value = h->form == GEOM_VECTOR ? h->c / n : 0;
+                 value = geom_is_vector(h) ? h->c / n : 0;
     *slope = h->n[other] / n;
     *c = (along + *slope * across - value) * d->scale;
     const double size = (fabs(along) + fabs(across) + fabs(value)) * d->scale;
+    if (!(h->c_err <= fabs(h->c) * 0x1p-40)) return false;
     return h->n_err <= fabs(n) * 0x1p-40 && size <= 0x1p10 && fabs(*c) <= 2;
 }
 

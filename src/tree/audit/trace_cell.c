@@ -37,8 +37,9 @@ static bool divides(tree_trace *t, const geom_plane *plane, const geom_convex *s
 static bool keep_side(trace_cell *c, const geom_plane *plane, int side) {
     const froe_allocator *alloc = &c->t->alloc;
     num_ball at = {plane->c, plane->c_err};
-    for (int k = 0; k < plane->dim && geom_has_points(plane); k++) {
-        const double o = plane->p[0][k], reach = fmax(fabs(c->lo[k] - o), fabs(c->hi[k] - o)) * NUM_BALL_UP;
+    for (int k = 0; k < plane->dim && (geom_has_points(plane) || plane->form == GEOM_FINE); k++) {
+        const double o = geom_has_points(plane) ? plane->p[0][k] : 0;
+        const double reach = fmax(fabs(c->lo[k] - o), fabs(c->hi[k] - o)) * NUM_BALL_UP;
         at = num_ball_add(at, num_ball_mul(num_ball_from(plane->n[k]), num_ball_from(o)));
         at = num_ball_add(at, num_ball_mul((num_ball){0, plane->n_err}, (num_ball){0, reach}));
     }

@@ -1,5 +1,5 @@
-/* test_far_planes.c: predicates of planes n . x = c above dimension 3, started at every stage, against exact rationals
- * (GMP) straight from the definition. */
+/* test_vector_planes.c: predicates of planes n . x = c, of one row of doubles or more, started at every stage, against
+ * exact rationals (GMP) straight from the definition. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,40 +12,56 @@
 #include "support/fuzz.h"
 #include <gmp.h>
 
-enum { TRIALS = 400, PLANES = 2, POINTS = 2 };
+enum { TRIALS = 400, PLANES = 2, POINTS = 2, ROWS = 3, WIDTH = FROE_MAX_DIM + 1 };
 
 /* Planes h and a; points u and v, which are corners of a box, too. */
-typedef struct far_case {
+typedef struct vector_case {
     int dim;
-    double normals[PLANES][FROE_MAX_DIM], offsets[PLANES], points[POINTS][FROE_MAX_DIM], radius;
+    int row_count[PLANES];
+    double rows[PLANES][ROWS * WIDTH], points[POINTS][FROE_MAX_DIM], radius;
     geom_plane planes[PLANES];
-} far_case;
+} vector_case;
 
-static void draw_case(fuzz_source *r, fuzz_class kind, int dim, far_case *c) {
-    *c = (far_case){.dim = dim, .radius = fabs(fuzz_coordinate(r, kind))};
-    for (int k = 0; k < dim; k++) {
-        for (int i = 0; i < PLANES; i++) c->normals[i][k] = fuzz_coordinate(r, kind);
-        for (int i = 0; i < POINTS; i++) c->points[i][k] = fuzz_coordinate(r, kind);
-    }
+static void draw_case(fuzz_source *r, fuzz_class kind, int dim, vector_case *c) {
+    *c = (vector_case){.dim = dim, .radius = fabs(fuzz_coordinate(r, kind))};
+    for (int i = 0; i < POINTS; i++)
+        for (int k = 0; k < dim; k++) c->points[i][k] = fuzz_coordinate(r, kind);
     for (int i = 0; i < PLANES; i++) {
-        /* mostly one of the points is on it, up to rounding */
         const double *x = c->points[fuzz_int(r, 0, POINTS - 1)];
-        double through = 0;
-        for (int k = 0; k < dim; k++) through += c->normals[i][k] * x[k];
-        c->offsets[i] = fuzz_int(r, 0, 2) && isfinite(through) ? through : fuzz_coordinate(r, kind);
-        c->planes[i] = geom_plane_vector(dim, c->normals[i], c->offsets[i]);
+        double *row = c->rows[i], through = 0;
+        c->row_count[i] = fuzz_int(r, 0, 1) ? 1 : fuzz_int(r, 1, ROWS);
+        for (int k = 0; k < c->row_count[i] * (dim + 1); k++) row[k] = fuzz_coordinate(r, kind);
+        /* mostly one of the points is on it, up to rounding */
+        for (int k = 0; k < dim; k++) through += row[k] * x[k];
+        if (fuzz_int(r, 0, 2) && isfinite(through)) row[dim] = through;
+        c->planes[i] =
+            c->row_count[i] > 1 ? geom_plane_fine(dim, row, c->row_count[i]) : geom_plane_vector(dim, row, row[dim]);
     }
 }
 
 /* ------------------------------------------------------------------ oracle -- */
 
+/* Coefficient k: of the normal, or the value (k = dim). */
+static void set_coefficient(mpq_t out, const vector_case *c, int plane, int k) {
+    mpq_t row;
+    mpq_init(row);
+    mpq_set_ui(out, 0, 1);
+    for (int i = 0; i < c->row_count[plane]; i++) {
+        mpq_set_d(row, c->rows[plane][i * (c->dim + 1) + k]);
+        mpq_div_2exp(row, row, 53 * (mp_bitcnt_t)i);
+        mpq_add(out, out, row);
+    }
+    mpq_clear(row);
+}
+
 /* n . x - c */
-static void set_value(mpq_t out, const far_case *c, int plane, const double *x) {
+static void set_value(mpq_t out, const vector_case *c, int plane, const double *x) {
     mpq_t a, b;
     mpq_inits(a, b, NULL);
-    mpq_set_d(out, -c->offsets[plane]);
+    set_coefficient(out, c, plane, c->dim);
+    mpq_neg(out, out);
     for (int k = 0; k < c->dim; k++) {
-        mpq_set_d(a, c->normals[plane][k]);
+        set_coefficient(a, c, plane, k);
         mpq_set_d(b, x[k]);
         mpq_mul(a, a, b);
         mpq_add(out, out, a);
@@ -53,7 +69,7 @@ static void set_value(mpq_t out, const far_case *c, int plane, const double *x) 
     mpq_clears(a, b, NULL);
 }
 
-static int side_of_point(const far_case *c, int plane, const double *x) {
+static int side_of_point(const vector_case *c, int plane, const double *x) {
     mpq_t value;
     mpq_init(value);
     set_value(value, c, plane, x);
@@ -63,7 +79,7 @@ static int side_of_point(const far_case *c, int plane, const double *x) {
 }
 
 /* At u + t (v - u) with a(u) + t (a(v) - a(u)) = 0 the plane h has the value h(u) + t (h(v) - h(u)). */
-static int side_of_meeting(const far_case *c) {
+static int side_of_meeting(const vector_case *c) {
     mpq_t hu, hv, au, av, t;
     mpq_inits(hu, hv, au, av, t, NULL);
     set_value(hu, c, 0, c->points[0]);
@@ -80,13 +96,13 @@ static int side_of_meeting(const far_case *c) {
     return side;
 }
 
-static int side_of_round(const far_case *c) {
+static int side_of_round(const vector_case *c) {
     mpq_t value, square, x;
     mpq_inits(value, square, x, NULL);
     set_value(value, c, 0, c->points[0]);
     int side = mpq_sgn(value);
     for (int k = 0; k < c->dim; k++) {
-        mpq_set_d(x, c->normals[0][k]);
+        set_coefficient(x, c, 0, k);
         mpq_mul(x, x, x);
         mpq_add(square, square, x);
     }
@@ -99,7 +115,7 @@ static int side_of_round(const far_case *c) {
     return side;
 }
 
-static int side_of_all_corners(const far_case *c, const double *lo, const double *hi) {
+static int side_of_all_corners(const vector_case *c, const double *lo, const double *hi) {
     unsigned reached = 0;
     for (unsigned i = 0; i < 1u << c->dim && reached != 3; i++) {
         double x[FROE_MAX_DIM];
@@ -114,7 +130,8 @@ static int side_of_all_corners(const far_case *c, const double *lo, const double
 
 static unsigned zeros, compared;
 
-static void expect(num_context *context, fuzz_class kind, const char *what, const far_case *c, int expected, int side) {
+static void expect(num_context *context, fuzz_class kind, const char *what, const vector_case *c, int expected,
+                   int side) {
     if (side != expected)
         fail_msg("%s, class %s, R^%d, stage %d: %d instead of %d", what, fuzz_names[kind], c->dim, (int)context->first,
                  side, expected);
@@ -122,13 +139,17 @@ static void expect(num_context *context, fuzz_class kind, const char *what, cons
     compared++;
 }
 
-static void try_case(num_context *context, fuzz_class kind, const far_case *c) {
+static void try_case(num_context *context, fuzz_class kind, const vector_case *c) {
     const double *u = c->points[0], *v = c->points[1];
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     bool normal = false;
     for (int k = 0; k < c->dim; k++) {
         lo[k] = fmin(u[k], v[k]), hi[k] = fmax(u[k], v[k]);
-        normal = normal || c->normals[0][k] != 0;
+        mpq_t coefficient;
+        mpq_init(coefficient);
+        set_coefficient(coefficient, c, 0, k);
+        normal = normal || mpq_sgn(coefficient);
+        mpq_clear(coefficient);
     }
     const int vertex = side_of_point(c, 0, u), box = side_of_all_corners(c, lo, hi), ball = side_of_round(c);
     const int at_u = side_of_point(c, 1, u), at_v = side_of_point(c, 1, v);
@@ -150,13 +171,31 @@ static void sides_are_those_of_rationals(void **state) {
     for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
         fuzz_source r = {(uint64_t)kind};
         for (int i = 0; i < TRIALS; i++) {
-            far_case c;
-            draw_case(&r, (fuzz_class)kind, 4 + i % 5, &c);
+            vector_case c;
+            draw_case(&r, (fuzz_class)kind, 2 + i % 7, &c);
             try_case(context, (fuzz_class)kind, &c);
         }
     }
     assert_true(zeros > compared / 1000);
     assert_true(context->stats.filtered > compared / 10 && context->stats.refined && context->stats.exact);
+}
+
+/* Points that no doubles tell from a plane lie beside it, as the second row says. */
+static void rows_are_finer_than_doubles(void **state) {
+    num_context *context = *state;
+    for (int stage = NUM_FILTER; stage <= NUM_EXACT; stage++)
+        for (int dim = 2; dim <= FROE_MAX_DIM; dim++)
+            for (int k = 0; k <= dim; k++) {
+                double rows[2 * WIDTH] = {0}, x[FROE_MAX_DIM];
+                for (int i = 0; i < dim; i++) rows[i] = x[i] = 1;
+                rows[dim] = dim;
+                rows[dim + 1 + k] = 0x1p-52;
+                const geom_plane h = geom_plane_fine(dim, rows, 2);
+                context->first = (num_stage)stage;
+                assert_int_equal(geom_side_vertex(context, &h, x), k < dim ? 1 : -1);
+                rows[dim + 1 + k] = 0;
+                assert_int_equal(geom_side_vertex(context, &h, x), 0);
+            }
 }
 
 /* The last place of one coordinate decides, whichever it is. */
@@ -182,7 +221,8 @@ static void every_coordinate_counts(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sides_are_those_of_rationals),
+        cmocka_unit_test(rows_are_finer_than_doubles),
         cmocka_unit_test(every_coordinate_counts),
     };
-    return cmocka_run_group_tests_name("geom/far_planes", tests, context_open, context_close);
+    return cmocka_run_group_tests_name("geom/vector_planes", tests, context_open, context_close);
 }
