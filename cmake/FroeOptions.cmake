@@ -14,6 +14,7 @@ option(FROE_FUZZ "Build the fuzzers with libFuzzer (clang)" OFF)
 option(FROE_WERROR "Warnings are errors" ${developing})
 option(FROE_NATIVE "Use every instruction this machine has" OFF)
 option(FROE_COVERAGE "Count the lines that tests run" OFF)
+option(FROE_LINK_ALL "Link the program with all libraries, instead of opening froe-io and froe-draw when needed" OFF)
 set(FROE_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined")
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)

@@ -1,6 +1,7 @@
 /* scene.c: options and errors of reading a scene. */
 #include "args/scene.h"
 #include "exit.h"
+#include "library.h"
 #include "progress.h"
 
 static const char *const faces[] = {[FROE_FACES_TRIANGLES] = "triangles", [FROE_FACES_POLYGONS] = "polygons", NULL};
@@ -19,6 +20,10 @@ const cli_option cli_scene_options[] = {
 };
 
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
+    cli_io io;
+    const bool own = froe_reads_own(args->path); /* without GDAL and assimp */
+    const int code = own ? 0 : cli_open_io(&io);
+    if (code) return code;
     cli_progress bar = cli_progress_begin(common, "reading");
     froe_read_options options = froe_read_defaults();
     options.layer = args->layer;
@@ -29,7 +34,7 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
     options.progress = cli_progress_step;
     options.user = &bar;
     froe_diagnostic diag;
-    const froe_status status = froe_read(args->path, &options, scene, report, &diag);
+    const froe_status status = (own ? froe_read_own : io.read)(args->path, &options, scene, report, &diag);
     cli_progress_end(&bar);
     return status ? cli_fail_status(CLI_READING, args->path, status, &diag) : 0;
 }

@@ -4,9 +4,9 @@
 #include "command.h"
 #include "exit.h"
 #include "files.h"
+#include "library.h"
 #include "progress.h"
 #include "report/report.h"
-#include <froe/draw.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,12 +75,12 @@ static const cli_part parts[] = {CLI_TREE_PART(draw_args),
                                  {0}};
 
 /* Layers of a list parted by commas. */
-static int set_show(const char *list, uint32_t *show) {
+static int set_show(const cli_draw *library, const char *list, uint32_t *show) {
     while (list && *list) {
         const size_t length = strcspn(list, ",");
         uint32_t found = 0;
         for (uint32_t bit = 1; !found && bit <= FROE_DRAW_OBJECTS; bit <<= 1) {
-            const char *known = froe_draw_layer_name((froe_draw_layer)bit);
+            const char *known = library->layer_name((froe_draw_layer)bit);
             if (known && strlen(known) == length && memcmp(known, list, length) == 0) found = bit;
         }
         if (!found)
@@ -104,7 +104,7 @@ static int set_section(const char *text, froe_draw_options *o) {
     return 0;
 }
 
-static int set_options(const draw_args *args, size_t dim, froe_draw_options *o) {
+static int set_options(const draw_args *args, const cli_draw *library, size_t dim, froe_draw_options *o) {
     const cli_reals *window = &args->window, *view = &args->view;
     o->style = (froe_draw_style)args->style;
     o->up = args->up;
@@ -118,7 +118,7 @@ static int set_options(const draw_args *args, size_t dim, froe_draw_options *o) 
     cli_set_number(args->explode, &o->explode);
     if (args->max_depth != UINT64_MAX) o->max_depth = (uint32_t)args->max_depth;
     if (args->explode_depth != UINT64_MAX) o->explode_depth = (uint32_t)args->explode_depth;
-    int code = set_show(args->show, &o->show);
+    int code = set_show(library, args->show, &o->show);
     if (!code) code = cli_set_background(args->background, &o->background);
     if (!code) code = set_section(args->section, o);
     if (code) return code;
@@ -137,20 +137,23 @@ static int set_options(const draw_args *args, size_t dim, froe_draw_options *o) 
 static int run_draw(const void *given) {
     const draw_args *args = given;
     froe_draw_format format;
-    if (!froe_draw_format_of(args->output, &format))
+    cli_draw library;
+    int code = cli_open_draw(&library);
+    if (code) return code;
+    if (!library.format_of(args->output, &format))
         return cli_fail(CLI_USE, args->output, "The ending of pictures is .svg, .pdf or .png.");
     froe_tree *tree;
-    int code = cli_check_tree_outputs(&args->tree, args->output);
+    code = cli_check_tree_outputs(&args->tree, args->output);
     if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
-    froe_draw_options o = froe_draw_defaults();
-    code = set_options(args, (size_t)froe_scene_dim(froe_tree_scene(tree)), &o);
+    froe_draw_options o = library.defaults();
+    code = set_options(args, &library, (size_t)froe_scene_dim(froe_tree_scene(tree)), &o);
     if (!code) {
         cli_progress bar = cli_progress_begin(&args->common, "drawing");
         froe_diagnostic diag;
         o.progress = cli_progress_step;
         o.user = &bar;
-        const froe_status status = froe_draw(tree, args->output, &o, &diag);
+        const froe_status status = library.draw(tree, args->output, &o, &diag);
         cli_progress_end(&bar);
         if (status) code = cli_fail_status(CLI_WRITING, args->output, status, &diag);
     }

@@ -1,13 +1,16 @@
 /* measure_picture.c: a picture of the cube or ball of a measure, in a window three times as wide. */
 #include "commands/measure_picture.h"
 #include "args/budget.h"
+#include "library.h"
 #include "progress.h"
-#include <froe/draw.h>
 #include <stdio.h>
 
 static int draw(const cli_common *common, const char *path, froe_scene *scene, const froe_draw_mark *mark,
                 const char *title, uint64_t max_fragments) {
-    froe_draw_options o = froe_draw_defaults();
+    cli_draw library;
+    const int code = cli_open_draw(&library);
+    if (code) return code;
+    froe_draw_options o = library.defaults();
     froe_build_options b = froe_build_defaults();
     cli_progress bar = cli_progress_begin(common, "drawing");
     froe_tree *tree;
@@ -27,7 +30,7 @@ static int draw(const cli_common *common, const char *path, froe_scene *scene, c
     b.max_fragments = cli_budget(max_fragments, scene);
     froe_status status = froe_build(scene, &b, &tree, &diag);
     if (!status) {
-        status = froe_draw(tree, path, &o, &diag);
+        status = library.draw(tree, path, &o, &diag);
         froe_tree_free(tree);
     }
     cli_progress_end(&bar);

@@ -3,10 +3,11 @@
 #include "commands/render_options.h"
 #include "exit.h"
 #include "files.h"
+#include "library.h"
 #include "progress.h"
 #include "report/report.h"
 #include "support/fail.h"
-#include <froe/draw.h>
+#include "support/path.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -190,15 +191,11 @@ static bool name_frame(const char *pattern, size_t i, char *out, size_t room) {
     return length > 0 && (size_t)length < room;
 }
 
-static froe_status render_file(const froe_tree *tree, const char *path, const froe_render_options *o,
-                               froe_render_report *report, froe_diagnostic *diag) {
-    froe_draw_format format;
-    const bool png = froe_draw_format_of(path, &format) && format == FROE_DRAW_PNG;
-    return (png ? froe_render_png : froe_render)(tree, path, o, report, diag);
-}
+/* froe_render(), or froe_render_png() of the library that draws. */
+typedef __typeof__(froe_render) render_fn;
 
-static froe_status render_turning(const render_args *args, const froe_tree *tree, froe_render_options *o,
-                                  froe_render_report *report, froe_diagnostic *diag) {
+static froe_status render_turning(const render_args *args, render_fn *write, const froe_tree *tree,
+                                  froe_render_options *o, froe_render_report *report, froe_diagnostic *diag) {
     froe_camera *cameras = calloc(args->turntable, sizeof *cameras);
     if (!cameras) return support_fail_memory(diag);
     const double seconds = isnan(args->seconds) ? 8 : args->seconds;
@@ -208,7 +205,7 @@ static froe_status render_turning(const render_args *args, const froe_tree *tree
     for (size_t i = 0; !status && !args->animate && i < args->turntable; i++) {
         char path[4096];
         o->camera = cameras[i];
-        status = name_frame(args->output, i, path, sizeof path) ? render_file(tree, path, o, report, diag) : FROE_E_ARG;
+        status = name_frame(args->output, i, path, sizeof path) ? write(tree, path, o, report, diag) : FROE_E_ARG;
     }
     free(cameras);
     return status;
@@ -224,11 +221,18 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
                         "--turntable: It goes around the middle of the scene, and excludes --eye and --target.");
     if (args->turntable && !args->animate && !name_frame(args->output, 0, path, sizeof path))
         return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output);
+    render_fn *write = froe_render;
+    if (!strcmp(support_path_extension(args->output).text, "png")) {
+        cli_draw library;
+        const int code = cli_open_draw(&library);
+        if (code) return code;
+        write = library.render_png;
+    }
     cli_progress bar = cli_progress_begin(&args->common, "looking");
     o->progress = cli_progress_step;
     o->user = &bar;
-    const froe_status status = args->turntable ? render_turning(args, tree, o, &report, &diag)
-                                               : render_file(tree, args->output, o, &report, &diag);
+    const froe_status status = args->turntable ? render_turning(args, write, tree, o, &report, &diag)
+                                               : write(tree, args->output, o, &report, &diag);
     cli_progress_end(&bar);
     if (status == FROE_E_ARG || status == FROE_E_OPTIONS) return cli_fail(CLI_USE, NULL, "%s", diag.message);
     if (status) return cli_fail_status(CLI_WRITING, args->output, status, &diag);

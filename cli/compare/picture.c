@@ -1,8 +1,8 @@
 /* picture.c: PNG as base64 (RFC 4648), made by the draw library. */
 #include "compare/picture.h"
 #include "args/budget.h"
+#include "library.h"
 #include "support/array.h"
-#include <froe/draw.h>
 #include <stdlib.h>
 
 typedef ARRAY(unsigned char) byte_array;
@@ -33,13 +33,15 @@ static json_t *base64_json(const unsigned char *bytes, size_t count) {
 
 json_t *picture_json(const froe_tree *tree, bool cells) {
     const froe_allocator alloc = support_allocator(NULL);
-    froe_draw_options o = froe_draw_defaults();
+    cli_draw library;
+    if (cli_open_draw(&library)) return json_null();
+    froe_draw_options o = library.defaults();
     byte_array png = {0};
     o.width = 480;
     o.legend = false;
     if (!cells) o.show = FROE_DRAW_OBJECTS;
     o.margin = 8;
-    const froe_status status = froe_draw_write(tree, FROE_DRAW_PNG, take, &png, &o, NULL);
+    const froe_status status = library.write(tree, FROE_DRAW_PNG, take, &png, &o, NULL);
     json_t *json = status ? json_null() : base64_json(png.data, png.count);
     array_free(&alloc, &png);
     return json;
