@@ -183,7 +183,7 @@ static froe_status walk_nodes(model *w) {
 static froe_status refuse_import(const formats_source *source, formats_sink *sink) {
     char reason[160];
     const char *said = aiGetErrorString();
-    snprintf(reason, sizeof reason, "%.150s", strstr(said, source->path) ? "" : said);
+    snprintf(reason, sizeof reason, "%.150s", strstr(said, source->file) ? "" : said);
     reason[strcspn(reason, "\r\n")] = '\0';
     if (strstr(reason, "bad_alloc")) return support_fail_memory(sink->diag);
     if (*reason)
@@ -198,7 +198,7 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     if (!status) status = formats_sink_progress(sink, 0);
     if (status) return status;
     pthread_mutex_lock(&import_lock);
-    const struct aiScene *scene = aiImportFile(source->path, 0);
+    const struct aiScene *scene = aiImportFile(source->file, 0);
     if (!scene) status = refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);
     if (status) return status;

@@ -182,13 +182,13 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
                                          "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
     const bool is_csv = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
-    map m = {.source = source, .sink = sink, .heard.path = source->path};
+    map m = {.source = source, .sink = sink, .heard.path = source->file};
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);
     if (status) return status;
     CPLPushErrorHandlerEx(hear, &m.heard);
     pthread_once(&once, register_drivers);
-    m.data = GDALOpenEx(source->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
+    m.data = GDALOpenEx(source->file, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
                         is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
     if (!m.data) status = map_fail(&m, FROE_E_FORMAT, "The file is of no type that can be read.");
     if (!status) {

@@ -1,5 +1,6 @@
 /* scene.c: options and errors of reading a scene. */
 #include "args/scene.h"
+#include "args/spool.h"
 #include "exit.h"
 #include "library.h"
 #include "progress.h"
@@ -8,6 +9,8 @@ static const char *const faces[] = {[FROE_FACES_TRIANGLES] = "triangles", [FROE_
 
 const cli_option cli_scene_options[] = {
     {NULL, 0, CLI_TEXT, offsetof(cli_scene_args, path), "SCENE", .help = "map, model or CSV file", .required = true},
+    {"format", 0, CLI_TEXT, offsetof(cli_scene_args, format), "EXT",
+     .help = "of SCENE from standard input (-) or a pipe: the usual extension of its files, e.g. geojson"},
     {"layer", 0, CLI_TEXT, offsetof(cli_scene_args, layer), "NAME",
      .help = "maps: read this layer only (default: all)"},
     {"where", 0, CLI_TEXT, offsetof(cli_scene_args, where), "FILTER",
@@ -20,21 +23,28 @@ const cli_option cli_scene_options[] = {
 };
 
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
+    cli_spool spool;
     cli_io io;
-    const bool own = froe_reads_own(args->path); /* without GDAL and assimp */
-    const int code = own ? 0 : cli_open_io(&io);
+    int code = cli_spool_open(args->path, args->format, &spool);
     if (code) return code;
-    cli_progress bar = cli_progress_begin(common, "reading");
-    froe_read_options options = froe_read_defaults();
-    options.layer = args->layer;
-    options.where = args->where;
-    if (args->faces >= 0) options.faces = (froe_faces)args->faces;
-    options.boxes = args->boxes;
-    options.alloc = args->alloc;
-    options.progress = cli_progress_step;
-    options.user = &bar;
-    froe_diagnostic diag;
-    const froe_status status = (own ? froe_read_own : io.read)(args->path, &options, scene, report, &diag);
-    cli_progress_end(&bar);
-    return status ? cli_fail_status(CLI_READING, args->path, status, &diag) : 0;
+    const bool own = froe_reads_own(spool.path); /* without GDAL and assimp */
+    if (!own) code = cli_open_io(&io);
+    if (!code) {
+        cli_progress bar = cli_progress_begin(common, "reading");
+        froe_read_options options = froe_read_defaults();
+        options.name = spool.name;
+        options.layer = args->layer;
+        options.where = args->where;
+        if (args->faces >= 0) options.faces = (froe_faces)args->faces;
+        options.boxes = args->boxes;
+        options.alloc = args->alloc;
+        options.progress = cli_progress_step;
+        options.user = &bar;
+        froe_diagnostic diag;
+        const froe_status status = (own ? froe_read_own : io.read)(spool.path, &options, scene, report, &diag);
+        cli_progress_end(&bar);
+        if (status) code = cli_fail_status(CLI_READING, spool.name, status, &diag);
+    }
+    cli_spool_free(&spool);
+    return code;
 }

@@ -6,7 +6,7 @@
 #include <froe/io.h>
 
 typedef struct cli_scene_args {
-    const char *path, *layer, *where;
+    const char *path, *format, *layer, *where;
     int faces; /**< -1: not given */
     bool boxes;
     const froe_allocator *alloc; /**< of the scene; NULL: malloc */

@@ -208,6 +208,8 @@ static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
 int cli_queries_run(const cli_queries *queries) {
     froe_tree *tree;
     froe_diagnostic diag;
+    if (!strcmp(queries->tree->scene.path, "-") && !strcmp(queries->args->input, "-"))
+        return cli_fail(CLI_USE, NULL, "Standard input is named twice: as the scene and as the file of queries.");
     int code = cli_open_tree(queries->common, queries->tree, "query", &tree);
     if (code) return code;
     cli_asked asked = {.scene = froe_tree_scene(tree), .batch = froe_batch_defaults()};

@@ -38,11 +38,13 @@ static size_t drop_mark(char *text, size_t size) {
     return size - sizeof mark;
 }
 
-froe_status formats_source_open(const char *path, formats_source *source, froe_diagnostic *diag) {
-    *source = (formats_source){.path = path};
+froe_status formats_source_open(const char *path, const froe_read_options *options, formats_source *source,
+                                froe_diagnostic *diag) {
+    const char *name = options && options->name ? options->name : path;
+    *source = (formats_source){.file = path, .path = name, .options = options};
     struct stat about;
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return support_fail_file(diag, "read", path, errno);
+    if (file < 0) return support_fail_file(diag, "read", name, errno);
     ssize_t got = -1;
     int error = fstat(file, &about) ? errno : 0;
     bool regular = !error && S_ISREG(about.st_mode), directory = !error && S_ISDIR(about.st_mode);
@@ -51,9 +53,9 @@ froe_status formats_source_open(const char *path, formats_source *source, froe_d
         if (got < 0) error = errno;
     }
     close(file);
-    if (error) return support_fail_file(diag, "read", path, error);
-    if (!regular) return support_fail_irregular(diag, path, directory);
-    if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: The file is empty.", support_short(path));
+    if (error) return support_fail_file(diag, "read", name, error);
+    if (!regular) return support_fail_irregular(diag, name, directory);
+    if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: The file is empty.", support_short(name));
     source->head[drop_mark(source->head, (size_t)got)] = '\0';
     source->size = (uint64_t)about.st_size;
     source->extension = support_path_extension(path);
@@ -70,7 +72,7 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
     const bool room = source->size < SIZE_MAX && array_reserve(&sink->alloc, text, (size_t)source->size + 1);
     char *to = text->data;
     if (!room) return support_fail_memory(sink->diag);
-    int file = open(source->path, O_RDONLY | O_CLOEXEC);
+    int file = open(source->file, O_RDONLY | O_CLOEXEC);
     ssize_t got = file < 0 ? -1 : read_fully(file, to, (size_t)source->size);
     int error = errno;
     if (file >= 0) close(file);
@@ -97,7 +99,7 @@ static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, c
                               formats_sink *sink, froe_scene **out) {
     const char *name = support_short(source->path);
     const froe_read_options *o = source->options;
-    if (froe_is_tree(source->path))
+    if (froe_is_tree(source->file))
         return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The file holds a tree, not a scene.", name);
     if (formats_is_moving(source))
         return support_fail(sink->diag, FROE_E_UNSUPPORTED,
@@ -138,7 +140,7 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
     const froe_read_options defaults = froe_read_defaults(), *o = options ? options : &defaults;
     formats_sink sink = {.alloc = support_allocator(o->alloc),
                          .diag = diag,
-                         .path = path,
+                         .path = o->name ? o->name : path,
                          .faces = o->faces,
                          .boxes = o->boxes,
                          .progress = o->progress,
@@ -146,8 +148,7 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
     support_locale locale;
     if (!support_locale_enter(&locale)) return support_fail_memory(diag);
     formats_source source;
-    froe_status status = formats_source_open(path, &source, diag);
-    source.options = o;
+    froe_status status = formats_source_open(path, o, &source, diag);
     if (!status) status = fill_scene(choose, maps, &source, &sink, out);
     formats_sink_free(&sink);
     support_locale_leave(&locale);

@@ -7,7 +7,8 @@
 
 /** What is known of a file before a reader is chosen. */
 typedef struct formats_source {
-    const char *path;
+    const char *file; /**< the path */
+    const char *path; /**< what messages call it */
     support_extension extension;
     uint64_t size;       /**< bytes */
     char head[4096 + 1]; /**< the first bytes behind a byte order mark, and a NUL */
@@ -15,7 +16,8 @@ typedef struct formats_source {
 } formats_source;
 
 /** Opens the file just long enough to know its size and its first bytes. FROE_E_IO; FROE_E_FORMAT: it is empty. */
-froe_status formats_source_open(const char *path, formats_source *source, froe_diagnostic *diag);
+froe_status formats_source_open(const char *path, const froe_read_options *options, formats_source *source,
+                                froe_diagnostic *diag);
 /** Is it of moving features, by its extension or its content? */
 bool formats_is_moving(const formats_source *source);
 

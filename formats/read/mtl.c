@@ -60,7 +60,7 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
     if (above || length <= 0 || length >= PATH_ROOM || stat(library, &about) || !S_ISREG(about.st_mode) ||
         about.st_size > MOST_BYTES)
         return FROE_OK;
-    const formats_source source = {.path = library, .size = (uint64_t)about.st_size};
+    const formats_source source = {.file = library, .path = library, .size = (uint64_t)about.st_size};
     froe_status status = formats_load(&source, sink, false, &text);
     for (char *line = text.data, *next; !status && line && *line; line = next) {
         next = line + strcspn(line, "\n");

@@ -174,7 +174,7 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
     if (!status) status = formats_sink_open(sink, 3);
     if (!status) {
         o->sink = sink;
-        o->path = source->path;
+        o->path = source->file;
         formats_report_format(sink, "float64", "OBJ");
         sink->report.layers = 1;
         sink->unit = "line";

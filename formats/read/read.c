@@ -26,7 +26,8 @@ static formats_reader *choose_own(const formats_source *source) {
 bool froe_reads_own(const char *path) {
     SUPPORT_FLOATS_OWN;
     formats_source source;
-    return path && !formats_source_open(path, &source, NULL) && !formats_is_moving(&source) && choose_own(&source);
+    if (!path || formats_source_open(path, NULL, &source, NULL)) return false;
+    return !formats_is_moving(&source) && choose_own(&source);
 }
 
 froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,

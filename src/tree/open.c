@@ -157,10 +157,10 @@ bool froe_is_tree(const char *path) {
     enum { WORD = 5 }; /* bytes of the magic that no transfer of text changes */
     char head[WORD];
     struct stat about;
-    const int file = path ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK) : -1;
+    if (!path || stat(path, &about) || !S_ISREG(about.st_mode)) return false; /* opening a pipe would disturb it */
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) return false;
-    const bool is = !fstat(file, &about) && S_ISREG(about.st_mode) && pread(file, head, WORD, 0) == WORD &&
-                    !memcmp(head, FILE_MAGIC, WORD);
+    const bool is = read(file, head, WORD) == WORD && !memcmp(head, FILE_MAGIC, WORD);
     close(file);
     return is;
 }
