@@ -37,8 +37,7 @@ static key_counts count_sides(const bar_rule *rule, const bar_search *s, const b
 
 /* ---------------------------------------------------------------- the median -- */
 
-/** Between the median and the key before or after it, whichever leaves the parts more even. */
-static double number_between(const double *column, uint32_t count, double median) {
+double bar_between(const double *column, uint32_t count, double median) {
     uint32_t less = 0, more = 0;
     double before = -INFINITY, after = INFINITY;
     for (uint32_t i = 0; i < count; i++) {
@@ -68,7 +67,7 @@ static bar_candidate candidate(const bar_rule *rule, bar_search *s, const bar_st
     for (uint32_t i = 0; i < step->count; i++, key += rule->directions.count) s->column.data[i] = *key;
     const double median = base_select(s->column.data, step->count, step->count / 2);
     bar_candidate c = {.direction = direction, .value = median};
-    if (!rule->through) c.value = number_between(s->column.data, step->count, median);
+    if (!rule->through) c.value = bar_between(s->column.data, step->count, median);
     if (!fits_aspect(rule, s, &c)) {
         /* moves the value to the nearest one that leaves both parts fat */
         double lo, hi, at = bar_shape_local(&s->shape, direction, c.value);

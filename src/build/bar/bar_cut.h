@@ -54,5 +54,7 @@ typedef enum bar_found {
  */
 bar_found bar_search_cut(const bar_rule *rule, const froe_allocator *alloc, bar_search *search,
                          const bar_region *region, uint32_t count, double target, bar_candidate *out);
+/** Between the median of some keys and the key before or after it, whichever leaves the parts more even. */
+double bar_between(const double *column, uint32_t count, double median);
 void bar_search_free(const froe_allocator *alloc, bar_search *search);
 #endif

@@ -1,0 +1,186 @@
+/* zone_cut.c: medians first, then the cluster. All counts are of rounded numbers; that costs balance, nothing else. */
+#include "build/bar/zone_cut.h"
+#include "base/select.h"
+#include <math.h>
+#include <string.h>
+
+#define FLOOR 0x1p-40 /* cells narrower than this share of their coordinates have no doubles between them */
+#define EASY 0.5      /* of the aspect, for cuts at medians, where that is enough */
+enum { FATTENINGS = 64 };
+
+/** Keep y_i - y_j <= value. */
+typedef struct zone_candidate {
+    int i, j;
+    double value;
+    double width;    /* of direction (i, j), or of the part */
+    uint32_t larger; /* points in the fuller part */
+} zone_candidate;
+
+typedef struct zone_cluster {
+    double most[ZONE_NODES][ZONE_NODES]; /* of y_i - y_j of its points */
+    double radius;
+} zone_cluster;
+
+static double key_of(const double *row, int i, int j, int dim) {
+    return row[i] - (j < dim ? row[j] : 0);
+}
+
+/* ----------------------------------------------------------------- medians -- */
+
+/** The cut at the median of a direction, or at the nearest place that leaves both parts fat. i -1: there is none. */
+static zone_candidate median_candidate(zone_search *z, uint32_t count, int i, int j, double aspect) {
+    const zone_shape *s = &z->shape;
+    const double thin = s->widest / aspect, lo = thin - s->most[j][i], hi = s->most[i][j] - thin;
+    zone_candidate c = {.i = -1, .j = j, .width = zone_shape_width(s, i, j)};
+    if (!(lo <= hi)) return c;
+    const double *row = z->rows.data;
+    for (uint32_t k = 0; k < count; k++, row += s->dim) z->column.data[k] = key_of(row, i, j, s->dim);
+    const double median = base_select(z->column.data, count, count / 2);
+    const double value = bar_between(z->column.data, count, median);
+    c.i = i;
+    c.value = value < lo ? lo : value > hi ? hi : value;
+    uint32_t below = 0, above = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        below += z->column.data[k] < c.value;
+        above += z->column.data[k] > c.value;
+    }
+    c.larger = below > above ? below : above;
+    return c;
+}
+
+/** Of those that leave few enough points on each side, the one across the widest direction; an axis, if possible:
+ * other cuts cost more to store and to ask. */
+static bool find_median(zone_search *z, uint32_t count, uint32_t goal, double aspect, zone_candidate *best) {
+    const int dim = z->shape.dim;
+    best->i = -1;
+    for (int i = 0; i < dim; i++) {
+        const zone_candidate c = median_candidate(z, count, i, dim, aspect);
+        if (c.i >= 0 && c.larger <= goal && (best->i < 0 || c.width > best->width)) *best = c;
+    }
+    if (best->i >= 0) return true;
+    for (int i = 0; i < dim; i++)
+        for (int j = i + 1; j < dim; j++) {
+            const zone_candidate c = median_candidate(z, count, i, j, aspect);
+            if (c.i >= 0 && c.larger <= goal && (best->i < 0 || c.width > best->width)) *best = c;
+        }
+    return best->i >= 0;
+}
+
+/* ----------------------------------------------------------------- cluster -- */
+
+static double distance_from(const double *row, const double *middle, int dim) {
+    double most = 0;
+    for (int k = 0; k < dim; k++) most = fmax(most, fabs(row[k] - middle[k]));
+    return most;
+}
+
+/** The median of each axis. */
+static void find_middle(zone_search *z, uint32_t count, int dim, double *middle) {
+    for (int k = 0; k < dim; k++) {
+        const double *x = z->rows.data + k;
+        for (uint32_t p = 0; p < count; p++, x += dim) z->column.data[p] = *x;
+        middle[k] = base_select(z->column.data, count, count / 2);
+    }
+}
+
+/** Moves the origin to the point that is nearest to the middle: what lies near that is not lost in rounding. */
+static void see_from_middle(zone_search *z, const bar_zone *zone, uint32_t count, int dim) {
+    double middle[FROE_MAX_DIM], origin[FROE_MAX_DIM], least = INFINITY, *row = z->rows.data;
+    find_middle(z, count, dim, middle);
+    for (uint32_t p = 0; p < count; p++, row += dim) {
+        const double distance = distance_from(row, middle, dim);
+        if (distance < least) least = distance, memcpy(origin, row, (size_t)dim * sizeof *row);
+    }
+    row = z->rows.data;
+    for (uint32_t p = 0; p < count; p++, row += dim)
+        for (int k = 0; k < dim; k++) row[k] -= origin[k];
+    zone_shape_of(zone, dim, origin, &z->shape);
+}
+
+/** The points nearest to the middle, just more than the goal. Every set of as many points, at least half of all, has
+ * the middle within its bounds; so none is in a box with sides of less than the radius. */
+static void find_cluster(zone_search *z, uint32_t count, uint32_t goal, zone_cluster *c) {
+    const int dim = z->shape.dim;
+    double middle[FROE_MAX_DIM], *column = z->column.data;
+    const double *row;
+    find_middle(z, count, dim, middle);
+    row = z->rows.data;
+    for (uint32_t p = 0; p < count; p++, row += dim) column[p] = distance_from(row, middle, dim);
+    c->radius = base_select(column, count, goal);
+    for (int i = 0; i <= dim; i++)
+        for (int j = 0; j <= dim; j++) c->most[i][j] = i == j ? 0 : -INFINITY;
+    row = z->rows.data;
+    for (uint32_t p = 0; p < count; p++, row += dim) {
+        if (distance_from(row, middle, dim) > c->radius) continue;
+        for (int i = 0; i < dim; i++)
+            for (int j = i + 1; j <= dim; j++) {
+                const double key = key_of(row, i, j, dim);
+                c->most[i][j] = fmax(c->most[i][j], key);
+                c->most[j][i] = fmax(c->most[j][i], -key);
+            }
+    }
+}
+
+/** The least value from c->value on that leaves a fat part below; its width. */
+static void fatten(const zone_shape *s, double aspect, zone_candidate *c) {
+    for (int n = 0; n < FATTENINGS; n++) {
+        c->width = zone_shape_widest_below(s, c->i, c->j, c->value);
+        const double least = c->width / aspect - s->most[c->j][c->i];
+        if (c->value >= least) return;
+        c->value = least + 0x1p-40 * c->width;
+    }
+}
+
+static zone_candidate halve(const zone_shape *s) {
+    zone_candidate c = {.width = -1};
+    for (int i = 0; i < s->dim; i++)
+        for (int j = s->dim; j > i; j--)
+            if (zone_shape_width(s, i, j) > c.width)
+                c = (zone_candidate){i, j, 0.5 * s->most[i][j] - 0.5 * s->most[j][i], zone_shape_width(s, i, j), 0};
+    return c;
+}
+
+/** A cut that has the whole cluster on one side, or through the middle of the zone. */
+static zone_candidate cut_at_cluster(const zone_shape *s, const zone_cluster *cluster, double pad, double aspect) {
+    const double thin = s->widest / aspect;
+    zone_candidate zoom = {.i = -1}, border = {.i = -1};
+    double deepest = 0;
+    for (int i = 0; i <= s->dim; i++)
+        for (int j = 0; j <= s->dim; j++) {
+            if (i == j) continue;
+            zone_candidate c = {.i = i, .j = j, .value = cluster->most[i][j] + pad};
+            const double before = s->most[j][i] - cluster->most[j][i], beyond = s->most[i][j] - cluster->most[i][j];
+            const double depth = fmin(before, beyond);
+            if (beyond >= before && depth - pad >= thin && depth > deepest) deepest = depth, border = c;
+            fatten(s, aspect, &c);
+            if (s->most[i][j] - c.value >= thin && (zoom.i < 0 || c.width < zoom.width)) zoom = c;
+        }
+    if (zoom.i >= 0 && zoom.width <= 0.5 * s->widest) return zoom;
+    return border.i >= 0 ? border : halve(s);
+}
+
+/* -------------------------------------------------------------------- both -- */
+
+bar_found zone_search_cut(const froe_allocator *alloc, zone_search *z, const bar_zone *zone, int dim, uint32_t count,
+                          uint32_t goal, double aspect, froe_cut *out) {
+    const zone_shape *s = &z->shape;
+    double reach = 0;
+    z->column.count = 0;
+    if (!array_reserve(alloc, &z->column, count)) return BAR_MEMORY;
+    see_from_middle(z, zone, count, dim);
+    for (int k = 0; k < dim; k++) reach = fmax(reach, fabs(s->origin[k]) + s->widest);
+    if (!(s->narrowest > FLOOR * reach)) return BAR_NONE;
+    zone_candidate c;
+    if (!find_median(z, count, goal, EASY * aspect, &c) && !find_median(z, count, goal, aspect, &c)) {
+        zone_cluster cluster;
+        find_cluster(z, count, goal, &cluster);
+        c = cut_at_cluster(s, &cluster, 0.5 * fmax(cluster.radius, FLOOR * reach), aspect);
+    }
+    *out = zone_shape_cut(s, c.i, c.j, c.value);
+    return BAR_CUT;
+}
+
+void zone_search_free(const froe_allocator *alloc, zone_search *z) {
+    array_free(alloc, &z->rows);
+    array_free(alloc, &z->column);
+}
