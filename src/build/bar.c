@@ -11,11 +11,14 @@
  * partitions", section 4, theorem 3. The guards of a cell are made from the objects in it: that is all the pruning
  * there is. What stays together in cells of few guards is refined as by density, but not fat any more.
  *
- * Where there are no such directions (option directions=0, always beyond space) cells are cubes, and the cuts those
- * of a guard tree (build/bar/cube_cut.h): fat, but not always low. */
+ * Beyond space cells are zones (build/bar/zone.h), which take few sums to describe. Where there are no directions
+ * (option directions=0, or coordinates near the ends of doubles) cells are cubes, and the cuts those of a guard tree
+ * (build/bar/cube_cut.h): fat, but not always low. */
 #include "build/bar/bar_cut.h"
 #include "build/bar/bar_guards.h"
 #include "build/bar/cube_cut.h"
+#include "build/bar/zone_cut.h"
+#include "build/bar/zone_guard.h"
 #include "build/method.h"
 #include "split/axial.h"
 #include "split/finish.h"
@@ -31,15 +34,17 @@ enum {
     STAR = 1024,      /* most objects of a cell that may be left when no cut balances its guards */
     SAMPLE = 1 << 18, /* guards of a cell of objects that are read, at most */
     PATIENCE = 24,    /* cuts after which such a cell is left: a guard in the tip of a large cell takes some */
-    SEQUENCE = 3      /* cuts that bring down a cell's points, at most */
+    SEQUENCE = 3,     /* cuts that bring down a cell's points, at most; of zones there may be more */
+    FRUITLESS = 100   /* cuts of zones in a row after which a cell of objects is left */
 };
 #define LARGEST 0x1p1000  /* coordinates up to this have keys */
 #define SMALLEST 0x1p-900 /* and differences, if the largest is above this */
 
 static const char *const guard_kinds[] = {"hemisphere", "pairs", "boxes", NULL};
 static const froe_option_info options[] = {
-    [DIRECTIONS] = {"directions", "of cuts: 3 or 4 in the plane, 7 in space; 0: cells are cubes; -1: by dimension", -1,
-                    -1, 7, NULL, true},
+    [DIRECTIONS] = {"directions",
+                    "of cuts: 3 or 4 in the plane, 7 in space, 10 to 36 beyond; 0: cells are cubes; -1: by dimension",
+                    -1, -1, 36, NULL, true},
     [ASPECT] = {"aspect", "largest aspect ratio of a cell; -1: by directions", -1, -1, 1e6, NULL, false},
     [GUARDS] = {"guards", "of an object: hemisphere (6, 8, 32), pairs (of directions: 12, 24), boxes (no guarantee)", 0,
                 0, 2, guard_kinds, true},
@@ -55,6 +60,7 @@ static const froe_option_info options[] = {
 /* Notes on the cells of all threads. */
 typedef struct bar_notes {
     atomic_uint_least32_t unbalanced; /* cells whose points no sequence of cuts has brought down */
+    atomic_uint_least32_t sequence;   /* most cuts of zones until one had */
     _Atomic double aspect;
 } bar_notes;
 
@@ -66,15 +72,17 @@ typedef struct bar {
     bar_guards guards;
     uint32_t *originals; /* lowest equal object: the others have no guards of their own */
     bar_region root;
+    bar_zone root_zone;
     double share; /* of its points that a cell's sequence of cuts may leave together */
     uint32_t k, stop;
-    bool cubes, points; /* points: there is nothing else */
+    bool cubes, zones, points; /* points: there is nothing else */
 } bar;
 
 /* What a thread works with. */
 typedef struct bar_scratch {
     split_scratch refine; /* first: what refinement keeps */
     bar_search search;
+    zone_search zones;
     bool planned;
     uint32_t count; /* guards of the cell at hand */
     double target;
@@ -102,9 +110,11 @@ static bool has_keys(const froe_scene *scene) {
 static void resolve_bar(const froe_scene *scene, uint32_t leaf, double *option) {
     const bool points = points_only(scene);
     (void)leaf;
-    if (option[DIRECTIONS] < 0) option[DIRECTIONS] = scene->dim > 3 || !has_keys(scene) ? 0 : scene->dim == 2 ? 4 : 7;
-    if (option[ASPECT] < 0) option[ASPECT] = option[DIRECTIONS] == 4 ? 4 : 6;
-    if (option[K] < 0) option[K] = points ? 1 : scene->dim == 2 ? 12 : 32;
+    const int zones = scene->dim * (scene->dim + 1) / 2;
+    if (option[DIRECTIONS] < 0)
+        option[DIRECTIONS] = !has_keys(scene) ? 0 : scene->dim == 2 ? 4 : scene->dim == 3 ? 7 : zones;
+    if (option[ASPECT] < 0) option[ASPECT] = scene->dim > 3 ? 29 : option[DIRECTIONS] == 4 ? 4 : 6;
+    if (option[K] < 0) option[K] = points ? 1 : scene->dim == 2 ? 12 : scene->dim == 3 ? 32 : 4;
     if (option[STOP] < 0) option[STOP] = points ? 0 : 8;
     if (option[GROWTH] < 0) option[GROWTH] = scene->dim == 2 ? 4 : 16;
 }
@@ -192,6 +202,44 @@ static froe_status plan_bar(const bar *b, const split_work *work, const split_ce
     return FROE_OK;
 }
 
+/** The guards inside of all objects that are not large, one each. */
+static bool gather_zone_guards(const bar *b, const split_work *work, const split_cell *cell, const bar_zone *zone) {
+    bar_scratch *s = work->scratch;
+    const split_set *set = &work->set;
+    const froe_scene *scene = b->job->scene;
+    const size_t dim = (size_t)scene->dim;
+    s->zones.rows.count = 0;
+    if (!array_reserve(&set->alloc, &s->zones.rows, cell->count * dim)) return false;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const uint32_t object = set->items.data[cell->first + i].object;
+        double *row = s->zones.rows.data + s->zones.rows.count;
+        if (b->originals[object] != object) continue;
+        if (scene_form(scene, object) == FROE_POINT) /* it is inside, whatever sums of doubles say */
+            memcpy(row, scene_point(scene, object, 0), dim * sizeof *row);
+        else if (!zone_guard_of(scene, object, zone, row))
+            continue;
+        s->zones.rows.count += dim;
+    }
+    s->count = (uint32_t)(s->zones.rows.count / dim);
+    return true;
+}
+
+static froe_status plan_zone(const bar *b, const split_work *work, const split_cell *cell, const bar_zone *zone,
+                             bar_scratch *s) {
+    if (!gather_zone_guards(b, work, cell, zone)) return FROE_E_MEMORY;
+    if (s->count <= b->k || s->count < 2) return FROE_OK;
+    const bool old = zone->goal && s->count > zone->goal && s->count / 2 <= zone->goal;
+    const uint32_t cuts = old ? zone->cuts + 1 : 1;
+    if (!b->points && cuts > FRUITLESS) return FROE_OK;
+    s->target = old ? zone->goal : floor(b->share * s->count);
+    const bar_found found = zone_search_cut(&work->set.alloc, &s->zones, zone, b->job->scene->dim, s->count,
+                                            (uint32_t)s->target, b->rule.aspect, &s->cut);
+    uint32_t most = atomic_load(&b->notes->sequence);
+    while (cuts > most && !atomic_compare_exchange_weak(&b->notes->sequence, &most, cuts)) continue;
+    s->planned = found == BAR_CUT;
+    return found == BAR_MEMORY ? FROE_E_MEMORY : FROE_OK;
+}
+
 /** Where a cell lies: kept in its room. */
 static bar_region region_of(const bar *b, const split_work *work, const split_cell *cell) {
     bar_region region = b->root;
@@ -199,25 +247,39 @@ static bar_region region_of(const bar *b, const split_work *work, const split_ce
     return region;
 }
 
+static bar_zone zone_of(const bar *b, const split_work *work, const split_cell *cell) {
+    bar_zone zone = b->root_zone;
+    if (cell->depth) memcpy(&zone, split_room(work), sizeof zone);
+    return zone;
+}
+
+/** Finds the cut of the guard stage, if the cell is still in it. */
+static froe_status plan_cut(const bar *b, const split_work *work, const split_cell *cell, bar_scratch *s) {
+    const double growth = b->job->option[GROWTH];
+    const bool enough = cell->count <= b->stop || (growth > 0 && cell->growth >= growth);
+    froe_status status = FROE_OK;
+    if (cell->count <= b->refine.leaf) return status;
+    if (b->zones) {
+        const bar_zone zone = zone_of(b, work, cell);
+        if (isnan(zone.most[0][0])) return status;
+        if (!enough) status = plan_zone(b, work, cell, &zone, s);
+    } else {
+        const bar_region region = region_of(b, work, cell);
+        if (isnan(region.lo[0])) return status;
+        if (!enough && b->cubes) s->planned = plan_cube(b, work, cell, &region, &s->cut);
+        if (!enough && !b->cubes) status = plan_bar(b, work, cell, &region, s);
+    }
+    if (!s->planned && s->count > 1) atomic_fetch_add(&b->notes->unbalanced, 1);
+    return status;
+}
+
 static froe_status finish_bar_cell(const void *config, split_work *work, const split_cell *cell, bool *done) {
     bar_scratch *s = work->scratch;
     const bar *b = config;
-    const bar_region region = region_of(b, work, cell);
-    const double growth = b->job->option[GROWTH];
     if (cell->count >= LONG && !split_go_on(work)) return FROE_E_CANCELLED;
     s->planned = false;
     s->count = cell->count;
-    froe_status status = FROE_OK;
-    /* finds the cut of the guard stage, if the cell is still in it */
-    if (!isnan(region.lo[0]) && cell->count > b->refine.leaf) {
-        if (cell->count > b->stop && !(growth > 0 && cell->growth >= growth)) {
-            if (b->cubes)
-                s->planned = plan_cube(b, work, cell, &region, &s->cut);
-            else
-                status = plan_bar(b, work, cell, &region, s);
-        }
-        if (!s->planned && s->count > 1) atomic_fetch_add(&b->notes->unbalanced, 1);
-    }
+    const froe_status status = plan_cut(b, work, cell, s);
     return status || s->planned ? status : split_finish(&b->refine, work, cell, done);
 }
 
@@ -228,16 +290,37 @@ static split_verdict choose_bar_cut(const void *config, split_work *work, const 
     return SPLIT_CUT_GUARD;
 }
 
+/** Notes how many cuts a sequence has taken. */
+static void count_cut(const bar_scratch *s, uint32_t *goal, uint32_t *cuts) {
+    *cuts = *goal == (uint32_t)s->target ? *cuts + 1 : 1;
+    *goal = (uint32_t)s->target;
+}
+
+static void divide_zone(const bar *b, const split_work *work, const split_cell *cell, const froe_cut *cut, bool guard,
+                        void *positive, void *negative) {
+    const bar_scratch *s = work->scratch;
+    bar_zone above = zone_of(b, work, cell);
+    if (guard) count_cut(s, &above.goal, &above.cuts), above.cluster = s->zones.cluster;
+    if (!guard) above.most[0][0] = NAN; /* nothing is known of the shape of cells below */
+    bar_zone below = above;
+    if (guard) {
+        bar_zone_divide(&above, &s->zones.shape, cut, 1);
+        bar_zone_divide(&below, &s->zones.shape, cut, 0);
+    }
+    memcpy(positive, &above, sizeof above);
+    memcpy(negative, &below, sizeof below);
+}
+
 static void divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut, bool guard,
                     void *positive, void *negative) {
     const bar *b = config;
     const bar_scratch *s = work->scratch;
-    bar_region above = region_of(b, work, cell);
-    if (guard && !b->cubes) {
-        const uint32_t goal = (uint32_t)s->target;
-        above.cuts = goal == above.goal ? above.cuts + 1 : 1;
-        above.goal = goal;
+    if (b->zones) {
+        divide_zone(b, work, cell, cut, guard, positive, negative);
+        return;
     }
+    bar_region above = region_of(b, work, cell);
+    if (guard && !b->cubes) count_cut(s, &above.goal, &above.cuts);
     bar_region below = above;
     if (guard) {
         const int i = b->cubes ? cut->axis : split_direction_of(&b->rule.directions, cut);
@@ -263,6 +346,7 @@ static void scratch_free(split_work *work) {
     if (!s) return;
     split_scratch_end(&work->set.alloc, &s->refine);
     bar_search_free(&work->set.alloc, &s->search);
+    zone_search_free(&work->set.alloc, &s->zones);
     support_free(&work->set.alloc, s, sizeof *s);
     work->scratch = NULL;
 }
@@ -273,12 +357,13 @@ static void note_bar(const void *config) {
     if (job->option[GROWTH] > 0 && !b->points)
         build_promise(job, "guard_fragments", 2 * job->option[GROWTH] * job->scene->object_count, 0);
     if (b->cubes) return;
-    build_promise(job, "aspect", job->option[ASPECT], atomic_load(&b->notes->aspect));
+    build_promise(job, "aspect", job->option[ASPECT], atomic_load(&b->notes->aspect)); /* of zones by the audit */
     if (!b->points || atomic_load(&b->notes->unbalanced)) return;
-    /* Cuts of three until a part has `share` of the points, and so on until there is one; with leaves of no object one
-     * more, through that. */
+    /* A sequence of cuts until a part has `share` of the points, and so on until there is one; with leaves of no object
+     * one more, through that. */
+    const double sequence = b->zones ? atomic_load(&b->notes->sequence) : SEQUENCE;
     double height = job->scene->object_count && !job->leaf;
-    for (double n = job->scene->object_count; n > 1; n = floor(b->share * n)) height += SEQUENCE;
+    for (double n = job->scene->object_count; n > 1; n = floor(b->share * n)) height += sequence;
     build_promise(job, "height", height, 0);
 }
 
@@ -288,27 +373,32 @@ static froe_status prepare_bar(bar *b) {
     const int asked = (int)job->option[DIRECTIONS];
     b->points = points_only(job->scene);
     b->cubes = asked == 0;
-    if (!b->cubes && (!has_keys(job->scene) || !split_directions_of(job->scene->dim, asked, &b->rule.directions))) {
+    b->zones = !b->cubes && job->scene->dim > 3;
+    const bool there = b->zones ? asked == job->scene->dim * (job->scene->dim + 1) / 2
+                                : split_directions_of(job->scene->dim, asked, &b->rule.directions);
+    if (!b->cubes && (!has_keys(job->scene) || !there)) {
         if (has_keys(job->scene))
             return support_fail(job->diag, FROE_E_OPTIONS, "option 'directions': There are no %d in dimension %d.",
                                 asked, job->scene->dim);
         return support_fail(job->diag, FROE_E_UNSUPPORTED, "Method 'bar' has no directions for coordinates of %g.",
                             largest_coordinate(job->scene));
     }
-    b->share = job->scene->dim == 2 ? 0.67 : 0.75;
+    b->share = job->scene->dim == 3 ? 0.75 : 0.67;
     b->rule.aspect = job->option[ASPECT] * (1 - 0x1p-30); /* pays for all rounding */
+    if (b->zones) b->rule.aspect /= sqrt(2);              /* differences of coordinates, beside distances */
     b->rule.through = !b->points;
     b->rule.floor = SMALLEST * 0x1p-60;
     b->k = (uint32_t)job->option[K];
     b->stop = (uint32_t)job->option[STOP];
-    if (!b->cubes) bar_guards_make(&b->rule.directions, (bar_guard_kind)job->option[GUARDS], &b->guards);
+    const bool rays = !b->cubes && !b->zones;
+    if (rays) bar_guards_make(&b->rule.directions, (bar_guard_kind)job->option[GUARDS], &b->guards);
     /* a cube that has all guards inside */
     const froe_scene *scene = b->job->scene;
     const int dim = scene->dim;
     guard_cube box, root;
     memcpy(box.lo, scene->lo, sizeof box.lo);
     memcpy(box.hi, scene->hi, sizeof box.hi);
-    for (uint32_t i = 0; i < scene->object_count && !b->cubes && !b->points; i++) {
+    for (uint32_t i = 0; i < scene->object_count && rays && !b->points; i++) {
         double guards[BAR_GUARDS_MOST * 3];
         const uint32_t count = bar_guards_of(&b->guards, scene, i, guards) * (uint32_t)dim;
         for (uint32_t j = 0; j < count; j++) {
@@ -318,6 +408,7 @@ static froe_status prepare_bar(bar *b) {
     }
     guard_root(&box, dim, &root);
     b->root = bar_region_of(dim, root.lo, root.hi);
+    if (b->zones) b->root_zone = bar_zone_of(dim, root.lo, root.hi);
     memcpy(b->job->meta.root_lo, root.lo, (size_t)dim * sizeof(double));
     memcpy(b->job->meta.root_hi, root.hi, (size_t)dim * sizeof(double));
     return FROE_OK;
@@ -338,7 +429,7 @@ static froe_status build_bar(build_job *job, froe_tree **out) {
     split_method method = {.config = &b,
                            .choose = choose_bar_cut,
                            .finish = finish_bar_cell,
-                           .room = sizeof(bar_region),
+                           .room = b.zones ? sizeof(bar_zone) : sizeof(bar_region),
                            .divided = divided,
                            .note = note_bar,
                            .scratch_new = scratch_new,
@@ -353,7 +444,7 @@ const build_method build_method_bar = {
     .info = {.name = "bar",
              .summary = "fat cells in a low tree: for ranges of any shape, exact or approximate",
              .source = "Duncan, Goodrich and Kobourov 1999; de Berg and Streppel, theorem 3",
-             .guarantee = "2D, 3D: cells of bounded aspect; points: height O(log n); objects: O(lambda) a cell",
+             .guarantee = "cells of bounded aspect; points: height O(log n); objects: O(lambda) a cell",
              .kinds = BUILD_SERVES(BUILD_DIMS_ALL, BUILD_KINDS_ALL),
              .options = options},
     .tunable = true,

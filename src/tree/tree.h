@@ -141,7 +141,8 @@ froe_status tree_take_arrays(froe_tree *tree);
 froe_status tree_finish(froe_tree *tree);
 /** Measures what a promise of that name is about, on a finished tree: height, size, fragments, leaf_load (most
  * pieces in a leaf), guard_leaves (cells of the guard stage), guard_fragments (over those cells and the stage's own
- * cuts). FROE_E_UNSUPPORTED for other names; FROE_E_MEMORY. */
+ * cuts), aspect (of its cells, above dimension 3: audit/aspect.h). FROE_E_UNSUPPORTED for other names;
+ * FROE_E_MEMORY. */
 froe_status tree_measure(const froe_tree *tree, const char *name, double *out);
 /** Replaces the promise of a name, for a value that a builder finds while it builds. */
 void tree_promise_anew(froe_tree *tree, const char *name, double promised);

@@ -1,6 +1,7 @@
 /* zone.c: shortest paths. */
 #include "build/bar/zone.h"
 #include "num/pair.h"
+#include "support/arithmetic.h"
 #include <math.h>
 
 /* e_i - e_j for i < j, by rows (i, j) in order. */
@@ -54,6 +55,8 @@ void zone_shape_of(const bar_zone *zone, int dim, const double *origin, zone_sha
             if (width > s->widest) s->widest = width;
             if (width < s->narrowest) s->narrowest = width;
         }
+    s->reach = 0;
+    for (int k = 0; k < dim; k++) s->reach = fmax(s->reach, fabs(origin[k]) + s->widest);
 }
 
 double zone_shape_widest_below(const zone_shape *s, int i, int j, double value) {
@@ -77,8 +80,8 @@ froe_cut zone_shape_cut(const zone_shape *s, int i, int j, double value) {
     return (froe_cut){.kind = FROE_CUT_PLANE, .value = global, .normal = differences[i][j]};
 }
 
-/** Makes the centre that of a shape: the mean of dim + 1 points, in the k-th of which y_i - y_k is as large as it can be
- * for each i. So it is a share 1 / (dim + 1) of each width away from each facet at least. */
+/** Makes the centre that of a shape: the mean of dim + 1 points, in the k-th of which y_i - y_k is as large as it can
+ * be for each i. So it is a share 1 / (dim + 1) of each width away from each facet at least. */
 static void find_centre(bar_zone *zone, const zone_shape *s) {
     for (int i = 0; i < s->dim; i++) {
         double sum = 0;

@@ -20,20 +20,27 @@
 
 enum { ZONE_NODES = FROE_MAX_DIM + 1 };
 
+/** Points within `radius` of the middle on each axis; less than 0: not yet known. */
+typedef struct zone_cluster {
+    double middle[FROE_MAX_DIM], radius;
+} zone_cluster;
+
 /** What cuts and the root say of a cell, in their own doubles. */
 typedef struct bar_zone {
     double most[ZONE_NODES][ZONE_NODES]; /**< INFINITY: there is no such facet */
     double centre[FROE_MAX_DIM];         /**< rounded */
-    uint32_t goal, cuts; /**< this many points at most are to be left in it, and how many cuts that has taken so far */
+    uint32_t goal, cuts;  /**< this many points at most are to be left in it, how many cuts that has taken so far, */
+    zone_cluster cluster; /**< and which points are in the way */
 } bar_zone;
 
-/** The same as geometry, tight, seen from one of its points. Nothing cancels in sums of such bounds: each is good to 2^-48 of
- * itself, as far as it is above 2^-100 of the coordinates. */
+/** The same as geometry, tight, seen from one of its points. Nothing cancels in sums of such bounds: each is good to
+ * 2^-48 of itself, as far as it is above 2^-100 of the coordinates. */
 typedef struct zone_shape {
     int dim;
     double origin[FROE_MAX_DIM];
     double most[ZONE_NODES][ZONE_NODES]; /**< of y_i - y_j, for y = x - origin; >= 0 */
     double widest, narrowest;
+    double reach; /**< no coordinate is larger, about */
 } zone_shape;
 
 /** The zone of a box. */

@@ -4,8 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#define FLOOR 0x1p-40 /* cells narrower than this share of their coordinates have no doubles between them */
-#define EASY 0.5      /* of the aspect, for cuts at medians, where that is enough */
+#define FLOOR 0x1p-40    /* cells narrower than this share of their coordinates have no doubles between them */
+#define ROUNDING 0x1p-51 /* of a cut, as a share of the coordinates, at most */
+#define EASY 0.5         /* of the aspect, for cuts at medians, where that is enough */
 enum { FATTENINGS = 64 };
 
 /** Keep y_i - y_j <= value. */
@@ -16,10 +17,14 @@ typedef struct zone_candidate {
     uint32_t larger; /* points in the fuller part */
 } zone_candidate;
 
-typedef struct zone_cluster {
-    double most[ZONE_NODES][ZONE_NODES]; /* of y_i - y_j of its points */
-    double radius;
-} zone_cluster;
+typedef struct zone_extent {
+    double most[ZONE_NODES][ZONE_NODES]; /* of y_i - y_j of the points of the cluster */
+} zone_extent;
+
+/** The least width that a cut may leave of a part of this width. */
+static double thin(const zone_shape *s, double width, double aspect) {
+    return width / aspect + ROUNDING * s->reach;
+}
 
 static double key_of(const double *row, int i, int j, int dim) {
     return row[i] - (j < dim ? row[j] : 0);
@@ -30,7 +35,7 @@ static double key_of(const double *row, int i, int j, int dim) {
 /** The cut at the median of a direction, or at the nearest place that leaves both parts fat. i -1: there is none. */
 static zone_candidate median_candidate(zone_search *z, uint32_t count, int i, int j, double aspect) {
     const zone_shape *s = &z->shape;
-    const double thin = s->widest / aspect, lo = thin - s->most[j][i], hi = s->most[i][j] - thin;
+    const double room = thin(s, s->widest, aspect), lo = room - s->most[j][i], hi = s->most[i][j] - room;
     zone_candidate c = {.i = -1, .j = j, .width = zone_shape_width(s, i, j)};
     if (!(lo <= hi)) return c;
     const double *row = z->rows.data;
@@ -75,74 +80,80 @@ static double distance_from(const double *row, const double *middle, int dim) {
 }
 
 /** The median of each axis. */
-static void find_middle(zone_search *z, uint32_t count, int dim, double *middle) {
+static void find_middle(zone_search *z, uint32_t count, int dim) {
     for (int k = 0; k < dim; k++) {
         const double *x = z->rows.data + k;
         for (uint32_t p = 0; p < count; p++, x += dim) z->column.data[p] = *x;
-        middle[k] = base_select(z->column.data, count, count / 2);
+        z->cluster.middle[k] = base_select(z->column.data, count, count / 2);
     }
 }
 
 /** Moves the origin to the point that is nearest to the middle: what lies near that is not lost in rounding. */
 static void see_from_middle(zone_search *z, const bar_zone *zone, uint32_t count, int dim) {
-    double middle[FROE_MAX_DIM], origin[FROE_MAX_DIM], least = INFINITY, *row = z->rows.data;
-    find_middle(z, count, dim, middle);
+    double origin[FROE_MAX_DIM], least = INFINITY, *row = z->rows.data, *nearest = row;
     for (uint32_t p = 0; p < count; p++, row += dim) {
-        const double distance = distance_from(row, middle, dim);
-        if (distance < least) least = distance, memcpy(origin, row, (size_t)dim * sizeof *row);
+        const double distance = distance_from(row, z->cluster.middle, dim);
+        if (distance < least) least = distance, nearest = row;
     }
+    memcpy(origin, nearest, (size_t)dim * sizeof *origin);
     row = z->rows.data;
     for (uint32_t p = 0; p < count; p++, row += dim)
         for (int k = 0; k < dim; k++) row[k] -= origin[k];
     zone_shape_of(zone, dim, origin, &z->shape);
 }
 
-/** The points nearest to the middle, just more than the goal. Every set of as many points, at least half of all, has
- * the middle within its bounds; so none is in a box with sides of less than the radius. */
-static void find_cluster(zone_search *z, uint32_t count, uint32_t goal, zone_cluster *c) {
+/** Bounds the points of the cluster: those nearest to the middle, just more than the goal, when a sequence begins.
+ * Every set of as many points, at least half of all, has the middle within its bounds; so none is in a box with sides
+ * of less than the radius. Returns how many of them are still there. */
+static uint32_t find_extent(zone_search *z, uint32_t count, uint32_t goal, zone_extent *e) {
     const int dim = z->shape.dim;
-    double middle[FROE_MAX_DIM], *column = z->column.data;
-    const double *row;
-    find_middle(z, count, dim, middle);
-    row = z->rows.data;
-    for (uint32_t p = 0; p < count; p++, row += dim) column[p] = distance_from(row, middle, dim);
-    c->radius = base_select(column, count, goal);
+    double middle[FROE_MAX_DIM];
+    uint32_t members = 0;
+    const double *row = z->rows.data;
+    for (int k = 0; k < dim; k++) middle[k] = z->cluster.middle[k] - z->shape.origin[k];
+    for (uint32_t p = 0; p < count; p++, row += dim) z->column.data[p] = distance_from(row, middle, dim);
+    if (z->cluster.radius < 0) z->cluster.radius = base_select(z->column.data, count, goal) * (1 + 0x1p-40);
     for (int i = 0; i <= dim; i++)
-        for (int j = 0; j <= dim; j++) c->most[i][j] = i == j ? 0 : -INFINITY;
+        for (int j = 0; j <= dim; j++) e->most[i][j] = i == j ? 0 : -INFINITY;
     row = z->rows.data;
     for (uint32_t p = 0; p < count; p++, row += dim) {
-        if (distance_from(row, middle, dim) > c->radius) continue;
+        if (distance_from(row, middle, dim) > z->cluster.radius) continue;
+        members++;
         for (int i = 0; i < dim; i++)
             for (int j = i + 1; j <= dim; j++) {
                 const double key = key_of(row, i, j, dim);
-                c->most[i][j] = fmax(c->most[i][j], key);
-                c->most[j][i] = fmax(c->most[j][i], -key);
+                e->most[i][j] = fmax(e->most[i][j], key);
+                e->most[j][i] = fmax(e->most[j][i], -key);
             }
     }
+    return members;
 }
 
 /** The least value from c->value on that leaves a fat part below; its width. */
 static void fatten(const zone_shape *s, double aspect, zone_candidate *c) {
     for (int n = 0; n < FATTENINGS; n++) {
         c->width = zone_shape_widest_below(s, c->i, c->j, c->value);
-        const double least = c->width / aspect - s->most[c->j][c->i];
+        const double least = thin(s, c->width, aspect) - s->most[c->j][c->i];
         if (c->value >= least) return;
         c->value = least + 0x1p-40 * c->width;
     }
 }
 
-static zone_candidate halve(const zone_shape *s) {
+/** The middle of the widest direction; or beside a cluster that is in the way, and small. */
+static zone_candidate halve(const zone_shape *s, const zone_extent *cluster, double pad) {
     zone_candidate c = {.width = -1};
     for (int i = 0; i < s->dim; i++)
         for (int j = s->dim; j > i; j--)
             if (zone_shape_width(s, i, j) > c.width)
                 c = (zone_candidate){i, j, 0.5 * s->most[i][j] - 0.5 * s->most[j][i], zone_shape_width(s, i, j), 0};
+    const double hi = cluster->most[c.i][c.j] + pad, lo = -cluster->most[c.j][c.i] - pad;
+    if (lo < c.value && c.value < hi && hi - lo < 0.25 * c.width) c.value = hi;
     return c;
 }
 
 /** A cut that has the whole cluster on one side, or through the middle of the zone. */
-static zone_candidate cut_at_cluster(const zone_shape *s, const zone_cluster *cluster, double pad, double aspect) {
-    const double thin = s->widest / aspect;
+static zone_candidate cut_at_cluster(const zone_shape *s, const zone_extent *cluster, double pad, double aspect) {
+    const double room = thin(s, s->widest, aspect);
     zone_candidate zoom = {.i = -1}, border = {.i = -1};
     double deepest = 0;
     for (int i = 0; i <= s->dim; i++)
@@ -151,12 +162,12 @@ static zone_candidate cut_at_cluster(const zone_shape *s, const zone_cluster *cl
             zone_candidate c = {.i = i, .j = j, .value = cluster->most[i][j] + pad};
             const double before = s->most[j][i] - cluster->most[j][i], beyond = s->most[i][j] - cluster->most[i][j];
             const double depth = fmin(before, beyond);
-            if (beyond >= before && depth - pad >= thin && depth > deepest) deepest = depth, border = c;
+            if (beyond >= before && depth - pad >= room && depth > deepest) deepest = depth, border = c;
             fatten(s, aspect, &c);
-            if (s->most[i][j] - c.value >= thin && (zoom.i < 0 || c.width < zoom.width)) zoom = c;
+            if (s->most[i][j] - c.value >= room && (zoom.i < 0 || c.width < zoom.width)) zoom = c;
         }
     if (zoom.i >= 0 && zoom.width <= 0.5 * s->widest) return zoom;
-    return border.i >= 0 ? border : halve(s);
+    return border.i >= 0 ? border : halve(s, cluster, pad);
 }
 
 /* -------------------------------------------------------------------- both -- */
@@ -164,17 +175,19 @@ static zone_candidate cut_at_cluster(const zone_shape *s, const zone_cluster *cl
 bar_found zone_search_cut(const froe_allocator *alloc, zone_search *z, const bar_zone *zone, int dim, uint32_t count,
                           uint32_t goal, double aspect, froe_cut *out) {
     const zone_shape *s = &z->shape;
-    double reach = 0;
+    const bool begins = zone->goal != goal;
     z->column.count = 0;
     if (!array_reserve(alloc, &z->column, count)) return BAR_MEMORY;
+    z->cluster = begins ? (zone_cluster){.radius = -1} : zone->cluster;
+    if (begins) find_middle(z, count, dim);
     see_from_middle(z, zone, count, dim);
-    for (int k = 0; k < dim; k++) reach = fmax(reach, fabs(s->origin[k]) + s->widest);
-    if (!(s->narrowest > FLOOR * reach)) return BAR_NONE;
+    if (!(s->narrowest > FLOOR * s->reach)) return BAR_NONE;
     zone_candidate c;
     if (!find_median(z, count, goal, EASY * aspect, &c) && !find_median(z, count, goal, aspect, &c)) {
-        zone_cluster cluster;
-        find_cluster(z, count, goal, &cluster);
-        c = cut_at_cluster(s, &cluster, 0.5 * fmax(cluster.radius, FLOOR * reach), aspect);
+        zone_extent extent;
+        const bool whole = find_extent(z, count, goal, &extent) > goal;
+        const double pad = 0.5 * fmax(z->cluster.radius, FLOOR * s->reach);
+        c = whole ? cut_at_cluster(s, &extent, pad, aspect) : halve(s, &extent, pad);
     }
     *out = zone_shape_cut(s, c.i, c.j, c.value);
     return BAR_CUT;

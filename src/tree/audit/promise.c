@@ -3,6 +3,7 @@
  * The guard stage is the connected top part of the tree whose nodes carry TREE_GUARD; what hangs
  * below it are its cells. A convex object has one fragment in a cell, whatever the refinement
  * of the cell cut it into, so the fragments of a cell are the different objects in its slice. */
+#include "tree/audit/aspect.h"
 #include "tree/list.h"
 #include "tree/walk.h"
 #include <string.h>
@@ -55,6 +56,8 @@ froe_status tree_measure(const froe_tree *t, const char *name, double *out) {
         for (uint32_t i = 0; i < t->node_count; i++) *out += in_guard_stage(t, i);
     } else if (!strcmp(name, "guard_fragments")) {
         return guard_fragments(t, out);
+    } else if (!strcmp(name, "aspect") && t->scene->dim > 3) {
+        return tree_aspect(t, out);
     } else {
         return FROE_E_UNSUPPORTED;
     }
