@@ -5,6 +5,8 @@
 #include "readers.h"
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -41,6 +43,7 @@ typedef struct map {
     heard heard;
     GDALDatasetH data;
     io_shapes shapes;
+    bool container;  /* a folder or an archive */
     OGRLayerH layer; /* the fields below belong to it */
     const char *layer_name;
     int name_field, id_field, layer_field; /* -1: none */
@@ -52,6 +55,33 @@ static froe_status map_fail(map *m, froe_status status, const char *sentence) {
     if (m->heard.failed && *m->heard.text)
         return support_fail(m->sink->diag, status, "%s: OGR reports '%.120s'.", path, m->heard.text);
     return support_fail(m->sink->diag, status, "%s: %s", path, sentence);
+}
+
+/* Names for a message, as many as fit. */
+typedef struct name_list {
+    char text[128];
+    size_t used, count;
+} name_list;
+
+static void put_name(name_list *names, const char *name) {
+    const size_t room = sizeof names->text - names->used;
+    const int length = snprintf(names->text + names->used, room, "%s%s", names->count++ ? ", " : "", name);
+    if (length > 0) names->used += (size_t)length < room ? (size_t)length : room - 1;
+}
+
+/* Says that nothing in it is a map; an archive is looked into. */
+static froe_status refuse_content(map *m, const char *name) {
+    char **files = m->container && !m->source->beyond ? VSIReadDir(name) : NULL;
+    name_list names = {.count = 0};
+    for (char **file = files; file && *file; file++) put_name(&names, *file);
+    CSLDestroy(files);
+    if (names.count)
+        return support_fail(m->sink->diag, FROE_E_FORMAT,
+                            "%.60s: No single map is in it, but: %s. One of them is named %.60s/NAME.",
+                            support_short(m->source->path), names.text, name);
+    if (m->container && m->source->beyond)
+        return map_fail(m, FROE_E_FORMAT, "It is a directory, and no map that can be read as a whole is in it.");
+    return map_fail(m, FROE_E_FORMAT, "The file is of no type that can be read.");
 }
 
 static int find_field(OGRFeatureDefnH fields, const char *const *names) {
@@ -149,16 +179,15 @@ static froe_status add_layers(map *m) {
     const char *wanted = m->source->options->layer;
     OGRLayerH one = wanted ? GDALDatasetGetLayerByName(m->data, wanted) : NULL;
     const int layers = GDALDatasetGetLayerCount(m->data);
-    if (wanted && !one) {
-        char names[128] = "";
-        size_t used = 0;
-        for (int i = 0; i < layers && used < sizeof names; ++i) {
-            const char *name = OGR_L_GetName(GDALDatasetGetLayer(m->data, i));
-            const int wrote = snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", name);
-            used += wrote > 0 ? (size_t)wrote : 0;
-        }
-        return support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: There is no layer '%.40s'. There are: %s.",
-                            support_short(m->source->path), wanted, names);
+    const bool several = !wanted && m->container && layers > 1; /* files that have nothing to do with each other */
+    if (several || (wanted && !one)) {
+        name_list names = {.count = 0};
+        for (int i = 0; i < layers; ++i) put_name(&names, OGR_L_GetName(GDALDatasetGetLayer(m->data, i)));
+        return several ? support_fail(m->sink->diag, FROE_E_OPTIONS,
+                                      "%.60s: A layer must be named, because there are several: %s.",
+                                      support_short(m->source->path), names.text)
+                       : support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: There is no layer '%.40s'. There are: %s.",
+                                      support_short(m->source->path), wanted, names.text);
     }
     /* the layers of a topology are views of the same arcs: all of them would be the same lines again */
     if (!one && layers && !strcmp(m->sink->report.format, "TopoJSON")) one = GDALDatasetGetLayer(m->data, 0);
@@ -175,22 +204,41 @@ static froe_status add_layers(map *m) {
     return status;
 }
 
+/* A file within others is named by the virtual file systems of GDAL; `inner` becomes the extension that counts. */
+static const char *gdal_name(const formats_source *source, support_extension *inner) {
+    static const char *const systems[][2] = {
+        {"zip", "/vsizip/%s"}, {"gz", "/vsigzip/%s"}, {"tar", "/vsitar/%s"}, {"tgz", "/vsitar/%s"}, {NULL, "%s"}};
+    size_t i = 0;
+    *inner = source->extension;
+    while (systems[i][0] && (source->beyond || strcmp(systems[i][0], inner->text) != 0)) i++;
+    if (systems[i][0] && !strcmp(inner->text, "gz")) { /* map.csv.gz */
+        char name[64];
+        const size_t length = strlen(source->file) - strlen(".gz"), from = length < 32 ? 0 : length - 32;
+        snprintf(name, sizeof name, "%.*s", (int)(length - from), source->file + from);
+        *inner = support_path_extension(name);
+    }
+    return CPLSPrintf(systems[i][1], source->file);
+}
+
 froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     /* columns with geometry have many names */
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
     static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
                                          "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
-    const bool is_csv = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
+    support_extension extension;
+    const char *name = gdal_name(source, &extension);
+    const bool is_csv = !strcmp(extension.text, "csv") || !strcmp(extension.text, "tsv");
     map m = {.source = source, .sink = sink, .heard.path = source->file};
+    m.container = source->beyond ? strncmp(name, "/vsi", 4) != 0 : strcmp(name, source->file) != 0;
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);
     if (status) return status;
     CPLPushErrorHandlerEx(hear, &m.heard);
     pthread_once(&once, register_drivers);
-    m.data = GDALOpenEx(source->file, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
+    m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
                         is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
-    if (!m.data) status = map_fail(&m, FROE_E_FORMAT, "The file is of no type that can be read.");
+    if (!m.data) status = refuse_content(&m, name);
     if (!status) {
         formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
         status = add_layers(&m);

@@ -93,18 +93,24 @@ void formats_report_format(formats_sink *sink, const char *precision, const char
     snprintf(sink->report.precision, sizeof sink->report.precision, "%s", precision);
 }
 
+/* Is it a folder, or a name in the virtual file systems of GDAL? */
+static bool is_beyond(const char *path) {
+    struct stat about;
+    return !strncmp(path, "/vsi", 4) || (!stat(path, &about) && S_ISDIR(about.st_mode));
+}
+
 /* Fills the sink and takes the scene from it. Only maps have layers and attributes: a filter of another file is
  * refused, rather than ignored. */
 static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, const formats_source *source,
                               formats_sink *sink, froe_scene **out) {
     const char *name = support_short(source->path);
     const froe_read_options *o = source->options;
-    if (froe_is_tree(source->file))
+    if (!source->beyond && froe_is_tree(source->file))
         return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The file holds a tree, not a scene.", name);
     if (formats_is_moving(source))
         return support_fail(sink->diag, FROE_E_UNSUPPORTED,
                             "%s: The file holds moving features, which are no scene at rest.", name);
-    formats_reader *reader = choose(source);
+    formats_reader *reader = source->beyond ? maps : choose(source);
     if (!reader)
         return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The file is neither CSV nor OFF, OBJ or PLY.", name);
     if (reader != maps && (o->layer || o->where))
@@ -147,8 +153,9 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
                          .user = o->user};
     support_locale locale;
     if (!support_locale_enter(&locale)) return support_fail_memory(diag);
-    formats_source source;
-    froe_status status = formats_source_open(path, o, &source, diag);
+    formats_source source = {.file = path, .path = sink.path, .options = o, .beyond = maps && is_beyond(path)};
+    source.extension = support_path_extension(path);
+    froe_status status = source.beyond ? FROE_OK : formats_source_open(path, o, &source, diag);
     if (!status) status = fill_scene(choose, maps, &source, &sink, out);
     formats_sink_free(&sink);
     support_locale_leave(&locale);

@@ -10,6 +10,7 @@ typedef struct formats_source {
     const char *file; /**< the path */
     const char *path; /**< what messages call it */
     support_extension extension;
+    bool beyond;         /**< no file: a folder, or a name of the reader of maps (/vsi...); size and head are empty */
     uint64_t size;       /**< bytes */
     char head[4096 + 1]; /**< the first bytes behind a byte order mark, and a NUL */
     const froe_read_options *options;

@@ -1,6 +1,7 @@
 /* Plane maps: the same features through every format of OGR that can be written here,
  * and by hand those that cannot; order, names, sides, curves, and what is counted. */
 #include "support.h"
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_api.h>
 #include <unistd.h>
@@ -260,6 +261,31 @@ static void nested_collections_are_no_recursion(void **state) {
     froe_scene_free(scene);
 }
 
+/* A folder of Shapefiles, one or two of them. */
+static void write_folder(const char *path, bool roads) {
+    VSIRmdirRecursive(path);
+    GDALDatasetH data = new_data("ESRI Shapefile", path);
+    add_feature(new_layer(data, wkbPolygon, true, NULL), shapes[0], names[0]);
+    if (roads)
+        add_feature(GDALDatasetCreateLayer(data, "roads", NULL, wkbLineString, NULL), "LINESTRING (0 0,1 0,2 1)", NULL);
+    GDALClose(data);
+}
+
+static void a_folder_of_several_layers_needs_the_name_of_one(void **state) {
+    (void)state;
+    write_folder("alone", false);
+    froe_scene *scene = read_scene("alone", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 8);
+    froe_scene_free(scene);
+    write_folder("both", true);
+    refuse("both", FROE_E_OPTIONS, "both: A layer must be named, because there are several: places, roads.");
+    froe_read_options options = froe_read_defaults();
+    options.layer = "roads";
+    scene = read_with("both", &options, NULL);
+    assert_int_equal(froe_scene_object_count(scene), 2);
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polygons_come_through_every_format),
@@ -272,6 +298,7 @@ int main(void) {
         cmocka_unit_test(coordinates_are_taken_exactly),
         cmocka_unit_test(every_feature_can_be_its_box),
         cmocka_unit_test(nested_collections_are_no_recursion),
+        cmocka_unit_test(a_folder_of_several_layers_needs_the_name_of_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

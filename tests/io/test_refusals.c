@@ -11,7 +11,7 @@ static void missing_files_and_folders_are_refused(void **state) {
     (void)state;
     refuse("nowhere.geojson", FROE_E_IO, "nowhere.geojson: The file cannot be read: No such file or directory.");
     mkdir("folder.glb", 0777);
-    refuse("folder.glb", FROE_E_IO, "folder.glb: It is a directory");
+    refuse("folder.glb", FROE_E_FORMAT, "folder.glb: It is a directory, and no map");
     refuse("/dev/null", FROE_E_IO, "/dev/null: It is a device");
     if (geteuid() == 0) return; /* root reads everything */
     write_text("secret.csv", "x,y\n1,2\n");
