@@ -1,7 +1,7 @@
 /* claims.h: claims of the sources, each with a number that can be measured and the range it must lie in. */
 #ifndef FROE_BENCH_CLAIMS_H
 #define FROE_BENCH_CLAIMS_H
-#include "bench.h"
+#include "../bench.h"
 
 typedef struct claim {
     const char *source;   /**< paper and theorem */
