@@ -1,94 +1,306 @@
-/* claims_motion.c: what Agarwal, Erickson and Guibas say of partitions that follow moving segments. */
+/* motion.c: Agarwal, Erickson and Guibas, section 3: partitions that follow moving segments. */
 #include "claims.h"
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
+/* -------------------------------------------------------------------- scenes -- */
+
+/** Segments that go straight from one place to another in the window 0 .. 1: 8 numbers each, x and y of both ends
+ * before and after. */
+static froe_motion *straight(const double *ends, size_t n) {
+    froe_diagnostic diag = {0};
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    size_t *starts = bench_take(2 * n + 1, sizeof *starts);
+    double *times = bench_take(4 * n, sizeof *times), *coords = bench_take(8 * n, sizeof *coords);
+    for (size_t v = 0; v < 2 * n; v++) {
+        const double *before = ends + 8 * (v / 2) + 2 * (v % 2), *after = before + 4;
+        starts[v + 1] = 2 * v + 2;
+        times[2 * v] = 0, times[2 * v + 1] = 1;
+        for (int k = 0; k < 2; k++) coords[4 * v + (size_t)k] = before[k], coords[4 * v + 2 + (size_t)k] = after[k];
+    }
+    w.begin = 0, w.end = 1;
+    b.vertex_count = 2 * n, b.starts = starts, b.times = times, b.coords = coords, b.count = n;
+    bench_must(froe_motion_new(&w, NULL, &motion, &diag), &diag);
+    bench_must(froe_motion_add(motion, &b, &diag), &diag);
+    free(starts), free(times), free(coords);
+    return motion;
+}
+
+static void put_moving(double *out, double x, double y, double dx, double dy, double go_x, double go_y) {
+    const double numbers[8] = {x, y, x + dx, y + dy, x + go_x, y + go_y, x + dx + go_x, y + dy + go_y};
+    for (int k = 0; k < 8; k++) out[k] = numbers[k];
+}
+
+/** n - m long segments above one another, and m short ones below that pass one another; the short ones come first. */
+static froe_motion *passing(size_t n, size_t m) {
+    double *ends = bench_take(8 * n, sizeof *ends);
+    uint64_t state = 1;
+    for (size_t i = 0; i < n; i++) {
+        const double t = ((double)i + 0.5) / (double)n, e = 0.01 * bench_unit(&state) / (double)n;
+        if (i < m)
+            put_moving(ends + 8 * i, bench_unit(&state), -1 + 0.9 * t, 0.1 / (double)n, e, bench_unit(&state) - 0.5, 0);
+        else
+            put_moving(ends + 8 * i, -2 - t, 1 + t, 5 + 2 * t, e, 0, 0);
+    }
+    froe_motion *motion = straight(ends, n);
+    free(ends);
+    return motion;
+}
+
+/** Half of all pass. */
+static froe_motion *half_passing(size_t n) {
+    return passing(n, n / 2);
+}
+
+/** n - m short segments that stand still, and m that pass below all of them at speeds of their own. */
+static froe_motion *sweeping(size_t n, size_t m) {
+    double *ends = bench_take(8 * n, sizeof *ends);
+    uint64_t state = 1;
+    for (size_t i = 0; i < n; i++) {
+        const double t = ((double)i + 0.5) / (double)n, e = 0.01 / (double)n;
+        const double x = bench_unit(&state), go = i < m ? 1.5 + bench_unit(&state) : 0;
+        put_moving(ends + 8 * i, i < m ? x - 1.1 : x, i < m ? t - 1 : t, 3 * e, e * bench_unit(&state), go, 0);
+    }
+    froe_motion *motion = straight(ends, n);
+    free(ends);
+    return motion;
+}
+
+/** A lattice of level and upright segments, and another above it that passes over. Each begins with what lies farthest
+ * from the other: in this order the walls of all crossings reach those of the other lattice. */
+static froe_motion *lattices(size_t n) {
+    const size_t quarter = n / 4;
+    double *ends = bench_take(8 * n, sizeof *ends);
+    uint64_t state = 1;
+    for (size_t k = 0; k < n; k++) {
+        const double t = ((double)(k % quarter) + 0.5) / (double)quarter,
+                     e = 0.2 * bench_unit(&state) / (double)quarter;
+        const bool upright = k < n / 2, above = k / quarter % 2;
+        const double side = above ? 1 : -1, go = above ? 1.5 : 0, from = above ? -0.75 : 0;
+        if (upright)
+            put_moving(ends + 8 * k, from + t + e, side * 0.9, e, side * 1.2, go, 0);
+        else
+            put_moving(ends + 8 * k, from - 0.1, side * (2 - t) + 0.1 * e, 1.2, 0.1 * e, go, 0);
+    }
+    froe_motion *motion = straight(ends, n);
+    free(ends);
+    return motion;
+}
+
+/** One segment that turns through the vertical, and n - 1 that cross it. */
+static froe_motion *turning(size_t n) {
+    double *ends = bench_take(8 * n, sizeof *ends);
+    const double turn[8] = {-0.1, -1, 0.1, 1, 0.1, -1, -0.1, 1};
+    uint64_t state = 1;
+    for (size_t i = 0; i < n; i++)
+        put_moving(ends + 8 * i, -1 - 0.5 * bench_unit(&state), 0.9 * (2 * ((double)i + 0.5) / (double)n - 1),
+                   2 + 0.5 * bench_unit(&state), 0.1 * bench_unit(&state) / (double)n, 0, 0);
+    for (int k = 0; k < 8; k++) ends[k] = turn[k];
+    froe_motion *motion = straight(ends, n);
+    free(ends);
+    return motion;
+}
+
+/* --------------------------------------------------------------------- rides -- */
+
 typedef struct ride {
-    size_t n;
+    double n;
     froe_kinetic_stats start, end;
-    uint64_t events;
+    double events;
     uint32_t height; /* the greatest seen */
 } ride;
 
-static void give_up(const froe_diagnostic *diag) {
-    fprintf(stderr, "claims: %s\n", diag->message);
-    exit(1);
-}
-
-static ride ride_along(const char *kind, size_t n, double time) {
+/** Follows a motion through its window. bare: in the order of the objects, not a random one. */
+static ride ride_along(froe_motion *motion, uint64_t seed, bool sorted, bool augmented, uint64_t epoch) {
     enum { STOPS = 8 };
-    froe_motion *motion = NULL;
+    const froe_motion_options window = froe_motion_window(motion);
+    const size_t n = froe_motion_object_count(motion);
+    uint32_t *order = bench_take(n, sizeof *order);
     froe_kinetic *kinetic = NULL;
-    const froe_kinetic_options options = froe_kinetic_defaults();
-    froe_diagnostic diag = {.message = ""};
-    froe_status status = froe_generate_motion(kind, n, 1, NULL, &motion, &diag);
-    if (!status) status = froe_kinetic_new(motion, &options, NULL, &kinetic, &diag);
-    if (status) give_up(&diag);
-    ride r = {.n = froe_motion_object_count(motion), .start = froe_kinetic_statistics(kinetic)};
+    froe_kinetic_options options = froe_kinetic_defaults();
+    froe_diagnostic diag = {0};
+    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)i;
+    options.seed = seed, options.order = sorted ? order : NULL, options.augmented = augmented;
+    options.epoch = epoch;
+    bench_must(froe_kinetic_new(motion, &options, NULL, &kinetic, &diag), &diag);
+    ride r = {.n = (double)n, .start = froe_kinetic_statistics(kinetic)};
+    r.height = r.start.height;
     for (int i = 1; i <= STOPS; i++) {
-        if (froe_kinetic_advance(kinetic, time * i / STOPS, NULL, NULL, &diag)) give_up(&diag);
+        const double time = window.begin + (window.end - window.begin) * i / STOPS;
+        bench_must(froe_kinetic_advance(kinetic, time, NULL, NULL, &diag), &diag);
         r.end = froe_kinetic_statistics(kinetic);
         if (r.end.height > r.height) r.height = r.end.height;
     }
-    for (int k = 0; k < FROE_EVENT_KINDS; k++) r.events += r.end.events[k];
+    for (int k = 0; k < FROE_EVENT_KINDS; k++) r.events += (double)r.end.events[k];
     froe_kinetic_free(kinetic);
-    froe_motion_free(motion);
+    free(order);
     return r;
 }
 
-typedef double value_fn(const ride *r);
-static double events(const ride *r) {
-    return (double)r->events;
-}
+/** What a measure follows: n doubled so many times. */
+typedef double ride_value(const ride *r);
+typedef struct course {
+    froe_motion *(*motion)(size_t n);
+    size_t from;
+    int doublings;
+    ride_value *value;
+} course;
+
 static double touched(const ride *r) {
-    return (double)(r->end.nodes_touched - r->start.nodes_touched) / (double)r->events;
+    return (double)(r->end.nodes_touched - r->start.nodes_touched);
 }
-static double certificates_made(const ride *r) {
-    return (double)(r->end.certificates_made - r->start.certificates_made) / (double)r->events;
+static double touched_an_event(const ride *r) {
+    return touched(r) / r->events;
 }
-static double certificates(const ride *r) {
-    return (double)r->end.certificates / (double)r->end.nodes;
+static double made_an_event(const ride *r) {
+    return (double)(r->end.certificates_made - r->start.certificates_made) / r->events;
+}
+static double certificates_over_n(const ride *r) {
+    return (double)r->start.certificates / r->n;
+}
+static double nodes_over_n(const ride *r) {
+    return (double)r->start.nodes / r->n;
+}
+static double events(const ride *r) {
+    return r->events;
+}
+static double high(const ride *r) {
+    return (double)r->height / log2(r->n);
 }
 
-static double growth(const char *kind, size_t from, int doublings, double time, value_fn *fn) {
+/** The mean of some random orders. */
+static claims_series follow(const course *c, bool sorted, uint64_t epoch) {
+    enum { ORDERS = 5 };
     claims_series s = {.count = 0};
-    for (int i = 0; i <= doublings; i++) {
-        const ride r = ride_along(kind, from << i, time);
-        claims_add(&s, (double)r.n, fn(&r));
+    for (int i = 0; i <= c->doublings; i++) {
+        double sum = 0, n = 0;
+        for (uint64_t seed = 1; seed <= ORDERS; seed++) {
+            froe_motion *motion = c->motion(c->from << i);
+            const ride r = ride_along(motion, seed, sorted, false, epoch);
+            sum += c->value(&r) / ORDERS, n = r.n;
+            froe_motion_free(motion);
+        }
+        claims_add(&s, n, sum);
+    }
+    return s;
+}
+
+/** Exponent in n; bare: in the order of the objects. */
+static double ride_growth(const claims_way *way, const void *of) {
+    const claims_series s = follow(of, way->bare, 0);
+    return claims_slope(&s);
+}
+/** The same; bare: the whole partition is made anew after each event. */
+static double repair_growth(const claims_way *way, const void *of) {
+    const claims_series s = follow(of, false, way->bare ? 1 : 0);
+    return claims_slope(&s);
+}
+/** Exponent of certificates an object in n; bare: of nodes. */
+static double certificate_growth(const claims_way *way, const void *of) {
+    const claims_series s =
+        follow(&(const course){half_passing, 32, 3, way->bare ? nodes_over_n : certificates_over_n}, false, 0);
+    (void)of;
+    return claims_slope(&s);
+}
+static double ride_most(const claims_way *way, const void *of) {
+    const claims_series s = follow(of, way->bare, 0);
+    double most = 0;
+    for (size_t i = 0; i < s.count; i++) most = fmax(most, s.y[i]);
+    return most;
+}
+
+/** Exponent of events in m, of m of 256 segments that move; bare: all move. */
+static double events_by_m(const claims_way *way, const void *of) {
+    enum { N = 256 };
+    claims_series s = {.count = 0};
+    (void)of;
+    for (size_t m = 16; m <= N / 2; m *= 2) {
+        froe_motion *motion = sweeping(N, way->bare ? N : m);
+        const ride r = ride_along(motion, 1, false, false, 0);
+        claims_add(&s, (double)m, r.events);
+        froe_motion_free(motion);
     }
     return claims_slope(&s);
 }
 
-static double event_count(void) {
-    return growth("moving", 50, 4, 1, events);
-}
-static double nodes_touched(void) {
-    return growth("moving", 50, 4, 1, touched);
-}
-static double made(void) {
-    return growth("moving", 50, 4, 1, certificates_made);
-}
-static double live(void) {
-    return growth("moving", 50, 4, 1, certificates);
-}
-static double height(void) {
+/** Exponent in k of the nodes touched when a segment that k others cross turns upright; the mean of orders. */
+static double touched_by_turns(const claims_way *way, const void *of) {
     claims_series s = {.count = 0};
-    for (size_t n = 50; n <= 800; n *= 2) {
-        const ride r = ride_along("moving", n, 1);
-        claims_add(&s, log((double)r.n), r.height);
+    (void)of;
+    for (size_t k = 8; k <= 256; k *= 2) {
+        double sum = 1; /* the turn itself */
+        for (uint64_t seed = 1; seed <= 16; seed++) {
+            froe_motion *motion = turning(k + 1);
+            const ride r = ride_along(motion, seed, false, !way->bare, 0);
+            sum += touched(&r) / 16;
+            froe_motion_free(motion);
+        }
+        claims_add(&s, (double)k, sum);
     }
     return claims_slope(&s);
 }
 
-const claim claims_motion[] = {{"Agarwal et al., theorem 3.7", "O(n^2) events of segments that move straight", NULL,
-                                "exponent of events in n, moving", 1, 2.2, event_count},
-                               {"Agarwal et al., lemmas 3.2, 3.3, 3.5", "O(log n) expected work an event", NULL,
-                                "exponent of nodes touched an event in n, moving", -INFINITY, 0.4, nodes_touched},
-                               {"Agarwal et al., lemma 3.1", "O(1) new certificates an event", NULL,
-                                "exponent of certificates made an event in n, moving", -INFINITY, 0.25, made},
-                               {"Agarwal et al., lemma 3.1", "O(n + k) certificates, linear in the size", NULL,
-                                "exponent of certificates / nodes in n, moving", -INFINITY, 0.1, live},
-                               {"Agarwal et al., theorem 2.3", "height O(log n) at all times", NULL,
-                                "exponent of height in log n, moving", 0.5, 1.5, height},
-                               {0}};
+const claim claims_motion[] = {
+    {.source = "Agarwal et al., theorem 3.7",
+     .says = "O(n^2 lambda_s(n)) events, however many crossings pass one another",
+     .measured = "exponent of events in n, 8 to 64 segments of two lattices",
+     .least = 1,
+     .most = 2.6,
+     .measure = ride_growth,
+     .of = &(const course){lattices, 8, 3, events},
+     .needs = "random order",
+     .without = {.bare = true}},
+    {.source = "Agarwal et al., theorem 3.7",
+     .says = "O(m n) events when m of n move",
+     .measured = "exponent of events in m, m = 16 .. 128 of 256",
+     .least = 0.6,
+     .most = 1.3,
+     .measure = events_by_m,
+     .needs = "segments that stand still: all move, whatever m",
+     .without = {.bare = true}},
+    {.source = "Agarwal et al., lemmas 3.2, 3.3, 3.5",
+     .says = "O(log n) expected work an event",
+     .measured = "exponent of nodes touched an event in n, half passing below the others",
+     .least = -INFINITY,
+     .most = 0.6,
+     .measure = ride_growth,
+     .of = &(const course){half_passing, 32, 3, touched_an_event},
+     .needs = "random order",
+     .without = {.bare = true}},
+    {.source = "Agarwal et al., lemma 3.6",
+     .says = "flips are free in the augmented partition",
+     .measured = "exponent in k of the nodes touched when a segment that k others cross turns upright, k = 8 .. 256",
+     .least = -INFINITY,
+     .most = 0.2,
+     .measure = touched_by_turns,
+     .needs = "walls named in the direction of their segment: left and right",
+     .without = {.bare = true}},
+    {.source = "Agarwal et al., lemma 3.1",
+     .says = "O(1) new certificates an event",
+     .measured = "exponent of certificates made an event in n, half passing below the others",
+     .least = -INFINITY,
+     .most = 0.25,
+     .measure = repair_growth,
+     .of = &(const course){half_passing, 16, 3, made_an_event},
+     .needs = "repair: the partition is made anew after each event",
+     .without = {.bare = true}},
+    {.source = "Agarwal et al., lemma 3.1",
+     .says = "O(n + k) certificates",
+     .measured = "exponent of certificates / n in n, half passing below the others (k = 0)",
+     .least = -INFINITY,
+     .most = 0.1,
+     .measure = certificate_growth,
+     .needs = "certificates for what can change: one for each node",
+     .without = {.bare = true}},
+    {.source = "Agarwal et al., theorem 2.3",
+     .says = "height O(log n) at all times",
+     .measured = "greatest height / log2 n, half passing below the others, 32 to 256 segments",
+     .least = 1,
+     .most = 6,
+     .measure = ride_most,
+     .of = &(const course){half_passing, 32, 3, high},
+     .needs = "random order",
+     .without = {.bare = true}},
+    {0}};

@@ -1,0 +1,194 @@
+/* berg.c: de Berg, "Linear size binary space partitions for uncluttered scenes". */
+#include "guarding.h"
+#include <math.h>
+
+static const claims_way by_density = {.method = "density"},
+                        unguarded = {.method = "density", .settings = "k=1000000000"};
+
+/* A guard stage alone, which is as deep as scenes are nested. */
+#define DEEP .method = "density", .settings = "k=1 stop=0 growth=0 height=0"
+
+static const claims_plan saddles[] = {
+    {.kinds = CLAIMS_KINDS("saddles"), .from = 64, .doublings = 3, .value = claims_pieces},
+    {.kinds = CLAIMS_KINDS("saddles apart"), .from = 64, .doublings = 3, .value = claims_pieces}};
+
+/* Balls smaller than every object. */
+static double small_range(const claims_tree *t) {
+    claims_asker a = claims_ask(t);
+    froe_diagnostic diag = {0};
+    for (int i = 0; i < CLAIMS_QUERIES; i++) {
+        double centre[FROE_MAX_DIM];
+        froe_range ball = froe_range_defaults();
+        froe_list list;
+        claims_place(&a, 0, centre);
+        ball.shape = FROE_SHAPE_BALL, ball.points = centre, ball.radius = 0;
+        for (int k = 0; k < a.dim; k++) ball.radius = fmax(ball.radius, 0x1p-20 * fabs(centre[k]));
+        ball.walk = t->way.bare ? FROE_WALK_PLAIN : FROE_WALK_AUTO;
+        bench_must(froe_query_range(a.query, &ball, &list, &diag), &diag);
+    }
+    const double cost = claims_asked(&a) / CLAIMS_QUERIES;
+    froe_query_free(a.query);
+    return cost;
+}
+
+/* Windows that meet k of m cells: the worst cost over k log2 m. */
+static double cells_met(const claims_tree *t) {
+    claims_asker a = claims_ask(t);
+    froe_diagnostic diag = {0};
+    double worst = 0;
+    for (int i = 0; i < CLAIMS_QUERIES; i++) {
+        double points[2 * FROE_MAX_DIM];
+        froe_range box = froe_range_defaults();
+        froe_list list;
+        claims_place(&a, 0, points);
+        for (int k = 0; k < a.dim; k++) {
+            const double p = points[k], wide = ldexp(fabs(p), -2 - i % 6);
+            points[k] = p - wide, points[a.dim + k] = p + wide;
+        }
+        box.points = points, box.walk = t->way.bare ? FROE_WALK_PLAIN : FROE_WALK_LCA;
+        bench_must(froe_query_range(a.query, &box, &list, &diag), &diag);
+        const froe_query_stats s = froe_query_statistics(a.query);
+        const double visited = (double)(s.nodes + s.leaves + s.steps), k = (double)s.leaves;
+        if (k > 0) worst = fmax(worst, visited / (k * log2((double)t->report.nodes)));
+    }
+    froe_query_free(a.query);
+    return worst;
+}
+
+const claim claims_berg[] = {
+    {.source = "de Berg, theorem 2.5",
+     .says = "linear size in uncluttered scenes of space",
+     .measured = "exponent of nodes + pieces in n; worst of cuboids, city, terrain",
+     .least = 0.9,
+     .most = 1.05,
+     .measure = claims_growth,
+     .of = CLAIMS_PLAN(("cuboids", "city", "terrain"), 1000, 3, claims_size),
+     .with = by_density,
+     .needs = "guards: cuts along the objects in any order",
+     .without = {.method = "sorted"}},
+    {.source = "de Berg, theorem 2.5",
+     .says = "linear size for objects of all scales",
+     .measured = "exponent of nodes + pieces in n, nested-3d",
+     .least = 0.9,
+     .most = 1.05,
+     .measure = claims_growth,
+     .of = CLAIMS_PLAN(("nested-3d"), 1000, 3, claims_size),
+     .with = by_density,
+     .needs = "guards",
+     .without = unguarded},
+    {.source = "de Berg, theorem 2.5",
+     .says = "linear size in uncluttered scenes of the plane",
+     .measured = "exponent of nodes + pieces in n; worst of scatter, rooms, blocks, combs of 16",
+     .least = 0.9,
+     .most = 1.1,
+     .measure = claims_growth,
+     .of = CLAIMS_PLAN(("scatter", "rooms", "blocks", "combs"), 1000, 3, claims_size, .lambda = 16),
+     .with = by_density,
+     .needs = "guards: cuts along the objects in any order",
+     .without = {.method = "sorted"}},
+    {.source = "de Berg, theorem 2.5",
+     .says = "few pieces of objects of all scales",
+     .measured = "pieces / n, 8000 triangles of nested-3d",
+     .least = 1,
+     .most = 10,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("nested-3d"), 8000, 0, claims_per_object),
+     .with = by_density,
+     .needs = "guards",
+     .without = unguarded},
+    {.source = "de Berg, theorem 2.5",
+     .says = "O(n log n) time",
+     .measured = "exponent of time / (n log n) in n; worst of scatter, clusters, combs of 16",
+     .least = -INFINITY,
+     .most = 0.2,
+     .measure = claims_time,
+     .of = CLAIMS_PLAN(("scatter", "clusters", "combs"), 2000, 4, claims_n_log_n, .lambda = 16),
+     .with = by_density,
+     .needs = "guards: cuts along the objects in any order",
+     .without = {.method = "sorted"},
+     .kind = CLAIM_TIMED},
+    {.source = "de Berg, introduction (Chazelle)",
+     .says = "some scenes are quadratic for every partition",
+     .measured = "exponent of pieces in n, lines of two saddles",
+     .least = 1.8,
+     .most = 2.2,
+     .measure = claims_of_two,
+     .of = &saddles,
+     .with = by_density,
+     .needs = "saddles so close that no plane has room between",
+     .without = {.method = "density", .bare = true}},
+    {.source = "de Berg, introduction (Chazelle)",
+     .says = "the same",
+     .measured = "exponent of pieces in n, lines of two saddles",
+     .least = 1.8,
+     .most = 2.2,
+     .measure = claims_of_two,
+     .of = &saddles,
+     .with = {.method = "grain"},
+     .needs = "saddles so close that no plane has room between",
+     .without = {.method = "grain", .bare = true}},
+    {.source = "de Berg, lemma 2.1",
+     .says = "(2 V - 1)(2^d - 1) + 1 leaves without guards inside",
+     .measured = "leaves / bound, worst of ten scenes",
+     .least = 0,
+     .most = 1,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(GUARDED, 600, 0, guarding_leaves_over_bound, .leaf = 1 << 30),
+     .with = {.method = "density", .settings = "k=0 form=slabs"},
+     .needs = "shrinks: cubes are halved until they are empty",
+     .without = {.method = "density", .settings = "k=0 form=slabs", .bare = true},
+     .kind = CLAIM_QUICK},
+    {.source = "de Berg, lemma 2.8 corrected",
+     .says = "clutter <= c_d density, c_2 = 4, c_3 = 8",
+     .measured = "clutter found / (c_d density), worst of ten scenes",
+     .least = 0,
+     .most = 1,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(GUARDED, 1000, 0, guarding_clutter_over_density, .leaf = 1 << 30),
+     .with = by_density,
+     .needs = "cubes: slabs meet any number without a guard inside",
+     .without = {.method = "density", .bare = true}},
+    {.source = "de Berg, section 1",
+     .says = "few pieces for the painter",
+     .measured = "pieces / n, the most of city, rooms-3d, cuboids",
+     .least = 1,
+     .most = 2,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("city", "rooms-3d", "cuboids"), 8000, 0, claims_per_object),
+     .with = by_density,
+     .needs = "a choice of cuts: those of the objects, in any order",
+     .without = {.method = "sorted"}},
+    {.source = "de Berg, theorem 3.1",
+     .says = "points are located in O(log n) in trees however deep",
+     .measured = "exponent of cost in n; worst of nested, nested-3d",
+     .least = -INFINITY,
+     .most = 0.5,
+     .measure = claims_growth,
+     .of = CLAIMS_PLAN(("nested", "nested-3d"), 250, 3, claims_location),
+     .with = {DEEP},
+     .needs = "the structure for locating: from cut to cut",
+     .without = {DEEP, .bare = true},
+     .kind = CLAIM_QUICK},
+    {.source = "de Berg, corollary 3.2",
+     .says = "O(log n) for ranges smaller than objects",
+     .measured = "exponent of cost in n; worst of nested, scatter, cuboids",
+     .least = -INFINITY,
+     .most = 0.5,
+     .measure = claims_growth,
+     .of = CLAIMS_PLAN(("nested", "scatter", "cuboids"), 250, 3, small_range),
+     .with = {DEEP},
+     .needs = "the structure for locating: from cut to cut",
+     .without = {DEEP, .bare = true},
+     .kind = CLAIM_QUICK},
+    {.source = "de Berg, lemma 3.4",
+     .says = "k of m cells met are found in O(k log m)",
+     .measured = "worst cost / (k log2 m), windows in guard stages of nested, nested-3d",
+     .least = 0,
+     .most = 16,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("nested", "nested-3d"), 2000, 0, cells_met),
+     .with = {DEEP},
+     .needs = "lowest common ancestors: from cut to cut",
+     .without = {DEEP, .bare = true},
+     .kind = CLAIM_QUICK},
+    {0}};
