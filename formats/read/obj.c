@@ -1,7 +1,7 @@
 /* obj.c: Wavefront OBJ in double precision: vertices, points, lines and faces,
  * groups (o, g) and materials (usemtl, coloured by mtllib). Free-form curves and surfaces are skipped and
- * counted. Each pair of an object's name and a material is one group, wherever in
- * the file its faces are.
+ * counted. Where nothing names a vertex, the vertices are points. Each pair of an object's name and a material is one
+ * group, wherever in the file its faces are.
  *
  *     o roof
  *     usemtl tiles
@@ -187,6 +187,10 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
             reported = o->number;
             status = formats_sink_progress(sink, (double)(at - text.data) / (double)text.count);
         }
+        const bool cloud = !sink->report.features; /* vertices, and nothing that names them */
+        if (!status && cloud) status = formats_sink_feature(sink, 0);
+        for (size_t i = 0; i < o->points.count && cloud && !status; i += 3)
+            status = formats_sink_point(sink, o->points.data + i);
         if (!status && !o->points.count)
             status = support_fail(sink->diag, FROE_E_FORMAT, "%s: The file has no vertices, and is not OBJ.",
                                   support_short(source->path));

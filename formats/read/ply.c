@@ -1,8 +1,11 @@
 /* ply.c: the Polygon File Format (Turk 1994), as text and binary of either byte
  * order, in the precision of the file: elements `vertex` (x, y, z), `face` (a list of
- * indices) and `edge` (vertex1, vertex2). Without faces and edges the vertices are points.
+ * indices) and `edge` (vertex1, vertex2). Without faces and edges the vertices are points. A
+ * face has its own colour (red, green, blue, perhaps alpha), or else the mean of its corners' colours.
  *
  *     ply / format ascii 1.0 / element vertex 3 / property double x ... / end_header / data */
+#include "formats/input/colour.h"
+#include "formats/input/paint.h"
 #include "formats/read/readers.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +14,7 @@
 enum { MOST_PROPERTIES = 64, WORD_ROOM = 32 };
 
 typedef enum ply_type { NO_TYPE, INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64 } ply_type;
-typedef enum ply_role { LEFT_ALONE, X, Y, Z, INDICES, FIRST, SECOND } ply_role;
+typedef enum ply_role { LEFT_ALONE, X, Y, Z, INDICES, FIRST, SECOND, RED, GREEN, BLUE, ALPHA, ROLES } ply_role;
 
 typedef struct property {
     ply_type count, type; /* count: of a list; NO_TYPE otherwise */
@@ -33,6 +36,8 @@ typedef struct ply {
     ARRAY(element) elements;
     ARRAY(double) points, corners; /* 3 each */
     ARRAY(double) indices;
+    ARRAY(uint32_t) colours, shades; /* of vertices, where they have any; of the corners of a face */
+    formats_paint paint;
     uint64_t done, all; /* items of all elements */
     bool shapes;        /* there are faces or edges */
 } ply;
@@ -98,6 +103,9 @@ static froe_status read_property(ply *p) {
         to->role = INDICES;
     if (e->kind == EDGE && !list && !strcmp(word, "vertex1")) to->role = FIRST;
     if (e->kind == EDGE && !list && !strcmp(word, "vertex2")) to->role = SECOND;
+    static const char *const channels[] = {"red", "green", "blue", "alpha"};
+    for (int k = 0; k < 4 && !list && (e->kind == VERTEX || e->kind == FACE); k++)
+        if (!strcmp(word, channels[k])) to->role = (ply_role)(RED + k);
     if (to->role >= X && to->role <= Z) p->doubles = to->type == FLOAT64;
     return FROE_OK;
 }
@@ -192,7 +200,24 @@ static froe_status add_corner(ply *p, double index) {
     if (!(index >= 0 && index < (double)vertices) || index != (double)(uint64_t)index)
         return broken(p, "A face or edge names a vertex that does not exist (or comes later).");
     const double *at = p->points.data + 3 * (size_t)index;
-    return array_append(&p->sink->alloc, &p->corners, at, 3) ? FROE_OK : out_of_memory(p);
+    const bool coloured = p->colours.count == vertices;
+    return array_append(&p->sink->alloc, &p->corners, at, 3) &&
+                   (!coloured || array_push(&p->sink->alloc, &p->shades, p->colours.data[(size_t)index]))
+               ? FROE_OK
+               : out_of_memory(p);
+}
+
+/* The colour of an item: whole numbers up to 255 (in other integer types, too), or shares; 0: it has none. */
+static uint32_t item_colour(const element *e, const double *by_role) {
+    double shares[4] = {0, 0, 0, 1};
+    int found = 0;
+    for (int i = 0; i < e->properties; i++) {
+        const property *to = &e->property[i];
+        if (to->role < RED || to->role > ALPHA) continue;
+        shares[to->role - RED] = to->type >= FLOAT32 ? by_role[to->role] : by_role[to->role] / 255;
+        found += to->role != ALPHA;
+    }
+    return found == 3 ? formats_colour(shares) : 0;
 }
 
 /* A vertex is kept for the faces and edges to come, where there are any. */
@@ -200,9 +225,13 @@ static froe_status add_item(ply *p, const element *e, const double *by_role) {
     froe_status status = FROE_OK;
     if (e->kind == OTHER) return FROE_OK;
     if (e->kind == VERTEX && !p->shapes) return formats_sink_point(p->sink, by_role + X);
+    const uint32_t colour = item_colour(e, by_role);
     if (e->kind == VERTEX)
-        return array_append(&p->sink->alloc, &p->points, by_role + X, 3) ? FROE_OK : out_of_memory(p);
-    p->corners.count = 0;
+        return array_append(&p->sink->alloc, &p->points, by_role + X, 3) &&
+                       (!colour || array_push(&p->sink->alloc, &p->colours, colour))
+                   ? FROE_OK
+                   : out_of_memory(p);
+    p->corners.count = p->shades.count = 0;
     if (e->kind == EDGE) {
         status = add_corner(p, by_role[FIRST]);
         if (!status) status = add_corner(p, by_role[SECOND]);
@@ -211,7 +240,9 @@ static froe_status add_item(ply *p, const element *e, const double *by_role) {
     }
     if (status) return status;
     if (!p->corners.count) return ++p->sink->report.skipped, FROE_OK;
-    return formats_sink_face(p->sink, p->corners.data, p->corners.count / 3);
+    const uint32_t mean = formats_paint_mean(p->shades.data, p->shades.count);
+    status = formats_paint_enter(p->sink, &p->paint, colour ? colour : mean);
+    return status ? status : formats_sink_face(p->sink, p->corners.data, p->corners.count / 3);
 }
 
 froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
@@ -232,7 +263,7 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
     for (size_t k = 0; k < p.elements.count; ++k) {
         const element *e = p.elements.data + k;
         for (uint64_t i = 0; i < e->count && !status; ++i) {
-            double by_role[SECOND + 1] = {0};
+            double by_role[ROLES] = {0};
             sink->number = i;
             status = read_item(&p, e, by_role);
             if (!status) status = add_item(&p, e, by_role);
@@ -245,5 +276,8 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
     array_free(alloc, &p.points);
     array_free(alloc, &p.corners);
     array_free(alloc, &p.indices);
+    array_free(alloc, &p.colours);
+    array_free(alloc, &p.shades);
+    formats_paint_free(sink, &p.paint);
     return status;
 }

@@ -17,7 +17,7 @@ static bool is_off(const char *at) {
 
 static formats_reader *choose_own(const formats_source *source) {
     if (formats_csv_recognise(source)) return formats_read_csv;
-    if (is_off(source->head)) return formats_read_off;
+    if (is_off(source->head) || !strcmp(source->extension.text, "off")) return formats_read_off;
     if (!strncmp(source->head, "ply\n", 4) || !strncmp(source->head, "ply\r", 4)) return formats_read_ply;
     if (!strcmp(source->extension.text, "ply")) return formats_read_ply;
     return strcmp(source->extension.text, "obj") ? NULL : formats_read_obj;

@@ -16,6 +16,10 @@ static void each_format_that_needs_no_library_is_read(void **state) {
          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
          "PLY", 3, 1},
         {"own", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1}, /* by its content */
+        {"counts.off", "# no word\n3 1\n0 0 0\n1 0 0 # a corner\n0 1 0\n3 0 1 2\n", "OFF", 3, 1},
+        {"lines.off", "OFF\n3\n1\n0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n", "OFF", 3, 1},
+        {"cloud.off", "OFF 3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "OFF", 3, 3},
+        {"cloud.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "OBJ", 3, 3},
         {"own", " # one\n# OFF\n\nOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1},
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
@@ -53,6 +57,86 @@ static void a_byte_order_mark_before_a_text_is_passed_over(void **state) {
         if (froe_scene_group_count(scene)) assert_int_equal(froe_scene_group(scene, 0).colour, 0xff0000ff);
         froe_scene_free(scene);
     }
+}
+
+/* Colours of a face, as written behind it, and of its corners. */
+static void faces_of_off_have_their_colours(void **state) {
+    (void)state;
+    static const char head[] = "4 4 6\n",
+                      tail[] = "3 0 1 2\n3 0 1 3 255 0 0 # red\n3 0 2 3 0.0 0.5 1 0.25\n3 1 2 3 255 0 0\n";
+    static const struct {
+        const char *word, *corners;
+        uint32_t colour; /* of the first face; FROE_NONE: it has no group */
+    } files[] = {
+        {"OFF\n", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", FROE_NONE},
+        {"COFF # colours\n", "0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n0 1 0 0 0 255 255\n0 0 1 0 0 0 0\n", 0x555555ff},
+        {"CNOFF\n", "0 0 0 1 1 1 .5 .5 .5\n1 0 0 1 1 1 0.5 0.5 0.5\n0 1 0 1 1 1 0.5 0.5 0.5 1\n0 0 1 0 0 1 0 0 0 0\n",
+         0x808080ff},
+        {"STOFF\n", "0 0 0 0.1 0.2\n1 0 0 0 0\n0 1 0 1 1\n0 0 1 0 0\n", FROE_NONE},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        char text[400];
+        snprintf(text, sizeof text, "%s%s%s%s", files[i].word, head, files[i].corners, tail);
+        write_text("paint.off", text);
+        froe_scene *scene = read_scene("paint.off", NULL);
+        assert_int_equal(froe_scene_object_count(scene), 4);
+        const uint32_t first = froe_scene_object(scene, 0).group, red = froe_scene_object(scene, 1).group;
+        if (files[i].colour == FROE_NONE)
+            assert_int_equal(first, FROE_NONE);
+        else
+            assert_int_equal(froe_scene_group(scene, first).colour, files[i].colour);
+        assert_int_equal(froe_scene_group(scene, red).colour, 0xff0000ff);
+        assert_int_equal(froe_scene_group(scene, froe_scene_object(scene, 2).group).colour, 0x0080ff40);
+        assert_int_equal(froe_scene_object(scene, 3).group, red);
+        froe_scene_free(scene);
+    }
+}
+
+static uint32_t colour_of(const froe_scene *scene, uint32_t object) {
+    const uint32_t group = froe_scene_object(scene, object).group;
+    return group == FROE_NONE ? 0 : froe_scene_group(scene, group).colour;
+}
+
+static void faces_of_ply_have_their_colours(void **state) {
+    (void)state;
+    static const char vertices[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                   "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n",
+                      faces[] = "element face 2\nproperty list uchar int vertex_indices\n",
+                      colours[] =
+                          "property float red\nproperty float green\nproperty float blue\nproperty float alpha\n";
+    char text[600];
+    snprintf(text, sizeof text, "%s%send_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n2 0 1\n",
+             vertices, faces);
+    write_text("vertices.ply", text);
+    froe_scene *scene = read_scene("vertices.ply", NULL);
+    assert_int_equal(colour_of(scene, 0), 0x555555ff);
+    assert_int_equal(colour_of(scene, 1), 0x808000ff);
+    froe_scene_free(scene);
+    snprintf(text, sizeof text,
+             "%s%s%send_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2 0 0 1 0.5\n3 2 1 0 0 0 1 0.5\n",
+             vertices, faces, colours);
+    write_text("faces.ply", text);
+    scene = read_scene("faces.ply", NULL);
+    assert_int_equal(colour_of(scene, 0), 0x0000ff80);
+    assert_int_equal(froe_scene_group_count(scene), 1);
+    froe_scene_free(scene);
+}
+
+/* A thousand colours, each twice: the table of groups grows and finds them again. */
+static void each_colour_is_one_group(void **state) {
+    (void)state;
+    FILE *file = fopen("many.off", "w");
+    assert_non_null(file);
+    fprintf(file, "OFF\n3 2000 0\n0 0 0\n1 0 0\n0 1 0\n");
+    for (int i = 0; i < 2000; i++) fprintf(file, "3 0 1 2 %d %d 7\n", i % 1000 / 250, i % 250);
+    assert_int_equal(fclose(file), 0);
+    froe_scene *scene = read_scene("many.off", NULL);
+    assert_int_equal(froe_scene_group_count(scene), 1000);
+    for (uint32_t i = 0; i < 1000; i++) {
+        assert_int_equal(colour_of(scene, i), i / 250 << 24 | i % 250 << 16 | 0x7ff);
+        assert_int_equal(froe_scene_object(scene, i).group, froe_scene_object(scene, i + 1000).group);
+    }
+    froe_scene_free(scene);
 }
 
 static void other_formats_are_refused(void **state) {
@@ -97,6 +181,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_format_that_needs_no_library_is_read),
         cmocka_unit_test(a_byte_order_mark_before_a_text_is_passed_over),
+        cmocka_unit_test(faces_of_off_have_their_colours),
+        cmocka_unit_test(faces_of_ply_have_their_colours),
+        cmocka_unit_test(each_colour_is_one_group),
         cmocka_unit_test(other_formats_are_refused),
         cmocka_unit_test(what_cannot_be_read_is_refused),
     };

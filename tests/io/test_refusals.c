@@ -113,8 +113,8 @@ static void broken_models_are_refused(void **state) {
     refuse("zero.ply", FROE_E_FORMAT, "The header has no end.");
     write_text("b.off", "4OFF\n1 0 0\n0 0 0 0\n");
     refuse("b.off", FROE_E_UNSUPPORTED, "b.off");
-    write_text("b.obj", "v 0 0 0\n");
-    refuse("b.obj", FROE_E_INPUT, "holds no objects");
+    write_text("b.obj", "# v 0 0 0\n");
+    refuse("b.obj", FROE_E_FORMAT, "has no vertices");
 }
 
 static void wrong_calls_are_refused(void **state) {
