@@ -1,5 +1,6 @@
 /* body.c: the dimension of a body. */
 #include "geom/body.h"
+#include "geom/high/high.h"
 #include "geom/predicates.h"
 #include "geom/turn.h"
 
@@ -29,6 +30,7 @@ int geom_body_rank(num_context *context, const geom_body *b) {
     case FROE_BALL:
         return b->dim;
     default:
+        if (b->dim > 3) return geom_high_rank(context, b);
         for (uint32_t i = 1; i < b->count && rank < b->dim; i++) {
             const double *x = geom_body_point(b, i);
             if (raises(context, b, rank, span, x)) span[++rank] = x;

@@ -46,6 +46,6 @@ static inline bool geom_same_point(const double *p, const double *q, int dim) {
     return true;
 }
 
-/** The dimension of the body itself, 0 .. dim: exact. Any dimension for points, boxes, balls. */
+/** The dimension of the body itself, 0 .. dim: exact. */
 int geom_body_rank(num_context *context, const geom_body *b);
 #endif

@@ -1,4 +1,4 @@
-/* convex.h: closed convex sets of the plane and of space, as all objects and ranges are: a core, given by corners,
+/* convex.h: closed convex sets, as all objects and ranges are: a core, given by corners,
  * and all points within a radius of it.
  *
  *     core     corners                                      radius 0                 radius > 0
@@ -23,7 +23,7 @@ typedef struct geom_meeting {
 
 typedef struct geom_convex {
     geom_core core;
-    int dim;              /**< 2 or 3 */
+    int dim;              /**< RAY, PLANES: 2 or 3 */
     uint32_t count;       /**< of corners; at least 1 */
     const double *coords; /**< dim doubles a point: the corners; lo and hi; origin and direction */
     const uint32_t *ids;  /**< numbers of points in coords; NULL: 0, 1, ... */
@@ -42,7 +42,7 @@ static inline const double *geom_convex_point(const geom_convex *c, uint32_t i) 
 static inline double geom_convex_coordinate(const geom_convex *c, uint32_t i, int k) {
     return geom_convex_point(c, c->core == GEOM_CORE_BOX ? i >> k & 1 : i)[k];
 }
-/** A body of the plane or of space. Its coordinates stay the body's. */
+/** A body. Its coordinates stay the body's. */
 static inline geom_convex geom_convex_of(const geom_body *body) {
     return (geom_convex){.core = body->form == FROE_BOX ? GEOM_CORE_BOX : GEOM_CORE_LIST,
                          .dim = body->dim,

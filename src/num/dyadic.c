@@ -23,8 +23,13 @@ __extension__ typedef unsigned __int128 wide;
  * about 16 000 limbs. Sheared planes (num/sheared.h) have simpler normals, but numbers of up to three terms: at
  * most six times the steps from degree 6 on, 50 000 limbs. Planes through an eye and a cut edge (normals of degree 5)
  * take at most 60 steps of degree 5 a plane (4 x 60 x 167), 27 of degree 10 (332), 20 of degree 15 (497) and 7 of
- * degree 21 (695): 63 800. */
-const size_t num_arena_bound = 1 << 16;
+ * degree 21 (695): 63 800.
+ *
+ * Above dimension 3 tables are solved (num/solve.h). The largest has the 8 x 9 products of edges of a simplex, degree
+ * 2, and numbers of degree 16 in the end: 38 000 limbs, as many for the step before, and 10 000 for points and one
+ * step; a distance keeps those of the last step, and two are compared: 140 000. Linear programs have 10 x 12 numbers of
+ * degree 1, of degree 10 in the end: 40 000 limbs, and as many before. */
+const size_t num_arena_bound = 1 << 18;
 
 froe_status num_arena_new(const froe_allocator *alloc, num_arena *out) {
     uint64_t *limbs = support_realloc(alloc, NULL, 0, num_arena_bound * sizeof *limbs);
@@ -189,4 +194,49 @@ num_dyadic num_dyadic_mul(num_arena *arena, num_dyadic a, num_dyadic b) {
     first_row(product, a.limbs[0], b);
     for (uint32_t i = 1; i < a.count; i++) next_row(product + i, a.limbs[i], b);
     return trim_limbs(a.sign * b.sign, a.exponent + b.exponent, count, product);
+}
+
+/* 1 / x modulo 2^64, x odd: each step of Newton's doubles the right bits, of which x has three. */
+static uint64_t inverse_of(uint64_t x) {
+    uint64_t y = x;
+    for (int i = 0; i < 5; i++) y *= 2 - x * y;
+    return y;
+}
+
+/* From the lowest limb on, as the quotient is known to end (Jebelean: An algorithm for exact division, 1993). The
+ * divisor loses its lowest zero bits first, the quotient then. */
+num_dyadic num_dyadic_divide(num_arena *arena, num_dyadic a, num_dyadic b) {
+    if (!a.sign) return a;
+    const int shift = __builtin_ctzll(b.limbs[0]);
+    if (shift) b = num_dyadic_mul(arena, b, num_dyadic_scaled(arena, 1, 1, 64 - shift)); /* 2^(64 - shift) / 2^64 */
+    const uint64_t inverse = inverse_of(b.limbs[0]);
+    const uint32_t count = a.count < b.count ? 0 : a.count - b.count + 1;
+    uint64_t *rest = spread_limbs(arena, a, a.exponent, a.count), *quotient = take_limbs(arena, count);
+    for (uint32_t i = 0; i < count; i++) {
+        quotient[i] = rest[i] * inverse;
+        uint64_t carry = 0;
+        for (uint32_t j = 0; j < b.count && i + j < a.count && quotient[i]; j++) {
+            const wide product = (wide)quotient[i] * b.limbs[j] + carry;
+            const uint64_t low = (uint64_t)product;
+            carry = (uint64_t)(product >> 64) + (rest[i + j] < low);
+            rest[i + j] -= low;
+        }
+        for (uint32_t j = i + b.count; j < a.count && carry; j++) {
+            const uint64_t before = rest[j];
+            rest[j] -= carry;
+            carry = before < carry;
+        }
+    }
+    const num_dyadic out = trim_limbs(a.sign * b.sign, a.exponent - b.exponent, count, quotient);
+    return shift ? num_dyadic_mul(arena, out, num_dyadic_scaled(arena, 1, 1, 64 - shift)) : out;
+}
+
+num_dyadic num_dyadic_keep(num_arena *arena, size_t mark, num_dyadic a) {
+    uint64_t *at = arena->limbs + mark;
+    arena->top = mark;
+    if (!a.count || a.limbs < at) return a; /* it lies before the mark, whole */
+    memmove(at, a.limbs, a.count * sizeof *at);
+    a.limbs = at;
+    arena->top += a.count;
+    return a;
 }

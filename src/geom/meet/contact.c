@@ -11,6 +11,7 @@
  * They meet in one common corner x alone iff their cones there do: iff 0 is not in the hull of the generators a - x
  * and x - b, for then, and only then, a plane through x has A and B strictly on its two sides. */
 #include "geom/meet/contact.h"
+#include "geom/high/high.h"
 #include "geom/meet/distance.h"
 #include "geom/meet/gap.h"
 #include "geom/turn.h"
@@ -189,5 +190,5 @@ geom_contact geom_contact_of(num_context *context, const geom_body *a, const geo
     if (is_box(a) && is_box(b)) return meet_boxes(a, b);
     if (a->form == FROE_POLYGON && b->form == FROE_POLYGON) return geom_contact_polygons(context, a, b, sides);
     if (a->dim == 2 && a->form == FROE_SEGMENT && b->form == FROE_SEGMENT) return geom_contact_segments(context, a, b);
-    return meet_polytopes(context, a, b);
+    return a->dim > 3 ? geom_high_contact(context, a, b) : meet_polytopes(context, a, b);
 }

@@ -2,6 +2,7 @@
 #include "geom/meet/distance.h"
 #include "geom/filter.h"
 #include "geom/formulas.h"
+#include "geom/high/high.h"
 #include "geom/meet/feature.h"
 #include "geom/meet/gap.h"
 #include "num/pair.h"
@@ -16,8 +17,11 @@
 
 #include "geom/meet/distance_body.inc"
 
-static num_ratio exact_square(num_arena *arena, const double *point, const geom_distance *d) {
+/* Behind what the arena holds. */
+static num_ratio exact_square(num_context *context, const double *point, const geom_distance *d) {
     num_ratio s;
+    num_arena *arena = &context->arena;
+    if (d->high.count) return geom_high_square(context, point, &d->high);
     s.top = distance_square_dyadic(arena, d, point, &s.bottom);
     return s;
 }
@@ -40,6 +44,11 @@ geom_distance geom_distance_from(num_context *context, const double *point, cons
     if (body->form == FROE_POINT || body->form == FROE_BOX || body->form == FROE_BALL) {
         d.lo = geom_body_point(body, 0);
         d.hi = body->form == FROE_BOX ? geom_body_point(body, 1) : d.lo;
+    } else if (body->dim > 3) {
+        d.high = *body;
+        context->stats.calls++;
+        d.square = geom_high_square_image(context, point, body);
+        return d;
     } else if (find_feature(context, point, body, &d)) {
         return d;
     } else {
@@ -75,7 +84,7 @@ static int beyond_both(num_arena *arena, num_ratio s, double radius, num_dyadic 
 
 /* Do both come from the same corners? Objects of one scene share them. */
 static bool same_source(const geom_distance *a, const geom_distance *b) {
-    if (a->lo || b->lo || a->count != b->count || a->radius != b->radius) return false;
+    if (a->lo || b->lo || a->count != b->count || a->radius != b->radius || a->high.count || b->high.count) return false;
     int shared = 0;
     for (int i = 0; i < a->count; i++)
         for (int j = 0; j < b->count; j++) shared += a->corner[i] == b->corner[j];
@@ -89,9 +98,10 @@ static int compare_images(const geom_distance *a, const geom_distance *b) {
     return sure != NUM_UNSURE && filter_sign(sure > 0 ? x : y) == 1 ? sure : NUM_UNSURE;
 }
 
-static int compare_distances_exactly(num_arena *arena, const double *point, const geom_distance *a,
+static int compare_distances_exactly(num_context *context, const double *point, const geom_distance *a,
                                      const geom_distance *b) {
-    num_ratio s = exact_square(arena, point, a), t = exact_square(arena, point, b);
+    num_arena *arena = num_fresh(context);
+    num_ratio s = exact_square(context, point, a), t = exact_square(context, point, b);
     bool out_a = beyond_radius(arena, s, a->radius) > 0, out_b = beyond_radius(arena, t, b->radius) > 0;
     if (!out_a || !out_b) return out_a - out_b;
     num_dyadic e = num_dyadic_sub(arena, num_dyadic_from(arena, a->radius), num_dyadic_from(arena, b->radius));
@@ -103,7 +113,7 @@ int geom_distance_compare(num_context *context, const double *point, const geom_
     context->stats.calls++;
     if (same_source(a, b)) return num_by_id(context, 0);
     return NUM_LADDER(context, sign, compare_images(a, b), NUM_UNSURE, NUM_UNSURE,
-                      compare_distances_exactly(num_fresh(context), point, a, b));
+                      compare_distances_exactly(context, point, a, b));
 }
 
 /* Sure of no zero distance: there the bound decides. */
@@ -112,8 +122,9 @@ static int distance_image_beyond(const geom_distance *a, double bound) {
     return sure == -1 && bound == 0 ? NUM_UNSURE : sure;
 }
 
-static int distance_beyond_exactly(num_arena *arena, const double *point, const geom_distance *a, double bound) {
-    num_ratio s = exact_square(arena, point, a);
+static int distance_beyond_exactly(num_context *context, const double *point, const geom_distance *a, double bound) {
+    num_arena *arena = num_fresh(context);
+    num_ratio s = exact_square(context, point, a);
     const int sign = beyond_both(arena, s, a->radius, num_dyadic_from(arena, bound));
     return sign < 0 && bound == 0 ? 0 : sign;
 }
@@ -123,7 +134,7 @@ int geom_distance_compare_to(num_context *context, const double *point, const ge
     if (isinf(bound)) return -1;
     context->stats.calls++;
     return NUM_LADDER(context, sign, distance_image_beyond(a, bound), NUM_UNSURE, NUM_UNSURE,
-                      distance_beyond_exactly(num_fresh(context), point, a, bound));
+                      distance_beyond_exactly(context, point, a, bound));
 }
 
 /* ---------------------------------------------------------------- rounding -- */
@@ -199,7 +210,7 @@ double geom_distance_round(num_context *context, const double *point, const geom
     if (context->first != NUM_EXACT && !(a->radius > 0))
         done = a->lo ? round_box(point, a, &rounded) : a->count && a->dim <= 3 && round_simplex(point, a, &rounded);
     if (done) return rounded;
-    rounding r = {exact_square(arena, point, a), a->radius};
+    rounding r = {exact_square(context, point, a), a->radius};
     if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;
     return num_nearest(arena, against, &r, geom_distance_image(a).x);
 }

@@ -7,7 +7,8 @@
  *     point, box, ball's centre   S = sum over the axes of (what is outside lo .. hi)^2      degree 2
  *     corner, edge, triangle      S = |v|^2,  |v x e|^2 / |e|^2,  (n v)^2 / n^2    degrees 2, 4 / 2, 6 / 4
  *
- * of a segment, polygon or hull, v from the point to a corner: see gap.h. Images may be infinite. */
+ * of a segment, polygon or hull, v from the point to a corner: see gap.h; above dimension 3 geom/high/nearest.h. Images
+ * may be infinite. */
 #ifndef FROE_GEOM_MEET_DISTANCE_H
 #define FROE_GEOM_MEET_DISTANCE_H
 #include "geom/body.h"
@@ -19,6 +20,7 @@ typedef struct geom_distance {
     int dim, count;          /**< corners of the simplex; 0: the point is inside, the distance 0 */
     double radius;
     num_ball square; /**< S */
+    geom_body high;  /**< a segment or hull above dimension 3, of which the image alone is known; else count 0 */
 } geom_distance;
 
 /** Of a point from a body. Keeps pointers to the body's points. */

@@ -2,6 +2,7 @@
 #include "geom/meet/meet.h"
 #include "geom/filter.h"
 #include "geom/formulas.h"
+#include "geom/high/high.h"
 #include <string.h>
 
 /* As for num_arena_bound (num/dyadic.c): corners of planes are fractions of degree 3, differences of them have
@@ -113,12 +114,14 @@ enum { MOST_STEPS = 40, NO_END = -1 };
 
 bool geom_meet(num_context *context, const geom_convex *a, const geom_convex *b) {
     int meets;
+    if (a->dim > 3) return geom_high_meet(context, a, b);
     context->stats.calls++;
     return NUM_LADDER(context, meets, NUM_UNSURE, NUM_UNSURE, meet_search_ball(&context->arena, a, b, MOST_STEPS),
                       meet_search_dyadic(&context->arena, a, b, NO_END));
 }
 
 bool geom_meet_surely(num_context *context, const geom_convex *a, const geom_convex *b) {
+    if (a->dim > 3) return geom_high_meet_surely(context, a, b);
     return context->first != NUM_EXACT && meet_search_ball(&context->arena, a, b, MOST_STEPS) == 1;
 }
 

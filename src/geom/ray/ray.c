@@ -2,6 +2,7 @@
 #include "geom/ray/ray.h"
 #include "geom/filter.h"
 #include "geom/formulas.h"
+#include "geom/high/high.h"
 #include "geom/predicates.h"
 #include "num/pair.h"
 #include "num/root.h"
@@ -18,6 +19,7 @@
 
 static num_ratio exact_quotient(num_arena *arena, const geom_ray *ray, const geom_hit *h) {
     num_ratio t;
+    if (h->source == GEOM_BASIS) return geom_high_parameter(arena, ray, h);
     t.top = ray_quotient_dyadic(arena, ray, h, &t.bottom);
     if (t.bottom.sign < 0) t.bottom.sign = 1, t.top.sign = -t.top.sign;
     return t;
@@ -30,6 +32,12 @@ void geom_hit_image(num_context *context, const geom_ray *ray, geom_hit *hit) {
     if (hit->source == GEOM_SPHERE) {
         num_ball a, b, c, root = num_ball_sqrt(ray_sphere_ball(NULL, ray, hit->p, hit->c, &a, &b, &c));
         hit->t = filter_div(c, filter_sub(root, b)); /* c / (-b + root): nothing cancels, b < 0 */
+        return;
+    }
+    if (hit->source == GEOM_BASIS) { /* the nearest double */
+        const num_ratio t = geom_high_parameter(num_fresh(context), ray, hit);
+        const double x = num_dyadic_quotient(&context->arena, t.top, t.bottom);
+        hit->t = (num_ball){x, 0x1p-52 * fabs(x) + 0x1p-1074};
         return;
     }
     top = ray_quotient_ball(NULL, ray, hit, &bottom);
@@ -287,6 +295,8 @@ bool geom_ray_meets(num_context *context, const geom_ray *ray, const geom_body *
         if (sure != NUM_UNSURE) return sure;
     }
     const double *p = geom_body_point(body, 0);
+    if (ray->dim > 3 && (body->form == FROE_SEGMENT || body->form == FROE_HULL))
+        return geom_high_ray(context, ray, body, first);
     switch (body->form) {
     case FROE_POINT:
         return meets_box(context, ray, p, p, first);

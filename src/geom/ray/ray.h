@@ -7,8 +7,9 @@
  *     LINE         2D cross products, (p - o) x e / d x e  with  e = q - p    degree 2 / 2
  *     PLANE        n (p - o) / n d                                            degree 3 / 3
  *     SPHERE       (-b - sqrt(b^2 - a c)) / a,  a = d^2, b = d (o - m), c = (o - m)^2 - r^2
+ *     BASIS        above dimension 3: up to dim corners span what is met      degree dim / dim
  *
- * In ray.c; hulls, and what lies in one plane with the ray, in ray_hull.c. */
+ * In ray.c; hulls, and what lies in one plane with the ray, in ray_hull.c; above dimension 3 in geom/high/ray.c. */
 #ifndef FROE_GEOM_RAY_RAY_H
 #define FROE_GEOM_RAY_RAY_H
 #include "geom/body.h"
@@ -19,15 +20,22 @@ typedef struct geom_ray {
     double o[FROE_MAX_DIM], d[FROE_MAX_DIM]; /**< origin; direction, not 0 */
 } geom_ray;
 
-typedef enum geom_source { GEOM_START, GEOM_COORDINATE, GEOM_LINE, GEOM_PLANE, GEOM_SPHERE } geom_source;
+typedef enum geom_source { GEOM_START, GEOM_COORDINATE, GEOM_LINE, GEOM_PLANE, GEOM_SPHERE, GEOM_BASIS } geom_source;
 
 /** A parameter t >= 0. */
 typedef struct geom_hit {
     geom_source source;
-    int axis, other;         /**< COORDINATE: k; LINE: the two axes it is seen in */
-    double c;                /**< COORDINATE: c; SPHERE: the radius */
-    const double *p, *q, *r; /**< corners of the body; SPHERE: the centre */
-    num_ball t;              /**< image: infinite error where nothing is known */
+    int count; /**< BASIS: corners */
+    union {
+        struct {
+            int axis, other;     /**< COORDINATE: k; LINE: the two axes it is seen in */
+            double c;            /**< COORDINATE: c; SPHERE: the radius */
+            const double *q, *r; /**< more corners of the body */
+        };
+        uint32_t basis[FROE_MAX_DIM]; /**< BASIS: the corners are p[basis[i] * dim ..] */
+    };
+    const double *p; /**< a corner; SPHERE: the centre; BASIS: all points */
+    num_ball t;      /**< image: infinite error where nothing is known */
 } geom_hit;
 
 /** False: it does not. Keeps pointers to the body's points. */
