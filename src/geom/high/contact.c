@@ -86,7 +86,8 @@ static void pair_column(const void *user, num_arena *arena, uint32_t j, num_dyad
     const bool both = j == n + m || j == GEOM_RIGHT_SIDE;
     out[p->dim] = both || j < n ? one : zero;
     out[p->dim + 1] = both || j >= n ? one : zero;
-    if (j == n + m) out[p->dim] = num_dyadic_scaled(arena, 1, n, 0), out[p->dim + 1] = num_dyadic_scaled(arena, 1, m, 0);
+    if (j == n + m)
+        out[p->dim] = num_dyadic_scaled(arena, 1, n, 0), out[p->dim + 1] = num_dyadic_scaled(arena, 1, m, 0);
 }
 
 /* As geom_guess has coordinates. */
@@ -98,8 +99,8 @@ static void pair_image(const void *user, uint32_t j, double *out) {
         out[k] = 0;
         for (uint32_t i = 0; i < n + m; i++) {
             if (i != j && j != n + m) continue;
-            out[k] += i < n ? geom_convex_coordinate(&p->a, i, k) - origin
-                            : origin - geom_convex_coordinate(&p->b, i - n, k);
+            out[k] +=
+                i < n ? geom_convex_coordinate(&p->a, i, k) - origin : origin - geom_convex_coordinate(&p->b, i - n, k);
         }
         if (j == n + m) out[k] /= n + m;
     }

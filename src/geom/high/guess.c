@@ -108,7 +108,8 @@ static bool reduce(guess_search *s) {
             const double share = weight[i] / (weight[i] - aim[i]);
             if (first < 0 || share < step) step = share, first = i;
         }
-        for (int i = 0; i < *count; i++) weight[i] = fmax(0, first < 0 ? aim[i] : weight[i] + step * (aim[i] - weight[i]));
+        for (int i = 0; i < *count; i++)
+            weight[i] = fmax(0, first < 0 ? aim[i] : weight[i] + step * (aim[i] - weight[i]));
         if (first < 0) break;
         drop(s, first);
         if (*count == 1) weight[0] = 1;

@@ -14,10 +14,10 @@
 
 typedef struct geom_guess {
     geom_simplex simplex;
-    double weight[GEOM_SIMPLEX];    /**< >= 0; their sum is about 1 */
-    double x[FROE_MAX_DIM];         /**< about the point nearest to 0, in scaled coordinates */
-    double origin[FROE_MAX_DIM];    /**< a corner, times scale */
-    double scale;                   /**< a power of two */
+    double weight[GEOM_SIMPLEX]; /**< >= 0; their sum is about 1 */
+    double x[FROE_MAX_DIM];      /**< about the point nearest to 0, in scaled coordinates */
+    double origin[FROE_MAX_DIM]; /**< a corner, times scale */
+    double scale;                /**< a power of two */
 } geom_guess;
 
 /** Lists and boxes, whatever their radii. */

@@ -256,8 +256,7 @@ static bool first_difference(const geom_gaps *gaps, geom_simplex *out) {
 
 bool geom_nearest_find(num_context *context, const geom_gaps *gaps, const geom_simplex *guess, geom_nearest *out) {
     num_arena *arena = &context->arena;
-    nearest_search s = {
-        .context = context, .arena = arena, .gaps = gaps, .dim = gaps->a->dim, .simplex = *guess};
+    nearest_search s = {.context = context, .arena = arena, .gaps = gaps, .dim = gaps->a->dim, .simplex = *guess};
     const size_t base = arena->top;
     for (int k = 0; k < FROE_MAX_DIM; k++) out->x[k] = (num_dyadic){0};
     if (!s.simplex.count && !first_difference(gaps, &s.simplex)) return false;
@@ -274,8 +273,7 @@ bool geom_nearest_find(num_context *context, const geom_gaps *gaps, const geom_s
     out->simplex = s.simplex;
     /* x / scale is across the simplex: its square is that of any of the differences along it */
     num_dyadic first[FROE_MAX_DIM];
-    for (int k = 0; k < s.dim; k++)
-        first[k] = difference_at(arena, gaps, s.simplex.a[0], s.simplex.b[0], k);
+    for (int k = 0; k < s.dim; k++) first[k] = difference_at(arena, gaps, s.simplex.a[0], s.simplex.b[0], k);
     out->square = (num_ratio){dot(arena, s.dim, out->x, first), out->scale};
     return true;
 }

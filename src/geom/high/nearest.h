@@ -33,9 +33,9 @@ typedef struct geom_simplex {
 } geom_simplex;
 
 typedef struct geom_nearest {
-    bool zero;            /**< 0 is in the hull */
-    geom_simplex simplex; /**< affinely independent; its relative interior holds the point */
-    num_dyadic scale;     /**< > 0 */
+    bool zero;                       /**< 0 is in the hull */
+    geom_simplex simplex;            /**< affinely independent; its relative interior holds the point */
+    num_dyadic scale;                /**< > 0 */
     num_dyadic weight[GEOM_SIMPLEX]; /**< of each difference, > 0: their sum is the scale */
     num_dyadic x[FROE_MAX_DIM];      /**< the point, times the scale; 0 from dim on */
     num_ratio square;                /**< of its distance from 0 */

@@ -29,9 +29,7 @@ static void flight_image(const void *user, uint32_t j, double *out) {
     const flight *f = user;
     const uint32_t n = f->set.count;
     for (int k = 0; k < f->ray->dim; k++)
-        out[k] = j < n    ? geom_convex_coordinate(&f->set, j, k) - f->ray->o[k]
-                 : j == n ? -f->ray->d[k]
-                          : 0;
+        out[k] = j < n ? geom_convex_coordinate(&f->set, j, k) - f->ray->o[k] : j == n ? -f->ray->d[k] : 0;
     out[f->ray->dim] = j == n ? 0 : 1;
 }
 
@@ -82,11 +80,8 @@ bool geom_high_ray(num_context *context, const geom_ray *ray, const geom_body *b
 
 /* By the equations above in the corners of the basis and t: more of them than unknowns, but without contradiction. */
 num_ratio geom_high_parameter(num_arena *arena, const geom_ray *ray, const geom_hit *hit) {
-    const geom_convex set = {.core = GEOM_CORE_LIST,
-                             .dim = ray->dim,
-                             .count = (uint32_t)hit->count,
-                             .coords = hit->p,
-                             .ids = hit->basis};
+    const geom_convex set = {
+        .core = GEOM_CORE_LIST, .dim = ray->dim, .count = (uint32_t)hit->count, .coords = hit->p, .ids = hit->basis};
     const flight f = {.ray = ray, .set = set};
     const int unknowns = hit->count + 1;
     num_table t = {.rows = ray->dim + 1, .columns = unknowns + 1};

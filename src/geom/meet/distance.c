@@ -84,7 +84,8 @@ static int beyond_both(num_arena *arena, num_ratio s, double radius, num_dyadic 
 
 /* Do both come from the same corners? Objects of one scene share them. */
 static bool same_source(const geom_distance *a, const geom_distance *b) {
-    if (a->lo || b->lo || a->count != b->count || a->radius != b->radius || a->high.count || b->high.count) return false;
+    if (a->lo || b->lo || a->count != b->count || a->radius != b->radius || a->high.count || b->high.count)
+        return false;
     int shared = 0;
     for (int i = 0; i < a->count; i++)
         for (int j = 0; j < b->count; j++) shared += a->corner[i] == b->corner[j];
