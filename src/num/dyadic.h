@@ -1,8 +1,8 @@
 /* dyadic.h: exact numbers  sign * sum d[i] * 2^(64 (exponent + i)),  closed under + - *.
  *
  * Every predicate on doubles is a ring expression, so nothing else is needed: no
- * gcd, no division (but where it leaves no remainder, for num/solve.h), no rounding, no overflow (the whole double range, denormals
- * included, spans 33 limbs). Limbs come from an arena that a predicate resets when
+ * gcd, no division (but where it leaves no remainder, for num/solve.h), no rounding, no overflow
+ * (the whole double range, denormals included, spans 33 limbs). Limbs come from an arena that a predicate resets when
  * it starts; its size bounds the worst case of the deepest predicate, so that a
  * predicate cannot fail (num_arena_new is where memory may run out). */
 #ifndef FROE_NUM_DYADIC_H

@@ -28,7 +28,7 @@ typedef struct num_table {
  */
 void num_table_solve(num_arena *arena, size_t mark, num_table *table, int unknowns);
 
-/** The same in plain doubles, for guesses: rows of `columns` numbers, of which the first `rows` are eliminated in place,
- * by pivots. Right sides are then the answers. False: (nearly) singular. */
+/** The same in plain doubles, for guesses: rows of `columns` numbers, of which the first `rows` are eliminated in
+ * place, by pivots. Right sides are then the answers. False: (nearly) singular. */
 bool num_plain_solve(int rows, int columns, double table[][NUM_TABLE_COLUMNS]);
 #endif

@@ -1,8 +1,8 @@
 /* contact.c: see high.h.
  *
  * Polytopes A and B meet iff 0 is in C, the hull of the differences of their corners. Their relative interiors meet iff
- * some point is a sum of all corners of A with positive weights, and of all of B: iff a weight that all corners have can
- * be positive, which is a linear program. They meet in one common corner x alone iff their cones there do: iff 0 is
+ * some point is a sum of all corners of A with positive weights, and of all of B: iff a weight that all corners have
+ * can be positive, which is a linear program. They meet in one common corner x alone iff their cones there do: iff 0 is
  * not in the hull of the generators a - x and x - b (geom/meet/contact.c). */
 #include "geom/high/guess.h"
 #include "geom/high/high.h"

@@ -171,7 +171,7 @@ static int sign_along(num_arena *arena, const direction *d, int sign, const doub
     return sign * exact.sign;
 }
 
-static void corner_of(const geom_convex *c, uint32_t i, double *out) {
+static void put_corner_of(const geom_convex *c, uint32_t i, double *out) {
     for (int k = 0; k < c->dim; k++) out[k] = geom_convex_coordinate(c, i, k);
 }
 
@@ -187,10 +187,10 @@ static uint32_t further_back(num_arena *arena, const geom_convex *c, const direc
         }
         return corner;
     }
-    corner_of(c, from, q);
+    put_corner_of(c, from, q);
     for (uint32_t i = 0; i < c->count; i++) {
         if (i == from) continue;
-        corner_of(c, i, p);
+        put_corner_of(c, i, p);
         if (sign_along(arena, d, sign, p, q, &value) >= 0) continue;
         if (best == from || value < least) best = i, least = value;
     }
