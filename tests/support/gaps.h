@@ -1,8 +1,8 @@
 /* gaps.h: pairs of convex bodies that have no point in common, certainly, and a gap as narrow as wanted.
  *
- *        A                     Two random bodies are shifted until the points a and b that they reach furthest along a
- *        .a -> b .             random direction u and back along it are one gap apart. Coordinates are rounded, so that
- *            u      B          the bodies may meet: then the shift grows, until rationals (GMP) say that they do not. */
+ *        A                Two random bodies are shifted until the points a and b that they reach furthest along a
+ *        .a -> b .        random direction u and back along it are one gap apart. Coordinates are rounded, so that
+ *            u      B     the bodies may meet: then the shift grows, until rationals (GMP) say that they do not. */
 #ifndef FROE_TESTS_SUPPORT_GAPS_H
 #define FROE_TESTS_SUPPORT_GAPS_H
 #include "geom/body.h"

@@ -40,7 +40,7 @@ static inline geom_gap geom_gap_between(num_context *context, const geom_body *a
     return gap;
 }
 
-/** The direction from the point of a that is nearest to b to that of b in plain doubles, with a longest coordinate of 1.
- * REQUIRES: gap of these two by geom_gap_between(), not zero. False: doubles over- or underflow. */
+/** The direction from the point of a that is nearest to b to that of b in plain doubles, with a longest coordinate of
+ * 1. REQUIRES: gap of these two by geom_gap_between(), not zero. False: doubles over- or underflow. */
 bool geom_gap_guess(const geom_body *a, const geom_body *b, const geom_gap *gap, double direction[3]);
 #endif
