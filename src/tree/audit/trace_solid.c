@@ -49,6 +49,8 @@ static unsigned cut_box(tree_trace *t, const geom_plane *plane, const trace_soli
         part = interval_reach(at->lo[axis], at->hi[axis], c);
         whole = interval_reach(lo[axis], hi[axis], c);
         if (part == 3) child[0].hi[axis] = child[1].lo[axis] = c;
+        if (c <= hi[axis]) child[0].bounded |= (uint16_t)(2u << 2 * axis);
+        if (c >= lo[axis]) child[1].bounded |= (uint16_t)(1u << 2 * axis);
     } else {
         part = box_reach(t, plane, at->lo, at->hi, strict);
         whole = box_reach(t, plane, lo, hi, any);
@@ -139,10 +141,19 @@ static void arrive_solid(tree_trace *t, const trace_solid *at, bool leaf) {
     t->stopped = !t->fn(t->user, &place);
 }
 
+/* Is the object a box that is listed here as a cover? */
+static bool is_cover(tree_trace *t, const trace_solid *at) {
+    if (!tree_covers(t->tree, t->tree->nodes + at->node)) return false;
+    const unsigned all = (1u << 2 * t->tree->scene->dim) - 1;
+    return t->cover_fn(t->user, at->node, at->bounded == all, &t->stopped);
+}
+
 /* Carries a waiting solid on; what is on the positive side of cuts on its way waits. False without memory. */
 static bool follow_solid(tree_trace *t, trace_solid at) {
     const froe_kind form = scene_form(t->tree->scene, t->object);
-    while (!tree_is_leaf(t->tree->nodes + at.node)) {
+    for (;;) {
+        if (form == FROE_BOX && is_cover(t, &at)) return true;
+        if (tree_is_leaf(t->tree->nodes + at.node)) break;
         const geom_plane *plane = trace_plane(t, at.node);
         trace_solid child[2] = {at, at};
         child[0].node = t->tree->nodes[at.node].child;
