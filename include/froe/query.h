@@ -63,11 +63,11 @@ typedef struct froe_list {
 typedef enum froe_range_shape {
     FROE_SHAPE_BOX = 0,        /**< points: lo, hi; bounds may be infinite */
     FROE_SHAPE_BALL = 1,       /**< points: centre; radius */
-    FROE_SHAPE_SIMPLEX = 2,    /**< points: dim + 1 corners, in any order, degenerate or not; dim 2 or 3 */
-    FROE_SHAPE_CAPSULE = 3,    /**< points: the two ends of its axis; radius; dim 2 or 3 */
-    FROE_SHAPE_HALFSPACES = 4, /**< count of them: points[i] . x <= offsets[i]; may be unbounded or empty; dim 2 or 3 */
-    FROE_SHAPE_HULL = 5,       /**< convex hull of `count` points; dim 2 or 3 */
-    FROE_SHAPE_SEGMENT = 6,    /**< points: two ends; dim 2 or 3 */
+    FROE_SHAPE_SIMPLEX = 2,    /**< points: dim + 1 corners, in any order, degenerate or not */
+    FROE_SHAPE_CAPSULE = 3,    /**< points: the two ends of its axis; radius */
+    FROE_SHAPE_HALFSPACES = 4, /**< count of them: points[i] . x <= offsets[i]; may be unbounded or empty */
+    FROE_SHAPE_HULL = 5,       /**< convex hull of `count` points */
+    FROE_SHAPE_SEGMENT = 6,    /**< points: two ends */
     FROE_SHAPE_RAY = 7,        /**< points: origin, direction; dim 2 or 3 */
     FROE_SHAPE_COUNT = 8
 } froe_range_shape;

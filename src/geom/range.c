@@ -10,9 +10,13 @@ void geom_range_free(geom_range *range, const froe_allocator *alloc) {
     array_free(alloc, &range->facets);
 }
 
-/* The doubles that corner i is known by; in the plane z is 0. */
+/* More than a sum of dim products takes. */
+static double roundings(int dim) {
+    return dim > 3 ? 16 : 8;
+}
+
+/* The doubles that corner i is known by. */
 static void corner_image(const geom_convex *c, uint32_t i, double x[FROE_MAX_DIM]) {
-    x[2] = 0;
     for (int k = 0; k < c->dim; k++) x[k] = geom_convex_coordinate(c, i, k);
 }
 
@@ -33,14 +37,18 @@ void geom_range_bound(geom_range *r) {
     }
 }
 
-bool geom_range_add_facet(geom_range *r, const froe_allocator *alloc, const double n[3]) {
-    const double sum = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
-    geom_facet f = {{n[0], n[1], n[2]}, -INFINITY, filter_length(n)};
+bool geom_range_add_facet(geom_range *r, const froe_allocator *alloc, const double *n) {
+    geom_facet f = {.c = -INFINITY, .norm = filter_length_in(r->dim, n)};
+    double sum = 0;
+    for (int k = 0; k < r->dim; k++) {
+        f.n[k] = n[k];
+        sum += fabs(n[k]);
+    }
     for (uint32_t i = 0; i < r->set.count; i++) {
         double x[FROE_MAX_DIM], size = 0, value = 0;
         corner_image(&r->set, i, x);
-        for (int k = 0; k < 3; k++) value += n[k] * x[k], size += fabs(n[k] * x[k]);
-        value += 8 * FILTER_U * size + NUM_BALL_TINY;
+        for (int k = 0; k < r->dim; k++) value += n[k] * x[k], size += fabs(n[k] * x[k]);
+        value += roundings(r->dim) * FILTER_U * size + NUM_BALL_TINY;
         f.c = filter_greater(value, f.c);
         if (!(value < INFINITY)) return true; /* no use */
     }
@@ -130,7 +138,7 @@ static bool in_facets(const geom_range *r, const double *lo, const double *hi) {
             most += term;
             size += fabs(term);
         }
-        if (!(most + 8 * FILTER_U * size + NUM_BALL_TINY < f->c)) return false;
+        if (!(most + roundings(r->dim) * FILTER_U * size + NUM_BALL_TINY < f->c)) return false;
     }
     return true;
 }
@@ -138,7 +146,7 @@ static bool in_facets(const geom_range *r, const double *lo, const double *hi) {
 /* All corners of the box: a convex set that has them has the box. */
 static bool corners_held(num_context *context, const geom_range *r, double margin, const double *lo, const double *hi) {
     for (uint32_t i = 0; i < 1u << r->dim; i++) {
-        double x[3];
+        double x[FROE_MAX_DIM];
         for (int k = 0; k < r->dim; k++) x[k] = i >> k & 1 ? hi[k] : lo[k];
         geom_convex corner = {.dim = r->dim, .count = 1, .coords = x, .radius = margin};
         if (!geom_meet_surely(context, &corner, &r->set)) return false;

@@ -18,21 +18,21 @@
 
 /** n . x <= c for all points of the range; norm >= |n|. */
 typedef struct geom_facet {
-    double n[3], c, norm;
+    double n[FROE_MAX_DIM], c, norm;
 } geom_facet;
 
 typedef enum geom_range_kind {
     GEOM_RANGE_BOX,  /**< any dimension; bounds may be infinite */
     GEOM_RANGE_BALL, /**< any dimension */
     GEOM_RANGE_THIN, /**< segment or ray: searched by parameters, without boxes */
-    GEOM_RANGE_SOLID /**< anything else; dim 2 or 3 */
+    GEOM_RANGE_SOLID /**< anything else */
 } geom_range_kind;
 
 typedef struct geom_range {
     geom_range_kind kind;
     int dim;
     bool empty;      /**< there is no such point */
-    geom_convex set; /**< not for boxes with infinite bounds, nor for dim > 3; without corners: what the facets leave */
+    geom_convex set; /**< not for boxes with infinite bounds; without corners: what the facets leave */
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     ARRAY(geom_facet) facets; /**< of SOLID; there may be none */
 } geom_range;
@@ -41,8 +41,8 @@ void geom_range_free(geom_range *range, const froe_allocator *alloc);
 
 /** Bounds of a SOLID from its corners and radius, rounded outwards. */
 void geom_range_bound(geom_range *range);
-/** Adds a facet in direction n, from the corners and the radius. False without memory. */
-bool geom_range_add_facet(geom_range *range, const froe_allocator *alloc, const double n[3]);
+/** Adds a facet in direction n, dim doubles, from the corners and the radius. False without memory. */
+bool geom_range_add_facet(geom_range *range, const froe_allocator *alloc, const double *n);
 
 /** Shrinks a box of finite numbers around the part of a SOLID within it. False: there is none. */
 bool geom_range_shrink(const geom_range *range, double *lo, double *hi);

@@ -32,7 +32,6 @@ typedef enum query_part_id {
     QUERY_CONTENTS,
     QUERY_PIECES,
     QUERY_CLASSES,
-    QUERY_COVERS,
     QUERY_PARTS
 } query_part_id;
 

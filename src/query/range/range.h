@@ -8,6 +8,7 @@
  * space_window.c. */
 #ifndef FROE_QUERY_RANGE_RANGE_H
 #define FROE_QUERY_RANGE_RANGE_H
+#include "geom/high/halfspaces.h"
 #include "geom/polytope.h"
 #include "geom/range.h"
 #include <froe/query.h>
@@ -25,6 +26,10 @@ typedef struct query_range {
     ARRAY(double) boxes;   /**< ... the bounds of their regions and of the range within, or an interval of parameters */
 } query_range;
 
+/** Those of a range of halfspaces. */
+static inline geom_halfspaces query_halfspaces(const query_range *r) {
+    return (geom_halfspaces){r->range.dim, r->from->count, r->from->points, r->from->offsets};
+}
 struct froe_query;
 void query_range_free(query_range *range, const froe_allocator *alloc);
 /** Checks a range and prepares query->range for it. */

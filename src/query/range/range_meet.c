@@ -55,7 +55,7 @@ static boxlike boxlike_of(const froe_scene *s, uint32_t object) {
 bool query_object_meets_box(froe_query *q, uint32_t object, const double *lo, const double *hi) {
     const froe_scene *s = q->tree->scene;
     const boxlike box = boxlike_of(s, object);
-    double ends[6], a[3], b[3];
+    double ends[2 * FROE_MAX_DIM], a[FROE_MAX_DIM], b[FROE_MAX_DIM];
     if (box.is) return geom_meet_boxes(&q->numbers, s->dim, box.lo, box.hi, box.radius, lo, hi, 0);
     scene_object_bounds(s, object, a, b);
     if (boxes_apart(lo, hi, a, b, s->dim)) return false;
@@ -63,7 +63,7 @@ bool query_object_meets_box(froe_query *q, uint32_t object, const double *lo, co
         ends[k] = lo[k] > a[k] ? lo[k] : a[k];
         ends[s->dim + k] = hi[k] < b[k] ? hi[k] : b[k];
     }
-    if (scene_form(s, object) == FROE_SEGMENT) { /* its bounds meet the box */
+    if (scene_form(s, object) == FROE_SEGMENT && s->dim <= 3) { /* its bounds meet the box */
         const double *u = scene_point(s, object, 0), *v = scene_point(s, object, 1), *far = ends + s->dim;
         if (in_box(u, ends, far, s->dim) || in_box(v, ends, far, s->dim)) return true;
         if (s->dim == 2) return !segment_beside_box(&q->numbers, -1, u, v, ends, far);
@@ -85,6 +85,10 @@ static bool halfspaces_meet(froe_query *q, uint32_t object, bool *memory) {
     const froe_range *from = r->from;
     const froe_scene *s = q->tree->scene;
     const geom_convex set = scene_convex(s, object);
+    if (s->dim > 3) {
+        const geom_halfspaces of = query_halfspaces(r);
+        return geom_halfspaces_meet(&q->numbers, &q->alloc, &of, &set, memory);
+    }
     /* A corner of the object in all halfspaces decides, and so does a halfspace that has none of it. */
     const uint32_t watched = set.count < 64 ? set.count : 64;
     uint64_t in_all = watched < 64 ? ((uint64_t)1 << watched) - 1 : UINT64_MAX;
@@ -131,7 +135,7 @@ static int power_beyond(const geom_convex *ray, const double *lo, const double *
 static bool set_meets(froe_query *q, uint32_t object) {
     const froe_scene *s = q->tree->scene;
     const geom_range *range = &q->range.range;
-    double lo[3], hi[3];
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     scene_object_bounds(s, object, lo, hi);
     if (boxes_apart(range->lo, range->hi, lo, hi, s->dim)) return false;
     const geom_convex object_set = scene_convex(s, object);

@@ -53,7 +53,7 @@ froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *dia
         return support_fail(diag, FROE_E_OPTIONS, "There is no shape of number %u.", (unsigned)r->shape);
     if ((unsigned)r->walk >= FROE_WALK_COUNT)
         return support_fail(diag, FROE_E_OPTIONS, "There is no walk of number %u.", (unsigned)r->walk);
-    if (dim > 3 && r->shape != FROE_SHAPE_BOX && r->shape != FROE_SHAPE_BALL)
+    if (dim > 3 && r->shape == FROE_SHAPE_RAY)
         return support_fail(diag, FROE_E_UNSUPPORTED, "There is no %s in %d dimensions.", names[r->shape], dim);
     const size_t count = range_point_count(r, (size_t)dim);
     const bool halfspaces = r->shape == FROE_SHAPE_HALFSPACES;
@@ -100,17 +100,18 @@ static void normal_of(int dim, const double *p, const double *q, const double *r
 }
 
 /* Facets in both directions, so that it does not matter which one is the outer one. */
-static bool add_slab(geom_range *r, const froe_allocator *alloc, double n[3]) {
-    const double back[3] = {-n[0], -n[1], -n[2]};
+static bool add_slab(geom_range *r, const froe_allocator *alloc, const double *n) {
+    double back[FROE_MAX_DIM];
+    for (int k = 0; k < r->dim; k++) back[k] = -n[k];
     return geom_range_add_facet(r, alloc, n) && geom_range_add_facet(r, alloc, back);
 }
 
-static bool add_facets(geom_range *r, const froe_allocator *alloc, const froe_range *from) {
+/* In the plane and in space. */
+static bool add_near_facets(geom_range *r, const froe_allocator *alloc, froe_range_shape shape) {
     const double *p[3];
     double n[3];
     bool ok = true;
-    r->facets.count = 0;
-    switch (from->shape) {
+    switch (shape) {
     case FROE_SHAPE_SIMPLEX: /* each side */
         for (uint32_t i = 0; i < r->set.count && ok; i++) {
             for (uint32_t j = 0; j < 3; j++) p[j] = geom_convex_point(&r->set, (i + j) % r->set.count);
@@ -136,22 +137,93 @@ static bool add_facets(geom_range *r, const froe_allocator *alloc, const froe_ra
             if (axes > 1 && (r->dim == 3 || n[2] == 0)) ok = geom_range_add_facet(r, alloc, n);
         }
         return ok;
-    case FROE_SHAPE_HALFSPACES:
-        if (!array_reserve(alloc, &r->facets, from->count)) return false;
-        for (size_t i = 0; i < from->count; i++) {
-            geom_facet f = {.c = from->offsets[i]};
-            double square = 0;
-            for (int k = 0; k < r->dim; k++) {
-                f.n[k] = from->points[i * (size_t)r->dim + (size_t)k];
-                square += f.n[k] * f.n[k];
-            }
-            f.norm = sqrt(square) * (1 + 0x1p-48);
-            r->facets.data[r->facets.count++] = f;
-        }
-        return true;
     default:
         return true;
     }
+}
+
+/* What is left of v across the first `count` vectors, which are made orthogonal to each other on the way. */
+static void take_across(double vectors[][FROE_MAX_DIM], int count, int dim, double *v) {
+    for (int i = 0; i < count; i++) {
+        double along = 0, square = 0;
+        for (int k = 0; k < dim; k++) along += v[k] * vectors[i][k], square += vectors[i][k] * vectors[i][k];
+        for (int k = 0; k < dim && square > 0; k++) v[k] -= along / square * vectors[i][k];
+    }
+}
+
+/* Across each side of a simplex, about: any direction bounds the range. */
+static bool add_sides(geom_range *r, const froe_allocator *alloc) {
+    bool ok = true;
+    for (uint32_t corner = 0; corner < r->set.count && ok; corner++) {
+        double side[FROE_MAX_DIM][FROE_MAX_DIM], n[FROE_MAX_DIM];
+        const double *from = geom_convex_point(&r->set, !corner);
+        int count = 0;
+        for (uint32_t i = 0; i < r->set.count; i++) {
+            if (i == corner || i == (uint32_t)!corner) continue;
+            for (int k = 0; k < r->dim; k++) side[count][k] = geom_convex_point(&r->set, i)[k] - from[k];
+            take_across(side, count, r->dim, side[count]);
+            count++;
+        }
+        for (int k = 0; k < r->dim; k++) n[k] = geom_convex_point(&r->set, corner)[k] - from[k];
+        take_across(side, count, r->dim, n);
+        ok = add_slab(r, alloc, n);
+    }
+    return ok;
+}
+
+/* Across the axis of a capsule, seen along all axes but two. */
+static bool add_around(geom_range *r, const froe_allocator *alloc) {
+    const double *a = geom_convex_point(&r->set, 0), *b = geom_convex_point(&r->set, 1);
+    bool ok = true;
+    for (int i = 0; i < r->dim && ok; i++)
+        for (int j = 0; j < i && ok; j++) {
+            double n[FROE_MAX_DIM] = {0};
+            n[i] = b[j] - a[j];
+            n[j] = a[i] - b[i];
+            ok = add_slab(r, alloc, n);
+        }
+    return ok;
+}
+
+/* In the directions between two axes. */
+static bool add_diagonals(geom_range *r, const froe_allocator *alloc) {
+    bool ok = true;
+    for (int i = 0; i < r->dim && ok; i++)
+        for (int j = 0; j < i && ok; j++)
+            for (int sign = -1; sign <= 1 && ok; sign += 2) {
+                double n[FROE_MAX_DIM] = {0};
+                n[i] = 1;
+                n[j] = sign;
+                ok = add_slab(r, alloc, n);
+            }
+    return ok;
+}
+
+/* Above dimension 3: any directions bound the range. */
+static bool add_far_facets(geom_range *r, const froe_allocator *alloc, froe_range_shape shape) {
+    return shape == FROE_SHAPE_SIMPLEX   ? add_sides(r, alloc)
+           : shape == FROE_SHAPE_CAPSULE ? add_around(r, alloc)
+           : shape == FROE_SHAPE_HULL    ? add_diagonals(r, alloc)
+                                         : true;
+}
+
+/* Those of halfspaces are their own. */
+static bool add_facets(geom_range *r, const froe_allocator *alloc, const froe_range *from) {
+    r->facets.count = 0;
+    if (from->shape != FROE_SHAPE_HALFSPACES)
+        return r->dim > 3 ? add_far_facets(r, alloc, from->shape) : add_near_facets(r, alloc, from->shape);
+    if (!array_reserve(alloc, &r->facets, from->count)) return false;
+    for (size_t i = 0; i < from->count; i++) {
+        geom_facet f = {.c = from->offsets[i]};
+        double square = 0;
+        for (int k = 0; k < r->dim; k++) {
+            f.n[k] = from->points[i * (size_t)r->dim + (size_t)k];
+            square += f.n[k] * f.n[k];
+        }
+        f.norm = sqrt(square) * (1 + 0x1p-48);
+        r->facets.data[r->facets.count++] = f;
+    }
+    return true;
 }
 
 /* ------------------------------------------------------------------ margin -- */
@@ -192,6 +264,13 @@ static froe_status take_margin(froe_query *q, const froe_range *from, froe_diagn
     for (size_t i = 0; from->shape == FROE_SHAPE_BOX && i < 2 * (size_t)dim; i++)
         unbounded |= !isfinite(from->points[i]);
     if (unbounded) return support_fail(diag, FROE_E_INPUT, "A %s without a bound has no eps.", names[from->shape]);
+    if (from->shape == FROE_SHAPE_HALFSPACES && dim > 3) {
+        /* The search is exact: no lower bound of the diameter is known. */
+        const geom_halfspaces of = query_halfspaces(r);
+        if (!geom_halfspaces_bounded(&q->numbers, &of) && geom_halfspaces_any(&q->numbers, &of))
+            return support_fail(diag, FROE_E_INPUT, "Halfspaces without a bound have no eps.");
+        return FROE_OK;
+    }
     if (from->shape == FROE_SHAPE_HALFSPACES) {
         /* Within a box that holds all numbers: which of its planes makes a corner bounds what they do not. */
         if (!geom_polytope_make(&q->numbers, &q->alloc, (int)dim, from->points, from->offsets, from->count, lo, hi,
