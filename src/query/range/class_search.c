@@ -113,22 +113,14 @@ static void search_cube(class_search *s, const double *corner, int level) {
     }
 }
 
-/* A range with finite bounds, in the cubes of its own class that they meet: at most two along each axis. */
+/* A range with finite bounds, in the cubes of its own class that they meet. */
 static void search_cubes(class_search *s) {
-    double ends[2][FROE_MAX_DIM], corner[FROE_MAX_DIM], extent = 0;
-    uint32_t divided = 0;
+    double corner[FROE_MAX_DIM], extent = 0;
     for (int k = 0; k < s->p->dim; k++) extent = fmax(extent, s->hi[k] - s->lo[k]);
     const int level = cube_level(extent);
-    for (int k = 0; k < s->p->dim; k++) {
-        ends[0][k] = cube_corner(s->lo[k] + 0.0, level);
-        ends[1][k] = cube_corner(s->hi[k] + 0.0, level);
-        divided |= (uint32_t)(cube_digit(ends[0][k], ends[1][k]) != CUBE_ALIKE) << k;
-    }
-    for (uint32_t which = 0; which < 1u << s->p->dim && !done(s); which++) {
-        if (which & ~divided) continue;
-        for (int k = 0; k < s->p->dim; k++) corner[k] = ends[which >> k & 1][k];
-        search_cube(s, corner, level);
-    }
+    const cube_cover cover = cube_cover_of(s->p->dim, s->lo, s->hi, level);
+    for (uint32_t which = 0; which < 1u << s->p->dim && !done(s); which++)
+        if (cube_cover_at(&cover, which, corner)) search_cube(s, corner, level);
 }
 
 froe_status query_classes_search(froe_query *q, froe_diagnostic *diag) {

@@ -52,21 +52,15 @@ static bool meets_cube(froe_query *q, uint32_t object, const double *corner, int
 
 /* An entry at each cube of its class that the object meets. */
 static bool enter_object(class_draft *d, uint32_t object) {
-    double ends[2][FROE_MAX_DIM], extent = 0;
-    uint32_t divided = 0;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], corner[FROE_MAX_DIM], extent = 0;
     bool ok = true;
-    scene_object_bounds(d->q->tree->scene, object, ends[0], ends[1]);
-    for (int k = 0; k < d->dim; k++) extent = fmax(extent, ends[1][k] - ends[0][k]);
+    scene_object_bounds(d->q->tree->scene, object, lo, hi);
+    for (int k = 0; k < d->dim; k++) extent = fmax(extent, hi[k] - lo[k]);
     const int level = class_of(d->dim, extent);
-    for (int k = 0; k < d->dim; k++) {
-        for (int side = 0; side < 2; side++) ends[side][k] = cube_corner(ends[side][k] + 0.0, level);
-        divided |= (uint32_t)(cube_digit(ends[0][k], ends[1][k]) != CUBE_ALIKE) << k;
-    }
+    const cube_cover cover = cube_cover_of(d->dim, lo, hi, level);
     for (uint32_t which = 0; which < 1u << d->dim && ok; which++) {
-        double corner[FROE_MAX_DIM];
-        if (which & ~divided) continue;
-        for (int k = 0; k < d->dim; k++) corner[k] = ends[which >> k & 1][k];
-        if (divided && !meets_cube(d->q, object, corner, level)) continue;
+        if (!cube_cover_at(&cover, which, corner)) continue;
+        if (cover.divided && !meets_cube(d->q, object, corner, level)) continue;
         ok = array_push(&d->q->alloc, &d->entries, (class_entry){object, (int16_t)level}) &&
              array_append(&d->q->alloc, &d->corners, corner, (size_t)d->dim);
     }

@@ -12,6 +12,7 @@
 #ifndef FROE_QUERY_RANGE_CUBES_H
 #define FROE_QUERY_RANGE_CUBES_H
 #include "support/arithmetic.h"
+#include <froe/froe.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -77,6 +78,27 @@ static inline int cube_compare(int dim, const double *a, int level_a, const doub
     if (digit == CUBE_ALIKE) return (level_a < level_b) - (level_a > level_b);
     if (digit == CUBE_SIGN) return signbit(a[k]) ? -1 : 1;
     return fabs(a[k]) < fabs(b[k]) ? -1 : 1;
+}
+/** The cubes of a level that bounds shorter than an edge meet: one or two along each axis. */
+typedef struct cube_cover {
+    int dim;
+    uint32_t divided; /**< bit k: are there two along axis k? */
+    double ends[2][FROE_MAX_DIM];
+} cube_cover;
+
+static inline cube_cover cube_cover_of(int dim, const double *lo, const double *hi, int level) {
+    cube_cover c = {.dim = dim};
+    for (int k = 0; k < dim; k++) {
+        c.ends[0][k] = cube_corner(lo[k] + 0.0, level); /* -0 becomes 0 */
+        c.ends[1][k] = cube_corner(hi[k] + 0.0, level);
+        c.divided |= (uint32_t)(cube_digit(c.ends[0][k], c.ends[1][k]) != CUBE_ALIKE) << k;
+    }
+    return c;
+}
+/** The corner of cube 0 .. 2^dim - 1 of them, bit k for the second along axis k. False: there are not two. */
+static inline bool cube_cover_at(const cube_cover *c, uint32_t which, double *corner) {
+    for (int k = 0; k < c->dim; k++) corner[k] = c->ends[which >> k & 1][k];
+    return !(which & ~c->divided);
 }
 /** The bounds of the closed cube; where its far side is no double, beyond it. */
 static inline void cube_bounds(int dim, const double *corner, int level, double *lo, double *hi) {
