@@ -21,27 +21,47 @@
 #include "base/log2.h"
 #include "build/method.h"
 #include "split/finish.h"
+#include "split/guard/shapes.h"
 #include "split/guard/trial.h"
 #include "split/refine.h"
 #include "support/fail.h"
 #include <stdatomic.h>
 #include <string.h>
 
-enum { MODE, K, FORM, GROWTH, HEIGHT, TUNING, STOP, SUPPORTS, QUANTILES, EDGES, WEIGHT, FREE, SMALL, SAMPLE, COPY };
+enum {
+    MODE,
+    K,
+    FORM,
+    GROWTH,
+    HEIGHT,
+    GUARDS,
+    TUNING,
+    STOP,
+    SUPPORTS,
+    QUANTILES,
+    EDGES,
+    WEIGHT,
+    FREE,
+    SMALL,
+    SAMPLE,
+    COPY
+};
 enum { STAR = 1024 }; /* most objects of a cell that may be left for being barren */
 enum { MODE_FIXED, MODE_DOUBLING, MODE_TUNED };
 
 static const char *const modes[] = {"fixed", "doubling", "tuned", NULL};
 static const char *const forms[] = {"auto", "slabs", "cross", NULL};
+static const char *const guards[] = {"object", "shape", NULL};
 static const char *const no_yes[] = {"no", "yes", NULL};
 static const froe_option_info options[] = {
     [MODE] = {"mode", "how k is found: fixed, by doubling lambda, or tuned by cost", 0, 0, 2, modes, true},
-    [K] = {"k", "guards left in a cell of the guard stage; -1: 256 in the plane, 16 elsewhere", -1, -1, 1e9, NULL,
-           true},
+    [K] = {"k", "guards left in a cell of the guard stage; -1: 256 in the plane (64 of shapes), 16 elsewhere", -1, -1,
+           1e9, NULL, true},
     [FORM] = {"form", "outer cells of a shrink: slabs (de Berg) or a cross (Sacks)", 0, 0, 2, forms, true},
     [GROWTH] = {"growth", "fragments per object at which the guard stage gives a cell up; 0: never", 1.5, 0, 1e9, NULL,
                 false},
     [HEIGHT] = {"height", "balanced cuts beyond this many times log2 n levels; 0: no rule", 2, 0, 1e9, NULL, false},
+    [GUARDS] = {"guards", "what has the guards of its box: each object, or each group of them", 0, 0, 1, guards, true},
     [TUNING] = {0},
     [STOP] = {"stop", "the guard stage leaves cells of so many objects to refinement; -1: by dimension", -1, -1, 1e9,
               NULL, true},
@@ -73,14 +93,15 @@ typedef struct density {
     uint32_t stop;
     uint32_t patience; /* barren cuts in a row */
     float growth;
-    loads *probe; /* NULL when building */
+    loads *probe;               /* NULL when building */
+    const split_shapes *shapes; /* when probing for shapes, otherwise NULL */
 } density;
 
 /** In the plane axis-parallel cuts never beat the lines of segments; other kinds need them. */
 static void resolve_density(const froe_scene *scene, uint32_t leaf, double *option) {
     bool plane = scene->dim == 2, segments = plane;
     for (uint32_t i = 0; i < scene->object_count && segments; i++) segments = scene_form(scene, i) == FROE_SEGMENT;
-    if (option[K] < 0) option[K] = plane ? 256 : 16;
+    if (option[K] < 0) option[K] = !plane ? 16 : option[GUARDS] ? 64 : 256;
     if (option[STOP] < 0) option[STOP] = plane ? (leaf > 32 ? leaf : 32) : 256;
     if (option[SUPPORTS] < 0) option[SUPPORTS] = plane ? 8 : 20;
     if (option[QUANTILES] < 0) option[QUANTILES] = segments ? 0 : plane ? 3 : 10;
@@ -112,14 +133,38 @@ static bool probe_in_guard_stage(const void *config, const split_cell *cell) {
     return d->guard->nodes.data[cell->guard].child && split_load(cell);
 }
 
+/** Objects or shapes that a cell meets. */
+static uint32_t count_load(const density *d, split_work *work, const split_cell *cell) {
+    uint32_t load = 0;
+    if (!d->shapes) return cell->count;
+    split_shapes_begin(work->scratch);
+    for (uint32_t i = 0; i < cell->count; i++)
+        load += split_shapes_first(d->shapes, work->scratch, work->set.items.data[cell->first + i].object);
+    return load;
+}
+
+static froe_status probe_scratch_new(const void *config, split_work *work) {
+    const density *d = config;
+    if (!d->shapes) return FROE_OK;
+    work->scratch = support_calloc(&work->set.alloc, 1, sizeof(split_shape_marks));
+    return work->scratch ? split_shape_marks_make(&work->set.alloc, d->shapes, work->scratch) : FROE_E_MEMORY;
+}
+
+static void probe_scratch_free(split_work *work) {
+    if (!work->scratch) return;
+    split_shape_marks_free(&work->set.alloc, work->scratch);
+    support_free(&work->set.alloc, work->scratch, sizeof(split_shape_marks));
+    work->scratch = NULL;
+}
+
 /** Ends the cell where the guard stage ends, and notes its load. */
 static split_verdict probe(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     const density *d = config;
-    (void)work;
+    const uint32_t load = count_load(d, work, cell);
     (void)cut;
-    if (cell->count > d->probe->most) return SPLIT_GIVE_UP;
+    if (load > d->probe->most) return SPLIT_GIVE_UP;
     uint_least32_t largest = atomic_load(&d->probe->largest);
-    while (cell->count > largest && !atomic_compare_exchange_weak(&d->probe->largest, &largest, cell->count)) continue;
+    while (load > largest && !atomic_compare_exchange_weak(&d->probe->largest, &largest, load)) continue;
     atomic_fetch_add(&d->probe->leaves, 1);
     atomic_fetch_add(&d->probe->fragments, cell->count);
     atomic_fetch_add(&d->probe->squares, (uint64_t)cell->count * cell->count);
@@ -131,6 +176,8 @@ static split_verdict probe(const void *config, split_work *work, const split_cel
 typedef struct guard_stage {
     build_job *job;
     split_grid_boxes grid_boxes;
+    split_shapes shapes; /* none if objects have the guards; */
+    split_grid_boxes shape_boxes;
     split_guard_tree tree;
     split_lowest_nodes lowest;
 } guard_stage;
@@ -147,7 +194,8 @@ static froe_status make_tree(guard_stage *g, uint32_t k, double span) {
     split_guard_options o = {.dim = g->job->scene->dim, .k = k, .form = form[(int)g->job->option[FORM]]};
     split_guard_tree_free(&g->job->alloc, &g->tree);
     split_lowest_nodes_free(&g->job->alloc, &g->lowest);
-    froe_status status = split_guard_tree_of(&g->job->alloc, g->job->task, span, &o, &g->grid_boxes, &g->tree);
+    const split_grid_boxes *guarded = g->shapes.count ? &g->shape_boxes : &g->grid_boxes;
+    froe_status status = split_guard_tree_of(&g->job->alloc, g->job->task, span, &o, guarded, &g->tree);
     if (!status) status = split_lowest_nodes_make(&g->job->alloc, g->job->task, &g->grid_boxes, &g->tree, &g->lowest);
     return explain_guard_stage(g, status);
 }
@@ -166,8 +214,12 @@ static froe_status measure_loads(guard_stage *g, uint32_t most, loads *out) {
     out->leaves = out->fragments = out->squares = 0;
     out->largest = 0;
     out->most = most;
-    density d = {.guard = &g->tree, .probe = out};
-    split_method method = {.config = &d, .choose = probe, .in_guard_stage = probe_in_guard_stage};
+    density d = {.guard = &g->tree, .probe = out, .shapes = g->shapes.count ? &g->shapes : NULL};
+    split_method method = {.config = &d,
+                           .choose = probe,
+                           .in_guard_stage = probe_in_guard_stage,
+                           .scratch_new = probe_scratch_new,
+                           .scratch_free = probe_scratch_free};
     split_job split = guard_job(g);
     split.max_fragments = 0;
     split.span *= 0.1;
@@ -205,9 +257,19 @@ static froe_status by_cost(guard_stage *g) {
     return make_tree(g, best, 0);
 }
 
+static froe_status place_boxes(guard_stage *g) {
+    const build_job *job = g->job;
+    froe_status status = split_grid_boxes_make(&job->alloc, job->task, job->scene, &g->grid_boxes);
+    if (!status && job->option[GUARDS]) {
+        status = split_shapes_make(&job->alloc, job->scene, &g->shapes);
+        if (!status) status = split_grid_boxes_make(&job->alloc, job->task, g->shapes.boxes, &g->shape_boxes);
+    }
+    return status;
+}
+
 static froe_status find_k(guard_stage *g) {
     int mode = (int)g->job->option[MODE];
-    froe_status status = split_grid_boxes_make(&g->job->alloc, g->job->task, g->job->scene, &g->grid_boxes);
+    froe_status status = place_boxes(g);
     if (status) return explain_guard_stage(g, status);
     if (mode == MODE_DOUBLING) return by_doubling(g);
     if (mode == MODE_TUNED) return by_cost(g);
@@ -276,6 +338,8 @@ static froe_status build_density(build_job *job, froe_tree **out) {
     }
     split_lowest_nodes_free(&job->alloc, &g.lowest);
     split_grid_boxes_free(&job->alloc, &g.grid_boxes);
+    split_grid_boxes_free(&job->alloc, &g.shape_boxes);
+    split_shapes_free(&job->alloc, &g.shapes);
     split_guard_tree_free(&job->alloc, &g.tree);
     return status;
 }

@@ -126,7 +126,8 @@ static void check_audit(froe_scene *scene, const froe_method_info *method, const
 
 /** With the ways to find k, and without a limit to growth. */
 static void check_modes(froe_scene *scene, const froe_method_info *method, const char *name) {
-    static const char *const settings[] = {"mode=doubling stop=1", "mode=tuned stop=4 form=slabs growth=0"};
+    static const char *const settings[] = {"mode=doubling stop=1", "mode=tuned stop=4 form=slabs growth=0",
+                                           "mode=doubling guards=shape stop=1"};
     if (!has_option(method, "mode")) return;
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         froe_build_options o = options(method->name, 1);
