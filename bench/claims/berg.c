@@ -13,7 +13,7 @@ static const claims_plan saddles[] = {
     {.kinds = CLAIMS_KINDS("saddles apart"), .from = 64, .doublings = 3, .value = claims_pieces}};
 
 /* Balls smaller than every object. */
-static double small_range(const claims_tree *t) {
+static double small_range_by(const claims_tree *t, froe_walk walk) {
     claims_asker a = claims_ask(t);
     froe_diagnostic diag = {0};
     for (int i = 0; i < CLAIMS_QUERIES; i++) {
@@ -23,12 +23,18 @@ static double small_range(const claims_tree *t) {
         claims_place(&a, 0, centre);
         ball.shape = FROE_SHAPE_BALL, ball.points = centre, ball.radius = 0;
         for (int k = 0; k < a.dim; k++) ball.radius = fmax(ball.radius, 0x1p-20 * fabs(centre[k]));
-        ball.walk = t->way.bare ? FROE_WALK_PLAIN : FROE_WALK_AUTO;
+        ball.walk = t->way.bare ? FROE_WALK_PLAIN : walk;
         bench_must(froe_query_range(a.query, &ball, &list, &diag), &diag);
     }
     const double cost = claims_asked(&a) / CLAIMS_QUERIES;
     froe_query_free(a.query);
     return cost;
+}
+static double small_range(const claims_tree *t) {
+    return small_range_by(t, FROE_WALK_AUTO);
+}
+static double small_range_in_cubes(const claims_tree *t) {
+    return small_range_by(t, FROE_WALK_CLASSES);
 }
 
 /* Windows that meet k of m cells: the worst cost over k log2 m. */
@@ -178,6 +184,17 @@ const claim claims_berg[] = {
      .of = CLAIMS_PLAN(("nested", "scatter", "cuboids"), 250, 3, small_range),
      .with = {DEEP},
      .needs = "the structure for locating: from cut to cut",
+     .without = {DEEP, .bare = true},
+     .kind = CLAIM_QUICK},
+    {.source = "de Berg, corollary 3.2",
+     .says = "the same in cubes of all sizes, whatever the tree",
+     .measured = "exponent of cost in n; worst of nested, scatter, cuboids",
+     .least = -INFINITY,
+     .most = 0.3,
+     .measure = claims_growth,
+     .of = CLAIMS_PLAN(("nested", "scatter", "cuboids"), 250, 3, small_range_in_cubes),
+     .with = {DEEP},
+     .needs = "the cubes: the tree, from cut to cut",
      .without = {DEEP, .bare = true},
      .kind = CLAIM_QUICK},
     {.source = "de Berg, lemma 3.4",

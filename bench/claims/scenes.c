@@ -227,6 +227,30 @@ static froe_scene *petals(size_t n, size_t lambda) {
     return taken(3, FROE_POLYGON, coords, n);
 }
 
+/* Zigzags of `lambda` segments, each of one group, in cells of a grid: shapes of many parts. */
+static froe_scene *zigzags(size_t n, size_t lambda) {
+    const size_t groups = n / lambda;
+    froe_diagnostic diag = {0};
+    froe_scene *scene = NULL;
+    double *coords = bench_take(4 * lambda, sizeof *coords);
+    bench_must(froe_scene_new(2, NULL, &scene), &diag);
+    for (size_t i = 0; i < groups; i++) {
+        const froe_group group = {.name = "zigzag"};
+        froe_objects o = froe_objects_defaults();
+        double at[2];
+        o.kind = FROE_SEGMENT, o.count = lambda, o.coords = coords;
+        bench_must(froe_scene_add_group(scene, &group, &o.group), &diag);
+        group_at(i, groups, at);
+        for (size_t j = 0; j < lambda; j++) {
+            const double high = j % 2 ? 0.75 : 0, step = 1 / (double)lambda, x = at[0] + step * (double)j;
+            PUT(coords + 4 * j, x, at[1] + high, x + step, at[1] + 0.75 - high);
+        }
+        bench_must(froe_scene_add(scene, &o, &diag), &diag);
+    }
+    free(coords);
+    return scene;
+}
+
 /* --------------------------------------------------------------------- boxes -- */
 
 /* Rectangles 0.3 of a step wide, in three directions through one cube, near one another nowhere: the simple directional
@@ -301,6 +325,7 @@ static const struct {
               {"turned roofs", turned_roofs},
               {"bundles", bundles},
               {"combs", combs},
+              {"zigzags", zigzags},
               {"rungs", rungs},
               {"crossed rungs", crossed_rungs},
               {"nested points", nested_points},
