@@ -50,6 +50,13 @@ static double segments_cost(const claims_tree *t) {
     return cost_over_bound(t, 1, log2(t->n));
 }
 
+/** As promised, and measured anew by every audit. */
+static double largest_aspect(const claims_tree *t) {
+    const froe_promise *p = t->report.promises;
+    while (p->name && strcmp(p->name, "aspect")) p++;
+    return p->name ? p->measured : (double)INFINITY;
+}
+
 /* --------------------------------------------- segments by way of endpoints -- */
 
 /** A tree of segments beside its plan, the partition of their endpoints that it follows. */
@@ -191,6 +198,28 @@ const claim claims_ranges[] = {
      .with = by_bar,
      .needs = "cuts across corners: cubes are halved",
      .without = {.method = "quad"},
+     .kind = CLAIM_QUICK},
+    {.source = "de Berg and Streppel, section 2 (Duncan et al.)",
+     .says = "height O(log n) for points beyond space, however they lie",
+     .measured = "height / log2 n, the more of R^4 and R^8, 8000 points at distances 2^-1 .. 2^-400",
+     .least = 1,
+     .most = 6,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("nested points in R^4", "nested points in R^8"), 8000, 0, claims_high),
+     .with = by_bar,
+     .needs = "oblique cuts: cubes are halved",
+     .without = {.method = "bar", .settings = "directions=0"},
+     .kind = CLAIM_QUICK},
+    {.source = "de Berg and Streppel, section 2 (Duncan et al.)",
+     .says = "fat cells beyond space",
+     .measured = "the largest aspect of a cell, as the audit measures it, of the same points, 1000",
+     .least = 1,
+     .most = 29,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("nested points in R^4", "nested points in R^8"), 1000, 0, largest_aspect),
+     .with = by_bar,
+     .needs = "cuts that leave both parts fat: the bound is 4000",
+     .without = {.method = "bar", .settings = "aspect=4000"},
      .kind = CLAIM_QUICK},
     {.source = "de Berg and Streppel, theorem 3 (i)",
      .says = "height O(log n)",

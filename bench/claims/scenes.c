@@ -191,6 +191,24 @@ static froe_scene *nested_points(size_t n, size_t lambda) {
     return taken(2, FROE_POINT, xy, n);
 }
 
+/* The same beyond space, on both sides of 0. */
+static froe_scene *nested_points_of(int dim, size_t n) {
+    double *coords = bench_take(n * (size_t)dim, sizeof *coords);
+    for (size_t i = 0; i < n; i++) {
+        const double t = 1 + (double)i / (double)n, away = ldexp(1, -(int)(i % 400));
+        for (int k = 0; k < dim; k++) coords[i * (size_t)dim + (size_t)k] = (k % 2 ? -away : away) * (t + 0.1 * k);
+    }
+    return taken(dim, FROE_POINT, coords, n);
+}
+static froe_scene *nested_points_4d(size_t n, size_t lambda) {
+    (void)lambda;
+    return nested_points_of(4, n);
+}
+static froe_scene *nested_points_8d(size_t n, size_t lambda) {
+    (void)lambda;
+    return nested_points_of(8, n);
+}
+
 /* Points in two narrow columns: cells that are halved in turn become wide and low. */
 static froe_scene *columns(size_t n, size_t lambda) {
     double *xy = bench_take(2 * n, sizeof *xy);
@@ -329,6 +347,8 @@ static const struct {
               {"rungs", rungs},
               {"crossed rungs", crossed_rungs},
               {"nested points", nested_points},
+              {"nested points in R^4", nested_points_4d},
+              {"nested points in R^8", nested_points_8d},
               {"columns", columns},
               {"twigs", twigs},
               {"petals", petals},

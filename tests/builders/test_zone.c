@@ -105,6 +105,29 @@ static void points_end_low_in_every_dimension(void **state) {
         }
 }
 
+/** Twenty at each distance. Zooms that came before border cuts were as many as 168 in a row here. */
+static void points_at_each_scale_end_low(void **state) {
+    enum { COUNT = 8000 };
+    (void)state;
+    for (int dim = 4; dim <= 8; dim += 2) {
+        double *coords = malloc(COUNT * (size_t)dim * sizeof *coords);
+        froe_scene *scene;
+        assert_non_null(coords);
+        for (int i = 0; i < COUNT; i++)
+            for (int k = 0; k < dim; k++)
+                coords[i * dim + k] = ldexp((k % 2 ? -1 : 1) * (1 + (double)i / COUNT + 0.1 * k), -(i % 400));
+        assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_POINT, COUNT, coords, NULL, NULL), FROE_OK);
+        froe_tree *tree = build(scene, NULL);
+        const double height = (double)froe_tree_report(tree).height;
+        if (!(height <= 6 * log2(COUNT))) fail_msg("%dD: height %g", dim, height);
+        assert_true(promise_of(tree, "height", false) <= 60 * log2(COUNT) / log2(1.5));
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+        free(coords);
+    }
+}
+
 /* -------------------------------------------------------------------- aspect -- */
 
 enum { NODES = FROE_MAX_DIM + 1 };
@@ -428,6 +451,7 @@ static void nested_boxes_and_balls_end_low(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_end_low_in_every_dimension),
+        cmocka_unit_test(points_at_each_scale_end_low),
         cmocka_unit_test(cells_are_exactly_as_fat_as_measured),
         cmocka_unit_test(the_audit_finds_thin_cells),
         cmocka_unit_test(every_sequence_of_cuts_is_short),

@@ -139,35 +139,79 @@ static void fatten(const zone_shape *s, double aspect, zone_candidate *c) {
     }
 }
 
-/** The middle of the widest direction; or beside a cluster that is in the way, and small. */
-static zone_candidate halve(const zone_shape *s, const zone_extent *cluster, double pad) {
+/** How far the cluster is from the nearer end of direction (i, j), in the part of the zone that a cut leaves; without
+ * a cut, in all of it. */
+static double depth_of(const zone_shape *s, const zone_extent *e, int i, int j, const zone_candidate *cut) {
+    double most = s->most[i][j], back = s->most[j][i];
+    if (cut) {
+        most = fmin(most, s->most[i][cut->i] + cut->value + s->most[cut->j][j]);
+        back = fmin(back, s->most[j][cut->i] + cut->value + s->most[cut->j][i]);
+    }
+    return fmin(most - e->most[i][j], back - e->most[j][i]);
+}
+
+/** The greatest such depth, and in how many directions it is `room` and more. */
+static double deepest(const zone_shape *s, const zone_extent *e, const zone_candidate *cut, double room,
+                      uint32_t *deep) {
+    double most = 0;
+    *deep = 0;
+    for (int i = 0; i <= s->dim; i++)
+        for (int j = 0; j < i; j++) {
+            const double depth = depth_of(s, e, i, j, cut);
+            *deep += depth >= room;
+            most = fmax(most, depth);
+        }
+    return most;
+}
+
+/** Beside the cluster, in a direction in which both ends are far: so that there are as few of these as can be left. */
+static zone_candidate find_border(const zone_shape *s, const zone_extent *e, double pad, double room) {
+    zone_candidate best = {.i = -1};
+    for (int i = 0; i <= s->dim; i++)
+        for (int j = 0; j <= s->dim; j++) {
+            zone_candidate c = {.i = i, .j = j, .value = e->most[i][j] + pad};
+            if (i == j || depth_of(s, e, i, j, NULL) - pad < room) continue;
+            deepest(s, e, &c, room, &c.larger);
+            c.width = zone_shape_widest_below(s, i, j, c.value);
+            const bool fewer = best.i < 0 || c.larger < best.larger;
+            if (fewer || (c.larger == best.larger && c.width < best.width)) best = c;
+        }
+    return best;
+}
+
+/** The smallest fat part with the cluster, no nearer to it than its depth. */
+static zone_candidate find_zoom(const zone_shape *s, const zone_extent *e, double depth, double room, double aspect) {
+    zone_candidate best = {.i = -1};
+    for (int i = 0; i <= s->dim; i++)
+        for (int j = 0; j <= s->dim; j++) {
+            zone_candidate c = {.i = i, .j = j, .value = e->most[i][j] + depth};
+            if (i == j) continue;
+            fatten(s, aspect, &c);
+            if (s->most[i][j] - c.value >= room && (best.i < 0 || c.width < best.width)) best = c;
+        }
+    return best;
+}
+
+/** The middle of the widest direction; or beside a cluster that is in the way, or nearly, and small. */
+static zone_candidate halve(const zone_shape *s, const zone_extent *e, double pad) {
     zone_candidate c = {.width = -1};
     for (int i = 0; i < s->dim; i++)
         for (int j = s->dim; j > i; j--)
             if (zone_shape_width(s, i, j) > c.width)
                 c = (zone_candidate){i, j, 0.5 * s->most[i][j] - 0.5 * s->most[j][i], zone_shape_width(s, i, j), 0};
-    const double hi = cluster->most[c.i][c.j] + pad, lo = -cluster->most[c.j][c.i] - pad;
-    if (lo < c.value && c.value < hi && hi - lo < 0.25 * c.width) c.value = hi;
+    const double hi = e->most[c.i][c.j] + pad, lo = -e->most[c.j][c.i] - pad, near = 0.125 * c.width;
+    if (lo < c.value + near && c.value - near < hi && hi - lo < 2 * near) c.value = hi;
     return c;
 }
 
-/** A cut that has the whole cluster on one side, or through the middle of the zone. */
-static zone_candidate cut_at_cluster(const zone_shape *s, const zone_extent *cluster, double pad, double aspect) {
+/** A cut that has the whole cluster on one side, while the zone is much larger. */
+static zone_candidate cut_at_cluster(const zone_shape *s, const zone_extent *e, double pad, double aspect) {
     const double room = thin(s, s->widest, aspect);
-    zone_candidate zoom = {.i = -1}, border = {.i = -1};
-    double deepest = 0;
-    for (int i = 0; i <= s->dim; i++)
-        for (int j = 0; j <= s->dim; j++) {
-            if (i == j) continue;
-            zone_candidate c = {.i = i, .j = j, .value = cluster->most[i][j] + pad};
-            const double before = s->most[j][i] - cluster->most[j][i], beyond = s->most[i][j] - cluster->most[i][j];
-            const double depth = fmin(before, beyond);
-            if (beyond >= before && depth - pad >= room && depth > deepest) deepest = depth, border = c;
-            fatten(s, aspect, &c);
-            if (s->most[i][j] - c.value >= room && (zoom.i < 0 || c.width < zoom.width)) zoom = c;
-        }
-    if (zoom.i >= 0 && zoom.width <= 0.5 * s->widest) return zoom;
-    return border.i >= 0 ? border : halve(s, cluster, pad);
+    uint32_t deep;
+    const zone_candidate border = find_border(s, e, pad, room);
+    if (border.i >= 0) return border;
+    const zone_candidate zoom = find_zoom(s, e, fmax(deepest(s, e, NULL, room, &deep), pad), room, aspect);
+    return zoom.i >= 0 && zoom.width <= 0.5 * s->widest ? zoom : halve(s, e, pad);
 }
 
 /* -------------------------------------------------------------------- both -- */

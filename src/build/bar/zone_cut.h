@@ -3,9 +3,9 @@
  *     +-----+-------+     median   a cut at the median of some direction leaves two fat parts, none too full.
  *     |    :|:    . |              Otherwise more points than the goal lie in a cluster:
  *     |    :|:   ...|
- *     +-------------+     zoom     the cluster is near the border of the zone in every direction: one cut leaves it
- *     |           / |              in a zone not much larger than its distance from there
- *     |          /::|     border   it is amid the zone in some direction: a cut runs beside it, so that it is no more
+ *     +-------------+     border   it is amid the zone in some direction: a cut runs beside it, so that it is no more
+ *     |           / |     zoom     it is near the border of the zone in every direction: one cut leaves it in a zone
+ *     |          /::|              not much larger than its distance from there
  *     |         /::.|     halve    the zone is not much larger than the cluster
  *     +-------------+
  *
