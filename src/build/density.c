@@ -44,7 +44,8 @@ enum {
     FREE,
     SMALL,
     SAMPLE,
-    COPY
+    COPY,
+    TRIALS
 };
 enum { STAR = 1024 }; /* most objects of a cell that may be left for being barren */
 enum { MODE_FIXED, MODE_DOUBLING, MODE_TUNED };
@@ -77,6 +78,8 @@ static const froe_option_info options[] = {
     [SAMPLE] = {"sample", "fragments scored per candidate, at most", 512, 8, 1e6, NULL, true},
     [COPY] = {"copy", "what it costs to list a solid once more, in comparisons with all of its cell; 0: none is spared",
               0.5, 0, 100, NULL, false},
+    [TRIALS] = {"trials", "tests that refinement on trial is allowed, by the usual ones; 0: it is never taken back", 1,
+                0, 1e9, NULL, false},
     {0},
 };
 
@@ -93,8 +96,11 @@ typedef struct density {
     uint32_t stop;
     uint32_t patience; /* barren cuts in a row */
     float growth;
-    loads *probe;               /* NULL when building */
+    uint32_t levels;            /* of the guard stage, at most */
+    loads *probe;               /* NULL when building, and then job and sums are set */
     const split_shapes *shapes; /* when probing for shapes, otherwise NULL */
+    build_job *job;
+    split_sums *sums; /* of the build */
 } density;
 
 /** In the plane axis-parallel cuts never beat the lines of segments; other kinds need them. */
@@ -114,6 +120,7 @@ static bool in_guard_stage(const void *config, const split_cell *cell) {
     uint32_t load = split_load(cell);
     if (!d->guard->nodes.data[cell->guard].child) return false;
     if (load <= d->stop || load <= d->refine.leaf) return false;
+    if (cell->depth >= d->levels) return false;
     if (load <= STAR && cell->barren >= d->patience) return false;
     return d->growth <= 0 || cell->growth < d->growth;
 }
@@ -293,30 +300,54 @@ static split_refine refine_of(const build_job *job) {
                           .free_cuts = job->option[FREE] != 0};
 }
 
-/** Returns where the fragments of the guard stage are to be noted, if they are promised. */
-static double *promise(build_job *job, const split_guard_tree *guard) {
-    double growth = job->option[GROWTH];
-    size_t bytes = (size_t)job->scene->dim * sizeof(double); /* beyond, meta stays 0 */
-    memcpy(job->meta.root_lo, guard->lo, bytes);
-    memcpy(job->meta.root_hi, guard->hi, bytes);
-    build_promise(job, "guard_leaves", guard->promised, (double)guard->leaves);
-    if (growth <= 0) return NULL;
-    build_promise(job, "guard_fragments", 2 * growth * job->scene->object_count, 0);
-    return &job->meta.promises[job->meta.promise_count - 1].measured;
+/** Only for what is cut: solids are listed as often as that pays (refine.h). */
+static bool counts_pieces(const froe_scene *scene) {
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (!split_is_cut(scene_form(scene, i))) return false;
+    return true;
 }
 
-/** The fragments of the guard stage may be more than promised by what trials allow. */
-static froe_status grow_on_trial(const guard_stage *g, const split_method *method, froe_tree **out) {
+/** What the tree is promised to be, by what was met on the way (docs/design/density.md). */
+static void promise(const void *config) {
+    const density *d = config;
+    build_job *job = d->job;
+    const split_books *books = &d->sums->books;
+    const double n = job->scene->object_count, growth = job->option[GROWTH];
+    build_promise(job, "guard_leaves", d->guard->promised, (double)d->guard->leaves);
+    if (growth > 0) build_promise(job, "guard_fragments", 2 * growth * n + books->beyond, (double)books->fragments);
+    if (job->root) return; /* then there is no guard stage */
+    if (counts_pieces(job->scene)) build_promise(job, "fragments", books->pieces, 0);
+    if (books->height < n) build_promise(job, "height", books->height, 0);
+    build_promise(job, "tests", d->sums->tests_allowed + d->guard->height * d->sums->carried, d->sums->tests);
+}
+
+/** No cut splits points, so that they need no guard stage but for speed; where they are nested it would be high. */
+static uint32_t levels_of_guard_stage(const build_job *job, double height) {
+    for (uint32_t i = 0; i < job->scene->object_count; i++)
+        if (scene_form(job->scene, i) != FROE_POINT) return UINT32_MAX;
+    return height > 0 ? (uint32_t)height : UINT32_MAX;
+}
+
+/** Grows the tree with its refinement on trial. */
+static froe_status grow_on_trial(const guard_stage *g, density *d, split_method *method, froe_tree **out) {
     build_job *job = g->job;
-    double first = 2 * job->option[GROWTH] * job->scene->object_count, allowed = 0;
+    split_sums sums = {0};
     uint32_t *leaves = trial_leaves(&job->alloc, &g->tree);
     if (!leaves) return support_fail_memory(job->diag);
+    const split_trial_terms terms = {.leaves = leaves,
+                                     .candidates =
+                                         job->option[TRIALS] * split_refine_candidates(&d->refine, job->scene->dim),
+                                     .idle = job->option[TRIALS] == 0};
     split_job split = guard_job(g);
-    split.guard_fragments = promise(job, &g->tree);
-    split.guard_allowed = &allowed;
-    split.guard_leaves = leaves;
+    split.trials = &terms;
+    split.sums = &sums;
+    d->job = job;
+    d->sums = &sums;
+    method->note = promise;
+    size_t bytes = (size_t)job->scene->dim * sizeof(double); /* beyond, meta stays 0 */
+    memcpy(job->meta.root_lo, g->tree.lo, bytes);
+    memcpy(job->meta.root_hi, g->tree.hi, bytes);
     froe_status status = split_grow(&split, method, out);
-    if (!status && first > 0) tree_promise_anew(*out, "guard_fragments", first + allowed);
     trial_leaves_free(&job->alloc, &g->tree, leaves);
     return status;
 }
@@ -328,13 +359,14 @@ static froe_status build_density(build_job *job, froe_tree **out) {
         density d = {.refine = refine_of(job), .guard = &g.tree, .stop = (uint32_t)job->option[STOP]};
         d.growth = (float)job->option[GROWTH];
         d.patience = 2 * (uint32_t)job->scene->dim;
+        d.levels = levels_of_guard_stage(job, d.refine.height);
         split_method method = {.config = &d,
                                .choose = choose_density_cut,
                                .finish = finish_density_cell,
                                .in_guard_stage = in_guard_stage,
                                .scratch_new = split_scratch_new,
                                .scratch_free = split_scratch_free};
-        status = grow_on_trial(&g, &method, out);
+        status = grow_on_trial(&g, &d, &method, out);
     }
     split_lowest_nodes_free(&job->alloc, &g.lowest);
     split_grid_boxes_free(&job->alloc, &g.grid_boxes);

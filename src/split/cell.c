@@ -116,6 +116,7 @@ static froe_status cut_in_two(split_work *work, const split_cell *cell, const fr
     class_counts n;
     uint32_t child, local = cell->node - set->draft->outer;
     froe_status status = classify(set, cell, cut, &plane, &n);
+    work->tests += cell->count;
     if (status) return status;
     if (useless) *useless = !n.of[SPLIT_ON] && (!n.of[SPLIT_NEG] || !n.of[SPLIT_POS]);
     if (useless && *useless) return FROE_OK;
@@ -153,6 +154,7 @@ static void note_progress(const split_cell *parent, uint32_t in_cut, split_cell 
         bool kept = 10 * (uint64_t)split_load(&side[s]) >= 9 * (uint64_t)split_load(parent);
         side[s].growth = parent->growth * after / before;
         side[s].barren = kept ? parent->barren + 1 : 0;
+        side[s].plain = parent->plain;
     }
 }
 
@@ -200,6 +202,8 @@ froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *c
         side[s].wholes = job->lowest->end[node->child + s] - side[s].whole;
     }
     note_progress(cell, in_cut, side);
-    work->guarded += in_cut;
+    work->books.fragments += in_cut;
+    work->books.pieces += in_cut;
+    work->carried += in_cut;
     return push_child_cells(work, side);
 }

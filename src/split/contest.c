@@ -11,6 +11,7 @@ void split_contest_show(split_contest *c, uint32_t sample, uint64_t seed) {
 
 bool split_contest_price(const split_contest *c, split_candidate *k, split_tally tally) {
     k->due = 0;
+    c->work->tests += c->view->count;
     k->tally = tally;
     k->cost =
         c->solids ? split_price_of_copies(tally, c->copy) : split_price_of(c->price, &c->terms, tally, c->view->weight);

@@ -357,6 +357,8 @@ froe_status split_finish(const split_refine *config, split_work *work, const spl
     froe_status status = FROE_OK;
     while (t->parts && !full && !status) {
         table_part p = t->stack[--t->parts];
+        work->deepest = p.depth > work->deepest ? p.depth : work->deepest;
+        work->tests += size(p.set);
         status = do_part(&f, &p, &full);
     }
     t->parts += full;                                /* p is still there: it has no columns for its halves */

@@ -103,10 +103,7 @@ static froe_status grow_cell(grow *g, split_work *work, split_cell *cell) {
     if (trial_cuts_by_guard(g->job, g->method, cell)) {
         status = cell_cut_guard(work, g->job, cell);
     } else {
-        if (trial_is_due(g->job, cell))
-            status = trial_begin(g->job, work, cell);
-        else if (cell->guard != FROE_NONE)
-            work->guarded += split_load(cell);
+        if (trial_is_due(g->job, cell)) status = trial_begin(g->job, work, cell);
         if (!status) status = refine_cell(g, work, cell);
     }
     if (!status && work->first.open) status = trial_judge(g->job, work);
@@ -294,13 +291,7 @@ static froe_status seal(grow *g, froe_tree **out) {
     tree_graft *grafts = support_calloc(alloc, count, sizeof *grafts);
     if (!grafts) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
-    uint64_t guarded = 0, allowed = 0;
-    for (unsigned i = 0; i < g->worker_count; i++) {
-        guarded += g->workers[i].guarded;
-        allowed += g->workers[i].allowed;
-    }
-    if (g->job->guard_fragments) *g->job->guard_fragments = (double)guarded;
-    if (g->job->guard_allowed) *g->job->guard_allowed = (double)allowed;
+    for (unsigned i = 0; i < g->worker_count && g->job->sums; i++) trial_add_up(g->job->sums, g->workers + i);
     if (g->method->note) g->method->note(g->method->config);
     for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);

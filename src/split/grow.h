@@ -24,7 +24,7 @@ typedef struct split_cell {
     float growth;           /**< fragmentation by the cuts so far: see density.c */
     uint32_t barren;        /**< cuts in a row that left nearly all fragments in this cell */
     uint32_t tried;         /**< load at which refinement was last taken back, here or above: guard/trial.h */
-    bool settled;           /**< refinement is final */
+    bool plain;             /**< to be cut along its fragments alone, in random order */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
 } split_cell;
 
@@ -41,15 +41,46 @@ typedef enum split_verdict {
     SPLIT_CANCELLED    /**< split_go_on() returned false */
 } split_verdict;
 
-/** What may still be taken back: the subtree of a cell of the guard stage (guard/trial.h). */
+/** What trials go by (guard/trial.h). */
+typedef struct split_trial_terms {
+    const uint32_t *leaves; /**< below every node of the guard tree */
+    double candidates;      /**< for the cut of a cell, at most, with the cut itself */
+    bool idle;              /**< what exceeds its allowance stays all the same */
+} split_trial_terms;
+
+/** What the cells where the guard stage ended add up to, with the cuts of the stage. */
+typedef struct split_books {
+    uint64_t fragments; /**< that these cells have, and those cuts */
+    double beyond;      /**< the most of them that came after the stage would have ended by itself */
+    double pieces;      /**< the most that refinement makes of them */
+    double height;      /**< the most, too */
+} split_books;
+
+/** What refinement of a cell may take. */
+typedef struct split_allowance {
+    double pieces, tests, levels;
+} split_allowance;
+
+/** A subtree on its way: how much is in the arrays of split_work. */
+typedef struct split_stand {
+    tree_draft_mark draft;
+    size_t items, cells;
+    uint32_t deepest;
+    split_books books;
+} split_stand;
+
+/** The subtree of a cell where the guard stage ended, while it may still be taken back (guard/trial.h). */
 typedef struct split_trial {
-    bool open, by_guard;    /**< by_guard: it begins with guard cuts */
-    uint64_t most;          /**< pieces */
-    split_cell cell;        /**< as it was before, with its fragments in items; */
-    tree_draft_mark before; /**< the draft, */
-    size_t pending;         /**< the number of other cells, */
-    uint32_t deepest;       /**< and two of split_work */
-    uint64_t guarded;
+    bool open, by_guard;     /**< by_guard: guard cuts come first, and refinement waits */
+    bool final;              /**< allowed: all that is ever needed */
+    split_allowance allowed; /**< to refinement */
+    uint64_t tested;         /**< split_work.tests when that began */
+    split_cell cell;         /**< as it was before, with its fragments in items */
+    split_stand before;      /**< without the subtree */
+    split_stand waiting;     /**< with what waits: so many pieces and tests, and its root */
+    double waiting_pieces;
+    uint64_t waiting_tests;
+    tree_node root;
     ARRAY(split_fragment) items;
 } split_trial;
 
@@ -60,9 +91,11 @@ typedef struct split_work {
     ARRAY(unsigned char) rooms; /**< split_method.room bytes each: of the cell at hand, then of those in cells */
     void *scratch;
     base_task *task;
-    uint64_t guarded; /**< fragments in cells where the guard stage ended, and in its own cuts */
-    uint64_t allowed; /**< sum of `most` over trials that succeeded with guard cuts */
     split_trial first, later;
+    split_books books;
+    uint64_t tests;       /**< fragments compared with planes: with cuts and with candidates for them */
+    double tests_allowed; /**< the most that trials allow of these */
+    uint64_t carried;     /**< fragments that guard cuts have led anywhere; these and those, what failed, too */
     uint32_t crossing[2]; /**< on SPLIT_REFUSE; otherwise FROE_NONE */
     uint32_t deepest;     /**< depth of the deepest cell of the current subtree */
     uint64_t most;        /**< pieces that a subtree grown again may have; 0: the first time, max_fragments counts */
@@ -98,6 +131,12 @@ typedef struct split_method {
     double height;
 } split_method;
 
+/** What a build came to, with all that was taken back. */
+typedef struct split_sums {
+    split_books books;
+    double tests, tests_allowed, carried;
+} split_sums;
+
 typedef struct split_job {
     froe_scene *scene;
     froe_allocator alloc;
@@ -109,12 +148,11 @@ typedef struct split_job {
                                         method's choice */
     const split_guard_tree *guard; /**< NULL: no guard stage */
     const split_lowest_nodes *lowest; /**< with guard */
-    const uint32_t *guard_leaves;     /**< below every guard node: refinement is on trial (guard/trial.h); or NULL */
+    const split_trial_terms *trials;  /**< with guard: refinement is on trial; or NULL */
     double span;                      /**< share of the task's progress */
     const tree_meta *meta;
-    double *guard_fragments; /**< receives the sum of split_work.guarded, before meta is read; may be NULL */
-    double *guard_allowed;   /**< and that of split_work.allowed; may be NULL */
-    num_stage first;         /**< where predicates start: NUM_FILTER, later ones for tests */
+    split_sums *sums; /**< may be NULL */
+    num_stage first;  /**< where predicates start: NUM_FILTER, later ones for tests */
     froe_diagnostic *diag;
 } split_job;
 

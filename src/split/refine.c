@@ -12,6 +12,12 @@
 /* Candidates in cells of solids: ends of extents an axis, planes between pairs. */
 enum { QUANTILES = 10, SEPARATORS = 32 };
 
+uint32_t split_refine_candidates(const split_refine *config, int dim) {
+    const uint32_t supports = 2 * (config->supports > 4 ? config->supports : 4); /* of free cuts, too */
+    const uint32_t quantiles = config->quantiles > QUANTILES ? config->quantiles : QUANTILES;
+    return supports + (uint32_t)dim * quantiles + (config->edges > SEPARATORS ? config->edges : SEPARATORS) + 4;
+}
+
 froe_status split_scratch_begin(const froe_allocator *alloc, split_scratch *s) {
     split_price_init(&s->price);
     s->table = split_table_new(alloc);
@@ -213,7 +219,7 @@ split_verdict split_refine_choose(const split_refine *config, split_work *work, 
     if (config->leaf && split_one_point(&work->set, cell)) return SPLIT_INSEPARABLE;
     for (uint32_t i = 0; i < m && s.contest.solids; i++)
         s.contest.solids = scene_form(work->set.scene, object_of(&s, i)) >= FROE_BOX;
-    bool single = config->supports == 1 && !config->quantiles && !config->free_cuts;
+    bool single = cell->plain || (config->supports == 1 && !config->quantiles && !config->free_cuts);
     if (!s.contest.solids && (cell->attempt || single)) return last_resort(&s, cut);
     const bool strict = split_balance_due(config, cell->depth, base_log2(m));
     s.contest.terms = (split_terms){config->weight, strict && m > 4 ? 0.75 * m : (double)INFINITY};

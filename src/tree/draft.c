@@ -94,6 +94,53 @@ void draft_cut_back(tree_draft *draft, const tree_draft_mark *mark, uint32_t nod
     draft->nodes.data[node] = (tree_node){0};
 }
 
+/** What a node refers to lies further down by as much as `by`. */
+static void move_node(tree_node *node, const tree_draft_mark *by) {
+    if (node->type == TREE_LEAF) {
+        node->u.list.first -= node->u.list.count ? (uint32_t)by->pieces : 0;
+    } else {
+        node->child -= (uint32_t)by->nodes;
+        if (node->type == TREE_TABLED) node->u.cut -= (uint32_t)by->cuts;
+    }
+}
+
+/** The same for a ring, which may name nodes from before. */
+static void move_ring(const tree_draft *draft, uint32_t *ring, const tree_draft_mark *from, uint32_t by) {
+    for (uint32_t k = 1; k <= ring[0]; k++)
+        if (ring[k] & TREE_EDGE_CUT && (ring[k] & ~TREE_EDGE_CUT) >= draft->outer + from->nodes) ring[k] -= by;
+}
+
+#define DRAFT_CLOSE_UP(array)                                                                                          \
+    do {                                                                                                               \
+        if (draft->array.count > to->array)                                                                            \
+            memmove(draft->array.data + from->array, draft->array.data + to->array,                                    \
+                    (draft->array.count - to->array) * sizeof *draft->array.data);                                     \
+        draft->array.count -= by.array;                                                                                \
+    } while (0)
+
+void draft_remove(tree_draft *draft, const tree_draft_mark *from, const tree_draft_mark *to, uint32_t node) {
+    const tree_draft_mark by = {to->nodes - from->nodes, to->cuts - from->cuts, to->pieces - from->pieces,
+                                to->bounds - from->bounds, to->normals - from->normals};
+    move_node(draft->nodes.data + node, &by);
+    for (size_t i = to->nodes; i < draft->nodes.count; i++) move_node(draft->nodes.data + i, &by);
+    for (size_t i = to->cuts; i < draft->cuts.count; i++) {
+        tree_cut *cut = draft->cuts.data + i;
+        cut->first -= cut->count ? (uint32_t)by.pieces : 0;
+        if (cut->kind == FROE_CUT_PLANE) cut->a -= (uint32_t)by.normals;
+    }
+    for (size_t i = to->pieces; i < draft->pieces.count; i++) {
+        tree_piece *piece = draft->pieces.data + i;
+        if (!piece->ring) continue;
+        move_ring(draft, draft->bounds.data + piece->ring, from, (uint32_t)by.nodes);
+        piece->ring -= (uint32_t)by.bounds;
+    }
+    DRAFT_CLOSE_UP(nodes);
+    DRAFT_CLOSE_UP(cuts);
+    DRAFT_CLOSE_UP(pieces);
+    DRAFT_CLOSE_UP(bounds);
+    DRAFT_CLOSE_UP(normals);
+}
+
 froe_status draft_list(tree_draft *draft, uint32_t node) {
     tree_node *n = draft->nodes.data + node;
     uint32_t first = (uint32_t)draft->pieces.count;

@@ -47,6 +47,9 @@ typedef struct tree_draft_mark {
 tree_draft_mark draft_mark(const tree_draft *draft);
 /** Removes what was added since the mark, all of it below `node`, which was not finished then and is not again. */
 void draft_cut_back(tree_draft *draft, const tree_draft_mark *mark, uint32_t node);
+/** Removes what was added between two marks. What came later, which does not refer to it, hangs below `node`, which was
+ * there before. */
+void draft_remove(tree_draft *draft, const tree_draft_mark *from, const tree_draft_mark *to, uint32_t node);
 
 /** A tree without arrays, which holds the scene; to be filled and finished. FROE_E_MEMORY. */
 froe_status draft_shell(const froe_allocator *alloc, froe_scene *scene, const tree_meta *meta, froe_tree **out);
