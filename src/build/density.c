@@ -334,9 +334,9 @@ static froe_status grow_on_trial(const guard_stage *g, density *d, split_method 
     split_sums sums = {0};
     uint32_t *leaves = trial_leaves(&job->alloc, &g->tree);
     if (!leaves) return support_fail_memory(job->diag);
+    const double tests = job->option[TRIALS] > 0 ? job->option[TRIALS] : 1;
     const split_trial_terms terms = {.leaves = leaves,
-                                     .candidates =
-                                         job->option[TRIALS] * split_refine_candidates(&d->refine, job->scene->dim),
+                                     .candidates = tests * split_refine_candidates(&d->refine, job->scene->dim),
                                      .idle = job->option[TRIALS] == 0};
     split_job split = guard_job(g);
     split.trials = &terms;
