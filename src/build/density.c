@@ -336,7 +336,7 @@ static froe_status grow_on_trial(const guard_stage *g, density *d, split_method 
     if (!leaves) return support_fail_memory(job->diag);
     const double tests = job->option[TRIALS] > 0 ? job->option[TRIALS] : 1;
     const split_trial_terms terms = {.leaves = leaves,
-                                     .candidates = tests * split_refine_candidates(&d->refine, job->scene->dim),
+                                     .candidates = tests * split_refine_candidates(&d->refine, job->scene),
                                      .idle = job->option[TRIALS] == 0};
     split_job split = guard_job(g);
     split.trials = &terms;

@@ -73,12 +73,12 @@ typedef struct split_stand {
 typedef struct split_trial {
     bool open, by_guard;     /**< by_guard: guard cuts come first, and refinement waits */
     bool final;              /**< allowed: all that is ever needed */
+    double other;            /**< pieces that the other way is known to make at least */
     split_allowance allowed; /**< to refinement */
     uint64_t tested;         /**< split_work.tests when that began */
     split_cell cell;         /**< as it was before, with its fragments in items */
     split_stand before;      /**< without the subtree */
-    split_stand waiting;     /**< with what waits: so many pieces and tests, and its root */
-    double waiting_pieces;
+    split_stand waiting;     /**< with what waits: so many tests, and its root */
     uint64_t waiting_tests;
     tree_node root;
     ARRAY(split_fragment) items;

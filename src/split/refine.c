@@ -12,10 +12,15 @@
 /* Candidates in cells of solids: ends of extents an axis, planes between pairs. */
 enum { QUANTILES = 10, SEPARATORS = 32 };
 
-uint32_t split_refine_candidates(const split_refine *config, int dim) {
-    const uint32_t supports = 2 * (config->supports > 4 ? config->supports : 4); /* of free cuts, too */
+uint32_t split_refine_candidates(const split_refine *config, const froe_scene *scene) {
+    const uint32_t dim = (uint32_t)scene->dim, supports = config->supports > 4 ? config->supports : 4;
+    const uint32_t edges = dim == 3 ? config->edges : 0;
     const uint32_t quantiles = config->quantiles > QUANTILES ? config->quantiles : QUANTILES;
-    return supports + (uint32_t)dim * quantiles + (config->edges > SEPARATORS ? config->edges : SEPARATORS) + 4;
+    bool solids = false;
+    for (uint32_t i = 0; i < scene->object_count && !solids; i++) solids = scene_form(scene, i) >= FROE_BOX;
+    const uint32_t cut = 2 * supports + dim * config->quantiles + edges; /* free cuts may be scored before supports */
+    const uint32_t listed = dim * quantiles + SEPARATORS;
+    return 4 + (solids && listed > cut ? listed : cut);
 }
 
 froe_status split_scratch_begin(const froe_allocator *alloc, split_scratch *s) {

@@ -54,7 +54,7 @@ static inline bool split_balance_due(const split_refine *config, uint32_t depth,
 }
 
 /** Planes that the fragments of a cell are compared with, at most, before it is cut, and when it is. */
-uint32_t split_refine_candidates(const split_refine *config, int dim);
+uint32_t split_refine_candidates(const split_refine *config, const froe_scene *scene);
 
 /** The split_method.choose of autopartition, and of density below its guard stage. */
 split_verdict split_refine_choose(const split_refine *config, split_work *work, const split_cell *cell, froe_cut *cut);

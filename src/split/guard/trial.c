@@ -142,6 +142,7 @@ froe_status trial_begin(const split_job *job, split_work *work, const split_cell
     t->open = true;
     t->by_guard = false;
     t->final = cell->plain;
+    t->other = 0;
     t->cell = *cell;
     t->before = stand_of(work);
     t->before.items = cell->first;
@@ -190,7 +191,7 @@ static froe_status go_by_guard(split_work *work, split_trial *t) {
     cell.tried = split_load(&cell);
     t->waiting = stand_of(work);
     t->waiting_tests = work->tests - t->tested;
-    t->waiting_pieces = pieces_of(work, t);
+    t->other = pieces_of(work, t);
     work->deepest = t->before.deepest;
     t->root = work->set.draft->nodes.data[local_root(work, t)];
     t->by_guard = true;
@@ -200,6 +201,7 @@ static froe_status go_by_guard(split_work *work, split_trial *t) {
 
 /** Guard cuts are taken back, and refinement goes on. */
 static void go_on(split_work *work, split_trial *t) {
+    t->other = pieces_of(work, t);
     return_to(work, t, &t->waiting);
     work->set.draft->nodes.data[local_root(work, t)] = t->root;
     work->later.open = t->by_guard = false;
@@ -216,20 +218,20 @@ static void stay_by_guard(split_work *work, split_trial *t) {
     t->open = false;
 }
 
-/** Refinement of the first cell, and guard cuts in its place. */
+/** Refinement of the first cell, and guard cuts in its place. A limit on all pieces changes no decision: it ends the
+ * build once both ways are known to exceed it. */
 static froe_status judge_first(const split_job *job, split_work *work, split_trial *t) {
     const double most = job->max_fragments ? (double)job->max_fragments : (double)INFINITY;
     const double pieces = pieces_of(work, t);
+    if (pieces > most && t->other > most) return FROE_E_BUDGET;
     if (!t->by_guard) {
-        if (refinement_exceeds(work, t) || pieces > most) return go_by_guard(work, t);
+        if (refinement_exceeds(work, t)) return go_by_guard(work, t);
         if (is_done(work, t)) close_trial(work, t);
-        return FROE_OK;
-    }
-    if (pieces > most && t->waiting_pieces > most) return FROE_E_BUDGET;
-    if (pieces > fmin(most_by_guard(t), fmax(most, t->waiting_pieces)))
+    } else if (pieces > most_by_guard(t)) {
         go_on(work, t);
-    else if (is_done(work, t))
+    } else if (is_done(work, t)) {
         stay_by_guard(work, t);
+    }
     return FROE_OK;
 }
 
