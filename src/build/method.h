@@ -3,7 +3,7 @@
 #define FROE_BUILD_METHOD_H
 #include "split/grow.h"
 
-#define BUILD_OPTIONS 16 /* most options of a method, tuning and what stands between included */
+#define BUILD_OPTIONS 20 /* most options of a method, tuning and what stands between included */
 #define BUILD_DIMS_ALL 0x1fcu
 #define BUILD_KINDS_ALL 0x3fu
 /* What there is in R^d: polygons in space only, no segments and hulls beyond. */
