@@ -45,13 +45,14 @@ json_t *cli_tree_json(const froe_tree *tree) {
                   "filtered", (json_int_t)p->filtered, "refined", (json_int_t)p->refined, "exact", (json_int_t)p->exact,
                   "exact_zero", (json_int_t)p->exact_zero);
     return json_pack(
-        "{s:s, s:o, s:i, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:o, s:o}",
+        "{s:s, s:o, s:i, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:o, s:o}",
         "method", r.method, "settings", settings_json(r.settings ? r.settings : ""), "dim", r.dim, "leaf",
         (json_int_t)r.leaf, "seed", (json_int_t)r.seed, "objects", (json_int_t)r.objects, "nodes", (json_int_t)r.nodes,
         "leaves", (json_int_t)r.leaves, "fragments", (json_int_t)r.fragments, "pieces_per_object", each, "in_cut",
-        (json_int_t)r.in_cut, "size", (json_int_t)r.size, "height", (json_int_t)r.height, "mean_depth", r.mean_depth,
-        "max_leaf", (json_int_t)r.max_leaf, "inseparable", (json_int_t)r.inseparable, "crowded", (json_int_t)r.crowded,
-        "bytes", (json_int_t)r.bytes, "predicates", predicates, "bounds", bounds);
+        (json_int_t)r.in_cut, "covers", (json_int_t)r.covers, "size", (json_int_t)r.size, "height",
+        (json_int_t)r.height, "mean_depth", r.mean_depth, "max_leaf", (json_int_t)r.max_leaf, "inseparable",
+        (json_int_t)r.inseparable, "crowded", (json_int_t)r.crowded, "bytes", (json_int_t)r.bytes, "predicates",
+        predicates, "bounds", bounds);
 }
 
 int cli_report_build(const cli_common *common, const char *scene, const char *output, const froe_tree *tree,

@@ -104,7 +104,7 @@ static froe_status write_fragments(export_job *j) {
         froe_node_info info = froe_tree_node(j->tree, node);
         bool leaf = info.cut.kind == FROE_CUT_NONE;
         for (size_t i = 0; i < info.piece_count && !status; ++i)
-            status = write_piece(j, info.first_piece + i, node, !leaf);
+            status = write_piece(j, info.first_piece + i, node, !leaf && i >= info.cover_count);
         const froe_node after[2] = {info.child[1], info.child[0]}; /* child 0 comes next */
         if (!leaf && !status && !array_append(&j->alloc, &j->stack, after, 2)) status = support_fail_memory(j->diag);
     }

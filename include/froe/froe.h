@@ -331,8 +331,9 @@ typedef struct froe_report {
     uint32_t leaf;
     uint64_t seed;
     uint64_t objects, nodes, leaves;
-    uint64_t fragments; /**< pieces in all leaf and in-cut lists */
-    uint64_t in_cut;    /**< ... of these, in in-cut lists */
+    uint64_t fragments; /**< pieces in all lists */
+    uint64_t in_cut;    /**< ... of these, those that lie in the cut of their node */
+    uint64_t covers;    /**< ... and those that contain the region of their node */
     uint64_t size, height;
     double mean_depth;    /**< over pieces */
     uint64_t max_leaf;    /**< pieces in the fullest leaf */
@@ -387,7 +388,8 @@ typedef struct froe_cut {
 typedef struct froe_node_info {
     froe_cut cut;
     froe_node child[2];              /**< both none in a leaf */
-    size_t first_piece, piece_count; /**< its list: leaf list, or the pieces in the cut */
+    size_t first_piece, piece_count; /**< its list: covers, then what meets the leaf's cell, or lies in the cut */
+    size_t cover_count;              /**< boxes that contain the region of the node, and are in no list below it */
     bool guard;                      /**< belongs to the guard stage of a density or bar tree */
     bool inseparable;                /**< a leaf over capacity that nothing can separate */
     bool crowded;                    /**< a leaf over capacity that more cuts would not thin out */
@@ -395,7 +397,7 @@ typedef struct froe_node_info {
 FROE_API froe_node froe_tree_root(const froe_tree *tree);
 FROE_API froe_node_info froe_tree_node(const froe_tree *tree, froe_node node);
 
-/** A piece: object ∩ closure of the cell (leaf) or of the cut within its region. */
+/** A piece: object ∩ closure of the cell (leaf), of the cut within its region, or, a cover, of the region. */
 typedef struct froe_piece {
     uint32_t object;
     bool whole;       /**< nothing of the object was cut off, or its kind is not cut (boxes, balls, hulls) */

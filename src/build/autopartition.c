@@ -40,8 +40,7 @@ static froe_status build_autopartition(build_job *job, froe_tree **out) {
                            .scratch_new = split_scratch_new,
                            .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
-    const double most = job->scene->object_count + build_levels_given(job); /* each other cut on a path consumes one */
-    build_promise(job, "height", most, 0);
+    build_promise(job, "height", build_levels(job) + build_levels_given(job), 0);
     return split_grow(&split, &method, out);
 }
 

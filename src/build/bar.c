@@ -427,6 +427,7 @@ static froe_status build_bar(build_job *job, froe_tree **out) {
     if (!b.originals) return support_fail_memory(job->diag);
     status = scene_originals(job->scene, &job->alloc, b.originals);
     split_method method = {.config = &b,
+                           .shaped = true,
                            .choose = choose_bar_cut,
                            .finish = finish_bar_cell,
                            .room = b.zones ? sizeof(bar_zone) : sizeof(bar_region),

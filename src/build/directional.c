@@ -67,17 +67,16 @@ static froe_status check_budget(const build_job *job, const boxes *b, uint64_t m
     return job->max_fragments && pieces > job->max_fragments ? FROE_E_BUDGET : FROE_OK;
 }
 
-/** Lists what is in the cell: its fragments, and the boxes that cover it. */
-static froe_status end_box_leaf(const build_job *job, boxes *b, const boxes_cell *cell) {
-    uint32_t load = cell->count + cell->covers;
+/** Lists what is in the cell: the boxes that cover it, and its fragments. */
+static froe_status end_box_leaf(const build_job *job, boxes *b, boxes_cell *cell, bool crowded) {
+    const bool begun = cell->covers;
     froe_status status = check_budget(job, b, cell->covers);
-    b->covered += cell->covers;
-    draft_leaf(&b->draft, cell->node, load > job->leaf ? TREE_INSEPARABLE : 0);
-    if (load && !status) status = draft_list(&b->draft, cell->node);
+    const uint8_t full = crowded ? TREE_CROWDED : TREE_INSEPARABLE;
+    draft_leaf(&b->draft, cell->node, cell->count > job->leaf ? full : 0);
+    if (!status) status = boxes_list_covers(b, cell);
+    if (cell->count && !begun && !status) status = draft_list(&b->draft, cell->node);
     for (uint32_t i = 0; i < cell->count && !status; i++)
         status = draft_piece(&b->draft, cell->node, b->fragments.data[cell->first + i].object, NULL, 0);
-    for (uint32_t i = cell->cover; i != FROE_NONE && !status; i = b->covers.data[i].next)
-        status = draft_piece(&b->draft, cell->node, b->covers.data[i].object, NULL, 0);
     boxes_drop(b, cell);
     return status;
 }
@@ -88,10 +87,10 @@ static froe_status do_box_cells(const build_job *job, boxes *b) {
     froe_status status = FROE_OK;
     for (uint32_t turn = 0; b->cells.count && !status; turn++) {
         boxes_cell cell = b->cells.data[--b->cells.count];
-        bool small = !cell.count || (!b->options.faces && cell.count + cell.covers <= job->leaf);
+        bool small = !cell.count || (!b->options.faces && cell.count <= job->leaf);
         boxes_cut cut = small ? (boxes_cut){.found = false} : boxes_sweep(b, &cell);
         if (!cut.found) {
-            status = end_box_leaf(job, b, &cell);
+            status = end_box_leaf(job, b, &cell, cut.crowded);
         } else {
             /* is the cut so far off balance that the cell is worth trees? */
             const uint32_t less = cut.below < cut.above ? cut.below : cut.above;
@@ -114,7 +113,8 @@ static froe_status build_directional(build_job *job, froe_tree **out) {
                          .trade = trade,
                          .balance = job->option[BALANCE],
                          .slack = job->option[SLACK],
-                         .faces = job->option[BOXES] != 0};
+                         .faces = job->option[BOXES] != 0,
+                         .leaf = job->leaf};
     froe_status status = boxes_new(job->scene, &job->alloc, &how, &b);
     double bound = boxes_bound(&b, n);
     if (!status && n && bound == 0)
@@ -123,7 +123,7 @@ static froe_status build_directional(build_job *job, froe_tree **out) {
     else {
         if (!status) status = prepare_boxes(job, &b);
         if (!status) status = do_box_cells(job, &b);
-        build_promise(job, "fragments", bound + (double)b.paid + (double)b.covered, 0);
+        build_promise(job, "fragments", bound + (double)b.paid, 0);
         if (!status) status = draft_seal(&b.draft, NULL, 0, job->scene, &job->meta, out);
         status = split_explain(job->diag, job->max_fragments, status);
     }

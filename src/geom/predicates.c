@@ -362,15 +362,21 @@ int geom_side_ball(num_context *context, const geom_plane *plane, const double *
 
 /* --------------------------------------------------------------------- box -- */
 
+/* Does a plane given by a normal rise along an axis? */
+static bool rises(num_context *context, const geom_plane *plane, int axis) {
+    if (plane->form == GEOM_VECTOR || fabs(plane->normal[axis]) > plane->n_err) return plane->normal[axis] > 0;
+    return plane_coefficient_dyadic(num_fresh(context), plane, axis).sign > 0;
+}
+
 int geom_side_box(num_context *context, const geom_plane *plane, const double *lo, const double *hi) {
-    const bool vector = plane->form == GEOM_VECTOR, axis = plane->form == GEOM_AXIS;
-    unsigned reached = 0;
-    for (uint32_t i = 0; i < (vector || axis ? 2 : 1u << plane->dim) && reached != 3; i++) {
+    const bool vector = geom_is_vector(plane), two = vector || plane->form == GEOM_AXIS;
+    unsigned reached = 0, up = ~0u;
+    for (int k = 0; k < plane->dim && vector; k++)
+        if (!rises(context, plane, k)) up &= ~(1u << k);
+    for (uint32_t i = 0; i < (two ? 2 : 1u << plane->dim) && reached != 3; i++) {
+        const uint32_t corner = two ? (i ? up : ~up) : i; /* the furthest back, then the furthest along; or all */
         double x[FROE_MAX_DIM];
-        for (int k = 0; k < plane->dim; k++) { /* the least corner along the normal, then the greatest; or all */
-            const bool high = vector ? (plane->normal[k] > 0) == (i == 1) : axis ? i : i >> k & 1;
-            x[k] = high ? hi[k] : lo[k];
-        }
+        for (int k = 0; k < plane->dim; k++) x[k] = corner >> k & 1 ? hi[k] : lo[k];
         const int side = geom_side_vertex(context, plane, x);
         if (side) reached |= side > 0 ? 2 : 1;
     }

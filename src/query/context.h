@@ -32,6 +32,7 @@ typedef enum query_part_id {
     QUERY_CONTENTS,
     QUERY_PIECES,
     QUERY_CLASSES,
+    QUERY_COVERS,
     QUERY_PARTS
 } query_part_id;
 

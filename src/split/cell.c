@@ -5,10 +5,12 @@
 
 enum { PREFETCH = 64 }; /* objects asked for at once, at most */
 
-/** Puts the cell's fragments into the list of its node, all or, `on`, those that lie in the cut; so many. */
+/** Puts the cell's covers into the list of its node, and its fragments, all or, `on`, those that lie in the cut; so
+ * many. */
 static froe_status emit_fragments(split_set *set, const split_cell *cell, uint32_t count, bool on) {
-    if (!count) return FROE_OK;
-    froe_status status = draft_list(set->draft, cell->node - set->draft->outer);
+    froe_status status = cover_emit(set, cell);
+    if (!count) return status;
+    if (!status && !cell->covers) status = draft_list(set->draft, cell->node - set->draft->outer);
     for (uint32_t i = 0; i < cell->count && !status; i++)
         if (!on || set->classes.data[i] == SPLIT_ON)
             status = split_emit(set, cell->node, set->items.data + cell->first + i);
@@ -18,7 +20,7 @@ static froe_status emit_fragments(split_set *set, const split_cell *cell, uint32
 froe_status cell_leaf(split_work *work, const split_cell *cell, uint8_t flags) {
     draft_leaf(work->set.draft, cell->node - work->set.draft->outer, flags);
     froe_status status = emit_fragments(&work->set, cell, cell->count, false);
-    work->set.items.count = cell->first;
+    work->set.items.count = cell->first - cell->covers;
     return status;
 }
 
@@ -108,9 +110,11 @@ static froe_status deal_fragments_of_cell(split_set *set, const split_cell *cell
     return FROE_OK;
 }
 
-/** Cuts in place and makes the children; *useless as for cell_cut, NULL: cut all the same. */
-static froe_status cut_in_two(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags,
-                              bool *useless, split_cell side[2], uint32_t *in_cut) {
+/** Cuts in place and makes the children; *useless as for cell_cut, NULL: cut all the same. *listed: pieces of the
+ * node. */
+static froe_status cut_in_two(split_work *work, const split_cell *parent, const froe_cut *cut, uint8_t flags,
+                              bool *useless, split_cell side[2], uint32_t *listed) {
+    split_cell of_parent = *parent, *cell = &of_parent;
     split_set *set = &work->set;
     split_plane plane;
     class_counts n;
@@ -122,6 +126,7 @@ static froe_status cut_in_two(split_work *work, const split_cell *cell, const fr
     if (useless && *useless) return FROE_OK;
     status = draft_split(set->draft, local, &plane.cut, flags, &child);
     if (!status) status = emit_fragments(set, cell, n.of[SPLIT_ON], true);
+    cover_drop(set, cell);
     if (!status) status = deal_fragments_of_cell(set, cell, &plane, &n);
     if (status) return status;
     /* the children, with their fragments where they were left just now */
@@ -134,7 +139,14 @@ static froe_status cut_in_two(split_work *work, const split_cell *cell, const fr
                                .count = s ? positive : negative,
                                .corner_top = (uint32_t)work->set.corners.count,
                                .guard = FROE_NONE};
-    *in_cut = n.of[SPLIT_ON];
+    const size_t bytes = set->boxes ? (size_t)set->scene->dim * sizeof *cell->lo : 0;
+    for (int s = 0; s < 2; s++) {
+        memcpy(side[s].lo, cell->lo, bytes);
+        memcpy(side[s].hi, cell->hi, bytes);
+        double *bound = (s ? side[s].lo : side[s].hi) + cut->axis;
+        if (bytes && cut->kind == FROE_CUT_AXIS && (s ? cut->value > *bound : cut->value < *bound)) *bound = cut->value;
+    }
+    *listed = parent->covers + n.of[SPLIT_ON];
     return FROE_OK;
 }
 
@@ -147,9 +159,10 @@ static froe_status push_child_cells(split_work *work, const split_cell side[2]) 
 }
 
 /** Tells the children the fragmentation and the barren cuts so far: see density.c. */
-static void note_progress(const split_cell *parent, uint32_t in_cut, split_cell side[2]) {
-    float before = split_load(parent) ? (float)split_load(parent) : 1;
-    float after = (float)split_load(&side[0]) + (float)split_load(&side[1]) + (float)in_cut;
+static void note_progress(const split_cell *parent, uint32_t listed, split_cell side[2]) {
+    const uint32_t load = parent->covers + split_load(parent);
+    float before = load ? (float)load : 1;
+    float after = (float)split_load(&side[0]) + (float)split_load(&side[1]) + (float)listed;
     for (int s = 0; s < 2; s++) {
         bool kept = 10 * (uint64_t)split_load(&side[s]) >= 9 * (uint64_t)split_load(parent);
         side[s].growth = parent->growth * after / before;
@@ -160,10 +173,10 @@ static void note_progress(const split_cell *parent, uint32_t in_cut, split_cell 
 
 froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags, bool *useless) {
     split_cell side[2];
-    uint32_t in_cut;
-    froe_status status = cut_in_two(work, cell, cut, flags, useless, side, &in_cut);
+    uint32_t listed;
+    froe_status status = cut_in_two(work, cell, cut, flags, useless, side, &listed);
     if (status || (useless && *useless)) return status;
-    note_progress(cell, in_cut, side);
+    note_progress(cell, listed, side);
     return push_child_cells(work, side);
 }
 
@@ -190,10 +203,11 @@ froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *c
     const split_guard_node *node = job->guard->nodes.data + cell->guard;
     froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = node->axis, .value = node->value};
     split_cell side[2];
-    uint32_t in_cut;
+    uint32_t listed;
     froe_status status =
         cell_take(work, job->lowest, cell, split_lowest_nodes_own(job->lowest, job->guard, cell->guard));
-    if (!status) status = cut_in_two(work, cell, &cut, TREE_GUARD, NULL, side, &in_cut);
+    if (!status) status = cover_find(&work->set, cell);
+    if (!status) status = cut_in_two(work, cell, &cut, TREE_GUARD, NULL, side, &listed);
     if (status) return status;
     for (uint32_t s = 0; s < 2; s++) {
         side[s].guard = node->child + s;
@@ -201,9 +215,9 @@ froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *c
         side[s].whole = job->lowest->at[node->child + s];
         side[s].wholes = job->lowest->end[node->child + s] - side[s].whole;
     }
-    note_progress(cell, in_cut, side);
-    work->books.fragments += in_cut;
-    work->books.pieces += in_cut;
-    work->carried += in_cut;
+    note_progress(cell, listed, side);
+    work->books.fragments += listed;
+    work->books.pieces += listed;
+    work->carried += listed;
     return push_child_cells(work, side);
 }

@@ -57,6 +57,7 @@ typedef struct split_set {
     ARRAY(uint8_t) classes; /**< of the fragments of the current cell */
     ARRAY(split_fragment) spare;
     ARRAY(uint32_t) ring;
+    bool boxes; /**< does the scene have boxes, which may become covers? Cells then know their bounds */
 } split_set;
 
 froe_status split_set_new(const froe_scene *scene, const froe_allocator *alloc, split_set *out);

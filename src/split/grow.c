@@ -83,6 +83,8 @@ froe_status split_step(const split_method *method, split_work *work, split_cell 
     for (bool useless = true; useless && !status; cell->attempt++) {
         split_verdict verdict = method->choose(method->config, work, cell, &cut);
         if (verdict > SPLIT_CUT_GUARD) return failure_of(verdict);
+        if (verdict < SPLIT_CUT && verdict != SPLIT_LEAF && !method->shaped && cover_peel(&work->set, cell, &cut))
+            verdict = SPLIT_CUT_ANYWAY;
         if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
         if (verdict > SPLIT_CUT) return divide_cell(method, work, cell, &cut, verdict == SPLIT_CUT_GUARD, NULL);
         status = divide_cell(method, work, cell, &cut, false, &useless);
@@ -94,7 +96,8 @@ froe_status split_step(const split_method *method, split_work *work, split_cell 
 static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     froe_status status = cell_take(work, g->job->lowest, cell, cell->wholes);
     bool done = false;
-    if (g->method->finish && !status) status = g->method->finish(g->method->config, work, cell, &done);
+    if (!status) status = cover_find(&work->set, cell);
+    if (g->method->finish && !status && !cell->covers) status = g->method->finish(g->method->config, work, cell, &done);
     return status || done ? status : split_step(g->method, work, cell);
 }
 
@@ -172,10 +175,13 @@ static froe_status start_workers(grow *g) {
     g->workers = support_calloc(&job->alloc, job->task->threads, sizeof *g->workers);
     if (!g->workers) return FROE_E_MEMORY;
     froe_status status = FROE_OK;
+    bool boxes = false;
+    for (uint32_t i = 0; i < job->scene->object_count && !boxes; i++) boxes = scene_form(job->scene, i) == FROE_BOX;
     for (; g->worker_count < job->task->threads && !status; g->worker_count++) {
         split_work *work = g->workers + g->worker_count;
         status = split_set_new(job->scene, &job->alloc, &work->set);
         if (status) break;
+        work->set.boxes = boxes;
         work->task = job->task;
         work->calling = work == g->workers;
         if (job->first > work->set.context.first) work->set.context.first = job->first;
@@ -188,6 +194,7 @@ static froe_status start_workers(grow *g) {
 static froe_status push_root(grow *g, split_work *work) {
     uint32_t n = g->job->scene->object_count;
     split_cell root = {.path = 1, .guard = FROE_NONE, .growth = 1};
+    for (int k = 0; k < g->job->scene->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
     if (g->job->guard && n && !g->job->root) {
         root.guard = 0;
         root.wholes = n;

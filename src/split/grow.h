@@ -18,6 +18,7 @@ typedef struct split_cell {
     uint32_t depth;
     uint64_t path;          /**< for base_hash() */
     uint32_t first, count;  /**< its fragments: set->items */
+    uint32_t covers;        /**< so many before them are covers: boxes that contain the cell (split/cell.h) */
     uint32_t whole, wholes; /**< and, in the guard stage, whole objects: lowest->ids[whole ..], so many */
     uint32_t corner_top;    /**< corners from here on belong to cells that are done */
     uint32_t guard;         /**< node of the guard tree that this cell is, or FROE_NONE */
@@ -26,6 +27,7 @@ typedef struct split_cell {
     uint32_t tried;         /**< load at which refinement was last taken back, here or above: guard/trial.h */
     bool plain;             /**< to be cut along its fragments alone, in random order */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /**< bounds by the axis-parallel cuts above; where set->boxes only */
 } split_cell;
 
 typedef enum split_verdict {
@@ -122,6 +124,8 @@ typedef struct split_method {
                     void *positive, void *negative);
     /** Is the cell to be cut by its node of the guard tree? NULL: never. */
     bool (*in_guard_stage)(const void *config, const split_cell *cell);
+    /** Do cells have a shape that cuts along boxes that contain all others would spoil (split/cell.h)? */
+    bool shaped;
     /** Called once all cells are done, before job->meta is read; may be NULL. */
     void (*note)(const void *config);
     /** Makes and frees a worker's scratch; may be NULL. */

@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* Candidates in cells of solids: ends of extents an axis, planes between pairs. */
-enum { QUANTILES = 10, SEPARATORS = 32 };
+enum { QUANTILES = 10, SEPARATORS = 32, FAR_OBJECTS = 32 };
 
 uint32_t split_refine_candidates(const split_refine *config, const froe_scene *scene) {
     const uint32_t dim = (uint32_t)scene->dim, supports = config->supports > 4 ? config->supports : 4;
@@ -73,8 +73,9 @@ static void enter_cut(refine_search *s, const froe_cut *cut, const split_tally *
     split_view_plane plane;
     if (!(tally ? split_contest_price(&s->contest, &k, *tally) : split_contest_score(&s->contest, &k, &plane))) return;
     split_contest_enter(&s->contest, &k);
-    if (best->cut.kind != FROE_CUT_PLANE || best->cut.normal == separator->best) return;
-    memcpy(separator->best, best->cut.normal, sizeof separator->best);
+    if (best->cut.normal != separator->rows) return;
+    const size_t rows = cut->kind == FROE_CUT_FINE ? cut->id[0] : 1, width = (size_t)s->set->scene->dim + 1;
+    memcpy(separator->best, separator->rows, rows * width * sizeof *separator->rows);
     best->cut.normal = separator->best;
 }
 
@@ -129,11 +130,22 @@ static double centre_distance(const froe_scene *scene, uint32_t a, uint32_t b) {
     return square;
 }
 
+/** With its exact count: above dimension 3 nothing is shown. */
+static void enter_counted(refine_search *s, const froe_cut *cut) {
+    split_tally tally;
+    if (cell_tally(s->contest.work, s->cell, cut, &tally))
+        s->contest.failed = true;
+    else
+        enter_cut(s, cut, &tally);
+}
+
 /** Planes between an object and the nearest of 1, 2, 4, ... 128 others. */
 static void enter_separators(refine_search *s) {
     const froe_scene *scene = s->set->scene;
     uint32_t m = s->cell->count;
-    for (uint64_t i = 0; i < SEPARATORS && scene->dim <= 3 && !s->contest.done; i++) {
+    const bool far = scene->dim > 3;
+    if (far && m > FAR_OBJECTS) return;
+    for (uint64_t i = 0; i < SEPARATORS && !s->contest.done && !s->contest.failed; i++) {
         uint64_t draw = draw_of(s, 200000 + i);
         uint32_t a = object_of(s, base_below(draw, m)), b = FROE_NONE;
         for (uint32_t t = 0; t < 1u << i % 8; t++) {
@@ -143,8 +155,8 @@ static void enter_separators(refine_search *s) {
             b = other;
         }
         froe_cut cut;
-        if (b != FROE_NONE && split_separate_pair(s->contest.work, a, b, &s->scratch->separator, &cut))
-            enter_cut(s, &cut, NULL);
+        if (b == FROE_NONE || !split_separate_pair(s->contest.work, a, b, &s->scratch->separator, &cut)) continue;
+        far ? enter_counted(s, &cut) : enter_cut(s, &cut, NULL);
     }
 }
 
@@ -167,8 +179,6 @@ static void enter_facets(refine_search *s) {
 
 /** When no candidate separates anything: any plane that does. Facets are complete for boxes. */
 static split_verdict enter_any_separator(refine_search *s) {
-    split_work *work = s->contest.work;
-    split_tally tally;
     froe_cut cut;
     split_verdict verdict = SPLIT_INSEPARABLE;
     for (int k = 0; k < s->set->scene->dim && s->config->facets && verdict != SPLIT_CUT; k++) {
@@ -177,11 +187,10 @@ static split_verdict enter_any_separator(refine_search *s) {
         cut = (froe_cut){.kind = FROE_CUT_AXIS, .axis = k, .value = from};
         verdict = SPLIT_CUT;
     }
-    if (verdict != SPLIT_CUT) verdict = split_separate(work, s->cell, &s->scratch->separator, &cut);
+    if (verdict != SPLIT_CUT) verdict = split_separate(s->contest.work, s->cell, &s->scratch->separator, &cut);
     if (verdict != SPLIT_CUT) return verdict;
-    if (cell_tally(work, s->cell, &cut, &tally)) return SPLIT_MEMORY;
-    enter_cut(s, &cut, &tally);
-    return SPLIT_CUT;
+    enter_counted(s, &cut);
+    return s->contest.failed ? SPLIT_MEMORY : SPLIT_CUT;
 }
 
 /** The cheapest of some cuts, unless none pays and the cell is crowded. */

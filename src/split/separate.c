@@ -1,6 +1,5 @@
 /* separate.c: see separate.h. Every plane found is checked by the exact predicates before it counts. */
 #include "split/separate.h"
-#include "geom/meet/apart.h"
 #include "tree/crowd.h"
 #include <math.h>
 
@@ -40,8 +39,8 @@ static void add_corners(const froe_scene *scene, uint32_t object, int set, split
 bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut) {
     const froe_scene *scene = work->set.scene;
     const bool boxes = scene_form(scene, a) == FROE_BOX && scene_form(scene, b) == FROE_BOX;
-    if (scene->dim > 3 || boxes) return false; /* axis-parallel planes do */
-    if (scene_form(scene, a) == FROE_HULL && scene_form(scene, b) == FROE_HULL) {
+    if (boxes) return false; /* axis-parallel planes do */
+    if (scene->dim <= 3 && scene_form(scene, a) == FROE_HULL && scene_form(scene, b) == FROE_HULL) {
         geom_member *corners = separator->corners.data;
         separator->corners.count = 0;
         add_corners(scene, a, -1, separator);
@@ -54,8 +53,10 @@ bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separat
         }
     }
     const geom_body one = scene_body(scene, a), other = scene_body(scene, b);
-    *cut = (froe_cut){.kind = FROE_CUT_PLANE, .normal = separator->normal};
-    return geom_apart(&work->set.context, &one, &other, separator->normal, &cut->value);
+    const int rows = geom_apart(&work->set.context, &one, &other, separator->rows);
+    *cut = (froe_cut){.kind = FROE_CUT_PLANE, .value = separator->rows[scene->dim], .normal = separator->rows};
+    if (rows > 1) cut->kind = FROE_CUT_FINE, cut->id[0] = (uint32_t)rows;
+    return rows > 0;
 }
 
 /** Do all balls contain the centre of the smallest? Then no two can be separated: no need to try all pairs. */
@@ -93,7 +94,7 @@ bool split_separator_ready(const split_set *set, const split_cell *cell, split_s
 split_verdict split_separate(split_work *work, const split_cell *cell, split_separator *separator, froe_cut *cut) {
     if (by_axis(work, cell, cut) && cell->attempt < 2) return SPLIT_CUT;
     const froe_scene *scene = work->set.scene;
-    if (scene->dim > 3 || share_a_point(work, cell)) return SPLIT_INSEPARABLE;
+    if (share_a_point(work, cell)) return SPLIT_INSEPARABLE;
     if (!split_separator_ready(&work->set, cell, separator)) return SPLIT_MEMORY;
     for (uint32_t i = 0; i < cell->count && split_go_on(work); i++) {
         uint32_t a = object_at(work, cell, i);

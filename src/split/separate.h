@@ -2,12 +2,13 @@
 #ifndef FROE_SPLIT_SEPARATE_H
 #define FROE_SPLIT_SEPARATE_H
 #include "geom/between.h"
+#include "geom/meet/apart.h"
 #include "split/grow.h"
 
-/** What the search keeps per thread: the normals of the FROE_CUT_PLANE found last and of the best, and corners being
- * looked at. */
+/** What the search keeps per thread: the numbers of the plane found last and of the best, and corners being looked at.
+ */
 typedef struct split_separator {
-    double normal[3], best[3];
+    double rows[GEOM_APART_NUMBERS], best[GEOM_APART_NUMBERS];
     ARRAY(geom_member) corners;
 } split_separator;
 
@@ -17,8 +18,8 @@ typedef struct split_separator {
  *     unless their interiors meet;
  *   - for hulls in R^2 and R^3, planes through corners of a pair: exact and complete, also where they touch, but for
  *     pairs that lie in one plane (geom/between.h);
- *   - for all pairs but boxes in R^2 and R^3, the plane halfway between their nearest points, in doubles: complete
- *     for pairs further apart than 2^-45 of their largest coordinate (geom/meet/apart.h).
+ *   - for all pairs but boxes, the plane halfway between their nearest points: complete for pairs that have no point
+ *     in common (geom/meet/apart.h).
  * The cut may point to the separator. O(m d) first, O(m^2) pairs only when axis planes fail.
  * SPLIT_MEMORY, SPLIT_CANCELLED. */
 split_verdict split_separate(split_work *work, const split_cell *cell, split_separator *separator, froe_cut *cut);

@@ -158,6 +158,13 @@ froe_status draft_list(tree_draft *draft, uint32_t node) {
     return FROE_OK;
 }
 
+froe_status draft_cover(tree_draft *draft, uint32_t node, uint32_t object) {
+    const froe_status status = draft_piece(draft, node, object, NULL, 0);
+    tree_node *n = draft->nodes.data + node;
+    if (!status) *(n->type == TREE_LEAF ? &n->child : &n->u.covers) += 1;
+    return status;
+}
+
 froe_status draft_piece(tree_draft *draft, uint32_t node, uint32_t object, const uint32_t *ring, uint32_t count) {
     tree_node *n = draft->nodes.data + node;
     tree_piece piece = {.object = object};

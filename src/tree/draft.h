@@ -36,6 +36,8 @@ void draft_leaf(tree_draft *draft, uint32_t node, uint8_t flags);
 /** Begins the list of a leaf or of a split node (an AXIS cut moves to the table);
  * the following draft_piece calls fill it. One list at a time, each once. */
 froe_status draft_list(tree_draft *draft, uint32_t node);
+/** Appends a cover, a box that contains the region of the node, to the list begun last, before all other pieces. */
+froe_status draft_cover(tree_draft *draft, uint32_t node, uint32_t object);
 /** Appends a piece to the list begun last. ring NULL: the whole object. Otherwise
  * `count` ring entries as in tree.h, nodes numbered as said above (+ outer). */
 froe_status draft_piece(tree_draft *draft, uint32_t node, uint32_t object, const uint32_t *ring, uint32_t count);

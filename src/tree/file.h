@@ -12,7 +12,7 @@
 #define FROE_TREE_FILE_H
 #include "tree/packed/packed.h"
 
-#define FILE_VERSION 1u
+#define FILE_VERSION 2u
 #define FILE_ALIGN 64u
 #define FILE_MAGIC                                                                                                     \
     "\x89"                                                                                                             \

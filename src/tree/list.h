@@ -1,4 +1,4 @@
-/* list.h: the in-cut or leaf list of a node, wherever the layout of its tree keeps it.
+/* list.h: the list of a node, wherever the layout of its tree keeps it.
  *
  *     general     pieces[first .. first + count): every second number is an object
  *     packed      the ids in the block of the leaf, in the plane (packed.h) or in space (space.h)
@@ -29,6 +29,23 @@ static inline tree_objects tree_list(const froe_tree *t, uint32_t node) {
         list.at = &t->pieces[list.first].object;
     }
     return list;
+}
+/** A part of a list: `count` pieces from the i-th on. */
+static inline tree_objects tree_part(tree_objects list, uint32_t i, uint32_t count) {
+    if (i) list.at += (size_t)i * list.stride;
+    list.first += i;
+    list.count = count;
+    return list;
+}
+/** The covers of a node. */
+static inline tree_objects tree_cover_list(const froe_tree *t, uint32_t node) {
+    return tree_part(tree_list(t, node), 0, tree_covers(t, t->nodes + node));
+}
+/** The list of a node without its covers: what lies in its cut, or in the open cell of a leaf. */
+static inline tree_objects tree_own_list(const froe_tree *t, uint32_t node) {
+    const tree_objects list = tree_list(t, node);
+    const uint32_t covers = tree_covers(t, t->nodes + node);
+    return tree_part(list, covers, list.count - covers);
 }
 /** Object of the i-th piece of a list. */
 static inline uint32_t tree_object(const tree_objects *list, uint32_t i) {

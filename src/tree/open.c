@@ -73,7 +73,11 @@ static froe_status check_layout(opening *o) {
     const file_header *h = o->header = (const file_header *)(const void *)o->bytes;
     const size_t table = FILE_SECTIONS * sizeof(file_section);
     if (memcmp(h->magic, FILE_MAGIC, sizeof h->magic) != 0) return bad_file(o, "it does not begin as one");
-    if (h->version != FILE_VERSION) return bad_file(o, "its version is not one this froe reads");
+    if (h->version != FILE_VERSION)
+        return support_fail(o->diag, FROE_E_FORMAT,
+                            "%s: It is a tree file of version %u, and this froe reads version %u: build it again from "
+                            "its scene.",
+                            support_short(o->path), h->version, FILE_VERSION);
     if (h->size != o->size) return bad_file(o, h->size > o->size ? "it is truncated" : "something follows its end");
     if (h->sections != FILE_SECTIONS || o->size < sizeof *h + table) return bad_file(o, "its section table is wrong");
     o->table = (const file_section *)(const void *)(o->bytes + sizeof *h);

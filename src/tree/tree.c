@@ -102,10 +102,12 @@ froe_status tree_finish(froe_tree *t) {
     double depths = 0; /* of all pieces */
     while (tree_walk_next(&walk)) {
         const tree_node *n = t->nodes + walk.node;
-        uint32_t count = tree_list(t, walk.node).count, depth = tree_walk_depth(&walk);
+        const uint32_t count = tree_list(t, walk.node).count, covers = tree_covers(t, n);
+        const uint32_t depth = tree_walk_depth(&walk);
         depths += (double)depth * (double)count;
+        r.covers += covers;
         if (!tree_is_leaf(n)) {
-            r.in_cut += count;
+            r.in_cut += count - covers;
             continue;
         }
         r.leaves++;
@@ -157,6 +159,7 @@ froe_node_info froe_tree_node(const froe_tree *tree, froe_node node) {
     tree_objects list = tree_list(tree, id);
     info.first_piece = list.first;
     info.piece_count = list.count;
+    info.cover_count = tree_covers(tree, n);
     info.guard = n->flags & TREE_GUARD;
     info.inseparable = n->flags & TREE_INSEPARABLE;
     info.crowded = n->flags & TREE_CROWDED;

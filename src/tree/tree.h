@@ -2,11 +2,16 @@
  *
  *     nodes        [0] root; children in pairs, after their parent, in depth-first order
  *       inner, cut plain:   axis, value in the node itself, no in-cut list (the guard stage)
- *       inner, cut tabled:  u.cut -> cuts[], which holds any cut and its in-cut list
+ *       inner, cut tabled:  u.cut -> cuts[], which holds any cut and the list of the node
  *       leaf:               u.list -> pieces[first .. first+count), or, in packed trees, the block `child`
+ *     list         [ covers | pieces in the cut, or in the open cell ]
  *     pieces       object + where its fragment's ring starts in `bounds` (0: the whole object)
  *     bounds       rings:  count, edge, edge, ...   edge = own edge i | CUT | node
  *     normals      dim doubles per FROE_CUT_PLANE, dim + 1 per row of a FROE_CUT_FINE
+ *
+ * A cover is a box that contains the region of the node. It is listed there, and in no list below: all lists on the
+ * way from the root to a leaf together hold what meets the leaf's cell. u.covers of an inner node and `child` of a leaf
+ * say how many pieces of its list are covers; the nodes of packed trees have none.
  *
  * The ring of a segment is its two ends (own end 0 or 1, or the node whose cut ends it);
  * the ring of a polygon its edges in order: corner i is where edge i-1 meets edge i.
@@ -32,12 +37,14 @@ enum { TREE_GUARD = 1, TREE_INSEPARABLE = 2, TREE_CROWDED = 4 }; /* tree_node.fl
 typedef struct tree_node { /* 16 bytes */
     union {
         double value; /**< plain: x[axis] = value */
-        uint32_t cut; /**< tabled */
+        struct {
+            uint32_t cut, covers;
+        }; /**< tabled */
         struct {
             uint32_t first, count;
         } list; /**< leaf */
     } u;
-    uint32_t child; /**< left child; right = child + 1; leaf: 0, packed: its block */
+    uint32_t child; /**< left child; right = child + 1; leaf: its covers, packed: its block */
     uint8_t type, flags, axis, unused;
 } tree_node;
 
@@ -50,7 +57,7 @@ typedef struct tree_cut { /* 24 bytes */
             uint32_t b, c;
         } id; /**< VERTICES, EDGE, CROSSING; FINE: rows, 0 */
     } u;
-    uint32_t first, count; /**< in-cut list */
+    uint32_t first, count; /**< list: covers, then what lies in the cut */
 } tree_cut;
 
 typedef struct tree_piece { /* 8 bytes */
@@ -117,6 +124,10 @@ static inline bool tree_is_leaf(const tree_node *node) {
 }
 static inline bool tree_is_packed(const froe_tree *t) {
     return t->packed.blocks;
+}
+/** So many of a node's list, the first ones, are covers. */
+static inline uint32_t tree_covers(const froe_tree *t, const tree_node *node) {
+    return node->type == TREE_TABLED ? node->u.covers : tree_is_leaf(node) && !tree_is_packed(t) ? node->child : 0;
 }
 /** First piece of a subtree (not of a packed tree): a node's list comes before those of its children, the left one
  * first. */

@@ -97,15 +97,17 @@ static bool cut_fits(check *c, const tree_cut *cut) {
 
 /* ------------------------------------------------------------------- lists -- */
 
-static froe_status check_list(check *c, uint32_t first, uint32_t count) {
+static froe_status check_list(check *c, uint32_t first, uint32_t count, uint32_t covers) {
     const froe_tree *t = c->tree;
     if (first != c->pieces || count > t->piece_count - c->pieces) return bad_node(c, "a list out of place");
+    if (covers > count) return bad_node(c, "more covers than pieces");
     for (uint32_t i = first; !tree_is_packed(t) && i < first + count; i++) {
         const tree_piece *piece = t->pieces + i;
         if (piece->object >= t->scene->object_count)
             return bad_piece(c, piece->object, "an object that does not exist");
+        const froe_kind form = scene_form(t->scene, piece->object);
+        if (i - first < covers && form != FROE_BOX) return bad_piece(c, piece->object, "a cover that is no box");
         if (!piece->ring) continue;
-        froe_kind form = scene_form(t->scene, piece->object);
         if (form != FROE_SEGMENT && form != FROE_POLYGON)
             return bad_piece(c, piece->object, "a kind that is never cut");
         if (piece->ring != c->bounds || c->bounds >= t->bound_count)
@@ -134,8 +136,8 @@ static froe_status check_node(check *c) {
     const int known = !packed ? TREE_GUARD | TREE_INSEPARABLE | TREE_CROWDED : leaf ? TREE_CROWDED : 0;
     if (n->type > TREE_TABLED || n->flags & ~known || n->unused) return bad_node(c, "an unknown type or flag");
     if (leaf) {
-        if ((n->child && !packed) || n->axis) return bad_node(c, "an unused field that is not 0");
-        return check_list(c, n->u.list.first, n->u.list.count);
+        if (n->axis) return bad_node(c, "an unused field that is not 0");
+        return check_list(c, n->u.list.first, n->u.list.count, tree_covers(t, n));
     }
     if (n->flags & (TREE_INSEPARABLE | TREE_CROWDED)) return bad_node(c, "an unknown flag");
     if (n->child != c->nodes || t->node_count - c->nodes < 2) return bad_node(c, "children out of place");
@@ -144,11 +146,11 @@ static froe_status check_node(check *c) {
         bool fits = n->axis < t->scene->dim && isfinite(n->u.value);
         return fits ? FROE_OK : bad_node(c, "a cut that does not exist");
     }
-    if (n->axis || n->u.list.count) return bad_node(c, "an unused field that is not 0");
+    if (n->axis) return bad_node(c, "an unused field that is not 0");
     if (n->u.cut != c->cuts || c->cuts >= t->cut_count) return bad_node(c, "a cut out of place");
     const tree_cut *cut = t->cuts + c->cuts++;
     if (!cut_fits(c, cut)) return bad_node(c, "a cut that does not exist");
-    return check_list(c, cut->first, cut->count);
+    return check_list(c, cut->first, cut->count, n->u.covers);
 }
 
 /* -------------------------------------------------------------------- meta -- */

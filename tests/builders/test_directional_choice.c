@@ -126,6 +126,55 @@ static void best(oracle *o, uint32_t enough, bool narrow, boxes_cut *least, boxe
     }
 }
 
+/* The first face, within the cell, of what its boxes reach over there, if more than 8 are there and one of them reaches
+ * over all of it. */
+static boxes_cut peel(const oracle *o) {
+    const uint32_t count = o->cell->count;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    bool held = false;
+    for (int k = 0; k < o->b->dim; k++) {
+        lo[k] = INFINITY, hi[k] = -INFINITY;
+        for (uint32_t i = 0; i < count; i++) {
+            lo[k] = fmin(lo[k], fmax(o->end[i][k][BOXES_LO], o->cell->lo[k]));
+            hi[k] = fmax(hi[k], fmin(o->end[i][k][BOXES_HI], o->cell->hi[k]));
+        }
+    }
+    for (uint32_t i = 0; i < count && !held; i++) {
+        held = true;
+        for (int k = 0; k < o->b->dim; k++) held &= o->end[i][k][BOXES_LO] <= lo[k] && o->end[i][k][BOXES_HI] >= hi[k];
+    }
+    for (int k = 0; held && count > 8 && k < o->b->dim; k++) {
+        const bool below = lo[k] > o->cell->lo[k];
+        if (!below && hi[k] == o->cell->hi[k]) continue;
+        assert_int_equal(examine(o, k, below ? lo[k] : hi[k]).cut.divided, 0);
+        return (boxes_cut){.found = true,
+                           .axis = k,
+                           .c = below ? lo[k] : hi[k],
+                           .below = below ? 0 : count,
+                           .above = below ? count : 0};
+    }
+    return (boxes_cut){.found = false};
+}
+
+/* Would a list of the cell be longer by this cut, counted as comparisons, and do half of its pairs overlap? */
+static bool crowded(const oracle *o, const boxes_cut *cut) {
+    const uint32_t count = o->cell->count;
+    const double m = count, left = m - cut->above, right = m - cut->below; /* those in the cut go to neither side */
+    uint32_t pairs = 0, together = 0;
+    if (o->b->options.faces || !cut->found || !cut->divided || count > 64 || count <= o->b->options.leaf) return false;
+    if ((left * left + right * right) / (m * m) + cut->divided / m <= 1) return false;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t j = i > 32 ? i - 32 : 0; j < i; j++) {
+            bool meet = true;
+            for (int k = 0; k < o->b->dim; k++)
+                meet &= fmin(o->end[i][k][BOXES_HI], o->end[j][k][BOXES_HI]) >
+                        fmax(o->end[i][k][BOXES_LO], o->end[j][k][BOXES_LO]);
+            pairs++;
+            together += meet;
+        }
+    return 2 * together >= pairs;
+}
+
 static boxes_cut choose(oracle *o) {
     boxes_cut least = {.found = false}, lemma = {.found = false};
     const boxes_options *how = &o->b->options;
@@ -133,13 +182,14 @@ static boxes_cut choose(oracle *o) {
     best(o, how->faces ? 0 : 1, false, &least, &lemma);
     double share = lemma.found ? how->balance * balance(&lemma) : 0;
     if (least.found && !least.divided && balance(&least) && balance(&least) >= share) return least;
-    if (!lemma.found) {
-        least.forced = true;
-        return least;
-    }
-    if (how->slack > 0 && lemma.divided)
+    const boxes_cut outer = peel(o);
+    if (outer.found) return outer;
+    if (how->slack > 0 && lemma.found && lemma.divided)
         best(o, (uint32_t)fmax(1, ceil((1 - how->slack) * balance(&lemma))), true, NULL, &lemma);
-    return lemma;
+    least.forced = true;
+    boxes_cut cut = lemma.found ? lemma : least;
+    if (crowded(o, &cut)) cut.found = false;
+    return cut;
 }
 
 static void compare(const boxes_cut *a, const boxes_cut *b, const char *what) {

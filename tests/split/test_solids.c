@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "support/fuzz.h"
+#include "support/gaps.h"
 #include "support/scatter.h"
 
 typedef struct solids {
@@ -171,6 +172,36 @@ static void disjoint_solids_of_any_kinds_are_told_apart(void **state) {
     }
 }
 
+/** Pairs of every two kinds, near and far, as narrow as doubles go. */
+static void pairs_of_every_two_kinds_are_told_apart_in_all_dimensions(void **state) {
+    static const gaps_place places[] = {{1e-1, 1, 0},       {1e-5, 1, 0},      {1e-10, 1, 0},
+                                        {1e-15, 1, 0},      {1e-15, 1, 1e6},   {1e-14, 1e-300, 0},
+                                        {1e-15, 1e-300, 1}, {1e-14, 1e307, 0}, {1e-15, 1e307, 3}};
+    (void)state;
+    fuzz_source random = {17};
+    for (int dim = 2; dim <= FROE_MAX_DIM; dim++)
+        for (int i = 0; i < GAPS_KINDS * GAPS_KINDS; i++)
+            for (size_t at = 0; at < sizeof places / sizeof *places; at++) {
+                solids s = begin(dim);
+                gaps_pair pair;
+                gaps_draw(&random, dim, gaps_kinds[i / GAPS_KINDS], gaps_kinds[i % GAPS_KINDS], places[at], &pair);
+                bool served = true;
+                for (int k = 0; k < 2; k++) {
+                    const geom_body *b = &pair.body[k];
+                    const size_t starts[2] = {0, b->count};
+                    served =
+                        served && !trees_add(s.scene, b->form, 1, b->coords, b->form == FROE_BALL ? &b->radius : NULL,
+                                             b->form == FROE_HULL ? starts : NULL);
+                }
+                if (!served) { /* segments and hulls above dimension 3 */
+                    assert_true(dim > 3);
+                    froe_scene_free(s.scene);
+                    continue;
+                }
+                if (inseparable_of(&s)) fail_msg("R^%d, kinds %d, place %zu", dim, i, at);
+            }
+}
+
 /* --------------------------------------------------------- heavy overlap -- */
 
 /** From 0 to 1. */
@@ -295,6 +326,7 @@ int main(void) {
         cmocka_unit_test(a_flat_hull_on_another_ends_in_the_cut),
         cmocka_unit_test(hulls_in_one_plane_are_told_apart),
         cmocka_unit_test(disjoint_solids_of_any_kinds_are_told_apart),
+        cmocka_unit_test(pairs_of_every_two_kinds_are_told_apart_in_all_dimensions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,6 +93,21 @@ static froe_scene *areas(void) {
     return scene;
 }
 
+/* Boxes one in the other, which become covers, around two segments. */
+static froe_scene *nested(void) {
+    const double segments[8] = {0.25, 0.5, 1, 1.5, 2, 0, 3, 3};
+    double boxes[4 * 12];
+    froe_objects o = froe_objects_defaults();
+    froe_scene *scene;
+    need(froe_scene_new(2, NULL, &scene), "nested");
+    for (int i = 0; i < 48; i++) boxes[i] = i % 4 < 2 ? -i / 4 : 4 + i / 4 + i % 3;
+    o.kind = FROE_BOX, o.count = 12, o.coords = boxes;
+    need(froe_scene_add(scene, &o, NULL), "nested");
+    o.kind = FROE_SEGMENT, o.count = 2, o.coords = segments;
+    need(froe_scene_add(scene, &o, NULL), "nested");
+    return scene;
+}
+
 /* ------------------------------------------------------------------- trees -- */
 
 /* False: that was enough. A method that does not serve the scene is passed over. */
@@ -165,7 +180,7 @@ static bool snapshot(samples_fn *fn, void *user) {
 }
 
 void samples_each(samples_fn *fn, void *user) {
-    bool on = build_all(areas(), "areas", fn, user);
+    bool on = build_all(areas(), "areas", fn, user) && build_all(nested(), "nested", fn, user);
     for (size_t i = 0; on && i < sizeof scenes / sizeof *scenes; i++)
         on = build_all(scatter(scenes + i), scenes[i].name, fn, user);
     if (on && section(fn, user)) (void)snapshot(fn, user);

@@ -111,7 +111,9 @@ static void broken_structure_is_found(void **state) {
         const char *what;
     } const doctored[] = {
         {&t->nodes[0].child, 4, 3, "children out of place"},
-        {&t->nodes[leaf].child, 4, 1, "unused field"},
+        {&t->nodes[leaf].child, 4, 1, "cover that is no box"},
+        {&t->nodes[leaf].child, 4, 5, "more covers than pieces"},
+        {&t->nodes[tabled].u.covers, 4, UINT32_MAX, "more covers than pieces"},
         {&t->nodes[leaf].type, 1, 3, "unknown type"},
         {&t->nodes[leaf].flags, 1, 8, "unknown type or flag"},
         {&t->nodes[plain].flags, 1, TREE_INSEPARABLE, "unknown flag"},

@@ -80,11 +80,18 @@ static froe_scene *rich_scene(int dim) {
     return scene;
 }
 
-enum { PLANE = 2, SPACE = 3, PACKED = 4, LAYOUTS };
+enum { PLANE = 2, SPACE = 3, PACKED = 4, COVERED = 5, LAYOUTS };
 
 static froe_tree *rich_tree(int layout) {
     froe_scene *scene = rich_scene(layout == SPACE ? 3 : 2);
-    froe_tree *tree = layout == PACKED ? trees_build(scene, "index", 2) : trees_build(scene, "density", 1);
+    for (int i = 1; i < 13 && layout == COVERED; i++) { /* boxes around all: covers */
+        const double box[4] = {-i, -i, 5 + i, 5 + i};
+        assert_int_equal(trees_add(scene, FROE_BOX, 1, box, NULL, NULL), FROE_OK);
+    }
+    froe_tree *tree = layout == PACKED    ? trees_build(scene, "index", 2)
+                      : layout == COVERED ? trees_build(scene, "kd", 1)
+                                          : trees_build(scene, "density", 1);
+    if (layout == COVERED) assert_true(froe_tree_report(tree).covers >= 5);
     froe_scene_free(scene);
     return tree;
 }
@@ -199,7 +206,7 @@ static void files_are_as_specified(void **state) {
     assert_saved(tree, NAME);
     uint8_t *bytes = slurp(NAME, &size);
     assert_memory_equal(bytes, magic, 8);
-    assert_int_equal(number(bytes, 8, 4), 1);
+    assert_int_equal(number(bytes, 8, 4), 2);
     assert_int_equal(number(bytes, 12, 4), 19);
     assert_int_equal(number(bytes, 16, 8), size);
     assert_int_equal(number(bytes, 24, 4), 3);
@@ -298,6 +305,29 @@ static uint8_t *small_file(int layout, size_t *size) {
     assert_saved(tree, NAME);
     froe_tree_free(tree);
     return slurp(NAME, size);
+}
+
+/* What to do about it is said. */
+static void files_of_other_versions_are_refused(void **state) {
+    (void)state;
+    static const uint8_t versions[] = {0, 1, 3};
+    size_t size;
+    uint8_t *bytes = small_file(COVERED, &size);
+    for (size_t i = 0; i < sizeof versions; i++) {
+        char expected[200];
+        froe_diagnostic why;
+        froe_tree *tree;
+        bytes[8] = versions[i];
+        forge_checksums(bytes, size);
+        spill("other.froe", bytes, size);
+        assert_int_equal(froe_tree_open("other.froe", NULL, &tree, &why), FROE_E_FORMAT);
+        snprintf(expected, sizeof expected,
+                 "other.froe: It is a tree file of version %u, and this froe reads version 2: build it again from its "
+                 "scene.",
+                 versions[i]);
+        assert_string_equal(why.message, expected);
+    }
+    free(bytes);
 }
 
 static void every_changed_byte_is_noticed(void **state) {
@@ -534,6 +564,7 @@ int main(void) {
         cmocka_unit_test(what_is_saved_is_opened),
         cmocka_unit_test(checksums_are_as_specified),
         cmocka_unit_test(files_are_as_specified),
+        cmocka_unit_test(files_of_other_versions_are_refused),
         cmocka_unit_test(a_tree_of_nothing_is_saved_too),
         cmocka_unit_test(trees_in_many_dimensions_are_saved),
         cmocka_unit_test(a_scene_from_a_file_never_grows),

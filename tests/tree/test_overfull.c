@@ -57,22 +57,27 @@ static void crowds_that_are_none_are_found(void **state) {
     assert_crowd(crowd(2, FROE_BALL, 3, centres, small, NULL, TREE_CROWDED), "called crowded, but most pairs");
 }
 
-/* A ball beside a corner of a box, in one leaf. */
-static froe_tree *ball_and_box(double radius) {
-    const double box[4] = {0, 0, 1, 1}, centre[2] = {1.5, 1.5};
+/* A ball beside a corner of the unit box, in one leaf: they touch where the radius is sqrt(dim) / 2. */
+static froe_tree *ball_and_box(int dim, double radius) {
+    double box[2 * FROE_MAX_DIM], centre[FROE_MAX_DIM];
     froe_scene *scene;
-    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int k = 0; k < dim; k++) box[k] = 0, box[dim + k] = 1, centre[k] = 1.5;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
     assert_int_equal(trees_add(scene, FROE_BOX, 1, box, NULL, NULL), FROE_OK);
     assert_int_equal(trees_add(scene, FROE_BALL, 1, centre, &radius, NULL), FROE_OK);
     return one_leaf(scene, TREE_INSEPARABLE);
 }
 
-/* A builder that gives up a pair is found, down to 2^-45 of the coordinates. */
+/* A builder that gives up a pair is found, down to the last place of the radius. */
 static void separable_solids_of_unlike_kinds_are_found(void **state) {
-    static const double radii[] = {0.6, 0.70710678118640, 0.70710678118665,
-                                   0.8}; /* they touch at 0.70710678118654752 */
     (void)state;
-    for (int i = 0; i < 4; i++) assert_crowd(ball_and_box(radii[i]), i < 2 ? "called inseparable, but a plane" : NULL);
+    for (int dim = 2; dim <= FROE_MAX_DIM; dim++) {
+        const double touch = sqrt(dim) / 2; /* rounded: the box begins there, or at the next double */
+        assert_crowd(ball_and_box(dim, 0.6), "called inseparable, but a plane");
+        assert_crowd(ball_and_box(dim, nextafter(touch, 0)), "called inseparable, but a plane");
+        assert_crowd(ball_and_box(dim, nextafter(touch, 2)), NULL);
+        assert_crowd(ball_and_box(dim, touch + 0.01), NULL);
+    }
 }
 
 static void separable_boxes_are_found(void **state) {

@@ -58,9 +58,9 @@ typedef struct boxes_parts {
     int16_t shift[2][2]; /**< [side]: from the numbers of its changes to those there, [1] on the axis of the cut */
 } boxes_parts;
 
-/** A box that covers a cell, and with it all cells below. */
+/** A box that covers a cell, but not the cell above. It is listed at the node of the cell. */
 typedef struct boxes_cover {
-    uint32_t object, next; /**< next: the one above, or FROE_NONE */
+    uint32_t object, next; /**< next: of the same cell, or FROE_NONE */
 } boxes_cover;
 
 typedef struct boxes_cell {
@@ -75,7 +75,8 @@ typedef struct boxes_cell {
 /** A cut x[axis] = c with what it does: boxes wholly below, wholly above (flat ones in the cut are both), divided. */
 typedef struct boxes_cut {
     bool found;
-    bool forced; /**< no lemma bounds what it divides */
+    bool crowded; /**< not found, because to separate the boxes would not pay (tree/crowd.h) */
+    bool forced;  /**< no lemma bounds what it divides */
     int axis;
     double c;
     uint32_t below, above, divided;
@@ -87,6 +88,7 @@ typedef struct boxes_options {
     double balance; /**< of a free cut, at least this share of that of a lemma cut; 0: any */
     double slack;   /**< balance given up to divide less: a share of it */
     bool faces;     /**< until no face is left in a cell, in place of: until no cut separates boxes */
+    uint32_t leaf;  /**< boxes that a leaf may have besides covers */
 } boxes_options;
 
 typedef struct boxes {
@@ -95,9 +97,8 @@ typedef struct boxes {
     int dim;
     boxes_options options;
     tree_draft draft;
-    uint64_t paid;    /**< weight of what forced cuts divided: see boxes_bound() */
-    uint64_t covered; /**< covers listed in leaves */
-    bool flat;        /**< is any box without extent on some axis? */
+    uint64_t paid; /**< weight of what forced cuts divided: see boxes_bound() */
+    bool flat;     /**< is any box without extent on some axis? */
     ARRAY(boxes_fragment) fragments;
     ARRAY(boxes_event) events[FROE_MAX_DIM];
     ARRAY(boxes_cell) cells;
@@ -124,13 +125,15 @@ void boxes_ends(const boxes *b, uint32_t object, double end[FROE_MAX_DIM][4]);
  * a point strictly inside, have in it. */
 froe_status boxes_open(boxes *b, boxes_cell cell, const uint32_t *objects, uint32_t count);
 /** Replaces the cell on top, taken off b->cells, by its children; emits what lies in the cut. */
-froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut);
+froe_status boxes_divide(boxes *b, boxes_cell *cell, const boxes_cut *cut);
 /** Takes the fragments and events of the topmost cell off their stacks. */
 void boxes_drop(boxes *b, const boxes_cell *cell);
 /** One more box that covers the cell. */
 bool boxes_add_cover(boxes *b, boxes_cell *cell, uint32_t object);
-/** Makes `node` inner: x[axis] = c. */
-froe_status boxes_split_node(boxes *b, uint32_t node, const boxes_cut *cut, uint32_t *child);
+/** Makes the cell's node inner, x[axis] = c, and lists the covers of the cell there. */
+froe_status boxes_split_node(boxes *b, boxes_cell *cell, const boxes_cut *cut, uint32_t *child);
+/** Begins the list of a node, a leaf or split, with the covers of the cell, which then has none. */
+froe_status boxes_list_covers(boxes *b, boxes_cell *cell);
 
 /** Weight of a fragment for cuts across `axis`: the product over the other axes of g[rooms alive there],
  * g = 1, 1 + trade, 2 + 2 trade. With it no lemma cut and no cut that divides nothing raises the sum over all
@@ -158,6 +161,25 @@ bool boxes_free_cut(const boxes *b, const boxes_cut *least, const boxes_cut *lem
 uint32_t boxes_narrow(const boxes *b, uint32_t count, const boxes_cut *least, const boxes_cut *lemma);
 /** The choice between what both stages found. */
 boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *lemma);
+/** What boxes of a cell reach over within it, and whether one of them holds all of that. */
+typedef struct boxes_extent {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    uint32_t tried; /**< boxes with one outermost face */
+    bool held;
+} boxes_extent;
+
+enum { BOXES_CROWD = 64 }; /* boxes in a crowded leaf, at most */
+
+/** Has a cell so many boxes that one of them is worth being peeled off? */
+bool boxes_may_peel(uint32_t count);
+/** Looks at one more of the boxes with a certain outermost face, of which one must be that which holds all. False:
+ * that is enough of them, and none is taken for it. */
+bool boxes_hold(const boxes *b, uint32_t object, boxes_extent *extent);
+/** A cut along a face of a box that holds all others in the cell: it divides none, and after 2 d of them the box is a
+ * cover. O(boxes). */
+boxes_cut boxes_peel(const boxes *b, const boxes_cell *cell);
+/** Is a cell of these objects, whose best cut is not free, better left as a crowded leaf? O(BOXES_CROWD^2). */
+bool boxes_crowd(const boxes *b, const boxes_cut *cut, const uint32_t *objects, uint32_t count);
 /** The cut of a cell by sweeping over its events; not found: it is a leaf. O(events). */
 boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell);
 

@@ -108,13 +108,12 @@ static froe_status open_cell(carve *c, const boxes_cell *cell, const carve_list 
 
 /* ----------------------------------------------------------------------- one cut -- */
 
-/* Lists the boxes without extent that lie in the cut, and takes them away. */
-static froe_status emit_carved_in_cut(carve *c, const boxes_axis *a, uint32_t at) {
+/* Lists the boxes without extent that lie in the cut, and takes them away. begun: is the list? */
+static froe_status emit_carved_in_cut(carve *c, const boxes_axis *a, uint32_t at, bool begun) {
     boxes *b = c->b;
     froe_status status = FROE_OK;
     c->changed.count = 0;
     if (!collect_at(c, a, 0, at, &c->changed) || !sort_carve_list(c, &c->changed)) return FROE_E_MEMORY;
-    bool begun = false;
     for (size_t i = 0; i < c->changed.count && !status; i++) {
         uint32_t box = c->changed.data[i];
         if (a->places[box].at[BOXES_HI] != at) continue;
@@ -152,8 +151,9 @@ static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
     boxes_axis *a = c->axis + spot->cut.axis;
     uint32_t child = 0, at = spot->at;
     bool above = boxes_axis_below(a, at) > boxes_axis_above(a, at); /* the smaller side, without those divided */
-    froe_status status = boxes_split_node(c->b, c->cell.node, &spot->cut, &child);
-    if (!status) status = emit_carved_in_cut(c, a, at);
+    const bool listed = c->cell.covers;
+    froe_status status = boxes_split_node(c->b, &c->cell, &spot->cut, &child);
+    if (!status) status = emit_carved_in_cut(c, a, at, listed);
     if (status) return status;
     /* the boxes across the cut, and all on the smaller side, these among them */
     uint32_t begun = a->first[0][at], ended = a->first[1][at + 1];
@@ -191,6 +191,47 @@ static froe_status cut_off_side(carve *c, const boxes_spot *spot) {
     return FROE_OK;
 }
 
+/* As boxes_peel(). */
+static bool find_peel(const carve *c, boxes_spot *out) {
+    boxes_extent extent = {.held = false};
+    uint32_t at[FROE_MAX_DIM][2]; /* the outermost faces; at the borders of the cell: those */
+    if (!boxes_may_peel(c->left)) return false;
+    for (int k = 0; k < c->b->dim; k++) {
+        const boxes_axis *a = c->axis + k;
+        const uint32_t first = a->order[0][base_max_tree_first(&a->reach, 0, c->count, 1)],
+                       last = a->order[1][base_max_tree_last(&a->after, 0, c->count, 1)];
+        const uint32_t lo = a->places[first].at[BOXES_LO], hi = a->places[last].at[BOXES_HI];
+        at[k][0] = lo > c->lo[k] ? lo : c->lo[k];
+        at[k][1] = hi < c->hi[k] ? hi : c->hi[k];
+        extent.lo[k] = lo > c->lo[k] ? a->x[lo] : c->cell.lo[k];
+        extent.hi[k] = hi < c->hi[k] ? a->x[hi] : c->cell.hi[k];
+    }
+    for (int k = 0; k < c->b->dim; k++)
+        for (int side = 0; side < 2; side++) {
+            const boxes_axis *a = c->axis + k;
+            const uint32_t p = at[k][side], *first = a->first[side];
+            bool more = true;
+            if (p == (side ? c->hi : c->lo)[k]) continue;
+            for (uint32_t i = first[p]; i < first[p + 1] && more; i++) {
+                const uint32_t box = a->order[side][i], *end = a->places[box].at;
+                if (!c->gone[box] && end[BOXES_LO] != end[BOXES_HI])
+                    more = boxes_hold(c->b, c->fragments[box].object, &extent);
+            }
+            if (extent.held) *out = (boxes_spot){{.found = true, .axis = k, .c = a->x[p]}, p};
+            return extent.held;
+        }
+    return false;
+}
+
+/* Is what is left a crowded leaf, if this is its best cut? */
+static bool is_crowd(const carve *c, const boxes_cut *cut) {
+    uint32_t objects[BOXES_CROWD], count = 0;
+    if (c->left > BOXES_CROWD || !cut->divided) return false;
+    for (uint32_t i = 0; i < c->count; i++)
+        if (!c->gone[i]) objects[count++] = c->fragments[i].object;
+    return boxes_crowd(c->b, cut, objects, count);
+}
+
 froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task) {
     carve c = {.b = b, .cell = *cell, .count = cell->count};
     froe_status status = begin_carving(&c, cell);
@@ -213,7 +254,8 @@ froe_status boxes_carve(boxes *b, const boxes_cell *cell, base_task *task) {
         boxes_cut cut = boxes_decide(c.b, &least.cut, &lemma.cut);
         bool by_lemma = lemma.cut.found && cut.axis == lemma.cut.axis && cut.c == lemma.cut.c;
         boxes_spot spot = (boxes_spot){cut, by_lemma ? lemma.at : least.at};
-        if (!spot.cut.found) break;
+        const bool free = boxes_free_cut(c.b, &least.cut, &lemma.cut), peels = !free && find_peel(&c, &spot);
+        if (!spot.cut.found || (!free && !peels && is_crowd(&c, &spot.cut))) break;
         status = base_progress(task, task->done) ? cut_off_side(&c, &spot) : FROE_E_CANCELLED;
     }
     /* what is left becomes a cell again */

@@ -83,9 +83,19 @@ static bool deal_events(boxes *b, const boxes_cell *cell, const boxes_cut *cut, 
     return true;
 }
 
-froe_status boxes_split_node(boxes *b, uint32_t node, const boxes_cut *cut, uint32_t *child) {
+froe_status boxes_list_covers(boxes *b, boxes_cell *cell) {
+    froe_status status = cell->covers ? draft_list(&b->draft, cell->node) : FROE_OK;
+    for (uint32_t i = cell->cover; i != FROE_NONE && !status; i = b->covers.data[i].next)
+        status = draft_cover(&b->draft, cell->node, b->covers.data[i].object);
+    cell->cover = FROE_NONE;
+    cell->covers = 0;
+    return status;
+}
+
+froe_status boxes_split_node(boxes *b, boxes_cell *cell, const boxes_cut *cut, uint32_t *child) {
     froe_cut plane = {.kind = FROE_CUT_AXIS, .axis = cut->axis, .value = cut->c};
-    return draft_split(&b->draft, node, &plane, 0, child);
+    const froe_status status = draft_split(&b->draft, cell->node, &plane, 0, child);
+    return status ? status : boxes_list_covers(b, cell);
 }
 
 /** Deals the fragments: those above close up in place, those below go on top of them. */
@@ -120,7 +130,7 @@ static bool deal_boxes(boxes *b, const boxes_cell *cell, const boxes_cut *cut, b
     return ok;
 }
 
-froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut) {
+froe_status boxes_divide(boxes *b, boxes_cell *cell, const boxes_cut *cut) {
     const froe_allocator *alloc = &b->alloc;
     const uint32_t count = cell->count;
     uint32_t child = 0;
@@ -137,11 +147,11 @@ froe_status boxes_divide(boxes *b, const boxes_cell *cell, const boxes_cut *cut)
         bool divided = (b->marks.data[i] & 3) == 3, both = (alive >> 2 * cut->axis & 3) == 3;
         if (divided && !both) b->paid += (uint64_t)boxes_weight(b, alive, cut->axis);
     }
-    froe_status status = boxes_split_node(b, cell->node, cut, &child);
+    bool begun = cell->covers;
+    froe_status status = boxes_split_node(b, cell, cut, &child);
     if (!status) {
         /* lists the boxes without extent that lie in the cut */
         const boxes_fragment *item = b->fragments.data + cell->first;
-        bool begun = false;
         for (uint32_t i = 0; i < cell->count && !status; i++) {
             if (b->marks.data[i]) continue;
             if (!begun) status = draft_list(&b->draft, cell->node);

@@ -8,9 +8,9 @@
  * preference:
  *
  *     free      divides nothing, and has boxes on both sides            the best balanced over all axes
+ *     peel      along a face of a box that holds all others in the cell (boxes_peel.c)
  *     lemma     divided <= trade * rooms, boxes on both sides           the best balanced; or with slack, of all that
  *                                                                       are nearly as balanced one that divides fewest
- *     peel      divides nothing, a face in the cut (faces mode)
  *     forced    through a face, dividing fewest boxes                   (boxes on both sides, but in faces mode)
  *
  * Balance is min(below, above). Of equals on an axis the outermost is taken, on the side where it lies: it divides
@@ -75,7 +75,8 @@ boxes_cut boxes_decide(const boxes *b, const boxes_cut *least, const boxes_cut *
 /* ------------------------------------------------------------------ sweeping -- */
 
 static boxes_cut cut_at(const axis_sweep *s, int axis, double x) {
-    return (boxes_cut){true, false, axis, x, s->below, s->above, s->divided};
+    return (boxes_cut){
+        .found = true, .axis = axis, .c = x, .below = s->below, .above = s->above, .divided = s->divided};
 }
 
 /* narrow: 0, or how many boxes are enough for what is looked for the second time. */
@@ -158,5 +159,13 @@ boxes_cut boxes_sweep(const boxes *b, const boxes_cell *cell) {
         }
         if (!turn) narrow = boxes_narrow(b, cell->count, &least, &lemma);
     }
-    return boxes_decide(b, &least, &lemma);
+    boxes_cut cut = boxes_decide(b, &least, &lemma);
+    if (boxes_free_cut(b, &least, &lemma)) return cut;
+    const boxes_cut peel = boxes_peel(b, cell);
+    if (peel.found || !cut.found || cell->count > BOXES_CROWD) return peel.found ? peel : cut;
+    uint32_t objects[BOXES_CROWD];
+    for (uint32_t i = 0; i < cell->count; i++) objects[i] = b->fragments.data[cell->first + i].object;
+    cut.crowded = boxes_crowd(b, &cut, objects, cell->count);
+    cut.found = !cut.crowded;
+    return cut;
 }

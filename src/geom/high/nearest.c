@@ -151,13 +151,15 @@ static direction direction_of(num_context *context, int dim, const num_dyadic *x
 
 /* sign * x . (p - q), whose terms have relative errors of three roundings; and its sign. */
 static int sign_along(num_arena *arena, const direction *d, int sign, const double *p, const double *q, double *value) {
-    double sum = 0, size = 0;
+    double sum = 0, size = 0, spread = 0;
     for (int k = 0; k < d->dim; k++) {
-        const double term = d->image[k] * (p[k] - q[k]);
+        const double step = p[k] - q[k], term = d->image[k] * step;
         sum += term;
         size += fabs(term);
+        spread += fabs(step);
     }
-    const double error = 0x1p-48 * size + NUM_BALL_TINY; /* dim + 3 roundings at most */
+    /* dim + 3 roundings at most, and images that underflow */
+    const double error = 0x1p-48 * size + 0x1p-1073 * spread + NUM_BALL_TINY;
     *value = sign * sum;
     if (*value > error) return 1;
     if (*value < -error) return -1;

@@ -75,14 +75,6 @@ bool geom_gap_among(num_context *context, const geom_differences *set, geom_gap 
     return true;
 }
 
-void geom_gap_direction(num_arena *arena, const geom_body *a, const geom_body *b, const geom_gap *gap,
-                        num_dyadic x[3]) {
-    const geom_differences all = {.a = a, .b = b};
-    num_dyadic v[4][3];
-    for (int i = 0; i < gap->count; i++) gap_vector_dyadic(arena, &all, gap->a[i], gap->b[i], v[i]);
-    gap_face_dyadic(arena, v, gap->count, (1u << gap->count) - 1, x);
-}
-
 bool geom_gap_guess(const geom_body *a, const geom_body *b, const geom_gap *gap, double direction[3]) {
     const geom_differences all = {.a = a, .b = b};
     double v[4][3], most = 0;

@@ -40,9 +40,7 @@ static inline geom_gap geom_gap_between(num_context *context, const geom_body *a
     return gap;
 }
 
-/** The direction from the point of b that is nearest to a to that of a, times a positive number; z = 0 in the plane.
- * REQUIRES: gap of these two by geom_gap_between(), not zero. */
-void geom_gap_direction(num_arena *arena, const geom_body *a, const geom_body *b, const geom_gap *gap, num_dyadic x[3]);
-/** The opposite direction in plain doubles, with a longest coordinate of 1. False: they over- or underflow. */
+/** The direction from the point of a that is nearest to b to that of b in plain doubles, with a longest coordinate of
+ * 1. REQUIRES: gap of these two by geom_gap_between(), not zero. False: doubles over- or underflow. */
 bool geom_gap_guess(const geom_body *a, const geom_body *b, const geom_gap *gap, double direction[3]);
 #endif

@@ -1,20 +1,24 @@
-/* locate.c: the objects that contain a point. Where it is on no cut they are in the list of its leaf: what contains it
- * meets the leaf's open cell. On a cut it is a range of one point, which visits the list there and both sides. */
+/* locate.c: the objects that contain a point. Where it is on no cut they are in the list of its leaf, or covers of a
+ * node above: what contains it meets the leaf's open cell. On a cut it is a range of one point, which visits the list
+ * there and both sides. */
 #include "base/floats.h"
 #include "query/check.h"
-#include "query/context.h"
+#include "query/covers.h"
 #include "query/point/leaf.h"
 #include "query/segment.h"
 #include "support/fail.h"
 #include <string.h>
 
-/* Those of a list. */
-static froe_status test_list(froe_query *q, const tree_objects *list, const froe_range *point, froe_diagnostic *diag) {
-    const froe_scene *s = q->tree->scene;
-    const double *x = point->points;
-    bool memory = false;
+/* Begins with a point, as the range that is asked. */
+static void begin_point(froe_query *q, const froe_range *point) {
     query_begin(q);
     query_range_of_box(q, point);
+}
+
+/* Those of a list. */
+static froe_status test_list(froe_query *q, const tree_objects *list, const double *x, froe_diagnostic *diag) {
+    const froe_scene *s = q->tree->scene;
+    bool memory = false;
     if (!query_expect(q, list->count)) return support_fail_memory(diag);
     for (uint32_t i = 0; i < list->count; i++) {
         const uint32_t object = tree_object(list, i);
@@ -47,11 +51,21 @@ static froe_status take_point(const froe_query *q, const double *point, point_ra
 
 froe_status query_locate_in(froe_query *q, const double *point, const query_leaf *leaf, froe_diagnostic *diag) {
     point_range s;
-    const froe_status status = take_point(q, point, &s, diag);
+    froe_status status = take_point(q, point, &s, diag);
     if (status) return status;
     if (leaf->on_cut) return query_range_ask(q, &s.range, false, diag);
-    const tree_objects list = leaf->empty ? (tree_objects){0} : tree_list(q->tree, leaf->place);
-    return test_list(q, &list, &s.range, diag);
+    begin_point(q, &s.range);
+    if (!leaf->empty) {
+        const tree_objects list = tree_list(q->tree, leaf->place);
+        status = test_list(q, &list, point, diag);
+    }
+    const query_covers *covers = NULL;
+    if (!status && q->tree->report.covers) status = query_covers_of(q, &covers, diag);
+    for (uint32_t v = leaf->place; covers && !status && (v = query_covers_above(covers, v)) != FROE_NONE;) {
+        const tree_objects list = tree_cover_list(q->tree, v);
+        status = test_list(q, &list, point, diag);
+    }
+    return status;
 }
 
 froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *diag) {
@@ -60,7 +74,10 @@ froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *di
     const froe_status status = take_point(q, point, &s, diag);
     if (status) return status;
     if (tree_is_packed(q->tree)) return query_range_ask(q, &s.range, false, diag);
-    if (!query_in_scene(q->tree->scene, point)) return test_list(q, &(tree_objects){0}, &s.range, diag);
+    if (!query_in_scene(q->tree->scene, point)) {
+        begin_point(q, &s.range);
+        return FROE_OK;
+    }
     if (query_leaf_find(q, point, &leaf)) return support_fail_memory(diag);
     return query_locate_in(q, point, &leaf, diag);
 }

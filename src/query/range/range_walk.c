@@ -5,10 +5,13 @@
  * the range share a point, some list visited has the object). Where a region lies in the range, all lists below it
  * are one slice, reported without a test.
  *
+ * A node that is visited has the covers of its list tested; its region meets the range, so they do, too, as a rule.
+ *
  * In deep trees, after 16 missed cuts the search jumps to the next one that the range meets (jump.h).
  *
  * A waiting node has its region's bounds and, for solid ranges, those of the range within the region. Thin ranges
  * (segments, rays) have an interval of their parameter instead: origin + t direction. */
+#include "query/covers.h"
 #include "query/cuts.h"
 #include "query/pieces.h"
 #include "query/range/jump.h"
@@ -20,6 +23,7 @@ typedef struct range_walk {
     froe_query *q;
     const froe_tree *tree;
     const query_planes *planes;
+    const query_covers *covers; /* NULL: the tree has none */
     query_jump jump;
     const query_pieces *pieces;
     query_range *r;
@@ -35,9 +39,9 @@ static bool done(const range_walk *w) {
 
 /* ------------------------------------------------------------------- lists -- */
 
-/* Reports those objects that meet the range, of the list of a leaf, or of a cut that the range may touch. */
-static void visit_list(range_walk *w, uint32_t node) {
-    const tree_objects list = tree_list(w->tree, node);
+/* Reports those objects that meet the range, of the list of a leaf, or of a cut that the range may touch, or of the
+ * covers of a node. */
+static void visit_list(range_walk *w, tree_objects list) {
     froe_query *q = w->q;
     if (!w->points) {
         if (!query_expect(q, list.count)) w->memory = true;
@@ -65,6 +69,18 @@ static void visit_list(range_walk *w, uint32_t node) {
         q->found.data[q->found.count] = object;
         q->found.count += (size_t)has;
     }
+}
+
+/* The covers of an inner node that is visited. */
+static inline void visit_covers(range_walk *w, uint32_t node) {
+    const tree_node *n = w->tree->nodes + node;
+    if (w->covers && n->type == TREE_TABLED && n->u.covers) visit_list(w, tree_cover_list(w->tree, node));
+}
+
+/* Those of the nodes from `from` on that a jump from there to `to` has passed. */
+static void visit_passed(range_walk *w, uint32_t from, uint32_t to) {
+    if (!w->covers || from == to) return;
+    for (uint32_t v = to; (v = query_covers_above(w->covers, v)) != FROE_NONE && v >= from;) visit_covers(w, v);
 }
 
 /* Of a list whose region is in the range: only solids, and whatever packed trees of space hold, may be listed where
@@ -236,7 +252,7 @@ static bool go_beside(const range_walk *w, const query_cut *cut, int side, doubl
 }
 
 /* The node where the range meets the next cut, below this one, which becomes the region of the state. */
-static uint32_t jump(const range_walk *w, uint32_t node, double *state) {
+static uint32_t jump(range_walk *w, uint32_t node, double *state) {
     const geom_range *range = &w->r->range;
     const solid_state p = solid_state_of(w, state);
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -246,6 +262,7 @@ static uint32_t jump(const range_walk *w, uint32_t node, double *state) {
     }
     const uint32_t found = query_jump_below(&w->jump, node, lo, hi);
     if (found == node) return node;
+    visit_passed(w, node, found);
     const double *box = query_centroid_box(w->jump.centroids, found);
     for (int k = 0; k < w->dim; k++) {
         p.lo[k] = filter_greater(p.lo[k], box[k]);
@@ -268,16 +285,17 @@ static void follow_solid(range_walk *w, uint32_t node, double *state) {
         }
         if (tree_is_leaf(n)) {
             w->q->stats.leaves++;
-            visit_list(w, node);
+            visit_list(w, tree_list(w->tree, node));
             return;
         }
+        visit_covers(w, node);
         const query_cut cut = query_cut_at(w->tree, w->planes, n);
         memcpy(other, state, w->width * sizeof *state);
         const bool left = go_beside(w, &cut, 0, state), right = go_beside(w, &cut, 1, other);
         if (!left && !right) return;
         if (left && right) {
             push_state(w, n->child + 1, other);
-            if (n->type == TREE_TABLED) visit_list(w, node);
+            if (n->type == TREE_TABLED) visit_list(w, tree_own_list(w->tree, node));
             passed = -1;
         }
         if (!left) memcpy(state, other, w->width * sizeof *state);
@@ -329,7 +347,7 @@ static unsigned divide_interval(const range_walk *w, const query_cut *cut, const
 
 /* The same for the part of a thin range with parameters in an interval: its bounds, rounded outwards. An infinite
  * parameter is in no region. */
-static uint32_t jump_thin(const range_walk *w, uint32_t node, const double *t) {
+static uint32_t jump_thin(range_walk *w, uint32_t node, const double *t) {
     const geom_convex *set = &w->r->range.set;
     const double *o = geom_convex_point(set, 0), *e = geom_convex_point(set, 1);
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -341,7 +359,9 @@ static uint32_t jump_thin(const range_walk *w, uint32_t node, const double *t) {
         lo[k] = (x < y ? x : y) - error;
         hi[k] = (x < y ? y : x) + error;
     }
-    return query_jump_below(&w->jump, node, lo, hi);
+    const uint32_t found = query_jump_below(&w->jump, node, lo, hi);
+    visit_passed(w, node, found);
+    return found;
 }
 
 static void follow_thin(range_walk *w, uint32_t node, double *t) {
@@ -352,14 +372,15 @@ static void follow_thin(range_walk *w, uint32_t node, double *t) {
         w->q->stats.nodes++;
         if (tree_is_leaf(n)) {
             w->q->stats.leaves++;
-            visit_list(w, node);
+            visit_list(w, tree_list(w->tree, node));
             return;
         }
+        visit_covers(w, node);
         const query_cut cut = query_cut_at(w->tree, w->planes, n);
         const unsigned sides = divide_interval(w, &cut, t, below, above);
         if (sides == 3) {
             push_state(w, n->child + 1, above);
-            if (n->type == TREE_TABLED) visit_list(w, node);
+            if (n->type == TREE_TABLED) visit_list(w, tree_own_list(w->tree, node));
             passed = -1;
         }
         memcpy(t, sides == 2 ? above : below, 2 * sizeof *t);
@@ -375,6 +396,7 @@ froe_status query_range_walk(froe_query *q) {
     froe_status status = query_planes_of(q, &w.planes, NULL);
     if (!status) status = query_jump_prepare(q, q->range.walk, &w.jump);
     if (!status) status = query_pieces_of(q, &w.pieces, NULL);
+    if (!status && w.tree->report.covers) status = query_covers_of(q, &w.covers, NULL);
     if (status) return status;
     w.points = w.pieces->points && q->numbers.first == NUM_FILTER;
     q->range.nodes.count = q->range.boxes.count = 0;

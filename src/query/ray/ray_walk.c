@@ -5,6 +5,8 @@
  *      enter  lo hi   leave      the first child, the list of the cut and the second child are visited in this order,
  *              |                 each for its own interval, cut down to that of the node.
  *
+ * A node with covers is visited with its whole list before its children are.
+ *
  * Intervals are rounded outwards, and a ray that may be parallel to a cut is on both sides throughout, unless it is
  * further from the cut than it can come within its interval, which ends with the scene: with objects listed where they
  * meet open cells, and regions closed, no object is missed. The stack is as deep as the tree at most. */
@@ -106,8 +108,13 @@ froe_status query_walk_next(froe_query *q, tree_objects *list) {
             in_cut.enter = second.enter = c.lo > s.enter ? c.lo : s.enter;
             in_cut.leave = first.leave = c.hi < s.leave ? c.hi : s.leave;
         }
-        const bool listed = node->type == TREE_TABLED && t->cuts[node->u.cut].count;
+        const uint32_t covers = tree_covers(t, node);
+        const bool listed = node->type == TREE_TABLED && t->cuts[node->u.cut].count && !covers;
         if (!push_step(q, second) || (listed && !push_step(q, in_cut)) || !push_step(q, first)) return FROE_E_MEMORY;
+        if (covers) {
+            *list = tree_list(t, s.node);
+            return FROE_OK;
+        }
     }
     return status;
 }

@@ -9,8 +9,10 @@
  *      list holds lies in the cut. Rings are canonical (they name the cuts that made the part), so
  *      equal means the same names from any first corner. Balls, hulls and boxes beside oblique cuts:
  *      nothing that certainly is there is missing, nothing that certainly is not there is listed.
- *   5  Leaves: at most `leaf` pieces, none when that is 0, except where nothing separates them (inseparable.h), where
- *      solids crowd (crowd.h), or, in packed trees, where the builder says that more cuts would not pay.
+ *      A box that contains the region of a node may be listed there as a cover, and then nowhere below.
+ *   5  Leaves: at most `leaf` pieces besides covers, none when that is 0, except where nothing separates them
+ *      (inseparable.h), where solids crowd (crowd.h), or, in packed trees, where the builder says that more cuts would
+ *      not pay.
  *   6  Promises: each holds, by the measured value and, where its name is known, measured again.
  *
  *   7  Packed trees: the root box is that of the scene and every cut divides its cell; flags, units, and that no corner
@@ -68,8 +70,9 @@ static froe_status check_report(const audit *a) {
     if (!depth) return support_fail_memory(a->diag);
     for (uint32_t i = 0; i < t->node_count; i++) {
         const tree_node *n = t->nodes + i;
-        uint32_t count = tree_list(t, i).count;
+        const uint32_t count = tree_list(t, i).count, covers = tree_covers(t, n);
         again.fragments += count;
+        again.covers += covers;
         depths += (double)count * depth[i];
         if (tree_is_leaf(n)) {
             again.leaves++;
@@ -78,7 +81,7 @@ static froe_status check_report(const audit *a) {
             again.inseparable += (n->flags & TREE_INSEPARABLE) != 0;
             again.crowded += (n->flags & TREE_CROWDED) != 0;
         } else {
-            again.in_cut += count;
+            again.in_cut += count - covers;
             depth[n->child] = depth[n->child + 1] = depth[i] + 1;
         }
     }
@@ -86,8 +89,9 @@ static froe_status check_report(const audit *a) {
     support_free(&a->alloc, depth, t->node_count * sizeof *depth);
     bool same = r->dim == again.dim && r->leaf == t->meta.leaf && r->seed == t->meta.seed &&
                 r->objects == t->scene->object_count && r->nodes == t->node_count && r->leaves == again.leaves &&
-                r->fragments == again.fragments && r->in_cut == again.in_cut && r->size == r->nodes + again.fragments &&
-                r->height == again.height && r->mean_depth == again.mean_depth && r->max_leaf == again.max_leaf &&
+                r->fragments == again.fragments && r->in_cut == again.in_cut && r->covers == again.covers &&
+                r->size == r->nodes + again.fragments && r->height == again.height &&
+                r->mean_depth == again.mean_depth && r->max_leaf == again.max_leaf &&
                 r->inseparable == again.inseparable && r->crowded == again.crowded;
     return same ? FROE_OK : support_fail(a->diag, FROE_E_AUDIT, "The report does not tell what is in the tree.");
 }
@@ -166,6 +170,13 @@ static const char *packed_wrong(const comparison *c, const trace_place *place, u
     return packed_refuted(c->context, c->tree, place->node, i, ring);
 }
 
+/* The next piece is right: on to the one after it, which must be in another list. */
+static bool take_piece(comparison *c, uint32_t node, const tree_objects *list) {
+    c->next++;
+    const bool twice = c->next < c->end && *c->next - list->first < list->count;
+    return !twice || differs(c, node, "two pieces of the object");
+}
+
 /* Places and pieces come in the same order. In packed trees of space objects may also be listed beside the cells they
  * are in: check_chunk() looks at those pieces, and a place needs only to be listed. */
 static bool compare_place(void *user, const trace_place *place) {
@@ -185,9 +196,18 @@ static bool compare_place(void *user, const trace_place *place) {
                       : shape_right(c, c->tree->pieces + *c->next, place) ? NULL
                                                                           : "a piece of the wrong shape";
     if (why) return differs(c, place->node, why);
-    c->next++;
-    if (c->next < c->end && *c->next - list.first < list.count)
-        return differs(c, place->node, "two pieces of the object");
+    return take_piece(c, place->node, &list);
+}
+
+/* Covers come in the order of the other places, too. */
+static bool compare_cover(void *user, uint32_t node, bool contains, bool *stop) {
+    comparison *c = user;
+    const tree_objects list = tree_list(c->tree, node);
+    if (c->next == c->end || *c->next < list.first ||
+        *c->next - list.first >= tree_covers(c->tree, c->tree->nodes + node))
+        return false;
+    *stop = !(contains ? take_piece(c, node, &list)
+                       : differs(c, node, "a cover that does not contain the region of the node"));
     return true;
 }
 
@@ -210,7 +230,7 @@ static froe_status check_chunk(void *user, unsigned worker, size_t job) {
             if (why) differs(&c, leaf, why);
             last = leaf;
         }
-        if (!c.failed && trace_object(t, (uint32_t)i, compare_place, &c)) c.no_memory = true;
+        if (!c.failed && trace_object(t, (uint32_t)i, compare_place, compare_cover, &c)) c.no_memory = true;
         if (!c.failed && !c.no_memory && !space && c.next < c.end) stray(&c);
         status = c.no_memory ? support_fail_memory(&diag) : c.failed ? FROE_E_AUDIT : FROE_OK;
     }
@@ -261,7 +281,7 @@ static froe_status check_leaves(audit *a) {
         if (i % 65536 == 0) base_progress(a->task, a->task->done);
         if (base_cancelled(a->task)) return support_fail_cancelled(a->diag);
         if (!tree_is_leaf(t->nodes + i)) continue;
-        tree_objects list = tree_list(t, i);
+        const tree_objects list = tree_own_list(t, i);
         bool crowded = t->nodes[i].flags & TREE_CROWDED, flagged = t->nodes[i].flags & TREE_INSEPARABLE;
         const char *name = crowded ? "crowded" : "inseparable", *why = NULL;
         if (list.count <= most && (crowded || flagged))

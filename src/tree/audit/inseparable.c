@@ -1,8 +1,8 @@
 /* inseparable.c: looking for a cut between the objects of a leaf that claims there is none. */
 #include "tree/audit/inseparable.h"
-#include "geom/meet/meet.h"
 #include "scene/convex.h"
 #include "tree/audit/normals.h"
+#include "tree/audit/share.h"
 #include "tree/crowd.h"
 #include <math.h>
 
@@ -28,30 +28,20 @@ static bool add_corners(normals *m, const froe_scene *s, uint32_t object) {
     return true;
 }
 
-/* The largest coordinate of an object, radius included. */
-static double largest_coordinate(const froe_scene *s, uint32_t object) {
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], most = 0;
-    scene_object_bounds(s, object, lo, hi);
-    for (int k = 0; k < s->dim; k++) most = fmax(most, fmax(fabs(lo[k]), fabs(hi[k])));
-    return most;
-}
-
-/* Are they so far apart that builders have to find a plane, or is there one between two hulls that touch? */
+/* Have they no point in common, so that builders have to find a plane; or is there one between two hulls that touch? */
 static froe_status separated(const solid_pair *p, bool *out) {
     const froe_scene *s = p->scene;
     normals *m = p->normals;
     *out = false;
-    if (scene_form(s, p->a) == FROE_HULL && scene_form(s, p->b) == FROE_HULL) {
+    if (s->dim <= 3 && scene_form(s, p->a) == FROE_HULL && scene_form(s, p->b) == FROE_HULL) {
         m->points.count = 0;
         if (!add_corners(m, p->scene, p->a)) return FROE_E_MEMORY;
         m->first = (uint32_t)m->points.count;
         const froe_status status = add_corners(m, p->scene, p->b) ? normals_apart(m, out) : FROE_E_MEMORY;
         if (status || *out) return status;
     }
-    geom_convex a = scene_convex(s, p->a);
-    const geom_convex b = scene_convex(s, p->b);
-    a.radius += 0x1p-45 * fmax(largest_coordinate(s, p->a), largest_coordinate(s, p->b));
-    *out = isfinite(a.radius) && !geom_meet(p->context, &a, &b);
+    const geom_convex a = scene_convex(s, p->a), b = scene_convex(s, p->b);
+    *out = !share_point(p->context, &a, &b);
     return FROE_OK;
 }
 
@@ -116,7 +106,7 @@ froe_status inseparable_refuted(num_context *context, base_task *task, const fro
     for (uint32_t i = 0; i < list->count; i++) gauge_take(&g, s, tree_object(list, i), !i);
     if (gauge_separates(&g, s->dim)) return FROE_OK;
     *why = NULL;
-    if (s->dim > 3 || share_a_point(s, list)) return FROE_OK;
+    if (share_a_point(s, list)) return FROE_OK;
     normals m = {.context = context, .alloc = tree->alloc, .dim = s->dim};
     solid_pair p = {.context = context, .task = task, .scene = s, .normals = &m};
     bool found = false;
@@ -151,7 +141,7 @@ froe_status crowded_refuted(num_context *context, base_task *task, const froe_tr
         gauge_take(&g, s, p.a, true);
         gauge_take(&g, s, p.b, false);
         bool apart = gauge_separates(&g, s->dim);
-        if (!apart && s->dim <= 3) status = separated(&p, &apart);
+        if (!apart) status = separated(&p, &apart);
         if (!status) tree_crowd_tell(&crowd, apart);
     }
     normals_free(&m);

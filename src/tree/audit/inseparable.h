@@ -13,8 +13,8 @@
  *     for boxes;
  *   - two hulls by any plane with one of them on each side, touching it at most, or one in it: complete, but for two
  *     in one plane, where axis-parallel planes alone count (normals.h).
- *   - all pairs of solids in R^2 and R^3 further apart than 2^-45 of their largest coordinate. Distances decide,
- *     not planes, so that the audit does not repeat the search of the builders (geom/meet/apart.h).
+ *   - all pairs of solids that have no point in common (share.h): no plane is looked for, so that the audit does not
+ *     repeat the search of the builders (geom/meet/apart.h).
  * O(m dim), and O(m^2) pairs when axis-parallel planes fail. On the calling thread of `task`;
  * NULL, too, when that was cancelled meanwhile. FROE_E_MEMORY. */
 froe_status inseparable_refuted(num_context *context, base_task *task, const froe_tree *tree, const tree_objects *list,

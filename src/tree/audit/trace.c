@@ -172,13 +172,14 @@ static froe_status follow_object(tree_trace *t, trace_part part) {
     return FROE_OK;
 }
 
-froe_status trace_object(tree_trace *t, uint32_t object, trace_fn *fn, void *user) {
+froe_status trace_object(tree_trace *t, uint32_t object, trace_fn *fn, trace_cover_fn *covers, void *user) {
     const froe_scene *s = t->tree->scene;
     const uint32_t count = scene_corners(s, object);
     const size_t bytes = (size_t)(s->dim < 3 ? s->dim : 3) * sizeof(double);
     froe_status status = FROE_OK;
     t->object = object;
     t->fn = fn;
+    t->cover_fn = covers;
     t->user = user;
     t->stopped = false;
     if (scene_form(s, object) > FROE_POLYGON) return trace_solid_object(t);

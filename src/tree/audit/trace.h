@@ -8,6 +8,10 @@
  * rest, whether a solid reaches into a cell that cuts bound from several sides is enclosed: it MAY be listed wherever
  * no single cut excludes it, and MUST be where a point of it is known to lie, or is found (trace_cell.c).
  *
+ * A box that contains the region of a node may be listed there, as a cover, in place of all lists below. Every node on
+ * the way of a box is asked for that. Below the node the box has no place. The axis-parallel cuts above a node bound
+ * its region; a box within whose sides each of these bounds is contains it, whatever oblique cuts there are besides.
+ *
  * This is the audit's own clipping: it shares the predicates with the builders, nothing else.
  *
  * It speaks for trace.c, trace_cell.c, trace_solid.c and audit.c, which compares the places with the tree. */
@@ -26,6 +30,9 @@ typedef struct trace_place {
 } trace_place;
 /** False stops the trace. */
 typedef bool trace_fn(void *user, const trace_place *place);
+/** Is the object, a box, listed as a cover of the node? The trace then does not go below it. contains: does it contain
+ * the region? If not, though it is listed so, *stop is set. */
+typedef bool trace_cover_fn(void *user, uint32_t node, bool contains, bool *stop);
 
 /** A corner of the part being carried: the edge that leaves it (segments: what ends it there) and an image. */
 typedef struct trace_corner {
@@ -40,10 +47,12 @@ typedef struct trace_part {
 
 /** A solid waiting: its part within the axis-parallel cuts above, and what is certain of it. */
 typedef struct trace_solid {
-    uint32_t node, first, count;               /* hulls: corners certainly inside */
-    bool oblique;                              /* is there an oblique cut above? (boxes) */
-    bool exact;                                /* no oblique cut has divided it */
-    bool inside;                               /* a witness is inside: a point of boxes, the centre of balls */
+    uint32_t node, first, count; /* hulls: corners certainly inside */
+    bool oblique;                /* is there an oblique cut above? (boxes) */
+    bool exact;                  /* no oblique cut has divided it */
+    bool inside;                 /* a witness is inside: a point of boxes, the centre of balls */
+    uint16_t bounded; /* boxes: bits 2 k, 2 k + 1: does a cut bound the region below and above on axis k, not beyond
+                         the side of the box? */
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /* boxes: the part; balls: the cell */
     double witness[FROE_MAX_DIM];
 } trace_solid;
@@ -62,6 +71,7 @@ typedef struct tree_trace {
     num_context context;
     trace_planes *planes;
     trace_fn *fn;
+    trace_cover_fn *cover_fn;
     void *user;
     uint32_t object;
     bool stopped;
@@ -74,8 +84,8 @@ typedef struct tree_trace {
 
 froe_status trace_new(const froe_tree *tree, bool exact_only, tree_trace *out);
 void trace_free(tree_trace *t);
-/** Visits all places of one object, in the order of the lists. FROE_E_MEMORY. */
-froe_status trace_object(tree_trace *t, uint32_t object, trace_fn *fn, void *user);
+/** Visits all places of one object, in the order of the lists; covers: asked for boxes. FROE_E_MEMORY. */
+froe_status trace_object(tree_trace *t, uint32_t object, trace_fn *fn, trace_cover_fn *covers, void *user);
 
 /** The plane of a node's cut; good until the next call. */
 const geom_plane *trace_plane(tree_trace *t, uint32_t node);

@@ -49,6 +49,8 @@ static unsigned cut_box(tree_trace *t, const geom_plane *plane, const trace_soli
         part = interval_reach(at->lo[axis], at->hi[axis], c);
         whole = interval_reach(lo[axis], hi[axis], c);
         if (part == 3) child[0].hi[axis] = child[1].lo[axis] = c;
+        if (c <= hi[axis]) child[0].bounded |= (uint16_t)(2u << 2 * axis);
+        if (c >= lo[axis]) child[1].bounded |= (uint16_t)(1u << 2 * axis);
     } else {
         part = box_reach(t, plane, at->lo, at->hi, strict);
         whole = box_reach(t, plane, lo, hi, any);
@@ -139,10 +141,37 @@ static void arrive_solid(tree_trace *t, const trace_solid *at, bool leaf) {
     t->stopped = !t->fn(t->user, &place);
 }
 
+/* Is the object a box that is listed here as a cover? */
+static bool is_cover(tree_trace *t, const trace_solid *at) {
+    if (!tree_covers(t->tree, t->tree->nodes + at->node)) return false;
+    const unsigned all = (1u << 2 * t->tree->scene->dim) - 1;
+    return t->cover_fn(t->user, at->node, at->bounded == all, &t->stopped);
+}
+
+/* A box wholly on one side of an axis-parallel cut goes there as it is, which is quick: boxes one in the other lie
+ * below long rows of such cuts. False: the cut is another one, or the box is on both sides, or in it. */
+static bool pass_cut(const tree_trace *t, trace_solid *at, const double *lo, const double *hi) {
+    const tree_node *n = t->tree->nodes + at->node;
+    const tree_cut *cut = n->type == TREE_TABLED ? t->tree->cuts + n->u.cut : NULL;
+    if (at->oblique || (cut && cut->kind != FROE_CUT_AXIS)) return false;
+    const uint32_t axis = cut ? cut->a : n->axis;
+    const double c = cut ? cut->u.value : n->u.value;
+    const unsigned reached = interval_reach(at->lo[axis], at->hi[axis], c);
+    if (reached == 1 && c <= hi[axis]) at->bounded |= (uint16_t)(2u << 2 * axis);
+    if (reached == 2 && c >= lo[axis]) at->bounded |= (uint16_t)(1u << 2 * axis);
+    if (reached == 1 || reached == 2) at->node = n->child + (reached == 2);
+    return reached == 1 || reached == 2;
+}
+
 /* Carries a waiting solid on; what is on the positive side of cuts on its way waits. False without memory. */
 static bool follow_solid(tree_trace *t, trace_solid at) {
     const froe_kind form = scene_form(t->tree->scene, t->object);
-    while (!tree_is_leaf(t->tree->nodes + at.node)) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    scene_object_bounds(t->tree->scene, t->object, lo, hi);
+    for (;;) {
+        if (form == FROE_BOX && is_cover(t, &at)) return true;
+        if (tree_is_leaf(t->tree->nodes + at.node)) break;
+        if (form == FROE_BOX && pass_cut(t, &at, lo, hi)) continue;
         const geom_plane *plane = trace_plane(t, at.node);
         trace_solid child[2] = {at, at};
         child[0].node = t->tree->nodes[at.node].child;
