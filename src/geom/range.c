@@ -128,8 +128,9 @@ static bool facets_hold(const geom_range *r, double margin, const double *lo, co
     return true;
 }
 
-/* Is the box certainly in every facet's halfspace? That is all there is to a range without corners. */
-static bool in_facets(const geom_range *r, const double *lo, const double *hi) {
+/* Is the box certainly in every facet's halfspace, moved outwards by a margin? That is all there is to a range without
+ * corners. */
+static bool in_facets(const geom_range *r, double margin, const double *lo, const double *hi) {
     for (size_t i = 0; i < r->facets.count; i++) {
         const geom_facet *f = r->facets.data + i;
         double most = 0, size = fabs(f->c);
@@ -138,7 +139,8 @@ static bool in_facets(const geom_range *r, const double *lo, const double *hi) {
             most += term;
             size += fabs(term);
         }
-        if (!(most + roundings(r->dim) * FILTER_U * size + NUM_BALL_TINY < f->c)) return false;
+        const double moved = f->c + f->norm * margin * (1 - 0x1p-40); /* the norm and the sum are rounded upwards */
+        if (!(most + roundings(r->dim) * FILTER_U * size + NUM_BALL_TINY < moved)) return false;
     }
     return true;
 }
@@ -167,7 +169,7 @@ bool geom_range_holds(num_context *context, const geom_range *r, double margin, 
     case GEOM_RANGE_BALL:
         return furthest(r, lo, hi) < filter_capped(reach * reach) * SURE - NUM_BALL_TINY;
     case GEOM_RANGE_SOLID:
-        if (!r->set.count) return margin == 0 && in_facets(r, lo, hi);
+        if (!r->set.count) return in_facets(r, margin, lo, hi);
         return facets_hold(r, margin, lo, hi) && corners_held(context, r, margin, lo, hi);
     default:
         return false;

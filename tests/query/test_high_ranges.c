@@ -276,7 +276,7 @@ static void hulls_meet_halfspaces(void **state) {
 /* ---------------------------------------------------------------- within eps -- */
 
 /** The largest distance of two corners of a range, twice its radius added. */
-static double diameter(int dim, const question *q) {
+static double diameter_of(int dim, const question *q) {
     const high_set set = set_of(dim, q);
     double most = 0;
     for (size_t i = 0; i < set.count; i++)
@@ -313,7 +313,7 @@ static void within_eps_less_is_visited(void **state) {
             size_t missed = list.count;
             nodes[0] += froe_query_statistics(query).nodes;
             q.range.eps = 0.5;
-            const double reach = 0.5 * diameter(dim, &q) * (1 + 1e-12);
+            const double reach = 0.5 * diameter_of(dim, &q) * (1 + 1e-12);
             high_set grown = set_of(dim, &q);
             grown.radius += reach;
             assert_int_equal(froe_query_range(query, &q.range, &list, NULL), FROE_OK);
@@ -325,6 +325,74 @@ static void within_eps_less_is_visited(void **state) {
                 if (more++ % 8 == 0 && !high_meet(&a, &grown)) fail_msg("%s: too far away", where(&q, dim, seed));
             }
             assert_int_equal(missed, 0);
+        }
+        assert_true(more > 0);
+        assert_true(nodes[1] < nodes[0] * 3 / 4);
+        froe_query_free(query);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
+/** A box without one of its corners: the distance of two others is known. */
+static double make_cut_box(int dim, uint64_t seed, question *q) {
+    double diameter = 0, value = 0;
+    q->range = froe_range_defaults();
+    q->range.shape = FROE_SHAPE_HALFSPACES;
+    q->range.points = q->points, q->range.offsets = q->offsets, q->range.count = 2 * (size_t)dim + 1;
+    memset(q->points, 0, sizeof q->points);
+    for (int k = 0; k < dim; k++) {
+        const double lo = 4 * trees_unit(seed, 10 + (uint64_t)k), hi = lo + 1 + 3 * trees_unit(seed, 20 + (uint64_t)k);
+        const double scale = ldexp(1, (int)trees_random(seed, 30 + (uint64_t)k, 20) - 10);
+        q->points[2 * k * dim + k] = -scale;
+        q->points[(2 * k + 1) * dim + k] = scale;
+        q->points[2 * dim * dim + k] = 1;
+        q->offsets[2 * k] = -scale * lo;
+        q->offsets[2 * k + 1] = scale * hi;
+        value += hi;
+        diameter += (hi - lo) * (hi - lo);
+    }
+    q->offsets[2 * dim] = value - 0.5;
+    return sqrt(diameter);
+}
+
+static void halfspaces_within_eps(void **state) {
+    enum { COUNT = 3000, QUESTIONS = 8 };
+    (void)state;
+    for (int dim = 4; dim <= 5; dim++) {
+        froe_scene *scene = make_scene(dim, FROE_POINT, 0, COUNT, 5);
+        froe_build_options o = froe_build_defaults();
+        froe_tree *tree;
+        froe_query *query;
+        uint64_t nodes[2] = {0, 0};
+        size_t more = 0;
+        o.method = "bar";
+        assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+        assert_int_equal(froe_query_new(tree, &query, NULL), FROE_OK);
+        for (uint64_t seed = 0; seed < QUESTIONS; seed++) {
+            question q;
+            froe_list list;
+            bool exact[COUNT] = {false};
+            const double diameter = make_cut_box(dim, 100 + seed, &q);
+            assert_int_equal(froe_query_range(query, &q.range, &list, NULL), FROE_OK);
+            for (size_t i = 0; i < list.count; i++) exact[list.ids[i]] = true;
+            const size_t count = list.count;
+            nodes[0] += froe_query_statistics(query).nodes;
+            for (int wide = 0; wide < 2; wide++) {
+                size_t missed = count;
+                q.range.eps = wide ? 2 : 0.25;
+                assert_int_equal(froe_query_range(query, &q.range, &list, NULL), FROE_OK);
+                nodes[1] += froe_query_statistics(query).nodes * (uint64_t)wide;
+                for (size_t i = 0; i < list.count; i++) {
+                    missed -= exact[list.ids[i]];
+                    if (exact[list.ids[i]] || more++ % 8) continue;
+                    high_set grown = high_object(scene, list.ids[i]);
+                    grown.radius = q.range.eps * diameter * (1 + 1e-12);
+                    if (!halfspaces_meet(&grown, q.points, q.offsets, q.range.count))
+                        fail_msg("%s: too far away", where(&q, dim, seed));
+                }
+                assert_int_equal(missed, 0);
+            }
         }
         assert_true(more > 0);
         assert_true(nodes[1] < nodes[0] * 3 / 4);
@@ -380,6 +448,7 @@ int main(void) {
         cmocka_unit_test(halfspaces),
         cmocka_unit_test(hulls_meet_halfspaces),
         cmocka_unit_test(within_eps_less_is_visited),
+        cmocka_unit_test(halfspaces_within_eps),
         cmocka_unit_test(what_is_not_served_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
 #include "geom/high/program.h"
 #include "geom/predicates.h"
 #include "support/array.h"
+#include <math.h>
 
 enum { ROWS = NUM_TABLE_ROWS };
 
@@ -309,4 +310,68 @@ bool geom_halfspaces_bounded(num_context *context, const geom_halfspaces *of) {
         for (m.sign = -1; m.sign <= 1; m.sign += 2)
             if (!is_feasible(&m, of->dim, m.count, column_of_direction, image_of_direction)) return false;
     return true;
+}
+
+/* ------------------------------------------------------------------- inside -- */
+
+enum { PULLS = 1000, ROUNDS = 4 };
+
+/** How far x is from the plane of halfspace i, on its inner side, at least; not normed: times *norm. */
+static double slack_of(const geom_halfspaces *h, size_t i, const double *x, double *norm) {
+    const double *n = h->normals + i * (size_t)h->dim;
+    double value = h->offsets[i], size = fabs(value);
+    for (int k = 0; k < h->dim; k++) {
+        value -= n[k] * x[k];
+        size += fabs(n[k] * x[k]);
+    }
+    *norm = filter_length_in(h->dim, n);
+    return value - 16 * FILTER_U * size - NUM_BALL_TINY;
+}
+
+/** The radius of the ball around x that is in all; or, negative, the distance of the furthest, whose number is *at. */
+static double radius_at(const geom_halfspaces *h, const double *x, size_t *at) {
+    double radius = INFINITY, norm;
+    for (size_t i = 0; i < h->count; i++) {
+        const double slack = slack_of(h, i, x, &norm);
+        if (!(norm > 0)) continue; /* holds everything, or nothing */
+        if (!(slack / norm >= radius)) radius = slack / norm, *at = i;
+    }
+    return radius;
+}
+
+/** Pulls x across the plane from which it is furthest, and half as far beyond it, until it is inside (Agmon, "The
+ * relaxation method for linear inequalities", 1954). */
+static double pull_inside(const geom_halfspaces *h, double *x) {
+    size_t at = 0;
+    double radius = radius_at(h, x, &at), norm;
+    for (int n = 0; n < PULLS && radius <= 0; n++) {
+        const double slack = slack_of(h, at, x, &norm);
+        const double step = (1.5 * slack - 0x1p-40 * fabs(h->offsets[at])) / norm / norm;
+        for (int k = 0; k < h->dim; k++) x[k] += step * h->normals[at * (size_t)h->dim + (size_t)k];
+        radius = radius_at(h, x, &at);
+    }
+    return radius;
+}
+
+double geom_halfspaces_ball(const geom_halfspaces *h, double *x) {
+    size_t at;
+    double radius = pull_inside(h, x);
+    /* to the middle of what is left along each axis, where that is better */
+    for (int round = 0; round < ROUNDS && radius > 0; round++)
+        for (int k = 0; k < h->dim; k++) {
+            double ahead = INFINITY, back = INFINITY, norm;
+            const double before = x[k];
+            for (size_t i = 0; i < h->count; i++) {
+                const double n = h->normals[i * (size_t)h->dim + (size_t)k], slack = slack_of(h, i, x, &norm);
+                if (n > 0) ahead = fmin(ahead, slack / n);
+                if (n < 0) back = fmin(back, slack / -n);
+            }
+            x[k] += 0.5 * ahead - 0.5 * back;
+            const double moved = radius_at(h, x, &at);
+            if (moved > radius && isfinite(x[k]))
+                radius = moved;
+            else
+                x[k] = before;
+        }
+    return radius > 0 && radius < INFINITY ? radius * (1 - 0x1p-40) : 0;
 }

@@ -26,6 +26,9 @@ typedef struct geom_halfspaces {
  * and of many corners, as long as the choices among those take that cut the set. */
 bool geom_halfspaces_meet(num_context *context, const froe_allocator *alloc, const geom_halfspaces *halfspaces,
                           const geom_convex *set, bool *memory);
+/** The radius of a ball in all of them, certain, and not the largest; 0: none was found. x becomes its centre; the
+ * search begins there. Doubles alone. O(dim^2 count). */
+double geom_halfspaces_ball(const geom_halfspaces *halfspaces, double *x);
 /** Is there a point in all of them? */
 bool geom_halfspaces_any(num_context *context, const geom_halfspaces *halfspaces);
 /** Are all such points, if there are any, within some distance? */

@@ -265,10 +265,16 @@ static froe_status take_margin(froe_query *q, const froe_range *from, froe_diagn
         unbounded |= !isfinite(from->points[i]);
     if (unbounded) return support_fail(diag, FROE_E_INPUT, "A %s without a bound has no eps.", names[from->shape]);
     if (from->shape == FROE_SHAPE_HALFSPACES && dim > 3) {
-        /* The search is exact: no lower bound of the diameter is known. */
         const geom_halfspaces of = query_halfspaces(r);
+        const froe_scene *scene = q->tree->scene;
+        double x[FROE_MAX_DIM];
         if (!geom_halfspaces_bounded(&q->numbers, &of) && geom_halfspaces_any(&q->numbers, &of))
             return support_fail(diag, FROE_E_INPUT, "Halfspaces without a bound have no eps.");
+        /* A ball around x is inside. If all planes move outwards by eps times its radius, what they hold is larger by
+         * the factor 1 + eps at most, seen from x. So no point of it is further than eps times the diameter away. */
+        for (uint32_t k = 0; k < dim; k++) x[k] = 0.5 * scene->lo[k] + 0.5 * scene->hi[k];
+        const double margin = scene->object_count ? from->eps * geom_halfspaces_ball(&of, x) * (1 - 0x1p-45) : 0;
+        r->margin = margin > 0x1p-900 && isfinite(margin) ? margin : 0;
         return FROE_OK;
     }
     if (from->shape == FROE_SHAPE_HALFSPACES) {
