@@ -3,6 +3,7 @@
 #include "claims.h"
 #include <froe/measure.h>
 #include <math.h>
+#include <stdlib.h>
 
 static const claims_way by_rooms = {.method = "directional"}, by_medians = {.method = "kd", .settings = "growth=1000"};
 
@@ -26,6 +27,21 @@ static double simple_density(const claims_tree *t) {
     return t->way.bare ? d.extended.most : d.simple.most;
 }
 
+/* Nodes and pieces. Bare: boxes that contain the region of a node are listed in every leaf below it in place of there. */
+static double size_per_box(const claims_tree *t) {
+    double size = (double)t->report.size;
+    double *leaves = malloc((size_t)t->report.nodes * sizeof *leaves); /* below each node */
+    bench_must(leaves ? FROE_OK : FROE_E_MEMORY, NULL);
+    for (uint64_t i = t->report.nodes; i-- > 0;) { /* children come after their parents */
+        const froe_node_info node = froe_tree_node(t->tree, (froe_node){(uint32_t)i + 1});
+        const bool leaf = !node.child[0].id1;
+        leaves[i] = leaf ? 1 : leaves[node.child[0].id1 - 1] + leaves[node.child[1].id1 - 1];
+        if (t->way.bare) size += (leaves[i] - 1) * (double)node.cover_count;
+    }
+    free(leaves);
+    return size / t->n;
+}
+
 const claim claims_boxes[] = {
     {.source = "Tobola and Nechvile, lemma 4.2",
      .says = "linear size at low directional density",
@@ -37,6 +53,16 @@ const claim claims_boxes[] = {
      .with = by_rooms,
      .needs = "rooms: medians",
      .without = by_medians},
+    {.source = "Tobola and Nechvile, section 5",
+     .says = "linear size of boxes one in the other, too",
+     .measured = "(nodes + pieces) / n, the most of shells, n = 100 to 6400",
+     .least = 1,
+     .most = 14,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("shells"), 100, 6, size_per_box),
+     .with = by_rooms,
+     .needs = "covers: they are listed in all leaves below",
+     .without = {.method = "directional", .bare = true}},
     {.source = "Tobola and Nechvile, lemma 3.4",
      .says = "the same for flat rectangles",
      .measured = "exponent of pieces in n; faces of nested cubes",
