@@ -275,8 +275,9 @@ typedef struct froe_build_options {
     const char *method;         /**< "auto" (default) or a name listed by froe_method_at() */
     const char *purpose;        /**< what "auto" chooses for: "pieces" (default), "query", "draw" */
     const char *settings;       /**< "name=value name=value": options of the method; NULL or "": defaults */
-    uint32_t leaf;              /**< most objects in a leaf; FROE_LEAF_OWN (default): the method's own, mostly 1;
-                                     0: everything ends in cuts (scenes of 2D segments or of 3D polygons only) */
+    uint32_t leaf;              /**< most objects in a leaf, boxes that contain its region not counted; FROE_LEAF_OWN
+                                     (default): the method's own, mostly 1; 0: everything ends in cuts (scenes of 2D
+                                     segments or of 3D polygons only) */
     uint64_t seed;              /**< of all random choices; default 1 */
     const uint32_t *order;      /**< every object once, the first to cut first, for methods that take one
                                      (cylindrical); NULL: a random one, by the seed */
@@ -339,7 +340,7 @@ typedef struct froe_report {
     uint64_t max_leaf;    /**< pieces in the fullest leaf */
     uint64_t inseparable; /**< leaves over capacity because nothing can separate them */
     uint64_t crowded;     /**< leaves over capacity because more cuts would make too many pieces: of solids that
-                             mostly overlap (density), of objects that no cut thins out (index) */
+                             mostly overlap (density, directional), of objects that no cut thins out (index) */
     uint64_t bytes;       /**< the tree without the scene */
     froe_predicate_stats predicates; /**< of the build; zero for an opened tree */
     const froe_promise *promises;    /**< ended by a NULL name */
