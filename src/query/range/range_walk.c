@@ -39,9 +39,12 @@ static bool done(const range_walk *w) {
 
 /* ------------------------------------------------------------------- lists -- */
 
-/* Reports those objects that meet the range, of the list of a leaf, or of a cut that the range may touch, or of the
- * covers of a node. */
-static void visit_list(range_walk *w, tree_objects list) {
+/* Reports those objects that meet the range, of the list of a leaf, or of a cut that the range may touch; or of the
+ * covers of an inner node, which are visited before its cut. */
+static void visit_list(range_walk *w, uint32_t node, bool covers) {
+    tree_objects list = tree_list(w->tree, node);
+    if (w->covers && covers) list = tree_cover_list(w->tree, node);
+    if (w->covers && !covers && !tree_is_leaf(w->tree->nodes + node)) list = tree_own_list(w->tree, node);
     froe_query *q = w->q;
     if (!w->points) {
         if (!query_expect(q, list.count)) w->memory = true;
@@ -73,8 +76,7 @@ static void visit_list(range_walk *w, tree_objects list) {
 
 /* The covers of an inner node that is visited. */
 static inline void visit_covers(range_walk *w, uint32_t node) {
-    const tree_node *n = w->tree->nodes + node;
-    if (w->covers && n->type == TREE_TABLED && n->u.covers) visit_list(w, tree_cover_list(w->tree, node));
+    if (w->covers && tree_covers(w->tree, w->tree->nodes + node)) visit_list(w, node, true);
 }
 
 /* Those of the nodes from `from` on that a jump from there to `to` has passed. */
@@ -285,7 +287,7 @@ static void follow_solid(range_walk *w, uint32_t node, double *state) {
         }
         if (tree_is_leaf(n)) {
             w->q->stats.leaves++;
-            visit_list(w, tree_list(w->tree, node));
+            visit_list(w, node, false);
             return;
         }
         visit_covers(w, node);
@@ -295,7 +297,7 @@ static void follow_solid(range_walk *w, uint32_t node, double *state) {
         if (!left && !right) return;
         if (left && right) {
             push_state(w, n->child + 1, other);
-            if (n->type == TREE_TABLED) visit_list(w, tree_own_list(w->tree, node));
+            if (n->type == TREE_TABLED) visit_list(w, node, false);
             passed = -1;
         }
         if (!left) memcpy(state, other, w->width * sizeof *state);
@@ -372,7 +374,7 @@ static void follow_thin(range_walk *w, uint32_t node, double *t) {
         w->q->stats.nodes++;
         if (tree_is_leaf(n)) {
             w->q->stats.leaves++;
-            visit_list(w, tree_list(w->tree, node));
+            visit_list(w, node, false);
             return;
         }
         visit_covers(w, node);
@@ -380,7 +382,7 @@ static void follow_thin(range_walk *w, uint32_t node, double *t) {
         const unsigned sides = divide_interval(w, &cut, t, below, above);
         if (sides == 3) {
             push_state(w, n->child + 1, above);
-            if (n->type == TREE_TABLED) visit_list(w, tree_own_list(w->tree, node));
+            if (n->type == TREE_TABLED) visit_list(w, node, false);
             passed = -1;
         }
         memcpy(t, sides == 2 ? above : below, 2 * sizeof *t);
