@@ -27,7 +27,7 @@ static double simple_density(const claims_tree *t) {
     return t->way.bare ? d.extended.most : d.simple.most;
 }
 
-/* Nodes and pieces. Bare: boxes that contain the region of a node are listed in every leaf below it in place of there. */
+/* Nodes and pieces. Bare: boxes that contain the region of a node are listed in every leaf below it instead. */
 static double size_per_box(const claims_tree *t) {
     double size = (double)t->report.size;
     double *leaves = malloc((size_t)t->report.nodes * sizeof *leaves); /* below each node */
