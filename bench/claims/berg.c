@@ -1,6 +1,7 @@
 /* berg.c: de Berg, "Linear size binary space partitions for uncluttered scenes". */
 #include "guarding.h"
 #include <math.h>
+#include <string.h>
 
 static const claims_way by_density = {.method = "density"},
                         unguarded = {.method = "density", .settings = "k=1000000000"};
@@ -61,6 +62,12 @@ static double cells_met(const claims_tree *t) {
     return worst;
 }
 
+static double pieces_as_promised(const claims_tree *t) {
+    for (const froe_promise *p = t->report.promises; p->name; p++)
+        if (!strcmp(p->name, "fragments")) return p->measured / p->promised;
+    return NAN;
+}
+
 const claim claims_berg[] = {
     {.source = "de Berg, theorem 2.5",
      .says = "linear size in uncluttered scenes of space",
@@ -74,14 +81,44 @@ const claim claims_berg[] = {
      .without = {.method = "sorted"}},
     {.source = "de Berg, theorem 2.5",
      .says = "linear size for objects of all scales",
-     .measured = "exponent of nodes + pieces in n, nested-3d",
+     .measured = "exponent of nodes + pieces in n; worst of nests, shells off centre",
      .least = 0.9,
-     .most = 1.05,
+     .most = 1.03,
      .measure = claims_growth,
-     .of = CLAIMS_PLAN(("nested-3d"), 1000, 3, claims_size),
+     .of = CLAIMS_PLAN(("nests", "shells off centre"), 2000, 3, claims_size),
+     .with = by_density,
+     .needs = "guards: cuts along the objects in any order",
+     .without = {.method = "sorted"}},
+    {.source = "de Berg, theorem 2.5",
+     .says = "few pieces of shells at an odd angle",
+     .measured = "pieces / n, 8000 triangles; worst of nests, shells off centre",
+     .least = 1,
+     .most = 10,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("nests", "shells off centre"), 8000, 0, claims_per_object),
      .with = by_density,
      .needs = "guards",
      .without = unguarded},
+    {.source = "de Berg, theorem 2.5",
+     .says = "a size that follows from k, the leaves and the fragments of the guard stage",
+     .measured = "pieces / promised, 4000 triangles; worst of nested-3d, nests, cuboids",
+     .least = 0.1,
+     .most = 1,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("nested-3d", "nests", "cuboids"), 4000, 0, pieces_as_promised),
+     .with = by_density,
+     .needs = "trials: refinement that is never taken back",
+     .without = {.method = "density", .settings = "trials=0"}},
+    {.source = "the same, of points",
+     .says = "height O(log n) however they lie",
+     .measured = "height / log2 n, 8000 nested points",
+     .least = 1,
+     .most = 4.5,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("nested points"), 8000, 0, claims_high),
+     .with = by_density,
+     .needs = "balanced cuts below 2 log2 n levels of guard cuts",
+     .without = {.method = "density", .settings = "height=0"}},
     {.source = "de Berg, theorem 2.5",
      .says = "linear size in uncluttered scenes of the plane",
      .measured = "exponent of nodes + pieces in n; worst of scatter, rooms, blocks, combs of 16",

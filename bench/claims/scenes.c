@@ -113,6 +113,54 @@ static froe_scene *turned_roofs(size_t n, size_t lambda) {
     return roofs_of(n, true);
 }
 
+/** The columns of a rotation by a quaternion of small numbers. */
+static void turned(uint64_t *state, double out[3][3]) {
+    double q[4], all = 0;
+    for (int k = 0; k < 4; k++) q[k] = bench_unit(state) - 0.5, all += q[k] * q[k];
+    const double w = q[0], x = q[1], y = q[2], z = q[3], s = 2 / all;
+    PUT(out[0], 1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w));
+    PUT(out[1], s * (x * y - z * w), 1 - s * (x * x + z * z), s * (y * z + x * w));
+    PUT(out[2], s * (x * z + y * w), s * (y * z - x * w), 1 - s * (x * x + y * y));
+}
+
+/* Groups of twenty cubes, one in the other, each group tilted its own way and far from the origin. The planes of each
+ * cross all others. `off`: each cube is off the centre of the one around it. */
+static froe_scene *nests_of(size_t n, double off) {
+    const size_t groups = (n + 239) / 240;
+    double *coords = bench_take(9 * n, sizeof *coords);
+    uint64_t state = 1;
+    for (size_t g = 0; g < groups; g++) {
+        double o[3] = {0, 0, 0}, axes[3][3];
+        group_at(g, groups, o);
+        turned(&state, axes);
+        for (size_t i = g; i < n; i += groups) {
+            const size_t part = i / groups % 12, axis = part / 4;
+            const double h = ldexp(0.5, -(int)(i / groups / 12)), gone = off * (1 - 2 * h);
+            for (size_t corner = 0; corner < 3; corner++) {
+                const size_t c = part & 1 ? (size_t[]){0, 2, 3}[corner] : corner; /* of 00 10 11 01 */
+                double x[3];
+                x[axis] = part & 2 ? h : -h;
+                x[(axis + 1) % 3] = c == 1 || c == 2 ? h : -h;
+                x[(axis + 2) % 3] = c >= 2 ? h : -h;
+                for (int k = 0; k < 3; k++) {
+                    double at = 1000.0 / 3 + o[k] + gone * (0.45 * axes[0][k] + 0.4 * axes[1][k] - 0.3 * axes[2][k]);
+                    for (int a = 0; a < 3; a++) at += x[a] * axes[a][k];
+                    coords[9 * i + 3 * corner + (size_t)k] = at;
+                }
+            }
+        }
+    }
+    return taken(3, FROE_POLYGON, coords, n);
+}
+static froe_scene *nests(size_t n, size_t lambda) {
+    (void)lambda;
+    return nests_of(n, 0);
+}
+static froe_scene *shells_off_centre(size_t n, size_t lambda) {
+    (void)lambda;
+    return nests_of(n, 1);
+}
+
 /* ------------------------------------------------------------------ segments -- */
 
 /* Bundles of long, nearly parallel segments, each bundle in a cell of its own of a grid. */
@@ -341,6 +389,8 @@ static const struct {
               {"cards", house_of_cards},
               {"roofs", roofs},
               {"turned roofs", turned_roofs},
+              {"nests", nests},
+              {"shells off centre", shells_off_centre},
               {"bundles", bundles},
               {"combs", combs},
               {"zigzags", zigzags},

@@ -16,8 +16,9 @@
  * reaches a limit G keeps the stage below 2 G n fragments, whatever the scene. It also leaves
  * cells of few objects that it cannot thin out any more: the star around a common vertex.
  *
- * Cells that it leaves before the leaves of the guard tree may have many objects. There, refinement has no bound of
- * size: it is on trial, and where it makes too many pieces the guard stage goes on (guard/trial.h). */
+ * Cells that it leaves before the leaves of the guard tree may have many objects. There, refinement alone has no bound
+ * of size: it is on trial against further guard cuts, and the smaller of both stays, but for a constant factor
+ * (guard/trial.h). That makes the size linear; docs/design/density.md has the proof. */
 #include "base/log2.h"
 #include "build/method.h"
 #include "split/finish.h"
@@ -380,7 +381,8 @@ const build_method build_method_density = {
     .info = {.name = "density",
              .summary = "guards lead to cells of few objects, then the best of several cuts",
              .source = "de Berg, theorem 2.5; Sacks, lemma 12.7, theorems 12.8 and 12.9",
-             .guarantee = "guard stage: O(n / k) cells, each cube meets at most k + c_d lambda objects, O(d n log n)",
+             .guarantee =
+                 "O(n) pieces at density lambda: of O(n / k) guard cells each cube meets k + c_d lambda objects",
              .kinds = BUILD_SERVES(BUILD_DIMS_ALL, BUILD_KINDS_ALL),
              .options = options},
     .tunable = true,

@@ -151,7 +151,7 @@ static void every_kind_of_cut_survives_sealing(void **state) {
 /* ------------------------------------------------------------ random trees -- */
 
 /* The tree is a function of paths alone; how it is grown is not: newest or oldest cell first, with
- * the subtrees of some cells in drafts of their own. */
+ * the subtrees of some cells in drafts of their own, or after another subtree that is removed. */
 typedef struct cell {
     uint32_t node, depth, above; /* in its draft; an ancestor, ring numbering */
     uint64_t path;
@@ -159,7 +159,7 @@ typedef struct cell {
 } cell;
 typedef struct growing {
     froe_allocator alloc;
-    bool oldest_first, own_drafts;
+    bool oldest_first, own_drafts, detours;
     tree_draft main, drafts[16];
     tree_graft grafts[16];
     size_t graft_count;
@@ -214,6 +214,32 @@ static froe_status grow_cell(growing *g, cell c) {
     return status ? status : random_list(&c, true);
 }
 
+static froe_status grow_below(growing *g, cell root) {
+    const size_t others = g->cells.count;
+    froe_status status = array_push(&g->alloc, &g->cells, root) ? FROE_OK : FROE_E_MEMORY;
+    while (g->cells.count > others && !status) status = grow_cell(g, g->cells.data[--g->cells.count]);
+    return status;
+}
+
+/** Grows a cell after another subtree in its place, which is removed then. */
+static froe_status grow_after_detour(growing *g, cell c) {
+    cell other = c;
+    const tree_draft_mark from = draft_mark(c.draft);
+    other.path = base_path(c.path, 2);
+    froe_status status = grow_below(g, other);
+    if (status) return status;
+    const tree_draft_mark to = draft_mark(c.draft);
+    c.draft->nodes.data[c.node] = (tree_node){0};
+    status = grow_below(g, c);
+    if (!status) draft_remove(c.draft, &from, &to, c.node);
+    return status;
+}
+
+static froe_status grow_by_way(growing *g, cell c) {
+    const bool detour = g->detours && c.depth == GRAFT_DEPTH + (uint32_t)g->own_drafts;
+    return detour ? grow_after_detour(g, c) : grow_cell(g, c);
+}
+
 static froe_status grow_cells(growing *g) {
     froe_status status = draft_new(&g->alloc, 2, 0, &g->main);
     if (status) return status;
@@ -223,7 +249,7 @@ static froe_status grow_cells(growing *g) {
         size_t at = done;
         cell c = g->cells.data[at];
         if (g->own_drafts && c.depth == GRAFT_DEPTH) continue;
-        status = grow_cell(g, c);
+        status = grow_by_way(g, c);
         g->cells.data[at].draft = NULL;
         if (!g->oldest_first && !status) { /* bring the newest unfinished one forward */
             cell newest = g->cells.data[g->cells.count - 1];
@@ -237,14 +263,18 @@ static froe_status grow_cells(growing *g) {
         cell c = g->cells.data[i];
         if (!c.draft) continue;
         if (c.draft == &g->main) status = move_out(g, &c);
-        if (!status) status = grow_cell(g, c);
+        if (!status) status = grow_by_way(g, c);
     }
     return status;
 }
 
-static froe_status grow_random(bool oldest_first, bool own_drafts, froe_scene *scene, const froe_allocator *alloc,
-                               froe_tree **tree) {
-    growing g = {.alloc = support_allocator(alloc), .oldest_first = oldest_first, .own_drafts = own_drafts};
+enum { OLDEST_FIRST = 1, OWN_DRAFTS = 2, DETOURS = 4, WAYS = 8 };
+
+static froe_status grow_random(int way, froe_scene *scene, const froe_allocator *alloc, froe_tree **tree) {
+    growing g = {.alloc = support_allocator(alloc),
+                 .oldest_first = way & OLDEST_FIRST,
+                 .own_drafts = way & OWN_DRAFTS,
+                 .detours = way & DETOURS};
     froe_status status = grow_cells(&g);
     if (!status) status = draft_seal(&g.main, g.grafts, g.graft_count, scene, &meta, tree);
     if (g.main.nodes.data) draft_free(&g.main);
@@ -256,16 +286,16 @@ static froe_status grow_random(bool oldest_first, bool own_drafts, froe_scene *s
 static void sealing_depends_on_the_shape_alone(void **state) {
     (void)state;
     froe_scene *scene = trees_scene(2, FROE_SEGMENT, OBJECTS, 0, 1, 3);
-    froe_tree *tree[4];
-    for (int i = 0; i < 4; i++) assert_int_equal(grow_random(i & 1, i & 2, scene, NULL, tree + i), FROE_OK);
+    froe_tree *tree[WAYS];
+    for (int i = 0; i < WAYS; i++) assert_int_equal(grow_random(i, scene, NULL, tree + i), FROE_OK);
     froe_scene_free(scene);
     assert_true(tree[0]->node_count > 100 && tree[0]->normal_count > 10);
     froe_diagnostic why;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < WAYS; i++) {
         if (tree_validate(tree[i], &why)) fail_msg("%s", why.message);
         trees_assert_equal(tree[0], tree[i]);
     }
-    for (int i = 0; i < 4; i++) froe_tree_free(tree[i]);
+    for (int i = 0; i < WAYS; i++) froe_tree_free(tree[i]);
 }
 
 static froe_status sealing(void *user, const froe_allocator *alloc) {
@@ -274,7 +304,7 @@ static froe_status sealing(void *user, const froe_allocator *alloc) {
     froe_tree *tree = NULL;
     froe_status status = froe_scene_new(2, alloc, &scene);
     if (!status) status = trees_scatter(scene, FROE_SEGMENT, OBJECTS, 0, 1, 3);
-    if (!status) status = grow_random(true, true, scene, alloc, &tree);
+    if (!status) status = grow_random(OLDEST_FIRST | OWN_DRAFTS | DETOURS, scene, alloc, &tree);
     froe_scene_free(scene);
     froe_tree_free(tree);
     return status;
